@@ -1,0 +1,16 @@
+# Third-party libraries, all from Debian 12's packages (docs/dependencies: see README).
+# Their headers are taken as system headers: our warnings are for our code.
+find_package(PkgConfig REQUIRED)
+find_package(PNG REQUIRED)
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(Threads REQUIRED)
+
+find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)
+add_library(voxmelt_toml INTERFACE)
+target_include_directories(voxmelt_toml SYSTEM INTERFACE ${TOMLPLUSPLUS_INCLUDE})
+
+find_path(TINYOBJ_INCLUDE tiny_obj_loader.h REQUIRED)
+add_library(voxmelt_tinyobj INTERFACE)
+target_include_directories(voxmelt_tinyobj SYSTEM INTERFACE ${TINYOBJ_INCLUDE})

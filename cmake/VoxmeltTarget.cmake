@@ -1,0 +1,17 @@
+# voxmelt_library(<folder target> SOURCES ... PUBLIC ... PRIVATE ...): one static library per folder.
+# Headers are included by their path from the top of the house: "kernel/rule/spread.h".
+add_library(voxmelt_options INTERFACE)
+target_include_directories(voxmelt_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(voxmelt_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+if(VOXMELT_SANITIZE)
+  target_compile_options(voxmelt_options INTERFACE
+    -fsanitize=${VOXMELT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(voxmelt_options INTERFACE -fsanitize=${VOXMELT_SANITIZE})
+endif()
+
+function(voxmelt_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(${name} PUBLIC voxmelt_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()

@@ -1,0 +1,26 @@
+// The size of a volume in cells: x fastest, y up (gravity along -y), z outermost.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace voxmelt::state {
+
+struct Grid {
+  int x = 0, y = 0, z = 0;
+
+  std::size_t cells() const {
+    return static_cast<std::size_t>(x) * static_cast<std::size_t>(y) * static_cast<std::size_t>(z);
+  }
+  std::size_t index(int cx, int cy, int cz) const {
+    return (static_cast<std::size_t>(cz) * static_cast<std::size_t>(y) + static_cast<std::size_t>(cy)) *
+               static_cast<std::size_t>(x) +
+           static_cast<std::size_t>(cx);
+  }
+  bool contains(int cx, int cy, int cz) const {
+    return cx >= 0 && cy >= 0 && cz >= 0 && cx < x && cy < y && cz < z;
+  }
+  friend bool operator==(const Grid&, const Grid&) = default;
+};
+
+}  // namespace voxmelt::state
