@@ -1,0 +1,44 @@
+// How a scene is drawn: plain data, read by render/. Lengths in cells, colours linear RGB 0..1.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace voxmelt::scene {
+
+using Vec3 = std::array<double, 3>;
+
+struct Camera {
+  Vec3 target{};            // looked at
+  double azimuth = 35;      // degrees, 0 looks along -z from +z, 90 looks along -x from +x
+  double elevation = 28;    // degrees above the horizon
+  double distance = 0;      // from the target; 0: chosen so that the grid fits
+  double field_of_view = 30;  // degrees, vertical
+  int width = 640, height = 480;
+};
+
+struct Light {
+  Vec3 direction{-0.5, 0.8, 0.6};  // towards the light
+  double ambient = 0.35;
+};
+
+struct Look {
+  Vec3 solid{0.55, 0.56, 0.6};     // colour of what has not melted
+  Vec3 liquid{0.78, 0.8, 0.84};    // colour of what flows
+  Vec3 ground{0.42, 0.36, 0.3};    // floor and terrain
+  Vec3 background{0.93, 0.94, 0.96};
+  double shininess = 40;           // Blinn-Phong exponent
+  double specular = 0.4;
+  bool glow = false;               // colour and light of the liquid by its temperature (lava)
+  double glow_cold = 0.3, glow_hot = 0.95;  // temperatures at the ends of the glow ramp, 0..1
+  double smooth = 1.0;             // low-pass: passes of the 3x3x3 binomial filter
+};
+
+// Height of the ground above y = 0 at the centre of each column, in cells; z outermost.
+struct Terrain {
+  int x = 0, z = 0;
+  std::vector<float> height;
+  bool textured = false;           // a height field (drawn with elevation shading) or a flat floor
+};
+
+}  // namespace voxmelt::scene

@@ -1,0 +1,48 @@
+// A scene: what a TOML file says, resolved. The automaton sees `initial` and `parameters` only.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "kernel/rule/parameters.h"
+#include "kernel/scene/look.h"
+#include "kernel/state/volume.h"
+
+namespace voxmelt::scene {
+
+// Bad input, already in its final form: "file:line:column: error: what is wrong, what is allowed".
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Out of memory or disk: exit code 3 of the program.
+class ResourceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Scene {
+  std::string name;                    // file name without folder and suffix
+  std::filesystem::path file;
+  std::string title;                   // one line for `voxmelt list scenes`
+  std::uint32_t steps = 1000;          // of `voxmelt run` when not asked otherwise
+  std::uint32_t frame_every = 100;
+  std::vector<std::string> features;   // named extras and features that this scene asks for
+  std::vector<std::string> warnings;   // e.g. leaks of a mesh
+  rule::Parameters parameters;
+  state::Volume initial;
+  Camera camera;
+  Light light;
+  Look look;
+  Terrain terrain;
+};
+
+// Reads a scene file. `overrides` are "path.to.key=value" of --set, applied to the parsed document before it
+// is read, so that they are checked like the file itself. Throws InputError or ResourceError.
+Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+
+}  // namespace voxmelt::scene
