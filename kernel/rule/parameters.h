@@ -87,7 +87,7 @@ struct PaperLaw {
   bool downhill = true;            // receive only below the giver
   Amount margin = 256;             // and by more than this
   bool support = false;            // extra `support`: only cells that stand on something spread
-  bool slump = false;              // extra `slump`: a starved cell at a cliff edge yields
+  Amount slump = 0;                // extra `slump`: margin at which a starved cell still yields; 0 is off
   EnergyReading reading = EnergyReading::text;
   std::uint32_t beta = 65536;      // Eqs. 5, 6; 1/65536
   std::uint16_t alpha_liquid = 65535, alpha_solid = 65535, alpha_floor = 65535;  // Eqs. 16-20; 1/65536
@@ -96,7 +96,7 @@ struct PaperLaw {
 
 struct ViscousLaw {
   std::uint32_t mobility = 0;        // kq = (2/3)(kappa/3), 1/2^20: docs/automaton.md, "Mobility"
-  std::uint16_t yield = 0;           // yield stress Y in UQ8.8 (head x depth)
+  std::uint32_t yield = 0;           // yield stress: depth x head difference that rests, 1/65536
   std::uint8_t stiffness = 8;        // K: 1..8, of closed conduits
 };
 

@@ -29,9 +29,10 @@ struct Look {
   Vec3 background{0.93, 0.94, 0.96};
   double shininess = 40;           // Blinn-Phong exponent
   double specular = 0.4;
+  double metallic = 0;             // 0: wax, chocolate, plastic; 1: bare metal that mirrors its surroundings
   bool glow = false;               // colour and light of the liquid by its temperature (lava)
   double glow_cold = 0.3, glow_hot = 0.95;  // temperatures at the ends of the glow ramp, 0..1
-  double smooth = 1.0;             // low-pass: passes of the 3x3x3 binomial filter
+  double smooth = 2.0;             // low-pass: passes of the 3x3x3 binomial filter
 };
 
 // Height of the ground above y = 0 at the centre of each column, in cells; z outermost.

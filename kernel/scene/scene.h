@@ -45,4 +45,7 @@ struct Scene {
 // is read, so that they are checked like the file itself. Throws InputError or ResourceError.
 Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
+// The title alone, without reading the rest. Throws InputError.
+std::string title_of(const std::filesystem::path& file);
+
 }  // namespace voxmelt::scene

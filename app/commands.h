@@ -1,0 +1,17 @@
+// The subcommands: each adds itself to the program; `run` of the chosen one gives the exit code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace voxmelt::app {
+
+using Chosen = std::function<int()>;
+
+void add_run(CLI::App& program, Chosen& chosen);
+void add_digest(CLI::App& program, Chosen& chosen);
+void add_export(CLI::App& program, Chosen& chosen);
+void add_render(CLI::App& program, Chosen& chosen);
+void add_list(CLI::App& program, Chosen& chosen);
+
+}  // namespace voxmelt::app

@@ -1,0 +1,58 @@
+// voxmelt digest: one line per K steps; equal lines mean equal bits.
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "app/report.h"
+#include "kernel/io/output_folder.h"
+#include "kernel/state/digest.h"
+
+namespace voxmelt::app {
+namespace {
+
+struct DigestOptions {
+  Common common;
+  std::uint32_t steps = 10, every = 0;
+};
+
+void print_line(const run::Simulation& simulation) {
+  const state::Volume& volume = simulation.volume();
+  const state::Holdings held = state::holdings(volume);
+  fmt::print("step {} digest {:016x} mass {} solid {} liquid {}\n", simulation.steps_done(), state::digest(volume),
+             state::to_string(held.solid + held.liquid), volume.solid.count(), volume.liquid.count());
+  std::fflush(stdout);
+}
+
+int run_digest(const DigestOptions& options) {
+  const scene::Scene scene = load_scene(options.common);
+  run::Simulation simulation = make_simulation(scene, options.common);
+  if (options.every > 0) print_line(simulation);
+  while (simulation.steps_done() < options.steps) {
+    simulation.step();
+    const std::uint32_t done = simulation.steps_done();
+    if (done == options.steps || (options.every > 0 && done % options.every == 0)) print_line(simulation);
+  }
+  if (options.steps == 0 && options.every == 0) print_line(simulation);
+  if (!options.common.report.empty())
+    io::write_file(options.common.report, report_json(scene, options.common, simulation, {}));
+  const std::string drift = drift_text(simulation.drift());
+  if (drift.empty()) return kDone;
+  std::cerr << "error: the ledgers do not balance: " << drift << '\n';
+  return kCheckFailed;
+}
+
+}  // namespace
+
+void add_digest(CLI::App& program, Chosen& chosen) {
+  auto options = std::make_shared<DigestOptions>();
+  CLI::App* command = program.add_subcommand("digest", "Print the digest of the state: equal lines mean equal bits");
+  add_scene(*command, options->common);
+  command->add_option("--steps", options->steps, "steps to run")->capture_default_str();
+  command->add_option("--every", options->every, "also a line at step 0 and after every K steps");
+  add_common(*command, options->common);
+  command->callback([options, &chosen] { chosen = [options] { return run_digest(*options); }; });
+}
+
+}  // namespace voxmelt::app

@@ -1,0 +1,58 @@
+// voxmelt export: the state after N steps, for other programs.
+#include "kernel/io/export.h"
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "app/report.h"
+#include "kernel/io/output_folder.h"
+
+namespace voxmelt::app {
+namespace {
+
+struct ExportOptions {
+  Common common;
+  std::uint32_t steps = 0;
+  std::string out, format = "npy";
+};
+
+int run_export(const ExportOptions& options) {
+  const scene::Scene scene = load_scene(options.common);
+  io::OutputFolder out(options.out);
+  run::Simulation simulation = make_simulation(scene, options.common);
+  while (simulation.steps_done() < options.steps) simulation.step();
+
+  const state::Volume& volume = simulation.volume();
+  if (options.format == "npy") {
+    io::export_npy(volume, out.partial());
+  } else {
+    io::export_vti(volume, out.partial());
+  }
+  io::write_file(out.partial() / "parameters.json",
+                 io::parameters_json(simulation.parameters(), volume.grid, simulation.steps_done()));
+  if (!options.common.report.empty())
+    io::write_file(options.common.report, report_json(scene, options.common, simulation, {}));
+  out.commit();
+  if (!options.common.quiet)
+    fmt::print("step {} written to {}\n", simulation.steps_done(), std::filesystem::proximate(out.place()).string());
+  return kDone;
+}
+
+}  // namespace
+
+void add_export(CLI::App& program, Chosen& chosen) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App* command =
+      program.add_subcommand("export", "Write the state after N steps (one file per field) and parameters.json");
+  add_scene(*command, options->common);
+  command->add_option("--steps", options->steps, "steps to run first")->capture_default_str();
+  command->add_option("--out", options->out, "folder to write")->required();
+  command->add_option("--format", options->format, "npy: NumPy arrays (z, y, x); vti: one VTK image")
+      ->check(CLI::IsMember({"npy", "vti"}))
+      ->capture_default_str();
+  add_common(*command, options->common);
+  command->callback([options, &chosen] { chosen = [options] { return run_export(*options); }; });
+}
+
+}  // namespace voxmelt::app

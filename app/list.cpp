@@ -1,0 +1,57 @@
+// voxmelt list: what this build and its scenes can do.
+#include <fmt/format.h>
+
+#include <set>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "kernel/scene/features.h"
+
+namespace voxmelt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+int list_implementations() {
+  for (const auto& one : run::implementations().all()) fmt::print("{:<12} {}\n", one.name, one.description);
+  return kDone;
+}
+
+int list_scenes() {
+  std::set<std::string> seen;
+  for (const fs::path& folder : scene_folders()) {
+    std::error_code ignored;
+    std::set<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".toml") files.insert(entry.path());
+    for (const fs::path& file : files) {
+      if (!seen.insert(file.stem().string()).second) continue;
+      fmt::print("{:<24} {}\n", file.stem().string(), scene::title_of(file));
+    }
+  }
+  return kDone;
+}
+
+int list_features() {
+  for (const std::string& name : scene::feature_names()) fmt::print("{}\n", name);
+  return kDone;
+}
+
+}  // namespace
+
+void add_list(CLI::App& program, Chosen& chosen) {
+  auto what = std::make_shared<std::string>();
+  CLI::App* command = program.add_subcommand("list", "Name the implementations, scenes or features of this build");
+  command->add_option("what", *what, "implementations, scenes or features")
+      ->required()
+      ->check(CLI::IsMember({"implementations", "scenes", "features"}));
+  command->callback([what, &chosen] {
+    chosen = [what] {
+      if (*what == "implementations") return list_implementations();
+      if (*what == "scenes") return list_scenes();
+      return list_features();
+    };
+  });
+}
+
+}  // namespace voxmelt::app

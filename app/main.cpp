@@ -1,0 +1,64 @@
+// voxmelt: melts solid voxel models and lets them flow.
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "app/version.h"
+#include "kernel/io/output_folder.h"
+#include "kernel/scene/scene.h"
+
+namespace {
+
+constexpr const char* kIntroduction =
+    "voxmelt melts solid voxel models and lets them flow, with an exact cellular automaton.\n\n"
+    "  voxmelt run cello                    melt the cello: frames, contact sheet and report in out/cello\n"
+    "  voxmelt run cello_viscous --steps 800\n"
+    "  voxmelt run lava --set flow.paper.share=0.1 --out /tmp/lava\n"
+    "  voxmelt digest goblet --steps 10     one line per step; equal lines mean equal bits\n"
+    "  voxmelt export bunny --steps 500 --out bunny500 --format vti\n"
+    "  voxmelt render lava --steps 1200 --size 1280x960 --out lava.png\n"
+    "  voxmelt list scenes\n\n"
+    "A scene is a TOML file; docs/scenes.md explains its keys. Exit codes: 0 done, 1 a check failed,\n"
+    "2 bad usage or input, 3 out of memory or disk.";
+
+int fail(const std::string& message, int code) {
+  std::cerr << message << '\n';
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace voxmelt;
+  try {
+    CLI::App program(kIntroduction, "voxmelt");
+    program.set_version_flag("--version", app::version_text());
+    program.require_subcommand(1);
+    app::Chosen chosen;
+    app::add_run(program, chosen);
+    app::add_digest(program, chosen);
+    app::add_export(program, chosen);
+    app::add_render(program, chosen);
+    app::add_list(program, chosen);
+    try {
+      program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return program.exit(error) == 0 ? app::kDone : app::kBadInput;
+    }
+    return chosen();
+  } catch (const scene::InputError& error) {
+    return fail(error.what(), app::kBadInput);
+  } catch (const app::UsageError& error) {
+    return fail(error.what(), app::kBadInput);
+  } catch (const scene::ResourceError& error) {
+    return fail(error.what(), app::kOutOfResources);
+  } catch (const io::OutputError& error) {
+    return fail(error.what(), error.out_of_space() ? app::kOutOfResources : app::kBadInput);
+  } catch (const std::bad_alloc&) {
+    return fail("error: out of memory", app::kOutOfResources);
+  } catch (const std::exception& error) {
+    return fail(std::string("error: ") + error.what(), app::kCheckFailed);
+  }
+}

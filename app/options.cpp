@@ -1,0 +1,79 @@
+#include "app/options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <thread>
+
+namespace voxmelt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path find_scene(const std::string& given) {
+  const fs::path path(given);
+  if (path.has_parent_path() || path.has_extension()) return path;
+  for (const fs::path& folder : scene_folders()) {
+    const fs::path candidate = folder / (given + ".toml");
+    std::error_code ignored;
+    if (fs::exists(candidate, ignored)) return candidate;
+  }
+  throw UsageError(fmt::format(
+      "error: no scene file and no scene named '{}'; `voxmelt list scenes` names those that came with it", given));
+}
+
+}  // namespace
+
+void add_scene(CLI::App& command, Common& common) {
+  command.add_option("scene", common.scene, "scene file (TOML), or the name of a scene of `voxmelt list scenes`")
+      ->required();
+}
+
+void add_common(CLI::App& command, Common& common) {
+  command.add_option("--implementation", common.implementation,
+                     "who computes: auto, or a name of `voxmelt list implementations`")
+      ->capture_default_str();
+  command.add_option("--threads", common.threads, "threads (default: all); no result depends on it")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--seed", common.seed, "seed of the random function, instead of the scene's");
+  command.add_option("--set", common.sets, "override a key of the scene: path.to.key=value (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--report", common.report, "also write the report to this JSON file");
+  command.add_flag("--quiet", common.quiet, "no progress line, no notes");
+}
+
+std::vector<fs::path> scene_folders() {
+  std::vector<fs::path> folders{"scenes"};
+  if (const char* installed = std::getenv("VOXMELT_SCENES")) folders.emplace_back(installed);
+  folders.emplace_back(VOXMELT_SCENES_FOLDER);
+  return folders;
+}
+
+scene::Scene load_scene(const Common& common) {
+  std::vector<std::string> sets = common.sets;
+  if (common.seed) sets.push_back(fmt::format("run.seed={}", *common.seed));
+  scene::Scene scene = scene::load(find_scene(common.scene), sets);
+  if (!common.quiet)
+    for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
+  return scene;
+}
+
+run::Simulation make_simulation(const scene::Scene& scene, const Common& common) {
+  const step::Implementation* implementation = run::implementations().find(common.implementation);
+  if (implementation == nullptr) {
+    std::string known = "auto";
+    for (const auto& one : run::implementations().all()) known += ", " + one.name;
+    throw UsageError(
+        fmt::format("--implementation {}: error: unknown; this build has {}", common.implementation, known));
+  }
+  return {scene.parameters, scene.initial, *implementation};
+}
+
+int thread_count(const Common& common) {
+  return common.threads > 0 ? common.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+}  // namespace voxmelt::app

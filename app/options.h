@@ -1,0 +1,45 @@
+// Options that several subcommands share, and how their errors end the program.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "kernel/run/simulation.h"
+#include "kernel/scene/scene.h"
+
+namespace voxmelt::app {
+
+enum ExitCode : int { kDone = 0, kCheckFailed = 1, kBadInput = 2, kOutOfResources = 3 };
+
+// Bad usage that CLI11 cannot see (an unknown implementation, an impossible size): exit code 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Common {
+  std::string scene;
+  std::string implementation = "auto";
+  int threads = 0;  // 0: all of the machine's
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> sets;
+  std::string report;
+  bool quiet = false;
+};
+
+void add_scene(CLI::App& command, Common& common);
+void add_common(CLI::App& command, Common& common);
+
+// A path, or the name of a scene that came with the program.
+scene::Scene load_scene(const Common& common);
+run::Simulation make_simulation(const scene::Scene& scene, const Common& common);
+int thread_count(const Common& common);
+
+// Folders that are searched for scenes given by name.
+std::vector<std::filesystem::path> scene_folders();
+
+}  // namespace voxmelt::app

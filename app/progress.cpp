@@ -1,0 +1,31 @@
+#include "app/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace voxmelt::app {
+
+Progress::Progress(std::uint32_t steps, bool quiet) : steps_(steps), on_(!quiet && isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+  if (shown_) std::fputs("\n", stderr);
+}
+
+void Progress::show(std::uint32_t done, const state::Volume& volume) {
+  const auto now = Clock::now();
+  if (!on_ || (done < steps_ && shown_ && now - last_ < std::chrono::milliseconds(250))) return;
+  last_ = now;
+  shown_ = true;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double rate = seconds > 0 ? done / seconds : 0;
+  const double left = rate > 0 ? (steps_ - done) / rate : 0;
+  const double liquid = static_cast<double>(volume.liquid.count());
+  const double matter = liquid + static_cast<double>(volume.solid.count());
+  fmt::print(stderr, "\rstep {}/{}  {:.1f} steps/s  liquid {:.0f} %  {:.0f} s left   ", done, steps_, rate,
+             matter > 0 ? 100 * liquid / matter : 0, left);
+  std::fflush(stderr);
+}
+
+}  // namespace voxmelt::app

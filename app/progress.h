@@ -1,0 +1,27 @@
+// The progress line of a long run: steps/s, liquid share, time left. Only where somebody watches.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "kernel/state/volume.h"
+
+namespace voxmelt::app {
+
+class Progress {
+ public:
+  Progress(std::uint32_t steps, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show(std::uint32_t done, const state::Volume& volume);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::uint32_t steps_;
+  bool on_, shown_ = false;
+  Clock::time_point start_ = Clock::now(), last_{};
+};
+
+}  // namespace voxmelt::app

@@ -1,0 +1,80 @@
+// voxmelt render: one picture, or a turntable.
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/film.h"
+#include "app/options.h"
+#include "app/progress.h"
+#include "kernel/io/output_folder.h"
+#include "render/image/png.h"
+#include "render/raycast/draw.h"
+
+namespace voxmelt::app {
+namespace {
+
+struct RenderOptions {
+  Common common;
+  std::uint32_t steps = 0;
+  std::string out = "picture.png", size, setting = "normal";
+  std::optional<double> azimuth, elevation;
+  int turntable = 0;
+};
+
+int run_render(const RenderOptions& options) {
+  scene::Scene scene = load_scene(options.common);
+  if (!options.size.empty()) set_size(scene.camera, options.size);
+  if (options.azimuth) scene.camera.azimuth = *options.azimuth;
+  if (options.elevation) scene.camera.elevation = *options.elevation;
+
+  run::Simulation simulation = make_simulation(scene, options.common);
+  {
+    Progress progress(options.steps, options.common.quiet);
+    while (simulation.steps_done() < options.steps) {
+      simulation.step();
+      progress.show(simulation.steps_done(), simulation.volume());
+    }
+  }
+  render::DrawSettings settings;
+  settings.threads = thread_count(options.common);
+  settings.antialias = options.setting == "fast" ? 1 : options.setting == "best" ? 4 : 2;
+  render::DensityField field;
+  field.update(simulation.volume(), scene.look);
+  const auto picture = [&] { return render::draw(field, scene.camera, scene.light, scene.look, scene.terrain, settings); };
+
+  if (options.turntable == 0) {
+    render::write_png(options.out, picture());
+    if (!options.common.quiet) fmt::print("written: {}\n", options.out);
+    return kDone;
+  }
+  io::OutputFolder out(options.out);
+  for (int k = 0; k < options.turntable; ++k) {
+    render::write_png(out.partial() / fmt::format("view_{:03d}.png", k), picture());
+    scene.camera.azimuth += 360.0 / options.turntable;
+  }
+  out.commit();
+  if (!options.common.quiet) fmt::print("{} views written to {}\n", options.turntable, options.out);
+  return kDone;
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, Chosen& chosen) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = program.add_subcommand("render", "Draw the state after N steps: one picture, or a turntable");
+  add_scene(*command, options->common);
+  command->add_option("--steps", options->steps, "steps to run first")->capture_default_str();
+  command->add_option("--out", options->out, "file to write (folder with --turntable)")->capture_default_str();
+  command->add_option("--size", options->size, "size in pixels, e.g. 1280x960");
+  command->add_option("--setting", options->setting, "samples per pixel: fast 1, normal 4, best 16")
+      ->check(CLI::IsMember({"fast", "normal", "best"}))
+      ->capture_default_str();
+  command->add_option("--azimuth", options->azimuth, "degrees around the vertical, instead of the scene's");
+  command->add_option("--elevation", options->elevation, "degrees above the horizon, instead of the scene's")
+      ->check(CLI::Range(-89.0, 89.0));
+  command->add_option("--turntable", options->turntable, "this many views around the scene, into the folder --out")
+      ->check(CLI::Range(1, 3600));
+  add_common(*command, options->common);
+  command->callback([options, &chosen] { chosen = [options] { return run_render(*options); }; });
+}
+
+}  // namespace voxmelt::app

@@ -1,0 +1,88 @@
+// voxmelt run: the main job. Steps, frames, a contact sheet, a film, a report.
+#include <fmt/format.h>
+
+#include <csignal>
+#include <iostream>
+
+#include "app/commands.h"
+#include "app/film.h"
+#include "app/options.h"
+#include "app/progress.h"
+#include "app/report.h"
+#include "kernel/io/output_folder.h"
+
+namespace voxmelt::app {
+namespace {
+
+struct RunOptions {
+  Common common;
+  std::optional<std::uint32_t> steps, frame_every;
+  std::string out;
+  std::string size;
+};
+
+volatile std::sig_atomic_t g_interrupted = 0;
+void interrupt(int) { g_interrupted = 1; }
+
+int run_scene(const RunOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const Common& common = options.common;
+  scene::Scene scene = load_scene(common);
+  const std::uint32_t steps = options.steps.value_or(scene.steps);
+  const std::uint32_t every = options.frame_every.value_or(scene.frame_every);
+  if (!options.size.empty()) set_size(scene.camera, options.size);
+  io::OutputFolder out(options.out.empty() ? "out/" + scene.name : options.out);
+
+  // Ctrl-C ends the run early; what was made until then is kept.
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+
+  run::Simulation simulation = make_simulation(scene, common);
+  Film film(scene, out.partial(), thread_count(common));
+  film.add_frame(simulation.volume(), 0);
+  {
+    Progress progress(steps, common.quiet);
+    while (simulation.steps_done() < steps && g_interrupted == 0) {
+      simulation.step();
+      const std::uint32_t done = simulation.steps_done();
+      if (every > 0 && (done % every == 0 || done == steps)) film.add_frame(simulation.volume(), done);
+      progress.show(done, simulation.volume());
+    }
+  }
+  const std::string video_note = film.finish();
+
+  const double total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string report = report_json(scene, common, simulation, {film.update_seconds(), film.render_seconds(), total});
+  io::write_file(out.partial() / "report.json", report);
+  if (!common.report.empty()) io::write_file(common.report, report);
+  out.commit();
+
+  const std::string place = std::filesystem::proximate(out.place()).string();
+  if (!common.quiet) {
+    if (g_interrupted != 0) fmt::print("interrupted after step {}\n", simulation.steps_done());
+    fmt::print("{} frames      {}/frames/\ncontact sheet  {}/contact_sheet.png\n", film.frame_count(), place, place);
+    fmt::print("film           {}\n", video_note.empty() ? place + "/film.mp4" : video_note);
+    fmt::print("report         {}/report.json\n", place);
+  }
+  const std::string drift = drift_text(simulation.drift());
+  if (drift.empty()) return kDone;
+  std::cerr << "error: the ledgers do not balance: " << drift << '\n';
+  return kCheckFailed;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, Chosen& chosen) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = program.add_subcommand(
+      "run", "Melt a scene: frames (PNG), contact sheet, film (with ffmpeg) and report.json");
+  add_scene(*command, options->common);
+  command->add_option("--steps", options->steps, "steps to run (default: the scene's)");
+  command->add_option("--frame-every", options->frame_every, "steps between frames; 0: the first only");
+  command->add_option("--out", options->out, "folder to write (default: out/SCENE)");
+  command->add_option("--size", options->size, "size of a frame in pixels, e.g. 640x480");
+  add_common(*command, options->common);
+  command->callback([options, &chosen] { chosen = [options] { return run_scene(*options); }; });
+}
+
+}  // namespace voxmelt::app

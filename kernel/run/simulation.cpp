@@ -1,0 +1,62 @@
+#include "kernel/run/simulation.h"
+
+#include <chrono>
+#include <utility>
+
+#include "kernel/scalar/reference.h"
+
+namespace voxmelt::run {
+namespace {
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() {
+    total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  double& total_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+const step::Registry& implementations() {
+  static const step::Registry registry = [] {
+    step::Registry r;
+    r.add({"reference", "plain loops over kernel/rule, one thread", scalar::create_reference});
+    return r;
+  }();
+  return registry;
+}
+
+Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
+                       const step::Implementation& implementation, std::unique_ptr<visibility::Provider> provider)
+    : parameters_(std::move(parameters)),
+      volume_(std::move(initial)),
+      stepper_(implementation.create(parameters_, volume_.grid)),
+      provider_(std::move(provider)),
+      ledger_(state::Ledger::open(volume_)) {}
+
+void Simulation::begin_step() {
+  const rule::Heat& heat = parameters_.heat;
+  if (!heat.enabled || !heat.radiation || steps_done_ % heat.visibility_every != 0) return;
+  const Stopwatch watch(seconds_.visibility);
+  provider_->irradiance(volume_, heat, steps_done_, irradiance_);
+}
+
+void Simulation::run_phase(step::Phase phase) {
+  const Stopwatch watch(seconds_.phase[static_cast<std::size_t>(phase)]);
+  stepper_->run(phase, steps_done_, irradiance_, volume_, ledger_);
+}
+
+void Simulation::step() {
+  begin_step();
+  for (const step::Phase phase : step::phase_order(parameters_.flow.law)) run_phase(phase);
+  end_step();
+}
+
+}  // namespace voxmelt::run

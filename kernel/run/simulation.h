@@ -1,0 +1,56 @@
+// The run loop: state, visibility, phases, books.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "kernel/state/ledger.h"
+#include "kernel/step/stepper.h"
+#include "kernel/visibility/visibility.h"
+
+namespace voxmelt::run {
+
+// All implementations linked into this program, the reference first.
+const step::Registry& implementations();
+
+class Simulation {
+ public:
+  Simulation(rule::Parameters parameters, state::Volume initial, const step::Implementation& implementation,
+             std::unique_ptr<visibility::Provider> provider = std::make_unique<visibility::VoxelWalkProvider>());
+
+  // Runs one whole step. The n-th call (from 0) is step number n.
+  void step();
+
+  // Runs one phase of the present step; used where implementations are compared phase by phase.
+  void begin_step();
+  void run_phase(step::Phase phase);
+  void end_step() { ++steps_done_; }
+
+  std::uint32_t steps_done() const { return steps_done_; }
+  const state::Volume& volume() const { return volume_; }
+  state::Volume& mutable_volume() { return volume_; }  // for tests that plant a leak
+  const state::Ledger& ledger() const { return ledger_; }
+  state::Ledger& mutable_ledger() { return ledger_; }
+  const rule::Parameters& parameters() const { return parameters_; }
+  state::Drift drift() const { return state::drift(ledger_, volume_); }
+
+  struct Seconds {
+    std::array<double, step::kPhaseCount> phase{};  // by step::Phase
+    double visibility = 0;
+  };
+  const Seconds& seconds() const { return seconds_; }
+
+ private:
+  rule::Parameters parameters_;
+  state::Volume volume_;
+  std::unique_ptr<step::Stepper> stepper_;
+  std::unique_ptr<visibility::Provider> provider_;
+  state::Ledger ledger_;
+  std::vector<std::uint16_t> irradiance_;
+  std::uint32_t steps_done_ = 0;
+  Seconds seconds_;
+};
+
+}  // namespace voxmelt::run

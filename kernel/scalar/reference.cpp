@@ -1,0 +1,35 @@
+#include "kernel/scalar/reference.h"
+
+namespace voxmelt::scalar {
+
+Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
+    : parameters_(parameters), keys_(rule::round_keys(parameters.seed)) {
+  if (parameters.flow.law == rule::Law::paper) {
+    pattern_.resize(grid.cells());
+  } else {
+    in_run_.resize(grid.cells());
+    head_.resize(grid.cells());
+    mobility_.resize(grid.cells());
+    dead_.resize(grid.cells());
+  }
+}
+
+void Reference::run(step::Phase phase, std::uint32_t step, std::span<const std::uint16_t> irradiance,
+                    state::Volume& volume, state::Ledger& ledger) {
+  switch (phase) {
+    case step::Phase::source: return source(step, volume, ledger);
+    case step::Phase::heat: return heat(step, irradiance, volume, ledger);
+    case step::Phase::melt: return melt(volume, ledger);
+    case step::Phase::gravity: return gravity(step, volume, ledger);
+    case step::Phase::spread: return spread(step, volume, ledger);
+    case step::Phase::excess:
+      if (parameters_.flow.law == rule::Law::viscous) settle(step, volume, ledger);
+      return;
+  }
+}
+
+std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid) {
+  return std::make_unique<Reference>(parameters, grid);
+}
+
+}  // namespace voxmelt::scalar

@@ -1,0 +1,47 @@
+// The reference implementation: plain loops over kernel/rule, one file per phase. Everything else is held
+// against it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/rule/random.h"
+#include "kernel/scalar/cells.h"
+#include "kernel/step/stepper.h"
+
+namespace voxmelt::scalar {
+
+class Reference final : public step::Stepper {
+ public:
+  Reference(const rule::Parameters& parameters, state::Grid grid);
+
+  void run(step::Phase phase, std::uint32_t step, std::span<const std::uint16_t> irradiance,
+           state::Volume& volume, state::Ledger& ledger) override;
+
+ private:
+  using Volume = state::Volume;
+  using Ledger = state::Ledger;
+
+  void source(std::uint32_t step, Volume& volume, Ledger& ledger);
+  void heat(std::uint32_t step, std::span<const std::uint16_t> irradiance, Volume& volume, Ledger& ledger);
+  void melt(Volume& volume, Ledger& ledger);
+  void gravity(std::uint32_t step, Volume& volume, Ledger& ledger);
+  void spread(std::uint32_t step, Volume& volume, Ledger& ledger);
+  void settle(std::uint32_t step, Volume& volume, Ledger& ledger);
+  void viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledger);
+
+  void find_patterns(std::uint32_t step, const Volume& volume, const ActiveRows& rows);
+
+  rule::Parameters parameters_;
+  rule::RoundKeys keys_;
+  std::vector<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
+  std::vector<std::uint8_t> in_run_;  // viscous law: bit 0, the cell belongs to a run
+  std::vector<std::int32_t> head_, mobility_, dead_;  // viscous law: of each cell, see rule::Column
+  Volume next_;                        // the result of a phase while it is computed
+};
+
+std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid);
+
+}  // namespace voxmelt::scalar

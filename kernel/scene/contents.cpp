@@ -1,0 +1,120 @@
+#include "kernel/scene/contents.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/scene/heightfield.h"
+#include "kernel/scene/shape_reader.h"
+#include "kernel/scene/units.h"
+
+namespace voxmelt::scene {
+namespace {
+
+constexpr double kLargestScale = 1e9;
+
+void raise(Terrain& terrain, const std::vector<double>& height) {
+  for (std::size_t i = 0; i < height.size(); ++i)
+    terrain.height[i] = std::max(terrain.height[i], static_cast<float>(height[i]));
+}
+
+void read_floor(Reader& reader, Terrain& terrain, state::Grid grid) {
+  const auto thickness = static_cast<double>(reader.integer("thickness", 1, grid.y, 1));
+  raise(terrain, std::vector<double>(terrain.height.size(), thickness));
+}
+
+void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid, const std::filesystem::path& folder,
+                      std::vector<std::string>& warnings) {
+  const std::filesystem::path file = reader.file("file", folder);
+  const double scale = reader.number("vertical_scale", {0, kLargestScale, true, {}});
+  const double base = reader.number("base", {0, static_cast<double>(grid.y), false, "the height of the grid"}, 1.0);
+  const auto passes = static_cast<int>(reader.integer("smooth", 0, 64, 1));
+
+  Elevation elevation = read_esri_ascii(file, reader.place("file"));
+  if (elevation.missing > 0)
+    warnings.push_back(fmt::format("{}: {} cells without data take the lowest elevation", file.string(), elevation.missing));
+  smooth(elevation, passes);
+  std::vector<double> height = resample(elevation, grid.x, grid.z);
+  for (double& h : height) h = base + scale * h;
+  const double highest = *std::max_element(height.begin(), height.end());
+  if (highest > grid.y)
+    reader.fail("vertical_scale", fmt::format(" = {} raises the terrain to {:.1f} cells, above the grid's {}", scale, highest, grid.y));
+  raise(terrain, height);
+  terrain.textured = true;
+}
+
+// Turned, scaled, then set down: the centre of its bounding box's bottom comes to `at`.
+void read_mesh_entry(Reader& reader, Entry& entry, const std::filesystem::path& folder) {
+  const std::filesystem::path file = reader.file("file", folder);
+  entry.mesh_file = file.filename().string();
+  const bool by_height = reader.has("height"), by_scale = reader.has("scale");
+  if (by_height && by_scale) reader.fail("scale", " and height exclude each other");
+  const Range positive{0, kLargestScale, true, {}};
+  const double wanted = reader.number(by_scale ? "scale" : "height", positive);
+  const Point at = to_point(reader.vector<3>("at", {-kLargestCoordinate, kLargestCoordinate, false, {}}, Vec3{}));
+  const Rotation rotation(reader.vector<3>("rotate", {-360, 360, false, {}}, Vec3{}));
+
+  Mesh mesh = read_mesh(file, reader.place("file"));
+  for (Point& vertex : mesh.vertices) vertex = rotation.apply(vertex);
+  const Box box = mesh.bounds();
+  const double tall = box.high.y - box.low.y;
+  if (by_height && !(tall > 0)) reader.fail("height", ": " + file.string() + " has no height to scale");
+  const double scale = by_scale ? wanted : wanted / tall;
+  const Point foot{(box.low.x + box.high.x) / 2, box.low.y, (box.low.z + box.high.z) / 2};
+  for (Point& vertex : mesh.vertices) {
+    vertex = (vertex - foot) * scale + at;
+    if (!(std::max({std::abs(vertex.x), std::abs(vertex.y), std::abs(vertex.z)}) <= kLargestMeshCoordinate))
+      reader.fail("file", fmt::format(": {} reaches farther than {} cells", file.string(), kLargestMeshCoordinate));
+  }
+  entry.mesh = std::move(mesh);
+}
+
+void read_state(Reader& reader, Entry& entry) {
+  if (entry.role == Role::inert || entry.cut) return;
+  entry.temperature = reader.number("temperature", {0, 1, false, {}}, 0.0);
+  if (entry.role != Role::liquid) return;
+  entry.amount = reader.number("amount", {0, kLargestAmount, true, {}}, 1.0);
+  entry.energy = reader.number("energy", {0, entry.amount, false, "the amount"}, entry.amount);
+}
+
+}  // namespace
+
+Contents read_contents(Reader& root, state::Grid grid, const std::filesystem::path& scene_folder,
+                       std::vector<std::string>& warnings) {
+  Contents contents;
+  contents.terrain.x = grid.x;
+  contents.terrain.z = grid.z;
+  contents.terrain.height.resize(static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.z));
+
+  const std::vector<std::pair<const char*, Role>> lists{{"solid", Role::solid}, {"liquid", Role::liquid}, {"inert", Role::inert}};
+  for (const auto& [list, role] : lists) {
+    std::vector<Reader> readers = root.tables(list);
+    for (std::size_t i = 0; i < readers.size(); ++i) {
+      Reader& reader = readers[i];
+      std::vector<std::string> names = shape_names();
+      names.insert(names.end(), {"mesh", "heightfield", "floor"});
+      const std::string shape = names[reader.choice("shape", names)];
+      if (shape == "floor" || shape == "heightfield") {
+        if (role != Role::inert) reader.fail("shape", fmt::format(" = \"{}\" is for [[inert]] only", shape));
+        if (shape == "floor") read_floor(reader, contents.terrain, grid);
+        if (shape == "heightfield") read_heightfield(reader, contents.terrain, grid, scene_folder, warnings);
+      } else {
+        Entry entry;
+        entry.role = role;
+        entry.name = fmt::format("{}.{}", list, i);
+        entry.cut = reader.flag("cut", false);
+        read_state(reader, entry);
+        if (shape == "mesh")
+          read_mesh_entry(reader, entry, scene_folder);
+        else
+          entry.shape = read_shape(reader, shape);
+        contents.entries.push_back(std::move(entry));
+      }
+      reader.finish();
+    }
+  }
+  return contents;
+}
+
+}  // namespace voxmelt::scene

@@ -1,0 +1,56 @@
+// A TOML document as plain values that remember where they were written, so that every later complaint names its place.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxmelt::scene {
+
+struct Origin {
+  std::string name;              // file as the user named it, or "--set path=value"
+  std::filesystem::path folder;  // files named in the document are relative to it
+  bool is_override = false;
+};
+
+struct Place {
+  std::shared_ptr<const Origin> origin;
+  std::uint32_t line = 0, column = 0;  // from 1; 0: unknown
+
+  std::string text() const;  // "file:line:column", or "--set path=value"
+};
+
+struct Value {
+  enum class Kind : std::uint8_t { boolean, integer, real, text, array, table, date };
+
+  Kind kind = Kind::table;
+  Place place;      // of the value
+  Place key_place;  // of its key; that of the value in arrays
+  bool boolean = false;
+  std::int64_t integer = 0;
+  double real = 0;
+  std::string text;
+  std::vector<Value> items;       // elements of an array, or values of a table
+  std::vector<std::string> keys;  // of a table, beside items
+
+  const Value* find(std::string_view key) const;
+  Value* find(std::string_view key);
+  Value& put(std::string key, Value value);  // adds or replaces
+  void remove(std::string_view key);
+};
+
+const char* name_of(Value::Kind kind);  // "a number", "a string", ...
+
+// Throws InputError "place: error: message".
+[[noreturn]] void fail_at(const Place& place, const std::string& message);
+
+// Reads and parses one file (at most 16 MiB). Throws InputError.
+Value parse_file(const std::filesystem::path& file);
+
+// One value in TOML syntax; a bare word is a string. Throws InputError naming `origin`.
+Value parse_value(const std::string& text, std::shared_ptr<const Origin> origin);
+
+}  // namespace voxmelt::scene

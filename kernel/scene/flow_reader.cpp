@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/scene/parameter_readers.h"
+#include "kernel/scene/units.h"
+
+namespace voxmelt::scene {
+namespace {
+
+constexpr double kLargestShare4 = 0.25, kLargestShare8 = 0.2;  // all directions together give at most what a cell has
+constexpr double kLargestKappa = 1024;
+constexpr double kLargestYield = 255;  // UQ8.8
+
+Range unit() { return {0, 1, false, {}}; }
+Range amount() { return {0, kLargestAmount, false, {}}; }
+
+rule::Fall read_fall(Reader& reader) {
+  rule::Fall fall;
+  const double factor = reader.number("factor", unit(), 1.0);
+  fall.factor = to_factor32(factor);
+  fall.wall_factor = to_factor32(reader.number("wall_factor", unit(), factor));
+  fall.minimum = to_amount(reader.number("minimum", amount(), 32.0 / rule::kOne));
+  fall.hang = to_amount(reader.number("hang", amount(), 0.0));
+  reader.finish();
+  return fall;
+}
+
+// Row `pattern`, bit by bit: +x, -x, +z, -z.
+void read_table(Reader& reader, rule::PaperLaw& law) {
+  if (law.neighbours != 4) reader.fail("table", " needs flow.paper.neighbours = 4");
+  if (reader.has("share")) reader.fail("table", " replaces share: give only one of them");
+  const std::vector<double> flat = reader.rows("table", 4, 16, 16, unit());
+  law.use_table = true;
+  for (std::size_t pattern = 0; pattern < 16; ++pattern) {
+    double sum = 0;
+    for (std::size_t direction = 0; direction < 4; ++direction) {
+      const double factor = flat[4 * pattern + direction];
+      if (factor > 0 && (pattern >> direction & 1) == 0)
+        reader.fail("table", fmt::format(".{}.{} = {} gives in a direction that is not in pattern {}", pattern, direction, factor, pattern));
+      sum += factor;
+      law.table[pattern][direction] = static_cast<std::uint16_t>(std::min(65535.0, std::floor(factor * 65536)));
+    }
+    if (sum > 1 + 1e-9) reader.fail("table", fmt::format(".{} sums to {}, more than 1", pattern, sum));
+  }
+}
+
+rule::PaperLaw read_paper(Reader& reader) {
+  rule::PaperLaw law;
+  law.neighbours = static_cast<int>(reader.integer("neighbours", 4, 8, 8));
+  if (law.neighbours != 4 && law.neighbours != 8) reader.fail("neighbours", fmt::format(" = {} is not 4 or 8", law.neighbours));
+  law.threshold = to_amount(reader.number("threshold", amount(), 0.0));
+  if (reader.has("table")) read_table(reader, law);
+  const Range share{0, law.neighbours == 4 ? kLargestShare4 : kLargestShare8, false, fmt::format("the bound for {} neighbours", law.neighbours)};
+  law.share = to_factor16(reader.number("share", share, 0.125));
+  law.downhill = reader.flag("downhill", true);
+  law.margin = to_amount(reader.number("margin", amount(), 1.0 / 16));
+  law.support = reader.flag("support", false);
+  law.slump = to_amount(reader.number("slump", amount(), 0.0));
+  law.reading = reader.choice("energy", {"text", "printed"}, 0) == 0 ? rule::EnergyReading::text : rule::EnergyReading::printed;
+  law.beta = to_factor32(reader.number("beta", {0, 4, false, {}}, 1.0));
+  law.alpha_liquid = to_factor16(reader.number("alpha_liquid", unit(), 1.0));
+  law.alpha_solid = to_factor16(reader.number("alpha_solid", unit(), 1.0));
+  law.alpha_floor = to_factor16(reader.number("alpha_floor", unit(), 1.0));
+  law.reheat = to_factor16(reader.number("reheat", unit(), 0.0));
+  reader.finish();
+  return law;
+}
+
+rule::ViscousLaw read_viscous(Reader& reader) {
+  rule::ViscousLaw law;
+  // kq = (2/3) (kappa / 3), with kappa = g dt / nu
+  const double kappa = reader.number("kappa", {0, kLargestKappa, true, {}});
+  law.mobility = static_cast<std::uint32_t>(std::llround((1 << 20) * (2.0 / 9) * kappa));
+  law.yield = static_cast<std::uint32_t>(std::lround(reader.number("yield", {0, kLargestYield, false, {}}, 0.0) * 65536));
+  law.stiffness = static_cast<std::uint8_t>(reader.integer("stiffness", 1, 8, 8));
+  reader.finish();
+  return law;
+}
+
+// Mobility doubles every `doubling` of temperature and is 1 at `reference`.
+void read_thermal(Reader& reader, rule::Flow& flow) {
+  const double reference = reader.number("reference", unit());
+  const double doubling = reader.number("doubling", {0.001, 1, false, {}});
+  flow.thermal_viscosity = true;
+  for (std::size_t i = 0; i < flow.mobility_table.size(); ++i) {
+    const double temperature = (static_cast<double>(i) + 0.5) / static_cast<double>(flow.mobility_table.size());
+    const double mobility = 32768 * std::exp2((temperature - reference) / doubling);
+    flow.mobility_table[i] = static_cast<std::uint16_t>(std::lround(std::min(65535.0, mobility)));
+  }
+  reader.finish();
+}
+
+}  // namespace
+
+rule::Flow read_flow(Reader& root) {
+  rule::Flow flow;
+  std::optional<Reader> reader = root.table("flow");
+  if (!reader) return flow;
+  const std::vector<std::string> laws{"paper", "viscous"};
+  const std::size_t law = reader->choice("law", laws, 0);
+  flow.law = law == 0 ? rule::Law::paper : rule::Law::viscous;
+  const std::string& other = laws[1 - law];
+  if (reader->has(other)) fail_at(reader->place(other), fmt::format("flow.{} is not used by law = \"{}\"", other, laws[law]));
+
+  if (std::optional<Reader> fall = reader->table("fall")) flow.fall = read_fall(*fall);
+  std::optional<Reader> own = reader->table(laws[law]);
+  if (own && law == 0) flow.paper = read_paper(*own);
+  if (own && law == 1) flow.viscous = read_viscous(*own);
+  if (!own && law == 1) reader->fail("viscous", " is missing: the law needs its kappa");
+  if (std::optional<Reader> thermal = reader->table("thermal")) read_thermal(*thermal, flow);
+  reader->finish();
+  return flow;
+}
+
+}  // namespace voxmelt::scene

@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include "kernel/scene/compose.h"
+#include "kernel/scene/contents.h"
+#include "kernel/scene/features.h"
+#include "kernel/scene/look_reader.h"
+#include "kernel/scene/memory.h"
+#include "kernel/scene/parameter_readers.h"
+#include "kernel/scene/reader.h"
+#include "kernel/scene/scene.h"
+#include "kernel/scene/start.h"
+
+namespace voxmelt::scene {
+namespace {
+
+constexpr std::int64_t kLargestSide = 4096;
+constexpr std::int64_t kMostSteps = 0xFFFFFFFFll;
+
+state::Grid read_grid(Reader& root) {
+  std::optional<Reader> reader = root.table("grid");
+  if (!reader) fail_at(root.place(), "grid.size is missing: a scene needs [grid] size = [x, y, z]");
+  const Vec3 size = reader->vector<3>("size", {1, static_cast<double>(kLargestSide), false, {}});
+  for (const double side : size)
+    if (side != static_cast<double>(static_cast<int>(side))) reader->fail("size", " must be whole numbers of cells");
+  reader->finish();
+  const state::Grid grid{static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])};
+  check_memory(grid, reader->place("size"));
+  return grid;
+}
+
+void read_run(Reader& root, Scene& scene) {
+  std::optional<Reader> reader = root.table("run");
+  if (!reader) return;
+  scene.steps = static_cast<std::uint32_t>(reader->integer("steps", 0, kMostSteps, scene.steps));
+  scene.frame_every = static_cast<std::uint32_t>(reader->integer("frame_every", 1, kMostSteps, scene.frame_every));
+  scene.parameters.seed = static_cast<std::uint64_t>(
+      reader->integer("seed", 0, INT64_MAX, static_cast<std::int64_t>(scene.parameters.seed)));
+  reader->finish();
+}
+
+bool can_flow(const Contents& contents, const rule::Parameters& parameters) {
+  if (!parameters.vents.empty()) return true;
+  for (const Entry& entry : contents.entries)
+    if (entry.role != Role::inert && !entry.cut) return true;
+  return false;
+}
+
+}  // namespace
+
+std::string title_of(const std::filesystem::path& file) {
+  const Value document = read_document(file);
+  const Value* title = document.find("title");
+  return title != nullptr && title->kind == Value::Kind::text ? title->text : "";
+}
+
+Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  Value document = read_document(file);
+  for (const std::string& assignment : overrides) apply_override(document, assignment);
+
+  Scene scene;
+  scene.file = file;
+  scene.name = file.stem().string();
+  Reader root(document, "");
+  scene.title = root.text("title", scene.name);
+  root.text("description", "");
+
+  const state::Grid grid = read_grid(root);
+  read_run(root, scene);
+  scene.parameters.material = read_material(root);
+  scene.parameters.heat = read_heat(root, grid.y);
+  scene.parameters.vents = read_vents(root);
+  scene.parameters.drains = read_drains(root);
+  scene.parameters.flow = read_flow(root);
+  scene.features = features_of(scene.parameters);
+  scene.camera = read_camera(root, grid);
+  scene.light = read_light(root);
+  scene.look = read_look(root);
+
+  // The fields of an export replace the shapes; the terrain still says how the ground is drawn.
+  Contents contents = read_contents(root, grid, file.parent_path(), scene.warnings);
+  std::optional<Reader> start = root.table("start");
+  std::filesystem::path fields;
+  if (start) {
+    fields = start->file("fields", file.parent_path());
+    start->finish();
+  }
+  root.finish();
+  if (!start && !can_flow(contents, scene.parameters))
+    fail_at(document.place, "nothing can flow: a scene needs a [[solid]], a [[liquid]] or a [[vent]]");
+
+  scene.initial = start ? read_fields(fields, grid, start->place("fields")) : voxelise(contents, grid, scene.warnings);
+  scene.terrain = std::move(contents.terrain);
+  return scene;
+}
+
+}  // namespace voxmelt::scene

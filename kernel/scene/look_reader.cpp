@@ -1,0 +1,83 @@
+#include "kernel/scene/look_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kernel/scene/geometry.h"
+#include "kernel/scene/units.h"
+
+namespace voxmelt::scene {
+namespace {
+
+Range unit() { return {0, 1, false, {}}; }
+
+// The least distance from which all eight corners of the grid are within the picture.
+double fitting_distance(const Camera& camera, state::Grid grid) {
+  const double to_radians = std::numbers::pi / 180;
+  const double azimuth = camera.azimuth * to_radians, elevation = camera.elevation * to_radians;
+  const Point back{std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
+  const Point right{std::cos(azimuth), 0, -std::sin(azimuth)};
+  const Point up{-std::sin(azimuth) * std::sin(elevation), std::cos(elevation), -std::cos(azimuth) * std::sin(elevation)};
+  const double tall = std::tan(camera.field_of_view / 2 * to_radians);
+  const double wide = tall * camera.width / camera.height;
+  double distance = 1;
+  for (int i = 0; i < 8; ++i) {
+    const Point corner{i & 1 ? 1.0 * grid.x : 0.0, i & 2 ? 1.0 * grid.y : 0.0, i & 4 ? 1.0 * grid.z : 0.0};
+    const Point offset = corner - to_point(camera.target);
+    distance = std::max({distance, dot(offset, back) + std::abs(dot(offset, up)) / tall,
+                         dot(offset, back) + std::abs(dot(offset, right)) / wide});
+  }
+  return distance * 1.02;
+}
+
+}  // namespace
+
+Camera read_camera(Reader& root, state::Grid grid) {
+  Camera camera;
+  camera.target = {grid.x / 2.0, grid.y / 2.0, grid.z / 2.0};
+  if (std::optional<Reader> reader = root.table("camera")) {
+    camera.target = reader->vector<3>("target", {-kLargestCoordinate, kLargestCoordinate, false, {}}, camera.target);
+    camera.azimuth = reader->number("azimuth", {-360, 360, false, {}}, camera.azimuth);
+    camera.elevation = reader->number("elevation", {-89, 89, false, {}}, camera.elevation);
+    camera.distance = reader->number("distance", {0, 4 * kLargestCoordinate, false, {}}, 0.0);
+    camera.field_of_view = reader->number("field_of_view", {1, 120, false, {}}, camera.field_of_view);
+    camera.width = static_cast<int>(reader->integer("width", 16, 16384, camera.width));
+    camera.height = static_cast<int>(reader->integer("height", 16, 16384, camera.height));
+    reader->finish();
+  }
+  if (camera.distance == 0) camera.distance = fitting_distance(camera, grid);
+  return camera;
+}
+
+Light read_light(Reader& root) {
+  Light light;
+  std::optional<Reader> reader = root.table("light");
+  if (!reader) return light;
+  light.direction = reader->vector<3>("direction", {-1e6, 1e6, false, {}}, light.direction);
+  if (length(to_point(light.direction)) < 1e-6) reader->fail("direction", " has no length");
+  light.ambient = reader->number("ambient", unit(), light.ambient);
+  reader->finish();
+  return light;
+}
+
+Look read_look(Reader& root) {
+  Look look;
+  std::optional<Reader> reader = root.table("look");
+  if (!reader) return look;
+  look.solid = reader->vector<3>("solid", unit(), look.solid);
+  look.liquid = reader->vector<3>("liquid", unit(), look.liquid);
+  look.ground = reader->vector<3>("ground", unit(), look.ground);
+  look.background = reader->vector<3>("background", unit(), look.background);
+  look.shininess = reader->number("shininess", {1, 10000, false, {}}, look.shininess);
+  look.specular = reader->number("specular", unit(), look.specular);
+  look.glow = reader->flag("glow", look.glow);
+  look.glow_cold = reader->number("glow_cold", unit(), look.glow_cold);
+  look.glow_hot = reader->number("glow_hot", unit(), look.glow_hot);
+  if (look.glow_hot <= look.glow_cold) reader->fail("glow_hot", " must be more than glow_cold");
+  look.smooth = reader->number("smooth", {0, 16, false, {}}, look.smooth);
+  reader->finish();
+  return look;
+}
+
+}  // namespace voxmelt::scene

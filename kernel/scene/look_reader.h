@@ -1,0 +1,14 @@
+// [camera], [light] and [look]. All throw InputError.
+#pragma once
+
+#include "kernel/scene/look.h"
+#include "kernel/scene/reader.h"
+#include "kernel/state/grid.h"
+
+namespace voxmelt::scene {
+
+Camera read_camera(Reader& root, state::Grid grid);  // distance 0 becomes the least at which the grid fits
+Light read_light(Reader& root);
+Look read_look(Reader& root);
+
+}  // namespace voxmelt::scene

@@ -1,0 +1,40 @@
+#include "kernel/scene/memory.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "kernel/scene/scene.h"
+
+namespace voxmelt::scene {
+namespace {
+
+// MemAvailable of the kernel; without it nothing is refused.
+std::uint64_t available_bytes() {
+  std::ifstream file("/proc/meminfo");
+  std::string key, unit;
+  std::uint64_t kibibytes = 0;
+  while (file >> key >> kibibytes) {
+    if (key == "MemAvailable:") return kibibytes * 1024;
+    std::getline(file, unit);
+  }
+  return std::numeric_limits<std::uint64_t>::max();
+}
+
+}  // namespace
+
+std::uint64_t needed_bytes(state::Grid grid) {
+  // Three 16-bit fields and three bits a cell, about 6.5 bytes; two states, scratch and pictures: four times that.
+  return static_cast<std::uint64_t>(grid.cells()) * 26;
+}
+
+void check_memory(state::Grid grid, const Place& place) {
+  const std::uint64_t needed = needed_bytes(grid), available = available_bytes();
+  if (needed > available)
+    throw ResourceError(fmt::format("{}: error: grid.size = [{}, {}, {}] needs {} bytes of memory, {} are available",
+                                    place.text(), grid.x, grid.y, grid.z, needed, available));
+}
+
+}  // namespace voxmelt::scene

@@ -1,0 +1,17 @@
+// Whether a grid fits into memory, asked before anything is allocated.
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/scene/document.h"
+#include "kernel/state/grid.h"
+
+namespace voxmelt::scene {
+
+// Bytes that a run of this grid needs: four times its state.
+std::uint64_t needed_bytes(state::Grid grid);
+
+// Throws ResourceError naming the needed and the available bytes.
+void check_memory(state::Grid grid, const Place& place);
+
+}  // namespace voxmelt::scene

@@ -1,0 +1,18 @@
+// Each table of a scene file that becomes rule parameters: checked, then rounded to the automaton's integers.
+// All throw InputError.
+#pragma once
+
+#include <vector>
+
+#include "kernel/rule/parameters.h"
+#include "kernel/scene/reader.h"
+
+namespace voxmelt::scene {
+
+rule::Material read_material(Reader& root);                // [material]
+rule::Heat read_heat(Reader& root, int ny);                // [heat], [heat.air] and [[heat_source]]
+std::vector<rule::Vent> read_vents(Reader& root);          // [[vent]]
+std::vector<rule::Drain> read_drains(Reader& root);        // [[drain]]
+rule::Flow read_flow(Reader& root);                        // [flow] and its tables
+
+}  // namespace voxmelt::scene

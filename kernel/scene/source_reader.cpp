@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include "kernel/scene/parameter_readers.h"
+#include "kernel/scene/units.h"
+
+namespace voxmelt::scene {
+namespace {
+
+constexpr std::int64_t kForever = 0xFFFFFFFFll;
+constexpr double kLargestRadius = 8192;
+
+rule::Region read_region(Reader& reader) {
+  const Vec3 at = reader.vector<3>("at", {-kLargestCoordinate, kLargestCoordinate, false, {}});
+  return {to_position(at), to_position(reader.number("radius", {0, kLargestRadius, true, {}}))};
+}
+
+rule::Amount read_rate(Reader& reader) { return to_amount(reader.number("rate", {0, 1, true, "a full cell per cell and step"})); }
+
+template <class Source>
+void read_interval(Reader& reader, Source& source) {
+  source.from = static_cast<std::uint32_t>(reader.integer("from", 0, kForever, 0));
+  source.until = static_cast<std::uint32_t>(reader.integer("until", 0, kForever, kForever));
+  if (source.until <= source.from)
+    reader.fail("until", fmt::format(" = {} must be after from = {}", source.until, source.from));
+}
+
+}  // namespace
+
+rule::Material read_material(Reader& root) {
+  rule::Material material;
+  std::optional<Reader> reader = root.table("material");
+  if (!reader) return material;
+  material.melting_point = to_temperature(reader->number("melting_point", {0, 1, true, {}}, 0.5));
+  material.latent_heat = to_temperature(reader->number("latent_heat", {0, 1, false, {}}, 0.0));
+  reader->finish();
+  return material;
+}
+
+std::vector<rule::Vent> read_vents(Reader& root) {
+  std::vector<rule::Vent> vents;
+  for (Reader& reader : root.tables("vent")) {
+    rule::Vent vent;
+    vent.region = read_region(reader);
+    vent.rate = read_rate(reader);
+    vent.temperature = to_temperature(reader.number("temperature", {0, 1, false, {}}, 0.0));
+    vent.energy = to_amount(reader.number("energy", {0, 1, false, {}}, 1.0));
+    read_interval(reader, vent);
+    reader.finish();
+    vents.push_back(vent);
+  }
+  return vents;
+}
+
+std::vector<rule::Drain> read_drains(Reader& root) {
+  std::vector<rule::Drain> drains;
+  for (Reader& reader : root.tables("drain")) {
+    rule::Drain drain;
+    drain.region = read_region(reader);
+    drain.rate = read_rate(reader);
+    read_interval(reader, drain);
+    reader.finish();
+    drains.push_back(drain);
+  }
+  return drains;
+}
+
+}  // namespace voxmelt::scene

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/scene/contents.h"
+#include "kernel/scene/units.h"
+
+namespace voxmelt::scene {
+namespace {
+
+constexpr int kLeastSolid = kSamplesPerCell / 16;  // samples of 64
+constexpr int kLeastInert = kSamplesPerCell / 2;
+constexpr int kAmountPerSample = rule::kOne / kSamplesPerCell;
+
+Coverage cover(const Entry& entry, state::Grid grid, std::vector<std::string>& warnings) {
+  Coverage coverage;
+  if (entry.shape) {
+    coverage = scene::cover(*entry.shape, grid);
+  } else {
+    MeshCoverage mesh = scene::cover(entry.mesh, grid);
+    if (mesh.disagreeing > 0)
+      warnings.push_back(fmt::format("{}: mesh leaks: {} of {} columns disagree; majority of three axes used",
+                                     entry.mesh_file, mesh.disagreeing, mesh.columns));
+    coverage = std::move(mesh.coverage);
+  }
+  if (std::all_of(coverage.samples.begin(), coverage.samples.end(), [](std::uint8_t samples) { return samples == 0; }))
+    warnings.push_back(entry.name + " covers no cell of the grid");
+  return coverage;
+}
+
+template <class Visit>
+void for_each_cell(const Coverage& coverage, state::Grid grid, Visit visit) {
+  const Window& window = coverage.window;
+  std::size_t i = 0;
+  for (int z = 0; z < window.size.z; ++z)
+    for (int y = 0; y < window.size.y; ++y) {
+      const std::size_t row = grid.index(window.x, window.y + y, window.z + z);
+      for (int x = 0; x < window.size.x; ++x, ++i)
+        if (coverage.samples[i] > 0) visit(row + static_cast<std::size_t>(x), coverage.samples[i]);
+    }
+}
+
+class Voxeliser {
+ public:
+  explicit Voxeliser(state::Grid grid)
+      : volume_(grid), solid_(grid.cells()), inert_(grid.cells()), solid_temperature_(grid.cells()) {}
+
+  void add(const Entry& entry, const Coverage& coverage) {
+    for_each_cell(coverage, volume_.grid, [&](std::size_t cell, int samples) {
+      if (entry.role == Role::solid && raise(solid_[cell], samples, entry.cut))
+        solid_temperature_[cell] = to_temperature(entry.temperature);
+      if (entry.role == Role::inert) raise(inert_[cell], samples, entry.cut);
+      if (entry.role == Role::liquid) pour(entry, cell, samples);
+    });
+  }
+
+  state::Volume finish(const Terrain& terrain) {
+    const state::Grid grid = volume_.grid;
+    for (int z = 0; z < grid.z; ++z)
+      for (int x = 0; x < grid.x; ++x) {
+        const double height = terrain.height[static_cast<std::size_t>(z) * static_cast<std::size_t>(grid.x) + static_cast<std::size_t>(x)];
+        const int ground = static_cast<int>(std::lround(height));
+        for (int y = 0; y < grid.y; ++y) decide(x, y, z, y < ground);
+        if (ground > 0) volume_.amount[grid.index(x, ground - 1, z)] = bed(height - ground);
+      }
+    return std::move(volume_);
+  }
+
+ private:
+  static rule::Amount bed(double fraction) {
+    const long offset = rule::kBedHalf + std::lround(fraction * rule::kOne);
+    return static_cast<rule::Amount>(std::clamp<long>(offset, 0, rule::kOne - 1));
+  }
+
+  // True where the coverage has grown.
+  static bool raise(std::uint8_t& coverage, int samples, bool cut) {
+    if (cut) {
+      coverage = static_cast<std::uint8_t>(std::max(0, coverage - samples));
+      return false;
+    }
+    if (samples <= coverage) return false;
+    coverage = static_cast<std::uint8_t>(samples);
+    return true;
+  }
+
+  void pour(const Entry& entry, std::size_t cell, int samples) {
+    rule::Amount& amount = volume_.amount[cell];
+    rule::Energy& energy = volume_.energy[cell];
+    if (entry.cut) {
+      amount = static_cast<rule::Amount>(amount * (kSamplesPerCell - samples) / kSamplesPerCell);
+      energy = std::min(energy, amount);
+      return;
+    }
+    const double covered = static_cast<double>(samples) / kSamplesPerCell;
+    const rule::Amount poured = to_amount(entry.amount * covered);
+    if (samples < kLeastSolid || poured <= amount) return;
+    amount = poured;
+    energy = std::min(to_amount(entry.energy * covered), poured);
+    volume_.temperature[cell] = to_temperature(entry.temperature);
+  }
+
+  void decide(int x, int y, int z, bool ground) {
+    const std::size_t cell = volume_.grid.index(x, y, z);
+    rule::Amount& amount = volume_.amount[cell];
+    const bool inert = ground || inert_[cell] >= kLeastInert;
+    const bool solid = !inert && solid_[cell] >= kLeastSolid;
+    if (inert) amount = rule::kBedHalf;
+    if (solid) {
+      amount = static_cast<rule::Amount>(solid_[cell] * kAmountPerSample);
+      volume_.temperature[cell] = solid_temperature_[cell];
+    }
+    const bool liquid = !inert && !solid && amount > 0;
+    if (!liquid) volume_.energy[cell] = 0;
+    if (!liquid && !solid) volume_.temperature[cell] = 0;
+    if (inert) volume_.inert.set(x, y, z, true);
+    if (solid) volume_.solid.set(x, y, z, true);
+    if (liquid) volume_.liquid.set(x, y, z, true);
+  }
+
+  state::Volume volume_;
+  std::vector<std::uint8_t> solid_, inert_;  // samples covered
+  std::vector<rule::Temperature> solid_temperature_;
+};
+
+}  // namespace
+
+state::Volume voxelise(const Contents& contents, state::Grid grid, std::vector<std::string>& warnings) {
+  Voxeliser voxeliser(grid);
+  for (const Entry& entry : contents.entries) voxeliser.add(entry, cover(entry, grid, warnings));
+  return voxeliser.finish(contents.terrain);
+}
+
+}  // namespace voxmelt::scene

@@ -1,0 +1,29 @@
+// What each surface cell receives from the point sources, as data: recomputed at steps divisible by
+// heat.visibility_every, a pure function of that step's masks and sources (docs/automaton.md, "Visibility").
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel/rule/parameters.h"
+#include "kernel/state/volume.h"
+
+namespace voxmelt::visibility {
+
+class Provider {
+ public:
+  virtual ~Provider() = default;
+
+  // Fills one UQ12.4 irradiance per cell [z][y][x]; 0 for every cell that is not a lit surface cell.
+  virtual void irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
+                          std::vector<std::uint16_t>& result) = 0;
+};
+
+// The exact integer walk through the voxels: the definition.
+class VoxelWalkProvider final : public Provider {
+ public:
+  void irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
+                  std::vector<std::uint16_t>& result) override;
+};
+
+}  // namespace voxmelt::visibility

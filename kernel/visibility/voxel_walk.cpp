@@ -1,0 +1,60 @@
+#include "kernel/rule/visibility.h"
+
+#include <algorithm>
+
+#include "kernel/rule/source.h"
+#include "kernel/visibility/visibility.h"
+
+namespace voxmelt::visibility {
+namespace {
+
+// Liquid is transparent, and so is everything beyond the grid: only solid and inert cells block.
+bool opaque(const state::Volume& volume, int x, int y, int z) {
+  return volume.grid.contains(x, y, z) && (volume.solid.test(x, y, z) || volume.inert.test(x, y, z));
+}
+
+int facing_axes(const state::Volume& volume, int x, int y, int z, std::int64_t dx, std::int64_t dy,
+                std::int64_t dz) {
+  const auto side = [](std::int64_t d) { return d > 0 ? 1 : -1; };
+  return (dx != 0 && !opaque(volume, x + side(dx), y, z)) + (dy != 0 && !opaque(volume, x, y + side(dy), z)) +
+         (dz != 0 && !opaque(volume, x, y, z + side(dz)));
+}
+
+bool sees(const state::Volume& volume, int x, int y, int z, rule::Position source) {
+  rule::VoxelWalk walk(x, y, z, source);
+  bool was_inside = true;
+  while (walk.next()) {
+    const bool inside = volume.grid.contains(walk.x(), walk.y(), walk.z());
+    if (was_inside && !inside) return true;  // a straight ray never comes back
+    if (opaque(volume, walk.x(), walk.y(), walk.z())) return false;
+    was_inside = inside;
+  }
+  return true;
+}
+
+}  // namespace
+
+void VoxelWalkProvider::irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
+                                   std::vector<std::uint16_t>& result) {
+  const state::Grid g = volume.grid;
+  result.assign(g.cells(), 0);
+  for (const rule::PointSource& path : heat.sources) {
+    const rule::SourceKey source = rule::source_at(path, step);
+    if (source.power == 0) continue;
+    for (int z = 0; z < g.z; ++z)
+      for (int y = 0; y < g.y; ++y)
+        for (int x = 0; x < g.x; ++x) {
+          if (!volume.solid.test(x, y, z)) continue;
+          const std::int64_t dx = source.at.x - (rule::kPositionUnit * x + 8),
+                             dy = source.at.y - (rule::kPositionUnit * y + 8),
+                             dz = source.at.z - (rule::kPositionUnit * z + 8);
+          const int axes = facing_axes(volume, x, y, z, dx, dy, dz);
+          if (axes == 0 || !sees(volume, x, y, z, source.at)) continue;
+          const auto distance_squared = static_cast<std::uint64_t>(dx * dx + dy * dy + dz * dz);
+          const std::uint64_t sum = result[g.index(x, y, z)] + rule::irradiance(source.power, distance_squared, axes);
+          result[g.index(x, y, z)] = static_cast<std::uint16_t>(std::min<std::uint64_t>(sum, rule::kIrradianceMax));
+        }
+  }
+}
+
+}  // namespace voxmelt::visibility

@@ -1,0 +1,164 @@
+#include "render/density/cell_fields.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "kernel/rule/fixed_point.h"
+
+namespace voxmelt::render {
+namespace {
+
+using rule::kOne;
+
+constexpr std::int32_t kFilm = kOne * 15 / 100;   // a film of this amount counts as fully wet
+constexpr std::int32_t kSink = kOne * 4 / 10;     // how far the surface sinks into dry ground beside matter
+constexpr std::int32_t kDive = kOne;              // ... and one cell further out
+constexpr int kReach = 2;                         // columns around matter whose ground is filled
+
+std::uint16_t intensity_of(std::int32_t amount) {
+  return static_cast<std::uint16_t>(std::clamp(amount, 0, kOne) * kFull / kOne);
+}
+
+// The ground of every column, [z][x].
+struct Columns {
+  std::vector<int> bed;              // cells of ground, counted up from y = 0
+  std::vector<std::int32_t> offset;  // of the true ground from the top face of its cell, in kOne
+  std::vector<std::int32_t> wet;     // 0..kOne
+};
+
+class Builder {
+ public:
+  explicit Builder(const state::Volume& volume) : volume_(volume), grid_(volume.grid) {}
+
+  CellFields build() {
+    fields_.grid = grid_;
+    for (auto* field : {&fields_.intensity, &fields_.solid, &fields_.liquid, &fields_.heat})
+      field->assign(grid_.cells(), 0);
+    fields_.wetness.assign(column_count(), 0.0f);
+    find_matter();
+    find_ground();
+    for (int z = 0; z < grid_.z; ++z)
+      for (int x = 0; x < grid_.x; ++x) fill_ground(x, z);
+    return std::move(fields_);
+  }
+
+ private:
+  std::size_t column_count() const {
+    return static_cast<std::size_t>(grid_.x) * static_cast<std::size_t>(grid_.z);
+  }
+  std::size_t column(int x, int z) const { return grid_.index(x, 0, 0) + column_row(z); }
+  std::size_t column_row(int z) const {
+    return static_cast<std::size_t>(z) * static_cast<std::size_t>(grid_.x);
+  }
+
+  std::int32_t matter_amount(int x, int y, int z) const {
+    if (y >= grid_.y || !(volume_.solid.test(x, y, z) || volume_.liquid.test(x, y, z))) return 0;
+    return std::min<std::int32_t>(volume_.amount[grid_.index(x, y, z)], kOne);
+  }
+
+  void find_matter() {
+    for (int z = 0; z < grid_.z; ++z)
+      for (int y = 0; y < grid_.y; ++y)
+        for (int x = 0; x < grid_.x; ++x) {
+          const std::size_t i = grid_.index(x, y, z);
+          if (volume_.amount[i] == 0 || volume_.inert.test(x, y, z)) continue;
+          const std::uint16_t value = intensity_of(volume_.amount[i]);
+          fields_.intensity[i] = value;
+          if (volume_.solid.test(x, y, z)) {
+            fields_.solid[i] = value;
+          } else {
+            fields_.liquid[i] = value;
+            fields_.heat[i] = static_cast<std::uint16_t>(static_cast<std::uint32_t>(value) *
+                                                         volume_.temperature[i] / rule::kTemperatureMax);
+          }
+        }
+  }
+
+  void find_ground() {
+    columns_.bed.assign(column_count(), 0);
+    columns_.offset.assign(column_count(), 0);
+    columns_.wet.assign(column_count(), 0);
+    for (int z = 0; z < grid_.z; ++z)
+      for (int x = 0; x < grid_.x; ++x) {
+        const std::size_t c = column(x, z);
+        int bed = 0;
+        while (bed < grid_.y && volume_.inert.test(x, bed, z)) ++bed;
+        columns_.bed[c] = bed;
+        fill_obstacles(x, bed, z);
+        if (bed == 0) continue;
+        columns_.offset[c] = std::clamp<std::int32_t>(
+            volume_.amount[grid_.index(x, bed - 1, z)] - rule::kBedHalf, -kOne / 2, kOne / 2);
+        columns_.wet[c] = std::min(matter_amount(x, bed, z), kFilm) * kOne / kFilm;
+        fields_.wetness[c] = static_cast<float>(columns_.wet[c]) / static_cast<float>(kOne);
+      }
+  }
+
+  // Inert cells that do not reach down to y = 0 are things of their own and drawn like solids.
+  void fill_obstacles(int x, int bed, int z) {
+    for (int y = bed; y < grid_.y; ++y)
+      if (volume_.inert.test(x, y, z)) {
+        const std::size_t i = grid_.index(x, y, z);
+        fields_.intensity[i] = fields_.solid[i] = static_cast<std::uint16_t>(kFull);
+      }
+  }
+
+  // Distance in columns (largest of |dx|, |dz|) to the nearest wet column, kReach + 1 where there is none.
+  int distance_to_wet(int x, int z) const {
+    if (columns_.wet[column(x, z)] > 0) return 0;
+    int nearest = kReach + 1;
+    for (int nz = std::max(z - kReach, 0); nz <= std::min(z + kReach, grid_.z - 1); ++nz)
+      for (int nx = std::max(x - kReach, 0); nx <= std::min(x + kReach, grid_.x - 1); ++nx)
+        if (columns_.wet[column(nx, nz)] > 0)
+          nearest = std::min(nearest, std::max(std::abs(nx - x), std::abs(nz - z)));
+    return nearest;
+  }
+
+  void fill_ground(int x, int z) {
+    const std::size_t c = column(x, z);
+    const int bed = columns_.bed[c];
+    if (bed == 0) return;
+    const int distance = distance_to_wet(x, z);
+    if (distance > kReach) return;
+    const std::int32_t sink = distance < kReach ? kSink - kSink * columns_.wet[c] / kOne : kDive;
+    const std::int32_t rise = columns_.offset[c] - sink;
+
+    // Ground up to the true height of the bed, less the sink.
+    const int last = std::min(bed, grid_.y - 1);
+    for (int y = 0; y <= last; ++y) {
+      const std::size_t i = grid_.index(x, y, z);
+      const std::int32_t ground = std::clamp((bed - y) * kOne + rise, 0, kOne);
+      fields_.intensity[i] = std::max(fields_.intensity[i], intensity_of(ground));
+    }
+    if (bed < grid_.y && volume_.liquid.test(x, bed, z)) shift_liquid(x, bed, z, rise);
+  }
+
+  // The liquid that rests on the bed is moved up or down by the part of a cell by which the bed lies above or
+  // below its cell's top face; otherwise the terraces of the voxelised ground show through its surface.
+  void shift_liquid(int x, int bed, int z, std::int32_t rise) {
+    int top = bed;
+    while (top < grid_.y && volume_.liquid.test(x, top, z)) ++top;
+    const auto amount_at = [&](int y) {
+      return y < bed ? kOne : (y < top ? matter_amount(x, y, z) : std::int32_t{0});
+    };
+    const std::int32_t shift = std::clamp(rise, -kOne, kOne);
+    const int first = shift < 0 ? bed - 1 : bed;
+    for (int y = first; y <= std::min(top, grid_.y - 1); ++y) {
+      const std::size_t i = grid_.index(x, y, z);
+      if (y == top && fields_.intensity[i] != 0) break;  // something else rests on the liquid
+      const std::int32_t other = shift < 0 ? amount_at(y + 1) : amount_at(y - 1);
+      const std::int32_t part = std::abs(shift);
+      fields_.intensity[i] = intensity_of((amount_at(y) * (kOne - part) + other * part) / kOne);
+    }
+  }
+
+  const state::Volume& volume_;
+  state::Grid grid_;
+  CellFields fields_;
+  Columns columns_;
+};
+
+}  // namespace
+
+CellFields cell_fields(const state::Volume& volume) { return Builder(volume).build(); }
+
+}  // namespace voxmelt::render

@@ -1,0 +1,55 @@
+// The scalar field that is drawn: filtered intensity and what goes with it, kept up to date brick by brick.
+//
+// The surface is where the filtered intensity is half of kFull. For a column of full cells with a part-filled
+// cell on top this lies within a tenth of a cell of the column's height, so smooth amounts look smooth.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel/scene/look.h"
+#include "kernel/state/volume.h"
+#include "render/density/brick.h"
+#include "render/density/cell_fields.h"
+#include "render/density/pyramid.h"
+
+namespace voxmelt::render {
+
+// Smallest and largest filtered intensity in a brick and a halo of two cells: all that an interpolation inside
+// the brick can read, cubic included.
+struct BrickRange {
+  std::uint16_t low = 0, high = 0;
+  friend bool operator==(const BrickRange&, const BrickRange&) = default;
+};
+
+class DensityField {
+ public:
+  // Takes over a new state. Only bricks in which something changed, and their neighbours, are filtered again;
+  // the result is the same, bit for bit, as that of a fresh field. Returns the number of bricks filtered.
+  int update(const state::Volume& volume, const scene::Look& look);
+
+  const state::Grid& grid() const { return cells_.grid; }
+  const state::Grid& bricks() const { return bricks_; }
+  const std::vector<std::uint16_t>& intensity() const { return intensity_; }
+  const std::vector<std::uint16_t>& solid() const { return solid_; }
+  const std::vector<std::uint16_t>& liquid() const { return liquid_; }
+  const std::vector<std::uint16_t>& heat() const { return heat_; }
+  const std::vector<float>& wetness() const { return cells_.wetness; }
+  const std::vector<BrickRange>& ranges() const { return ranges_; }
+  const Pyramid& pyramid() const { return pyramid_; }
+  int passes() const { return passes_; }
+
+ private:
+  std::vector<std::uint8_t> changed_bricks(const CellFields& fresh) const;
+  void refresh_range(int bx, int by, int bz);
+
+  CellFields cells_;
+  state::Grid bricks_;
+  int passes_ = -1;
+  std::vector<std::uint16_t> intensity_, solid_, liquid_, heat_;
+  std::vector<BrickRange> ranges_;
+  double glow_cold_ = 0, glow_hot_ = 0;
+  Pyramid pyramid_;
+};
+
+}  // namespace voxmelt::render

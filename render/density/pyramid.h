@@ -1,0 +1,55 @@
+// Coarser and coarser averages of the matter (without the ground), for soft shadows, ambient occlusion and the
+// light that glowing liquid throws: a wide cone reads a coarse level where a ray would need many samples.
+//
+// Level l has cells of 2^l cells of the grid, l = 1 .. kLevels; outside the grid there is nothing.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/state/grid.h"
+
+namespace voxmelt::render {
+
+struct Blend {
+  float matter = 0;  // filled share, 0..1
+  float liquid = 0;  // the liquid's part of it
+  float heat = 0;    // liquid * temperature
+  float glow = 0;    // liquid * emitted light
+};
+
+// Stored with a border of one empty cell on every side, so that sampling needs no case for the edge.
+struct PyramidLevel {
+  state::Grid grid;  // without the border
+  std::vector<Blend> cells;
+
+  std::size_t row() const { return static_cast<std::size_t>(grid.x) + 2; }
+  std::size_t slice() const { return row() * (static_cast<std::size_t>(grid.y) + 2); }
+  // Cells -1 .. side along each axis.
+  std::size_t index(int x, int y, int z) const {
+    return static_cast<std::size_t>(z + 1) * slice() + static_cast<std::size_t>(y + 1) * row() +
+           static_cast<std::size_t>(x + 1);
+  }
+};
+
+class Pyramid {
+ public:
+  static constexpr int kLevels = 5;
+
+  // `emission` gives the light of a temperature 0..65535, for each of 256 equal steps.
+  void build(const state::Grid& grid, const std::vector<std::uint16_t>& solid,
+             const std::vector<std::uint16_t>& liquid, const std::vector<std::uint16_t>& heat,
+             const std::array<float, 257>& emission);
+
+  // Trilinear in space (position in cells of the grid) and linear between levels, 1 <= level <= kLevels.
+  Blend sample(float x, float y, float z, float level) const;
+
+  const PyramidLevel& level(int index) const { return levels_[static_cast<std::size_t>(index - 1)]; }
+
+ private:
+  std::array<PyramidLevel, kLevels> levels_;
+};
+
+}  // namespace voxmelt::render

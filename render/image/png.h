@@ -1,0 +1,23 @@
+// PNG files.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "render/image/image.h"
+
+namespace voxmelt::render {
+
+// A picture could not be written or read; the message names the file and the system's reason.
+class ImageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Writes beside the target and renames: a reader never sees half a file. Throws ImageError.
+void write_png(const std::filesystem::path& file, const Image& image);
+
+// Reads any PNG as 8-bit RGB. Throws ImageError.
+Image read_png(const std::filesystem::path& file);
+
+}  // namespace voxmelt::render

@@ -1,0 +1,20 @@
+// The picture of a field: ray casting in software.
+#pragma once
+
+#include "kernel/scene/look.h"
+#include "render/density/density_field.h"
+#include "render/image/image.h"
+
+namespace voxmelt::render {
+
+struct DrawSettings {
+  int antialias = 2;       // samples per pixel along each axis
+  int threads = 0;         // 0: one for each processor; the picture is the same for any number
+  bool skip_empty = true;  // leave out bricks without surface; the picture is the same
+};
+
+// `terrain` may be empty (no ground is drawn). The field must have been updated at least once.
+Image draw(const DensityField& field, const scene::Camera& camera, const scene::Light& light,
+           const scene::Look& look, const scene::Terrain& terrain, const DrawSettings& settings = {});
+
+}  // namespace voxmelt::render

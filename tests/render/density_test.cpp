@@ -1,0 +1,168 @@
+// The field that is drawn: filter, column heights, ground below films, updates brick by brick.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "render/density/density_field.h"
+#include "render/density/low_pass.h"
+#include "render/raycast/surface.h"
+#include "tests/render/shapes.h"
+
+namespace voxmelt {
+namespace {
+
+using render::DensityField;
+
+scene::Look look_with_passes(int passes) {
+  scene::Look look;
+  look.smooth = passes;
+  return look;
+}
+
+void expect_same_field(const DensityField& a, const DensityField& b) {
+  EXPECT_EQ(a.intensity(), b.intensity());
+  EXPECT_EQ(a.solid(), b.solid());
+  EXPECT_EQ(a.liquid(), b.liquid());
+  EXPECT_EQ(a.heat(), b.heat());
+  EXPECT_EQ(a.wetness(), b.wetness());
+  EXPECT_EQ(a.ranges(), b.ranges());
+}
+
+TEST(LowPass, KeepsConstants) {
+  const state::Grid grid{19, 8, 11};
+  for (const int value : {0, 1, 777, render::kFull})
+    for (int passes = 0; passes <= render::kMaxPasses; ++passes) {
+      const std::vector<std::uint16_t> constant(grid.cells(), static_cast<std::uint16_t>(value));
+      EXPECT_EQ(render::low_pass(grid, passes, constant), constant) << value << " after " << passes;
+    }
+}
+
+TEST(LowPass, KeepsSumsAwayFromTheBorder) {
+  const state::Grid grid{21, 20, 22};
+  std::mt19937 random(7);
+  std::vector<std::uint16_t> cells(grid.cells(), 0);
+  for (int z = 6; z < 16; ++z)
+    for (int y = 6; y < 14; ++y)
+      for (int x = 6; x < 15; ++x)
+        cells[grid.index(x, y, z)] = static_cast<std::uint16_t>(random() % (render::kFull + 1));
+  const auto sum = [](const std::vector<std::uint16_t>& of) { return std::accumulate(of.begin(), of.end(), 0.0); };
+  for (int passes = 1; passes <= render::kMaxPasses; ++passes)
+    // Every cell is rounded to nearest once a pass: the errors add up like a random walk.
+    EXPECT_NEAR(sum(render::low_pass(grid, passes, cells)), sum(cells), 0.5 * std::sqrt(2.0 * 9240 * passes) * 4)
+        << passes;
+}
+
+TEST(LowPass, HasTheBinomialResponse) {
+  const state::Grid grid{9, 9, 9};
+  std::vector<std::uint16_t> cells(grid.cells(), 0);
+  cells[grid.index(4, 4, 4)] = 64 * 100;
+  const auto filtered = render::low_pass(grid, 1, cells);
+  EXPECT_EQ(filtered[grid.index(4, 4, 4)], 800);
+  EXPECT_EQ(filtered[grid.index(5, 4, 4)], 400);
+  EXPECT_EQ(filtered[grid.index(5, 3, 4)], 200);
+  EXPECT_EQ(filtered[grid.index(5, 3, 5)], 100);
+  EXPECT_EQ(filtered[grid.index(6, 4, 4)], 0);
+}
+
+TEST(CellFields, AmountsAreLinearAndCapped) {
+  state::Volume volume(state::Grid{8, 8, 8});
+  const auto set = [&](int x, int amount) {
+    volume.liquid.set(x, 4, 4, true);
+    volume.amount[volume.grid.index(x, 4, 4)] = static_cast<std::uint16_t>(amount);
+  };
+  set(1, 2048), set(3, 4096), set(5, 9000);
+  const auto fields = render::cell_fields(volume);
+  EXPECT_EQ(fields.intensity[volume.grid.index(1, 4, 4)], render::kFull / 2);
+  EXPECT_EQ(fields.intensity[volume.grid.index(3, 4, 4)], render::kFull);
+  EXPECT_EQ(fields.intensity[volume.grid.index(5, 4, 4)], render::kFull);
+}
+
+TEST(CellFields, GroundIsFilledOnlyNearMatter) {
+  state::Volume volume = test::floor_volume({24, 12, 24});
+  test::pour(volume, 4, 4, 0.5);
+  const auto fields = render::cell_fields(volume);
+  EXPECT_EQ(fields.intensity[volume.grid.index(4, 1, 4)], render::kFull);
+  EXPECT_GT(fields.intensity[volume.grid.index(5, 1, 4)], render::kFull / 2);
+  EXPECT_EQ(fields.intensity[volume.grid.index(12, 1, 4)], 0);
+  EXPECT_EQ(fields.liquid[volume.grid.index(4, 1, 4)], 0);
+}
+
+// The surface above a wide flat column lies where the liquid does, whatever the last cell holds.
+TEST(DensityField, ReconstructsColumnHeights) {
+  const state::Grid grid{24, 24, 24};
+  for (int passes = 0; passes <= 2; ++passes)
+    for (double height = 0.1; height < 5; height += 0.13) {
+      state::Volume volume = test::floor_volume(grid);
+      for (int z = 0; z < grid.z; ++z)
+        for (int x = 0; x < grid.x; ++x) test::pour(volume, x, z, height);
+      DensityField field;
+      field.update(volume, look_with_passes(passes));
+      const render::Surface surface(field, true);
+      const auto hit = surface.find({{12.3f, 40, 11.7f}, {0, -1, 0}}, 1000);
+      ASSERT_TRUE(hit.has_value());
+      EXPECT_NEAR(hit->point.y, test::kFloor + height, 0.2) << height << " with " << passes << " passes";
+      EXPECT_GT(hit->normal.y, 0.999f);
+    }
+}
+
+// The voxelised bed has terraces; its stored offset takes them out of the surface of what lies on it.
+TEST(DensityField, FollowsASlopingBed) {
+  const state::Grid grid{48, 32, 24};
+  state::Volume volume(grid);
+  const auto bed_height = [](double x) { return 6 + 0.22 * x; };
+  for (int z = 0; z < grid.z; ++z)
+    for (int x = 0; x < grid.x; ++x) {
+      const double height = bed_height(x + 0.5);
+      const int bed = static_cast<int>(std::lround(height));
+      for (int y = 0; y < bed; ++y) {
+        volume.inert.set(x, y, z, true);
+        volume.amount[grid.index(x, y, z)] = rule::kBedHalf;
+      }
+      volume.amount[grid.index(x, bed - 1, z)] =
+          static_cast<std::uint16_t>(std::lround(rule::kBedHalf + (height - bed) * rule::kOne));
+      for (int k = 0; k < 2; ++k) {
+        volume.liquid.set(x, bed + k, z, true);
+        volume.amount[grid.index(x, bed + k, z)] = rule::kOne;
+      }
+    }
+  DensityField field;
+  field.update(volume, look_with_passes(2));
+  const render::Surface surface(field, true);
+  for (float x = 8; x < 40; x += 0.37f) {
+    const auto hit = surface.find({{x, 40, 12.2f}, {0, -1, 0}}, 1000);
+    ASSERT_TRUE(hit.has_value());
+    EXPECT_NEAR(hit->point.y, bed_height(x) + 2, 0.2) << x;
+  }
+}
+
+TEST(DensityField, UpdatesLikeAFreshField) {
+  const state::Grid grid{37, 30, 41};
+  const scene::Look look = look_with_passes(2);
+  state::Volume volume = test::ball_and_puddle(grid);
+  DensityField kept;
+  kept.update(volume, look);
+
+  std::mt19937 random(11);
+  for (int round = 0; round < 12; ++round) {
+    for (int change = 0; change < 3; ++change) {
+      const int x = static_cast<int>(random() % 37), y = 2 + static_cast<int>(random() % 28),
+                z = static_cast<int>(random() % 41);
+      if (volume.solid.test(x, y, z)) continue;
+      const std::size_t i = grid.index(x, y, z);
+      volume.amount[i] = static_cast<std::uint16_t>(random() % 5000);
+      volume.temperature[i] = static_cast<std::uint16_t>(random());
+      volume.liquid.set(x, y, z, volume.amount[i] > 0);
+    }
+    const int filtered = kept.update(volume, look);
+    EXPECT_LT(filtered, static_cast<int>(kept.bricks().cells()));
+    DensityField fresh;
+    fresh.update(volume, look);
+    expect_same_field(kept, fresh);
+  }
+  EXPECT_EQ(kept.update(volume, look), 0) << "nothing changed";
+}
+
+}  // namespace
+}  // namespace voxmelt
