@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <system_error>
 
 namespace voxmelt::scene {
 namespace {
@@ -43,7 +44,8 @@ Value read_document(const std::filesystem::path& file, int depth) {
   if (depth == kDeepestExtends)
     fail_at(extends->place, fmt::format("extends is nested more than {} deep: does a scene extend itself?", kDeepestExtends));
   const std::filesystem::path base_file = (file.parent_path() / extends->text).lexically_normal();
-  if (!std::filesystem::exists(base_file))
+  std::error_code ignored;
+  if (!std::filesystem::exists(base_file, ignored))
     fail_at(extends->place, fmt::format("extends names {}, which does not exist", base_file.string()));
   document.remove("extends");
   Value base = read_document(base_file, depth + 1);

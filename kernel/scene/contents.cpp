@@ -24,9 +24,8 @@ void read_floor(Reader& reader, Terrain& terrain, state::Grid grid) {
   raise(terrain, std::vector<double>(terrain.height.size(), thickness));
 }
 
-void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid, const std::filesystem::path& folder,
-                      std::vector<std::string>& warnings) {
-  const std::filesystem::path file = reader.file("file", folder);
+void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid, std::vector<std::string>& warnings) {
+  const std::filesystem::path file = reader.file("file");
   const double scale = reader.number("vertical_scale", {0, kLargestScale, true, {}});
   const double base = reader.number("base", {0, static_cast<double>(grid.y), false, "the height of the grid"}, 1.0);
   const auto passes = static_cast<int>(reader.integer("smooth", 0, 64, 1));
@@ -45,8 +44,8 @@ void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid, const 
 }
 
 // Turned, scaled, then set down: the centre of its bounding box's bottom comes to `at`.
-void read_mesh_entry(Reader& reader, Entry& entry, const std::filesystem::path& folder) {
-  const std::filesystem::path file = reader.file("file", folder);
+void read_mesh_entry(Reader& reader, Entry& entry) {
+  const std::filesystem::path file = reader.file("file");
   entry.mesh_file = file.filename().string();
   const bool by_height = reader.has("height"), by_scale = reader.has("scale");
   if (by_height && by_scale) reader.fail("scale", " and height exclude each other");
@@ -80,8 +79,7 @@ void read_state(Reader& reader, Entry& entry) {
 
 }  // namespace
 
-Contents read_contents(Reader& root, state::Grid grid, const std::filesystem::path& scene_folder,
-                       std::vector<std::string>& warnings) {
+Contents read_contents(Reader& root, state::Grid grid, std::vector<std::string>& warnings) {
   Contents contents;
   contents.terrain.x = grid.x;
   contents.terrain.z = grid.z;
@@ -98,7 +96,7 @@ Contents read_contents(Reader& root, state::Grid grid, const std::filesystem::pa
       if (shape == "floor" || shape == "heightfield") {
         if (role != Role::inert) reader.fail("shape", fmt::format(" = \"{}\" is for [[inert]] only", shape));
         if (shape == "floor") read_floor(reader, contents.terrain, grid);
-        if (shape == "heightfield") read_heightfield(reader, contents.terrain, grid, scene_folder, warnings);
+        if (shape == "heightfield") read_heightfield(reader, contents.terrain, grid, warnings);
       } else {
         Entry entry;
         entry.role = role;
@@ -106,7 +104,7 @@ Contents read_contents(Reader& root, state::Grid grid, const std::filesystem::pa
         entry.cut = reader.flag("cut", false);
         read_state(reader, entry);
         if (shape == "mesh")
-          read_mesh_entry(reader, entry, scene_folder);
+          read_mesh_entry(reader, entry);
         else
           entry.shape = read_shape(reader, shape);
         contents.entries.push_back(std::move(entry));

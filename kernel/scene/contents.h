@@ -1,8 +1,6 @@
 // What fills the grid at the start: [[solid]], [[liquid]] and [[inert]], in the order of the file.
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +31,7 @@ struct Contents {
 };
 
 // Throws InputError. `warnings` grows by what is odd but usable.
-Contents read_contents(Reader& root, state::Grid grid, const std::filesystem::path& scene_folder,
-                       std::vector<std::string>& warnings);
+Contents read_contents(Reader& root, state::Grid grid, std::vector<std::string>& warnings);
 
 // The cells: solid from coverage 1/16 on (amount = coverage), inert from 1/2 on; inert wins over solid, solid over
 // liquid. The top inert cell of a terrain column holds the height's fraction: kBedHalf + (h - round(h)) x kOne.

@@ -12,7 +12,7 @@ namespace voxmelt::scene {
 
 struct Origin {
   std::string name;              // file as the user named it, or "--set path=value"
-  std::filesystem::path folder;  // files named in the document are relative to it
+  std::filesystem::path folder;  // files named in the document are relative to it; empty: the current one
   bool is_override = false;
 };
 

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +10,7 @@ namespace voxmelt::scene {
 namespace {
 
 constexpr double kLargestGamma = 0.5236;  // pi / 6: weight_face <= 10922, and conduction cannot overshoot
-constexpr double kLargestPower = 16777215;  // x 2^28 fits 52 bits
+constexpr double kLargestPower = 4194303;  // x 2^28 fits 50 bits
 constexpr double kPowerUnit = 65536.0 * 16 * 256;  // 1/16 temperature unit x (1/16 cell)^2
 constexpr double kLargestExchange = 0.57735;  // 1 / sqrt 3: a corner exposed on three axes stays within the air
 constexpr std::int64_t kLastStep = 0xFFFFFFFFll;
@@ -28,15 +27,14 @@ std::uint16_t weight(double gamma, double squared_distance) {
 }
 
 void read_conduction(Reader& reader, rule::Heat& heat) {
-  const std::array neighbours{6, 18, 26};
   const std::int64_t asked = reader.integer("neighbours", 6, 26, 6);
   if (asked != 6 && asked != 18 && asked != 26) reader.fail("neighbours", fmt::format(" = {} is not one of 6, 18, 26", asked));
   heat.neighbours = static_cast<int>(asked);
   const Range range{0, kLargestGamma, true, fmt::format("the bound for {} neighbours", asked)};
   const double gamma = reader.number("gamma", range, 0.15);
   heat.weight_face = weight(gamma, 1);
-  if (asked >= neighbours[1]) heat.weight_edge = weight(gamma, 2);
-  if (asked >= neighbours[2]) heat.weight_corner = weight(gamma, 3);
+  if (asked >= 18) heat.weight_edge = weight(gamma, 2);
+  if (asked == 26) heat.weight_corner = weight(gamma, 3);
 }
 
 void read_air(Reader& reader, rule::Heat& heat, int ny) {

@@ -77,11 +77,11 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   scene.look = read_look(root);
 
   // The fields of an export replace the shapes; the terrain still says how the ground is drawn.
-  Contents contents = read_contents(root, grid, file.parent_path(), scene.warnings);
+  Contents contents = read_contents(root, grid, scene.warnings);
   std::optional<Reader> start = root.table("start");
   std::filesystem::path fields;
   if (start) {
-    fields = start->file("fields", file.parent_path());
+    fields = start->file("fields");
     start->finish();
   }
   root.finish();

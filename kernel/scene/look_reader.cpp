@@ -71,6 +71,7 @@ Look read_look(Reader& root) {
   look.background = reader->vector<3>("background", unit(), look.background);
   look.shininess = reader->number("shininess", {1, 10000, false, {}}, look.shininess);
   look.specular = reader->number("specular", unit(), look.specular);
+  look.metallic = reader->number("metallic", unit(), look.metallic);
   look.glow = reader->flag("glow", look.glow);
   look.glow_cold = reader->number("glow_cold", unit(), look.glow_cold);
   look.glow_hot = reader->number("glow_hot", unit(), look.glow_hot);

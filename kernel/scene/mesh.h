@@ -27,7 +27,8 @@ inline constexpr double kLargestMeshCoordinate = 16384;
 
 struct MeshCoverage {
   Coverage coverage;
-  // Columns along y of the window: all, and those where rays along x, y and z disagreed (the mesh leaks).
+  // Columns along y of the window: all, and those where rays along x, y and z disagreed, or one crossed the mesh an odd
+  // number of times: it leaks.
   std::int64_t columns = 0, disagreeing = 0;
 };
 

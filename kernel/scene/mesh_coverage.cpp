@@ -50,18 +50,21 @@ struct Votes {
 // The 64 samples of one cell, bit x + 4 y + 16 z, seen along each of the three axes.
 Votes vote(const MeshRays& along_x, const MeshRays& along_y, const MeshRays& along_z, int x, int y, int z) {
   std::uint64_t by_x = 0, by_y = 0, by_z = 0;
+  unsigned odd = 0;
   for (unsigned i = 0; i < 4; ++i)
     for (unsigned k = 0; k < 4; ++k) {
       const int ii = static_cast<int>(i), kk = static_cast<int>(k);
-      by_x |= std::uint64_t{along_x.inside(y + ii, z + kk, x)} << (4 * i + 16 * k);
-      const std::uint64_t y_mask = along_y.inside(z + ii, x + kk, y), z_mask = along_z.inside(x + ii, y + kk, z);
+      const std::uint64_t x_mask = along_x.inside(y + ii, z + kk, x), y_mask = along_y.inside(z + ii, x + kk, y),
+                          z_mask = along_z.inside(x + ii, y + kk, z);
+      odd |= static_cast<unsigned>((x_mask | y_mask | z_mask) & MeshRays::kOdd);
+      by_x |= (x_mask & 15) << (4 * i + 16 * k);
       for (unsigned bit = 0; bit < 4; ++bit) {
         by_y |= (y_mask >> bit & 1) << (k + 4 * bit + 16 * i);
         by_z |= (z_mask >> bit & 1) << (i + 4 * k + 16 * bit);
       }
     }
   const std::uint64_t majority = (by_x & by_y) | (by_x & by_z) | (by_y & by_z);
-  return {static_cast<unsigned>(std::popcount(majority)), by_x != by_y || by_x != by_z};
+  return {static_cast<unsigned>(std::popcount(majority)), odd != 0 || by_x != by_y || by_x != by_z};
 }
 
 }  // namespace
@@ -89,9 +92,10 @@ MeshCoverage cover(const Mesh& mesh, state::Grid grid) {
           result.coverage.samples[cell] = static_cast<std::uint8_t>(votes.count);
           disagree = disagree || votes.disagree;
         } else {
-          const unsigned sum = (along_x.inside(sy, sz, sx) & 1) + (along_y.inside(sz, sx, sy) & 1) + (along_z.inside(sx, sy, sz) & 1);
+          const unsigned mx = along_x.inside(sy, sz, sx), my = along_y.inside(sz, sx, sy), mz = along_z.inside(sx, sy, sz);
+          const unsigned sum = (mx & 1) + (my & 1) + (mz & 1);
           result.coverage.samples[cell] = sum >= 2 ? kSamplesPerCell : 0;
-          disagree = disagree || (sum != 0 && sum != 3);
+          disagree = disagree || (sum != 0 && sum != 3) || ((mx | my | mz) & MeshRays::kOdd) != 0;
         }
       }
       ++result.columns;

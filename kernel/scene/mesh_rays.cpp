@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/scene/scene.h"
+
 namespace voxmelt::scene {
 namespace {
+
+constexpr std::uint64_t kMostCrossings = std::uint64_t{1} << 30;
 
 std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return a >= 0 ? (a + b - 1) / b : -(-a / b); }
 
@@ -30,7 +34,12 @@ MeshRays::MeshRays(const std::vector<FixedPoint>& vertices, const Mesh& mesh, co
   // Count, then place: one compact list for all rays.
   start_.resize(static_cast<std::size_t>(count_[u_axis_]) * static_cast<std::size_t>(count_[v_axis_]) + 1);
   rasterise(vertices, mesh, [&](std::size_t ray, std::int32_t) { ++start_[ray + 1]; });
-  for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
+  std::uint64_t total = 0;
+  for (std::uint32_t& start : start_) {
+    total += start;
+    if (total > kMostCrossings) throw ResourceError("mesh: more than 2^30 crossings with sample rays, too many for memory");
+    start = static_cast<std::uint32_t>(total);
+  }
   crossings_.resize(start_.back());
   std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
   rasterise(vertices, mesh, [&](std::size_t ray, std::int32_t sample) { crossings_[next[ray]++] = sample; });
@@ -77,7 +86,7 @@ unsigned MeshRays::inside(int u, int v, int first) const {
     const int skipped = std::clamp(crossings_[i] - first, 0, 4);
     mask ^= 0xFu & (0xFu << skipped);  // all samples from the crossing on change sides
   }
-  return mask;
+  return mask | ((start_[ray + 1] - start_[ray]) % 2 != 0 ? kOdd : 0);
 }
 
 }  // namespace voxmelt::scene

@@ -22,11 +22,14 @@ using FixedPoint = std::array<std::int64_t, 3>;
 
 class MeshRays {
  public:
+  static constexpr unsigned kOdd = 16;
+
   // Rays along `axis` (0 x, 1 y, 2 z); the other two axes follow cyclically as u and v.
   MeshRays(const std::vector<FixedPoint>& vertices, const Mesh& mesh, const Window& window, int axis);
 
   // Four samples along the axis from sample `first` (multiple of 4) on the ray (u, v), all counted from the
-  // window's low corner: bit i is set where sample first + i is inside.
+  // window's low corner: bit i is set where sample first + i is inside, kOdd where the ray crosses the mesh an odd number
+  // of times: it leaks there.
   unsigned inside(int u, int v, int first) const;
 
  private:

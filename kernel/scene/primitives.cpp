@@ -5,6 +5,19 @@
 #include "kernel/scene/shape.h"
 
 namespace voxmelt::scene {
+namespace {
+
+double piece_distance(const TubePoint& a, const TubePoint& b, Point p) {
+  const Point along = b.at - a.at;
+  const double squared = dot(along, along);
+  if (squared == 0) return length(p - a.at) - std::max(a.radius, b.radius);
+  const double t = std::clamp(dot(p - a.at, along) / squared, 0.0, 1.0);
+  const double taper = (b.radius - a.radius) / std::sqrt(squared);
+  // A taper steepens the field; dividing restores slope 1.
+  return (length(p - a.at - along * t) - a.radius - t * (b.radius - a.radius)) / std::sqrt(1 + taper * taper);
+}
+
+}  // namespace
 
 ShapePtr make_sphere(double radius) {
   return make_shape(box_around(radius, radius, radius), [=](Point p) { return length(p) - radius; });
@@ -46,23 +59,32 @@ ShapePtr make_torus(double radius, double tube) {
 
 ShapePtr make_tube(std::vector<TubePoint> points) {
   if (points.size() == 1) points.push_back(points.front());
-  Box bounds{points[0].at, points[0].at};
-  for (const TubePoint& point : points) {
+  const auto include = [](Box& box, const TubePoint& point) {
     const Point reach{point.radius, point.radius, point.radius};
-    bounds.include(point.at - reach);
-    bounds.include(point.at + reach);
+    box.include(point.at - reach);
+    box.include(point.at + reach);
+  };
+
+  // Neighbouring pieces are skipped together where their box is far.
+  struct Run {
+    Box box;
+    std::size_t first, end;
+  };
+  constexpr std::size_t kRunLength = 8;
+  std::vector<Run> runs;
+  Box bounds{points[0].at, points[0].at};
+  for (std::size_t first = 0; first + 1 < points.size(); first += kRunLength) {
+    Run run{{points[first].at, points[first].at}, first, std::min(first + kRunLength, points.size() - 1)};
+    for (std::size_t i = first; i <= run.end; ++i) include(run.box, points[i]);
+    bounds.include(run.box.low);
+    bounds.include(run.box.high);
+    runs.push_back(run);
   }
-  return make_shape(bounds, [points = std::move(points)](Point p) {
+  return make_shape(bounds, [points = std::move(points), runs = std::move(runs)](Point p) {
     double nearest = 1e300;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      const TubePoint &a = points[i], &b = points[i + 1];
-      const Point along = b.at - a.at;
-      const double squared = dot(along, along);
-      const double t = squared > 0 ? std::clamp(dot(p - a.at, along) / squared, 0.0, 1.0) : 0.0;
-      const double taper = squared > 0 ? (b.radius - a.radius) / std::sqrt(squared) : 0.0;
-      const double radius = squared > 0 ? a.radius + t * (b.radius - a.radius) : std::max(a.radius, b.radius);
-      // A taper steepens the field; dividing restores slope 1.
-      nearest = std::min(nearest, (length(p - a.at - along * t) - radius) / std::sqrt(1 + taper * taper));
+    for (const Run& run : runs) {
+      if (run.box.distance(p) >= nearest) continue;
+      for (std::size_t i = run.first; i < run.end; ++i) nearest = std::min(nearest, piece_distance(points[i], points[i + 1], p));
     }
     return nearest;
   });

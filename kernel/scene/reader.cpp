@@ -126,11 +126,10 @@ std::size_t Reader::choice(std::string_view key, const std::vector<std::string>&
   return static_cast<std::size_t>(at - names.begin());
 }
 
-std::filesystem::path Reader::file(std::string_view key, const std::filesystem::path& scene_folder) {
+std::filesystem::path Reader::file(std::string_view key) {
   const std::string named = text(key);
   if (named.empty()) fail(key, " is empty");
-  const Origin& origin = *table_->find(key)->place.origin;
-  return ((origin.is_override ? scene_folder : origin.folder) / named).lexically_normal();
+  return (table_->find(key)->place.origin->folder / named).lexically_normal();
 }
 
 std::optional<std::vector<double>> Reader::numbers(std::string_view key, std::size_t count, const Range& range,

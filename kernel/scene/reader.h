@@ -39,8 +39,8 @@ class Reader {
   std::string text(std::string_view key, std::optional<std::string> fallback = {});
   // Index of the chosen name.
   std::size_t choice(std::string_view key, const std::vector<std::string>& names, std::optional<std::size_t> fallback = {});
-  // A file named in the scene, relative to the file that names it (an override: to the scene file).
-  std::filesystem::path file(std::string_view key, const std::filesystem::path& scene_folder);
+  // A file named in the scene, relative to the scene file that names it; by --set, to the current folder.
+  std::filesystem::path file(std::string_view key);
 
   template <std::size_t N>
   std::array<double, N> vector(std::string_view key, const Range& range,

@@ -13,7 +13,8 @@
 namespace voxmelt::scene {
 namespace {
 
-constexpr std::size_t kMostPoints = 4096;
+constexpr std::size_t kMostPoints = 1024;
+constexpr int kDeepestParts = 8;  // each mirror doubles the work below it
 constexpr double kFullTurn = 360;
 
 Range length() { return {0, kLargestCoordinate, true, {}}; }
@@ -72,20 +73,23 @@ ShapePtr read_tube(Reader& reader) {
   return make_tube(std::move(points));
 }
 
-ShapePtr read_csg(Reader& reader) {
+ShapePtr read_shape(Reader& reader, const std::string& name, int depth);
+
+ShapePtr read_csg(Reader& reader, int depth) {
+  if (depth == kDeepestParts) reader.fail("shape", fmt::format(" = \"csg\" is nested more than {} deep", kDeepestParts));
   const auto operation = static_cast<Operation>(reader.choice("op", {"union", "intersection", "difference"}));
   std::vector<Reader> parts = reader.tables("parts");
   if (parts.empty()) reader.fail("parts", reader.has("parts") ? " is empty" : " is missing");
   std::vector<ShapePtr> shapes;
   for (Reader& part : parts) {
     const std::string name = shape_names()[part.choice("shape", shape_names())];
-    shapes.push_back(read_shape(part, name));
+    shapes.push_back(read_shape(part, name, depth + 1));
     part.finish();
   }
   return make_csg(operation, std::move(shapes));
 }
 
-ShapePtr read_bare_shape(Reader& reader, const std::string& name) {
+ShapePtr read_bare_shape(Reader& reader, const std::string& name, int depth) {
   if (name == "sphere") return make_sphere(reader.number("radius", length()));
   if (name == "box") return read_box(reader);
   if (name == "cylinder") return make_cylinder(reader.number("radius", length()), reader.number("height", length()));
@@ -98,7 +102,7 @@ ShapePtr read_bare_shape(Reader& reader, const std::string& name) {
   if (name == "tube") return read_tube(reader);
   if (name == "revolve") return make_revolve(Polygon(read_outline(reader, "profile", true)));
   if (name == "extrude") return read_extrude(reader);
-  return read_csg(reader);
+  return read_csg(reader, depth);
 }
 
 Point read_scale(Reader& reader) {
@@ -111,6 +115,14 @@ Point read_scale(Reader& reader) {
   return to_point(reader.vector<3>("scale", range, Vec3{1, 1, 1}));
 }
 
+ShapePtr read_shape(Reader& reader, const std::string& name, int depth) {
+  ShapePtr shape = read_bare_shape(reader, name, depth);
+  if (reader.has("mirror")) shape = make_mirrored(std::move(shape), static_cast<int>(reader.choice("mirror", {"x", "y", "z"})));
+  const Placement placement{read_point(reader, "at", Vec3{}),
+                            Rotation(reader.vector<3>("rotate", {-kFullTurn, kFullTurn, false, {}}, Vec3{})), read_scale(reader)};
+  return make_placed(std::move(shape), placement);
+}
+
 }  // namespace
 
 const std::vector<std::string>& shape_names() {
@@ -119,12 +131,6 @@ const std::vector<std::string>& shape_names() {
   return names;
 }
 
-ShapePtr read_shape(Reader& reader, const std::string& name) {
-  ShapePtr shape = read_bare_shape(reader, name);
-  if (reader.has("mirror")) shape = make_mirrored(std::move(shape), static_cast<int>(reader.choice("mirror", {"x", "y", "z"})));
-  const Placement placement{read_point(reader, "at", Vec3{}),
-                            Rotation(reader.vector<3>("rotate", {-kFullTurn, kFullTurn, false, {}}, Vec3{})), read_scale(reader)};
-  return make_placed(std::move(shape), placement);
-}
+ShapePtr read_shape(Reader& reader, const std::string& name) { return read_shape(reader, name, 0); }
 
 }  // namespace voxmelt::scene

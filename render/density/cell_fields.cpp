@@ -10,10 +10,10 @@ namespace {
 
 using rule::kOne;
 
-constexpr std::int32_t kFilm = kOne * 15 / 100;   // a film of this amount counts as fully wet
-constexpr std::int32_t kSink = kOne * 4 / 10;     // how far the surface sinks into dry ground beside matter
-constexpr std::int32_t kDive = kOne;              // ... and one cell further out
-constexpr int kReach = 2;                         // columns around matter whose ground is filled
+constexpr std::int32_t kFilm = kOne * 15 / 100;  // a film of this amount counts as fully wet
+constexpr std::int32_t kSink = kOne * 4 / 10;    // how far the surface sinks into dry ground beside matter
+constexpr std::int32_t kDive = kOne;             // ... and one cell further out
+constexpr int kReach = 2;                        // columns around matter whose ground is filled
 
 std::uint16_t intensity_of(std::int32_t amount) {
   return static_cast<std::uint16_t>(std::clamp(amount, 0, kOne) * kFull / kOne);
@@ -34,6 +34,7 @@ class Builder {
     fields_.grid = grid_;
     for (auto* field : {&fields_.intensity, &fields_.solid, &fields_.liquid, &fields_.heat})
       field->assign(grid_.cells(), 0);
+    fields_.ground.assign(column_count(), 0.0f);
     fields_.wetness.assign(column_count(), 0.0f);
     find_matter();
     find_ground();
@@ -88,6 +89,8 @@ class Builder {
         if (bed == 0) continue;
         columns_.offset[c] = std::clamp<std::int32_t>(
             volume_.amount[grid_.index(x, bed - 1, z)] - rule::kBedHalf, -kOne / 2, kOne / 2);
+        fields_.ground[c] =
+            static_cast<float>(bed) + static_cast<float>(columns_.offset[c]) / static_cast<float>(kOne);
         columns_.wet[c] = std::min(matter_amount(x, bed, z), kFilm) * kOne / kFilm;
         fields_.wetness[c] = static_cast<float>(columns_.wet[c]) / static_cast<float>(kOne);
       }

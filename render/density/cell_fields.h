@@ -23,6 +23,7 @@ struct CellFields {
   std::vector<std::uint16_t> solid;      // the solid's part of the intensity (obstacles count as solid)
   std::vector<std::uint16_t> liquid;     // the liquid's part
   std::vector<std::uint16_t> heat;       // liquid * temperature, so that thin cells weigh little
+  std::vector<float> ground;             // [z][x]: height of the ground in cells, 0 where there is none
   std::vector<float> wetness;            // [z][x]: 0 dry ground .. 1 covered by at least a thin film
 
   friend bool operator==(const CellFields&, const CellFields&) = default;

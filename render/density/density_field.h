@@ -15,8 +15,8 @@
 
 namespace voxmelt::render {
 
-// Smallest and largest filtered intensity in a brick and a halo of two cells: all that an interpolation inside
-// the brick can read, cubic included.
+// Smallest and largest filtered intensity in a brick and a halo of two cells: all that an interpolation
+// inside the brick can read, cubic included.
 struct BrickRange {
   std::uint16_t low = 0, high = 0;
   friend bool operator==(const BrickRange&, const BrickRange&) = default;
@@ -34,6 +34,7 @@ class DensityField {
   const std::vector<std::uint16_t>& solid() const { return solid_; }
   const std::vector<std::uint16_t>& liquid() const { return liquid_; }
   const std::vector<std::uint16_t>& heat() const { return heat_; }
+  const std::vector<float>& ground() const { return cells_.ground; }
   const std::vector<float>& wetness() const { return cells_.wetness; }
   const std::vector<BrickRange>& ranges() const { return ranges_; }
   const Pyramid& pyramid() const { return pyramid_; }

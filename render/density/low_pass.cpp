@@ -77,7 +77,8 @@ void low_pass_brick(const state::Grid& grid, int bx, int by, int bz, int passes,
     }
 }
 
-std::vector<std::uint16_t> low_pass(const state::Grid& grid, int passes, const std::vector<std::uint16_t>& from) {
+std::vector<std::uint16_t> low_pass(const state::Grid& grid, int passes,
+                                    const std::vector<std::uint16_t>& from) {
   std::vector<std::uint16_t> to(from.size());
   const state::Grid bricks = brick_grid(grid);
   for (int z = 0; z < bricks.z; ++z)

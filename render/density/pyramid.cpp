@@ -25,8 +25,7 @@ void reduce(const state::Grid& from, PyramidLevel& to, const Cell& cell) {
   to.cells.assign(to.slice() * (static_cast<std::size_t>(to.grid.z) + 2), Blend{});
   for (int z = 0; z < from.z; ++z)
     for (int y = 0; y < from.y; ++y)
-      for (int x = 0; x < from.x; ++x)
-        add(to.cells[to.index(x / 2, y / 2, z / 2)], cell(x, y, z), 0.125f);
+      for (int x = 0; x < from.x; ++x) add(to.cells[to.index(x / 2, y / 2, z / 2)], cell(x, y, z), 0.125f);
 }
 
 Blend sample_level(const PyramidLevel& level, float x, float y, float z, float scale) {
@@ -67,9 +66,8 @@ void Pyramid::build(const state::Grid& grid, const std::vector<std::uint16_t>& s
     return blend;
   });
   for (std::size_t l = 1; l < levels_.size(); ++l)
-    reduce(levels_[l - 1].grid, levels_[l], [&](int x, int y, int z) {
-      return levels_[l - 1].cells[levels_[l - 1].index(x, y, z)];
-    });
+    reduce(levels_[l - 1].grid, levels_[l],
+           [&](int x, int y, int z) { return levels_[l - 1].cells[levels_[l - 1].index(x, y, z)]; });
 }
 
 Blend Pyramid::sample(float x, float y, float z, float level) const {
@@ -79,8 +77,7 @@ Blend Pyramid::sample(float x, float y, float z, float level) const {
   const auto scale = [](int l) { return 1.0f / static_cast<float>(1 << l); };
   Blend sum;
   add(sum, sample_level(levels_[static_cast<std::size_t>(lower - 1)], x, y, z, scale(lower)), 1 - t);
-  if (t > 0)
-    add(sum, sample_level(levels_[static_cast<std::size_t>(lower)], x, y, z, scale(lower + 1)), t);
+  if (t > 0) add(sum, sample_level(levels_[static_cast<std::size_t>(lower)], x, y, z, scale(lower + 1)), t);
   return sum;
 }
 

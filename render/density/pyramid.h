@@ -1,5 +1,5 @@
-// Coarser and coarser averages of the matter (without the ground), for soft shadows, ambient occlusion and the
-// light that glowing liquid throws: a wide cone reads a coarse level where a ray would need many samples.
+// Coarser and coarser averages of the matter (without the ground), for soft shadows, ambient occlusion and
+// the light that glowing liquid throws: a wide cone reads a coarse level where a ray would need many samples.
 //
 // Level l has cells of 2^l cells of the grid, l = 1 .. kLevels; outside the grid there is nothing.
 #pragma once

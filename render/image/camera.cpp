@@ -13,7 +13,8 @@ constexpr float kMargin = 1.03f;  // air around a fitted grid
 
 CameraView::CameraView(const scene::Camera& camera, const state::Grid& grid) {
   const auto radians = [](double degrees) { return static_cast<float>(degrees * std::numbers::pi / 180); };
-  const float azimuth = radians(camera.azimuth), elevation = radians(std::clamp(camera.elevation, -89.0, 89.0));
+  const float azimuth = radians(camera.azimuth),
+              elevation = radians(std::clamp(camera.elevation, -89.0, 89.0));
   const Vec back{std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                  std::cos(azimuth) * std::cos(elevation)};
   forward_ = -back;
@@ -29,7 +30,8 @@ CameraView::CameraView(const scene::Camera& camera, const state::Grid& grid) {
   if (distance <= 0) {
     const float tangent_x = tangent_ * half_width_ / half_height_;
     for (int corner = 0; corner < 8; ++corner) {
-      const Vec point{static_cast<float>(corner & 1 ? grid.x : 0), static_cast<float>(corner & 2 ? grid.y : 0),
+      const Vec point{static_cast<float>(corner & 1 ? grid.x : 0),
+                      static_cast<float>(corner & 2 ? grid.y : 0),
                       static_cast<float>(corner & 4 ? grid.z : 0)};
       const Vec from_target = point - target;
       const float depth = dot(from_target, back);

@@ -19,8 +19,8 @@ class CameraView {
 
  private:
   Vec position_, forward_, right_, up_;
-  float half_width_ = 0, half_height_ = 0;    // of the picture, in pixels
-  float tangent_ = 0;                         // of half the vertical field of view
+  float half_width_ = 0, half_height_ = 0;  // of the picture, in pixels
+  float tangent_ = 0;                       // of half the vertical field of view
 };
 
 }  // namespace voxmelt::render

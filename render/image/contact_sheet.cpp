@@ -19,13 +19,15 @@ Image contact_sheet(const std::vector<Image>& frames, const std::vector<std::str
                     const SheetStyle& style) {
   if (frames.empty()) return {};
   const int count = static_cast<int>(frames.size());
-  const int columns = std::min(
-      count, style.columns > 0 ? style.columns : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
+  const int columns =
+      std::min(count, style.columns > 0 ? style.columns
+                                        : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
   const int rows = (count + columns - 1) / columns;
   const int width = frames[0].width, height = frames[0].height;
   const int scale = std::max(1, width / 240);
 
-  Image sheet(columns * (width + style.gap) + style.gap, rows * (height + style.gap) + style.gap, style.gap_color);
+  Image sheet(columns * (width + style.gap) + style.gap, rows * (height + style.gap) + style.gap,
+              style.gap_color);
   for (int i = 0; i < count; ++i) {
     const int x0 = style.gap + (i % columns) * (width + style.gap);
     const int y0 = style.gap + (i / columns) * (height + style.gap);

@@ -9,8 +9,8 @@
 namespace voxmelt::render {
 
 struct SheetStyle {
-  int columns = 0;            // 0: about as many as rows
-  int gap = 6;                // pixels between and around the frames
+  int columns = 0;  // 0: about as many as rows
+  int gap = 6;      // pixels between and around the frames
   Rgb gap_color{255, 255, 255};
   Rgb label_color{70, 74, 84};
 };

@@ -38,7 +38,8 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   header.height = static_cast<png_uint_32>(image.height);
   header.format = PNG_FORMAT_RGB;
   errno = 0;
-  const bool encoded = png_image_write_to_stdio(&header, stream.get(), 0, image.pixels.data(), 0, nullptr) != 0;
+  const bool encoded =
+      png_image_write_to_stdio(&header, stream.get(), 0, image.pixels.data(), 0, nullptr) != 0;
   const int code = errno;
   const bool flushed = std::fclose(stream.release()) == 0;
   if (!encoded || !flushed) {

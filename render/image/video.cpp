@@ -47,10 +47,21 @@ std::optional<std::string> write_video(const std::filesystem::path& file, const 
   for (const std::vector<std::string>& codec :
        {std::vector<std::string>{"libx264", "-crf", "18"}, std::vector<std::string>{"mpeg4", "-q:v", "3"}}) {
     // H.264 in yuv420p needs even sides: odd ones lose a pixel.
-    std::vector<std::string> arguments{"ffmpeg", "-y", "-loglevel", "error", "-framerate",
-                                       std::to_string(frames_per_second), "-start_number",
-                                       std::to_string(first), "-i", frame_pattern, "-vf",
-                                       "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p", "-c:v"};
+    std::vector<std::string> arguments{"ffmpeg",
+                                       "-y",
+                                       "-loglevel",
+                                       "error",
+                                       "-framerate",
+                                       std::to_string(frames_per_second),
+                                       "-start_number",
+                                       std::to_string(first),
+                                       "-i",
+                                       frame_pattern,
+                                       "-vf",
+                                       "crop=trunc(iw/2)*2:trunc(ih/2)*2",
+                                       "-pix_fmt",
+                                       "yuv420p",
+                                       "-c:v"};
     arguments.insert(arguments.end(), codec.begin(), codec.end());
     arguments.insert(arguments.end(), {"-movflags", "+faststart", "-f", "mp4", beside.string()});
     status = run_quietly(arguments);

@@ -64,7 +64,9 @@ class Painter {
   // The nearer of ground and matter.
   Vec color(const Ray& ray, Arriving& at_matter, Arriving& at_ground) const {
     const std::optional<GroundHit> ground = ground_.find(ray);
-    const float limit = ground ? ground->hit.distance : std::numeric_limits<float>::max();
+    float limit = ground ? ground->hit.distance : std::numeric_limits<float>::max();
+    if (ground && ground->side)
+      limit -= 0.01f;  // cut matter and the slab end in the same plane: the slab wins
     if (const std::optional<Hit> hit = surface_.find(ray, limit)) return matter_color(ray, *hit, at_matter);
     if (ground) return ground_color(ray, *ground, at_ground);
     return vec(look_.background);
@@ -88,8 +90,7 @@ class Painter {
   Vec matter_color(const Ray& ray, const Hit& hit, Arriving& arriving) const {
     const Material material = material_at(field_, surface_.sampler(), hit.point, look_);
     gather(arriving, ray, hit.point, hit.normal, material.metallic > 0);
-    return tone_mapped(
-        reflected(material, incoming(ray, hit.normal, arriving), ambient_, vec(look_.ground)));
+    return tone_mapped(reflected(material, incoming(ray, hit.normal, arriving), ambient_, vec(look_.ground)));
   }
 
   Vec ground_color(const Ray& ray, const GroundHit& where, Arriving& arriving) const {
@@ -129,7 +130,8 @@ Image draw(const DensityField& field, const scene::Camera& camera, const scene::
   const auto work = [&] {
     for (int y = next++; y < image.height; y = next++) painter.paint_row(image, y);
   };
-  const int wanted = settings.threads > 0 ? settings.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const int wanted =
+      settings.threads > 0 ? settings.threads : static_cast<int>(std::thread::hardware_concurrency());
   std::vector<std::jthread> helpers;
   for (int i = 1; i < std::min(wanted, image.height); ++i) helpers.emplace_back(work);
   work();

@@ -13,7 +13,8 @@ struct DrawSettings {
   bool skip_empty = true;  // leave out bricks without surface; the picture is the same
 };
 
-// `terrain` may be empty (no ground is drawn). The field must have been updated at least once.
+// Where `terrain` is empty or of another size, the ground is what the field's inert cells say. The field must
+// have been updated at least once.
 Image draw(const DensityField& field, const scene::Camera& camera, const scene::Light& light,
            const scene::Look& look, const scene::Terrain& terrain, const DrawSettings& settings = {});
 

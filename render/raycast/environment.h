@@ -6,8 +6,8 @@
 namespace voxmelt::render {
 
 struct Environment {
-  Vec to_light;      // where the big lamp stands
-  Vec ground;        // colour of what lies below
+  Vec to_light;       // where the big lamp stands
+  Vec ground;         // colour of what lies below
   float blur = 0.2f;  // of the mirror, 0 sharp .. 1 dull
 
   Vec seen(Vec direction) const;

@@ -15,21 +15,22 @@ constexpr float kBevel = 0.6f;    // width of the slab's rounded edge, in cells
 }  // namespace
 
 Ground::Ground(const scene::Terrain& terrain, const DensityField& field) {
-  if (terrain.x <= 0 || terrain.z <= 0 || terrain.height.empty()) return;
-  size_x_ = terrain.x;
-  size_z_ = terrain.z;
+  const bool fits = terrain.x == field.grid().x && terrain.z == field.grid().z &&
+                    terrain.height.size() == field.ground().size();
+  height_ = fits ? terrain.height : field.ground();
+  if (std::all_of(height_.begin(), height_.end(), [](float h) { return h <= 0; })) return;
+  size_x_ = field.grid().x;
+  size_z_ = field.grid().z;
   textured_ = terrain.textured;
-  height_ = terrain.height;
   height_ = blurred(height_, field.passes());
   drawn_ = height_;
-  if (field.wetness().size() == drawn_.size()) {
-    const Heights wetness = blurred(field.wetness(), field.passes());
-    for (std::size_t i = 0; i < drawn_.size(); ++i) drawn_[i] -= kLowered * wetness[i];
-  }
+  const Heights wetness = blurred(field.wetness(), field.passes());
+  for (std::size_t i = 0; i < drawn_.size(); ++i) drawn_[i] -= kLowered * wetness[i];
   surrounding_ = blurred(height_, 24);
   const auto [low, high] = std::minmax_element(height_.begin(), height_.end());
   lowest_ = *low;
   highest_ = *high;
+  uneven_ = highest_ - lowest_ > 0.01f;
 }
 
 Ground::Heights Ground::blurred(const Heights& heights, int passes) const {
@@ -62,8 +63,9 @@ float Ground::spline(const Heights& heights, float x, float z) const {
     const int row = std::clamp(static_cast<int>(bz) - 1 + k, 0, size_z_ - 1) * size_x_;
     float along = 0;
     for (int i = 0; i < 4; ++i)
-      along += wx.value[i] *
-               heights[static_cast<std::size_t>(row + std::clamp(static_cast<int>(bx) - 1 + i, 0, size_x_ - 1))];
+      along +=
+          wx.value[i] *
+          heights[static_cast<std::size_t>(row + std::clamp(static_cast<int>(bx) - 1 + i, 0, size_x_ - 1))];
     sum += wz.value[k] * along;
   }
   return sum;
@@ -82,9 +84,9 @@ float Ground::linear(const Heights& heights, float x, float z) const {
 Vec Ground::normal(float x, float z) const {
   constexpr float kReach = 0.5f;
   Vec n{0, 1, 0};
-  if (textured_)
+  if (uneven_)
     n = {spline(height_, x - kReach, z) - spline(height_, x + kReach, z), 2 * kReach,
-        spline(height_, x, z - kReach) - spline(height_, x, z + kReach)};
+         spline(height_, x, z - kReach) - spline(height_, x, z + kReach)};
   // Round the slab's edges a little, so that they catch the light.
   const auto tilt = [](float near, float far) {
     return std::max(0.0f, 1 - far / kBevel) - std::max(0.0f, 1 - near / kBevel);
@@ -95,8 +97,7 @@ Vec Ground::normal(float x, float z) const {
 
 std::optional<GroundHit> Ground::find(const Ray& ray) const {
   if (empty()) return std::nullopt;
-  const Span span =
-      clip(ray, {}, {static_cast<float>(size_x_), highest_, static_cast<float>(size_z_)});
+  const Span span = clip(ray, {}, {static_cast<float>(size_x_), highest_, static_cast<float>(size_z_)});
   if (span.empty()) return std::nullopt;
   const auto above = [&](float t) {
     const Vec p = ray.at(t);
@@ -133,7 +134,7 @@ std::optional<GroundHit> Ground::find(const Ray& ray) const {
 }
 
 float Ground::light_reaching(Vec point, Vec to_light) const {
-  if (!textured_ || to_light.y <= 0) return 1;
+  if (!uneven_ || to_light.y <= 0) return 1;
   constexpr float kSharpness = 9;
   float light = 1;
   for (float t = 1.5f; light > 0 && t < 200; t += std::max(0.8f, t * 0.12f)) {
@@ -147,7 +148,7 @@ float Ground::light_reaching(Vec point, Vec to_light) const {
 }
 
 float Ground::openness(float x, float z) const {
-  if (!textured_) return 1;
+  if (!uneven_) return 1;
   const float hollow = spline(surrounding_, x, z) - spline(height_, x, z);
   return std::clamp(1 - 0.16f * hollow, 0.45f, 1.12f);
 }

@@ -17,8 +17,9 @@ struct GroundHit {
 
 class Ground {
  public:
-  // The heights get the low-pass filter of the field, so that both fit. Under wet columns the ground is drawn
-  // lower, or it would stick out of thin films.
+  // Heights come from the terrain, or from the field where the terrain does not fit it; a ground of height 0
+  // everywhere is no ground. The heights get the low-pass filter of the field, so that both fit. Under wet
+  // columns the ground is drawn lower, or it would stick out of thin films.
   Ground(const scene::Terrain& terrain, const DensityField& field);
 
   bool empty() const { return size_x_ == 0; }
@@ -42,9 +43,10 @@ class Ground {
 
   int size_x_ = 0, size_z_ = 0;
   bool textured_ = false;
+  bool uneven_ = false;  // heights differ: slopes and hill shadows matter
   float lowest_ = 0, highest_ = 0;
-  Heights height_;      // filtered
-  Heights drawn_;       // height_ less the lowering under wet columns
+  Heights height_;       // filtered
+  Heights drawn_;        // height_ less the lowering under wet columns
   Heights surrounding_;  // mean height around each column
 };
 

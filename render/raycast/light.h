@@ -12,10 +12,10 @@ namespace voxmelt::render {
 struct Incoming {
   Vec normal;
   Vec to_eye, to_light;
-  float lamp = 1;           // share of the lamp's light, 0..1
-  float open = 1;           // share of the ambient light
-  float mirrored = 1;       // share of the reflected surroundings
-  float glow = 0;           // from glowing liquid
+  float lamp = 1;      // share of the lamp's light, 0..1
+  float open = 1;      // share of the ambient light
+  float mirrored = 1;  // share of the reflected surroundings
+  float glow = 0;      // from glowing liquid
 };
 
 // Light towards the eye: lamp and ambient half-spheres, Blinn-Phong highlight, mirrored surroundings by

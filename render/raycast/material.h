@@ -8,16 +8,16 @@
 namespace voxmelt::render {
 
 struct Material {
-  Vec color;            // of diffusely reflected light
+  Vec color;  // of diffusely reflected light
   Vec emission;
-  float liquid = 0;     // 0 solid .. 1 liquid
+  float liquid = 0;  // 0 solid .. 1 liquid
   float specular = 0;
   float shininess = 40;
   float metallic = 0;
 };
 
-// Solid and liquid colours and the temperature are blended by weight of matter; where the surface runs through
-// cells that hold next to nothing, wider and wider surroundings decide, so that no speck shows.
+// Solid and liquid colours and the temperature are blended by weight of matter; where the surface runs
+// through cells that hold next to nothing, wider and wider surroundings decide, so that no speck shows.
 Material material_at(const DensityField& field, const Sampler& sampler, Vec point, const scene::Look& look);
 
 }  // namespace voxmelt::render

@@ -7,8 +7,8 @@ namespace voxmelt::render {
 namespace {
 
 float lattice(int x, int y, int z) {
-  std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^ static_cast<std::uint32_t>(y) * 0xd8163841u ^
-                    static_cast<std::uint32_t>(z) * 0xcb1ab31fu;
+  std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^
+                    static_cast<std::uint32_t>(y) * 0xd8163841u ^ static_cast<std::uint32_t>(z) * 0xcb1ab31fu;
   h = (h ^ (h >> 15)) * 0x2c1b3c6du;
   h = (h ^ (h >> 12)) * 0x297a2d39u;
   h ^= h >> 15;
@@ -33,7 +33,8 @@ float layered_noise(Vec point, int octaves) {
   float sum = 0, strength = 0.55f;
   for (int i = 0; i < octaves; ++i, strength *= 0.5f) {
     sum += strength * noise(point);
-    point = Vec{point.z, point.x, point.y} * 2.03f + Vec{17.1f, 5.7f, 31.3f};  // turned, or the lattices line up
+    point =
+        Vec{point.z, point.x, point.y} * 2.03f + Vec{17.1f, 5.7f, 31.3f};  // turned, or the lattices line up
   }
   return sum;
 }

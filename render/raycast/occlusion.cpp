@@ -8,6 +8,8 @@
 namespace voxmelt::render {
 namespace {
 
+constexpr float kExtinction = 1.0f;  // per cell of full matter
+
 // Two directions that make a right-angled frame with n (Duff et al. 2017).
 void frame(Vec n, Vec& s, Vec& t) {
   const float sign = std::copysign(1.0f, n.z);
@@ -44,14 +46,16 @@ float Occlusion::cone(Vec point, Vec direction, float start, float spread, float
     const float step = 0.5f * width;
     const Vec p = ray.at(t);
     const float matter = pyramid_.sample(p.x, p.y, p.z, std::log2(width)).matter;
-    light *= 1 - 0.75f * smooth_step(0.06f, 0.75f, matter);
+    // By path length, so that a thin wall casts the same shadow through a narrow and a wide cone. The least
+    // shares are the blurred fringe of the very surface that is lit.
+    light *= std::exp(-kExtinction * std::max(0.0f, matter - 0.04f) * step);
     t += step;
   }
   return light;
 }
 
 float Occlusion::light_reaching(Vec point, Vec normal, Vec to_light) const {
-  return cone(point + normal * 1.2f, to_light, 1.8f, 0.16f, 400);
+  return cone(point + normal * 1.2f, to_light, 1.8f, 0.12f, 400);
 }
 
 float Occlusion::reflection_reaching(Vec point, Vec normal, Vec direction) const {

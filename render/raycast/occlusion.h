@@ -1,5 +1,5 @@
-// Soft shadows, ambient occlusion and light thrown by glowing liquid: cones through the coarse averages of the
-// matter. No random numbers, so no grain.
+// Soft shadows, ambient occlusion and light thrown by glowing liquid: cones through the coarse averages of
+// the matter. No random numbers, so no grain.
 #pragma once
 
 #include "render/density/pyramid.h"
@@ -27,8 +27,8 @@ class Occlusion {
   float cone(Vec point, Vec direction, float start, float spread, float reach) const;
 
   const Pyramid& pyramid_;
-  bool any_ = false;    // there is matter at all
-  Vec low_, high_;      // the matter lies within this box
+  bool any_ = false;  // there is matter at all
+  Vec low_, high_;    // the matter lies within this box
 };
 
 }  // namespace voxmelt::render

@@ -24,10 +24,12 @@ RockSample rock(const Ground& ground, const GroundHit& where, const scene::Look&
   const Hit& hit = where.hit;
   if (where.side) {
     // Layers in the cut: soft bands, bent a little.
-    const float band = ground.textured()
-                           ? layered_noise({0.03f * hit.point.x, 0.55f * hit.point.y + 0.4f * noise(hit.point * 0.08f),
-                                            0.03f * hit.point.z}, 3)
-                           : 0.0f;
+    const float band =
+        ground.textured()
+            ? layered_noise({0.03f * hit.point.x, 0.55f * hit.point.y + 0.4f * noise(hit.point * 0.08f),
+                             0.03f * hit.point.z},
+                            3)
+            : 0.0f;
     return {base * (0.62f + 0.16f * band), hit.normal};
   }
   if (!ground.textured()) return {base, hit.normal};

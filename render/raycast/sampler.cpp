@@ -32,7 +32,9 @@ struct Taps {
 
 float Sampler::linear(const std::vector<std::uint16_t>& cells, Vec point) const {
   const Place px(point.x), py(point.y), pz(point.z);
-  const auto clamped = [](int cell, int side) { return static_cast<std::size_t>(std::clamp(cell, 0, side - 1)); };
+  const auto clamped = [](int cell, int side) {
+    return static_cast<std::size_t>(std::clamp(cell, 0, side - 1));
+  };
   const std::size_t row = static_cast<std::size_t>(grid_.x), slice = row * static_cast<std::size_t>(grid_.y);
   const std::size_t x0 = clamped(px.cell, grid_.x), x1 = clamped(px.cell + 1, grid_.x);
   const std::size_t y0 = clamped(py.cell, grid_.y) * row, y1 = clamped(py.cell + 1, grid_.y) * row;

@@ -32,8 +32,7 @@ struct FieldSample {
 
 class Sampler {
  public:
-  explicit Sampler(const DensityField& field)
-      : grid_(field.grid()), intensity_(field.intensity()) {}
+  explicit Sampler(const DensityField& field) : grid_(field.grid()), intensity_(field.intensity()) {}
 
   // Trilinear: exact at cell centres, quick; tells how far the surface may be.
   float linear(const std::vector<std::uint16_t>& cells, Vec point) const;

@@ -9,8 +9,8 @@ namespace voxmelt::render {
 namespace {
 
 constexpr float kHalf = static_cast<float>(kFull) / 2;
-constexpr float kStep = 0.5f;                               // between samples, in cells
-constexpr float kFar = static_cast<float>(kFull) * 0.2f;    // trilinear below this: the cubic is below kHalf
+constexpr float kStep = 0.5f;                             // between samples, in cells
+constexpr float kFar = static_cast<float>(kFull) * 0.2f;  // trilinear below this: the cubic is below kHalf
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void Surface::find_occupied() {
           high[axis] = std::max(high[axis], at[axis] + 1);
         }
       }
-  const auto corner = [](const int (&brick)[3]) {
+  const auto corner = [](const int(&brick)[3]) {
     return Vec{static_cast<float>(brick[0]), static_cast<float>(brick[1]), static_cast<float>(brick[2])} *
            static_cast<float>(kBrickSide);
   };
@@ -42,7 +42,8 @@ void Surface::find_occupied() {
 
 std::optional<Hit> Surface::find(const Ray& ray, float limit) const {
   const state::Grid& grid = field_.grid();
-  const Span span = clip(ray, {}, {static_cast<float>(grid.x), static_cast<float>(grid.y), static_cast<float>(grid.z)});
+  const Span span =
+      clip(ray, {}, {static_cast<float>(grid.x), static_cast<float>(grid.y), static_cast<float>(grid.z)});
   const float end = std::min(span.to, limit);
   if (span.from > end) return std::nullopt;
 

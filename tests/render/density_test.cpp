@@ -47,10 +47,13 @@ TEST(LowPass, KeepsSumsAwayFromTheBorder) {
     for (int y = 6; y < 14; ++y)
       for (int x = 6; x < 15; ++x)
         cells[grid.index(x, y, z)] = static_cast<std::uint16_t>(random() % (render::kFull + 1));
-  const auto sum = [](const std::vector<std::uint16_t>& of) { return std::accumulate(of.begin(), of.end(), 0.0); };
+  const auto sum = [](const std::vector<std::uint16_t>& of) {
+    return std::accumulate(of.begin(), of.end(), 0.0);
+  };
   for (int passes = 1; passes <= render::kMaxPasses; ++passes)
     // Every cell is rounded to nearest once a pass: the errors add up like a random walk.
-    EXPECT_NEAR(sum(render::low_pass(grid, passes, cells)), sum(cells), 0.5 * std::sqrt(2.0 * 9240 * passes) * 4)
+    EXPECT_NEAR(sum(render::low_pass(grid, passes, cells)), sum(cells),
+                0.5 * std::sqrt(2.0 * 9240 * passes) * 4)
         << passes;
 }
 

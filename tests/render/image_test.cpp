@@ -23,9 +23,8 @@ using render::Image;
 class Files : public testing::Test {
  protected:
   Files()
-      : folder_(fs::temp_directory_path() /
-                ("voxmelt_image_test_" + std::to_string(::getpid()) + "_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+      : folder_(fs::temp_directory_path() / ("voxmelt_image_test_" + std::to_string(::getpid()) + "_" +
+                                             testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::create_directories(folder_);
   }
   ~Files() override {
@@ -68,7 +67,8 @@ TEST_F(Files, PngErrorsNameFileAndReason) {
 TEST_F(Files, VideoOrReason) {
   for (int i = 0; i < 4; ++i)
     render::write_png(folder_ / ("frame_0000" + std::to_string(i) + ".png"), random_image(33, 32));
-  const auto problem = render::write_video(folder_ / "film.mp4", (folder_ / "frame_%05d.png").string(), 0, 10);
+  const auto problem =
+      render::write_video(folder_ / "film.mp4", (folder_ / "frame_%05d.png").string(), 0, 10);
   if (problem) {
     EXPECT_NE(problem->find("film.mp4"), std::string::npos) << *problem;
     GTEST_SKIP() << *problem;
@@ -85,7 +85,8 @@ TEST_F(Files, VideoOfNothingIsAMessage) {
 
 TEST(ContactSheet, PlacesFramesInReadingOrder) {
   std::vector<Image> frames;
-  for (int i = 0; i < 5; ++i) frames.emplace_back(10, 6, render::Rgb{static_cast<std::uint8_t>(10 + i), 0, 0});
+  for (int i = 0; i < 5; ++i)
+    frames.emplace_back(10, 6, render::Rgb{static_cast<std::uint8_t>(10 + i), 0, 0});
   render::SheetStyle style;
   style.columns = 3;
   style.gap = 2;

@@ -118,6 +118,15 @@ TEST(Draw, ThinFilmIsVisible) {
   }
 }
 
+// The state says where its ground is; a scene's terrain is a refinement of it.
+TEST(Draw, GroundComesFromTheFieldWithoutATerrain) {
+  const scene::Look look;
+  DensityField field;
+  field.update(test::ball_and_puddle(kGrid), look);
+  const scene::Camera camera = test::small_camera(kGrid);
+  EXPECT_TRUE(draw(field, camera, {}, look, {}) == draw(field, camera, {}, look, test::floor_terrain(kGrid)));
+}
+
 TEST(Glow, RampNeverDarkensWithHeat) {
   render::Vec last;
   for (int i = 0; i <= 1000; ++i) {

@@ -1,0 +1,183 @@
+// Defaults, units, --set and extends of the scene loader.
+#include "kernel/scene/features.h"
+#include "tests/kernel/scene/scene_text.h"
+
+namespace voxmelt::scene {
+namespace {
+
+const std::string kLeast = "[grid]\nsize = [8, 9, 10]\n[[solid]]\nshape = \"box\"\nsize = [2, 2, 2]\nat = [4, 4, 4]\n";
+
+TEST(Load, DefaultsOfTheLeastScene) {
+  const SceneFolder folder;
+  const Scene scene = folder.load_text(kLeast);
+  EXPECT_EQ(scene.name, "scene");
+  EXPECT_EQ(scene.title, "scene");
+  EXPECT_EQ(scene.file, folder.path() / "scene.toml");
+  EXPECT_EQ(scene.steps, 1000u);
+  EXPECT_EQ(scene.initial.grid, (state::Grid{8, 9, 10}));
+  EXPECT_EQ(scene.initial.solid.count(), 8);
+  EXPECT_EQ(scene.parameters.seed, 1u);
+  EXPECT_EQ(scene.parameters.flow.law, rule::Law::paper);
+  EXPECT_EQ(scene.parameters.flow.paper.share, 8192);
+  EXPECT_EQ(scene.parameters.flow.fall.factor, 65536u);
+  EXPECT_EQ(scene.parameters.material.melting_point, 32768);
+  EXPECT_FALSE(scene.parameters.heat.enabled);
+  EXPECT_EQ(scene.features, std::vector<std::string>{"diagonal"});
+  EXPECT_EQ(scene.camera.target, (Vec3{4, 4.5, 5}));
+  EXPECT_GT(scene.camera.distance, 10);
+  EXPECT_EQ(scene.terrain.height.size(), 80u);
+  EXPECT_FALSE(scene.terrain.textured);
+}
+
+TEST(Load, UnitsOfTheAutomaton) {
+  const SceneFolder folder;
+  const rule::Parameters p = folder.load_text(kLeast + R"(
+[run]
+seed = 77
+[material]
+melting_point = 1.0
+latent_heat = 0.25
+[heat]
+neighbours = 26
+gamma = 0.5236
+convection = 0.5
+[heat.air]
+exchange = 0.57735
+bottom = 0.0
+top = 1.0
+[[heat_source]]
+at = [-1.5, 10, 20.0625]
+power = 140
+[[heat_source]]
+kind = "point"
+keyframes = [{ step = 0, at = [0, 0, 0], power = 0 }, { step = 9, at = [1, 0, 0], power = 4194303 }]
+[[vent]]
+at = [4, 4, 4]
+radius = 2.5
+rate = 0.5
+temperature = 0.5
+until = 10
+[[drain]]
+at = [0, 0, 0]
+radius = 1
+rate = 1
+from = 5
+[flow.fall]
+factor = 0.5
+hang = 0.25
+[flow.paper]
+share = 0.2
+threshold = 0.45
+alpha_liquid = 1
+beta = 4
+reheat = 0.5
+[flow.thermal]
+reference = 0.015625
+doubling = 0.03125
+)").parameters;
+  EXPECT_EQ(p.seed, 77u);
+  EXPECT_EQ(p.material.melting_point, 65535);
+  EXPECT_EQ(p.material.latent_heat, 16384);
+  EXPECT_EQ(p.heat.weight_face, 10922);
+  EXPECT_EQ(p.heat.weight_edge, 5461);
+  EXPECT_EQ(p.heat.weight_corner, 3640);
+  EXPECT_EQ(p.heat.convection, 32767);
+  EXPECT_EQ(p.heat.air_exchange, 37837);
+  ASSERT_EQ(p.heat.air_temperature.size(), 9u);
+  EXPECT_EQ(p.heat.air_temperature.front(), 0);
+  EXPECT_EQ(p.heat.air_temperature[4], 32768);
+  EXPECT_EQ(p.heat.air_temperature.back(), 65535);
+  ASSERT_EQ(p.heat.sources.size(), 2u);
+  EXPECT_EQ(p.heat.sources[0].keys[0].at.x, -24);
+  EXPECT_EQ(p.heat.sources[0].keys[0].at.z, 321);
+  EXPECT_EQ(p.heat.sources[0].keys[0].power, std::uint64_t{140} << 28);
+  EXPECT_LT(p.heat.sources[1].keys[1].power, std::uint64_t{1} << 50);
+  EXPECT_EQ(p.vents[0].region.radius, 40);
+  EXPECT_EQ(p.vents[0].rate, 2048);
+  EXPECT_EQ(p.vents[0].energy, 4096);
+  EXPECT_EQ(p.vents[0].until, 10u);
+  EXPECT_EQ(p.drains[0].from, 5u);
+  EXPECT_EQ(p.drains[0].until, 0xFFFFFFFFu);
+  EXPECT_EQ(p.flow.fall.factor, 32768u);
+  EXPECT_EQ(p.flow.fall.wall_factor, 32768u);
+  EXPECT_EQ(p.flow.fall.hang, 1024);
+  EXPECT_EQ(p.flow.paper.share, 13107);
+  EXPECT_EQ(p.flow.paper.threshold, 1843);
+  EXPECT_EQ(p.flow.paper.alpha_liquid, 65535);
+  EXPECT_EQ(p.flow.paper.beta, 262144u);
+  EXPECT_EQ(p.flow.mobility_table[0], 32768);
+  EXPECT_EQ(p.flow.mobility_table[1], 65535);
+  EXPECT_EQ(features_of(p), (std::vector<std::string>{"heat", "radiation", "air", "convection", "latent_heat", "vent", "drain",
+                                                      "diagonal", "drip", "reheat", "thermal_viscosity"}));
+}
+
+TEST(Load, MobilityOfTheViscousLaw) {
+  const SceneFolder folder;
+  const rule::Flow flow = folder.load_text(kLeast + "[flow]\nlaw='viscous'\n[flow.viscous]\nkappa=0.02\nyield=1\nstiffness=1\n").parameters.flow;
+  EXPECT_EQ(flow.law, rule::Law::viscous);
+  EXPECT_EQ(flow.viscous.mobility, 4660u);  // 2^20 x (2/9) x 0.02
+  EXPECT_EQ(flow.viscous.yield, 65536u);
+  EXPECT_EQ(flow.viscous.stiffness, 1);
+}
+
+TEST(Overrides, ReplaceAndAddKeys) {
+  const SceneFolder folder;
+  const Scene scene = folder.load_text(kLeast + "[heat]\n[[heat_source]]\nat=[0,0,0]\npower=1\n",
+                                       {"heat_source.0.power=3", "heat.gamma=0.2", "title=some-name", "grid.size=[9,9,9]",
+                                        "flow.paper.slump=0.5", "flow.law=paper"});
+  EXPECT_EQ(scene.parameters.heat.sources[0].keys[0].power, std::uint64_t{3} << 28);
+  EXPECT_EQ(scene.parameters.heat.weight_face, 4172);
+  EXPECT_EQ(scene.title, "some-name");
+  EXPECT_EQ(scene.initial.grid.x, 9);
+  EXPECT_EQ(scene.parameters.flow.paper.slump, 2048);
+}
+
+TEST(Extends, TablesMergeArraysAreReplaced) {
+  const SceneFolder folder;
+  folder.write("base/base.toml", kLeast + "[run]\nsteps=5\nseed=6\n[flow]\nlaw='paper'\n[flow.paper]\nslump=0.5\n[flow.fall]\nfactor=0.5\n");
+  const Scene scene = folder.load_text(R"(
+extends = "base/base.toml"
+[run]
+steps = 7
+[[solid]]
+shape = "box"
+size = [1, 1, 1]
+at = [0.5, 0.5, 0.5]
+[flow]
+law = "viscous"
+[flow.viscous]
+kappa = 1
+)");
+  EXPECT_EQ(scene.steps, 7u);
+  EXPECT_EQ(scene.parameters.seed, 6u);
+  EXPECT_EQ(scene.initial.solid.count(), 1);
+  EXPECT_EQ(scene.parameters.flow.fall.factor, 32768u);  // inherited; flow.paper is dropped with its law
+}
+
+TEST(Extends, ErrorsNameTheFileThatIsWrong) {
+  const SceneFolder folder;
+  folder.write("base.toml", kLeast + "[heat]\ngamma = 0.7\n");
+  EXPECT_EQ(folder.error_of("extends = 'base.toml'\n"),
+            "base.toml:8:9: error: heat.gamma = 0.7 exceeds 0.5236, the bound for 6 neighbours");
+  EXPECT_EQ(folder.error_of("extends = 'base.toml'\n[heat]\ngamma = 0.1\ngama = 2\n"),
+            "scene.toml:4:1: error: unknown key heat.gama; did you mean heat.gamma?");
+  EXPECT_NE(folder.error_of("extends = 'scene.toml'\n").find("does a scene extend itself?"), std::string::npos);
+  EXPECT_EQ(folder.error_of("extends = 'none.toml'\n"), "scene.toml:1:11: error: extends names none.toml, which does not exist");
+}
+
+TEST(Committed, EverySceneLoadsWithoutWarnings) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(committed_scenes())) {
+    if (entry.path().extension() != ".toml") continue;
+    SCOPED_TRACE(entry.path().string());
+    const Scene scene = load(entry.path(), {});
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_NE(scene.title, scene.name);
+    EXPECT_TRUE(scene.initial.solid.count() > 0 || !scene.parameters.vents.empty());
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 12);
+}
+
+}  // namespace
+}  // namespace voxmelt::scene

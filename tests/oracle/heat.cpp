@@ -1,0 +1,149 @@
+// docs/automaton.md sections 6 (heat) and 7 (melt).
+#include "state.h"
+
+namespace oracle {
+namespace {
+
+struct Axis {
+  Int dx, dy, dz;
+};
+const std::vector<Axis> FACES = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const std::vector<Axis> EDGES = {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
+const std::vector<Axis> CORNERS = {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}};
+
+// T(h)
+Int temperature(const State& state, Int i) {
+  const Int h = state.cells[i].heat;
+  const Int melting_point = state.parameters.melting_point;
+  if (h <= melting_point) return h;
+  return larger(melting_point, h - state.parameters.latent_heat);
+}
+
+// Adds the changes to the cells' heat and empties them; returns the sum of A times change.
+Sum apply_changes(State& state, std::vector<Int>& changes, const char* name) {
+  Sum booked = 0;
+  for (const Int i : state.list) {
+    Cell& cell = state.cells[i];
+    cell.heat += changes[i];
+    booked += cell.amount * changes[i];
+    changes[i] = 0;
+    check_cell(state, i, name);
+  }
+  return booked;
+}
+
+void conduct(State& state, const std::vector<Axis>& axes, Int weight, std::vector<Int>& changes) {
+  const Int n = static_cast<Int>(axes.size());
+  std::vector<Int> offsets;
+  for (Int k = 0; k < n; ++k) offsets.push_back(dither(state.step, k, n));
+  for (const Int i : state.list) {
+    if (!state.matter(i)) continue;
+    const Place p = state.place(i);
+    for (Int k = 0; k < n; ++k) {
+      const Axis& axis = axes[k];
+      const Int x = p.x + axis.dx, y = p.y + axis.dy, z = p.z + axis.dz;
+      if (!state.inside(x, y, z)) continue;
+      const Int j = state.index(x, y, z);
+      if (!state.matter(j)) continue;
+      const Int flow = scaled(temperature(state, j) - temperature(state, i), weight, offsets[k]);
+      changes[i] += flow;
+      changes[j] -= flow;
+    }
+  }
+  state.ledgers.heat.conducted += apply_changes(state, changes, "after a pass of conduction");
+}
+
+void convect(State& state, std::vector<Int>& changes) {
+  const Int offset = dither(state.step);
+  for (const Int i : state.list) {
+    const Place p = state.place(i);
+    if (state.cells[i].liquid == 0 || p.y + 1 == state.ny) continue;
+    const Int above = state.index(p.x, p.y + 1, p.z);
+    if (state.cells[above].liquid == 0) continue;
+    const Int difference = temperature(state, i) - temperature(state, above);
+    if (difference <= 0) continue;
+    const Int flow = scaled(difference, state.parameters.heat.convection, offset);
+    changes[i] -= flow;
+    changes[above] += flow;
+  }
+  state.ledgers.heat.convected += apply_changes(state, changes, "after convection");
+}
+
+void radiate(State& state) {
+  const Int offset = dither(state.step);
+  for (const Int i : state.list) {
+    Cell& cell = state.cells[i];
+    if (cell.solid == 0) continue;
+    const Int gained = smaller((4096 * state.irradiance[i] + offset) >> 16, 65535 - cell.heat);
+    cell.heat += gained;
+    state.ledgers.heat.radiated += cell.amount * gained;
+    check_cell(state, i, "after radiation");
+  }
+}
+
+// The number of axes on which at least one of the two face neighbours is air.
+Int airy_axes(const State& state, Place p) {
+  Int n = 0;
+  if (state.air(p.x - 1, p.y, p.z) || state.air(p.x + 1, p.y, p.z)) ++n;
+  if (state.air(p.x, p.y - 1, p.z) || state.air(p.x, p.y + 1, p.z)) ++n;
+  if (state.air(p.x, p.y, p.z - 1) || state.air(p.x, p.y, p.z + 1)) ++n;
+  return n;
+}
+
+void exchange_with_air(State& state) {
+  const Heat& rules = state.parameters.heat;
+  const Int offset = dither(state.step);
+  for (const Int i : state.list) {
+    if (!state.matter(i)) continue;
+    const Place p = state.place(i);
+    const Int n = airy_axes(state, p);
+    if (n == 0) continue;
+    Cell& cell = state.cells[i];
+    const Int w = (rules.air_exchange * AXIS_WEIGHT[n]) >> 12;
+    const Int difference = rules.air_temperature[p.y] - temperature(state, i);
+    const Int gained = smaller(scaled(difference, w, offset), 65535 - cell.heat);
+    cell.heat += gained;
+    if (gained > 0) state.ledgers.heat.warmed += cell.amount * gained;
+    if (gained < 0) state.ledgers.heat.cooled -= cell.amount * gained;
+    check_cell(state, i, "after the exchange with air");
+  }
+}
+
+}  // namespace
+
+void heat(State& state) {
+  const Heat& rules = state.parameters.heat;
+  if (!rules.enabled) return;
+  std::vector<Int> changes(state.cells.size(), 0);
+  conduct(state, FACES, rules.weight_face, changes);
+  if (rules.neighbours >= 18) conduct(state, EDGES, rules.weight_edge, changes);
+  if (rules.neighbours == 26) conduct(state, CORNERS, rules.weight_corner, changes);
+  if (rules.convection > 0) convect(state, changes);
+  if (!rules.sources.empty()) radiate(state);
+  if (rules.air) exchange_with_air(state);
+  finish_phase(state, "after heat");
+}
+
+void melt(State& state) {
+  const Parameters& parameters = state.parameters;
+  if (!parameters.heat.enabled) return;
+  for (const Int i : state.list) {
+    Cell& cell = state.cells[i];
+    if (!state.matter(i) || cell.heat < parameters.melting_point + parameters.latent_heat) continue;
+    if (cell.solid == 1) {
+      cell.solid = 0;
+      cell.liquid = 1;
+      if (parameters.paper_law) {
+        cell.energy = cell.amount;
+        state.ledgers.energy.melted += cell.amount;
+      }
+    } else if (parameters.paper_law && parameters.paper.reheat > 0) {
+      const Int gained = scaled(cell.amount - cell.energy, parameters.paper.reheat);
+      cell.energy += gained;
+      state.ledgers.energy.reheated += gained;
+    }
+  }
+  finish_phase(state, "after melt");
+}
+
+}  // namespace oracle

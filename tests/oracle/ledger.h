@@ -1,0 +1,43 @@
+// docs/automaton.md section 12: the three ledgers.
+#pragma once
+#include "arithmetic.h"
+
+#include <string>
+
+namespace oracle {
+
+struct State;
+
+struct MassLedger {
+  Sum start = 0, added = 0, removed = 0, held = 0;
+  bool balances() const { return start + added - removed == held; }
+};
+
+struct EnergyLedger {
+  Sum start = 0, melted = 0, added = 0, removed = 0, reheated = 0;
+  Sum accelerated = 0, dissipated = 0, capped = 0, held = 0;
+  bool balances() const {
+    return start + melted + added - removed + reheated + accelerated - dissipated - capped == held;
+  }
+};
+
+struct HeatLedger {
+  Sum start = 0, conducted = 0, convected = 0, radiated = 0, warmed = 0, cooled = 0;
+  Sum added = 0, removed = 0, rounded = 0, held = 0;
+  bool balances() const {
+    return start + conducted + convected + radiated + warmed - cooled + added - removed + rounded == held;
+  }
+};
+
+struct Ledgers {
+  MassLedger mass;
+  EnergyLedger energy;
+  HeatLedger heat;
+};
+
+void open_ledgers(State& state);   // sets start
+void close_ledgers(State& state);  // sets held
+std::string ledger_lines(const Ledgers& ledgers);
+Sum mass_held(const State& state);
+
+}  // namespace oracle

@@ -1,0 +1,200 @@
+// docs/automaton.md section 14: parameters.json and the ranges a scene may use.
+#include "parameters.h"
+
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace oracle {
+namespace {
+
+using Json = nlohmann::json;
+
+void require(bool condition, const std::string& what) {
+  if (!condition) throw std::runtime_error("parameters.json: " + what);
+}
+
+const Json& member(const Json& json, const char* key) {
+  require(json.is_object() && json.contains(key), std::string("no key ") + key);
+  return json.at(key);
+}
+
+Int whole(const Json& value, const std::string& name) {
+  require(value.is_number_integer(), name + " is not an integer");
+  if (value.is_number_unsigned()) {
+    const std::uint64_t number = value.get<std::uint64_t>();
+    const std::uint64_t most = std::numeric_limits<Int>::max();
+    return static_cast<Int>(number < most ? number : most);  // `until` may mean "for ever"
+  }
+  return value.get<Int>();
+}
+
+Int integer(const Json& json, const char* key, Int low, Int high) {
+  const Int value = whole(member(json, key), key);
+  require(value >= low && value <= high, std::string(key) + " is out of range: " + std::to_string(value));
+  return value;
+}
+
+bool yes(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  if (value.is_boolean()) return value.get<bool>();
+  const Int number = whole(value, key);
+  require(number == 0 || number == 1, std::string(key) + " is not a truth value");
+  return number == 1;
+}
+
+constexpr Int MOST = std::numeric_limits<Int>::max();
+constexpr Int FAR = Int{1} << 24;  // the farthest position, in sixteenths: visibility multiplies two of them
+
+std::vector<Int> integers(const Json& json, const std::string& name, Int low, Int high) {
+  require(json.is_array(), name + " is no array");
+  std::vector<Int> values;
+  for (const Json& value : json) {
+    values.push_back(whole(value, name));
+    require(values.back() >= low && values.back() <= high, name + " is out of range");
+  }
+  return values;
+}
+
+Point point(const Json& json, const char* key, Int low, Int high) {
+  const std::vector<Int> values = integers(member(json, key), key, low, high);
+  require(values.size() == 3, std::string(key) + " has not three numbers");
+  return {values[0], values[1], values[2]};
+}
+
+std::vector<Region> read_regions(const Json& json, bool vents) {
+  std::vector<Region> regions;
+  for (const Json& entry : json) {
+    Region region;
+    region.at = point(entry, "at", -FAR, FAR);
+    region.radius = integer(entry, "radius", 0, FAR);
+    region.rate = integer(entry, "rate", 0, MOST);
+    region.from = integer(entry, "from", 0, MOST);
+    region.until = integer(entry, "until", 0, MOST);
+    if (vents) {
+      region.temperature = integer(entry, "temperature", 0, 65535);
+      region.energy = integer(entry, "energy", 0, 4096);
+    }
+    regions.push_back(region);
+  }
+  return regions;
+}
+
+RadiationSource read_radiation_source(const Json& json) {
+  RadiationSource source;
+  for (const Json& entry : member(json, "keys")) {
+    Key key;
+    key.step = integer(entry, "step", 0, MOST);
+    key.at = point(entry, "at", -FAR, FAR);
+    key.power = integer(entry, "power", 0, (Int{1} << 50) - 1);
+    require(source.keys.empty() || source.keys.back().step < key.step, "keys do not ascend");
+    source.keys.push_back(key);
+  }
+  require(!source.keys.empty(), "a source without keys");
+  return source;
+}
+
+Heat read_heat(const Json& json, Int ny) {
+  Heat heat;
+  heat.enabled = yes(json, "enabled");
+  if (!heat.enabled) return heat;
+  heat.neighbours = integer(json, "neighbours", 6, 26);
+  require(heat.neighbours == 6 || heat.neighbours == 18 || heat.neighbours == 26, "heat.neighbours");
+  heat.weight_face = integer(json, "weight_face", 0, 10922);
+  heat.weight_edge = integer(json, "weight_edge", 0, 5461);
+  heat.weight_corner = integer(json, "weight_corner", 0, 3640);
+  heat.convection = integer(json, "convection", 0, 32767);
+  heat.radiation = yes(json, "radiation");
+  heat.visibility_every = integer(json, "visibility_every", 1, MOST);
+  for (const Json& entry : member(json, "sources")) heat.sources.push_back(read_radiation_source(entry));
+  heat.air = yes(json, "air");
+  if (heat.air) {
+    heat.air_exchange = integer(json, "air_exchange", 0, 37837);
+    heat.air_temperature = integers(member(json, "air_temperature"), "air_temperature", 0, 65535);
+    require(static_cast<Int>(heat.air_temperature.size()) == ny, "air_temperature has not ny numbers");
+  }
+  return heat;
+}
+
+PaperFlow read_paper(const Json& json) {
+  PaperFlow paper;
+  paper.neighbours = integer(json, "neighbours", 4, 8);
+  require(paper.neighbours == 4 || paper.neighbours == 8, "flow.paper.neighbours");
+  paper.threshold = integer(json, "threshold", 0, 65535);
+  paper.use_table = yes(json, "use_table");
+  if (paper.use_table) {
+    // One row per pattern, one number per direction.
+    for (const Json& row : member(json, "table")) {
+      paper.table.push_back(integers(row, "table", 0, 65536));
+      Int sum = 0;
+      for (const Int entry : paper.table.back()) sum += entry;
+      require(sum <= 65536, "the sum of a row of the table");
+      require(static_cast<Int>(paper.table.back().size()) >= paper.neighbours, "a short row in the table");
+    }
+    require(static_cast<Int>(paper.table.size()) >= (Int{1} << paper.neighbours), "rows of the table");
+  }
+  paper.share = integer(json, "share", 0, paper.neighbours == 8 ? 13107 : 16384);
+  paper.downhill = yes(json, "downhill");
+  paper.margin = integer(json, "margin", 0, 65535);
+  paper.support = yes(json, "support");
+  paper.slump = integer(json, "slump", 0, 65535);
+  const Json& reading = member(json, "energy");
+  require(reading == "text" || reading == "printed", "flow.paper.energy is neither text nor printed");
+  paper.printed = reading == "printed";
+  paper.beta = integer(json, "beta", 0, 262144);
+  paper.alpha_liquid = integer(json, "alpha_liquid", 0, 65535);
+  paper.alpha_solid = integer(json, "alpha_solid", 0, 65535);
+  paper.alpha_floor = integer(json, "alpha_floor", 0, 65535);
+  paper.reheat = integer(json, "reheat", 0, 65536);
+  return paper;
+}
+
+std::uint64_t read_seed(const Json& json) {
+  require(json.is_number_integer(), "seed is not an integer");
+  return json.get<std::uint64_t>();
+}
+
+}  // namespace
+
+Parameters read_parameters(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot open " + path);
+  const Json json = Json::parse(file);
+
+  Parameters p;
+  p.grid = point(json, "grid", 1, Int{1} << 16);
+  p.step = integer(json, "step", 0, MOST);
+  p.seed = read_seed(member(json, "seed"));
+  p.melting_point = integer(member(json, "material"), "melting_point", 0, 65535);
+  p.latent_heat = integer(member(json, "material"), "latent_heat", 0, 65535 - p.melting_point);
+  p.heat = read_heat(member(json, "heat"), p.grid[1]);
+  p.vents = read_regions(member(json, "vents"), true);
+  p.drains = read_regions(member(json, "drains"), false);
+
+  const Json& flow = member(json, "flow");
+  const Json& law = member(flow, "law");
+  require(law == "paper" || law == "viscous", "flow.law is neither paper nor viscous");
+  p.paper_law = law == "paper";
+  const Json& fall = member(flow, "fall");
+  p.fall.factor = integer(fall, "factor", 0, 65536);
+  p.fall.wall_factor = integer(fall, "wall_factor", 0, 65536);
+  p.fall.minimum = integer(fall, "minimum", 0, 65535);
+  p.fall.hang = integer(fall, "hang", 0, 65535);
+  if (p.paper_law) {
+    p.paper = read_paper(member(flow, "paper"));
+  } else {
+    const Json& viscous = member(flow, "viscous");
+    p.viscous.mobility = integer(viscous, "mobility", 0, (Int{1} << 24) - 1);
+    p.viscous.yield = integer(viscous, "yield", 0, (Int{1} << 24) - 1);
+    p.viscous.stiffness = integer(viscous, "stiffness", 1, 8);
+  }
+  p.thermal_viscosity = yes(flow, "thermal_viscosity");
+  if (p.thermal_viscosity) {
+    p.mobility_table = integers(member(flow, "mobility_table"), "mobility_table", 0, Int{1} << 32);
+    require(p.mobility_table.size() == 32, "mobility_table has not 32 numbers");
+  }
+  return p;
+}
+
+}  // namespace oracle

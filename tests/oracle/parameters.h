@@ -1,0 +1,87 @@
+// docs/automaton.md section 14: what parameters.json names.
+#pragma once
+#include "arithmetic.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace oracle {
+
+using Point = std::array<Int, 3>;  // x, y, z in sixteenths of a cell
+
+struct Key {
+  Int step = 0;
+  Point at{};
+  Int power = 0;
+};
+
+struct RadiationSource {
+  std::vector<Key> keys;
+};
+
+struct Region {
+  Point at{};
+  Int radius = 0;
+  Int rate = 0;
+  Int from = 0;
+  Int until = 0;
+  Int temperature = 0;  // vents only
+  Int energy = 0;       // vents only
+};
+
+struct Heat {
+  bool enabled = false;
+  Int neighbours = 6;
+  Int weight_face = 0, weight_edge = 0, weight_corner = 0;
+  Int convection = 0;
+  bool radiation = false;
+  Int visibility_every = 1;
+  std::vector<RadiationSource> sources;
+  bool air = false;
+  Int air_exchange = 0;
+  std::vector<Int> air_temperature;
+};
+
+struct Fall {
+  Int factor = 0, wall_factor = 0, minimum = 0, hang = 0;
+};
+
+struct PaperFlow {
+  Int neighbours = 8;
+  Int threshold = 0;
+  bool use_table = false;
+  std::vector<std::vector<Int>> table;
+  Int share = 0;
+  bool downhill = false;
+  Int margin = 0;
+  bool support = false;
+  Int slump = 0;
+  bool printed = false;  // the reading: `energy` is "printed", not "text"
+  Int beta = 0;
+  Int alpha_liquid = 0, alpha_solid = 0, alpha_floor = 0;
+  Int reheat = 0;
+};
+
+struct ViscousFlow {
+  Int mobility = 0, yield = 0, stiffness = 1;
+};
+
+struct Parameters {
+  std::array<Int, 3> grid{};
+  Int step = 0;
+  std::uint64_t seed = 0;
+  Int melting_point = 0, latent_heat = 0;
+  Heat heat;
+  std::vector<Region> vents, drains;
+  bool paper_law = true;
+  Fall fall;
+  PaperFlow paper;
+  ViscousFlow viscous;
+  bool thermal_viscosity = false;
+  std::vector<Int> mobility_table;
+};
+
+Parameters read_parameters(const std::string& path);
+
+}  // namespace oracle

@@ -1,0 +1,114 @@
+// docs/automaton.md section 1: the state; and what a step keeps beside it.
+#pragma once
+#include "ledger.h"
+#include "parameters.h"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace oracle {
+
+// A broken invariant (section 1), bound (section 15) or ledger (section 12).
+struct Violation : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Cell {
+  Int solid = 0, inert = 0, liquid = 0;
+  Int amount = 0, energy = 0, heat = 0;
+};
+
+// What a cell gives and takes in one spread (sections 9 and 11).
+struct Exchange {
+  Int given = 0, taken = 0;
+  Int energy_given = 0, energy_taken = 0;
+  Int heat_taken = 0;  // sum of f_in h_j
+};
+
+// What a cell in a run shows its neighbours (section 10).
+struct Run {
+  Int member = 0;  // 1: the cell is in a run
+  Int head = 0, mobility = 0, dead = 0;
+};
+
+struct Place {
+  Int x, y, z;
+};
+
+struct State {
+  Int nx = 0, ny = 0, nz = 0;
+  Int step = 0;  // s: the steps done, and the number of the step that runs
+  Parameters parameters;
+  std::vector<Cell> cells;
+  std::vector<Int> irradiance;  // section 5, kept between its steps
+  std::vector<Run> runs;
+  std::vector<Exchange> exchanges;
+  Ledgers ledgers;
+
+  // All cells of matter, and some that have lost theirs; the others are empty or inert.
+  std::vector<Int> list;
+  std::vector<Int> listed;
+
+  Int index(Int x, Int y, Int z) const { return (z * ny + y) * nx + x; }
+  Place place(Int i) const { return {i % nx, i / nx % ny, i / nx / ny}; }
+  bool inside(Int x, Int y, Int z) const { return x >= 0 && x < nx && y >= 0 && y < ny && z >= 0 && z < nz; }
+  bool matter(Int i) const { return cells[i].solid == 1 || cells[i].liquid == 1; }
+  bool blocked(Int i) const { return cells[i].solid == 1 || cells[i].inert == 1; }
+
+  // The border is inert (section 1): blocked, never air.
+  bool blocked(Int x, Int y, Int z) const { return !inside(x, y, z) || blocked(index(x, y, z)); }
+  bool air(Int x, Int y, Int z) const { return !blocked(x, y, z) && cells[index(x, y, z)].liquid == 0; }
+  bool beside_wall(Place p) const {
+    return blocked(p.x + 1, p.y, p.z) || blocked(p.x - 1, p.y, p.z) || blocked(p.x, p.y, p.z + 1) ||
+           blocked(p.x, p.y, p.z - 1);
+  }
+
+  void touch(Int i) {
+    if (listed[i] == 1) return;
+    listed[i] = 1;
+    list.push_back(i);
+  }
+};
+
+// Horizontal directions (section 2); the last four are diagonals.
+struct Direction {
+  Int dx, dz;
+  bool diagonal;
+  Int axis;  // section 11: 0: x, 1: z, 2 and 3: the diagonals
+};
+constexpr Direction DIRECTIONS[8] = {
+    {1, 0, false, 0}, {-1, 0, false, 0}, {0, 1, false, 1}, {0, -1, false, 1},
+    {1, 1, true, 2},  {1, -1, true, 3},  {-1, 1, true, 3}, {-1, -1, true, 2},
+};
+bool is_open(const State& state, Place from, const Direction& d);  // section 2
+
+// state.cpp
+State read_state(const std::string& folder);
+void write_fields(const State& state, const std::string& folder);
+void finish_phase(State& state, const char* name);             // section 3, last sentence
+void check_cell(const State& state, Int i, const char* when);  // sections 1 and 15
+void check_all(const State& state, const char* when);
+void forget_empty_cells(State& state);
+
+// The columns that hold liquid, with their lowest and highest liquid cell.
+struct Column {
+  Int x, z, low, high;
+};
+std::vector<Column> columns_with_liquid(const State& state);
+
+// The phases of section 3
+void find_irradiance(State& state);  // section 5
+void source(State& state);           // section 4
+void heat(State& state);             // section 6
+void melt(State& state);             // section 7
+void gravity(State& state);          // section 8
+void spread_paper(State& state);     // section 9
+void settle(State& state);           // section 10
+void spread_viscous(State& state);   // section 11
+void move_exchanged(State& state);   // sections 9 and 11: A' and h'
+void run_step(State& state);         // section 3
+
+std::uint64_t digest(const State& state);  // section 13
+
+}  // namespace oracle
