@@ -56,7 +56,7 @@ void settle_run(State& state, Int x, Int y0, Int z, Int n) {
   }
   Int h = 0;
   if (state.parameters.heat.enabled) {
-    h = mixed(static_cast<Int>(products), M, state.step);
+    h = mixed(static_cast<Int>(products), M, state.offset);
     state.ledgers.heat.rounded += Sum{M} * h - products;
   }
   const Int over = larger(0, M - n * ONE);
@@ -91,7 +91,7 @@ Run shown_by(const State& state, Int x, Int y, Int z) {
 }
 
 // What flows from the run cell i in a direction: the pair is computed once, by its giver.
-void give(State& state, Int i, Place at, const Direction& direction) {
+void give(State& state, Int i, Place at, const Direction& direction, Int R) {
   if (!is_open(state, at, direction)) return;
   const Run& giver = state.runs[i];
   const Int x = at.x + direction.dx, z = at.z + direction.dz;
@@ -103,7 +103,6 @@ void give(State& state, Int i, Place at, const Direction& direction) {
 
   const Int amount = state.cells[i].amount;
   const Int c = smaller(65535, ((giver.mobility + taker.mobility) * amount) >> 12);
-  const Int R = dither(state.step, direction.axis, 4);
   Int w = 0;
   if (direction.diagonal)
     w = (c * smaller(drop, 362) + (R >> 1)) >> 15;
@@ -137,9 +136,12 @@ void settle(State& state) {
 
 void spread_viscous(State& state) {
   const std::vector<Int> before = state.list;  // the list grows as cells take
+  Int offsets[4] = {};
+  for (Int axis = 0; axis < 4; ++axis) offsets[axis] = dither(state.step, axis, 4);
   for (const Int i : before) {
     if (state.runs[i].member == 0) continue;
-    for (const Direction& direction : DIRECTIONS) give(state, i, state.place(i), direction);
+    const Place at = state.place(i);
+    for (const Direction& direction : DIRECTIONS) give(state, i, at, direction, offsets[direction.axis]);
   }
   move_exchanged(state);
   finish_phase(state, "after spread");

@@ -19,7 +19,7 @@ void mix_heat(State& state, Cell& receiver, const Cell& giver, Int f) {
   if (!state.parameters.heat.enabled || f == 0) return;
   const Int products = receiver.amount * receiver.heat + f * giver.heat;
   const Int amount = receiver.amount + f;
-  receiver.heat = mixed(products, amount, state.step);
+  receiver.heat = mixed(products, amount, state.offset);
   state.ledgers.heat.rounded += amount * receiver.heat - products;
 }
 

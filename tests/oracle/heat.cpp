@@ -54,7 +54,6 @@ void conduct(State& state, const std::vector<Axis>& axes, Int weight, std::vecto
 }
 
 void convect(State& state, std::vector<Int>& changes) {
-  const Int offset = dither(state.step);
   for (const Int i : state.list) {
     const Place p = state.place(i);
     if (state.cells[i].liquid == 0 || p.y + 1 == state.ny) continue;
@@ -62,7 +61,7 @@ void convect(State& state, std::vector<Int>& changes) {
     if (state.cells[above].liquid == 0) continue;
     const Int difference = temperature(state, i) - temperature(state, above);
     if (difference <= 0) continue;
-    const Int flow = scaled(difference, state.parameters.heat.convection, offset);
+    const Int flow = scaled(difference, state.parameters.heat.convection, state.offset);
     changes[i] -= flow;
     changes[above] += flow;
   }
@@ -70,11 +69,10 @@ void convect(State& state, std::vector<Int>& changes) {
 }
 
 void radiate(State& state) {
-  const Int offset = dither(state.step);
   for (const Int i : state.list) {
     Cell& cell = state.cells[i];
     if (cell.solid == 0) continue;
-    const Int gained = smaller((4096 * state.irradiance[i] + offset) >> 16, 65535 - cell.heat);
+    const Int gained = smaller((4096 * state.irradiance[i] + state.offset) >> 16, 65535 - cell.heat);
     cell.heat += gained;
     state.ledgers.heat.radiated += cell.amount * gained;
     check_cell(state, i, "after radiation");
@@ -92,7 +90,6 @@ Int airy_axes(const State& state, Place p) {
 
 void exchange_with_air(State& state) {
   const Heat& rules = state.parameters.heat;
-  const Int offset = dither(state.step);
   for (const Int i : state.list) {
     if (!state.matter(i)) continue;
     const Place p = state.place(i);
@@ -101,7 +98,7 @@ void exchange_with_air(State& state) {
     Cell& cell = state.cells[i];
     const Int w = (rules.air_exchange * AXIS_WEIGHT[n]) >> 12;
     const Int difference = rules.air_temperature[p.y] - temperature(state, i);
-    const Int gained = smaller(scaled(difference, w, offset), 65535 - cell.heat);
+    const Int gained = smaller(scaled(difference, w, state.offset), 65535 - cell.heat);
     cell.heat += gained;
     if (gained > 0) state.ledgers.heat.warmed += cell.amount * gained;
     if (gained < 0) state.ledgers.heat.cooled -= cell.amount * gained;

@@ -11,6 +11,7 @@ namespace oracle {
 // Section 3
 void run_step(State& state) {
   const Heat& rules = state.parameters.heat;
+  state.offset = dither(state.step);
   if (rules.enabled && rules.radiation && state.step % rules.visibility_every == 0) find_irradiance(state);
   source(state);
   heat(state);

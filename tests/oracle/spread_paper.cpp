@@ -95,8 +95,7 @@ void move_energy(State& state) {
     Cell& cell = state.cells[i];
     const Exchange& exchange = state.exchanges[i];
     Int gained = exchange.energy_taken;
-    if (!paper.printed)
-      gained = scaled(exchange.energy_taken, alpha_of(state, state.place(i)), dither(state.step));
+    if (!paper.printed) gained = scaled(exchange.energy_taken, alpha_of(state, state.place(i)), state.offset);
     ledger.dissipated += exchange.energy_taken - gained;
     const Int energy = cell.energy - exchange.energy_given + gained;
     const Int amount = cell.amount - exchange.given + exchange.taken;
@@ -116,7 +115,7 @@ void move_exchanged(State& state) {
     cell.amount = kept + exchange.taken;
     if (state.parameters.heat.enabled && exchange.taken > 0) {
       const Int products = kept * cell.heat + exchange.heat_taken;
-      cell.heat = mixed(products, cell.amount, state.step);
+      cell.heat = mixed(products, cell.amount, state.offset);
       state.ledgers.heat.rounded += cell.amount * cell.heat - products;
     }
     exchange = Exchange{};

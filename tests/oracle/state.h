@@ -38,7 +38,8 @@ struct Place {
 
 struct State {
   Int nx = 0, ny = 0, nz = 0;
-  Int step = 0;  // s: the steps done, and the number of the step that runs
+  Int step = 0;    // s: the steps done, and the number of the step that runs
+  Int offset = 0;  // D(s)
   Parameters parameters;
   std::vector<Cell> cells;
   std::vector<Int> irradiance;  // section 5, kept between its steps
