@@ -28,7 +28,8 @@ VOXMELT_RULE std::int32_t settled(std::int64_t mass, std::int32_t n, std::int32_
 
 struct Column {        // what a cell shows to its neighbours
   std::int32_t head;      // 1/256 cell
-  std::int32_t mobility;  // 1/65536
+  std::int32_t mobility;  // 1/65536, towards a cell in a run: limited by the depth
+  std::int32_t exposed;   // 1/65536, towards a cell outside a run: a bare flank, limited per cell only
   std::int32_t dead;      // head differences up to this do not move it (yield stress; at least one unit)
   bool in_run;
 };
@@ -46,7 +47,8 @@ VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t b
   const std::int32_t head = bed + static_cast<std::int32_t>(mass >> 4) +
                             (law.stiffness - 1) * static_cast<std::int32_t>(over >> 4);
 
-  // Mobility kq M^2 of a column of depth M, limited so that a column gives at most an eighth per neighbour.
+  // Mobility kq M^2 of a column of depth M, limited so that a cell gives at most an eighth per neighbour, and a
+  // column at most that to another column; only a bare flank may give it from every cell.
   const std::int64_t capped = std::min(depth, 64 * kHeadOne);
   std::int64_t mobility = (static_cast<std::int64_t>(law.mobility) * capped * capped + (1 << 19)) >> 20;
   if (flow.thermal_viscosity)
@@ -56,15 +58,16 @@ VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t b
 
   const std::int64_t dead = (static_cast<std::int64_t>(law.yield) + depth / 2) / depth;
   return {head, static_cast<std::int32_t>(std::min(mobility, limit)),
+          static_cast<std::int32_t>(std::min<std::int64_t>(mobility, 8192)),
           static_cast<std::int32_t>(std::max<std::int64_t>(1, dead)), true};
 }
 
 // A cell outside a run: on a bed, on top of a run (`below`), or in the air.
-VOXMELT_RULE Column bed_column(std::int32_t bed) { return {bed, 0, 0, false}; }
+VOXMELT_RULE Column bed_column(std::int32_t bed) { return {bed, 0, 0, 0, false}; }
 VOXMELT_RULE Column top_column(int y, const Column& below) {
-  return {std::min(below.head, y * kHeadOne + kHeadOne / 2), below.mobility, 0, false};
+  return {std::min(below.head, y * kHeadOne + kHeadOne / 2), below.mobility, 0, 0, false};
 }
-VOXMELT_RULE Column air_column(int y) { return {(y - 2) * kHeadOne, 0, 0, false}; }
+VOXMELT_RULE Column air_column(int y) { return {(y - 2) * kHeadOne, 0, 0, 0, false}; }
 
 // The flow from `giver` (amount a) to `taker` (amount b); 0 unless the giver stands higher and in a run.
 VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, const Column& taker, std::int32_t b,
@@ -75,8 +78,8 @@ VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, cons
   if (drop <= dead) return 0;
   drop = std::min(drop, diagonal ? 362 : kHeadOne);
 
-  const std::int32_t conductance = static_cast<std::int32_t>(
-      std::min<std::int64_t>(65535, (static_cast<std::int64_t>(giver.mobility + taker.mobility) * a) >> 12));
+  const std::int64_t mobilities = (taker.in_run ? giver.mobility : giver.exposed) + taker.mobility;
+  const auto conductance = static_cast<std::int32_t>(std::min<std::int64_t>(65535, (mobilities * a) >> 12));
   const std::int32_t wanted =
       diagonal ? (conductance * drop + (dither >> 1)) >> 15 : (conductance * drop + (dither >> 3)) >> 13;
   const std::int32_t room = (taker.in_run ? kAmountMax : kOne) - b;

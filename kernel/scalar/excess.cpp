@@ -46,6 +46,7 @@ void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
       in_run_[i] = 1;
       head_[i] = column.head;
       mobility_[i] = column.mobility;
+      exposed_[i] = column.exposed;
       dead_[i] = column.dead;
     }
     return bottom + n;

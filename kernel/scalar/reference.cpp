@@ -10,6 +10,7 @@ Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
     in_run_.resize(grid.cells());
     head_.resize(grid.cells());
     mobility_.resize(grid.cells());
+    exposed_.resize(grid.cells());
     dead_.resize(grid.cells());
   }
 }

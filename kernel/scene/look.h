@@ -22,6 +22,8 @@ struct Light {
   double ambient = 0.35;
 };
 
+inline constexpr int kMostSmooth = 6;  // passes that the renderer can do
+
 struct Look {
   Vec3 solid{0.55, 0.56, 0.6};     // colour of what has not melted
   Vec3 liquid{0.78, 0.8, 0.84};    // colour of what flows
@@ -32,7 +34,7 @@ struct Look {
   double metallic = 0;             // 0: wax, chocolate, plastic; 1: bare metal that mirrors its surroundings
   bool glow = false;               // colour and light of the liquid by its temperature (lava)
   double glow_cold = 0.3, glow_hot = 0.95;  // temperatures at the ends of the glow ramp, 0..1
-  double smooth = 2.0;             // low-pass: passes of the 3x3x3 binomial filter
+  int smooth = 3, smooth_solid = 1;  // low-pass of liquid and of solid: passes of the 3x3x3 binomial filter
 };
 
 // Height of the ground above y = 0 at the centre of each column, in cells; z outermost.

@@ -76,7 +76,8 @@ Look read_look(Reader& root) {
   look.glow_cold = reader->number("glow_cold", unit(), look.glow_cold);
   look.glow_hot = reader->number("glow_hot", unit(), look.glow_hot);
   if (look.glow_hot <= look.glow_cold) reader->fail("glow_hot", " must be more than glow_cold");
-  look.smooth = reader->number("smooth", {0, 16, false, {}}, look.smooth);
+  look.smooth = static_cast<int>(reader->integer("smooth", 0, kMostSmooth, look.smooth));
+  look.smooth_solid = static_cast<int>(reader->integer("smooth_solid", 0, kMostSmooth, look.smooth_solid));
   reader->finish();
   return look;
 }

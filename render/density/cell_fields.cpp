@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "kernel/rule/fixed_point.h"
+#include "render/density/levels.h"
 
 namespace voxmelt::render {
 namespace {
@@ -13,6 +14,7 @@ using rule::kOne;
 constexpr std::int32_t kFilm = kOne * 15 / 100;  // a film of this amount counts as fully wet
 constexpr std::int32_t kSink = kOne * 4 / 10;    // how far the surface sinks into dry ground beside matter
 constexpr std::int32_t kDive = kOne;             // ... and one cell further out
+constexpr int kLevelPasses = 4;                  // passes along the surface of puddles for one in space
 constexpr int kReach = 2;                        // columns around matter whose ground is filled
 
 std::uint16_t intensity_of(std::int32_t amount) {
@@ -24,13 +26,14 @@ struct Columns {
   std::vector<int> bed;              // cells of ground, counted up from y = 0
   std::vector<std::int32_t> offset;  // of the true ground from the top face of its cell, in kOne
   std::vector<std::int32_t> wet;     // 0..kOne
+  std::vector<std::int32_t> shift;   // of the liquid on the bed, to take out its terraces, in kOne
 };
 
 class Builder {
  public:
   explicit Builder(const state::Volume& volume) : volume_(volume), grid_(volume.grid) {}
 
-  CellFields build() {
+  CellFields build(int smooth) {
     fields_.grid = grid_;
     for (auto* field : {&fields_.intensity, &fields_.solid, &fields_.liquid, &fields_.heat})
       field->assign(grid_.cells(), 0);
@@ -38,6 +41,7 @@ class Builder {
     fields_.wetness.assign(column_count(), 0.0f);
     find_matter();
     find_ground();
+    find_shifts(smooth);
     for (int z = 0; z < grid_.z; ++z)
       for (int x = 0; x < grid_.x; ++x) fill_ground(x, z);
     return std::move(fields_);
@@ -96,6 +100,26 @@ class Builder {
       }
   }
 
+  // The level of the liquid that rests on the bed under open air, smoothed along the surface.
+  void find_shifts(int smooth) {
+    columns_.shift.assign(column_count(), 0);
+    if (smooth <= 0) return;
+    Levels levels{grid_.x, grid_.z, std::vector<std::int32_t>(column_count(), kNoLevel),
+                  std::vector<std::int32_t>(column_count(), 0)};
+    for (int z = 0; z < grid_.z; ++z)
+      for (int x = 0; x < grid_.x; ++x) {
+        const std::size_t c = column(x, z);
+        int y = columns_.bed[c];
+        if (y == 0) continue;
+        std::int32_t depth = 0;
+        for (; y < grid_.y && volume_.liquid.test(x, y, z); ++y) depth += matter_amount(x, y, z);
+        if (depth == 0 || y == grid_.y || fields_.intensity[grid_.index(x, y, z)] != 0) continue;
+        levels.depth[c] = depth;
+        levels.level[c] = columns_.bed[c] * kOne + columns_.offset[c] + depth;
+      }
+    columns_.shift = level_shifts(levels, kLevelPasses * smooth);
+  }
+
   // Inert cells that do not reach down to y = 0 are things of their own and drawn like solids.
   void fill_obstacles(int x, int bed, int z) {
     for (int y = bed; y < grid_.y; ++y)
@@ -132,7 +156,7 @@ class Builder {
       const std::int32_t ground = std::clamp((bed - y) * kOne + rise, 0, kOne);
       fields_.intensity[i] = std::max(fields_.intensity[i], intensity_of(ground));
     }
-    if (bed < grid_.y && volume_.liquid.test(x, bed, z)) shift_liquid(x, bed, z, rise);
+    if (bed < grid_.y && volume_.liquid.test(x, bed, z)) shift_liquid(x, bed, z, rise + columns_.shift[c]);
   }
 
   // The liquid that rests on the bed is moved up or down by the part of a cell by which the bed lies above or
@@ -162,6 +186,6 @@ class Builder {
 
 }  // namespace
 
-CellFields cell_fields(const state::Volume& volume) { return Builder(volume).build(); }
+CellFields cell_fields(const state::Volume& volume, int smooth) { return Builder(volume).build(smooth); }
 
 }  // namespace voxmelt::render

@@ -6,6 +6,8 @@
 // The ground (the inert cells that reach up from y = 0) is filled below and beside matter, because otherwise
 // the surface of a thin film would sink into the floor and the rim of a puddle would curl. Next to dry ground
 // the filling ends a little below the ground, so that the surface closes where the ground hides it.
+//
+// Puddles are shifted up or down by a fraction of a cell to take their terraces out (see levels.h).
 #pragma once
 
 #include <cstdint>
@@ -29,6 +31,7 @@ struct CellFields {
   friend bool operator==(const CellFields&, const CellFields&) = default;
 };
 
-CellFields cell_fields(const state::Volume& volume);
+// `smooth`: how much the terraces of puddles are smoothed, 0: not at all.
+CellFields cell_fields(const state::Volume& volume, int smooth = 0);
 
 }  // namespace voxmelt::render

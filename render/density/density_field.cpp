@@ -7,12 +7,15 @@
 #include <cstring>
 
 #include "render/density/low_pass.h"
+#include "render/image/vector.h"
 
 namespace voxmelt::render {
 namespace {
 
+static_assert(scene::kMostSmooth == kMaxPasses);
 static_assert(kMaxPasses < kBrickSide, "a change must not reach past the neighbouring bricks");
 constexpr int kRangeHalo = 2;
+constexpr std::size_t kBrickCells = static_cast<std::size_t>(kBrickSide) * kBrickSide * kBrickSide;
 
 // Brick flags widened by one brick in every direction.
 std::vector<std::uint8_t> widened(const state::Grid& bricks, const std::vector<std::uint8_t>& flags) {
@@ -29,6 +32,14 @@ std::vector<std::uint8_t> widened(const state::Grid& bricks, const std::vector<s
   return wide;
 }
 
+// How much of the liquid's filter a cell gets, 0..256, from the liquid and solid around it. Directly above a
+// solid with a film of half a cell the liquid's share is about 0.35, with one of two cells 0.9.
+std::uint32_t liquid_weight(std::uint32_t liquid, std::uint32_t solid) {
+  if (liquid == 0) return 0;
+  const float share = static_cast<float>(liquid) / static_cast<float>(liquid + solid);
+  return static_cast<std::uint32_t>(256 * smooth_step(0.4f, 0.8f, share));
+}
+
 // Light emitted at 257 temperatures: nothing below glow_cold, the square of the way to glow_hot above.
 std::array<float, 257> emission_table(double cold, double hot) {
   std::array<float, 257> table{};
@@ -43,14 +54,16 @@ std::array<float, 257> emission_table(double cold, double hot) {
 }  // namespace
 
 int DensityField::update(const state::Volume& volume, const scene::Look& look) {
-  CellFields fresh = cell_fields(volume);
-  const int passes = std::clamp(static_cast<int>(std::lround(look.smooth)), 0, kMaxPasses);
+  const int liquid_passes = std::clamp(look.smooth, 0, kMaxPasses);
+  const int solid_passes = std::clamp(look.smooth_solid, 0, kMaxPasses);
+  CellFields fresh = cell_fields(volume, liquid_passes);
 
   // Which bricks differ from the last update: all of them when the field has another shape.
   std::vector<std::uint8_t> changed;
-  if (passes != passes_ || !(fresh.grid == cells_.grid)) {
+  if (liquid_passes != liquid_passes_ || solid_passes != solid_passes_ || !(fresh.grid == cells_.grid)) {
     bricks_ = brick_grid(fresh.grid);
-    passes_ = passes;
+    liquid_passes_ = liquid_passes;
+    solid_passes_ = solid_passes;
     for (auto* field : {&intensity_, &solid_, &liquid_, &heat_}) field->assign(fresh.grid.cells(), 0);
     ranges_.assign(bricks_.cells(), BrickRange{});
     changed.assign(bricks_.cells(), 1);
@@ -67,10 +80,7 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look) {
     for (int y = 0; y < bricks_.y; ++y)
       for (int x = 0; x < bricks_.x; ++x) {
         if (!dirty[bricks_.index(x, y, z)]) continue;
-        low_pass_brick(cells_.grid, x, y, z, passes_, cells_.intensity, intensity_);
-        low_pass_brick(cells_.grid, x, y, z, passes_, cells_.solid, solid_);
-        low_pass_brick(cells_.grid, x, y, z, passes_, cells_.liquid, liquid_);
-        low_pass_brick(cells_.grid, x, y, z, passes_, cells_.heat, heat_);
+        filter_brick(x, y, z);
         ++filtered;
       }
   for (int z = 0; z < bricks_.z; ++z)
@@ -104,6 +114,44 @@ std::vector<std::uint8_t> DensityField::changed_bricks(const CellFields& fresh) 
                differs(fresh.liquid, cells_.liquid) || differs(fresh.heat, cells_.heat);
       }
   return changed;
+}
+
+void DensityField::filter_brick(int bx, int by, int bz) {
+  const state::Grid& grid = cells_.grid;
+  low_pass_brick(grid, bx, by, bz, liquid_passes_, cells_.solid, solid_);
+  low_pass_brick(grid, bx, by, bz, liquid_passes_, cells_.liquid, liquid_);
+  low_pass_brick(grid, bx, by, bz, liquid_passes_, cells_.heat, heat_);
+
+  // Most bricks need one of the two filters only.
+  const int x0 = bx * kBrickSide, y0 = by * kBrickSide, z0 = bz * kBrickSide;
+  const int x1 = std::min(x0 + kBrickSide, grid.x), y1 = std::min(y0 + kBrickSide, grid.y),
+            z1 = std::min(z0 + kBrickSide, grid.z);
+  std::array<std::uint32_t, kBrickCells> weights;
+  std::array<std::uint16_t, kBrickCells> softer;
+  std::uint32_t least = 256, most = 0;
+  std::size_t k = 0;
+  for (int z = z0; z < z1; ++z)
+    for (int y = y0; y < y1; ++y)
+      for (std::size_t i = grid.index(x0, y, z); i < grid.index(x0, y, z) + static_cast<std::size_t>(x1 - x0); ++i) {
+        weights[k] = liquid_weight(liquid_[i], solid_[i]);
+        least = std::min(least, weights[k]);
+        most = std::max(most, weights[k++]);
+      }
+  const bool both = least < 256 && most > 0 && liquid_passes_ != solid_passes_;
+  low_pass_brick(grid, bx, by, bz, most > 0 ? liquid_passes_ : solid_passes_, cells_.intensity, intensity_);
+  if (!both) return;
+
+  const auto each = [&](const auto& action) {
+    std::size_t cell = 0;
+    for (int z = z0; z < z1; ++z)
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x) action(intensity_[grid.index(x, y, z)], cell++);
+  };
+  each([&](std::uint16_t value, std::size_t cell) { softer[cell] = value; });
+  low_pass_brick(grid, bx, by, bz, solid_passes_, cells_.intensity, intensity_);
+  each([&](std::uint16_t& value, std::size_t cell) {
+    value = static_cast<std::uint16_t>((value * (256 - weights[cell]) + softer[cell] * weights[cell] + 128) >> 8);
+  });
 }
 
 void DensityField::refresh_range(int bx, int by, int bz) {

@@ -2,6 +2,10 @@
 //
 // The surface is where the filtered intensity is half of kFull. For a column of full cells with a part-filled
 // cell on top this lies within a tenth of a cell of the column's height, so smooth amounts look smooth.
+//
+// Liquid is filtered more than solid (look.smooth, look.smooth_solid). Which of the two holds is decided by the
+// share of liquid in the matter around, itself filtered, so the one passes into the other without a seam; a
+// solid under a film of less than half a cell counts as solid.
 #pragma once
 
 #include <cstdint>
@@ -38,15 +42,16 @@ class DensityField {
   const std::vector<float>& wetness() const { return cells_.wetness; }
   const std::vector<BrickRange>& ranges() const { return ranges_; }
   const Pyramid& pyramid() const { return pyramid_; }
-  int passes() const { return passes_; }
+  int liquid_passes() const { return liquid_passes_; }
 
  private:
   std::vector<std::uint8_t> changed_bricks(const CellFields& fresh) const;
+  void filter_brick(int bx, int by, int bz);
   void refresh_range(int bx, int by, int bz);
 
   CellFields cells_;
   state::Grid bricks_;
-  int passes_ = -1;
+  int liquid_passes_ = -1, solid_passes_ = -1;
   std::vector<std::uint16_t> intensity_, solid_, liquid_, heat_;
   std::vector<BrickRange> ranges_;
   double glow_cold_ = 0, glow_hot_ = 0;

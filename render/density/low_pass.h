@@ -8,7 +8,7 @@
 
 namespace voxmelt::render {
 
-inline constexpr int kMaxPasses = 3;
+inline constexpr int kMaxPasses = 6;
 
 // Filters the 8x8x8 cells of one brick of `from` into `to`. Cells outside the grid repeat the nearest cell
 // inside; every pass rounds once, to nearest. The result depends on `from` alone, so filtering one brick

@@ -22,9 +22,9 @@ Ground::Ground(const scene::Terrain& terrain, const DensityField& field) {
   size_x_ = field.grid().x;
   size_z_ = field.grid().z;
   textured_ = terrain.textured;
-  height_ = blurred(height_, field.passes());
+  height_ = blurred(height_, field.liquid_passes());
   drawn_ = height_;
-  const Heights wetness = blurred(field.wetness(), field.passes());
+  const Heights wetness = blurred(field.wetness(), field.liquid_passes());
   for (std::size_t i = 0; i < drawn_.size(); ++i) drawn_[i] -= kLowered * wetness[i];
   surrounding_ = blurred(height_, 24);
   const auto [low, high] = std::minmax_element(height_.begin(), height_.end());

@@ -118,6 +118,7 @@ inline std::string broken_invariant(const Volume& v, const Parameters& p) {
                std::to_string(v.temperature[i]);
     };
     if (solid + inert + liquid > 1) fails("two masks");
+    if (solid && v.amount[i] == 0) fails("a solid of nothing");
     if (liquid != (!solid && !inert && v.amount[i] > 0)) fails("liquid is not what is defined");
     if (v.energy[i] > v.amount[i]) fails("E > A");
     if (v.energy[i] > 0 && (!liquid || p.flow.law == rule::Law::viscous)) fails("energy where none may be");

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that are missing; does nothing, and needs no network, when all are there.
+#   install-dependencies.sh build|test
+set -euo pipefail
+
+packages=(cmake ninja-build g++ pkg-config libpng-dev libfmt-dev libtomlplusplus-dev libcli11-dev
+          nlohmann-json3-dev libtinyobjloader-dev)
+if [ "${1:-build}" = test ]; then
+  packages+=(libgtest-dev libgmock-dev clang clang-format clang-tidy python3)
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2> /dev/null | grep -q 'ok installed' || missing+=("$package")
+done
+mkdir -p "$(dirname "$0")/../build"
+if [ ${#missing[@]} -eq 0 ]; then exit 0; fi
+
+echo "installing: ${missing[*]}"
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then as_root=(sudo); fi
+export DEBIAN_FRONTEND=noninteractive
+${as_root[@]+"${as_root[@]}"} apt-get update -qq
+${as_root[@]+"${as_root[@]}"} apt-get install -y -qq --no-install-recommends "${missing[@]}" > /dev/null

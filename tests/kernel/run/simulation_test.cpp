@@ -1,0 +1,155 @@
+// The run loop: repeatable, phases in the order said, melting and visibility at the right step.
+#include "kernel/run/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include "kernel/state/digest.h"
+#include "tests/kernel/worlds.h"
+
+namespace voxmelt::run {
+namespace {
+
+using namespace worlds;
+using rule::Law;
+using step::Phase;
+
+Parameters hot_parameters(Law law) {
+  Parameters p = law == Law::paper ? paper_showcase() : viscous(0.05, 0.002);
+  p.heat.enabled = true;
+  p.heat.weight_face = 8000;
+  p.heat.radiation = true;
+  p.heat.sources = {{{{0, {16 * 20, 16 * 12, 16 * 8}, std::uint64_t{1} << 31}}}};
+  return p;
+}
+Volume block() {
+  Volume v(Grid{16, 12, 16});
+  for_each({5, 2, 5, 11, 10, 11}, [&](int x, int y, int z) { put_solid(v, x, y, z, kOne, 25000); });
+  return v;
+}
+
+TEST(Simulation, ARunRepeats) {
+  for (const Law law : {Law::paper, Law::viscous}) {
+    std::vector<std::uint64_t> digests;
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      Simulation s = simulate(hot_parameters(law), block());
+      for (std::size_t i = 0; i < 60; ++i) {
+        s.step();
+        const std::uint64_t d = state::digest(s.volume());
+        if (repeat == 0) digests.push_back(d);
+        ASSERT_EQ(d, digests[i]) << "step " << i;
+      }
+      EXPECT_GT(s.volume().liquid.count(), 20) << "it did melt";
+    }
+  }
+}
+
+TEST(Simulation, TheSeedChangesThePaperLawOnly) {
+  for (const Law law : {Law::paper, Law::viscous}) {
+    Parameters p = hot_parameters(law);
+    Simulation one = simulate(p, block());
+    p.seed = 2;
+    Simulation two = simulate(p, block());
+    steps(one, 60);
+    steps(two, 60);
+    EXPECT_EQ(state::digest(one.volume()) == state::digest(two.volume()), law == Law::viscous);
+  }
+}
+
+// Notes what it is asked to do.
+class Recorder final : public step::Stepper {
+ public:
+  void run(Phase phase, std::uint32_t step, std::span<const std::uint16_t> irradiance, Volume&, state::Ledger&) override {
+    calls.push_back({phase, step, irradiance.empty() ? -1 : irradiance[0]});
+  }
+  struct Call {
+    Phase phase;
+    std::uint32_t step;
+    int irradiance;
+  };
+  static inline std::vector<Call> calls;
+};
+std::unique_ptr<step::Stepper> create_recorder(const Parameters&, Grid) {
+  Recorder::calls.clear();
+  return std::make_unique<Recorder>();
+}
+const step::Implementation kRecorder{"recorder", "", create_recorder};
+
+class Counter final : public visibility::Provider {
+ public:
+  void irradiance(const Volume& v, const rule::Heat&, std::uint32_t step, std::vector<std::uint16_t>& result) override {
+    result.assign(v.grid.cells(), static_cast<std::uint16_t>(1000 + step));
+  }
+};
+
+TEST(Simulation, PhasesInTheOrderOfThePage) {
+  using enum Phase;
+  for (const Law law : {Law::paper, Law::viscous}) {
+    Parameters p;
+    p.flow.law = law;
+    Simulation s(p, Volume(Grid{1, 1, 1}), kRecorder);
+    steps(s, 2);
+    const std::array<Phase, 6> order = law == Law::paper ? std::array{source, heat, melt, gravity, spread, excess}
+                                                         : std::array{source, heat, melt, excess, spread, gravity};
+    ASSERT_EQ(Recorder::calls.size(), 12u);
+    for (std::size_t i = 0; i < 12; ++i) {
+      EXPECT_EQ(Recorder::calls[i].phase, order[i % 6]);
+      EXPECT_EQ(Recorder::calls[i].step, i / 6);
+      EXPECT_EQ(Recorder::calls[i].irradiance, -1) << "no radiation, no irradiance";
+    }
+    EXPECT_EQ(s.steps_done(), 2u);
+  }
+}
+
+TEST(Simulation, VisibilityIsKeptBetweenItsSteps) {
+  Parameters p;
+  p.heat.enabled = p.heat.radiation = true;
+  p.heat.visibility_every = 3;
+  Simulation s(p, Volume(Grid{1, 1, 1}), kRecorder, std::make_unique<Counter>());
+  steps(s, 7);
+  for (const Recorder::Call& call : Recorder::calls)
+    EXPECT_EQ(call.irradiance, static_cast<int>(1000 + call.step / 3 * 3)) << "step " << call.step;
+}
+
+TEST(Melting, AtExactlyTheMeltingPoint) {
+  for (const Law law : {Law::paper, Law::viscous})
+    for (const int latent : {0, 1, 5000})
+      for (const int below : {0, 1}) {
+        Parameters p = law == Law::paper ? paper_showcase() : viscous(0.02);
+        p.heat.enabled = true;
+        p.material = {32768, static_cast<rule::Temperature>(latent)};
+        Volume v(Grid{3, 3, 3});
+        put_solid(v, 1, 0, 1, 3000, 32768 + latent - below);
+        Simulation s = simulate(p, v);
+        step_by_phase(s, [&](Phase phase) {
+          if (phase != Phase::melt) return;
+          EXPECT_EQ(s.volume().liquid.test(1, 0, 1), below == 0);
+          EXPECT_EQ(s.volume().solid.test(1, 0, 1), below == 1);
+          EXPECT_EQ(amount_at(s, 1, 0, 1), 3000);
+          EXPECT_EQ(s.volume().energy[s.volume().grid.index(1, 0, 1)], law == Law::paper && below == 0 ? 3000 : 0);
+          EXPECT_EQ(s.volume().temperature[s.volume().grid.index(1, 0, 1)], 32768 + latent - below);
+        });
+      }
+}
+
+TEST(Melting, NeedsHeat) {
+  Volume v(Grid{3, 3, 3});
+  put_solid(v, 1, 1, 1);
+  Parameters p = paper_showcase();
+  p.material.melting_point = 0;
+  Simulation s = simulate(p, v);
+  steps(s, 5);
+  EXPECT_TRUE(s.volume().solid.test(1, 1, 1)) << "heat is off";
+  p.heat.enabled = true;
+  Simulation warm = simulate(p, v);
+  warm.step();
+  EXPECT_FALSE(warm.volume().solid.test(1, 1, 1)) << "0 reaches 0";
+}
+
+TEST(Implementations, AreFoundByNameAndReferenceIsFirst) {
+  EXPECT_EQ(implementations().all().front().name, "reference");
+  EXPECT_NE(implementations().find("auto"), nullptr);
+  EXPECT_EQ(implementations().find("no such"), nullptr);
+}
+
+}  // namespace
+}  // namespace voxmelt::run
