@@ -8,6 +8,7 @@
 #include "app/version.h"
 #include "kernel/io/output_folder.h"
 #include "kernel/scene/scene.h"
+#include "render/image/png.h"
 
 namespace {
 
@@ -22,6 +23,17 @@ constexpr const char* kIntroduction =
     "  voxmelt list scenes\n\n"
     "A scene is a TOML file; docs/scenes.md explains its keys. Exit codes: 0 done, 1 a check failed,\n"
     "2 bad usage or input, 3 out of memory or disk.";
+
+// CLI11 would only say that a subcommand is required.
+void check_subcommand(const CLI::App& program, const char* given) {
+  if (given[0] == '-') return;
+  std::string known;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == given) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw voxmelt::app::UsageError("error: unknown command '" + std::string(given) + "'; there are " + known);
+}
 
 int fail(const std::string& message, int code) {
   std::cerr << message << '\n';
@@ -42,6 +54,7 @@ int main(int argc, char** argv) {
     app::add_export(program, chosen);
     app::add_render(program, chosen);
     app::add_list(program, chosen);
+    if (argc > 1) check_subcommand(program, argv[1]);
     try {
       program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -55,6 +68,8 @@ int main(int argc, char** argv) {
   } catch (const scene::ResourceError& error) {
     return fail(error.what(), app::kOutOfResources);
   } catch (const io::OutputError& error) {
+    return fail(error.what(), error.out_of_space() ? app::kOutOfResources : app::kBadInput);
+  } catch (const render::ImageError& error) {
     return fail(error.what(), error.out_of_space() ? app::kOutOfResources : app::kBadInput);
   } catch (const std::bad_alloc&) {
     return fail("error: out of memory", app::kOutOfResources);

@@ -34,6 +34,8 @@ OutputFolder::OutputFolder(fs::path place) : place_(fs::absolute(std::move(place
                             ": error: the folder holds files that voxmelt did not write; choose another --out",
                         false);
   }
+  first_new_ = partial_;
+  while (first_new_.has_relative_path() && !fs::exists(first_new_.parent_path(), error)) first_new_ = first_new_.parent_path();
   fs::create_directories(partial_, error);
   if (error) fail(place_, "cannot create the output folder", error.value());
   write_file(partial_ / kMarker, "Written by voxmelt; replaced whole by the next run into this folder.\n");
@@ -43,6 +45,11 @@ OutputFolder::~OutputFolder() {
   if (committed_) return;
   std::error_code ignored;
   fs::remove_all(partial_, ignored);
+  // Folders made for nothing go too; fs::remove leaves those that are not empty.
+  for (fs::path folder = partial_; folder != first_new_;) {
+    folder = folder.parent_path();
+    fs::remove(folder, ignored);
+  }
 }
 
 void OutputFolder::commit() {

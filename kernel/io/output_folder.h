@@ -32,6 +32,7 @@ class OutputFolder {
 
  private:
   std::filesystem::path place_, partial_;
+  std::filesystem::path first_new_;  // the uppermost folder that had to be made for `partial_`
   bool committed_ = false;
 };
 

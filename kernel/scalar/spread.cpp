@@ -43,7 +43,8 @@ void Reference::find_patterns(std::uint32_t step, const Volume& volume, const Ac
     for (std::size_t d = 0; d < static_cast<std::size_t>(law.neighbours); ++d) {
       const rule::Direction to = rule::kDirections[d];
       if (!is_open(cells, x, y, z, to)) continue;
-      if (rule::receives(a, axis_flow, cells.amount(x + to.dx, y, z + to.dz), margin, law))
+      const bool diagonal = rule::is_diagonal(static_cast<int>(d));
+      if (rule::receives(a, axis_flow, cells.amount(x + to.dx, y, z + to.dz), margin, diagonal, law))
         available = static_cast<std::uint8_t>(available | 1u << d);
     }
 

@@ -15,6 +15,7 @@ constexpr std::int32_t kFilm = kOne * 15 / 100;  // a film of this amount counts
 constexpr std::int32_t kSink = kOne * 4 / 10;    // how far the surface sinks into dry ground beside matter
 constexpr std::int32_t kDive = kOne;             // ... and one cell further out
 constexpr int kLevelPasses = 4;                  // passes along the surface of puddles for one in space
+constexpr int kMostLevelPasses = 12;             // ... more would flatten domes
 constexpr int kReach = 2;                        // columns around matter whose ground is filled
 
 std::uint16_t intensity_of(std::int32_t amount) {
@@ -117,7 +118,7 @@ class Builder {
         levels.depth[c] = depth;
         levels.level[c] = columns_.bed[c] * kOne + columns_.offset[c] + depth;
       }
-    columns_.shift = level_shifts(levels, kLevelPasses * smooth);
+    columns_.shift = level_shifts(levels, std::min(kLevelPasses * smooth, kMostLevelPasses));
   }
 
   // Inert cells that do not reach down to y = 0 are things of their own and drawn like solids.

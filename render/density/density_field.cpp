@@ -118,9 +118,10 @@ std::vector<std::uint8_t> DensityField::changed_bricks(const CellFields& fresh) 
 
 void DensityField::filter_brick(int bx, int by, int bz) {
   const state::Grid& grid = cells_.grid;
-  low_pass_brick(grid, bx, by, bz, liquid_passes_, cells_.solid, solid_);
-  low_pass_brick(grid, bx, by, bz, liquid_passes_, cells_.liquid, liquid_);
-  low_pass_brick(grid, bx, by, bz, liquid_passes_, cells_.heat, heat_);
+  const int wide = std::max(liquid_passes_, solid_passes_);  // so the shares reach as far as the intensity
+  low_pass_brick(grid, bx, by, bz, wide, cells_.solid, solid_);
+  low_pass_brick(grid, bx, by, bz, wide, cells_.liquid, liquid_);
+  low_pass_brick(grid, bx, by, bz, wide, cells_.heat, heat_);
 
   // Most bricks need one of the two filters only.
   const int x0 = bx * kBrickSide, y0 = by * kBrickSide, z0 = bz * kBrickSide;

@@ -17,11 +17,11 @@ struct Close {
 using File = std::unique_ptr<std::FILE, Close>;
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
-  throw ImageError(file.string() + ": " + what);
+  throw ImageError(file.string() + ": error: " + what);
 }
 
 [[noreturn]] void fail_errno(const std::filesystem::path& file, const std::string& what, int code) {
-  fail(file, what + ": " + std::strerror(code));
+  throw ImageError(file.string() + ": error: " + what + ": " + std::strerror(code), code == ENOSPC || code == EDQUOT);
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   std::filesystem::path beside = file;
   beside += ".part";
   File stream(std::fopen(beside.c_str(), "wb"));
-  if (!stream) fail_errno(beside, "cannot be written", errno);
+  if (!stream) fail_errno(file, "cannot be written", errno);
 
   png_image header{};
   header.version = PNG_IMAGE_VERSION;

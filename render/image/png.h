@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 
 #include "render/image/image.h"
 
@@ -11,7 +12,12 @@ namespace voxmelt::render {
 // A picture could not be written or read; the message names the file and the system's reason.
 class ImageError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit ImageError(const std::string& message, bool out_of_space = false)
+      : std::runtime_error(message), out_of_space_(out_of_space) {}
+  bool out_of_space() const { return out_of_space_; }
+
+ private:
+  bool out_of_space_;
 };
 
 // Writes beside the target and renames: a reader never sees half a file. Throws ImageError.

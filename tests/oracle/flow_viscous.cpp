@@ -36,11 +36,12 @@ Run shown_by_run(const Parameters& parameters, Int bed, Int M, Int over, Int h) 
   run.head = bed + (M >> 4) + (viscous.stiffness - 1) * (over >> 4);
   const Int depth = larger(1, M >> 4);
   const Int cut = smaller(depth, 16384);
-  run.mobility = (viscous.mobility * cut * cut + (Int{1} << 19)) >> 20;
-  if (parameters.thermal_viscosity) run.mobility = (run.mobility * parameters.mobility_table[h >> 11]) >> 15;
+  Int raw = (viscous.mobility * cut * cut + (Int{1} << 19)) >> 20;
+  if (parameters.thermal_viscosity) raw = (raw * parameters.mobility_table[h >> 11]) >> 15;
+  run.exposed = smaller(raw, 8192);
   Int limit = 8192 / ((M >> 12) + 1);
   if (over > 0) limit /= viscous.stiffness;
-  run.mobility = smaller(run.mobility, limit);
+  run.mobility = smaller(raw, limit);
   run.dead = larger(1, (viscous.yield + depth / 2) / depth);
   return run;
 }
@@ -71,7 +72,8 @@ void settle_run(State& state, Int x, Int y0, Int z, Int n) {
   }
 }
 
-// What a non-blocked cell shows its neighbours, in a run or not.
+// What a non-blocked cell shows its neighbours, in a run or not. Outside runs `exposed` and `dead` are not
+// used: only a cell in a run gives.
 Run shown_by(const State& state, Int x, Int y, Int z) {
   const Run& own = state.runs[state.index(x, y, z)];
   if (own.member == 1) return own;
@@ -102,7 +104,8 @@ void give(State& state, Int i, Place at, const Direction& direction, Int R) {
   if (drop <= 0 || drop <= threshold) return;
 
   const Int amount = state.cells[i].amount;
-  const Int c = smaller(65535, ((giver.mobility + taker.mobility) * amount) >> 12);
+  const Int g = taker.member == 1 ? giver.mobility : giver.exposed;
+  const Int c = smaller(65535, ((g + taker.mobility) * amount) >> 12);
   Int w = 0;
   if (direction.diagonal)
     w = (c * smaller(drop, 362) + (R >> 1)) >> 15;

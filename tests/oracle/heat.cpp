@@ -116,7 +116,7 @@ void heat(State& state) {
   if (rules.neighbours >= 18) conduct(state, EDGES, rules.weight_edge, changes);
   if (rules.neighbours == 26) conduct(state, CORNERS, rules.weight_corner, changes);
   if (rules.convection > 0) convect(state, changes);
-  if (!rules.sources.empty()) radiate(state);
+  if (rules.radiation) radiate(state);
   if (rules.air) exchange_with_air(state);
   finish_phase(state, "after heat");
 }

@@ -106,8 +106,10 @@ Heat read_heat(const Json& json, Int ny) {
   heat.weight_corner = integer(json, "weight_corner", 0, 3640);
   heat.convection = integer(json, "convection", 0, 32767);
   heat.radiation = yes(json, "radiation");
-  heat.visibility_every = integer(json, "visibility_every", 1, MOST);
-  for (const Json& entry : member(json, "sources")) heat.sources.push_back(read_radiation_source(entry));
+  if (heat.radiation) {
+    heat.visibility_every = integer(json, "visibility_every", 1, 1024);
+    for (const Json& entry : member(json, "sources")) heat.sources.push_back(read_radiation_source(entry));
+  }
   heat.air = yes(json, "air");
   if (heat.air) {
     heat.air_exchange = integer(json, "air_exchange", 0, 37837);
@@ -124,17 +126,19 @@ PaperFlow read_paper(const Json& json) {
   paper.threshold = integer(json, "threshold", 0, 65535);
   paper.use_table = yes(json, "use_table");
   if (paper.use_table) {
-    // One row per pattern, one number per direction.
+    // 16 rows, one per pattern, of 4 factors, one per direction.
+    require(paper.neighbours == 4, "a table wants 4 neighbours");
     for (const Json& row : member(json, "table")) {
       paper.table.push_back(integers(row, "table", 0, 65536));
       Int sum = 0;
       for (const Int entry : paper.table.back()) sum += entry;
       require(sum <= 65536, "the sum of a row of the table");
-      require(static_cast<Int>(paper.table.back().size()) >= paper.neighbours, "a short row in the table");
+      require(paper.table.back().size() == 4, "a row of the table has not 4 numbers");
     }
-    require(static_cast<Int>(paper.table.size()) >= (Int{1} << paper.neighbours), "rows of the table");
+    require(paper.table.size() == 16, "the table has not 16 rows");
+  } else {
+    paper.share = integer(json, "share", 0, paper.neighbours == 8 ? 13107 : 16384);
   }
-  paper.share = integer(json, "share", 0, paper.neighbours == 8 ? 13107 : 16384);
   paper.downhill = yes(json, "downhill");
   paper.margin = integer(json, "margin", 0, 65535);
   paper.support = yes(json, "support");
@@ -146,7 +150,7 @@ PaperFlow read_paper(const Json& json) {
   paper.alpha_liquid = integer(json, "alpha_liquid", 0, 65535);
   paper.alpha_solid = integer(json, "alpha_solid", 0, 65535);
   paper.alpha_floor = integer(json, "alpha_floor", 0, 65535);
-  paper.reheat = integer(json, "reheat", 0, 65536);
+  paper.reheat = integer(json, "reheat", 0, 65535);
   return paper;
 }
 
@@ -191,7 +195,8 @@ Parameters read_parameters(const std::string& path) {
   }
   p.thermal_viscosity = yes(flow, "thermal_viscosity");
   if (p.thermal_viscosity) {
-    p.mobility_table = integers(member(flow, "mobility_table"), "mobility_table", 0, Int{1} << 32);
+    // 16 bits: section 15.
+    p.mobility_table = integers(member(flow, "mobility_table"), "mobility_table", 0, 65535);
     require(p.mobility_table.size() == 32, "mobility_table has not 32 numbers");
   }
   return p;

@@ -29,7 +29,9 @@ struct Exchange {
 // What a cell in a run shows its neighbours (section 10).
 struct Run {
   Int member = 0;  // 1: the cell is in a run
-  Int head = 0, mobility = 0, dead = 0;
+  Int head = 0, dead = 0;
+  Int mobility = 0;  // between runs
+  Int exposed = 0;   // towards cells outside runs
 };
 
 struct Place {

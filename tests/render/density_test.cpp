@@ -15,9 +15,10 @@ namespace {
 
 using render::DensityField;
 
-scene::Look look_with_passes(int passes) {
+scene::Look look_with_passes(int liquid, int solid = 1) {
   scene::Look look;
-  look.smooth = passes;
+  look.smooth = liquid;
+  look.smooth_solid = solid;
   return look;
 }
 
@@ -95,7 +96,7 @@ TEST(CellFields, GroundIsFilledOnlyNearMatter) {
 // The surface above a wide flat column lies where the liquid does, whatever the last cell holds.
 TEST(DensityField, ReconstructsColumnHeights) {
   const state::Grid grid{24, 24, 24};
-  for (int passes = 0; passes <= 2; ++passes)
+  for (int passes = 0; passes <= render::kMaxPasses; ++passes)
     for (double height = 0.1; height < 5; height += 0.13) {
       state::Volume volume = test::floor_volume(grid);
       for (int z = 0; z < grid.z; ++z)
@@ -141,30 +142,31 @@ TEST(DensityField, FollowsASlopingBed) {
 }
 
 TEST(DensityField, UpdatesLikeAFreshField) {
-  const state::Grid grid{37, 30, 41};
-  const scene::Look look = look_with_passes(2);
-  state::Volume volume = test::ball_and_puddle(grid);
-  DensityField kept;
-  kept.update(volume, look);
+  const state::Grid grid{53, 50, 57};
+  for (const scene::Look& look : {look_with_passes(2), look_with_passes(render::kMaxPasses, 3)}) {
+    state::Volume volume = test::ball_and_puddle(grid);
+    DensityField kept;
+    kept.update(volume, look);
 
-  std::mt19937 random(11);
-  for (int round = 0; round < 12; ++round) {
-    for (int change = 0; change < 3; ++change) {
-      const int x = static_cast<int>(random() % 37), y = 2 + static_cast<int>(random() % 28),
-                z = static_cast<int>(random() % 41);
-      if (volume.solid.test(x, y, z)) continue;
-      const std::size_t i = grid.index(x, y, z);
-      volume.amount[i] = static_cast<std::uint16_t>(random() % 5000);
-      volume.temperature[i] = static_cast<std::uint16_t>(random());
-      volume.liquid.set(x, y, z, volume.amount[i] > 0);
+    std::mt19937 random(11);
+    for (int round = 0; round < 12; ++round) {
+      for (int change = 0; change < 3; ++change) {
+        const int x = static_cast<int>(random() % 53), y = 2 + static_cast<int>(random() % 48),
+                  z = static_cast<int>(random() % 57);
+        if (volume.solid.test(x, y, z)) continue;
+        const std::size_t i = grid.index(x, y, z);
+        volume.amount[i] = static_cast<std::uint16_t>(random() % 5000);
+        volume.temperature[i] = static_cast<std::uint16_t>(random());
+        volume.liquid.set(x, y, z, volume.amount[i] > 0);
+      }
+      const int filtered = kept.update(volume, look);
+      EXPECT_LT(filtered, static_cast<int>(kept.bricks().cells()));
+      DensityField fresh;
+      fresh.update(volume, look);
+      expect_same_field(kept, fresh);
     }
-    const int filtered = kept.update(volume, look);
-    EXPECT_LT(filtered, static_cast<int>(kept.bricks().cells()));
-    DensityField fresh;
-    fresh.update(volume, look);
-    expect_same_field(kept, fresh);
+    EXPECT_EQ(kept.update(volume, look), 0) << "nothing changed";
   }
-  EXPECT_EQ(kept.update(volume, look), 0) << "nothing changed";
 }
 
 }  // namespace

@@ -111,8 +111,8 @@ TEST(Receives, TheLargestInflowFits) {
     for (const bool downhill : {false, true}) {
       law.neighbours = neighbours;
       law.downhill = downhill;
-      for (std::int32_t b = receiver_limit(neighbours); b <= kAmountMax; ++b) ASSERT_FALSE(receives(65535, 0, b, 0, law));
-      EXPECT_EQ(receives(100, 0, receiver_limit(neighbours) - 1, 0, law), !downhill);
+      for (std::int32_t b = receiver_limit(neighbours); b <= kAmountMax; ++b) ASSERT_FALSE(receives(65535, 0, b, 0, false, law));
+      EXPECT_EQ(receives(100, 0, receiver_limit(neighbours) - 1, 0, false, law), !downhill);
     }
 }
 
@@ -123,8 +123,8 @@ TEST(Receives, DownhillHasOneGiver) {
     for (const std::int32_t b : kAmounts)
       for (const std::int32_t margin : {0, 256, 65535}) {
         const std::int32_t fa = shared(a, 13107, kOne, false), fb = shared(b, 13107, kOne, false);
-        EXPECT_FALSE(receives(a, fa, b, margin, law) && receives(b, fb, a, margin, law));
-        if (receives(a, fa, b, margin, law)) { EXPECT_GT(a, b + fa); }
+        EXPECT_FALSE(receives(a, fa, b, margin, false, law) && receives(b, fb, a, margin, false, law));
+        if (receives(a, fa, b, margin, false, law)) { EXPECT_GT(a, b + fa); }
       }
 }
 

@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+"""Bad input: exit code 2 (3 for resources), one clear line with its place, nothing left behind.
+
+What the scene reader refuses in detail is tested in tests/kernel/scene/bad_input_test.cpp; here it is the
+program, end to end.
+"""
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from program import PROGRAM, SMALL, voxmelt, write
+
+CUBE = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1))
+
+
+def changed(old, new):
+    assert old in SMALL, old
+    return SMALL.replace(old, new)
+
+
+# name: (scene text, what the message must hold, exit code)
+SCENES = {
+    "malformed": ("[grid\nsize = 3", "scene.toml:1:", 2),
+    "unfinished string": ('title = "x\n' + SMALL, "scene.toml:", 2),
+    "twice the same key": (SMALL + "[grid]\nsize = [3, 3, 3]\n", "scene.toml:", 2),
+    "empty": ("", "grid.size is missing", 2),
+    "unknown key": (changed("gamma", "gama"), "did you mean heat.gamma?", 2),
+    "unknown table": (SMALL + "[weather]\nrain = 1\n", "weather", 2),
+    "wrong type": (changed("gamma = 0.15", 'gamma = "much"'), "heat.gamma", 2),
+    "text for a size": (changed("[12, 10, 12]", '"big"'), "grid.size", 2),
+    "two sizes": (changed("[12, 10, 12]", "[12, 10]"), "grid.size", 2),
+    "fractional size": (changed("[12, 10, 12]", "[12.5, 10, 12]"), "grid.size", 2),
+    "not a number": (changed("power = 30", "power = nan"), "heat_source.0.power", 2),
+    "infinite": (changed("at = [14, 12, 14]", "at = [inf, 12, 14]"), "heat_source.0.at", 2),
+    "negative size": (changed("[12, 10, 12]", "[12, -10, 12]"), "grid.size", 2),
+    "zero size": (changed("[12, 10, 12]", "[0, 10, 12]"), "grid.size", 2),
+    "enormous size": (changed("[12, 10, 12]", "[1000000000, 10, 12]"), "grid.size", 2),
+    "larger than memory": (changed("[12, 10, 12]", "[4096, 4096, 4096]"), "bytes", 3),
+    "gamma past its bound": (changed("0.15", "0.53"), "0.5236", 2),
+    "negative gamma": (changed("0.15", "-0.15"), "heat.gamma", 2),
+    "7 neighbours": (changed("gamma = 0.15", "gamma = 0.15\nneighbours = 7"), "heat.neighbours", 2),
+    "unknown law": (changed('"paper"', '"papre"'), "flow.law", 2),
+    "the other law's table": (SMALL + "[flow.viscous]\nkappa = 0.1\n", "flow.viscous", 2),
+    "share past its bound": (SMALL + "[flow.paper]\nshare = 0.3\n", "flow.paper.share", 2),
+    "unknown shape": (changed('"box"', '"bix"'), "solid.0.shape", 2),
+    "negative radius": (changed('shape = "box"\nsize = [4, 4, 4]', 'shape = "sphere"\nradius = -2'), "radius", 2),
+    "nothing can flow": (changed("[[solid]]", "[[inert]]").replace("temperature = 0.49\n", ""), "nothing can flow", 2),
+    "missing mesh": (changed('shape = "box"\nsize = [4, 4, 4]', 'shape = "mesh"\nfile = "no.obj"\nheight = 4'), "no.obj", 2),
+    "empty mesh": (changed('shape = "box"\nsize = [4, 4, 4]', 'shape = "mesh"\nfile = "empty.obj"\nheight = 4'), "empty.obj", 2),
+    "truncated mesh": (changed('shape = "box"\nsize = [4, 4, 4]', 'shape = "mesh"\nfile = "cut.obj"\nheight = 4'), "cut.obj", 2),
+    "mesh with a missing vertex": (changed('shape = "box"\nsize = [4, 4, 4]', 'shape = "mesh"\nfile = "far.obj"\nheight = 4'), "far.obj", 2),
+    "a folder for a mesh": (changed('shape = "box"\nsize = [4, 4, 4]', 'shape = "mesh"\nfile = "."\nheight = 4'), "scene.toml:9:8: error: cannot read .: it is a folder", 2),
+    "truncated height field": (SMALL + '[[inert]]\nshape = "heightfield"\nfile = "cut.asc"\nvertical_scale = 1\n', "cut.asc", 2),
+    "vent with a negative rate": (SMALL + "[[vent]]\nat = [6, 6, 6]\nradius = 1\nrate = -1\n", "vent.0.rate", 2),
+    "extends itself": ('extends = "scene.toml"\n' + SMALL, "scene.toml", 2),
+    "start from nowhere": (SMALL + '[start]\nfields = "nowhere"\n', "nowhere", 2),
+}
+
+FILES = {"empty.obj": "", "cut.obj": CUBE + "f 1 2", "far.obj": CUBE + "f 1 2 99\n",
+         "cut.asc": "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4\n1 2\n"}
+
+# arguments after the command: (arguments, what the message must hold, exit code)
+ARGUMENTS = [
+    (["run"], "scene", 2),
+    (["melt", "scene.toml"], "melt", 2),
+    ([], "subcommand", 2),
+    (["run", "nosuchscene"], "nosuchscene", 2),
+    (["run", "nosuch.toml"], "nosuch.toml", 2),
+    (["run", "."], "error", 2),
+    (["run", "scene.toml", "--set"], "--set", 2),
+    (["run", "scene.toml", "--set", ""], "--set", 2),
+    (["run", "scene.toml", "--set", "=1"], "--set", 2),
+    (["run", "scene.toml", "--set", "heat.gamma"], "--set", 2),
+    (["run", "scene.toml", "--set", "heat.gamma="], "--set", 2),
+    (["run", "scene.toml", "--set", "heat.gama=0.1"], "did you mean heat.gamma?", 2),
+    (["run", "scene.toml", "--set", "heat.gamma=0.7"], "--set heat.gamma=0.7: error: heat.gamma = 0.7 exceeds 0.5236", 2),
+    (["run", "scene.toml", "--set", "solid.7.radius=1"], "solid", 2),
+    (["run", "scene.toml", "--steps", "-1"], "--steps", 2),
+    (["run", "scene.toml", "--steps", "many"], "--steps", 2),
+    (["run", "scene.toml", "--steps", "99999999999"], "--steps", 2),
+    (["run", "scene.toml", "--size", "0x0"], "--size", 2),
+    (["run", "scene.toml", "--size", "64"], "--size", 2),
+    (["run", "scene.toml", "--implementation", "abacus"], "abacus", 2),
+    (["run", "scene.toml", "--threads", "0"], "--threads", 2),
+    (["run", "scene.toml", "--out", "file"], "file", 2),
+    (["run", "scene.toml", "--out", "/proc/voxmelt"], "/proc/voxmelt", 2),
+    (["digest", "scene.toml", "--report", "/nowhere/r.json", "--steps", "0"], "/nowhere/r.json", 2),
+    (["export", "scene.toml"], "--out", 2),
+    (["export", "scene.toml", "--out", "x", "--format", "stl"], "--format", 2),
+    (["render", "scene.toml", "--out", "/nowhere/p.png"], "/nowhere/p.png", 2),
+    (["render", "scene.toml", "--setting", "ultra"], "--setting", 2),
+    (["list", "sins"], "sins", 2),
+]
+
+
+class BadInput(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        for name, text in {**FILES, "file": "a file\n"}.items():
+            write(self.folder, text, name)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def refused(self, arguments, fragment, code):
+        before = sorted(p.name for p in self.folder.iterdir())
+        result = voxmelt(*arguments, cwd=self.folder, timeout=60)
+        said = result.stderr + result.stdout
+        self.assertEqual(result.returncode, code, said)
+        self.assertIn(fragment, said)
+        self.assertLessEqual(len(said.strip().splitlines()), 3, said)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), before, "left something behind")
+
+    def test_scenes(self):
+        self.assertGreaterEqual(len(SCENES), 30)
+        for name, (text, fragment, code) in SCENES.items():
+            with self.subTest(name):
+                write(self.folder, text)
+                self.refused(["run", "scene.toml"], fragment, code)
+
+    def test_arguments(self):
+        write(self.folder, SMALL)
+        for arguments, fragment, code in ARGUMENTS:
+            with self.subTest(" ".join(arguments)):
+                self.refused(arguments, fragment, code)
+
+    def test_the_scene_is_good_otherwise(self):
+        write(self.folder, SMALL)
+        self.assertEqual(voxmelt("digest", "scene.toml", "--steps", "1", cwd=self.folder).returncode, 0)
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
+    def test_a_full_disk_is_said(self):
+        write(self.folder, SMALL)
+        result = voxmelt("digest", "scene.toml", "--steps", "0", "--report", "/dev/full", cwd=self.folder)
+        self.assertIn(result.returncode, (2, 3), result.stderr)
+        limited = f"ulimit -f 1; trap '' XFSZ; exec '{PROGRAM}' export scene.toml --out big --set 'grid.size=[64,64,64]'"
+        result = subprocess.run(["bash", "-c", limited], cwd=self.folder, capture_output=True, text=True)
+        self.assertIn(result.returncode, (2, 3), result.stderr)
+        self.assertIn("cannot write", result.stderr)
+        self.assertFalse((self.folder / "big").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["bad_input_test"], verbosity=1)

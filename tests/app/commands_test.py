@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""What the README and --help promise of each command, on a small scene."""
+import json
+import os
+import re
+import signal
+import struct
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from program import PROGRAM, SMALL, voxmelt, write
+
+LINE = re.compile(r"^step (\d+) digest ([0-9a-f]{16}) mass (\d+) solid (\d+) liquid (\d+)$")
+
+
+class Commands(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        self.scene = write(self.folder, SMALL)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def good(self, *arguments):
+        result = voxmelt(*arguments, cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def test_run_writes_frames_sheet_and_report(self):
+        self.good("run", self.scene)
+        out = self.folder / "out/scene"
+        self.assertEqual(sorted(p.name for p in (out / "frames").iterdir()),
+                         ["frame_00000.png", "frame_00001.png", "frame_00002.png"])
+        for picture in [out / "contact_sheet.png", *(out / "frames").iterdir()]:
+            data = picture.read_bytes()
+            self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(struct.unpack(">II", (out / "frames/frame_00000.png").read_bytes()[16:24]), (64, 48))
+        report = json.loads((out / "report.json").read_text())
+        for key in ("scene", "seed", "steps", "digest", "implementation", "threads"):
+            self.assertIn(key, report)
+        self.assertEqual(set(report["mass"]) & {"solid", "liquid", "added", "removed", "drift"},
+                         {"solid", "liquid", "added", "removed", "drift"})
+        self.assertEqual((report["mass"]["drift"], report["energy"]["drift"], report["heat"]["drift"]), (0, 0, 0))
+        self.assertLessEqual({"solid", "liquid", "inert", "detached"}, set(report["cells"]))
+        self.assertLessEqual({"source", "heat", "melt", "gravity", "spread", "excess", "visibility", "update", "render",
+                              "total"}, set(report["seconds"]))
+        self.assertGreater(report["memory"]["peak_bytes"], 0)
+        self.assertGreater(report["mass"]["liquid"], 0, "nothing melted: the test would prove nothing")
+        self.assertEqual([p.name for p in (self.folder / "out").iterdir()], ["scene"], "no partial folder is left")
+
+    def test_the_report_repeats_the_run(self):
+        self.good("run", self.scene, "--set", "heat.gamma=0.1", "--seed", "7", "--report", "r.json")
+        report = json.loads((self.folder / "r.json").read_text())
+        arguments = [a for s in report["set"] for a in ("--set", s)]
+        line = self.good("digest", self.scene, "--steps", report["steps"], "--seed", report["seed"], *arguments)
+        self.assertEqual(LINE.match(line.strip()).group(2), report["digest"])
+
+    def test_run_replaces_only_its_own_folder(self):
+        self.good("run", self.scene, "--out", "mine", "--steps", "0")
+        self.good("run", self.scene, "--out", "mine", "--steps", "1")
+        self.assertEqual(json.loads((self.folder / "mine/report.json").read_text())["steps"], 1)
+        (self.folder / "yours").mkdir()
+        (self.folder / "yours/letter.txt").write_text("dear")
+        result = voxmelt("run", self.scene, "--out", "yours", cwd=self.folder)
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual([p.name for p in (self.folder / "yours").iterdir()], ["letter.txt"])
+
+    def test_digest_lines(self):
+        lines = self.good("digest", self.scene, "--steps", "5", "--every", "2").splitlines()
+        self.assertEqual([int(LINE.match(line).group(1)) for line in lines], [0, 2, 4, 5])
+        self.assertEqual(len({LINE.match(line).group(3) for line in lines}), 1, "mass is conserved")
+        self.assertGreater(len({LINE.match(line).group(2) for line in lines}), 1)
+        self.assertEqual(self.good("digest", self.scene, "--steps", "5"), lines[-1] + "\n")
+
+    def test_the_seed_matters_where_randomness_is_used(self):
+        at = ["--steps", "40", "--set", "solid.0.temperature=0.6"]
+        one = self.good("digest", self.scene, "--seed", "1", *at)
+        two = self.good("digest", self.scene, "--seed", "2", *at)
+        self.assertNotEqual(one, two)
+        law = ["--set", "flow={law = \"viscous\", viscous = {kappa = 0.1}}"]
+        self.assertEqual(self.good("digest", self.scene, "--seed", "1", *at, *law),
+                         self.good("digest", self.scene, "--seed", "2", *at, *law))
+
+    def test_export_and_start_from_it(self):
+        self.good("export", self.scene, "--steps", "4", "--out", "at4")
+        names = {p.name for p in (self.folder / "at4").iterdir()} - {".voxmelt-output"}
+        fields = {f"{f}.npy" for f in ("solid", "liquid", "inert", "amount", "energy", "temperature")}
+        self.assertEqual(names, fields | {"parameters.json"})
+        amount = (self.folder / "at4/amount.npy").read_bytes()
+        self.assertEqual(amount[:6], b"\x93NUMPY")
+        self.assertIn(b"'<u2'", amount[:128])
+        self.assertIn(b"(12, 10, 12)", amount[:128])
+        self.assertEqual(len(amount) % 64, (2 * 12 * 10 * 12) % 64)
+        write(self.folder, SMALL + '[start]\nfields = "at4"\n', "again.toml")
+        start = self.good("digest", "again.toml", "--steps", "0").split()[3]
+        there = self.good("digest", self.scene, "--steps", "4").split()[3]
+        self.assertEqual(start, there)
+
+    def test_export_vti_is_one_vtk_image(self):
+        self.good("export", self.scene, "--steps", "2", "--out", "v", "--format", "vti")
+        data = (self.folder / "v/volume.vti").read_bytes()
+        self.assertIn(b'WholeExtent="0 12 0 10 0 12"', data)
+        head, _, tail = data.partition(b'<AppendedData encoding="raw">\n_')
+        sizes, at = [], 0
+        for offset in re.findall(rb'offset="(\d+)"', head):
+            self.assertEqual(int(offset), at)
+            sizes.append(struct.unpack("<Q", tail[at:at + 8])[0])
+            at += 8 + sizes[-1]
+        cells = 12 * 10 * 12
+        self.assertEqual(sizes, [cells] * 3 + [2 * cells] * 3)
+
+    def test_render_one_picture_and_a_turntable(self):
+        self.good("render", self.scene, "--steps", "1", "--out", "p.png", "--size", "80x60", "--setting", "fast")
+        self.assertEqual(struct.unpack(">II", (self.folder / "p.png").read_bytes()[16:24]), (80, 60))
+        self.good("render", self.scene, "--turntable", "3", "--out", "t", "--setting", "fast")
+        pictures = [p.read_bytes() for p in sorted((self.folder / "t").glob("*.png"))]
+        self.assertEqual(len(pictures), 3)
+        self.assertEqual(len(set(pictures)), 3)
+
+    def test_pictures_do_not_depend_on_threads(self):
+        for n in (1, 3):
+            self.good("render", self.scene, "--steps", "3", "--out", f"{n}.png", "--threads", str(n))
+        self.assertEqual((self.folder / "1.png").read_bytes(), (self.folder / "3.png").read_bytes())
+
+    def test_lists_help_and_version(self):
+        self.assertIn("reference", self.good("list", "implementations"))
+        self.assertIn("slump", self.good("list", "features"))
+        scenes = voxmelt("list", "scenes")
+        for name in ("cello", "goblet", "lava", "bunny", "paper_literal"):
+            self.assertRegex(scenes.stdout, rf"(?m)^{name} +\S")
+        self.assertIn("compiler:", self.good("--version"))
+        for command in ([], ["run"], ["digest"], ["export"], ["render"], ["list"]):
+            text = self.good(*command, "--help")
+            self.assertIn("--", text)
+        self.assertIn("voxmelt run cello", self.good("--help"))
+
+    def test_an_interrupted_run_keeps_what_it_made(self):
+        process = subprocess.Popen([PROGRAM, "run", self.scene, "--steps", "4000000", "--quiet", "--frame-every", "0"],
+                                   cwd=self.folder)
+        for _ in range(100):
+            time.sleep(0.1)
+            if list(self.folder.glob("out/*/frames/*.png")):
+                break
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), 0)
+        report = json.loads((self.folder / "out/scene/report.json").read_text())
+        self.assertLess(report["steps"], 4000000)
+        self.assertEqual(report["mass"]["drift"], 0)
+
+    def test_a_killed_run_leaves_no_finished_looking_folder(self):
+        process = subprocess.Popen([PROGRAM, "run", self.scene, "--steps", "4000000", "--quiet"], cwd=self.folder)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGKILL)
+        process.wait(60)
+        self.assertFalse((self.folder / "out/scene").exists())
+        self.good("run", self.scene, "--steps", "1")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["commands_test"], verbosity=1)

@@ -1,0 +1,28 @@
+#!/usr/bin/env python3
+"""g++ and clang++, unoptimised and optimised, give the approved digests of the small and the paper's scenes.
+
+  compilers_test.py ROOT     builds the program four times in build/compilers/
+"""
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+root = Path(sys.argv[1])
+approved = json.loads((root / "tests/app/digests.json").read_text())
+problems, compared = [], 0
+for compiler in ("g++", "clang++"):
+    for level in ("-O0", "-O3"):
+        build = root / "build" / "compilers" / f"{compiler}{level}"
+        subprocess.run(["cmake", "-S", root, "-B", build, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={compiler}",
+                        "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_FLAGS={level}", "-DVOXMELT_TESTS=OFF"],
+                       check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "--build", build], check=True, stdout=subprocess.DEVNULL)
+        for scene, lines in approved.items():
+            result = subprocess.run([build / "app/voxmelt", "digest", scene, "--steps", "10", "--quiet"], cwd=root,
+                                    check=True, capture_output=True, text=True).stdout.strip()
+            compared += 1
+            if result != lines["10"]:
+                problems.append(f"{compiler} {level} {scene}: {result}, approved {lines['10']}")
+print("\n".join(problems) if problems else f"{compared} digests agree over four builds")
+sys.exit(1 if problems or compared == 0 else 0)

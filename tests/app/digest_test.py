@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""The reference and the oracle agree on every committed scene, and on the digests written down in digests.json.
+
+  digest_test.py VOXMELT ORACLE STEPS...            check
+  digest_test.py VOXMELT ORACLE STEPS... --approve  write digests.json, only where both agree
+"""
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+APPROVED = Path(__file__).with_name("digests.json")
+
+
+def output(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+
+
+def main():
+    arguments = [a for a in sys.argv[1:] if a != "--approve"]
+    voxmelt, oracle, steps = arguments[0], arguments[1], [int(a) for a in arguments[2:]]
+    scenes = sorted(p.stem for p in Path("scenes").glob("*.toml"))
+    approved = json.loads(APPROVED.read_text()) if APPROVED.exists() else {}
+    problems, compared, found = [], 0, {}
+    for scene in scenes:
+        with tempfile.TemporaryDirectory() as folder:
+            start = f"{folder}/start"
+            output(voxmelt, "export", scene, "--steps", "0", "--out", start, "--quiet")
+            for n in steps:
+                mine = output(voxmelt, "digest", scene, "--steps", str(n), "--quiet")
+                judge = output(oracle, start, "--steps", str(n))
+                compared += 1
+                if mine != judge:
+                    problems.append(f"{scene}, {n} steps:\n  voxmelt {mine}\n  oracle  {judge}")
+                    continue
+                found.setdefault(scene, {})[str(n)] = mine
+                known = approved.get(scene, {}).get(str(n))
+                if known != mine and "--approve" not in sys.argv:
+                    problems.append(f"{scene}, {n} steps: both agree on\n  {mine}\n  but approved is\n  {known}")
+    if compared < 2 * len(steps) or not scenes:
+        problems.append(f"only {compared} comparisons: is scenes/ empty?")
+    if "--approve" in sys.argv:
+        for scene, lines in found.items():
+            approved.setdefault(scene, {}).update(lines)
+        approved = {scene: approved[scene] for scene in scenes if scene in approved}
+        APPROVED.write_text(json.dumps(approved, indent=1, sort_keys=True) + "\n")
+    print("\n".join(problems) if problems else f"{compared} digests agree")
+    sys.exit(1 if problems else 0)
+
+
+main()

@@ -1,0 +1,172 @@
+// What went wrong in prototypes of the viscous law, each with its number.
+#include <gtest/gtest.h>
+
+#include "tests/kernel/measure.h"
+
+namespace voxmelt::scalar {
+namespace {
+
+using namespace worlds;
+using step::Phase;
+
+// Measured: at rest after 3150 steps at 11.48 and 11.46 of 12; the tunnel holds the missing half cells.
+TEST(UTube, Levels) {
+  run::Simulation s = simulate(viscous(0.02, 0.002), u_tube());
+  steps(s, 3300);
+  const Heights h = heights(s.volume());
+  EXPECT_NEAR(h(2, 2), h(8, 2), 0.1);
+  for (const int x : {1, 2, 3, 7, 8, 9}) EXPECT_NEAR(h(x, 2), 12, 1.2) << "volume error of the column";
+  EXPECT_EQ(moving_steps(s, 100), 0);
+  RecordProperty("levels", std::to_string(h(2, 2)) + " " + std::to_string(h(8, 2)));
+}
+
+// Truncation froze films (their radius lagged by 16 to 22 %). Measured growth 1.08 per doubling of time, where
+// t^(1/8) gives 1.09.
+TEST(Film, GoesOnSpreading) {
+  Volume v(Grid{49, 3, 49});
+  put_disc(v, 8, 0.5);
+  run::Simulation s = simulate(viscous(2), v);
+  std::vector<double> radius;
+  for (const int n : {500, 500, 1000}) {
+    steps(s, n);
+    radius.push_back(spread_of(heights(s.volume())).radius);
+  }
+  EXPECT_GT(radius[1], 1.06 * radius[0]);
+  EXPECT_GT(radius[2], 1.06 * radius[1]);
+}
+
+// Measured, with a yield stress: rest, radius 7.09, |a4 - 1| 1.9 % (three-figure films of 0.5 cells).
+TEST(Film, ComesToRestWithYield) {
+  Volume v(Grid{41, 3, 41});
+  put_disc(v, 8, 0.5);
+  run::Simulation s = simulate(viscous(2, 0.01), v);
+  steps(s, 5000);
+  EXPECT_EQ(moving_steps(s, 200), 0);
+  const Spread spread = spread_of(heights(s.volume()));
+  EXPECT_LE(spread.anisotropy, 0.03);
+  EXPECT_GT(spread.radius, 6.5);
+}
+
+// The dead zone: heads that differ by one unit do not flow, so a level pool has exactly no flow.
+TEST(Pool, LevelToOneHeadUnitDoesNotMove) {
+  for (const int depth : {1, 2, 5})
+    for (const int part : {100, 2000, 4000}) {
+      Volume v(Grid{12, 8, 11});
+      Random random(6);
+      fill(v, {0, 0, 0, 12, depth, 11}, kOne);
+      for_each({0, depth, 0, 12, depth + 1, 11}, [&](int x, int y, int z) { put(v, x, y, z, part + random.below(16)); });
+      run::Simulation s = simulate(viscous(100), v);
+      steps(s, 300);
+      EXPECT_EQ(s.volume().amount, v.amount);
+    }
+}
+
+TEST(Pool, CheckerboardGoesFlat) {
+  Volume v(Grid{20, 8, 20});
+  fill(v, {0, 0, 0, 20, 3, 20}, kOne);
+  for_each({0, 3, 0, 20, 4, 20}, [&](int x, int, int z) {
+    put(v, x, 3, z, (x + z) % 2 ? kOne : 1000);
+    put(v, x, 4, z, (x + z) % 2 ? 500 : 0);
+  });
+  run::Simulation s = simulate(viscous(0.02), v);
+  steps(s, 1500);
+  EXPECT_EQ(moving_steps(s, 100), 0);
+  EXPECT_LE(roughness(heights(s.volume())), 0.005);
+}
+
+// A block in free air falls one cell per step, whole: no smear, under both laws.
+TEST(Fall, OneCellPerStepWithoutSmear) {
+  for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
+    Parameters p = law == rule::Law::paper ? paper_showcase() : viscous(0.02);
+    p.flow.paper.slump = 0;
+    Volume v(Grid{9, 30, 9});
+    Random random(8);
+    for_each({3, 24, 3, 6, 29, 6}, [&](int x, int y, int z) { put(v, x, y, z, random.between(1, kOne)); });
+    run::Simulation s = simulate(p, v);
+    for (int fallen = 1; fallen <= 24; ++fallen) {
+      s.step();
+      Volume expected(v.grid);
+      for_each({3, 24, 3, 6, 29, 6}, [&](int x, int y, int z) { put(expected, x, y - fallen, z, v.amount[v.grid.index(x, y, z)]); });
+      ASSERT_EQ(s.volume().amount, expected.amount) << "after " << fallen << " steps";
+    }
+  }
+}
+
+// Liquid falling on a pool's film is not its height: the pool below it does not move yet.
+TEST(Fall, AStreamDoesNotRaiseTheHead) {
+  Volume v(Grid{11, 30, 11});
+  fill(v, {0, 0, 0, 11, 1, 11}, kOne);
+  fill(v, {0, 1, 0, 11, 2, 11}, 800);
+  fill(v, {5, 2, 5, 6, 28, 6}, kOne);  // directly above
+  run::Simulation s = simulate(viscous(10), v);
+  s.begin_step();
+  for (const Phase phase : {Phase::source, Phase::heat, Phase::melt, Phase::excess, Phase::spread}) s.run_phase(phase);
+  EXPECT_EQ(s.volume().amount, v.amount);
+}
+
+// What falls fills a cell to ONE and no more, and cells in the air take no more sideways either.
+TEST(Fall, CellsInTheAirHoldAtMostOne) {
+  Parameters p = viscous(0.1, 0.002);
+  p.flow.fall.wall_factor = 8192;
+  p.vents = {{{{16 * 8, 16 * 16, 16 * 8}, 30}, 3000, 0, 0, 0, 300}};
+  Volume v(Grid{16, 20, 16});
+  fill_inert(v, {3, 8, 3, 11, 9, 11});  // a table to flow over
+  fill_inert(v, {0, 0, 0, 3, 4, 16});
+  run::Simulation s = simulate(p, v);
+  for (int i = 0; i < 400; ++i) {
+    Volume before(v.grid);
+    step_by_phase(s, [&](Phase phase) {
+      const Volume& now = s.volume();
+      if (phase == Phase::gravity || phase == Phase::spread)
+        for_each({0, 1, 0, 16, 20, 16}, [&](int x, int y, int z) {
+          const bool air_below = !before.inert.test(x, y - 1, z) && before.amount[now.grid.index(x, y - 1, z)] == 0;
+          if (air_below && before.amount[now.grid.index(x, y, z)] <= kOne) {
+            ASSERT_LE(now.amount[now.grid.index(x, y, z)], kOne) << x << ' ' << y << ' ' << z << " step " << i;
+          }
+        });
+      before = now;
+    });
+  }
+  EXPECT_TRUE(s.drift().none());
+}
+
+// A funnel of one cell: all but films comes through, and the rest of the plate keeps none above a head unit.
+TEST(Funnel, OfOneCellEmpties) {
+  Volume v(Grid{9, 14, 9});
+  fill_inert(v, {0, 6, 0, 9, 7, 9});
+  v.inert.set(4, 6, 4, false);
+  put(v, 4, 6, 4, 0);
+  fill(v, {0, 7, 0, 9, 10, 9}, kOne);
+  run::Simulation s = simulate(viscous(0.5), v);
+  const auto above = [&] {
+    std::int64_t sum = 0;
+    for_each({0, 7, 0, 9, 14, 9}, [&](int x, int y, int z) { sum += amount_at(s, x, y, z); });
+    return static_cast<double>(sum) / kOne;
+  };
+  EXPECT_EQ(above(), 243);
+  steps(s, 200);
+  EXPECT_LT(above(), 200) << "it flows";
+  steps(s, 2800);
+  EXPECT_LT(above(), 30);
+  EXPECT_TRUE(s.drift().none());
+  RecordProperty("left", std::to_string(above()));
+}
+
+// Measured 1.06 (drop) and 1.1 (pour): outside closed conduits nothing is squeezed.
+TEST(OverFilling, StaysUnderFiveQuarters) {
+  Volume v(Grid{41, 16, 41});
+  put_ball(v, 6, false, 2);
+  Parameters p = viscous(0.05, 0.002);
+  p.vents = {{{{16 * 8, 16 * 12, 16 * 8}, 24}, 2000, 0, 0, 0, 200}};
+  run::Simulation s = simulate(p, v);
+  std::int32_t largest = 0;
+  for (int i = 0; i < 300; ++i)
+    step_by_phase(s, [&](Phase phase) {
+      if (phase != Phase::source) largest = std::max(largest, largest_amount(s.volume()));
+    });
+  EXPECT_LE(largest / 4096.0, 1.25);
+  RecordProperty("largest", std::to_string(largest / 4096.0));
+}
+
+}  // namespace
+}  // namespace voxmelt::scalar
