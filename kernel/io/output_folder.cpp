@@ -69,15 +69,18 @@ void OutputFolder::commit() {
 }
 
 void write_file(const fs::path& place, const std::string& bytes) {
-  const fs::path partial = beside(place);
+  // A device or a pipe (/dev/stdout) is written as it is; a file is replaced whole.
+  std::error_code ignored;
+  const bool replace = !fs::exists(place, ignored) || fs::is_regular_file(place, ignored);
+  const fs::path partial = replace ? fs::path(beside(place)) : place;
   std::FILE* file = std::fopen(partial.c_str(), "wb");
   if (file == nullptr) fail(place, "cannot write", errno);
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
   int error = written ? 0 : errno;
   if (std::fclose(file) != 0 && error == 0) error = errno;
-  if (error == 0 && std::rename(partial.c_str(), place.c_str()) != 0) error = errno;
+  if (error == 0 && replace && std::rename(partial.c_str(), place.c_str()) != 0) error = errno;
   if (error == 0) return;
-  std::remove(partial.c_str());
+  if (replace) std::remove(partial.c_str());
   fail(place, "cannot write", error);
 }
 

@@ -36,7 +36,7 @@ class OutputFolder {
   bool committed_ = false;
 };
 
-// Writes a file beside its place and renames it.
+// Writes a file beside its place and renames it; a device or pipe is written directly.
 void write_file(const std::filesystem::path& place, const std::string& bytes);
 
 }  // namespace voxmelt::io

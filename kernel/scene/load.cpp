@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "kernel/scene/compose.h"
 #include "kernel/scene/contents.h"
 #include "kernel/scene/features.h"
@@ -89,6 +91,11 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
     fail_at(document.place, "nothing can flow: a scene needs a [[solid]], a [[liquid]] or a [[vent]]");
 
   scene.initial = start ? read_fields(fields, grid, start->place("fields")) : voxelise(contents, grid, scene.warnings);
+  // What the scene does not model is not there: no energy under the viscous law, no heat without [heat].
+  if (scene.parameters.flow.law == rule::Law::viscous)
+    std::fill(scene.initial.energy.begin(), scene.initial.energy.end(), std::uint16_t{0});
+  if (!scene.parameters.heat.enabled)
+    std::fill(scene.initial.temperature.begin(), scene.initial.temperature.end(), std::uint16_t{0});
   scene.terrain = std::move(contents.terrain);
   return scene;
 }

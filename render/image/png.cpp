@@ -27,6 +27,9 @@ using File = std::unique_ptr<std::FILE, Close>;
 }  // namespace
 
 void write_png(const std::filesystem::path& file, const Image& image) {
+  std::error_code unknown;
+  if (std::filesystem::exists(file, unknown) && !std::filesystem::is_regular_file(file, unknown))
+    fail(file, "is not a file that a picture could replace");
   std::filesystem::path beside = file;
   beside += ".part";
   File stream(std::fopen(beside.c_str(), "wb"));

@@ -16,7 +16,7 @@ Int ready_to_fall(const State& state, const Cell& q, Place at, bool p_is_air) {
 
 // The receiver's new heat; called before the amounts change.
 void mix_heat(State& state, Cell& receiver, const Cell& giver, Int f) {
-  if (!state.parameters.heat.enabled || f == 0) return;
+  if (!state.parameters.heat.enabled) return;
   const Int products = receiver.amount * receiver.heat + f * giver.heat;
   const Int amount = receiver.amount + f;
   receiver.heat = mixed(products, amount, state.offset);
@@ -26,6 +26,7 @@ void mix_heat(State& state, Cell& receiver, const Cell& giver, Int f) {
 void move_down(State& state, Cell& p, Cell& q, Int f) {
   const PaperFlow& paper = state.parameters.paper;
   EnergyLedger& ledger = state.ledgers.energy;
+  if (f == 0) return;
   mix_heat(state, p, q, f);
   if (state.parameters.paper_law) {
     const Int m = smaller(q.energy, f);
@@ -46,6 +47,7 @@ void move_down(State& state, Cell& p, Cell& q, Int f) {
 
 void move_up(State& state, Cell& p, Cell& q) {
   const Int f = smaller(p.amount - ONE, AMAX - q.amount);
+  if (f == 0) return;
   const Int energy = smaller(p.energy, f);
   mix_heat(state, q, p, f);
   p.energy -= energy;

@@ -155,7 +155,7 @@ PaperFlow read_paper(const Json& json) {
 }
 
 std::uint64_t read_seed(const Json& json) {
-  require(json.is_number_integer(), "seed is not an integer");
+  require(json.is_number_unsigned(), "seed is not a number from 0");
   return json.get<std::uint64_t>();
 }
 

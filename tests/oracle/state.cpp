@@ -78,6 +78,8 @@ void check_cell(const State& state, Int i, const char* when) {
     wrong = "temperature outside 0..65535";
   else if (cell.energy < 0 || cell.energy > cell.amount)
     wrong = "energy outside 0..amount";
+  else if (cell.solid == 1 && cell.amount == 0)
+    wrong = "a solid without amount";
   else if (cell.solid == 1 && cell.energy != 0)
     wrong = "energy in a solid";
   else if (!matter && (cell.energy != 0 || cell.heat != 0))

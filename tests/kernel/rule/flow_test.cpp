@@ -121,11 +121,13 @@ TEST(Receives, DownhillHasOneGiver) {
   PaperLaw law;
   for (const std::int32_t a : kAmounts)
     for (const std::int32_t b : kAmounts)
-      for (const std::int32_t margin : {0, 256, 65535}) {
-        const std::int32_t fa = shared(a, 13107, kOne, false), fb = shared(b, 13107, kOne, false);
-        EXPECT_FALSE(receives(a, fa, b, margin, false, law) && receives(b, fb, a, margin, false, law));
-        if (receives(a, fa, b, margin, false, law)) { EXPECT_GT(a, b + fa); }
-      }
+      for (const std::int32_t margin : {0, 256, 65535})
+        for (const bool diagonal : {false, true}) {
+          const std::int32_t fa = shared(a, 13107, kOne, false), fb = shared(b, 13107, kOne, false);
+          const bool down = receives(a, fa, b, margin, diagonal, law);
+          EXPECT_FALSE(down && receives(b, fb, a, margin, diagonal, law));
+          if (down) { EXPECT_GT(a, b + std::max(fa, margin)); }
+        }
 }
 
 TEST(Margin, EnergeticStarvedAndResting) {

@@ -35,7 +35,7 @@ TEST(Film, GoesOnSpreading) {
   EXPECT_GT(radius[2], 1.06 * radius[1]);
 }
 
-// Measured, with a yield stress: rest, radius 7.09, |a4 - 1| 1.9 % (three-figure films of 0.5 cells).
+// Measured, with a yield stress: rest, radius 7.09, |a4 - 1| 1.9 % (a film of 0.5 cells).
 TEST(Film, ComesToRestWithYield) {
   Volume v(Grid{41, 3, 41});
   put_disc(v, 8, 0.5);
@@ -130,7 +130,7 @@ TEST(Fall, CellsInTheAirHoldAtMostOne) {
   EXPECT_TRUE(s.drift().none());
 }
 
-// A funnel of one cell: all but films comes through, and the rest of the plate keeps none above a head unit.
+// A funnel of one cell empties a basin of 243 cells but for a film. Measured: 27 left after 3000 steps.
 TEST(Funnel, OfOneCellEmpties) {
   Volume v(Grid{9, 14, 9});
   fill_inert(v, {0, 6, 0, 9, 7, 9});
@@ -147,17 +147,18 @@ TEST(Funnel, OfOneCellEmpties) {
   steps(s, 200);
   EXPECT_LT(above(), 200) << "it flows";
   steps(s, 2800);
-  EXPECT_LT(above(), 30);
+  EXPECT_LT(above(), 40);
   EXPECT_TRUE(s.drift().none());
   RecordProperty("left", std::to_string(above()));
 }
 
-// Measured 1.06 (drop) and 1.1 (pour): outside closed conduits nothing is squeezed.
+// Measured 1.05, a drop and a pour: outside closed conduits nothing is squeezed. (A vent three cells high must bring
+// less than a cell per step in all, or its own cells fill up: no column falls faster.)
 TEST(OverFilling, StaysUnderFiveQuarters) {
   Volume v(Grid{41, 16, 41});
   put_ball(v, 6, false, 2);
   Parameters p = viscous(0.05, 0.002);
-  p.vents = {{{{16 * 8, 16 * 12, 16 * 8}, 24}, 2000, 0, 0, 0, 200}};
+  p.vents = {{{{16 * 8, 16 * 12, 16 * 8}, 24}, 1000, 0, 0, 0, 200}};
   run::Simulation s = simulate(p, v);
   std::int32_t largest = 0;
   for (int i = 0; i < 300; ++i)
