@@ -83,6 +83,12 @@ TEST_F(Export, VtiHoldsTheSameBytes) {
   EXPECT_EQ(vti.substr(start + 3 * 20 + 8 + 2, 2), "\x34\x12");
 }
 
+bool names(const std::string& json, const std::string& key) {
+  for (std::size_t at = json.find(key + "\":"); at != std::string::npos; at = json.find(key + "\":", at + 1))
+    if (json[at - 1] == '"') return true;
+  return false;
+}
+
 TEST(ParametersJson, NamesEverythingOfSection14) {
   Parameters p = paper_showcase();
   p.seed = ~std::uint64_t{0};
@@ -97,7 +103,7 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
                           "minimum", "hang", "paper", "threshold", "use_table", "table", "share", "downhill", "margin", "support",
                           "slump", "beta", "alpha_liquid", "alpha_solid", "alpha_floor", "reheat", "viscous", "mobility",
                           "yield", "stiffness", "thermal_viscosity", "mobility_table"})
-    EXPECT_NE(json.find("\"" + std::string(key) + "\":"), std::string::npos) << key;
+    EXPECT_TRUE(names(json, key)) << key;
   for (const char* value : {"\"seed\": 18446744073709551615", "\"step\": 17", "\"power\": 1125899906842623", "\"law\": \"paper\""})
     EXPECT_NE(json.find(value), std::string::npos) << value;
 }
