@@ -20,8 +20,9 @@ struct DigestOptions {
 void print_line(const run::Simulation& simulation) {
   const state::Volume& volume = simulation.volume();
   const state::Holdings held = state::holdings(volume);
-  fmt::print("step {} digest {:016x} mass {} solid {} liquid {}\n", simulation.steps_done(), state::digest(volume),
-             state::to_string(held.solid + held.liquid), volume.solid.count(), volume.liquid.count());
+  fmt::print("step {} digest {:016x} mass {} solid {} liquid {}\n", simulation.steps_done(),
+             state::digest(volume), state::to_string(held.solid + held.liquid), volume.solid.count(),
+             volume.liquid.count());
   std::fflush(stdout);
 }
 
@@ -47,7 +48,8 @@ int run_digest(const DigestOptions& options) {
 
 void add_digest(CLI::App& program, Chosen& chosen) {
   auto options = std::make_shared<DigestOptions>();
-  CLI::App* command = program.add_subcommand("digest", "Print the digest of the state: equal lines mean equal bits");
+  CLI::App* command =
+      program.add_subcommand("digest", "Print the digest of the state: equal lines mean equal bits");
   add_scene(*command, options->common);
   command->add_option("--steps", options->steps, "steps to run")->capture_default_str();
   command->add_option("--every", options->every, "also a line at step 0 and after every K steps");

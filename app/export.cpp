@@ -35,7 +35,8 @@ int run_export(const ExportOptions& options) {
     io::write_file(options.common.report, report_json(scene, options.common, simulation, {}));
   out.commit();
   if (!options.common.quiet)
-    fmt::print("step {} written to {}\n", simulation.steps_done(), std::filesystem::proximate(out.place()).string());
+    fmt::print("step {} written to {}\n", simulation.steps_done(),
+               std::filesystem::proximate(out.place()).string());
   return kDone;
 }
 
@@ -43,8 +44,8 @@ int run_export(const ExportOptions& options) {
 
 void add_export(CLI::App& program, Chosen& chosen) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command =
-      program.add_subcommand("export", "Write the state after N steps (one file per field) and parameters.json");
+  CLI::App* command = program.add_subcommand(
+      "export", "Write the state after N steps (one file per field) and parameters.json");
   add_scene(*command, options->common);
   command->add_option("--steps", options->steps, "steps to run first")->capture_default_str();
   command->add_option("--out", options->out, "folder to write")->required();

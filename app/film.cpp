@@ -41,8 +41,8 @@ void set_size(scene::Camera& camera, const std::string& size) {
   const auto width = std::from_chars(size.data(), end, camera.width);
   const bool separated = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
   const auto height = separated ? std::from_chars(width.ptr + 1, end, camera.height) : width;
-  if (!separated || height.ec != std::errc() || height.ptr != end || camera.width < 16 || camera.height < 16 ||
-      camera.width > 8192 || camera.height > 8192)
+  if (!separated || height.ec != std::errc() || height.ptr != end || camera.width < 16 ||
+      camera.height < 16 || camera.width > 8192 || camera.height > 8192)
     throw UsageError(fmt::format("--size {}: error: want WIDTHxHEIGHT, each 16 to 8192", size));
 }
 
@@ -53,7 +53,7 @@ Film::Film(const scene::Scene& scene, std::filesystem::path folder, int threads)
 
 void Film::add_frame(const state::Volume& volume, std::uint32_t step) {
   const auto begin = std::chrono::steady_clock::now();
-  field_.update(volume, scene_.look);
+  field_.update(volume, scene_.look, scene_.terrain);
   update_seconds_ += seconds_since(begin);
 
   const auto drawing = std::chrono::steady_clock::now();

@@ -41,7 +41,8 @@ int list_features() {
 
 void add_list(CLI::App& program, Chosen& chosen) {
   auto what = std::make_shared<std::string>();
-  CLI::App* command = program.add_subcommand("list", "Name the implementations, scenes or features of this build");
+  CLI::App* command =
+      program.add_subcommand("list", "Name the implementations, scenes or features of this build");
   command->add_option("what", *what, "implementations, scenes or features")
       ->required()
       ->check(CLI::IsMember({"implementations", "scenes", "features"}));

@@ -21,19 +21,22 @@ fs::path find_scene(const std::string& given) {
     if (fs::exists(candidate, ignored)) return candidate;
   }
   throw UsageError(fmt::format(
-      "error: no scene file and no scene named '{}'; `voxmelt list scenes` names those that came with it", given));
+      "error: no scene file and no scene named '{}'; `voxmelt list scenes` names those that came with it",
+      given));
 }
 
 }  // namespace
 
 void add_scene(CLI::App& command, Common& common) {
-  command.add_option("scene", common.scene, "scene file (TOML), or the name of a scene of `voxmelt list scenes`")
+  command
+      .add_option("scene", common.scene, "scene file (TOML), or the name of a scene of `voxmelt list scenes`")
       ->required();
 }
 
 void add_common(CLI::App& command, Common& common) {
-  command.add_option("--implementation", common.implementation,
-                     "who computes: auto, or a name of `voxmelt list implementations`")
+  command
+      .add_option("--implementation", common.implementation,
+                  "who computes: auto, or a name of `voxmelt list implementations`")
       ->capture_default_str();
   command.add_option("--threads", common.threads, "threads (default: all); no result depends on it")
       ->check(CLI::Range(1, 1024));
@@ -73,7 +76,8 @@ run::Simulation make_simulation(const scene::Scene& scene, const Common& common)
 }
 
 int thread_count(const Common& common) {
-  return common.threads > 0 ? common.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return common.threads > 0 ? common.threads
+                            : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 }  // namespace voxmelt::app

@@ -7,7 +7,8 @@
 
 namespace voxmelt::app {
 
-Progress::Progress(std::uint32_t steps, bool quiet) : steps_(steps), on_(!quiet && isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(std::uint32_t steps, bool quiet)
+    : steps_(steps), on_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
   if (shown_) std::fputs("\n", stderr);

@@ -38,8 +38,10 @@ int run_render(const RenderOptions& options) {
   settings.threads = thread_count(options.common);
   settings.antialias = options.setting == "fast" ? 1 : options.setting == "best" ? 4 : 2;
   render::DensityField field;
-  field.update(simulation.volume(), scene.look);
-  const auto picture = [&] { return render::draw(field, scene.camera, scene.light, scene.look, scene.terrain, settings); };
+  field.update(simulation.volume(), scene.look, scene.terrain);
+  const auto picture = [&] {
+    return render::draw(field, scene.camera, scene.light, scene.look, scene.terrain, settings);
+  };
 
   if (options.turntable == 0) {
     render::write_png(options.out, picture());
@@ -60,10 +62,12 @@ int run_render(const RenderOptions& options) {
 
 void add_render(CLI::App& program, Chosen& chosen) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* command = program.add_subcommand("render", "Draw the state after N steps: one picture, or a turntable");
+  CLI::App* command =
+      program.add_subcommand("render", "Draw the state after N steps: one picture, or a turntable");
   add_scene(*command, options->common);
   command->add_option("--steps", options->steps, "steps to run first")->capture_default_str();
-  command->add_option("--out", options->out, "file to write (folder with --turntable)")->capture_default_str();
+  command->add_option("--out", options->out, "file to write (folder with --turntable)")
+      ->capture_default_str();
   command->add_option("--size", options->size, "size in pixels, e.g. 1280x960");
   command->add_option("--setting", options->setting, "samples per pixel: fast 1, normal 4, best 16")
       ->check(CLI::IsMember({"fast", "normal", "best"}))
@@ -71,7 +75,9 @@ void add_render(CLI::App& program, Chosen& chosen) {
   command->add_option("--azimuth", options->azimuth, "degrees around the vertical, instead of the scene's");
   command->add_option("--elevation", options->elevation, "degrees above the horizon, instead of the scene's")
       ->check(CLI::Range(-89.0, 89.0));
-  command->add_option("--turntable", options->turntable, "this many views around the scene, into the folder --out")
+  command
+      ->add_option("--turntable", options->turntable,
+                   "this many views around the scene, into the folder --out")
       ->check(CLI::Range(1, 3600));
   add_common(*command, options->common);
   command->callback([options, &chosen] { chosen = [options] { return run_render(*options); }; });

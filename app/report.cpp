@@ -24,8 +24,8 @@ json integer(Sum value) {
 
 json mass_json(const state::Ledger& ledger, const state::Holdings& held, Sum drift) {
   const state::MassLedger& m = ledger.mass;
-  return {{"start", integer(m.start)},    {"solid", integer(held.solid)},     {"liquid", integer(held.liquid)},
-          {"added", integer(m.added)},    {"removed", integer(m.removed)},    {"drift", integer(drift)}};
+  return {{"start", integer(m.start)}, {"solid", integer(held.solid)},  {"liquid", integer(held.liquid)},
+          {"added", integer(m.added)}, {"removed", integer(m.removed)}, {"drift", integer(drift)}};
 }
 
 json energy_json(const state::Ledger& ledger, const state::Holdings& held, Sum drift) {
@@ -59,7 +59,8 @@ json heat_json(const state::Ledger& ledger, const state::Holdings& held, Sum dri
 
 json seconds_json(const run::Simulation::Seconds& steps, const RunSeconds& run) {
   json result;
-  for (std::size_t p = 0; p < step::kPhaseCount; ++p) result[std::string(step::kPhaseNames[p])] = steps.phase[p];
+  for (std::size_t p = 0; p < step::kPhaseCount; ++p)
+    result[std::string(step::kPhaseNames[p])] = steps.phase[p];
   result["visibility"] = steps.visibility;
   result["update"] = run.update;
   result["render"] = run.render;

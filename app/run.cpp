@@ -52,7 +52,8 @@ int run_scene(const RunOptions& options) {
   const std::string video_note = film.finish();
 
   const double total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string report = report_json(scene, common, simulation, {film.update_seconds(), film.render_seconds(), total});
+  const std::string report =
+      report_json(scene, common, simulation, {film.update_seconds(), film.render_seconds(), total});
   io::write_file(out.partial() / "report.json", report);
   if (!common.report.empty()) io::write_file(common.report, report);
   out.commit();
@@ -60,7 +61,8 @@ int run_scene(const RunOptions& options) {
   const std::string place = std::filesystem::proximate(out.place()).string();
   if (!common.quiet) {
     if (g_interrupted != 0) fmt::print("interrupted after step {}\n", simulation.steps_done());
-    fmt::print("{} frames      {}/frames/\ncontact sheet  {}/contact_sheet.png\n", film.frame_count(), place, place);
+    fmt::print("{} frames      {}/frames/\ncontact sheet  {}/contact_sheet.png\n", film.frame_count(), place,
+               place);
     fmt::print("film           {}\n", video_note.empty() ? place + "/film.mp4" : video_note);
     fmt::print("report         {}/report.json\n", place);
   }

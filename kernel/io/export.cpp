@@ -59,7 +59,8 @@ std::string npy_header(const char* type, state::Grid g) {
 
 void export_npy(const state::Volume& volume, const std::filesystem::path& folder) {
   for_each_field(volume, [&](const Field& field) {
-    write_file(folder / (std::string(field.name) + ".npy"), npy_header(field.npy_type, volume.grid) + field.bytes);
+    write_file(folder / (std::string(field.name) + ".npy"),
+               npy_header(field.npy_type, volume.grid) + field.bytes);
   });
 }
 
@@ -75,13 +76,14 @@ void export_vti(const state::Volume& volume, const std::filesystem::path& folder
     data.append(reinterpret_cast<const char*>(&size), sizeof size);
     data += field.bytes;
   });
-  write_file(folder / "volume.vti",
-             "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-             "header_type=\"UInt64\">\n  <ImageData WholeExtent=\"" + extent +
-                 "\" Origin=\"0 0 0\" Spacing=\"1 1 1\">\n    <Piece Extent=\"" + extent +
-                 "\">\n      <CellData Scalars=\"amount\">\n" + arrays +
-                 "      </CellData>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_" + data +
-                 "\n  </AppendedData>\n</VTKFile>\n");
+  write_file(
+      folder / "volume.vti",
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n  <ImageData WholeExtent=\"" +
+          extent + "\" Origin=\"0 0 0\" Spacing=\"1 1 1\">\n    <Piece Extent=\"" + extent +
+          "\">\n      <CellData Scalars=\"amount\">\n" + arrays +
+          "      </CellData>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_" + data +
+          "\n  </AppendedData>\n</VTKFile>\n");
 }
 
 }  // namespace voxmelt::io

@@ -15,10 +15,13 @@ namespace fs = std::filesystem;
 constexpr const char* kMarker = ".voxmelt-output";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
-  throw OutputError(path.string() + ": error: " + what + ": " + std::strerror(error), error == ENOSPC || error == EDQUOT);
+  throw OutputError(path.string() + ": error: " + what + ": " + std::strerror(error),
+                    error == ENOSPC || error == EDQUOT);
 }
 
-std::string beside(const fs::path& place) { return place.string() + ".partial-" + std::to_string(::getpid()); }
+std::string beside(const fs::path& place) {
+  return place.string() + ".partial-" + std::to_string(::getpid());
+}
 
 }  // namespace
 
@@ -30,12 +33,14 @@ OutputFolder::OutputFolder(fs::path place) : place_(fs::absolute(std::move(place
     if (!fs::is_directory(place_, error))
       throw OutputError(place_.string() + ": error: is a file, not a folder to write into", false);
     if (!fs::is_empty(place_, error) && !fs::exists(place_ / kMarker, error))
-      throw OutputError(place_.string() +
-                            ": error: the folder holds files that voxmelt did not write; choose another --out",
-                        false);
+      throw OutputError(
+          place_.string() +
+              ": error: the folder holds files that voxmelt did not write; choose another --out",
+          false);
   }
   first_new_ = partial_;
-  while (first_new_.has_relative_path() && !fs::exists(first_new_.parent_path(), error)) first_new_ = first_new_.parent_path();
+  while (first_new_.has_relative_path() && !fs::exists(first_new_.parent_path(), error))
+    first_new_ = first_new_.parent_path();
   fs::create_directories(partial_, error);
   if (error) fail(place_, "cannot create the output folder", error.value());
   write_file(partial_ / kMarker, "Written by voxmelt; replaced whole by the next run into this folder.\n");

@@ -10,7 +10,8 @@ namespace voxmelt::io {
 // Cannot be written (exit code 2) or the disk is full (exit code 3).
 class OutputError : public std::runtime_error {
  public:
-  OutputError(const std::string& message, bool out_of_space) : std::runtime_error(message), out_of_space_(out_of_space) {}
+  OutputError(const std::string& message, bool out_of_space)
+      : std::runtime_error(message), out_of_space_(out_of_space) {}
   bool out_of_space() const { return out_of_space_; }
 
  private:

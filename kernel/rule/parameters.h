@@ -33,16 +33,16 @@ struct PointSource {
 
 struct Heat {
   bool enabled = false;
-  int neighbours = 6;             // of Eq. 1: 6, 18 or 26
+  int neighbours = 6;               // of Eq. 1: 6, 18 or 26
   std::uint16_t weight_face = 0;    // floor(65536 gamma / (pi l^2)), l = 1
   std::uint16_t weight_edge = 0;    // l^2 = 2
   std::uint16_t weight_corner = 0;  // l^2 = 3
-  std::uint16_t convection = 0;   // upward exchange in liquid, 1/65536, at most 32767; 0 is off
-  bool radiation = false;         // point sources present
+  std::uint16_t convection = 0;     // upward exchange in liquid, 1/65536, at most 32767; 0 is off
+  bool radiation = false;           // point sources present
   std::uint32_t visibility_every = 8;
   std::vector<PointSource> sources;
-  bool air = false;               // exchange with moving air at exposed cells (oven, or cooling)
-  std::uint16_t air_exchange = 0;  // 1/65536 per step and unit area, at most 37837
+  bool air = false;                          // exchange with moving air at exposed cells (oven, or cooling)
+  std::uint16_t air_exchange = 0;            // 1/65536 per step and unit area, at most 37837
   std::vector<Temperature> air_temperature;  // one per y
 };
 
@@ -58,9 +58,9 @@ struct Region {  // all cells whose centre is within radius
 
 struct Vent {
   Region region;
-  Amount rate = 0;        // added per cell and step
+  Amount rate = 0;  // added per cell and step
   Temperature temperature = 0;
-  Energy energy = 4096;   // per kOne of amount
+  Energy energy = 4096;                         // per kOne of amount
   std::uint32_t from = 0, until = 0xFFFFFFFFu;  // open while from <= step < until
 };
 
@@ -79,25 +79,25 @@ struct Fall {
 };
 
 struct PaperLaw {
-  int neighbours = 8;              // 4 or 8 (8 is the extra `diagonal`)
-  std::uint16_t threshold = 0;     // energy above which a cell spreads (Eqs. 7-10)
-  bool use_table = false;          // factors per pattern (paper, 4 neighbours) instead of one share
+  int neighbours = 8;           // 4 or 8 (8 is the extra `diagonal`)
+  std::uint16_t threshold = 0;  // energy above which a cell spreads (Eqs. 7-10)
+  bool use_table = false;       // factors per pattern (paper, 4 neighbours) instead of one share
   std::array<std::array<std::uint16_t, 4>, 16> table{};  // [pattern][direction], 1/65536
-  std::uint16_t share = 8192;      // 1/65536 of the amount per axis direction
-  bool downhill = true;            // receive only below the giver
-  Amount margin = 256;             // and by more than this
-  bool support = false;            // extra `support`: only cells that stand on something spread
-  Amount slump = 0;                // extra `slump`: margin at which a starved cell still yields; 0 is off
+  std::uint16_t share = 8192;                            // 1/65536 of the amount per axis direction
+  bool downhill = true;                                  // receive only below the giver
+  Amount margin = 256;                                   // and by more than this
+  bool support = false;  // extra `support`: only cells that stand on something spread
+  Amount slump = 0;      // extra `slump`: margin at which a starved cell still yields; 0 is off
   EnergyReading reading = EnergyReading::text;
-  std::uint32_t beta = 65536;      // Eqs. 5, 6; 1/65536
+  std::uint32_t beta = 65536;                                                    // Eqs. 5, 6; 1/65536
   std::uint16_t alpha_liquid = 65535, alpha_solid = 65535, alpha_floor = 65535;  // Eqs. 16-20; 1/65536
-  std::uint16_t reheat = 0;        // extra `reheat`: (A - E) x reheat / 65536 at or above the melting point
+  std::uint16_t reheat = 0;  // extra `reheat`: (A - E) x reheat / 65536 at or above the melting point
 };
 
 struct ViscousLaw {
-  std::uint32_t mobility = 0;        // kq = (2/3)(kappa/3), 1/2^20: docs/automaton.md, "Mobility"
-  std::uint32_t yield = 0;           // yield stress: depth x head difference that rests, 1/65536
-  std::uint8_t stiffness = 8;        // K: 1..8, of closed conduits
+  std::uint32_t mobility = 0;  // kq = (2/3)(kappa/3), 1/2^20: docs/automaton.md, "Mobility"
+  std::uint32_t yield = 0;     // yield stress: depth x head difference that rests, 1/65536
+  std::uint8_t stiffness = 8;  // K: 1..8, of closed conduits
 };
 
 struct Flow {
@@ -105,7 +105,7 @@ struct Flow {
   Fall fall;
   PaperLaw paper;
   ViscousLaw viscous;
-  bool thermal_viscosity = false;              // extra: mobility or share times the table / 32768
+  bool thermal_viscosity = false;                  // extra: mobility or share times the table / 32768
   std::array<std::uint16_t, 32> mobility_table{};  // indexed by T >> 11; 32768 is 1
 };
 

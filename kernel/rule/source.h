@@ -23,7 +23,9 @@ VOXMELT_RULE std::int32_t vented(std::int32_t amount, std::int32_t rate) {
 VOXMELT_RULE std::int32_t drained(std::int32_t amount, std::int32_t rate) { return std::min(rate, amount); }
 
 // Energy of freshly vented liquid: `energy` per kOne.
-VOXMELT_RULE std::int32_t vented_energy(std::int32_t added, std::int32_t energy) { return (added * energy) >> 12; }
+VOXMELT_RULE std::int32_t vented_energy(std::int32_t added, std::int32_t energy) {
+  return (added * energy) >> 12;
+}
 
 // a + (b - a) i / n, rounded towards minus infinity.
 VOXMELT_RULE std::int64_t between(std::int64_t a, std::int64_t b, std::int64_t i, std::int64_t n) {

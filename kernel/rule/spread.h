@@ -15,7 +15,8 @@ VOXMELT_RULE std::int32_t receiver_limit(int neighbours) { return (neighbours ==
 VOXMELT_RULE std::int32_t thermal_share(std::int32_t share, std::int32_t h, const Flow& flow) {
   if (!flow.thermal_viscosity) return share;
   const std::int32_t limit = flow.paper.neighbours == 8 ? 13107 : 16384;
-  return std::min((share * std::int32_t{flow.mobility_table[static_cast<std::size_t>(h >> 11)]}) >> 15, limit);
+  return std::min((share * std::int32_t{flow.mobility_table[static_cast<std::size_t>(h >> 11)]}) >> 15,
+                  limit);
 }
 
 // factor x A, capped; a diagonal takes a quarter.

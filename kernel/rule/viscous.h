@@ -26,7 +26,7 @@ VOXMELT_RULE std::int32_t settled(std::int64_t mass, std::int32_t n, std::int32_
   return static_cast<std::int32_t>(base + stacked);
 }
 
-struct Column {        // what a cell shows to its neighbours
+struct Column {           // what a cell shows to its neighbours
   std::int32_t head;      // 1/256 cell
   std::int32_t mobility;  // 1/65536, towards a cell in a run: limited by the depth
   std::int32_t exposed;   // 1/65536, towards a cell outside a run: a bare flank, limited per cell only
@@ -44,11 +44,11 @@ VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t b
   const ViscousLaw& law = flow.viscous;
   const std::int64_t over = std::max<std::int64_t>(0, mass - std::int64_t{n} * kOne);
   const auto depth = static_cast<std::int32_t>(std::max<std::int64_t>(1, mass >> 4));
-  const std::int32_t head = bed + static_cast<std::int32_t>(mass >> 4) +
-                            (law.stiffness - 1) * static_cast<std::int32_t>(over >> 4);
+  const std::int32_t head =
+      bed + static_cast<std::int32_t>(mass >> 4) + (law.stiffness - 1) * static_cast<std::int32_t>(over >> 4);
 
-  // Mobility kq M^2 of a column of depth M, limited so that a cell gives at most an eighth per neighbour, and a
-  // column at most that to another column; only a bare flank may give it from every cell.
+  // Mobility kq M^2 of a column of depth M, limited so that a cell gives at most an eighth per neighbour, and
+  // a column at most that to another column; only a bare flank may give it from every cell.
   const std::int64_t capped = std::min(depth, 64 * kHeadOne);
   std::int64_t mobility = (static_cast<std::int64_t>(law.mobility) * capped * capped + (1 << 19)) >> 20;
   if (flow.thermal_viscosity)
@@ -70,8 +70,8 @@ VOXMELT_RULE Column top_column(int y, const Column& below) {
 VOXMELT_RULE Column air_column(int y) { return {(y - 2) * kHeadOne, 0, 0, 0, false}; }
 
 // The flow from `giver` (amount a) to `taker` (amount b); 0 unless the giver stands higher and in a run.
-VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, const Column& taker, std::int32_t b,
-                                       bool diagonal, std::int32_t dither) {
+VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, const Column& taker,
+                                       std::int32_t b, bool diagonal, std::int32_t dither) {
   if (!giver.in_run) return 0;
   const std::int32_t dead = diagonal ? (giver.dead * 11) >> 3 : giver.dead;
   std::int32_t drop = giver.head - taker.head;

@@ -13,9 +13,7 @@ class Stopwatch {
   explicit Stopwatch(double& total) : total_(total) {}
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() {
-    total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  ~Stopwatch() { total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
  private:
   double& total_;
@@ -34,7 +32,8 @@ const step::Registry& implementations() {
 }
 
 Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
-                       const step::Implementation& implementation, std::unique_ptr<visibility::Provider> provider)
+                       const step::Implementation& implementation,
+                       std::unique_ptr<visibility::Provider> provider)
     : parameters_(std::move(parameters)),
       volume_(std::move(initial)),
       stepper_(implementation.create(parameters_, volume_.grid)),

@@ -17,8 +17,9 @@ const step::Registry& implementations();
 
 class Simulation {
  public:
-  Simulation(rule::Parameters parameters, state::Volume initial, const step::Implementation& implementation,
-             std::unique_ptr<visibility::Provider> provider = std::make_unique<visibility::VoxelWalkProvider>());
+  Simulation(
+      rule::Parameters parameters, state::Volume initial, const step::Implementation& implementation,
+      std::unique_ptr<visibility::Provider> provider = std::make_unique<visibility::VoxelWalkProvider>());
 
   // Runs one whole step. The n-th call (from 0) is step number n.
   void step();

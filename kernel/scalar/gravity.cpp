@@ -31,8 +31,8 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
                                     static_cast<std::uint64_t>(flow) * volume.temperature[from];
       const auto after = static_cast<std::uint64_t>(volume.amount[to] + flow);
       const std::int32_t h = rule::mixed(content, after, offset);
-      ledger.heat.rounded += static_cast<state::Sum>(after * static_cast<std::uint64_t>(h)) -
-                             static_cast<state::Sum>(content);
+      ledger.heat.rounded +=
+          static_cast<state::Sum>(after * static_cast<std::uint64_t>(h)) - static_cast<state::Sum>(content);
       volume.temperature[to] = static_cast<std::uint16_t>(h);
     }
     volume.amount[from] = static_cast<std::uint16_t>(volume.amount[from] - flow);

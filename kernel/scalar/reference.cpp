@@ -18,11 +18,16 @@ Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
 void Reference::run(step::Phase phase, std::uint32_t step, std::span<const std::uint16_t> irradiance,
                     state::Volume& volume, state::Ledger& ledger) {
   switch (phase) {
-    case step::Phase::source: return source(step, volume, ledger);
-    case step::Phase::heat: return heat(step, irradiance, volume, ledger);
-    case step::Phase::melt: return melt(volume, ledger);
-    case step::Phase::gravity: return gravity(step, volume, ledger);
-    case step::Phase::spread: return spread(step, volume, ledger);
+    case step::Phase::source:
+      return source(step, volume, ledger);
+    case step::Phase::heat:
+      return heat(step, irradiance, volume, ledger);
+    case step::Phase::melt:
+      return melt(volume, ledger);
+    case step::Phase::gravity:
+      return gravity(step, volume, ledger);
+    case step::Phase::spread:
+      return spread(step, volume, ledger);
     case step::Phase::excess:
       if (parameters_.flow.law == rule::Law::viscous) settle(step, volume, ledger);
       return;

@@ -37,9 +37,9 @@ class Reference final : public step::Stepper {
   rule::Parameters parameters_;
   rule::RoundKeys keys_;
   std::vector<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
-  std::vector<std::uint8_t> in_run_;  // viscous law: bit 0, the cell belongs to a run
+  std::vector<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
   std::vector<std::int32_t> head_, mobility_, exposed_, dead_;  // viscous law: of each cell, see rule::Column
-  Volume next_;                        // the result of a phase while it is computed
+  Volume next_;                                                 // the result of a phase while it is computed
 };
 
 std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid);

@@ -51,7 +51,8 @@ void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledge
       const rule::Column there = column(nx, y, nz);
       const std::int32_t offset = rule::dither(step, kDitherPart[d], 4);
       out += rule::viscous_flow(own, volume.amount[i], there, volume.amount[j], diagonal, offset);
-      const std::int32_t taken = rule::viscous_flow(there, volume.amount[j], own, volume.amount[i], diagonal, offset);
+      const std::int32_t taken =
+          rule::viscous_flow(there, volume.amount[j], own, volume.amount[i], diagonal, offset);
       in += taken;
       content += static_cast<std::uint64_t>(taken) * volume.temperature[j];
     }

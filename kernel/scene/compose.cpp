@@ -42,7 +42,8 @@ Value read_document(const std::filesystem::path& file, int depth) {
   if (extends->kind != Value::Kind::text || extends->text.empty())
     fail_at(extends->place, "extends must be the name of a scene file");
   if (depth == kDeepestExtends)
-    fail_at(extends->place, fmt::format("extends is nested more than {} deep: does a scene extend itself?", kDeepestExtends));
+    fail_at(extends->place,
+            fmt::format("extends is nested more than {} deep: does a scene extend itself?", kDeepestExtends));
   const std::filesystem::path base_file = (file.parent_path() / extends->text).lexically_normal();
   std::error_code ignored;
   if (!std::filesystem::exists(base_file, ignored))
@@ -79,10 +80,12 @@ bool is_index(const std::string& part) {
 // One step down the path: the element or member `part`, made as an empty table where a table lacks it.
 Value& descend(Value& at, const std::string& part, const std::string& walked, const Place& place) {
   if (at.kind == Value::Kind::array) {
-    if (!is_index(part)) fail_at(place, fmt::format("{} is an array: its elements are {}.0, {}.1, ...", walked, walked, walked));
+    if (!is_index(part))
+      fail_at(place, fmt::format("{} is an array: its elements are {}.0, {}.1, ...", walked, walked, walked));
     const std::size_t index = std::stoul(part);
     if (index >= at.items.size())
-      fail_at(place, fmt::format("there is no {}.{}: {} has {} elements", walked, part, walked, at.items.size()));
+      fail_at(place,
+              fmt::format("there is no {}.{}: {} has {} elements", walked, part, walked, at.items.size()));
     return at.items[index];
   }
   if (at.kind != Value::Kind::table)

@@ -24,21 +24,25 @@ void read_floor(Reader& reader, Terrain& terrain, state::Grid grid) {
   raise(terrain, std::vector<double>(terrain.height.size(), thickness));
 }
 
-void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid, std::vector<std::string>& warnings) {
+void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid,
+                      std::vector<std::string>& warnings) {
   const std::filesystem::path file = reader.file("file");
   const double scale = reader.number("vertical_scale", {0, kLargestScale, true, {}});
-  const double base = reader.number("base", {0, static_cast<double>(grid.y), false, "the height of the grid"}, 1.0);
+  const double base =
+      reader.number("base", {0, static_cast<double>(grid.y), false, "the height of the grid"}, 1.0);
   const auto passes = static_cast<int>(reader.integer("smooth", 0, 64, 1));
 
   Elevation elevation = read_esri_ascii(file, reader.place("file"));
   if (elevation.missing > 0)
-    warnings.push_back(fmt::format("{}: {} cells without data take the lowest elevation", file.string(), elevation.missing));
+    warnings.push_back(
+        fmt::format("{}: {} cells without data take the lowest elevation", file.string(), elevation.missing));
   smooth(elevation, passes);
   std::vector<double> height = resample(elevation, grid.x, grid.z);
   for (double& h : height) h = base + scale * h;
   const double highest = *std::max_element(height.begin(), height.end());
   if (highest > grid.y)
-    reader.fail("vertical_scale", fmt::format(" = {} raises the terrain to {:.1f} cells, above the grid's {}", scale, highest, grid.y));
+    reader.fail("vertical_scale", fmt::format(" = {} raises the terrain to {:.1f} cells, above the grid's {}",
+                                              scale, highest, grid.y));
   raise(terrain, height);
   terrain.textured = true;
 }
@@ -51,7 +55,8 @@ void read_mesh_entry(Reader& reader, Entry& entry) {
   if (by_height && by_scale) reader.fail("scale", " and height exclude each other");
   const Range positive{0, kLargestScale, true, {}};
   const double wanted = reader.number(by_scale ? "scale" : "height", positive);
-  const Point at = to_point(reader.vector<3>("at", {-kLargestCoordinate, kLargestCoordinate, false, {}}, Vec3{}));
+  const Point at =
+      to_point(reader.vector<3>("at", {-kLargestCoordinate, kLargestCoordinate, false, {}}, Vec3{}));
   const Rotation rotation(reader.vector<3>("rotate", {-360, 360, false, {}}, Vec3{}));
 
   Mesh mesh = read_mesh(file, reader.place("file"));
@@ -64,7 +69,8 @@ void read_mesh_entry(Reader& reader, Entry& entry) {
   for (Point& vertex : mesh.vertices) {
     vertex = (vertex - foot) * scale + at;
     if (!(std::max({std::abs(vertex.x), std::abs(vertex.y), std::abs(vertex.z)}) <= kLargestMeshCoordinate))
-      reader.fail("file", fmt::format(": {} reaches farther than {} cells", file.string(), kLargestMeshCoordinate));
+      reader.fail("file",
+                  fmt::format(": {} reaches farther than {} cells", file.string(), kLargestMeshCoordinate));
   }
   entry.mesh = std::move(mesh);
 }
@@ -85,7 +91,8 @@ Contents read_contents(Reader& root, state::Grid grid, std::vector<std::string>&
   contents.terrain.z = grid.z;
   contents.terrain.height.resize(static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.z));
 
-  const std::vector<std::pair<const char*, Role>> lists{{"solid", Role::solid}, {"liquid", Role::liquid}, {"inert", Role::inert}};
+  const std::vector<std::pair<const char*, Role>> lists{
+      {"solid", Role::solid}, {"liquid", Role::liquid}, {"inert", Role::inert}};
   for (const auto& [list, role] : lists) {
     std::vector<Reader> readers = root.tables(list);
     for (std::size_t i = 0; i < readers.size(); ++i) {

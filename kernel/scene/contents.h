@@ -16,12 +16,12 @@ enum class Role { solid, liquid, inert };
 
 struct Entry {
   Role role = Role::solid;
-  std::string name;            // "solid.0"
-  bool cut = false;            // taken away from what its list has built so far
-  ShapePtr shape;              // or, without it:
-  Mesh mesh;                   // placed in the grid
+  std::string name;  // "solid.0"
+  bool cut = false;  // taken away from what its list has built so far
+  ShapePtr shape;    // or, without it:
+  Mesh mesh;         // placed in the grid
   std::string mesh_file;
-  double temperature = 0;      // 0..1
+  double temperature = 0;         // 0..1
   double amount = 1, energy = 1;  // liquid: of a fully covered cell
 };
 
@@ -33,8 +33,9 @@ struct Contents {
 // Throws InputError. `warnings` grows by what is odd but usable.
 Contents read_contents(Reader& root, state::Grid grid, std::vector<std::string>& warnings);
 
-// The cells: solid from coverage 1/16 on (amount = coverage), inert from 1/2 on; inert wins over solid, solid over
-// liquid. The top inert cell of a terrain column holds the height's fraction: kBedHalf + (h - round(h)) x kOne.
+// The cells: solid from coverage 1/16 on (amount = coverage), inert from 1/2 on; inert wins over solid, solid
+// over liquid. The top inert cell of a terrain column holds the height's fraction: kBedHalf + (h - round(h))
+// x kOne.
 state::Volume voxelise(const Contents& contents, state::Grid grid, std::vector<std::string>& warnings);
 
 }  // namespace voxmelt::scene

@@ -16,7 +16,8 @@ class Sampler {
 
   void block(int x, int y, int z, int size) {
     const Window& window = coverage_.window;
-    if (x >= window.x + window.size.x || y >= window.y + window.size.y || z >= window.z + window.size.z) return;
+    if (x >= window.x + window.size.x || y >= window.y + window.size.y || z >= window.z + window.size.z)
+      return;
     const double half = size * 0.5;
     const double distance = shape_.distance({x + half, y + half, z + half});
     const double reach = half * std::numbers::sqrt3 + kSlack;
@@ -27,7 +28,8 @@ class Sampler {
       return;
     }
     const int child = size / 2;
-    for (int i = 0; i < 8; ++i) block(x + (i & 1) * child, y + (i >> 1 & 1) * child, z + (i >> 2) * child, child);
+    for (int i = 0; i < 8; ++i)
+      block(x + (i & 1) * child, y + (i >> 1 & 1) * child, z + (i >> 2) * child, child);
   }
 
  private:
@@ -48,7 +50,8 @@ class Sampler {
     const double reach = 0.25 * std::numbers::sqrt3 + kSlack;
     int covered = 0;
     for (int octant = 0; octant < 8; ++octant) {
-      const Point centre{x + 0.25 + 0.5 * (octant & 1), y + 0.25 + 0.5 * (octant >> 1 & 1), z + 0.25 + 0.5 * (octant >> 2)};
+      const Point centre{x + 0.25 + 0.5 * (octant & 1), y + 0.25 + 0.5 * (octant >> 1 & 1),
+                         z + 0.25 + 0.5 * (octant >> 2)};
       const double distance = shape_.distance(centre);
       if (distance > reach) continue;
       if (distance < -reach) {
@@ -73,7 +76,8 @@ Window window_of(const Box& box, state::Grid grid) {
   const auto clip = [](double low, double high, int cells, int& first, int& count) {
     if (!std::isfinite(low) || !std::isfinite(high)) return;  // scaled out of all numbers
     first = static_cast<int>(std::clamp(std::floor(low), 0.0, static_cast<double>(cells)));
-    count = std::max(0, static_cast<int>(std::clamp(std::ceil(high), 0.0, static_cast<double>(cells))) - first);
+    count =
+        std::max(0, static_cast<int>(std::clamp(std::ceil(high), 0.0, static_cast<double>(cells))) - first);
   };
   Window window;
   clip(box.low.x, box.high.x, grid.x, window.x, window.size.x);
@@ -89,7 +93,8 @@ Coverage cover(const Shape& shape, state::Grid grid) {
   Sampler sampler(shape, coverage);
   for (int z = window.z; z < window.z + window.size.z; z += kLargestBlock)
     for (int y = window.y; y < window.y + window.size.y; y += kLargestBlock)
-      for (int x = window.x; x < window.x + window.size.x; x += kLargestBlock) sampler.block(x, y, z, kLargestBlock);
+      for (int x = window.x; x < window.x + window.size.x; x += kLargestBlock)
+        sampler.block(x, y, z, kLargestBlock);
   return coverage;
 }
 

@@ -9,7 +9,8 @@ namespace {
 std::array<Point, 8> corners_of(const Box& box) {
   std::array<Point, 8> corners;
   for (unsigned i = 0; i < 8; ++i)
-    corners[i] = {i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y, i & 4 ? box.high.z : box.low.z};
+    corners[i] = {i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
+                  i & 4 ? box.high.z : box.low.z};
   return corners;
 }
 
@@ -22,7 +23,8 @@ Box united(Box a, const Box& b) {
 Box intersected(const Box& a, const Box& b) {
   Box box{{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y), std::max(a.low.z, b.low.z)},
           {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y), std::min(a.high.z, b.high.z)}};
-  box.high = {std::max(box.low.x, box.high.x), std::max(box.low.y, box.high.y), std::max(box.low.z, box.high.z)};
+  box.high = {std::max(box.low.x, box.high.x), std::max(box.low.y, box.high.y),
+              std::max(box.low.z, box.high.z)};
   return box;
 }
 

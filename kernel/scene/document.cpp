@@ -91,13 +91,20 @@ void Value::remove(std::string_view key) {
 
 const char* name_of(Value::Kind kind) {
   switch (kind) {
-    case Value::Kind::boolean: return "true or false";
-    case Value::Kind::integer: return "an integer";
-    case Value::Kind::real: return "a number";
-    case Value::Kind::text: return "a string";
-    case Value::Kind::array: return "an array";
-    case Value::Kind::table: return "a table";
-    case Value::Kind::date: break;
+    case Value::Kind::boolean:
+      return "true or false";
+    case Value::Kind::integer:
+      return "an integer";
+    case Value::Kind::real:
+      return "a number";
+    case Value::Kind::text:
+      return "a string";
+    case Value::Kind::array:
+      return "an array";
+    case Value::Kind::table:
+      return "a table";
+    case Value::Kind::date:
+      break;
   }
   return "a date";
 }

@@ -1,4 +1,5 @@
-// A TOML document as plain values that remember where they were written, so that every later complaint names its place.
+// A TOML document as plain values that remember where they were written, so that every later complaint names
+// its place.
 #pragma once
 
 #include <cstdint>

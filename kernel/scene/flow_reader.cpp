@@ -9,7 +9,8 @@
 namespace voxmelt::scene {
 namespace {
 
-constexpr double kLargestShare4 = 0.25, kLargestShare8 = 0.2;  // all directions together give at most what a cell has
+constexpr double kLargestShare4 = 0.25,
+                 kLargestShare8 = 0.2;  // all directions together give at most what a cell has
 constexpr double kLargestKappa = 1024;
 constexpr double kLargestYield = 255;  // x 65536 fits 24 bits
 
@@ -38,9 +39,11 @@ void read_table(Reader& reader, rule::PaperLaw& law) {
     for (std::size_t direction = 0; direction < 4; ++direction) {
       const double factor = flat[4 * pattern + direction];
       if (factor > 0 && (pattern >> direction & 1) == 0)
-        reader.fail("table", fmt::format(".{}.{} = {} gives in a direction that is not in pattern {}", pattern, direction, factor, pattern));
+        reader.fail("table", fmt::format(".{}.{} = {} gives in a direction that is not in pattern {}",
+                                         pattern, direction, factor, pattern));
       sum += factor;
-      law.table[pattern][direction] = static_cast<std::uint16_t>(std::min(65535.0, std::floor(factor * 65536)));
+      law.table[pattern][direction] =
+          static_cast<std::uint16_t>(std::min(65535.0, std::floor(factor * 65536)));
     }
     if (sum > 1 + 1e-9) reader.fail("table", fmt::format(".{} sums to {}, more than 1", pattern, sum));
   }
@@ -49,16 +52,19 @@ void read_table(Reader& reader, rule::PaperLaw& law) {
 rule::PaperLaw read_paper(Reader& reader) {
   rule::PaperLaw law;
   law.neighbours = static_cast<int>(reader.integer("neighbours", 4, 8, 8));
-  if (law.neighbours != 4 && law.neighbours != 8) reader.fail("neighbours", fmt::format(" = {} is not 4 or 8", law.neighbours));
+  if (law.neighbours != 4 && law.neighbours != 8)
+    reader.fail("neighbours", fmt::format(" = {} is not 4 or 8", law.neighbours));
   law.threshold = to_amount(reader.number("threshold", amount(), 0.0));
   if (reader.has("table")) read_table(reader, law);
-  const Range share{0, law.neighbours == 4 ? kLargestShare4 : kLargestShare8, false, fmt::format("the bound for {} neighbours", law.neighbours)};
+  const Range share{0, law.neighbours == 4 ? kLargestShare4 : kLargestShare8, false,
+                    fmt::format("the bound for {} neighbours", law.neighbours)};
   law.share = to_factor16(reader.number("share", share, 0.125));
   law.downhill = reader.flag("downhill", true);
   law.margin = to_amount(reader.number("margin", amount(), 1.0 / 16));
   law.support = reader.flag("support", false);
   law.slump = to_amount(reader.number("slump", amount(), 0.0));
-  law.reading = reader.choice("energy", {"text", "printed"}, 0) == 0 ? rule::EnergyReading::text : rule::EnergyReading::printed;
+  law.reading = reader.choice("energy", {"text", "printed"}, 0) == 0 ? rule::EnergyReading::text
+                                                                     : rule::EnergyReading::printed;
   law.beta = to_factor32(reader.number("beta", {0, 4, false, {}}, 1.0));
   law.alpha_liquid = to_factor16(reader.number("alpha_liquid", unit(), 1.0));
   law.alpha_solid = to_factor16(reader.number("alpha_solid", unit(), 1.0));
@@ -73,7 +79,8 @@ rule::ViscousLaw read_viscous(Reader& reader) {
   // kq = (2/3) (kappa / 3), with kappa = g dt / nu
   const double kappa = reader.number("kappa", {0, kLargestKappa, true, {}});
   law.mobility = static_cast<std::uint32_t>(std::llround((1 << 20) * (2.0 / 9) * kappa));
-  law.yield = static_cast<std::uint32_t>(std::lround(reader.number("yield", {0, kLargestYield, false, {}}, 0.0) * 65536));
+  law.yield = static_cast<std::uint32_t>(
+      std::lround(reader.number("yield", {0, kLargestYield, false, {}}, 0.0) * 65536));
   law.stiffness = static_cast<std::uint8_t>(reader.integer("stiffness", 1, 8, 8));
   reader.finish();
   return law;
@@ -85,7 +92,8 @@ void read_thermal(Reader& reader, rule::Flow& flow) {
   const double doubling = reader.number("doubling", {0.001, 1, false, {}});
   flow.thermal_viscosity = true;
   for (std::size_t i = 0; i < flow.mobility_table.size(); ++i) {
-    const double temperature = (static_cast<double>(i) + 0.5) / static_cast<double>(flow.mobility_table.size());
+    const double temperature =
+        (static_cast<double>(i) + 0.5) / static_cast<double>(flow.mobility_table.size());
     const double mobility = 32768 * std::exp2((temperature - reference) / doubling);
     flow.mobility_table[i] = static_cast<std::uint16_t>(std::lround(std::min(65535.0, mobility)));
   }
@@ -102,7 +110,8 @@ rule::Flow read_flow(Reader& root) {
   const std::size_t law = reader->choice("law", laws, 0);
   flow.law = law == 0 ? rule::Law::paper : rule::Law::viscous;
   const std::string& other = laws[1 - law];
-  if (reader->has(other)) fail_at(reader->place(other), fmt::format("flow.{} is not used by law = \"{}\"", other, laws[law]));
+  if (reader->has(other))
+    fail_at(reader->place(other), fmt::format("flow.{} is not used by law = \"{}\"", other, laws[law]));
 
   if (std::optional<Reader> fall = reader->table("fall")) flow.fall = read_fall(*fall);
   std::optional<Reader> own = reader->table(laws[law]);

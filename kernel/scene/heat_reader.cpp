@@ -9,10 +9,11 @@
 namespace voxmelt::scene {
 namespace {
 
-constexpr double kLargestGamma = 0.5236;  // pi / 6: weight_face <= 10922, and conduction cannot overshoot
+constexpr double kLargestGamma = 0.5236;   // pi / 6: weight_face <= 10922, and conduction cannot overshoot
 constexpr double kLargestPower = 4194303;  // x 2^28 fits 50 bits
 constexpr double kPowerUnit = 65536.0 * 16 * 256;  // 1/16 temperature unit x (1/16 cell)^2
-constexpr double kLargestExchange = 0.57735;  // 1 / sqrt 3: a corner exposed on three axes stays within the air
+constexpr double kLargestExchange =
+    0.57735;  // 1 / sqrt 3: a corner exposed on three axes stays within the air
 constexpr std::int64_t kLastStep = 0xFFFFFFFFll;
 
 Range unit() { return {0, 1, false, {}}; }
@@ -28,7 +29,8 @@ std::uint16_t weight(double gamma, double squared_distance) {
 
 void read_conduction(Reader& reader, rule::Heat& heat) {
   const std::int64_t asked = reader.integer("neighbours", 6, 26, 6);
-  if (asked != 6 && asked != 18 && asked != 26) reader.fail("neighbours", fmt::format(" = {} is not one of 6, 18, 26", asked));
+  if (asked != 6 && asked != 18 && asked != 26)
+    reader.fail("neighbours", fmt::format(" = {} is not one of 6, 18, 26", asked));
   heat.neighbours = static_cast<int>(asked);
   const Range range{0, kLargestGamma, true, fmt::format("the bound for {} neighbours", asked)};
   const double gamma = reader.number("gamma", range, 0.15);
@@ -51,16 +53,20 @@ rule::PointSource read_source(Reader& reader) {
   reader.choice("kind", {"point"}, 0);
   rule::PointSource source;
   if (!reader.has("keyframes")) {
-    source.keys.push_back({0, to_position(reader.vector<3>("at", coordinate())), to_power(reader.number("power", power()))});
+    source.keys.push_back(
+        {0, to_position(reader.vector<3>("at", coordinate())), to_power(reader.number("power", power()))});
   } else {
-    if (reader.has("at") || reader.has("power")) reader.fail("keyframes", " excludes at and power: each keyframe has its own");
+    if (reader.has("at") || reader.has("power"))
+      reader.fail("keyframes", " excludes at and power: each keyframe has its own");
     std::vector<Reader> frames = reader.tables("keyframes");
     if (frames.empty()) reader.fail("keyframes", " is empty");
     for (Reader& frame : frames) {
       const auto step = static_cast<std::uint32_t>(frame.integer("step", 0, kLastStep));
       if (!source.keys.empty() && step <= source.keys.back().step)
-        frame.fail("step", fmt::format(" = {} must be after the keyframe before, {}", step, source.keys.back().step));
-      source.keys.push_back({step, to_position(frame.vector<3>("at", coordinate())), to_power(frame.number("power", power()))});
+        frame.fail("step",
+                   fmt::format(" = {} must be after the keyframe before, {}", step, source.keys.back().step));
+      source.keys.push_back(
+          {step, to_position(frame.vector<3>("at", coordinate())), to_power(frame.number("power", power()))});
       frame.finish();
     }
   }
@@ -75,12 +81,14 @@ rule::Heat read_heat(Reader& root, int ny) {
   std::vector<Reader> sources = root.tables("heat_source");
   std::optional<Reader> reader = root.table("heat");
   if (!reader) {
-    if (!sources.empty()) fail_at(sources.front().place(), "heat_source needs a [heat] table: without it nothing is heated");
+    if (!sources.empty())
+      fail_at(sources.front().place(), "heat_source needs a [heat] table: without it nothing is heated");
     return heat;
   }
   heat.enabled = true;
   read_conduction(*reader, heat);
-  heat.convection = static_cast<std::uint16_t>(std::min<long>(32767, std::lround(reader->number("convection", {0, 0.5, false, {}}, 0.0) * 65536)));
+  heat.convection = static_cast<std::uint16_t>(
+      std::min<long>(32767, std::lround(reader->number("convection", {0, 0.5, false, {}}, 0.0) * 65536)));
   heat.visibility_every = static_cast<std::uint32_t>(reader->integer("visibility_every", 1, 1024, 8));
   if (std::optional<Reader> air = reader->table("air")) read_air(*air, heat, ny);
   reader->finish();

@@ -21,18 +21,22 @@ constexpr double kHighest = 1e9;
 
 class EsriParser {
  public:
-  EsriParser(const std::string& text, const std::string& file, const Place& place) : lines_(text), file_(file), place_(place) {}
+  EsriParser(const std::string& text, const std::string& file, const Place& place)
+      : lines_(text), file_(file), place_(place) {}
 
   Elevation parse() {
     header();
-    if (elevation_.columns == 0 || elevation_.rows == 0) fail("ncols and nrows must come before the elevations");
-    const std::size_t wanted = static_cast<std::size_t>(elevation_.columns) * static_cast<std::size_t>(elevation_.rows);
+    if (elevation_.columns == 0 || elevation_.rows == 0)
+      fail("ncols and nrows must come before the elevations");
+    const std::size_t wanted =
+        static_cast<std::size_t>(elevation_.columns) * static_cast<std::size_t>(elevation_.rows);
     // `line_` already holds the first line of elevations.
     do {
       std::istringstream words(line_);
       std::string word;
       while (words >> word) {
-        if (elevation_.value.size() == wanted) fail(fmt::format("more than {} x {} elevations", elevation_.columns, elevation_.rows));
+        if (elevation_.value.size() == wanted)
+          fail(fmt::format("more than {} x {} elevations", elevation_.columns, elevation_.rows));
         elevation_.value.push_back(number(word));
       }
     } while (next());
@@ -69,14 +73,16 @@ class EsriParser {
       if (std::isalpha(static_cast<unsigned char>(key[0])) == 0) return;
       if (!(words >> word)) fail(key + " has no value");
       const double value = number(word);
-      std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      std::transform(key.begin(), key.end(), key.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
       if (key == "ncols" || key == "nrows") {
         if (value != std::floor(value) || value < 2 || value > kLargestSide)
           fail(fmt::format("{} = {} is outside 2..{}", key, word, kLargestSide));
         (key == "ncols" ? elevation_.columns : elevation_.rows) = static_cast<int>(value);
       } else if (key == "nodata_value") {
         no_data_ = value;
-      } else if (key != "xllcorner" && key != "yllcorner" && key != "xllcenter" && key != "yllcenter" && key != "cellsize") {
+      } else if (key != "xllcorner" && key != "yllcorner" && key != "xllcenter" && key != "yllcenter" &&
+                 key != "cellsize") {
         fail(fmt::format("unknown header '{}'", key.substr(0, 40)));
       }
     }
@@ -107,7 +113,8 @@ class EsriParser {
 
 std::array<double, 4> spline_weights(double t) {
   const double s = 1 - t;
-  return {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * s * s * s - 6 * s * s + 4) / 6, t * t * t / 6};
+  return {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * s * s * s - 6 * s * s + 4) / 6,
+          t * t * t / 6};
 }
 
 }  // namespace
@@ -127,9 +134,11 @@ void smooth(Elevation& elevation, int passes) {
     const Elevation before = elevation;
     for (int r = 0; r < before.rows; ++r)
       for (int c = 0; c < before.columns; ++c) {
-        const auto row = [&](int k) { return before.at(c - 1, k) + 2 * before.at(c, k) + before.at(c + 1, k); };
-        elevation.value[static_cast<std::size_t>(r) * static_cast<std::size_t>(before.columns) + static_cast<std::size_t>(c)] =
-            (row(r - 1) + 2 * row(r) + row(r + 1)) / 16;
+        const auto row = [&](int k) {
+          return before.at(c - 1, k) + 2 * before.at(c, k) + before.at(c + 1, k);
+        };
+        elevation.value[static_cast<std::size_t>(r) * static_cast<std::size_t>(before.columns) +
+                        static_cast<std::size_t>(c)] = (row(r - 1) + 2 * row(r) + row(r + 1)) / 16;
       }
   }
 }

@@ -23,7 +23,8 @@ state::Grid read_grid(Reader& root) {
   if (!reader) fail_at(root.place(), "grid.size is missing: a scene needs [grid] size = [x, y, z]");
   const Vec3 size = reader->vector<3>("size", {1, static_cast<double>(kLargestSide), false, {}});
   for (const double side : size)
-    if (side != static_cast<double>(static_cast<int>(side))) reader->fail("size", " must be whole numbers of cells");
+    if (side != static_cast<double>(static_cast<int>(side)))
+      reader->fail("size", " must be whole numbers of cells");
   reader->finish();
   const state::Grid grid{static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])};
   check_memory(grid, reader->place("size"));
@@ -34,7 +35,8 @@ void read_run(Reader& root, Scene& scene) {
   std::optional<Reader> reader = root.table("run");
   if (!reader) return;
   scene.steps = static_cast<std::uint32_t>(reader->integer("steps", 0, kMostSteps, scene.steps));
-  scene.frame_every = static_cast<std::uint32_t>(reader->integer("frame_every", 1, kMostSteps, scene.frame_every));
+  scene.frame_every =
+      static_cast<std::uint32_t>(reader->integer("frame_every", 1, kMostSteps, scene.frame_every));
   scene.parameters.seed = static_cast<std::uint64_t>(
       reader->integer("seed", 0, INT64_MAX, static_cast<std::int64_t>(scene.parameters.seed)));
   reader->finish();
@@ -90,7 +92,8 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   if (!start && !can_flow(contents, scene.parameters))
     fail_at(document.place, "nothing can flow: a scene needs a [[solid]], a [[liquid]] or a [[vent]]");
 
-  scene.initial = start ? read_fields(fields, grid, start->place("fields")) : voxelise(contents, grid, scene.warnings);
+  scene.initial =
+      start ? read_fields(fields, grid, start->place("fields")) : voxelise(contents, grid, scene.warnings);
   // What the scene does not model is not there: no energy under the viscous law, no heat without [heat].
   if (scene.parameters.flow.law == rule::Law::viscous)
     std::fill(scene.initial.energy.begin(), scene.initial.energy.end(), std::uint16_t{0});

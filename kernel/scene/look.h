@@ -9,10 +9,10 @@ namespace voxmelt::scene {
 using Vec3 = std::array<double, 3>;
 
 struct Camera {
-  Vec3 target{};            // looked at
-  double azimuth = 35;      // degrees, 0 looks along -z from +z, 90 looks along -x from +x
-  double elevation = 28;    // degrees above the horizon
-  double distance = 0;      // from the target; 0: chosen so that the grid fits
+  Vec3 target{};              // looked at
+  double azimuth = 35;        // degrees, 0 looks along -z from +z, 90 looks along -x from +x
+  double elevation = 28;      // degrees above the horizon
+  double distance = 0;        // from the target; 0: chosen so that the grid fits
   double field_of_view = 30;  // degrees, vertical
   int width = 640, height = 480;
 };
@@ -25,14 +25,14 @@ struct Light {
 inline constexpr int kMostSmooth = 6;  // passes that the renderer can do
 
 struct Look {
-  Vec3 solid{0.55, 0.56, 0.6};     // colour of what has not melted
-  Vec3 liquid{0.78, 0.8, 0.84};    // colour of what flows
-  Vec3 ground{0.42, 0.36, 0.3};    // floor and terrain
+  Vec3 solid{0.55, 0.56, 0.6};   // colour of what has not melted
+  Vec3 liquid{0.78, 0.8, 0.84};  // colour of what flows
+  Vec3 ground{0.42, 0.36, 0.3};  // floor and terrain
   Vec3 background{0.93, 0.94, 0.96};
-  double shininess = 40;           // Blinn-Phong exponent
+  double shininess = 40;  // Blinn-Phong exponent
   double specular = 0.4;
-  double metallic = 0;             // 0: wax, chocolate, plastic; 1: bare metal that mirrors its surroundings
-  bool glow = false;               // colour and light of the liquid by its temperature (lava)
+  double metallic = 0;  // 0: wax, chocolate, plastic; 1: bare metal that mirrors its surroundings
+  bool glow = false;    // colour and light of the liquid by its temperature (lava)
   double glow_cold = 0.3, glow_hot = 0.95;  // temperatures at the ends of the glow ramp, 0..1
   int smooth = 3, smooth_solid = 1;  // low-pass of liquid and of solid: passes of the 3x3x3 binomial filter
 };
@@ -41,7 +41,7 @@ struct Look {
 struct Terrain {
   int x = 0, z = 0;
   std::vector<float> height;
-  bool textured = false;           // a height field (drawn with elevation shading) or a flat floor
+  bool textured = false;  // a height field (drawn with elevation shading) or a flat floor
 };
 
 }  // namespace voxmelt::scene

@@ -16,9 +16,11 @@ Range unit() { return {0, 1, false, {}}; }
 double fitting_distance(const Camera& camera, state::Grid grid) {
   const double to_radians = std::numbers::pi / 180;
   const double azimuth = camera.azimuth * to_radians, elevation = camera.elevation * to_radians;
-  const Point back{std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
+  const Point back{std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                   std::cos(azimuth) * std::cos(elevation)};
   const Point right{std::cos(azimuth), 0, -std::sin(azimuth)};
-  const Point up{-std::sin(azimuth) * std::sin(elevation), std::cos(elevation), -std::cos(azimuth) * std::sin(elevation)};
+  const Point up{-std::sin(azimuth) * std::sin(elevation), std::cos(elevation),
+                 -std::cos(azimuth) * std::sin(elevation)};
   const double tall = std::tan(camera.field_of_view / 2 * to_radians);
   const double wide = tall * camera.width / camera.height;
   double distance = 1;
@@ -37,7 +39,8 @@ Camera read_camera(Reader& root, state::Grid grid) {
   Camera camera;
   camera.target = {grid.x / 2.0, grid.y / 2.0, grid.z / 2.0};
   if (std::optional<Reader> reader = root.table("camera")) {
-    camera.target = reader->vector<3>("target", {-kLargestCoordinate, kLargestCoordinate, false, {}}, camera.target);
+    camera.target =
+        reader->vector<3>("target", {-kLargestCoordinate, kLargestCoordinate, false, {}}, camera.target);
     camera.azimuth = reader->number("azimuth", {-360, 360, false, {}}, camera.azimuth);
     camera.elevation = reader->number("elevation", {-89, 89, false, {}}, camera.elevation);
     camera.distance = reader->number("distance", {0, 4 * kLargestCoordinate, false, {}}, 0.0);

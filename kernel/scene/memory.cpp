@@ -26,15 +26,17 @@ std::uint64_t available_bytes() {
 }  // namespace
 
 std::uint64_t needed_bytes(state::Grid grid) {
-  // Three 16-bit fields and three bits a cell, about 6.5 bytes; two states, scratch and pictures: four times that.
+  // Three 16-bit fields and three bits a cell, about 6.5 bytes; two states, scratch and pictures: four times
+  // that.
   return static_cast<std::uint64_t>(grid.cells()) * 26;
 }
 
 void check_memory(state::Grid grid, const Place& place) {
   const std::uint64_t needed = needed_bytes(grid), available = available_bytes();
   if (needed > available)
-    throw ResourceError(fmt::format("{}: error: grid.size = [{}, {}, {}] needs {} bytes of memory, {} are available",
-                                    place.text(), grid.x, grid.y, grid.z, needed, available));
+    throw ResourceError(
+        fmt::format("{}: error: grid.size = [{}, {}, {}] needs {} bytes of memory, {} are available",
+                    place.text(), grid.x, grid.y, grid.z, needed, available));
 }
 
 }  // namespace voxmelt::scene

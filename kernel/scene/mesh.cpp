@@ -63,7 +63,8 @@ class LineCheck {
       if (end == word.c_str() || (*end != '\0' && *end != '/'))
         fail(fmt::format("'{}' is not a vertex of a face", word.substr(0, 40)));
       const bool known = index > 0 ? index <= vertices_ : index < 0 && index >= -vertices_;
-      if (!known) fail(fmt::format("a face names vertex {}, but {} vertices are known here", index, vertices_));
+      if (!known)
+        fail(fmt::format("a face names vertex {}, but {} vertices are known here", index, vertices_));
     }
     if (corners < 3) fail(fmt::format("a face needs 3 corners, not {}: is the file truncated?", corners));
     ++faces_;

@@ -17,16 +17,20 @@ struct Point2i {
 };
 
 // Twice the signed area of (a, b, p); at most 2^61.
-std::int64_t edge(Point2i a, Point2i b, Point2i p) { return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u); }
+std::int64_t edge(Point2i a, Point2i b, Point2i p) {
+  return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u);
+}
 
-// A point exactly on an edge belongs to one of the two triangles that share it: edges are seen in opposite directions.
+// A point exactly on an edge belongs to one of the two triangles that share it: edges are seen in opposite
+// directions.
 bool owns(Point2i a, Point2i b) { return b.v > a.v || (b.v == a.v && b.u < a.u); }
 
 }  // namespace
 
 MeshRays::MeshRays(const std::vector<FixedPoint>& vertices, const Mesh& mesh, const Window& window, int axis)
     : axis_(axis), u_axis_((axis + 1) % 3), v_axis_((axis + 2) % 3) {
-  const std::array<int, 3> low{window.x, window.y, window.z}, size{window.size.x, window.size.y, window.size.z};
+  const std::array<int, 3> low{window.x, window.y, window.z},
+      size{window.size.x, window.size.y, window.size.z};
   for (std::size_t i = 0; i < 3; ++i) {
     low_[i] = low[i] * kMeshUnit + kSampleOffset[i];
     count_[i] = size[i] * kSamplesPerAxis;
@@ -37,7 +41,8 @@ MeshRays::MeshRays(const std::vector<FixedPoint>& vertices, const Mesh& mesh, co
   std::uint64_t total = 0;
   for (std::uint32_t& start : start_) {
     total += start;
-    if (total > kMostCrossings) throw ResourceError("mesh: more than 2^30 crossings with sample rays, too many for memory");
+    if (total > kMostCrossings)
+      throw ResourceError("mesh: more than 2^30 crossings with sample rays, too many for memory");
     start = static_cast<std::uint32_t>(total);
   }
   crossings_.resize(start_.back());
@@ -72,15 +77,18 @@ void MeshRays::rasterise(const std::vector<FixedPoint>& vertices, const Mesh& me
                               static_cast<double>(wb) * static_cast<double>(b[axis_]) +
                               static_cast<double>(wc) * static_cast<double>(c[axis_])) /
                              static_cast<double>(area);
-        const double sample = std::ceil((depth - static_cast<double>(low_[axis_])) / static_cast<double>(kSampleSpacing));
-        visit(static_cast<std::size_t>(v) * static_cast<std::size_t>(count_[u_axis_]) + static_cast<std::size_t>(u),
+        const double sample =
+            std::ceil((depth - static_cast<double>(low_[axis_])) / static_cast<double>(kSampleSpacing));
+        visit(static_cast<std::size_t>(v) * static_cast<std::size_t>(count_[u_axis_]) +
+                  static_cast<std::size_t>(u),
               static_cast<std::int32_t>(std::clamp(sample, 0.0, static_cast<double>(count_[axis_]))));
       }
   }
 }
 
 unsigned MeshRays::inside(int u, int v, int first) const {
-  const std::size_t ray = static_cast<std::size_t>(v) * static_cast<std::size_t>(count_[u_axis_]) + static_cast<std::size_t>(u);
+  const std::size_t ray =
+      static_cast<std::size_t>(v) * static_cast<std::size_t>(count_[u_axis_]) + static_cast<std::size_t>(u);
   unsigned mask = 0;
   for (std::uint32_t i = start_[ray]; i < start_[ray + 1]; ++i) {
     const int skipped = std::clamp(crossings_[i] - first, 0, 4);

@@ -28,8 +28,8 @@ class MeshRays {
   MeshRays(const std::vector<FixedPoint>& vertices, const Mesh& mesh, const Window& window, int axis);
 
   // Four samples along the axis from sample `first` (multiple of 4) on the ray (u, v), all counted from the
-  // window's low corner: bit i is set where sample first + i is inside, kOdd where the ray crosses the mesh an odd number
-  // of times: it leaks there.
+  // window's low corner: bit i is set where sample first + i is inside, kOdd where the ray crosses the mesh
+  // an odd number of times: it leaks there.
   unsigned inside(int u, int v, int first) const;
 
  private:
@@ -37,8 +37,8 @@ class MeshRays {
   void rasterise(const std::vector<FixedPoint>& vertices, const Mesh& mesh, Visit visit) const;
 
   int axis_, u_axis_, v_axis_;
-  std::array<std::int64_t, 3> low_;  // first sample of the window
-  std::array<int, 3> count_;         // samples along each axis
+  std::array<std::int64_t, 3> low_;      // first sample of the window
+  std::array<int, 3> count_;             // samples along each axis
   std::vector<std::uint32_t> start_;     // per ray: its first crossing
   std::vector<std::int32_t> crossings_;  // first sample at or after the crossing
 };

@@ -36,7 +36,8 @@ double Polygon::distance(Point2 p) const {
   double nearest_squared = 1e300;
   bool inside = false;
   for (const Run& run : runs_) {
-    const double bx = std::max({run.low.x - p.x, p.x - run.high.x, 0.0}), by = std::max({run.low.y - p.y, p.y - run.high.y, 0.0});
+    const double bx = std::max({run.low.x - p.x, p.x - run.high.x, 0.0}),
+                 by = std::max({run.low.y - p.y, p.y - run.high.y, 0.0});
     const bool crossable = by == 0 && p.x <= run.high.x;
     if (!crossable && bx * bx + by * by >= nearest_squared) continue;
     for (std::size_t i = run.first; i < run.end; ++i) {
@@ -47,7 +48,8 @@ double Polygon::distance(Point2 p) const {
       nearest_squared = std::min(nearest_squared, dx * dx + dy * dy);
       // Even-odd rule: does a ray towards +x cross this edge?
       const bool from_above = p.y < edge.from.y, to_above = p.y < edge.to_y;
-      if (from_above != to_above && (wx * edge.along.y < wy * edge.along.x) == (edge.along.y > 0)) inside = !inside;
+      if (from_above != to_above && (wx * edge.along.y < wy * edge.along.x) == (edge.along.y > 0))
+        inside = !inside;
     }
   }
   const double distance = std::sqrt(nearest_squared);

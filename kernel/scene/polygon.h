@@ -34,14 +34,15 @@ class Polygon {
   Point2 low_, high_;
 };
 
-// A closed Catmull-Rom curve through the points, 8 pieces to a side; a point given twice in a row is a corner.
+// A closed Catmull-Rom curve through the points, 8 pieces to a side; a point given twice in a row is a
+// corner.
 std::vector<Point2> smooth_outline(const std::vector<Point2>& points);
 
 // Turned about the y axis: x of the polygon is the radius (>= 0), y the height.
 ShapePtr make_revolve(Polygon profile);
 
-// From z = -depth/2 to depth/2. Edges are rounded by `rounding` (at most depth/2); both faces rise by `bulge` at the
-// distance `bulge_width` from the outline, smoothly.
+// From z = -depth/2 to depth/2. Edges are rounded by `rounding` (at most depth/2); both faces rise by `bulge`
+// at the distance `bulge_width` from the outline, smoothly.
 struct Extrusion {
   double depth = 1, rounding = 0, bulge = 0, bulge_width = 1;
 };

@@ -26,7 +26,8 @@ ShapePtr make_sphere(double radius) {
 ShapePtr make_box(Point size, double rounding) {
   const Point half = size * 0.5;
   return make_shape(box_around(half.x, half.y, half.z), [=](Point p) {
-    const Point q{std::abs(p.x) - half.x + rounding, std::abs(p.y) - half.y + rounding, std::abs(p.z) - half.z + rounding};
+    const Point q{std::abs(p.x) - half.x + rounding, std::abs(p.y) - half.y + rounding,
+                  std::abs(p.z) - half.z + rounding};
     const Point outside{std::max(q.x, 0.0), std::max(q.y, 0.0), std::max(q.z, 0.0)};
     return length(outside) + std::min(std::max({q.x, q.y, q.z}), 0.0) - rounding;
   });
@@ -84,7 +85,8 @@ ShapePtr make_tube(std::vector<TubePoint> points) {
     double nearest = 1e300;
     for (const Run& run : runs) {
       if (run.box.distance(p) >= nearest) continue;
-      for (std::size_t i = run.first; i < run.end; ++i) nearest = std::min(nearest, piece_distance(points[i], points[i + 1], p));
+      for (std::size_t i = run.first; i < run.end; ++i)
+        nearest = std::min(nearest, piece_distance(points[i], points[i + 1], p));
     }
     return nearest;
   });

@@ -19,10 +19,13 @@ namespace {
 }  // namespace
 
 double checked_number(const Value& value, const std::string& name, const Range& range) {
-  if (value.kind != Value::Kind::real && value.kind != Value::Kind::integer) fail_kind(value, name, "a number");
+  if (value.kind != Value::Kind::real && value.kind != Value::Kind::integer)
+    fail_kind(value, name, "a number");
   const double number = value.real;
-  if (!std::isfinite(number)) fail_at(value.place, fmt::format("{} = {} is not a finite number", name, number));
-  if (number < range.lowest) fail_at(value.place, fmt::format("{} = {} is below {}", name, number, range.lowest));
+  if (!std::isfinite(number))
+    fail_at(value.place, fmt::format("{} = {} is not a finite number", name, number));
+  if (number < range.lowest)
+    fail_at(value.place, fmt::format("{} = {} is below {}", name, number, range.lowest));
   if (range.above && number == range.lowest)
     fail_at(value.place, fmt::format("{} = {} must be more than {}", name, number, range.lowest));
   if (number > range.highest)
@@ -57,7 +60,8 @@ const Value* Reader::find_or_fail(std::string_view key, bool required) {
   // A misspelt key explains a missing one better than its absence does.
   for (std::size_t i = 0; i < table_->keys.size(); ++i) {
     const std::string& present = table_->keys[i];
-    if (std::find(asked_.begin(), asked_.end(), present) == asked_.end() && edit_distance(present, key) <= 2) fail_unknown(i);
+    if (std::find(asked_.begin(), asked_.end(), present) == asked_.end() && edit_distance(present, key) <= 2)
+      fail_unknown(i);
   }
   fail_at(table_->place, name(key) + " is missing");
 }
@@ -68,8 +72,8 @@ void Reader::fail(std::string_view key, const std::string& rest) const {
 
 void Reader::fail_unknown(std::size_t index) const {
   const std::string near = nearest_name(table_->keys[index], asked_);
-  fail_at(table_->items[index].key_place,
-          "unknown key " + name(table_->keys[index]) + (near.empty() ? "" : "; did you mean " + name(near) + "?"));
+  fail_at(table_->items[index].key_place, "unknown key " + name(table_->keys[index]) +
+                                              (near.empty() ? "" : "; did you mean " + name(near) + "?"));
 }
 
 void Reader::finish() const {
@@ -97,7 +101,8 @@ std::int64_t Reader::integer(std::string_view key, std::int64_t lowest, std::int
   if (!value) return *fallback;
   if (value->kind != Value::Kind::integer) fail_kind(*value, name(key), "an integer");
   if (value->integer < lowest || value->integer > highest)
-    fail_at(value->place, fmt::format("{} = {} is outside {}..{}", name(key), value->integer, lowest, highest));
+    fail_at(value->place,
+            fmt::format("{} = {} is outside {}..{}", name(key), value->integer, lowest, highest));
   return value->integer;
 }
 
@@ -122,7 +127,8 @@ std::size_t Reader::choice(std::string_view key, const std::vector<std::string>&
   if (value->kind != Value::Kind::text) fail_kind(*value, name(key), "a string");
   const auto at = std::find(names.begin(), names.end(), value->text);
   if (at == names.end())
-    fail_at(value->place, fmt::format("{} = \"{}\" is not one of {}", name(key), value->text, fmt::join(names, ", ")));
+    fail_at(value->place,
+            fmt::format("{} = \"{}\" is not one of {}", name(key), value->text, fmt::join(names, ", ")));
   return static_cast<std::size_t>(at - names.begin());
 }
 
@@ -132,25 +138,28 @@ std::filesystem::path Reader::file(std::string_view key) {
   return (table_->find(key)->place.origin->folder / named).lexically_normal();
 }
 
-std::optional<std::vector<double>> Reader::numbers(std::string_view key, std::size_t count, const Range& range,
-                                                   bool required) {
+std::optional<std::vector<double>> Reader::numbers(std::string_view key, std::size_t count,
+                                                   const Range& range, bool required) {
   const Value* value = find_or_fail(key, required);
   if (!value) return {};
-  if (value->kind != Value::Kind::array) fail_kind(*value, name(key), fmt::format("an array of {} numbers", count));
+  if (value->kind != Value::Kind::array)
+    fail_kind(*value, name(key), fmt::format("an array of {} numbers", count));
   if (value->items.size() != count)
-    fail_at(value->place, fmt::format("{} must have {} numbers, not {}", name(key), count, value->items.size()));
+    fail_at(value->place,
+            fmt::format("{} must have {} numbers, not {}", name(key), count, value->items.size()));
   std::vector<double> result;
   for (std::size_t i = 0; i < count; ++i)
     result.push_back(checked_number(value->items[i], fmt::format("{}.{}", name(key), i), range));
   return result;
 }
 
-std::vector<double> Reader::rows(std::string_view key, std::size_t width, std::size_t lowest, std::size_t highest,
-                                 const Range& range) {
+std::vector<double> Reader::rows(std::string_view key, std::size_t width, std::size_t lowest,
+                                 std::size_t highest, const Range& range) {
   const Value& value = *find_or_fail(key, true);
   if (value.kind != Value::Kind::array) fail_kind(value, name(key), "an array of arrays");
   if (value.items.size() < lowest || value.items.size() > highest)
-    fail_at(value.place, fmt::format("{} must have {}..{} rows, not {}", name(key), lowest, highest, value.items.size()));
+    fail_at(value.place,
+            fmt::format("{} must have {}..{} rows, not {}", name(key), lowest, highest, value.items.size()));
   std::vector<double> result;
   for (std::size_t i = 0; i < value.items.size(); ++i) {
     const Value& row = value.items[i];
@@ -173,7 +182,8 @@ std::vector<Reader> Reader::tables(std::string_view key) {
   std::vector<Reader> result;
   const Value* value = find(key);
   if (!value) return result;
-  if (value->kind != Value::Kind::array) fail_kind(*value, name(key), "an array of tables ([[" + name(key) + "]])");
+  if (value->kind != Value::Kind::array)
+    fail_kind(*value, name(key), "an array of tables ([[" + name(key) + "]])");
   for (std::size_t i = 0; i < value->items.size(); ++i)
     result.emplace_back(value->items[i], fmt::format("{}.{}", name(key), i));
   return result;

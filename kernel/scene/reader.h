@@ -1,5 +1,6 @@
 // Strict access to one table of a document: every read checks type and range and remembers the key, so that
-// finish() can refuse whatever no read has asked for. Paths in messages are those of --set: heat_source.0.power.
+// finish() can refuse whatever no read has asked for. Paths in messages are those of --set:
+// heat_source.0.power.
 #pragma once
 
 #include <array>
@@ -27,7 +28,7 @@ class Reader {
 
   bool has(std::string_view key);
   Value::Kind kind(std::string_view key) const { return table_->find(key)->kind; }  // of a key that is there
-  std::string name(std::string_view key) const;  // full path of a key
+  std::string name(std::string_view key) const;                                     // full path of a key
   const Place& place() const { return table_->place; }
   const Place& place(std::string_view key) const;  // of its value; of the table where the key is missing
 
@@ -38,7 +39,8 @@ class Reader {
   bool flag(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::optional<std::string> fallback = {});
   // Index of the chosen name.
-  std::size_t choice(std::string_view key, const std::vector<std::string>& names, std::optional<std::size_t> fallback = {});
+  std::size_t choice(std::string_view key, const std::vector<std::string>& names,
+                     std::optional<std::size_t> fallback = {});
   // A file named in the scene, relative to the scene file that names it; by --set, to the current folder.
   std::filesystem::path file(std::string_view key);
 
@@ -65,7 +67,8 @@ class Reader {
   const Value* find(std::string_view key);
   const Value* find_or_fail(std::string_view key, bool required);
   [[noreturn]] void fail_unknown(std::size_t index) const;
-  std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count, const Range& range, bool required);
+  std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count, const Range& range,
+                                             bool required);
 
   const Value* table_;
   std::string path_;

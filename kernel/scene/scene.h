@@ -26,13 +26,13 @@ class ResourceError : public std::runtime_error {
 };
 
 struct Scene {
-  std::string name;                    // file name without folder and suffix
+  std::string name;  // file name without folder and suffix
   std::filesystem::path file;
-  std::string title;                   // one line for `voxmelt list scenes`
-  std::uint32_t steps = 1000;          // of `voxmelt run` when not asked otherwise
+  std::string title;           // one line for `voxmelt list scenes`
+  std::uint32_t steps = 1000;  // of `voxmelt run` when not asked otherwise
   std::uint32_t frame_every = 100;
-  std::vector<std::string> features;   // named extras and features that this scene asks for
-  std::vector<std::string> warnings;   // e.g. leaks of a mesh
+  std::vector<std::string> features;  // named extras and features that this scene asks for
+  std::vector<std::string> warnings;  // e.g. leaks of a mesh
   rule::Parameters parameters;
   state::Volume initial;
   Camera camera;

@@ -31,7 +31,8 @@ std::vector<Point2> read_outline(Reader& reader, std::string_view key, bool radi
   std::vector<Point2> points;
   std::set<std::pair<double, double>> different;
   for (std::size_t i = 0; i < flat.size(); i += 2) {
-    if (radii && flat[i] < 0) reader.fail(key, fmt::format(".{}.0 = {} is below 0: it is a radius", i / 2, flat[i]));
+    if (radii && flat[i] < 0)
+      reader.fail(key, fmt::format(".{}.0 = {} is below 0: it is a radius", i / 2, flat[i]));
     points.push_back({flat[i], flat[i + 1]});
     different.emplace(flat[i], flat[i + 1]);
   }
@@ -60,14 +61,16 @@ ShapePtr read_extrude(Reader& reader) {
 
 ShapePtr read_capsule(Reader& reader) {
   TubePoint from{read_point(reader, "from", Vec3{}), reader.number("radius", length())};
-  return make_tube({from, {read_point(reader, "to"), reader.number("radius_end", length_or_zero(), from.radius)}});
+  return make_tube(
+      {from, {read_point(reader, "to"), reader.number("radius_end", length_or_zero(), from.radius)}});
 }
 
 ShapePtr read_tube(Reader& reader) {
   const std::vector<double> flat = reader.rows("path", 4, 1, kMostPoints, coordinate());
   std::vector<TubePoint> points;
   for (std::size_t i = 0; i < flat.size(); i += 4) {
-    if (!(flat[i + 3] > 0)) reader.fail("path", fmt::format(".{}.3 = {} must be more than 0: it is a radius", i / 4, flat[i + 3]));
+    if (!(flat[i + 3] > 0))
+      reader.fail("path", fmt::format(".{}.3 = {} must be more than 0: it is a radius", i / 4, flat[i + 3]));
     points.push_back({{flat[i], flat[i + 1], flat[i + 2]}, flat[i + 3]});
   }
   return make_tube(std::move(points));
@@ -76,7 +79,8 @@ ShapePtr read_tube(Reader& reader) {
 ShapePtr read_shape(Reader& reader, const std::string& name, int depth);
 
 ShapePtr read_csg(Reader& reader, int depth) {
-  if (depth == kDeepestParts) reader.fail("shape", fmt::format(" = \"csg\" is nested more than {} deep", kDeepestParts));
+  if (depth == kDeepestParts)
+    reader.fail("shape", fmt::format(" = \"csg\" is nested more than {} deep", kDeepestParts));
   const auto operation = static_cast<Operation>(reader.choice("op", {"union", "intersection", "difference"}));
   std::vector<Reader> parts = reader.tables("parts");
   if (parts.empty()) reader.fail("parts", reader.has("parts") ? " is empty" : " is missing");
@@ -92,7 +96,8 @@ ShapePtr read_csg(Reader& reader, int depth) {
 ShapePtr read_bare_shape(Reader& reader, const std::string& name, int depth) {
   if (name == "sphere") return make_sphere(reader.number("radius", length()));
   if (name == "box") return read_box(reader);
-  if (name == "cylinder") return make_cylinder(reader.number("radius", length()), reader.number("height", length()));
+  if (name == "cylinder")
+    return make_cylinder(reader.number("radius", length()), reader.number("height", length()));
   if (name == "cone")
     return make_cone(reader.number("radius", length()), reader.number("radius_top", length_or_zero(), 0.0),
                      reader.number("height", length()));
@@ -117,16 +122,18 @@ Point read_scale(Reader& reader) {
 
 ShapePtr read_shape(Reader& reader, const std::string& name, int depth) {
   ShapePtr shape = read_bare_shape(reader, name, depth);
-  if (reader.has("mirror")) shape = make_mirrored(std::move(shape), static_cast<int>(reader.choice("mirror", {"x", "y", "z"})));
+  if (reader.has("mirror"))
+    shape = make_mirrored(std::move(shape), static_cast<int>(reader.choice("mirror", {"x", "y", "z"})));
   const Placement placement{read_point(reader, "at", Vec3{}),
-                            Rotation(reader.vector<3>("rotate", {-kFullTurn, kFullTurn, false, {}}, Vec3{})), read_scale(reader)};
+                            Rotation(reader.vector<3>("rotate", {-kFullTurn, kFullTurn, false, {}}, Vec3{})),
+                            read_scale(reader)};
   return make_placed(std::move(shape), placement);
 }
 
 }  // namespace
 
 const std::vector<std::string>& shape_names() {
-  static const std::vector<std::string> names{"sphere", "box",  "cylinder", "cone",    "ellipsoid", "torus",
+  static const std::vector<std::string> names{"sphere",  "box",  "cylinder", "cone",    "ellipsoid", "torus",
                                               "capsule", "tube", "revolve",  "extrude", "csg"};
   return names;
 }

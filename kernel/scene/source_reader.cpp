@@ -14,7 +14,9 @@ rule::Region read_region(Reader& reader) {
   return {to_position(at), to_position(reader.number("radius", {0, kLargestRadius, true, {}}))};
 }
 
-rule::Amount read_rate(Reader& reader) { return to_amount(reader.number("rate", {0, 1, true, "a full cell per cell and step"})); }
+rule::Amount read_rate(Reader& reader) {
+  return to_amount(reader.number("rate", {0, 1, true, "a full cell per cell and step"}));
+}
 
 template <class Source>
 void read_interval(Reader& reader, Source& source) {

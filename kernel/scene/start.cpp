@@ -17,7 +17,9 @@ state::BitPlane read_mask(const std::filesystem::path& file, state::Grid grid, c
     for (int y = 0; y < grid.y; ++y)
       for (int x = 0; x < grid.x; ++x) {
         const std::uint16_t value = cells[grid.index(x, y, z)];
-        if (value > 1) fail_at(place, fmt::format("{}: cell ({}, {}, {}) is {}, not 0 or 1", file.string(), x, y, z, value));
+        if (value > 1)
+          fail_at(place,
+                  fmt::format("{}: cell ({}, {}, {}) is {}, not 0 or 1", file.string(), x, y, z, value));
         mask.set(x, y, z, value == 1);
       }
   return mask;
@@ -26,11 +28,13 @@ state::BitPlane read_mask(const std::filesystem::path& file, state::Grid grid, c
 // The first promise that a cell breaks, or nothing.
 const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
   const std::size_t cell = volume.grid.index(x, y, z);
-  const bool solid = volume.solid.test(x, y, z), liquid = volume.liquid.test(x, y, z), inert = volume.inert.test(x, y, z);
+  const bool solid = volume.solid.test(x, y, z), liquid = volume.liquid.test(x, y, z),
+             inert = volume.inert.test(x, y, z);
   const int amount = volume.amount[cell];
   if (solid + liquid + inert > 1) return "at most one of solid, liquid and inert";
   if (inert && amount >= rule::kOne) return "a bed offset of inert below a whole cell";
-  if (!inert && !solid && liquid != (amount > 0)) return "liquid exactly where there is an amount, neither solid nor inert";
+  if (!inert && !solid && liquid != (amount > 0))
+    return "liquid exactly where there is an amount, neither solid nor inert";
   if (volume.energy[cell] > amount) return "energy not more than the amount";
   if (!solid && !liquid && volume.energy[cell] != 0) return "no energy without solid or liquid";
   if (!solid && !liquid && volume.temperature[cell] != 0) return "no temperature without solid or liquid";
@@ -52,7 +56,8 @@ state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid,
     for (int y = 0; y < grid.y; ++y)
       for (int x = 0; x < grid.x; ++x)
         if (const char* promise = broken_promise(volume, x, y, z))
-          fail_at(place, fmt::format("{}: cell ({}, {}, {}) breaks a rule: {}", folder.string(), x, y, z, promise));
+          fail_at(place,
+                  fmt::format("{}: cell ({}, {}, {}) breaks a rule: {}", folder.string(), x, y, z, promise));
   return volume;
 }
 

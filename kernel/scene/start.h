@@ -8,8 +8,9 @@
 
 namespace voxmelt::scene {
 
-// Reads solid, liquid, inert (u8, 0 or 1), amount, energy, temperature (u16) from FOLDER/<field>.npy and checks what
-// every volume promises (kernel/state/volume.h). Throws InputError naming `place`, the file and the first bad cell.
+// Reads solid, liquid, inert (u8, 0 or 1), amount, energy, temperature (u16) from FOLDER/<field>.npy and
+// checks what every volume promises (kernel/state/volume.h). Throws InputError naming `place`, the file and
+// the first bad cell.
 state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid, const Place& place);
 
 }  // namespace voxmelt::scene

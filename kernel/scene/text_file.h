@@ -7,7 +7,8 @@
 
 namespace voxmelt::scene {
 
-// The bytes of `file`. Throws InputError "<where>: error: ..." when it is missing, a folder or larger than `limit`.
+// The bytes of `file`. Throws InputError "<where>: error: ..." when it is missing, a folder or larger than
+// `limit`.
 std::string read_text_file(const std::filesystem::path& file, std::size_t limit, const std::string& where);
 
 }  // namespace voxmelt::scene

@@ -10,8 +10,8 @@
 
 namespace voxmelt::scene {
 
-inline constexpr double kLargestAmount = 15;          // a cell's excess must fit UQ4.12
-inline constexpr double kLargestCoordinate = 65536;   // of sources, vents and shapes, cells
+inline constexpr double kLargestAmount = 15;         // a cell's excess must fit UQ4.12
+inline constexpr double kLargestCoordinate = 65536;  // of sources, vents and shapes, cells
 
 inline rule::Temperature to_temperature(double t) {
   return static_cast<rule::Temperature>(std::lround(t * rule::kTemperatureMax));
@@ -25,6 +25,8 @@ inline std::uint16_t to_factor16(double f) {
 inline std::uint32_t to_factor32(double f) { return static_cast<std::uint32_t>(std::llround(f * 65536)); }
 
 inline std::int64_t to_position(double cells) { return std::llround(cells * rule::kPositionUnit); }
-inline rule::Position to_position(const Vec3& at) { return {to_position(at[0]), to_position(at[1]), to_position(at[2])}; }
+inline rule::Position to_position(const Vec3& at) {
+  return {to_position(at[0]), to_position(at[1]), to_position(at[2])};
+}
 
 }  // namespace voxmelt::scene

@@ -24,7 +24,8 @@ Coverage cover(const Entry& entry, state::Grid grid, std::vector<std::string>& w
                                      entry.mesh_file, mesh.disagreeing, mesh.columns));
     coverage = std::move(mesh.coverage);
   }
-  if (std::all_of(coverage.samples.begin(), coverage.samples.end(), [](std::uint8_t samples) { return samples == 0; }))
+  if (std::all_of(coverage.samples.begin(), coverage.samples.end(),
+                  [](std::uint8_t samples) { return samples == 0; }))
     warnings.push_back(entry.name + " covers no cell of the grid");
   return coverage;
 }
@@ -59,7 +60,8 @@ class Voxeliser {
     const state::Grid grid = volume_.grid;
     for (int z = 0; z < grid.z; ++z)
       for (int x = 0; x < grid.x; ++x) {
-        const double height = terrain.height[static_cast<std::size_t>(z) * static_cast<std::size_t>(grid.x) + static_cast<std::size_t>(x)];
+        const double height = terrain.height[static_cast<std::size_t>(z) * static_cast<std::size_t>(grid.x) +
+                                             static_cast<std::size_t>(x)];
         const int ground = static_cast<int>(std::lround(height));
         for (int y = 0; y < grid.y; ++y) decide(x, y, z, y < ground);
         if (ground > 0) volume_.amount[grid.index(x, ground - 1, z)] = bed(height - ground);

@@ -24,7 +24,8 @@ std::int64_t count_detached(const Volume& volume) {
         if (!volume.solid.test(x, y, z)) continue;
         bool stands = y == 0;
         for (const auto& [dx, dy, dz] : sides)
-          stands = stands || (g.contains(x + dx, y + dy, z + dz) && volume.inert.test(x + dx, y + dy, z + dz));
+          stands =
+              stands || (g.contains(x + dx, y + dy, z + dz) && volume.inert.test(x + dx, y + dy, z + dz));
         if (stands) attach(x, y, z);
       }
   while (!front.empty()) {

@@ -9,10 +9,11 @@ std::uint64_t digest(const Volume& volume) {
   for (int z = 0; z < g.z; ++z)
     for (int y = 0; y < g.y; ++y)
       for (int x = 0; x < g.x; ++x, ++i) {
-        const std::uint64_t packed =
-            std::uint64_t{volume.amount[i]} | std::uint64_t{volume.energy[i]} << 16 |
-            std::uint64_t{volume.temperature[i]} << 32 | std::uint64_t{volume.solid.test(x, y, z)} << 48 |
-            std::uint64_t{volume.liquid.test(x, y, z)} << 49 | std::uint64_t{volume.inert.test(x, y, z)} << 50;
+        const std::uint64_t packed = std::uint64_t{volume.amount[i]} | std::uint64_t{volume.energy[i]} << 16 |
+                                     std::uint64_t{volume.temperature[i]} << 32 |
+                                     std::uint64_t{volume.solid.test(x, y, z)} << 48 |
+                                     std::uint64_t{volume.liquid.test(x, y, z)} << 49 |
+                                     std::uint64_t{volume.inert.test(x, y, z)} << 50;
         sum += cell_digest(i, packed);
       }
   return sum;

@@ -1,5 +1,5 @@
-// One 64-bit number for a whole state (docs/automaton.md, "State digest"): a sum over cells, so that it can be
-// taken in any order, by any number of threads, stages or machines.
+// One 64-bit number for a whole state (docs/automaton.md, "State digest"): a sum over cells, so that it can
+// be taken in any order, by any number of threads, stages or machines.
 #pragma once
 
 #include <cstdint>

@@ -30,7 +30,8 @@ Holdings holdings(const Volume& volume) {
         energy += volume.energy[i];
         heat += std::uint64_t{volume.amount[i]} * volume.temperature[i];
       }
-  return {static_cast<Sum>(solid), static_cast<Sum>(liquid), static_cast<Sum>(energy), static_cast<Sum>(heat)};
+  return {static_cast<Sum>(solid), static_cast<Sum>(liquid), static_cast<Sum>(energy),
+          static_cast<Sum>(heat)};
 }
 
 Ledger Ledger::open(const Volume& volume) {

@@ -45,14 +45,14 @@ struct EnergyLedger {
 
 struct HeatLedger {
   Sum start = 0;
-  Sum conducted = 0;   // pair flows between cells of different amount change the sum of amount x heat
-  Sum convected = 0;   // the same for convection in liquid
-  Sum radiated = 0;    // from point sources
-  Sum warmed = 0;      // gained from air
-  Sum cooled = 0;      // lost to air
-  Sum added = 0;       // brought by vents
-  Sum removed = 0;     // left through drains
-  Sum rounded = 0;     // rounding of the mean where liquid mixes (either sign)
+  Sum conducted = 0;  // pair flows between cells of different amount change the sum of amount x heat
+  Sum convected = 0;  // the same for convection in liquid
+  Sum radiated = 0;   // from point sources
+  Sum warmed = 0;     // gained from air
+  Sum cooled = 0;     // lost to air
+  Sum added = 0;      // brought by vents
+  Sum removed = 0;    // left through drains
+  Sum rounded = 0;    // rounding of the mean where liquid mixes (either sign)
   Sum expected() const {
     return start + conducted + convected + radiated + warmed - cooled + added - removed + rounded;
   }

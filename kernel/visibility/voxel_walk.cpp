@@ -51,8 +51,10 @@ void VoxelWalkProvider::irradiance(const state::Volume& volume, const rule::Heat
           const int axes = facing_axes(volume, x, y, z, dx, dy, dz);
           if (axes == 0 || !sees(volume, x, y, z, source.at)) continue;
           const auto distance_squared = static_cast<std::uint64_t>(dx * dx + dy * dy + dz * dz);
-          const std::uint64_t sum = result[g.index(x, y, z)] + rule::irradiance(source.power, distance_squared, axes);
-          result[g.index(x, y, z)] = static_cast<std::uint16_t>(std::min<std::uint64_t>(sum, rule::kIrradianceMax));
+          const std::uint64_t sum =
+              result[g.index(x, y, z)] + rule::irradiance(source.power, distance_squared, axes);
+          result[g.index(x, y, z)] =
+              static_cast<std::uint16_t>(std::min<std::uint64_t>(sum, rule::kIrradianceMax));
         }
   }
 }

@@ -1,6 +1,7 @@
 #include "render/density/cell_fields.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "kernel/rule/fixed_point.h"
@@ -25,14 +26,16 @@ std::uint16_t intensity_of(std::int32_t amount) {
 // The ground of every column, [z][x].
 struct Columns {
   std::vector<int> bed;              // cells of ground, counted up from y = 0
+  std::vector<int> top;              // the first cell above ground and obstacles
   std::vector<std::int32_t> offset;  // of the true ground from the top face of its cell, in kOne
-  std::vector<std::int32_t> wet;     // 0..kOne
-  std::vector<std::int32_t> shift;   // of the liquid on the bed, to take out its terraces, in kOne
+  std::vector<std::int32_t> wet;     // 0..kOne: covered by matter or an obstacle
+  std::vector<std::int32_t> shift;   // of the puddle, to take out its terraces, in kOne
 };
 
 class Builder {
  public:
-  explicit Builder(const state::Volume& volume) : volume_(volume), grid_(volume.grid) {}
+  Builder(const state::Volume& volume, const scene::Terrain& terrain)
+      : volume_(volume), terrain_(fits(terrain, volume.grid) ? &terrain : nullptr), grid_(volume.grid) {}
 
   CellFields build(int smooth) {
     fields_.grid = grid_;
@@ -82,15 +85,17 @@ class Builder {
 
   void find_ground() {
     columns_.bed.assign(column_count(), 0);
+    columns_.top.assign(column_count(), 0);
     columns_.offset.assign(column_count(), 0);
     columns_.wet.assign(column_count(), 0);
     for (int z = 0; z < grid_.z; ++z)
       for (int x = 0; x < grid_.x; ++x) {
         const std::size_t c = column(x, z);
+        const int highest = terrain_ ? std::min(static_cast<int>(std::lround(terrain_->height[c])), grid_.y) : grid_.y;
         int bed = 0;
-        while (bed < grid_.y && volume_.inert.test(x, bed, z)) ++bed;
+        while (bed < highest && volume_.inert.test(x, bed, z)) ++bed;
         columns_.bed[c] = bed;
-        fill_obstacles(x, bed, z);
+        columns_.top[c] = fill_obstacles(x, bed, z);
         if (bed == 0) continue;
         columns_.offset[c] = std::clamp<std::int32_t>(
             volume_.amount[grid_.index(x, bed - 1, z)] - rule::kBedHalf, -kOne / 2, kOne / 2);
@@ -98,10 +103,22 @@ class Builder {
             static_cast<float>(bed) + static_cast<float>(columns_.offset[c]) / static_cast<float>(kOne);
         columns_.wet[c] = std::min(matter_amount(x, bed, z), kFilm) * kOne / kFilm;
         fields_.wetness[c] = static_cast<float>(columns_.wet[c]) / static_cast<float>(kOne);
+        if (on_bed(fields_.obstacle, x, bed, z)) columns_.wet[c] = kOne;
       }
   }
 
-  // The level of the liquid that rests on the bed under open air, smoothed along the surface.
+  bool on_bed(const std::vector<std::uint16_t>& field, int x, int bed, int z) const {
+    return !field.empty() && bed < grid_.y && field[grid_.index(x, bed, z)] != 0;
+  }
+
+  // The cell in which the puddle of a column begins: on the bed, or else on the highest obstacle.
+  int puddle_floor(int x, int z) const {
+    const std::size_t c = column(x, z);
+    const int bed = columns_.bed[c];
+    return bed < grid_.y && volume_.liquid.test(x, bed, z) ? bed : columns_.top[c];
+  }
+
+  // The level of the liquid that rests on ground or obstacle under open air, smoothed along the surface.
   void find_shifts(int smooth) {
     columns_.shift.assign(column_count(), 0);
     if (smooth <= 0) return;
@@ -110,24 +127,29 @@ class Builder {
     for (int z = 0; z < grid_.z; ++z)
       for (int x = 0; x < grid_.x; ++x) {
         const std::size_t c = column(x, z);
-        int y = columns_.bed[c];
+        const int floor = puddle_floor(x, z);
+        int y = floor;
         if (y == 0) continue;
         std::int32_t depth = 0;
         for (; y < grid_.y && volume_.liquid.test(x, y, z); ++y) depth += matter_amount(x, y, z);
         if (depth == 0 || y == grid_.y || fields_.intensity[grid_.index(x, y, z)] != 0) continue;
         levels.depth[c] = depth;
-        levels.level[c] = columns_.bed[c] * kOne + columns_.offset[c] + depth;
+        levels.level[c] = floor * kOne + (floor == columns_.bed[c] ? columns_.offset[c] : 0) + depth;
       }
     columns_.shift = level_shifts(levels, std::min(kLevelPasses * smooth, kMostLevelPasses));
   }
 
-  // Inert cells that do not reach down to y = 0 are things of their own and drawn like solids.
-  void fill_obstacles(int x, int bed, int z) {
+  // Returns the first cell above the bed and all obstacles.
+  int fill_obstacles(int x, int bed, int z) {
+    int top = bed;
     for (int y = bed; y < grid_.y; ++y)
       if (volume_.inert.test(x, y, z)) {
+        if (fields_.obstacle.empty()) fields_.obstacle.assign(grid_.cells(), 0);
         const std::size_t i = grid_.index(x, y, z);
-        fields_.intensity[i] = fields_.solid[i] = static_cast<std::uint16_t>(kFull);
+        fields_.intensity[i] = fields_.obstacle[i] = static_cast<std::uint16_t>(kFull);
+        top = y + 1;
       }
+    return top;
   }
 
   // Distance in columns (largest of |dx|, |dz|) to the nearest wet column, kReach + 1 where there is none.
@@ -144,11 +166,13 @@ class Builder {
   void fill_ground(int x, int z) {
     const std::size_t c = column(x, z);
     const int bed = columns_.bed[c];
+    if (const int floor = puddle_floor(x, z); floor > bed) shift_liquid(x, floor, z, columns_.shift[c]);
     if (bed == 0) return;
     const int distance = distance_to_wet(x, z);
     if (distance > kReach) return;
     const std::int32_t sink = distance < kReach ? kSink - kSink * columns_.wet[c] / kOne : kDive;
-    const std::int32_t rise = columns_.offset[c] - sink;
+    std::int32_t rise = columns_.offset[c] - sink;
+    if (on_bed(fields_.obstacle, x, bed, z)) rise = std::max(rise, 0);  // an obstacle stands on it without a gap
 
     // Ground up to the true height of the bed, less the sink.
     const int last = std::min(bed, grid_.y - 1);
@@ -180,6 +204,7 @@ class Builder {
   }
 
   const state::Volume& volume_;
+  const scene::Terrain* terrain_;  // null where it does not fit
   state::Grid grid_;
   CellFields fields_;
   Columns columns_;
@@ -187,6 +212,13 @@ class Builder {
 
 }  // namespace
 
-CellFields cell_fields(const state::Volume& volume, int smooth) { return Builder(volume).build(smooth); }
+bool fits(const scene::Terrain& terrain, const state::Grid& grid) {
+  return terrain.x == grid.x && terrain.z == grid.z &&
+         terrain.height.size() == static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.z);
+}
+
+CellFields cell_fields(const state::Volume& volume, int smooth, const scene::Terrain& terrain) {
+  return Builder(volume, terrain).build(smooth);
+}
 
 }  // namespace voxmelt::render

@@ -53,18 +53,20 @@ std::array<float, 257> emission_table(double cold, double hot) {
 
 }  // namespace
 
-int DensityField::update(const state::Volume& volume, const scene::Look& look) {
+int DensityField::update(const state::Volume& volume, const scene::Look& look, const scene::Terrain& terrain) {
   const int liquid_passes = std::clamp(look.smooth, 0, kMaxPasses);
   const int solid_passes = std::clamp(look.smooth_solid, 0, kMaxPasses);
-  CellFields fresh = cell_fields(volume, liquid_passes);
+  CellFields fresh = cell_fields(volume, liquid_passes, terrain);
 
   // Which bricks differ from the last update: all of them when the field has another shape.
   std::vector<std::uint8_t> changed;
-  if (liquid_passes != liquid_passes_ || solid_passes != solid_passes_ || !(fresh.grid == cells_.grid)) {
+  if (liquid_passes != liquid_passes_ || solid_passes != solid_passes_ || !(fresh.grid == cells_.grid) ||
+      fresh.obstacle.size() != cells_.obstacle.size()) {
     bricks_ = brick_grid(fresh.grid);
     liquid_passes_ = liquid_passes;
     solid_passes_ = solid_passes;
     for (auto* field : {&intensity_, &solid_, &liquid_, &heat_}) field->assign(fresh.grid.cells(), 0);
+    obstacle_.assign(fresh.obstacle.size(), 0);
     ranges_.assign(bricks_.cells(), BrickRange{});
     changed.assign(bricks_.cells(), 1);
   } else {
@@ -91,7 +93,9 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look) {
   if (filtered > 0 || look.glow_cold != glow_cold_ || look.glow_hot != glow_hot_) {
     glow_cold_ = look.glow_cold;
     glow_hot_ = look.glow_hot;
-    pyramid_.build(cells_.grid, solid_, liquid_, heat_, emission_table(glow_cold_, glow_hot_));
+    const auto emission = emission_table(glow_cold_, glow_hot_);
+    pyramid_.build(cells_.grid, solid_, liquid_, heat_, cells_.obstacle, emission);
+    if (has_obstacles()) matter_pyramid_.build(cells_.grid, solid_, liquid_, heat_, {}, emission);
   }
   return filtered;
 }
@@ -111,7 +115,8 @@ std::vector<std::uint8_t> DensityField::changed_bricks(const CellFields& fresh) 
           return std::memcmp(a.data() + first, b.data() + first, bytes) != 0;
         };
         flag = differs(fresh.intensity, cells_.intensity) || differs(fresh.solid, cells_.solid) ||
-               differs(fresh.liquid, cells_.liquid) || differs(fresh.heat, cells_.heat);
+               differs(fresh.liquid, cells_.liquid) || differs(fresh.heat, cells_.heat) ||
+               (!fresh.obstacle.empty() && differs(fresh.obstacle, cells_.obstacle));
       }
   return changed;
 }
@@ -122,6 +127,7 @@ void DensityField::filter_brick(int bx, int by, int bz) {
   low_pass_brick(grid, bx, by, bz, wide, cells_.solid, solid_);
   low_pass_brick(grid, bx, by, bz, wide, cells_.liquid, liquid_);
   low_pass_brick(grid, bx, by, bz, wide, cells_.heat, heat_);
+  if (has_obstacles()) low_pass_brick(grid, bx, by, bz, wide, cells_.obstacle, obstacle_);
 
   // Most bricks need one of the two filters only.
   const int x0 = bx * kBrickSide, y0 = by * kBrickSide, z0 = bz * kBrickSide;
@@ -134,7 +140,7 @@ void DensityField::filter_brick(int bx, int by, int bz) {
   for (int z = z0; z < z1; ++z)
     for (int y = y0; y < y1; ++y)
       for (std::size_t i = grid.index(x0, y, z); i < grid.index(x0, y, z) + static_cast<std::size_t>(x1 - x0); ++i) {
-        weights[k] = liquid_weight(liquid_[i], solid_[i]);
+        weights[k] = liquid_weight(liquid_[i], std::uint32_t{solid_[i]} + (has_obstacles() ? obstacle_[i] : 0u));
         least = std::min(least, weights[k]);
         most = std::max(most, weights[k++]);
       }

@@ -5,7 +5,7 @@
 //
 // Liquid is filtered more than solid (look.smooth, look.smooth_solid). Which of the two holds is decided by the
 // share of liquid in the matter around, itself filtered, so the one passes into the other without a seam; a
-// solid under a film of less than half a cell counts as solid.
+// solid under a film of less than half a cell counts as solid. Obstacles are filtered like solids.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,8 @@ class DensityField {
  public:
   // Takes over a new state. Only bricks in which something changed, and their neighbours, are filtered again;
   // the result is the same, bit for bit, as that of a fresh field. Returns the number of bricks filtered.
-  int update(const state::Volume& volume, const scene::Look& look);
+  // Inert cells above the terrain are obstacles; where it does not fit the volume, those above any gap are.
+  int update(const state::Volume& volume, const scene::Look& look, const scene::Terrain& terrain = {});
 
   const state::Grid& grid() const { return cells_.grid; }
   const state::Grid& bricks() const { return bricks_; }
@@ -41,7 +42,11 @@ class DensityField {
   const std::vector<float>& ground() const { return cells_.ground; }
   const std::vector<float>& wetness() const { return cells_.wetness; }
   const std::vector<BrickRange>& ranges() const { return ranges_; }
+  const CellFields& cells() const { return cells_; }  // before filtering
+  bool has_obstacles() const { return !cells_.obstacle.empty(); }
+  // Of all that stops light, and of solid and liquid without the obstacles.
   const Pyramid& pyramid() const { return pyramid_; }
+  const Pyramid& matter_pyramid() const { return has_obstacles() ? matter_pyramid_ : pyramid_; }
   int liquid_passes() const { return liquid_passes_; }
 
  private:
@@ -52,10 +57,10 @@ class DensityField {
   CellFields cells_;
   state::Grid bricks_;
   int liquid_passes_ = -1, solid_passes_ = -1;
-  std::vector<std::uint16_t> intensity_, solid_, liquid_, heat_;
+  std::vector<std::uint16_t> intensity_, solid_, liquid_, heat_, obstacle_;
   std::vector<BrickRange> ranges_;
   double glow_cold_ = 0, glow_hot_ = 0;
-  Pyramid pyramid_;
+  Pyramid pyramid_, matter_pyramid_;
 };
 
 }  // namespace voxmelt::render

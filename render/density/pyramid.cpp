@@ -53,13 +53,14 @@ Blend sample_level(const PyramidLevel& level, float x, float y, float z, float s
 
 void Pyramid::build(const state::Grid& grid, const std::vector<std::uint16_t>& solid,
                     const std::vector<std::uint16_t>& liquid, const std::vector<std::uint16_t>& heat,
-                    const std::array<float, 257>& emission) {
+                    const std::vector<std::uint16_t>& obstacle, const std::array<float, 257>& emission) {
   constexpr float kUnit = 1.0f / static_cast<float>(kFull);
   reduce(grid, levels_[0], [&](int x, int y, int z) {
     const std::size_t i = grid.index(x, y, z);
     Blend blend;
-    if (solid[i] == 0 && liquid[i] == 0) return blend;
-    blend.matter = static_cast<float>(std::min(kFull, solid[i] + liquid[i])) * kUnit;
+    const int hard = solid[i] + (obstacle.empty() ? 0 : obstacle[i]);
+    if (hard == 0 && liquid[i] == 0) return blend;
+    blend.matter = static_cast<float>(std::min(kFull, hard + liquid[i])) * kUnit;
     blend.liquid = static_cast<float>(liquid[i]) * kUnit;
     blend.heat = static_cast<float>(heat[i]) * kUnit;
     if (liquid[i] != 0) blend.glow = blend.liquid * emission[std::min(256u, heat[i] * 256u / liquid[i])];

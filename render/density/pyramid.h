@@ -1,4 +1,4 @@
-// Coarser and coarser averages of the matter (without the ground), for soft shadows, ambient occlusion and
+// Coarser and coarser averages of the matter and the obstacles (without the ground), for soft shadows, ambient occlusion and
 // the light that glowing liquid throws: a wide cone reads a coarse level where a ray would need many samples.
 //
 // Level l has cells of 2^l cells of the grid, l = 1 .. kLevels; outside the grid there is nothing.
@@ -38,10 +38,10 @@ class Pyramid {
  public:
   static constexpr int kLevels = 5;
 
-  // `emission` gives the light of a temperature 0..65535, for each of 256 equal steps.
+  // `obstacle` may be empty: none. `emission` gives the light of a temperature 0..65535, for each of 256 equal steps.
   void build(const state::Grid& grid, const std::vector<std::uint16_t>& solid,
              const std::vector<std::uint16_t>& liquid, const std::vector<std::uint16_t>& heat,
-             const std::array<float, 257>& emission);
+             const std::vector<std::uint16_t>& obstacle, const std::array<float, 257>& emission);
 
   // Trilinear in space (position in cells of the grid) and linear between levels, 1 <= level <= kLevels.
   Blend sample(float x, float y, float z, float level) const;

@@ -88,9 +88,11 @@ class Painter {
   }
 
   Vec matter_color(const Ray& ray, const Hit& hit, Arriving& arriving) const {
-    const Material material = material_at(field_, surface_.sampler(), hit.point, look_);
+    const Material material = material_at(field_, surface_.sampler(), hit.point, hit.normal, look_);
     gather(arriving, ray, hit.point, hit.normal, material.metallic > 0);
-    return tone_mapped(reflected(material, incoming(ray, hit.normal, arriving), ambient_, vec(look_.ground)));
+    Incoming in = incoming(ray, hit.normal, arriving);
+    if (look_.glow) in.glow = arriving.ambient.glow * material.obstacle;
+    return tone_mapped(reflected(material, in, ambient_, vec(look_.ground)));
   }
 
   Vec ground_color(const Ray& ray, const GroundHit& where, Arriving& arriving) const {

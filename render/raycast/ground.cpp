@@ -15,9 +15,7 @@ constexpr float kBevel = 0.6f;    // width of the slab's rounded edge, in cells
 }  // namespace
 
 Ground::Ground(const scene::Terrain& terrain, const DensityField& field) {
-  const bool fits = terrain.x == field.grid().x && terrain.z == field.grid().z &&
-                    terrain.height.size() == field.ground().size();
-  height_ = fits ? terrain.height : field.ground();
+  height_ = fits(terrain, field.grid()) ? terrain.height : field.ground();
   if (std::all_of(height_.begin(), height_.end(), [](float h) { return h <= 0; })) return;
   size_x_ = field.grid().x;
   size_z_ = field.grid().z;

@@ -10,7 +10,8 @@ namespace voxmelt::render {
 struct Material {
   Vec color;  // of diffusely reflected light
   Vec emission;
-  float liquid = 0;  // 0 solid .. 1 liquid
+  float liquid = 0;    // 0 solid .. 1 liquid
+  float obstacle = 0;  // 0 matter .. 1 obstacle
   float specular = 0;
   float shininess = 40;
   float metallic = 0;
@@ -18,6 +19,9 @@ struct Material {
 
 // Solid and liquid colours and the temperature are blended by weight of matter; where the surface runs
 // through cells that hold next to nothing, wider and wider surroundings decide, so that no speck shows.
-Material material_at(const DensityField& field, const Sampler& sampler, Vec point, const scene::Look& look);
+// Obstacles have the ground's colour, a little lighter; it ends within a cell of where they do, and a film of a
+// tenth of a cell hides it. The normal points out of the surface.
+Material material_at(const DensityField& field, const Sampler& sampler, Vec point, Vec normal,
+                     const scene::Look& look);
 
 }  // namespace voxmelt::render

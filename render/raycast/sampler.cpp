@@ -48,7 +48,7 @@ float Sampler::linear(const std::vector<std::uint16_t>& cells, Vec point) const 
   return mix(low, high, pz.t);
 }
 
-float Sampler::cubic(Vec point) const {
+float Sampler::cubic(const std::vector<std::uint16_t>& of, Vec point) const {
   const Place px(point.x), py(point.y), pz(point.z);
   const std::size_t row = static_cast<std::size_t>(grid_.x), slice = row * static_cast<std::size_t>(grid_.y);
   const Taps tx(px.cell, grid_.x, 1), ty(py.cell, grid_.y, row), tz(pz.cell, grid_.z, slice);
@@ -57,7 +57,7 @@ float Sampler::cubic(Vec point) const {
   for (int k = 0; k < 4; ++k) {
     float plane = 0;
     for (int j = 0; j < 4; ++j) {
-      const std::uint16_t* cells = intensity_.data() + tz.offset[k] + ty.offset[j];
+      const std::uint16_t* cells = of.data() + tz.offset[k] + ty.offset[j];
       plane += wy.value[j] * (wx.value[0] * cells[tx.offset[0]] + wx.value[1] * cells[tx.offset[1]] +
                               wx.value[2] * cells[tx.offset[2]] + wx.value[3] * cells[tx.offset[3]]);
     }

@@ -40,7 +40,8 @@ class Sampler {
 
   // Cubic B-spline: the surface itself. Its second derivatives are continuous, so neither the shape nor the
   // highlights show the cells. Never outside the range of the 4x4x4 cells around the point.
-  float cubic(Vec point) const;
+  float cubic(const std::vector<std::uint16_t>& cells, Vec point) const;
+  float cubic(Vec point) const { return cubic(intensity_, point); }
   FieldSample cubic_with_gradient(Vec point) const;
 
  private:
