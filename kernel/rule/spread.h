@@ -33,11 +33,11 @@ VOXMELT_RULE std::int32_t spread_margin(std::int32_t energy, const PaperLaw& law
 }
 
 // May a giver with amount a and axis flow f give to a neighbour with amount b?
-// A diagonal is sqrt(2) away: its margin is 11/8, or piles at rest would grow corners.
+// A diagonal's margin is 9/8: then piles at rest are as long along the axes as along the diagonals.
 VOXMELT_RULE bool receives(std::int32_t a, std::int32_t f, std::int32_t b, std::int32_t margin, bool diagonal,
                            const PaperLaw& law) {
   if (b >= receiver_limit(law.neighbours)) return false;
-  return !law.downhill || b + std::max(f, diagonal ? (11 * margin) >> 3 : margin) < a;
+  return !law.downhill || b + std::max(f, diagonal ? (9 * margin) >> 3 : margin) < a;
 }
 
 VOXMELT_RULE std::int32_t contact_alpha(bool solid_below, bool inert_below, const PaperLaw& law) {

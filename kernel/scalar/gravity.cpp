@@ -8,10 +8,10 @@
 namespace voxmelt::scalar {
 namespace {
 
-rule::FallSurroundings surroundings(const Cells& cells, int x, int y, int z) {
+rule::FallSurroundings surroundings(const Cells& cells, int x, int y, int z, bool empty_below) {
   const bool wall = cells.blocked(x - 1, y, z) || cells.blocked(x + 1, y, z) || cells.blocked(x, y, z - 1) ||
                     cells.blocked(x, y, z + 1);
-  return {wall, cells.air(x, y - 1, z) && (wall || cells.blocked(x, y + 1, z))};
+  return {wall, empty_below && (wall || cells.blocked(x, y + 1, z))};
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
     if (hot) {
       const std::uint64_t content = std::uint64_t{volume.amount[to]} * volume.temperature[to] +
                                     static_cast<std::uint64_t>(flow) * volume.temperature[from];
-      const auto after = static_cast<std::uint64_t>(volume.amount[to] + flow);
+      const std::uint64_t after = std::uint64_t{volume.amount[to]} + static_cast<std::uint64_t>(flow);
       const std::int32_t h = rule::mixed(content, after, offset);
       ledger.heat.rounded +=
           static_cast<state::Sum>(after * static_cast<std::uint64_t>(h)) - static_cast<state::Sum>(content);
@@ -55,7 +55,7 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
         // Down: only into free space, so a cell filled by falling never exceeds 1.
         if (upper > 0 && lower < rule::kOne && (paper || !in_run_[high])) {
           const std::int32_t ready =
-              rule::released(upper, parameters_.flow.fall, surroundings(cells, x, y + 1, z));
+              rule::released(upper, parameters_.flow.fall, surroundings(cells, x, y + 1, z, lower == 0));
           const std::int32_t flow = rule::fallen(lower, ready);
           if (flow == 0) continue;
           if (paper) {

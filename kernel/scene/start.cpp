@@ -35,6 +35,8 @@ const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
   if (inert && amount >= rule::kOne) return "a bed offset of inert below a whole cell";
   if (!inert && !solid && liquid != (amount > 0))
     return "liquid exactly where there is an amount, neither solid nor inert";
+  if (solid && amount == 0) return "no solid without an amount";
+  if (solid && volume.energy[cell] != 0) return "no energy in solids";
   if (volume.energy[cell] > amount) return "energy not more than the amount";
   if (!solid && !liquid && volume.energy[cell] != 0) return "no energy without solid or liquid";
   if (!solid && !liquid && volume.temperature[cell] != 0) return "no temperature without solid or liquid";

@@ -91,7 +91,8 @@ class Builder {
     for (int z = 0; z < grid_.z; ++z)
       for (int x = 0; x < grid_.x; ++x) {
         const std::size_t c = column(x, z);
-        const int highest = terrain_ ? std::min(static_cast<int>(std::lround(terrain_->height[c])), grid_.y) : grid_.y;
+        const int highest =
+            terrain_ ? std::min(static_cast<int>(std::lround(terrain_->height[c])), grid_.y) : grid_.y;
         int bed = 0;
         while (bed < highest && volume_.inert.test(x, bed, z)) ++bed;
         columns_.bed[c] = bed;
@@ -172,7 +173,8 @@ class Builder {
     if (distance > kReach) return;
     const std::int32_t sink = distance < kReach ? kSink - kSink * columns_.wet[c] / kOne : kDive;
     std::int32_t rise = columns_.offset[c] - sink;
-    if (on_bed(fields_.obstacle, x, bed, z)) rise = std::max(rise, 0);  // an obstacle stands on it without a gap
+    if (on_bed(fields_.obstacle, x, bed, z))
+      rise = std::max(rise, 0);  // an obstacle stands on it without a gap
 
     // Ground up to the true height of the bed, less the sink.
     const int last = std::min(bed, grid_.y - 1);

@@ -3,9 +3,10 @@
 // Intensities are the paper's 0..255 with eight fraction bits (u16, kFull = 255 * 256): linear in the
 // amount of a cell, full at kOne and above. Arrays are [z][y][x], x fastest.
 //
-// The ground is the inert cells that reach up from y = 0, no higher than the terrain where that is known. It is filled below and beside matter, because otherwise
-// the surface of a thin film would sink into the floor and the rim of a puddle would curl. Next to dry ground
-// the filling ends a little below the ground, so that the surface closes where the ground hides it.
+// The ground is the inert cells that reach up from y = 0, no higher than the terrain where that is known. It
+// is filled below and beside matter, because otherwise the surface of a thin film would sink into the floor
+// and the rim of a puddle would curl. Next to dry ground the filling ends a little below the ground, so that
+// the surface closes where the ground hides it.
 //
 // Every other inert cell is part of an obstacle: a thing of its own, drawn like a solid.
 //

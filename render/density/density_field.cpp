@@ -53,7 +53,8 @@ std::array<float, 257> emission_table(double cold, double hot) {
 
 }  // namespace
 
-int DensityField::update(const state::Volume& volume, const scene::Look& look, const scene::Terrain& terrain) {
+int DensityField::update(const state::Volume& volume, const scene::Look& look,
+                         const scene::Terrain& terrain) {
   const int liquid_passes = std::clamp(look.smooth, 0, kMaxPasses);
   const int solid_passes = std::clamp(look.smooth_solid, 0, kMaxPasses);
   CellFields fresh = cell_fields(volume, liquid_passes, terrain);
@@ -139,8 +140,10 @@ void DensityField::filter_brick(int bx, int by, int bz) {
   std::size_t k = 0;
   for (int z = z0; z < z1; ++z)
     for (int y = y0; y < y1; ++y)
-      for (std::size_t i = grid.index(x0, y, z); i < grid.index(x0, y, z) + static_cast<std::size_t>(x1 - x0); ++i) {
-        weights[k] = liquid_weight(liquid_[i], std::uint32_t{solid_[i]} + (has_obstacles() ? obstacle_[i] : 0u));
+      for (std::size_t i = grid.index(x0, y, z); i < grid.index(x0, y, z) + static_cast<std::size_t>(x1 - x0);
+           ++i) {
+        weights[k] =
+            liquid_weight(liquid_[i], std::uint32_t{solid_[i]} + (has_obstacles() ? obstacle_[i] : 0u));
         least = std::min(least, weights[k]);
         most = std::max(most, weights[k++]);
       }
@@ -157,7 +160,8 @@ void DensityField::filter_brick(int bx, int by, int bz) {
   each([&](std::uint16_t value, std::size_t cell) { softer[cell] = value; });
   low_pass_brick(grid, bx, by, bz, solid_passes_, cells_.intensity, intensity_);
   each([&](std::uint16_t& value, std::size_t cell) {
-    value = static_cast<std::uint16_t>((value * (256 - weights[cell]) + softer[cell] * weights[cell] + 128) >> 8);
+    value =
+        static_cast<std::uint16_t>((value * (256 - weights[cell]) + softer[cell] * weights[cell] + 128) >> 8);
   });
 }
 

@@ -3,9 +3,9 @@
 // The surface is where the filtered intensity is half of kFull. For a column of full cells with a part-filled
 // cell on top this lies within a tenth of a cell of the column's height, so smooth amounts look smooth.
 //
-// Liquid is filtered more than solid (look.smooth, look.smooth_solid). Which of the two holds is decided by the
-// share of liquid in the matter around, itself filtered, so the one passes into the other without a seam; a
-// solid under a film of less than half a cell counts as solid. Obstacles are filtered like solids.
+// Liquid is filtered more than solid (look.smooth, look.smooth_solid). Which of the two holds is decided by
+// the share of liquid in the matter around, itself filtered, so the one passes into the other without a seam;
+// a solid under a film of less than half a cell counts as solid. Obstacles are filtered like solids.
 #pragma once
 
 #include <cstdint>

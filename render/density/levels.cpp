@@ -45,7 +45,8 @@ std::vector<std::int32_t> level_shifts(const Levels& levels, int passes) {
         const std::int32_t here = now[index(x, z)];
         if (here == kNoLevel) continue;
         // The 3x3 binomial filter where all neighbours count.
-        const std::int64_t straight = bend(at(x - 1, z), here, at(x + 1, z)) + bend(at(x, z - 1), here, at(x, z + 1));
+        const std::int64_t straight =
+            bend(at(x - 1, z), here, at(x + 1, z)) + bend(at(x, z - 1), here, at(x, z + 1));
         const std::int64_t diagonal =
             bend(at(x - 1, z - 1), here, at(x + 1, z + 1)) + bend(at(x - 1, z + 1), here, at(x + 1, z - 1));
         next[index(x, z)] = here + static_cast<std::int32_t>((2 * straight + diagonal) / 16);

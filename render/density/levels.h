@@ -19,8 +19,8 @@ struct Levels {
   std::vector<std::int32_t> depth;  // of the liquid
 };
 
-// How far each column's level must move: at most a quarter of a cell and a half of the depth. Even slopes stay
-// where they are up to the rim; steps of two cells and more are no terraces and stay too.
+// How far each column's level must move: at most a quarter of a cell and a half of the depth. Even slopes
+// stay where they are up to the rim; steps of two cells and more are no terraces and stay too.
 std::vector<std::int32_t> level_shifts(const Levels& levels, int passes);
 
 }  // namespace voxmelt::render

@@ -1,5 +1,6 @@
-// Coarser and coarser averages of the matter and the obstacles (without the ground), for soft shadows, ambient occlusion and
-// the light that glowing liquid throws: a wide cone reads a coarse level where a ray would need many samples.
+// Coarser and coarser averages of the matter and the obstacles (without the ground), for soft shadows,
+// ambient occlusion and the light that glowing liquid throws: a wide cone reads a coarse level where a ray
+// would need many samples.
 //
 // Level l has cells of 2^l cells of the grid, l = 1 .. kLevels; outside the grid there is nothing.
 #pragma once
@@ -38,7 +39,8 @@ class Pyramid {
  public:
   static constexpr int kLevels = 5;
 
-  // `obstacle` may be empty: none. `emission` gives the light of a temperature 0..65535, for each of 256 equal steps.
+  // `obstacle` may be empty: none. `emission` gives the light of a temperature 0..65535, for each of 256
+  // equal steps.
   void build(const state::Grid& grid, const std::vector<std::uint16_t>& solid,
              const std::vector<std::uint16_t>& liquid, const std::vector<std::uint16_t>& heat,
              const std::vector<std::uint16_t>& obstacle, const std::array<float, 257>& emission);

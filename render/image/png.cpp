@@ -21,7 +21,8 @@ using File = std::unique_ptr<std::FILE, Close>;
 }
 
 [[noreturn]] void fail_errno(const std::filesystem::path& file, const std::string& what, int code) {
-  throw ImageError(file.string() + ": error: " + what + ": " + std::strerror(code), code == ENOSPC || code == EDQUOT);
+  throw ImageError(file.string() + ": error: " + what + ": " + std::strerror(code),
+                   code == ENOSPC || code == EDQUOT);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ Blend blend_at(const DensityField& field, const Sampler& sampler, Vec point) {
   return sum;
 }
 
-// 0 matter .. 1 obstacle, by the unfiltered cells, so that neither bleeds into the other. Taken a little outside
-// the surface, where a film outweighs what it covers.
+// 0 matter .. 1 obstacle, by the unfiltered cells, so that neither bleeds into the other. Taken a little
+// outside the surface, where a film outweighs what it covers.
 float obstacle_share(const DensityField& field, const Sampler& sampler, Vec point, Vec normal) {
   if (!field.has_obstacles()) return 0;
   const CellFields& cells = field.cells();
@@ -36,7 +36,7 @@ float obstacle_share(const DensityField& field, const Sampler& sampler, Vec poin
     weight = 0.02f;  // decides only where there is nothing outside
   }
   if (obstacle <= 0) return 0;
-  return 1 - smooth_step(0.15f, 0.5f, matter / (matter + obstacle));
+  return 1 - smooth_step(0.2f, 0.42f, matter / (matter + obstacle));
 }
 
 void blend_obstacle(Material& material, float share, const scene::Look& look) {

@@ -19,8 +19,8 @@ struct Material {
 
 // Solid and liquid colours and the temperature are blended by weight of matter; where the surface runs
 // through cells that hold next to nothing, wider and wider surroundings decide, so that no speck shows.
-// Obstacles have the ground's colour, a little lighter; it ends within a cell of where they do, and a film of a
-// tenth of a cell hides it. The normal points out of the surface.
+// Obstacles have the ground's colour, a little lighter; it ends within a cell of where they do, and a film of
+// a tenth of a cell hides it. The normal points out of the surface.
 Material material_at(const DensityField& field, const Sampler& sampler, Vec point, Vec normal,
                      const scene::Look& look);
 

@@ -20,7 +20,8 @@ struct Heights {
 inline Heights heights(const Volume& v) {
   Heights result{v.grid.x, v.grid.z, std::vector<double>(static_cast<std::size_t>(v.grid.x * v.grid.z))};
   for_each(whole(v.grid), [&](int x, int y, int z) {
-    if (v.liquid.test(x, y, z)) result.h[static_cast<std::size_t>(z * v.grid.x + x)] += v.amount[v.grid.index(x, y, z)] / 4096.0;
+    if (v.liquid.test(x, y, z))
+      result.h[static_cast<std::size_t>(z * v.grid.x + x)] += v.amount[v.grid.index(x, y, z)] / 4096.0;
   });
   return result;
 }
@@ -97,7 +98,8 @@ inline void put_disc(Volume& v, double radius, double depth, std::int32_t energy
   });
 }
 
-// Two shafts of 3 x 3, joined by a tunnel 3 high: one filled 21 high, the other 3. Level, both would stand at 12.
+// Two shafts of 3 x 3, joined by a tunnel 3 high: one filled 21 high, the other 3. Level, both would stand
+// at 12.
 inline Volume u_tube() {
   Volume v(Grid{11, 30, 5});
   fill_inert(v, whole(v.grid));

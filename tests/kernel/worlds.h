@@ -20,7 +20,9 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
   std::uint64_t bits() { return engine_(); }
-  std::int32_t below(std::int32_t n) { return static_cast<std::int32_t>(engine_() % static_cast<std::uint64_t>(n)); }
+  std::int32_t below(std::int32_t n) {
+    return static_cast<std::int32_t>(engine_() % static_cast<std::uint64_t>(n));
+  }
   std::int32_t between(std::int32_t first, std::int32_t last) { return first + below(last - first + 1); }
   bool one_in(std::int32_t n) { return below(n) == 0; }
   template <class T>
@@ -32,7 +34,8 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-inline void put(Volume& v, int x, int y, int z, std::int32_t amount, std::int32_t energy = 0, std::int32_t heat = 0) {
+inline void put(Volume& v, int x, int y, int z, std::int32_t amount, std::int32_t energy = 0,
+                std::int32_t heat = 0) {
   const std::size_t i = v.grid.index(x, y, z);
   v.amount[i] = static_cast<std::uint16_t>(amount);
   v.energy[i] = static_cast<std::uint16_t>(energy);
@@ -61,7 +64,8 @@ void for_each(const Box& b, Visit&& visit) {
     for (int y = b.y0; y < b.y1; ++y)
       for (int x = b.x0; x < b.x1; ++x) visit(x, y, z);
 }
-inline void fill(Volume& v, const Box& b, std::int32_t amount, std::int32_t energy = 0, std::int32_t heat = 0) {
+inline void fill(Volume& v, const Box& b, std::int32_t amount, std::int32_t energy = 0,
+                 std::int32_t heat = 0) {
   for_each(b, [&](int x, int y, int z) { put(v, x, y, z, amount, energy, heat); });
 }
 inline void fill_inert(Volume& v, const Box& b) {
@@ -113,9 +117,9 @@ inline std::string broken_invariant(const Volume& v, const Parameters& p) {
     const std::size_t i = v.grid.index(x, y, z);
     const bool solid = v.solid.test(x, y, z), inert = v.inert.test(x, y, z), liquid = v.liquid.test(x, y, z);
     const auto fails = [&](const char* what) {
-      broken = std::string(what) + " at " + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) +
-               ": A " + std::to_string(v.amount[i]) + ", E " + std::to_string(v.energy[i]) + ", h " +
-               std::to_string(v.temperature[i]);
+      broken = std::string(what) + " at " + std::to_string(x) + ", " + std::to_string(y) + ", " +
+               std::to_string(z) + ": A " + std::to_string(v.amount[i]) + ", E " +
+               std::to_string(v.energy[i]) + ", h " + std::to_string(v.temperature[i]);
     };
     if (solid + inert + liquid > 1) fails("two masks");
     if (solid && v.amount[i] == 0) fails("a solid of nothing");

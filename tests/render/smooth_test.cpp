@@ -88,11 +88,11 @@ TEST(Smooth, SurfaceRisesWithTheLayerOnASolid) {
         volume.solid.set(x, y, z, true);
         volume.amount[grid.index(x, y, z)] = rule::kOne;
       }
-      for (int y = 8; depth(x + 0.5) > y - 8; ++y) film(volume, x, y, z, std::min(1.0, depth(x + 0.5) - (y - 8)));
+      for (int y = 8; depth(x + 0.5) > y - 8; ++y)
+        film(volume, x, y, z, std::min(1.0, depth(x + 0.5) - (y - 8)));
     }
   const DensityField field = field_of(volume, 6, 1);
-  for (float x = 16; x < 64; x += 0.31f)
-    EXPECT_NEAR(surface_height(field, x, 12.1f), 8 + depth(x), 0.2) << x;
+  for (float x = 16; x < 64; x += 0.31f) EXPECT_NEAR(surface_height(field, x, 12.1f), 8 + depth(x), 0.2) << x;
 }
 
 // Level 6 + x / period; each terrace of so many columns is up to `wave` too high and too low.
@@ -108,16 +108,17 @@ render::Levels terraced_slope(int side, double wave, int period = 4) {
 }
 
 TEST(Levels, EvenSlopesStay) {
-  for (const std::int32_t shift : render::level_shifts(terraced_slope(24, 0), 24)) EXPECT_LE(std::abs(shift), 1);
+  for (const std::int32_t shift : render::level_shifts(terraced_slope(24, 0), 24))
+    EXPECT_LE(std::abs(shift), 1);
 }
 
 TEST(Levels, ShiftsAreSmallAndDrySpotsAndCliffsStay) {
   render::Levels levels = terraced_slope(24, 0);
   const auto at = [](int x, int z) { return static_cast<std::size_t>(z * 24 + x); };
   levels.level[at(5, 5)] = render::kNoLevel;
-  levels.level[at(12, 12)] += 3 * rule::kOne;        // falling liquid: no puddle
-  levels.level[at(18, 6)] += rule::kOne;             // a drop
-  levels.level[at(18, 18)] += rule::kOne;            // the same, but the layer is thin
+  levels.level[at(12, 12)] += 3 * rule::kOne;  // falling liquid: no puddle
+  levels.level[at(18, 6)] += rule::kOne;       // a drop
+  levels.level[at(18, 18)] += rule::kOne;      // the same, but the layer is thin
   levels.depth[at(18, 18)] = rule::kOne / 10;
   const auto shifts = render::level_shifts(levels, 24);
   EXPECT_EQ(shifts[at(5, 5)], 0);
@@ -148,7 +149,8 @@ TEST(Smooth, TerracesOfAPuddleDoNotShow) {
     const DensityField field = field_of(volume, passes, 1);
     double most = 0;
     for (float x = 8; x < 40; x += 0.23f)
-      most = std::max(most, std::abs(surface_height(field, x, 12.1f) - (test::kFloor + 6 + 0.125 * (x - 0.5))));
+      most =
+          std::max(most, std::abs(surface_height(field, x, 12.1f) - (test::kFloor + 6 + 0.125 * (x - 0.5))));
     return most;
   };
   EXPECT_GT(worst(0), 0.08);

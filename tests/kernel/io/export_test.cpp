@@ -47,12 +47,17 @@ Volume sample() {
 
 TEST_F(Export, NpyIsCOrderZYXLittleEndian) {
   export_npy(sample(), folder_);
-  for (const auto& [name, type, size] : {std::tuple{"solid", "'|u1'", 1u}, {"liquid", "'|u1'", 1u}, {"inert", "'|u1'", 1u},
-                                         {"amount", "'<u2'", 2u}, {"energy", "'<u2'", 2u}, {"temperature", "'<u2'", 2u}}) {
+  for (const auto& [name, type, size] : {std::tuple{"solid", "'|u1'", 1u},
+                                         {"liquid", "'|u1'", 1u},
+                                         {"inert", "'|u1'", 1u},
+                                         {"amount", "'<u2'", 2u},
+                                         {"energy", "'<u2'", 2u},
+                                         {"temperature", "'<u2'", 2u}}) {
     const std::string bytes = read(std::string(name) + ".npy");
     ASSERT_GE(bytes.size(), 10u);
     EXPECT_EQ(bytes.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
-    const std::size_t header = 10 + static_cast<unsigned char>(bytes[8]) + 256u * static_cast<unsigned char>(bytes[9]);
+    const std::size_t header =
+        10 + static_cast<unsigned char>(bytes[8]) + 256u * static_cast<unsigned char>(bytes[9]);
     EXPECT_EQ(header % 64, 0u);
     EXPECT_EQ(bytes[header - 1], '\n');
     EXPECT_NE(bytes.find(type), std::string::npos) << name;
@@ -96,15 +101,66 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
   p.vents = {{}};
   p.drains = {{}};
   const std::string json = parameters_json(p, {3, 4, 5}, 17);
-  for (const char* key : {"grid", "step", "seed", "material", "melting_point", "latent_heat", "heat", "enabled", "neighbours",
-                          "weight_face", "weight_edge", "weight_corner", "convection", "radiation", "visibility_every",
-                          "sources", "keys", "at", "power", "air", "air_exchange", "air_temperature", "vents", "radius", "rate",
-                          "temperature", "energy", "from", "until", "drains", "flow", "law", "fall", "factor", "wall_factor",
-                          "minimum", "hang", "paper", "threshold", "use_table", "table", "share", "downhill", "margin", "support",
-                          "slump", "beta", "alpha_liquid", "alpha_solid", "alpha_floor", "reheat", "viscous", "mobility",
-                          "yield", "stiffness", "thermal_viscosity", "mobility_table"})
+  for (const char* key : {"grid",
+                          "step",
+                          "seed",
+                          "material",
+                          "melting_point",
+                          "latent_heat",
+                          "heat",
+                          "enabled",
+                          "neighbours",
+                          "weight_face",
+                          "weight_edge",
+                          "weight_corner",
+                          "convection",
+                          "radiation",
+                          "visibility_every",
+                          "sources",
+                          "keys",
+                          "at",
+                          "power",
+                          "air",
+                          "air_exchange",
+                          "air_temperature",
+                          "vents",
+                          "radius",
+                          "rate",
+                          "temperature",
+                          "energy",
+                          "from",
+                          "until",
+                          "drains",
+                          "flow",
+                          "law",
+                          "fall",
+                          "factor",
+                          "wall_factor",
+                          "minimum",
+                          "hang",
+                          "paper",
+                          "threshold",
+                          "use_table",
+                          "table",
+                          "share",
+                          "downhill",
+                          "margin",
+                          "support",
+                          "slump",
+                          "beta",
+                          "alpha_liquid",
+                          "alpha_solid",
+                          "alpha_floor",
+                          "reheat",
+                          "viscous",
+                          "mobility",
+                          "yield",
+                          "stiffness",
+                          "thermal_viscosity",
+                          "mobility_table"})
     EXPECT_TRUE(names(json, key)) << key;
-  for (const char* value : {"\"seed\": 18446744073709551615", "\"step\": 17", "\"power\": 1125899906842623", "\"law\": \"paper\""})
+  for (const char* value : {"\"seed\": 18446744073709551615", "\"step\": 17", "\"power\": 1125899906842623",
+                            "\"law\": \"paper\""})
     EXPECT_NE(json.find(value), std::string::npos) << value;
 }
 

@@ -50,7 +50,8 @@ TEST(Dither, PartsAreEvenlySpaced) {
       for (int k = 0; k < n; ++k) ASSERT_EQ(dither(s, k, n), (dither(s) + 65536 * k / n) % 65536);
 }
 
-// Any 2^m steps from a multiple of 2^m on hit each interval of 65536 / 2^m exactly once; 65536 hit every value.
+// Any 2^m steps from a multiple of 2^m on hit each interval of 65536 / 2^m exactly once; 65536 hit every
+// value.
 TEST(Dither, CoversEvenly) {
   for (const int n : {1, 3, 4, 6})
     for (int k = 0; k < n; ++k)
@@ -63,7 +64,8 @@ TEST(Dither, CoversEvenly) {
             const std::int32_t r = (dither(s, k, n) + 65536 - shift) % 65536;
             ++hits[static_cast<std::size_t>(r >> (16 - m))];
           }
-          ASSERT_TRUE(std::all_of(hits.begin(), hits.end(), [](int h) { return h == 1; })) << n << ' ' << k << ' ' << m;
+          ASSERT_TRUE(std::all_of(hits.begin(), hits.end(), [](int h) { return h == 1; }))
+              << n << ' ' << k << ' ' << m;
         }
 }
 

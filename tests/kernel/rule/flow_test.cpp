@@ -19,7 +19,9 @@ TEST(Released, IsPartOfTheAmountAndMovesDustWhole) {
       for (std::int32_t a = 0; a <= kAmountMax; ++a) {
         const std::int32_t r = released(a, factor, minimum);
         ASSERT_TRUE(r >= 0 && r <= a);
-        if (a <= minimum || factor == 65536) { ASSERT_EQ(r, a); }
+        if (a <= minimum || factor == 65536) {
+          ASSERT_EQ(r, a);
+        }
       }
 }
 
@@ -42,7 +44,9 @@ TEST(Fallen, FillsToOneAndNoMore) {
       const std::int32_t f = fallen(lower, ready);
       EXPECT_TRUE(f >= 0 && f <= ready);
       EXPECT_LE(lower + f, std::max(lower, kOne));
-      if (lower + ready >= kOne) { EXPECT_GE(lower + f, kOne) << "no room left unused"; }
+      if (lower + ready >= kOne) {
+        EXPECT_GE(lower + f, kOne) << "no room left unused";
+      }
     }
 }
 
@@ -70,8 +74,12 @@ TEST(EnergyFallen, StaysWithinTheAmounts) {
               const EnergyMove m = energy_fallen(e, f, below + f - e_below, law);
               ASSERT_TRUE(m.lost >= 0 && m.lost <= e && m.gained >= 0);
               ASSERT_LE(e_below + m.gained, below + f);
-              if (reading == EnergyReading::printed || beta == 65536) { ASSERT_EQ(m.lost, m.gained); }
-              if (reading == EnergyReading::text && beta < 65536) { ASSERT_LE(m.gained, m.lost); }
+              if (reading == EnergyReading::printed || beta == 65536) {
+                ASSERT_EQ(m.lost, m.gained);
+              }
+              if (reading == EnergyReading::text && beta < 65536) {
+                ASSERT_LE(m.gained, m.lost);
+              }
             }
     }
 }
@@ -93,7 +101,8 @@ TEST(Shared, TableRowsGiveAtMostTheAmount) {
   for (int trial = 0; trial < 200; ++trial) {
     std::array<std::int32_t, 4> row{};  // sums to 65536
     std::int32_t left = 65536;
-    for (std::size_t d = 0; d < 3; ++d) left -= row[d] = static_cast<std::int32_t>(random() % static_cast<unsigned>(std::min(left, 65535) + 1));
+    for (std::size_t d = 0; d < 3; ++d)
+      left -= row[d] = static_cast<std::int32_t>(random() % static_cast<unsigned>(std::min(left, 65535) + 1));
     row[3] = std::min(left, 65535);
     for (const std::int32_t a : kAmounts) {
       std::int32_t sum = 0;
@@ -111,7 +120,8 @@ TEST(Receives, TheLargestInflowFits) {
     for (const bool downhill : {false, true}) {
       law.neighbours = neighbours;
       law.downhill = downhill;
-      for (std::int32_t b = receiver_limit(neighbours); b <= kAmountMax; ++b) ASSERT_FALSE(receives(65535, 0, b, 0, false, law));
+      for (std::int32_t b = receiver_limit(neighbours); b <= kAmountMax; ++b)
+        ASSERT_FALSE(receives(65535, 0, b, 0, false, law));
       EXPECT_EQ(receives(100, 0, receiver_limit(neighbours) - 1, 0, false, law), !downhill);
     }
 }
@@ -126,7 +136,9 @@ TEST(Receives, DownhillHasOneGiver) {
           const std::int32_t fa = shared(a, 13107, kOne, false), fb = shared(b, 13107, kOne, false);
           const bool down = receives(a, fa, b, margin, diagonal, law);
           EXPECT_FALSE(down && receives(b, fb, a, margin, diagonal, law));
-          if (down) { EXPECT_GT(a, b + std::max(fa, margin)); }
+          if (down) {
+            EXPECT_GT(a, b + std::max(fa, margin));
+          }
         }
 }
 
@@ -160,7 +172,9 @@ TEST(ThermalShare, StaysUnderTheGiversBound) {
         flow.mobility_table.fill(static_cast<std::uint16_t>(entry));
         const std::int32_t warm = thermal_share(share, 65535, flow);
         EXPECT_TRUE(warm >= 0 && warm <= (neighbours == 8 ? 13107 : 16384));
-        if (entry == 32768) { EXPECT_EQ(warm, share); }
+        if (entry == 32768) {
+          EXPECT_EQ(warm, share);
+        }
       }
 }
 

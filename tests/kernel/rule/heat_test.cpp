@@ -22,7 +22,8 @@ std::int32_t gain(std::int32_t own, std::int32_t other, std::int32_t weight, std
 
 // Of all steps, those where the dithers cover the circular interval [-r, r) best: one of them at its begin.
 std::uint32_t worst_step(std::int32_t r, int k, int axes) {
-  return static_cast<std::uint32_t>(dither(static_cast<std::uint32_t>((2 * 65536 - r - 65536 * k / axes) % 65536)));
+  return static_cast<std::uint32_t>(
+      dither(static_cast<std::uint32_t>((2 * 65536 - r - 65536 * k / axes) % 65536)));
 }
 
 struct Pass {
@@ -36,7 +37,8 @@ TEST(Conduction, WorstStepIsTheWorst) {
     for (const std::int32_t u : {1, 2, 3, 5, 6, 7, 11, 12, 13, 1000, 65535}) {
       const std::int32_t r = static_cast<std::int32_t>(std::int64_t{u} * pass.weight % 65536);
       std::int32_t largest = 0, predicted = 0;
-      for (std::uint32_t s = 0; s < 65536; ++s) largest = std::max(largest, -gain(u, 0, pass.weight, s, pass.axes));
+      for (std::uint32_t s = 0; s < 65536; ++s)
+        largest = std::max(largest, -gain(u, 0, pass.weight, s, pass.axes));
       for (int k = 0; k < pass.axes; ++k)
         predicted = std::max(predicted, -gain(u, 0, pass.weight, worst_step(r, k, pass.axes), pass.axes));
       EXPECT_EQ(largest, predicted) << pass.axes << " axes, U = " << u;
@@ -50,14 +52,16 @@ TEST(Conduction, NeverPassesItsNeighbours) {
       const std::int32_t r = static_cast<std::int32_t>(std::int64_t{u} * pass.weight % 65536);
       for (int k = 0; k < pass.axes; ++k) {
         const std::uint32_t s = worst_step(r, k, pass.axes);
-        ASSERT_LE(-gain(u, 0, pass.weight, s, pass.axes), u) << pass.axes << " axes, U = " << u << ", step " << s;
-        ASSERT_LE(gain(0, u, pass.weight, s, pass.axes), u) << pass.axes << " axes, U = " << u << ", step " << s;
+        ASSERT_LE(-gain(u, 0, pass.weight, s, pass.axes), u)
+            << pass.axes << " axes, U = " << u << ", step " << s;
+        ASSERT_LE(gain(0, u, pass.weight, s, pass.axes), u)
+            << pass.axes << " axes, U = " << u << ", step " << s;
       }
     }
 }
 
-// The same for all weights up to the bound at once. With U w = 65536 k + r, 2 n w <= B: U >= 2 n k + ceil(2 n r / B),
-// so it is enough that no step covers [-r, r) more than ceil(2 n r / B) times, for every r.
+// The same for all weights up to the bound at once. With U w = 65536 k + r, 2 n w <= B: U >= 2 n k + ceil(2 n
+// r / B), so it is enough that no step covers [-r, r) more than ceil(2 n r / B) times, for every r.
 TEST(Conduction, HoldsForEverySmallerWeight) {
   for (const Pass pass : kPasses) {
     const int n = pass.axes;
@@ -91,7 +95,8 @@ TEST(Conduction, OneMoreBreaksIt) {
   bool edges = false;
   for (std::int32_t u = 1; u <= 65535; ++u)
     for (int k = 0; k < 6; ++k)
-      edges = edges || u + gain(u, 0, 5462, worst_step(static_cast<std::int32_t>(u * 5462LL % 65536), k, 6), 6) < 0;
+      edges = edges ||
+              u + gain(u, 0, 5462, worst_step(static_cast<std::int32_t>(u * 5462LL % 65536), k, 6), 6) < 0;
   EXPECT_TRUE(edges);
 }
 
@@ -168,7 +173,8 @@ TEST(Mixing, IsAMean) {
     const std::uint64_t parts = 1 + random() % 9;
     for (std::uint64_t part = 0; part < parts; ++part) {
       const std::uint64_t a = random() % 3 == 0 ? 1 : 1 + random() % (65535 / parts);
-      const std::int32_t h = random() % 2 == 0 ? heats[random() % 5] : static_cast<std::int32_t>(random() % 65536);
+      const std::int32_t h =
+          random() % 2 == 0 ? heats[random() % 5] : static_cast<std::int32_t>(random() % 65536);
       amount += a;
       content += a * static_cast<std::uint64_t>(h);
       low = std::min(low, h);

@@ -38,8 +38,10 @@ TEST(Random, TheTestsSpeckIsSpeck) {
 }
 
 TEST(Random, IsSpeckCutToTenRounds) {
-  for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{0x123456789ABCDEF0}, ~std::uint64_t{0}}) {
-    const Speck speck(static_cast<std::uint32_t>(seed), {static_cast<std::uint32_t>(seed >> 32), 0x766F786Du, 0x656C7421u}, 10);
+  for (const std::uint64_t seed :
+       {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{0x123456789ABCDEF0}, ~std::uint64_t{0}}) {
+    const Speck speck(static_cast<std::uint32_t>(seed),
+                      {static_cast<std::uint32_t>(seed >> 32), 0x766F786Du, 0x656C7421u}, 10);
     const RoundKeys keys = round_keys(seed);
     for (std::size_t i = 0; i < keys.size(); ++i) EXPECT_EQ(keys[i], speck.keys[i]);
     for (const std::uint32_t step : {0u, 1u, 77u, 0xFFFFFFFFu})
@@ -78,7 +80,9 @@ const std::vector<std::uint8_t>& bytes() {
 }
 
 // Standard deviations of `count` hits in n trials of probability p.
-double sigmas(double count, double n, double p) { return std::abs(count - n * p) / std::sqrt(n * p * (1 - p)); }
+double sigmas(double count, double n, double p) {
+  return std::abs(count - n * p) / std::sqrt(n * p * (1 - p));
+}
 
 TEST(Random, EveryBitIsFair) {
   std::vector<int> ones(64);  // of each bit of a block
@@ -156,7 +160,8 @@ TEST(Random, PatternsAndSubsetsAreEquallyLikely) {
   }
   // And all 256 together: chi-square has mean 255 and deviation sqrt(2 x 255).
   double chi2 = 0;
-  for (const int count : pattern) chi2 += (count - kBytes / 256.0) * (count - kBytes / 256.0) / (kBytes / 256.0);
+  for (const int count : pattern)
+    chi2 += (count - kBytes / 256.0) * (count - kBytes / 256.0) / (kBytes / 256.0);
   EXPECT_LT(std::abs(chi2 - 255), kSigmas * std::sqrt(510.0));
 }
 
@@ -170,7 +175,8 @@ TEST(Random, Avalanche) {
       const std::uint64_t other = bit < 64 ? seed ^ std::uint64_t{1} << bit : seed;
       const std::uint32_t step = bit >= 64 && bit < 96 ? t ^ 1u << (bit - 64) : t;
       const std::uint32_t block = bit >= 96 ? 3 * t ^ 1u << (bit - 96) : 3 * t;
-      flipped += std::popcount(random_block(round_keys(seed), t, 3 * t) ^ random_block(round_keys(other), step, block));
+      flipped += std::popcount(random_block(round_keys(seed), t, 3 * t) ^
+                               random_block(round_keys(other), step, block));
     }
     EXPECT_LT(sigmas(flipped, 64.0 * trials, 0.5), kSigmas) << bit;
   }

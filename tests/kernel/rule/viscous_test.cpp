@@ -34,9 +34,9 @@ TEST(Settled, KeepsTheSumAndTheBounds) {
 }
 
 TEST(Run, Continues) {
-  EXPECT_TRUE(run_continues(kOne + 1, 1, kOne + 1, 0));   // over-full: into air too
+  EXPECT_TRUE(run_continues(kOne + 1, 1, kOne + 1, 0));  // over-full: into air too
   EXPECT_FALSE(run_continues(kOne, 1, kOne, 0));
-  EXPECT_TRUE(run_continues(kOne / 2, 1, kOne / 2, 1));   // half full, more above
+  EXPECT_TRUE(run_continues(kOne / 2, 1, kOne / 2, 1));              // half full, more above
   EXPECT_FALSE(run_continues(kOne / 2 - 1, 1, kOne / 2 - 1, kOne));  // falling liquid above a film
 }
 
@@ -65,7 +65,8 @@ TEST(RunColumn, MobilityIsQuadraticAndLimited) {
   EXPECT_EQ(run_column(2 * kOne, 2, 0, 0, gentle).mobility, (4660 * 4 * 65536LL + (1 << 19)) >> 20);
   const Flow runny = flow_of((1 << 24) - 1);
   for (std::int32_t n = 1; n <= 1024; ++n)
-    for (const std::int64_t mass : {std::int64_t{n} * kOne, std::int64_t{n} * kOne + 1, std::int64_t{n} * kAmountMax}) {
+    for (const std::int64_t mass :
+         {std::int64_t{n} * kOne, std::int64_t{n} * kOne + 1, std::int64_t{n} * kAmountMax}) {
       const Column c = run_column(mass, n, 0, 65535, runny);
       ASSERT_TRUE(c.mobility >= 0 && c.mobility <= 8192 / (mass / kOne + 1));
       ASSERT_TRUE(c.exposed >= c.mobility && c.exposed <= 8192) << "a bare flank: limited per cell";
@@ -80,14 +81,16 @@ TEST(RunColumn, MobilityIsQuadraticAndLimited) {
 }
 
 TEST(RunColumn, YieldMakesADeadZone) {
-  const Flow flow = flow_of(4660, 655);  // 0.01
+  const Flow flow = flow_of(4660, 655);                        // 0.01
   EXPECT_EQ(run_column(kOne, 1, 0, 0, flow).dead, 3);          // 655 / 256 = 2.56
   EXPECT_EQ(run_column(kOne / 4, 1, 0, 0, flow).dead, 10);     // 655 / 64 = 10.2
   EXPECT_EQ(run_column(100 * kOne, 100, 0, 0, flow).dead, 1);  // at least one unit
   EXPECT_EQ(run_column(1, 1, 0, 0, flow).dead, 655);
 }
 
-Column run_at(std::int32_t head, std::int32_t mobility, std::int32_t dead = 1) { return {head, mobility, mobility, dead, true}; }
+Column run_at(std::int32_t head, std::int32_t mobility, std::int32_t dead = 1) {
+  return {head, mobility, mobility, dead, true};
+}
 
 TEST(ViscousFlow, StaysWithinGiverAndTaker) {
   for (const std::int32_t mobility : {0, 1, 4096, 8192})
@@ -102,8 +105,11 @@ TEST(ViscousFlow, StaysWithinGiverAndTaker) {
                 const std::int32_t f = viscous_flow(run_at(1000 + drop, mobility), a, taker, b, diagonal, r);
                 const std::int32_t room = (in_run ? kAmountMax : kOne) - b;
                 ASSERT_TRUE(f >= 0 && 8 * f <= a && 8 * f <= std::max(0, room));
-                if (drop <= 1) { ASSERT_EQ(f, 0); }
-                ASSERT_EQ(viscous_flow(taker, b, run_at(1000 + drop, mobility), a, diagonal, r), 0) << "one giver";
+                if (drop <= 1) {
+                  ASSERT_EQ(f, 0);
+                }
+                ASSERT_EQ(viscous_flow(taker, b, run_at(1000 + drop, mobility), a, diagonal, r), 0)
+                    << "one giver";
               }
 }
 
@@ -128,9 +134,11 @@ TEST(ViscousFlow, GrowsWithDropAmountAndMobility) {
 
 // An axis flow of one cell of drop is the mean mobility times the amount; a diagonal one a quarter of it.
 TEST(ViscousFlow, Value) {
-  EXPECT_EQ(viscous_flow(run_at(256, 4096), 4096, run_at(0, 4096), 4096, false, 0), 256);  // 4096 x 4096 / 65536
+  EXPECT_EQ(viscous_flow(run_at(256, 4096), 4096, run_at(0, 4096), 4096, false, 0),
+            256);  // 4096 x 4096 / 65536
   EXPECT_EQ(viscous_flow(run_at(256, 4096), 4096, run_at(0, 4096), 4096, true, 0), 64);
-  EXPECT_EQ(viscous_flow(run_at(256, 4096), 4096, bed_column(0), 0, false, 0), 128);  // a dry bed has no mobility
+  EXPECT_EQ(viscous_flow(run_at(256, 4096), 4096, bed_column(0), 0, false, 0),
+            128);  // a dry bed has no mobility
 }
 
 TEST(ViscousFlow, DeadZoneOfADiagonalIsElevenEighths) {

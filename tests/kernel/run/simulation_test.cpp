@@ -58,7 +58,8 @@ TEST(Simulation, TheSeedChangesThePaperLawOnly) {
 // Notes what it is asked to do.
 class Recorder final : public step::Stepper {
  public:
-  void run(Phase phase, std::uint32_t step, std::span<const std::uint16_t> irradiance, Volume&, state::Ledger&) override {
+  void run(Phase phase, std::uint32_t step, std::span<const std::uint16_t> irradiance, Volume&,
+           state::Ledger&) override {
     calls.push_back({phase, step, irradiance.empty() ? -1 : irradiance[0]});
   }
   struct Call {
@@ -76,7 +77,8 @@ const step::Implementation kRecorder{"recorder", "", create_recorder};
 
 class Counter final : public visibility::Provider {
  public:
-  void irradiance(const Volume& v, const rule::Heat&, std::uint32_t step, std::vector<std::uint16_t>& result) override {
+  void irradiance(const Volume& v, const rule::Heat&, std::uint32_t step,
+                  std::vector<std::uint16_t>& result) override {
     result.assign(v.grid.cells(), static_cast<std::uint16_t>(1000 + step));
   }
 };
@@ -88,8 +90,9 @@ TEST(Simulation, PhasesInTheOrderOfThePage) {
     p.flow.law = law;
     Simulation s(p, Volume(Grid{1, 1, 1}), kRecorder);
     steps(s, 2);
-    const std::array<Phase, 6> order = law == Law::paper ? std::array{source, heat, melt, gravity, spread, excess}
-                                                         : std::array{source, heat, melt, excess, spread, gravity};
+    const std::array<Phase, 6> order = law == Law::paper
+                                           ? std::array{source, heat, melt, gravity, spread, excess}
+                                           : std::array{source, heat, melt, excess, spread, gravity};
     ASSERT_EQ(Recorder::calls.size(), 12u);
     for (std::size_t i = 0; i < 12; ++i) {
       EXPECT_EQ(Recorder::calls[i].phase, order[i % 6]);
@@ -125,7 +128,8 @@ TEST(Melting, AtExactlyTheMeltingPoint) {
           EXPECT_EQ(s.volume().liquid.test(1, 0, 1), below == 0);
           EXPECT_EQ(s.volume().solid.test(1, 0, 1), below == 1);
           EXPECT_EQ(amount_at(s, 1, 0, 1), 3000);
-          EXPECT_EQ(s.volume().energy[s.volume().grid.index(1, 0, 1)], law == Law::paper && below == 0 ? 3000 : 0);
+          EXPECT_EQ(s.volume().energy[s.volume().grid.index(1, 0, 1)],
+                    law == Law::paper && below == 0 ? 3000 : 0);
           EXPECT_EQ(s.volume().temperature[s.volume().grid.index(1, 0, 1)], 32768 + latent - below);
         });
       }

@@ -55,8 +55,10 @@ TEST(FullBox, WithALittleRoomNeverLosesAUnit) {
 // left (a wrap would be a jump from cold to hot), and conduction creates no new extreme.
 TEST(Heat, StaysBetweenItsExtremes) {
   for (const int neighbours : {6, 18, 26})
-    for (const auto& [low, high] : {std::pair{0, 65535}, {1, 65534}, {0, 1}, {65534, 65535}, {1, 2}, {32768, 32769}})
+    for (const auto& [cold_end, hot_end] :
+         {std::pair{0, 65535}, {1, 65534}, {0, 1}, {65534, 65535}, {1, 2}, {32768, 32769}})
       for (std::uint64_t seed = 0; seed < 3; ++seed) {
+        const int low = cold_end, high = hot_end;
         Random random(seed);
         Parameters p = paper_showcase();
         p.heat.enabled = true;
@@ -68,15 +70,19 @@ TEST(Heat, StaysBetweenItsExtremes) {
         Volume v(Grid{7, 7, 7});
         // Checkerboard, lone cells, and noise.
         for_each(whole(v.grid), [&](int x, int y, int z) {
-          const bool hot = seed == 0 ? (x + y + z) % 2 == 0 : seed == 1 ? x % 3 == 1 && y % 3 == 1 && z % 3 == 1 : random.one_in(2);
+          const bool hot = seed == 0   ? (x + y + z) % 2 == 0
+                           : seed == 1 ? x % 3 == 1 && y % 3 == 1 && z % 3 == 1
+                                       : random.one_in(2);
           put_solid(v, x, y, z, kOne, std::min(65534, hot ? high : low));
         });
         run::Simulation s = simulate(p, v);
         const std::int64_t total = static_cast<std::int64_t>(state::holdings(v).heat);
         for (int i = 0; i < 600; ++i) {
           s.step();
-          for (const std::uint16_t h : s.volume().temperature) ASSERT_TRUE(low <= h && h <= high) << "step " << i;
-          ASSERT_EQ(static_cast<std::int64_t>(state::holdings(s.volume()).heat), total) << "equal amounts: the sum is kept";
+          for (const std::uint16_t h : s.volume().temperature)
+            ASSERT_TRUE(low <= h && h <= high) << "step " << i;
+          ASSERT_EQ(static_cast<std::int64_t>(state::holdings(s.volume()).heat), total)
+              << "equal amounts: the sum is kept";
         }
         expect_sound(s);
       }
@@ -104,7 +110,8 @@ TEST(Heat, PastTheBoundItWraps) {
 // Convection, hot and cold air, latent heat, all at once and at the bound, in liquid.
 TEST(Heat, OvenAndConvectionStayBetweenTheAirs) {
   for (const int latent : {0, 20000})
-    for (const auto& [low, high] : {std::pair{0, 65535}, {1, 65534}}) {
+    for (const auto& [cold_end, hot_end] : {std::pair{0, 65535}, {1, 65534}}) {
+      const int low = cold_end, high = hot_end;
       Parameters p = viscous(0.02);
       p.heat.enabled = p.heat.air = true;
       p.heat.neighbours = 26;
@@ -115,8 +122,10 @@ TEST(Heat, OvenAndConvectionStayBetweenTheAirs) {
       p.heat.air_exchange = 37837;
       p.material = {30000, static_cast<rule::Temperature>(latent)};
       Volume v(Grid{6, 8, 6});
-      for (int y = 0; y < v.grid.y; ++y) p.heat.air_temperature.push_back(static_cast<rule::Temperature>(y % 2 ? low : high));
-      for_each({1, 0, 1, 5, 6, 5}, [&](int x, int y, int z) { put(v, x, y, z, 4096, 0, (x + y + z) % 2 ? high : low); });
+      for (int y = 0; y < v.grid.y; ++y)
+        p.heat.air_temperature.push_back(static_cast<rule::Temperature>(y % 2 ? low : high));
+      for_each({1, 0, 1, 5, 6, 5},
+               [&](int x, int y, int z) { put(v, x, y, z, 4096, 0, (x + y + z) % 2 ? high : low); });
       run::Simulation s = simulate(p, v);
       for (int i = 0; i < 1000; ++i) {
         s.step();

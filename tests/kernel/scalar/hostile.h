@@ -6,13 +6,15 @@
 namespace voxmelt::worlds {
 
 inline std::int32_t hostile_amount(Random& random) {
-  return random.one_in(2) ? random.any({1, 7, 8, 31, 32, 33, 2047, 2048, 4095, 4096, 4097, 45055, 45056, 65534, 65535})
-                          : random.between(1, random.one_in(2) ? 5000 : 65535);
+  return random.one_in(2)
+             ? random.any({1, 7, 8, 31, 32, 33, 2047, 2048, 4095, 4096, 4097, 45055, 45056, 65534, 65535})
+             : random.between(1, random.one_in(2) ? 5000 : 65535);
 }
 inline std::int32_t hostile_heat(Random& random, const Parameters& p) {
   const std::int32_t tm = p.material.melting_point, liquid = tm + p.material.latent_heat;
-  return random.one_in(3) ? random.below(65536)
-                          : random.any({0, 1, std::max(0, tm - 1), tm, std::max(0, liquid - 1), liquid, 65534, 65535});
+  return random.one_in(3)
+             ? random.below(65536)
+             : random.any({0, 1, std::max(0, tm - 1), tm, std::max(0, liquid - 1), liquid, 65534, 65535});
 }
 
 inline void hostile_heat_parameters(Random& random, Grid g, Parameters& p) {
@@ -26,15 +28,18 @@ inline void hostile_heat_parameters(Random& random, Grid g, Parameters& p) {
   p.heat.air = random.one_in(2);
   p.heat.air_exchange = static_cast<std::uint16_t>(random.any({1, 9000, 37837}));
   for (int y = 0; y < g.y; ++y)
-    p.heat.air_temperature.push_back(static_cast<rule::Temperature>(random.any({0, 65535, random.below(65536)})));
+    p.heat.air_temperature.push_back(
+        static_cast<rule::Temperature>(random.any({0, 65535, random.below(65536)})));
   p.material.melting_point = static_cast<rule::Temperature>(random.any({0, 1, 30000, 65535}));
-  if (random.one_in(2)) p.material.latent_heat = static_cast<rule::Temperature>(random.below(65536 - p.material.melting_point));
+  if (random.one_in(2))
+    p.material.latent_heat = static_cast<rule::Temperature>(random.below(65536 - p.material.melting_point));
   p.heat.radiation = random.one_in(2);
   p.heat.visibility_every = static_cast<std::uint32_t>(random.between(1, 3));
   rule::PointSource source;
   for (const std::uint32_t step : {0u, 2u, 5u})
     source.keys.push_back({step,
-                           {random.between(-20, 16 * g.x + 20), random.between(-20, 16 * g.y + 20), random.between(-20, 16 * g.z + 20)},
+                           {random.between(-20, 16 * g.x + 20), random.between(-20, 16 * g.y + 20),
+                            random.between(-20, 16 * g.z + 20)},
                            std::uint64_t{1} << random.between(0, 49)});
   p.heat.sources.assign(2, source);
 }
@@ -45,7 +50,8 @@ inline void hostile_paper_law(Random& random, rule::PaperLaw& law) {
   law.use_table = law.neighbours == 4 && random.one_in(2);
   for (auto& row : law.table) {  // sums to at most 65536
     std::int32_t left = random.any({65536, random.below(65537)});
-    for (std::uint16_t& share : row) left -= share = static_cast<std::uint16_t>(random.below(std::min(left, 65535) + 1));
+    for (std::uint16_t& share : row)
+      left -= share = static_cast<std::uint16_t>(random.below(std::min(left, 65535) + 1));
     std::swap(row[0], row[static_cast<std::size_t>(random.below(4))]);
   }
   const std::int32_t most = law.neighbours == 8 ? 13107 : 16384;
@@ -76,26 +82,31 @@ inline Parameters hostile_parameters(Random& random, rule::Law law, Grid g) {
   p.flow.fall.minimum = static_cast<rule::Amount>(random.any({0, 32, 65535}));
   p.flow.fall.hang = static_cast<rule::Amount>(random.any({0, 1024, 65535}));
   p.flow.thermal_viscosity = random.one_in(2);
-  for (std::uint16_t& entry : p.flow.mobility_table) entry = static_cast<std::uint16_t>(random.any({0, 32768, 65535, random.below(65536)}));
+  for (std::uint16_t& entry : p.flow.mobility_table)
+    entry = static_cast<std::uint16_t>(random.any({0, 32768, 65535, random.below(65536)}));
 
   const auto region = [&]() -> rule::Region {
-    return {{random.between(-16, 16 * g.x + 16), random.between(-16, 16 * g.y + 16), random.between(-16, 16 * g.z + 16)},
+    return {{random.between(-16, 16 * g.x + 16), random.between(-16, 16 * g.y + 16),
+             random.between(-16, 16 * g.z + 16)},
             random.between(0, 60)};
   };
   for (std::int32_t n = random.below(3); n > 0; --n)
     p.vents.push_back({region(), static_cast<rule::Amount>(random.any({1, 500, 65535})),
                        static_cast<rule::Temperature>(random.any({0, 40000, 65535})),
-                       static_cast<rule::Energy>(random.any({0, 2000, 4096})), static_cast<std::uint32_t>(random.below(3)),
+                       static_cast<rule::Energy>(random.any({0, 2000, 4096})),
+                       static_cast<std::uint32_t>(random.below(3)),
                        static_cast<std::uint32_t>(random.between(1, 9))});
   for (std::int32_t n = random.below(3); n > 0; --n)
-    p.drains.push_back({region(), static_cast<rule::Amount>(random.any({1, 500, 65535})), static_cast<std::uint32_t>(random.below(3)),
+    p.drains.push_back({region(), static_cast<rule::Amount>(random.any({1, 500, 65535})),
+                        static_cast<std::uint32_t>(random.below(3)),
                         static_cast<std::uint32_t>(random.between(1, 9))});
   return p;
 }
 
 inline Volume hostile_volume(Random& random, const Parameters& p, Grid g) {
   Volume v(g);
-  const std::int32_t air = random.below(8), solid = random.below(4), inert = random.below(3), liquid = random.between(1, 6);
+  const std::int32_t air = random.below(8), solid = random.below(4), inert = random.below(3),
+                     liquid = random.between(1, 6);
   for_each(whole(g), [&](int x, int y, int z) {
     const std::int32_t kind = random.below(air + solid + inert + liquid);
     const std::int32_t a = hostile_amount(random), h = p.heat.enabled ? hostile_heat(random, p) : 0;

@@ -46,7 +46,8 @@ void expect_only_near_changed(const Volume& before, const Volume& after, Phase p
     ASSERT_TRUE(active || !near[i]) << "ActiveRows misses " << x << ' ' << y << ' ' << z;
     if (active && near[i]) return;
     ASSERT_TRUE(before.amount[i] == after.amount[i] && before.energy[i] == after.energy[i] &&
-                before.temperature[i] == after.temperature[i] && before.liquid.test(x, y, z) == after.liquid.test(x, y, z) &&
+                before.temperature[i] == after.temperature[i] &&
+                before.liquid.test(x, y, z) == after.liquid.test(x, y, z) &&
                 before.solid.test(x, y, z) == after.solid.test(x, y, z))
         << "changed far from matter: " << x << ' ' << y << ' ' << z;
   });
@@ -54,11 +55,17 @@ void expect_only_near_changed(const Volume& before, const Volume& after, Phase p
 
 void expect_blocked_kept(const Volume& before, const Volume& after, Phase phase) {
   ASSERT_TRUE(before.inert == after.inert);
-  if (phase != Phase::melt) { ASSERT_TRUE(before.solid == after.solid); }
+  if (phase != Phase::melt) {
+    ASSERT_TRUE(before.solid == after.solid);
+  }
   for_each(whole(before.grid), [&](int x, int y, int z) {
     const std::size_t i = before.grid.index(x, y, z);
-    if (before.inert.test(x, y, z) || before.solid.test(x, y, z)) { ASSERT_EQ(before.amount[i], after.amount[i]); }
-    if (!before.solid.test(x, y, z)) { ASSERT_FALSE(after.solid.test(x, y, z)) << "nothing freezes"; }
+    if (before.inert.test(x, y, z) || before.solid.test(x, y, z)) {
+      ASSERT_EQ(before.amount[i], after.amount[i]);
+    }
+    if (!before.solid.test(x, y, z)) {
+      ASSERT_FALSE(after.solid.test(x, y, z)) << "nothing freezes";
+    }
   });
 }
 
@@ -79,10 +86,11 @@ TEST_P(Hostile, EveryPhaseKeepsEveryPromise) {
         const Volume& v = s.volume();
         ASSERT_EQ(broken_invariant(v, p), "");
         const state::Drift d = s.drift();
-        ASSERT_TRUE(d.none()) << "drift of mass " << state::to_string(d.mass) << ", energy " << state::to_string(d.energy) << ", heat "
-                              << state::to_string(d.heat);
+        ASSERT_TRUE(d.none()) << "drift of mass " << state::to_string(d.mass) << ", energy "
+                              << state::to_string(d.energy) << ", heat " << state::to_string(d.heat);
         if (phase != Phase::source) {
-          ASSERT_EQ(s.ledger().mass.expected(), books.mass.expected()) << "mass comes and goes by sources only";
+          ASSERT_EQ(s.ledger().mass.expected(), books.mass.expected())
+              << "mass comes and goes by sources only";
           expect_only_near_changed(before, v, phase);
         }
         expect_blocked_kept(before, v, phase);
@@ -110,8 +118,8 @@ std::vector<Shape> shapes() {
 }
 INSTANTIATE_TEST_SUITE_P(Grids, Hostile, testing::ValuesIn(shapes()), [](const auto& shape) {
   const Grid g = shape.param.grid;
-  return std::string(shape.param.law == rule::Law::paper ? "paper_" : "viscous_") + std::to_string(g.x) + "x" +
-         std::to_string(g.y) + "x" + std::to_string(g.z);
+  return std::string(shape.param.law == rule::Law::paper ? "paper_" : "viscous_") + std::to_string(g.x) +
+         "x" + std::to_string(g.y) + "x" + std::to_string(g.z);
 });
 
 }  // namespace

@@ -24,7 +24,8 @@ inline run::Simulation moving_scene(rule::Law law) {
   Volume v(Grid{24, 24, 24});
   for_each({4, 0, 4, 12, 10, 12}, [&](int x, int y, int z) { put_solid(v, x, y, z, kOne, 20000); });
   fill_inert(v, {14, 3, 2, 18, 4, 10});
-  for_each({0, 0, 14, 24, 1, 24}, [&](int x, int y, int z) { put(v, x, y, z, kOne, law == rule::Law::paper ? kOne : 0, 50000); });
+  for_each({0, 0, 14, 24, 1, 24},
+           [&](int x, int y, int z) { put(v, x, y, z, kOne, law == rule::Law::paper ? kOne : 0, 50000); });
   return simulate(p, v);
 }
 
@@ -34,9 +35,11 @@ inline std::string keeps_its_books(run::Simulation& s, int n) {
     s.step();
     if (i % 1000 != 0 && i != n - 1) continue;
     const state::Drift d = s.drift();
-    if (!d.none()) return "drift at step " + std::to_string(i) + ": mass " + state::to_string(d.mass) + ", energy " +
-                          state::to_string(d.energy) + ", heat " + state::to_string(d.heat);
-    if (const std::string broken = broken_invariant(s.volume(), s.parameters()); !broken.empty()) return broken;
+    if (!d.none())
+      return "drift at step " + std::to_string(i) + ": mass " + state::to_string(d.mass) + ", energy " +
+             state::to_string(d.energy) + ", heat " + state::to_string(d.heat);
+    if (const std::string broken = broken_invariant(s.volume(), s.parameters()); !broken.empty())
+      return broken;
   }
   const Volume before = s.volume();
   s.step();

@@ -43,11 +43,13 @@ TEST(Pitfall, TowersOfStarvedLiquid) {
   }
 }
 
-// |a4 - 1| of heaps at rest, measured with eight seeds: drops 2.5 % on average, at most 3.3 %; a starved pile 10 %.
-// (It is the diagonal's margin that decides: 8/8 gives 0.3 % and -8 %, 9/8 0.4 % and 0.3 %, 11/8 2.5 % and 10 %.)
-constexpr double kRoundDrop = 0.045, kRoundPile = 0.12;
+// |a4 - 1| of heaps at rest, measured with eight seeds: drops 2.5 % on average, at most 3.3 %; a starved pile
+// 10 %. (It is the diagonal's margin that decides: 8/8 gives 0.3 % and -8 %, 9/8 0.4 % and 0.3 %, 11/8 2.5 %
+// and 10 %.)
+constexpr double kRoundDrop = 0.012, kRoundPile = 0.02;
 
-// Measured with eight seeds: at rest after 560 to 880 steps; 3 to 14 cells of dust among 1500; largest amount 1.45.
+// Measured with eight seeds: at rest after 560 to 880 steps; 3 to 14 cells of dust among 1500; largest
+// amount 1.45.
 TEST(Drop, ComesToRestWithoutDustAndRound) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     Parameters p = paper_showcase();
@@ -105,8 +107,8 @@ TEST(Pitfall, CheckerboardInAHotPool) {
   }
 }
 
-// In this form of the law it is `downhill` (lower by the flow itself) that lets a pool rest, with and without a
-// margin; read literally it moves for ever.
+// In this form of the law it is `downhill` (lower by the flow itself) that lets a pool rest, with and without
+// a margin; read literally it moves for ever.
 TEST(Pitfall, HotPoolNeverQuiet) {
   for (const double depth : {0.5, 1.5}) {
     for (const int margin : {0, 256}) {
@@ -123,11 +125,12 @@ TEST(Pitfall, HotPoolNeverQuiet) {
 // Liquid oozes from the underside of a ceiling. Falling cells under 1/16, over all steps: none with drip.
 // Disabled: "p is air" by the masks of the phase's begin lets a thread of mist follow the first drop for ever
 // (measured 4725, without drip 5355). With the present amount of p instead of its mask: 0, and 144 drops.
-TEST(Pitfall, DISABLED_OverhangRainsMist) {
+TEST(Pitfall, OverhangRainsMist) {
   for (const bool drip : {true, false}) {
     Parameters p = paper_showcase();
     p.flow.fall.hang = drip ? 1024 : 0;
-    for (const int x : {3, 6, 9}) p.vents.push_back({{{16 * x + 8, 16 * 10 + 8, 16 * 6 + 8}, 8}, 30, 0, 4096, 0, 300});
+    for (const int x : {3, 6, 9})
+      p.vents.push_back({{{16 * x + 8, 16 * 10 + 8, 16 * 6 + 8}, 8}, 30, 0, 4096, 0, 300});
     Volume v(Grid{13, 14, 13});
     for_each({1, 11, 1, 12, 12, 12}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
     run::Simulation s = simulate(p, v);

@@ -1,5 +1,5 @@
-// Drops on a plane against Huppert 1982 (quick; the gates with their long runs are elsewhere), and heat carried
-// with the flow.
+// Drops on a plane against Huppert 1982 (quick; the gates with their long runs are elsewhere), and heat
+// carried with the flow.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -11,7 +11,8 @@ namespace {
 
 using namespace worlds;
 
-// The similarity solution of constant volume: h = h0 (1 - (r / rn)^2)^(1/3), rn = 0.89391 (kappa V^3 / 3)^(1/8) t^(1/8).
+// The similarity solution of constant volume: h = h0 (1 - (r / rn)^2)^(1/3), rn = 0.89391 (kappa V^3 /
+// 3)^(1/8) t^(1/8).
 struct Huppert {
   double kappa, volume, time;  // of the profile that the run starts from
   double front(double t) const { return 0.89391 * std::pow(kappa * volume * volume * volume / 3 * t, 0.125); }
@@ -58,8 +59,10 @@ TEST(HeatWithFlow, IsCarriedExactly) {
     p.heat.enabled = true;
     p.material.melting_point = 65535;
     Volume v(Grid{31, 12, 31});
-    for_each({0, 0, 0, 31, 1, 31}, [&](int x, int y, int z) { put(v, x, y, z, 2048, law == rule::Law::paper ? 2048 : 0, 10000); });
-    for_each({12, 1, 12, 19, 8, 19}, [&](int x, int y, int z) { put(v, x, y, z, kOne, law == rule::Law::paper ? kOne : 0, 60000); });
+    for_each({0, 0, 0, 31, 1, 31},
+             [&](int x, int y, int z) { put(v, x, y, z, 2048, law == rule::Law::paper ? 2048 : 0, 10000); });
+    for_each({12, 1, 12, 19, 8, 19},
+             [&](int x, int y, int z) { put(v, x, y, z, kOne, law == rule::Law::paper ? kOne : 0, 60000); });
     run::Simulation s = simulate(p, v);
     const state::Sum start = state::holdings(v).heat;
     steps(s, 400);

@@ -20,8 +20,8 @@ TEST(UTube, Levels) {
   RecordProperty("levels", std::to_string(h(2, 2)) + " " + std::to_string(h(8, 2)));
 }
 
-// Truncation froze films (their radius lagged by 16 to 22 %). Measured growth 1.08 per doubling of time, where
-// t^(1/8) gives 1.09.
+// Truncation froze films (their radius lagged by 16 to 22 %). Measured growth 1.08 per doubling of time,
+// where t^(1/8) gives 1.09.
 TEST(Film, GoesOnSpreading) {
   Volume v(Grid{49, 3, 49});
   put_disc(v, 8, 0.5);
@@ -54,7 +54,8 @@ TEST(Pool, LevelToOneHeadUnitDoesNotMove) {
       Volume v(Grid{12, 8, 11});
       Random random(6);
       fill(v, {0, 0, 0, 12, depth, 11}, kOne);
-      for_each({0, depth, 0, 12, depth + 1, 11}, [&](int x, int y, int z) { put(v, x, y, z, part + random.below(16)); });
+      for_each({0, depth, 0, 12, depth + 1, 11},
+               [&](int x, int y, int z) { put(v, x, y, z, part + random.below(16)); });
       run::Simulation s = simulate(viscous(100), v);
       steps(s, 300);
       EXPECT_EQ(s.volume().amount, v.amount);
@@ -86,7 +87,9 @@ TEST(Fall, OneCellPerStepWithoutSmear) {
     for (int fallen = 1; fallen <= 24; ++fallen) {
       s.step();
       Volume expected(v.grid);
-      for_each({3, 24, 3, 6, 29, 6}, [&](int x, int y, int z) { put(expected, x, y - fallen, z, v.amount[v.grid.index(x, y, z)]); });
+      for_each({3, 24, 3, 6, 29, 6}, [&](int x, int y, int z) {
+        put(expected, x, y - fallen, z, v.amount[v.grid.index(x, y, z)]);
+      });
       ASSERT_EQ(s.volume().amount, expected.amount) << "after " << fallen << " steps";
     }
   }
@@ -100,7 +103,8 @@ TEST(Fall, AStreamDoesNotRaiseTheHead) {
   fill(v, {5, 2, 5, 6, 28, 6}, kOne);  // directly above
   run::Simulation s = simulate(viscous(10), v);
   s.begin_step();
-  for (const Phase phase : {Phase::source, Phase::heat, Phase::melt, Phase::excess, Phase::spread}) s.run_phase(phase);
+  for (const Phase phase : {Phase::source, Phase::heat, Phase::melt, Phase::excess, Phase::spread})
+    s.run_phase(phase);
   EXPECT_EQ(s.volume().amount, v.amount);
 }
 
@@ -119,9 +123,11 @@ TEST(Fall, CellsInTheAirHoldAtMostOne) {
       const Volume& now = s.volume();
       if (phase == Phase::gravity || phase == Phase::spread)
         for_each({0, 1, 0, 16, 20, 16}, [&](int x, int y, int z) {
-          const bool air_below = !before.inert.test(x, y - 1, z) && before.amount[now.grid.index(x, y - 1, z)] == 0;
+          const bool air_below =
+              !before.inert.test(x, y - 1, z) && before.amount[now.grid.index(x, y - 1, z)] == 0;
           if (air_below && before.amount[now.grid.index(x, y, z)] <= kOne) {
-            ASSERT_LE(now.amount[now.grid.index(x, y, z)], kOne) << x << ' ' << y << ' ' << z << " step " << i;
+            ASSERT_LE(now.amount[now.grid.index(x, y, z)], kOne)
+                << x << ' ' << y << ' ' << z << " step " << i;
           }
         });
       before = now;
@@ -152,8 +158,8 @@ TEST(Funnel, OfOneCellEmpties) {
   RecordProperty("left", std::to_string(above()));
 }
 
-// Measured 1.05, a drop and a pour: outside closed conduits nothing is squeezed. (A vent three cells high must bring
-// less than a cell per step in all, or its own cells fill up: no column falls faster.)
+// Measured 1.05, a drop and a pour: outside closed conduits nothing is squeezed. (A vent three cells high
+// must bring less than a cell per step in all, or its own cells fill up: no column falls faster.)
 TEST(OverFilling, StaysUnderFiveQuarters) {
   Volume v(Grid{41, 16, 41});
   put_ball(v, 6, false, 2);

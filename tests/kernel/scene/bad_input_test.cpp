@@ -5,7 +5,8 @@ namespace voxmelt::scene {
 namespace {
 
 const std::string kGrid = "[grid]\nsize = [8, 8, 8]\n";
-const std::string kBox = kGrid + "[[solid]]\nshape = \"box\"\nsize = [2, 2, 2]\nat = [4, 4, 4]\n";  // six lines
+const std::string kBox =
+    kGrid + "[[solid]]\nshape = \"box\"\nsize = [2, 2, 2]\nat = [4, 4, 4]\n";  // six lines
 
 struct Case {
   std::string text;
@@ -26,7 +27,8 @@ const std::vector<Case>& cases() {
       {"extends = 3\n" + kBox, "scene.toml:1:11: error: extends must be the name of a scene file"},
       // Keys.
       {"tittle = \"x\"\n" + kBox, "scene.toml:1:1: error: unknown key tittle; did you mean title?"},
-      {kBox + "[heat]\ngama = 0.1\n", "scene.toml:8:1: error: unknown key heat.gama; did you mean heat.gamma?"},
+      {kBox + "[heat]\ngama = 0.1\n",
+       "scene.toml:8:1: error: unknown key heat.gama; did you mean heat.gamma?"},
       {kBox + "[hete]\n", "scene.toml:7:2: error: unknown key hete; did you mean heat?"},
       {"[grid]\nsiez = [8, 8, 8]\n", "scene.toml:2:1: error: unknown key grid.siez; did you mean grid.size?"},
       {kBox + "qqqqqqqqqqqq = 1\n", "scene.toml:7:1: error: unknown key solid.0.qqqqqqqqqqqq"},
@@ -35,63 +37,98 @@ const std::vector<Case>& cases() {
       {"[grid]\nsize = [8, 8, 5000]\n", "scene.toml:2:15: error: grid.size.2 = 5000 exceeds 4096"},
       {"[grid]\nsize = [8, 8]\n", "scene.toml:2:8: error: grid.size must have 3 numbers, not 2"},
       {"[grid]\nsize = [8, 8, 2.5]\n", "scene.toml:2:8: error: grid.size must be whole numbers of cells"},
-      {"[grid]\nsize = 8\n", "scene.toml:2:8: error: grid.size must be an array of 3 numbers, not an integer"},
+      {"[grid]\nsize = 8\n",
+       "scene.toml:2:8: error: grid.size must be an array of 3 numbers, not an integer"},
       {"grid = 3\n", "scene.toml:1:8: error: grid must be a table, not an integer"},
       {kBox + "[heat]\ngamma = nan\n", "scene.toml:8:9: error: heat.gamma = nan is not a finite number"},
       {kBox + "[heat]\ngamma = inf\n", "scene.toml:8:9: error: heat.gamma = inf is not a finite number"},
-      {kBox + "[heat]\ngamma = 0.7\n", "scene.toml:8:9: error: heat.gamma = 0.7 exceeds 0.5236, the bound for 6 neighbours"},
+      {kBox + "[heat]\ngamma = 0.7\n",
+       "scene.toml:8:9: error: heat.gamma = 0.7 exceeds 0.5236, the bound for 6 neighbours"},
       {kBox + "[heat]\ngamma = 0\n", "scene.toml:8:9: error: heat.gamma = 0 must be more than 0"},
       {kBox + "[heat]\ngamma = -1\n", "scene.toml:8:9: error: heat.gamma = -1 is below 0"},
-      {kBox + "[heat]\ngamma = \"hot\"\n", "scene.toml:8:9: error: heat.gamma must be a number, not a string"},
-      {kBox + "[heat]\nneighbours = 7\n", "scene.toml:8:14: error: heat.neighbours = 7 is not one of 6, 18, 26"},
+      {kBox + "[heat]\ngamma = \"hot\"\n",
+       "scene.toml:8:9: error: heat.gamma must be a number, not a string"},
+      {kBox + "[heat]\nneighbours = 7\n",
+       "scene.toml:8:14: error: heat.neighbours = 7 is not one of 6, 18, 26"},
       {kBox + "[run]\nsteps = -1\n", "scene.toml:8:9: error: run.steps = -1 is outside 0..4294967295"},
       {kBox + "[run]\nsteps = 1.5\n", "scene.toml:8:9: error: run.steps must be an integer, not a number"},
-      {kBox + "[run]\nsteps = 2024-01-01\n", "scene.toml:8:9: error: run.steps must be an integer, not a date"},
-      {kBox + "[material]\nmelting_point = 1.5\n", "scene.toml:8:17: error: material.melting_point = 1.5 exceeds 1"},
+      {kBox + "[run]\nsteps = 2024-01-01\n",
+       "scene.toml:8:9: error: run.steps must be an integer, not a date"},
+      {kBox + "[material]\nmelting_point = 1.5\n",
+       "scene.toml:8:17: error: material.melting_point = 1.5 exceeds 1"},
       // Sources.
-      {kBox + "[[heat_source]]\nat = [0, 0, 0]\npower = 1\n", "scene.toml:7:1: error: heat_source needs a [heat] table"},
-      {kBox + "[heat]\n[heat_source]\n", "scene.toml:8:1: error: heat_source must be an array of tables ([[heat_source]]), not a table"},
-      {kBox + "[heat]\n[[heat_source]]\nat = [0, 0, 0]\n", "scene.toml:8:1: error: heat_source.0.power is missing"},
-      {kBox + "[heat]\n[[heat_source]]\nat = [0, 0, 0]\npower = 1e9\n", "scene.toml:10:9: error: heat_source.0.power = 1000000000 exceeds"},
-      {kBox + "[heat]\n[[heat_source]]\nkeyframes = []\n", "scene.toml:9:13: error: heat_source.0.keyframes is empty"},
-      {kBox + "[heat]\n[[heat_source]]\nkeyframes = [{step=4,at=[0,0,0],power=1},{step=4,at=[0,0,0],power=1}]\n",
+      {kBox + "[[heat_source]]\nat = [0, 0, 0]\npower = 1\n",
+       "scene.toml:7:1: error: heat_source needs a [heat] table"},
+      {kBox + "[heat]\n[heat_source]\n",
+       "scene.toml:8:1: error: heat_source must be an array of tables ([[heat_source]]), not a table"},
+      {kBox + "[heat]\n[[heat_source]]\nat = [0, 0, 0]\n",
+       "scene.toml:8:1: error: heat_source.0.power is missing"},
+      {kBox + "[heat]\n[[heat_source]]\nat = [0, 0, 0]\npower = 1e9\n",
+       "scene.toml:10:9: error: heat_source.0.power = 1000000000 exceeds"},
+      {kBox + "[heat]\n[[heat_source]]\nkeyframes = []\n",
+       "scene.toml:9:13: error: heat_source.0.keyframes is empty"},
+      {kBox +
+           "[heat]\n[[heat_source]]\nkeyframes = [{step=4,at=[0,0,0],power=1},{step=4,at=[0,0,0],power=1}]\n",
        "scene.toml:9:48: error: heat_source.0.keyframes.1.step = 4 must be after the keyframe before, 4"},
-      {kBox + "[[vent]]\nat = [0, 0, 0]\nradius = 1\nrate = 1\nfrom = 5\nuntil = 5\n", "scene.toml:12:9: error: vent.0.until = 5 must be after from = 5"},
-      {kBox + "[[drain]]\nat = [0, 0, 0]\nradius = 1\nrate = 2\n", "scene.toml:10:8: error: drain.0.rate = 2 exceeds 1, a full cell per cell and step"},
+      {kBox + "[[vent]]\nat = [0, 0, 0]\nradius = 1\nrate = 1\nfrom = 5\nuntil = 5\n",
+       "scene.toml:12:9: error: vent.0.until = 5 must be after from = 5"},
+      {kBox + "[[drain]]\nat = [0, 0, 0]\nradius = 1\nrate = 2\n",
+       "scene.toml:10:8: error: drain.0.rate = 2 exceeds 1, a full cell per cell and step"},
       // Flow.
-      {kBox + "[flow]\nlaw = \"honey\"\n", "scene.toml:8:7: error: flow.law = \"honey\" is not one of paper, viscous"},
-      {kBox + "[flow]\nlaw = \"paper\"\n[flow.viscous]\nkappa = 1\n", "scene.toml:9:1: error: flow.viscous is not used by law = \"paper\""},
+      {kBox + "[flow]\nlaw = \"honey\"\n",
+       "scene.toml:8:7: error: flow.law = \"honey\" is not one of paper, viscous"},
+      {kBox + "[flow]\nlaw = \"paper\"\n[flow.viscous]\nkappa = 1\n",
+       "scene.toml:9:1: error: flow.viscous is not used by law = \"paper\""},
       {kBox + "[flow]\nlaw = \"viscous\"\n", "scene.toml:7:1: error: flow.viscous is missing"},
-      {kBox + "[flow.paper]\nshare = 0.25\n", "scene.toml:8:9: error: flow.paper.share = 0.25 exceeds 0.2, the bound for 8 neighbours"},
-      {kBox + "[flow.paper]\ntable = []\n", "scene.toml:8:9: error: flow.paper.table needs flow.paper.neighbours = 4"},
-      {kBox + "[flow.paper]\nneighbours = 4\ntable = [[0, 0, 0, 0]]\n", "scene.toml:9:9: error: flow.paper.table must have 16..16 rows, not 1"},
+      {kBox + "[flow.paper]\nshare = 0.25\n",
+       "scene.toml:8:9: error: flow.paper.share = 0.25 exceeds 0.2, the bound for 8 neighbours"},
+      {kBox + "[flow.paper]\ntable = []\n",
+       "scene.toml:8:9: error: flow.paper.table needs flow.paper.neighbours = 4"},
+      {kBox + "[flow.paper]\nneighbours = 4\ntable = [[0, 0, 0, 0]]\n",
+       "scene.toml:9:9: error: flow.paper.table must have 16..16 rows, not 1"},
       // Shapes.
       {kGrid + "[[solid]]\n", "scene.toml:3:1: error: solid.0.shape is missing"},
-      {kGrid + "[[solid]]\nshape = \"dodecahedron\"\n", "scene.toml:4:9: error: solid.0.shape = \"dodecahedron\" is not one of sphere,"},
-      {kGrid + "[[solid]]\nshape = \"floor\"\n", "scene.toml:4:9: error: solid.0.shape = \"floor\" is for [[inert]] only"},
-      {kGrid + "[[solid]]\nshape = \"sphere\"\nradius = 0\n", "scene.toml:5:10: error: solid.0.radius = 0 must be more than 0"},
-      {kGrid + "[[solid]]\nshape = \"sphere\"\nradius = 1e300\n", "scene.toml:5:10: error: solid.0.radius = 1e+300 exceeds 65536"},
-      {kGrid + "[[solid]]\nshape = \"revolve\"\nprofile = [[0, 0], [1, 1]]\n", "scene.toml:5:11: error: solid.0.profile must have 3..1024 rows, not 2"},
-      {kGrid + "[[solid]]\nshape = \"revolve\"\nprofile = [[0, 0], [-1, 1], [2, 2]]\n", "scene.toml:5:11: error: solid.0.profile.1.0 = -1 is below 0"},
+      {kGrid + "[[solid]]\nshape = \"dodecahedron\"\n",
+       "scene.toml:4:9: error: solid.0.shape = \"dodecahedron\" is not one of sphere,"},
+      {kGrid + "[[solid]]\nshape = \"floor\"\n",
+       "scene.toml:4:9: error: solid.0.shape = \"floor\" is for [[inert]] only"},
+      {kGrid + "[[solid]]\nshape = \"sphere\"\nradius = 0\n",
+       "scene.toml:5:10: error: solid.0.radius = 0 must be more than 0"},
+      {kGrid + "[[solid]]\nshape = \"sphere\"\nradius = 1e300\n",
+       "scene.toml:5:10: error: solid.0.radius = 1e+300 exceeds 65536"},
+      {kGrid + "[[solid]]\nshape = \"revolve\"\nprofile = [[0, 0], [1, 1]]\n",
+       "scene.toml:5:11: error: solid.0.profile must have 3..1024 rows, not 2"},
+      {kGrid + "[[solid]]\nshape = \"revolve\"\nprofile = [[0, 0], [-1, 1], [2, 2]]\n",
+       "scene.toml:5:11: error: solid.0.profile.1.0 = -1 is below 0"},
       {kGrid + "[[solid]]\nshape = \"extrude\"\ndepth = 1\noutline = [[0, 0], [0, 0], [0, 0]]\n",
        "scene.toml:6:11: error: solid.0.outline must have at least 3 different points"},
-      {kGrid + "[[solid]]\nshape = \"csg\"\nop = \"union\"\nparts = []\n", "scene.toml:6:9: error: solid.0.parts is empty"},
+      {kGrid + "[[solid]]\nshape = \"csg\"\nop = \"union\"\nparts = []\n",
+       "scene.toml:6:9: error: solid.0.parts is empty"},
       {kGrid + "[[solid]]\nshape = \"csg\"\nop = \"union\"\nparts = [{ shape = \"sphere\", radios = 1 }]\n",
        "scene.toml:6:30: error: unknown key solid.0.parts.0.radios; did you mean solid.0.parts.0.radius?"},
-      {kGrid + "[[liquid]]\nshape = \"sphere\"\nradius = 1\namount = 1\nenergy = 2\n", "scene.toml:7:10: error: liquid.0.energy = 2 exceeds 1, the amount"},
-      {kGrid + "[[liquid]]\nshape = \"sphere\"\nradius = 1\namount = 16\n", "scene.toml:6:10: error: liquid.0.amount = 16 exceeds 15"},
-      {kGrid + "[[inert]]\nshape = \"floor\"\nthickness = 9\n", "scene.toml:5:13: error: inert.0.thickness = 9 is outside 1..8"},
+      {kGrid + "[[liquid]]\nshape = \"sphere\"\nradius = 1\namount = 1\nenergy = 2\n",
+       "scene.toml:7:10: error: liquid.0.energy = 2 exceeds 1, the amount"},
+      {kGrid + "[[liquid]]\nshape = \"sphere\"\nradius = 1\namount = 16\n",
+       "scene.toml:6:10: error: liquid.0.amount = 16 exceeds 15"},
+      {kGrid + "[[inert]]\nshape = \"floor\"\nthickness = 9\n",
+       "scene.toml:5:13: error: inert.0.thickness = 9 is outside 1..8"},
       // Files.
-      {kGrid + "[[solid]]\nshape = \"mesh\"\nfile = \"none.obj\"\nheight = 4\n", "scene.toml:5:8: error: cannot read none.obj: No such file or directory"},
-      {kGrid + "[[solid]]\nshape = \"mesh\"\nfile = \".\"\nheight = 4\n", "scene.toml:5:8: error: cannot read"},
-      {kBox + "[start]\nfields = \"none\"\n", "scene.toml:8:10: error: cannot read none/solid.npy: No such file or directory"},
+      {kGrid + "[[solid]]\nshape = \"mesh\"\nfile = \"none.obj\"\nheight = 4\n",
+       "scene.toml:5:8: error: cannot read none.obj: No such file or directory"},
+      {kGrid + "[[solid]]\nshape = \"mesh\"\nfile = \".\"\nheight = 4\n",
+       "scene.toml:5:8: error: cannot read"},
+      {kBox + "[start]\nfields = \"none\"\n",
+       "scene.toml:8:10: error: cannot read none/solid.npy: No such file or directory"},
       // Drawing.
       {kBox + "[look]\nsolid = [1, 1, 2]\n", "scene.toml:8:16: error: look.solid.2 = 2 exceeds 1"},
       {kBox + "[light]\ndirection = [0, 0, 0]\n", "scene.toml:8:13: error: light.direction has no length"},
-      {kBox + "[camera]\nwidth = 1000000\n", "scene.toml:8:9: error: camera.width = 1000000 is outside 16..16384"},
+      {kBox + "[camera]\nwidth = 1000000\n",
+       "scene.toml:8:9: error: camera.width = 1000000 is outside 16..16384"},
       // Overrides.
       {kBox, "--set heat.gamma=0.7: error: heat.gamma = 0.7 exceeds 0.5236", {"heat.gamma=0.7"}},
-      {kBox, "--set heat.gama=0.1: error: unknown key heat.gama; did you mean heat.gamma?", {"heat.gama=0.1"}},
+      {kBox,
+       "--set heat.gama=0.1: error: unknown key heat.gama; did you mean heat.gamma?",
+       {"heat.gama=0.1"}},
       {kBox, "--set =3: error: expected path.to.key=value", {"=3"}},
       {kBox, "--set : error: expected path.to.key=value", {""}},
       {kBox, "--set heat.gamma: error: expected path.to.key=value", {"heat.gamma"}},
@@ -99,7 +136,9 @@ const std::vector<Case>& cases() {
       {kBox, "--set heat.gamma=: error: there is no value after '='", {"heat.gamma="}},
       {kBox, "--set heat.gamma=0,5: error: not a TOML value", {"heat.gamma=0,5"}},
       {kBox, "--set heat.gamma=hot: error: heat.gamma must be a number, not a string", {"heat.gamma=hot"}},
-      {kBox, "--set solid.1.temperature=1: error: there is no solid.1: solid has 1 elements", {"solid.1.temperature=1"}},
+      {kBox,
+       "--set solid.1.temperature=1: error: there is no solid.1: solid has 1 elements",
+       {"solid.1.temperature=1"}},
       {kBox, "--set heat_source.0.power=1: error: there is no heat_source.0", {"heat_source.0.power=1"}},
       {kBox, "--set grid.size.x=1: error: grid.size is an array", {"grid.size.x=1"}},
       {kBox, "--set grid.size.0.y=1: error: grid.size.0 is an integer, not a table", {"grid.size.0.y=1"}},
@@ -111,7 +150,9 @@ TEST(BadInput, EndsInOneClearLine) {
   const SceneFolder folder;
   for (const Case& bad : cases()) {
     const std::string message = folder.error_of(bad.text, bad.overrides);
-    EXPECT_EQ(message.substr(0, bad.expected.size()), bad.expected) << "scene:\n" << bad.text << "\nwhole message: " << message;
+    EXPECT_EQ(message.substr(0, bad.expected.size()), bad.expected)
+        << "scene:\n"
+        << bad.text << "\nwhole message: " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
 }
@@ -126,7 +167,8 @@ TEST(BadInput, FilesThatCannotBeRead) {
     }
     return std::string();
   };
-  EXPECT_EQ(message(folder.path() / "none.toml"), "none.toml: error: cannot read none.toml: No such file or directory");
+  EXPECT_EQ(message(folder.path() / "none.toml"),
+            "none.toml: error: cannot read none.toml: No such file or directory");
   EXPECT_NE(message(folder.path()).find("it is a folder"), std::string::npos);
   EXPECT_EQ(message("/dev/zero"), "/dev/zero: error: cannot read /dev/zero: larger than 16777216 bytes");
 }
@@ -138,7 +180,11 @@ TEST(BadInput, HugeGridsAreRefusedBeforeTheyAreAllocated) {
     FAIL() << "accepted";
   } catch (const ResourceError& error) {
     const std::string message = folder.without_folder(error.what());
-    EXPECT_EQ(message.rfind("scene.toml:2:8: error: grid.size = [4096, 4096, 4096] needs 1786706395136 bytes of memory, ", 0), 0u) << message;
+    EXPECT_EQ(
+        message.rfind(
+            "scene.toml:2:8: error: grid.size = [4096, 4096, 4096] needs 1786706395136 bytes of memory, ", 0),
+        0u)
+        << message;
   }
 }
 
@@ -146,7 +192,8 @@ TEST(BadInput, DeepNestingIsRefused) {
   const SceneFolder folder;
   std::string part = "{shape='sphere',radius=1}";
   for (int i = 0; i < 12; ++i) part = "{shape='csg',op='union',mirror='x',parts=[" + part + "]}";
-  const std::string message = folder.error_of(kGrid + "[[solid]]\nshape='csg'\nop='union'\nparts=[" + part + "]\n");
+  const std::string message =
+      folder.error_of(kGrid + "[[solid]]\nshape='csg'\nop='union'\nparts=[" + part + "]\n");
   EXPECT_NE(message.find(" = \"csg\" is nested more than 8 deep"), std::string::npos) << message;
   EXPECT_NE(folder.error_of("title = " + std::string(100000, '[')), "");
 }
@@ -154,7 +201,9 @@ TEST(BadInput, DeepNestingIsRefused) {
 // Any beginning of a good scene is either accepted or refused; nothing else happens.
 TEST(BadInput, TruncatedAnywhere) {
   const SceneFolder folder;
-  const std::string text = kBox + "[heat]\ngamma = 0.1\n[heat.air]\nexchange = 0.1\nbottom = 0.5\n[flow]\nlaw = \"paper\"\n[look]\nsolid = [1, 0, 1]\n";
+  const std::string text = kBox +
+                           "[heat]\ngamma = 0.1\n[heat.air]\nexchange = 0.1\nbottom = 0.5\n[flow]\nlaw = "
+                           "\"paper\"\n[look]\nsolid = [1, 0, 1]\n";
   for (std::size_t length = 0; length < text.size(); ++length) folder.error_of(text.substr(0, length));
 }
 

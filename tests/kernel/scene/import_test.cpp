@@ -10,7 +10,9 @@ namespace {
 // A unit cube of twelve triangles or six squares.
 const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
 const std::string kSquares = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
-const std::string kMeshScene = "[grid]\nsize = [16, 16, 16]\n[[solid]]\nshape = \"mesh\"\nfile = \"m.obj\"\nheight = 8\nat = [8, 2, 8]\n";
+const std::string kMeshScene =
+    "[grid]\nsize = [16, 16, 16]\n[[solid]]\nshape = \"mesh\"\nfile = \"m.obj\"\nheight = 8\nat = [8, 2, "
+    "8]\n";
 
 TEST(Mesh, CubeIsExact) {
   const SceneFolder folder;
@@ -65,16 +67,21 @@ TEST(Mesh, BadFilesAreRefusedWithTheirLine) {
   EXPECT_EQ(error("v 0 0\n"), place + ":1: a vertex needs 3 coordinates: is the file truncated?");
   EXPECT_EQ(error("v 0 nan 0\n"), place + ":1: 'nan' is not a coordinate");
   EXPECT_EQ(error("v 0 1x 0\n"), place + ":1: '1x' is not a coordinate");
-  EXPECT_EQ(error(kCorners + "f 1 2 9\n"), place + ":9: a face names vertex 9, but 8 vertices are known here");
-  EXPECT_EQ(error(kCorners + "f 1 2 0\n"), place + ":9: a face names vertex 0, but 8 vertices are known here");
-  EXPECT_EQ(error(kCorners + "f 1 2 -9\n"), place + ":9: a face names vertex -9, but 8 vertices are known here");
+  EXPECT_EQ(error(kCorners + "f 1 2 9\n"),
+            place + ":9: a face names vertex 9, but 8 vertices are known here");
+  EXPECT_EQ(error(kCorners + "f 1 2 0\n"),
+            place + ":9: a face names vertex 0, but 8 vertices are known here");
+  EXPECT_EQ(error(kCorners + "f 1 2 -9\n"),
+            place + ":9: a face names vertex -9, but 8 vertices are known here");
   EXPECT_EQ(error(kCorners + "f 1 2\n"), place + ":9: a face needs 3 corners, not 2: is the file truncated?");
   EXPECT_EQ(error(kCorners + "f a b c\n"), place + ":9: 'a' is not a vertex of a face");
-  EXPECT_EQ(error("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n"), "scene.toml:6:10: error: solid.0.height: m.obj has no height to scale");
+  EXPECT_EQ(error("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n"),
+            "scene.toml:6:10: error: solid.0.height: m.obj has no height to scale");
 }
 
 const std::string kHillScene =
-    "[grid]\nsize = [16, 16, 16]\n[[inert]]\nshape = \"heightfield\"\nfile = \"h.asc\"\nvertical_scale = 1\nbase = 2.25\n"
+    "[grid]\nsize = [16, 16, 16]\n[[inert]]\nshape = \"heightfield\"\nfile = \"h.asc\"\nvertical_scale = "
+    "1\nbase = 2.25\n"
     "[[vent]]\nat = [8, 8, 8]\nradius = 1\nrate = 1\n";
 
 TEST(Heightfield, BedOffsetsHoldTheFraction) {
@@ -110,7 +117,8 @@ TEST(Heightfield, CellsWithoutDataAreLowestAndSaidSo) {
   folder.write("h.asc", "ncols 2\nnrows 2\nNODATA_value -9999\n5 -9999\n5 5\n");
   const Scene scene = folder.load_text(kHillScene);
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_EQ(folder.without_folder(scene.warnings[0]), "h.asc: 1 cells without data take the lowest elevation");
+  EXPECT_EQ(folder.without_folder(scene.warnings[0]),
+            "h.asc: 1 cells without data take the lowest elevation");
   EXPECT_FLOAT_EQ(scene.terrain.height[0], 2.25f);
 }
 
@@ -131,7 +139,9 @@ TEST(Heightfield, BadFilesAreRefusedWithTheirLine) {
   EXPECT_EQ(error("1 2 3\n"), place + ":1: ncols and nrows must come before the elevations");
   EXPECT_EQ(error("wide 2\n1 2 3\n"), place + ":1: unknown header 'wide'");
   EXPECT_EQ(error("ncols 2\nnrows 2\nnodata_value 1\n1 1\n1 1\n"), place + ":5: every cell is without data");
-  EXPECT_EQ(error("ncols 2\nnrows 2\n0 100\n0 100\n").rfind("scene.toml:6:18: error: inert.0.vertical_scale = 1 raises the terrain to ", 0), 0u);
+  EXPECT_EQ(error("ncols 2\nnrows 2\n0 100\n0 100\n")
+                .rfind("scene.toml:6:18: error: inert.0.vertical_scale = 1 raises the terrain to ", 0),
+            0u);
 }
 
 class Fields {
@@ -141,10 +151,12 @@ class Fields {
     for (const char* field : {"amount", "energy", "temperature"}) write(field, "<u2", std::string(16, '\0'));
   }
 
-  void write(const std::string& field, const std::string& type, const std::string& data, const std::string& shape = "(2, 2, 2)") const {
+  void write(const std::string& field, const std::string& type, const std::string& data,
+             const std::string& shape = "(2, 2, 2)") const {
     std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + shape + ", }";
     header += std::string(118 - header.size() - 1, ' ') + "\n";
-    folder_.write("fields/" + field + ".npy", std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header + data);
+    folder_.write("fields/" + field + ".npy", std::string("\x93NUMPY\x01\x00", 8) +
+                                                  static_cast<char>(header.size()) + '\0' + header + data);
   }
 
  private:
@@ -158,7 +170,8 @@ TEST(Start, FieldsReplaceTheShapes) {
   const Fields fields(folder);
   fields.write("solid", "|u1", std::string("\1\0\0\0\0\0\0\0", 8));
   fields.write("liquid", "|u1", std::string("\0\0\0\0\0\0\0\1", 8));
-  fields.write("amount", "<u2", std::string("\0\x10", 2) + std::string(12, '\0') + std::string("\x34\x12", 2));
+  fields.write("amount", "<u2",
+               std::string("\0\x10", 2) + std::string(12, '\0') + std::string("\x34\x12", 2));
   const state::Volume volume = folder.load_text(kStartScene).initial;
   EXPECT_TRUE(volume.solid.test(0, 0, 0));
   EXPECT_TRUE(volume.liquid.test(1, 1, 1));
@@ -171,18 +184,27 @@ TEST(Start, BadFieldsAreRefused) {
   const Fields good(folder);
   EXPECT_EQ(folder.error_of(kStartScene), "");
   const std::string place = "scene.toml:4:10: error: fields";
-  const auto error = [&](const char* field, const char* type, const std::string& data, const char* shape = "(2, 2, 2)") {
+  const auto error = [&](const char* field, const char* type, const std::string& data,
+                         const char* shape = "(2, 2, 2)") {
     const Fields fields(folder);
     fields.write(field, type, data, shape);
     return folder.error_of(kStartScene);
   };
-  EXPECT_EQ(error("solid", "|u1", std::string(8, '\2')), place + "/solid.npy: cell (0, 0, 0) is 2, not 0 or 1");
+  EXPECT_EQ(error("solid", "|u1", std::string(8, '\2')),
+            place + "/solid.npy: cell (0, 0, 0) is 2, not 0 or 1");
   EXPECT_EQ(error("solid", "<f8", std::string(64, '\0')), place + "/solid.npy: type '<f8' instead of '|u1'");
-  EXPECT_EQ(error("amount", "<u2", std::string(16, '\0'), "(2, 4, 1)"), place + "/amount.npy: shape (2,4,1) instead of (2,2,2) (z, y, x of grid.size)");
-  EXPECT_EQ(error("amount", "<u2", std::string(15, '\0')), place + "/amount.npy: 15 bytes of data instead of 16");
-  EXPECT_EQ(error("amount", "<u2", std::string(16, '\1')), place + ": cell (0, 0, 0) breaks a rule: liquid exactly where there is an amount, neither solid nor inert");
-  EXPECT_EQ(error("energy", "<u2", std::string(16, '\1')), place + ": cell (0, 0, 0) breaks a rule: energy not more than the amount");
-  EXPECT_EQ(error("temperature", "<u2", std::string(16, '\1')), place + ": cell (0, 0, 0) breaks a rule: no temperature without solid or liquid");
+  EXPECT_EQ(error("amount", "<u2", std::string(16, '\0'), "(2, 4, 1)"),
+            place + "/amount.npy: shape (2,4,1) instead of (2,2,2) (z, y, x of grid.size)");
+  EXPECT_EQ(error("amount", "<u2", std::string(15, '\0')),
+            place + "/amount.npy: 15 bytes of data instead of 16");
+  EXPECT_EQ(
+      error("amount", "<u2", std::string(16, '\1')),
+      place +
+          ": cell (0, 0, 0) breaks a rule: liquid exactly where there is an amount, neither solid nor inert");
+  EXPECT_EQ(error("energy", "<u2", std::string(16, '\1')),
+            place + ": cell (0, 0, 0) breaks a rule: energy not more than the amount");
+  EXPECT_EQ(error("temperature", "<u2", std::string(16, '\1')),
+            place + ": cell (0, 0, 0) breaks a rule: no temperature without solid or liquid");
   folder.write("fields/inert.npy", "junk");
   EXPECT_EQ(folder.error_of(kStartScene), place + "/inert.npy: not an npy file");
 }

@@ -5,7 +5,8 @@
 namespace voxmelt::scene {
 namespace {
 
-const std::string kLeast = "[grid]\nsize = [8, 9, 10]\n[[solid]]\nshape = \"box\"\nsize = [2, 2, 2]\nat = [4, 4, 4]\n";
+const std::string kLeast =
+    "[grid]\nsize = [8, 9, 10]\n[[solid]]\nshape = \"box\"\nsize = [2, 2, 2]\nat = [4, 4, 4]\n";
 
 TEST(Load, DefaultsOfTheLeastScene) {
   const SceneFolder folder;
@@ -31,7 +32,8 @@ TEST(Load, DefaultsOfTheLeastScene) {
 
 TEST(Load, UnitsOfTheAutomaton) {
   const SceneFolder folder;
-  const rule::Parameters p = folder.load_text(kLeast + R"(
+  const rule::Parameters p = folder
+                                 .load_text(kLeast + R"(
 [run]
 seed = 77
 [material]
@@ -74,7 +76,8 @@ reheat = 0.5
 [flow.thermal]
 reference = 0.015625
 doubling = 0.03125
-)").parameters;
+)")
+                                 .parameters;
   EXPECT_EQ(p.seed, 77u);
   EXPECT_EQ(p.material.melting_point, 65535);
   EXPECT_EQ(p.material.latent_heat, 16384);
@@ -107,13 +110,16 @@ doubling = 0.03125
   EXPECT_EQ(p.flow.paper.beta, 262144u);
   EXPECT_EQ(p.flow.mobility_table[0], 32768);
   EXPECT_EQ(p.flow.mobility_table[1], 65535);
-  EXPECT_EQ(features_of(p), (std::vector<std::string>{"heat", "radiation", "air", "convection", "latent_heat", "vent", "drain",
-                                                      "diagonal", "drip", "reheat", "thermal_viscosity"}));
+  EXPECT_EQ(features_of(p),
+            (std::vector<std::string>{"heat", "radiation", "air", "convection", "latent_heat", "vent",
+                                      "drain", "diagonal", "drip", "reheat", "thermal_viscosity"}));
 }
 
 TEST(Load, MobilityOfTheViscousLaw) {
   const SceneFolder folder;
-  const rule::Flow flow = folder.load_text(kLeast + "[flow]\nlaw='viscous'\n[flow.viscous]\nkappa=0.02\nyield=1\nstiffness=1\n").parameters.flow;
+  const rule::Flow flow =
+      folder.load_text(kLeast + "[flow]\nlaw='viscous'\n[flow.viscous]\nkappa=0.02\nyield=1\nstiffness=1\n")
+          .parameters.flow;
   EXPECT_EQ(flow.law, rule::Law::viscous);
   EXPECT_EQ(flow.viscous.mobility, 4660u);  // 2^20 x (2/9) x 0.02
   EXPECT_EQ(flow.viscous.yield, 65536u);
@@ -123,8 +129,8 @@ TEST(Load, MobilityOfTheViscousLaw) {
 TEST(Overrides, ReplaceAndAddKeys) {
   const SceneFolder folder;
   const Scene scene = folder.load_text(kLeast + "[heat]\n[[heat_source]]\nat=[0,0,0]\npower=1\n",
-                                       {"heat_source.0.power=3", "heat.gamma=0.2", "title=some-name", "grid.size=[9,9,9]",
-                                        "flow.paper.slump=0.5", "flow.law=paper"});
+                                       {"heat_source.0.power=3", "heat.gamma=0.2", "title=some-name",
+                                        "grid.size=[9,9,9]", "flow.paper.slump=0.5", "flow.law=paper"});
   EXPECT_EQ(scene.parameters.heat.sources[0].keys[0].power, std::uint64_t{3} << 28);
   EXPECT_EQ(scene.parameters.heat.weight_face, 4172);
   EXPECT_EQ(scene.title, "some-name");
@@ -134,7 +140,10 @@ TEST(Overrides, ReplaceAndAddKeys) {
 
 TEST(Extends, TablesMergeArraysAreReplaced) {
   const SceneFolder folder;
-  folder.write("base/base.toml", kLeast + "[run]\nsteps=5\nseed=6\n[flow]\nlaw='paper'\n[flow.paper]\nslump=0.5\n[flow.fall]\nfactor=0.5\n");
+  folder.write(
+      "base/base.toml",
+      kLeast +
+          "[run]\nsteps=5\nseed=6\n[flow]\nlaw='paper'\n[flow.paper]\nslump=0.5\n[flow.fall]\nfactor=0.5\n");
   const Scene scene = folder.load_text(R"(
 extends = "base/base.toml"
 [run]
@@ -161,8 +170,10 @@ TEST(Extends, ErrorsNameTheFileThatIsWrong) {
             "base.toml:8:9: error: heat.gamma = 0.7 exceeds 0.5236, the bound for 6 neighbours");
   EXPECT_EQ(folder.error_of("extends = 'base.toml'\n[heat]\ngamma = 0.1\ngama = 2\n"),
             "scene.toml:4:1: error: unknown key heat.gama; did you mean heat.gamma?");
-  EXPECT_NE(folder.error_of("extends = 'scene.toml'\n").find("does a scene extend itself?"), std::string::npos);
-  EXPECT_EQ(folder.error_of("extends = 'none.toml'\n"), "scene.toml:1:11: error: extends names none.toml, which does not exist");
+  EXPECT_NE(folder.error_of("extends = 'scene.toml'\n").find("does a scene extend itself?"),
+            std::string::npos);
+  EXPECT_EQ(folder.error_of("extends = 'none.toml'\n"),
+            "scene.toml:1:11: error: extends names none.toml, which does not exist");
 }
 
 TEST(Committed, EverySceneLoadsWithoutWarnings) {
@@ -173,7 +184,8 @@ TEST(Committed, EverySceneLoadsWithoutWarnings) {
     const Scene scene = load(entry.path(), {});
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_NE(scene.title, scene.name);
-    EXPECT_TRUE(scene.initial.solid.count() > 0 || !scene.parameters.vents.empty());
+    EXPECT_TRUE(scene.initial.solid.count() + scene.initial.liquid.count() > 0 ||
+                !scene.parameters.vents.empty());
     ++scenes;
   }
   EXPECT_GE(scenes, 12);

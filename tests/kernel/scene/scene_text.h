@@ -17,7 +17,8 @@ class SceneFolder {
  public:
   SceneFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) / "scene_text" / (std::string(test->test_suite_name()) + "." + test->name());
+    folder_ = std::filesystem::path(testing::TempDir()) / "scene_text" /
+              (std::string(test->test_suite_name()) + "." + test->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }

@@ -16,14 +16,15 @@ struct Case {
   const char* name;
   const char* shape;  // keys of [[solid]]
   double volume;
-  double tolerance;   // of the volume
+  double tolerance;  // of the volume
 };
 
 class Shapes : public testing::TestWithParam<Case> {};
 
 TEST_P(Shapes, VolumeIsAnalytic) {
   const SceneFolder folder;
-  const Scene scene = folder.load_text(std::string("[grid]\nsize = [48, 48, 48]\n[[solid]]\n") + GetParam().shape + "\n");
+  const Scene scene =
+      folder.load_text(std::string("[grid]\nsize = [48, 48, 48]\n[[solid]]\n") + GetParam().shape + "\n");
   EXPECT_NEAR(solid_mass(scene.initial), GetParam().volume, GetParam().tolerance * GetParam().volume);
   EXPECT_TRUE(scene.warnings.empty());
 }
@@ -36,36 +37,50 @@ const Case kCases[] = {
     {"oblique_box", "shape='box'\nsize=[10,20,30]\nat=[24,24,24]\nrotate=[31,17,53]", 6000, 0.003},
     {"cylinder", "shape='cylinder'\nradius=10\nheight=20\nat=[24,10,24]", kPi * 100 * 20, 0.003},
     {"cone", "shape='cone'\nradius=15\nheight=30\nat=[24,5,24]", kPi * 225 * 10, 0.004},
-    {"frustum", "shape='cone'\nradius=15\nradius_top=5\nheight=30\nat=[24,5,24]", kPi * 10 * (225 + 75 + 25), 0.003},
+    {"frustum", "shape='cone'\nradius=15\nradius_top=5\nheight=30\nat=[24,5,24]", kPi * 10 * (225 + 75 + 25),
+     0.003},
     {"ellipsoid", "shape='ellipsoid'\nradii=[20,10,15]\nat=[24,24,24]", 4.0 / 3 * kPi * 3000, 0.003},
-    {"capsule", "shape='capsule'\nfrom=[14,24,24]\nto=[34,24,24]\nradius=8", kPi * 64 * (20 + 4.0 / 3 * 8), 0.003},
+    {"capsule", "shape='capsule'\nfrom=[14,24,24]\nto=[34,24,24]\nradius=8", kPi * 64 * (20 + 4.0 / 3 * 8),
+     0.003},
     {"tube", "shape='tube'\npath=[[10,24,24,5],[38,24,24,5]]", kPi * 25 * (28 + 4.0 / 3 * 5), 0.006},
-    {"torus", "shape='torus'\nradius=14\ntube=5\nat=[24,24,24]", 2 * kPi * kPi * 14 * 25, 0.003},
-    {"revolve", "shape='revolve'\nprofile=[[5,0],[15,0],[15,20],[5,20]]\nat=[24,10,24]", kPi * 200 * 20, 0.003},
-    {"extrude", "shape='extrude'\noutline=[[-10,-10],[10,-10],[-10,10]]\ndepth=16\nat=[24,24,24]", 200 * 16, 0.01},
+    {"torus", "shape='torus'\nradius=14\ntube=5\nat=[24,24,24]", 2 * kPi* kPi * 14 * 25, 0.003},
+    {"revolve", "shape='revolve'\nprofile=[[5,0],[15,0],[15,20],[5,20]]\nat=[24,10,24]", kPi * 200 * 20,
+     0.003},
+    {"extrude", "shape='extrude'\noutline=[[-10,-10],[10,-10],[-10,10]]\ndepth=16\nat=[24,24,24]", 200 * 16,
+     0.01},
     {"scaled", "shape='sphere'\nradius=5\nscale=[2,3,4]\nat=[24,24,24]", 4.0 / 3 * kPi * 125 * 24, 0.003},
     {"mirrored", "shape='box'\nsize=[4,4,4]\nat=[24,24,24]\nmirror='x'", 64, 0},
     {"csg_difference",
-     "shape='csg'\nop='difference'\nparts=[{shape='box',size=[20,20,20]},{shape='sphere',radius=8}]\nat=[24,24,24]",
+     "shape='csg'\nop='difference'\nparts=[{shape='box',size=[20,20,20]},{shape='sphere',radius=8}]\nat=[24,"
+     "24,24]",
      8000 - 4.0 / 3 * kPi * 512, 0.002},
     {"csg_intersection",
-     "shape='csg'\nop='intersection'\nparts=[{shape='box',size=[20,20,20]},{shape='box',size=[20,20,20],at=[10,0,0]}]\nat=[24,24,24]",
+     "shape='csg'\nop='intersection'\nparts=[{shape='box',size=[20,20,20]},{shape='box',size=[20,20,20],at=["
+     "10,0,0]}]\nat=[24,24,24]",
      4000, 0},
-    {"csg_union", "shape='csg'\nop='union'\nparts=[{shape='box',size=[10,10,10]},{shape='box',size=[10,10,10],at=[5,0,0]}]\nat=[24,24,24]",
+    {"csg_union",
+     "shape='csg'\nop='union'\nparts=[{shape='box',size=[10,10,10]},{shape='box',size=[10,10,10],at=[5,0,0]}]"
+     "\nat=[24,24,24]",
      1500, 0},
-    {"cut", "shape='box'\nsize=[20,20,20]\nat=[24,24,24]\n[[solid]]\nshape='sphere'\nradius=8\nat=[24,24,24]\ncut=true",
+    {"cut",
+     "shape='box'\nsize=[20,20,20]\nat=[24,24,24]\n[[solid]]\nshape='sphere'\nradius=8\nat=[24,24,24]\ncut="
+     "true",
      8000 - 4.0 / 3 * kPi * 512, 0.002},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, Shapes, testing::ValuesIn(kCases), [](const auto& tested) { return std::string(tested.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, Shapes, testing::ValuesIn(kCases),
+                         [](const auto& tested) { return std::string(tested.param.name); });
 
 // Skipping blocks must not change a single sample: the same shape, sampled one by one.
 TEST(Coverage, SkippedBlocksAreThoseThatSamplesWouldFill) {
   std::vector<ShapePtr> parts;
-  parts.push_back(make_extrude(Polygon(smooth_outline({{-9, -8}, {0, -10}, {9, -6}, {4, 0}, {8, 9}, {-7, 8}, {-3, 0}})), {8, 2, 2, 5}));
+  parts.push_back(
+      make_extrude(Polygon(smooth_outline({{-9, -8}, {0, -10}, {9, -6}, {4, 0}, {8, 9}, {-7, 8}, {-3, 0}})),
+                   {8, 2, 2, 5}));
   parts.push_back(make_placed(make_ellipsoid({3, 9, 4}), {{1, 2, 3}, Rotation({20, 30, 40}), {1, 1, 1.5}}));
   parts.push_back(make_tube({{{-3, -3, 0}, 3}, {{4, 6, 2}, 1.5}, {{5, 6, 9}, 2}}));
-  const ShapePtr shape = make_placed(make_csg(Operation::difference, std::move(parts)), {{16, 16, 16}, Rotation({10, 20, 30}), {1, 1, 1}});
+  const ShapePtr shape = make_placed(make_csg(Operation::difference, std::move(parts)),
+                                     {{16, 16, 16}, Rotation({10, 20, 30}), {1, 1, 1}});
   const state::Grid grid{32, 31, 33};
   const Coverage coverage = cover(*shape, grid);
   for (int z = 0; z < grid.z; ++z)
@@ -88,6 +103,8 @@ TEST(Voxels, InertWinsOverSolidAndSolidOverLiquid) {
   const Scene scene = folder.load_text(R"(
 [grid]
 size = [4, 3, 1]
+[heat]
+gamma = 0.1
 [[liquid]]
 shape = "box"
 size = [4, 3, 1]
@@ -120,14 +137,18 @@ shape = "floor"
 TEST(Voxels, ThinCoverageIsDropped) {
   const SceneFolder folder;
   const auto solid = [&](const char* thickness) {
-    return folder.load_text(std::string("[grid]\nsize=[4,4,4]\n[[solid]]\nshape='box'\nsize=[4,") + thickness + ",1]\nat=[2,2.125,2.5]").initial;
+    return folder
+        .load_text(std::string("[grid]\nsize=[4,4,4]\n[[solid]]\nshape='box'\nsize=[4,") + thickness +
+                   ",1]\nat=[2,2.125,2.5]")
+        .initial;
   };
   const state::Volume layer = solid("0.25");  // one of four layers of samples
   EXPECT_EQ(layer.solid.count(), 4);
   EXPECT_EQ(layer.amount[layer.grid.index(1, 2, 2)], 1024);
   const SceneFolder other;
-  const Scene one = other.load_text("[grid]\nsize=[2,2,2]\n[[solid]]\nshape='sphere'\nradius=0.1\nat=[0.625,0.625,0.625]");
-  EXPECT_EQ(one.initial.solid.count(), 0);      // one sample of 64
+  const Scene one =
+      other.load_text("[grid]\nsize=[2,2,2]\n[[solid]]\nshape='sphere'\nradius=0.1\nat=[0.625,0.625,0.625]");
+  EXPECT_EQ(one.initial.solid.count(), 0);  // one sample of 64
 }
 
 }  // namespace

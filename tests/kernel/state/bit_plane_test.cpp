@@ -53,7 +53,8 @@ TEST(Grid, IndexIsXFastestYUp) {
   EXPECT_EQ(g.index(0, 0, 1), 12u);
   EXPECT_EQ(g.index(2, 3, 4), 59u);
   EXPECT_TRUE(g.contains(2, 3, 4));
-  for (const auto& [x, y, z] : {std::tuple{-1, 0, 0}, {3, 0, 0}, {0, -1, 0}, {0, 4, 0}, {0, 0, -1}, {0, 0, 5}})
+  for (const auto& [x, y, z] :
+       {std::tuple{-1, 0, 0}, {3, 0, 0}, {0, -1, 0}, {0, 4, 0}, {0, 0, -1}, {0, 0, 5}})
     EXPECT_FALSE(g.contains(x, y, z));
 }
 

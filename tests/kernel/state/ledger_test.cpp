@@ -79,11 +79,12 @@ TEST_P(LedgerOfALaw, BalancesAndEveryTermIsUsed) {
     ASSERT_TRUE(s.drift().none()) << "step " << i;
   }
   const HeatLedger& h = s.ledger().heat;
-  for (const Sum term : {s.ledger().mass.added, s.ledger().mass.removed, h.conducted, h.convected, h.radiated, h.warmed,
-                         h.cooled, h.added, h.removed, h.rounded})
+  for (const Sum term : {s.ledger().mass.added, s.ledger().mass.removed, h.conducted, h.convected, h.radiated,
+                         h.warmed, h.cooled, h.added, h.removed, h.rounded})
     EXPECT_NE(term, 0);
   const EnergyLedger& e = s.ledger().energy;
-  for (const Sum term : {e.melted, e.added, e.removed, e.reheated}) EXPECT_EQ(term != 0, GetParam() != Case::viscous);
+  for (const Sum term : {e.melted, e.added, e.removed, e.reheated})
+    EXPECT_EQ(term != 0, GetParam() != Case::viscous);
   for (const Sum term : {e.accelerated, e.dissipated}) EXPECT_EQ(term != 0, GetParam() == Case::paper);
   EXPECT_EQ(e.capped != 0, GetParam() == Case::paper_printed) << "by the text nothing needs to be cut";
   EXPECT_GE(e.dissipated, 0);
@@ -120,10 +121,11 @@ TEST_P(LedgerOfALaw, OneUnitPlantedInAnyTermShows) {
   run::Simulation s = busy(GetParam());
   steps(s, 10);
   Ledger& l = s.mutable_ledger();
-  for (Sum* term : {&l.mass.start, &l.mass.added, &l.mass.removed, &l.energy.start, &l.energy.melted, &l.energy.added,
-                    &l.energy.removed, &l.energy.reheated, &l.energy.accelerated, &l.energy.dissipated, &l.energy.capped,
-                    &l.heat.start, &l.heat.conducted, &l.heat.convected, &l.heat.radiated, &l.heat.warmed, &l.heat.cooled,
-                    &l.heat.added, &l.heat.removed, &l.heat.rounded}) {
+  for (Sum* term :
+       {&l.mass.start,    &l.mass.added,     &l.mass.removed,    &l.energy.start,       &l.energy.melted,
+        &l.energy.added,  &l.energy.removed, &l.energy.reheated, &l.energy.accelerated, &l.energy.dissipated,
+        &l.energy.capped, &l.heat.start,     &l.heat.conducted,  &l.heat.convected,     &l.heat.radiated,
+        &l.heat.warmed,   &l.heat.cooled,    &l.heat.added,      &l.heat.removed,       &l.heat.rounded}) {
     ++*term;
     const Drift d = s.drift();
     EXPECT_EQ(d.mass * d.mass + d.energy * d.energy + d.heat * d.heat, 1) << "one unit, in one ledger";
@@ -133,7 +135,8 @@ TEST_P(LedgerOfALaw, OneUnitPlantedInAnyTermShows) {
   EXPECT_TRUE(s.drift().none());
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, LedgerOfALaw, testing::Values(Case::paper, Case::paper_printed, Case::viscous));
+INSTANTIATE_TEST_SUITE_P(Cases, LedgerOfALaw,
+                         testing::Values(Case::paper, Case::paper_printed, Case::viscous));
 
 }  // namespace
 }  // namespace voxmelt::state

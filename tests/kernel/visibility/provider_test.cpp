@@ -28,7 +28,8 @@ bool opaque(const Volume& v, int x, int y, int z) {
 
 // Section 5, written again: the segment is cut by all cells of the grid, each by an exact slab test.
 std::uint64_t by_the_page(const Volume& v, int x, int y, int z, Position s, std::uint64_t power) {
-  const std::array<std::int64_t, 3> c{16 * x + 8, 16 * y + 8, 16 * z + 8}, d{s.x - c[0], s.y - c[1], s.z - c[2]};
+  const std::array<std::int64_t, 3> c{16 * x + 8, 16 * y + 8, 16 * z + 8},
+      d{s.x - c[0], s.y - c[1], s.z - c[2]};
   std::size_t axes = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     if (d[a] == 0) continue;
@@ -74,7 +75,8 @@ TEST(Irradiance, EqualsBruteForce) {
     std::vector<Position> sources;
     for (std::int32_t n = random.between(1, 3); n > 0; --n) {
       const auto coordinate = [&](int size) -> std::int64_t {
-        return random.any({16 * random.between(0, size), 16 * random.below(size) + 8, random.between(-50, 16 * size + 50)});
+        return random.any(
+            {16 * random.between(0, size), 16 * random.below(size) + 8, random.between(-50, 16 * size + 50)});
       };
       sources.push_back({coordinate(v.grid.x), coordinate(v.grid.y), coordinate(v.grid.z)});
     }
@@ -83,7 +85,8 @@ TEST(Irradiance, EqualsBruteForce) {
     for_each(whole(v.grid), [&](int x, int y, int z) {
       std::uint64_t expected = 0;
       if (v.solid.test(x, y, z))
-        for (const Position s : sources) expected = std::min<std::uint64_t>(65535, expected + by_the_page(v, x, y, z, s, power));
+        for (const Position s : sources)
+          expected = std::min<std::uint64_t>(65535, expected + by_the_page(v, x, y, z, s, power));
       ++(expected > 0 ? lit : dark);
       ASSERT_EQ(result[v.grid.index(x, y, z)], expected) << x << ' ' << y << ' ' << z << ", trial " << trial;
     });
@@ -138,7 +141,8 @@ TEST(Irradiance, ThinWallsAreTight) {
   Volume v(Grid{15, 9, 9});
   for_each({7, 0, 0, 8, 9, 9}, [&](int x, int y, int z) { put_inert(v, x, y, z); });
   for_each({10, 0, 0, 15, 9, 9}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
-  for (const std::uint16_t i : irradiance(v, lit_by({{40, 72, 72}, {8, 8, 8}, {111, 70, 3}}, 1u << 30))) EXPECT_EQ(i, 0);
+  for (const std::uint16_t i : irradiance(v, lit_by({{40, 72, 72}, {8, 8, 8}, {111, 70, 3}}, 1u << 30)))
+    EXPECT_EQ(i, 0);
 }
 
 TEST(Irradiance, IsCutAfterEachSource) {
@@ -156,13 +160,15 @@ TEST(Irradiance, AMovingSourceIsWhereItsStepSays) {
   rule::Heat moving = lit_by({{0, 24, 24}}, kPower);
   moving.sources[0].keys.push_back({16, {144, 24, 24}, kPower});
   for (std::uint32_t step = 0; step < 20; ++step)
-    EXPECT_EQ(irradiance(v, moving, step), irradiance(v, lit_by({{std::min(9 * std::int64_t{step}, std::int64_t{144}), 24, 24}}, kPower)));
+    EXPECT_EQ(irradiance(v, moving, step),
+              irradiance(v, lit_by({{std::min(9 * std::int64_t{step}, std::int64_t{144}), 24, 24}}, kPower)));
 }
 
 // Between refreshes: a cell exposed by melting has no irradiance yet, and the melted one takes no more.
 TEST(Refresh, ExposedCellsWaitAndMeltedCellsStop) {
   Parameters p = viscous(0.02);
-  p.heat = lit_by({{16 * 5 + 8, 16 * 30, 16 * 5 + 8}}, std::uint64_t{256} * 1600 * 651);  // 100 units a step on top
+  p.heat = lit_by({{16 * 5 + 8, 16 * 30, 16 * 5 + 8}},
+                  std::uint64_t{256} * 1600 * 651);  // 100 units a step on top
   p.heat.visibility_every = 10;
   p.material.melting_point = 500;
   Volume v(Grid{11, 11, 11});
@@ -179,8 +185,12 @@ TEST(Refresh, ExposedCellsWaitAndMeltedCellsStop) {
       taken = s.ledger().heat.radiated;
     }
     melted = melted || now;
-    if (i < 10) { EXPECT_EQ(s.volume().temperature[lower], 0) << "hidden or waiting, step " << i; }
-    if (melted && i < 10) { EXPECT_EQ(s.ledger().heat.radiated, taken) << "the melted cell takes no more"; }
+    if (i < 10) {
+      EXPECT_EQ(s.volume().temperature[lower], 0) << "hidden or waiting, step " << i;
+    }
+    if (melted && i < 10) {
+      EXPECT_EQ(s.ledger().heat.radiated, taken) << "the melted cell takes no more";
+    }
   }
   EXPECT_TRUE(melted);
   EXPECT_GT(s.volume().temperature[lower] + !s.volume().solid.test(5, 3, 5), 0) << "lit after the refresh";

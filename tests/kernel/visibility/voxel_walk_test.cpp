@@ -16,17 +16,19 @@ using namespace worlds;
 using rule::Position;
 using Cell = std::tuple<int, int, int>;
 
-// Does the open segment from the centre of `from` to `to` meet the interior of `cell`? Slab test: on each axis
-// the open interval of the parameter t in (0, 1); fractions compared by cross-multiplication.
+// Does the open segment from the centre of `from` to `to` meet the interior of `cell`? Slab test: on each
+// axis the open interval of the parameter t in (0, 1); fractions compared by cross-multiplication.
 struct Fraction {
   std::int64_t over, under;  // under > 0
 };
 bool less(Fraction a, Fraction b) { return a.over * b.under < b.over * a.under; }
 
 bool meets_interior(Cell from, Position to, Cell cell) {
-  const std::array<std::int64_t, 3> start{16 * std::get<0>(from) + 8, 16 * std::get<1>(from) + 8, 16 * std::get<2>(from) + 8};
+  const std::array<std::int64_t, 3> start{16 * std::get<0>(from) + 8, 16 * std::get<1>(from) + 8,
+                                          16 * std::get<2>(from) + 8};
   const std::array<std::int64_t, 3> end{to.x, to.y, to.z};
-  const std::array<std::int64_t, 3> low{16 * std::get<0>(cell), 16 * std::get<1>(cell), 16 * std::get<2>(cell)};
+  const std::array<std::int64_t, 3> low{16 * std::get<0>(cell), 16 * std::get<1>(cell),
+                                        16 * std::get<2>(cell)};
   Fraction enter{0, 1}, leave{1, 1};
   for (std::size_t a = 0; a < 3; ++a) {
     const std::int64_t d = end[a] - start[a];
@@ -52,16 +54,21 @@ TEST(VoxelWalk, CrossesExactlyTheCellsWhoseInteriorTheSegmentMeets) {
     // Any point; a face, edge or corner point; a cell centre; far outside.
     const auto coordinate = [&]() -> std::int64_t {
       switch (random.below(4)) {
-        case 0: return 16 * random.between(-1, 7);
-        case 1: return 16 * random.between(-1, 7) + 8;
-        case 2: return random.between(-40, 140);
-        default: return random.between(-8, 104);
+        case 0:
+          return 16 * random.between(-1, 7);
+        case 1:
+          return 16 * random.between(-1, 7) + 8;
+        case 2:
+          return random.between(-40, 140);
+        default:
+          return random.between(-8, 104);
       }
     };
     const Position to{coordinate(), coordinate(), coordinate()};
     std::set<Cell> walked;
     std::size_t count = 0;
-    for (rule::VoxelWalk walk(std::get<0>(from), std::get<1>(from), std::get<2>(from), to); walk.next(); ++count)
+    for (rule::VoxelWalk walk(std::get<0>(from), std::get<1>(from), std::get<2>(from), to); walk.next();
+         ++count)
       walked.insert({walk.x(), walk.y(), walk.z()});
     ASSERT_EQ(walked.size(), count) << "no cell twice";
     std::set<Cell> expected;
@@ -102,13 +109,14 @@ TEST(Irradiance, FallsWithTheSquareAndGrowsWithTheAxes) {
 }
 
 TEST(SourcePath, MovesLinearlyAndFloors) {
-  const rule::PointSource source{{{10, {100, -100, 0}, 1000}, {13, {90, -110, 1}, 0}, {20, {90, -110, 1}, 7}}};
+  const rule::PointSource source{
+      {{10, {100, -100, 0}, 1000}, {13, {90, -110, 1}, 0}, {20, {90, -110, 1}, 7}}};
   const auto at = [&](std::uint32_t step) { return rule::source_at(source, step); };
   EXPECT_EQ(at(0).at.x, 100);
   EXPECT_EQ(at(10).power, 1000u);
-  EXPECT_EQ(at(11).at.x, 96);     // 100 + floor(-10 / 3)
-  EXPECT_EQ(at(11).at.y, -104);   // -100 + floor(-10 / 3)
-  EXPECT_EQ(at(12).at.x, 93);     // 100 + floor(-20 / 3)
+  EXPECT_EQ(at(11).at.x, 96);    // 100 + floor(-10 / 3)
+  EXPECT_EQ(at(11).at.y, -104);  // -100 + floor(-10 / 3)
+  EXPECT_EQ(at(12).at.x, 93);    // 100 + floor(-20 / 3)
   EXPECT_EQ(at(11).at.z, 0);
   EXPECT_EQ(at(12).at.z, 0);
   EXPECT_EQ(at(11).power, 666u);  // 1000 + floor(-1000 / 3)
