@@ -4,12 +4,12 @@
 namespace oracle {
 namespace {
 
-// What cell q is ready to let fall into p. `liquid` is as at the begin of the phase: it is set anew after it.
-Int ready_to_fall(const State& state, const Cell& q, Place at, bool p_is_air) {
+// What cell q, at `at`, is ready to let fall into p: both with the amounts of the moment.
+Int ready_to_fall(const State& state, const Cell& p, const Cell& q, Place at) {
   const Fall& fall = state.parameters.fall;
   const bool wall = state.beside_wall(at);
   const bool touches = wall || state.blocked(at.x, at.y + 1, at.z);
-  if (fall.hang > 0 && q.amount < fall.hang && p_is_air && touches) return 0;
+  if (fall.hang > 0 && q.amount < fall.hang && p.amount == 0 && touches) return 0;
   const Int g = wall ? fall.wall_factor : fall.factor;
   return smaller(q.amount, ((q.amount * g) >> 16) + fall.minimum);
 }
@@ -67,7 +67,7 @@ void sweep(State& state, const Column& column) {
     Cell& p = state.cells[below];
     Cell& q = state.cells[above];
     if (q.amount > 0 && p.amount < ONE && (paper_law || state.runs[above].member == 0)) {
-      const Int ready = ready_to_fall(state, q, {column.x, y + 1, column.z}, p.liquid == 0);
+      const Int ready = ready_to_fall(state, p, q, {column.x, y + 1, column.z});
       move_down(state, p, q, smaller(ready, ONE - p.amount));
     } else if (paper_law && p.amount > ONE) {
       move_up(state, p, q);

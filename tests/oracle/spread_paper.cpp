@@ -43,7 +43,7 @@ Int pattern_of(const State& state, const RandomBytes& random, const Cell& cell, 
     if ((byte >> d) % 2 == 0 || !is_open(state, at, DIRECTIONS[d])) continue;
     const Int j = state.index(at.x + DIRECTIONS[d].dx, at.y, at.z + DIRECTIONS[d].dz);
     const Int amount = state.cells[j].amount;
-    const Int G = DIRECTIONS[d].diagonal ? (11 * margin) >> 3 : margin;
+    const Int G = DIRECTIONS[d].diagonal ? (9 * margin) >> 3 : margin;
     const bool lower = amount + larger(F, G) < cell.amount;
     if (amount < limits.lim && (!paper.downhill || lower)) pattern += Int{1} << d;
   }
