@@ -85,6 +85,11 @@ class Commands(unittest.TestCase):
         self.assertEqual(self.good("digest", self.scene, "--seed", "1", *at, *law),
                          self.good("digest", self.scene, "--seed", "2", *at, *law))
 
+    def test_the_seed_matters_in_committed_scenes(self):
+        for name, steps in (("bunny_small", 250), ("lava", 30), ("lesson_spread", 20), ("paper_literal", 200)):
+            lines = {voxmelt("digest", name, "--steps", steps, "--seed", seed).stdout for seed in (1, 2)}
+            self.assertEqual(len(lines), 2, name)
+
     def test_export_and_start_from_it(self):
         self.good("export", self.scene, "--steps", "4", "--out", "at4")
         names = {p.name for p in (self.folder / "at4").iterdir()} - {".voxmelt-output"}
