@@ -6,7 +6,6 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/report.h"
-#include "kernel/io/output_folder.h"
 #include "kernel/state/digest.h"
 
 namespace voxmelt::app {
@@ -28,6 +27,7 @@ void print_line(const run::Simulation& simulation) {
 
 int run_digest(const DigestOptions& options) {
   const scene::Scene scene = load_scene(options.common);
+  check_report_place(options.common, "");
   run::Simulation simulation = make_simulation(scene, options.common);
   if (options.every > 0) print_line(simulation);
   while (simulation.steps_done() < options.steps) {
@@ -36,8 +36,7 @@ int run_digest(const DigestOptions& options) {
     if (done == options.steps || (options.every > 0 && done % options.every == 0)) print_line(simulation);
   }
   if (options.steps == 0 && options.every == 0) print_line(simulation);
-  if (!options.common.report.empty())
-    io::write_file(options.common.report, report_json(scene, options.common, simulation, {}));
+  write_report(options.common, report_json(scene, options.common, simulation, {}));
   const std::string drift = drift_text(simulation.drift());
   if (drift.empty()) return kDone;
   std::cerr << "error: the ledgers do not balance: " << drift << '\n';

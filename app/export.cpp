@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/interrupt.h"
 #include "app/options.h"
 #include "app/report.h"
 #include "kernel/io/output_folder.h"
@@ -19,9 +20,14 @@ struct ExportOptions {
 
 int run_export(const ExportOptions& options) {
   const scene::Scene scene = load_scene(options.common);
+  check_report_place(options.common, options.out);
   io::OutputFolder out(options.out);
+  catch_interrupts();
   run::Simulation simulation = make_simulation(scene, options.common);
-  while (simulation.steps_done() < options.steps) simulation.step();
+  while (simulation.steps_done() < options.steps) {
+    simulation.step();
+    stop_if_interrupted();
+  }
 
   const state::Volume& volume = simulation.volume();
   if (options.format == "npy") {
@@ -31,8 +37,7 @@ int run_export(const ExportOptions& options) {
   }
   io::write_file(out.partial() / "parameters.json",
                  io::parameters_json(simulation.parameters(), volume.grid, simulation.steps_done()));
-  if (!options.common.report.empty())
-    io::write_file(options.common.report, report_json(scene, options.common, simulation, {}));
+  write_report(options.common, report_json(scene, options.common, simulation, {}));
   out.commit();
   if (!options.common.quiet)
     fmt::print("step {} written to {}\n", simulation.steps_done(),

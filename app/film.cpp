@@ -51,6 +51,10 @@ Film::Film(const scene::Scene& scene, std::filesystem::path folder, int threads)
   std::filesystem::create_directories(folder_ / "frames");
 }
 
+std::filesystem::path Film::frame_file(std::size_t frame) const {
+  return folder_ / "frames" / fmt::format("frame_{:05d}.png", frame);
+}
+
 void Film::add_frame(const state::Volume& volume, std::uint32_t step) {
   const auto begin = std::chrono::steady_clock::now();
   field_.update(volume, scene_.look, scene_.terrain);
@@ -61,9 +65,8 @@ void Film::add_frame(const state::Volume& volume, std::uint32_t step) {
   settings.threads = threads_;
   const render::Image image =
       render::draw(field_, scene_.camera, scene_.light, scene_.look, scene_.terrain, settings);
-  render::write_png(folder_ / "frames" / fmt::format("frame_{:05d}.png", small_.size()), image);
+  render::write_png(frame_file(labels_.size()), image);
   render_seconds_ += seconds_since(drawing);
-  small_.push_back(halved(image));
   labels_.push_back(fmt::format("step {}", step));
 }
 
@@ -71,19 +74,24 @@ std::string Film::finish() {
   // The sheet shows at most kSheetFrames frames, evenly chosen, the first and the last included.
   std::vector<render::Image> frames;
   std::vector<std::string> labels;
-  const std::size_t shown = std::min(kSheetFrames, small_.size());
+  const std::size_t shown = std::min(kSheetFrames, labels_.size());
   for (std::size_t k = 0; k < shown; ++k) {
-    const std::size_t i = shown > 1 ? k * (small_.size() - 1) / (shown - 1) : 0;
-    frames.push_back(small_[i]);
+    const std::size_t i = shown > 1 ? k * (labels_.size() - 1) / (shown - 1) : 0;
+    frames.push_back(halved(render::read_png(frame_file(i))));
     labels.push_back(labels_[i]);
   }
   render::SheetStyle style;
   style.columns = shown > 6 ? 4 : 3;
   render::write_png(folder_ / "contact_sheet.png", render::contact_sheet(frames, labels, style));
 
-  return render::write_video(folder_ / "film.mp4", (folder_ / "frames" / "frame_%05d.png").string(), 0,
-                             kFramesPerSecond)
-      .value_or("");
+  // In ffmpeg's pattern a percent sign of the folder's name is doubled; its message need not name the folder.
+  std::string pattern;
+  for (const char c : (folder_ / "frames").string())
+    pattern += c == '%' ? std::string("%%") : std::string(1, c);
+  const std::string problem =
+      render::write_video(folder_ / "film.mp4", pattern + "/frame_%05d.png", 0, kFramesPerSecond)
+          .value_or("");
+  return problem.substr(std::min(problem.size(), problem.find("no film")));
 }
 
 }  // namespace voxmelt::app

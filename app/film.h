@@ -24,16 +24,17 @@ class Film {
   // Writes contact_sheet.png and film.mp4; returns why there is no film, or nothing.
   std::string finish();
 
-  std::size_t frame_count() const { return small_.size(); }
+  std::size_t frame_count() const { return labels_.size(); }
   double update_seconds() const { return update_seconds_; }
   double render_seconds() const { return render_seconds_; }
 
  private:
+  std::filesystem::path frame_file(std::size_t frame) const;
+
   const scene::Scene& scene_;
   std::filesystem::path folder_;
   int threads_;
   render::DensityField field_;
-  std::vector<render::Image> small_;
   std::vector<std::string> labels_;
   double update_seconds_ = 0, render_seconds_ = 0;
 };

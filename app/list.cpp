@@ -23,10 +23,16 @@ int list_scenes() {
     std::error_code ignored;
     std::set<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder, ignored))
-      if (entry.path().extension() == ".toml") files.insert(entry.path());
+      if (entry.path().extension() == ".toml" && entry.is_regular_file(ignored)) files.insert(entry.path());
     for (const fs::path& file : files) {
       if (!seen.insert(file.stem().string()).second) continue;
-      fmt::print("{:<24} {}\n", file.stem().string(), scene::title_of(file));
+      std::string title;
+      try {
+        title = scene::title_of(file);
+      } catch (const scene::InputError& error) {
+        title = fmt::format("(cannot be read: {})", error.what());
+      }
+      fmt::print("{:<24} {}\n", file.stem().string(), title);
     }
   }
   return kDone;

@@ -1,4 +1,8 @@
 // voxmelt: melts solid voxel models and lets them flow.
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -60,7 +64,12 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
       return program.exit(error) == 0 ? app::kDone : app::kBadInput;
     }
-    return chosen();
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error message, not a sudden end
+    const int code = chosen();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      return fail(std::string("standard output: error: cannot write: ") + std::strerror(errno),
+                  app::kOutOfResources);
+    return code;
   } catch (const scene::InputError& error) {
     return fail(error.what(), app::kBadInput);
   } catch (const app::UsageError& error) {

@@ -1,11 +1,14 @@
 #include "app/options.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <thread>
+
+#include "kernel/io/output_folder.h"
 
 namespace voxmelt::app {
 namespace {
@@ -40,7 +43,8 @@ void add_common(CLI::App& command, Common& common) {
       ->capture_default_str();
   command.add_option("--threads", common.threads, "threads (default: all); no result depends on it")
       ->check(CLI::Range(1, 1024));
-  command.add_option("--seed", common.seed, "seed of the random function, instead of the scene's");
+  command.add_option("--seed", common.seed, "seed of the random function, instead of the scene's")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{INT64_MAX}));
   command.add_option("--set", common.sets, "override a key of the scene: path.to.key=value (repeatable)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -73,6 +77,26 @@ run::Simulation make_simulation(const scene::Scene& scene, const Common& common)
         fmt::format("--implementation {}: error: unknown; this build has {}", common.implementation, known));
   }
   return {scene.parameters, scene.initial, *implementation};
+}
+
+void check_report_place(const Common& common, const std::string& out) {
+  if (common.report.empty()) return;
+  const auto fail = [&](const std::string& why) {
+    throw UsageError(fmt::format("--report {}: error: {}", common.report, why));
+  };
+  std::error_code error;
+  const fs::path place = fs::absolute(common.report).lexically_normal();
+  const fs::path within = place.lexically_relative(fs::absolute(out).lexically_normal());
+  if (!out.empty() && !within.empty() && *within.begin() != "..")
+    fail("lies in --out, which gets its own report.json and is replaced whole");
+  if (fs::is_directory(place, error)) fail("is a folder");
+  if (!fs::is_directory(place.parent_path(), error))
+    fail("there is no folder " + place.parent_path().string());
+  if (::access(place.parent_path().c_str(), W_OK) != 0) fail("cannot write there");
+}
+
+void write_report(const Common& common, const std::string& text) {
+  if (!common.report.empty()) io::write_file(common.report, text);
 }
 
 int thread_count(const Common& common) {

@@ -39,6 +39,10 @@ scene::Scene load_scene(const Common& common);
 run::Simulation make_simulation(const scene::Scene& scene, const Common& common);
 int thread_count(const Common& common);
 
+// Fails at once where --report could not be written later; `out` is the output folder, empty for none.
+void check_report_place(const Common& common, const std::string& out);
+void write_report(const Common& common, const std::string& text);  // if --report was given
+
 // Folders that are searched for scenes given by name.
 std::vector<std::filesystem::path> scene_folders();
 

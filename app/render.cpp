@@ -1,10 +1,14 @@
 // voxmelt render: one picture, or a turntable.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/commands.h"
 #include "app/film.h"
+#include "app/interrupt.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "app/report.h"
 #include "kernel/io/output_folder.h"
 #include "render/image/png.h"
 #include "render/raycast/draw.h"
@@ -20,17 +24,30 @@ struct RenderOptions {
   int turntable = 0;
 };
 
+// CLI::Range lets "nan" through.
+CLI::Validator finite_within(double low, double high) {
+  return {[=](const std::string& text) {
+            double value = NAN;
+            const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+            return good ? std::string() : fmt::format("{} is not a number from {} to {}", text, low, high);
+          },
+          fmt::format("NUMBER in [{} - {}]", low, high)};
+}
+
 int run_render(const RenderOptions& options) {
   scene::Scene scene = load_scene(options.common);
   if (!options.size.empty()) set_size(scene.camera, options.size);
   if (options.azimuth) scene.camera.azimuth = *options.azimuth;
   if (options.elevation) scene.camera.elevation = *options.elevation;
+  check_report_place(options.common, options.turntable > 0 ? options.out : "");
+  catch_interrupts();
 
   run::Simulation simulation = make_simulation(scene, options.common);
   {
     Progress progress(options.steps, options.common.quiet);
     while (simulation.steps_done() < options.steps) {
       simulation.step();
+      stop_if_interrupted();
       progress.show(simulation.steps_done(), simulation.volume());
     }
   }
@@ -45,14 +62,17 @@ int run_render(const RenderOptions& options) {
 
   if (options.turntable == 0) {
     render::write_png(options.out, picture());
+    write_report(options.common, report_json(scene, options.common, simulation, {}));
     if (!options.common.quiet) fmt::print("written: {}\n", options.out);
     return kDone;
   }
   io::OutputFolder out(options.out);
   for (int k = 0; k < options.turntable; ++k) {
+    stop_if_interrupted();
     render::write_png(out.partial() / fmt::format("view_{:03d}.png", k), picture());
     scene.camera.azimuth += 360.0 / options.turntable;
   }
+  write_report(options.common, report_json(scene, options.common, simulation, {}));
   out.commit();
   if (!options.common.quiet) fmt::print("{} views written to {}\n", options.turntable, options.out);
   return kDone;
@@ -72,9 +92,10 @@ void add_render(CLI::App& program, Chosen& chosen) {
   command->add_option("--setting", options->setting, "samples per pixel: fast 1, normal 4, best 16")
       ->check(CLI::IsMember({"fast", "normal", "best"}))
       ->capture_default_str();
-  command->add_option("--azimuth", options->azimuth, "degrees around the vertical, instead of the scene's");
+  command->add_option("--azimuth", options->azimuth, "degrees around the vertical, instead of the scene's")
+      ->check(finite_within(-360, 360));
   command->add_option("--elevation", options->elevation, "degrees above the horizon, instead of the scene's")
-      ->check(CLI::Range(-89.0, 89.0));
+      ->check(finite_within(-89, 89));
   command
       ->add_option("--turntable", options->turntable,
                    "this many views around the scene, into the folder --out")

@@ -107,7 +107,7 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"seconds", seconds_json(simulation.seconds(), seconds)},
       {"memory", {{"peak_bytes", peak_bytes()}}},
       {"parameters", json::parse(io::parameters_json(simulation.parameters(), volume.grid, 0))}};
-  return report.dump(2) + "\n";
+  return report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 std::string drift_text(const state::Drift& drift) {

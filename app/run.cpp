@@ -1,11 +1,11 @@
 // voxmelt run: the main job. Steps, frames, a contact sheet, a film, a report.
 #include <fmt/format.h>
 
-#include <csignal>
 #include <iostream>
 
 #include "app/commands.h"
 #include "app/film.h"
+#include "app/interrupt.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/report.h"
@@ -21,9 +21,6 @@ struct RunOptions {
   std::string size;
 };
 
-volatile std::sig_atomic_t g_interrupted = 0;
-void interrupt(int) { g_interrupted = 1; }
-
 int run_scene(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const Common& common = options.common;
@@ -31,18 +28,18 @@ int run_scene(const RunOptions& options) {
   const std::uint32_t steps = options.steps.value_or(scene.steps);
   const std::uint32_t every = options.frame_every.value_or(scene.frame_every);
   if (!options.size.empty()) set_size(scene.camera, options.size);
-  io::OutputFolder out(options.out.empty() ? "out/" + scene.name : options.out);
+  const std::string place_wanted = options.out.empty() ? "out/" + scene.name : options.out;
+  check_report_place(common, place_wanted);
+  io::OutputFolder out(place_wanted);
 
-  // Ctrl-C ends the run early; what was made until then is kept.
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  catch_interrupts();  // end the run early; what was made until then is kept
 
   run::Simulation simulation = make_simulation(scene, common);
   Film film(scene, out.partial(), thread_count(common));
   film.add_frame(simulation.volume(), 0);
   {
     Progress progress(steps, common.quiet);
-    while (simulation.steps_done() < steps && g_interrupted == 0) {
+    while (simulation.steps_done() < steps && !interrupted()) {
       simulation.step();
       const std::uint32_t done = simulation.steps_done();
       if (every > 0 && (done % every == 0 || done == steps)) film.add_frame(simulation.volume(), done);
@@ -55,12 +52,12 @@ int run_scene(const RunOptions& options) {
   const std::string report =
       report_json(scene, common, simulation, {film.update_seconds(), film.render_seconds(), total});
   io::write_file(out.partial() / "report.json", report);
-  if (!common.report.empty()) io::write_file(common.report, report);
+  write_report(common, report);
   out.commit();
 
   const std::string place = std::filesystem::proximate(out.place()).string();
   if (!common.quiet) {
-    if (g_interrupted != 0) fmt::print("interrupted after step {}\n", simulation.steps_done());
+    if (interrupted()) fmt::print("interrupted after step {}\n", simulation.steps_done());
     fmt::print("{} frames      {}/frames/\ncontact sheet  {}/contact_sheet.png\n", film.frame_count(), place,
                place);
     fmt::print("film           {}\n", video_note.empty() ? place + "/film.mp4" : video_note);

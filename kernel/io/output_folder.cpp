@@ -1,10 +1,14 @@
 #include "kernel/io/output_folder.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <set>
 #include <system_error>
 
 namespace voxmelt::io {
@@ -23,27 +27,58 @@ std::string beside(const fs::path& place) {
   return place.string() + ".partial-" + std::to_string(::getpid());
 }
 
+[[noreturn]] void refuse(const fs::path& place, const std::string& why) {
+  throw OutputError(place.string() + ": error: " + why, false);
+}
+
+// The files of a folder, as paths within it, one per line: what commit() writes into the marker.
+std::set<std::string> files_within(const fs::path& folder) {
+  std::set<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (!entry.is_directory() || entry.is_symlink())
+      files.insert(entry.path().lexically_relative(folder).string());
+  return files;
+}
+
+// An old output is replaced whole, so it must hold nothing that voxmelt did not write.
+void check_replaceable(const fs::path& place) {
+  std::error_code error;
+  if (!fs::exists(place, error)) {
+    if (fs::is_symlink(place, error)) refuse(place, "is a link to nowhere");
+    return;
+  }
+  if (!fs::is_directory(place, error)) refuse(place, "is a file, not a folder to write into");
+  const fs::path here = fs::current_path(error), inside = here.lexically_relative(place);
+  if (!inside.empty() && *inside.begin() != "..")
+    refuse(place, "is the current folder or one above it; choose a folder inside");
+  std::ifstream marker(place / kMarker);
+  std::set<std::string> written{kMarker};
+  for (std::string line; std::getline(marker, line);) written.insert(line);
+  for (const std::string& file : files_within(place))
+    if (!written.contains(file))
+      refuse(place, "holds '" + file + "', which voxmelt did not write; choose another folder");
+}
+
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path place) : place_(fs::absolute(std::move(place)).lexically_normal()) {
+OutputFolder::OutputFolder(fs::path place) : place_(fs::weakly_canonical(fs::absolute(std::move(place)))) {
   if (!place_.has_filename()) place_ = place_.parent_path();
-  partial_ = beside(place_);
+  check_replaceable(place_);
+
+  // A fresh folder beside the place, and the folders above it.
   std::error_code error;
-  if (fs::exists(place_, error)) {
-    if (!fs::is_directory(place_, error))
-      throw OutputError(place_.string() + ": error: is a file, not a folder to write into", false);
-    if (!fs::is_empty(place_, error) && !fs::exists(place_ / kMarker, error))
-      throw OutputError(
-          place_.string() +
-              ": error: the folder holds files that voxmelt did not write; choose another --out",
-          false);
-  }
-  first_new_ = partial_;
+  std::string partial = place_.string() + ".partial-XXXXXX";
+  first_new_ = partial;
   while (first_new_.has_relative_path() && !fs::exists(first_new_.parent_path(), error))
     first_new_ = first_new_.parent_path();
-  fs::create_directories(partial_, error);
-  if (error) fail(place_, "cannot create the output folder", error.value());
-  write_file(partial_ / kMarker, "Written by voxmelt; replaced whole by the next run into this folder.\n");
+  fs::create_directories(fs::path(partial).parent_path(), error);
+  if (error || ::mkdtemp(partial.data()) == nullptr)
+    fail(place_, "cannot create the output folder", error ? error.value() : errno);
+  if (first_new_.filename() == fs::path(place_.string() + ".partial-XXXXXX").filename()) first_new_ = partial;
+  partial_ = partial;
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  ::chmod(partial.c_str(), 0777 & ~mask);
 }
 
 OutputFolder::~OutputFolder() {
@@ -58,8 +93,12 @@ OutputFolder::~OutputFolder() {
 }
 
 void OutputFolder::commit() {
+  std::string files;
+  for (const std::string& file : files_within(partial_)) files += file + "\n";
+  write_file(partial_ / kMarker, files);
+
   std::error_code error;
-  const fs::path old = beside(place_) + ".old";
+  const fs::path old = partial_.string() + ".old";
   const bool replace = fs::exists(place_, error);
   if (replace) fs::rename(place_, old, error);
   if (error) fail(place_, "cannot replace the folder", error.value());
@@ -74,9 +113,10 @@ void OutputFolder::commit() {
 }
 
 void write_file(const fs::path& place, const std::string& bytes) {
-  // A device or a pipe (/dev/stdout) is written as it is; a file is replaced whole.
+  // A device, a pipe or a link (/dev/stdout) is written as it is; a file is replaced whole.
   std::error_code ignored;
-  const bool replace = !fs::exists(place, ignored) || fs::is_regular_file(place, ignored);
+  const bool replace =
+      !fs::is_symlink(place, ignored) && (!fs::exists(place, ignored) || fs::is_regular_file(place, ignored));
   const fs::path partial = replace ? fs::path(beside(place)) : place;
   std::FILE* file = std::fopen(partial.c_str(), "wb");
   if (file == nullptr) fail(place, "cannot write", errno);

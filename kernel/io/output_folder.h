@@ -20,8 +20,8 @@ class OutputError : public std::runtime_error {
 
 class OutputFolder {
  public:
-  // Prepares "<place>.partial-<pid>" beside `place`; fails at once if that cannot be done. `place` must not
-  // exist, be empty, or hold the marker file that an earlier commit() left there (it is then replaced whole).
+  // Prepares a fresh "<place>.partial-..." beside `place`; fails at once if that cannot be done. `place` must
+  // not exist, or hold nothing but what an earlier commit() wrote there (it is then replaced whole).
   explicit OutputFolder(std::filesystem::path place);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;

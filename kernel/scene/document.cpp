@@ -14,6 +14,7 @@ namespace voxmelt::scene {
 namespace {
 
 constexpr std::size_t kLargestDocument = std::size_t{16} << 20;
+constexpr std::size_t kLongestLine = 32768;
 
 Place place_of(const toml::source_region& region, const std::shared_ptr<const Origin>& origin) {
   return {origin, region.begin.line, region.begin.column};
@@ -56,6 +57,19 @@ bool is_bare_word(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
   });
+}
+
+// The TOML parser recurses once per part of a dotted key: a line of a hundred thousand would end the program.
+void check_line_lengths(const std::string& text, const std::string& name) {
+  std::size_t line = 1, begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > kLongestLine)
+      throw InputError(
+          fmt::format("{}:{}:1: error: a line of more than {} characters", name, line, kLongestLine));
+    begin = end + 1;
+    ++line;
+  }
 }
 
 }  // namespace
@@ -116,6 +130,7 @@ void fail_at(const Place& place, const std::string& message) {
 Value parse_file(const std::filesystem::path& file) {
   auto origin = std::make_shared<const Origin>(Origin{file.string(), file.parent_path(), false});
   const std::string text = read_text_file(file, kLargestDocument, origin->name);
+  check_line_lengths(text, origin->name);
   try {
     return convert(toml::parse(text, origin->name), origin);
   } catch (const toml::parse_error& error) {

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kLargestShare4 = 0.25,
                  kLargestShare8 = 0.2;  // all directions together give at most what a cell has
-constexpr double kLargestKappa = 1024;
-constexpr double kLargestYield = 255;  // x 65536 fits 24 bits
+constexpr double kLargestKappa = 71;    // mobility fits 24 bits
+constexpr double kLargestYield = 255;   // x 65536 fits 24 bits
 
 Range unit() { return {0, 1, false, {}}; }
 Range amount() { return {0, kLargestAmount, false, {}}; }

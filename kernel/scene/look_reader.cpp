@@ -12,27 +12,6 @@ namespace {
 
 Range unit() { return {0, 1, false, {}}; }
 
-// The least distance from which all eight corners of the grid are within the picture.
-double fitting_distance(const Camera& camera, state::Grid grid) {
-  const double to_radians = std::numbers::pi / 180;
-  const double azimuth = camera.azimuth * to_radians, elevation = camera.elevation * to_radians;
-  const Point back{std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-                   std::cos(azimuth) * std::cos(elevation)};
-  const Point right{std::cos(azimuth), 0, -std::sin(azimuth)};
-  const Point up{-std::sin(azimuth) * std::sin(elevation), std::cos(elevation),
-                 -std::cos(azimuth) * std::sin(elevation)};
-  const double tall = std::tan(camera.field_of_view / 2 * to_radians);
-  const double wide = tall * camera.width / camera.height;
-  double distance = 1;
-  for (int i = 0; i < 8; ++i) {
-    const Point corner{i & 1 ? 1.0 * grid.x : 0.0, i & 2 ? 1.0 * grid.y : 0.0, i & 4 ? 1.0 * grid.z : 0.0};
-    const Point offset = corner - to_point(camera.target);
-    distance = std::max({distance, dot(offset, back) + std::abs(dot(offset, up)) / tall,
-                         dot(offset, back) + std::abs(dot(offset, right)) / wide});
-  }
-  return distance * 1.02;
-}
-
 }  // namespace
 
 Camera read_camera(Reader& root, state::Grid grid) {
@@ -49,7 +28,6 @@ Camera read_camera(Reader& root, state::Grid grid) {
     camera.height = static_cast<int>(reader->integer("height", 16, 16384, camera.height));
     reader->finish();
   }
-  if (camera.distance == 0) camera.distance = fitting_distance(camera, grid);
   return camera;
 }
 

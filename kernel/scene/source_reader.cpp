@@ -34,6 +34,8 @@ rule::Material read_material(Reader& root) {
   if (!reader) return material;
   material.melting_point = to_temperature(reader->number("melting_point", {0, 1, true, {}}, 0.5));
   material.latent_heat = to_temperature(reader->number("latent_heat", {0, 1, false, {}}, 0.0));
+  if (material.melting_point + material.latent_heat > rule::kTemperatureMax)
+    reader->fail("latent_heat", " and melting_point exceed 1 together: it could never melt");
   reader->finish();
   return material;
 }

@@ -1,6 +1,7 @@
 #include "render/image/png.h"
 
 #include <png.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -29,10 +30,11 @@ using File = std::unique_ptr<std::FILE, Close>;
 
 void write_png(const std::filesystem::path& file, const Image& image) {
   std::error_code unknown;
-  if (std::filesystem::exists(file, unknown) && !std::filesystem::is_regular_file(file, unknown))
+  if (std::filesystem::is_symlink(file, unknown) ||
+      (std::filesystem::exists(file, unknown) && !std::filesystem::is_regular_file(file, unknown)))
     fail(file, "is not a file that a picture could replace");
   std::filesystem::path beside = file;
-  beside += ".part";
+  beside += ".part-" + std::to_string(::getpid());
   File stream(std::fopen(beside.c_str(), "wb"));
   if (!stream) fail_errno(file, "cannot be written", errno);
 

@@ -55,6 +55,8 @@ SCENES = {
     "truncated height field": (SMALL + '[[inert]]\nshape = "heightfield"\nfile = "cut.asc"\nvertical_scale = 1\n', "cut.asc", 2),
     "vent with a negative rate": (SMALL + "[[vent]]\nat = [6, 6, 6]\nradius = 1\nrate = -1\n", "vent.0.rate", 2),
     "extends itself": ('extends = "scene.toml"\n' + SMALL, "scene.toml", 2),
+    "latent heat past the range": (changed("melting_point = 0.5", "melting_point = 0.5\nlatent_heat = 0.6"), "material.latent_heat", 2),
+    "a key of 100,000 parts": ("a" + ".a" * 100000 + " = 1\n" + SMALL, "scene.toml:1:1: error: a line of more than", 2),
     "start from nowhere": (SMALL + '[start]\nfields = "nowhere"\n', "nowhere", 2),
 }
 
@@ -87,6 +89,12 @@ ARGUMENTS = [
     (["run", "scene.toml", "--out", "file"], "file", 2),
     (["run", "scene.toml", "--out", "/proc/voxmelt"], "/proc/voxmelt", 2),
     (["digest", "scene.toml", "--report", "/nowhere/r.json", "--steps", "0"], "/nowhere/r.json", 2),
+    (["run", "scene.toml", "--report", "nowhere/r.json"], "there is no folder", 2),
+    (["run", "scene.toml", "--out", "o", "--report", "o/r.json"], "lies in --out", 2),
+    (["run", "scene.toml", "--out", "."], "current folder", 2),
+    (["render", "scene.toml", "--azimuth", "nan"], "--azimuth", 2),
+    (["render", "scene.toml", "--elevation", "inf"], "--elevation", 2),
+    (["digest", "scene.toml", "--seed", "9223372036854775808"], "--seed", 2),
     (["export", "scene.toml"], "--out", 2),
     (["export", "scene.toml", "--out", "x", "--format", "stl"], "--format", 2),
     (["render", "scene.toml", "--out", "/nowhere/p.png"], "/nowhere/p.png", 2),

@@ -69,6 +69,43 @@ class Commands(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertEqual([p.name for p in (self.folder / "yours").iterdir()], ["letter.txt"])
 
+    def test_an_output_folder_with_foreign_files_is_kept(self):
+        self.good("run", self.scene, "--out", "mine", "--steps", "0")
+        write(self.folder / "mine", "precious", "notes.txt")
+        result = voxmelt("run", self.scene, "--out", "mine", cwd=self.folder)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("notes.txt", result.stderr)
+        self.assertTrue((self.folder / "mine/notes.txt").exists())
+
+    def test_links_and_devices_are_written_not_replaced(self):
+        (self.folder / "target.json").write_text("old")
+        (self.folder / "link.json").symlink_to("target.json")
+        self.good("digest", self.scene, "--steps", "0", "--report", "link.json")
+        self.assertTrue((self.folder / "link.json").is_symlink())
+        self.assertIn("digest", json.loads((self.folder / "target.json").read_text()))
+        (self.folder / "elsewhere").mkdir()
+        (self.folder / "out").symlink_to("elsewhere")
+        self.good("run", self.scene, "--steps", "0")
+        self.assertTrue((self.folder / "elsewhere/scene/report.json").exists())
+
+    def test_lost_output_is_an_error(self):
+        for redirect in ("> /dev/full", ">&-"):
+            result = subprocess.run(["bash", "-c", f"'{PROGRAM}' digest '{self.scene}' --steps 0 {redirect}"],
+                                    capture_output=True, text=True)
+            self.assertNotEqual(result.returncode, 0, redirect)
+
+    def test_an_interrupted_export_leaves_nothing(self):
+        process = subprocess.Popen([PROGRAM, "export", self.scene, "--steps", "4000000", "--out", "e"],
+                                   cwd=self.folder, stderr=subprocess.DEVNULL)
+        for _ in range(100):
+            time.sleep(0.05)
+            if len(list(self.folder.iterdir())) > 1:
+                break
+        time.sleep(0.2)
+        process.terminate()
+        self.assertEqual(process.wait(60), 2)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["scene.toml"])
+
     def test_digest_lines(self):
         lines = self.good("digest", self.scene, "--steps", "5", "--every", "2").splitlines()
         self.assertEqual([int(LINE.match(line).group(1)) for line in lines], [0, 2, 4, 5])
