@@ -86,9 +86,11 @@ void check_report_place(const Common& common, const std::string& out) {
   };
   std::error_code error;
   const fs::path place = fs::absolute(common.report).lexically_normal();
-  const fs::path within = place.lexically_relative(fs::absolute(out).lexically_normal());
-  if (!out.empty() && !within.empty() && *within.begin() != "..")
-    fail("lies in --out, which gets its own report.json and is replaced whole");
+  if (!out.empty()) {
+    const fs::path within = place.lexically_relative(fs::absolute(out).lexically_normal());
+    if (!within.empty() && *within.begin() != "..")
+      fail("lies in --out, which gets its own report.json and is replaced whole");
+  }
   if (fs::is_directory(place, error)) fail("is a folder");
   if (!fs::is_directory(place.parent_path(), error))
     fail("there is no folder " + place.parent_path().string());

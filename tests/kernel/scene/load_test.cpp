@@ -25,7 +25,7 @@ TEST(Load, DefaultsOfTheLeastScene) {
   EXPECT_FALSE(scene.parameters.heat.enabled);
   EXPECT_EQ(scene.features, std::vector<std::string>{"diagonal"});
   EXPECT_EQ(scene.camera.target, (Vec3{4, 4.5, 5}));
-  EXPECT_GT(scene.camera.distance, 10);
+  EXPECT_EQ(scene.camera.distance, 0);  // the renderer fits the grid
   EXPECT_EQ(scene.terrain.height.size(), 80u);
   EXPECT_FALSE(scene.terrain.textured);
 }
@@ -37,7 +37,7 @@ TEST(Load, UnitsOfTheAutomaton) {
 [run]
 seed = 77
 [material]
-melting_point = 1.0
+melting_point = 0.75
 latent_heat = 0.25
 [heat]
 neighbours = 26
@@ -79,7 +79,7 @@ doubling = 0.03125
 )")
                                  .parameters;
   EXPECT_EQ(p.seed, 77u);
-  EXPECT_EQ(p.material.melting_point, 65535);
+  EXPECT_EQ(p.material.melting_point, 49151);
   EXPECT_EQ(p.material.latent_heat, 16384);
   EXPECT_EQ(p.heat.weight_face, 10922);
   EXPECT_EQ(p.heat.weight_edge, 5461);
