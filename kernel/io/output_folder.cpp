@@ -65,16 +65,14 @@ OutputFolder::OutputFolder(fs::path place) : place_(fs::weakly_canonical(fs::abs
   if (!place_.has_filename()) place_ = place_.parent_path();
   check_replaceable(place_);
 
-  // A fresh folder beside the place, and the folders above it.
+  // A fresh folder beside the place, and the folders above it that are missing.
   std::error_code error;
+  for (fs::path above = place_.parent_path(); !fs::exists(above, error); above = above.parent_path())
+    first_new_ = above;
+  fs::create_directories(place_.parent_path(), error);
   std::string partial = place_.string() + ".partial-XXXXXX";
-  first_new_ = partial;
-  while (first_new_.has_relative_path() && !fs::exists(first_new_.parent_path(), error))
-    first_new_ = first_new_.parent_path();
-  fs::create_directories(fs::path(partial).parent_path(), error);
   if (error || ::mkdtemp(partial.data()) == nullptr)
     fail(place_, "cannot create the output folder", error ? error.value() : errno);
-  if (first_new_.filename() == fs::path(place_.string() + ".partial-XXXXXX").filename()) first_new_ = partial;
   partial_ = partial;
   const mode_t mask = ::umask(0);
   ::umask(mask);
@@ -86,7 +84,7 @@ OutputFolder::~OutputFolder() {
   std::error_code ignored;
   fs::remove_all(partial_, ignored);
   // Folders made for nothing go too; fs::remove leaves those that are not empty.
-  for (fs::path folder = partial_; folder != first_new_;) {
+  for (fs::path folder = partial_; !first_new_.empty() && folder != first_new_;) {
     folder = folder.parent_path();
     fs::remove(folder, ignored);
   }

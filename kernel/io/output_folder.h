@@ -33,7 +33,8 @@ class OutputFolder {
 
  private:
   std::filesystem::path place_, partial_;
-  std::filesystem::path first_new_;  // the uppermost folder that had to be made for `partial_`
+  std::filesystem::path
+      first_new_;  // the uppermost folder above `partial_` that had to be made; empty for none
   bool committed_ = false;
 };
 
