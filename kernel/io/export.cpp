@@ -1,19 +1,20 @@
 #include "kernel/io/export.h"
 
 #include <array>
-#include <cstring>
 #include <functional>
-#include <vector>
 
 #include "kernel/io/output_folder.h"
 
 namespace voxmelt::io {
 namespace {
 
-template <class T>
-std::string bytes_of(const std::vector<T>& values) {
-  std::string bytes(values.size() * sizeof(T), '\0');
-  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+std::string bytes_of(const state::Field<std::uint16_t>& field, state::Grid g) {
+  std::string bytes;
+  bytes.reserve(g.cells() * sizeof(std::uint16_t));
+  for (int z = 0; z < g.z; ++z)
+    for (int y = 0; y < g.y; ++y)
+      bytes.append(reinterpret_cast<const char*>(field.row(y, z)),
+                   static_cast<std::size_t>(g.x) * sizeof(std::uint16_t));
   return bytes;
 }
 
@@ -38,9 +39,9 @@ void for_each_field(const state::Volume& v, const std::function<void(const Field
   visit({"solid", "|u1", "UInt8", unpacked(v.solid, v.grid)});
   visit({"liquid", "|u1", "UInt8", unpacked(v.liquid, v.grid)});
   visit({"inert", "|u1", "UInt8", unpacked(v.inert, v.grid)});
-  visit({"amount", "<u2", "UInt16", bytes_of(v.amount)});
-  visit({"energy", "<u2", "UInt16", bytes_of(v.energy)});
-  visit({"temperature", "<u2", "UInt16", bytes_of(v.temperature)});
+  visit({"amount", "<u2", "UInt16", bytes_of(v.amount, v.grid)});
+  visit({"energy", "<u2", "UInt16", bytes_of(v.energy, v.grid)});
+  visit({"temperature", "<u2", "UInt16", bytes_of(v.temperature, v.grid)});
 }
 
 std::string npy_header(const char* type, state::Grid g) {

@@ -38,7 +38,9 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
       volume_(std::move(initial)),
       stepper_(implementation.create(parameters_, volume_.grid)),
       provider_(std::move(provider)),
-      ledger_(state::Ledger::open(volume_)) {}
+      ledger_(state::Ledger::open(volume_)) {
+  if (parameters_.heat.enabled && parameters_.heat.radiation) irradiance_ = step::Irradiance(volume_.grid);
+}
 
 void Simulation::begin_step() {
   const rule::Heat& heat = parameters_.heat;
@@ -49,7 +51,7 @@ void Simulation::begin_step() {
 
 void Simulation::run_phase(step::Phase phase) {
   const Stopwatch watch(seconds_.phase[static_cast<std::size_t>(phase)]);
-  stepper_->run(phase, steps_done_, irradiance_, volume_, ledger_);
+  stepper_->run(phase, steps_done_, irradiance_.empty() ? nullptr : &irradiance_, volume_, ledger_);
 }
 
 void Simulation::step() {

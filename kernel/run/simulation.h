@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "kernel/state/ledger.h"
 #include "kernel/step/stepper.h"
@@ -49,7 +48,7 @@ class Simulation {
   std::unique_ptr<step::Stepper> stepper_;
   std::unique_ptr<visibility::Provider> provider_;
   state::Ledger ledger_;
-  std::vector<std::uint16_t> irradiance_;
+  step::Irradiance irradiance_;  // empty without radiation
   std::uint32_t steps_done_ = 0;
   Seconds seconds_;
 };

@@ -57,7 +57,7 @@ ActiveRows ActiveRows::columns(const state::Volume& volume) {
 void settle_masks(const ActiveRows& rows, state::Volume& volume) {
   rows.for_each([&](int x, int y, int z) {
     if (volume.solid.test(x, y, z) || volume.inert.test(x, y, z)) return;
-    const std::size_t i = volume.grid.index(x, y, z);
+    const state::Slot i = volume.at(x, y, z);
     const bool wet = volume.amount[i] > 0;
     volume.liquid.set(x, y, z, wet);
     if (!wet) volume.energy[i] = volume.temperature[i] = 0;

@@ -24,7 +24,7 @@ class Cells {
   }
   bool air(int x, int y, int z) const { return !blocked(x, y, z) && !v_.liquid.test(x, y, z); }
 
-  std::size_t at(int x, int y, int z) const { return g_.index(x, y, z); }
+  state::Slot at(int x, int y, int z) const { return v_.at(x, y, z); }
   std::int32_t amount(int x, int y, int z) const { return v_.amount[at(x, y, z)]; }
   std::int32_t energy(int x, int y, int z) const { return v_.energy[at(x, y, z)]; }
   std::int32_t heat(int x, int y, int z) const { return v_.temperature[at(x, y, z)]; }

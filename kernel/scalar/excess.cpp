@@ -19,7 +19,7 @@ void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
     std::int32_t n = 0;
     std::int32_t next_amount = cells.amount(x, bottom, z);
     while (next_amount > 0 || mass > std::int64_t{n} * rule::kOne) {
-      const std::size_t i = cells.at(x, bottom + n, z);
+      const state::Slot i = cells.at(x, bottom + n, z);
       const std::int32_t top = next_amount;
       mass += top;
       content += static_cast<std::uint64_t>(top) * volume.temperature[i];
@@ -38,7 +38,7 @@ void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
         rule::bed_head(bottom, on_inert ? cells.amount(x, bottom - 1, z) : rule::kBedHalf);
     const rule::Column column = rule::run_column(mass, n, bed, h, parameters_.flow);
     for (std::int32_t k = 0; k < n; ++k) {
-      const std::size_t i = cells.at(x, bottom + k, z);
+      const state::Slot i = cells.at(x, bottom + k, z);
       const std::int32_t amount = rule::settled(mass, n, k);
       volume.amount[i] = static_cast<std::uint16_t>(amount);
       volume.temperature[i] = static_cast<std::uint16_t>(h);
@@ -52,7 +52,7 @@ void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
     return bottom + n;
   };
 
-  std::fill(in_run_.begin(), in_run_.end(), std::uint8_t{0});
+  in_run_.clear();
   for (int z = 0; z < volume.grid.z; ++z) {
     const ActiveRows::Interval row = columns(0, z);
     for (int x = row.begin; x < row.end; ++x)

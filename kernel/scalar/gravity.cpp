@@ -25,7 +25,7 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
   const Cells cells(volume);  // masks are those of the phase's begin until settle_masks
 
   // Moves `flow` (and energy) from cell `from` to cell `to`, and mixes their heat.
-  const auto transfer = [&](std::size_t from, std::size_t to, std::int32_t flow) {
+  const auto transfer = [&](state::Slot from, state::Slot to, std::int32_t flow) {
     if (hot) {
       const std::uint64_t content = std::uint64_t{volume.amount[to]} * volume.temperature[to] +
                                     static_cast<std::uint64_t>(flow) * volume.temperature[from];
@@ -38,7 +38,7 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
     volume.amount[from] = static_cast<std::uint16_t>(volume.amount[from] - flow);
     volume.amount[to] = static_cast<std::uint16_t>(volume.amount[to] + flow);
   };
-  const auto cap_energy = [&](std::size_t i) {
+  const auto cap_energy = [&](state::Slot i) {
     if (volume.energy[i] <= volume.amount[i]) return;
     ledger.energy.capped += volume.energy[i] - volume.amount[i];
     volume.energy[i] = volume.amount[i];
@@ -48,7 +48,7 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
     for (int y = 0; y + 1 < volume.grid.y; ++y) {
       const ActiveRows::Interval row = columns(y, z);
       for (int x = row.begin; x < row.end; ++x) {
-        const std::size_t low = cells.at(x, y, z), high = cells.at(x, y + 1, z);
+        const state::Slot low = cells.at(x, y, z), high = cells.at(x, y + 1, z);
         const std::int32_t lower = volume.amount[low], upper = volume.amount[high];
         if (lower + upper == 0 || cells.blocked(x, y, z) || cells.blocked(x, y + 1, z)) continue;
 

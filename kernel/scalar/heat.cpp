@@ -13,7 +13,7 @@ namespace {
 // One pass over a set of axes; returns the change of the sum of amount x heat.
 std::int64_t conduct(std::span<const rule::Offset> axes, std::int32_t weight, std::uint32_t step,
                      const rule::Material& material, const ActiveRows& rows, state::Volume& volume,
-                     std::vector<std::uint16_t>& next) {
+                     state::Field<std::uint16_t>& next) {
   const Cells cells(volume);
   const int parts = static_cast<int>(axes.size());
   next = volume.temperature;
@@ -35,16 +35,16 @@ std::int64_t conduct(std::span<const rule::Offset> axes, std::int32_t weight, st
         gain -= rule::conducted(there, own, weight, offset);
       }
     }
-    const std::size_t i = cells.at(x, y, z);
+    const state::Slot i = cells.at(x, y, z);
     next[i] = static_cast<std::uint16_t>(volume.temperature[i] + gain);
     change += std::int64_t{gain} * volume.amount[i];
   });
-  volume.temperature.swap(next);
+  std::swap(volume.temperature, next);
   return change;
 }
 
 std::int64_t convect(std::int32_t weight, std::uint32_t step, const rule::Material& material,
-                     const ActiveRows& rows, state::Volume& volume, std::vector<std::uint16_t>& next) {
+                     const ActiveRows& rows, state::Volume& volume, state::Field<std::uint16_t>& next) {
   const Cells cells(volume);
   const std::int32_t offset = rule::dither(step);
   next = volume.temperature;
@@ -58,11 +58,11 @@ std::int64_t convect(std::int32_t weight, std::uint32_t step, const rule::Materi
   rows.for_each([&](int x, int y, int z) {
     if (!cells.liquid(x, y, z)) return;
     const std::int32_t gain = rising(x, y - 1, z) - rising(x, y, z);
-    const std::size_t i = cells.at(x, y, z);
+    const state::Slot i = cells.at(x, y, z);
     next[i] = static_cast<std::uint16_t>(volume.temperature[i] + gain);
     change += std::int64_t{gain} * volume.amount[i];
   });
-  volume.temperature.swap(next);
+  std::swap(volume.temperature, next);
   return change;
 }
 
@@ -75,13 +75,12 @@ int exposed_axes(const Cells& cells, int x, int y, int z) {
 
 }  // namespace
 
-void Reference::heat(std::uint32_t step, std::span<const std::uint16_t> irradiance, Volume& volume,
-                     Ledger& ledger) {
+void Reference::heat(std::uint32_t step, const step::Irradiance* irradiance, Volume& volume, Ledger& ledger) {
   const rule::Heat& heat = parameters_.heat;
   const rule::Material& material = parameters_.material;
   if (!heat.enabled) return;
   const ActiveRows rows(volume);
-  std::vector<std::uint16_t>& next = next_.temperature;
+  state::Field<std::uint16_t>& next = next_.temperature;
 
   // Conduction among solid and liquid, nearest neighbours first.
   state::Sum& conducted = ledger.heat.conducted;
@@ -95,17 +94,17 @@ void Reference::heat(std::uint32_t step, std::span<const std::uint16_t> irradian
     ledger.heat.convected += convect(heat.convection, step, material, rows, volume, next);
 
   // Radiation and air act on each cell alone.
-  if (irradiance.empty() && !heat.air) return;
+  if (irradiance == nullptr && !heat.air) return;
   const Cells cells(volume);
   const std::int32_t offset = rule::dither(step);
   rows.for_each([&](int x, int y, int z) {
     if (!cells.matter(x, y, z)) return;
-    const std::size_t i = cells.at(x, y, z);
+    const state::Slot i = cells.at(x, y, z);
     const std::int64_t amount = volume.amount[i];
     std::int32_t h = volume.temperature[i];
 
-    if (!irradiance.empty() && volume.solid.test(x, y, z)) {
-      const std::int32_t gain = rule::radiated(h, irradiance[i], offset);
+    if (irradiance != nullptr && volume.solid.test(x, y, z)) {
+      const std::int32_t gain = rule::radiated(h, (*irradiance)[i], offset);
       h += gain;
       ledger.heat.radiated += gain * amount;
     }

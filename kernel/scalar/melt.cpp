@@ -10,7 +10,7 @@ void Reference::melt(Volume& volume, Ledger& ledger) {
   const std::int32_t reheat = parameters_.flow.paper.reheat;
 
   ActiveRows(volume).for_each([&](int x, int y, int z) {
-    const std::size_t i = volume.grid.index(x, y, z);
+    const state::Slot i = volume.at(x, y, z);
     if (!rule::melts(volume.temperature[i], parameters_.material)) return;
     if (volume.solid.test(x, y, z)) {
       volume.solid.set(x, y, z, false);

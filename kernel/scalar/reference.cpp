@@ -5,17 +5,17 @@ namespace voxmelt::scalar {
 Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
     : parameters_(parameters), keys_(rule::round_keys(parameters.seed)) {
   if (parameters.flow.law == rule::Law::paper) {
-    pattern_.resize(grid.cells());
+    pattern_ = decltype(pattern_)(grid);
   } else {
-    in_run_.resize(grid.cells());
-    head_.resize(grid.cells());
-    mobility_.resize(grid.cells());
-    exposed_.resize(grid.cells());
-    dead_.resize(grid.cells());
+    in_run_ = decltype(in_run_)(grid);
+    head_ = decltype(head_)(grid);
+    mobility_ = decltype(mobility_)(grid);
+    exposed_ = decltype(exposed_)(grid);
+    dead_ = decltype(dead_)(grid);
   }
 }
 
-void Reference::run(step::Phase phase, std::uint32_t step, std::span<const std::uint16_t> irradiance,
+void Reference::run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance,
                     state::Volume& volume, state::Ledger& ledger) {
   switch (phase) {
     case step::Phase::source:

@@ -4,8 +4,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
-#include <vector>
 
 #include "kernel/rule/random.h"
 #include "kernel/scalar/cells.h"
@@ -17,15 +15,15 @@ class Reference final : public step::Stepper {
  public:
   Reference(const rule::Parameters& parameters, state::Grid grid);
 
-  void run(step::Phase phase, std::uint32_t step, std::span<const std::uint16_t> irradiance,
-           state::Volume& volume, state::Ledger& ledger) override;
+  void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
+           state::Ledger& ledger) override;
 
  private:
   using Volume = state::Volume;
   using Ledger = state::Ledger;
 
   void source(std::uint32_t step, Volume& volume, Ledger& ledger);
-  void heat(std::uint32_t step, std::span<const std::uint16_t> irradiance, Volume& volume, Ledger& ledger);
+  void heat(std::uint32_t step, const step::Irradiance* irradiance, Volume& volume, Ledger& ledger);
   void melt(Volume& volume, Ledger& ledger);
   void gravity(std::uint32_t step, Volume& volume, Ledger& ledger);
   void spread(std::uint32_t step, Volume& volume, Ledger& ledger);
@@ -36,10 +34,11 @@ class Reference final : public step::Stepper {
 
   rule::Parameters parameters_;
   rule::RoundKeys keys_;
-  std::vector<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
-  std::vector<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
-  std::vector<std::int32_t> head_, mobility_, exposed_, dead_;  // viscous law: of each cell, see rule::Column
-  Volume next_;                                                 // the result of a phase while it is computed
+  state::Field<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
+  state::Field<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
+  state::Field<std::int32_t> head_, mobility_, exposed_,
+      dead_;     // viscous law: of each cell, see rule::Column
+  Volume next_;  // the result of a phase while it is computed
 };
 
 std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid);

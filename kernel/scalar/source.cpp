@@ -34,7 +34,7 @@ void Reference::source(std::uint32_t step, Volume& volume, Ledger& ledger) {
   for (const rule::Vent& vent : parameters_.vents) {
     if (!rule::is_open(vent.from, vent.until, step)) continue;
     for_region(vent.region, volume, [&](int x, int y, int z) {
-      const std::size_t i = volume.grid.index(x, y, z);
+      const state::Slot i = volume.at(x, y, z);
       const std::int32_t before = volume.amount[i], added = rule::vented(before, vent.rate);
       if (added == 0) return;
       const std::int32_t after = before + added;
@@ -61,7 +61,7 @@ void Reference::source(std::uint32_t step, Volume& volume, Ledger& ledger) {
   for (const rule::Drain& drain : parameters_.drains) {
     if (!rule::is_open(drain.from, drain.until, step)) continue;
     for_region(drain.region, volume, [&](int x, int y, int z) {
-      const std::size_t i = volume.grid.index(x, y, z);
+      const state::Slot i = volume.at(x, y, z);
       const std::int32_t taken = rule::drained(volume.amount[i], drain.rate);
       if (taken == 0) return;
       const std::int32_t left = volume.amount[i] - taken;

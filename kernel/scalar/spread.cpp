@@ -74,7 +74,7 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
     std::int32_t amount = 0, energy = 0;
   };
   const auto given = [&](int x, int y, int z, std::size_t d) -> Flow {
-    const std::size_t i = cells.at(x, y, z);
+    const state::Slot i = cells.at(x, y, z);
     const std::uint8_t pattern = pattern_[i];
     if (!(pattern >> d & 1u)) return {};
     const bool diagonal = rule::is_diagonal(static_cast<int>(d));
@@ -90,7 +90,7 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
   next_.temperature = volume.temperature;
   rows.for_each([&](int x, int y, int z) {
     if (cells.blocked(x, y, z)) return;
-    const std::size_t i = cells.at(x, y, z);
+    const state::Slot i = cells.at(x, y, z);
     Flow out, in;
     std::uint64_t content = 0;
     for (std::size_t d = 0; d < static_cast<std::size_t>(law.neighbours); ++d) {
@@ -123,9 +123,9 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
       next_.temperature[i] = static_cast<std::uint16_t>(h);
     }
   });
-  volume.amount.swap(next_.amount);
-  volume.energy.swap(next_.energy);
-  volume.temperature.swap(next_.temperature);
+  std::swap(volume.amount, next_.amount);
+  std::swap(volume.energy, next_.energy);
+  std::swap(volume.temperature, next_.temperature);
   settle_masks(rows, volume);
 }
 

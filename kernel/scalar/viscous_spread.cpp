@@ -18,14 +18,14 @@ void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledge
   const bool hot = parameters_.heat.enabled;
 
   // What a cell shows to its neighbours.
-  const auto run_column = [&](std::size_t i) {
+  const auto run_column = [&](state::Slot i) {
     return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], in_run_[i] != 0};
   };
   const auto column = [&](int x, int y, int z) {
-    const std::size_t i = cells.at(x, y, z);
+    const state::Slot i = cells.at(x, y, z);
     if (in_run_[i]) return run_column(i);
     if (y == 0) return rule::bed_column(rule::bed_head(0, rule::kBedHalf));
-    const std::size_t below = cells.at(x, y - 1, z);
+    const state::Slot below = cells.at(x, y - 1, z);
     if (volume.solid.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, rule::kBedHalf));
     if (volume.inert.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, volume.amount[below]));
     if (in_run_[below]) return rule::top_column(y, run_column(below));
@@ -36,7 +36,7 @@ void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledge
   next_.temperature = volume.temperature;
   rows.for_each([&](int x, int y, int z) {
     if (cells.blocked(x, y, z)) return;
-    const std::size_t i = cells.at(x, y, z);
+    const state::Slot i = cells.at(x, y, z);
     const rule::Column own = column(x, y, z);
     std::int32_t out = 0, in = 0;
     std::uint64_t content = 0;
@@ -46,7 +46,7 @@ void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledge
       const bool diagonal = rule::is_diagonal(static_cast<int>(d));
       if (cells.blocked(nx, y, nz)) continue;
       if (diagonal && cells.blocked(nx, y, z) && cells.blocked(x, y, nz)) continue;
-      const std::size_t j = cells.at(nx, y, nz);
+      const state::Slot j = cells.at(nx, y, nz);
       if (!in_run_[i] && !in_run_[j]) continue;
       const rule::Column there = column(nx, y, nz);
       const std::int32_t offset = rule::dither(step, kDitherPart[d], 4);
@@ -67,8 +67,8 @@ void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledge
       next_.temperature[i] = static_cast<std::uint16_t>(h);
     }
   });
-  volume.amount.swap(next_.amount);
-  volume.temperature.swap(next_.temperature);
+  std::swap(volume.amount, next_.amount);
+  std::swap(volume.temperature, next_.temperature);
   settle_masks(rows, volume);
 }
 

@@ -95,10 +95,8 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   scene.initial =
       start ? read_fields(fields, grid, start->place("fields")) : voxelise(contents, grid, scene.warnings);
   // What the scene does not model is not there: no energy under the viscous law, no heat without [heat].
-  if (scene.parameters.flow.law == rule::Law::viscous)
-    std::fill(scene.initial.energy.begin(), scene.initial.energy.end(), std::uint16_t{0});
-  if (!scene.parameters.heat.enabled)
-    std::fill(scene.initial.temperature.begin(), scene.initial.temperature.end(), std::uint16_t{0});
+  if (scene.parameters.flow.law == rule::Law::viscous) scene.initial.energy.clear();
+  if (!scene.parameters.heat.enabled) scene.initial.temperature.clear();
   scene.terrain = std::move(contents.terrain);
   return scene;
 }

@@ -25,9 +25,21 @@ state::BitPlane read_mask(const std::filesystem::path& file, state::Grid grid, c
   return mask;
 }
 
+state::Field<std::uint16_t> read_field(const std::filesystem::path& file, state::Grid grid,
+                                       const Place& place) {
+  const std::vector<std::uint16_t> cells = read_npy(file, 2, grid, place);
+  state::Field<std::uint16_t> field(grid);
+  for (int z = 0; z < grid.z; ++z)
+    for (int y = 0; y < grid.y; ++y)
+      for (int x = 0; x < grid.x; ++x)
+        if (const std::uint16_t value = cells[grid.index(x, y, z)]; value != 0)
+          field[field.layout().at(x, y, z)] = value;
+  return field;
+}
+
 // The first promise that a cell breaks, or nothing.
 const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
-  const std::size_t cell = volume.grid.index(x, y, z);
+  const state::Slot cell = volume.at(x, y, z);
   const bool solid = volume.solid.test(x, y, z), liquid = volume.liquid.test(x, y, z),
              inert = volume.inert.test(x, y, z);
   const int amount = volume.amount[cell];
@@ -46,14 +58,13 @@ const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
 }  // namespace
 
 state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid, const Place& place) {
-  state::Volume volume;
-  volume.grid = grid;
+  state::Volume volume(grid);
   volume.solid = read_mask(folder / "solid.npy", grid, place);
   volume.liquid = read_mask(folder / "liquid.npy", grid, place);
   volume.inert = read_mask(folder / "inert.npy", grid, place);
-  volume.amount = read_npy(folder / "amount.npy", 2, grid, place);
-  volume.energy = read_npy(folder / "energy.npy", 2, grid, place);
-  volume.temperature = read_npy(folder / "temperature.npy", 2, grid, place);
+  volume.amount = read_field(folder / "amount.npy", grid, place);
+  volume.energy = read_field(folder / "energy.npy", grid, place);
+  volume.temperature = read_field(folder / "temperature.npy", grid, place);
   for (int z = 0; z < grid.z; ++z)
     for (int y = 0; y < grid.y; ++y)
       for (int x = 0; x < grid.x; ++x)

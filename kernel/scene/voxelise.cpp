@@ -31,12 +31,12 @@ Coverage cover(const Entry& entry, state::Grid grid, std::vector<std::string>& w
 }
 
 template <class Visit>
-void for_each_cell(const Coverage& coverage, state::Grid grid, Visit visit) {
+void for_each_cell(const Coverage& coverage, const state::Volume& volume, Visit visit) {
   const Window& window = coverage.window;
   std::size_t i = 0;
   for (int z = 0; z < window.size.z; ++z)
     for (int y = 0; y < window.size.y; ++y) {
-      const std::size_t row = grid.index(window.x, window.y + y, window.z + z);
+      const state::Slot row = volume.at(window.x, window.y + y, window.z + z);
       for (int x = 0; x < window.size.x; ++x, ++i)
         if (coverage.samples[i] > 0) visit(row + static_cast<std::size_t>(x), coverage.samples[i]);
     }
@@ -45,10 +45,10 @@ void for_each_cell(const Coverage& coverage, state::Grid grid, Visit visit) {
 class Voxeliser {
  public:
   explicit Voxeliser(state::Grid grid)
-      : volume_(grid), solid_(grid.cells()), inert_(grid.cells()), solid_temperature_(grid.cells()) {}
+      : volume_(grid), solid_(grid), inert_(grid), solid_temperature_(grid) {}
 
   void add(const Entry& entry, const Coverage& coverage) {
-    for_each_cell(coverage, volume_.grid, [&](std::size_t cell, int samples) {
+    for_each_cell(coverage, volume_, [&](state::Slot cell, int samples) {
       if (entry.role == Role::solid && raise(solid_[cell], samples, entry.cut))
         solid_temperature_[cell] = to_temperature(entry.temperature);
       if (entry.role == Role::inert) raise(inert_[cell], samples, entry.cut);
@@ -64,7 +64,7 @@ class Voxeliser {
                                              static_cast<std::size_t>(x)];
         const int ground = static_cast<int>(std::lround(height));
         for (int y = 0; y < grid.y; ++y) decide(x, y, z, y < ground);
-        if (ground > 0) volume_.amount[grid.index(x, ground - 1, z)] = bed(height - ground);
+        if (ground > 0) volume_.amount[volume_.at(x, ground - 1, z)] = bed(height - ground);
       }
     return std::move(volume_);
   }
@@ -86,7 +86,7 @@ class Voxeliser {
     return true;
   }
 
-  void pour(const Entry& entry, std::size_t cell, int samples) {
+  void pour(const Entry& entry, state::Slot cell, int samples) {
     rule::Amount& amount = volume_.amount[cell];
     rule::Energy& energy = volume_.energy[cell];
     if (entry.cut) {
@@ -103,7 +103,7 @@ class Voxeliser {
   }
 
   void decide(int x, int y, int z, bool ground) {
-    const std::size_t cell = volume_.grid.index(x, y, z);
+    const state::Slot cell = volume_.at(x, y, z);
     rule::Amount& amount = volume_.amount[cell];
     const bool inert = ground || inert_[cell] >= kLeastInert;
     const bool solid = !inert && solid_[cell] >= kLeastSolid;
@@ -121,8 +121,8 @@ class Voxeliser {
   }
 
   state::Volume volume_;
-  std::vector<std::uint8_t> solid_, inert_;  // samples covered
-  std::vector<rule::Temperature> solid_temperature_;
+  state::Field<std::uint8_t> solid_, inert_;  // samples covered
+  state::Field<rule::Temperature> solid_temperature_;
 };
 
 }  // namespace

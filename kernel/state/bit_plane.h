@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "kernel/state/grid.h"
+#include "kernel/state/pages.h"
 
 namespace voxmelt::state {
 
@@ -19,30 +19,36 @@ class BitPlane {
   explicit BitPlane(Grid grid)
       : grid_(grid),
         row_words_((static_cast<std::size_t>(grid.x) + 63) / 64),
-        words_(row_words_ * static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(grid.z)) {}
+        pages_(row_words_ * static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(grid.z) *
+               sizeof(std::uint64_t)) {}
 
-  bool test(int x, int y, int z) const { return (words_[word_index(x, y, z)] >> (x & 63)) & 1u; }
+  bool test(int x, int y, int z) const { return (data()[word_index(x, y, z)] >> (x & 63)) & 1u; }
 
   void set(int x, int y, int z, bool value) {
     const std::uint64_t bit = std::uint64_t{1} << (x & 63);
-    std::uint64_t& word = words_[word_index(x, y, z)];
+    std::uint64_t& word = data()[word_index(x, y, z)];
     word = value ? word | bit : word & ~bit;
   }
 
   std::size_t row_words() const { return row_words_; }
   std::span<const std::uint64_t> row(int y, int z) const {
-    return {words_.data() + word_index(0, y, z), row_words_};
+    return {data() + word_index(0, y, z), row_words_};
   }
-  std::span<std::uint64_t> row(int y, int z) { return {words_.data() + word_index(0, y, z), row_words_}; }
-  std::span<const std::uint64_t> words() const { return words_; }
+  std::span<std::uint64_t> row(int y, int z) { return {data() + word_index(0, y, z), row_words_}; }
+  std::span<const std::uint64_t> words() const { return {data(), pages_.size() / sizeof(std::uint64_t)}; }
 
   std::int64_t count() const {
     std::int64_t total = 0;
-    for (const std::uint64_t word : words_) total += std::popcount(word);
+    for (const std::uint64_t word : words()) total += std::popcount(word);
     return total;
   }
 
-  friend bool operator==(const BitPlane&, const BitPlane&) = default;
+  std::uint64_t* data() { return reinterpret_cast<std::uint64_t*>(pages_.data()); }
+  const std::uint64_t* data() const { return reinterpret_cast<const std::uint64_t*>(pages_.data()); }
+
+  friend bool operator==(const BitPlane& a, const BitPlane& b) {
+    return a.grid_ == b.grid_ && a.pages_ == b.pages_;
+  }
 
  private:
   std::size_t word_index(int x, int y, int z) const {
@@ -53,7 +59,7 @@ class BitPlane {
 
   Grid grid_{};
   std::size_t row_words_ = 0;
-  std::vector<std::uint64_t> words_;
+  Pages pages_;
 };
 
 }  // namespace voxmelt::state

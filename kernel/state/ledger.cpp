@@ -1,6 +1,7 @@
 #include "kernel/state/ledger.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace voxmelt::state {
 
@@ -20,16 +21,18 @@ std::string to_string(Sum value) {
 Holdings holdings(const Volume& volume) {
   const Grid g = volume.grid;
   std::uint64_t solid = 0, liquid = 0, energy = 0, heat = 0;  // a grid of 2^32 cells fits
-  std::size_t i = 0;
   for (int z = 0; z < g.z; ++z)
-    for (int y = 0; y < g.y; ++y)
-      for (int x = 0; x < g.x; ++x, ++i) {
-        const bool is_solid = volume.solid.test(x, y, z);
-        if (!is_solid && !volume.liquid.test(x, y, z)) continue;
-        (is_solid ? solid : liquid) += volume.amount[i];
-        energy += volume.energy[i];
-        heat += std::uint64_t{volume.amount[i]} * volume.temperature[i];
-      }
+    for (int y = 0; y < g.y; ++y) {
+      const auto solids = volume.solid.row(y, z), liquids = volume.liquid.row(y, z);
+      for (std::size_t w = 0; w < solids.size(); ++w)
+        for (std::uint64_t matter = solids[w] | liquids[w]; matter != 0; matter &= matter - 1) {
+          const int bit = std::countr_zero(matter);
+          const Slot i = volume.at(static_cast<int>(64 * w) + bit, y, z);
+          (solids[w] >> bit & 1u ? solid : liquid) += volume.amount[i];
+          energy += volume.energy[i];
+          heat += std::uint64_t{volume.amount[i]} * volume.temperature[i];
+        }
+    }
   return {static_cast<Sum>(solid), static_cast<Sum>(liquid), static_cast<Sum>(energy),
           static_cast<Sum>(heat)};
 }

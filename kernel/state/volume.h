@@ -5,12 +5,13 @@
 //   liquid  exactly the cells that are neither and hold amount > 0
 //
 // A cell with neither solid nor liquid has energy 0 and temperature 0; an empty cell has amount 0 too.
+// What a scene does not use (energy, temperature), and what is empty, takes no memory.
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "kernel/state/bit_plane.h"
+#include "kernel/state/field.h"
 #include "kernel/state/grid.h"
 
 namespace voxmelt::state {
@@ -18,17 +19,13 @@ namespace voxmelt::state {
 struct Volume {
   Volume() = default;
   explicit Volume(Grid size)
-      : grid(size),
-        solid(size),
-        liquid(size),
-        inert(size),
-        amount(size.cells()),
-        energy(size.cells()),
-        temperature(size.cells()) {}
+      : grid(size), solid(size), liquid(size), inert(size), amount(size), energy(size), temperature(size) {}
+
+  Slot at(int x, int y, int z) const { return amount.layout().at(x, y, z); }
 
   Grid grid;
   BitPlane solid, liquid, inert;
-  std::vector<std::uint16_t> amount, energy, temperature;
+  Field<std::uint16_t> amount, energy, temperature;
 
   friend bool operator==(const Volume&, const Volume&) = default;
 };

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -15,14 +14,16 @@
 
 namespace voxmelt::step {
 
+using Irradiance = state::Field<std::uint16_t>;  // UQ12.4 temperature units per step
+
 class Stepper {
  public:
   virtual ~Stepper() = default;
 
   // Runs one phase of step number `step` on `volume` and books it in `ledger`.
-  // `irradiance`: one UQ12.4 value per cell [z][y][x], or empty when the scene has no radiation.
-  virtual void run(Phase phase, std::uint32_t step, std::span<const std::uint16_t> irradiance,
-                   state::Volume& volume, state::Ledger& ledger) = 0;
+  // `irradiance`: null when the scene has no radiation.
+  virtual void run(Phase phase, std::uint32_t step, const Irradiance* irradiance, state::Volume& volume,
+                   state::Ledger& ledger) = 0;
 };
 
 struct Implementation {

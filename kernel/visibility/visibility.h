@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "kernel/rule/parameters.h"
 #include "kernel/state/volume.h"
@@ -14,16 +13,17 @@ class Provider {
  public:
   virtual ~Provider() = default;
 
-  // Fills one UQ12.4 irradiance per cell [z][y][x]; 0 for every cell that is not a lit surface cell.
+  // Fills one UQ12.4 irradiance per cell; 0 for every cell that is not a lit surface cell. `result` has the
+  // size of the volume.
   virtual void irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
-                          std::vector<std::uint16_t>& result) = 0;
+                          state::Field<std::uint16_t>& result) = 0;
 };
 
 // The exact integer walk through the voxels: the definition.
 class VoxelWalkProvider final : public Provider {
  public:
   void irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
-                  std::vector<std::uint16_t>& result) override;
+                  state::Field<std::uint16_t>& result) override;
 };
 
 }  // namespace voxmelt::visibility

@@ -35,9 +35,9 @@ bool sees(const state::Volume& volume, int x, int y, int z, rule::Position sourc
 }  // namespace
 
 void VoxelWalkProvider::irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
-                                   std::vector<std::uint16_t>& result) {
+                                   state::Field<std::uint16_t>& result) {
   const state::Grid g = volume.grid;
-  result.assign(g.cells(), 0);
+  result.clear();
   for (const rule::PointSource& path : heat.sources) {
     const rule::SourceKey source = rule::source_at(path, step);
     if (source.power == 0) continue;
@@ -52,8 +52,8 @@ void VoxelWalkProvider::irradiance(const state::Volume& volume, const rule::Heat
           if (axes == 0 || !sees(volume, x, y, z, source.at)) continue;
           const auto distance_squared = static_cast<std::uint64_t>(dx * dx + dy * dy + dz * dz);
           const std::uint64_t sum =
-              result[g.index(x, y, z)] + rule::irradiance(source.power, distance_squared, axes);
-          result[g.index(x, y, z)] =
+              result[volume.at(x, y, z)] + rule::irradiance(source.power, distance_squared, axes);
+          result[volume.at(x, y, z)] =
               static_cast<std::uint16_t>(std::min<std::uint64_t>(sum, rule::kIrradianceMax));
         }
   }

@@ -62,7 +62,7 @@ class Builder {
 
   std::int32_t matter_amount(int x, int y, int z) const {
     if (y >= grid_.y || !(volume_.solid.test(x, y, z) || volume_.liquid.test(x, y, z))) return 0;
-    return std::min<std::int32_t>(volume_.amount[grid_.index(x, y, z)], kOne);
+    return std::min<std::int32_t>(volume_.amount[volume_.at(x, y, z)], kOne);
   }
 
   void find_matter() {
@@ -70,15 +70,16 @@ class Builder {
       for (int y = 0; y < grid_.y; ++y)
         for (int x = 0; x < grid_.x; ++x) {
           const std::size_t i = grid_.index(x, y, z);
-          if (volume_.amount[i] == 0 || volume_.inert.test(x, y, z)) continue;
-          const std::uint16_t value = intensity_of(volume_.amount[i]);
+          const state::Slot slot = volume_.at(x, y, z);
+          if (volume_.amount[slot] == 0 || volume_.inert.test(x, y, z)) continue;
+          const std::uint16_t value = intensity_of(volume_.amount[slot]);
           fields_.intensity[i] = value;
           if (volume_.solid.test(x, y, z)) {
             fields_.solid[i] = value;
           } else {
             fields_.liquid[i] = value;
             fields_.heat[i] = static_cast<std::uint16_t>(static_cast<std::uint32_t>(value) *
-                                                         volume_.temperature[i] / rule::kTemperatureMax);
+                                                         volume_.temperature[slot] / rule::kTemperatureMax);
           }
         }
   }
@@ -99,7 +100,7 @@ class Builder {
         columns_.top[c] = fill_obstacles(x, bed, z);
         if (bed == 0) continue;
         columns_.offset[c] = std::clamp<std::int32_t>(
-            volume_.amount[grid_.index(x, bed - 1, z)] - rule::kBedHalf, -kOne / 2, kOne / 2);
+            volume_.amount[volume_.at(x, bed - 1, z)] - rule::kBedHalf, -kOne / 2, kOne / 2);
         fields_.ground[c] =
             static_cast<float>(bed) + static_cast<float>(columns_.offset[c]) / static_cast<float>(kOne);
         columns_.wet[c] = std::min(matter_amount(x, bed, z), kFilm) * kOne / kFilm;

@@ -21,7 +21,7 @@ inline Heights heights(const Volume& v) {
   Heights result{v.grid.x, v.grid.z, std::vector<double>(static_cast<std::size_t>(v.grid.x * v.grid.z))};
   for_each(whole(v.grid), [&](int x, int y, int z) {
     if (v.liquid.test(x, y, z))
-      result.h[static_cast<std::size_t>(z * v.grid.x + x)] += v.amount[v.grid.index(x, y, z)] / 4096.0;
+      result.h[static_cast<std::size_t>(z * v.grid.x + x)] += v.amount[v.at(x, y, z)] / 4096.0;
   });
   return result;
 }
@@ -55,7 +55,7 @@ inline Spread spread_of(const Heights& h) {
 inline std::int32_t largest_amount(const Volume& v) {
   std::int32_t largest = 0;
   for_each(whole(v.grid), [&](int x, int y, int z) {
-    if (v.liquid.test(x, y, z)) largest = std::max<std::int32_t>(largest, v.amount[v.grid.index(x, y, z)]);
+    if (v.liquid.test(x, y, z)) largest = std::max<std::int32_t>(largest, v.amount[v.at(x, y, z)]);
   });
   return largest;
 }
@@ -63,7 +63,7 @@ template <class Which>  // which(amount, x, y, z)
 int count_liquid(const Volume& v, Which&& which) {
   int count = 0;
   for_each(whole(v.grid), [&](int x, int y, int z) {
-    if (v.liquid.test(x, y, z)) count += which(std::int32_t{v.amount[v.grid.index(x, y, z)]}, x, y, z);
+    if (v.liquid.test(x, y, z)) count += which(std::int32_t{v.amount[v.at(x, y, z)]}, x, y, z);
   });
   return count;
 }
@@ -75,9 +75,9 @@ inline int dust(const Volume& v, std::int32_t below) {
 inline int moving_steps(run::Simulation& s, int n) {
   int moving = 0;
   for (int i = 0; i < n; ++i) {
-    const std::vector<std::uint16_t> before = s.volume().amount;
+    const state::Field<std::uint16_t> before = s.volume().amount;
     s.step();
-    moving += before != s.volume().amount;
+    moving += !(before == s.volume().amount);
   }
   return moving;
 }

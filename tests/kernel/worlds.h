@@ -36,7 +36,7 @@ class Random {
 
 inline void put(Volume& v, int x, int y, int z, std::int32_t amount, std::int32_t energy = 0,
                 std::int32_t heat = 0) {
-  const std::size_t i = v.grid.index(x, y, z);
+  const state::Slot i = v.at(x, y, z);
   v.amount[i] = static_cast<std::uint16_t>(amount);
   v.energy[i] = static_cast<std::uint16_t>(energy);
   v.temperature[i] = static_cast<std::uint16_t>(heat);
@@ -114,7 +114,7 @@ inline std::string broken_invariant(const Volume& v, const Parameters& p) {
   std::string broken;
   for_each(whole(v.grid), [&](int x, int y, int z) {
     if (!broken.empty()) return;
-    const std::size_t i = v.grid.index(x, y, z);
+    const state::Slot i = v.at(x, y, z);
     const bool solid = v.solid.test(x, y, z), inert = v.inert.test(x, y, z), liquid = v.liquid.test(x, y, z);
     const auto fails = [&](const char* what) {
       broken = std::string(what) + " at " + std::to_string(x) + ", " + std::to_string(y) + ", " +
@@ -132,7 +132,7 @@ inline std::string broken_invariant(const Volume& v, const Parameters& p) {
 }
 
 inline std::int32_t amount_at(const run::Simulation& s, int x, int y, int z) {
-  return s.volume().amount[s.volume().grid.index(x, y, z)];
+  return s.volume().amount[s.volume().at(x, y, z)];
 }
 
 }  // namespace voxmelt::worlds

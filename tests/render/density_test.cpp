@@ -74,7 +74,7 @@ TEST(CellFields, AmountsAreLinearAndCapped) {
   state::Volume volume(state::Grid{8, 8, 8});
   const auto set = [&](int x, int amount) {
     volume.liquid.set(x, 4, 4, true);
-    volume.amount[volume.grid.index(x, 4, 4)] = static_cast<std::uint16_t>(amount);
+    volume.amount[volume.at(x, 4, 4)] = static_cast<std::uint16_t>(amount);
   };
   set(1, 2048), set(3, 4096), set(5, 9000);
   const auto fields = render::cell_fields(volume);
@@ -122,13 +122,13 @@ TEST(DensityField, FollowsASlopingBed) {
       const int bed = static_cast<int>(std::lround(height));
       for (int y = 0; y < bed; ++y) {
         volume.inert.set(x, y, z, true);
-        volume.amount[grid.index(x, y, z)] = rule::kBedHalf;
+        volume.amount[volume.at(x, y, z)] = rule::kBedHalf;
       }
-      volume.amount[grid.index(x, bed - 1, z)] =
+      volume.amount[volume.at(x, bed - 1, z)] =
           static_cast<std::uint16_t>(std::lround(rule::kBedHalf + (height - bed) * rule::kOne));
       for (int k = 0; k < 2; ++k) {
         volume.liquid.set(x, bed + k, z, true);
-        volume.amount[grid.index(x, bed + k, z)] = rule::kOne;
+        volume.amount[volume.at(x, bed + k, z)] = rule::kOne;
       }
     }
   DensityField field;
@@ -154,7 +154,7 @@ TEST(DensityField, UpdatesLikeAFreshField) {
         const int x = static_cast<int>(random() % 53), y = 2 + static_cast<int>(random() % 48),
                   z = static_cast<int>(random() % 57);
         if (volume.solid.test(x, y, z)) continue;
-        const std::size_t i = grid.index(x, y, z);
+        const state::Slot i = volume.at(x, y, z);
         volume.amount[i] = static_cast<std::uint16_t>(random() % 5000);
         volume.temperature[i] = static_cast<std::uint16_t>(random());
         volume.liquid.set(x, y, z, volume.amount[i] > 0);

@@ -25,7 +25,7 @@ void block(state::Volume& volume, int x0, int x1, int y0, int y1, int z0, int z1
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x) {
         volume.inert.set(x, y, z, true);
-        volume.amount[volume.grid.index(x, y, z)] = rule::kBedHalf;
+        volume.amount[volume.at(x, y, z)] = rule::kBedHalf;
       }
 }
 
@@ -160,7 +160,7 @@ TEST(Obstacle, SurfaceRisesWithTheLayerOnIt) {
       for (int x = 0; x < kGrid.x; ++x)
         for (int y = 9; depth > y - 9; ++y) {
           volume.liquid.set(x, y, z, true);
-          volume.amount[kGrid.index(x, y, z)] =
+          volume.amount[volume.at(x, y, z)] =
               static_cast<std::uint16_t>(std::min(1.0, depth - (y - 9)) * rule::kOne);
         }
     const DensityField field = field_of(volume, no_terrain());
@@ -179,7 +179,7 @@ TEST(Obstacle, ThinBeamSurvivesUnderAFilm) {
     for (int z = 19; z < 22; ++z)
       for (int x = 4; x < 44; ++x) {
         volume.liquid.set(x, 17, z, true);
-        volume.amount[kGrid.index(x, 17, z)] = rule::kOne * 3 / 10;
+        volume.amount[volume.at(x, 17, z)] = rule::kOne * 3 / 10;
       }
     scene::Look look;
     look.smooth = smooth;
@@ -248,8 +248,8 @@ TEST(Obstacle, UpdatesLikeAFreshField) {
     for (int change = 0; change < 3; ++change) {
       const int x = pick(18, 34), y = pick(2, 24), z = pick(0, kGrid.z);
       if (volume.inert.test(x, y, z)) continue;
-      volume.amount[kGrid.index(x, y, z)] = static_cast<std::uint16_t>(random() % 5000);
-      volume.liquid.set(x, y, z, volume.amount[kGrid.index(x, y, z)] > 0);
+      volume.amount[volume.at(x, y, z)] = static_cast<std::uint16_t>(random() % 5000);
+      volume.liquid.set(x, y, z, volume.amount[volume.at(x, y, z)] > 0);
     }
     if (round == 6) block(volume, 4, 9, 2, 9, 4, 9);  // not only matter may change
     EXPECT_LT(kept.update(volume, look, terrain), static_cast<int>(kept.bricks().cells()));

@@ -19,7 +19,7 @@ inline state::Volume floor_volume(state::Grid grid) {
     for (int y = 0; y < kFloor; ++y)
       for (int x = 0; x < grid.x; ++x) {
         volume.inert.set(x, y, z, true);
-        volume.amount[grid.index(x, y, z)] = rule::kBedHalf;
+        volume.amount[volume.at(x, y, z)] = rule::kBedHalf;
       }
   return volume;
 }
@@ -36,7 +36,7 @@ inline scene::Terrain floor_terrain(state::Grid grid) {
 inline void pour(state::Volume& volume, int x, int z, double height, double temperature = 0.5) {
   int left = static_cast<int>(std::lround(height * rule::kOne));
   for (int y = kFloor; left > 0 && y < volume.grid.y; ++y, left -= rule::kOne) {
-    const std::size_t i = volume.grid.index(x, y, z);
+    const state::Slot i = volume.at(x, y, z);
     volume.liquid.set(x, y, z, true);
     volume.amount[i] = static_cast<std::uint16_t>(std::min(left, rule::kOne));
     volume.temperature[i] = static_cast<std::uint16_t>(temperature * rule::kTemperatureMax);
@@ -52,7 +52,7 @@ inline void ball(state::Volume& volume, double cx, double cy, double cz, double 
         const double covered = std::clamp(radius - distance + 0.5, 0.0, 1.0);
         if (covered <= 0 || volume.liquid.test(x, y, z)) continue;
         volume.solid.set(x, y, z, true);
-        volume.amount[grid.index(x, y, z)] = static_cast<std::uint16_t>(std::max(1.0, covered * rule::kOne));
+        volume.amount[volume.at(x, y, z)] = static_cast<std::uint16_t>(std::max(1.0, covered * rule::kOne));
       }
 }
 

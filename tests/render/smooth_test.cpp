@@ -33,7 +33,7 @@ float surface_height(const DensityField& field, float x, float z) {
 void film(state::Volume& volume, int x, int y, int z, double amount) {
   if (volume.solid.test(x, y, z) || volume.inert.test(x, y, z)) return;
   volume.liquid.set(x, y, z, true);
-  volume.amount[volume.grid.index(x, y, z)] = static_cast<std::uint16_t>(amount * rule::kOne);
+  volume.amount[volume.at(x, y, z)] = static_cast<std::uint16_t>(amount * rule::kOne);
 }
 
 TEST(Smooth, DrySolidGetsItsOwnPasses) {
@@ -63,7 +63,7 @@ TEST(Smooth, ThinSolidSurvivesUnderAFilm) {
       for (int y = 19; y < 22; ++y)
         for (int z = 19; z < 22; ++z) {
           volume.solid.set(x, y, z, true);
-          volume.amount[grid.index(x, y, z)] = rule::kOne;
+          volume.amount[volume.at(x, y, z)] = rule::kOne;
         }
     if (amount > 0)
       for (int x = 4; x < 36; ++x)
@@ -86,7 +86,7 @@ TEST(Smooth, SurfaceRisesWithTheLayerOnASolid) {
     for (int x = 0; x < grid.x; ++x) {
       for (int y = 0; y < 8; ++y) {
         volume.solid.set(x, y, z, true);
-        volume.amount[grid.index(x, y, z)] = rule::kOne;
+        volume.amount[volume.at(x, y, z)] = rule::kOne;
       }
       for (int y = 8; depth(x + 0.5) > y - 8; ++y)
         film(volume, x, y, z, std::min(1.0, depth(x + 0.5) - (y - 8)));

@@ -58,9 +58,9 @@ TEST(Simulation, TheSeedChangesThePaperLawOnly) {
 // Notes what it is asked to do.
 class Recorder final : public step::Stepper {
  public:
-  void run(Phase phase, std::uint32_t step, std::span<const std::uint16_t> irradiance, Volume&,
+  void run(Phase phase, std::uint32_t step, const step::Irradiance* irradiance, Volume&,
            state::Ledger&) override {
-    calls.push_back({phase, step, irradiance.empty() ? -1 : irradiance[0]});
+    calls.push_back({phase, step, irradiance == nullptr ? -1 : *irradiance->data()});
   }
   struct Call {
     Phase phase;
@@ -77,9 +77,8 @@ const step::Implementation kRecorder{"recorder", "", create_recorder};
 
 class Counter final : public visibility::Provider {
  public:
-  void irradiance(const Volume& v, const rule::Heat&, std::uint32_t step,
-                  std::vector<std::uint16_t>& result) override {
-    result.assign(v.grid.cells(), static_cast<std::uint16_t>(1000 + step));
+  void irradiance(const Volume& v, const rule::Heat&, std::uint32_t step, step::Irradiance& result) override {
+    result[v.at(0, 0, 0)] = static_cast<std::uint16_t>(1000 + step);
   }
 };
 
@@ -128,9 +127,8 @@ TEST(Melting, AtExactlyTheMeltingPoint) {
           EXPECT_EQ(s.volume().liquid.test(1, 0, 1), below == 0);
           EXPECT_EQ(s.volume().solid.test(1, 0, 1), below == 1);
           EXPECT_EQ(amount_at(s, 1, 0, 1), 3000);
-          EXPECT_EQ(s.volume().energy[s.volume().grid.index(1, 0, 1)],
-                    law == Law::paper && below == 0 ? 3000 : 0);
-          EXPECT_EQ(s.volume().temperature[s.volume().grid.index(1, 0, 1)], 32768 + latent - below);
+          EXPECT_EQ(s.volume().energy[s.volume().at(1, 0, 1)], law == Law::paper && below == 0 ? 3000 : 0);
+          EXPECT_EQ(s.volume().temperature[s.volume().at(1, 0, 1)], 32768 + latent - below);
         });
       }
 }

@@ -41,7 +41,7 @@ TEST(Contact, FrictionIsThatOfTheReceiversGround) {
       run::Simulation s = simulate(p, v);
       steps(s, 1);
       arrived += amount_at(s, 1, 0, 0);
-      energy += s.volume().energy[v.grid.index(1, 0, 0)];
+      energy += s.volume().energy[v.at(1, 0, 0)];
     }
     ASSERT_GT(arrived, kOne);
     EXPECT_EQ(energy > 0, !floor_takes_all);

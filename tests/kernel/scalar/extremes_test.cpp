@@ -79,8 +79,10 @@ TEST(Heat, StaysBetweenItsExtremes) {
         const std::int64_t total = static_cast<std::int64_t>(state::holdings(v).heat);
         for (int i = 0; i < 600; ++i) {
           s.step();
-          for (const std::uint16_t h : s.volume().temperature)
+          for_each(whole(v.grid), [&](int x, int y, int z) {
+            const std::int32_t h = s.volume().temperature[v.at(x, y, z)];
             ASSERT_TRUE(low <= h && h <= high) << "step " << i;
+          });
           ASSERT_EQ(static_cast<std::int64_t>(state::holdings(s.volume()).heat), total)
               << "equal amounts: the sum is kept";
         }
@@ -101,7 +103,7 @@ TEST(Heat, PastTheBoundItWraps) {
     std::uint16_t hottest = 0;
     for (int i = 0; i < 16; ++i) {
       s.step();
-      for (const std::uint16_t h : s.volume().temperature) hottest = std::max(hottest, h);
+      for (const std::uint16_t h : s.volume().temperature.stored()) hottest = std::max(hottest, h);
     }
     EXPECT_EQ(hottest > 1, weight == 10923) << hottest;
   }
@@ -129,11 +131,12 @@ TEST(Heat, OvenAndConvectionStayBetweenTheAirs) {
       run::Simulation s = simulate(p, v);
       for (int i = 0; i < 1000; ++i) {
         s.step();
-        for (std::size_t c = 0; c < v.grid.cells(); ++c) {
-          if (s.volume().amount[c] == 0) continue;
+        for_each(whole(v.grid), [&](int x, int y, int z) {
+          const state::Slot c = v.at(x, y, z);
+          if (s.volume().amount[c] == 0) return;
           const std::int32_t t = rule::temperature_of(s.volume().temperature[c], p.material);
           ASSERT_TRUE(low <= t && t <= high) << i;
-        }
+        });
       }
       expect_sound(s);
     }

@@ -41,10 +41,11 @@ void expect_only_near_changed(const Volume& before, const Volume& after, Phase p
   const std::vector<bool> near = near_matter(before, columns);
   const ActiveRows rows = columns ? ActiveRows::columns(before) : ActiveRows(before);
   for_each(whole(before.grid), [&](int x, int y, int z) {
-    const std::size_t i = before.grid.index(x, y, z);
+    const state::Slot i = before.at(x, y, z);
     const bool active = rows(y, z).begin <= x && x < rows(y, z).end;
-    ASSERT_TRUE(active || !near[i]) << "ActiveRows misses " << x << ' ' << y << ' ' << z;
-    if (active && near[i]) return;
+    ASSERT_TRUE(active || !near[before.grid.index(x, y, z)])
+        << "ActiveRows misses " << x << ' ' << y << ' ' << z;
+    if (active && near[before.grid.index(x, y, z)]) return;
     ASSERT_TRUE(before.amount[i] == after.amount[i] && before.energy[i] == after.energy[i] &&
                 before.temperature[i] == after.temperature[i] &&
                 before.liquid.test(x, y, z) == after.liquid.test(x, y, z) &&
@@ -59,7 +60,7 @@ void expect_blocked_kept(const Volume& before, const Volume& after, Phase phase)
     ASSERT_TRUE(before.solid == after.solid);
   }
   for_each(whole(before.grid), [&](int x, int y, int z) {
-    const std::size_t i = before.grid.index(x, y, z);
+    const state::Slot i = before.at(x, y, z);
     if (before.inert.test(x, y, z) || before.solid.test(x, y, z)) {
       ASSERT_EQ(before.amount[i], after.amount[i]);
     }

@@ -37,7 +37,7 @@ TEST(Run, CellsOfARunDoNotFall) {
   const Volume before = s.volume();
   ASSERT_LT(amount_at(s, 1, 0, 1), kOne) << "the column gave to all sides";
   run(s, {Phase::gravity});
-  for (int y = 0; y < 4; ++y) EXPECT_EQ(amount_at(s, 1, y, 1), before.amount[v.grid.index(1, y, 1)]);
+  for (int y = 0; y < 4; ++y) EXPECT_EQ(amount_at(s, 1, y, 1), before.amount[v.at(1, y, 1)]);
   EXPECT_EQ(amount_at(s, 0, 4, 0), 700);
 }
 

@@ -169,7 +169,7 @@ TEST(Pitfall, FloatingBowl) {
 TEST(Pitfall, UTubeDoesNotLevel) {
   Volume v = u_tube();
   for_each(whole(v.grid), [&](int x, int y, int z) {
-    if (v.liquid.test(x, y, z)) v.energy[v.grid.index(x, y, z)] = kOne;
+    if (v.liquid.test(x, y, z)) v.energy[v.at(x, y, z)] = kOne;
   });
   run::Simulation s = simulate(paper_showcase(), v);
   steps(s, 1000);

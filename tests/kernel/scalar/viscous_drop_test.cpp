@@ -71,11 +71,12 @@ TEST(HeatWithFlow, IsCarriedExactly) {
     EXPECT_LT(std::abs(static_cast<double>(end - start)), 1e-4 * static_cast<double>(start));
     // It did spread, mixed, and made no new extreme.
     int warm = 0;
-    for (std::size_t i = 0; i < v.grid.cells(); ++i) {
-      if (s.volume().amount[i] == 0) continue;
+    for_each(whole(v.grid), [&](int x, int y, int z) {
+      const state::Slot i = v.at(x, y, z);
+      if (s.volume().amount[i] == 0) return;
       ASSERT_TRUE(s.volume().temperature[i] >= 10000 && s.volume().temperature[i] <= 60000);
       warm += s.volume().temperature[i] > 10000;
-    }
+    });
     EXPECT_GT(warm, 300);
     RecordProperty("rounded", state::to_string(end - start));
   }

@@ -87,9 +87,8 @@ TEST(Fall, OneCellPerStepWithoutSmear) {
     for (int fallen = 1; fallen <= 24; ++fallen) {
       s.step();
       Volume expected(v.grid);
-      for_each({3, 24, 3, 6, 29, 6}, [&](int x, int y, int z) {
-        put(expected, x, y - fallen, z, v.amount[v.grid.index(x, y, z)]);
-      });
+      for_each({3, 24, 3, 6, 29, 6},
+               [&](int x, int y, int z) { put(expected, x, y - fallen, z, v.amount[v.at(x, y, z)]); });
       ASSERT_EQ(s.volume().amount, expected.amount) << "after " << fallen << " steps";
     }
   }
@@ -123,11 +122,9 @@ TEST(Fall, CellsInTheAirHoldAtMostOne) {
       const Volume& now = s.volume();
       if (phase == Phase::gravity || phase == Phase::spread)
         for_each({0, 1, 0, 16, 20, 16}, [&](int x, int y, int z) {
-          const bool air_below =
-              !before.inert.test(x, y - 1, z) && before.amount[now.grid.index(x, y - 1, z)] == 0;
-          if (air_below && before.amount[now.grid.index(x, y, z)] <= kOne) {
-            ASSERT_LE(now.amount[now.grid.index(x, y, z)], kOne)
-                << x << ' ' << y << ' ' << z << " step " << i;
+          const bool air_below = !before.inert.test(x, y - 1, z) && before.amount[now.at(x, y - 1, z)] == 0;
+          if (air_below && before.amount[now.at(x, y, z)] <= kOne) {
+            ASSERT_LE(now.amount[now.at(x, y, z)], kOne) << x << ' ' << y << ' ' << z << " step " << i;
           }
         });
       before = now;

@@ -96,7 +96,7 @@ TEST(Heightfield, BedOffsetsHoldTheFraction) {
       const float height = scene.terrain.height[static_cast<std::size_t>(z * 16 + x)];
       const int ground = static_cast<int>(std::lround(height));
       for (int y = 0; y < 16; ++y) EXPECT_EQ(volume.inert.test(x, y, z), y < ground);
-      const double bed = volume.amount[volume.grid.index(x, ground - 1, z)];
+      const double bed = volume.amount[volume.at(x, ground - 1, z)];
       EXPECT_NEAR(ground - 0.5 + bed / 4096, height, 0.001);  // the bed says where the ground is
       if (x > 0) {
         EXPECT_GT(height, scene.terrain.height[static_cast<std::size_t>(z * 16 + x - 1)]);  // no terraces
@@ -109,7 +109,7 @@ TEST(Heightfield, FlatGroundHasNoOffset) {
   folder.write("h.asc", "ncols 2\nnrows 2\n7 7\n7 7\n");
   const Scene scene = folder.load_text(kHillScene, {"inert.0.base=3"});
   EXPECT_EQ(scene.initial.inert.count(), 3 * 16 * 16);
-  EXPECT_EQ(scene.initial.amount[scene.initial.grid.index(5, 2, 5)], 2048);
+  EXPECT_EQ(scene.initial.amount[scene.initial.at(5, 2, 5)], 2048);
 }
 
 TEST(Heightfield, CellsWithoutDataAreLowestAndSaidSo) {
@@ -175,8 +175,8 @@ TEST(Start, FieldsReplaceTheShapes) {
   const state::Volume volume = folder.load_text(kStartScene).initial;
   EXPECT_TRUE(volume.solid.test(0, 0, 0));
   EXPECT_TRUE(volume.liquid.test(1, 1, 1));
-  EXPECT_EQ(volume.amount[0], 4096);
-  EXPECT_EQ(volume.amount[7], 0x1234);
+  EXPECT_EQ(volume.amount[volume.at(0, 0, 0)], 4096);
+  EXPECT_EQ(volume.amount[volume.at(1, 1, 1)], 0x1234);
 }
 
 TEST(Start, BadFieldsAreRefused) {

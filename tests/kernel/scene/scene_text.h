@@ -68,7 +68,7 @@ inline double solid_mass(const state::Volume& volume) {
   for (int z = 0; z < volume.grid.z; ++z)
     for (int y = 0; y < volume.grid.y; ++y)
       for (int x = 0; x < volume.grid.x; ++x)
-        if (volume.solid.test(x, y, z)) sum += volume.amount[volume.grid.index(x, y, z)];
+        if (volume.solid.test(x, y, z)) sum += volume.amount[volume.at(x, y, z)];
   return static_cast<double>(sum) / 4096;
 }
 

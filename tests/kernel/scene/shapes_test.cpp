@@ -123,9 +123,9 @@ shape = "floor"
   const state::Volume& volume = scene.initial;
   for (int x = 0; x < 4; ++x) {
     EXPECT_TRUE(volume.inert.test(x, 0, 0));
-    EXPECT_EQ(volume.amount[volume.grid.index(x, 0, 0)], 2048);
-    EXPECT_EQ(volume.temperature[volume.grid.index(x, 0, 0)], 0);
-    const std::size_t above = volume.grid.index(x, 1, 0);
+    EXPECT_EQ(volume.amount[volume.at(x, 0, 0)], 2048);
+    EXPECT_EQ(volume.temperature[volume.at(x, 0, 0)], 0);
+    const state::Slot above = volume.at(x, 1, 0);
     EXPECT_EQ(volume.solid.test(x, 1, 0), x < 2);
     EXPECT_EQ(volume.liquid.test(x, 1, 0), x >= 2);
     EXPECT_EQ(volume.amount[above], x < 2 ? 4096 : 2048);
@@ -144,7 +144,7 @@ TEST(Voxels, ThinCoverageIsDropped) {
   };
   const state::Volume layer = solid("0.25");  // one of four layers of samples
   EXPECT_EQ(layer.solid.count(), 4);
-  EXPECT_EQ(layer.amount[layer.grid.index(1, 2, 2)], 1024);
+  EXPECT_EQ(layer.amount[layer.at(1, 2, 2)], 1024);
   const SceneFolder other;
   const Scene one =
       other.load_text("[grid]\nsize=[2,2,2]\n[[solid]]\nshape='sphere'\nradius=0.1\nat=[0.625,0.625,0.625]");

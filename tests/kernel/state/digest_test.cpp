@@ -26,7 +26,8 @@ std::uint64_t by_the_page(const Volume& v) {
     for (int z = 0; z < v.grid.z; ++z)
       for (int y = v.grid.y; y-- > 0;) {
         const auto i = static_cast<std::uint64_t>((z * v.grid.y + y) * v.grid.x + x);
-        std::uint64_t packed = v.amount[i] + 65536ull * v.energy[i] + 4294967296ull * v.temperature[i];
+        const state::Slot at = v.at(x, y, z);
+        std::uint64_t packed = v.amount[at] + 65536ull * v.energy[at] + 4294967296ull * v.temperature[at];
         if (v.solid.test(x, y, z)) packed += 281474976710656ull;
         if (v.liquid.test(x, y, z)) packed += 562949953421312ull;
         if (v.inert.test(x, y, z)) packed += 1125899906842624ull;
@@ -79,8 +80,9 @@ TEST(Digest, AnyDifferenceInAnyCellShows) {
     ++states;
     seen.insert(digest(v));
   };
-  for (std::size_t i = 0; i < g.cells(); ++i) {
+  worlds::for_each(worlds::whole(g), [&](int x, int y, int z) {
     Volume v = start;
+    const state::Slot i = v.at(x, y, z);
     for (const int bit : {0, 7, 15}) {
       const auto flip = static_cast<std::uint16_t>(1u << bit);
       for (auto field : {&Volume::amount, &Volume::energy, &Volume::temperature}) {
@@ -89,7 +91,7 @@ TEST(Digest, AnyDifferenceInAnyCellShows) {
         (v.*field)[i] ^= flip;
       }
     }
-  }
+  });
   worlds::for_each(worlds::whole(g), [&](int x, int y, int z) {
     for (auto mask : {&Volume::solid, &Volume::liquid, &Volume::inert}) {
       Volume v = start;

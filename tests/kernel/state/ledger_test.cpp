@@ -98,7 +98,7 @@ TEST_P(LedgerOfALaw, OneUnitPlantedInTheStateShows) {
   Volume& v = s.mutable_volume();
   int liquids = 0, solids = 0;
   for_each(whole(v.grid), [&](int x, int y, int z) {
-    const std::size_t i = v.grid.index(x, y, z);
+    const state::Slot i = v.at(x, y, z);
     if (!v.liquid.test(x, y, z) && !v.solid.test(x, y, z)) return;
     ++(v.liquid.test(x, y, z) ? liquids : solids);
     --v.amount[i];

@@ -16,8 +16,8 @@ rule::Heat lit_by(std::vector<Position> sources, std::uint64_t power) {
   for (const Position at : sources) heat.sources.push_back({{{0, at, power}}});
   return heat;
 }
-std::vector<std::uint16_t> irradiance(const Volume& v, const rule::Heat& heat, std::uint32_t step = 0) {
-  std::vector<std::uint16_t> result;
+state::Field<std::uint16_t> irradiance(const Volume& v, const rule::Heat& heat, std::uint32_t step = 0) {
+  state::Field<std::uint16_t> result(v.grid);
   VoxelWalkProvider().irradiance(v, heat, step, result);
   return result;
 }
@@ -81,14 +81,14 @@ TEST(Irradiance, EqualsBruteForce) {
       sources.push_back({coordinate(v.grid.x), coordinate(v.grid.y), coordinate(v.grid.z)});
     }
     const std::uint64_t power = std::uint64_t{1} << random.between(10, 30);
-    const std::vector<std::uint16_t> result = irradiance(v, lit_by(sources, power));
+    const state::Field<std::uint16_t> result = irradiance(v, lit_by(sources, power));
     for_each(whole(v.grid), [&](int x, int y, int z) {
       std::uint64_t expected = 0;
       if (v.solid.test(x, y, z))
         for (const Position s : sources)
           expected = std::min<std::uint64_t>(65535, expected + by_the_page(v, x, y, z, s, power));
       ++(expected > 0 ? lit : dark);
-      ASSERT_EQ(result[v.grid.index(x, y, z)], expected) << x << ' ' << y << ' ' << z << ", trial " << trial;
+      ASSERT_EQ(result[v.at(x, y, z)], expected) << x << ' ' << y << ' ' << z << ", trial " << trial;
     });
   }
   EXPECT_GT(lit, 500);
@@ -100,7 +100,7 @@ constexpr std::uint64_t kPower = std::uint64_t{256} * 16000;  // 16000 at one ce
 TEST(Irradiance, OfACubeSeenFromItsFaceEdgeAndCorner) {
   Volume v(Grid{9, 9, 9});
   put_solid(v, 4, 4, 4);  // centre (72, 72, 72)
-  const auto from = [&](Position s) { return irradiance(v, lit_by({s}, kPower))[v.grid.index(4, 4, 4)]; };
+  const auto from = [&](Position s) { return irradiance(v, lit_by({s}, kPower))[v.at(4, 4, 4)]; };
   EXPECT_EQ(from({72 + 32, 72, 72}), 4000);
   EXPECT_EQ(from({72 + 32, 72 - 32, 72}), 16000 * 256 / 2048 * 5793 / 4096);
   EXPECT_EQ(from({72 - 32, 72 + 32, 72 + 32}), kPower * 7094 / (4096 * 3072));
@@ -113,20 +113,20 @@ TEST(Irradiance, SourceInsideASolidLightsNothingBeyondIt) {
   Volume v(Grid{9, 9, 9});
   for_each({3, 3, 3, 6, 6, 6}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
   put_solid(v, 0, 4, 4);
-  const std::vector<std::uint16_t> inside = irradiance(v, lit_by({{72, 72, 72}}, 1u << 30));
-  for (const std::uint16_t i : inside) EXPECT_EQ(i, 0);
+  const state::Field<std::uint16_t> inside = irradiance(v, lit_by({{72, 72, 72}}, 1u << 30));
+  for (const std::uint16_t i : inside.stored()) EXPECT_EQ(i, 0);
   // On the block's face: the cell there is lit by it, and the far one too.
-  const std::vector<std::uint16_t> face = irradiance(v, lit_by({{48, 72, 72}}, 1u << 30));
-  EXPECT_GT(face[v.grid.index(3, 4, 4)], 0);
-  EXPECT_GT(face[v.grid.index(0, 4, 4)], 0);
-  EXPECT_EQ(face[v.grid.index(5, 4, 4)], 0);
+  const state::Field<std::uint16_t> face = irradiance(v, lit_by({{48, 72, 72}}, 1u << 30));
+  EXPECT_GT(face[v.at(3, 4, 4)], 0);
+  EXPECT_GT(face[v.at(0, 4, 4)], 0);
+  EXPECT_EQ(face[v.at(5, 4, 4)], 0);
 }
 
 TEST(Irradiance, LiquidIsTransparentAndInertIsNot) {
   Volume v(Grid{9, 3, 3});
   put_solid(v, 1, 1, 1);
   const rule::Heat heat = lit_by({{16 * 8, 24, 24}}, 1u << 28);
-  const std::size_t i = v.grid.index(1, 1, 1);
+  const state::Slot i = v.at(1, 1, 1);
   const std::uint16_t open = irradiance(v, heat)[i];
   EXPECT_GT(open, 0);
   put(v, 2, 1, 1, 4096);
@@ -141,17 +141,18 @@ TEST(Irradiance, ThinWallsAreTight) {
   Volume v(Grid{15, 9, 9});
   for_each({7, 0, 0, 8, 9, 9}, [&](int x, int y, int z) { put_inert(v, x, y, z); });
   for_each({10, 0, 0, 15, 9, 9}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
-  for (const std::uint16_t i : irradiance(v, lit_by({{40, 72, 72}, {8, 8, 8}, {111, 70, 3}}, 1u << 30)))
-    EXPECT_EQ(i, 0);
+  const auto behind = irradiance(v, lit_by({{40, 72, 72}, {8, 8, 8}, {111, 70, 3}}, 1u << 30));
+  for (const std::uint16_t i : behind.stored()) EXPECT_EQ(i, 0);
 }
 
 TEST(Irradiance, IsCutAfterEachSource) {
   Volume v(Grid{3, 3, 3});
   put_solid(v, 1, 1, 1);
   const Position s{60, 24, 24};
-  EXPECT_EQ(irradiance(v, lit_by({s}, std::uint64_t{1} << 49))[13], 65535);
-  EXPECT_EQ(irradiance(v, lit_by({s, s, s}, std::uint64_t{1} << 49))[13], 65535);
-  EXPECT_EQ(irradiance(v, lit_by({s, s}, 1u << 20))[13], 2 * irradiance(v, lit_by({s}, 1u << 20))[13]);
+  EXPECT_EQ(irradiance(v, lit_by({s}, std::uint64_t{1} << 49))[v.at(1, 1, 1)], 65535);
+  EXPECT_EQ(irradiance(v, lit_by({s, s, s}, std::uint64_t{1} << 49))[v.at(1, 1, 1)], 65535);
+  EXPECT_EQ(irradiance(v, lit_by({s, s}, 1u << 20))[v.at(1, 1, 1)],
+            2 * irradiance(v, lit_by({s}, 1u << 20))[v.at(1, 1, 1)]);
 }
 
 TEST(Irradiance, AMovingSourceIsWhereItsStepSays) {
@@ -174,7 +175,7 @@ TEST(Refresh, ExposedCellsWaitAndMeltedCellsStop) {
   Volume v(Grid{11, 11, 11});
   for_each({5, 3, 5, 6, 5, 6}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
   run::Simulation s = simulate(p, v);
-  const std::size_t lower = v.grid.index(5, 3, 5);
+  const state::Slot lower = v.at(5, 3, 5);
   bool melted = false;
   state::Sum taken = 0;  // by the upper cell, until it melted
   for (int i = 0; i < 20; ++i) {
