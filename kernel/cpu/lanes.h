@@ -1,0 +1,118 @@
+// 16-bit lanes: the one place where instruction sets differ. xsimd gives the types and the plain operations;
+// what xsimd 8.1 lacks or breaks for 16 bits (multiply-high, masks from and to bit words, widening) is added
+// by one specialisation of Lanes per instruction set, in lanes_*.h.
+//
+// A word of 64 mask bits serves kParts vectors of kCount lanes; `part` counts them along x; lane i is bit i.
+// Nothing here allocates, throws, or is emitted out of line: no object offers code of one instruction set to
+// another.
+#pragma once
+
+#include <cstdint>
+#include <xsimd/xsimd.hpp>
+
+#define VOXMELT_LANES [[gnu::always_inline]] static inline
+#define VOXMELT_MEMBER [[gnu::always_inline]] inline
+
+namespace voxmelt::cpu {
+
+// What every instruction set has. Lanes<Arch> adds:
+//   V high(V a, V b)                    (a b) >> 16
+//   V shift_right<n>(V), shift_left<n>(V)
+//   M less(V a, V b)                    unsigned
+//   M from_bits(uint64_t word, int part), uint64_t to_bits(M)
+//   V keep(M, V)                        the lane, or 0
+//   V add_if(M, V a, V b)               a + b where M, else a
+//   Wide unpack(V low, V high)          high 65536 + low
+//   V narrow(Wide)                      lanes below 65536
+//   Wide pair_product(V f0, V h0, V f1, V h1)   f0 h0 + f1 h1, all signed 16-bit
+//   void random_planes(keys, step, block, planes)   see kernel/rule/random.h; planes[b]: bit b of 64 cells'
+//   bytes
+template <class Arch>
+struct Lanes;
+
+template <class Arch>
+struct LanesOf {
+  using V = xsimd::batch<std::uint16_t, Arch>;       // unsigned 16-bit lanes
+  using M = xsimd::batch_bool<std::uint16_t, Arch>;  // one truth value a lane
+  using W = xsimd::batch<std::int32_t, Arch>;
+  using F = xsimd::batch<float, Arch>;
+  struct Wide {  // the lanes as 32-bit numbers, in two halves, in the order in which unpacking leaves them
+    W low, high;
+  };
+  struct Divided {
+    V quotient, remainder;
+  };
+  static constexpr int kCount = static_cast<int>(V::size);
+  static constexpr int kParts = 64 / kCount;
+
+  VOXMELT_LANES V load(const std::uint16_t* at) { return V::load_aligned(at); }  // 64-byte aligned rows
+  VOXMELT_LANES V load_any(const std::uint16_t* at) { return V::load_unaligned(at); }
+  VOXMELT_LANES void store(std::uint16_t* at, V v) { v.store_aligned(at); }
+  VOXMELT_LANES V set(int value) { return V(static_cast<std::uint16_t>(value)); }
+  VOXMELT_LANES V zero() { return V(std::uint16_t{0}); }
+
+  VOXMELT_LANES V low(V a, V b) { return a * b; }  // modulo 65536, as + and - are
+  VOXMELT_LANES V add_saturated(V a, V b) { return xsimd::sadd(a, b); }
+  VOXMELT_LANES V sub_saturated(V a, V b) { return xsimd::ssub(a, b); }
+  VOXMELT_LANES V min(V a, V b) { return xsimd::min(a, b); }
+  VOXMELT_LANES V max(V a, V b) { return xsimd::max(a, b); }
+  VOXMELT_LANES M equal(V a, V b) { return a == b; }
+  VOXMELT_LANES V select(M m, V yes, V no) { return xsimd::select(m, yes, no); }
+
+  VOXMELT_LANES Wide widen(V v) { return Lanes<Arch>::unpack(v, zero()); }
+  VOXMELT_LANES Wide product(V a, V b) { return Lanes<Arch>::unpack(low(a, b), Lanes<Arch>::high(a, b)); }
+  VOXMELT_LANES Wide sum(Wide a, Wide b) { return {a.low + b.low, a.high + b.high}; }
+
+  // Quotient (below 65536 in the lanes that matter) and remainder of unsigned 32-bit by 16-bit numbers, d >
+  // 0. Exact: rounding the operands and the quotient to 24 bits leaves it less than 1/64 from the truth, so
+  // that its whole part is at most one off, which the remainder shows.
+  VOXMELT_LANES Divided divide(Wide n, V d) {
+    const Wide divisor = widen(d);
+    const Half l = divide(n.low, divisor.low), h = divide(n.high, divisor.high);
+    return {Lanes<Arch>::narrow({l.quotient, h.quotient}), Lanes<Arch>::narrow({l.remainder, h.remainder})};
+  }
+
+  // Sum of lanes over at most 32,768 vectors.
+  class Sums {
+   public:
+    VOXMELT_MEMBER void add(V v) {
+      const W pairs = xsimd::bitwise_cast<W>(v);
+      sum_ = sum_ + (pairs & W(0xFFFF)) + ((pairs >> 16) & W(0xFFFF));
+    }
+    VOXMELT_MEMBER std::uint64_t total() const {
+      alignas(64) std::uint32_t parts[W::size];
+      xsimd::bitwise_cast<xsimd::batch<std::uint32_t, Arch>>(sum_).store_aligned(parts);
+      std::uint64_t total = 0;
+      for (const std::uint32_t part : parts) total += part;
+      return total;
+    }
+
+   private:
+    W sum_ = W(0);
+  };
+
+ private:
+  struct Half {
+    W quotient, remainder;
+  };
+  VOXMELT_LANES Half divide(W n, W d) {
+    const F high = xsimd::to_float((n >> 16) & W(0xFFFF)), low = xsimd::to_float(n & W(0xFFFF));
+    W q = xsimd::to_int((high * F(65536.f) + low) / xsimd::to_float(d));
+    W r = n - q * d;
+    const auto over = r < W(0);
+    q = xsimd::select(over, q - W(1), q);
+    r = xsimd::select(over, r + d, r);
+    const auto under = r >= d;
+    return {xsimd::select(under, q + W(1), q), xsimd::select(under, r - d, r)};
+  }
+};
+
+// 64 bits moved along x: bit x of the result is bit x + 1, or x - 1, of the row.
+VOXMELT_LANES std::uint64_t from_right(std::uint64_t word, std::uint64_t next) {
+  return word >> 1 | next << 63;
+}
+VOXMELT_LANES std::uint64_t from_left(std::uint64_t word, std::uint64_t previous) {
+  return word << 1 | previous >> 63;
+}
+
+}  // namespace voxmelt::cpu

@@ -1,0 +1,73 @@
+// Lanes<avx2>: 16 lanes, a mask is a vector of ones and zeros.
+#pragma once
+
+#include <immintrin.h>
+
+#include "kernel/cpu/lanes.h"
+
+namespace voxmelt::cpu {
+
+template <>
+struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
+  VOXMELT_LANES V high(V a, V b) { return V(_mm256_mulhi_epu16(a, b)); }
+  template <int n>
+  VOXMELT_LANES V shift_right(V a) {
+    return V(_mm256_srli_epi16(a, n));
+  }
+  template <int n>
+  VOXMELT_LANES V shift_left(V a) {
+    return V(_mm256_slli_epi16(a, n));
+  }
+
+  // a < b where b is more than a by something.
+  VOXMELT_LANES M less(V a, V b) {
+    const __m256i none = _mm256_cmpeq_epi16(_mm256_subs_epu16(b, a), _mm256_setzero_si256());
+    return M(_mm256_xor_si256(none, _mm256_set1_epi16(-1)));
+  }
+  VOXMELT_LANES M from_bits(std::uint64_t word, int part) {
+    const __m256i bit = _mm256_setr_epi16(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192,
+                                          16384, static_cast<short>(0x8000));
+    const __m256i all = _mm256_set1_epi16(static_cast<short>(word >> (16 * part)));
+    return M(_mm256_cmpeq_epi16(_mm256_and_si256(all, bit), bit));
+  }
+  VOXMELT_LANES std::uint64_t to_bits(M m) {
+    const __m256i v = m;
+    const __m128i bytes = _mm_packs_epi16(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(bytes));
+  }
+  VOXMELT_LANES V keep(M m, V v) { return V(_mm256_and_si256(m, v)); }
+  VOXMELT_LANES V add_if(M m, V a, V b) { return a + keep(m, b); }
+
+  VOXMELT_LANES Wide unpack(V low, V high) {
+    return {W(_mm256_unpacklo_epi16(low, high)), W(_mm256_unpackhi_epi16(low, high))};
+  }
+  VOXMELT_LANES V narrow(Wide w) { return V(_mm256_packus_epi32(w.low, w.high)); }
+  VOXMELT_LANES Wide pair_product(V f0, V h0, V f1, V h1) {
+    return {W(_mm256_madd_epi16(_mm256_unpacklo_epi16(f0, f1), _mm256_unpacklo_epi16(h0, h1))),
+            W(_mm256_madd_epi16(_mm256_unpackhi_epi16(f0, f1), _mm256_unpackhi_epi16(h0, h1)))};
+  }
+
+  VOXMELT_LANES void random_planes(const std::uint32_t* keys, std::uint32_t step, std::uint32_t block,
+                                   std::uint64_t* planes) {
+    // Lanes in the order in which unpacking puts them back along x.
+    __m256i y = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(block)),
+                                 _mm256_setr_epi32(0, 1, 4, 5, 2, 3, 6, 7));
+    __m256i x = _mm256_set1_epi32(static_cast<int>(step));
+    const __m256i ror8 = _mm256_setr_epi8(1, 2, 3, 0, 5, 6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12, 1, 2, 3, 0, 5,
+                                          6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12);
+    for (int i = 0; i < 10; ++i) {
+      x = _mm256_xor_si256(_mm256_add_epi32(_mm256_shuffle_epi8(x, ror8), y),
+                           _mm256_set1_epi32(static_cast<int>(keys[i])));
+      y = _mm256_xor_si256(_mm256_or_si256(_mm256_slli_epi32(y, 3), _mm256_srli_epi32(y, 29)), x);
+    }
+    __m256i first = _mm256_unpacklo_epi32(y, x), second = _mm256_unpackhi_epi32(y, x);
+    for (int b = 7; b >= 0; --b) {
+      planes[b] = static_cast<std::uint32_t>(_mm256_movemask_epi8(first)) |
+                  std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_epi8(second))} << 32;
+      first = _mm256_add_epi8(first, first);
+      second = _mm256_add_epi8(second, second);
+    }
+  }
+};
+
+}  // namespace voxmelt::cpu

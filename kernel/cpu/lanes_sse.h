@@ -1,0 +1,72 @@
+// Lanes<sse4_2>: 8 lanes, a mask is a vector of ones and zeros. Runs on every x86-64-v2 processor.
+#pragma once
+
+#include <nmmintrin.h>
+
+#include "kernel/cpu/lanes.h"
+
+namespace voxmelt::cpu {
+
+template <>
+struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
+  VOXMELT_LANES V high(V a, V b) { return V(_mm_mulhi_epu16(a, b)); }
+  template <int n>
+  VOXMELT_LANES V shift_right(V a) {
+    return V(_mm_srli_epi16(a, n));
+  }
+  template <int n>
+  VOXMELT_LANES V shift_left(V a) {
+    return V(_mm_slli_epi16(a, n));
+  }
+
+  // a < b where b is more than a by something.
+  VOXMELT_LANES M less(V a, V b) {
+    const __m128i none = _mm_cmpeq_epi16(_mm_subs_epu16(b, a), _mm_setzero_si128());
+    return M(_mm_xor_si128(none, _mm_set1_epi16(-1)));
+  }
+  VOXMELT_LANES M from_bits(std::uint64_t word, int part) {
+    const __m128i bit = _mm_setr_epi16(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m128i all = _mm_set1_epi16(static_cast<short>(word >> (8 * part)));
+    return M(_mm_cmpeq_epi16(_mm_and_si128(all, bit), bit));
+  }
+  VOXMELT_LANES std::uint64_t to_bits(M m) {
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(m, _mm_setzero_si128())));
+  }
+  VOXMELT_LANES V keep(M m, V v) { return V(_mm_and_si128(m, v)); }
+  VOXMELT_LANES V add_if(M m, V a, V b) { return a + keep(m, b); }
+
+  VOXMELT_LANES Wide unpack(V low, V high) {
+    return {W(_mm_unpacklo_epi16(low, high)), W(_mm_unpackhi_epi16(low, high))};
+  }
+  VOXMELT_LANES V narrow(Wide w) { return V(_mm_packus_epi32(w.low, w.high)); }
+  VOXMELT_LANES Wide pair_product(V f0, V h0, V f1, V h1) {
+    return {W(_mm_madd_epi16(_mm_unpacklo_epi16(f0, f1), _mm_unpacklo_epi16(h0, h1))),
+            W(_mm_madd_epi16(_mm_unpackhi_epi16(f0, f1), _mm_unpackhi_epi16(h0, h1)))};
+  }
+
+  VOXMELT_LANES void random_planes(const std::uint32_t* keys, std::uint32_t step, std::uint32_t block,
+                                   std::uint64_t* planes) {
+    for (int b = 0; b < 8; ++b) planes[b] = 0;
+    for (int half = 0; half < 2; ++half) {
+      __m128i y = _mm_add_epi32(_mm_set1_epi32(static_cast<int>(block)), _mm_setr_epi32(0, 1, 2, 3));
+      y = _mm_add_epi32(y, _mm_set1_epi32(4 * half));
+      __m128i x = _mm_set1_epi32(static_cast<int>(step));
+      const __m128i ror8 = _mm_setr_epi8(1, 2, 3, 0, 5, 6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12);
+      for (int i = 0; i < 10; ++i) {
+        x = _mm_xor_si128(_mm_add_epi32(_mm_shuffle_epi8(x, ror8), y),
+                          _mm_set1_epi32(static_cast<int>(keys[i])));
+        y = _mm_xor_si128(_mm_or_si128(_mm_slli_epi32(y, 3), _mm_srli_epi32(y, 29)), x);
+      }
+      __m128i first = _mm_unpacklo_epi32(y, x), second = _mm_unpackhi_epi32(y, x);
+      for (int b = 7; b >= 0; --b) {
+        const auto bits = static_cast<std::uint32_t>(_mm_movemask_epi8(first)) |
+                          static_cast<std::uint32_t>(_mm_movemask_epi8(second)) << 16;
+        planes[b] |= std::uint64_t{bits} << (32 * half);
+        first = _mm_add_epi8(first, first);
+        second = _mm_add_epi8(second, second);
+      }
+    }
+  }
+};
+
+}  // namespace voxmelt::cpu

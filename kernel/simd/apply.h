@@ -1,0 +1,176 @@
+// Phase `spread` of the paper's law, second half (Eqs. 11-20): every cell gathers what its neighbours give.
+// Row by row of one slice, in place: what a neighbour gives, and its heat, are read from the gifts.
+#pragma once
+
+#include "kernel/simd/contact.h"
+#include "kernel/simd/features.h"
+#include "kernel/simd/mix.h"
+
+namespace voxmelt::simd {
+
+template <class Arch, SpreadFeatures kFeatures>
+class Apply {
+  using L = cpu::Lanes<Arch>;
+  using V = typename L::V;
+  using M = typename L::M;
+  static constexpr int kDirections = kFeatures.eight ? 8 : 4;
+
+ public:
+  [[gnu::always_inline]] Apply(const View& view, const Step& step, int z, const Gifts& below,
+                               const Gifts& own, const Gifts& above, Books& books)
+      : v_(view),
+        law_(step.parameters->flow.paper),
+        dither_(L::set(static_cast<int>(step.dither))),
+        undithered_(L::set(static_cast<int>(0xFFFF - step.dither))),
+        z_(z),
+        below_(below),
+        own_(own),
+        above_(above),
+        books_(books),
+        mix_(step.dither) {}
+
+  // Returns the words of row y that changed.
+  [[gnu::always_inline]] TileRow row(int y) {
+    const TileRow giving = below_.giving[y] | own_.giving[y] | above_.giving[y];
+    if (giving == 0) return 0;
+    TileRow work = giving | giving << 1 | giving >> 1, moved = 0;
+    if (v_.words < 64) work &= (TileRow{1} << v_.words) - 1;
+    for (; work != 0; work &= work - 1) {
+      const int w = __builtin_ctzll(work);
+      if (word(w, y)) moved |= TileRow{1} << w;
+    }
+    if (moved != 0) flush();
+    return moved;
+  }
+
+ private:
+  struct Masks {
+    std::uint64_t out[8], in[8];  // by direction: gives to the neighbour there, takes from it
+  };
+
+  [[gnu::always_inline]] bool word(int w, int y) {
+    Masks masks;
+    const std::size_t at = 8 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(v_.words + 2) + 1 +
+                                static_cast<std::size_t>(w));
+    const std::uint64_t *own = own_.planes + at, *front = above_.planes + at, *back = below_.planes + at;
+    std::uint64_t any = 0;
+    for (int d = 0; d < kDirections; ++d) any |= masks.out[d] = own[d];
+    // A neighbour gives in the opposite direction: planes 1, 0, 3, 2, 7, 6, 5, 4.
+    any |= masks.in[0] = cpu::from_right(own[1], own[8 + 1]);
+    any |= masks.in[1] = cpu::from_left(own[0], own[-8 + 0]);
+    any |= masks.in[2] = front[3];
+    any |= masks.in[3] = back[2];
+    if constexpr (kFeatures.eight) {
+      any |= masks.in[4] = cpu::from_right(front[7], front[8 + 7]);
+      any |= masks.in[5] = cpu::from_right(back[6], back[8 + 6]);
+      any |= masks.in[6] = cpu::from_left(front[5], front[-8 + 5]);
+      any |= masks.in[7] = cpu::from_left(back[4], back[-8 + 4]);
+    }
+    if (any == 0) return false;
+
+    std::uint64_t wet = 0;
+    for (int part = 0; part < L::kParts; ++part) wet |= vectors(w, y, part, masks) << (part * L::kCount);
+    const std::size_t mask = v_.word(w, y, z_);
+    v_.liquid[mask] = wet & ~(v_.solid[mask] | v_.inert[mask]);
+    return true;
+  }
+
+  // Returns the lanes that hold something.
+  [[gnu::always_inline]] std::uint64_t vectors(int w, int y, int part, const Masks& masks) {
+    const std::size_t lane = 64 * static_cast<std::size_t>(w) + static_cast<std::size_t>(part * L::kCount);
+    const std::size_t cell = v_.cell(0, y, z_) + lane, gift = static_cast<std::size_t>(y) * v_.row + lane;
+    const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
+
+    V out = L::zero(), energy_out = L::zero();
+    for (int d = 0; d < kDirections; ++d) {
+      const M gives = L::from_bits(masks.out[d], part);
+      out = L::add_if(gives, out, flow(own_, gift, d));
+      energy_out = L::add_if(gives, energy_out, energy_flow(own_, gift, d));
+    }
+
+    V in = L::zero(), energy_in = L::zero();
+    typename L::Wide content{};
+    const Gifts* const slices[8] = {&own_, &own_, &above_, &below_, &above_, &below_, &above_, &below_};
+    constexpr std::ptrdiff_t kStep[8] = {1, -1, 0, 0, 1, 1, -1, -1};
+    constexpr int kOpposite[8] = {1, 0, 3, 2, 7, 6, 5, 4};
+    V taken[2], heats[2];
+    for (int d = 0; d < kDirections; ++d) {
+      const M takes = L::from_bits(masks.in[d], part);
+      const std::size_t from = gift + static_cast<std::size_t>(kStep[d]);
+      const Gifts& giver = *slices[d];
+      const V given = L::keep(takes, flow(giver, from, kOpposite[d]));
+      in = in + given;
+      energy_in = L::add_if(takes, energy_in, energy_flow(giver, from, kOpposite[d]));
+      if constexpr (kFeatures.hot) {
+        taken[d & 1] = given;
+        heats[d & 1] = L::load_any(giver.heat + from);
+        if (d & 1) {
+          const auto pair = L::pair_product(taken[0], heats[0], taken[1], heats[1]);
+          content = d == 1 ? pair : L::sum(content, pair);
+        }
+      }
+    }
+
+    const V kept = amount - out, now = kept + in;
+    L::store(v_.amount + cell, now);
+    const V gained = friction(energy_in, w, y, part);
+    const V uncapped = energy - energy_out + gained, capped = L::min(uncapped, now);
+    L::store(v_.energy + cell, capped);
+    dissipated_.add(energy_in - gained);
+    capped_.add(uncapped - capped);
+
+    const M dry = L::equal(now, L::zero());
+    if constexpr (kFeatures.hot) {
+      const V heat = L::load(v_.temperature + cell);
+      const M fed = L::less(L::zero(), in);
+      V mixed = heat;
+      if (L::to_bits(fed) != 0) {
+        // Heats of gifts are 32768 less, to be signed: put back 32768 times what came in.
+        const auto biased = L::unpack(L::template shift_left<15>(in), L::template shift_right<1>(in));
+        const auto all = L::sum(L::sum(content, biased), L::product(kept, heat));
+        mixed = L::select(fed, mix_.mean(all, now, fed), heat);
+      }
+      L::store(v_.temperature + cell, L::select(dry, L::zero(), mixed));
+    }
+    return L::to_bits(dry) ^ kAll;
+  }
+
+  [[gnu::always_inline]] V flow(const Gifts& gifts, std::size_t at, int d) const {
+    if constexpr (kFeatures.general) return L::load_any(gifts.flow[d] + at);
+    const V axis = L::load_any(gifts.flow[0] + at);
+    return d < 4 ? axis : L::template shift_right<2>(axis);
+  }
+  [[gnu::always_inline]] V energy_flow(const Gifts& gifts, std::size_t at, int d) const {
+    if constexpr (kFeatures.general) return L::load_any(gifts.energy[d] + at);
+    const V axis = L::load_any(gifts.energy[0] + at);
+    return d < 4 ? axis : L::template shift_right<2>(axis);
+  }
+
+  // (alpha e + D) >> 16; the printed reading has paid at the giver's.
+  [[gnu::always_inline]] V friction(V e, int w, int y, int part) const {
+    if constexpr (kFeatures.general)
+      if (law_.reading == rule::EnergyReading::printed) return e;
+    const V alpha = contact_alpha<Arch>(v_, law_, w, y, z_, part);
+    const V carry = L::keep(L::less(undithered_, L::low(e, alpha)), L::set(1));
+    return L::high(e, alpha) + carry;
+  }
+
+  [[gnu::always_inline]] void flush() {
+    books_.dissipated += static_cast<std::int64_t>(dissipated_.total());
+    books_.capped += static_cast<std::int64_t>(capped_.total());
+    dissipated_ = capped_ = {};
+    if constexpr (kFeatures.hot) books_.rounded += mix_.flush();
+  }
+
+  static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
+  const View v_;
+  const rule::PaperLaw& law_;
+  const V dither_, undithered_;
+  const int z_;
+  const Gifts &below_, &own_, &above_;
+  Books& books_;
+  Mix<Arch> mix_;
+  typename L::Sums dissipated_, capped_;
+};
+
+}  // namespace voxmelt::simd

@@ -1,0 +1,20 @@
+// Friction of a cell, by what it stands on (Eqs. 16-20).
+#pragma once
+
+#include "kernel/cpu/lanes.h"
+#include "kernel/simd/kernels.h"
+
+namespace voxmelt::simd {
+
+template <class Arch>
+VOXMELT_LANES typename cpu::Lanes<Arch>::V contact_alpha(const View& view, const rule::PaperLaw& law, int w,
+                                                         int y, int z, int part) {
+  using L = cpu::Lanes<Arch>;
+  if (y == 0) return L::set(law.alpha_floor);
+  const std::size_t below = view.word(w, y - 1, z);
+  const auto on_solid =
+      L::select(L::from_bits(view.solid[below], part), L::set(law.alpha_solid), L::set(law.alpha_liquid));
+  return L::select(L::from_bits(view.inert[below], part), L::set(law.alpha_floor), on_solid);
+}
+
+}  // namespace voxmelt::simd

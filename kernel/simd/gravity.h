@@ -1,0 +1,180 @@
+// Phase `gravity` of the paper's law (Eqs. 2-6, with excess in the same sweep): one slice, ascending, pairs
+// of rows (y, y + 1), 64 cells at a time. Free of kernel/rule on purpose: compared with it, not built from
+// it.
+#pragma once
+
+#include "kernel/cpu/lanes.h"
+#include "kernel/simd/features.h"
+#include "kernel/simd/kernels.h"
+#include "kernel/simd/mix.h"
+
+namespace voxmelt::simd {
+
+template <class Arch, GravityFeatures kFeatures>
+class Gravity {
+  using L = cpu::Lanes<Arch>;
+  using V = typename L::V;
+  using M = typename L::M;
+
+ public:
+  [[gnu::always_inline]] Gravity(const View& view, const Step& step, int z, Books& books)
+      : v_(view),
+        fall_(step.parameters->flow.fall),
+        law_(step.parameters->flow.paper),
+        z_(z),
+        books_(books),
+        mix_(step.dither) {}
+
+  [[gnu::always_inline]] void run(const TileRow* tiles, TileRow* changed) {
+    TileRow moved = 0;  // words that the last pair of rows changed: what is above may follow
+    for (int y = 0; y + 1 < v_.ny; ++y) {
+      TileRow work = tiles[y >> kTileShift] | tiles[(y + 1) >> kTileShift] | moved;
+      moved = 0;
+      for (; work != 0; work &= work - 1) {
+        const int w = __builtin_ctzll(work);
+        const std::uint64_t low = v_.liquid[v_.word(w, y, z_)], high = v_.liquid[v_.word(w, y + 1, z_)];
+        if ((low | high) == 0) continue;
+        const std::uint64_t open = ~(v_.blocked(w, y, z_) | v_.blocked(w, y + 1, z_)) & (low | high);
+        if (open == 0) continue;
+        if (pair(w, y, open)) moved |= TileRow{1} << w;
+      }
+      if (moved != 0) {
+        changed[y >> kTileShift] |= moved;
+        changed[(y + 1) >> kTileShift] |= moved;
+        flush();
+      }
+    }
+  }
+
+ private:
+  [[gnu::always_inline]] bool pair(int w, int y, std::uint64_t open) {
+    const std::size_t low = v_.cell(w, y, z_), high = v_.cell(w, y + 1, z_);
+    Around around{};
+    if constexpr (kFeatures.guided) around = surroundings(w, y + 1);
+    bool moved = false;
+    std::uint64_t low_wet = 0, high_wet = 0;
+    for (int part = 0; part < L::kParts; ++part) {
+      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
+      vectors(low + at, high + at, open, around, part, moved, low_wet, high_wet);
+    }
+    if (!moved) return false;
+    const std::size_t low_word = v_.word(w, y, z_), high_word = v_.word(w, y + 1, z_);
+    v_.liquid[low_word] = low_wet & ~(v_.solid[low_word] | v_.inert[low_word]);
+    v_.liquid[high_word] = high_wet & ~(v_.solid[high_word] | v_.inert[high_word]);
+    return true;
+  }
+
+  struct Around {
+    std::uint64_t wall, overhang;
+  };
+  // Of the cells q of word w in row y: a side is blocked; something to hang from.
+  [[gnu::always_inline]] Around surroundings(int w, int y) const {
+    const std::uint64_t own = v_.blocked(w, y, z_);
+    const std::uint64_t wall = cpu::from_right(own, v_.blocked(w + 1, y, z_)) |
+                               cpu::from_left(own, v_.blocked(w - 1, y, z_)) | v_.blocked(w, y, z_ - 1) |
+                               v_.blocked(w, y, z_ + 1);
+    return {wall, wall | v_.blocked(w, y + 1, z_)};
+  }
+
+  [[gnu::always_inline]] V ready(V upper, V lower, Around around, int part) const {
+    if constexpr (!kFeatures.guided) {
+      return upper;
+    } else {
+      const V part_free = part_of(upper, fall_.factor), part_wall = part_of(upper, fall_.wall_factor);
+      const V part_given = L::select(L::from_bits(around.wall, part), part_wall, part_free);
+      const V given = L::min(upper, L::add_saturated(part_given, L::set(fall_.minimum)));
+      if (fall_.hang == 0) return given;
+      const V hangs = L::keep(L::from_bits(around.overhang, part), L::set(0xFFFF));
+      const V none_below = L::keep(L::equal(lower, L::zero()), hangs);
+      const V light = L::keep(L::less(upper, L::set(fall_.hang)), none_below);
+      return L::select(L::equal(light, L::zero()), given, L::zero());
+    }
+  }
+  [[gnu::always_inline]] static V part_of(V a, std::uint32_t factor) {  // factor 0..65536, in 1/65536
+    return factor > 0xFFFF ? a : L::high(a, L::set(static_cast<int>(factor)));
+  }
+
+  [[gnu::always_inline]] void vectors(std::size_t low, std::size_t high, std::uint64_t open, Around around,
+                                      int part, bool& moved, std::uint64_t& low_wet,
+                                      std::uint64_t& high_wet) {
+    const V one = L::set(4096);
+    const V lower = L::load(v_.amount + low), upper = L::load(v_.amount + high);
+    const M gate = L::from_bits(open, part);
+    const V down = L::keep(gate, L::min(ready(upper, lower, around, part), L::sub_saturated(one, lower)));
+    const V up = L::keep(gate, L::min(L::sub_saturated(lower, one), L::sub_saturated(L::set(0xFFFF), upper)));
+    const int shift = part * L::kCount;
+    if (L::to_bits(L::equal(down + up, L::zero())) == kAll) {
+      low_wet |= (L::to_bits(L::equal(lower, L::zero())) ^ kAll) << shift;
+      high_wet |= (L::to_bits(L::equal(upper, L::zero())) ^ kAll) << shift;
+      return;
+    }
+    moved = true;
+    const M no_rise = L::equal(up, L::zero());
+    const V new_lower = lower + down - up, new_upper = upper - down + up;
+    L::store(v_.amount + low, new_lower);
+    L::store(v_.amount + high, new_upper);
+    const M low_dry = L::equal(new_lower, L::zero()), high_dry = L::equal(new_upper, L::zero());
+    low_wet |= (L::to_bits(low_dry) ^ kAll) << shift;
+    high_wet |= (L::to_bits(high_dry) ^ kAll) << shift;
+    move_energy(low, high, down, up, new_lower, new_upper);
+    if constexpr (kFeatures.hot) {
+      // A cell either gives or takes through this face.
+      const V low_heat = L::load(v_.temperature + low), high_heat = L::load(v_.temperature + high);
+      const V taker_had = L::select(no_rise, lower, upper),
+              taker_heat = L::select(no_rise, low_heat, high_heat);
+      const V flow = down + up, giver_heat = L::select(no_rise, high_heat, low_heat);
+      const V mixed = mix_.two(taker_had, taker_heat, flow, giver_heat);
+      const M falls = L::less(L::zero(), down), climbs = L::less(L::zero(), up);
+      L::store(v_.temperature + low, L::select(low_dry, L::zero(), L::select(falls, mixed, low_heat)));
+      L::store(v_.temperature + high, L::select(high_dry, L::zero(), L::select(climbs, mixed, high_heat)));
+    }
+  }
+
+  [[gnu::always_inline]] void move_energy(std::size_t low, std::size_t high, V down, V up, V new_lower,
+                                          V new_upper) {
+    const V lower = L::load(v_.energy + low), upper = L::load(v_.energy + high);
+    V lost = L::min(upper, down), gained = lost;
+    if constexpr (kFeatures.guided) {
+      // Room of a receiver: its new amount less its energy.
+      const V room = L::keep(L::less(L::zero(), down), new_lower - lower);
+      const std::uint32_t beta = law_.beta;
+      V accelerated = L::high(lost, L::set(static_cast<int>(beta & 0xFFFF)));
+      for (std::uint32_t whole = beta >> 16; whole > 0; --whole) accelerated = accelerated + lost;
+      gained = L::min(accelerated, room);
+      if (law_.reading == rule::EnergyReading::printed) lost = gained = L::min(gained, upper);
+      faster_.add(gained);
+      slower_.add(lost);
+    }
+    const V climbs = L::min(lower, up);
+    const V uncapped = upper - lost + climbs;
+    // Only a giver can hold too much.
+    const V capped = L::min(uncapped, L::select(L::equal(down, L::zero()), L::set(0xFFFF), new_upper));
+    capped_.add(uncapped - capped);
+    L::store(v_.energy + low, lower + gained - climbs);
+    L::store(v_.energy + high, capped);
+  }
+
+  [[gnu::always_inline]] void flush() {
+    books_.capped += static_cast<std::int64_t>(capped_.total());
+    capped_ = {};
+    if constexpr (kFeatures.guided) {
+      books_.accelerated +=
+          static_cast<std::int64_t>(faster_.total()) - static_cast<std::int64_t>(slower_.total());
+      faster_ = slower_ = {};
+    }
+    if constexpr (kFeatures.hot) books_.rounded += mix_.flush();
+  }
+
+  static constexpr std::uint64_t kAll =
+      L::kCount == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << L::kCount) - 1;
+
+  const View v_;
+  const rule::Fall& fall_;
+  const rule::PaperLaw& law_;
+  const int z_;
+  Books& books_;
+  Mix<Arch> mix_;
+  typename L::Sums faster_, slower_, capped_;
+};
+
+}  // namespace voxmelt::simd

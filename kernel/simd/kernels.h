@@ -1,0 +1,83 @@
+// What every instruction set offers: the phases, one slice (all cells of one z) at a time, on raw memory.
+//
+// Work is chosen by tiles: a tile is 64 cells along x (one mask word), 2^kTileShift rows along y, one slice.
+// A TileRow is one bit per word of x (grids are at most 4096 wide), [tile row]. A kernel may do more than it
+// is asked, never less; what it changes it reports.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/rule/parameters.h"
+
+namespace voxmelt::simd {
+
+using TileRow = std::uint64_t;
+inline constexpr int kTileShift = 3;
+inline constexpr int kTileRows = 1 << kTileShift;
+
+// The memory of a state::Volume. Rows begin at multiples of 64 cells.
+struct View {
+  std::uint16_t *amount = nullptr, *energy = nullptr, *temperature = nullptr;
+  std::uint64_t *solid = nullptr, *liquid = nullptr, *inert = nullptr;
+  int nx = 0, ny = 0, nz = 0;
+  std::size_t row = 0, slice = 0;  // cells from y to y + 1, from z to z + 1
+  int words = 0;                   // mask words in a row
+  std::uint64_t last_word = 0;     // bits of a row's last word that are cells
+
+  [[gnu::always_inline]] std::size_t cell(int w, int y, int z) const {
+    return static_cast<std::size_t>(z) * slice + static_cast<std::size_t>(y) * row +
+           64 * static_cast<std::size_t>(w);
+  }
+  [[gnu::always_inline]] std::size_t word(int w, int y, int z) const {
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(words) +
+           static_cast<std::size_t>(w);
+  }
+  // Solid or inert, or beyond the grid.
+  [[gnu::always_inline]] std::uint64_t blocked(int w, int y, int z) const {
+    if (w < 0 || w >= words || y < 0 || y >= ny || z < 0 || z >= nz) return ~std::uint64_t{0};
+    const std::size_t at = word(w, y, z);
+    const std::uint64_t beyond = w == words - 1 ? ~last_word : 0;
+    return solid[at] | inert[at] | beyond;
+  }
+};
+
+// What a step needs besides the state.
+struct Step {
+  const rule::Parameters* parameters = nullptr;
+  std::uint32_t number = 0;
+  std::uint32_t dither = 0;                   // D(s)
+  const std::uint32_t* keys = nullptr;        // of the random function
+  const std::uint16_t* irradiance = nullptr;  // null without radiation
+};
+
+// Terms of the ledgers, summed over what a kernel did.
+struct Books {
+  std::int64_t accelerated = 0, dissipated = 0, capped = 0, rounded = 0;
+};
+
+// What the cells of one slice give in the paper law's spread: written by `pattern`, read by `apply`.
+struct Gifts {
+  std::uint64_t* planes = nullptr;  // [y][1 + words + 1][8]: directions given to, one plane per direction
+  std::uint64_t* giving = nullptr;  // [y]: words with a plane that is not empty; the planes of others are 0
+  std::uint16_t* flow[8] = {};      // [y][row]: amount given to a direction of the pattern
+  std::uint16_t* energy[8] = {};    // [y][row]
+  std::uint16_t* heat = nullptr;    // [y][row]: heat of the giver, xor 0x8000
+};
+
+struct Kernels {
+  const char* name = nullptr;
+
+  // Paper law: gravity and excess of the columns of slice z. `tiles`: where anything may move; what moves is
+  // followed upwards beyond them.
+  void (*gravity)(const View&, const Step&, int z, const TileRow* tiles, TileRow* changed, Books&) = nullptr;
+  // Paper law: patterns of tiles in slice z; `restless`: tiles where some cell may give, whatever the dice
+  // say.
+  void (*pattern)(const View&, const Step&, int z, const TileRow* tiles, TileRow* restless, Gifts&) = nullptr;
+  // Paper law: every cell of slice z gives and takes. below, own, above: gifts of slices z - 1, z, z + 1.
+  void (*apply)(const View&, const Step&, int z, const Gifts& below, const Gifts& own, const Gifts& above,
+                TileRow* changed, Books&) = nullptr;
+};
+
+}  // namespace voxmelt::simd
