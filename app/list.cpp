@@ -13,7 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 int list_implementations() {
-  for (const auto& one : run::implementations().all()) fmt::print("{:<12} {}\n", one.name, one.description);
+  for (const auto& one : run::implementations().all())
+    fmt::print("{:<12} {}{}\n", one.name, one.description, one.supported ? "" : " (not on this processor)");
   return kDone;
 }
 

@@ -76,7 +76,12 @@ run::Simulation make_simulation(const scene::Scene& scene, const Common& common)
     throw UsageError(
         fmt::format("--implementation {}: error: unknown; this build has {}", common.implementation, known));
   }
-  return {scene.parameters, scene.initial, *implementation};
+  if (!implementation->supported)
+    throw UsageError(
+        fmt::format("--implementation {}: error: this processor does not have it", common.implementation));
+  step::Tuning tuning;
+  tuning.threads = thread_count(common);
+  return {scene.parameters, scene.initial, *implementation, tuning};
 }
 
 void check_report_place(const Common& common, const std::string& out) {

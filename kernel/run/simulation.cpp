@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "kernel/parallel/stepper.h"
 #include "kernel/scalar/reference.h"
 
 namespace voxmelt::run {
@@ -25,18 +26,22 @@ class Stopwatch {
 const step::Registry& implementations() {
   static const step::Registry registry = [] {
     step::Registry r;
+    using enum cpu::InstructionSet;
     r.add({"reference", "plain loops over kernel/rule, one thread", scalar::create_reference});
+    r.add({"sse4.2", "8 lanes of 16 bits, threads", parallel::create<sse42>, cpu::supported(sse42)});
+    r.add({"avx2", "16 lanes of 16 bits, threads", parallel::create<avx2>, cpu::supported(avx2)});
+    r.add({"avx512", "32 lanes of 16 bits, threads", parallel::create<avx512>, cpu::supported(avx512)});
     return r;
   }();
   return registry;
 }
 
 Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
-                       const step::Implementation& implementation,
+                       const step::Implementation& implementation, const step::Tuning& tuning,
                        std::unique_ptr<visibility::Provider> provider)
     : parameters_(std::move(parameters)),
       volume_(std::move(initial)),
-      stepper_(implementation.create(parameters_, volume_.grid)),
+      stepper_(implementation.create(parameters_, volume_.grid, tuning)),
       provider_(std::move(provider)),
       ledger_(state::Ledger::open(volume_)) {
   if (parameters_.heat.enabled && parameters_.heat.radiation) irradiance_ = step::Irradiance(volume_.grid);

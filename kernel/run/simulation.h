@@ -18,6 +18,7 @@ class Simulation {
  public:
   Simulation(
       rule::Parameters parameters, state::Volume initial, const step::Implementation& implementation,
+      const step::Tuning& tuning = {},
       std::unique_ptr<visibility::Provider> provider = std::make_unique<visibility::VoxelWalkProvider>());
 
   // Runs one whole step. The n-th call (from 0) is step number n.

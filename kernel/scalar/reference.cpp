@@ -34,7 +34,8 @@ void Reference::run(step::Phase phase, std::uint32_t step, const step::Irradianc
   }
 }
 
-std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid) {
+std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid,
+                                                const step::Tuning& /*one thread, nothing sleeps*/) {
   return std::make_unique<Reference>(parameters, grid);
 }
 

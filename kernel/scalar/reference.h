@@ -41,6 +41,7 @@ class Reference final : public step::Stepper {
   Volume next_;  // the result of a phase while it is computed
 };
 
-std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid);
+std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid,
+                                                const step::Tuning& tuning);
 
 }  // namespace voxmelt::scalar

@@ -28,7 +28,7 @@ class Gravity {
   [[gnu::always_inline]] void run(const TileRow* tiles, TileRow* changed) {
     TileRow moved = 0;  // words that the last pair of rows changed: what is above may follow
     for (int y = 0; y + 1 < v_.ny; ++y) {
-      TileRow work = tiles[y >> kTileShift] | tiles[(y + 1) >> kTileShift] | moved;
+      TileRow work = tiles[y >> v_.tile_shift] | tiles[(y + 1) >> v_.tile_shift] | moved;
       moved = 0;
       for (; work != 0; work &= work - 1) {
         const int w = __builtin_ctzll(work);
@@ -39,8 +39,8 @@ class Gravity {
         if (pair(w, y, open)) moved |= TileRow{1} << w;
       }
       if (moved != 0) {
-        changed[y >> kTileShift] |= moved;
-        changed[(y + 1) >> kTileShift] |= moved;
+        changed[y >> v_.tile_shift] |= moved;
+        changed[(y + 1) >> v_.tile_shift] |= moved;
         flush();
       }
     }

@@ -8,13 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel/cpu/instruction_set.h"
 #include "kernel/rule/parameters.h"
 
 namespace voxmelt::simd {
 
 using TileRow = std::uint64_t;
-inline constexpr int kTileShift = 3;
-inline constexpr int kTileRows = 1 << kTileShift;
 
 // The memory of a state::Volume. Rows begin at multiples of 64 cells.
 struct View {
@@ -23,6 +22,7 @@ struct View {
   int nx = 0, ny = 0, nz = 0;
   std::size_t row = 0, slice = 0;  // cells from y to y + 1, from z to z + 1
   int words = 0;                   // mask words in a row
+  int tile_shift = 3;              // rows of a tile: 2^tile_shift
   std::uint64_t last_word = 0;     // bits of a row's last word that are cells
 
   [[gnu::always_inline]] std::size_t cell(int w, int y, int z) const {
@@ -55,6 +55,14 @@ struct Step {
 // Terms of the ledgers, summed over what a kernel did.
 struct Books {
   std::int64_t accelerated = 0, dissipated = 0, capped = 0, rounded = 0;
+
+  Books& operator+=(const Books& other) {
+    accelerated += other.accelerated;
+    dissipated += other.dissipated;
+    capped += other.capped;
+    rounded += other.rounded;
+    return *this;
+  }
 };
 
 // What the cells of one slice give in the paper law's spread: written by `pattern`, read by `apply`.
@@ -67,8 +75,6 @@ struct Gifts {
 };
 
 struct Kernels {
-  const char* name = nullptr;
-
   // Paper law: gravity and excess of the columns of slice z. `tiles`: where anything may move; what moves is
   // followed upwards beyond them.
   void (*gravity)(const View&, const Step&, int z, const TileRow* tiles, TileRow* changed, Books&) = nullptr;
@@ -79,5 +85,8 @@ struct Kernels {
   void (*apply)(const View&, const Step&, int z, const Gifts& below, const Gifts& own, const Gifts& above,
                 TileRow* changed, Books&) = nullptr;
 };
+
+// The kernels that a scene needs; `set` must be supported.
+Kernels kernels(cpu::InstructionSet set, const rule::Parameters& parameters);
 
 }  // namespace voxmelt::simd

@@ -17,14 +17,15 @@ template <class Arch, SpreadFeatures kFeatures>
 void pattern_slice(const View& view, const Step& step, int z, const TileRow* tiles, TileRow* restless,
                    Gifts& gifts) {
   Pattern<Arch, kFeatures> pattern(view, step, z, gifts);
-  for (int y = 0; y < view.ny; ++y) restless[y >> kTileShift] |= pattern.row(y, tiles[y >> kTileShift]);
+  for (int y = 0; y < view.ny; ++y)
+    restless[y >> view.tile_shift] |= pattern.row(y, tiles[y >> view.tile_shift]);
 }
 
 template <class Arch, SpreadFeatures kFeatures>
 void apply_slice(const View& view, const Step& step, int z, const Gifts& below, const Gifts& own,
                  const Gifts& above, TileRow* changed, Books& books) {
   Apply<Arch, kFeatures> apply(view, step, z, below, own, above, books);
-  for (int y = 0; y < view.ny; ++y) changed[y >> kTileShift] |= apply.row(y);
+  for (int y = 0; y < view.ny; ++y) changed[y >> view.tile_shift] |= apply.row(y);
 }
 
 template <class Arch, bool kHot>

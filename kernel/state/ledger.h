@@ -27,6 +27,7 @@ Holdings holdings(const Volume& volume);
 struct MassLedger {
   Sum start = 0, added = 0, removed = 0;
   Sum expected() const { return start + added - removed; }
+  friend bool operator==(const MassLedger&, const MassLedger&) = default;
 };
 
 struct EnergyLedger {
@@ -41,6 +42,7 @@ struct EnergyLedger {
   Sum expected() const {
     return start + melted + added - removed + reheated + accelerated - dissipated - capped;
   }
+  friend bool operator==(const EnergyLedger&, const EnergyLedger&) = default;
 };
 
 struct HeatLedger {
@@ -56,6 +58,7 @@ struct HeatLedger {
   Sum expected() const {
     return start + conducted + convected + radiated + warmed - cooled + added - removed + rounded;
   }
+  friend bool operator==(const HeatLedger&, const HeatLedger&) = default;
 };
 
 struct Ledger {
@@ -64,6 +67,7 @@ struct Ledger {
   HeatLedger heat;
 
   static Ledger open(const Volume& volume);
+  friend bool operator==(const Ledger&, const Ledger&) = default;
 };
 
 // What the state holds minus what the books say; all zero when they balance.

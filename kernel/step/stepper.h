@@ -26,10 +26,19 @@ class Stepper {
                    state::Ledger& ledger) = 0;
 };
 
+// How an implementation works; no result depends on it.
+struct Tuning {
+  int threads = 1;
+  bool sleep = true;   // skip what provably stays as it is
+  int tile_shift = 3;  // rows of a tile of work: 2^tile_shift, 0..12
+};
+
 struct Implementation {
   std::string name;
   std::string description;
-  std::unique_ptr<Stepper> (*create)(const rule::Parameters& parameters, state::Grid grid);
+  std::unique_ptr<Stepper> (*create)(const rule::Parameters& parameters, state::Grid grid,
+                                     const Tuning& tuning);
+  bool supported = true;  // by this processor
 };
 
 // A registry is filled by who links the implementations (kernel/run), never by their headers.
@@ -38,12 +47,12 @@ class Registry {
   void add(Implementation implementation) { implementations_.push_back(std::move(implementation)); }
   const std::vector<Implementation>& all() const { return implementations_; }
 
-  // "auto" is the last one added (the fastest); nullptr for an unknown name.
+  // "auto" is the last supported one (the fastest); nullptr for an unknown name.
   const Implementation* find(const std::string& name) const {
-    if (name == "auto") return implementations_.empty() ? nullptr : &implementations_.back();
+    const Implementation* found = nullptr;
     for (const Implementation& candidate : implementations_)
-      if (candidate.name == name) return &candidate;
-    return nullptr;
+      if (name == "auto" ? candidate.supported : candidate.name == name) found = &candidate;
+    return found;
   }
 
  private:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 # Folder -> folders of ours that it may include (besides itself).
 KERNEL = ["kernel/rule", "kernel/state", "kernel/scene", "kernel/visibility", "kernel/step", "kernel/scalar",
-          "kernel/io", "kernel/run"]
+          "kernel/cpu", "kernel/simd", "kernel/parallel", "kernel/io", "kernel/run"]
 ALLOWED = {
     "kernel/rule": [],
     "kernel/state": ["kernel/rule"],
@@ -19,6 +19,11 @@ ALLOWED = {
     "kernel/visibility": ["kernel/rule", "kernel/state", "kernel/scene"],
     "kernel/step": ["kernel/rule", "kernel/state"],
     "kernel/scalar": ["kernel/rule", "kernel/state", "kernel/step"],
+    "kernel/cpu": [],
+    "kernel/simd": ["kernel/rule", "kernel/cpu", "kernel/simd/arch"],
+    "kernel/simd/arch": ["kernel/rule", "kernel/cpu", "kernel/simd"],
+    "kernel/parallel": ["kernel/rule", "kernel/state", "kernel/step", "kernel/cpu", "kernel/simd", "kernel/scalar"],
+    "bench/baseline": ["kernel/rule", "kernel/state"],
     "kernel/io": ["kernel/rule", "kernel/state", "kernel/scene"],
     "kernel/run": KERNEL,
     "render/image": ["kernel/rule", "kernel/state", "kernel/scene"],
@@ -33,7 +38,7 @@ SOURCES = {".h", ".cpp"}
 
 def offences(root):
     found = []
-    for path in sorted(p for top in ("kernel", "render", "app") for p in (root / top).rglob("*") if p.suffix in SOURCES):
+    for path in sorted(p for top in ("kernel", "render", "app", "bench") for p in (root / top).rglob("*") if p.suffix in SOURCES):
         folder = path.relative_to(root).parent.as_posix()
         lines = path.read_text().splitlines()
         name = path.relative_to(root).as_posix()

@@ -69,7 +69,7 @@ class Recorder final : public step::Stepper {
   };
   static inline std::vector<Call> calls;
 };
-std::unique_ptr<step::Stepper> create_recorder(const Parameters&, Grid) {
+std::unique_ptr<step::Stepper> create_recorder(const Parameters&, Grid, const step::Tuning&) {
   Recorder::calls.clear();
   return std::make_unique<Recorder>();
 }
@@ -106,7 +106,7 @@ TEST(Simulation, VisibilityIsKeptBetweenItsSteps) {
   Parameters p;
   p.heat.enabled = p.heat.radiation = true;
   p.heat.visibility_every = 3;
-  Simulation s(p, Volume(Grid{1, 1, 1}), kRecorder, std::make_unique<Counter>());
+  Simulation s(p, Volume(Grid{1, 1, 1}), kRecorder, step::Tuning{}, std::make_unique<Counter>());
   steps(s, 7);
   for (const Recorder::Call& call : Recorder::calls)
     EXPECT_EQ(call.irradiance, static_cast<int>(1000 + call.step / 3 * 3)) << "step " << call.step;

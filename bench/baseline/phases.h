@@ -1,0 +1,8 @@
+// All phases: included by the files that compile them, each with its own options.
+#pragma once
+
+#include "bench/baseline/excess.h"
+#include "bench/baseline/gravity.h"
+#include "bench/baseline/heat.h"
+#include "bench/baseline/spread.h"
+#include "bench/baseline/update.h"

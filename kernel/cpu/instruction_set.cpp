@@ -1,0 +1,25 @@
+#include "kernel/cpu/instruction_set.h"
+
+namespace voxmelt::cpu {
+
+bool supported(InstructionSet set) {
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  switch (set) {
+    case InstructionSet::sse42:
+      return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("ssse3") &&
+             __builtin_cpu_supports("popcnt");
+    case InstructionSet::avx2:
+      return supported(InstructionSet::sse42) && __builtin_cpu_supports("avx2") &&
+             __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+    case InstructionSet::avx512:
+      return supported(InstructionSet::avx2) && __builtin_cpu_supports("avx512f") &&
+             __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
+             __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  }
+#endif
+  static_cast<void>(set);
+  return false;
+}
+
+}  // namespace voxmelt::cpu

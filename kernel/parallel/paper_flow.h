@@ -1,0 +1,59 @@
+// The flow of the paper's law over all slices: gravity, then spread (pattern, apply), fused in one pass over
+// memory: a chunk carries three slices of gifts along z while gravity runs two slices ahead.
+//
+// A tile is awake for a phase where something that the phase reads has changed since it last ran there:
+//   gravity  it, or a tile beside it, changed since the last gravity (in it, or since)
+//   pattern  the same, this step's gravity included; or some cell may give and only the dice said no
+//   apply    it or a neighbour gives
+// All three read no further than one cell (gravity's chain up a column is followed by its kernel), so that
+// whatever sleeps would compute what it has.
+#pragma once
+
+#include <vector>
+
+#include "kernel/parallel/chunks.h"
+#include "kernel/parallel/gifts.h"
+#include "kernel/parallel/job.h"
+
+namespace voxmelt::parallel {
+
+class PaperFlow {
+ public:
+  PaperFlow(const rule::Parameters& parameters, const simd::View& view, int chunks);
+
+  // `dirty`: tiles that changed since the last step. Spread leaves in `dirty_next` what this step's gravity
+  // and spread changed.
+  void gravity(const Job& job, const Tiles& dirty, simd::Books& books);
+  void spread(const Job& job, const Tiles& dirty, Tiles& dirty_next, simd::Books& books);
+  void gravity_and_spread(const Job& job, const Tiles& dirty, Tiles& dirty_next, simd::Books& books);
+
+ private:
+  struct Worker {
+    std::vector<SliceGifts>
+        gifts;  // of a chunk: a ring of three; at a cut: of the slices before and after it
+    std::vector<TileRow> work;
+    simd::Books books;
+  };
+  struct Sweep {
+    const Job& job;
+    const Tiles& dirty;
+    Tiles& dirty_next;
+    bool with_gravity;
+  };
+
+  void fall(const Job& job, const Tiles& dirty, int z, Worker& worker);
+  void find_patterns(const Sweep& sweep, int z, Worker& worker, SliceGifts& gifts);
+  void apply(const Sweep& sweep, int z, const SliceGifts& below, const SliceGifts& own,
+             const SliceGifts& above, Worker& worker);
+  void run(const Sweep& sweep, simd::Books& books);
+  void run_cut(const Sweep& sweep, int cut);
+  void run_chunk(const Sweep& sweep, int chunk);
+  void close(simd::Books& books);
+
+  Chunks chunks_;
+  Tiles fallen_, restless_;
+  std::vector<Worker> chunk_, cut_;
+  SliceGifts none_;  // of slices beyond the grid
+};
+
+}  // namespace voxmelt::parallel

@@ -1,0 +1,62 @@
+// Sets of tiles: one bit per mask word of x, [slice][tile row]. What sleeps is told by sets; a step touches
+// only the slices in which something is awake.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/simd/kernels.h"
+
+namespace voxmelt::parallel {
+
+using simd::TileRow;
+
+inline int tile_rows(const simd::View& view) { return ((view.ny - 1) >> view.tile_shift) + 1; }
+inline TileRow all_words(const simd::View& view) {
+  return view.words == 64 ? ~TileRow{0} : (TileRow{1} << view.words) - 1;
+}
+inline bool any(const std::vector<TileRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](TileRow row) { return row != 0; });
+}
+
+class Tiles {
+ public:
+  Tiles() = default;
+  Tiles(int slices, int rows) : slices_(slices), rows_(rows), bits_(index(slices)) {}
+
+  int rows() const { return rows_; }
+  TileRow* slice(int z) { return bits_.data() + index(z); }
+  const TileRow* slice(int z) const { return bits_.data() + index(z); }
+
+  void fill(TileRow value) { std::fill(bits_.begin(), bits_.end(), value); }
+  void clear(int z) { std::fill_n(slice(z), rows_, TileRow{0}); }
+  bool any(int z) const {
+    return z >= 0 && z < slices_ &&
+           std::any_of(slice(z), slice(z) + rows_, [](TileRow row) { return row != 0; });
+  }
+
+  // Adds slice z of this set, and its neighbours in x, y and z, to `into` (rows() of them).
+  void add_neighbours(int z, const simd::View& view, TileRow* into) const {
+    const TileRow words = all_words(view);
+    for (int near = std::max(0, z - 1); near <= std::min(slices_ - 1, z + 1); ++near) {
+      const TileRow* from = slice(near);
+      for (int r = 0; r < rows_; ++r) {
+        const TileRow wide = (from[r] | from[r] << 1 | from[r] >> 1) & words;
+        if (wide == 0) continue;
+        into[r] |= wide;
+        if (r > 0) into[r - 1] |= wide;
+        if (r + 1 < rows_) into[r + 1] |= wide;
+      }
+    }
+  }
+
+ private:
+  std::size_t index(int z) const { return static_cast<std::size_t>(z) * static_cast<std::size_t>(rows_); }
+
+  int slices_ = 0, rows_ = 0;
+  std::vector<TileRow> bits_;
+};
+
+}  // namespace voxmelt::parallel

@@ -1,0 +1,57 @@
+// Every instruction set, with threads, tiles of any size, asleep or not, gives the bits of the reference: on
+// random hostile states, on grids that straddle words and tiles.
+#include "tests/kernel/parallel/equal.h"
+
+namespace voxmelt::parallel {
+namespace {
+
+using namespace worlds;
+
+Grid any_grid(Random& random) {
+  const int kind = random.below(4);
+  if (kind == 0)
+    return {random.any({1, 2, 31, 32, 33, 63, 64, 65, 127, 129, 200}), random.between(1, 5),
+            random.between(1, 5)};
+  if (kind == 1)
+    return {random.between(1, 70), random.any({1, 2, 7, 8, 9, 16, 17, 40}), random.between(1, 3)};
+  if (kind == 2) return {random.between(1, 12), random.between(1, 6), random.any({1, 4, 7, 8, 9, 16, 33})};
+  return {random.between(3, 24), random.between(3, 24), random.between(3, 24)};
+}
+
+step::Tuning any_tuning(Random& random) {
+  step::Tuning tuning;
+  tuning.threads = random.between(1, 3);
+  tuning.sleep = !random.one_in(3);
+  tuning.tile_shift = random.any({0, 1, 3, 5, 12});
+  return tuning;
+}
+
+class Hostile : public testing::TestWithParam<std::tuple<rule::Law, std::string>> {};
+
+TEST_P(Hostile, SameBitsAfterEveryPhase) {
+  const auto& [law, name] = GetParam();
+  for (std::uint64_t seed = 0; seed < 700; ++seed) {
+    Random random(seed * 7919 + (law == rule::Law::paper ? 1 : 2));
+    const Grid grid = any_grid(random);
+    Parameters parameters = hostile_parameters(random, law, grid);
+    if (random.one_in(2)) parameters.heat = {};  // so that things come to rest, and sleep
+    if (random.one_in(2)) parameters.vents.clear(), parameters.drains.clear();
+    const Volume start = hostile_volume(random, parameters, grid);
+    if (!same_steps(parameters, start, name, any_tuning(random), 6)) {
+      FAIL() << "seed " << seed << ", grid " << grid.x << " x " << grid.y << " x " << grid.z;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Implementations, Hostile,
+                         testing::Combine(testing::Values(rule::Law::paper),
+                                          testing::ValuesIn(fast_implementations())),
+                         [](const auto& chosen) {
+                           std::string name =
+                               std::get<0>(chosen.param) == rule::Law::paper ? "paper_" : "viscous_";
+                           for (const char c : std::get<1>(chosen.param)) name += c == '.' ? '_' : c;
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace voxmelt::parallel
