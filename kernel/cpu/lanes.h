@@ -8,6 +8,8 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 #include <xsimd/xsimd.hpp>
 
 #define VOXMELT_LANES [[gnu::always_inline]] static inline
@@ -25,8 +27,11 @@ namespace voxmelt::cpu {
 //   Wide unpack(V low, V high)          high 65536 + low
 //   V narrow(Wide)                      lanes below 65536
 //   Wide pair_product(V f0, V h0, V f1, V h1)   f0 h0 + f1 h1, all signed 16-bit
-//   void random_planes(keys, step, block, planes)   see kernel/rule/random.h; planes[b]: bit b of 64 cells'
-//   bytes
+//   Bits                                one bit a lane
+//   void dice(keys, step, const uint32_t blocks[4], Bits planes[8][4])    the random bytes
+//   (docs/automaton.md,
+//                                       section 2) of four vectors of cells; planes[b][i]: bit b of vector i
+//   V lookup(const uint16_t table[32], V index)      table[index >> 11]
 template <class Arch>
 struct Lanes;
 
@@ -106,6 +111,16 @@ struct LanesOf {
     return {xsimd::select(under, q + W(1), q), xsimd::select(under, r - d, r)};
   }
 };
+
+// f(0) .. f(n - 1) with constants for arguments, as straight code.
+#define VOXMELT_LAMBDA __attribute__((always_inline))
+template <int n, class F>
+VOXMELT_LANES void unrolled(const F& f) {
+  [&]<int... i>(std::integer_sequence<int, i...>) VOXMELT_LAMBDA {
+    (f(std::integral_constant<int, i>{}), ...);
+  }
+  (std::make_integer_sequence<int, n>{});
+}
 
 // 64 bits moved along x: bit x of the result is bit x + 1, or x - 1, of the row.
 VOXMELT_LANES std::uint64_t from_right(std::uint64_t word, std::uint64_t next) {

@@ -47,11 +47,13 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
             W(_mm256_madd_epi16(_mm256_unpackhi_epi16(f0, f1), _mm256_unpackhi_epi16(h0, h1)))};
   }
 
-  VOXMELT_LANES void random_planes(const std::uint32_t* keys, std::uint32_t step, std::uint32_t block,
-                                   std::uint64_t* planes) {
-    // Lanes in the order in which unpacking puts them back along x.
-    __m256i y = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(block)),
-                                 _mm256_setr_epi32(0, 1, 4, 5, 2, 3, 6, 7));
+  using Bits = std::uint16_t;
+  VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
+                          Bits (*planes)[4]) {
+    const auto block = [&](int i) { return static_cast<int>(blocks[i]); };
+    __m256i y = _mm256_add_epi32(
+        _mm256_setr_epi32(block(0), block(0), block(1), block(1), block(2), block(2), block(3), block(3)),
+        _mm256_setr_epi32(0, 1, 0, 1, 0, 1, 0, 1));
     __m256i x = _mm256_set1_epi32(static_cast<int>(step));
     const __m256i ror8 = _mm256_setr_epi8(1, 2, 3, 0, 5, 6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12, 1, 2, 3, 0, 5,
                                           6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12);
@@ -60,13 +62,25 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
                            _mm256_set1_epi32(static_cast<int>(keys[i])));
       y = _mm256_xor_si256(_mm256_or_si256(_mm256_slli_epi32(y, 3), _mm256_srli_epi32(y, 29)), x);
     }
-    __m256i first = _mm256_unpacklo_epi32(y, x), second = _mm256_unpackhi_epi32(y, x);
+    __m256i even = _mm256_unpacklo_epi32(y, x), odd = _mm256_unpackhi_epi32(y, x);  // items 0 and 2, 1 and 3
     for (int b = 7; b >= 0; --b) {
-      planes[b] = static_cast<std::uint32_t>(_mm256_movemask_epi8(first)) |
-                  std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_epi8(second))} << 32;
-      first = _mm256_add_epi8(first, first);
-      second = _mm256_add_epi8(second, second);
+      const auto e = static_cast<std::uint32_t>(_mm256_movemask_epi8(even));
+      const auto o = static_cast<std::uint32_t>(_mm256_movemask_epi8(odd));
+      planes[b][0] = static_cast<Bits>(e);
+      planes[b][1] = static_cast<Bits>(o);
+      planes[b][2] = static_cast<Bits>(e >> 16);
+      planes[b][3] = static_cast<Bits>(o >> 16);
+      even = _mm256_add_epi8(even, even);
+      odd = _mm256_add_epi8(odd, odd);
     }
+  }
+
+  // table[index >> 11]: 32 entries.
+  VOXMELT_LANES V lookup(const std::uint16_t* table, V index) {
+    alignas(64) std::uint16_t found[kCount];
+    store(found, index);
+    for (std::uint16_t& entry : found) entry = table[entry >> 11];
+    return load(found);
   }
 };
 

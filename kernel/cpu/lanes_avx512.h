@@ -36,21 +36,36 @@ struct Lanes<xsimd::avx512bw> : LanesOf<xsimd::avx512bw> {
             W(_mm512_madd_epi16(_mm512_unpackhi_epi16(f0, f1), _mm512_unpackhi_epi16(h0, h1)))};
   }
 
-  VOXMELT_LANES void random_planes(const std::uint32_t* keys, std::uint32_t step, std::uint32_t block,
-                                   std::uint64_t* planes) {
-    // Lanes in the order in which unpacking puts them back along x.
-    __m256i y = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(block)),
-                                 _mm256_setr_epi32(0, 1, 4, 5, 2, 3, 6, 7));
-    __m256i x = _mm256_set1_epi32(static_cast<int>(step));
+  using Bits = std::uint32_t;
+  VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
+                          Bits (*planes)[4]) {
+    __m512i y = _mm512_add_epi32(
+        _mm512_permutexvar_epi32(
+            _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3),
+            _mm512_castsi128_si512(_mm_loadu_si128(reinterpret_cast<const __m128i*>(blocks)))),
+        _mm512_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3));
+    __m512i x = _mm512_set1_epi32(static_cast<int>(step));
     for (int i = 0; i < 10; ++i) {
-      x = _mm256_xor_si256(_mm256_add_epi32(_mm256_ror_epi32(x, 8), y),
-                           _mm256_set1_epi32(static_cast<int>(keys[i])));
-      y = _mm256_xor_si256(_mm256_rol_epi32(y, 3), x);
+      x = _mm512_xor_si512(_mm512_add_epi32(_mm512_ror_epi32(x, 8), y),
+                           _mm512_set1_epi32(static_cast<int>(keys[i])));
+      y = _mm512_xor_si512(_mm512_rol_epi32(y, 3), x);
     }
-    const __m512i bytes = _mm512_inserti64x4(_mm512_castsi256_si512(_mm256_unpacklo_epi32(y, x)),
-                                             _mm256_unpackhi_epi32(y, x), 1);
-    for (int b = 0; b < 8; ++b)
-      planes[b] = _mm512_test_epi8_mask(bytes, _mm512_set1_epi8(static_cast<char>(1 << b)));
+    // Bytes of cells 0..15 of each item, and of cells 16..31; then of items 0 and 1, and of items 2 and 3.
+    const __m512i first = _mm512_unpacklo_epi32(y, x), second = _mm512_unpackhi_epi32(y, x);
+    const __m512i front =
+        _mm512_permutex2var_epi64(first, _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), second);
+    const __m512i back =
+        _mm512_permutex2var_epi64(first, _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15), second);
+    for (int b = 0; b < 8; ++b) {
+      const __m512i bit = _mm512_set1_epi8(static_cast<char>(1 << b));
+      const std::uint64_t pairs[2] = {_mm512_test_epi8_mask(front, bit), _mm512_test_epi8_mask(back, bit)};
+      __builtin_memcpy(planes[b], pairs, sizeof pairs);
+    }
+  }
+
+  // table[index >> 11]: 32 entries.
+  VOXMELT_LANES V lookup(const std::uint16_t* table, V index) {
+    return V(_mm512_permutexvar_epi16(shift_right<11>(index), _mm512_loadu_si512(table)));
   }
 
  private:

@@ -44,28 +44,36 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
             W(_mm_madd_epi16(_mm_unpackhi_epi16(f0, f1), _mm_unpackhi_epi16(h0, h1)))};
   }
 
-  VOXMELT_LANES void random_planes(const std::uint32_t* keys, std::uint32_t step, std::uint32_t block,
-                                   std::uint64_t* planes) {
-    for (int b = 0; b < 8; ++b) planes[b] = 0;
-    for (int half = 0; half < 2; ++half) {
-      __m128i y = _mm_add_epi32(_mm_set1_epi32(static_cast<int>(block)), _mm_setr_epi32(0, 1, 2, 3));
-      y = _mm_add_epi32(y, _mm_set1_epi32(4 * half));
-      __m128i x = _mm_set1_epi32(static_cast<int>(step));
-      const __m128i ror8 = _mm_setr_epi8(1, 2, 3, 0, 5, 6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12);
-      for (int i = 0; i < 10; ++i) {
-        x = _mm_xor_si128(_mm_add_epi32(_mm_shuffle_epi8(x, ror8), y),
-                          _mm_set1_epi32(static_cast<int>(keys[i])));
-        y = _mm_xor_si128(_mm_or_si128(_mm_slli_epi32(y, 3), _mm_srli_epi32(y, 29)), x);
-      }
-      __m128i first = _mm_unpacklo_epi32(y, x), second = _mm_unpackhi_epi32(y, x);
-      for (int b = 7; b >= 0; --b) {
-        const auto bits = static_cast<std::uint32_t>(_mm_movemask_epi8(first)) |
-                          static_cast<std::uint32_t>(_mm_movemask_epi8(second)) << 16;
-        planes[b] |= std::uint64_t{bits} << (32 * half);
-        first = _mm_add_epi8(first, first);
-        second = _mm_add_epi8(second, second);
-      }
+  using Bits = std::uint8_t;
+  VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
+                          Bits (*planes)[4]) {
+    __m128i y = _mm_loadu_si128(reinterpret_cast<const __m128i*>(blocks));
+    __m128i x = _mm_set1_epi32(static_cast<int>(step));
+    const __m128i ror8 = _mm_setr_epi8(1, 2, 3, 0, 5, 6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12);
+    for (int i = 0; i < 10; ++i) {
+      x = _mm_xor_si128(_mm_add_epi32(_mm_shuffle_epi8(x, ror8), y),
+                        _mm_set1_epi32(static_cast<int>(keys[i])));
+      y = _mm_xor_si128(_mm_or_si128(_mm_slli_epi32(y, 3), _mm_srli_epi32(y, 29)), x);
     }
+    __m128i front = _mm_unpacklo_epi32(y, x), back = _mm_unpackhi_epi32(y, x);  // items 0 and 1, 2 and 3
+    for (int b = 7; b >= 0; --b) {
+      const auto f = static_cast<std::uint32_t>(_mm_movemask_epi8(front));
+      const auto k = static_cast<std::uint32_t>(_mm_movemask_epi8(back));
+      planes[b][0] = static_cast<Bits>(f);
+      planes[b][1] = static_cast<Bits>(f >> 8);
+      planes[b][2] = static_cast<Bits>(k);
+      planes[b][3] = static_cast<Bits>(k >> 8);
+      front = _mm_add_epi8(front, front);
+      back = _mm_add_epi8(back, back);
+    }
+  }
+
+  // table[index >> 11]: 32 entries.
+  VOXMELT_LANES V lookup(const std::uint16_t* table, V index) {
+    alignas(64) std::uint16_t found[kCount];
+    store(found, index);
+    for (std::uint16_t& entry : found) entry = table[entry >> 11];
+    return load(found);
   }
 };
 

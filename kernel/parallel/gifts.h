@@ -11,10 +11,13 @@ class SliceGifts {
   // `flows`: arrays that differ: 1, 2 (axes, diagonals) or 4 (by direction).
   SliceGifts(const simd::View& view, int flows)
       : planes_(sizeof(std::uint64_t) * plane_words(view)),
-        giving_(sizeof(simd::TileRow) * static_cast<std::size_t>(view.ny)),
+        giving_(4 * sizeof(simd::TileRow) * static_cast<std::size_t>(view.ny)),
         fields_(sizeof(std::uint16_t) * (cells(view) * static_cast<std::size_t>(2 * flows + 1))) {
     gifts_.planes = reinterpret_cast<std::uint64_t*>(planes_.data());
     gifts_.giving = reinterpret_cast<simd::TileRow*>(giving_.data());
+    gifts_.giving_left = gifts_.giving + view.ny;
+    gifts_.giving_right = gifts_.giving_left + view.ny;
+    gifts_.giving_tiles = gifts_.giving_right + view.ny;
     auto* field = reinterpret_cast<std::uint16_t*>(fields_.data()) + kGuard;
     const auto array = [&](int i) { return field + cells(view) * static_cast<std::size_t>(i); };
     for (int d = 0; d < 8; ++d) {

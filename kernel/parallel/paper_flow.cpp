@@ -4,15 +4,15 @@ namespace voxmelt::parallel {
 
 PaperFlow::PaperFlow(const rule::Parameters& parameters, const simd::View& view, int chunks)
     : chunks_(view.nz, chunks),
-      fallen_(view.nz, tile_rows(view)),
-      restless_(view.nz, tile_rows(view)),
+      fallen_(view.nz, view.tile_rows()),
+      restless_(view.nz, view.tile_rows()),
       chunk_(static_cast<std::size_t>(chunks_.count())),
       cut_(static_cast<std::size_t>(chunks_.cuts())),
       none_(view, 1) {
   const int flows = parameters.flow.paper.use_table ? 4 : 2;
   const auto prepare = [&](Worker& worker, int slices) {
     for (int i = 0; i < slices; ++i) worker.gifts.emplace_back(view, flows);
-    worker.work.resize(static_cast<std::size_t>(tile_rows(view)));
+    worker.work.resize(static_cast<std::size_t>(view.tile_rows()));
   };
   for (Worker& worker : chunk_) prepare(worker, 3);
   for (Worker& worker : cut_) prepare(worker, 2);

@@ -33,7 +33,7 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
       rest_(scalar::create_reference(parameters, grid, tuning)) {
   const simd::View view = shape_of(grid, tuning.tile_shift);
   if (parameters.flow.law == rule::Law::paper) paper_.emplace(parameters, view, chunks_for(tuning));
-  dirty_ = dirty_next_ = Tiles(view.nz, tile_rows(view));
+  dirty_ = dirty_next_ = Tiles(view.nz, view.tile_rows());
   dirty_.fill(all_words(view));  // nothing is known about the first state
 }
 
@@ -50,7 +50,10 @@ simd::View Stepper::view_of(state::Volume& volume) const {
 
 void Stepper::run(step::Phase phase, std::uint32_t number, const step::Irradiance* irradiance,
                   state::Volume& volume, state::Ledger& ledger) {
-  const simd::View view = view_of(volume);
+  simd::View view = view_of(volume);
+  if (!begun_) walls_ = Walls(view);
+  begun_ = true;
+  view.walls = walls_.origin(view);
   const simd::Step step{&parameters_, number, static_cast<std::uint32_t>(rule::dither(number)), keys_.data(),
                         irradiance == nullptr ? nullptr : irradiance->data()};
   const Job job{view, step, kernels_, workers_, tuning_.sleep};
@@ -83,6 +86,7 @@ void Stepper::run(step::Phase phase, std::uint32_t number, const step::Irradianc
       break;
   }
   rest_->run(phase, number, irradiance, volume, ledger);
+  if (phase == step::Phase::melt) walls_ = Walls(view);
   dirty_.fill(all_words(view));
 }
 

@@ -8,6 +8,7 @@
 
 #include "kernel/cpu/instruction_set.h"
 #include "kernel/parallel/paper_flow.h"
+#include "kernel/parallel/walls.h"
 #include "kernel/rule/random.h"
 #include "kernel/step/stepper.h"
 
@@ -31,6 +32,8 @@ class Stepper final : public step::Stepper {
   Workers workers_;
   std::unique_ptr<step::Stepper> rest_;  // phases that have no kernels yet
   std::optional<PaperFlow> paper_;
+  Walls walls_;
+  bool begun_ = false;
   Tiles dirty_, dirty_next_;
 };
 

@@ -13,7 +13,6 @@ namespace voxmelt::parallel {
 
 using simd::TileRow;
 
-inline int tile_rows(const simd::View& view) { return ((view.ny - 1) >> view.tile_shift) + 1; }
 inline TileRow all_words(const simd::View& view) {
   return view.words == 64 ? ~TileRow{0} : (TileRow{1} << view.words) - 1;
 }

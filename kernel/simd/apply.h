@@ -29,27 +29,48 @@ class Apply {
         books_(books),
         mix_(step.dither) {}
 
-  // Returns the words of row y that changed.
-  [[gnu::always_inline]] TileRow row(int y) {
-    const TileRow giving = below_.giving[y] | own_.giving[y] | above_.giving[y];
-    if (giving == 0) return 0;
-    TileRow work = giving | giving << 1 | giving >> 1, moved = 0;
-    if (v_.words < 64) work &= (TileRow{1} << v_.words) - 1;
-    for (; work != 0; work &= work - 1) {
-      const int w = __builtin_ctzll(work);
-      if (word(w, y)) moved |= TileRow{1} << w;
+  [[gnu::always_inline]] void run(TileRow* changed) {
+    const TileRow words = v_.words == 64 ? ~TileRow{0} : (TileRow{1} << v_.words) - 1;
+    int count = 0;
+    masks_used_ = 0;
+    for (int y = 0; y < v_.ny; ++y) {
+      const int r = y >> v_.tile_shift;
+      if ((below_.giving_tiles[r] | own_.giving_tiles[r] | above_.giving_tiles[r]) == 0) {
+        y = v_.tile_end(r) - 1;
+        continue;
+      }
+      const TileRow right = below_.giving_right[y] | own_.giving_right[y] | above_.giving_right[y];
+      const TileRow left = below_.giving_left[y] | own_.giving_left[y] | above_.giving_left[y];
+      TileRow work = below_.giving[y] | own_.giving[y] | above_.giving[y] | right << 1 | left >> 1;
+      for (work &= words; work != 0; work &= work - 1) {
+        const int w = __builtin_ctzll(work);
+        Masks& masks = masks_[masks_used_];
+        const std::uint64_t any = gather(w, y, masks);
+        for (int part = 0; part < L::kParts; ++part) {
+          items_[count] = {y, w, part, masks_used_};
+          count += (any >> (part * L::kCount) & kAll) != 0;
+        }
+        ++masks_used_;
+        changed[y >> v_.tile_shift] |= any != 0 ? TileRow{1} << w : 0;
+        if (masks_used_ < kBatch) continue;
+        process(count);
+        count = masks_used_ = 0;
+      }
     }
-    if (moved != 0) flush();
-    return moved;
+    process(count);
   }
 
  private:
+  static constexpr int kBatch = 32;  // words
   struct Masks {
     std::uint64_t out[8], in[8];  // by direction: gives to the neighbour there, takes from it
   };
+  struct Item {
+    int y, w, part, masks;
+  };
 
-  [[gnu::always_inline]] bool word(int w, int y) {
-    Masks masks;
+  // Who gives and takes in word w of row y; returns the cells that do either.
+  [[gnu::always_inline]] std::uint64_t gather(int w, int y, Masks& masks) const {
     const std::size_t at = 8 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(v_.words + 2) + 1 +
                                 static_cast<std::size_t>(w));
     const std::uint64_t *own = own_.planes + at, *front = above_.planes + at, *back = below_.planes + at;
@@ -66,13 +87,19 @@ class Apply {
       any |= masks.in[6] = cpu::from_left(front[5], front[-8 + 5]);
       any |= masks.in[7] = cpu::from_left(back[4], back[-8 + 4]);
     }
-    if (any == 0) return false;
+    return any;
+  }
 
-    std::uint64_t wet = 0;
-    for (int part = 0; part < L::kParts; ++part) wet |= vectors(w, y, part, masks) << (part * L::kCount);
-    const std::size_t mask = v_.word(w, y, z_);
-    v_.liquid[mask] = wet & ~(v_.solid[mask] | v_.inert[mask]);
-    return true;
+  [[gnu::always_inline]] void process(int count) {
+    if (count == 0) return;
+    for (int i = 0; i < count; ++i) {
+      const Item item = items_[i];
+      const int shift = item.part * L::kCount;
+      const std::uint64_t wet = vectors(item.w, item.y, item.part, masks_[item.masks]) << shift;
+      std::uint64_t& liquid = v_.liquid[v_.word(item.w, item.y, z_)];
+      liquid = ((liquid & ~(kAll << shift)) | wet) & ~v_.blocked(item.w, item.y, z_);
+    }
+    flush();
   }
 
   // Returns the lanes that hold something.
@@ -82,34 +109,34 @@ class Apply {
     const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
 
     V out = L::zero(), energy_out = L::zero();
-    for (int d = 0; d < kDirections; ++d) {
+    cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
       const M gives = L::from_bits(masks.out[d], part);
-      out = L::add_if(gives, out, flow(own_, gift, d));
-      energy_out = L::add_if(gives, energy_out, energy_flow(own_, gift, d));
-    }
+      out = L::add_if(gives, out, flow<d>(own_, gift));
+      energy_out = L::add_if(gives, energy_out, energy_flow<d>(own_, gift));
+    });
 
     V in = L::zero(), energy_in = L::zero();
     typename L::Wide content{};
-    const Gifts* const slices[8] = {&own_, &own_, &above_, &below_, &above_, &below_, &above_, &below_};
-    constexpr std::ptrdiff_t kStep[8] = {1, -1, 0, 0, 1, 1, -1, -1};
-    constexpr int kOpposite[8] = {1, 0, 3, 2, 7, 6, 5, 4};
-    V taken[2], heats[2];
-    for (int d = 0; d < kDirections; ++d) {
+    V taken, heats;
+    cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
+      constexpr int opposite = d ^ (d < 4 ? 1 : 3);
+      constexpr std::ptrdiff_t dx = d < 4 ? (d == 0) - (d == 1) : (d < 6 ? 1 : -1);
+      const Gifts& giver = d < 2 ? own_ : (d % 2 == 0 ? above_ : below_);
+      const std::size_t from = gift + static_cast<std::size_t>(dx);
       const M takes = L::from_bits(masks.in[d], part);
-      const std::size_t from = gift + static_cast<std::size_t>(kStep[d]);
-      const Gifts& giver = *slices[d];
-      const V given = L::keep(takes, flow(giver, from, kOpposite[d]));
+      const V given = L::keep(takes, flow<opposite>(giver, from));
       in = in + given;
-      energy_in = L::add_if(takes, energy_in, energy_flow(giver, from, kOpposite[d]));
+      energy_in = L::add_if(takes, energy_in, energy_flow<opposite>(giver, from));
       if constexpr (kFeatures.hot) {
-        taken[d & 1] = given;
-        heats[d & 1] = L::load_any(giver.heat + from);
-        if (d & 1) {
-          const auto pair = L::pair_product(taken[0], heats[0], taken[1], heats[1]);
-          content = d == 1 ? pair : L::sum(content, pair);
+        const V heat = L::load_any(giver.heat + from);
+        if constexpr (d % 2 == 0) {
+          taken = given;
+          heats = heat;
+        } else {
+          content = L::sum(content, L::pair_product(taken, heats, given, heat));
         }
       }
-    }
+    });
 
     const V kept = amount - out, now = kept + in;
     L::store(v_.amount + cell, now);
@@ -135,15 +162,19 @@ class Apply {
     return L::to_bits(dry) ^ kAll;
   }
 
-  [[gnu::always_inline]] V flow(const Gifts& gifts, std::size_t at, int d) const {
+  template <int d>
+  [[gnu::always_inline]] static V flow(const Gifts& gifts, std::size_t at) {
     if constexpr (kFeatures.general) return L::load_any(gifts.flow[d] + at);
     const V axis = L::load_any(gifts.flow[0] + at);
-    return d < 4 ? axis : L::template shift_right<2>(axis);
+    if constexpr (d < 4) return axis;
+    return L::template shift_right<2>(axis);
   }
-  [[gnu::always_inline]] V energy_flow(const Gifts& gifts, std::size_t at, int d) const {
+  template <int d>
+  [[gnu::always_inline]] static V energy_flow(const Gifts& gifts, std::size_t at) {
     if constexpr (kFeatures.general) return L::load_any(gifts.energy[d] + at);
     const V axis = L::load_any(gifts.energy[0] + at);
-    return d < 4 ? axis : L::template shift_right<2>(axis);
+    if constexpr (d < 4) return axis;
+    return L::template shift_right<2>(axis);
   }
 
   // (alpha e + D) >> 16; the printed reading has paid at the giver's.
@@ -171,6 +202,9 @@ class Apply {
   Books& books_;
   Mix<Arch> mix_;
   typename L::Sums dissipated_, capped_;
+  int masks_used_ = 0;
+  Masks masks_[kBatch];
+  Item items_[kBatch * L::kParts + L::kParts];
 };
 
 }  // namespace voxmelt::simd

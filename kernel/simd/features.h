@@ -12,7 +12,8 @@ struct GravityFeatures {
 struct SpreadFeatures {
   bool hot;
   bool eight;    // neighbours, else four
-  bool general;  // shares by pattern or by heat, the printed reading, or no `downhill`
+  bool thermal;  // shares by heat
+  bool general;  // shares by pattern, the printed reading, or no `downhill`
 };
 
 }  // namespace voxmelt::simd

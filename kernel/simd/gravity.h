@@ -28,7 +28,12 @@ class Gravity {
   [[gnu::always_inline]] void run(const TileRow* tiles, TileRow* changed) {
     TileRow moved = 0;  // words that the last pair of rows changed: what is above may follow
     for (int y = 0; y + 1 < v_.ny; ++y) {
-      TileRow work = tiles[y >> v_.tile_shift] | tiles[(y + 1) >> v_.tile_shift] | moved;
+      const int r = y >> v_.tile_shift;
+      if ((tiles[r] | moved) == 0) {  // on to the last row of this tile row, which looks into the next
+        y = v_.tile_end(r) - 1;
+        if (y + 1 >= v_.ny) break;
+      }
+      TileRow work = tiles[r] | tiles[(y + 1) >> v_.tile_shift] | moved;
       moved = 0;
       for (; work != 0; work &= work - 1) {
         const int w = __builtin_ctzll(work);

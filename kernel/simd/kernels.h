@@ -18,6 +18,7 @@ using TileRow = std::uint64_t;
 // The memory of a state::Volume. Rows begin at multiples of 64 cells.
 struct View {
   std::uint16_t *amount = nullptr, *energy = nullptr, *temperature = nullptr;
+  const std::uint64_t* walls = nullptr;  // of (0, 0, 0), in a plane one word and one row wider at every side
   std::uint64_t *solid = nullptr, *liquid = nullptr, *inert = nullptr;
   int nx = 0, ny = 0, nz = 0;
   std::size_t row = 0, slice = 0;  // cells from y to y + 1, from z to z + 1
@@ -29,17 +30,21 @@ struct View {
     return static_cast<std::size_t>(z) * slice + static_cast<std::size_t>(y) * row +
            64 * static_cast<std::size_t>(w);
   }
+  [[gnu::always_inline]] int tile_rows() const { return ((ny - 1) >> tile_shift) + 1; }
+  [[gnu::always_inline]] int tile_begin(int r) const { return r << tile_shift; }
+  [[gnu::always_inline]] int tile_end(int r) const {
+    const int end = (r + 1) << tile_shift;
+    return end < ny ? end : ny;
+  }
   [[gnu::always_inline]] std::size_t word(int w, int y, int z) const {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) *
                static_cast<std::size_t>(words) +
            static_cast<std::size_t>(w);
   }
-  // Solid or inert, or beyond the grid.
-  [[gnu::always_inline]] std::uint64_t blocked(int w, int y, int z) const {
-    if (w < 0 || w >= words || y < 0 || y >= ny || z < 0 || z >= nz) return ~std::uint64_t{0};
-    const std::size_t at = word(w, y, z);
-    const std::uint64_t beyond = w == words - 1 ? ~last_word : 0;
-    return solid[at] | inert[at] | beyond;
+  // Solid or inert, or beyond the grid: w from -1 to words, y from -1 to ny, z from -1 to nz.
+  [[gnu::always_inline]] std::uint64_t blocked(int w, int y, int z) const { return walls_at(y, z)[w]; }
+  [[gnu::always_inline]] const std::uint64_t* walls_at(int y, int z) const {
+    return walls + (static_cast<std::ptrdiff_t>(z) * (ny + 2) + y) * (words + 2);
   }
 };
 
@@ -68,10 +73,12 @@ struct Books {
 // What the cells of one slice give in the paper law's spread: written by `pattern`, read by `apply`.
 struct Gifts {
   std::uint64_t* planes = nullptr;  // [y][1 + words + 1][8]: directions given to, one plane per direction
-  std::uint64_t* giving = nullptr;  // [y]: words with a plane that is not empty; the planes of others are 0
-  std::uint16_t* flow[8] = {};      // [y][row]: amount given to a direction of the pattern
-  std::uint16_t* energy[8] = {};    // [y][row]
-  std::uint16_t* heat = nullptr;    // [y][row]: heat of the giver, xor 0x8000
+  TileRow* giving = nullptr;        // [y]: words with a plane that is not empty; the planes of others are 0
+  TileRow* giving_tiles = nullptr;  // [tile row]: of all its rows
+  TileRow *giving_left = nullptr, *giving_right = nullptr;  // [y]: those that give into the word beside them
+  std::uint16_t* flow[8] = {};    // [y][row]: amount given to a direction of the pattern
+  std::uint16_t* energy[8] = {};  // [y][row]
+  std::uint16_t* heat = nullptr;  // [y][row]: heat of the giver, xor 0x8000
 };
 
 struct Kernels {

@@ -16,16 +16,13 @@ void gravity_slice(const View& view, const Step& step, int z, const TileRow* til
 template <class Arch, SpreadFeatures kFeatures>
 void pattern_slice(const View& view, const Step& step, int z, const TileRow* tiles, TileRow* restless,
                    Gifts& gifts) {
-  Pattern<Arch, kFeatures> pattern(view, step, z, gifts);
-  for (int y = 0; y < view.ny; ++y)
-    restless[y >> view.tile_shift] |= pattern.row(y, tiles[y >> view.tile_shift]);
+  Pattern<Arch, kFeatures>(view, step, z, restless, gifts).run(tiles);
 }
 
 template <class Arch, SpreadFeatures kFeatures>
 void apply_slice(const View& view, const Step& step, int z, const Gifts& below, const Gifts& own,
                  const Gifts& above, TileRow* changed, Books& books) {
-  Apply<Arch, kFeatures> apply(view, step, z, below, own, above, books);
-  for (int y = 0; y < view.ny; ++y) changed[y >> view.tile_shift] |= apply.row(y);
+  Apply<Arch, kFeatures>(view, step, z, below, own, above, books).run(changed);
 }
 
 template <class Arch, bool kHot>
@@ -37,23 +34,26 @@ void choose_paper_kernels(const rule::Parameters& parameters, Kernels& kernels) 
   kernels.gravity = guided ? gravity_slice<Arch, GravityFeatures{kHot, true}>
                            : gravity_slice<Arch, GravityFeatures{kHot, false}>;
 
-  const bool general =
-      law.use_table || !law.downhill || flow.thermal_viscosity || law.reading == rule::EnergyReading::printed;
-  const auto spread = [&]<bool kEight, bool kGeneral>() {
-    constexpr SpreadFeatures features{kHot, kEight, kGeneral};
-    kernels.pattern = pattern_slice<Arch, features>;
-    kernels.apply = apply_slice<Arch, features>;
+  const bool general = law.use_table || !law.downhill || law.reading == rule::EnergyReading::printed;
+  const auto spread = [&]<SpreadFeatures kFeatures>() {
+    kernels.pattern = pattern_slice<Arch, kFeatures>;
+    kernels.apply = apply_slice<Arch, kFeatures>;
   };
-  if (law.neighbours == 8) {
-    if (general)
-      spread.template operator()<true, true>();
-    else
-      spread.template operator()<true, false>();
+  const auto with = [&]<bool kThermal, bool kGeneral>() {
+    if (law.neighbours == 8) {
+      spread.template operator()<SpreadFeatures{kHot, true, kThermal, kGeneral}>();
+    } else {
+      spread.template operator()<SpreadFeatures{kHot, false, kThermal, kGeneral}>();
+    }
+  };
+  if (general && flow.thermal_viscosity) {
+    with.template operator()<true, true>();
+  } else if (general) {
+    with.template operator()<false, true>();
+  } else if (flow.thermal_viscosity) {
+    with.template operator()<true, false>();
   } else {
-    if (general)
-      spread.template operator()<false, true>();
-    else
-      spread.template operator()<false, false>();
+    with.template operator()<false, false>();
   }
 }
 

@@ -1,5 +1,8 @@
 // Phase `spread` of the paper's law, first half (Eqs. 7-10): which directions each cell gives to, and what.
-// Row by row of one slice, 64 cells at a time.
+//
+// The work of a slice is cut into items of one vector each, and goes through three stages by the batch, so
+// that no stage waits for, or guesses, what another finds: items with a liquid cell; those with a direction
+// that may receive; dice for four items at a time.
 #pragma once
 
 #include "kernel/simd/contact.h"
@@ -12,198 +15,246 @@ class Pattern {
   using L = cpu::Lanes<Arch>;
   using V = typename L::V;
   using M = typename L::M;
+  using Bits = typename L::Bits;
   static constexpr int kDirections = kFeatures.eight ? 8 : 4;
+  static constexpr int kCap = kFeatures.eight ? 4096 : 8192;
+  static constexpr int kLimit = kFeatures.eight ? 11 * 4096 : 8 * 4096;
+  static constexpr int kBatch = 128;
 
  public:
-  [[gnu::always_inline]] Pattern(const View& view, const Step& step, int z, Gifts& gifts)
+  [[gnu::always_inline]] Pattern(const View& view, const Step& step, int z, TileRow* restless, Gifts& gifts)
       : v_(view),
         step_(step),
         law_(step.parameters->flow.paper),
-        table_(step.parameters->flow.mobility_table.data()),
         z_(z),
-        gifts_(gifts) {}
+        row_blocks_((static_cast<std::uint32_t>(view.nx) + 7) / 8),
+        restless_(restless),
+        gifts_(gifts) {
+    // The neighbour's place; beyond the grid its own: a masked lane.
+    const std::ptrdiff_t front = z + 1 < v_.nz ? static_cast<std::ptrdiff_t>(v_.slice) : 0;
+    const std::ptrdiff_t back = z > 0 ? -static_cast<std::ptrdiff_t>(v_.slice) : 0;
+    const std::ptrdiff_t places[8] = {1, -1, front, back, front + 1, back + 1, front - 1, back - 1};
+    for (int d = 0; d < 8; ++d) places_[d] = places[d];
+  }
 
-  // `y` of one row; adds to restless.
-  [[gnu::always_inline]] TileRow row(int y, TileRow work) {
+  [[gnu::always_inline]] void run(const TileRow* tiles) {
+    int count = 0;
+    for (int r = 0; r < v_.tile_rows(); ++r) {
+      if (gifts_.giving_tiles[r] != 0)
+        for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y) clear(y);
+      gifts_.giving_tiles[r] = 0;
+      if (tiles[r] == 0) continue;
+      for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y)
+        for (TileRow work = tiles[r]; work != 0; work &= work - 1) {
+          const int w = __builtin_ctzll(work);
+          const std::uint64_t givers = givers_of(w, y);
+          if (givers == 0) continue;
+          for (int part = 0; part < L::kParts; ++part) {
+            const auto own = static_cast<Bits>(givers >> (part * L::kCount));
+            items_[count] = {y, w, part, own};
+            count += own != 0;
+          }
+          if (count + L::kParts <= kBatch) continue;
+          process(count);
+          count = 0;
+        }
+    }
+    process(count);
+  }
+
+ private:
+  struct Item {
+    int y, w, part;
+    Bits givers;
+  };
+
+  // Planes of words that give nothing are 0.
+  [[gnu::always_inline]] void clear(int y) {
     for (TileRow old = gifts_.giving[y]; old != 0; old &= old - 1) {
       std::uint64_t* planes = gifts_.planes + gift_word(__builtin_ctzll(old), y);
       for (int d = 0; d < 8; ++d) planes[d] = 0;
     }
-    TileRow restless = 0, giving = 0;
-    for (; work != 0; work &= work - 1) {
-      const int w = __builtin_ctzll(work);
-      std::uint64_t givers = v_.liquid[v_.word(w, y, z_)];
-      if (givers == 0) continue;
-      if (law_.support) givers &= supported(w, y);
-      if (givers == 0) continue;
-
-      std::uint64_t planes[8];
-      open_directions(w, y, givers, planes);
-      if (!find_available(w, y, planes)) continue;
-      restless |= TileRow{1} << w;
-      if (throw_dice(w, y, planes)) {
-        giving |= TileRow{1} << w;
-        if constexpr (kFeatures.general) give(w, y, planes);
-      }
-    }
-    gifts_.giving[y] = giving;
-    return restless;
+    gifts_.giving[y] = gifts_.giving_left[y] = gifts_.giving_right[y] = 0;
   }
 
- private:
-  [[gnu::always_inline]] std::uint64_t supported(int w, int y) const {
-    if (y == 0) return ~std::uint64_t{0};
-    return v_.blocked(w, y - 1, z_) | v_.liquid[v_.word(w, y - 1, z_)];
+  [[gnu::always_inline]] std::uint64_t givers_of(int w, int y) const {
+    const std::uint64_t liquid = v_.liquid[v_.word(w, y, z_)];
+    if (!law_.support || y == 0) return liquid;
+    return liquid & (v_.blocked(w, y - 1, z_) | v_.liquid[v_.word(w, y - 1, z_)]);
   }
 
-  // planes[d]: givers whose neighbour in direction d is open.
-  [[gnu::always_inline]] void open_directions(int w, int y, std::uint64_t givers,
-                                              std::uint64_t* planes) const {
-    const std::uint64_t own = v_.blocked(w, y, z_);
-    const std::uint64_t right = cpu::from_right(own, v_.blocked(w + 1, y, z_));
-    const std::uint64_t left = cpu::from_left(own, v_.blocked(w - 1, y, z_));
-    const std::uint64_t front = v_.blocked(w, y, z_ + 1), back = v_.blocked(w, y, z_ - 1);
-    planes[0] = givers & ~right;
-    planes[1] = givers & ~left;
-    planes[2] = givers & ~front;
-    planes[3] = givers & ~back;
-    if constexpr (kFeatures.eight) {
-      const std::uint64_t front_right = cpu::from_right(front, v_.blocked(w + 1, y, z_ + 1));
-      const std::uint64_t front_left = cpu::from_left(front, v_.blocked(w - 1, y, z_ + 1));
-      const std::uint64_t back_right = cpu::from_right(back, v_.blocked(w + 1, y, z_ - 1));
-      const std::uint64_t back_left = cpu::from_left(back, v_.blocked(w - 1, y, z_ - 1));
-      planes[4] = givers & ~(front_right | (right & front));
-      planes[5] = givers & ~(back_right | (right & back));
-      planes[6] = givers & ~(front_left | (left & front));
-      planes[7] = givers & ~(back_left | (left & back));
+  [[gnu::always_inline]] void process(int count) {
+    int found = 0;
+    for (int i = 0; i < count; ++i) {
+      const Item item = items_[i];
+      const bool any = find_available(item, available_[found]);
+      items_[found] = item;
+      restless_[item.y >> v_.tile_shift] |= TileRow{any} << item.w;
+      found += any;
     }
+    for (int i = found; i < found + 3; ++i) {  // the last four are filled up with items that give nothing
+      items_[i] = items_[0];
+      for (int d = 0; d < kDirections; ++d) available_[i][d] = 0;
+    }
+    for (int i = 0; i < found; i += 4) throw_dice(i);
   }
 
-  // Leaves in planes the directions that receive; false where there is none. Lean: writes the gifts, too.
-  [[gnu::always_inline]] bool find_available(int w, int y, std::uint64_t* planes) {
-    const std::size_t cell = v_.cell(w, y, z_);
-    const std::size_t gift = static_cast<std::size_t>(y) * v_.row + 64 * static_cast<std::size_t>(w);
-    constexpr int kCap = kFeatures.eight ? 4096 : 8192, kLimit = kFeatures.eight ? 11 * 4096 : 8 * 4096;
-    // The neighbour's place; beyond the grid its own: a masked lane.
-    const std::ptrdiff_t front = z_ + 1 < v_.nz ? static_cast<std::ptrdiff_t>(v_.slice) : 0;
-    const std::ptrdiff_t back = z_ > 0 ? -static_cast<std::ptrdiff_t>(v_.slice) : 0;
-    const std::ptrdiff_t offsets[8] = {1, -1, front, back, front + 1, back + 1, front - 1, back - 1};
-    std::uint64_t found[8] = {};
-
-    for (int part = 0; part < L::kParts; ++part) {
-      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
-      const V amount = L::load(v_.amount + cell + at), energy = L::load(v_.energy + cell + at);
-      const M energetic = L::less(L::set(law_.threshold), energy);
-      V flow, axis_limit, diagonal_limit;
-      if constexpr (kFeatures.general) {
-        flow = law_.use_table ? L::zero() : L::min(L::high(amount, share(cell + at)), L::set(kCap));
-      } else {
-        const V sh = L::set(law_.share);
-        flow = L::min(L::high(amount, sh), L::set(kCap));
-        L::store(gifts_.flow[0] + gift + at, flow);
-        L::store(gifts_.energy[0] + gift + at, L::min(flow, L::high(energy, sh)));
-        if constexpr (kFeatures.hot)
-          L::store(gifts_.heat + gift + at, L::load(v_.temperature + cell + at) ^ L::set(0x8000));
-      }
-      const V margin = L::select(energetic, L::set(law_.margin), L::set(law_.slump));
-      // A neighbour receives if it holds less than a limit: the giver's amount less the larger of flow and
-      // margin.
-      const V most = L::set(kLimit);
-      axis_limit = L::min(most, L::sub_saturated(amount, L::max(flow, margin)));
-      if constexpr (kFeatures.eight) {
-        const V diagonal_margin = L::add_saturated(margin, L::template shift_right<3>(margin));
-        diagonal_limit = L::min(most, L::sub_saturated(amount, L::max(flow, diagonal_margin)));
-      }
-      if constexpr (kFeatures.general)
-        if (!law_.downhill) axis_limit = diagonal_limit = most;
-      std::uint64_t spreads = kAll;
-      if (law_.slump == 0) spreads = L::to_bits(energetic);
-
-      for (int d = 0; d < kDirections; ++d) {
-        const V there = L::load_any(v_.amount + static_cast<std::ptrdiff_t>(cell + at) + offsets[d]);
-        found[d] |= (L::to_bits(L::less(there, d < 4 ? axis_limit : diagonal_limit)) & spreads)
-                    << (part * L::kCount);
-      }
+  // The directions to which the cells of an item may give: open, and low enough. Lean: writes the gifts, too.
+  [[gnu::always_inline]] bool find_available(const Item& item, Bits* available) {
+    const std::size_t lane = lane_of(item);
+    const std::size_t cell = v_.cell(0, item.y, z_) + lane;
+    const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
+    V flow;
+    if constexpr (kFeatures.general) {
+      flow = law_.use_table ? L::zero() : L::min(L::high(amount, share(cell)), L::set(kCap));
+    } else {
+      const V sh = share(cell);
+      flow = L::min(L::high(amount, sh), L::set(kCap));
+      const std::size_t gift = static_cast<std::size_t>(item.y) * v_.row + lane;
+      L::store(gifts_.flow[0] + gift, flow);
+      L::store(gifts_.energy[0] + gift, L::min(flow, L::high(energy, sh)));
+      if constexpr (kFeatures.hot)
+        L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
     }
-    std::uint64_t any = 0;
-    for (int d = 0; d < kDirections; ++d) any |= planes[d] &= found[d];
+    // A neighbour receives if it holds less than a limit: the giver's amount less the larger of flow and
+    // margin.
+    const M energetic = L::less(L::set(law_.threshold), energy);
+    const V margin = L::select(energetic, L::set(law_.margin), L::set(law_.slump));
+    const V most = L::set(kLimit);
+    V limits[2];
+    limits[0] = L::min(most, L::sub_saturated(amount, L::max(flow, margin)));
+    const V diagonal = L::add_saturated(margin, L::template shift_right<3>(margin));
+    limits[1] = L::min(most, L::sub_saturated(amount, L::max(flow, diagonal)));
+    if constexpr (kFeatures.general)
+      if (!law_.downhill) limits[0] = limits[1] = most;
+
+    Bits open[8], any = 0;
+    open_directions(item, open);
+    const Bits spreads =
+        law_.slump == 0 ? static_cast<Bits>(item.givers & L::to_bits(energetic)) : item.givers;
+    cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
+      const V there = L::load_any(v_.amount + static_cast<std::ptrdiff_t>(cell) + places_[d]);
+      available[d] = static_cast<Bits>(L::to_bits(L::less(there, limits[d / 4])) & open[d] & spreads);
+      any = static_cast<Bits>(any | available[d]);
+    });
     return any != 0;
   }
 
-  // Keeps a random subset of the directions.
-  [[gnu::always_inline]] bool throw_dice(int w, int y, std::uint64_t* planes) {
-    std::uint64_t dice[8];
-    const auto blocks = (static_cast<std::uint32_t>(v_.nx) + 7) / 8;
-    const auto row =
-        static_cast<std::uint32_t>(z_) * static_cast<std::uint32_t>(v_.ny) + static_cast<std::uint32_t>(y);
-    L::random_planes(step_.keys, step_.number, row * blocks + 8 * static_cast<std::uint32_t>(w), dice);
-    std::uint64_t any = 0;
-    for (int d = 0; d < kDirections; ++d) any |= planes[d] &= dice[d];
-    if (any == 0) return false;
-    std::uint64_t* out = gifts_.planes + gift_word(w, y);
-    for (int d = 0; d < kDirections; ++d) out[d] = planes[d];
-    return true;
+  // Cells whose neighbour is neither blocked nor, across a diagonal, behind two blocked ones.
+  [[gnu::always_inline]] void open_directions(const Item& item, Bits* open) const {
+    const int w = item.w, shift = item.part * L::kCount;
+    const std::uint64_t *own = v_.walls_at(item.y, z_), *front = v_.walls_at(item.y, z_ + 1),
+                        *back = v_.walls_at(item.y, z_ - 1);
+    const auto put = [&](int d, std::uint64_t blocked) { open[d] = static_cast<Bits>(~blocked >> shift); };
+    const std::uint64_t right = cpu::from_right(own[w], own[w + 1]),
+                        left = cpu::from_left(own[w], own[w - 1]);
+    put(0, right);
+    put(1, left);
+    put(2, front[w]);
+    put(3, back[w]);
+    if constexpr (kFeatures.eight) {
+      put(4, cpu::from_right(front[w], front[w + 1]) | (right & front[w]));
+      put(5, cpu::from_right(back[w], back[w + 1]) | (right & back[w]));
+      put(6, cpu::from_left(front[w], front[w - 1]) | (left & front[w]));
+      put(7, cpu::from_left(back[w], back[w - 1]) | (left & back[w]));
+    }
   }
+
+  // Keeps a random subset of the directions of four items.
+  [[gnu::always_inline]] void throw_dice(int first) {
+    std::uint32_t blocks[4];
+    for (int i = 0; i < 4; ++i) {
+      const Item& item = items_[first + i];
+      const auto row = static_cast<std::uint32_t>(z_) * static_cast<std::uint32_t>(v_.ny) +
+                       static_cast<std::uint32_t>(item.y);
+      blocks[i] = row * row_blocks_ + static_cast<std::uint32_t>(lane_of(item)) / 8;
+    }
+    Bits dice[8][4];
+    L::dice(step_.keys, step_.number, blocks, dice);
+    for (int i = 0; i < 4; ++i) {
+      const Item& item = items_[first + i];
+      Bits* available = available_[first + i];
+      auto* planes = reinterpret_cast<Bits*>(gifts_.planes + gift_word(item.w, item.y)) + item.part;
+      Bits any = 0, left = 0, right = 0;
+      cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
+        const auto pattern = static_cast<Bits>(available[d] & dice[d][i]);
+        if constexpr (kFeatures.general) available[d] = pattern;
+        any = static_cast<Bits>(any | pattern);
+        if constexpr (d == 1 || d == 6 || d == 7) left = static_cast<Bits>(left | pattern);
+        if constexpr (d == 0 || d == 4 || d == 5) right = static_cast<Bits>(right | pattern);
+        if (pattern != 0) planes[d * L::kParts] = pattern;
+      });
+      const TileRow word = TileRow{1} << item.w;
+      gifts_.giving[item.y] |= any != 0 ? word : 0;
+      gifts_.giving_tiles[item.y >> v_.tile_shift] |= any != 0 ? word : 0;
+      gifts_.giving_left[item.y] |= item.part == 0 && (left & 1u) != 0 ? word : 0;
+      gifts_.giving_right[item.y] |= item.part == L::kParts - 1 && (right >> (L::kCount - 1)) != 0 ? word : 0;
+      if constexpr (kFeatures.general)
+        if (any != 0) give(item, available);
+    }
+  }
+
   [[gnu::always_inline]] std::size_t gift_word(int w, int y) const {
     return 8 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(v_.words + 2) + 1 +
                 static_cast<std::size_t>(w));
   }
+  [[gnu::always_inline]] static std::size_t lane_of(const Item& item) {
+    return 64 * static_cast<std::size_t>(item.w) + static_cast<std::size_t>(item.part * L::kCount);
+  }
 
+  // Thermal viscosity: share times the table, cut at what all neighbours together can take.
   [[gnu::always_inline]] V share(std::size_t cell) const {
-    if (!step_.parameters->flow.thermal_viscosity) return L::set(law_.share);
-    alignas(64) std::uint16_t shares[L::kCount];
-    for (int i = 0; i < L::kCount; ++i) {
-      const std::uint32_t mobility = table_[v_.temperature[cell + static_cast<std::size_t>(i)] >> 11];
-      const std::uint32_t scaled = (law_.share * mobility) >> 15, most = kFeatures.eight ? 13107 : 16384;
-      shares[i] = static_cast<std::uint16_t>(scaled < most ? scaled : most);
-    }
-    return L::load(shares);
+    if constexpr (!kFeatures.thermal) return L::set(law_.share);
+    const V mobility =
+        L::lookup(step_.parameters->flow.mobility_table.data(), L::load(v_.temperature + cell));
+    const V sh = L::set(law_.share);  // below 2^15: the product >> 15 may need 17 bits, which the cut takes
+    const V high = L::high(sh, mobility), low = L::template shift_right<15>(L::low(sh, mobility));
+    return L::min(L::add_saturated(L::add_saturated(high, high), low),
+                  L::set(kFeatures.eight ? 13107 : 16384));
   }
 
-  // The gifts of every direction on their own: shares by pattern or by heat, energy by the printed reading.
-  [[gnu::always_inline]] void give(int w, int y, const std::uint64_t* planes) {
-    constexpr int kCap = kFeatures.eight ? 4096 : 8192;
-    const std::size_t cell = v_.cell(w, y, z_);
-    const std::size_t gift = static_cast<std::size_t>(y) * v_.row + 64 * static_cast<std::size_t>(w);
-    for (int part = 0; part < L::kParts; ++part) {
-      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
-      const V amount = L::load(v_.amount + cell + at), energy = L::load(v_.energy + cell + at);
-      if constexpr (kFeatures.hot)
-        L::store(gifts_.heat + gift + at, L::load(v_.temperature + cell + at) ^ L::set(0x8000));
-      const V same = law_.use_table ? L::zero() : share(cell + at);
-      for (int d = 0; d < kDirections; ++d) {
-        const V sh = law_.use_table ? share_by_pattern(planes, part, d) : same;
-        V flow = L::min(L::high(amount, sh), L::set(kCap)), warm = L::min(L::high(energy, sh), L::set(kCap));
-        if (d >= 4) {
-          flow = L::template shift_right<2>(flow);
-          warm = L::template shift_right<2>(warm);
-        }
-        warm = L::min(flow, warm);
-        if (law_.reading == rule::EnergyReading::printed)
-          warm = L::high(warm, contact_alpha<Arch>(v_, law_, w, y, z_, part));
-        L::store(gifts_.flow[d] + gift + at, flow);
-        L::store(gifts_.energy[d] + gift + at, warm);
+  // The gifts of every direction on their own: shares by pattern, energy by the printed reading.
+  [[gnu::always_inline]] void give(const Item& item, const Bits* pattern) {
+    const std::size_t cell = v_.cell(0, item.y, z_) + lane_of(item);
+    const std::size_t gift = static_cast<std::size_t>(item.y) * v_.row + lane_of(item);
+    const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
+    if constexpr (kFeatures.hot)
+      L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
+    const V same = law_.use_table ? L::zero() : share(cell);
+    for (int d = 0; d < kDirections; ++d) {
+      const V sh = law_.use_table ? share_by_pattern(pattern, d) : same;
+      V flow = L::min(L::high(amount, sh), L::set(kCap)), warm = L::min(L::high(energy, sh), L::set(kCap));
+      if (d >= 4) {
+        flow = L::template shift_right<2>(flow);
+        warm = L::template shift_right<2>(warm);
       }
+      warm = L::min(flow, warm);
+      if (law_.reading == rule::EnergyReading::printed)
+        warm = L::high(warm, contact_alpha<Arch>(v_, law_, item.w, item.y, z_, item.part));
+      L::store(gifts_.flow[d] + gift, flow);
+      L::store(gifts_.energy[d] + gift, warm);
     }
   }
-  [[gnu::always_inline]] V share_by_pattern(const std::uint64_t* planes, int part, int d) const {
+  [[gnu::always_inline]] V share_by_pattern(const Bits* planes, int d) const {
     alignas(64) std::uint16_t shares[L::kCount];
     for (int i = 0; i < L::kCount; ++i) {
-      const int bit = part * L::kCount + i;
       std::size_t pattern = 0;
-      for (std::size_t k = 0; k < 4; ++k) pattern |= (planes[k] >> bit & 1u) << k;
+      for (std::size_t k = 0; k < 4; ++k) pattern |= static_cast<std::size_t>(planes[k] >> i & 1u) << k;
       shares[i] = (&law_.table[0][0])[4 * pattern + static_cast<std::size_t>(d)];
     }
     return L::load(shares);
   }
 
-  static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
   const View v_;
   const Step& step_;
   const rule::PaperLaw& law_;
-  const std::uint16_t* table_;
   const int z_;
+  const std::uint32_t row_blocks_;
+  TileRow* restless_;
   Gifts& gifts_;
+  std::ptrdiff_t places_[8];
+  Item items_[kBatch + 4];
+  Bits available_[kBatch + 4][8];
 };
 
 }  // namespace voxmelt::simd
