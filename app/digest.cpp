@@ -26,7 +26,7 @@ void print_line(const run::Simulation& simulation) {
 }
 
 int run_digest(const DigestOptions& options) {
-  const scene::Scene scene = load_scene(options.common);
+  scene::Scene scene = load_scene(options.common);
   check_report_place(options.common, "");
   run::Simulation simulation = make_simulation(scene, options.common);
   if (options.every > 0) print_line(simulation);

@@ -19,7 +19,7 @@ struct ExportOptions {
 };
 
 int run_export(const ExportOptions& options) {
-  const scene::Scene scene = load_scene(options.common);
+  scene::Scene scene = load_scene(options.common);
   check_report_place(options.common, options.out);
   io::OutputFolder out(options.out);
   catch_interrupts();

@@ -68,7 +68,7 @@ scene::Scene load_scene(const Common& common) {
   return scene;
 }
 
-run::Simulation make_simulation(const scene::Scene& scene, const Common& common) {
+run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
   const step::Implementation* implementation = run::implementations().find(common.implementation);
   if (implementation == nullptr) {
     std::string known = "auto";
@@ -81,7 +81,7 @@ run::Simulation make_simulation(const scene::Scene& scene, const Common& common)
         fmt::format("--implementation {}: error: this processor does not have it", common.implementation));
   step::Tuning tuning;
   tuning.threads = thread_count(common);
-  return {scene.parameters, scene.initial, *implementation, tuning};
+  return {scene.parameters, std::move(scene.initial), *implementation, tuning};
 }
 
 void check_report_place(const Common& common, const std::string& out) {

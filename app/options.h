@@ -36,7 +36,8 @@ void add_common(CLI::App& command, Common& common);
 
 // A path, or the name of a scene that came with the program.
 scene::Scene load_scene(const Common& common);
-run::Simulation make_simulation(const scene::Scene& scene, const Common& common);
+// Takes the scene's initial state away: a large one need not be held twice.
+run::Simulation make_simulation(scene::Scene& scene, const Common& common);
 int thread_count(const Common& common);
 
 // Fails at once where --report could not be written later; `out` is the output folder, empty for none.

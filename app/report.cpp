@@ -88,7 +88,7 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"seed", simulation.parameters().seed},
       {"steps", simulation.steps_done()},
       {"digest", fmt::format("{:016x}", state::digest(volume))},
-      {"initial_digest", fmt::format("{:016x}", state::digest(scene.initial))},
+      {"initial_digest", fmt::format("{:016x}", scene.initial_digest)},
       {"implementation", run::implementations().find(common.implementation)->name},
       {"threads", 1},
       {"version", version_number()},

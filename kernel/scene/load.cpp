@@ -11,6 +11,7 @@
 #include "kernel/scene/reader.h"
 #include "kernel/scene/scene.h"
 #include "kernel/scene/start.h"
+#include "kernel/state/digest.h"
 
 namespace voxmelt::scene {
 namespace {
@@ -97,6 +98,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   // What the scene does not model is not there: no energy under the viscous law, no heat without [heat].
   if (scene.parameters.flow.law == rule::Law::viscous) scene.initial.energy.clear();
   if (!scene.parameters.heat.enabled) scene.initial.temperature.clear();
+  scene.initial_digest = state::digest(scene.initial);
   scene.terrain = std::move(contents.terrain);
   return scene;
 }

@@ -35,6 +35,7 @@ struct Scene {
   std::vector<std::string> warnings;  // e.g. leaks of a mesh
   rule::Parameters parameters;
   state::Volume initial;
+  std::uint64_t initial_digest = 0;
   Camera camera;
   Light light;
   Look look;

@@ -45,9 +45,16 @@ void for_each_cell(const Coverage& coverage, const state::Volume& volume, Visit 
 class Voxeliser {
  public:
   explicit Voxeliser(state::Grid grid)
-      : volume_(grid), solid_(grid), inert_(grid), solid_temperature_(grid) {}
+      : volume_(grid),
+        solid_(grid),
+        inert_(grid),
+        solid_temperature_(grid),
+        touched_(static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(grid.z)) {}
 
   void add(const Entry& entry, const Coverage& coverage) {
+    const Window& window = coverage.window;
+    for (int z = window.z; z < window.z + window.size.z; ++z)
+      for (int y = window.y; y < window.y + window.size.y; ++y) touched_[row_of(y, z)] = true;
     for_each_cell(coverage, volume_, [&](state::Slot cell, int samples) {
       if (entry.role == Role::solid && raise(solid_[cell], samples, entry.cut))
         solid_temperature_[cell] = to_temperature(entry.temperature);
@@ -58,18 +65,32 @@ class Voxeliser {
 
   state::Volume finish(const Terrain& terrain) {
     const state::Grid grid = volume_.grid;
-    for (int z = 0; z < grid.z; ++z)
-      for (int x = 0; x < grid.x; ++x) {
-        const double height = terrain.height[static_cast<std::size_t>(z) * static_cast<std::size_t>(grid.x) +
-                                             static_cast<std::size_t>(x)];
-        const int ground = static_cast<int>(std::lround(height));
-        for (int y = 0; y < grid.y; ++y) decide(x, y, z, y < ground);
-        if (ground > 0) volume_.amount[volume_.at(x, ground - 1, z)] = bed(height - ground);
+    std::vector<int> ground(terrain.height.size());
+    for (std::size_t c = 0; c < ground.size(); ++c)
+      ground[c] = static_cast<int>(std::lround(terrain.height[c]));
+
+    for (int z = 0; z < grid.z; ++z) {
+      const std::size_t columns = static_cast<std::size_t>(z) * static_cast<std::size_t>(grid.x);
+      const auto first = ground.begin() + static_cast<std::ptrdiff_t>(columns);
+      const int highest = *std::max_element(first, first + grid.x);
+      for (int y = 0; y < grid.y; ++y) {
+        if (y >= highest && !touched_[row_of(y, z)]) continue;
+        for (int x = 0; x < grid.x; ++x) decide(x, y, z, y < first[x]);
       }
+      for (int x = 0; x < grid.x; ++x)
+        if (first[x] > 0)
+          volume_.amount[volume_.at(x, first[x] - 1, z)] =
+              bed(double{terrain.height[columns + static_cast<std::size_t>(x)]} - first[x]);
+    }
     return std::move(volume_);
   }
 
  private:
+  std::size_t row_of(int y, int z) const {
+    return static_cast<std::size_t>(z) * static_cast<std::size_t>(volume_.grid.y) +
+           static_cast<std::size_t>(y);
+  }
+
   static rule::Amount bed(double fraction) {
     const long offset = rule::kBedHalf + std::lround(fraction * rule::kOne);
     return static_cast<rule::Amount>(std::clamp<long>(offset, 0, rule::kOne - 1));
@@ -113,8 +134,9 @@ class Voxeliser {
       volume_.temperature[cell] = solid_temperature_[cell];
     }
     const bool liquid = !inert && !solid && amount > 0;
-    if (!liquid) volume_.energy[cell] = 0;
-    if (!liquid && !solid) volume_.temperature[cell] = 0;
+    // Memory is only touched where something changes.
+    if (!liquid && volume_.energy[cell] != 0) volume_.energy[cell] = 0;
+    if (!liquid && !solid && volume_.temperature[cell] != 0) volume_.temperature[cell] = 0;
     if (inert) volume_.inert.set(x, y, z, true);
     if (solid) volume_.solid.set(x, y, z, true);
     if (liquid) volume_.liquid.set(x, y, z, true);
@@ -123,6 +145,7 @@ class Voxeliser {
   state::Volume volume_;
   state::Field<std::uint8_t> solid_, inert_;  // samples covered
   state::Field<rule::Temperature> solid_temperature_;
+  std::vector<bool> touched_;  // rows in which a shape may be
 };
 
 }  // namespace

@@ -182,7 +182,7 @@ TEST(BadInput, HugeGridsAreRefusedBeforeTheyAreAllocated) {
     const std::string message = folder.without_folder(error.what());
     EXPECT_EQ(
         message.rfind(
-            "scene.toml:2:8: error: grid.size = [4096, 4096, 4096] needs 1786706395136 bytes of memory, ", 0),
+            "scene.toml:2:8: error: grid.size = [4096, 4096, 4096] needs 34359738368 bytes of memory, ", 0),
         0u)
         << message;
   }
