@@ -1,5 +1,6 @@
 // The flow of the paper's law over all slices: gravity, then spread (pattern, apply), fused in one pass over
-// memory: a chunk carries three slices of gifts along z while gravity runs two slices ahead.
+// memory: a chunk of slices is worked on tile row by tile row, upwards, and carries three slices of gifts
+// along z.
 //
 // A tile is awake for a phase where something that the phase reads has changed since it last ran there:
 //   gravity  it, or a tile beside it, changed since the last gravity (in it, or since)
@@ -30,8 +31,10 @@ class PaperFlow {
  private:
   struct Worker {
     std::vector<SliceGifts>
-        gifts;  // of a chunk: a ring of three; at a cut: of the slices before and after it
-    std::vector<TileRow> work;
+        gifts;                    // of a chunk: a ring of three; at a cut: of the slices before and after it
+    std::vector<TileRow> follow;  // of each slice: what gravity moved into the tile row above
+    // Of each slice: liquid in the last row of the tile row below, before spread.
+    std::vector<std::uint64_t> ceiling;
     simd::Books books;
   };
   struct Sweep {
@@ -41,13 +44,12 @@ class PaperFlow {
     bool with_gravity;
   };
 
-  void fall(const Job& job, const Tiles& dirty, int z, Worker& worker);
-  void find_patterns(const Sweep& sweep, int z, Worker& worker, SliceGifts& gifts);
-  void apply(const Sweep& sweep, int z, const SliceGifts& below, const SliceGifts& own,
-             const SliceGifts& above, Worker& worker);
+  void fall(const Job& job, const Tiles& dirty, int z, int r, TileRow& follow, Worker& worker);
+  void find_patterns(const Sweep& sweep, int z, int r, const std::uint64_t* below, SliceGifts& gifts);
   void run(const Sweep& sweep, simd::Books& books);
   void run_cut(const Sweep& sweep, int cut);
   void run_chunk(const Sweep& sweep, int chunk);
+  void run_rows(const Sweep& sweep, int chunk, int r);
   void close(simd::Books& books);
 
   Chunks chunks_;

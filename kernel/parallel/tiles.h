@@ -36,19 +36,16 @@ class Tiles {
            std::any_of(slice(z), slice(z) + rows_, [](TileRow row) { return row != 0; });
   }
 
-  // Adds slice z of this set, and its neighbours in x, y and z, to `into` (rows() of them).
-  void add_neighbours(int z, const simd::View& view, TileRow* into) const {
-    const TileRow words = all_words(view);
-    for (int near = std::max(0, z - 1); near <= std::min(slices_ - 1, z + 1); ++near) {
-      const TileRow* from = slice(near);
-      for (int r = 0; r < rows_; ++r) {
-        const TileRow wide = (from[r] | from[r] << 1 | from[r] >> 1) & words;
-        if (wide == 0) continue;
-        into[r] |= wide;
-        if (r > 0) into[r - 1] |= wide;
-        if (r + 1 < rows_) into[r + 1] |= wide;
-      }
+  // Tiles of row r of slice z that are, or are beside, one of this set.
+  TileRow near(int z, int r, TileRow words) const {
+    TileRow near = 0;
+    for (int nz = std::max(0, z - 1); nz <= std::min(slices_ - 1, z + 1); ++nz) {
+      const TileRow* rows = slice(nz);
+      near |= rows[r];
+      if (r > 0) near |= rows[r - 1];
+      if (r + 1 < rows_) near |= rows[r + 1];
     }
+    return (near | near << 1 | near >> 1) & words;
   }
 
  private:

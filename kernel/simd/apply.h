@@ -29,35 +29,32 @@ class Apply {
         books_(books),
         mix_(step.dither) {}
 
-  [[gnu::always_inline]] void run(TileRow* changed) {
+  // Returns the tiles that changed.
+  [[gnu::always_inline]] TileRow run(int r) {
     const TileRow words = v_.words == 64 ? ~TileRow{0} : (TileRow{1} << v_.words) - 1;
+    TileRow changed = 0;
     int count = 0;
-    masks_used_ = 0;
-    for (int y = 0; y < v_.ny; ++y) {
-      const int r = y >> v_.tile_shift;
-      if ((below_.giving_tiles[r] | own_.giving_tiles[r] | above_.giving_tiles[r]) == 0) {
-        y = v_.tile_end(r) - 1;
-        continue;
-      }
-      const TileRow right = below_.giving_right[y] | own_.giving_right[y] | above_.giving_right[y];
-      const TileRow left = below_.giving_left[y] | own_.giving_left[y] | above_.giving_left[y];
-      TileRow work = below_.giving[y] | own_.giving[y] | above_.giving[y] | right << 1 | left >> 1;
+    for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y) {
+      const std::size_t below = below_.row(y), own = own_.row(y), above = above_.row(y);
+      const TileRow right = below_.giving_right[below] | own_.giving_right[own] | above_.giving_right[above];
+      const TileRow left = below_.giving_left[below] | own_.giving_left[own] | above_.giving_left[above];
+      TileRow work = below_.giving[below] | own_.giving[own] | above_.giving[above] | right << 1 | left >> 1;
       for (work &= words; work != 0; work &= work - 1) {
         const int w = __builtin_ctzll(work);
-        Masks& masks = masks_[masks_used_];
-        const std::uint64_t any = gather(w, y, masks);
+        const std::uint64_t any = gather(w, y, masks_[masks_used_]);
         for (int part = 0; part < L::kParts; ++part) {
           items_[count] = {y, w, part, masks_used_};
           count += (any >> (part * L::kCount) & kAll) != 0;
         }
         ++masks_used_;
-        changed[y >> v_.tile_shift] |= any != 0 ? TileRow{1} << w : 0;
+        changed |= any != 0 ? TileRow{1} << w : 0;
         if (masks_used_ < kBatch) continue;
         process(count);
         count = masks_used_ = 0;
       }
     }
     process(count);
+    return changed;
   }
 
  private:
@@ -71,9 +68,11 @@ class Apply {
 
   // Who gives and takes in word w of row y; returns the cells that do either.
   [[gnu::always_inline]] std::uint64_t gather(int w, int y, Masks& masks) const {
-    const std::size_t at = 8 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(v_.words + 2) + 1 +
-                                static_cast<std::size_t>(w));
-    const std::uint64_t *own = own_.planes + at, *front = above_.planes + at, *back = below_.planes + at;
+    const auto planes = [&](const Gifts& gifts) VOXMELT_LAMBDA {
+      return gifts.planes +
+             8 * (gifts.row(y) * static_cast<std::size_t>(v_.words + 2) + 1 + static_cast<std::size_t>(w));
+    };
+    const std::uint64_t *own = planes(own_), *front = planes(above_), *back = planes(below_);
     std::uint64_t any = 0;
     for (int d = 0; d < kDirections; ++d) any |= masks.out[d] = own[d];
     // A neighbour gives in the opposite direction: planes 1, 0, 3, 2, 7, 6, 5, 4.
@@ -105,7 +104,7 @@ class Apply {
   // Returns the lanes that hold something.
   [[gnu::always_inline]] std::uint64_t vectors(int w, int y, int part, const Masks& masks) {
     const std::size_t lane = 64 * static_cast<std::size_t>(w) + static_cast<std::size_t>(part * L::kCount);
-    const std::size_t cell = v_.cell(0, y, z_) + lane, gift = static_cast<std::size_t>(y) * v_.row + lane;
+    const std::size_t cell = v_.cell(0, y, z_) + lane, gift = own_.row(y) * v_.row + lane;
     const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
 
     V out = L::zero(), energy_out = L::zero();
@@ -122,7 +121,7 @@ class Apply {
       constexpr int opposite = d ^ (d < 4 ? 1 : 3);
       constexpr std::ptrdiff_t dx = d < 4 ? (d == 0) - (d == 1) : (d < 6 ? 1 : -1);
       const Gifts& giver = d < 2 ? own_ : (d % 2 == 0 ? above_ : below_);
-      const std::size_t from = gift + static_cast<std::size_t>(dx);
+      const std::size_t from = giver.row(y) * v_.row + lane + static_cast<std::size_t>(dx);
       const M takes = L::from_bits(masks.in[d], part);
       const V given = L::keep(takes, flow<opposite>(giver, from));
       in = in + given;

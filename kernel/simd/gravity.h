@@ -25,15 +25,12 @@ class Gravity {
         books_(books),
         mix_(step.dither) {}
 
-  [[gnu::always_inline]] void run(const TileRow* tiles, TileRow* changed) {
-    TileRow moved = 0;  // words that the last pair of rows changed: what is above may follow
-    for (int y = 0; y + 1 < v_.ny; ++y) {
-      const int r = y >> v_.tile_shift;
-      if ((tiles[r] | moved) == 0) {  // on to the last row of this tile row, which looks into the next
-        y = v_.tile_end(r) - 1;
-        if (y + 1 >= v_.ny) break;
-      }
-      TileRow work = tiles[r] | tiles[(y + 1) >> v_.tile_shift] | moved;
+  [[gnu::always_inline]] void run(int r, TileRow tiles, TileRow& follow, TileRow* changed) {
+    TileRow moved = follow;  // tiles that the last pair of rows changed: what is above may follow
+    bool any = false;
+    const int end = v_.tile_end(r) < v_.ny ? v_.tile_end(r) : v_.ny - 1;
+    for (int y = v_.tile_begin(r); y < end; ++y) {
+      TileRow work = tiles | moved;
       moved = 0;
       for (; work != 0; work &= work - 1) {
         const int w = __builtin_ctzll(work);
@@ -43,12 +40,13 @@ class Gravity {
         if (open == 0) continue;
         if (pair(w, y, open)) moved |= TileRow{1} << w;
       }
-      if (moved != 0) {
-        changed[y >> v_.tile_shift] |= moved;
-        changed[(y + 1) >> v_.tile_shift] |= moved;
-        flush();
-      }
+      if (moved == 0) continue;
+      any = true;
+      changed[r] |= moved;
+      changed[(y + 1) >> v_.tile_shift] |= moved;
     }
+    follow = moved;
+    if (any) flush();
   }
 
  private:
@@ -59,7 +57,13 @@ class Gravity {
     bool moved = false;
     std::uint64_t low_wet = 0, high_wet = 0;
     for (int part = 0; part < L::kParts; ++part) {
-      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
+      const int shift = part * L::kCount;
+      if ((open >> shift & kAll) == 0) {  // nothing moves here: what was wet stays so
+        low_wet |= v_.liquid[v_.word(w, y, z_)] & kAll << shift;
+        high_wet |= v_.liquid[v_.word(w, y + 1, z_)] & kAll << shift;
+        continue;
+      }
+      const std::size_t at = static_cast<std::size_t>(shift);
       vectors(low + at, high + at, open, around, part, moved, low_wet, high_wet);
     }
     if (!moved) return false;

@@ -70,27 +70,39 @@ struct Books {
   }
 };
 
-// What the cells of one slice give in the paper law's spread: written by `pattern`, read by `apply`.
+// What the cells of some rows of one slice give in the paper law's spread: written by `pattern`, read by
+// `apply`. Arrays begin with row `first_row`, the first of a tile.
 struct Gifts {
-  std::uint64_t* planes = nullptr;  // [y][1 + words + 1][8]: directions given to, one plane per direction
-  TileRow* giving = nullptr;        // [y]: words with a plane that is not empty; the planes of others are 0
+  int first_row = 0, rows = 0;
+  std::uint64_t* planes = nullptr;  // [row][1 + words + 1][8]: directions given to, one plane per direction
+  TileRow* giving = nullptr;        // [row]: words with a plane that is not empty; the planes of others are 0
+  TileRow *giving_left = nullptr,
+          *giving_right = nullptr;  // [row]: those that give into the word beside them
   TileRow* giving_tiles = nullptr;  // [tile row]: of all its rows
-  TileRow *giving_left = nullptr, *giving_right = nullptr;  // [y]: those that give into the word beside them
-  std::uint16_t* flow[8] = {};    // [y][row]: amount given to a direction of the pattern
-  std::uint16_t* energy[8] = {};  // [y][row]
-  std::uint16_t* heat = nullptr;  // [y][row]: heat of the giver, xor 0x8000
+  std::uint16_t* flow[8] = {};      // [row][x]: amount given to a direction of the pattern
+  std::uint16_t* energy[8] = {};    // [row][x]
+  std::uint16_t* heat = nullptr;    // [row][x]: heat of the giver, xor 0x8000
+
+  [[gnu::always_inline]] std::size_t row(int y) const { return static_cast<std::size_t>(y - first_row); }
+  [[gnu::always_inline]] TileRow& tiles(const View& view, int r) const {
+    return giving_tiles[r - (first_row >> view.tile_shift)];
+  }
 };
 
+// Phases work on one tile row r of one slice z; `work` and what they return are sets of its tiles.
 struct Kernels {
-  // Paper law: gravity and excess of the columns of slice z. `tiles`: where anything may move; what moves is
-  // followed upwards beyond them.
-  void (*gravity)(const View&, const Step&, int z, const TileRow* tiles, TileRow* changed, Books&) = nullptr;
-  // Paper law: patterns of tiles in slice z; `restless`: tiles where some cell may give, whatever the dice
-  // say.
-  void (*pattern)(const View&, const Step&, int z, const TileRow* tiles, TileRow* restless, Gifts&) = nullptr;
-  // Paper law: every cell of slice z gives and takes. below, own, above: gifts of slices z - 1, z, z + 1.
-  void (*apply)(const View&, const Step&, int z, const Gifts& below, const Gifts& own, const Gifts& above,
-                TileRow* changed, Books&) = nullptr;
+  // Paper law: gravity and excess through the upper faces of the cells of r, which must follow those of r
+  // - 1. `follow`: the tiles in which those moved something into r; then, the same for r + 1. Adds to
+  // changed[r] and changed[r + 1].
+  void (*gravity)(const View&, const Step&, int z, int r, TileRow work, TileRow& follow, TileRow* changed,
+                  Books&) = nullptr;
+  // Paper law: what the cells give; returns the tiles where some cell may give, whatever the dice say.
+  // `below`: liquid of the row below r before spread changed it; null where the mask still has it.
+  TileRow (*pattern)(const View&, const Step&, int z, int r, TileRow work, const std::uint64_t* below,
+                     Gifts&) = nullptr;
+  // Paper law: every cell gives and takes; gifts of slices z - 1, z, z + 1. Returns the tiles that changed.
+  TileRow (*apply)(const View&, const Step&, int z, int r, const Gifts& below, const Gifts& own,
+                   const Gifts& above, Books&) = nullptr;
 };
 
 // The kernels that a scene needs; `set` must be supported.

@@ -8,21 +8,21 @@
 namespace voxmelt::simd {
 
 template <class Arch, GravityFeatures kFeatures>
-void gravity_slice(const View& view, const Step& step, int z, const TileRow* tiles, TileRow* changed,
-                   Books& books) {
-  Gravity<Arch, kFeatures>(view, step, z, books).run(tiles, changed);
+void gravity_row(const View& view, const Step& step, int z, int r, TileRow work, TileRow& follow,
+                 TileRow* changed, Books& books) {
+  Gravity<Arch, kFeatures>(view, step, z, books).run(r, work, follow, changed);
 }
 
 template <class Arch, SpreadFeatures kFeatures>
-void pattern_slice(const View& view, const Step& step, int z, const TileRow* tiles, TileRow* restless,
-                   Gifts& gifts) {
-  Pattern<Arch, kFeatures>(view, step, z, restless, gifts).run(tiles);
+TileRow pattern_row(const View& view, const Step& step, int z, int r, TileRow work,
+                    const std::uint64_t* below, Gifts& gifts) {
+  return Pattern<Arch, kFeatures>(view, step, z, below, gifts).run(r, work);
 }
 
 template <class Arch, SpreadFeatures kFeatures>
-void apply_slice(const View& view, const Step& step, int z, const Gifts& below, const Gifts& own,
-                 const Gifts& above, TileRow* changed, Books& books) {
-  Apply<Arch, kFeatures>(view, step, z, below, own, above, books).run(changed);
+TileRow apply_row(const View& view, const Step& step, int z, int r, const Gifts& below, const Gifts& own,
+                  const Gifts& above, Books& books) {
+  return Apply<Arch, kFeatures>(view, step, z, below, own, above, books).run(r);
 }
 
 template <class Arch, bool kHot>
@@ -31,13 +31,13 @@ void choose_paper_kernels(const rule::Parameters& parameters, Kernels& kernels) 
   const rule::PaperLaw& law = flow.paper;
   const bool guided = flow.fall.factor != 65536 || flow.fall.wall_factor != 65536 || flow.fall.hang > 0 ||
                       law.beta != 65536 || law.reading == rule::EnergyReading::printed;
-  kernels.gravity = guided ? gravity_slice<Arch, GravityFeatures{kHot, true}>
-                           : gravity_slice<Arch, GravityFeatures{kHot, false}>;
+  kernels.gravity = guided ? gravity_row<Arch, GravityFeatures{kHot, true}>
+                           : gravity_row<Arch, GravityFeatures{kHot, false}>;
 
   const bool general = law.use_table || !law.downhill || law.reading == rule::EnergyReading::printed;
   const auto spread = [&]<SpreadFeatures kFeatures>() {
-    kernels.pattern = pattern_slice<Arch, kFeatures>;
-    kernels.apply = apply_slice<Arch, kFeatures>;
+    kernels.pattern = pattern_row<Arch, kFeatures>;
+    kernels.apply = apply_row<Arch, kFeatures>;
   };
   const auto with = [&]<bool kThermal, bool kGeneral>() {
     if (law.neighbours == 8) {

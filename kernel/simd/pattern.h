@@ -1,6 +1,6 @@
 // Phase `spread` of the paper's law, first half (Eqs. 7-10): which directions each cell gives to, and what.
 //
-// The work of a slice is cut into items of one vector each, and goes through three stages by the batch, so
+// The work of a tile row is cut into items of one vector each, and goes through three stages by the batch, so
 // that no stage waits for, or guesses, what another finds: items with a liquid cell; those with a direction
 // that may receive; dice for four items at a time.
 #pragma once
@@ -22,13 +22,14 @@ class Pattern {
   static constexpr int kBatch = 128;
 
  public:
-  [[gnu::always_inline]] Pattern(const View& view, const Step& step, int z, TileRow* restless, Gifts& gifts)
+  [[gnu::always_inline]] Pattern(const View& view, const Step& step, int z, const std::uint64_t* below,
+                                 Gifts& gifts)
       : v_(view),
         step_(step),
         law_(step.parameters->flow.paper),
         z_(z),
         row_blocks_((static_cast<std::uint32_t>(view.nx) + 7) / 8),
-        restless_(restless),
+        below_(below),
         gifts_(gifts) {
     // The neighbour's place; beyond the grid its own: a masked lane.
     const std::ptrdiff_t front = z + 1 < v_.nz ? static_cast<std::ptrdiff_t>(v_.slice) : 0;
@@ -37,29 +38,27 @@ class Pattern {
     for (int d = 0; d < 8; ++d) places_[d] = places[d];
   }
 
-  [[gnu::always_inline]] void run(const TileRow* tiles) {
+  // Returns the tiles where some cell may give.
+  [[gnu::always_inline]] TileRow run(int r, TileRow tiles) {
+    clear(r);
     int count = 0;
-    for (int r = 0; r < v_.tile_rows(); ++r) {
-      if (gifts_.giving_tiles[r] != 0)
-        for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y) clear(y);
-      gifts_.giving_tiles[r] = 0;
-      if (tiles[r] == 0) continue;
-      for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y)
-        for (TileRow work = tiles[r]; work != 0; work &= work - 1) {
-          const int w = __builtin_ctzll(work);
-          const std::uint64_t givers = givers_of(w, y);
-          if (givers == 0) continue;
-          for (int part = 0; part < L::kParts; ++part) {
-            const auto own = static_cast<Bits>(givers >> (part * L::kCount));
-            items_[count] = {y, w, part, own};
-            count += own != 0;
-          }
-          if (count + L::kParts <= kBatch) continue;
-          process(count);
-          count = 0;
+    for (int y = v_.tile_begin(r); tiles != 0 && y < v_.tile_end(r); ++y)
+      for (TileRow work = tiles; work != 0; work &= work - 1) {
+        const int w = __builtin_ctzll(work);
+        const std::uint64_t givers = givers_of(w, y);
+        if (givers == 0) continue;
+        for (int part = 0; part < L::kParts; ++part) {
+          const auto own = static_cast<Bits>(givers >> (part * L::kCount));
+          items_[count] = {y, w, part, own};
+          count += own != 0;
         }
-    }
+        if (count + L::kParts <= kBatch) continue;
+        process(count);
+        count = 0;
+      }
     process(count);
+    gifts_.tiles(v_, r) = giving_;
+    return restless_;
   }
 
  private:
@@ -68,19 +67,26 @@ class Pattern {
     Bits givers;
   };
 
-  // Planes of words that give nothing are 0.
-  [[gnu::always_inline]] void clear(int y) {
-    for (TileRow old = gifts_.giving[y]; old != 0; old &= old - 1) {
-      std::uint64_t* planes = gifts_.planes + gift_word(__builtin_ctzll(old), y);
-      for (int d = 0; d < 8; ++d) planes[d] = 0;
+  // Planes of words that give nothing are 0. (Rows beyond a last, shorter tile row stay as they are: unread.)
+  [[gnu::always_inline]] void clear(int r) {
+    if (gifts_.tiles(v_, r) == 0) return;
+    const std::size_t first = gifts_.row(v_.tile_begin(r)), rows = static_cast<std::size_t>(gifts_.rows);
+    const std::size_t tile = std::size_t{1} << v_.tile_shift, end = first + tile < rows ? first + tile : rows;
+    for (std::size_t row = first; row < end; ++row) {
+      for (TileRow old = gifts_.giving[row]; old != 0; old &= old - 1) {
+        std::uint64_t* planes = gifts_.planes + gift_word(__builtin_ctzll(old), row);
+        for (int d = 0; d < 8; ++d) planes[d] = 0;
+      }
+      gifts_.giving[row] = gifts_.giving_left[row] = gifts_.giving_right[row] = 0;
     }
-    gifts_.giving[y] = gifts_.giving_left[y] = gifts_.giving_right[y] = 0;
   }
 
   [[gnu::always_inline]] std::uint64_t givers_of(int w, int y) const {
     const std::uint64_t liquid = v_.liquid[v_.word(w, y, z_)];
     if (!law_.support || y == 0) return liquid;
-    return liquid & (v_.blocked(w, y - 1, z_) | v_.liquid[v_.word(w, y - 1, z_)]);
+    const bool first = (y & ((1 << v_.tile_shift) - 1)) == 0;
+    const std::uint64_t* below = first && below_ != nullptr ? below_ : v_.liquid + v_.word(0, y - 1, z_);
+    return liquid & (v_.blocked(w, y - 1, z_) | below[w]);
   }
 
   [[gnu::always_inline]] void process(int count) {
@@ -89,7 +95,7 @@ class Pattern {
       const Item item = items_[i];
       const bool any = find_available(item, available_[found]);
       items_[found] = item;
-      restless_[item.y >> v_.tile_shift] |= TileRow{any} << item.w;
+      restless_ |= TileRow{any} << item.w;
       found += any;
     }
     for (int i = found; i < found + 3; ++i) {  // the last four are filled up with items that give nothing
@@ -110,7 +116,7 @@ class Pattern {
     } else {
       const V sh = share(cell);
       flow = L::min(L::high(amount, sh), L::set(kCap));
-      const std::size_t gift = static_cast<std::size_t>(item.y) * v_.row + lane;
+      const std::size_t gift = gifts_.row(item.y) * v_.row + lane;
       L::store(gifts_.flow[0] + gift, flow);
       L::store(gifts_.energy[0] + gift, L::min(flow, L::high(energy, sh)));
       if constexpr (kFeatures.hot)
@@ -174,7 +180,8 @@ class Pattern {
     for (int i = 0; i < 4; ++i) {
       const Item& item = items_[first + i];
       Bits* available = available_[first + i];
-      auto* planes = reinterpret_cast<Bits*>(gifts_.planes + gift_word(item.w, item.y)) + item.part;
+      auto* planes =
+          reinterpret_cast<Bits*>(gifts_.planes + gift_word(item.w, gifts_.row(item.y))) + item.part;
       Bits any = 0, left = 0, right = 0;
       cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
         const auto pattern = static_cast<Bits>(available[d] & dice[d][i]);
@@ -185,18 +192,18 @@ class Pattern {
         if (pattern != 0) planes[d * L::kParts] = pattern;
       });
       const TileRow word = TileRow{1} << item.w;
-      gifts_.giving[item.y] |= any != 0 ? word : 0;
-      gifts_.giving_tiles[item.y >> v_.tile_shift] |= any != 0 ? word : 0;
-      gifts_.giving_left[item.y] |= item.part == 0 && (left & 1u) != 0 ? word : 0;
-      gifts_.giving_right[item.y] |= item.part == L::kParts - 1 && (right >> (L::kCount - 1)) != 0 ? word : 0;
+      const std::size_t row = gifts_.row(item.y);
+      giving_ |= any != 0 ? word : 0;
+      gifts_.giving[row] |= any != 0 ? word : 0;
+      gifts_.giving_left[row] |= item.part == 0 && (left & 1u) != 0 ? word : 0;
+      gifts_.giving_right[row] |= item.part == L::kParts - 1 && (right >> (L::kCount - 1)) != 0 ? word : 0;
       if constexpr (kFeatures.general)
         if (any != 0) give(item, available);
     }
   }
 
-  [[gnu::always_inline]] std::size_t gift_word(int w, int y) const {
-    return 8 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(v_.words + 2) + 1 +
-                static_cast<std::size_t>(w));
+  [[gnu::always_inline]] std::size_t gift_word(int w, std::size_t row) const {
+    return 8 * (row * static_cast<std::size_t>(v_.words + 2) + 1 + static_cast<std::size_t>(w));
   }
   [[gnu::always_inline]] static std::size_t lane_of(const Item& item) {
     return 64 * static_cast<std::size_t>(item.w) + static_cast<std::size_t>(item.part * L::kCount);
@@ -216,7 +223,7 @@ class Pattern {
   // The gifts of every direction on their own: shares by pattern, energy by the printed reading.
   [[gnu::always_inline]] void give(const Item& item, const Bits* pattern) {
     const std::size_t cell = v_.cell(0, item.y, z_) + lane_of(item);
-    const std::size_t gift = static_cast<std::size_t>(item.y) * v_.row + lane_of(item);
+    const std::size_t gift = gifts_.row(item.y) * v_.row + lane_of(item);
     const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
     if constexpr (kFeatures.hot)
       L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
@@ -250,7 +257,8 @@ class Pattern {
   const rule::PaperLaw& law_;
   const int z_;
   const std::uint32_t row_blocks_;
-  TileRow* restless_;
+  TileRow restless_ = 0, giving_ = 0;
+  const std::uint64_t* below_;
   Gifts& gifts_;
   std::ptrdiff_t places_[8];
   Item items_[kBatch + 4];

@@ -1,0 +1,185 @@
+// Phase `heat`: conduction through faces (Eq. 1), one slice in place. The flux through a face is computed
+// once: a cell computes those to x + 1, y + 1 and z + 1 and takes the others from the lane, the row and the
+// slice before it. So no old heats need be kept: what a cell still has to read has not been written yet.
+#pragma once
+
+#include "kernel/simd/flux.h"
+#include "kernel/simd/heat_books.h"
+
+namespace voxmelt::simd {
+
+template <class Arch, bool kLatent>
+class FaceConduction {
+  using L = cpu::Lanes<Arch>;
+  using V = typename L::V;
+  using M = typename L::M;
+
+ public:
+  [[gnu::always_inline]] FaceConduction(const View& view, const Step& step, int z, const OldHeat& old,
+                                        const HeatFlux& flux)
+      : v_(view),
+        heat_(view.temperature),
+        below_(old.below),
+        above_(old.above),
+        up_(flux.up),
+        front_(flux.front),
+        z_(z),
+        plateau_(step.parameters->material),
+        along_x_(step.parameters->heat.weight_face, part_dither(step, 0, 3)),
+        along_y_(step.parameters->heat.weight_face, part_dither(step, 1, 3)),
+        along_z_(step.parameters->heat.weight_face, part_dither(step, 2, 3)) {}
+
+  [[gnu::always_inline]] std::int64_t run(const TileRow* carried, const TileRow* tiles, TileRow* changed,
+                                          TileRow* restless) {
+    for (int r = 0; r < v_.tile_rows(); ++r) {
+      if (tiles[r] == 0) continue;
+      TileRow from_below = r > 0 ? tiles[r - 1] : 0;
+      const TileRow from_back = carried != nullptr ? carried[r] : 0;
+      for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y) {
+        changed[r] |= row(y, tiles[r], from_below, from_back, restless[r]);
+        from_below = tiles[r];
+        books_.end_row();
+      }
+    }
+    return books_.total();
+  }
+
+ private:
+  // from_below, from_back: words whose flux is carried. Returns those that changed.
+  [[gnu::always_inline]] TileRow row(int y, TileRow work, TileRow from_below, TileRow from_back,
+                                     TileRow& restless) {
+    TileRow moved = 0;
+    for (TileRow left = work; left != 0; left &= left - 1) {
+      const TileRow bit = left & -left;
+      const int w = __builtin_ctzll(left);
+      const std::uint64_t own = matter(v_, w, y, z_);
+      if (own == 0) {
+        nothing(w, y);
+        continue;
+      }
+      if ((from_below & bit) == 0) enter_y(w, y, own);
+      if ((from_back & bit) == 0) enter_z(w, y, own);
+      if ((work & bit >> 1) == 0) enter_x(w, y, own);
+      if (word(w, y, own))
+        moved |= bit;
+      else if ((restless & bit) == 0 && differs(w, y, own))
+        restless |= bit;
+    }
+    return moved;
+  }
+
+  // Flux into a word from what this sweep did not visit: computed, not carried.
+  [[gnu::always_inline]] void enter_x(int w, int y, std::uint64_t own) {
+    const std::uint64_t pair = own & matter(v_, w - 1, y, z_) >> 63;
+    const std::uint16_t* last = heat_ + v_.cell(w, y, z_) - L::kCount;
+    before_ = along_x_.template between<false>(plateau_(L::load_any(last)), plateau_(L::load_any(last + 1)),
+                                               pair << (L::kCount - 1), 0);
+  }
+  [[gnu::always_inline]] void enter_y(int w, int y, std::uint64_t own) {
+    const std::uint16_t* to = heat_ + v_.cell(w, y, z_);
+    enter(up_ + 64 * static_cast<std::size_t>(w), y > 0 ? to - v_.row : to, to,
+          own & matter(v_, w, y - 1, z_), along_y_);
+  }
+  [[gnu::always_inline]] void enter_z(int w, int y, std::uint64_t own) {
+    const std::uint16_t* to = heat_ + v_.cell(w, y, z_);
+    const std::size_t at = v_.cell(w, y, 0);
+    enter(front_ + at, below_ != nullptr ? below_ + at : to, to, own & matter(v_, w, y, z_ - 1), along_z_);
+  }
+  [[gnu::always_inline]] void enter(std::uint16_t* flux, const std::uint16_t* from, const std::uint16_t* to,
+                                    std::uint64_t pairs, const Flux<Arch>& rule) {
+    for (int part = 0; part < L::kParts; ++part) {
+      const int at = part * L::kCount;
+      L::store(flux + at, rule.template between<false>(plateau_(L::load(from + at)),
+                                                       plateau_(L::load(to + at)), pairs, part));
+    }
+  }
+
+  // No matter: nothing flows on.
+  [[gnu::always_inline]] void nothing(int w, int y) {
+    before_ = L::zero();
+    for (int at = 0; at < 64; at += L::kCount) {
+      L::store(up_ + 64 * w + at, L::zero());
+      L::store(front_ + v_.cell(w, y, 0) + at, L::zero());
+    }
+  }
+
+  struct Pairs {  // cells that are matter, as is their neighbour
+    std::uint64_t right, up, front;
+  };
+
+  // Returns whether any heat changed.
+  [[gnu::always_inline]] bool word(int w, int y, std::uint64_t own) {
+    const Pairs pairs{own & cpu::from_right(own, matter(v_, w + 1, y, z_)), own & matter(v_, w, y + 1, z_),
+                      own & matter(v_, w, y, z_ + 1)};
+    const std::size_t cell = v_.cell(w, y, z_), in_slice = v_.cell(w, y, 0);
+    const std::uint16_t *up = heat_ + cell, *front = up;
+    if (y + 1 < v_.ny) up += v_.row;
+    if (above_ != nullptr) front = above_ + in_slice;
+    if ((pairs.right & pairs.up & pairs.front) == ~std::uint64_t{0})
+      return vectors<true>(cell, in_slice, 64 * static_cast<std::size_t>(w), up, front, pairs);
+    return vectors<false>(cell, in_slice, 64 * static_cast<std::size_t>(w), up, front, pairs);
+  }
+
+  template <bool kAllPairs>
+  [[gnu::always_inline]] bool vectors(std::size_t cell, std::size_t in_slice, std::size_t in_row,
+                                      const std::uint16_t* up, const std::uint16_t* front,
+                                      const Pairs& pairs) {
+    V any = L::zero();
+    for (int part = 0; part < L::kParts; ++part) {
+      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
+      std::uint16_t* here = heat_ + cell + at;
+      const V old = L::load(here), own = plateau_(old);
+      const V x =
+          along_x_.template between<kAllPairs>(own, plateau_(L::load_any(here + 1)), pairs.right, part);
+      const V y = along_y_.template between<kAllPairs>(own, plateau_(L::load(up + at)), pairs.up, part);
+      const V z = along_z_.template between<kAllPairs>(own, plateau_(L::load(front + at)), pairs.front, part);
+      const V gain = (x - L::after(before_, x)) + (y - L::load(up_ + in_row + at)) +
+                     (z - L::load(front_ + in_slice + at));
+      before_ = x;
+      L::store(up_ + in_row + at, y);
+      L::store(front_ + in_slice + at, z);
+      const V now = old + gain;
+      L::store(here, now);
+      books_.add(L::load(v_.amount + cell + at), old, now);
+      any = any | gain;
+    }
+    return L::to_bits(L::equal(any, L::zero())) != kAll;
+  }
+
+  // Whether any pair of this word is of two temperatures. Neighbours may have changed in this pass: then they
+  // are told to have, and wake this tile in any case.
+  [[gnu::always_inline]] bool differs(int w, int y, std::uint64_t own) const {
+    const std::uint16_t* here = heat_ + v_.cell(w, y, z_);
+    const std::size_t in_slice = v_.cell(w, y, 0), row = v_.row;
+    const std::uint64_t front = own & matter(v_, w, y, z_ + 1), back = own & matter(v_, w, y, z_ - 1);
+    const bool first = y == 0, last = y + 1 == v_.ny;
+    return differ(here, here + 1, own & cpu::from_right(own, matter(v_, w + 1, y, z_))) ||
+           differ(here, here - 1, own & cpu::from_left(own, matter(v_, w - 1, y, z_))) ||
+           differ(here, last ? here : here + row, own & matter(v_, w, y + 1, z_)) ||
+           differ(here, first ? here : here - row, own & matter(v_, w, y - 1, z_)) ||
+           differ(here, above_ != nullptr ? above_ + in_slice : here, front) ||
+           differ(here, below_ != nullptr ? below_ + in_slice : here, back);
+  }
+  [[gnu::always_inline]] bool differ(const std::uint16_t* here, const std::uint16_t* there,
+                                     std::uint64_t pairs) const {
+    std::uint64_t same = 0;
+    for (int part = 0; part < L::kParts; ++part) {
+      const int at = part * L::kCount;
+      same |= L::to_bits(L::equal(plateau_(L::load(here + at)), plateau_(L::load_any(there + at)))) << at;
+    }
+    return (pairs & ~same) != 0;
+  }
+
+  static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
+  const View v_;
+  std::uint16_t* const heat_;
+  const std::uint16_t *const below_, *const above_;
+  std::uint16_t *const up_, *const front_;
+  const int z_;
+  const Plateau<Arch, kLatent> plateau_;
+  const Flux<Arch> along_x_, along_y_, along_z_;
+  V before_ = L::zero();  // flux along x through the faces of the vector before
+  PairBooks<Arch> books_;
+};
+
+}  // namespace voxmelt::simd
