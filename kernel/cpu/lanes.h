@@ -24,9 +24,13 @@ namespace voxmelt::cpu {
 //   M from_bits(uint64_t word, int part), uint64_t to_bits(M)
 //   V keep(M, V)                        the lane, or 0
 //   V add_if(M, V a, V b)               a + b where M, else a
+//   V sub_if(M, V a, V b)               a - b where M, else a
+//   V carry(V a, V low, V most)         a + 1 where low > most, else a
 //   Wide unpack(V low, V high)          high 65536 + low
 //   V narrow(Wide)                      lanes below 65536
 //   Wide pair_product(V f0, V h0, V f1, V h1)   f0 h0 + f1 h1, all signed 16-bit
+//   V after(V previous, V current)      lanes moved up by one: lane 0 is the last of `previous`
+//   W pair_sums(V a, V b)               a b + a b of neighbouring lanes, all signed 16-bit
 //   Bits                                one bit a lane
 //   void dice(keys, step, const uint32_t blocks[4], Bits planes[8][4])    the random bytes
 //   (docs/automaton.md,

@@ -37,6 +37,8 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
   }
   VOXMELT_LANES V keep(M m, V v) { return V(_mm256_and_si256(m, v)); }
   VOXMELT_LANES V add_if(M m, V a, V b) { return a + keep(m, b); }
+  VOXMELT_LANES V sub_if(M m, V a, V b) { return a - keep(m, b); }
+  VOXMELT_LANES V carry(V a, V low, V most) { return a + min(sub_saturated(low, most), set(1)); }
 
   VOXMELT_LANES Wide unpack(V low, V high) {
     return {W(_mm256_unpacklo_epi16(low, high)), W(_mm256_unpackhi_epi16(low, high))};
@@ -46,6 +48,11 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
     return {W(_mm256_madd_epi16(_mm256_unpacklo_epi16(f0, f1), _mm256_unpacklo_epi16(h0, h1))),
             W(_mm256_madd_epi16(_mm256_unpackhi_epi16(f0, f1), _mm256_unpackhi_epi16(h0, h1)))};
   }
+  VOXMELT_LANES V after(V previous, V current) {
+    const __m256i middle = _mm256_permute2x128_si256(previous, current, 0x21);
+    return V(_mm256_alignr_epi8(current, middle, 14));
+  }
+  VOXMELT_LANES W pair_sums(V a, V b) { return W(_mm256_madd_epi16(a, b)); }
 
   using Bits = std::uint16_t;
   VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,

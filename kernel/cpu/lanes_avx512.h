@@ -26,6 +26,8 @@ struct Lanes<xsimd::avx512bw> : LanesOf<xsimd::avx512bw> {
   VOXMELT_LANES std::uint64_t to_bits(M m) { return bits(m); }
   VOXMELT_LANES V keep(M m, V v) { return V(_mm512_maskz_mov_epi16(bits(m), v)); }
   VOXMELT_LANES V add_if(M m, V a, V b) { return V(_mm512_mask_add_epi16(a, bits(m), a, b)); }
+  VOXMELT_LANES V sub_if(M m, V a, V b) { return V(_mm512_mask_sub_epi16(a, bits(m), a, b)); }
+  VOXMELT_LANES V carry(V a, V low, V most) { return add_if(less(most, low), a, set(1)); }
 
   VOXMELT_LANES Wide unpack(V low, V high) {
     return {W(_mm512_unpacklo_epi16(low, high)), W(_mm512_unpackhi_epi16(low, high))};
@@ -35,6 +37,11 @@ struct Lanes<xsimd::avx512bw> : LanesOf<xsimd::avx512bw> {
     return {W(_mm512_madd_epi16(_mm512_unpacklo_epi16(f0, f1), _mm512_unpacklo_epi16(h0, h1))),
             W(_mm512_madd_epi16(_mm512_unpackhi_epi16(f0, f1), _mm512_unpackhi_epi16(h0, h1)))};
   }
+  VOXMELT_LANES V after(V previous, V current) {
+    const __m512i middle = _mm512_alignr_epi64(current, previous, 6);
+    return V(_mm512_alignr_epi8(current, middle, 14));
+  }
+  VOXMELT_LANES W pair_sums(V a, V b) { return W(_mm512_madd_epi16(a, b)); }
 
   using Bits = std::uint32_t;
   VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,

@@ -34,6 +34,8 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
   }
   VOXMELT_LANES V keep(M m, V v) { return V(_mm_and_si128(m, v)); }
   VOXMELT_LANES V add_if(M m, V a, V b) { return a + keep(m, b); }
+  VOXMELT_LANES V sub_if(M m, V a, V b) { return a - keep(m, b); }
+  VOXMELT_LANES V carry(V a, V low, V most) { return a + min(sub_saturated(low, most), set(1)); }
 
   VOXMELT_LANES Wide unpack(V low, V high) {
     return {W(_mm_unpacklo_epi16(low, high)), W(_mm_unpackhi_epi16(low, high))};
@@ -43,6 +45,8 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
     return {W(_mm_madd_epi16(_mm_unpacklo_epi16(f0, f1), _mm_unpacklo_epi16(h0, h1))),
             W(_mm_madd_epi16(_mm_unpackhi_epi16(f0, f1), _mm_unpackhi_epi16(h0, h1)))};
   }
+  VOXMELT_LANES V after(V previous, V current) { return V(_mm_alignr_epi8(current, previous, 14)); }
+  VOXMELT_LANES W pair_sums(V a, V b) { return W(_mm_madd_epi16(a, b)); }
 
   using Bits = std::uint8_t;
   VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,

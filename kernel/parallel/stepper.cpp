@@ -32,9 +32,13 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
       workers_(tuning.threads),
       rest_(scalar::create_reference(parameters, grid, tuning)) {
   const simd::View view = shape_of(grid, tuning.tile_shift);
-  if (parameters.flow.law == rule::Law::paper) paper_.emplace(parameters, view, chunks_for(tuning));
+  if (parameters.flow.law == rule::Law::paper)
+    paper_.emplace(parameters, view, chunks_for(tuning));
+  else
+    viscous_.emplace(grid, view, chunks_for(tuning));
   dirty_ = dirty_next_ = Tiles(view.nz, view.tile_rows());
   dirty_.fill(all_words(view));  // nothing is known about the first state
+  if (viscous_) viscous_->note(dirty_);
 }
 
 simd::View Stepper::view_of(state::Volume& volume) const {
@@ -60,34 +64,44 @@ void Stepper::run(step::Phase phase, std::uint32_t number, const step::Irradianc
   simd::Books books;
   switch (phase) {
     case step::Phase::gravity:
-      if (!paper_) break;
-      paper_->gravity(job, dirty_, books);
-      ledger.energy.accelerated += books.accelerated;
-      ledger.energy.capped += books.capped;
-      ledger.heat.rounded += books.rounded;
-      return;
+      if (paper_)
+        paper_->gravity(job, dirty_, books);
+      else
+        viscous_->fall(job, books);
+      break;
     case step::Phase::spread:
-      if (!paper_) break;
-      paper_->spread(job, dirty_, dirty_next_, books);
-      ledger.energy.dissipated += books.dissipated;
-      ledger.energy.capped += books.capped;
-      ledger.heat.rounded += books.rounded;
-      std::swap(dirty_, dirty_next_);
-      return;
+      if (paper_) {
+        paper_->spread(job, dirty_, dirty_next_, books);
+        std::swap(dirty_, dirty_next_);
+      } else {
+        viscous_->spread(job, books);
+      }
+      break;
     case step::Phase::excess:
-      if (paper_) return;
+      if (viscous_) viscous_->settle(job, books);
       break;
     case step::Phase::source:
       if (parameters_.vents.empty() && parameters_.drains.empty()) return;
-      break;
+      rest_->run(phase, number, irradiance, volume, ledger);
+      note_all(view);
+      return;
     case step::Phase::heat:
     case step::Phase::melt:
       if (!parameters_.heat.enabled) return;
-      break;
+      rest_->run(phase, number, irradiance, volume, ledger);
+      if (phase == step::Phase::melt) walls_ = Walls(view);
+      note_all(view);
+      return;
   }
-  rest_->run(phase, number, irradiance, volume, ledger);
-  if (phase == step::Phase::melt) walls_ = Walls(view);
+  ledger.energy.accelerated += books.accelerated;
+  ledger.energy.dissipated += books.dissipated;
+  ledger.energy.capped += books.capped;
+  ledger.heat.rounded += books.rounded;
+}
+
+void Stepper::note_all(const simd::View& view) {
   dirty_.fill(all_words(view));
+  if (viscous_) viscous_->note(dirty_);
 }
 
 }  // namespace voxmelt::parallel

@@ -8,6 +8,7 @@
 
 #include "kernel/cpu/instruction_set.h"
 #include "kernel/parallel/paper_flow.h"
+#include "kernel/parallel/viscous_flow.h"
 #include "kernel/parallel/walls.h"
 #include "kernel/rule/random.h"
 #include "kernel/step/stepper.h"
@@ -24,6 +25,7 @@ class Stepper final : public step::Stepper {
 
  private:
   simd::View view_of(state::Volume& volume) const;
+  void note_all(const simd::View& view);
 
   rule::Parameters parameters_;
   step::Tuning tuning_;
@@ -32,6 +34,7 @@ class Stepper final : public step::Stepper {
   Workers workers_;
   std::unique_ptr<step::Stepper> rest_;  // phases that have no kernels yet
   std::optional<PaperFlow> paper_;
+  std::optional<ViscousFlow> viscous_;
   Walls walls_;
   bool begun_ = false;
   Tiles dirty_, dirty_next_;

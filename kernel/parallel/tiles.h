@@ -36,6 +36,13 @@ class Tiles {
            std::any_of(slice(z), slice(z) + rows_, [](TileRow row) { return row != 0; });
   }
 
+  void add(int z, const TileRow* rows) {
+    for (int r = 0; r < rows_; ++r) slice(z)[r] |= rows[r];
+  }
+  void add(const Tiles& other) {
+    for (std::size_t i = 0; i < bits_.size(); ++i) bits_[i] |= other.bits_[i];
+  }
+
   // Tiles of row r of slice z that are, or are beside, one of this set.
   TileRow near(int z, int r, TileRow words) const {
     TileRow near = 0;

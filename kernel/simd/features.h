@@ -16,4 +16,15 @@ struct SpreadFeatures {
   bool general;  // shares by pattern, the printed reading, or no `downhill`
 };
 
+struct HeatFeatures {
+  bool latent;     // temperature is not heat
+  bool radiation;  // of `exchange`
+  bool air;        // of `exchange`
+};
+
+struct ViscousFeatures {
+  bool hot;
+  bool guided;  // walls hold, or drops hang
+};
+
 }  // namespace voxmelt::simd

@@ -60,12 +60,30 @@ struct Step {
 // Terms of the ledgers, summed over what a kernel did.
 struct Books {
   std::int64_t accelerated = 0, dissipated = 0, capped = 0, rounded = 0;
+  // Of conducted and convected only the sum over a whole pass means something: see PairBooks.
+  std::int64_t conducted = 0, convected = 0, radiated = 0, warmed = 0, cooled = 0;
+  std::int64_t melted = 0, reheated = 0;
+  std::int64_t mass_added = 0, mass_removed = 0, energy_added = 0, energy_removed = 0, heat_added = 0,
+               heat_removed = 0;
 
   Books& operator+=(const Books& other) {
     accelerated += other.accelerated;
     dissipated += other.dissipated;
     capped += other.capped;
     rounded += other.rounded;
+    conducted += other.conducted;
+    convected += other.convected;
+    radiated += other.radiated;
+    warmed += other.warmed;
+    cooled += other.cooled;
+    melted += other.melted;
+    reheated += other.reheated;
+    mass_added += other.mass_added;
+    mass_removed += other.mass_removed;
+    energy_added += other.energy_added;
+    energy_removed += other.energy_removed;
+    heat_added += other.heat_added;
+    heat_removed += other.heat_removed;
     return *this;
   }
 };
@@ -89,7 +107,48 @@ struct Gifts {
   }
 };
 
-// Phases work on one tile row r of one slice z; `work` and what they return are sets of its tiles.
+// Heats of three slices before a pass of conduction, [y][row]; null beyond the grid. Up to 64 cells before
+// and after a slice may be read.
+struct OldHeat {
+  const std::uint16_t *below = nullptr, *own = nullptr, *above = nullptr;  // z - 1, z, z + 1
+};
+
+// What flows through faces to cells that a sweep has not reached yet, modulo 65536.
+struct HeatFlux {
+  std::uint16_t* up = nullptr;     // [row]: from the row below
+  std::uint16_t* front = nullptr;  // [y][row]: from the slice below
+};
+
+// Viscous law: what a cell shows to its neighbours, written by `settle` for all cells of the columns that it
+// is given, not changed by others. Fields and masks are laid out as in View; all zero is a grid of air.
+struct Runs {
+  std::uint16_t* head = nullptr;      // 512 + head above the cell's own bottom, 1/256 cell, cut at 65535
+  std::uint16_t* mobility = nullptr;  // 1/65536
+  std::uint16_t* exposed = nullptr;   // 1/65536, cells in a run only
+  std::uint16_t* dead = nullptr;      // cut at 65535, which a cell outside a run on a bed or a run has
+  std::uint16_t *deep_low = nullptr, *deep_high = nullptr;  // where head is cut: all 32 bits of it
+  std::uint64_t *in_run = nullptr, *shown = nullptr;        // shown: cells that are not all zero
+  TileRow* deep = nullptr;                                  // [z][y]: words in which a head is cut
+};
+
+// What the pairs of one slice exchange in the viscous law's spread, each pair booked at its first cell (by x
+// in the slice, by z out of it): written by `exchange_pairs`, read by `carry`. Rows are as long as the
+// fields'; 64 cells before and after must be readable. All zero at first.
+struct Currents {
+  std::uint16_t* flow[4] = {};  // [y][row], signed: to (+x), (+z), (+x+z), (-x+z)
+  std::uint16_t* heat[2] = {};  // [y][row], with heat: of this slice and the next, xor 0x8000, where needed
+  TileRow* giving = nullptr;    // [y]: words with a flow that is not 0
+};
+
+// Memory for `settle`: one block per thread, aligned to 64 bytes; what it holds between calls is nothing.
+inline constexpr std::size_t kSettleGroup = 4, kSettleRecord = 1216;
+[[gnu::always_inline]] inline constexpr std::size_t settle_scratch_bytes(int ny) {
+  return kSettleGroup * static_cast<std::size_t>(ny) * kSettleRecord +
+         (kSettleGroup * static_cast<std::size_t>(ny) * sizeof(std::uint64_t) + 63) / 64 * 64;
+}
+
+// The paper law works on one tile row r of one slice z; `work` and what it returns are sets of its tiles. The
+// others work on whole slices.
 struct Kernels {
   // Paper law: gravity and excess through the upper faces of the cells of r, which must follow those of r
   // - 1. `follow`: the tiles in which those moved something into r; then, the same for r + 1. Adds to
@@ -103,6 +162,44 @@ struct Kernels {
   // Paper law: every cell gives and takes; gifts of slices z - 1, z, z + 1. Returns the tiles that changed.
   TileRow (*apply)(const View&, const Step&, int z, int r, const Gifts& below, const Gifts& own,
                    const Gifts& above, Books&) = nullptr;
+
+  // Heat, in this order; null where a scene has no such rule. All in place. `restless`: tiles that may change
+  // in a later step though they did not in this one; it is told only of tiles that this call did not change.
+
+  // Conduction through faces, slices ascending. Needs old.below and old.above; the slice itself holds its old
+  // heats. `carried`: the tiles of the call for z - 1, which left its flux in HeatFlux; null: there was none.
+  void (*conduct_faces)(const View&, const Step&, int z, const OldHeat& old, const TileRow* carried,
+                        const TileRow* tiles, HeatFlux&, TileRow* changed, TileRow* restless,
+                        Books&) = nullptr;
+  // Conduction over edges, then over corners. Needs the old heats of all three slices, its own as a copy.
+  void (*conduct_edges)(const View&, const Step&, int z, const OldHeat& old, const TileRow* tiles,
+                        TileRow* changed, TileRow* restless, Books&) = nullptr;
+  void (*conduct_corners)(const View&, const Step&, int z, const OldHeat& old, const TileRow* tiles,
+                          TileRow* changed, TileRow* restless, Books&) = nullptr;
+  // Convection in the columns of slice z; uses HeatFlux::up.
+  void (*convect)(const View&, const Step&, int z, const TileRow* tiles, HeatFlux&, TileRow* changed,
+                  TileRow* restless, Books&) = nullptr;
+  // Radiation and air, cell by cell.
+  void (*exchange)(const View&, const Step&, int z, const TileRow* tiles, TileRow* changed, TileRow* restless,
+                   Books&) = nullptr;
+  // Melting and reheating; no tile is restless after it.
+  void (*melt)(const View&, const Step&, int z, const TileRow* tiles, TileRow* changed, Books&) = nullptr;
+
+  // Viscous law, phase `excess`: settles the columns of slice z that have a tile in `tiles`. `changed`: where
+  // the state, or what a cell shows, is not what it was.
+  void (*settle)(const View&, const Step&, int z, const TileRow* tiles, Runs&, void* scratch,
+                 TileRow* changed, Books&) = nullptr;
+  // Viscous law, phase `spread`, first half: what the pairs of the tiles of slice z exchange, among
+  // themselves and with slice z + 1. `restless`: where some pair may exchange something at some step if
+  // nothing changes.
+  void (*exchange_pairs)(const View&, const Step&, int z, const TileRow* tiles, const Runs&,
+                         TileRow* restless, Currents&) = nullptr;
+  // Viscous law, phase `spread`, second half: slice z. below, own: currents of slices z - 1 and z.
+  void (*carry)(const View&, const Step&, int z, const Currents& below, const Currents& own, TileRow* changed,
+                Books&) = nullptr;
+  // Viscous law, phase `gravity`: like the paper law's, for cells outside runs.
+  void (*fall)(const View&, const Step&, int z, const TileRow* tiles, const Runs&, TileRow* changed,
+               Books&) = nullptr;
 };
 
 // The kernels that a scene needs; `set` must be supported.

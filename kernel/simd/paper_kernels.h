@@ -57,14 +57,4 @@ void choose_paper_kernels(const rule::Parameters& parameters, Kernels& kernels) 
   }
 }
 
-template <class Arch>
-Kernels kernels_for(const rule::Parameters& parameters) {
-  Kernels kernels;
-  if (parameters.heat.enabled)
-    choose_paper_kernels<Arch, true>(parameters, kernels);
-  else
-    choose_paper_kernels<Arch, false>(parameters, kernels);
-  return kernels;
-}
-
 }  // namespace voxmelt::simd

@@ -15,9 +15,9 @@ void settle_slice(const View& view, const Step& step, int z, const TileRow* tile
 }
 
 template <class Arch, ViscousFeatures kFeatures>
-void exchange_slice(const View& view, const Step& step, int z, const TileRow* tiles, const Runs& runs,
-                    TileRow* restless, Currents& currents) {
-  Exchange<Arch, kFeatures> exchange(view, step, z, runs, currents);
+void exchange_pairs_slice(const View& view, const Step& step, int z, const TileRow* tiles, const Runs& runs,
+                          TileRow* restless, Currents& currents) {
+  ExchangePairs<Arch, kFeatures> exchange(view, step, z, runs, currents);
   for (int y = 0; y < view.ny; ++y)
     restless[y >> view.tile_shift] |= exchange.row(y, tiles[y >> view.tile_shift]);
 }
@@ -42,7 +42,7 @@ void choose_viscous_kernels(const rule::Parameters& parameters, Kernels& kernels
   const auto choose = [&]<bool kHot>() {
     constexpr ViscousFeatures plain{kHot, false}, all{kHot, true};
     kernels.settle = settle_slice<Arch, plain>;
-    kernels.exchange = exchange_slice<Arch, plain>;
+    kernels.exchange_pairs = exchange_pairs_slice<Arch, plain>;
     kernels.carry = carry_slice<Arch, plain>;
     kernels.fall = guided ? fall_slice<Arch, all> : fall_slice<Arch, plain>;
   };

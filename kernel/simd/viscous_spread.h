@@ -10,15 +10,15 @@
 namespace voxmelt::simd {
 
 template <class Arch, ViscousFeatures kFeatures>
-class Exchange {
+class ExchangePairs {
   using L = cpu::Lanes<Arch>;
   using V = typename L::V;
   using M = typename L::M;
   using Wide = typename L::Wide;
 
  public:
-  [[gnu::always_inline]] Exchange(const View& view, const Step& step, int z, const Runs& runs,
-                                  Currents& currents)
+  [[gnu::always_inline]] ExchangePairs(const View& view, const Step& step, int z, const Runs& runs,
+                                       Currents& currents)
       : v_(view), r_(runs), z_(z), c_(currents) {
     const auto front = z + 1 < view.nz ? static_cast<std::ptrdiff_t>(view.slice) : 0;  // else masked
     const std::ptrdiff_t steps[4] = {1, front, front + 1, front - 1};

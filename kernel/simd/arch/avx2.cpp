@@ -1,7 +1,7 @@
 // The kernels for AVX2.
 #include "kernel/cpu/lanes_avx2.h"
 #include "kernel/simd/arch/arch.h"
-#include "kernel/simd/paper_kernels.h"
+#include "kernel/simd/choose_kernels.h"
 
 namespace voxmelt::simd {
 

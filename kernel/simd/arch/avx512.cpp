@@ -1,7 +1,7 @@
 // The kernels for AVX-512BW.
 #include "kernel/cpu/lanes_avx512.h"
 #include "kernel/simd/arch/arch.h"
-#include "kernel/simd/paper_kernels.h"
+#include "kernel/simd/choose_kernels.h"
 
 namespace voxmelt::simd {
 

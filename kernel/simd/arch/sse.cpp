@@ -1,7 +1,7 @@
 // The kernels for SSE4.2.
 #include "kernel/cpu/lanes_sse.h"
 #include "kernel/simd/arch/arch.h"
-#include "kernel/simd/paper_kernels.h"
+#include "kernel/simd/choose_kernels.h"
 
 namespace voxmelt::simd {
 

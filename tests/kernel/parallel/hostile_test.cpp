@@ -44,7 +44,7 @@ TEST_P(Hostile, SameBitsAfterEveryPhase) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Implementations, Hostile,
-                         testing::Combine(testing::Values(rule::Law::paper),
+                         testing::Combine(testing::Values(rule::Law::paper, rule::Law::viscous),
                                           testing::ValuesIn(fast_implementations())),
                          [](const auto& chosen) {
                            std::string name =

@@ -146,7 +146,7 @@ class ViscousDriver {
     std::fill(restless_.begin(), restless_.end(), 0);
     Tiles changed(work.size());
     const auto exchange = [&](int z, SliceCurrents& to) {
-      kernels_.exchange(view, step, z, &work[slice(z)], runs_, &restless_[slice(z)], to.currents);
+      kernels_.exchange_pairs(view, step, z, &work[slice(z)], runs_, &restless_[slice(z)], to.currents);
     };
     const int cut = way_.cut > 0 && way_.cut < view.nz ? way_.cut : view.nz;
     if (cut < view.nz) exchange(cut - 1, currents_[2]);
