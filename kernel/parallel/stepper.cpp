@@ -1,6 +1,6 @@
 #include "kernel/parallel/stepper.h"
 
-#include "kernel/scalar/reference.h"
+#include "kernel/simd/source.h"
 
 namespace voxmelt::parallel {
 namespace {
@@ -21,6 +21,26 @@ simd::View shape_of(state::Grid grid, int tile_shift) {
 
 int chunks_for(const step::Tuning& tuning) { return tuning.threads == 1 ? 1 : 4 * tuning.threads; }
 
+void book(const simd::Books& books, state::Ledger& ledger) {
+  ledger.mass.added += books.mass_added;
+  ledger.mass.removed += books.mass_removed;
+  ledger.energy.melted += books.melted;
+  ledger.energy.added += books.energy_added;
+  ledger.energy.removed += books.energy_removed;
+  ledger.energy.reheated += books.reheated;
+  ledger.energy.accelerated += books.accelerated;
+  ledger.energy.dissipated += books.dissipated;
+  ledger.energy.capped += books.capped;
+  ledger.heat.conducted += books.conducted;
+  ledger.heat.convected += books.convected;
+  ledger.heat.radiated += books.radiated;
+  ledger.heat.warmed += books.warmed;
+  ledger.heat.cooled += books.cooled;
+  ledger.heat.added += books.heat_added;
+  ledger.heat.removed += books.heat_removed;
+  ledger.heat.rounded += books.rounded;
+}
+
 }  // namespace
 
 Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, state::Grid grid,
@@ -29,19 +49,21 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
       tuning_(tuning),
       kernels_(simd::kernels(set, parameters)),
       keys_(rule::round_keys(parameters.seed)),
-      workers_(tuning.threads),
-      rest_(scalar::create_reference(parameters, grid, tuning)) {
+      workers_(tuning.threads) {
   const simd::View view = shape_of(grid, tuning.tile_shift);
+  const int chunks = chunks_for(tuning);
+  if (parameters.heat.enabled) heat_.emplace(grid, view, chunks);
   if (parameters.flow.law == rule::Law::paper)
-    paper_.emplace(parameters, view, chunks_for(tuning));
+    paper_.emplace(parameters, view, chunks);
   else
-    viscous_.emplace(grid, view, chunks_for(tuning));
-  dirty_ = dirty_next_ = Tiles(view.nz, view.tile_rows());
+    viscous_.emplace(grid, view, chunks);
+  dirty_ = dirty_next_ = changed_ = Tiles(view.nz, view.tile_rows());
   dirty_.fill(all_words(view));  // nothing is known about the first state
+  if (heat_) heat_->note(dirty_);
   if (viscous_) viscous_->note(dirty_);
 }
 
-simd::View Stepper::view_of(state::Volume& volume) const {
+simd::View Stepper::view_of(state::Volume& volume) {
   simd::View view = shape_of(volume.grid, tuning_.tile_shift);
   view.amount = volume.amount.data();
   view.energy = volume.energy.data();
@@ -49,59 +71,89 @@ simd::View Stepper::view_of(state::Volume& volume) const {
   view.solid = volume.solid.data();
   view.liquid = volume.liquid.data();
   view.inert = volume.inert.data();
+  if (!walls_) walls_.emplace(view);
+  view.walls = walls_->origin(view);
   return view;
 }
 
 void Stepper::run(step::Phase phase, std::uint32_t number, const step::Irradiance* irradiance,
                   state::Volume& volume, state::Ledger& ledger) {
-  simd::View view = view_of(volume);
-  if (!begun_) walls_ = Walls(view);
-  begun_ = true;
-  view.walls = walls_.origin(view);
+  const simd::View view = view_of(volume);
   const simd::Step step{&parameters_, number, static_cast<std::uint32_t>(rule::dither(number)), keys_.data(),
                         irradiance == nullptr ? nullptr : irradiance->data()};
   const Job job{view, step, kernels_, workers_, tuning_.sleep};
   simd::Books books;
   switch (phase) {
+    case step::Phase::source:
+      source(job, books);
+      break;
+    case step::Phase::heat:
+      heat(job, books);
+      break;
+    case step::Phase::melt:
+      melt(job, books);
+      break;
     case step::Phase::gravity:
-      if (paper_)
-        paper_->gravity(job, dirty_, books);
-      else
-        viscous_->fall(job, books);
+      gravity(job, books);
       break;
     case step::Phase::spread:
-      if (paper_) {
-        paper_->spread(job, dirty_, dirty_next_, books);
-        std::swap(dirty_, dirty_next_);
-      } else {
-        viscous_->spread(job, books);
-      }
+      spread(job, books);
       break;
     case step::Phase::excess:
-      if (viscous_) viscous_->settle(job, books);
+      settle(job, books);
       break;
-    case step::Phase::source:
-      if (parameters_.vents.empty() && parameters_.drains.empty()) return;
-      rest_->run(phase, number, irradiance, volume, ledger);
-      note_all(view);
-      return;
-    case step::Phase::heat:
-    case step::Phase::melt:
-      if (!parameters_.heat.enabled) return;
-      rest_->run(phase, number, irradiance, volume, ledger);
-      if (phase == step::Phase::melt) walls_ = Walls(view);
-      note_all(view);
-      return;
   }
-  ledger.energy.accelerated += books.accelerated;
-  ledger.energy.dissipated += books.dissipated;
-  ledger.energy.capped += books.capped;
-  ledger.heat.rounded += books.rounded;
+  book(books, ledger);
 }
 
-void Stepper::note_all(const simd::View& view) {
-  dirty_.fill(all_words(view));
-  if (viscous_) viscous_->note(dirty_);
+void Stepper::source(const Job& job, simd::Books& books) {
+  if (parameters_.vents.empty() && parameters_.drains.empty()) return;
+  changed_.fill(0);
+  simd::run_sources(job.view, job.step, changed_.slice(0), books);
+  dirty_.add(changed_);
+  if (heat_) heat_->note(changed_);
+  if (viscous_) viscous_->note(changed_);
+}
+
+void Stepper::heat(const Job& job, simd::Books& books) {
+  if (!heat_) return;
+  const rule::Heat& heat = parameters_.heat;
+  changed_.fill(0);
+  heat_->heat(job, heat.radiation && job.step.number % heat.visibility_every == 0, changed_, books);
+  // The flow of the paper's law asks for heat only where it mixes, unless its shares depend on it.
+  if (parameters_.flow.thermal_viscosity) dirty_.add(changed_);
+  if (viscous_) viscous_->note(changed_);
+}
+
+void Stepper::melt(const Job& job, simd::Books& books) {
+  if (!heat_) return;
+  changed_.fill(0);
+  heat_->melt(job, changed_, books);
+  for (int z = 0; z < job.view.nz; ++z)
+    for (int r = 0; r < job.view.tile_rows(); ++r)
+      if (changed_.slice(z)[r] != 0)
+        for (int y = job.view.tile_begin(r); y < job.view.tile_end(r); ++y) walls_->refresh(job.view, y, z);
+  dirty_.add(changed_);
+  if (viscous_) viscous_->note(changed_);
+}
+
+void Stepper::gravity(const Job& job, simd::Books& books) {
+  if (paper_)
+    paper_->gravity(job, dirty_, books);
+  else
+    viscous_->fall(job, books);
+  if (viscous_ && heat_) heat_->note(viscous_->take_changed());
+}
+
+void Stepper::spread(const Job& job, simd::Books& books) {
+  if (viscous_) return viscous_->spread(job, books);
+  paper_->spread(job, dirty_, dirty_next_, books);
+  std::swap(dirty_, dirty_next_);
+  if (heat_) heat_->note(dirty_);
+}
+
+void Stepper::settle(const Job& job, simd::Books& books) {
+  if (viscous_) viscous_->settle(job, books);
 }
 
 }  // namespace voxmelt::parallel

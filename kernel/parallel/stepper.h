@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kernel/cpu/instruction_set.h"
+#include "kernel/parallel/heat_flow.h"
 #include "kernel/parallel/paper_flow.h"
 #include "kernel/parallel/viscous_flow.h"
 #include "kernel/parallel/walls.h"
@@ -24,20 +25,25 @@ class Stepper final : public step::Stepper {
            state::Ledger& ledger) override;
 
  private:
-  simd::View view_of(state::Volume& volume) const;
-  void note_all(const simd::View& view);
+  simd::View view_of(state::Volume& volume);
+  void source(const Job& job, simd::Books& books);
+  void heat(const Job& job, simd::Books& books);
+  void melt(const Job& job, simd::Books& books);
+  void gravity(const Job& job, simd::Books& books);
+  void spread(const Job& job, simd::Books& books);
+  void settle(const Job& job, simd::Books& books);
 
   rule::Parameters parameters_;
   step::Tuning tuning_;
   simd::Kernels kernels_;
   rule::RoundKeys keys_;
   Workers workers_;
-  std::unique_ptr<step::Stepper> rest_;  // phases that have no kernels yet
+  std::optional<Walls> walls_;
+  std::optional<HeatFlow> heat_;
   std::optional<PaperFlow> paper_;
   std::optional<ViscousFlow> viscous_;
-  Walls walls_;
-  bool begun_ = false;
-  Tiles dirty_, dirty_next_;
+  Tiles dirty_, dirty_next_;  // paper law: changed since the last gravity; scratch
+  Tiles changed_;             // by a phase
 };
 
 template <cpu::InstructionSet kSet>

@@ -10,6 +10,8 @@ ViscousFlow::ViscousFlow(state::Grid grid, const simd::View& view, int chunks)
       for_fall_(for_settle_),
       taken_(for_settle_),
       restless_(for_settle_),
+      changed_(for_settle_),
+      changed_before_(for_settle_),
       chunk_(static_cast<std::size_t>(chunks_.count())),
       cut_(static_cast<std::size_t>(chunks_.cuts())),
       none_(grid) {
@@ -27,6 +29,16 @@ ViscousFlow::ViscousFlow(state::Grid grid, const simd::View& view, int chunks)
 
 void ViscousFlow::note(const Tiles& changed) {
   for (Tiles* noted : {&for_settle_, &for_exchange_, &for_fall_}) noted->add(changed);
+}
+
+void ViscousFlow::note(int z, const TileRow* changed) {
+  for (Tiles* noted : {&for_settle_, &for_exchange_, &for_fall_, &changed_}) noted->add(z, changed);
+}
+
+const Tiles& ViscousFlow::take_changed() {
+  std::swap(changed_, changed_before_);
+  changed_.fill(0);
+  return changed_before_;
 }
 
 // The tiles of slice z that are awake: `noted`, or beside one; null: all.
@@ -48,7 +60,7 @@ void ViscousFlow::settle(const Job& job, simd::Books& books) {
       if (!any(worker.work)) continue;
       job.kernels.settle(job.view, job.step, z, worker.work.data(), memory_.runs(), worker.scratch.data(),
                          worker.changed.data(), worker.books);
-      for (Tiles* noted : {&for_settle_, &for_exchange_, &for_fall_}) noted->add(z, worker.changed.data());
+      note(z, worker.changed.data());
     }
   });
   close(books);
@@ -93,7 +105,7 @@ void ViscousFlow::spread_chunk(const Job& job, int chunk) {
     if (!own.written() && !below.written()) continue;
     job.kernels.carry(job.view, job.step, z, below.currents(), own.currents(), worker.changed.data(),
                       worker.books);
-    for (Tiles* noted : {&for_settle_, &for_exchange_, &for_fall_}) noted->add(z, worker.changed.data());
+    note(z, worker.changed.data());
   }
 }
 
@@ -107,7 +119,7 @@ void ViscousFlow::fall(const Job& job, simd::Books& books) {
       if (!any(worker.work)) continue;
       job.kernels.fall(job.view, job.step, z, worker.work.data(), memory_.runs(), worker.changed.data(),
                        worker.books);
-      for (Tiles* noted : {&for_settle_, &for_exchange_, &for_fall_}) noted->add(z, worker.changed.data());
+      note(z, worker.changed.data());
     }
   });
   close(books);

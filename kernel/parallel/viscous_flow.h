@@ -24,7 +24,10 @@ class ViscousFlow {
   void note(const Tiles& changed);  // by phases that are not here
   void settle(const Job& job, simd::Books& books);
   void spread(const Job& job, simd::Books& books);
-  void fall(const Job& job, simd::Books& books);
+  void fall(const Job& job, simd::Books& books);  // the last phase of a step
+
+  // What the three phases have changed in this step.
+  const Tiles& take_changed();
 
  private:
   struct Worker {
@@ -37,11 +40,12 @@ class ViscousFlow {
   void find_work(const Job& job, const Tiles* noted, int z, bool beside, Worker& worker);
   void exchange(const Job& job, int z, Worker& worker, SliceCurrents& to);
   void spread_chunk(const Job& job, int chunk);
+  void note(int z, const TileRow* changed);
   void close(simd::Books& books);
 
   Chunks chunks_;
   RunMemory memory_;
-  Tiles for_settle_, for_exchange_, for_fall_, taken_, restless_;
+  Tiles for_settle_, for_exchange_, for_fall_, taken_, restless_, changed_, changed_before_;
   std::vector<Worker> chunk_, cut_;
   SliceCurrents none_;  // of the slice before the first
 };

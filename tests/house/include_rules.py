@@ -22,7 +22,7 @@ ALLOWED = {
     "kernel/cpu": [],
     "kernel/simd": ["kernel/rule", "kernel/cpu", "kernel/simd/arch"],
     "kernel/simd/arch": ["kernel/rule", "kernel/cpu", "kernel/simd"],
-    "kernel/parallel": ["kernel/rule", "kernel/state", "kernel/step", "kernel/cpu", "kernel/simd", "kernel/scalar"],
+    "kernel/parallel": ["kernel/rule", "kernel/state", "kernel/step", "kernel/cpu", "kernel/simd"],
     "bench/baseline": ["kernel/rule", "kernel/state"],
     "kernel/io": ["kernel/rule", "kernel/state", "kernel/scene"],
     "kernel/run": KERNEL,
