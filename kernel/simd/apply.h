@@ -123,10 +123,12 @@ class Apply {
       const Gifts& giver = d < 2 ? own_ : (d % 2 == 0 ? above_ : below_);
       const std::size_t from = giver.row(y) * v_.row + lane + static_cast<std::size_t>(dx);
       const M takes = L::from_bits(masks.in[d], part);
-      const V given = L::keep(takes, flow<opposite>(giver, from));
-      in = in + given;
       energy_in = L::add_if(takes, energy_in, energy_flow<opposite>(giver, from));
-      if constexpr (kFeatures.hot) {
+      if constexpr (!kFeatures.hot) {
+        in = L::add_if(takes, in, flow<opposite>(giver, from));
+      } else {
+        const V given = L::keep(takes, flow<opposite>(giver, from));
+        in = in + given;
         const V heat = L::load_any(giver.heat + from);
         if constexpr (d % 2 == 0) {
           taken = given;
@@ -161,19 +163,14 @@ class Apply {
     return L::to_bits(dry) ^ kAll;
   }
 
+  // Lean: one flow for the axes and one for the diagonals.
   template <int d>
   [[gnu::always_inline]] static V flow(const Gifts& gifts, std::size_t at) {
-    if constexpr (kFeatures.general) return L::load_any(gifts.flow[d] + at);
-    const V axis = L::load_any(gifts.flow[0] + at);
-    if constexpr (d < 4) return axis;
-    return L::template shift_right<2>(axis);
+    return L::load_any(gifts.flow[kFeatures.general ? d : d / 4 * 4] + at);
   }
   template <int d>
   [[gnu::always_inline]] static V energy_flow(const Gifts& gifts, std::size_t at) {
-    if constexpr (kFeatures.general) return L::load_any(gifts.energy[d] + at);
-    const V axis = L::load_any(gifts.energy[0] + at);
-    if constexpr (d < 4) return axis;
-    return L::template shift_right<2>(axis);
+    return L::load_any(gifts.energy[kFeatures.general ? d : d / 4 * 4] + at);
   }
 
   // (alpha e + D) >> 16; the printed reading has paid at the giver's.

@@ -29,6 +29,7 @@ class Pattern {
         law_(step.parameters->flow.paper),
         z_(z),
         row_blocks_((static_cast<std::uint32_t>(view.nx) + 7) / 8),
+        walls_slice_(static_cast<std::ptrdiff_t>(view.ny + 2) * (view.words + 2)),
         below_(below),
         gifts_(gifts) {
     // The neighbour's place; beyond the grid its own: a masked lane.
@@ -66,6 +67,7 @@ class Pattern {
     int y, w, part;
     Bits givers;
   };
+  using Four = Bits[4];  // of four items
 
   // Planes of words that give nothing are 0. (Rows beyond a last, shorter tile row stay as they are: unread.)
   [[gnu::always_inline]] void clear(int r) {
@@ -93,20 +95,20 @@ class Pattern {
     int found = 0;
     for (int i = 0; i < count; ++i) {
       const Item item = items_[i];
-      const bool any = find_available(item, available_[found]);
+      const bool any = find_available(item, available_[found / 4], found % 4);
       items_[found] = item;
       restless_ |= TileRow{any} << item.w;
       found += any;
     }
-    for (int i = found; i < found + 3; ++i) {  // the last four are filled up with items that give nothing
+    for (int i = found; i % 4 != 0; ++i) {  // the last four are filled up with items that give nothing
       items_[i] = items_[0];
-      for (int d = 0; d < kDirections; ++d) available_[i][d] = 0;
+      for (int d = 0; d < kDirections; ++d) available_[i / 4][d][i % 4] = 0;
     }
-    for (int i = 0; i < found; i += 4) throw_dice(i);
+    for (int i = 0; i < found; i += 4) throw_dice(i, found - i < 4 ? found - i : 4);
   }
 
   // The directions to which the cells of an item may give: open, and low enough. Lean: writes the gifts, too.
-  [[gnu::always_inline]] bool find_available(const Item& item, Bits* available) {
+  [[gnu::always_inline]] bool find_available(const Item& item, Four* available, int place) {
     const std::size_t lane = lane_of(item);
     const std::size_t cell = v_.cell(0, item.y, z_) + lane;
     const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
@@ -117,8 +119,13 @@ class Pattern {
       const V sh = share(cell);
       flow = L::min(L::high(amount, sh), L::set(kCap));
       const std::size_t gift = gifts_.row(item.y) * v_.row + lane;
+      const V warm = L::min(flow, L::high(energy, sh));
       L::store(gifts_.flow[0] + gift, flow);
-      L::store(gifts_.energy[0] + gift, L::min(flow, L::high(energy, sh)));
+      L::store(gifts_.energy[0] + gift, warm);
+      if constexpr (kFeatures.eight) {
+        L::store(gifts_.flow[4] + gift, L::template shift_right<2>(flow));
+        L::store(gifts_.energy[4] + gift, L::template shift_right<2>(warm));
+      }
       if constexpr (kFeatures.hot)
         L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
     }
@@ -134,40 +141,47 @@ class Pattern {
     if constexpr (kFeatures.general)
       if (!law_.downhill) limits[0] = limits[1] = most;
 
-    Bits open[8], any = 0;
-    open_directions(item, open);
+    Bits own[8], any = 0;
+    const Bits* open = open_directions(item, own);
     const Bits spreads =
         law_.slump == 0 ? static_cast<Bits>(item.givers & L::to_bits(energetic)) : item.givers;
     cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
       const V there = L::load_any(v_.amount + static_cast<std::ptrdiff_t>(cell) + places_[d]);
-      available[d] = static_cast<Bits>(L::to_bits(L::less(there, limits[d / 4])) & open[d] & spreads);
-      any = static_cast<Bits>(any | available[d]);
+      const auto receives = static_cast<Bits>(L::to_bits(L::less(there, limits[d / 4])) & open[d] & spreads);
+      available[d][place] = receives;
+      any = static_cast<Bits>(any | receives);
     });
     return any != 0;
   }
 
-  // Cells whose neighbour is neither blocked nor, across a diagonal, behind two blocked ones.
-  [[gnu::always_inline]] void open_directions(const Item& item, Bits* open) const {
+  // Cells whose neighbour is neither blocked nor, across a diagonal, behind two blocked ones; in `own` unless
+  // no wall is near, which is most of the time.
+  [[gnu::always_inline]] const Bits* open_directions(const Item& item, Bits* own_open) const {
+    static constexpr Bits kOpen[8] = {kEvery, kEvery, kEvery, kEvery, kEvery, kEvery, kEvery, kEvery};
     const int w = item.w, shift = item.part * L::kCount;
-    const std::uint64_t *own = v_.walls_at(item.y, z_), *front = v_.walls_at(item.y, z_ + 1),
-                        *back = v_.walls_at(item.y, z_ - 1);
-    const auto put = [&](int d, std::uint64_t blocked) { open[d] = static_cast<Bits>(~blocked >> shift); };
-    const std::uint64_t right = cpu::from_right(own[w], own[w + 1]),
-                        left = cpu::from_left(own[w], own[w - 1]);
+    const std::uint64_t *own = v_.walls_at(item.y, z_) + w, *front = own + walls_slice_,
+                        *back = own - walls_slice_;
+    const auto around = [](const std::uint64_t* row) { return row[0] | row[-1] >> 63 | row[1] << 63; };
+    if ((around(own) | around(front) | around(back)) == 0) return kOpen;
+    const auto put = [&](int d, std::uint64_t blocked) {
+      own_open[d] = static_cast<Bits>(~blocked >> shift);
+    };
+    const std::uint64_t right = cpu::from_right(own[0], own[1]), left = cpu::from_left(own[0], own[-1]);
     put(0, right);
     put(1, left);
-    put(2, front[w]);
-    put(3, back[w]);
+    put(2, front[0]);
+    put(3, back[0]);
     if constexpr (kFeatures.eight) {
-      put(4, cpu::from_right(front[w], front[w + 1]) | (right & front[w]));
-      put(5, cpu::from_right(back[w], back[w + 1]) | (right & back[w]));
-      put(6, cpu::from_left(front[w], front[w - 1]) | (left & front[w]));
-      put(7, cpu::from_left(back[w], back[w - 1]) | (left & back[w]));
+      put(4, cpu::from_right(front[0], front[1]) | (right & front[0]));
+      put(5, cpu::from_right(back[0], back[1]) | (right & back[0]));
+      put(6, cpu::from_left(front[0], front[-1]) | (left & front[0]));
+      put(7, cpu::from_left(back[0], back[-1]) | (left & back[0]));
     }
+    return own_open;
   }
 
-  // Keeps a random subset of the directions of four items.
-  [[gnu::always_inline]] void throw_dice(int first) {
+  // Keeps a random subset of the directions of four items, of which the first `count` are there.
+  [[gnu::always_inline]] void throw_dice(int first, int count) {
     std::uint32_t blocks[4];
     for (int i = 0; i < 4; ++i) {
       const Item& item = items_[first + i];
@@ -175,30 +189,34 @@ class Pattern {
                        static_cast<std::uint32_t>(item.y);
       blocks[i] = row * row_blocks_ + static_cast<std::uint32_t>(lane_of(item)) / 8;
     }
-    Bits dice[8][4];
+    alignas(16) Four dice[8];
     L::dice(step_.keys, step_.number, blocks, dice);
-    for (int i = 0; i < 4; ++i) {
+    Four* patterns = available_[first / 4];
+    Four any{}, left{}, right{};
+    cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
+      for (int i = 0; i < 4; ++i) {
+        const auto pattern = static_cast<Bits>(patterns[d][i] & dice[d][i]);
+        patterns[d][i] = pattern;
+        any[i] = static_cast<Bits>(any[i] | pattern);
+        if constexpr (d == 1 || d == 6 || d == 7) left[i] = static_cast<Bits>(left[i] | pattern);
+        if constexpr (d == 0 || d == 4 || d == 5) right[i] = static_cast<Bits>(right[i] | pattern);
+      }
+    });
+    for (int i = 0; i < count; ++i) {
       const Item& item = items_[first + i];
-      Bits* available = available_[first + i];
-      auto* planes =
-          reinterpret_cast<Bits*>(gifts_.planes + gift_word(item.w, gifts_.row(item.y))) + item.part;
-      Bits any = 0, left = 0, right = 0;
-      cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
-        const auto pattern = static_cast<Bits>(available[d] & dice[d][i]);
-        if constexpr (kFeatures.general) available[d] = pattern;
-        any = static_cast<Bits>(any | pattern);
-        if constexpr (d == 1 || d == 6 || d == 7) left = static_cast<Bits>(left | pattern);
-        if constexpr (d == 0 || d == 4 || d == 5) right = static_cast<Bits>(right | pattern);
-        if (pattern != 0) planes[d * L::kParts] = pattern;
-      });
-      const TileRow word = TileRow{1} << item.w;
       const std::size_t row = gifts_.row(item.y);
-      giving_ |= any != 0 ? word : 0;
-      gifts_.giving[row] |= any != 0 ? word : 0;
-      gifts_.giving_left[row] |= item.part == 0 && (left & 1u) != 0 ? word : 0;
-      gifts_.giving_right[row] |= item.part == L::kParts - 1 && (right >> (L::kCount - 1)) != 0 ? word : 0;
-      if constexpr (kFeatures.general)
-        if (any != 0) give(item, available);
+      auto* planes = reinterpret_cast<Bits*>(gifts_.planes + gift_word(item.w, row)) + item.part;
+      cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA { planes[d * L::kParts] = patterns[d][i]; });
+      const TileRow word = TileRow{1} << item.w, gives = any[i] != 0 ? word : 0;
+      giving_ |= gives;
+      gifts_.giving[row] |= gives;
+      gifts_.giving_left[row] |= item.part == 0 && (left[i] & 1u) != 0 ? word : 0;
+      gifts_.giving_right[row] |= item.part == L::kParts - 1 && (right[i] >> (L::kCount - 1)) != 0 ? word : 0;
+      if constexpr (kFeatures.general) {
+        Bits pattern[8];
+        for (int d = 0; d < kDirections; ++d) pattern[d] = patterns[d][i];
+        if (any[i] != 0) give(item, pattern);
+      }
     }
   }
 
@@ -252,17 +270,19 @@ class Pattern {
     return L::load(shares);
   }
 
+  static constexpr Bits kEvery = static_cast<Bits>(~Bits{0});
   const View v_;
   const Step& step_;
   const rule::PaperLaw& law_;
   const int z_;
   const std::uint32_t row_blocks_;
+  const std::ptrdiff_t walls_slice_;
   TileRow restless_ = 0, giving_ = 0;
   const std::uint64_t* below_;
   Gifts& gifts_;
   std::ptrdiff_t places_[8];
   Item items_[kBatch + 4];
-  Bits available_[kBatch + 4][8];
+  alignas(64) Four available_[kBatch / 4 + 1][8];
 };
 
 }  // namespace voxmelt::simd
