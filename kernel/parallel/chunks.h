@@ -8,8 +8,7 @@ namespace voxmelt::parallel {
 
 class Chunks {
  public:
-  static constexpr int kLeast =
-      4;  // slices in a chunk, so that the four slices at one cut belong to that cut only
+  static constexpr int kLeast = 2;  // slices in a chunk: each is beside one cut only
 
   Chunks() = default;
   Chunks(int slices, int wanted)

@@ -1,6 +1,8 @@
 // Memory for what the cells of some rows of a slice give in the paper law's spread.
 #pragma once
 
+#include <algorithm>
+
 #include "kernel/simd/kernels.h"
 #include "kernel/state/pages.h"
 
@@ -31,6 +33,11 @@ class SliceGifts {
 
   simd::Gifts& gifts() { return gifts_; }
   const simd::Gifts& gifts() const { return gifts_; }
+  bool empty() const {  // nobody gives
+    const int tiles = gifts_.rows;
+    return std::all_of(gifts_.giving_tiles, gifts_.giving_tiles + tiles,
+                       [](simd::TileRow row) { return row == 0; });
+  }
 
  private:
   static constexpr std::size_t kGuard = 64;

@@ -69,9 +69,12 @@ void HeatFlow::wake(const Job& job, bool new_irradiance) {
   job.workers.run(chunks_.count(), [&](int chunk) {
     const TileRow all = all_words(job.view);
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
-      for (int r = 0; r < job.view.tile_rows(); ++r)
-        awake_.slice(z)[r] =
-            job.sleep && !new_irradiance ? taken_.near(z, r, all) | restless_.slice(z)[r] : all;
+      awake_.clear(z);
+      if (!job.sleep || new_irradiance)
+        std::fill_n(awake_.edit(z), awake_.rows(), all);
+      else if (taken_.any_near(z) || restless_.any(z))
+        for (int r = 0; r < job.view.tile_rows(); ++r)
+          awake_.edit(z)[r] = taken_.near(z, r, all) | restless_.slice(z)[r];
       stale_.clear(z);
       restless_.clear(z);
       moved_.clear(z);
@@ -84,14 +87,12 @@ void HeatFlow::end_pass(const Job& job, bool wake_neighbours) {
   job.workers.run(chunks_.count(), [&](int chunk) {
     const TileRow all = all_words(job.view);
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
-      if (wake_neighbours)
-        for (int r = 0; r < job.view.tile_rows(); ++r) awake_.slice(z)[r] |= moved_.near(z, r, all);
+      if (wake_neighbours && moved_.any_near(z))
+        for (int r = 0; r < job.view.tile_rows(); ++r) awake_.edit(z)[r] |= moved_.near(z, r, all);
       stale_.add(z, moved_.slice(z));
     }
   });
-  job.workers.run(chunks_.count(), [&](int chunk) {
-    for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) moved_.clear(z);
-  });
+  moved_.clear();
 }
 
 // The slices beside a cut, before either is changed: the rows that somebody awake may read.
@@ -141,7 +142,8 @@ void HeatFlow::sweep(const Job& job, const Visit& visit) {
 template <class Call>
 void HeatFlow::call(int z, Worker& worker, const Call& kernel) {
   std::fill(worker.moved.begin(), worker.moved.end(), TileRow{0});
-  kernel(worker.moved.data(), restless_.slice(z));
+  kernel(worker.moved.data(), restless_.edit(z));
+  restless_.tidy(z);
   moved_.add(z, worker.moved.data());
 }
 
@@ -189,12 +191,12 @@ void HeatFlow::melt(const Job& job, Tiles& changed, simd::Books& books) {
     Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
     const TileRow all = all_words(job.view);
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
-      TileRow* work = for_melt_.slice(z);
-      if (!job.sleep) std::fill_n(work, for_melt_.rows(), all);
+      if (!job.sleep) std::fill_n(for_melt_.edit(z), for_melt_.rows(), all);
       if (!for_melt_.any(z)) continue;
       std::fill(worker.moved.begin(), worker.moved.end(), TileRow{0});
-      job.kernels.melt(job.view, job.step, z, work, worker.moved.data(), worker.books);
-      std::copy(worker.moved.begin(), worker.moved.end(), work);
+      job.kernels.melt(job.view, job.step, z, for_melt_.slice(z), worker.moved.data(), worker.books);
+      for_melt_.clear(z);
+      for_melt_.add(z, worker.moved.data());
       stale_.add(z, worker.moved.data());
       changed.add(z, worker.moved.data());
     }

@@ -1,6 +1,6 @@
-// The flow of the paper's law over all slices: gravity, then spread (pattern, apply), fused in one pass over
-// memory: a chunk of slices is worked on tile row by tile row, upwards, and carries three slices of gifts
-// along z.
+// The flow of the paper's law over all slices: gravity, then spread, whose two halves (pattern, apply) are
+// one pass over memory: a chunk of slices is worked on tile row by tile row, upwards, and carries three
+// slices of gifts along z, small enough for the first cache level.
 //
 // A tile is awake for a phase where something that the phase reads has changed since it last ran there:
 //   gravity  it, or a tile beside it, changed since the last gravity (in it, or since)
@@ -26,13 +26,12 @@ class PaperFlow {
   // and spread changed.
   void gravity(const Job& job, const Tiles& dirty, simd::Books& books);
   void spread(const Job& job, const Tiles& dirty, Tiles& dirty_next, simd::Books& books);
-  void gravity_and_spread(const Job& job, const Tiles& dirty, Tiles& dirty_next, simd::Books& books);
 
  private:
   struct Worker {
     std::vector<SliceGifts>
-        gifts;                    // of a chunk: a ring of three; at a cut: of the slices before and after it
-    std::vector<TileRow> follow;  // of each slice: what gravity moved into the tile row above
+        gifts;  // of a chunk: a ring of three; at a cut: of the slices before and after it
+    std::vector<std::uint8_t> awake;  // slices in which patterns must be looked for
     // Of each slice: liquid in the last row of the tile row below, before spread.
     std::vector<std::uint64_t> ceiling;
     simd::Books books;
@@ -41,12 +40,11 @@ class PaperFlow {
     const Job& job;
     const Tiles& dirty;
     Tiles& dirty_next;
-    bool with_gravity;
   };
 
-  void fall(const Job& job, const Tiles& dirty, int z, int r, TileRow& follow, Worker& worker);
+  void fall(const Job& job, const Tiles& dirty, int z, Worker& worker);
+  bool awake(const Sweep& sweep, int z) const;
   void find_patterns(const Sweep& sweep, int z, int r, const std::uint64_t* below, SliceGifts& gifts);
-  void run(const Sweep& sweep, simd::Books& books);
   void run_cut(const Sweep& sweep, int cut);
   void run_chunk(const Sweep& sweep, int chunk);
   void run_rows(const Sweep& sweep, int chunk, int r);

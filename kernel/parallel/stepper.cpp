@@ -108,8 +108,10 @@ void Stepper::run(step::Phase phase, std::uint32_t number, const step::Irradianc
 
 void Stepper::source(const Job& job, simd::Books& books) {
   if (parameters_.vents.empty() && parameters_.drains.empty()) return;
-  changed_.fill(0);
-  simd::run_sources(job.view, job.step, changed_.slice(0), books);
+  changed_.clear();
+  for (int z = 0; z < job.view.nz; ++z) changed_.edit(z);  // all slices: the sources say which
+  simd::run_sources(job.view, job.step, changed_.edit(0), books);
+  for (int z = 0; z < job.view.nz; ++z) changed_.tidy(z);
   dirty_.add(changed_);
   if (heat_) heat_->note(changed_);
   if (viscous_) viscous_->note(changed_);
@@ -118,7 +120,7 @@ void Stepper::source(const Job& job, simd::Books& books) {
 void Stepper::heat(const Job& job, simd::Books& books) {
   if (!heat_) return;
   const rule::Heat& heat = parameters_.heat;
-  changed_.fill(0);
+  changed_.clear();
   heat_->heat(job, heat.radiation && job.step.number % heat.visibility_every == 0, changed_, books);
   // The flow of the paper's law asks for heat only where it mixes, unless its shares depend on it.
   if (parameters_.flow.thermal_viscosity) dirty_.add(changed_);
@@ -127,10 +129,10 @@ void Stepper::heat(const Job& job, simd::Books& books) {
 
 void Stepper::melt(const Job& job, simd::Books& books) {
   if (!heat_) return;
-  changed_.fill(0);
+  changed_.clear();
   heat_->melt(job, changed_, books);
   for (int z = 0; z < job.view.nz; ++z)
-    for (int r = 0; r < job.view.tile_rows(); ++r)
+    for (int r = 0; changed_.any(z) && r < job.view.tile_rows(); ++r)
       if (changed_.slice(z)[r] != 0)
         for (int y = job.view.tile_begin(r); y < job.view.tile_end(r); ++y) walls_->refresh(job.view, y, z);
   dirty_.add(changed_);

@@ -1,5 +1,5 @@
-// Sets of tiles: one bit per mask word of x, [slice][tile row]. What sleeps is told by sets; a step touches
-// only the slices in which something is awake.
+// Sets of tiles: one bit per mask word of x, [slice][tile row]. What sleeps is told by sets; slices in which
+// nothing is awake cost one look.
 #pragma once
 
 #include <algorithm>
@@ -23,24 +23,44 @@ inline bool any(const std::vector<TileRow>& rows) {
 class Tiles {
  public:
   Tiles() = default;
-  Tiles(int slices, int rows) : slices_(slices), rows_(rows), bits_(index(slices)) {}
+  Tiles(int slices, int rows) : slices_(slices), rows_(rows), bits_(index(slices)), touched_(count(slices)) {}
 
+  int slices() const { return slices_; }
   int rows() const { return rows_; }
-  TileRow* slice(int z) { return bits_.data() + index(z); }
   const TileRow* slice(int z) const { return bits_.data() + index(z); }
+  // For writing; slices that stay empty should be tidied.
+  TileRow* edit(int z) {
+    touched_[count(z)] = 1;
+    return bits_.data() + index(z);
+  }
+  void tidy(int z) { touched_[count(z)] = any(z); }
 
-  void fill(TileRow value) { std::fill(bits_.begin(), bits_.end(), value); }
-  void clear(int z) { std::fill_n(slice(z), rows_, TileRow{0}); }
   bool any(int z) const {
-    return z >= 0 && z < slices_ &&
+    return z >= 0 && z < slices_ && touched_[count(z)] != 0 &&
            std::any_of(slice(z), slice(z) + rows_, [](TileRow row) { return row != 0; });
   }
+  bool any_near(int z) const { return any(z - 1) || any(z) || any(z + 1); }
 
+  void fill(TileRow value) {
+    std::fill(bits_.begin(), bits_.end(), value);
+    std::fill(touched_.begin(), touched_.end(), std::uint8_t{1});
+  }
+  void clear(int z) {
+    if (touched_[count(z)] == 0) return;
+    std::fill_n(edit(z), rows_, TileRow{0});
+    touched_[count(z)] = 0;
+  }
+  void clear() {
+    for (int z = 0; z < slices_; ++z) clear(z);
+  }
   void add(int z, const TileRow* rows) {
-    for (int r = 0; r < rows_; ++r) slice(z)[r] |= rows[r];
+    if (std::all_of(rows, rows + rows_, [](TileRow row) { return row == 0; })) return;
+    TileRow* own = edit(z);
+    for (int r = 0; r < rows_; ++r) own[r] |= rows[r];
   }
   void add(const Tiles& other) {
-    for (std::size_t i = 0; i < bits_.size(); ++i) bits_[i] |= other.bits_[i];
+    for (int z = 0; z < slices_; ++z)
+      if (other.touched_[count(z)] != 0) add(z, other.slice(z));
   }
 
   // Tiles of row r of slice z that are, or are beside, one of this set.
@@ -56,10 +76,12 @@ class Tiles {
   }
 
  private:
-  std::size_t index(int z) const { return static_cast<std::size_t>(z) * static_cast<std::size_t>(rows_); }
+  static std::size_t count(int z) { return static_cast<std::size_t>(z); }
+  std::size_t index(int z) const { return count(z) * count(rows_); }
 
   int slices_ = 0, rows_ = 0;
   std::vector<TileRow> bits_;
+  std::vector<std::uint8_t> touched_;  // slices that may hold something
 };
 
 }  // namespace voxmelt::parallel

@@ -37,7 +37,7 @@ void ViscousFlow::note(int z, const TileRow* changed) {
 
 const Tiles& ViscousFlow::take_changed() {
   std::swap(changed_, changed_before_);
-  changed_.fill(0);
+  changed_.clear();
   return changed_before_;
 }
 
@@ -55,9 +55,9 @@ void ViscousFlow::settle(const Job& job, simd::Books& books) {
   job.workers.run(chunks_.count(), [&](int chunk) {
     Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
+      if (job.sleep && !for_settle_.any(z)) continue;
       find_work(job, &for_settle_, z, false, worker);
       for_settle_.clear(z);
-      if (!any(worker.work)) continue;
       job.kernels.settle(job.view, job.step, z, worker.work.data(), memory_.runs(), worker.scratch.data(),
                          worker.changed.data(), worker.books);
       note(z, worker.changed.data());
@@ -67,13 +67,15 @@ void ViscousFlow::settle(const Job& job, simd::Books& books) {
 }
 
 void ViscousFlow::exchange(const Job& job, int z, Worker& worker, SliceCurrents& to) {
+  if (job.sleep && !to.written() && !taken_.any_near(z) && !restless_.any(z)) return;
   find_work(job, &taken_, z, true, worker);
   for (std::size_t r = 0; r < worker.work.size(); ++r) worker.work[r] |= restless_.slice(z)[r];
   restless_.clear(z);
   const bool awake = any(worker.work);
   if (awake || to.written())
-    job.kernels.exchange_pairs(job.view, job.step, z, worker.work.data(), memory_.runs(), restless_.slice(z),
+    job.kernels.exchange_pairs(job.view, job.step, z, worker.work.data(), memory_.runs(), restless_.edit(z),
                                to.currents());
+  restless_.tidy(z);
   to.set_written(awake);
 }
 
@@ -114,9 +116,9 @@ void ViscousFlow::fall(const Job& job, simd::Books& books) {
   job.workers.run(chunks_.count(), [&](int chunk) {
     Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
-      find_work(job, &taken_, z, true, worker);
       for_fall_.clear(z);
-      if (!any(worker.work)) continue;
+      if (job.sleep && !taken_.any_near(z)) continue;
+      find_work(job, &taken_, z, true, worker);
       job.kernels.fall(job.view, job.step, z, worker.work.data(), memory_.runs(), worker.changed.data(),
                        worker.books);
       note(z, worker.changed.data());

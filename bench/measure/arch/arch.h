@@ -1,0 +1,23 @@
+// How fast one thread does the operations that the automaton is made of. One object per instruction set: each
+// holds its own copy of everything it needs, and shares nothing but these.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace voxmelt::measure {
+
+// Runs `rounds` rounds; returns the number of lanes operated on. `sink` keeps the compiler from leaving out
+// the work.
+struct LaneLoops {
+  std::uint64_t (*multiply)(std::uint64_t rounds, std::uint16_t* sink) = nullptr;  // (a b) >> 16
+  std::uint64_t (*add)(std::uint64_t rounds, std::uint16_t* sink) = nullptr;
+  // Adds something to every number, in place. `at`: 64-byte aligned; `lanes`: a multiple of 32.
+  void (*update)(std::uint16_t* at, std::size_t lanes) = nullptr;
+};
+
+LaneLoops sse42_loops();
+LaneLoops avx2_loops();
+LaneLoops avx512_loops();
+
+}  // namespace voxmelt::measure

@@ -1,0 +1,77 @@
+#include "bench/measure/baseline_run.h"
+
+#include <chrono>
+#include <stdexcept>
+
+#include "bench/baseline/numbers.h"
+#include "bench/measure/native_needs.h"
+#include "kernel/cpu/instruction_set.h"
+#include "kernel/visibility/visibility.h"
+
+namespace voxmelt::measure {
+namespace {
+
+template <class Task>
+void timed(double& total, const Task& task) {
+  const auto start = std::chrono::steady_clock::now();
+  task();
+  total += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+std::optional<BaselineRuns> BaselineRuns::of(const Workload& workload) {
+  rule::Parameters parameters = workload.parameters;
+  state::Volume start = workload.start;
+  if (parameters.flow.law == rule::Law::viscous) {
+    parameters.flow.law = rule::Law::paper;
+    for (std::size_t offset = 0; offset < start.amount.layout().cells(); ++offset)
+      start.energy[{offset}] = start.amount[{offset}];
+    const state::Grid g = start.grid;  // only liquid has energy
+    for (int z = 0; z < g.z; ++z)
+      for (int y = 0; y < g.y; ++y)
+        for (int x = 0; x < g.x; ++x)
+          if (!start.liquid.test(x, y, z)) start.energy[start.at(x, y, z)] = 0;
+  }
+  try {
+    baseline::numbers_of<float>(parameters);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+  return BaselineRuns(workload, std::move(parameters), std::move(start));
+}
+
+BaselineRuns::BaselineRuns(const Workload& workload, rule::Parameters parameters, state::Volume start)
+    : parameters_(std::move(parameters)),
+      start_(std::move(start)),
+      steps_(workload.steps),
+      has_heat_(workload.times_heat) {
+  if (!parameters_.heat.radiation || !parameters_.heat.enabled) return;
+  state::Field<std::uint16_t> irradiance(start_.grid);
+  visibility::VoxelWalkProvider().irradiance(start_, parameters_.heat, 0, irradiance);
+  irradiance_ = baseline::irradiance_of<float>(start_.grid, irradiance);
+}
+
+template <baseline::Variant variant>
+BaselineSeconds BaselineRuns::run() const {
+  baseline::Baseline<float, variant> program(start_, parameters_);
+  BaselineSeconds seconds;
+  for (int step = 0; step < kLeadSteps + steps_; ++step) {
+    if (step == kLeadSteps) seconds = {};
+    if (has_heat_) timed(seconds.heat, [&] { program.heat(irradiance_); });
+    timed(seconds.gravity, [&] { program.gravity(); });
+    timed(seconds.spread, [&] { program.spread(static_cast<std::uint32_t>(step)); });
+    timed(seconds.excess, [&] { program.excess(); });
+  }
+  for (double* one : {&seconds.heat, &seconds.gravity, &seconds.spread, &seconds.excess}) *one /= steps_;
+  return seconds;
+}
+
+BaselineSeconds BaselineRuns::plain() const { return run<baseline::Variant::plain>(); }
+std::optional<BaselineSeconds> BaselineRuns::native() const {
+  if (kNativeNeeds >= 0 && !cpu::supported(cpu::kInstructionSets[static_cast<std::size_t>(kNativeNeeds)].set))
+    return std::nullopt;
+  return run<baseline::Variant::native>();
+}
+
+}  // namespace voxmelt::measure

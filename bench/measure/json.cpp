@@ -1,0 +1,95 @@
+#include <nlohmann/json.hpp>
+
+#include "bench/measure/report.h"
+
+namespace voxmelt::measure {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json number(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+json grid_json(const state::Grid& grid) { return {grid.x, grid.y, grid.z}; }
+
+std::string set_name(cpu::InstructionSet wanted) {
+  for (const auto& [set, name] : cpu::kInstructionSets)
+    if (set == wanted) return std::string(name);
+  return "";
+}
+
+json machine_json(const Findings& findings) {
+  const MachineText& text = findings.machine_text;
+  json bandwidth = json::array(), rates = json::array();
+  for (const auto& [key, found] : findings.machine.bandwidths())
+    bandwidth.push_back({{"footprint_bytes", key.first},
+                         {"threads", key.second},
+                         {"copy_bytes_per_second", found.copy},
+                         {"update_bytes_per_second", found.update}});
+  for (const auto& [key, found] : findings.machine.rates())
+    rates.push_back({{"instruction_set", set_name(key.first)},
+                     {"threads", key.second},
+                     {"multiply_lanes_per_second", found.multiply},
+                     {"add_lanes_per_second", found.add}});
+  return {{"processor", text.processor}, {"threads", text.threads},   {"l1_bytes", text.l1_bytes},
+          {"l2_bytes", text.l2_bytes},   {"l3_bytes", text.l3_bytes}, {"memory_bytes", text.memory_bytes},
+          {"bandwidth", bandwidth},      {"lanes_16_bit", rates}};
+}
+
+json case_json(const Case& one) {
+  json phases;
+  for (std::size_t p = 0; p < step::kPhaseCount; ++p)
+    phases[std::string(step::kPhaseNames[p])] = one.phases.phase[p] * 1e3;
+  json roof = nullptr;
+  if (one.roof)
+    roof = {{"operations_cells_per_second", one.roof->operations},
+            {"bytes_cells_per_second", one.roof->bytes}};
+  return {{"name", one.name},
+          {"subject", name_of(one.subject)},
+          {"workload", one.workload},
+          {"implementation", one.implementation},
+          {"threads", one.threads},
+          {"checked_against", one.judge},
+          {"grid", grid_json(one.grid)},
+          {"cells", one.cells},
+          {"active_cells", one.active},
+          {"milliseconds", one.seconds * 1e3},
+          {"phase_milliseconds", phases},
+          {"cells_per_second", one.cells_per_second()},
+          {"active_cells_per_second", one.active_per_second()},
+          {"nanoseconds_per_active_cell", 1e9 / one.active_per_second()},
+          {"bytes_per_cell", one.bytes_per_cell},
+          {"multiplies_per_cell", one.work.multiplies},
+          {"other_operations_per_cell", one.work.others},
+          {"roof", roof},
+          {"percent_of_roof", number(one.percent_of_roof())},
+          {"ratio_to_baseline", number(one.ratio_to_baseline)},
+          {"ratio_to_native_baseline", number(one.ratio_to_native)}};
+}
+
+}  // namespace
+
+std::string bench_json(const Findings& findings, const std::string& version) {
+  json cases = json::array(), table_1 = json::array(), scaling = json::array();
+  for (const Case& one : findings.cases) cases.push_back(case_json(one));
+  for (const TableRow& row : findings.table_1)
+    table_1.push_back({{"scene", row.scene},
+                       {"who", row.who},
+                       {"grid", grid_json(row.grid)},
+                       {"gravity_ms", row.gravity},
+                       {"spreading_ms", row.spreading},
+                       {"update_ms", row.update},
+                       {"frames_per_second", row.frames_per_second}});
+  for (const Scaling& one : findings.scaling)
+    scaling.push_back({{"workload", one.workload},
+                       {"implementation", one.implementation},
+                       {"threads", one.threads},
+                       {"speedup", one.speedup},
+                       {"bound", one.bound}});
+  const json report = {{"version", version},
+                       {"machine", machine_json(findings)},
+                       {"cases", cases},
+                       {"paper_table_1", table_1},
+                       {"scaling", scaling}};
+  return report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace voxmelt::measure

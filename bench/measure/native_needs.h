@@ -1,0 +1,9 @@
+// What a processor must have to run the baseline that was compiled for the processor of the build.
+#pragma once
+
+namespace voxmelt::measure {
+
+// Data, no code: the file that defines it is compiled like that baseline.
+extern const int kNativeNeeds;  // index into cpu::kInstructionSets; -1: nothing
+
+}  // namespace voxmelt::measure

@@ -1,0 +1,16 @@
+// The third column of the paper's Table 1: what a new state costs before it can be drawn.
+#pragma once
+
+#include "bench/measure/measure.h"
+#include "kernel/scene/look.h"
+
+namespace voxmelt::measure {
+
+// Median seconds of DensityField::update after one more step of the workload, on one thread.
+double update_seconds(const Workload& workload, const scene::Look& look, const scene::Terrain& terrain,
+                      const Candidate& candidate, int rounds);
+
+// The same of the plain baseline: intensities and their low-pass filter, the whole grid.
+double baseline_update_seconds(const Workload& workload, int rounds);
+
+}  // namespace voxmelt::measure

@@ -1,0 +1,43 @@
+// How fast the automaton could be at most on this machine: what its definition needs for a cell, set against
+// what the machine was measured to do.
+//
+// Counted from docs/automaton.md, not from our instructions. An upper bound: operations that a clever
+// implementation might avoid are counted only where the definition asks for their results.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/measure/machine.h"
+#include "kernel/rule/parameters.h"
+
+namespace voxmelt::measure {
+
+enum class Subject { gravity, spread, flow, heat };  // flow: gravity + spread + excess; heat: heat + melt
+
+std::string_view name_of(Subject subject);
+
+struct Count {
+  std::string what;
+  double multiplies = 0, others = 0;  // operations on 16-bit lanes
+};
+
+struct Work {
+  std::vector<Count> counts;  // the derivation, term by term
+  double multiplies = 0, others = 0;
+  double bytes = 0;  // read + written, every field once per step
+  std::string bytes_text;
+
+  double operations() const { return multiplies + others; }
+};
+
+// Per cell in which everything happens: it gives, takes, and where heat.enabled mixes.
+Work work_of(Subject subject, const rule::Parameters& parameters);
+
+struct Roof {
+  double operations = 0, bytes = 0;  // cells per second
+  double cells() const { return operations < bytes ? operations : bytes; }
+};
+Roof roof_of(const Work& work, const LaneRates& rates, const Bandwidth& bandwidth);
+
+}  // namespace voxmelt::measure

@@ -1,0 +1,93 @@
+// All that `voxmelt bench` measures, and what comes out of it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/measure/machine.h"
+#include "bench/measure/measure.h"
+#include "bench/measure/roof.h"
+
+namespace voxmelt::measure {
+
+// One line of the tables: a workload, a subject, an implementation, a number of threads.
+struct Case {
+  std::string name;  // "flow/avx512/scene:cello/step:1050/threads:2"
+  Subject subject = Subject::flow;
+  rule::Law law = rule::Law::paper;
+  std::string workload, implementation;
+  int threads = 1;
+  std::string judge;
+  state::Grid grid;
+  std::int64_t cells = 0, active = 0;  // of the grid; that have to do with the subject
+  Seconds phases;                      // medians
+  double seconds = 0;                  // per step, of the subject
+  double bytes_per_cell = 0;           // that the definition needs
+  Work work;
+  std::size_t footprint = 0;  // bytes of the active cells' state
+  std::optional<Roof> roof;   // none at rest, and for the reference
+  std::optional<double> ratio_to_baseline, ratio_to_native;
+
+  double cells_per_second() const { return static_cast<double>(cells) / seconds; }
+  double active_per_second() const { return static_cast<double>(active) / seconds; }
+  std::optional<double> percent_of_roof() const {
+    return roof ? std::optional(100 * active_per_second() / roof->cells()) : std::nullopt;
+  }
+};
+
+// A row of the paper's Table 1 beside ours, milliseconds.
+struct TableRow {
+  std::string scene, who;
+  state::Grid grid;
+  double gravity = 0, spreading = 0, update = 0;
+  double frames_per_second = 0;  // of a step with all its phases, and the update
+};
+
+struct Scaling {
+  std::string workload, implementation;
+  int threads = 2;
+  double speedup = 1, bound = 1;  // bound: min(threads, roof of all threads / roof of one)
+};
+
+struct Findings {
+  MachineText machine_text;
+  Machine machine;
+  std::vector<Case> cases;
+  std::vector<TableRow> table_1;
+  std::vector<Scaling> scaling;
+};
+
+struct Plan {
+  bool quick = false;
+  std::vector<const step::Implementation*> implementations;
+  std::vector<int> threads{1};  // ascending
+  Rounds rounds;
+};
+
+class Suite {
+ public:
+  // `tell`: called with each workload's cases as soon as they are known.
+  using Tell = std::function<void(const Workload&, const Result&, const std::vector<Case>&)>;
+  Suite(Plan plan, Tell tell);
+
+  void run(const Workload& workload, bool baseline = true);
+  // Also fills a row of Table 1 where the paper has the scene.
+  void run_scene(const Workload& workload, const scene::Scene& scene);
+  void run_dense();  // everything that is no scene
+
+  // The machine is measured once more; tables and report have the better of its rates, for all cases alike.
+  Findings take();
+
+ private:
+  std::vector<Case> cases_of(const Workload& workload, const Result& result);
+  std::optional<Roof> roof_of_case(const Case& one);
+  std::vector<Scaling> scaling() const;
+
+  Plan plan_;
+  Tell tell_;
+  Findings findings_;
+};
+
+}  // namespace voxmelt::measure

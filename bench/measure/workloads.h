@@ -1,0 +1,57 @@
+// The states that are timed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernel/rule/parameters.h"
+#include "kernel/scene/scene.h"
+#include "kernel/state/volume.h"
+
+namespace voxmelt::measure {
+
+struct Workload {
+  std::string name;  // coordinates: "scene:cello/step:1050", "dense:256/law:paper/heat:on"
+  rule::Parameters parameters;
+  state::Volume start;
+  bool times_flow = true, times_heat = false;
+  bool at_rest = false;  // nothing in it can move: no roof
+  int steps = 8;         // timed, after kLeadSteps that are not
+  // Whose digest the results must have.
+  std::string judge = "reference";
+};
+
+// Steps before the timed ones: a fresh stepper does not know yet what sleeps.
+inline constexpr int kLeadSteps = 2;
+
+// The middle of the scene's melt: the first multiple of 50 after which less than half of its solid cells are
+// left (for a _viscous sister, its sister's), or, for lava, half the time that its vent is open. 0: unknown.
+std::uint32_t middle_of(const std::string& scene);
+
+// The scenes that `voxmelt bench` times when not asked otherwise.
+std::vector<std::string> usual_scenes(bool quick);
+
+// The scene at `step`, reached with the fastest implementation. Steps are counted from 0 again: sources,
+// vents and drains keep their times, the random bits are those of other steps.
+Workload scene_at(const scene::Scene& scene, std::uint32_t step, int threads);
+
+// The same sources, vents and drains, `steps` later.
+rule::Parameters later(rule::Parameters parameters, std::uint32_t steps);
+
+// An n-cubed volume in which every cell is liquid and holds between half a cell and one and a half, at
+// random: columns fall and are pushed up, cells give and take.
+Workload dense_paper(int n, bool heat);
+
+// A closed pool: every cell liquid and full, the columns under different pressure, so that every cell flows.
+Workload dense_viscous(int n, bool heat);
+
+// Every cell solid, at a random temperature below its melting point.
+Workload dense_heat(int n, int neighbours);
+
+// A pool that came to rest in the lower half of a box.
+Workload asleep(int n, rule::Law law);
+
+std::int64_t active_cells(const Workload& workload, bool heat);  // liquid; for heat also solid
+
+}  // namespace voxmelt::measure

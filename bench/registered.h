@@ -1,0 +1,30 @@
+// What the benchmark programs share: their workloads, names that are coordinates, and the check of each
+// result before its time counts.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "bench/measure/measure.h"
+#include "bench/measure/roof.h"
+
+namespace voxmelt::bench {
+
+struct Benchmark {
+  std::string name;
+  measure::Workload workload;
+  measure::Candidate candidate;
+  std::function<double(const measure::Seconds&)> seconds;  // of what is timed, per step
+  double bytes_per_cell = 0;                               // that the definition needs
+};
+
+std::string coordinates(const measure::Workload& workload, const measure::Candidate& candidate);
+void add(const Benchmark& benchmark);
+
+// visit(workload, candidate) for all that this processor supports, on one thread and on two.
+void register_workloads(
+    const std::function<void(const measure::Workload&, const measure::Candidate&)>& visit);
+
+int run(int argc, char** argv);  // exit code 1 where a result was wrong
+
+}  // namespace voxmelt::bench

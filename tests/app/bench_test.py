@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""`voxmelt bench`: the quick run works, what it writes can be read, bad use ends in one line."""
+import json
+import re
+import tempfile
+import unittest
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+from program import SMALL, voxmelt, write
+
+CASE = re.compile(r"^(flow|heat)/[\w.]+/[\w:/.]+/threads:\d+$")
+
+
+class Bench(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def bench(self, *arguments):
+        result = voxmelt("bench", *arguments, cwd=self.folder, timeout=600)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def test_quick_run(self):
+        text = self.bench("--quick", "--threads", 1, "--out", "out", "--report", "report.json")
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual(report, json.loads((self.folder / "out/bench.json").read_text()))
+
+        machine = report["machine"]
+        self.assertGreater(len(machine["lanes_16_bit"]), 0)
+        for rate in machine["lanes_16_bit"]:
+            self.assertGreater(rate["multiply_lanes_per_second"], 0)
+            self.assertGreater(rate["add_lanes_per_second"], 0)
+        self.assertTrue(all(b["copy_bytes_per_second"] > 0 for b in machine["bandwidth"]))
+
+        names = [case["name"] for case in report["cases"]]
+        self.assertEqual(len(names), len(set(names)))
+        for case in report["cases"]:
+            self.assertRegex(case["name"], CASE)
+            self.assertEqual(case["checked_against"], "reference")
+            self.assertGreater(case["cells_per_second"], 0)
+            self.assertGreater(case["bytes_per_cell"], 0)
+            self.assertIn("percent_of_roof", case)
+            if case["percent_of_roof"] is not None:
+                self.assertGreater(case["percent_of_roof"], 0)
+            self.assertGreater(case["ratio_to_baseline"], 0)
+            if case["ratio_to_native_baseline"] is not None:  # null where it was compiled for another processor
+                self.assertGreater(case["ratio_to_native_baseline"], 0)
+        kinds = {case["workload"].split(":")[0] for case in report["cases"]}
+        self.assertEqual(kinds, {"scene", "dense", "asleep"})
+        # Where there is something to do, and only there, there is a roof.
+        for case in report["cases"]:
+            self.assertEqual(case["roof"] is None, case["workload"].startswith("asleep"))
+
+        # The table: every number stands in a column of its own.
+        lines = [line.split() for line in text.splitlines() if re.match(r"  (flow|heat) ", line)]
+        self.assertEqual(len(lines), len(names))
+        for line in lines:
+            self.assertEqual(len(line), 16 if line[0] == "flow" else 14, line)
+
+        tables = (self.folder / "out/performance_tables.md").read_text()
+        for name in ("machine", "rates", "flow", "heat", "paper", "scaling", "roofs"):
+            self.assertIn(f"<!-- table: {name} -->", tables)
+        for block in re.findall(r"(?:^\|.*\n)+", tables, re.M):
+            self.assertEqual(len({row.count("|") for row in block.splitlines()}), 1, block)
+        svg = xml.parse(self.folder / "out/roofline.svg").getroot()
+        self.assertTrue(svg.tag.endswith("svg"))
+
+    def test_a_scene_of_ones_own(self):
+        write(self.folder, SMALL)
+        text = self.bench("--quick", "--scenes", "scene.toml", "--from", 4, "--implementation", "reference")
+        self.assertIn("scene:scene/step:4", text)
+        self.assertNotIn("dense", text)
+        lines = [line.split() for line in text.splitlines() if line.startswith("  flow")]
+        self.assertEqual([line[1] for line in lines], ["reference"])
+
+    def test_bad_use(self):
+        for arguments, why in [
+            (["--implementation", "quantum"], "unknown; this build has"),
+            (["--scenes", "no_such_scene"], "no scene named 'no_such_scene'"),
+            (["--threads", "0"], "0"),
+            (["--from", "-1"], "-1"),
+            (["--report", "no/such/folder.json"], "there is no folder"),
+            (["stray"], "stray"),
+        ]:
+            result = voxmelt("bench", "--quick", *arguments, cwd=self.folder)
+            self.assertEqual(result.returncode, 2, (arguments, result.stderr))
+            self.assertIn(why, result.stderr)
+            self.assertLess(len(result.stderr.splitlines()), 4, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["bench_test"], verbosity=1)
