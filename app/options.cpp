@@ -68,7 +68,7 @@ scene::Scene load_scene(const Common& common) {
   return scene;
 }
 
-run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
+const step::Implementation& find_implementation(const Common& common) {
   const step::Implementation* implementation = run::implementations().find(common.implementation);
   if (implementation == nullptr) {
     std::string known = "auto";
@@ -79,9 +79,14 @@ run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
   if (!implementation->supported)
     throw UsageError(
         fmt::format("--implementation {}: error: this processor does not have it", common.implementation));
+  return *implementation;
+}
+
+run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
+  const step::Implementation& implementation = find_implementation(common);
   step::Tuning tuning;
   tuning.threads = thread_count(common);
-  return {scene.parameters, std::move(scene.initial), *implementation, tuning};
+  return {scene.parameters, std::move(scene.initial), implementation, tuning};
 }
 
 void check_report_place(const Common& common, const std::string& out) {

@@ -36,6 +36,7 @@ void add_common(CLI::App& command, Common& common);
 
 // A path, or the name of a scene that came with the program.
 scene::Scene load_scene(const Common& common);
+const step::Implementation& find_implementation(const Common& common);  // throws UsageError
 // Takes the scene's initial state away: a large one need not be held twice.
 run::Simulation make_simulation(scene::Scene& scene, const Common& common);
 int thread_count(const Common& common);

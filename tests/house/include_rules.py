@@ -24,12 +24,15 @@ ALLOWED = {
     "kernel/simd/arch": ["kernel/rule", "kernel/cpu", "kernel/simd"],
     "kernel/parallel": ["kernel/rule", "kernel/state", "kernel/step", "kernel/cpu", "kernel/simd"],
     "bench/baseline": ["kernel/rule", "kernel/state"],
+    "bench/measure": KERNEL + ["bench/baseline", "bench/measure/arch", "render/density"],
+    "bench/measure/arch": ["kernel/cpu"],
+    "bench": KERNEL + ["bench/measure"],
     "kernel/io": ["kernel/rule", "kernel/state", "kernel/scene"],
     "kernel/run": KERNEL,
     "render/image": ["kernel/rule", "kernel/state", "kernel/scene"],
     "render/density": ["kernel/rule", "kernel/state", "kernel/scene", "render/image"],
     "render/raycast": ["kernel/rule", "kernel/state", "kernel/scene", "render/image", "render/density"],
-    "app": KERNEL + ["render/image", "render/density", "render/raycast"],
+    "app": KERNEL + ["bench/measure", "bench/baseline", "render/image", "render/density", "render/raycast"],
 }
 LONGEST = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
