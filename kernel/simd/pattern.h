@@ -112,23 +112,10 @@ class Pattern {
     const std::size_t lane = lane_of(item);
     const std::size_t cell = v_.cell(0, item.y, z_) + lane;
     const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
-    V flow;
-    if constexpr (kFeatures.general) {
-      flow = law_.use_table ? L::zero() : L::min(L::high(amount, share(cell)), L::set(kCap));
-    } else {
-      const V sh = share(cell);
-      flow = L::min(L::high(amount, sh), L::set(kCap));
-      const std::size_t gift = gifts_.row(item.y) * v_.row + lane;
-      const V warm = L::min(flow, L::high(energy, sh));
-      L::store(gifts_.flow[0] + gift, flow);
-      L::store(gifts_.energy[0] + gift, warm);
-      if constexpr (kFeatures.eight) {
-        L::store(gifts_.flow[4] + gift, L::template shift_right<2>(flow));
-        L::store(gifts_.energy[4] + gift, L::template shift_right<2>(warm));
-      }
-      if constexpr (kFeatures.hot)
-        L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
-    }
+    const V sh = share(cell);
+    V flow = L::min(L::high(amount, sh), L::set(kCap));
+    if constexpr (kFeatures.general)
+      if (law_.use_table) flow = L::zero();
     // A neighbour receives if it holds less than a limit: the giver's amount less the larger of flow and
     // margin.
     const M energetic = L::less(L::set(law_.threshold), energy);
@@ -141,17 +128,33 @@ class Pattern {
     if constexpr (kFeatures.general)
       if (!law_.downhill) limits[0] = limits[1] = most;
 
+    Bits givers = item.givers;
+    if (law_.slump == 0) givers = static_cast<Bits>(givers & L::to_bits(energetic));
+    givers = static_cast<Bits>(givers & ~L::to_bits(L::equal(limits[0], L::zero())));
+    if (givers == 0) return false;  // films too thin to give
+
     Bits own[8], any = 0;
     const Bits* open = open_directions(item, own);
-    const Bits spreads =
-        law_.slump == 0 ? static_cast<Bits>(item.givers & L::to_bits(energetic)) : item.givers;
     cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
       const V there = L::load_any(v_.amount + static_cast<std::ptrdiff_t>(cell) + places_[d]);
-      const auto receives = static_cast<Bits>(L::to_bits(L::less(there, limits[d / 4])) & open[d] & spreads);
+      const auto receives = static_cast<Bits>(L::to_bits(L::less(there, limits[d / 4])) & open[d] & givers);
       available[d][place] = receives;
       any = static_cast<Bits>(any | receives);
     });
-    return any != 0;
+    if (any == 0) return false;
+    if constexpr (!kFeatures.general) {
+      const std::size_t gift = gifts_.row(item.y) * v_.row + lane;
+      const V warm = L::min(flow, L::high(energy, sh));
+      L::store(gifts_.flow[0] + gift, flow);
+      L::store(gifts_.energy[0] + gift, warm);
+      if constexpr (kFeatures.eight) {
+        L::store(gifts_.flow[4] + gift, L::template shift_right<2>(flow));
+        L::store(gifts_.energy[4] + gift, L::template shift_right<2>(warm));
+      }
+      if constexpr (kFeatures.hot)
+        L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
+    }
+    return true;
   }
 
   // Cells whose neighbour is neither blocked nor, across a diagonal, behind two blocked ones; in `own` unless

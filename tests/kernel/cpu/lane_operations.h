@@ -1,0 +1,70 @@
+// Single operations of one instruction set as plain functions on arrays, which a test calls from code that
+// was compiled for every processor.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace voxmelt::cpu {
+
+inline constexpr std::size_t kAllValues = 65536;
+
+enum class RowOperation {
+  high,
+  low,
+  product_high,  // of the 32-bit product
+  product_low,
+  unpack_high,  // of a + 65536 s
+  unpack_low,
+  dithered,  // friction: (a s + r) >> 16
+  carried,   // the same by `carry`
+  given,     // what falls: part s of a, s = 0..65536, and r more
+  less,      // 1 or 0
+  more,
+  equal,
+  min,
+  max,
+  add_saturated,
+  sub_saturated,
+  sub_saturated_from,
+  select,  // a < s ? r : a
+  keep,    // a < s ? a : 0
+  add_if,  // a < s ? a + r : a
+  sub_if,
+  temperature,  // of heat a; melting point s, latent heat r
+  conducted,    // from s to a; weight r >> 16, dither r & 0xFFFF
+  falling,      // a s >> 16 with dither r, of conduction
+};
+
+struct Operations {
+  int count;  // lanes
+  // One operation on 65536 values of a, aligned to 64 bytes.
+  void (*row)(RowOperation, int s, int r, const std::uint16_t* a, std::uint16_t* out);
+  void (*shift)(bool left, int by, const std::uint16_t* a, std::uint16_t* out);
+  void (*lookup)(const std::uint16_t* table, const std::uint16_t* index, std::uint16_t* out);
+  // 64 lanes from a word, and the word from the lanes.
+  std::uint64_t (*bits)(std::uint64_t word, std::uint16_t* lanes);
+  // n / d, n given by halves. `size` is a multiple of 64, here and below.
+  void (*divide)(std::size_t size, const std::uint16_t* low, const std::uint16_t* high,
+                 const std::uint16_t* d, std::uint16_t* quotient, std::uint16_t* remainder);
+  // a b + c d, signed.
+  void (*pair_product)(std::size_t size, const std::uint16_t* a, const std::uint16_t* b,
+                       const std::uint16_t* c, const std::uint16_t* d, std::uint16_t* low,
+                       std::uint16_t* high);
+  void (*pair_sums)(std::size_t size, const std::uint16_t* a, const std::uint16_t* b, std::int32_t* out);
+  void (*after)(std::size_t size, const std::uint16_t* previous, const std::uint16_t* current,
+                std::uint16_t* out);
+  std::uint64_t (*total)(std::size_t size, const std::uint16_t* a);
+  // The mean heat of two; returns what was rounded, in lanes with a1 > 0.
+  std::int64_t (*mix)(std::size_t size, int dither, const std::uint16_t* a0, const std::uint16_t* h0,
+                      const std::uint16_t* a1, const std::uint16_t* h1, std::uint16_t* out);
+  // The bytes of four vectors of `count` cells.
+  void (*dice)(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
+               std::uint8_t* bytes);
+};
+
+Operations sse_operations();
+Operations avx2_operations();
+Operations avx512_operations();
+
+}  // namespace voxmelt::cpu
