@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The reference and the oracle agree on every committed scene, and on the digests written down in digests.json.
+"""The reference, the fastest implementation and the oracle agree on every committed scene, and on the digests written down in digests.json.
 
   digest_test.py VOXMELT ORACLE STEPS...            check
   digest_test.py VOXMELT ORACLE STEPS... --approve  write digests.json, only where both agree
@@ -28,7 +28,10 @@ def main():
             start = f"{folder}/start"
             output(voxmelt, "export", scene, "--steps", "0", "--out", start, "--quiet")
             for n in steps:
-                mine = output(voxmelt, "digest", scene, "--steps", str(n), "--quiet")
+                mine, fast = (output(voxmelt, "digest", scene, "--steps", str(n), "--quiet", "--implementation", i)
+                              for i in ("reference", "auto"))
+                if fast != mine:
+                    problems.append(f"{scene}, {n} steps:\n  reference {mine}\n  auto      {fast}")
                 judge = output(oracle, start, "--steps", str(n))
                 compared += 1
                 if mine != judge:
