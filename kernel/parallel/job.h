@@ -1,8 +1,8 @@
 // What every phase of a step gets.
 #pragma once
 
+#include "kernel/cpu/workers.h"
 #include "kernel/parallel/tiles.h"
-#include "kernel/parallel/workers.h"
 #include "kernel/simd/kernels.h"
 
 namespace voxmelt::parallel {
@@ -11,7 +11,7 @@ struct Job {
   const simd::View& view;
   const simd::Step& step;
   const simd::Kernels& kernels;
-  Workers& workers;
+  cpu::Workers& workers;
   bool sleep;  // false: every tile is awake in every phase
 };
 

@@ -62,7 +62,10 @@ void PaperFlow::fall(const Job& job, const Tiles& dirty, int z, Worker& worker) 
   const TileRow all = all_words(job.view);
   TileRow follow = 0;  // tiles whose last row was moved: the row above may follow
   for (int r = 0; r < job.view.tile_rows(); ++r) {
-    const TileRow work = job.sleep ? dirty.near(z, r, all) : all;
+    TileRow work = job.sleep ? dirty.near(z, r, all) : all;
+    // What hangs in the row above may hang from the row above that: with tiles of one row, beyond the next
+    // tile.
+    if (job.view.tile_shift == 0 && r + 2 < job.view.tile_rows()) work |= dirty.slice(z)[r + 2];
     if ((work | follow) != 0)
       job.kernels.gravity(job.view, job.step, z, r, work, follow, fallen_.edit(z), worker.books);
   }

@@ -6,8 +6,8 @@
 //   gravity  it, or a tile beside it, changed since the last gravity (in it, or since)
 //   pattern  the same, this step's gravity included; or some cell may give and only the dice said no
 //   apply    it or a neighbour gives
-// All three read no further than one cell (gravity's chain up a column is followed by its kernel), so that
-// whatever sleeps would compute what it has.
+// All three read no further than the next tile (gravity's chain up a column is followed by its kernel), so
+// that whatever sleeps would compute what it has.
 #pragma once
 
 #include <vector>

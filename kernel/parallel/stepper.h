@@ -37,7 +37,7 @@ class Stepper final : public step::Stepper {
   step::Tuning tuning_;
   simd::Kernels kernels_;
   rule::RoundKeys keys_;
-  Workers workers_;
+  cpu::Workers workers_;
   std::optional<Walls> walls_;
   std::optional<HeatFlow> heat_;
   std::optional<PaperFlow> paper_;

@@ -42,7 +42,8 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
     : parameters_(std::move(parameters)),
       volume_(std::move(initial)),
       stepper_(implementation.create(parameters_, volume_.grid, tuning)),
-      provider_(std::move(provider)),
+      provider_(provider != nullptr ? std::move(provider)
+                                    : std::make_unique<visibility::VoxelWalkProvider>(tuning.threads)),
       ledger_(state::Ledger::open(volume_)) {
   if (parameters_.heat.enabled && parameters_.heat.radiation) irradiance_ = step::Irradiance(volume_.grid);
 }

@@ -16,10 +16,9 @@ const step::Registry& implementations();
 
 class Simulation {
  public:
-  Simulation(
-      rule::Parameters parameters, state::Volume initial, const step::Implementation& implementation,
-      const step::Tuning& tuning = {},
-      std::unique_ptr<visibility::Provider> provider = std::make_unique<visibility::VoxelWalkProvider>());
+  Simulation(rule::Parameters parameters, state::Volume initial, const step::Implementation& implementation,
+             const step::Tuning& tuning = {},
+             std::unique_ptr<visibility::Provider> provider = nullptr);  // null: the integer walk
 
   // Runs one whole step. The n-th call (from 0) is step number n.
   void step();

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "kernel/cpu/workers.h"
 #include "kernel/rule/parameters.h"
 #include "kernel/state/volume.h"
 
@@ -22,8 +23,12 @@ class Provider {
 // The exact integer walk through the voxels: the definition.
 class VoxelWalkProvider final : public Provider {
  public:
+  explicit VoxelWalkProvider(int threads = 1) : workers_(threads) {}
   void irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
                   state::Field<std::uint16_t>& result) override;
+
+ private:
+  cpu::Workers workers_;
 };
 
 }  // namespace voxmelt::visibility

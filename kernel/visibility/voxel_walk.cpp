@@ -1,6 +1,7 @@
 #include "kernel/rule/visibility.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "kernel/rule/source.h"
 #include "kernel/visibility/visibility.h"
@@ -41,21 +42,26 @@ void VoxelWalkProvider::irradiance(const state::Volume& volume, const rule::Heat
   for (const rule::PointSource& path : heat.sources) {
     const rule::SourceKey source = rule::source_at(path, step);
     if (source.power == 0) continue;
-    for (int z = 0; z < g.z; ++z)
-      for (int y = 0; y < g.y; ++y)
-        for (int x = 0; x < g.x; ++x) {
-          if (!volume.solid.test(x, y, z)) continue;
-          const std::int64_t dx = source.at.x - (rule::kPositionUnit * x + 8),
-                             dy = source.at.y - (rule::kPositionUnit * y + 8),
-                             dz = source.at.z - (rule::kPositionUnit * z + 8);
-          const int axes = facing_axes(volume, x, y, z, dx, dy, dz);
-          if (axes == 0 || !sees(volume, x, y, z, source.at)) continue;
-          const auto distance_squared = static_cast<std::uint64_t>(dx * dx + dy * dy + dz * dz);
-          const std::uint64_t sum =
-              result[volume.at(x, y, z)] + rule::irradiance(source.power, distance_squared, axes);
-          result[volume.at(x, y, z)] =
-              static_cast<std::uint16_t>(std::min<std::uint64_t>(sum, rule::kIrradianceMax));
-        }
+
+    const auto light = [&](int x, int y, int z) {
+      const std::int64_t dx = source.at.x - (rule::kPositionUnit * x + 8),
+                         dy = source.at.y - (rule::kPositionUnit * y + 8),
+                         dz = source.at.z - (rule::kPositionUnit * z + 8);
+      const int axes = facing_axes(volume, x, y, z, dx, dy, dz);
+      if (axes == 0 || !sees(volume, x, y, z, source.at)) return;
+      const auto distance_squared = static_cast<std::uint64_t>(dx * dx + dy * dy + dz * dz);
+      std::uint16_t& cell = result[volume.at(x, y, z)];
+      const std::uint64_t sum = cell + rule::irradiance(source.power, distance_squared, axes);
+      cell = static_cast<std::uint16_t>(std::min<std::uint64_t>(sum, rule::kIrradianceMax));
+    };
+    workers_.run(g.z, [&](int z) {
+      for (int y = 0; y < g.y; ++y) {
+        const auto solid = volume.solid.row(y, z);
+        for (std::size_t w = 0; w < solid.size(); ++w)
+          for (std::uint64_t bits = solid[w]; bits != 0; bits &= bits - 1)
+            light(static_cast<int>(64 * w) + std::countr_zero(bits), y, z);
+      }
+    });
   }
 }
 

@@ -16,7 +16,7 @@ ALLOWED = {
     "kernel/rule": [],
     "kernel/state": ["kernel/rule"],
     "kernel/scene": ["kernel/rule", "kernel/state"],
-    "kernel/visibility": ["kernel/rule", "kernel/state", "kernel/scene"],
+    "kernel/visibility": ["kernel/rule", "kernel/state", "kernel/scene", "kernel/cpu"],
     "kernel/step": ["kernel/rule", "kernel/state"],
     "kernel/scalar": ["kernel/rule", "kernel/state", "kernel/step"],
     "kernel/cpu": [],

@@ -9,6 +9,7 @@ namespace voxmelt::worlds {
 
 // The first difference of two states, with both values; empty where there is none.
 inline std::string difference(const Volume& expected, const Volume& actual) {
+  if (expected == actual) return {};
   std::string found;
   for_each(whole(expected.grid), [&](int x, int y, int z) {
     if (!found.empty()) return;
@@ -25,8 +26,7 @@ inline std::string difference(const Volume& expected, const Volume& actual) {
     check("temperature", expected.temperature[i], actual.temperature[i]);
     check("liquid", expected.liquid.test(x, y, z), actual.liquid.test(x, y, z));
   });
-  if (found.empty() && !(expected == actual)) found = "the padding, which must stay 0";
-  return found;
+  return found.empty() ? "the padding, which must stay 0" : found;
 }
 
 inline const step::Implementation& implementation(const std::string& name) {

@@ -43,6 +43,23 @@ TEST_P(Hostile, SameBitsAfterEveryPhase) {
   }
 }
 
+// More of everything than a kernel takes at once.
+TEST_P(Hostile, SameBitsOnWideGrids) {
+  const auto& [law, name] = GetParam();
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Random random(seed * 6151 + (law == rule::Law::paper ? 1 : 2));
+    const Grid grid{random.between(600, 2200), random.between(8, 17), random.between(1, 2)};
+    Parameters parameters = hostile_parameters(random, law, grid);
+    parameters.heat.radiation = false;
+    const Volume start = hostile_volume(random, parameters, grid);
+    step::Tuning tuning = any_tuning(random);
+    tuning.tile_shift = random.any({3, 5, 12});
+    if (!same_steps(parameters, start, name, tuning, 3)) {
+      FAIL() << "seed " << seed << ", grid " << grid.x << " x " << grid.y << " x " << grid.z;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Implementations, Hostile,
                          testing::Combine(testing::Values(rule::Law::paper, rule::Law::viscous),
                                           testing::ValuesIn(fast_implementations())),

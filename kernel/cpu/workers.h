@@ -3,7 +3,7 @@
 
 #include <memory>
 
-namespace voxmelt::parallel {
+namespace voxmelt::cpu {
 
 class Workers {
  public:
@@ -34,4 +34,4 @@ class Workers {
   std::unique_ptr<Arena> arena_;
 };
 
-}  // namespace voxmelt::parallel
+}  // namespace voxmelt::cpu

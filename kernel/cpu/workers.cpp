@@ -1,4 +1,4 @@
-#include "kernel/parallel/workers.h"
+#include "kernel/cpu/workers.h"
 
 #if defined(VOXMELT_PLAIN_THREADS)
 #include <atomic>
@@ -11,7 +11,7 @@
 #include <tbb/task_arena.h>
 #endif
 
-namespace voxmelt::parallel {
+namespace voxmelt::cpu {
 
 #if defined(VOXMELT_PLAIN_THREADS)
 
@@ -45,10 +45,11 @@ Workers::~Workers() = default;
 
 void Workers::spread(int count, Call call, const void* context) {
   arena_->arena.execute([&] {
+    // The last first: who relies on what an earlier task left is seen on any machine.
     tbb::parallel_for(
         tbb::blocked_range<int>(0, count, 1),
         [&](const tbb::blocked_range<int>& range) {
-          for (int i = range.begin(); i < range.end(); ++i) call(context, i);
+          for (int i = range.begin(); i < range.end(); ++i) call(context, count - 1 - i);
         },
         tbb::simple_partitioner());
   });
@@ -56,4 +57,4 @@ void Workers::spread(int count, Call call, const void* context) {
 
 #endif
 
-}  // namespace voxmelt::parallel
+}  // namespace voxmelt::cpu
