@@ -1,6 +1,17 @@
 #include "kernel/state/digest.h"
 
+#include <algorithm>
+
 namespace voxmelt::state {
+namespace {
+
+bool any_of(const std::uint16_t* cells, int count) {
+  unsigned bits = 0;
+  for (int i = 0; i < count; ++i) bits |= cells[i];
+  return bits != 0;
+}
+
+}  // namespace
 
 std::uint64_t digest(const Volume& volume) {
   const Grid g = volume.grid;
@@ -11,13 +22,18 @@ std::uint64_t digest(const Volume& volume) {
                  inert = volume.inert.row(y, z);
       const std::uint16_t *amount = volume.amount.row(y, z), *energy = volume.energy.row(y, z),
                           *temperature = volume.temperature.row(y, z);
-      for (int x = 0; x < g.x; ++x) {
-        const std::size_t w = static_cast<std::size_t>(x) / 64;
-        const int bit = x % 64;
-        const std::uint64_t packed = std::uint64_t{amount[x]} | std::uint64_t{energy[x]} << 16 |
-                                     std::uint64_t{temperature[x]} << 32 | (solid[w] >> bit & 1u) << 48 |
-                                     (liquid[w] >> bit & 1u) << 49 | (inert[w] >> bit & 1u) << 50;
-        sum += cell_digest(g.index(x, y, z), packed);
+      for (std::size_t w = 0; w < solid.size(); ++w) {
+        const int first = static_cast<int>(64 * w), count = std::min(64, g.x - first);
+        if ((solid[w] | liquid[w] | inert[w]) == 0 && !any_of(amount + first, count) &&
+            !any_of(energy + first, count) && !any_of(temperature + first, count))
+          continue;
+        for (int bit = 0; bit < count; ++bit) {
+          const int x = first + bit;
+          const std::uint64_t packed = std::uint64_t{amount[x]} | std::uint64_t{energy[x]} << 16 |
+                                       std::uint64_t{temperature[x]} << 32 | (solid[w] >> bit & 1u) << 48 |
+                                       (liquid[w] >> bit & 1u) << 49 | (inert[w] >> bit & 1u) << 50;
+          sum += cell_digest(g.index(x, y, z), packed);
+        }
       }
     }
   return sum;
