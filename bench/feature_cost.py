@@ -97,6 +97,8 @@ def main():
             print(lines[-1], flush=True)
     lines += ["", "Instructions executed in `Simulation::step()`, counted by callgrind (AVX2, one thread); the digests of "
               "both programs agree. One command: `bench/feature_cost.py`."]
+    if dear:
+        lines += ["", f"Above {LIMIT:.0%}: " + "; ".join(dear) + "."]
     if options.features == list(FEATURES):
         options.out.write_text("\n".join(lines) + "\n")
     print("\n".join(dear) if dear else f"no feature costs a scene that does not use it more than {LIMIT:.0%}")

@@ -11,9 +11,9 @@ template <class Arch>
 Kernels kernels_for(const rule::Parameters& parameters) {
   Kernels kernels;
   choose_heat_kernels<Arch>(parameters, kernels);
-  if (parameters.flow.law == rule::Law::viscous)
+  if (kBuilt.viscous && parameters.flow.law == rule::Law::viscous)
     choose_viscous_kernels<Arch>(parameters, kernels);
-  else if (parameters.heat.enabled)
+  else if (kBuilt.heat && parameters.heat.enabled)
     choose_paper_kernels<Arch, true>(parameters, kernels);
   else
     choose_paper_kernels<Arch, false>(parameters, kernels);

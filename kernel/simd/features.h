@@ -14,6 +14,7 @@ struct SpreadFeatures {
   bool eight;    // neighbours, else four
   bool thermal;  // shares by heat
   bool general;  // shares by pattern, the printed reading, or no `downhill`
+  bool support;  // of `pattern`: who stands on nothing gives nothing
 };
 
 struct HeatFeatures {
@@ -26,5 +27,18 @@ struct ViscousFeatures {
   bool hot;
   bool guided;  // walls hold, or drops hang
 };
+
+// What this build can do: everything, but where the price of a feature is measured (bench/feature_cost.py):
+// CMake option VOXMELT_WITHOUT. A scene that uses what is left out runs wrongly there.
+#ifndef VOXMELT_WITHOUT
+#define VOXMELT_WITHOUT
+#endif
+struct Built {
+  bool heat = true, latent = true, radiation = true, air = true, convection = true, edges = true,
+       corners = true;
+  bool viscous = true, guided = true, thermal = true;                              // of both laws
+  bool eight = true, general = true, support = true, slump = true, reheat = true;  // of the paper's law
+};
+constexpr Built kBuilt{VOXMELT_WITHOUT};
 
 }  // namespace voxmelt::simd

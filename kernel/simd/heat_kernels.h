@@ -44,15 +44,16 @@ void melt_slice(const View& view, const Step& step, int z, const TileRow* tiles,
 template <class Arch, bool kLatent>
 void choose_latent_kernels(const rule::Heat& heat, Kernels& kernels) {
   if (heat.weight_face > 0) kernels.conduct_faces = conduct_faces_slice<Arch, kLatent>;
-  if (heat.neighbours >= 18 && heat.weight_edge > 0)
+  if (kBuilt.edges && heat.neighbours >= 18 && heat.weight_edge > 0)
     kernels.conduct_edges = conduct_distant_slice<Arch, kLatent, EdgeAxes<Arch>>;
-  if (heat.neighbours >= 26 && heat.weight_corner > 0)
+  if (kBuilt.corners && heat.neighbours >= 26 && heat.weight_corner > 0)
     kernels.conduct_corners = conduct_distant_slice<Arch, kLatent, CornerAxes<Arch>>;
-  if (heat.convection > 0) kernels.convect = convect_slice<Arch, kLatent>;
-  const bool air = heat.air && heat.air_exchange > 0;
-  if (heat.radiation && air)
+  if (kBuilt.convection && heat.convection > 0) kernels.convect = convect_slice<Arch, kLatent>;
+  const bool air = kBuilt.air && heat.air && heat.air_exchange > 0;
+  const bool radiation = kBuilt.radiation && heat.radiation;
+  if (radiation && air)
     kernels.exchange = exchange_slice<Arch, HeatFeatures{kLatent, true, true}>;
-  else if (heat.radiation)
+  else if (radiation)
     kernels.exchange = exchange_slice<Arch, HeatFeatures{kLatent, true, false}>;
   else if (air)
     kernels.exchange = exchange_slice<Arch, HeatFeatures{kLatent, false, true}>;
@@ -61,8 +62,8 @@ void choose_latent_kernels(const rule::Heat& heat, Kernels& kernels) {
 // Sets what phases `heat` and `melt` need; leaves them null without heat.
 template <class Arch>
 void choose_heat_kernels(const rule::Parameters& parameters, Kernels& kernels) {
-  if (!parameters.heat.enabled) return;
-  if (parameters.material.latent_heat > 0)
+  if (!kBuilt.heat || !parameters.heat.enabled) return;
+  if (kBuilt.latent && parameters.material.latent_heat > 0)
     choose_latent_kernels<Arch, true>(parameters.heat, kernels);
   else
     choose_latent_kernels<Arch, false>(parameters.heat, kernels);

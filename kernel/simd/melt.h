@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/cpu/lanes.h"
+#include "kernel/simd/features.h"
 #include "kernel/simd/kernels.h"
 
 namespace voxmelt::simd {
@@ -16,7 +17,7 @@ class Melt {
   [[gnu::always_inline]] Melt(const View& view, const Step& step, int z, Books& books)
       : v_(view),
         z_(z),
-        reheat_(kPaper ? step.parameters->flow.paper.reheat : 0),
+        reheat_(kPaper && kBuilt.reheat ? step.parameters->flow.paper.reheat : 0),
         melts_(L::set(step.parameters->material.melting_point + step.parameters->material.latent_heat)),
         books_(books) {}
 

@@ -29,28 +29,32 @@ template <class Arch, bool kHot>
 void choose_paper_kernels(const rule::Parameters& parameters, Kernels& kernels) {
   const rule::Flow& flow = parameters.flow;
   const rule::PaperLaw& law = flow.paper;
-  const bool guided = flow.fall.factor != 65536 || flow.fall.wall_factor != 65536 || flow.fall.hang > 0 ||
-                      law.beta != 65536 || law.reading == rule::EnergyReading::printed;
+  const bool guided =
+      kBuilt.guided && (flow.fall.factor != 65536 || flow.fall.wall_factor != 65536 || flow.fall.hang > 0 ||
+                        law.beta != 65536 || law.reading == rule::EnergyReading::printed);
   kernels.gravity = guided ? gravity_row<Arch, GravityFeatures{kHot, true}>
                            : gravity_row<Arch, GravityFeatures{kHot, false}>;
 
-  const bool general = law.use_table || !law.downhill || law.reading == rule::EnergyReading::printed;
-  const auto spread = [&]<SpreadFeatures kFeatures>() {
-    kernels.pattern = pattern_row<Arch, kFeatures>;
-    kernels.apply = apply_row<Arch, kFeatures>;
+  const bool general =
+      kBuilt.general && (law.use_table || !law.downhill || law.reading == rule::EnergyReading::printed);
+  const bool thermal = kBuilt.thermal && flow.thermal_viscosity;
+  const bool support = kBuilt.support && law.support;
+  const auto spread = [&]<bool kEight, bool kThermal, bool kGeneral>() {
+    kernels.pattern = support ? pattern_row<Arch, SpreadFeatures{kHot, kEight, kThermal, kGeneral, true}>
+                              : pattern_row<Arch, SpreadFeatures{kHot, kEight, kThermal, kGeneral, false}>;
+    kernels.apply = apply_row<Arch, SpreadFeatures{kHot, kEight, kThermal, kGeneral, false}>;
   };
   const auto with = [&]<bool kThermal, bool kGeneral>() {
-    if (law.neighbours == 8) {
-      spread.template operator()<SpreadFeatures{kHot, true, kThermal, kGeneral}>();
-    } else {
-      spread.template operator()<SpreadFeatures{kHot, false, kThermal, kGeneral}>();
-    }
+    if (kBuilt.eight && law.neighbours == 8)
+      spread.template operator()<true, kThermal, kGeneral>();
+    else
+      spread.template operator()<false, kThermal, kGeneral>();
   };
-  if (general && flow.thermal_viscosity) {
+  if (general && thermal) {
     with.template operator()<true, true>();
   } else if (general) {
     with.template operator()<false, true>();
-  } else if (flow.thermal_viscosity) {
+  } else if (thermal) {
     with.template operator()<true, false>();
   } else {
     with.template operator()<false, false>();

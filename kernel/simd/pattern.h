@@ -85,7 +85,7 @@ class Pattern {
 
   [[gnu::always_inline]] std::uint64_t givers_of(int w, int y) const {
     const std::uint64_t liquid = v_.liquid[v_.word(w, y, z_)];
-    if (!law_.support || y == 0) return liquid;
+    if (!kFeatures.support || y == 0) return liquid;
     const bool first = (y & ((1 << v_.tile_shift) - 1)) == 0;
     const std::uint64_t* below = first && below_ != nullptr ? below_ : v_.liquid + v_.word(0, y - 1, z_);
     return liquid & (v_.blocked(w, y - 1, z_) | below[w]);
@@ -119,7 +119,8 @@ class Pattern {
     // A neighbour receives if it holds less than a limit: the giver's amount less the larger of flow and
     // margin.
     const M energetic = L::less(L::set(law_.threshold), energy);
-    const V margin = L::select(energetic, L::set(law_.margin), L::set(law_.slump));
+    V margin = L::set(law_.margin);
+    if constexpr (kBuilt.slump) margin = L::select(energetic, margin, L::set(law_.slump));
     const V most = L::set(kLimit);
     V limits[2];
     limits[0] = L::min(most, L::sub_saturated(amount, L::max(flow, margin)));
@@ -129,7 +130,7 @@ class Pattern {
       if (!law_.downhill) limits[0] = limits[1] = most;
 
     Bits givers = item.givers;
-    if (law_.slump == 0) givers = static_cast<Bits>(givers & L::to_bits(energetic));
+    if (!kBuilt.slump || law_.slump == 0) givers = static_cast<Bits>(givers & L::to_bits(energetic));
     givers = static_cast<Bits>(givers & ~L::to_bits(L::equal(limits[0], L::zero())));
     if (givers == 0) return false;  // films too thin to give
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernel/cpu/lanes.h"
+#include "kernel/simd/features.h"
 #include "kernel/simd/kernels.h"
 
 namespace voxmelt::simd {
@@ -133,7 +134,7 @@ class RunData {
       const double wide = (mobility * square + 524288.0) * (1.0 / 1048576);  // below 2^52 before: exact
       raw[i] = static_cast<int>(wide < 268435456.0 ? wide : 268435456.0);    // more is cut in any case
     }
-    if (flow_.thermal_viscosity)
+    if (kBuilt.thermal && flow_.thermal_viscosity)
       for (int i = 0; i < 64; ++i) {
         const std::uint16_t factor = table_[kHot ? now.heat[i] >> 11 : 0];
         raw[i] = static_cast<int>(static_cast<double>(raw[i]) * factor * (1.0 / 32768));

@@ -38,7 +38,7 @@ void fall_slice(const View& view, const Step& step, int z, const TileRow* tiles,
 template <class Arch>
 void choose_viscous_kernels(const rule::Parameters& parameters, Kernels& kernels) {
   const rule::Fall& fall = parameters.flow.fall;
-  const bool guided = fall.factor != 65536 || fall.wall_factor != 65536 || fall.hang > 0;
+  const bool guided = kBuilt.guided && (fall.factor != 65536 || fall.wall_factor != 65536 || fall.hang > 0);
   const auto choose = [&]<bool kHot>() {
     constexpr ViscousFeatures plain{kHot, false}, all{kHot, true};
     kernels.settle = settle_slice<Arch, plain>;
@@ -46,7 +46,7 @@ void choose_viscous_kernels(const rule::Parameters& parameters, Kernels& kernels
     kernels.carry = carry_slice<Arch, plain>;
     kernels.fall = guided ? fall_slice<Arch, all> : fall_slice<Arch, plain>;
   };
-  if (parameters.heat.enabled)
+  if (kBuilt.heat && parameters.heat.enabled)
     choose.template operator()<true>();
   else
     choose.template operator()<false>();

@@ -1,0 +1,93 @@
+// Lanes<neon64>: 8 lanes, a mask is a vector of ones and zeros. Runs on every 64-bit ARM processor.
+#pragma once
+
+#include <arm_neon.h>
+
+#include "kernel/cpu/lanes.h"
+
+namespace voxmelt::cpu {
+
+template <>
+struct Lanes<xsimd::neon64> : LanesOf<xsimd::neon64> {
+  VOXMELT_LANES V high(V a, V b) {
+    const uint32x4_t front = vmull_u16(vget_low_u16(a), vget_low_u16(b)), back = vmull_high_u16(a, b);
+    return V(vuzp2q_u16(vreinterpretq_u16_u32(front), vreinterpretq_u16_u32(back)));
+  }
+  template <int n>
+  VOXMELT_LANES V shift_right(V a) {
+    return V(vshrq_n_u16(a, n));
+  }
+  template <int n>
+  VOXMELT_LANES V shift_left(V a) {
+    return V(vshlq_n_u16(a, n));
+  }
+
+  VOXMELT_LANES M less(V a, V b) { return M(vcltq_u16(a, b)); }
+  VOXMELT_LANES M from_bits(std::uint64_t word, int part) {
+    return M(vtstq_u16(vdupq_n_u16(static_cast<std::uint16_t>(word >> (8 * part))), bit_of_lane()));
+  }
+  VOXMELT_LANES std::uint64_t to_bits(M m) { return vaddvq_u16(vandq_u16(m, bit_of_lane())); }
+  VOXMELT_LANES V keep(M m, V v) { return V(vandq_u16(m, v)); }
+  VOXMELT_LANES V add_if(M m, V a, V b) { return a + keep(m, b); }
+  VOXMELT_LANES V sub_if(M m, V a, V b) { return a - keep(m, b); }
+  VOXMELT_LANES V carry(V a, V low, V most) { return V(vsubq_u16(a, vcgtq_u16(low, most))); }
+
+  // The first four lanes, then the last four.
+  VOXMELT_LANES Wide unpack(V low, V high) {
+    return {wide(vreinterpretq_s32_u16(vzip1q_u16(low, high))),
+            wide(vreinterpretq_s32_u16(vzip2q_u16(low, high)))};
+  }
+  VOXMELT_LANES V narrow(Wide w) { return V(vqmovun_high_s32(vqmovun_s32(w.low), w.high)); }
+  VOXMELT_LANES Wide pair_product(V f0, V h0, V f1, V h1) {
+    const int16x8_t a = number(f0), b = number(h0), c = number(f1), d = number(h1);
+    return {wide(vmlal_s16(vmull_s16(vget_low_s16(a), vget_low_s16(b)), vget_low_s16(c), vget_low_s16(d))),
+            wide(vmlal_high_s16(vmull_high_s16(a, b), c, d))};
+  }
+  VOXMELT_LANES V after(V previous, V current) { return V(vextq_u16(previous, current, 7)); }
+  VOXMELT_LANES W pair_sums(V a, V b) {
+    const int16x8_t x = number(a), y = number(b);
+    return wide(vpaddq_s32(vmull_s16(vget_low_s16(x), vget_low_s16(y)), vmull_high_s16(x, y)));
+  }
+
+  using Bits = std::uint8_t;
+  VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
+                          Bits (*planes)[4]) {
+    uint32x4_t y = vld1q_u32(blocks), x = vdupq_n_u32(step);
+    for (int i = 0; i < 10; ++i) {
+      const uint32x4_t right8 = vsriq_n_u32(vshlq_n_u32(x, 24), x, 8);
+      x = veorq_u32(vaddq_u32(right8, y), vdupq_n_u32(keys[i]));
+      y = veorq_u32(vsriq_n_u32(vshlq_n_u32(y, 3), y, 29), x);
+    }
+    const uint8x16_t front = vreinterpretq_u8_u32(vzip1q_u32(y, x));  // items 0 and 1
+    const uint8x16_t back = vreinterpretq_u8_u32(vzip2q_u32(y, x));   // items 2 and 3
+    // Each sum of neighbours halves the vectors of a bit; after three a byte is eight cells.
+    const uint8x16_t weight = vreinterpretq_u8_u64(vdupq_n_u64(0x8040201008040201u));
+    uint8x16_t fours[4];  // of bits 2 i and 2 i + 1: of four cells each
+    unrolled<4>([&](auto i) VOXMELT_LAMBDA {
+      constexpr int b = 2 * i;
+      const uint8x16_t bit = vdupq_n_u8(1 << b), next = vdupq_n_u8(2 << b);
+      const uint8x16_t even =
+          vpaddq_u8(vandq_u8(vtstq_u8(front, bit), weight), vandq_u8(vtstq_u8(back, bit), weight));
+      const uint8x16_t odd =
+          vpaddq_u8(vandq_u8(vtstq_u8(front, next), weight), vandq_u8(vtstq_u8(back, next), weight));
+      fours[i] = vpaddq_u8(even, odd);
+    });
+    auto* to = reinterpret_cast<std::uint8_t*>(planes);
+    vst1q_u8(to, vpaddq_u8(fours[0], fours[1]));
+    vst1q_u8(to + 16, vpaddq_u8(fours[2], fours[3]));
+  }
+
+  // table[index >> 11]: 32 entries, 64 bytes.
+  VOXMELT_LANES V lookup(const std::uint16_t* table, V index) {
+    const uint8x16x4_t bytes = vld1q_u8_x4(reinterpret_cast<const std::uint8_t*>(table));
+    const uint16x8_t both = vmlaq_n_u16(vdupq_n_u16(0x0100), shift_right<11>(index), 0x0202);
+    return V(vreinterpretq_u16_u8(vqtbl4q_u8(bytes, vreinterpretq_u8_u16(both))));
+  }
+
+ private:
+  VOXMELT_LANES uint16x8_t bit_of_lane() { return uint16x8_t{1, 2, 4, 8, 16, 32, 64, 128}; }
+  VOXMELT_LANES int16x8_t number(V v) { return vreinterpretq_s16_u16(v); }
+  VOXMELT_LANES W wide(int32x4_t lanes) { return W(lanes); }
+};
+
+}  // namespace voxmelt::cpu
