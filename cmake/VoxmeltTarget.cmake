@@ -4,6 +4,11 @@ add_library(voxmelt_options INTERFACE)
 target_include_directories(voxmelt_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(voxmelt_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  set(VOXMELT_AARCH64 ON)
+  # There compilers fuse multiply-adds unasked: other bits than on x86-64.
+  target_compile_options(voxmelt_options INTERFACE -ffp-contract=off)
+endif()
 if(VOXMELT_SANITIZE)
   target_compile_options(voxmelt_options INTERFACE
     -fsanitize=${VOXMELT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

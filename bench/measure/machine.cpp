@@ -55,6 +55,9 @@ double best_rate(int threads, double trial_seconds, const std::function<double(i
 }
 
 LaneLoops loops(cpu::InstructionSet set) {
+#if defined(__aarch64__)
+  if (set == cpu::InstructionSet::neon) return neon_loops();
+#else
   switch (set) {
     case cpu::InstructionSet::sse42:
       return sse42_loops();
@@ -62,12 +65,15 @@ LaneLoops loops(cpu::InstructionSet set) {
       return avx2_loops();
     case cpu::InstructionSet::avx512:
       return avx512_loops();
+    case cpu::InstructionSet::neon:
+      break;
   }
+#endif
   return {};
 }
 
 LaneLoops widest_loops() {
-  LaneLoops widest = sse42_loops();
+  LaneLoops widest = loops(cpu::kInstructionSets.front().set);
   for (const auto& [set, name] : cpu::kInstructionSets)
     if (cpu::supported(set)) widest = loops(set);
   return widest;

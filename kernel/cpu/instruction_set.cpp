@@ -16,10 +16,16 @@ bool supported(InstructionSet set) {
       return supported(InstructionSet::avx2) && __builtin_cpu_supports("avx512f") &&
              __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
              __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    case InstructionSet::neon:
+      return false;
   }
-#endif
+  return false;
+#elif defined(__aarch64__)
+  return set == InstructionSet::neon;  // every such processor has it
+#else
   static_cast<void>(set);
   return false;
+#endif
 }
 
 }  // namespace voxmelt::cpu

@@ -28,9 +28,13 @@ const step::Registry& implementations() {
     step::Registry r;
     using enum cpu::InstructionSet;
     r.add({"reference", "plain loops over kernel/rule, one thread", scalar::create_reference});
+#if defined(__aarch64__)
+    r.add({"neon", "8 lanes of 16 bits, threads", parallel::create<neon>, cpu::supported(neon)});
+#else
     r.add({"sse4.2", "8 lanes of 16 bits, threads", parallel::create<sse42>, cpu::supported(sse42)});
     r.add({"avx2", "16 lanes of 16 bits, threads", parallel::create<avx2>, cpu::supported(avx2)});
     r.add({"avx512", "32 lanes of 16 bits, threads", parallel::create<avx512>, cpu::supported(avx512)});
+#endif
     return r;
   }();
   return registry;

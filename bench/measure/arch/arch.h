@@ -19,5 +19,6 @@ struct LaneLoops {
 LaneLoops sse42_loops();
 LaneLoops avx2_loops();
 LaneLoops avx512_loops();
+LaneLoops neon_loops();
 
 }  // namespace voxmelt::measure

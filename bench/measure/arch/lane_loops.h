@@ -29,7 +29,11 @@ struct Loops {
   }
 
   // The register itself, so that nothing is moved about or put off.
+#if defined(__aarch64__)
+  VOXMELT_LANES void pin(V& v) { asm volatile("" : "+w"(v.data)); }
+#else
   VOXMELT_LANES void pin(V& v) { asm volatile("" : "+x"(v.data)); }
+#endif
   template <class Operation>
   VOXMELT_LANES void each(Chains& v, const Operation& operation) {
     operation(v.a, v.b), operation(v.b, v.c), operation(v.c, v.d), operation(v.d, v.e);

@@ -9,5 +9,6 @@ namespace voxmelt::simd {
 Kernels sse42_kernels(const rule::Parameters& parameters);
 Kernels avx2_kernels(const rule::Parameters& parameters);
 Kernels avx512_kernels(const rule::Parameters& parameters);
+Kernels neon_kernels(const rule::Parameters& parameters);
 
 }  // namespace voxmelt::simd

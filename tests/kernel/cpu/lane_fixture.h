@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "kernel/cpu/instruction_set.h"
 #include "tests/kernel/cpu/lane_operations.h"
@@ -18,6 +19,9 @@ class LanesTest : public testing::TestWithParam<InstructionSetName> {
  protected:
   void SetUp() override {
     if (!supported(GetParam().set)) GTEST_SKIP() << "not on this processor";
+#if defined(__aarch64__)
+    own_ = neon_operations();
+#else
     switch (GetParam().set) {
       case InstructionSet::sse42:
         own_ = sse_operations();
@@ -28,14 +32,19 @@ class LanesTest : public testing::TestWithParam<InstructionSetName> {
       case InstructionSet::avx512:
         own_ = avx512_operations();
         break;
+      case InstructionSet::neon:
+        break;
     }
+#endif
   }
 
   Operations own_{};
 };
 
 inline std::string test_name(const testing::TestParamInfo<InstructionSetName>& info) {
-  return std::array{"sse42", "avx2", "avx512"}[static_cast<std::size_t>(info.param.set)];
+  std::string name(info.param.name);
+  std::erase(name, '.');
+  return name;
 }
 
 }  // namespace voxmelt::cpu

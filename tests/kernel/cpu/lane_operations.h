@@ -66,5 +66,6 @@ struct Operations {
 Operations sse_operations();
 Operations avx2_operations();
 Operations avx512_operations();
+Operations neon_operations();
 
 }  // namespace voxmelt::cpu
