@@ -1,0 +1,158 @@
+// A bounded ready/valid stream of tokens (P lanes each). Both sides decide on the state at the begin of a
+// cycle; `commit` ends the cycle. So the order in which blocks are evaluated cannot matter, and a channel of
+// depth 1 moves a token every second cycle, one of depth 2 or more every cycle.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/channel/stall.h"
+
+namespace voxmelt::hwmodel {
+
+// A corruption to be planted: it strikes the first token in which it makes a difference.
+enum class FifoFault : std::uint8_t {
+  none,
+  overwrite,    // the write pointer stands still: the token takes the place of the one before it
+  stale,        // the write enable is missed: the token before it is stored again
+  swap_lanes,   // the lanes are rotated by one
+  never_ready,  // ready is lost for ever
+};
+
+// Sees what enters and leaves a channel; ordinals count the tokens of a pass from 0.
+template <class Word>
+class FifoWatcher {
+ public:
+  virtual ~FifoWatcher() = default;
+  virtual void entered(int channel, std::int64_t ordinal, const Word* lanes) = 0;
+  virtual void left(int channel, std::int64_t ordinal, const Word* lanes) = 0;
+};
+
+template <class Word>
+class Fifo {
+ public:
+  Fifo(std::string name, int channel, int lanes, int depth, std::uint64_t stall_seed)
+      : name_(std::move(name)),
+        channel_(channel),
+        lanes_(static_cast<std::size_t>(lanes)),
+        depth_(depth),
+        words_(lanes_ * static_cast<std::size_t>(depth)),
+        stalls_(stall_seed, static_cast<std::uint64_t>(channel)) {}
+
+  const std::string& name() const { return name_; }
+  int channel() const { return channel_; }
+  int depth() const { return depth_; }
+
+  // Producer side. `put` gives the place of the new token, to be filled before `commit`.
+  bool ready() const { return count_ < depth_ && !stall_.put && !stuck_; }
+  Word* put() {
+    putting_ = true;
+    return slot(tail_);
+  }
+
+  // Consumer side: the oldest token stays valid until `commit`.
+  bool valid() const { return count_ > 0 && !stall_.get; }
+  const Word* get() {
+    getting_ = true;
+    return slot(head_);
+  }
+
+  // Ends the cycle; true if a token moved.
+  bool commit() {
+    const bool moved = putting_ || getting_;
+    if (putting_) end_put();
+    if (getting_) end_get();
+    putting_ = getting_ = false;
+    highest_ = std::max(highest_, count_);
+    stall_ = stalls_.next();
+    return moved;
+  }
+
+  void begin_pass() { entered_ = left_ = 0; }
+  void watch(FifoWatcher<Word>* watcher) { watcher_ = watcher; }
+
+  void plant(FifoFault fault) { fault_ = fault; }
+  struct Strike {
+    std::int64_t ordinal;  // of the first token that comes out wrong
+    int lane;
+  };
+  const std::optional<Strike>& struck() const { return struck_; }
+
+  int count() const { return count_; }
+  int highest() const { return highest_; }  // occupancy, since the begin
+  std::int64_t entered() const { return entered_; }
+  std::int64_t left() const { return left_; }
+  const Word* oldest() const { return words_.data() + head_ * lanes_; }
+
+ private:
+  Word* slot(std::size_t at) { return words_.data() + at * lanes_; }
+  std::size_t after(std::size_t at) const { return at + 1 == static_cast<std::size_t>(depth_) ? 0 : at + 1; }
+  std::size_t before(std::size_t at) const { return (at == 0 ? static_cast<std::size_t>(depth_) : at) - 1; }
+
+  void end_put() {
+    if (watcher_ != nullptr) watcher_->entered(channel_, entered_, slot(tail_));
+    const bool kept = fault_ == FifoFault::none || struck_ || !strike();
+    ++entered_;
+    if (!kept) return;
+    ++count_;
+    tail_ = after(tail_);
+  }
+  void end_get() {
+    if (watcher_ != nullptr) watcher_->left(channel_, left_, slot(head_));
+    ++left_;
+    --count_;
+    head_ = after(head_);
+  }
+  // Applies the planted fault where it makes a difference; true if the new token is lost.
+  bool strike();
+
+  std::string name_;
+  int channel_;
+  std::size_t lanes_;
+  int depth_, count_ = 0, highest_ = 0;
+  std::size_t head_ = 0, tail_ = 0;
+  bool putting_ = false, getting_ = false;
+  std::vector<Word> words_;
+  StallInjector stalls_;
+  StallInjector::Stall stall_;
+  std::int64_t entered_ = 0, left_ = 0;
+  FifoWatcher<Word>* watcher_ = nullptr;
+  FifoFault fault_ = FifoFault::none;
+  bool stuck_ = false;
+  std::optional<Strike> struck_;
+};
+
+template <class Word>
+bool Fifo<Word>::strike() {
+  Word* now = slot(tail_);
+  Word* last = slot(before(tail_));
+  const auto first_difference = [&](const Word* a, const Word* b) {
+    return static_cast<int>(std::mismatch(a, a + lanes_, b).first - a);
+  };
+  const int lanes = static_cast<int>(lanes_);
+  if (fault_ == FifoFault::never_ready) {
+    stuck_ = true;
+    struck_ = {entered_ + 1, 0};
+  } else if (fault_ == FifoFault::swap_lanes) {
+    std::vector<Word> rotated(now, now + lanes_);
+    std::rotate(rotated.begin(), rotated.begin() + 1, rotated.end());
+    const int lane = first_difference(now, rotated.data());
+    if (lane == lanes) return false;
+    std::copy(rotated.begin(), rotated.end(), now);
+    struck_ = {entered_, lane};
+  } else if (entered_ > 0 && (fault_ == FifoFault::stale || count_ > (getting_ ? 1 : 0))) {
+    const int lane = first_difference(now, last);
+    if (lane == lanes) return false;
+    const bool lost = fault_ == FifoFault::overwrite;
+    std::copy(lost ? now : last, (lost ? now : last) + lanes_, lost ? last : now);
+    struck_ = {lost ? entered_ - 1 : entered_, lane};
+    return lost;
+  }
+  return false;
+}
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,36 @@
+// Pseudo-random stalls: any channel may refuse a transfer in any cycle, and no result may depend on it.
+#pragma once
+
+#include <cstdint>
+
+namespace voxmelt::hwmodel {
+
+class StallInjector {
+ public:
+  StallInjector() = default;
+  // Seed 0: never stalls. `channel` makes the streams of two channels differ.
+  StallInjector(std::uint64_t seed, std::uint64_t channel)
+      : state_(seed == 0 ? 0 : mix(seed * 0x9E3779B97F4A7C15u + channel + 1) | 1) {}
+
+  struct Stall {
+    bool put = false, get = false;
+  };
+  // Of the next cycle: each side stalls one time in four.
+  Stall next() {
+    if (state_ == 0) return {};
+    state_ ^= state_ << 13;  // xorshift64
+    state_ ^= state_ >> 7;
+    state_ ^= state_ << 17;
+    return {((state_ >> 20) & 3u) == 0, ((state_ >> 40) & 3u) == 0};
+  }
+
+ private:
+  static std::uint64_t mix(std::uint64_t v) {
+    v = (v ^ (v >> 30)) * 0xBF58476D1CE4E5B9u;
+    v = (v ^ (v >> 27)) * 0x94D049BB133111EBu;
+    return v ^ (v >> 31);
+  }
+  std::uint64_t state_ = 0;
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,75 @@
+// Numbers of a declared width, as hardware has them: what does not fit is a broken invariant, never a silent
+// wrap-around.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace voxmelt::hwmodel {
+
+// A value that needs more bits than its wire has.
+class WidthError : public std::logic_error {
+ public:
+  WidthError(std::int64_t value, int bits, bool is_signed)
+      : std::logic_error("the value " + std::to_string(value) + " does not fit into " + std::to_string(bits) +
+                         (is_signed ? " signed bits" : " bits")) {}
+};
+
+// An unsigned wire or register of N bits.
+template <int N>
+class UInt {
+  static_assert(N >= 1 && N <= 62);
+
+ public:
+  static constexpr int kBits = N;
+  static constexpr std::int64_t kMax = (std::int64_t{1} << N) - 1;
+
+  constexpr UInt() = default;
+  constexpr UInt(std::int64_t value) : value_(static_cast<Storage>(value)) {
+    if (value < 0 || value > kMax) [[unlikely]]
+      throw WidthError(value, N, false);
+  }
+  constexpr operator std::int64_t() const { return static_cast<std::int64_t>(value_); }
+
+  // Drops the bits above N on purpose.
+  static constexpr UInt truncated(std::int64_t value) { return UInt(value & kMax); }
+
+ private:
+  using Storage = std::conditional_t<
+      N <= 8, std::uint8_t,
+      std::conditional_t<N <= 16, std::uint16_t, std::conditional_t<N <= 32, std::uint32_t, std::uint64_t>>>;
+  Storage value_ = 0;
+};
+
+// A signed (two's complement) wire or register of N bits.
+template <int N>
+class SInt {
+  static_assert(N >= 2 && N <= 63);
+
+ public:
+  static constexpr int kBits = N;
+  static constexpr std::int64_t kMax = (std::int64_t{1} << (N - 1)) - 1, kMin = -kMax - 1;
+
+  constexpr SInt() = default;
+  constexpr SInt(std::int64_t value) : value_(static_cast<Storage>(value)) {
+    if (value < kMin || value > kMax) [[unlikely]]
+      throw WidthError(value, N, true);
+  }
+  constexpr operator std::int64_t() const { return value_; }
+
+ private:
+  using Storage =
+      std::conditional_t<N <= 16, std::int16_t, std::conditional_t<N <= 32, std::int32_t, std::int64_t>>;
+  Storage value_ = 0;
+};
+
+// Bits that hold 0..most.
+constexpr int bits_for(std::int64_t most) {
+  int bits = 1;
+  while (most >> bits > 0) ++bits;
+  return bits;
+}
+
+}  // namespace voxmelt::hwmodel

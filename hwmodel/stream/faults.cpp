@@ -1,0 +1,68 @@
+#include "hwmodel/stream/faults.h"
+
+#include <algorithm>
+#include <array>
+
+namespace voxmelt::hwmodel {
+namespace {
+
+using enum Fault;
+constexpr std::array kFaults{
+    FaultInfo{vent_rate, "vent-rate", "source", "a vent adds one unit more than its rate"},
+    FaultInfo{drain_energy, "drain-energy", "source",
+              "a drain leaves the energy above the amount that is left"},
+    FaultInfo{conduction_sign, "conduction-sign", "conduction",
+              "a flux between two faces has the wrong sign"},
+    FaultInfo{conduction_dither, "conduction-dither", "conduction",
+              "an axis uses the dither of the next one"},
+    FaultInfo{conduction_stale_row, "conduction-stale-row", "conduction",
+              "the plane memory is read one row too late for a flux"},
+    FaultInfo{distant_wrong_axis, "distant-wrong-axis", "edges",
+              "a flux between edge neighbours takes the cell at the wrong height"},
+    FaultInfo{convection_downwards, "convection-downwards", "convection", "heat rises into the warmer cell"},
+    FaultInfo{irradiance_lane, "irradiance-lane", "exchange", "a cell gets the irradiance of the next lane"},
+    FaultInfo{air_axis_missed, "air-axis-missed", "exchange", "one exposed axis is not counted"},
+    FaultInfo{melt_stuck, "melt-stuck", "melt", "a hot solid stays solid"},
+    FaultInfo{melt_energy, "melt-energy", "melt", "fresh liquid has one unit of energy too little"},
+    FaultInfo{gravity_one_more, "gravity-one-more", "gravity", "one unit more arrives than falls"},
+    FaultInfo{gravity_wall_missed, "gravity-wall-missed", "gravity", "a cell beside a wall falls freely"},
+    FaultInfo{gravity_room, "gravity-room", "gravity",
+              "a falling flow ignores that the cell below is nearly full"},
+    FaultInfo{
+        gravity_column_wrap, "gravity-column-wrap", "gravity",
+        "the counter of heights wraps late: the next column's lowest cell falls into this one's highest"},
+    FaultInfo{gravity_mix, "gravity-mix", "gravity", "falling liquid does not bring its heat"},
+    FaultInfo{pattern_random_lane, "pattern-random-lane", "pattern",
+              "a cell uses the random byte of the next one"},
+    FaultInfo{pattern_diagonal_open, "pattern-diagonal-open", "pattern",
+              "a diagonal between two walls is open"},
+    FaultInfo{pattern_margin, "pattern-margin", "pattern", "a neighbour that stands as high is given to"},
+    FaultInfo{apply_flow_lost, "apply-flow-lost", "apply", "a flow leaves its cell and never arrives"},
+    FaultInfo{apply_diagonal_whole, "apply-diagonal-whole", "apply", "a diagonal flow is not quartered"},
+    FaultInfo{apply_alpha, "apply-alpha", "apply", "the friction of the wrong ground"},
+    FaultInfo{settle_run_broken, "settle-run-broken", "settle", "a run ends one cell too early"},
+    FaultInfo{settle_sum_carry, "settle-sum-carry", "settle", "the sum of a run loses its highest bit"},
+    FaultInfo{settle_reversal, "settle-reversal", "settle",
+              "the column memory is read in the wrong direction"},
+    FaultInfo{viscous_dead_zone, "viscous-dead-zone", "spread", "a difference inside the dead zone flows"},
+    FaultInfo{viscous_dither, "viscous-dither", "spread", "an axis uses the dither of the next one"},
+    FaultInfo{viscous_flow_lost, "viscous-flow-lost", "spread", "a flow leaves its cell and never arrives"},
+    FaultInfo{buffer_bit, "buffer-bit", "plane memory", "a bit of an amount flips in the first plane memory"},
+    FaultInfo{fifo_overwrite, "fifo-overwrite", "channel", "a full channel's write pointer stands still"},
+    FaultInfo{fifo_stale, "fifo-stale", "channel", "a channel stores the token before once more"},
+    FaultInfo{fifo_swap_lanes, "fifo-swap-lanes", "channel", "the lanes of a token are rotated"},
+    FaultInfo{fifo_never_ready, "fifo-never-ready", "channel",
+              "a channel is never ready again: everything hangs"},
+};
+
+}  // namespace
+
+std::span<const FaultInfo> all_faults() { return kFaults; }
+
+const FaultInfo* find_fault(std::string_view name) {
+  const auto found =
+      std::find_if(kFaults.begin(), kFaults.end(), [&](const FaultInfo& one) { return one.name == name; });
+  return found == kFaults.end() ? nullptr : &*found;
+}
+
+}  // namespace voxmelt::hwmodel

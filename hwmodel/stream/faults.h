@@ -1,0 +1,91 @@
+// Faults that can be planted in the model, to see that the lock-step checker finds them: `voxmelt list
+// faults`, `voxmelt verify SCENE --plant NAME`. A fault strikes once, at the first place where it makes a
+// difference, and notes the first cell that leaves its stage wrong.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace voxmelt::hwmodel {
+
+enum class Fault : std::uint8_t {
+  none,
+  // source
+  vent_rate,
+  drain_energy,
+  // heat
+  conduction_sign,
+  conduction_dither,
+  conduction_stale_row,
+  distant_wrong_axis,
+  convection_downwards,
+  irradiance_lane,
+  air_axis_missed,
+  // melt
+  melt_stuck,
+  melt_energy,
+  // gravity
+  gravity_one_more,
+  gravity_wall_missed,
+  gravity_room,
+  gravity_column_wrap,
+  gravity_mix,
+  // spread, paper law
+  pattern_random_lane,
+  pattern_diagonal_open,
+  pattern_margin,
+  apply_flow_lost,
+  apply_diagonal_whole,
+  apply_alpha,
+  // excess and spread, viscous law
+  settle_run_broken,
+  settle_sum_carry,
+  settle_reversal,
+  viscous_dead_zone,
+  viscous_dither,
+  viscous_flow_lost,
+  // buffers and channels
+  buffer_bit,
+  fifo_overwrite,
+  fifo_stale,
+  fifo_swap_lanes,
+  fifo_never_ready,
+};
+
+struct FaultInfo {
+  Fault fault;
+  std::string_view name, stage, what;
+};
+
+std::span<const FaultInfo> all_faults();
+const FaultInfo* find_fault(std::string_view name);  // null: unknown
+
+class FaultPlan {
+ public:
+  FaultPlan() = default;
+  FaultPlan(Fault fault, std::uint32_t first_step) : fault_(fault), first_step_(first_step) {}
+
+  Fault fault() const { return fault_; }
+  std::uint32_t first_step() const { return first_step_; }
+  bool armed(Fault fault, std::uint32_t step) const {
+    return fault == fault_ && !struck_ && step >= first_step_;
+  }
+
+  struct Strike {
+    std::string where;  // stage or channel
+    std::uint32_t step;
+    int x, y, z;  // the first cell that leaves it wrong
+  };
+  void strike(Strike strike) { struck_ = std::move(strike); }
+  const std::optional<Strike>& struck() const { return struck_; }
+
+ private:
+  Fault fault_ = Fault::none;
+  std::uint32_t first_step_ = 0;
+  std::optional<Strike> struck_;
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,47 @@
+#include "hwmodel/stream/stage.h"
+
+#include <utility>
+
+namespace voxmelt::hwmodel {
+
+Stage::Stage(std::string name, std::string phase, const Design& design, std::int64_t lag)
+    : name_(std::move(name)), phase_(std::move(phase)), design_(design), lag_(lag) {}
+
+void Stage::begin_pass(std::uint32_t step, bool bypass) {
+  step_ = step;
+  bypass_ = bypass;
+  moves_ = 0;
+  came_ = left_ = {};
+  begin_step();
+}
+
+void Stage::cycle() {
+  const std::int64_t tokens = shape().tokens();
+  const std::int64_t lag = bypass_ ? 0 : lag_;
+  const bool takes = moves_ < tokens, gives = moves_ >= lag && !done();
+  if (done()) {
+    ++cycles_.fill_drain;
+    return;
+  }
+  if (takes && (!in_->valid() || (!bypass_ && !side_input_ready()))) {
+    ++(moves_ == 0 ? cycles_.fill_drain : cycles_.starved);
+    return;
+  }
+  if (gives && !out_->ready()) {
+    ++cycles_.blocked;
+    return;
+  }
+  ++(takes ? cycles_.busy : cycles_.fill_drain);
+
+  const Cell* in = takes ? in_->get() : nullptr;
+  Cell* out = gives ? out_->put() : nullptr;
+  if (bypass_)
+    std::copy(in, in + lanes(), out);
+  else
+    advance(in, out);
+  ++moves_;
+  came_.next(shape());
+  if (gives) left_.next(shape());
+}
+
+}  // namespace voxmelt::hwmodel

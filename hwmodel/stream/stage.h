@@ -1,0 +1,111 @@
+// A stage of the pipeline: takes one token a cycle, gives one a cycle, `lag` tokens later. It moves only when
+// its input has a token and its output has room (ready/valid), so that any stall is harmless.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hwmodel/channel/fifo.h"
+#include "hwmodel/channel/tap_line.h"
+#include "hwmodel/stream/arithmetic.h"
+#include "hwmodel/stream/cell.h"
+#include "hwmodel/stream/faults.h"
+#include "hwmodel/stream/shape.h"
+#include "kernel/rule/parameters.h"
+
+namespace voxmelt::hwmodel {
+
+using CellFifo = Fifo<Cell>;
+using HeatFifo = Fifo<UInt<16>>;  // irradiance, 1/16 temperature unit per step
+
+// What all stages of a design share.
+struct Design {
+  rule::Parameters parameters;
+  Shape shape;
+
+  bool paper() const { return parameters.flow.law == rule::Law::paper; }
+  bool hot() const { return parameters.heat.enabled; }
+  bool needs_walls() const {  // does falling depend on the four sides of a cell?
+    const rule::Fall& fall = parameters.flow.fall;
+    return fall.hang > 0 || fall.wall_factor != fall.factor;
+  }
+  // Bits of a cell between two stages without side-bands.
+  int cell_bits() const { return 2 + 16 + (paper() ? 16 : 0) + (hot() ? 16 : 0); }
+};
+
+// Every cycle of a stage is exactly one of these; `fill_drain`: before its first token, after its last one.
+struct StageCycles {
+  std::int64_t busy = 0, starved = 0, blocked = 0, fill_drain = 0;
+  std::int64_t total() const { return busy + starved + blocked + fill_drain; }
+};
+
+// Arithmetic units per lane, as the stage is written: what a synthesis would have to find.
+struct Units {
+  int multipliers = 0, dividers = 0, random_blocks = 0;
+};
+
+class Stage {
+ public:
+  // `phase`: one of step::kPhaseNames; `lag` in tokens.
+  Stage(std::string name, std::string phase, const Design& design, std::int64_t lag);
+  virtual ~Stage() = default;
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  void connect(CellFifo& in, CellFifo& out) { in_ = &in, out_ = &out; }
+  void plant(FaultPlan* plan) { plan_ = plan; }
+
+  // A pass streams the whole grid once. A stage in bypass hands its tokens on, without lag.
+  void begin_pass(std::uint32_t step, bool bypass);
+  void cycle();
+  bool done() const { return left_.ordinal == design_.shape.tokens(); }
+
+  const std::string& name() const { return name_; }
+  const std::string& phase() const { return phase_; }
+  std::int64_t lag() const { return lag_; }
+  std::uint32_t step() const { return step_; }
+  const StageCycles& cycles() const { return cycles_; }
+  virtual std::vector<BufferCost> buffers() const { return {}; }
+  virtual Units units() const { return {}; }
+
+ protected:
+  // One move. `in`: the token that comes, null after the last one (then the border comes). `out`: the token
+  // that leaves, to be filled; null while the stage fills.
+  // came() and leaving() are the places of the two; came() runs on beyond the last plane, into the border.
+  virtual void advance(const Cell* in, Cell* out) = 0;
+  virtual void begin_step() {}                      // step() has changed; memories hold an old pass
+  virtual bool side_input_ready() { return true; }  // of a stage with a second input
+
+  const Place& came() const { return came_; }
+  const Place& leaving() const { return left_; }
+  const Design& design() const { return design_; }
+  const Shape& shape() const { return design_.shape; }
+  int lanes() const { return design_.shape.lanes; }
+
+  // Is this lane of the token that comes (or leaves) a cell of the grid?
+  bool inside(const Place& place, int lane) const { return place.x + lane < shape().grid.x; }
+
+  bool armed(Fault fault) const { return plan_ != nullptr && plan_->armed(fault, step_); }
+  // Notes that the planted fault struck, and the first cell that leaves wrong.
+  void strike(int x, int y, int z) { plan_->strike({name_, step_, x, y, z}); }
+  void strike_first(int x0, int z0, int x1, int z1, int y) {  // the one of two cells that leaves first
+    const bool first = stream_order(shape(), x0, y, z0) < stream_order(shape(), x1, y, z1);
+    first ? strike(x0, y, z0) : strike(x1, y, z1);
+  }
+
+ private:
+  std::string name_, phase_;
+  const Design& design_;
+  std::int64_t lag_;
+  CellFifo* in_ = nullptr;
+  CellFifo* out_ = nullptr;
+  FaultPlan* plan_ = nullptr;
+  std::uint32_t step_ = 0;
+  bool bypass_ = false;
+  std::int64_t moves_ = 0;
+  Place came_, left_;
+  StageCycles cycles_;
+};
+
+}  // namespace voxmelt::hwmodel
