@@ -36,11 +36,11 @@ int run_export(const ExportOptions& options) {
     io::export_vti(volume, out.partial());
   }
   io::write_file(out.partial() / "parameters.json",
-                 io::parameters_json(simulation.parameters(), volume.grid, simulation.steps_done()));
+                 io::parameters_json(simulation.parameters(), volume.grid, simulation.step_number()));
   write_report(options.common, report_json(scene, options.common, simulation, {}));
   out.commit();
   if (!options.common.quiet)
-    fmt::print("step {} written to {}\n", simulation.steps_done(),
+    fmt::print("step {} written to {}\n", simulation.step_number(),
                std::filesystem::proximate(out.place()).string());
   return kDone;
 }

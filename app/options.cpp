@@ -86,7 +86,9 @@ run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
   const step::Implementation& implementation = find_implementation(common);
   step::Tuning tuning;
   tuning.threads = thread_count(common);
-  return {scene.parameters, std::move(scene.initial), implementation, tuning};
+  run::Simulation simulation(scene.parameters, std::move(scene.initial), implementation, tuning);
+  simulation.begin_at(scene.first_step);
+  return simulation;
 }
 
 void check_report_place(const Common& common, const std::string& out) {

@@ -54,14 +54,14 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
 
 void Simulation::begin_step() {
   const rule::Heat& heat = parameters_.heat;
-  if (!heat.enabled || !heat.radiation || steps_done_ % heat.visibility_every != 0) return;
+  if (!heat.enabled || !heat.radiation || step_number() % heat.visibility_every != 0) return;
   const Stopwatch watch(seconds_.visibility);
-  provider_->irradiance(volume_, heat, steps_done_, irradiance_);
+  provider_->irradiance(volume_, heat, step_number(), irradiance_);
 }
 
 void Simulation::run_phase(step::Phase phase) {
   const Stopwatch watch(seconds_.phase[static_cast<std::size_t>(phase)]);
-  stepper_->run(phase, steps_done_, irradiance_.empty() ? nullptr : &irradiance_, volume_, ledger_);
+  stepper_->run(phase, step_number(), irradiance(), volume_, ledger_);
 }
 
 void Simulation::step() {

@@ -20,7 +20,10 @@ class Simulation {
              const step::Tuning& tuning = {},
              std::unique_ptr<visibility::Provider> provider = nullptr);  // null: the integer walk
 
-  // Runs one whole step. The n-th call (from 0) is step number n.
+  // The automaton's number of the next step, before the first one; 0 without this call.
+  void begin_at(std::uint32_t step) { first_step_ = step; }
+
+  // Runs one whole step.
   void step();
 
   // Runs one phase of the present step; used where implementations are compared phase by phase.
@@ -29,6 +32,8 @@ class Simulation {
   void end_step() { ++steps_done_; }
 
   std::uint32_t steps_done() const { return steps_done_; }
+  std::uint32_t step_number() const { return first_step_ + steps_done_; }
+  const step::Irradiance* irradiance() const { return irradiance_.empty() ? nullptr : &irradiance_; }
   const state::Volume& volume() const { return volume_; }
   state::Volume& mutable_volume() { return volume_; }  // for tests that plant a leak
   const state::Ledger& ledger() const { return ledger_; }
@@ -49,7 +54,7 @@ class Simulation {
   std::unique_ptr<visibility::Provider> provider_;
   state::Ledger ledger_;
   step::Irradiance irradiance_;  // empty without radiation
-  std::uint32_t steps_done_ = 0;
+  std::uint32_t first_step_ = 0, steps_done_ = 0;
   Seconds seconds_;
 };
 

@@ -87,6 +87,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   std::filesystem::path fields;
   if (start) {
     fields = start->file("fields");
+    scene.first_step = static_cast<std::uint32_t>(start->integer("step", 0, kMostSteps / 2, 0));
     start->finish();
   }
   root.finish();
