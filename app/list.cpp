@@ -5,6 +5,8 @@
 
 #include "app/commands.h"
 #include "app/options.h"
+#include "hwmodel/presets/presets.h"
+#include "hwmodel/stream/faults.h"
 #include "kernel/scene/features.h"
 
 namespace voxmelt::app {
@@ -44,19 +46,38 @@ int list_features() {
   return kDone;
 }
 
+int list_faults() {
+  for (const hwmodel::FaultInfo& fault : hwmodel::all_faults())
+    fmt::print("{:<24} {:<14} {}\n", fault.name, fault.stage, fault.what);
+  return kDone;
+}
+
+int list_presets() {
+  std::set<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(VOXMELT_PRESETS_FOLDER))
+    if (entry.path().extension() == ".toml") files.insert(entry.path());
+  for (const fs::path& file : files)
+    fmt::print("{:<24} {}\n", file.stem().string(), hwmodel::load_preset(file, {}).title);
+  return kDone;
+}
+
 }  // namespace
 
 void add_list(CLI::App& program, Chosen& chosen) {
   auto what = std::make_shared<std::string>();
-  CLI::App* command =
-      program.add_subcommand("list", "Name the implementations, scenes or features of this build");
-  command->add_option("what", *what, "implementations, scenes or features")
+  CLI::App* command = program.add_subcommand(
+      "list", "Name the implementations, scenes, features, presets or faults of this build");
+  command
+      ->add_option("what", *what,
+                   "implementations, scenes, features, presets (hardware) or faults (to plant)")
       ->required()
-      ->check(CLI::IsMember({"implementations", "scenes", "features"}));
+      ->check(CLI::IsMember({"implementations", "scenes", "features", "presets", "faults"}));
   command->callback([what, &chosen] {
     chosen = [what] {
       if (*what == "implementations") return list_implementations();
       if (*what == "scenes") return list_scenes();
+      if (*what == "presets") return list_presets();
+      if (*what == "faults") return list_faults();
       return list_features();
     };
   });

@@ -24,6 +24,8 @@ constexpr const char* kIntroduction =
     "  voxmelt digest goblet --steps 10     one line per step; equal lines mean equal bits\n"
     "  voxmelt export bunny --steps 500 --out bunny500 --format vti\n"
     "  voxmelt render lava --steps 1200 --size 1280x960 --out lava.png\n"
+    "  voxmelt verify lava --from 400 --set hw.lanes=16     the hardware model in lock-step with the "
+    "software\n"
     "  voxmelt bench --quick                how fast, and how near to what this machine can do\n"
     "  voxmelt list scenes\n\n"
     "A scene is a TOML file; docs/scenes.md explains its keys. Exit codes: 0 done, 1 a check failed,\n"
@@ -59,6 +61,7 @@ int main(int argc, char** argv) {
     app::add_export(program, chosen);
     app::add_render(program, chosen);
     app::add_bench(program, chosen);
+    app::add_verify(program, chosen);
     app::add_list(program, chosen);
     if (argc > 1) check_subcommand(program, argv[1]);
     try {

@@ -16,3 +16,10 @@ target_include_directories(voxmelt_toml SYSTEM INTERFACE ${TOMLPLUSPLUS_INCLUDE}
 find_path(TINYOBJ_INCLUDE tiny_obj_loader.h REQUIRED)
 add_library(voxmelt_tinyobj INTERFACE)
 target_include_directories(voxmelt_tinyobj SYSTEM INTERFACE ${TINYOBJ_INCLUDE})
+
+# SystemC as Debian builds it: C++17, also for us (else sc_api_version_... does not link).
+pkg_check_modules(SYSTEMC REQUIRED systemc)
+add_library(voxmelt_systemc INTERFACE)
+target_include_directories(voxmelt_systemc SYSTEM INTERFACE ${SYSTEMC_INCLUDE_DIRS})
+target_link_libraries(voxmelt_systemc INTERFACE ${SYSTEMC_LINK_LIBRARIES})
+target_compile_definitions(voxmelt_systemc INTERFACE SC_CPLUSPLUS=201703L)

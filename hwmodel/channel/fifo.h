@@ -41,6 +41,7 @@ class Fifo {
         lanes_(static_cast<std::size_t>(lanes)),
         depth_(depth),
         words_(lanes_ * static_cast<std::size_t>(depth)),
+        occupancy_(static_cast<std::size_t>(depth) + 1),
         stalls_(stall_seed, static_cast<std::uint64_t>(channel)) {}
 
   const std::string& name() const { return name_; }
@@ -68,6 +69,7 @@ class Fifo {
     if (getting_) end_get();
     putting_ = getting_ = false;
     highest_ = std::max(highest_, count_);
+    ++occupancy_[static_cast<std::size_t>(count_)];
     stall_ = stalls_.next();
     return moved;
   }
@@ -83,7 +85,8 @@ class Fifo {
   const std::optional<Strike>& struck() const { return struck_; }
 
   int count() const { return count_; }
-  int highest() const { return highest_; }  // occupancy, since the begin
+  int highest() const { return highest_; }                                   // occupancy, since the begin
+  const std::vector<std::int64_t>& occupancy() const { return occupancy_; }  // cycles with 0, 1, ... tokens
   std::int64_t entered() const { return entered_; }
   std::int64_t left() const { return left_; }
   const Word* oldest() const { return words_.data() + head_ * lanes_; }
@@ -117,6 +120,7 @@ class Fifo {
   std::size_t head_ = 0, tail_ = 0;
   bool putting_ = false, getting_ = false;
   std::vector<Word> words_;
+  std::vector<std::int64_t> occupancy_;
   StallInjector stalls_;
   StallInjector::Stall stall_;
   std::int64_t entered_ = 0, left_ = 0;

@@ -66,6 +66,7 @@ class Stage {
   std::int64_t lag() const { return lag_; }
   std::uint32_t step() const { return step_; }
   const StageCycles& cycles() const { return cycles_; }
+  virtual int output_bits() const { return design_.cell_bits(); }  // per lane, side bands included
   virtual std::vector<BufferCost> buffers() const { return {}; }
   virtual Units units() const { return {}; }
 

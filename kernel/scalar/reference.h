@@ -18,6 +18,9 @@ class Reference final : public step::Stepper {
   void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override;
 
+  // Paper law, after `spread`: the directions that each liquid cell gave to, one bit each.
+  const state::Field<std::uint8_t>& pattern() const { return pattern_; }
+
  private:
   using Volume = state::Volume;
   using Ledger = state::Ledger;

@@ -1,0 +1,51 @@
+// Watches every token of the pipeline: behind each stage it must be what the reference has there, and what
+// leaves a channel must be what entered it. The first difference stops the pass.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "hwmodel/lockstep/expectation.h"
+#include "hwmodel/lockstep/mismatch.h"
+
+namespace voxmelt::hwmodel {
+
+class Checker final : public FifoWatcher<Cell> {
+ public:
+  explicit Checker(Pipeline& pipeline);
+
+  // `expected`: of each cascaded step; an empty one is not compared.
+  void begin_pass(std::uint32_t first_step, const std::vector<std::vector<Expected>>& expected);
+
+  void entered(int channel, std::int64_t ordinal, const Cell* lanes) override;
+  void left(int channel, std::int64_t ordinal, const Cell* lanes) override;
+
+  const std::unique_ptr<Mismatch>& mismatch() const { return mismatch_; }
+  std::int64_t compared_cells() const { return compared_cells_; }  // behind stages
+
+ private:
+  struct Channel {
+    std::string name, producer, phase;
+    int cascade = 0;
+    std::size_t stage = 0;  // number of the producer in its time step
+    bool behind_stage = false;
+    const Expected* expected = nullptr;
+    Place place;                 // of the next token to enter
+    std::deque<Cell> in_flight;  // copies, apart from the channel's own memory
+  };
+
+  void compare(Channel& channel, const Cell* lanes);
+  void report(const Channel& channel, Mismatch::Kind kind, const Place& place, int lane, const char* field,
+              std::int64_t expected, std::int64_t actual);
+
+  Pipeline& pipeline_;
+  const Shape shape_;
+  std::vector<Channel> channels_;
+  std::vector<Cell> wanted_;
+  std::uint32_t first_step_ = 0;
+  std::unique_ptr<Mismatch> mismatch_;
+  std::int64_t compared_cells_ = 0;
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,121 @@
+#include "hwmodel/lockstep/expectation.h"
+
+#include <algorithm>
+
+namespace voxmelt::hwmodel {
+
+Expectation::Expectation(const rule::Parameters& parameters, const state::Volume& start,
+                         std::uint32_t first_step, const step::Implementation& fast,
+                         const step::Tuning& tuning, const std::vector<StageReport>& stages)
+    : parameters_(parameters),
+      reference_(parameters, start, *run::implementations().find("reference")),
+      fast_(parameters, start, fast, tuning),
+      fast_name_(fast.name) {
+  reference_.begin_at(first_step);
+  fast_.begin_at(first_step);
+  for (const StageReport& stage : stages)
+    if (!stage.phase.empty() && stage.cascade == 0) stages_.push_back({stage.name, stage.phase});
+}
+
+void Expectation::begin_step() {
+  if (begun_) return;
+  reference_.begin_step();
+  fast_.begin_step();
+  begun_ = true;
+}
+
+Expectation::Step Expectation::step(bool keep) {
+  begin_step();
+  Step result;
+  Snapshot before = keep ? std::make_shared<state::Volume>(reference_.volume()) : nullptr;
+  for (const step::Phase phase : step::phase_order(parameters_.flow.law)) {
+    const std::string name(step::kPhaseNames[static_cast<std::size_t>(phase)]);
+    const bool staged =
+        std::any_of(stages_.begin(), stages_.end(), [&](const StageName& one) { return one.phase == name; });
+    reference_.run_phase(phase);
+    fast_.run_phase(phase);
+    if ((result.mismatch = compare_software(name))) return result;
+    compared_cells_ += static_cast<std::int64_t>(volume().grid.cells());
+    if (!keep) continue;
+    if (!staged) {
+      const Difference changed = first_difference(*before, volume());
+      if (changed.field.empty()) continue;
+      result.mismatch = std::make_unique<Mismatch>(Mismatch{Mismatch::Kind::missing,
+                                                            "no stage for this phase",
+                                                            name,
+                                                            step_number(),
+                                                            0,
+                                                            0,
+                                                            0,
+                                                            changed.x,
+                                                            changed.y,
+                                                            changed.z,
+                                                            changed.field,
+                                                            changed.actual,
+                                                            changed.expected,
+                                                            "",
+                                                            {}});
+      return result;
+    }
+    const auto after = std::make_shared<const state::Volume>(volume());
+    expect_inside(name, before, after, result.stages);
+    before = after;
+  }
+  reference_.end_step();
+  fast_.end_step();
+  begun_ = false;
+  return result;
+}
+
+std::unique_ptr<Mismatch> Expectation::compare_software(const std::string& phase) const {
+  if (reference_.volume() == fast_.volume() && reference_.ledger() == fast_.ledger()) return nullptr;
+  Mismatch found{
+      Mismatch::Kind::software, fast_name_, phase, step_number(), 0, 0, 0, 0, 0, 0, "ledger", 0, 0, "", {}};
+  const Difference d = first_difference(reference_.volume(), fast_.volume());
+  if (!d.field.empty()) {
+    found.x = d.x, found.y = d.y, found.z = d.z;
+    found.field = d.field;
+    found.expected = d.expected, found.actual = d.actual;
+  }
+  return std::make_unique<Mismatch>(std::move(found));
+}
+
+void Expectation::expect_inside(const std::string& phase, const Snapshot& before, const Snapshot& after,
+                                std::vector<Expected>& stages) {
+  std::vector<std::string> names;
+  for (const StageName& stage : stages_)
+    if (stage.phase == phase) names.push_back(stage.name);
+  Snapshot last = before;
+  for (const std::string& name : names) {
+    Expected expected{last, after, nullptr};
+    if (name != names.back()) {  // inside the phase
+      expected.after = phase == "heat" ? heat_up_to(name, *before) : last;
+      if (name == "pattern") expected.pattern = patterns(*before);
+    }
+    last = expected.after;
+    stages.push_back(std::move(expected));
+  }
+}
+
+Expectation::Snapshot Expectation::heat_up_to(const std::string& stage, const state::Volume& before) {
+  rule::Parameters cut = parameters_;
+  rule::Heat& heat = cut.heat;
+  heat.radiation = heat.air = false;
+  if (stage != "convection") heat.convection = 0;
+  if (stage == "conduction") heat.neighbours = 6;
+  if (stage == "edges") heat.neighbours = 18;
+  auto result = std::make_shared<state::Volume>(before);
+  state::Ledger ledger;
+  scalar::Reference(cut, before.grid).run(step::Phase::heat, step_number(), nullptr, *result, ledger);
+  return result;
+}
+
+std::shared_ptr<const state::Field<std::uint8_t>> Expectation::patterns(const state::Volume& before) {
+  state::Volume scratch = before;
+  state::Ledger ledger;
+  scalar::Reference reference(parameters_, before.grid);
+  reference.run(step::Phase::spread, step_number(), nullptr, scratch, ledger);
+  return std::make_shared<const state::Field<std::uint8_t>>(reference.pattern());
+}
+
+}  // namespace voxmelt::hwmodel

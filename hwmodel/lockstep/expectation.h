@@ -1,0 +1,67 @@
+// What the pipeline has to give behind each of its stages, from the reference: the state after every phase,
+// and inside a phase the state after each stage, by running the reference with the later parts of the phase
+// switched off.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hwmodel/lockstep/mismatch.h"
+#include "hwmodel/stream/pipeline.h"
+#include "kernel/run/simulation.h"
+#include "kernel/scalar/reference.h"
+
+namespace voxmelt::hwmodel {
+
+struct Expected {
+  std::shared_ptr<const state::Volume> before, after;         // the stage
+  std::shared_ptr<const state::Field<std::uint8_t>> pattern;  // behind stage `pattern` only
+};
+
+class Expectation {
+ public:
+  // `fast` is the software kernel that is held against the reference on the way.
+  Expectation(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
+              const step::Implementation& fast, const step::Tuning& tuning,
+              const std::vector<StageReport>& stages);
+
+  // Runs one step. `keep`: also returns what is expected behind every stage, in the order of the stages of
+  // one time step. A difference between the two software kernels, or a phase without a stage that changes
+  // something, is returned as a mismatch.
+  struct Step {
+    std::vector<Expected> stages;
+    std::unique_ptr<Mismatch> mismatch;
+  };
+  Step step(bool keep);
+
+  const state::Volume& volume() const { return reference_.volume(); }
+  const step::Irradiance* irradiance() const { return reference_.irradiance(); }
+  std::uint32_t step_number() const { return reference_.step_number(); }
+  std::int64_t compared_cells() const { return compared_cells_; }  // reference with `fast`
+
+  // Prepares the next step (its visibility) without running it.
+  void begin_step();
+
+ private:
+  struct StageName {
+    std::string name, phase;
+  };
+  using Snapshot = std::shared_ptr<const state::Volume>;
+
+  std::unique_ptr<Mismatch> compare_software(const std::string& phase) const;
+  // The stages of one phase, given the state before and after it.
+  void expect_inside(const std::string& phase, const Snapshot& before, const Snapshot& after,
+                     std::vector<Expected>& stages);
+  Snapshot heat_up_to(const std::string& stage, const state::Volume& before);
+  std::shared_ptr<const state::Field<std::uint8_t>> patterns(const state::Volume& before);
+
+  rule::Parameters parameters_;
+  run::Simulation reference_, fast_;
+  std::string fast_name_;
+  std::vector<StageName> stages_;
+  bool begun_ = false;
+  std::int64_t compared_cells_ = 0;
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,50 @@
+// The first difference between the hardware model and the software: where, when, what.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernel/state/volume.h"
+
+namespace voxmelt::hwmodel {
+
+struct Mismatch {
+  enum class Kind : std::uint8_t {
+    stage,     // a stage gave another state than the reference
+    channel,   // what left a channel is not what entered it
+    memory,    // the written volume is not the reference's
+    software,  // a software kernel differs from the reference
+    missing,   // the reference changed something in a phase for which the pipeline has no stage
+    width,     // a value did not fit its wire
+    hang,      // nothing moves any more
+  };
+  Kind kind = Kind::stage;
+  std::string where;  // stage, channel or implementation
+  std::string phase;  // empty: not known
+  std::uint32_t step = 0;
+  int cascade = 0, lane = 0;
+  std::int64_t cycle = 0;  // of the pass; 0 in software
+  int x = 0, y = 0, z = 0;
+  std::string field;
+  std::int64_t expected = 0, actual = 0;
+  std::string detail;                      // a hang's channels, a width's message
+  std::vector<std::string> neighbourhood;  // lines: what the cells around held before the phase
+};
+
+const char* name_of(Mismatch::Kind kind);
+
+// The lines that a person reads.
+std::string text_of(const Mismatch& mismatch);
+
+// The cells around one: three lines per height, from above to below; state and amount of each.
+std::vector<std::string> neighbourhood(const state::Volume& volume, int x, int y, int z);
+
+struct Difference {
+  int x = 0, y = 0, z = 0;
+  std::string field;  // empty: none
+  std::int64_t expected = 0, actual = 0;
+};
+Difference first_difference(const state::Volume& expected, const state::Volume& actual);
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,36 @@
+#include "hwmodel/lockstep/replay.h"
+
+#include <fmt/format.h>
+
+#include "kernel/io/export.h"
+#include "kernel/io/output_folder.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+// As a TOML basic string.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (static_cast<unsigned char>(c) < 0x20)
+      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+}  // namespace
+
+void write_replay(const std::filesystem::path& folder, const std::filesystem::path& scene,
+                  const state::Volume& volume, std::uint32_t step, const std::string& command) {
+  io::export_npy(volume, folder);
+  io::write_file(
+      folder / "scene.toml",
+      fmt::format("# The state before step {} of a run whose hardware model differed from the software.\n"
+                  "#   {}\nextends = {}\n[start]\nfields = \".\"\nstep = {}\n",
+                  step, command, quoted(std::filesystem::absolute(scene).string()), step));
+}
+
+}  // namespace voxmelt::hwmodel

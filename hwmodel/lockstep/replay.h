@@ -1,0 +1,17 @@
+// The state before a mismatch as a scene: `voxmelt verify FOLDER/scene.toml` finds the mismatch again.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kernel/state/volume.h"
+
+namespace voxmelt::hwmodel {
+
+// Fills `folder` with the fields and scene.toml, which extends `scene`. `sets`: overrides of the scene that
+// were in force, as comments for the reader and as part of `command`, which goes into the file's head.
+void write_replay(const std::filesystem::path& folder, const std::filesystem::path& scene,
+                  const state::Volume& volume, std::uint32_t step, const std::string& command);
+
+}  // namespace voxmelt::hwmodel

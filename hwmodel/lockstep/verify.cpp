@@ -1,0 +1,197 @@
+#include "hwmodel/lockstep/verify.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "hwmodel/lockstep/checker.h"
+#include "hwmodel/stream/prediction.h"
+#include "kernel/state/digest.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+// Steps of a pass: none reaches beyond a step of visibility, where irradiance changes.
+int steps_of_pass(const Design& design, const Configuration& configuration, std::uint32_t step,
+                  std::uint32_t left) {
+  std::uint32_t steps = std::min(left, static_cast<std::uint32_t>(configuration.cascade));
+  const rule::Heat& heat = design.parameters.heat;
+  if (heat.enabled && heat.radiation)
+    steps = std::min(steps, heat.visibility_every - step % heat.visibility_every);
+  return static_cast<int>(steps);
+}
+
+// Where everything waits: the first empty channel behind a full one, and the cell that should enter it.
+Mismatch hang_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_t cycle) {
+  Mismatch m{Mismatch::Kind::hang, "", "", first_step, 0, 0, cycle, 0, 0, 0, "", 0, 0, "", {}};
+  std::string full, empty;
+  const std::vector<ChannelReport> channels = pipeline.channels();
+  std::size_t last_full = 0;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const ChannelReport& channel = channels[i];
+    if (channel.count == channel.depth) last_full = i;
+    std::string& list = channel.count == channel.depth ? full : empty;
+    if (channel.count == channel.depth || channel.count == 0)
+      list += (list.empty() ? "" : "; ") + channel.name;
+  }
+  const ChannelReport& blamed = channels[std::min(last_full + 1, channels.size() - 1)];
+  const Place place = place_of(pipeline.design().shape, blamed.entered);
+  m.where = blamed.name;
+  m.phase = blamed.phase;
+  m.cascade = blamed.cascade;
+  m.step += static_cast<std::uint32_t>(blamed.cascade);
+  m.x = place.x, m.y = place.y, m.z = place.z;
+  m.detail = "full: " + (full.empty() ? "none" : full) + "\n  empty: " + (empty.empty() ? "none" : empty);
+  return m;
+}
+
+class Run {
+ public:
+  Run(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
+      const step::Implementation& fast, const step::Tuning& tuning, const VerifyOptions& options)
+      : options_(options),
+        pipeline_(parameters, start.grid, options.configuration),
+        checker_(pipeline_),
+        software_(parameters, start, first_step, fast, tuning, pipeline_.stages()),
+        plan_(options.fault, options.fault_step),
+        memory_(start) {
+    pipeline_.watch(&checker_);
+    if (options.fault != Fault::none) pipeline_.plant(&plan_);
+    report_.first_step = first_step;
+  }
+
+  VerifyReport run() {
+    while (report_.steps < options_.steps && report_.mismatch == nullptr) pass();
+    if (report_.mismatch == nullptr && options_.steps > 0 && checker_.compared_cells() == 0)
+      throw std::logic_error("lock-step compared nothing");
+    report_.compared_cells = checker_.compared_cells();
+    report_.software_cells = software_.compared_cells();
+    report_.strike = plan_.struck();
+    report_.stages = pipeline_.stages();
+    report_.channels = pipeline_.channels();
+    report_.digest = state::digest(memory_);
+    check_accounts();
+    return std::move(report_);
+  }
+
+ private:
+  void pass() {
+    const std::uint32_t step = report_.first_step + report_.steps;
+    const int steps =
+        steps_of_pass(pipeline_.design(), options_.configuration, step, options_.steps - report_.steps);
+    if (starts_replay(step)) {
+      report_.replay = memory_;
+      report_.replay_step = step;
+    }
+    software_.begin_step();
+    std::vector<std::vector<Expected>> expected;
+    for (int t = 0; t < steps; ++t) {
+      const std::uint32_t done = report_.steps + static_cast<std::uint32_t>(t) + 1;
+      Expectation::Step one = software_.step(done % options_.every == 0 || done == options_.steps);
+      expected.push_back(std::move(one.stages));
+      if ((report_.mismatch = std::move(one.mismatch))) return;
+    }
+
+    checker_.begin_pass(step, expected);
+    if (!run_model(step, steps, software_.irradiance())) return;
+    compare_memory(step + static_cast<std::uint32_t>(steps) - 1);
+    if (report_.mismatch != nullptr) return;
+    report_.steps += static_cast<std::uint32_t>(steps);
+    if (options_.progress) options_.progress(report_.steps);
+  }
+
+  // False when a mismatch was found.
+  bool run_model(std::uint32_t step, int steps, const step::Irradiance* irradiance) {
+    const auto begin = std::chrono::steady_clock::now();
+    PassEnd end;
+    try {
+      end = pipeline_.run_pass(step, steps, irradiance, memory_);
+    } catch (const Pipeline::StageError& error) {
+      report_.mismatch = std::make_unique<Mismatch>(Mismatch{Mismatch::Kind::width,
+                                                             error.stage,
+                                                             error.phase,
+                                                             step + static_cast<std::uint32_t>(error.cascade),
+                                                             error.cascade,
+                                                             0,
+                                                             0,
+                                                             0,
+                                                             0,
+                                                             0,
+                                                             "",
+                                                             0,
+                                                             0,
+                                                             error.what(),
+                                                             {}});
+      return false;
+    }
+    report_.model_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    report_.cell_steps += static_cast<std::int64_t>(memory_.grid.cells()) * steps;
+    ++report_.passes;
+    report_.cycles += end.cycles;
+    cycles_of_blocks_ += end.cycles;
+    report_.predicted_cycles += predicted_cycles(pipeline_.design(), options_.configuration, steps);
+    if (checker_.mismatch() != nullptr) report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
+    if (report_.mismatch == nullptr && end.hangs)
+      report_.mismatch = std::make_unique<Mismatch>(hang_of(pipeline_, step, end.cycles));
+    return report_.mismatch == nullptr;
+  }
+
+  void compare_memory(std::uint32_t step) {
+    const Difference d = first_difference(software_.volume(), memory_);
+    if (d.field.empty()) return;
+    report_.mismatch = std::make_unique<Mismatch>(Mismatch{Mismatch::Kind::memory,
+                                                           "writer",
+                                                           "",
+                                                           step,
+                                                           options_.configuration.cascade - 1,
+                                                           0,
+                                                           0,
+                                                           d.x,
+                                                           d.y,
+                                                           d.z,
+                                                           d.field,
+                                                           d.expected,
+                                                           d.actual,
+                                                           "",
+                                                           {}});
+  }
+
+  // A replay must begin where visibility is computed.
+  bool starts_replay(std::uint32_t step) const {
+    const rule::Heat& heat = pipeline_.design().parameters.heat;
+    return !heat.enabled || !heat.radiation || step % heat.visibility_every == 0;
+  }
+
+  // Every cycle of every stage is accounted for exactly once.
+  void check_accounts() const {
+    for (const StageReport& stage : report_.stages)
+      if (stage.cycles.total() != cycles_of_blocks_ && report_.mismatch == nullptr)
+        throw std::logic_error("cycles of stage " + stage.name + ": " + std::to_string(stage.cycles.total()) +
+                               " are accounted for, " + std::to_string(cycles_of_blocks_) + " have passed");
+  }
+
+  const VerifyOptions& options_;
+  Pipeline pipeline_;
+  Checker checker_;
+  Expectation software_;
+  FaultPlan plan_;
+  state::Volume memory_;
+  VerifyReport report_;
+  std::int64_t cycles_of_blocks_ = 0;
+};
+
+}  // namespace
+
+bool VerifyReport::found_where_planted() const {
+  if (!strike || mismatch == nullptr) return false;
+  return mismatch->where == strike->where && mismatch->step == strike->step && mismatch->x == strike->x &&
+         mismatch->y == strike->y && mismatch->z == strike->z;
+}
+
+VerifyReport verify(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
+                    const step::Implementation& fast, const step::Tuning& tuning,
+                    const VerifyOptions& options) {
+  return Run(parameters, start, first_step, fast, tuning, options).run();
+}
+
+}  // namespace voxmelt::hwmodel

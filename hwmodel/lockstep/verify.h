@@ -1,0 +1,51 @@
+// Lock-step: the hardware model beside the reference and a software kernel, compared after every stage.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/lockstep/mismatch.h"
+#include "hwmodel/stream/pipeline.h"
+#include "kernel/step/stepper.h"
+
+namespace voxmelt::hwmodel {
+
+struct VerifyOptions {
+  std::uint32_t steps = 10;
+  std::uint32_t every = 1;  // compare every K-th step, and the last
+  Configuration configuration;
+  Fault fault = Fault::none;
+  std::uint32_t fault_step = 0;  // the first step in which it may strike
+  std::function<void(std::uint32_t steps_done)> progress;
+};
+
+struct VerifyReport {
+  std::uint32_t first_step = 0, steps = 0;  // done without a mismatch
+  std::int64_t compared_cells = 0;          // behind stages of the model, with the reference
+  std::int64_t software_cells = 0;          // of the software kernel, with the reference
+  std::int64_t passes = 0, cycles = 0, predicted_cycles = 0;
+  double model_seconds = 0;  // of the model's simulation alone, comparing included
+  std::int64_t cell_steps = 0;
+  std::unique_ptr<Mismatch> mismatch;
+  std::optional<FaultPlan::Strike> strike;  // of the planted fault
+  std::vector<StageReport> stages;
+  std::vector<ChannelReport> channels;
+  std::uint64_t digest = 0;  // of the model's last state
+  // The state from which the mismatch can be replayed, and its step number.
+  std::optional<state::Volume> replay;
+  std::uint32_t replay_step = 0;
+
+  // Did the checker find the planted fault, and where it was planted?
+  bool found_where_planted() const;
+};
+
+// Verifies from `start`, the state before step number `first_step`. With radiation that must be a step of
+// visibility. Takes care that something is compared: else throws std::logic_error.
+VerifyReport verify(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
+                    const step::Implementation& fast, const step::Tuning& tuning,
+                    const VerifyOptions& options);
+
+}  // namespace voxmelt::hwmodel

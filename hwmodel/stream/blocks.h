@@ -1,0 +1,154 @@
+// The blocks of the pipeline as plain C++: what one of them does in one cycle. pipeline.cpp gives each a
+// SystemC process.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hwmodel/stream/stages.h"
+#include "hwmodel/stream/volume_port.h"
+
+namespace voxmelt::hwmodel {
+
+// Streams a volume out of memory.
+class Reader {
+ public:
+  explicit Reader(const Shape& shape) : shape_(shape) {}
+  void connect(CellFifo& out) { out_ = &out; }
+  void begin_pass(const state::Volume& volume) { volume_ = &volume, place_ = {}; }
+  void cycle() {
+    if (place_.ordinal == shape_.tokens()) {
+      ++cycles_.fill_drain;
+    } else if (!out_->ready()) {
+      ++cycles_.blocked;
+    } else {
+      read_token(*volume_, shape_, place_, out_->put());
+      place_.next(shape_);
+      ++cycles_.busy;
+    }
+  }
+  const StageCycles& cycles() const { return cycles_; }
+
+ private:
+  Shape shape_;
+  CellFifo* out_ = nullptr;
+  const state::Volume* volume_ = nullptr;
+  Place place_;
+  StageCycles cycles_;
+};
+
+// Streams irradiance to one time step.
+class Feed {
+ public:
+  Feed(const Shape& shape, HeatFifo& out) : shape_(shape), out_(out) {}
+  void begin_pass(const state::Field<std::uint16_t>* field) { field_ = field, place_ = {}; }
+  void cycle() {
+    if (field_ == nullptr || place_.ordinal == shape_.tokens()) {
+      ++cycles_.fill_drain;
+      return;
+    }
+    if (!out_.ready()) {
+      ++cycles_.blocked;
+      return;
+    }
+    UInt<16>* lanes = out_.put();
+    for (int lane = 0; lane < shape_.lanes; ++lane) {
+      const int x = place_.x + lane;
+      lanes[lane] = x < shape_.grid.x ? (*field_)[field_->layout().at(x, place_.y, place_.z)] : 0;
+    }
+    place_.next(shape_);
+    ++cycles_.busy;
+  }
+  const StageCycles& cycles() const { return cycles_; }
+
+ private:
+  Shape shape_;
+  HeatFifo& out_;
+  const state::Field<std::uint16_t>* field_ = nullptr;
+  Place place_;
+  StageCycles cycles_;
+};
+
+// Streams the result into memory, behind the reader.
+class Writer {
+ public:
+  explicit Writer(const Shape& shape) : shape_(shape) {}
+  void connect(CellFifo& in) { in_ = &in; }
+  void begin_pass(state::Volume& volume) { volume_ = &volume, place_ = {}; }
+  void cycle() {
+    if (done()) {
+      ++cycles_.fill_drain;
+    } else if (!in_->valid()) {
+      ++(place_.ordinal == 0 ? cycles_.fill_drain : cycles_.starved);
+    } else {
+      write_token(in_->get(), shape_, place_, *volume_);
+      place_.next(shape_);
+      ++cycles_.busy;
+    }
+  }
+  bool done() const { return place_.ordinal == shape_.tokens(); }
+  const StageCycles& cycles() const { return cycles_; }
+
+ private:
+  Shape shape_;
+  CellFifo* in_ = nullptr;
+  state::Volume* volume_ = nullptr;
+  Place place_;
+  StageCycles cycles_;
+};
+
+// The stages of one time step and the channels between them.
+class StepBlock {
+ public:
+  StepBlock(const Design& design, int first_channel, const std::string& prefix, int depth,
+            std::uint64_t stall_seed)
+      : step_(make_step(design)), out_channel_(first_channel) {
+    for (std::size_t i = 0; i + 1 < step_.stages.size(); ++i)
+      channels_.push_back(
+          std::make_unique<CellFifo>(prefix + step_.stages[i]->name() + " -> " + step_.stages[i + 1]->name(),
+                                     out_channel_++, design.shape.lanes, depth, stall_seed));
+  }
+
+  const Stages& stages() const { return step_.stages; }
+  int out_channel() const { return out_channel_; }  // number of the channel that leaves this block
+
+  void connect(CellFifo& in, CellFifo& out) {
+    out_ = &out;
+    for (std::size_t i = 0; i < step_.stages.size(); ++i)
+      step_.stages[i]->connect(i == 0 ? in : *channels_[i - 1],
+                               i + 1 == step_.stages.size() ? out : *channels_[i]);
+  }
+  void feed(HeatFifo& feed) { step_.fed->feed(feed); }
+  void begin_pass(std::uint32_t step, bool bypass) {
+    for (const auto& stage : step_.stages) stage->begin_pass(step, bypass);
+  }
+
+  const Stage& running() const { return *running_; }  // the last one that was evaluated
+
+  // One cycle; the number of inner channels that moved a token.
+  int cycle() {
+    for (const auto& stage : step_.stages) {
+      running_ = stage.get();
+      stage->cycle();
+    }
+    int moved = 0;
+    for (const auto& channel : channels_) moved += channel->commit() ? 1 : 0;
+    return moved;
+  }
+
+  template <class Visit>  // visit(channel, its producer)
+  void for_each_output(Visit&& visit) const {
+    for (std::size_t i = 0; i < step_.stages.size(); ++i)
+      visit(i + 1 == step_.stages.size() ? *out_ : *channels_[i], *step_.stages[i]);
+  }
+
+ private:
+  StepStages step_;
+  int out_channel_;
+  std::vector<std::unique_ptr<CellFifo>> channels_;
+  CellFifo* out_ = nullptr;
+  const Stage* running_ = nullptr;
+};
+
+}  // namespace voxmelt::hwmodel

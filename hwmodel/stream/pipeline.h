@@ -1,0 +1,92 @@
+// The streaming pipeline: reader, T cascaded time steps, writer, under SystemC. One process per block; inside
+// a block plain two-phase registers.
+//
+//   memory -> reader -> [step t] -> [step t + 1] -> ... -> writer -> memory
+//                          ^             ^
+//                        feed          feed        (irradiance, where the scene has radiation)
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "hwmodel/stream/stage.h"
+#include "kernel/state/volume.h"
+
+namespace voxmelt::hwmodel {
+
+struct Configuration {
+  int lanes = 4;                 // P: cells per cycle, along x
+  int cascade = 1;               // T: time steps per pass
+  int fifo_depth = 4;            // tokens, of every channel
+  std::uint64_t stall_seed = 0;  // 0: no stalls
+};
+
+inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024;
+
+// One channel of the main stream.
+struct ChannelReport {
+  std::string name;      // "step 0: gravity -> pattern"
+  std::string producer;  // stage, or "reader"
+  std::string phase;     // of its producer; empty behind the reader
+  int cascade = 0;       // position of its producer
+  int depth = 0, bits = 0, highest = 0, count = 0;
+  std::int64_t entered = 0;             // tokens, in the present pass
+  std::vector<std::int64_t> occupancy;  // cycles with 0, 1, ... tokens
+};
+
+struct StageReport {
+  std::string name, phase;
+  int cascade = 0;
+  std::int64_t lag = 0;
+  StageCycles cycles;
+  std::vector<BufferCost> buffers;
+  Units units;
+};
+
+// What a pass of the pipeline ended with.
+struct PassEnd {
+  std::int64_t cycles = 0;
+  bool complete = false;  // else it was stopped by the watcher, or it hangs
+  bool hangs = false;
+};
+
+class Pipeline {
+ public:
+  Pipeline(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration);
+  ~Pipeline();
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  // Sees every token of the main stream; `stop` from within ends the pass after the present cycle.
+  void watch(FifoWatcher<Cell>* watcher);
+  void stop();
+  void plant(FaultPlan* plan);
+
+  // Where a value did not fit its wire.
+  class StageError : public std::runtime_error {
+   public:
+    StageError(const std::string& what, std::string failed, std::string of_phase, int position)
+        : std::runtime_error(what), stage(std::move(failed)), phase(std::move(of_phase)), cascade(position) {}
+    std::string stage, phase;
+    int cascade;
+  };
+
+  // Streams `volume` once: `steps` (1..cascade) time steps from number `first`; surplus steps are bypassed.
+  // `irradiance`: null without radiation. Throws StageError.
+  PassEnd run_pass(std::uint32_t first, int steps, const state::Field<std::uint16_t>* irradiance,
+                   state::Volume& volume);
+
+  const Design& design() const;
+  const Configuration& configuration() const;
+  std::int64_t cycle() const;  // of the present pass
+  std::vector<ChannelReport> channels() const;
+  std::vector<StageReport> stages() const;  // the reader first, the writer last
+
+ private:
+  struct Machine;
+  std::unique_ptr<Machine> machine_;
+};
+
+}  // namespace voxmelt::hwmodel
