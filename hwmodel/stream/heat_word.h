@@ -1,0 +1,56 @@
+// The word that conduction and convection keep of a cell: what it was when it came, and its heat so far.
+// A pass is synchronous, so every flux is computed from the temperatures of its begin; the heat takes the
+// fluxes one by one and stays in 16 bits after each: what any subset of the neighbours takes or gives is no
+// more than the whole bound of docs/automaton.md, section 15.
+#pragma once
+
+#include "hwmodel/stream/stage.h"
+
+namespace voxmelt::hwmodel {
+
+struct HeatWord {
+  UInt<16> amount = kFlatBed;
+  UInt<16> energy;
+  UInt<16> temperature;  // at the begin of the pass
+  UInt<16> heat;         // with the fluxes computed so far
+  State state = State::inert;
+  UInt<3> exposed;  // faces: a bit per axis on which a face neighbour is air; later: their number
+
+  bool matter() const { return state == State::solid || state == State::liquid; }
+  bool air() const { return state == State::air; }
+  bool liquid() const { return state == State::liquid; }
+};
+
+inline void take_cell(const Cell& cell, const rule::Material& material, HeatWord& word) {
+  word.amount = cell.amount;
+  word.energy = cell.energy;
+  word.heat = cell.heat;
+  word.temperature = temperature_of(cell.heat, material);
+  word.state = cell.state;
+  word.exposed = std::int64_t{cell.exposed_axes};
+}
+
+inline Cell give_cell(const HeatWord& word, std::int64_t exposed_axes) {
+  Cell cell;
+  cell.amount = word.amount;
+  cell.energy = word.energy;
+  cell.heat = word.heat;
+  cell.state = word.state;
+  cell.exposed_axes = exposed_axes;
+  return cell;
+}
+
+// Bits of a word that a design needs; `exposed` bits where air exchange counts axes.
+inline int heat_word_bits(const Design& design, int exposed) {
+  return design.cell_bits() + 16 + (design.parameters.heat.air ? exposed : 0);
+}
+
+// Of a planted fault: does a wrong heat before the exchange leave it wrong for certain? Radiation adds at
+// most 4096 to a solid and cuts at the top; air can make two heats equal.
+inline bool survives_exchange(const rule::Heat& heat, const HeatWord& word, std::int64_t right,
+                              std::int64_t wrong) {
+  if (heat.air && word.exposed > 0) return false;
+  return !heat.radiation || word.liquid() || std::max(right, wrong) <= kHeatMax - 4096;
+}
+
+}  // namespace voxmelt::hwmodel

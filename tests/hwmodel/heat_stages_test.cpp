@@ -1,0 +1,121 @@
+// The stages of source, heat and melt against the reference, and what their memories cost.
+#include "tests/hwmodel/heat_stages.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+constexpr auto kBothLaws = {rule::Law::paper, rule::Law::viscous};
+
+TEST(HeatStages, SourceIsTheReference) {
+  for (const rule::Law law : kBothLaws)
+    for (const std::uint64_t seed : {0u, 50000u})
+      expect_phase(law, step::Phase::source, source_of, 300, 4, seed);
+}
+
+TEST(HeatStages, HeatIsTheReference) {
+  for (const rule::Law law : kBothLaws)
+    for (const std::uint64_t seed : {1000u, 60000u, 70000u})
+      expect_phase(law, step::Phase::heat, heat_of, 300, 4, seed);
+}
+
+TEST(HeatStages, MeltIsTheReference) {
+  for (const rule::Law law : kBothLaws)
+    for (const std::uint64_t seed : {2000u, 80000u})
+      expect_phase(law, step::Phase::melt, melt_of, 300, 4, seed);
+}
+
+// Sizes around the rows of the masks and the blocks of lanes, on each axis.
+TEST(HeatStages, AwkwardSizes) {
+  int compared = 0;
+  std::uint64_t seed = 0;
+  for (const int x : {1, 2, 63, 64, 65})
+    for (const int y : {1, 2, 63, 64, 65})
+      for (const int z : {1, 2, 63, 64, 65}) {
+        if (std::max({std::min(x, y), std::min(y, z), std::min(x, z)}) > 2) continue;  // one long axis
+        for (int world = 0; world < 2; ++world) {
+          worlds::Random random(++seed);
+          const state::Grid grid{x, y, z};
+          const Design design{
+              worlds::hostile_parameters(random, random.any({rule::Law::paper, rule::Law::viscous}), grid),
+              {grid, random.any({1, 2, 4, 8, 16})}};
+          if (!design.hot()) continue;
+          Stages stages;
+          FedStage* fed = nullptr;
+          heat_of(design, stages, fed);
+          StageRun run{random.any({1, 2, 5}), random.one_in(2) ? 0 : seed, 0};
+          each_phase(
+              design.parameters, worlds::hostile_volume(random, design.parameters, grid), step::Phase::heat,
+              2, [&](std::uint32_t step, const auto& before, const auto& after, auto* irradiance) {
+                const state::Volume result = run_stages(design, stages, step, irradiance, fed, before, run);
+                EXPECT_EQ(worlds::difference(after, result), "")
+                    << x << " x " << y << " x " << z << ", seed " << seed;
+                ++compared;
+                return true;
+              });
+        }
+      }
+  EXPECT_GT(compared, 120);
+}
+
+// A large block of a few planes, so that every tap lies in a memory of its own.
+TEST(HeatStages, LargeGrid) {
+  for (const rule::Law law : kBothLaws)
+    for (const int lanes : {1, 16}) {
+      worlds::Random random(99);
+      const state::Grid grid{65, 64, 9};
+      Design design{worlds::hostile_parameters(random, law, grid), {grid, lanes}};
+      rule::Heat& heat = design.parameters.heat;
+      heat.enabled = heat.air = heat.radiation = true;
+      heat.neighbours = 26;
+      heat.convection = 32767;
+      Stages stages;
+      FedStage* fed = nullptr;
+      heat_of(design, stages, fed);
+      ASSERT_EQ(stages.size(), 5u);
+      StageRun run;
+      each_phase(
+          design.parameters, worlds::hostile_volume(random, design.parameters, grid), step::Phase::heat, 2,
+          [&](std::uint32_t step, const auto& before, const auto& after, auto* irradiance) {
+            EXPECT_EQ(
+                worlds::difference(after, run_stages(design, stages, step, irradiance, fed, before, run)),
+                "");
+            return true;
+          });
+    }
+}
+
+// The memories of a stage are its whole lag, and as wide as the scene needs.
+TEST(HeatStages, Memories) {
+  for (const bool air : {false, true})
+    for (const rule::Law law : kBothLaws)
+      for (const state::Grid grid : {state::Grid{64, 32, 16}, state::Grid{16, 1, 3}, state::Grid{1, 1, 1}}) {
+        Design design{{}, {grid, 16}};
+        design.parameters.flow.law = law;
+        design.parameters.heat.enabled = true;
+        design.parameters.heat.air = air;
+        design.parameters.heat.air_temperature.resize(static_cast<std::size_t>(grid.y));
+        design.parameters.heat.neighbours = 26;
+        design.parameters.heat.convection = 1;
+        Stages stages;
+        FedStage* fed = nullptr;
+        heat_of(design, stages, fed);
+        const std::int64_t column = grid.y, plane = design.shape.plane();
+        const std::int64_t lags[] = {plane, plane + column, plane + column + 1, 1};
+        const int bits = (law == rule::Law::paper ? 50 : 34) + 16;
+        for (std::size_t i = 0; i < 4; ++i) {
+          EXPECT_EQ(stages[i]->lag(), lags[i]) << stages[i]->name();
+          EXPECT_EQ(stages[i]->phase(), "heat");
+          std::int64_t words = 0;
+          for (const BufferCost& cost : stages[i]->buffers()) {
+            words += cost.words * cost.lanes;
+            EXPECT_GT(cost.words, 0);
+            if (cost.name != "plane memory") continue;
+            EXPECT_EQ(cost.bits, bits + (air ? (i == 0 ? 3 : 2) : 0)) << stages[i]->name();
+          }
+          EXPECT_EQ(words, lags[i] * 16) << stages[i]->name();
+        }
+      }
+}
+
+}  // namespace
+}  // namespace voxmelt::hwmodel
