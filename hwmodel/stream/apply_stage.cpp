@@ -15,7 +15,7 @@ enum Ground : int { on_liquid, on_solid, on_floor };
 struct Flowing {
   UInt<16> amount = kFlatBed;  // what is left, and what has arrived
   UInt<16> energy;             // the same; reading `text`: only what is left
-  UInt<16> arrived;            // reading `text`: energy before friction
+  UInt<16> arrived;            // reading `text`: energy before friction; with 8 neighbours 15 bits
   UInt<16> heat;
   UInt<32> content;  // amount x heat
   State state = State::inert;
@@ -39,6 +39,7 @@ class Apply final : public Stage {
         alpha_{law_.alpha_liquid, law_.alpha_solid, law_.alpha_floor},
         printed_(law_.reading == rule::EnergyReading::printed),
         hot_(design.hot()),
+        arrival_bits_(flow_.arrival_bits()),
         plane_(static_cast<std::size_t>(design.shape.plane())),
         column_(static_cast<std::size_t>(design.shape.column())),
         line_(design.shape.lanes, static_cast<std::size_t>(lag())) {}
@@ -186,7 +187,7 @@ class Apply final : public Stage {
     to.amount = to.amount + gift.amount;
     if (hot_) to.content = to.content + gift.amount * giver.heat;
     if (!printed_) {
-      to.arrived = to.arrived + gift.energy;
+      to.arrived = wire(to.arrived + gift.energy, arrival_bits_);
       return;
     }
     const std::int64_t energy = rubbed(gift.energy, giver.ground);
@@ -220,6 +221,7 @@ class Apply final : public Stage {
   PaperFlow flow_;
   std::array<std::int64_t, 3> alpha_;  // by Ground
   bool printed_, hot_;
+  int arrival_bits_;
   std::size_t plane_, column_;
   UInt<16> dither_;
   TapLine<Flowing> line_;

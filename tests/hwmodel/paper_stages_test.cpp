@@ -84,6 +84,34 @@ TEST(PaperStages, SpreadFaultsStrikeWhereTheySay) {
   }
 }
 
+// The fullest receiver between the fullest givers: the proofs' bounds are reached, and every wire holds.
+TEST(PaperStages, WidestSums) {
+  for (const int neighbours : {4, 8})
+    for (const auto reading : {rule::EnergyReading::text, rule::EnergyReading::printed}) {
+      const state::Grid grid{3, 1, 3};
+      Design design{worlds::paper_showcase(), {grid, 2}};
+      rule::PaperLaw& law = design.parameters.flow.paper;
+      design.parameters.heat.enabled = true;
+      law.neighbours = neighbours;
+      law.share = neighbours == 8 ? 13107 : 16384;
+      law.alpha_floor = 65535;
+      law.reading = reading;
+      state::Volume volume(grid);
+      worlds::fill(volume, worlds::whole(grid), 65535, 65535, 65535);
+      const int lowest = neighbours == 8 ? 45055 : 32767;
+      worlds::put(volume, 1, 0, 1, lowest, lowest, 65535);
+      Stages stages;
+      make_spread(design, stages);
+      StageRun run;
+      int full = 0;
+      for (std::uint32_t step = 0; step < 3000; ++step) {
+        const state::Volume result = run_stages(design, stages, step, nullptr, nullptr, volume, run);
+        full += result.amount[result.at(1, 0, 1)] == 65535 ? 1 : 0;
+      }
+      EXPECT_GT(full, 0) << neighbours;
+    }
+}
+
 // A line of P cells' tokens through one column of height ny holds what the buffers say, and no more.
 TEST(PaperStages, BuffersSpanTheLag) {
   for (const int neighbours : {4, 8}) {
