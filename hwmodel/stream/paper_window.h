@@ -1,5 +1,6 @@
-// The window {cell that comes, west, south, south-west} over which both stages of the paper's spread scatter:
-// which stretches of its delay are memories of their own, and what each must hold.
+// The window {cell that comes, west, south, south-west} over which both stages of the paper's spread scatter.
+// A cell trades with its southern neighbours when it comes, and with those of its own row only when it comes
+// out of the plane memory: what is known early would have to be kept (a partial sum is as wide as a cell).
 #pragma once
 
 #include <vector>
@@ -9,28 +10,24 @@
 
 namespace voxmelt::hwmodel {
 
-// Bits of a word on its way. Only lane P - 1 waits a column of blocks for its east neighbour, and after its
-// north neighbour one more for the north-east one (8 neighbours); the others have them in their own token.
+// Bits of a word on its way. Only lane P - 1 waits for its eastern neighbours, a column of blocks long: when it
+// has come for the south-eastern one, and out of the plane memory for the eastern and north-eastern ones.
 struct WindowBits {
-  int last_lane_before_east, plane, last_lane_before_north_east, finished;
+  int before_south_east, plane, before_east, finished;
 };
 
-inline std::vector<BufferCost> window_buffers(const Shape& shape, bool eight, const WindowBits& bits) {
+inline std::vector<BufferCost> window_buffers(const Shape& shape, const WindowBits& bits) {
   const std::int64_t column = shape.column(), others = shape.lanes - 1;
-  std::vector<BufferCost> buffers{{"east memory", column, 1, bits.last_lane_before_east},
-                                  {"east memory, other lanes", column, others, bits.plane},
-                                  {"plane memory", shape.plane() - column, shape.lanes, bits.plane}};
-  if (eight) {
-    buffers.push_back({"north-east memory", column, 1, bits.last_lane_before_north_east});
-    buffers.push_back({"alignment memory", column, others, bits.finished});
-  }
+  std::vector<BufferCost> buffers{{"south-east memory", column, 1, bits.before_south_east},
+                                  {"south-east memory, other lanes", column, others, bits.plane},
+                                  {"plane memory", shape.plane() - column, shape.lanes, bits.plane},
+                                  {"east memory", column, 1, bits.before_east},
+                                  {"alignment memory", column, others, bits.finished}};
   std::erase_if(buffers, [](const BufferCost& one) { return one.total() == 0; });
   return buffers;
 }
 
 // Tokens from the coming of a cell to that of the last one it exchanges anything with.
-inline std::int64_t window_lag(const Shape& shape, bool eight) {
-  return shape.plane() + (eight ? shape.column() : 0);
-}
+inline std::int64_t window_lag(const Shape& shape) { return shape.plane() + shape.column(); }
 
 }  // namespace voxmelt::hwmodel

@@ -25,21 +25,19 @@ struct Giver {
 class Pattern final : public Stage {
  public:
   explicit Pattern(const Design& design)
-      : Stage("pattern", "spread", design,
-              window_lag(design.shape, design.parameters.flow.paper.neighbours == 8)),
+      : Stage("pattern", "spread", design, window_lag(design.shape)),
         law_(design.parameters.flow.paper),
         flow_(design.parameters.flow),
         keys_(speck_keys(design.parameters.seed)),
         plane_(static_cast<std::size_t>(design.shape.plane())),
         column_(static_cast<std::size_t>(design.shape.column())),
-        // One token more than the lag: is the cell below air? (With 8 neighbours it is there anyway.)
-        line_(design.shape.lanes, static_cast<std::size_t>(std::max(lag(), design.shape.plane() + 1))) {}
+        line_(design.shape.lanes, static_cast<std::size_t>(lag())) {}
 
-  // Directions decided: in lane P - 1 before east comes -x, -z, -x-z; behind it +x, +x-z; then all but +x+z.
+  // Directions decided: to the south; in the east memory also to the north and west.
   std::vector<BufferCost> buffers() const override {
     const int cell = design().cell_bits(), limit = bits_for(flow_.limit());
-    if (!flow_.eight()) return window_buffers(shape(), false, {cell + 2 + limit, cell + 3, 0, 0});
-    return window_buffers(shape(), true, {cell + 3 + 2 * limit, cell + 5, cell + 7 + limit, cell + 8});
+    if (!flow_.eight()) return window_buffers(shape(), {cell + 1, cell + 1, cell + 3 + limit, cell + 4});
+    return window_buffers(shape(), {cell + 2 + limit, cell + 3, cell + 6 + 2 * limit, cell + 8});
   }
   Units units() const override {  // at both ends of the plane memory; a random block serves 8 lanes
     return {law_.use_table ? 0 : 2 * (design().parameters.flow.thermal_viscosity ? 2 : 1), 0, 1};
@@ -67,17 +65,13 @@ class Pattern final : public Stage {
         find_limits(south[lane], above_floor && below[lane].state == State::air);
     }
     Giver* west = came().x > 0 ? line_.tap(column_) + lanes() - 1 : nullptr;
-    Giver* south_west = west != nullptr && south != nullptr && flow_.eight()
-                            ? line_.tap(plane_ + column_) + lanes() - 1
-                            : nullptr;
+    Giver* south_west =
+        west != nullptr && south != nullptr ? line_.tap(plane_ + column_) + lanes() - 1 : nullptr;
     margin_fault_ = armed(Fault::pattern_margin), open_fault_ = armed(Fault::pattern_diagonal_open);
     for (int lane = 0; lane < lanes(); ++lane) {
       meet(now[lane], west, south, south_west);
       west = now + lane;
-      if (south != nullptr) {
-        if (flow_.eight()) south_west = south;
-        ++south;
-      }
+      if (south != nullptr) south_west = south++;
     }
     if (out != nullptr) leave(line_.tap(static_cast<std::size_t>(lag())), out);
   }
@@ -105,17 +99,19 @@ class Pattern final : public Stage {
     cell.diagonal_limit = below(UInt<20>(9 * margin) >> 3);
   }
 
-  // Every pair whose last corner is the cell that comes.
+  // The pairs of the window but {cell, west}, which comes out of the plane memory as {south, south-west}.
   void meet(Giver& cell, Giver* west, Giver* south, Giver* south_west) {
-    if (west != nullptr && (cell.gives | west->gives) != 0) {
-      offer(cell, Way::west, *west, cell.axis_limit);
-      offer(*west, Way::east, cell, west->axis_limit);
-    }
-    if (south != nullptr && (cell.gives | south->gives) != 0) {
+    if (south == nullptr) return;
+    if ((cell.gives | south->gives) != 0) {
       offer(cell, Way::south, *south, cell.axis_limit);
       offer(*south, Way::north, cell, south->axis_limit);
     }
-    if (south_west == nullptr || west == nullptr) return;
+    if (south_west == nullptr) return;
+    if ((south->gives | south_west->gives) != 0) {
+      offer(*south, Way::west, *south_west, south->axis_limit);
+      offer(*south_west, Way::east, *south, south_west->axis_limit);
+    }
+    if (!flow_.eight()) return;
     if ((cell.gives | south_west->gives) != 0) {
       const bool open = !(west->blocked() && south->blocked());
       offer(cell, Way::south_west, *south_west, cell.diagonal_limit, open);
