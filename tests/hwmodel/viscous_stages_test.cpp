@@ -56,6 +56,34 @@ TEST(ViscousStages, EverySizeOfAnAxis) {
   EXPECT_EQ(sizes, 90);
 }
 
+// Sums that are whole cells, top cells at ONE / 2, beds higher than a scene may have, and columns so deep
+// that the mobility's depth is cut: what random amounts never hit.
+TEST(ViscousStages, BoundsOfTheRules) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    worlds::Random random(seed);
+    const bool deep = random.one_in(4);
+    const state::Grid grid{random.between(2, 6), deep ? random.between(64, 90) : random.between(2, 8),
+                           random.between(1, 3)};
+    rule::Parameters parameters = worlds::hostile_parameters(random, rule::Law::viscous, grid);
+    parameters.flow.viscous.mobility = static_cast<std::uint32_t>(random.any({1, 7, 31, 4660}));
+    parameters.flow.viscous.yield = static_cast<std::uint32_t>(random.any({0, 131, 40000}));
+    parameters.vents.clear();
+    parameters.heat.radiation = false;
+    state::Volume start(grid);
+    worlds::for_each(worlds::whole(grid), [&](int x, int y, int z) {
+      const std::int32_t heat = parameters.heat.enabled ? random.below(65536) : 0;
+      if (random.one_in(deep ? 400 : 6))
+        worlds::put_inert(start, x, y, z, random.any({0, 2048, 4095, 4200, 65535}));
+      else if (const std::int32_t amount =
+                   deep && y < 65 ? 4096 : random.any({0, 2047, 2048, 2049, 4095, 4096, 6144, 6145, 8191});
+               amount > 0)
+        worlds::put(start, x, y, z, amount, 0, heat);
+    });
+    ViscousWorld world(Design{parameters, {grid, random.any({1, 2, 4})}}, start);
+    expect_steps(world, 2, 0);
+  }
+}
+
 // The tallest grid, as full as can be: every width at its limit. An overflow would throw.
 TEST(ViscousStages, WidestNumbers) {
   for (const int stiffness : {1, 8})

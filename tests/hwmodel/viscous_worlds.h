@@ -14,6 +14,9 @@ struct ViscousWorld {
         simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
                    worlds::implementation("reference")) {}
 
+  ViscousWorld(const Design& of, const state::Volume& start)
+      : design(of), simulation(design.parameters, start, worlds::implementation("reference")) {}
+
   // Runs a whole step of the reference; at(phase, state before it) after each phase.
   template <class At>
   void step(At&& at) {
