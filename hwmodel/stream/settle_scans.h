@@ -95,17 +95,17 @@ class RecordScan {
   SettleWord record_;
 };
 
-// Third scan, upwards: gives every cell its amount, its heat and what it shows.
+// Third scan, upwards: gives every cell its amount and its heat, and cells in a run what they show. (What
+// cells outside runs show, the readers of the next stage work out: see run_reader.h.)
 class ShowScan {
  public:
   void next(const SettleWord& word, int y, const rule::Flow& flow, const RunWidths& widths, Cell& cell) {
-    if (y == 0) below_ = Below::blocked, bed_ = kFlatBed;
+    if (y == 0) bed_ = kFlatBed;
     cell = {};
     if (word.blocked()) {
       cell.state = word.kind == SettleKind::solid ? State::solid : State::inert;
       cell.amount = std::int64_t{word.sum};
       cell.heat = word.heat;
-      below_ = Below::blocked;
       bed_ = word.kind == SettleKind::inert ? std::int64_t{word.sum} : kFlatBed;
       return;
     }
@@ -116,14 +116,9 @@ class ShowScan {
       settle(word, y, flow, widths, cell);
     cell.state = State::liquid;
     cell.settle_state();
-    if (cell.in_run) {
-      cell.head = show_.head, cell.dead = show_.dead;
-      cell.mobility = show_.mobility, cell.exposed = show_.exposed;
-      below_ = Below::run;
-    } else {
-      show_outside(y, widths, cell);
-      below_ = Below::other;
-    }
+    if (!cell.in_run) return;
+    cell.head = show_.head, cell.dead = show_.dead;
+    cell.mobility = show_.mobility, cell.exposed = show_.exposed;
   }
 
  private:
@@ -142,20 +137,8 @@ class ShowScan {
     spare_ = std::min(spare_ + kOverMax, kOverMax);
   }
 
-  void show_outside(int y, const RunWidths& widths, Cell& cell) const {
-    std::int64_t head = 256 * (std::int64_t{y} - 2);
-    if (below_ == Below::blocked) head = bed(y);
-    if (below_ == Below::run) {
-      head = std::min<std::int64_t>(show_.head, 256 * y + 128);
-      cell.mobility = show_.mobility;
-    }
-    cell.head = signed_wire(head, widths.head);
-  }
-
   std::int64_t bed(int y) const { return 256 * y + ((std::int64_t{bed_} - kFlatBed) >> 4); }
 
-  enum class Below : std::uint8_t { blocked, run, other };
-  Below below_ = Below::blocked;
   UInt<16> bed_ = kFlatBed;  // of the blocked cell below
   RunShow show_;
   UInt<28> level_;  // of the run's amount, less ONE for each cell below
