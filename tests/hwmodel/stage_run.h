@@ -68,11 +68,11 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, std:
   return result;
 }
 
-// Holds `make`'s stages, which are to do `phase` whole, against the reference: on `worlds` random hostile
-// worlds of one law, `steps` steps each. The other phases are the reference's.
+// Holds `make`'s stages, which are to do the phases first..last whole, against the reference: on `worlds`
+// random hostile worlds of one law, `steps` steps each. The other phases are the reference's.
 template <class Make>  // void(const Design&, Stages&, FedStage*&)
-void expect_phase(rule::Law law, step::Phase phase, Make&& make, int worlds, int steps,
-                  std::uint64_t first_seed = 0) {
+void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& make, int worlds, int steps,
+                   std::uint64_t first_seed = 0) {
   std::int64_t compared = 0, changed = 0;
   for (int world = 0; world < worlds; ++world) {
     const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(world);
@@ -97,14 +97,11 @@ void expect_phase(rule::Law law, step::Phase phase, Make&& make, int worlds, int
       if (radiates && number % heat.visibility_every == 0)
         provider->irradiance(simulation.volume(), heat, number, irradiance);
       simulation.begin_step();
+      state::Volume before = simulation.volume();
       for (const step::Phase each : step::phase_order(law)) {
-        if (each != phase) {
-          simulation.run_phase(each);
-          continue;
-        }
-        const state::Volume before = simulation.volume();
+        if (each == first) before = simulation.volume();
         simulation.run_phase(each);
-        if (stages.empty()) continue;
+        if (each != last || stages.empty()) continue;
         const state::Volume result =
             run_stages(design, stages, number, radiates ? &irradiance : nullptr, fed, before, run);
         const std::string found = worlds::difference(simulation.volume(), result);
@@ -119,6 +116,12 @@ void expect_phase(rule::Law law, step::Phase phase, Make&& make, int worlds, int
   }
   EXPECT_GT(compared, worlds * 20);  // nothing compared proves nothing
   EXPECT_GT(changed, worlds / 4);
+}
+
+template <class Make>
+void expect_phase(rule::Law law, step::Phase phase, Make&& make, int worlds, int steps,
+                  std::uint64_t first_seed = 0) {
+  expect_phases(law, phase, phase, std::forward<Make>(make), worlds, steps, first_seed);
 }
 
 }  // namespace voxmelt::hwmodel
