@@ -5,19 +5,23 @@
 
 namespace voxmelt::hwmodel {
 
-// interval (N - 1 + steps L) + channels + 1: N tokens, each `interval` cycles after the one before it; a time
-// step holds its tokens back by L of them; every channel holds them for one cycle.
+// N tokens pass, each `interval` cycles after the one before it; every channel holds a token for one cycle,
+// and every stage until it has moved `lag` times: at the pace of its input while that lasts, then at its own.
+//
+//   cycles = interval (N - 1) + sum of waits + channels + 1
+//   wait   = interval lag                          where lag < N
+//            interval (N - 1) + lag - N + 1        else (grids thinner than the stencil)
+//   interval = 1; 2 where channels hold one token only
 std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, int steps);
 
-// L, in tokens: how many planes, columns and single tokens a time step must have seen before it can give its
-// first cell.
+// How many planes, columns and single tokens a stage must have seen before it can give its first cell.
 struct Lag {
   int planes = 0, columns = 0, singles = 0;
-  int stages = 0;
   std::int64_t tokens(const Shape& shape) const {
     return planes * shape.plane() + columns * shape.column() + singles;
   }
 };
-Lag lag_of_step(const Design& design);
+// Of every stage of one time step.
+std::vector<Lag> lags_of_step(const Design& design);
 
 }  // namespace voxmelt::hwmodel

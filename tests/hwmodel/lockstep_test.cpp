@@ -2,6 +2,7 @@
 // cascade, depth and stall; the closed form predicts the cycles.
 #include "tests/hwmodel/lockstep_world.h"
 
+#include <array>
 #include <set>
 
 #include "hwmodel/stream/prediction.h"
@@ -10,13 +11,12 @@ namespace voxmelt::hwmodel {
 namespace {
 
 TEST(Lockstep, TheCoveringArrayCoversAllPairs) {
-  std::set<std::pair<std::string, std::string>> pairs;
+  std::set<std::array<int, 4>> pairs;  // column, value, column, value
   for (const Configuration& c : covering_array()) {
-    const std::vector<std::string> values{"P" + std::to_string(c.lanes), "T" + std::to_string(c.cascade),
-                                          "depth" + std::to_string(c.fifo_depth),
-                                          "seed" + std::to_string(c.stall_seed)};
-    for (std::size_t a = 0; a < 4; ++a)
-      for (std::size_t b = a + 1; b < 4; ++b) pairs.insert({values[a], values[b]});
+    const std::array<int, 4> values{c.lanes, c.cascade, c.fifo_depth, static_cast<int>(c.stall_seed)};
+    for (int a = 0; a < 4; ++a)
+      for (int b = a + 1; b < 4; ++b)
+        pairs.insert({a, values[static_cast<std::size_t>(a)], b, values[static_cast<std::size_t>(b)]});
   }
   EXPECT_EQ(pairs.size(), 9u + 6 + 9 + 6 + 9 + 6);
 }
