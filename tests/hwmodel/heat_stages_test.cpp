@@ -71,7 +71,7 @@ TEST(HeatStages, LargeGrid) {
       Stages stages;
       FedStage* fed = nullptr;
       heat_of(design, stages, fed);
-      ASSERT_EQ(stages.size(), 5u);
+      ASSERT_EQ(stages.size(), 6u);  // with the watcher
       StageRun run;
       each_phase(
           design.parameters, worlds::hostile_volume(random, design.parameters, grid), step::Phase::heat, 2,
