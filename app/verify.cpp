@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 struct VerifyCommand {
   Common common;
   std::uint32_t steps = 10, every = 1, from = 0;
+  std::optional<std::uint32_t> plant_step;
   std::string hw, plant, out;
   std::vector<std::string> hw_sets;
 };
@@ -46,13 +47,14 @@ void split_sets(VerifyCommand& command) {
 }
 
 // Everything that the user must type to see it again.
-std::string again(const VerifyCommand& command, const std::string& scene, std::uint32_t steps) {
+std::string again(const VerifyCommand& command, const std::string& scene, std::uint32_t steps,
+                  std::uint32_t step) {
   std::string text = fmt::format("voxmelt verify {} --steps {}", scene, steps);
   if (!command.hw.empty()) text += " --hw " + command.hw;
   for (const std::string& set : command.hw_sets) text += " --set " + set;
   for (const std::string& set : command.common.sets) text += " --set " + set;
   if (command.common.seed) text += fmt::format(" --seed {}", *command.common.seed);
-  if (!command.plant.empty()) text += " --plant " + command.plant;
+  if (!command.plant.empty()) text += fmt::format(" --plant {} --plant-step {}", command.plant, step);
   return text;
 }
 
@@ -80,7 +82,7 @@ void write_replay(const VerifyCommand& command, const scene::Scene& scene,
   const fs::path place =
       command.out.empty() ? fs::path("out") / ("verify_" + scene.name) : fs::path(command.out);
   io::OutputFolder out(place);
-  const std::string typed = again(command, (place / "scene.toml").string(), steps);
+  const std::string typed = again(command, (place / "scene.toml").string(), steps, report.mismatch->step);
   hwmodel::write_replay(out.partial(), scene.file, *report.replay, report.replay_step, typed);
   out.commit();
   fmt::print("the state before step {} is in {}; to see it again:\n  {}\n", report.replay_step,
@@ -118,7 +120,7 @@ int run_verify(VerifyCommand command) {
   options.every = command.every;
   options.configuration = preset.configuration;
   if (fault != nullptr) options.fault = fault->fault;
-  options.fault_step = ahead.step_number() + command.steps / 2;
+  options.fault_step = command.plant_step.value_or(ahead.step_number() + command.steps / 2);
   options.progress = [](std::uint32_t) { stop_if_interrupted(); };
   step::Tuning tuning;
   tuning.threads = thread_count(command.common);
@@ -162,6 +164,8 @@ void add_verify(CLI::App& program, Chosen& chosen) {
                       "hardware configuration: a TOML file, or a name of `voxmelt list presets`");
   command->add_option("--plant", options->plant,
                       "plant a fault in the model (`voxmelt list faults`), to see it found");
+  command->add_option("--plant-step", options->plant_step,
+                      "the first step in which it may strike (default: in the middle)");
   command->add_option("--out", options->out,
                       "folder for the replay of a mismatch (default: out/verify_SCENE)");
   add_common(*command, options->common);

@@ -138,14 +138,14 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
 std::string table_of(const VerifyReport& report, const Design& design, const Configuration& configuration) {
   const double total = static_cast<double>(std::max<std::int64_t>(1, report.cycles));
   std::string text =
-      fmt::format("{:<12}{:>6}{:>9}{:>9}{:>9}{:>12}{:>8}{:>14}{:>13}\n", "stage", "times", "busy %",
+      fmt::format("{:<12} {:>5} {:>8} {:>10} {:>10} {:>13} {:>7} {:>13} {:>13}\n", "stage", "times", "busy %",
                   "starved %", "blocked %", "fill/drain %", "lag", "buffer bits", "mult + div");
   for (const Row& row : rows_of(report.stages)) {
     const auto share = [&](std::int64_t cycles) {
       return fmt::format("{:.1f}", 100.0 * static_cast<double>(cycles) / (total * row.times));
     };
-    text += fmt::format("{:<12}{:>6}{:>9}{:>9}{:>9}{:>12}{:>8}{:>14}{:>13}\n", row.stage.name, row.times,
-                        share(row.stage.cycles.busy), share(row.stage.cycles.starved),
+    text += fmt::format("{:<12} {:>5} {:>8} {:>10} {:>10} {:>13} {:>7} {:>13} {:>13}\n", row.stage.name,
+                        row.times, share(row.stage.cycles.busy), share(row.stage.cycles.starved),
                         share(row.stage.cycles.blocked), share(row.stage.cycles.fill_drain), row.stage.lag,
                         bits_of(row.stage) * row.times,
                         fmt::format("{} + {}", row.stage.units.multipliers * configuration.lanes * row.times,
@@ -168,7 +168,7 @@ std::string table_of(const VerifyReport& report, const Design& design, const Con
       fullest, buffer_bits(report),
       static_cast<double>(buffer_bits(report)) /
           (static_cast<double>(design.shape.grid.x) * design.shape.grid.y * configuration.cascade));
-  if (report.cycles > 0)
+  if (report.cycles > 0 && report.mismatch == nullptr)
     text += fmt::format(
         "cycles: {} in {} passes; predicted without stalls {} ({:+.2f} %); {:.3f} cell-steps per cycle, "
         "bound {:.0f} (lanes x cascade), {:.1f} % of it\nsimulated, comparing included: {:.2f} million "

@@ -10,8 +10,8 @@
 
 namespace voxmelt::hwmodel {
 
-// Bits of a word on its way. Only lane P - 1 waits for its eastern neighbours, a column of blocks long: when it
-// has come for the south-eastern one, and out of the plane memory for the eastern and north-eastern ones.
+// Bits of a word on its way. Only lane P - 1 waits for its eastern neighbours, a column of blocks long: when
+// it has come for the south-eastern one, and out of the plane memory for the eastern and north-eastern ones.
 struct WindowBits {
   int before_south_east, plane, before_east, finished;
 };

@@ -34,6 +34,7 @@ class Pattern final : public Stage {
         line_(design.shape.lanes, static_cast<std::size_t>(lag())) {}
 
   // Directions decided: to the south; in the east memory also to the north and west.
+  int output_bits() const override { return design().cell_bits() + law_.neighbours; }
   std::vector<BufferCost> buffers() const override {
     const int cell = design().cell_bits(), limit = bits_for(flow_.limit());
     if (!flow_.eight()) return window_buffers(shape(), {cell + 1, cell + 1, cell + 3 + limit, cell + 4});
@@ -167,27 +168,10 @@ class Pattern final : public Stage {
     return row * ((static_cast<std::uint32_t>(shape().grid.x) + 7) / 8) + static_cast<std::uint32_t>(x) / 8;
   }
 
-  // A wrong pattern is seen only in the amounts that it makes flow. It strikes if it is certain which of them
-  // leaves the phase first: a receiver has one gift more, less or another; the giver may have given the same.
   void plant(Cell& cell, std::int64_t wrong, int lane) {
-    const int x = leaving().x + lane, z = leaving().z;
-    const auto right_gifts = flow_.gifts(cell.amount, cell.energy, cell.heat, cell.pattern);
-    const auto wrong_gifts = flow_.gifts(cell.amount, cell.energy, cell.heat, wrong);
-    const auto order = [&](int at_x, int at_z) { return stream_order(shape(), at_x, leaving().y, at_z); };
-    int first_x = x, first_z = z;
-    std::int64_t more = 0;
-    bool differs = false;
-    for (std::size_t way = 0; way < 8; ++way) {
-      if (right_gifts[way] == wrong_gifts[way]) continue;
-      if (right_gifts[way].amount == wrong_gifts[way].amount) return;  // only energy: a cut may hide it
-      more += wrong_gifts[way].amount - right_gifts[way].amount;
-      differs = true;
-      const int to_x = x + kStepX[way], to_z = z + kStepZ[way];
-      if (order(to_x, to_z) < order(first_x, first_z)) first_x = to_x, first_z = to_z;
-    }
-    if (!differs || (more == 0 && first_x == x && first_z == z)) return;
+    if (wrong == cell.pattern) return;
     cell.pattern = wrong;
-    strike(first_x, leaving().y, first_z);
+    strike(leaving().x + lane, leaving().y, leaving().z);
   }
 
   const rule::PaperLaw& law_;

@@ -25,6 +25,9 @@ class Settle final : public Stage {
         downwards_(lanes(), height_),
         upwards_(lanes(), height_) {}
 
+  int output_bits() const override {  // in_run, head, mobility, exposed, dead
+    return design().cell_bits() + 1 + widths_.head + 14 + 14 + 25;
+  }
   std::vector<BufferCost> buffers() const override {
     const std::int64_t bits = SettleWord::bits(widths_, hot_);
     return {downwards_.cost("column reverser down", bits), upwards_.cost("column reverser up", bits)};

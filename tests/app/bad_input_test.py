@@ -100,6 +100,17 @@ ARGUMENTS = [
     (["render", "scene.toml", "--out", "/nowhere/p.png"], "/nowhere/p.png", 2),
     (["render", "scene.toml", "--setting", "ultra"], "--setting", 2),
     (["list", "sins"], "sins", 2),
+    (["verify", "scene.toml", "--plant", "gremlin"], "gremlin", 2),
+    (["verify", "scene.toml", "--plant", "vent-rate", "--quiet"], "nothing that this fault could change", 2),
+    (["verify", "scene.toml", "--hw", "huge"], "--hw huge", 2),
+    (["verify", "scene.toml", "--hw", "none.toml"], "none.toml", 2),
+    (["verify", "scene.toml", "--set", "hw.lanes=3"], "hw.lanes", 2),
+    (["verify", "scene.toml", "--set", "hw.lanes=64"], "hw.lanes", 2),
+    (["verify", "scene.toml", "--set", "hw.fifo_depth=0"], "hw.fifo_depth", 2),
+    (["verify", "scene.toml", "--set", "hw.lane=4"], "hw.lanes", 2),
+    (["verify", "scene.toml", "--steps", "0"], "--steps", 2),
+    (["verify", "scene.toml", "--set", "hw.cascade=x"], "hw.cascade", 2),
+    (["run", "scene.toml", "--set", "hw.lanes=4"], "hw", 2),
 ]
 
 

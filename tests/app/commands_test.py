@@ -202,6 +202,54 @@ class Commands(unittest.TestCase):
         self.assertFalse((self.folder / "out/scene").exists())
         self.good("run", self.scene, "--steps", "1")
 
+    def test_verify_finds_no_difference_and_accounts_for_every_cycle(self):
+        out = self.good("verify", self.scene, "--from", 4, "--steps", 5, "--report", "v.json",
+                        "--set", "hw.lanes=4", "--set", "hw.cascade=2", "--set", "hw.stall_seed=7")
+        self.assertIn("no difference", out)
+        report = json.loads((self.folder / "v.json").read_text())
+        self.assertEqual(report["mismatches"], 0)
+        self.assertIsNone(report["first_mismatch"])
+        stages = [s for s in report["stages"] if s["phase"] and s["cascade"] == 0]
+        self.assertGreaterEqual(len(stages), 5)
+        self.assertEqual(report["compared_cells"], 12 * 10 * 12 * 5 * len(stages))
+        for stage in report["stages"]:
+            self.assertEqual(sum(stage["cycles"].values()), report["cycles"], stage["name"])
+        self.assertGreater(report["cycles"], report["predicted_cycles"], "nothing stalled")
+        self.good("verify", self.scene, "--from", 4, "--steps", 5, "--hw", "mid", "--report", "s.json")
+        smooth = json.loads((self.folder / "s.json").read_text())
+        self.assertEqual(smooth["cycles"], smooth["predicted_cycles"])
+        digest = self.good("digest", self.scene, "--steps", smooth["first_step"] + smooth["steps"])
+        self.assertEqual(LINE.match(digest.strip()).group(2), smooth["digest"])
+
+    def test_a_planted_fault_is_found_where_it_was_planted_and_replays(self):
+        names = [line.split()[0] for line in self.good("list", "faults").splitlines()]
+        self.assertGreaterEqual(len(names), 20)
+        found = 0
+        for name in names:
+            result = voxmelt("verify", self.scene, "--steps", 8, "--plant", name, "--report", "p.json", cwd=self.folder)
+            if result.returncode == 2:
+                self.assertIn("nothing that this fault could change", result.stderr)
+                continue
+            self.assertEqual(result.returncode, 1, name + result.stderr)
+            self.assertIn("found there", result.stdout, name)
+            report = json.loads((self.folder / "p.json").read_text())
+            self.assertTrue(report["planted"]["found_there"])
+            again = [line.strip() for line in result.stdout.splitlines() if line.startswith("  voxmelt verify")]
+            self.assertEqual(len(again), 1, result.stdout)
+            repeated = voxmelt(*again[0].split()[1:], "--report", "again.json", cwd=self.folder)
+            self.assertEqual(repeated.returncode, 1, repeated.stderr)
+            replay = json.loads((self.folder / "again.json").read_text())
+            for key in ("where", "step", "cell", "field", "expected", "actual"):
+                self.assertEqual(report["first_mismatch"][key], replay["first_mismatch"][key], name)
+            found += 1
+        self.assertGreaterEqual(found, 12)
+
+    def test_presets_verify(self):
+        names = [line.split()[0] for line in self.good("list", "presets").splitlines()]
+        self.assertGreaterEqual(len(names), 3)
+        for name in names:
+            self.assertIn("no difference", self.good("verify", self.scene, "--steps", 3, "--hw", name, "--quiet"))
+
 
 if __name__ == "__main__":
     unittest.main(argv=["commands_test"], verbosity=1)

@@ -13,13 +13,13 @@ for page in [root / "README.md", *sorted((root / "docs").glob("*.md")), *sorted(
     for target in re.findall(r"\]\(([^)#]+)\)", text):
         if not target.startswith("http") and not (page.parent / target).exists():
             problems.append(f"{page.relative_to(root)}: link to {target}, which does not exist")
-    for path in re.findall(r"`((?:kernel|render|app|tests|scenes|docs|cmake)/[\w./-]+\.\w+)`", text):
+    for path in re.findall(r"`((?:kernel|render|hwmodel|app|tests|scenes|docs|cmake)/[\w./-]+\.\w+)`", text):
         if not (root / path).exists():
             problems.append(f"{page.relative_to(root)}: names {path}, which does not exist")
 
 # Every folder with code is on the README's map.
 readme = (root / "README.md").read_text()
-for top in ("kernel", "render"):
+for top in ("kernel", "render", "hwmodel"):
     for folder in sorted(p for p in (root / top).iterdir() if p.is_dir()):
         if f"{folder.name}/" not in readme:
             problems.append(f"README.md: the map leaves out {top}/{folder.name}/")

@@ -26,14 +26,23 @@ ALLOWED = {
     "bench/baseline": ["kernel/rule", "kernel/state"],
     "bench/measure": KERNEL + ["bench/baseline", "bench/measure/arch", "render/density"],
     "bench/measure/arch": ["kernel/cpu"],
-    "bench": KERNEL + ["bench/measure"],
+    "bench": KERNEL + ["bench/measure", "hwmodel/stream"],
     "kernel/io": ["kernel/rule", "kernel/state", "kernel/scene"],
     "kernel/run": KERNEL,
     "render/image": ["kernel/rule", "kernel/state", "kernel/scene"],
     "render/density": ["kernel/rule", "kernel/state", "kernel/scene", "render/image"],
     "render/raycast": ["kernel/rule", "kernel/state", "kernel/scene", "render/image", "render/density"],
-    "app": KERNEL + ["bench/measure", "bench/baseline", "render/image", "render/density", "render/raycast"],
+    # The model computes with its own arithmetic: of the kernel it sees data only.
+    "hwmodel/channel": [],
+    "hwmodel/stream": ["hwmodel/channel", "kernel/rule", "kernel/state"],
+    "hwmodel/presets": ["hwmodel/stream", "kernel/scene"],
+    "hwmodel/lockstep": KERNEL + ["hwmodel/channel", "hwmodel/stream", "hwmodel/presets"],
+    "app": KERNEL + ["bench/measure", "bench/baseline", "render/image", "render/density", "render/raycast",
+                     "hwmodel/stream", "hwmodel/lockstep", "hwmodel/presets"],
 }
+# What hwmodel may take from kernel/rule: numbers that describe a scene, no rule.
+RULE_DATA = {"kernel/rule/parameters.h"}
+RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 SOURCES = {".h", ".cpp"}
@@ -41,7 +50,7 @@ SOURCES = {".h", ".cpp"}
 
 def offences(root):
     found = []
-    for path in sorted(p for top in ("kernel", "render", "app", "bench") for p in (root / top).rglob("*") if p.suffix in SOURCES):
+    for path in sorted(p for top in ("kernel", "render", "hwmodel", "app", "bench") for p in (root / top).rglob("*") if p.suffix in SOURCES):
         folder = path.relative_to(root).parent.as_posix()
         lines = path.read_text().splitlines()
         name = path.relative_to(root).as_posix()
@@ -51,6 +60,8 @@ def offences(root):
             found.append(f"{name}: folder {folder} is not in the rules")
             continue
         for number, line in enumerate(lines, 1):
+            if folder == "hwmodel/stream" and RULE_CALL.search(line):
+                found.append(f"{name}:{number}: hwmodel/stream has its own arithmetic and calls no rule")
             match = INCLUDE.match(line)
             if not match:
                 continue
@@ -60,6 +71,10 @@ def offences(root):
                 found.append(f"{name}:{number}: kernel/rule includes the standard library only, not {target}")
             elif folder == "kernel/rule" and kind == "<" and ("/" in target or target.endswith(".h")):
                 found.append(f"{name}:{number}: kernel/rule includes the standard library only, not <{target}>")
+            elif folder == "hwmodel/stream" and target.startswith("kernel/rule/") and target not in RULE_DATA:
+                found.append(f"{name}:{number}: hwmodel/stream may include {', '.join(RULE_DATA)} only, not {target}")
+            elif kind == "<" and target.startswith("systemc") and not folder.startswith("hwmodel"):
+                found.append(f"{name}:{number}: SystemC appears only in hwmodel")
             elif ours:
                 into = Path(target).parent.as_posix()
                 if into != folder and into not in ALLOWED[folder]:
@@ -77,8 +92,14 @@ def self_test():
         "kernel/io/f.cpp": '#include "app/options.h"\n',
         "kernel/other/g.h": "\n",
         "app/h.cpp": "\n" * (LONGEST + 1),
+        "hwmodel/stream/i.cpp": '#include "kernel/rule/heat.h"\n',
+        "hwmodel/stream/j.cpp": "const int f = rule::scaled(1, 2);\n",
+        "hwmodel/stream/k.cpp": '#include "kernel/scalar/reference.h"\n',
+        "hwmodel/channel/l.h": '#include "hwmodel/stream/cell.h"\n',
+        "app/m.cpp": "#include <systemc>\n",
     }
-    fine = {"kernel/scalar/ok.cpp": '#include "kernel/rule/heat.h"\n#include <vector>\n'}
+    fine = {"kernel/scalar/ok.cpp": '#include "kernel/rule/heat.h"\n#include <vector>\n',
+            "hwmodel/stream/ok.cpp": '#include "kernel/rule/parameters.h"\n#include <systemc>\n'}
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         for name, text in {**planted, **fine}.items():
