@@ -23,9 +23,11 @@ struct Cell {
   UInt<8> pattern;       // pattern -> apply: directions that the cell gives to
   UInt<1> beside_wall;   // walls or viscous spread -> gravity: one of the four sides is blocked
   UInt<1> in_run;        // settle -> viscous spread -> gravity
-  SInt<30> head;         // settle -> viscous spread; 1/256 cell. The used width depends on the grid's height
-  UInt<14> mobility, exposed;  // settle -> viscous spread; 1/65536
-  UInt<25> dead;               // settle -> viscous spread; head differences up to this do not move the cell
+  // settle -> viscous spread, of cells in a run. Head in 1/256 cell (the used width depends on the grid's
+  // height), mobilities in 1/65536; head differences up to `dead` do not move the cell.
+  SInt<30> head;
+  UInt<14> mobility, exposed;
+  UInt<25> dead;
 
   bool blocked() const { return state == State::solid || state == State::inert; }
   bool matter() const { return state == State::solid || state == State::liquid; }

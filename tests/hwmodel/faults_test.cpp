@@ -1,9 +1,14 @@
 // Every fault that can be planted is found: the first mismatch names its stage, step and cell.
 #include "tests/hwmodel/lockstep_world.h"
 
+#include <ostream>
+
 #include "hwmodel/stream/faults.h"
 
 namespace voxmelt::hwmodel {
+
+void PrintTo(const FaultInfo& fault, std::ostream* out) { *out << fault.name; }  // of the test's parameter
+
 namespace {
 
 class PlantedFault : public testing::TestWithParam<FaultInfo> {};
