@@ -83,7 +83,7 @@ class RunReader {
     seen.head = 256 * (y - 2);
     if (below_ == Below::blocked) seen.head = 256 * y + ((std::int64_t{bed_} - kFlatBed) >> 4);
     if (below_ == Below::run) {
-      seen.head = std::min<std::int64_t>(head_, 256 * y + 128);
+      seen.head = head_;
       seen.pace.mobility = pace_.mobility;
     }
     below_ = Below::outside;

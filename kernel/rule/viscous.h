@@ -64,9 +64,7 @@ VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t b
 
 // A cell outside a run: on a bed, on top of a run (`below`), or in the air.
 VOXMELT_RULE Column bed_column(std::int32_t bed) { return {bed, 0, 0, 0, false}; }
-VOXMELT_RULE Column top_column(int y, const Column& below) {
-  return {std::min(below.head, y * kHeadOne + kHeadOne / 2), below.mobility, 0, 0, false};
-}
+VOXMELT_RULE Column top_column(const Column& below) { return {below.head, below.mobility, 0, 0, false}; }
 VOXMELT_RULE Column air_column(int y) { return {(y - 2) * kHeadOne, 0, 0, 0, false}; }
 
 // The flow from `giver` (amount a) to `taker` (amount b); 0 unless the giver stands higher and in a run.

@@ -28,7 +28,7 @@ void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledge
     const state::Slot below = cells.at(x, y - 1, z);
     if (volume.solid.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, rule::kBedHalf));
     if (volume.inert.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, volume.amount[below]));
-    if (in_run_[below]) return rule::top_column(y, run_column(below));
+    if (in_run_[below]) return rule::top_column(run_column(below));
     return rule::air_column(y);
   };
 

@@ -46,7 +46,7 @@ class ShowOutside {
         if (on_run != 0) {
           const M tops = L::from_bits(on_run, part);
           const V below = L::load(r_.head + at - v_.row) - L::set(256);
-          head = L::select(tops, L::min(below, L::set(640)), head);
+          head = L::select(tops, below, head);
           mobility = L::keep(tops, L::load(r_.mobility + at - v_.row));
         }
         const V dead = L::keep(L::from_bits(on_run | on_bed, part), L::set(0xFFFF));

@@ -84,7 +84,7 @@ Run shown_by(const State& state, Int x, Int y, Int z) {
   }
   const Run& below = state.runs[state.index(x, y - 1, z)];
   if (below.member == 1) {
-    shown.head = smaller(below.head, 256 * y + 128);
+    shown.head = below.head;
     shown.mobility = below.mobility;
     return shown;
   }

@@ -151,10 +151,9 @@ TEST(ViscousFlow, DeadZoneOfADiagonalIsElevenEighths) {
 
 TEST(ViscousFlow, OnlyRunsGive) {
   EXPECT_EQ(viscous_flow(bed_column(1000), 4096, run_at(0, 8192), 0, false, 65535), 0);
-  EXPECT_EQ(viscous_flow(top_column(3, run_at(1000, 8192)), 4096, run_at(0, 8192), 0, false, 65535), 0);
-  EXPECT_EQ(top_column(3, run_at(1000, 77)).head, 3 * 256 + 128);
-  EXPECT_EQ(top_column(3, run_at(700, 77)).head, 700);
-  EXPECT_EQ(top_column(3, run_at(700, 77)).mobility, 77);
+  EXPECT_EQ(viscous_flow(top_column(run_at(1000, 8192)), 4096, run_at(0, 8192), 0, false, 65535), 0);
+  EXPECT_EQ(top_column(run_at(700, 77)).head, 700);
+  EXPECT_EQ(top_column(run_at(700, 77)).mobility, 77);
   EXPECT_EQ(air_column(3).head, 256);
 }
 
