@@ -13,7 +13,8 @@ void interrupt(int) { g_interrupted = 1; }
 }  // namespace
 
 void catch_interrupts() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, interrupt);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(signal, interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);  // as under nohup
 }
 
 bool interrupted() { return g_interrupted != 0; }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <iostream>
 
 #include "app/commands.h"
@@ -46,26 +48,68 @@ void split_sets(VerifyCommand& command) {
   command.common.sets = std::move(scene);
 }
 
+// One word for a shell, whatever is in it.
+std::string shell_word(std::string text) {
+  if (text.starts_with('-')) text = "./" + text;
+  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("_-./=,:+").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (plain) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 // Everything that the user must type to see it again.
-std::string again(const VerifyCommand& command, const std::string& scene, std::uint32_t steps,
-                  std::uint32_t step) {
-  std::string text = fmt::format("voxmelt verify {} --steps {}", scene, steps);
-  if (!command.hw.empty()) text += " --hw " + command.hw;
-  for (const std::string& set : command.hw_sets) text += " --set " + set;
-  for (const std::string& set : command.common.sets) text += " --set " + set;
+std::string again(const VerifyCommand& command, const std::string& scene,
+                  const hwmodel::VerifyReport& report) {
+  const std::uint32_t step = report.mismatch->step;
+  std::string text =
+      fmt::format("voxmelt verify {} --steps {}", shell_word(scene), step - report.replay_step + 1);
+  if (!command.hw.empty()) text += " --hw " + shell_word(command.hw);
+  for (const std::string& set : command.hw_sets) text += " --set " + shell_word(set);
+  for (const std::string& set : command.common.sets)  // the replay has its own start
+    if (!set.starts_with("start.")) text += " --set " + shell_word(set);
   if (command.common.seed) text += fmt::format(" --seed {}", *command.common.seed);
+  if (command.common.implementation != "auto") text += " --implementation " + command.common.implementation;
   if (!command.plant.empty()) text += fmt::format(" --plant {} --plant-step {}", command.plant, step);
   return text;
+}
+
+// A replay is called scene.toml: then its folder names it.
+std::string name_of(const scene::Scene& scene) {
+  const std::string folder = fs::absolute(scene.file).parent_path().filename().string();
+  return scene.name == "scene" && !folder.empty() ? folder : scene.name;
+}
+
+fs::path replay_place(const VerifyCommand& command, const scene::Scene& scene) {
+  return command.out.empty() ? fs::path("out") / ("verify_" + name_of(scene)) : fs::path(command.out);
+}
+
+// A replay extends its scene: it must not take that scene's place.
+void check_replay_place(const VerifyCommand& command, const scene::Scene& scene) {
+  const fs::path within =
+      fs::absolute(scene.file)
+          .lexically_normal()
+          .lexically_relative(fs::absolute(replay_place(command, scene)).lexically_normal());
+  if (!within.empty() && *within.begin() != "..")
+    throw UsageError(
+        fmt::format("error: --out {}: the scene itself lies there", replay_place(command, scene).string()));
+  if (!command.out.empty()) const io::OutputFolder can_be_written(command.out);
 }
 
 // The software runs alone to the step from which to verify; with radiation to the last step of visibility
 // before.
 run::Simulation run_ahead(scene::Scene& scene, const VerifyCommand& command) {
   const rule::Heat& heat = scene.parameters.heat;
-  std::uint32_t until = scene.first_step + command.from;
+  const std::uint64_t asked = std::uint64_t{scene.first_step} + command.from;
+  if (asked + command.steps > 0xFFFFFFFFu)
+    throw UsageError(fmt::format("error: --from {}: step numbers end at {}", command.from, 0xFFFFFFFFu));
+  auto until = static_cast<std::uint32_t>(asked);
   if (heat.enabled && heat.radiation) until -= until % heat.visibility_every;
   until = std::max(until, scene.first_step);
-  if (!command.common.quiet && until != scene.first_step + command.from)
+  if (!command.common.quiet && until != asked)
     fmt::print("verifying from step {}, a step of visibility\n", until);
   run::Simulation simulation = make_simulation(scene, command.common);
   while (simulation.step_number() < until) {
@@ -77,30 +121,60 @@ run::Simulation run_ahead(scene::Scene& scene, const VerifyCommand& command) {
 
 void write_replay(const VerifyCommand& command, const scene::Scene& scene,
                   const hwmodel::VerifyReport& report) {
-  if (!report.replay || report.mismatch == nullptr) return;
-  const std::uint32_t steps = report.mismatch->step - report.replay_step + 1;
-  const fs::path place =
-      command.out.empty() ? fs::path("out") / ("verify_" + scene.name) : fs::path(command.out);
+  if (command.from == 0 && report.replay_step == scene.first_step) {
+    fmt::print("the scene itself begins with the state from which it can be seen again:\n  {}\n",
+               again(command, scene.file.string(), report));
+    return;
+  }
+  const fs::path place = replay_place(command, scene);
   io::OutputFolder out(place);
-  const std::string typed = again(command, (place / "scene.toml").string(), steps, report.mismatch->step);
+  const std::string typed = again(command, (place / "scene.toml").string(), report);
   hwmodel::write_replay(out.partial(), scene.file, *report.replay, report.replay_step, typed);
   out.commit();
   fmt::print("the state before step {} is in {}; to see it again:\n  {}\n", report.replay_step,
              place.string(), typed);
 }
 
-int conclude(const VerifyCommand& command, const hwmodel::VerifyReport& report) {
-  if (command.plant.empty()) return report.mismatch == nullptr ? kDone : kCheckFailed;
-  if (!report.strike)
-    throw UsageError(fmt::format(
-        "error: --plant {}: in these steps of this scene there is nothing that this fault could change",
-        command.plant));
+// A difference that was found must not be hidden by a disk that is full.
+template <class Write>
+bool try_writing(Write&& write) {
+  try {
+    write();
+    return true;
+  } catch (const io::OutputError& error) {
+    std::cerr << error.what() << '\n';
+    return false;
+  }
+}
+
+// What came of the planted fault.
+void print_plant(const hwmodel::VerifyReport& report) {
   const auto& at = *report.strike;
   fmt::print("planted: {}, step {}, cell ({}, {}, {}); {}\n", at.where, at.step, at.x, at.y, at.z,
              report.mismatch == nullptr     ? "NOT FOUND"
              : report.found_where_planted() ? "found there"
                                             : "found, but ELSEWHERE");
-  return kCheckFailed;
+}
+
+void print_result(const VerifyCommand& command, const scene::Scene& scene,
+                  const hwmodel::VerifyReport& report, const hwmodel::Design& design,
+                  const hwmodel::Configuration& c, const std::string& fast) {
+  fmt::print("{}: lanes {}, cascade {}, fifo depth {}, stall seed {}; steps {} to {}\n", name_of(scene),
+             c.lanes, c.cascade, c.fifo_depth, c.stall_seed, report.first_step,
+             report.first_step + report.steps);
+  if (!command.common.quiet) fmt::print("{}", hwmodel::table_of(report, design, c));
+  const auto stages = std::count_if(
+      report.stages.begin(), report.stages.end(),
+      [](const hwmodel::StageReport& stage) { return !stage.phase.empty() && stage.cascade == 0; });
+  if (report.mismatch == nullptr)
+    fmt::print(
+        "{} cells compared behind {} stages of a time step, {} of the software ({}): no difference; digest "
+        "{:016x}\n",
+        report.compared_cells, stages, report.software_cells,
+        fast == "reference" ? "the reference itself" : fast, report.digest);
+  else
+    fmt::print("{}", hwmodel::text_of(*report.mismatch));
+  if (report.strike) print_plant(report);
 }
 
 int run_verify(VerifyCommand command) {
@@ -109,9 +183,12 @@ int run_verify(VerifyCommand command) {
   if (!command.plant.empty() && (fault == nullptr || fault->fault == hwmodel::Fault::none))
     throw UsageError(
         fmt::format("error: --plant {}: unknown; `voxmelt list faults` names them", command.plant));
+  if (command.plant_step && command.plant.empty())
+    throw UsageError("error: --plant-step: there is no --plant whose step it would be");
   const hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
   scene::Scene scene = load_scene(command.common);
-  check_report_place(command.common, "");
+  check_replay_place(command, scene);
+  check_report_place(command.common, replay_place(command, scene).string());
   catch_interrupts();
   const run::Simulation ahead = run_ahead(scene, command);
 
@@ -121,28 +198,35 @@ int run_verify(VerifyCommand command) {
   options.configuration = preset.configuration;
   if (fault != nullptr) options.fault = fault->fault;
   options.fault_step = command.plant_step.value_or(ahead.step_number() + command.steps / 2);
-  options.progress = [](std::uint32_t) { stop_if_interrupted(); };
+  options.poll = stop_if_interrupted;
   step::Tuning tuning;
   tuning.threads = thread_count(command.common);
   const step::Implementation& fast = find_implementation(command.common);
   const hwmodel::VerifyReport report =
       hwmodel::verify(scene.parameters, ahead.volume(), ahead.step_number(), fast, tuning, options);
 
-  const hwmodel::Configuration& c = options.configuration;
-  const hwmodel::Design design{scene.parameters, {ahead.volume().grid, c.lanes}};
-  write_report(command.common, hwmodel::json_of(report, design, c).dump(2) + '\n');
-  fmt::print("{}: lanes {}, cascade {}, fifo depth {}, stall seed {}; steps {} to {}\n", scene.name, c.lanes,
-             c.cascade, c.fifo_depth, c.stall_seed, report.first_step, report.first_step + report.steps);
-  if (!command.common.quiet) fmt::print("{}", hwmodel::table_of(report, design, c));
-  if (report.mismatch == nullptr) {
-    fmt::print("{} cells compared behind {} stages, {} with {}: no difference; digest {:016x}\n",
-               report.compared_cells, report.stages.size() - 2, report.software_cells, fast.name,
-               report.digest);
-  } else {
-    fmt::print("{}", hwmodel::text_of(*report.mismatch));
-    write_replay(command, scene, report);
+  if (fault != nullptr && !report.strike)
+    throw UsageError(fmt::format(
+        "error: --plant {}: in these steps of this scene there is nothing that this fault could change",
+        command.plant));
+  print_result(command, scene, report, {scene.parameters, {ahead.volume().grid, preset.configuration.lanes}},
+               options.configuration, fast.name);
+  const bool good = report.mismatch == nullptr && fault == nullptr;
+  const auto write = [&] {
+    write_report(
+        command.common,
+        hwmodel::json_of(report, {scene.parameters, {ahead.volume().grid, preset.configuration.lanes}},
+                         preset.configuration)
+                .dump(2) +
+            '\n');
+  };
+  if (good) {
+    write();
+    return kDone;
   }
-  return conclude(command, report);
+  try_writing(write);
+  if (report.mismatch != nullptr) try_writing([&] { write_replay(command, scene, report); });
+  return kCheckFailed;
 }
 
 }  // namespace

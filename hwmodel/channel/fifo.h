@@ -62,16 +62,14 @@ class Fifo {
     return slot(head_);
   }
 
-  // Ends the cycle; true if a token moved.
-  bool commit() {
-    const bool moved = putting_ || getting_;
+  // Ends the cycle.
+  void commit() {
     if (putting_) end_put();
     if (getting_) end_get();
     putting_ = getting_ = false;
     highest_ = std::max(highest_, count_);
     ++occupancy_[static_cast<std::size_t>(count_)];
     stall_ = stalls_.next();
-    return moved;
   }
 
   void begin_pass() { entered_ = left_ = 0; }

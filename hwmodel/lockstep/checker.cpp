@@ -11,6 +11,7 @@ Checker::Checker(Pipeline& pipeline)
   int cascade = -1;
   std::size_t stage = 0;
   for (const ChannelReport& report : pipeline.channels()) {
+    if (report.producer == "feed") continue;
     Channel channel{report.name, report.producer, report.phase, report.cascade, 0, false, nullptr, {}, {}};
     if (report.producer != "reader") {
       stage = report.cascade == cascade ? stage + 1 : 0;

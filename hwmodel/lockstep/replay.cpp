@@ -25,12 +25,15 @@ std::string quoted(const std::string& text) {
 
 void write_replay(const std::filesystem::path& folder, const std::filesystem::path& scene,
                   const state::Volume& volume, std::uint32_t step, const std::string& command) {
+  std::string comment = command;  // one line, whatever was typed
+  for (char& c : comment)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   io::export_npy(volume, folder);
   io::write_file(
       folder / "scene.toml",
       fmt::format("# The state before step {} of a run whose hardware model differed from the software.\n"
                   "#   {}\nextends = {}\n[start]\nfields = \".\"\nstep = {}\n",
-                  step, command, quoted(std::filesystem::absolute(scene).string()), step));
+                  step, comment, quoted(std::filesystem::absolute(scene).string()), step));
 }
 
 }  // namespace voxmelt::hwmodel

@@ -25,12 +25,11 @@ json stage_json(const StageReport& stage) {
            {{"busy", stage.cycles.busy},
             {"starved", stage.cycles.starved},
             {"blocked", stage.cycles.blocked},
-            {"fill_drain", stage.cycles.fill_drain}}},
+            {"fill_drain", stage.cycles.fill_drain},
+            {"bypassed", stage.cycles.bypassed}}},
           {"buffers", buffers},
-          {"per_lane",
-           {{"multipliers", stage.units.multipliers},
-            {"dividers", stage.units.dividers},
-            {"random_blocks", stage.units.random_blocks}}}};
+          {"per_lane", {{"multipliers", stage.units.multipliers}, {"dividers", stage.units.dividers}}},
+          {"random_blocks_per_8_lanes", stage.units.random_blocks}};
 }
 
 json mismatch_json(const Mismatch& m) {
@@ -81,6 +80,7 @@ std::vector<Row> rows_of(const std::vector<StageReport>& stages) {
     sum.starved += stage.cycles.starved;
     sum.blocked += stage.cycles.blocked;
     sum.fill_drain += stage.cycles.fill_drain;
+    sum.bypassed += stage.cycles.bypassed;
   }
   return rows;
 }
@@ -92,9 +92,78 @@ std::int64_t channel_bits(const VerifyReport& report, int lanes) {
   return bits;
 }
 
+// Of the whole machine.
+Units units_of(const VerifyReport& report, int lanes) {
+  Units sum;
+  for (const StageReport& stage : report.stages) {
+    sum.multipliers += stage.units.multipliers * lanes;
+    sum.dividers += stage.units.dividers * lanes;
+    sum.random_blocks += stage.units.random_blocks * ((lanes + 7) / 8);
+  }
+  return sum;
+}
+
+// What the memory has to give and take in every cycle in which nothing stalls.
+struct Traffic {
+  std::int64_t read = 0, written = 0, irradiance = 0;
+  std::int64_t total() const { return read + written + irradiance; }
+};
+Traffic traffic_of(const VerifyReport& report, const Design& design, int lanes) {
+  Traffic bits{std::int64_t{lanes} * design.cell_bits(), std::int64_t{lanes} * design.cell_bits(), 0};
+  for (const StageReport& stage : report.stages)
+    if (stage.name == "feed") bits.irradiance += std::int64_t{lanes} * 16;
+  return bits;
+}
+
+// Below the table: the whole machine, its bounds, what it reached.
+std::string summary(const VerifyReport& report, const Design& design, const Configuration& configuration) {
+  const Shape& shape = design.shape;
+  const Units units = units_of(report, configuration.lanes);
+  const Traffic traffic = traffic_of(report, design, configuration.lanes);
+  const auto plane = static_cast<double>(shape.grid.x) * shape.grid.y * configuration.cascade;
+  std::string text = fmt::format(
+      "all lanes and time steps: {} bits of buffers ({:.1f} per cell of a plane and time step), {} "
+      "multipliers, {} "
+      "dividers, {} random blocks\n",
+      buffer_bits(report), static_cast<double>(buffer_bits(report)) / plane, units.multipliers,
+      units.dividers, units.random_blocks);
+
+  int highest = 0;
+  std::string fullest;
+  for (const ChannelReport& channel : report.channels)
+    if (channel.producer != "feed" && channel.highest > highest)
+      highest = channel.highest, fullest = channel.name;
+  text += fmt::format("channels: {} of depth {}, {} bits; high-water mark {} ({})\n", report.channels.size(),
+                      configuration.fifo_depth, channel_bits(report, configuration.lanes), highest, fullest);
+  text += fmt::format(
+      "memory traffic, bits per cycle: {} read + {} written + {} irradiance = {}; at 200 MHz {:.1f} GB/s\n",
+      traffic.read, traffic.written, traffic.irradiance, traffic.total(),
+      static_cast<double>(traffic.total()) / 8 * 0.2);
+
+  const auto cells = static_cast<double>(shape.grid.cells()) * report.steps;
+  const double per_cycle = cells / static_cast<double>(report.cycles);
+  const int bound = configuration.lanes * configuration.cascade;
+  const auto offered = static_cast<double>(shape.tokens() * shape.lanes);
+  text += fmt::format(
+      "cycles: {} in {} passes; predicted without stalls {} ({:+.2f} %)\n{:.3f} cell-steps per cycle, {:.1f} "
+      "% of the "
+      "bound {} (lanes x cascade); lanes beyond the grid {:.1f} %, time steps without work {:.1f} %\n",
+      report.cycles, report.passes, report.predicted_cycles,
+      100.0 * static_cast<double>(report.cycles - report.predicted_cycles) /
+          static_cast<double>(std::max<std::int64_t>(1, report.predicted_cycles)),
+      per_cycle, 100.0 * per_cycle / bound, bound,
+      100.0 * (1 - static_cast<double>(shape.grid.cells()) / offered),
+      100.0 * (1 - static_cast<double>(report.steps) /
+                       static_cast<double>(report.passes * configuration.cascade)));
+  return text +
+         fmt::format("simulated, comparing included: {:.2f} million cell-steps a second\n",
+                     1e-6 * static_cast<double>(report.cell_steps) / std::max(1e-9, report.model_seconds));
+}
+
 }  // namespace
 
 json json_of(const VerifyReport& report, const Design& design, const Configuration& configuration) {
+  const bool complete = report.mismatch == nullptr;  // else some numbers would be of half a pass
   json stages = json::array(), channels = json::array();
   for (const StageReport& stage : report.stages) stages.push_back(stage_json(stage));
   for (const ChannelReport& c : report.channels)
@@ -104,6 +173,8 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
                         {"highest", c.highest},
                         {"occupancy", c.occupancy}});
   const state::Grid g = design.shape.grid;
+  const Units units = units_of(report, configuration.lanes);
+  const Traffic traffic = traffic_of(report, design, configuration.lanes);
   json result{{"grid", {g.x, g.y, g.z}},
               {"law", design.paper() ? "paper" : "viscous"},
               {"hw",
@@ -115,14 +186,20 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
               {"steps", report.steps},
               {"compared_cells", report.compared_cells},
               {"software_compared_cells", report.software_cells},
-              {"mismatches", report.mismatch == nullptr ? 0 : 1},
-              {"first_mismatch", report.mismatch == nullptr ? json() : mismatch_json(*report.mismatch)},
-              {"digest", fmt::format("{:016x}", report.digest)},
+              {"mismatches", complete ? 0 : 1},
+              {"first_mismatch", complete ? json() : mismatch_json(*report.mismatch)},
+              {"digest", complete ? json(fmt::format("{:016x}", report.digest)) : json()},
               {"passes", report.passes},
               {"cycles", report.cycles},
-              {"predicted_cycles", report.predicted_cycles},
+              {"predicted_cycles", complete ? json(report.predicted_cycles) : json()},
               {"buffer_bits", buffer_bits(report)},
               {"channel_bits", channel_bits(report, configuration.lanes)},
+              {"units",
+               {{"multipliers", units.multipliers},
+                {"dividers", units.dividers},
+                {"random_blocks", units.random_blocks}}},
+              {"traffic_bits_per_cycle",
+               {{"read", traffic.read}, {"written", traffic.written}, {"irradiance", traffic.irradiance}}},
               {"simulated_cell_steps", report.cell_steps},
               {"seconds_model", report.model_seconds},
               {"stages", stages},
@@ -136,49 +213,22 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
 }
 
 std::string table_of(const VerifyReport& report, const Design& design, const Configuration& configuration) {
-  const double total = static_cast<double>(std::max<std::int64_t>(1, report.cycles));
-  std::string text =
-      fmt::format("{:<12} {:>5} {:>8} {:>10} {:>10} {:>13} {:>7} {:>13} {:>13}\n", "stage", "times", "busy %",
-                  "starved %", "blocked %", "fill/drain %", "lag", "buffer bits", "mult + div");
+  if (report.mismatch != nullptr || report.cycles == 0) return "";  // cycles of half a pass would mislead
+  constexpr const char* kLine = "{:<12} {:>5} {:>8} {:>10} {:>10} {:>13} {:>11} {:>7} {:>12} {:>13}\n";
+  const auto total = static_cast<double>(report.cycles);
+  std::string text = fmt::format(kLine, "stage", "times", "busy %", "starved %", "blocked %", "fill/drain %",
+                                 "bypassed %", "lag", "buffer bits", "mult + div");
   for (const Row& row : rows_of(report.stages)) {
+    const StageCycles& c = row.stage.cycles;
     const auto share = [&](std::int64_t cycles) {
       return fmt::format("{:.1f}", 100.0 * static_cast<double>(cycles) / (total * row.times));
     };
-    text += fmt::format("{:<12} {:>5} {:>8} {:>10} {:>10} {:>13} {:>7} {:>13} {:>13}\n", row.stage.name,
-                        row.times, share(row.stage.cycles.busy), share(row.stage.cycles.starved),
-                        share(row.stage.cycles.blocked), share(row.stage.cycles.fill_drain), row.stage.lag,
-                        bits_of(row.stage) * row.times,
+    text += fmt::format(kLine, row.stage.name, row.times, share(c.busy), share(c.starved), share(c.blocked),
+                        share(c.fill_drain), share(c.bypassed), row.stage.lag, bits_of(row.stage) * row.times,
                         fmt::format("{} + {}", row.stage.units.multipliers * configuration.lanes * row.times,
                                     row.stage.units.dividers * configuration.lanes * row.times));
   }
-  int highest = 0;
-  std::string fullest = "none";
-  for (const ChannelReport& channel : report.channels)
-    if (channel.highest > highest) {
-      highest = channel.highest;
-      fullest = channel.name;
-    }
-  const std::int64_t cells = static_cast<std::int64_t>(design.shape.grid.cells()) * report.steps;
-  const double bound = static_cast<double>(configuration.lanes) * configuration.cascade;
-  text += fmt::format(
-      "channels: {} of depth {}, {} bits in all; high-water mark {} ({})\nbuffers: {} bits, {:.1f} per cell "
-      "of a "
-      "plane and time step\n",
-      report.channels.size(), configuration.fifo_depth, channel_bits(report, configuration.lanes), highest,
-      fullest, buffer_bits(report),
-      static_cast<double>(buffer_bits(report)) /
-          (static_cast<double>(design.shape.grid.x) * design.shape.grid.y * configuration.cascade));
-  if (report.cycles > 0 && report.mismatch == nullptr)
-    text += fmt::format(
-        "cycles: {} in {} passes; predicted without stalls {} ({:+.2f} %); {:.3f} cell-steps per cycle, "
-        "bound {:.0f} (lanes x cascade), {:.1f} % of it\nsimulated, comparing included: {:.2f} million "
-        "cell-steps a second\n",
-        report.cycles, report.passes, report.predicted_cycles,
-        100.0 * static_cast<double>(report.cycles - report.predicted_cycles) /
-            static_cast<double>(std::max<std::int64_t>(1, report.predicted_cycles)),
-        static_cast<double>(cells) / total, bound, 100.0 * static_cast<double>(cells) / total / bound,
-        1e-6 * static_cast<double>(report.cell_steps) / std::max(1e-9, report.model_seconds));
-  return text;
+  return text + summary(report, design, configuration);
 }
 
 }  // namespace voxmelt::hwmodel

@@ -27,14 +27,17 @@ Mismatch hang_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_
   std::string full, empty;
   const std::vector<ChannelReport> channels = pipeline.channels();
   std::size_t last_full = 0;
+  std::size_t last = 0;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const ChannelReport& channel = channels[i];
-    if (channel.count == channel.depth) last_full = i;
+    const bool feed = channel.producer == "feed";
+    if (!feed) last = i;
+    if (!feed && channel.count == channel.depth) last_full = i;
     std::string& list = channel.count == channel.depth ? full : empty;
     if (channel.count == channel.depth || channel.count == 0)
       list += (list.empty() ? "" : "; ") + channel.name;
   }
-  const ChannelReport& blamed = channels[std::min(last_full + 1, channels.size() - 1)];
+  const ChannelReport& blamed = channels[std::min(last_full + 1, last)];
   const Place place = place_of(pipeline.design().shape, blamed.entered);
   m.where = blamed.name;
   m.phase = blamed.phase;
@@ -56,6 +59,7 @@ class Run {
         plan_(options.fault, options.fault_step),
         memory_(start) {
     pipeline_.watch(&checker_);
+    pipeline_.poll(options.poll);
     if (options.fault != Fault::none) pipeline_.plant(&plan_);
     report_.first_step = first_step;
   }
@@ -88,6 +92,7 @@ class Run {
     for (int t = 0; t < steps; ++t) {
       const std::uint32_t done = report_.steps + static_cast<std::uint32_t>(t) + 1;
       Expectation::Step one = software_.step(done % options_.every == 0 || done == options_.steps);
+      if (options_.poll) options_.poll();
       expected.push_back(std::move(one.stages));
       if ((report_.mismatch = std::move(one.mismatch))) return;
     }
@@ -97,7 +102,6 @@ class Run {
     compare_memory(step + static_cast<std::uint32_t>(steps) - 1);
     if (report_.mismatch != nullptr) return;
     report_.steps += static_cast<std::uint32_t>(steps);
-    if (options_.progress) options_.progress(report_.steps);
   }
 
   // False when a mismatch was found.
@@ -125,11 +129,12 @@ class Run {
       return false;
     }
     report_.model_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    report_.cell_steps += static_cast<std::int64_t>(memory_.grid.cells()) * steps;
     ++report_.passes;
     report_.cycles += end.cycles;
-    cycles_of_blocks_ += end.cycles;
-    report_.predicted_cycles += predicted_cycles(pipeline_.design(), options_.configuration, steps);
+    if (end.complete) {
+      report_.cell_steps += static_cast<std::int64_t>(memory_.grid.cells()) * steps;
+      report_.predicted_cycles += predicted_cycles(pipeline_.design(), options_.configuration, steps);
+    }
     if (checker_.mismatch() != nullptr) report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
     if (report_.mismatch == nullptr && end.hangs)
       report_.mismatch = std::make_unique<Mismatch>(hang_of(pipeline_, step, end.cycles));
@@ -156,18 +161,19 @@ class Run {
                                                            {}});
   }
 
-  // A replay must begin where visibility is computed.
+  // A replay must begin where visibility is computed, or where this run began.
   bool starts_replay(std::uint32_t step) const {
     const rule::Heat& heat = pipeline_.design().parameters.heat;
-    return !heat.enabled || !heat.radiation || step % heat.visibility_every == 0;
+    return step == report_.first_step || !heat.enabled || !heat.radiation ||
+           step % heat.visibility_every == 0;
   }
 
   // Every cycle of every stage is accounted for exactly once.
   void check_accounts() const {
     for (const StageReport& stage : report_.stages)
-      if (stage.cycles.total() != cycles_of_blocks_ && report_.mismatch == nullptr)
+      if (stage.cycles.total() != report_.cycles && report_.mismatch == nullptr)
         throw std::logic_error("cycles of stage " + stage.name + ": " + std::to_string(stage.cycles.total()) +
-                               " are accounted for, " + std::to_string(cycles_of_blocks_) + " have passed");
+                               " are accounted for, " + std::to_string(report_.cycles) + " have passed");
   }
 
   const VerifyOptions& options_;
@@ -177,7 +183,6 @@ class Run {
   FaultPlan plan_;
   state::Volume memory_;
   VerifyReport report_;
-  std::int64_t cycles_of_blocks_ = 0;
 };
 
 }  // namespace

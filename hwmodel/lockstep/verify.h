@@ -19,7 +19,7 @@ struct VerifyOptions {
   Configuration configuration;
   Fault fault = Fault::none;
   std::uint32_t fault_step = 0;  // the first step in which it may strike
-  std::function<void(std::uint32_t steps_done)> progress;
+  std::function<void()> poll;    // called now and then; may throw, which ends everything
 };
 
 struct VerifyReport {
@@ -34,7 +34,8 @@ struct VerifyReport {
   std::vector<StageReport> stages;
   std::vector<ChannelReport> channels;
   std::uint64_t digest = 0;  // of the model's last state
-  // The state from which the mismatch can be replayed, and its step number.
+  // The state from which the mismatch can be replayed, and its step number: a step of visibility, or the
+  // first.
   std::optional<state::Volume> replay;
   std::uint32_t replay_step = 0;
 

@@ -45,7 +45,7 @@ class Feed {
   void begin_pass(const state::Field<std::uint16_t>* field) { field_ = field, place_ = {}; }
   void cycle() {
     if (field_ == nullptr || place_.ordinal == shape_.tokens()) {
-      ++cycles_.fill_drain;
+      ++(field_ == nullptr ? cycles_.bypassed : cycles_.fill_drain);
       return;
     }
     if (!out_.ready()) {
@@ -126,14 +126,14 @@ class StepBlock {
 
   const Stage& running() const { return *running_; }  // the last one that was evaluated
 
-  // One cycle; the number of inner channels that moved a token.
+  // One cycle; the number of stages that moved.
   int cycle() {
+    int moved = 0;
     for (const auto& stage : step_.stages) {
       running_ = stage.get();
-      stage->cycle();
+      moved += stage->cycle() ? 1 : 0;
     }
-    int moved = 0;
-    for (const auto& channel : channels_) moved += channel->commit() ? 1 : 0;
+    for (const auto& channel : channels_) channel->commit();
     return moved;
   }
 

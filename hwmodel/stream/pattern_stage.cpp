@@ -41,7 +41,8 @@ class Pattern final : public Stage {
     return window_buffers(shape(), {cell + 2 + limit, cell + 3, cell + 6 + 2 * limit, cell + 8});
   }
   Units units() const override {  // at both ends of the plane memory; a random block serves 8 lanes
-    return {law_.use_table ? 0 : 2 * (design().parameters.flow.thermal_viscosity ? 2 : 1), 0, 1};
+    return {law_.use_table || !law_.downhill ? 0 : 2 * (design().parameters.flow.thermal_viscosity ? 2 : 1),
+            0, 1};
   }
 
  protected:

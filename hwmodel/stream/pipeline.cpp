@@ -14,7 +14,8 @@ int sc_main(int, char**) { return 1; }
 namespace voxmelt::hwmodel {
 namespace {
 
-constexpr std::int64_t kHangAfter = 1000;  // cycles in which no token moves anywhere
+constexpr std::int64_t kHangAfter = 1000;  // cycles in which no stage moves
+constexpr std::int64_t kPollEvery = 4096;  // cycles
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t kPeriod = 1000;  // of the clock, in the kernel's units of time (1 ps)
 
@@ -42,7 +43,7 @@ class Context {
 
 // What all blocks share.
 struct Shared {
-  std::int64_t moves = 0;  // of tokens, anywhere
+  std::int64_t moves = 0;  // of stages
   std::int64_t first_cycle = 0;
   std::int64_t last_cycle = kNever;  // after which no block does anything: whatever ended the pass, the
                                      // cycle in which it happened is finished by all
@@ -59,15 +60,14 @@ struct Shared {
 template <class Word>
 class Link final : public sc_core::sc_prim_channel {
  public:
-  Link(Shared& shared, std::string name, int channel, const Configuration& c)
-      : shared_(shared), fifo_(std::move(name), channel, c.lanes, c.fifo_depth, c.stall_seed) {}
+  Link(std::string name, int channel, const Configuration& c)
+      : fifo_(std::move(name), channel, c.lanes, c.fifo_depth, c.stall_seed) {}
   Fifo<Word>& fifo() { return fifo_; }
   void tick() { request_update(); }
 
  private:
-  void update() override { shared_.moves += fifo_.commit() ? 1 : 0; }
+  void update() override { fifo_.commit(); }
 
-  Shared& shared_;
   Fifo<Word> fifo_;
 };
 
@@ -112,7 +112,7 @@ struct Pipeline::Machine {
       steps.push_back(std::make_unique<StepBlock>(design, channel, step_name(t), c.fifo_depth, c.stall_seed));
     }
     const auto link = [&](int channel, const std::string& name) {
-      links.push_back(std::make_unique<Link<Cell>>(shared, name, channel, c));
+      links.push_back(std::make_unique<Link<Cell>>(name, channel, c));
     };
     link(0, step_name(0) + "reader -> " + steps.front()->stages().front()->name());
     for (int t = 0; t < c.cascade; ++t) {
@@ -125,8 +125,7 @@ struct Pipeline::Machine {
       StepBlock& step = *steps[at(t)];
       step.connect(links[at(t)]->fifo(), links[at(t + 1)]->fifo());
       if (!fed) continue;
-      feed_links.push_back(
-          std::make_unique<Link<UInt<16>>>(shared, step_name(t) + "feed -> exchange", 1000 + t, c));
+      feed_links.push_back(std::make_unique<Link<UInt<16>>>(step_name(t) + "feed -> exchange", 1000 + t, c));
       feeds.push_back(std::make_unique<Feed>(design.shape, feed_links.back()->fifo()));
       step.feed(feed_links.back()->fifo());
     }
@@ -171,30 +170,39 @@ struct Pipeline::Machine {
     shared.hangs = idle > kHangAfter;
     shared.complete = writer.done();
     if (shared.complete || shared.hangs) shared.end();
+    if (poll && shared.cycle() % kPollEvery == 0) poll();
   }
 
   static std::size_t at(int t) { return static_cast<std::size_t>(t); }
   static std::string step_name(int t) { return "step " + std::to_string(t) + ": "; }
 
-  // A fault of a channel is planted behind the stage in the middle of the first time step.
-  CellFifo* plant_in_channel(std::uint32_t first) {
-    if (plan == nullptr || plan->struck() || first < plan->first_step()) return nullptr;
+  // A fault of a channel is planted behind the stage in the middle of the first time step in which it may
+  // strike.
+  struct Planted {
+    CellFifo* channel = nullptr;
+    std::uint32_t step = 0;
+  };
+  Planted plant_in_channel(std::uint32_t first, int active) {
+    if (plan == nullptr || plan->struck()) return {};
+    const std::uint32_t later = plan->first_step() > first ? plan->first_step() - first : 0;
+    if (later >= static_cast<std::uint32_t>(active)) return {};
     FifoFault fault = FifoFault::none;
     if (plan->fault() == Fault::fifo_overwrite) fault = FifoFault::overwrite;
     if (plan->fault() == Fault::fifo_stale) fault = FifoFault::stale;
     if (plan->fault() == Fault::fifo_swap_lanes) fault = FifoFault::swap_lanes;
     if (plan->fault() == Fault::fifo_never_ready) fault = FifoFault::never_ready;
-    if (fault == FifoFault::none) return nullptr;
+    if (fault == FifoFault::none) return {};
     std::vector<CellFifo*> outputs;
-    steps.front()->for_each_output([&](CellFifo& fifo, const Stage&) { outputs.push_back(&fifo); });
+    steps[later]->for_each_output([&](CellFifo& fifo, const Stage&) { outputs.push_back(&fifo); });
     CellFifo* faulty = outputs[outputs.size() / 2];
     faulty->plant(fault);
-    return faulty;
+    return {faulty, first + later};
   }
-  void note_strike(const CellFifo& faulty, std::uint32_t step) {
-    if (!faulty.struck()) return;
-    const Place place = place_of(design.shape, faulty.struck()->ordinal);
-    plan->strike({faulty.name(), step, place.x + faulty.struck()->lane, place.y, place.z});
+  void note_strike(const Planted& planted) {
+    if (planted.channel == nullptr || !planted.channel->struck()) return;
+    const auto& strike = *planted.channel->struck();
+    const Place place = place_of(design.shape, strike.ordinal);
+    plan->strike({planted.channel->name(), planted.step, place.x + strike.lane, place.y, place.z});
   }
 
   template <class Visit>  // visit(fifo, producer stage or null, cascade position)
@@ -207,6 +215,7 @@ struct Pipeline::Machine {
 
   std::int64_t moves_before = 0, idle = 0;
   FaultPlan* plan = nullptr;
+  std::function<void()> poll;
   bool ran = false;
   Context context;  // first: everything of SystemC lives in it
   Shared shared;
@@ -233,6 +242,8 @@ void Pipeline::watch(FifoWatcher<Cell>* watcher) {
   machine_->for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.watch(watcher); });
 }
 
+void Pipeline::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
+
 void Pipeline::stop() { machine_->shared.end(); }
 
 void Pipeline::plant(FaultPlan* plan) {
@@ -256,7 +267,7 @@ PassEnd Pipeline::run_pass(std::uint32_t first, int steps, const state::Field<st
     m.steps[t]->begin_pass(first + static_cast<std::uint32_t>(t), bypass);
     if (t < m.feeds.size()) m.feeds[t]->begin_pass(bypass ? nullptr : irradiance);
   }
-  CellFifo* faulty = m.plant_in_channel(first);
+  const Machine::Planted planted = m.plant_in_channel(first, steps);
 
   m.context.enter();
   shared.first_cycle = m.ran ? Shared::now() + 1 : 0;
@@ -264,7 +275,7 @@ PassEnd Pipeline::run_pass(std::uint32_t first, int steps, const state::Field<st
   sc_core::sc_start();
   m.context.leave();
 
-  if (faulty != nullptr) m.note_strike(*faulty, first);
+  m.note_strike(planted);
   if (shared.error) std::rethrow_exception(std::exchange(shared.error, nullptr));
   return {shared.last_cycle + 1, shared.complete, shared.hangs};
 }
@@ -284,6 +295,11 @@ std::vector<ChannelReport> Pipeline::channels() const {
                        behind_stage ? producer->output_bits() : m.design.cell_bits(), fifo.highest(),
                        fifo.count(), fifo.entered(), fifo.occupancy()});
   });
+  for (std::size_t t = 0; t < m.feed_links.size(); ++t) {
+    const HeatFifo& fifo = m.feed_links[t]->fifo();
+    reports.push_back({fifo.name(), "feed", "", static_cast<int>(t), fifo.depth(), 16, fifo.highest(),
+                       fifo.count(), fifo.entered(), fifo.occupancy()});
+  }
   return reports;
 }
 

@@ -6,6 +6,7 @@
 //                        feed          feed        (irradiance, where the scene has radiation)
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -25,10 +26,10 @@ struct Configuration {
 
 inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024;
 
-// One channel of the main stream.
+// A channel: those of the main stream in its order, then the feeds.
 struct ChannelReport {
   std::string name;      // "step 0: gravity -> pattern"
-  std::string producer;  // stage, or "reader"
+  std::string producer;  // stage, "reader" or "feed"
   std::string phase;     // of its producer; empty behind the reader
   int cascade = 0;       // position of its producer
   int depth = 0, bits = 0, highest = 0, count = 0;
@@ -63,6 +64,7 @@ class Pipeline {
   void watch(FifoWatcher<Cell>* watcher);
   void stop();
   void plant(FaultPlan* plan);
+  void poll(std::function<void()> poll);  // called now and then during a pass; may throw, which ends the pass
 
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {

@@ -15,23 +15,23 @@ void Stage::begin_pass(std::uint32_t step, bool bypass) {
   begin_step();
 }
 
-void Stage::cycle() {
+bool Stage::cycle() {
   const std::int64_t tokens = shape().tokens();
   const std::int64_t lag = bypass_ ? 0 : lag_;
   const bool takes = moves_ < tokens, gives = moves_ >= lag && !done();
   if (done()) {
     ++cycles_.fill_drain;
-    return;
+    return false;
   }
   if (takes && (!in_->valid() || (!bypass_ && !side_input_ready()))) {
     ++(moves_ == 0 ? cycles_.fill_drain : cycles_.starved);
-    return;
+    return false;
   }
   if (gives && !out_->ready()) {
     ++cycles_.blocked;
-    return;
+    return false;
   }
-  ++(takes ? cycles_.busy : cycles_.fill_drain);
+  ++(!takes ? cycles_.fill_drain : bypass_ ? cycles_.bypassed : cycles_.busy);
 
   const Cell* in = takes ? in_->get() : nullptr;
   Cell* out = gives ? out_->put() : nullptr;
@@ -42,6 +42,7 @@ void Stage::cycle() {
   ++moves_;
   came_.next(shape());
   if (gives) left_.next(shape());
+  return true;
 }
 
 }  // namespace voxmelt::hwmodel

@@ -34,15 +34,18 @@ struct Design {
   int cell_bits() const { return 2 + 16 + (paper() ? 16 : 0) + (hot() ? 16 : 0); }
 };
 
-// Every cycle of a stage is exactly one of these; `fill_drain`: before its first token, after its last one.
+// Every cycle of a stage is exactly one of these. `fill_drain`: before its first token, after its last one,
+// and while it gives without taking; `bypassed`: handing on a token in a pass that has no time step for the
+// stage.
 struct StageCycles {
-  std::int64_t busy = 0, starved = 0, blocked = 0, fill_drain = 0;
-  std::int64_t total() const { return busy + starved + blocked + fill_drain; }
+  std::int64_t busy = 0, starved = 0, blocked = 0, fill_drain = 0, bypassed = 0;
+  std::int64_t total() const { return busy + starved + blocked + fill_drain + bypassed; }
 };
 
-// Arithmetic units per lane, as the stage is written: what a synthesis would have to find.
+// Arithmetic units as the stage is written: what a synthesis would have to find.
 struct Units {
-  int multipliers = 0, dividers = 0, random_blocks = 0;
+  int multipliers = 0, dividers = 0;  // per lane
+  int random_blocks = 0;              // per 8 lanes
 };
 
 class Stage {
@@ -58,7 +61,7 @@ class Stage {
 
   // A pass streams the whole grid once. A stage in bypass hands its tokens on, without lag.
   void begin_pass(std::uint32_t step, bool bypass);
-  void cycle();
+  bool cycle();  // true if the stage moved
   bool done() const { return left_.ordinal == design_.shape.tokens(); }
 
   const std::string& name() const { return name_; }

@@ -109,6 +109,8 @@ ARGUMENTS = [
     (["verify", "scene.toml", "--set", "hw.fifo_depth=0"], "hw.fifo_depth", 2),
     (["verify", "scene.toml", "--set", "hw.lane=4"], "hw.lanes", 2),
     (["verify", "scene.toml", "--steps", "0"], "--steps", 2),
+    (["verify", "scene.toml", "--plant-step", "3"], "--plant-step", 2),
+    (["verify", "scene.toml", "--from", "4294967290"], "--from", 2),
     (["verify", "scene.toml", "--set", "hw.cascade=x"], "hw.cascade", 2),
     (["run", "scene.toml", "--set", "hw.lanes=4"], "hw", 2),
 ]

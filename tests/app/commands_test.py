@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shlex
 import signal
 import struct
 import subprocess
@@ -236,13 +237,39 @@ class Commands(unittest.TestCase):
             self.assertTrue(report["planted"]["found_there"])
             again = [line.strip() for line in result.stdout.splitlines() if line.startswith("  voxmelt verify")]
             self.assertEqual(len(again), 1, result.stdout)
-            repeated = voxmelt(*again[0].split()[1:], "--report", "again.json", cwd=self.folder)
+            repeated = voxmelt(*shlex.split(again[0])[1:], "--report", "again.json", cwd=self.folder)
             self.assertEqual(repeated.returncode, 1, repeated.stderr)
             replay = json.loads((self.folder / "again.json").read_text())
             for key in ("where", "step", "cell", "field", "expected", "actual"):
                 self.assertEqual(report["first_mismatch"][key], replay["first_mismatch"][key], name)
             found += 1
         self.assertGreaterEqual(found, 12)
+
+    def test_a_replay_survives_odd_names_and_can_be_replayed(self):
+        odd = self.folder / "it's a \"scene\" $x;"
+        odd.mkdir()
+        scene = write(odd, SMALL)
+        command = ["verify", scene, "--steps", 6, "--plant", "gravity-one-more", "--set", "title=\"a 'b'\"",
+                   "--set", "look.liquid=[0.2, 0.3, 0.4]", "--from", 8, "--seed", 3]
+        result = voxmelt(*command, cwd=self.folder)
+        for _ in range(3):  # a replay of a replay is the same
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn("found there", result.stdout)
+            typed = [line.strip() for line in result.stdout.splitlines() if line.startswith("  voxmelt verify")]
+            self.assertEqual(len(typed), 1, result.stdout)
+            result = subprocess.run(["bash", "-c", typed[0].replace("voxmelt", f"'{PROGRAM}'", 1)], cwd=self.folder,
+                                    capture_output=True, text=True)
+
+    def test_a_difference_is_not_hidden_by_what_cannot_be_written(self):
+        full = voxmelt("verify", self.scene, "--steps", 6, "--plant", "gravity-one-more", "--report", "/dev/full",
+                       cwd=self.folder)
+        self.assertEqual(full.returncode, 1, full.stderr)
+        self.assertIn("first mismatch", full.stdout)
+        self.assertIn("found there", full.stdout)
+        (self.folder / "foreign").mkdir()
+        write(self.folder / "foreign", "mine", "x")
+        self.assertEqual(voxmelt("verify", self.scene, "--out", "foreign", cwd=self.folder).returncode, 2)
+        self.assertEqual(voxmelt("verify", self.scene, "--out", ".", cwd=self.folder).returncode, 2)
 
     def test_presets_verify(self):
         names = [line.split()[0] for line in self.good("list", "presets").splitlines()]
