@@ -42,7 +42,9 @@ class Fifo {
         depth_(depth),
         words_(lanes_ * static_cast<std::size_t>(depth)),
         occupancy_(static_cast<std::size_t>(depth) + 1),
-        stalls_(stall_seed, static_cast<std::uint64_t>(channel)) {}
+        stall_seed_(stall_seed) {
+    begin_pass(0);
+  }
 
   const std::string& name() const { return name_; }
   int channel() const { return channel_; }
@@ -72,7 +74,11 @@ class Fifo {
     stall_ = stalls_.next();
   }
 
-  void begin_pass() { entered_ = left_ = 0; }
+  void begin_pass(std::uint64_t pass) {
+    entered_ = left_ = 0;
+    stall_ = {};
+    stalls_ = StallInjector(stall_seed_, static_cast<std::uint64_t>(channel_), pass);
+  }
   void watch(FifoWatcher<Word>* watcher) { watcher_ = watcher; }
 
   void plant(FifoFault fault) { fault_ = fault; }
@@ -119,6 +125,7 @@ class Fifo {
   bool putting_ = false, getting_ = false;
   std::vector<Word> words_;
   std::vector<std::int64_t> occupancy_;
+  std::uint64_t stall_seed_;
   StallInjector stalls_;
   StallInjector::Stall stall_;
   std::int64_t entered_ = 0, left_ = 0;

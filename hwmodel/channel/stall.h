@@ -8,9 +8,9 @@ namespace voxmelt::hwmodel {
 class StallInjector {
  public:
   StallInjector() = default;
-  // Seed 0: never stalls. `channel` makes the streams of two channels differ.
-  StallInjector(std::uint64_t seed, std::uint64_t channel)
-      : state_(seed == 0 ? 0 : mix(seed * 0x9E3779B97F4A7C15u + channel + 1) | 1) {}
+  // Seed 0: never stalls. Two channels, or two passes, have different streams; a pass has always the same.
+  StallInjector(std::uint64_t seed, std::uint64_t channel, std::uint64_t pass)
+      : state_(seed == 0 ? 0 : mix(mix(seed * 0x9E3779B97F4A7C15u + channel + 1) + pass) | 1) {}
 
   struct Stall {
     bool put = false, get = false;

@@ -83,6 +83,7 @@ class Run {
     const std::uint32_t step = report_.first_step + report_.steps;
     const int steps =
         steps_of_pass(pipeline_.design(), options_.configuration, step, options_.steps - report_.steps);
+    report_.pass_end = step + static_cast<std::uint32_t>(steps);
     if (starts_replay(step)) {
       report_.replay = memory_;
       report_.replay_step = step;

@@ -38,6 +38,7 @@ struct VerifyReport {
   // first.
   std::optional<state::Volume> replay;
   std::uint32_t replay_step = 0;
+  std::uint32_t pass_end = 0;  // the step after the last one of the last pass
 
   // Did the checker find the planted fault, and where it was planted?
   bool found_where_planted() const;

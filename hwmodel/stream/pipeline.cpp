@@ -259,7 +259,8 @@ PassEnd Pipeline::run_pass(std::uint32_t first, int steps, const state::Field<st
   shared.complete = shared.hangs = false;
   shared.last_cycle = kNever;
   m.idle = 0;
-  m.for_each_channel([](CellFifo& fifo, const Stage*, int) { fifo.begin_pass(); });
+  m.for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.begin_pass(first); });
+  for (const auto& link : m.feed_links) link->fifo().begin_pass(first);
   m.reader.begin_pass(volume);
   m.writer.begin_pass(volume);
   for (std::size_t t = 0; t < m.steps.size(); ++t) {
