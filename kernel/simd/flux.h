@@ -15,22 +15,6 @@ VOXMELT_LANES std::uint64_t matter(const View& v, int w, int y, int z) {
   return v.solid[at] | v.liquid[at];
 }
 
-// A row of matter, for a word in the grid; nothing beyond the grid.
-class MatterRow {
- public:
-  [[gnu::always_inline]] MatterRow(const View& v, int y, int z) {
-    if (y < 0 || y >= v.ny || z < 0 || z >= v.nz) return;
-    solid_ = v.solid + v.word(0, y, z);
-    liquid_ = v.liquid + v.word(0, y, z);
-  }
-  [[gnu::always_inline]] std::uint64_t operator[](int w) const {
-    return solid_ != nullptr ? solid_[w] | liquid_[w] : 0;
-  }
-
- private:
-  const std::uint64_t *solid_ = nullptr, *liquid_ = nullptr;
-};
-
 // D(s, part, parts).
 VOXMELT_LANES std::uint32_t part_dither(const Step& step, int part, int parts) {
   return (step.dither + 65536u * static_cast<std::uint32_t>(part) / static_cast<std::uint32_t>(parts)) &

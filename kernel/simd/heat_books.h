@@ -58,7 +58,7 @@ class PairBooks {
     high_ = high_ + (pairs >> 16);
   }
 
-  [[gnu::noinline]] void one_by_one(V amount, V now, V gain) {
+  [[gnu::always_inline]] void one_by_one(V amount, V now, V gain) {
     alignas(64) std::uint16_t a[L::kCount], before[L::kCount], after[L::kCount];
     L::store(a, amount);
     L::store(before, now - gain);

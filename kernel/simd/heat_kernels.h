@@ -13,7 +13,9 @@ template <class Arch, bool kLatent>
 void conduct_faces_slice(const View& view, const Step& step, int z, const OldHeat& old,
                          const TileRow* carried, const TileRow* tiles, HeatFlux& flux, const HeatTiles& found,
                          Books& books) {
-  books.conducted += FaceConduction<Arch, kLatent>(view, step, z, old, flux).run(carried, tiles, found);
+  FullConduction<Arch, kLatent> full(view, step, z, old, flux);
+  books.conducted += FaceConduction<Arch, kLatent>(view, step, z, old, flux).run(carried, tiles, full, found);
+  books.conducted += full.total();
 }
 
 template <class Arch, bool kLatent, class Axes>

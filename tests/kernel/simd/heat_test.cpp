@@ -127,21 +127,21 @@ TEST_P(Heat, EveryStateAsTheReference) {
   check({200, 12, 7}, 10);
 }
 
-// A block of matter with few holes: words in which every pair counts, amounts of full cells and others, heats
-// far apart.
+// A block of matter with few holes or none: tiles and words in which every pair counts, amounts of full cells
+// and others, heats far apart.
 TEST_P(Heat, DenseMatter) {
   Random random(12);
   for (int i = 0; i < 40; ++i) {
-    World world = hostile_world(random, {random.any({64, 128, 150}), 7, 5}, 3);
+    World world = hostile_world(random, {random.any({64, 128, 150, 192}), random.any({7, 10, 18}), 5}, 3);
     world.parameters.vents.clear();
     world.parameters.drains.clear();
-    const bool far = random.one_in(2), full = random.one_in(2);
+    const bool far = random.one_in(2), full = random.one_in(2), holes = random.one_in(2);
     const std::int32_t large = random.any({4096, 36863, 36864, 65535});
     for_each(whole(world.volume.grid), [&](int x, int y, int z) {
       world.volume.inert.set(x, y, z, false);
       world.volume.solid.set(x, y, z, false);
       put(world.volume, x, y, z, 0);
-      if (random.one_in(300)) return;
+      if (holes && random.one_in(300)) return;
       const std::int32_t heat = far ? random.any({0, 65535}) : 30000 + random.below(9);
       const std::int32_t amount = full ? large : random.between(1, large);
       if (random.one_in(3))
