@@ -22,6 +22,7 @@ namespace voxmelt::cpu {
 //   V shift_right<n>(V), shift_left<n>(V)
 //   M less(V a, V b)                    unsigned
 //   M from_bits(uint64_t word, int part), uint64_t to_bits(M)
+//   bool nonzero(V)                     any lane is not 0
 //   V keep(M, V)                        the lane, or 0
 //   V add_if(M, V a, V b)               a + b where M, else a
 //   V sub_if(M, V a, V b)               a - b where M, else a

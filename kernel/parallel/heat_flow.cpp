@@ -22,6 +22,7 @@ HeatFlow::HeatFlow(state::Grid grid, const simd::View& view, int chunks)
     for (Worker& worker : *workers) {
       worker.old.assign(2, Slice(slice));
       worker.moved.resize(static_cast<std::size_t>(view.tile_rows()));
+      worker.hot.resize(worker.moved.size());
     }
   for (Worker& worker : chunk_) {
     worker.up = Slice({grid.x, 1, 1});
@@ -60,7 +61,6 @@ void HeatFlow::heat(const Job& job, bool new_irradiance, Tiles& changed, simd::B
     end_pass(job, false);
   }
   changed.add(stale_);
-  for_melt_.add(stale_);
   close(books);
 }
 
@@ -138,21 +138,23 @@ void HeatFlow::sweep(const Job& job, const Visit& visit) {
   });
 }
 
-// One kernel on slice z: kernel(changed, restless).
+// One kernel on slice z: kernel(found).
 template <class Call>
 void HeatFlow::call(int z, Worker& worker, const Call& kernel) {
   std::fill(worker.moved.begin(), worker.moved.end(), TileRow{0});
-  kernel(worker.moved.data(), restless_.edit(z));
+  std::fill(worker.hot.begin(), worker.hot.end(), TileRow{0});
+  kernel(simd::HeatTiles{worker.moved.data(), restless_.edit(z), worker.hot.data()});
   restless_.tidy(z);
   moved_.add(z, worker.moved.data());
+  for_melt_.add(z, worker.hot.data());
 }
 
 void HeatFlow::conduct_faces(const Job& job) {
   sweep(job, [&](int z, Worker& worker, const Neighbours& near) {
     const TileRow* carried = near.first || !awake_.any(z - 1) ? nullptr : awake_.slice(z - 1);
-    call(z, worker, [&](TileRow* changed, TileRow* restless) {
+    call(z, worker, [&](const simd::HeatTiles& found) {
       job.kernels.conduct_faces(job.view, job.step, z, {near.below, nullptr, near.above}, carried,
-                                awake_.slice(z), worker.flux, changed, restless, worker.books);
+                                awake_.slice(z), worker.flux, found, worker.books);
     });
   });
 }
@@ -165,24 +167,23 @@ void HeatFlow::conduct_distant(const Job& job, bool corners) {
     std::copy_n(heats(job, z), job.view.slice, ring(z).data());
     const bool below_changed = !near.first && awake_.any(z - 1);
     const simd::OldHeat old{below_changed ? ring(z - 1).data() : near.below, ring(z).data(), near.above};
-    call(z, worker, [&](TileRow* changed, TileRow* restless) {
-      kernel(job.view, job.step, z, old, awake_.slice(z), changed, restless, worker.books);
+    call(z, worker, [&](const simd::HeatTiles& found) {
+      kernel(job.view, job.step, z, old, awake_.slice(z), found, worker.books);
     });
   });
 }
 
 void HeatFlow::convect(const Job& job) {
   sweep(job, [&](int z, Worker& worker, const Neighbours&) {
-    call(z, worker, [&](TileRow* changed, TileRow* restless) {
-      job.kernels.convect(job.view, job.step, z, awake_.slice(z), worker.flux, changed, restless,
-                          worker.books);
+    call(z, worker, [&](const simd::HeatTiles& found) {
+      job.kernels.convect(job.view, job.step, z, awake_.slice(z), worker.flux, found, worker.books);
     });
   });
 }
 
 void HeatFlow::exchange(const Job& job, int z, Worker& worker) {
-  call(z, worker, [&](TileRow* changed, TileRow* restless) {
-    job.kernels.exchange(job.view, job.step, z, awake_.slice(z), changed, restless, worker.books);
+  call(z, worker, [&](const simd::HeatTiles& found) {
+    job.kernels.exchange(job.view, job.step, z, awake_.slice(z), found, worker.books);
   });
 }
 

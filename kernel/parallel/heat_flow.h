@@ -30,7 +30,7 @@ class HeatFlow {
     std::vector<Slice> old;  // of a chunk: a ring of two; at a cut: the slices before and after it
     Slice up, front;
     simd::HeatFlux flux;
-    std::vector<TileRow> moved;  // by a call
+    std::vector<TileRow> moved, hot;  // by a call
     simd::Books books;
   };
   struct Neighbours {

@@ -3,8 +3,7 @@
 // slice before it. So no old heats need be kept: what a cell still has to read has not been written yet.
 #pragma once
 
-#include "kernel/simd/flux.h"
-#include "kernel/simd/heat_books.h"
+#include "kernel/simd/full_conduction.h"
 
 namespace voxmelt::simd {
 
@@ -25,30 +24,55 @@ class FaceConduction {
         front_(flux.front),
         z_(z),
         plateau_(step.parameters->material),
+        melting_(step.parameters->material),
         along_x_(step.parameters->heat.weight_face, part_dither(step, 0, 3)),
         along_y_(step.parameters->heat.weight_face, part_dither(step, 1, 3)),
-        along_z_(step.parameters->heat.weight_face, part_dither(step, 2, 3)) {}
+        along_z_(step.parameters->heat.weight_face, part_dither(step, 2, 3)),
+        books_(6 * step.parameters->heat.weight_face) {}
 
-  [[gnu::always_inline]] std::int64_t run(const TileRow* carried, const TileRow* tiles, TileRow* changed,
-                                          TileRow* restless) {
+  // `full` works on the tile rows that are matter throughout.
+  [[gnu::always_inline]] std::int64_t run(const TileRow* carried, const TileRow* tiles,
+                                          FullConduction<Arch, kLatent>& full, const HeatTiles& found) {
     for (int r = 0; r < v_.tile_rows(); ++r) {
       if (tiles[r] == 0) continue;
       TileRow from_below = r > 0 ? tiles[r - 1] : 0;
       const TileRow from_back = carried != nullptr ? carried[r] : 0;
-      for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y) {
-        changed[r] |= row(y, tiles[r], from_below, from_back, restless[r]);
+      Found tile{0, found.restless[r], found.hot[r]};
+      int y = v_.tile_begin(r);
+      if (const int rows = full.rows(y, v_.tile_end(r), tiles[r]); rows > 0) {
+        for (TileRow left = tiles[r] & ~from_below; left != 0; left &= left - 1)
+          enter_y(__builtin_ctzll(left), y, ~std::uint64_t{0});
+        for (TileRow left = tiles[r] & ~from_back; left != 0; left &= left - 1)
+          for (int k = 0; k < rows; ++k) enter_z(__builtin_ctzll(left), y + k, ~std::uint64_t{0});
+        const auto sums = full.run(y, rows, tiles[r]);
+        tile.changed |= sums.changed;
+        if (sums.changed != 0 && melting_.reached(sums.hottest)) tile.hot |= sums.changed;
+        for (TileRow left = tiles[r] & ~sums.changed & ~tile.restless; left != 0; left &= left - 1)
+          for (int k = 0; k < rows; ++k)
+            if (differs(__builtin_ctzll(left), y + k, ~std::uint64_t{0})) tile.restless |= left & -left;
+        from_below = tiles[r];
+        y += rows;
+        books_.end_row();
+      }
+      for (; y < v_.tile_end(r); ++y) {
+        row(y, tiles[r], from_below, from_back, tile);
         from_below = tiles[r];
         books_.end_row();
       }
+      found.changed[r] |= tile.changed;
+      found.restless[r] = tile.restless;
+      found.hot[r] = tile.hot;
     }
     return books_.total();
   }
 
  private:
-  // from_below, from_back: words whose flux is carried. Returns those that changed.
-  [[gnu::always_inline]] TileRow row(int y, TileRow work, TileRow from_below, TileRow from_back,
-                                     TileRow& restless) {
-    TileRow moved = 0;
+  struct Found {
+    TileRow changed, restless, hot;
+  };
+
+  // from_below, from_back: words whose flux is carried.
+  [[gnu::always_inline]] void row(int y, TileRow work, TileRow from_below, TileRow from_back, Found& found) {
     for (TileRow left = work; left != 0; left &= left - 1) {
       const TileRow bit = left & -left;
       const int w = __builtin_ctzll(left);
@@ -60,20 +84,22 @@ class FaceConduction {
       if ((from_below & bit) == 0) enter_y(w, y, own);
       if ((from_back & bit) == 0) enter_z(w, y, own);
       if ((work & bit >> 1) == 0) enter_x(w, y, own);
-      if (word(w, y, own))
-        moved |= bit;
-      else if ((restless & bit) == 0 && differs(w, y, own))
-        restless |= bit;
+      const Sum sum = word(w, y, own);
+      if (L::nonzero(sum.any)) {
+        found.changed |= bit;
+        if (melting_.reached(sum.hottest)) found.hot |= bit;
+      } else if ((found.restless & bit) == 0 && differs(w, y, own)) {
+        found.restless |= bit;
+      }
     }
-    return moved;
   }
 
   // Flux into a word from what this sweep did not visit: computed, not carried.
   [[gnu::always_inline]] void enter_x(int w, int y, std::uint64_t own) {
     const std::uint64_t pair = own & matter(v_, w - 1, y, z_) >> 63;
     const std::uint16_t* last = heat_ + v_.cell(w, y, z_) - L::kCount;
-    before_ = along_x_.template between<false>(plateau_(L::load_any(last)), plateau_(L::load_any(last + 1)),
-                                               pair << (L::kCount - 1), 0);
+    before_ = along_x_.between(plateau_(L::load_any(last)), plateau_(L::load_any(last + 1)),
+                               L::from_bits(pair << (L::kCount - 1), 0));
   }
   [[gnu::always_inline]] void enter_y(int w, int y, std::uint64_t own) {
     const std::uint16_t* to = heat_ + v_.cell(w, y, z_);
@@ -89,8 +115,8 @@ class FaceConduction {
                                     std::uint64_t pairs, const Flux<Arch>& rule) {
     for (int part = 0; part < L::kParts; ++part) {
       const int at = part * L::kCount;
-      L::store(flux + at, rule.template between<false>(plateau_(L::load(from + at)),
-                                                       plateau_(L::load(to + at)), pairs, part));
+      L::store(flux + at, rule.between(plateau_(L::load(from + at)), plateau_(L::load(to + at)),
+                                       L::from_bits(pairs, part)));
     }
   }
 
@@ -107,43 +133,40 @@ class FaceConduction {
     std::uint64_t right, up, front;
   };
 
-  // Returns whether any heat changed.
-  [[gnu::always_inline]] bool word(int w, int y, std::uint64_t own) {
+  struct Sum {
+    V any, hottest;  // any: not 0 where heat changed
+  };
+
+  [[gnu::always_inline]] Sum word(int w, int y, std::uint64_t own) {
     const Pairs pairs{own & cpu::from_right(own, matter(v_, w + 1, y, z_)), own & matter(v_, w, y + 1, z_),
                       own & matter(v_, w, y, z_ + 1)};
     const std::size_t cell = v_.cell(w, y, z_), in_slice = v_.cell(w, y, 0);
     const std::uint16_t *up = heat_ + cell, *front = up;
     if (y + 1 < v_.ny) up += v_.row;
     if (above_ != nullptr) front = above_ + in_slice;
-    if ((pairs.right & pairs.up & pairs.front) == ~std::uint64_t{0})
-      return vectors<true>(cell, in_slice, 64 * static_cast<std::size_t>(w), up, front, pairs);
-    return vectors<false>(cell, in_slice, 64 * static_cast<std::size_t>(w), up, front, pairs);
-  }
-
-  template <bool kAllPairs>
-  [[gnu::always_inline]] bool vectors(std::size_t cell, std::size_t in_slice, std::size_t in_row,
-                                      const std::uint16_t* up, const std::uint16_t* front,
-                                      const Pairs& pairs) {
-    V any = L::zero();
+    const std::size_t in_row = 64 * static_cast<std::size_t>(w);
+    V any = L::zero(), hottest = L::zero(), gains[L::kParts];
     for (int part = 0; part < L::kParts; ++part) {
       const std::size_t at = static_cast<std::size_t>(part * L::kCount);
       std::uint16_t* here = heat_ + cell + at;
-      const V old = L::load(here), own = plateau_(old);
-      const V x =
-          along_x_.template between<kAllPairs>(own, plateau_(L::load_any(here + 1)), pairs.right, part);
-      const V y = along_y_.template between<kAllPairs>(own, plateau_(L::load(up + at)), pairs.up, part);
-      const V z = along_z_.template between<kAllPairs>(own, plateau_(L::load(front + at)), pairs.front, part);
-      const V gain = (x - L::after(before_, x)) + (y - L::load(up_ + in_row + at)) +
-                     (z - L::load(front_ + in_slice + at));
-      before_ = x;
-      L::store(up_ + in_row + at, y);
-      L::store(front_ + in_slice + at, z);
+      const V old = L::load(here), heat = plateau_(old);
+      const V x_flux =
+          along_x_.between(heat, plateau_(L::load_any(here + 1)), L::from_bits(pairs.right, part));
+      const V y_flux = along_y_.between(heat, plateau_(L::load(up + at)), L::from_bits(pairs.up, part));
+      const V z_flux = along_z_.between(heat, plateau_(L::load(front + at)), L::from_bits(pairs.front, part));
+      const V gain = (x_flux - L::after(before_, x_flux)) + (y_flux - L::load(up_ + in_row + at)) +
+                     (z_flux - L::load(front_ + in_slice + at));
+      before_ = x_flux;
+      L::store(up_ + in_row + at, y_flux);
+      L::store(front_ + in_slice + at, z_flux);
       const V now = old + gain;
       L::store(here, now);
-      books_.add(L::load(v_.amount + cell + at), old, now);
+      gains[part] = gain;
       any = any | gain;
+      hottest = L::max(hottest, now);
     }
-    return L::to_bits(L::equal(any, L::zero())) != kAll;
+    books_.add(v_.amount + cell, heat_ + cell, gains);
+    return {any, hottest};
   }
 
   // Whether any pair of this word is of two temperatures. Neighbours may have changed in this pass: then they
@@ -170,13 +193,13 @@ class FaceConduction {
     return (pairs & ~same) != 0;
   }
 
-  static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
   const View v_;
   std::uint16_t* const heat_;
   const std::uint16_t *const below_, *const above_;
   std::uint16_t *const up_, *const front_;
   const int z_;
   const Plateau<Arch, kLatent> plateau_;
+  const MeltingHeat<Arch> melting_;
   const Flux<Arch> along_x_, along_y_, along_z_;
   V before_ = L::zero();  // flux along x through the faces of the vector before
   PairBooks<Arch> books_;

@@ -19,9 +19,11 @@ class Convection {
         rising_(flux.up),
         z_(z),
         plateau_(step.parameters->material),
-        flux_(step.parameters->heat.convection, step.dither) {}
+        melting_(step.parameters->material),
+        flux_(step.parameters->heat.convection, step.dither),
+        books_(step.parameters->heat.convection) {}
 
-  [[gnu::always_inline]] std::int64_t run(const TileRow* tiles, TileRow* changed, TileRow* restless) {
+  [[gnu::always_inline]] std::int64_t run(const TileRow* tiles, const HeatTiles& tell) {
     for (int r = 0; r < v_.tile_rows(); ++r) {
       if (tiles[r] == 0) continue;
       TileRow carried = r > 0 ? tiles[r - 1] : 0;
@@ -37,10 +39,11 @@ class Convection {
           }
           if ((carried & bit) == 0) enter(w, y, own, rising);
           const Found found = word(w, y, own, rising);
-          if (found.changed) changed[r] |= bit;
+          if (found.changed) tell.changed[r] |= bit;
+          if (found.hot) tell.hot[r] |= bit;
           if (found.restless) {  // both ends of the pairs
-            restless[r] |= bit;
-            restless[(y + 1) >> v_.tile_shift] |= bit;
+            tell.restless[r] |= bit;
+            tell.restless[(y + 1) >> v_.tile_shift] |= bit;
           }
         }
         carried = tiles[r];
@@ -52,7 +55,7 @@ class Convection {
 
  private:
   struct Found {
-    bool changed, restless;
+    bool changed, restless, hot;
   };
 
   // How much hotter the lower cells are, where a bit of `pairs` is set.
@@ -76,25 +79,28 @@ class Convection {
     const std::uint64_t pairs = last ? 0 : own & v_.liquid[v_.word(w, y + 1, z_)];
     std::uint16_t* here = v_.temperature + cell;
     const std::uint16_t* upper = last ? here : here + v_.row;
-    V any = L::zero(), differ = L::zero();
+    V any = L::zero(), differ = L::zero(), hottest = L::zero();
+    V gains[L::kParts];
     for (int part = 0; part < L::kParts; ++part) {
       const int at = part * L::kCount;
       const V old = L::load(here + at), step = hotter(old, L::load(upper + at), pairs, part);
       const V out = flux_.falling(step), gain = L::load(rising + at) - out, now = old + gain;
       L::store(rising + at, out);
       L::store(here + at, now);
-      books_.add(L::load(v_.amount + cell + static_cast<std::size_t>(at)), old, now);
+      gains[part] = gain;
       any = any | gain;
       differ = differ | step;
+      hottest = L::max(hottest, now);
     }
-    return {L::to_bits(L::equal(any, L::zero())) != kAll, L::to_bits(L::equal(differ, L::zero())) != kAll};
+    books_.add(v_.amount + cell, here, gains);
+    return {L::nonzero(any), L::nonzero(differ), L::nonzero(any) && melting_.reached(hottest)};
   }
 
-  static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
   const View v_;
   std::uint16_t* const rising_;
   const int z_;
   const Plateau<Arch, kLatent> plateau_;
+  const MeltingHeat<Arch> melting_;
   const Flux<Arch> flux_;
   PairBooks<Arch> books_;
 };

@@ -37,9 +37,11 @@ class DistantConduction {
         step_(step),
         weight_(Axes::weight(step.parameters->heat)),
         z_(z),
-        plateau_(step.parameters->material) {}
+        plateau_(step.parameters->material),
+        melting_(step.parameters->material),
+        books_(2 * Axes::kCount * weight_) {}
 
-  [[gnu::always_inline]] std::int64_t run(const TileRow* tiles, TileRow* changed, TileRow* restless) {
+  [[gnu::always_inline]] std::int64_t run(const TileRow* tiles, const HeatTiles& tell) {
     for (int r = 0; r < v_.tile_rows(); ++r) {
       if (tiles[r] == 0) continue;
       for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y) {
@@ -48,8 +50,9 @@ class DistantConduction {
           const std::uint64_t own = matter(v_, w, y, z_);
           if (own == 0) continue;
           const Found found = word(w, y, own);
-          if (found.changed) changed[r] |= work & -work;
-          if (found.restless) restless[r] |= work & -work;
+          if (found.changed) tell.changed[r] |= work & -work;
+          if (found.restless) tell.restless[r] |= work & -work;
+          if (found.hot) tell.hot[r] |= work & -work;
         }
         books_.end_row();
       }
@@ -63,7 +66,7 @@ class DistantConduction {
     std::uint64_t pairs;
   };
   struct Found {
-    bool changed, restless;
+    bool changed, restless, hot;
   };
 
   // Cells of the word whose neighbour at this offset is matter as they are, and its heats.
@@ -84,7 +87,8 @@ class DistantConduction {
       from[k] = neighbour(w, y, own, -a.dx, -a.dy, -a.dz);
     }
     const std::size_t cell = v_.cell(w, y, z_);
-    V any = L::zero(), differ = L::zero();
+    V any = L::zero(), differ = L::zero(), hottest = L::zero();
+    V gains[L::kParts];
     for (int part = 0; part < L::kParts; ++part) {
       const std::size_t at = static_cast<std::size_t>(part * L::kCount);
       const V old = L::load(slices_[1] + v_.cell(w, y, 0) + at), heat = plateau_(old);
@@ -93,26 +97,28 @@ class DistantConduction {
         const Flux<Arch> flux(weight_, part_dither(step_, k, Axes::kCount));
         const V after = plateau_(L::load_any(to[k].heat + at)),
                 before = plateau_(L::load_any(from[k].heat + at));
-        gain = gain + flux.template between<false>(heat, after, to[k].pairs, part) -
-               flux.template between<false>(before, heat, from[k].pairs, part);
+        gain = gain + flux.between(heat, after, L::from_bits(to[k].pairs, part)) -
+               flux.between(before, heat, L::from_bits(from[k].pairs, part));
         differ = differ | L::keep(L::from_bits(to[k].pairs, part), heat ^ after) |
                  L::keep(L::from_bits(from[k].pairs, part), heat ^ before);
       }
       const V now = old + gain;
       L::store(v_.temperature + cell + at, now);
-      books_.add(L::load(v_.amount + cell + at), old, now);
+      gains[part] = gain;
       any = any | gain;
+      hottest = L::max(hottest, now);
     }
-    return {L::to_bits(L::equal(any, L::zero())) != kAll, L::to_bits(L::equal(differ, L::zero())) != kAll};
+    books_.add(v_.amount + cell, v_.temperature + cell, gains);
+    return {L::nonzero(any), L::nonzero(differ), L::nonzero(any) && melting_.reached(hottest)};
   }
 
-  static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
   const View v_;
   const std::uint16_t* const slices_[3];
   const Step& step_;
   const int weight_;
   const int z_;
   const Plateau<Arch, kLatent> plateau_;
+  const MeltingHeat<Arch> melting_;
   PairBooks<Arch> books_;
 };
 

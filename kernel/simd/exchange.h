@@ -19,6 +19,7 @@ class Exchange {
         air_temperature_(step.parameters->heat.air_temperature.data()),
         z_(z),
         plateau_(step.parameters->material),
+        melting_(step.parameters->material),
         dither_(L::set(static_cast<int>(step.dither))),
         rest_(L::set(static_cast<int>(0xFFFF - step.dither))) {
     // 4096 times the root of the number of exposed axes.
@@ -28,14 +29,15 @@ class Exchange {
     blows_ = kFeatures.air && exchange > 0;
   }
 
-  [[gnu::always_inline]] void run(const TileRow* tiles, TileRow* changed, TileRow* restless, Books& books) {
+  [[gnu::always_inline]] void run(const TileRow* tiles, const HeatTiles& tell, Books& books) {
     for (int r = 0; r < v_.tile_rows(); ++r) {
       if (tiles[r] == 0) continue;
       for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y) {
         for (TileRow left = tiles[r]; left != 0; left &= left - 1) {
           const Found found = word(__builtin_ctzll(left), y);
-          if (found.changed) changed[r] |= left & -left;
-          if (found.restless) restless[r] |= left & -left;
+          if (found.changed) tell.changed[r] |= left & -left;
+          if (found.restless) tell.restless[r] |= left & -left;
+          if (found.hot) tell.hot[r] |= left & -left;
         }
         radiated_.end_row();
         warmed_.end_row();
@@ -49,7 +51,7 @@ class Exchange {
 
  private:
   struct Found {
-    bool changed, restless;
+    bool changed, restless, hot;
   };
   struct Exposed {  // cells with at least so many axes on which a side is air
     std::uint64_t one, two, three;
@@ -77,7 +79,7 @@ class Exchange {
     const bool lit = kFeatures.radiation && irradiance_ != nullptr && solid != 0;
     if (!lit && bare.one == 0) return {};
 
-    V any = L::zero(), left = L::zero();
+    V any = L::zero(), left = L::zero(), hottest = L::zero();
     for (int part = 0; part < L::kParts; ++part) {
       const std::size_t at = cell + static_cast<std::size_t>(part * L::kCount);
       const V old = L::load(v_.temperature + at), amount = L::load(v_.amount + at);
@@ -89,8 +91,9 @@ class Exchange {
         if (bare.one != 0) heat = blow(heat, amount, bare, L::set(air_temperature_[y]), part, left);
       L::store(v_.temperature + at, heat);
       any = any | (heat ^ old);
+      hottest = L::max(hottest, heat);
     }
-    return {L::to_bits(L::equal(any, L::zero())) != kAll, L::to_bits(L::equal(left, L::zero())) != kAll};
+    return {L::nonzero(any), L::nonzero(left), L::nonzero(any) && melting_.reached(hottest)};
   }
 
   // (4096 I + D) >> 16, cut at the top. `left`: not 0 where a cell is not at rest.
@@ -119,12 +122,12 @@ class Exchange {
     return heat + gain - loss;
   }
 
-  static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
   const View v_;
   const std::uint16_t* const irradiance_;
   const std::uint16_t* const air_temperature_;
   const int z_;
   const Plateau<Arch, kFeatures.latent> plateau_;
+  const MeltingHeat<Arch> melting_;
   const V dither_, rest_;
   V rate_[3];
   bool blows_ = false;

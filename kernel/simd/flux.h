@@ -52,15 +52,12 @@ class Flux {
   [[gnu::always_inline]] Flux(int weight, std::uint32_t dither)
       : weight_(L::set(weight)), most_(L::set(static_cast<int>(0xFFFF - dither))) {}
 
-  // Where a bit of `pairs` is set, else 0.
-  template <bool kAllPairs>
-  [[gnu::always_inline]] V between(V first, V second, std::uint64_t pairs, int part) const {
-    if constexpr (kAllPairs) {
-      return L::sub_if(L::less(second, first), flux(second - first), weight_);
-    } else {
-      const M pair = L::from_bits(pairs, part);
-      return L::sub_if(L::less(second, first) & pair, flux(L::keep(pair, second - first)), weight_);
-    }
+  [[gnu::always_inline]] V between(V first, V second) const {
+    return L::sub_if(L::less(second, first), flux(second - first), weight_);
+  }
+  // Of pairs only, else 0.
+  [[gnu::always_inline]] V between(V first, V second, M pair) const {
+    return L::sub_if(L::less(second, first) & pair, flux(L::keep(pair, second - first)), weight_);
   }
 
   // Of a difference that is not negative.

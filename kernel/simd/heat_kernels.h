@@ -11,28 +11,29 @@ namespace voxmelt::simd {
 
 template <class Arch, bool kLatent>
 void conduct_faces_slice(const View& view, const Step& step, int z, const OldHeat& old,
-                         const TileRow* carried, const TileRow* tiles, HeatFlux& flux, TileRow* changed,
-                         TileRow* restless, Books& books) {
-  books.conducted +=
-      FaceConduction<Arch, kLatent>(view, step, z, old, flux).run(carried, tiles, changed, restless);
+                         const TileRow* carried, const TileRow* tiles, HeatFlux& flux, const HeatTiles& found,
+                         Books& books) {
+  FullConduction<Arch, kLatent> full(view, step, z, old, flux);
+  books.conducted += FaceConduction<Arch, kLatent>(view, step, z, old, flux).run(carried, tiles, full, found);
+  books.conducted += full.total();
 }
 
 template <class Arch, bool kLatent, class Axes>
 void conduct_distant_slice(const View& view, const Step& step, int z, const OldHeat& old,
-                           const TileRow* tiles, TileRow* changed, TileRow* restless, Books& books) {
-  books.conducted += DistantConduction<Arch, kLatent, Axes>(view, step, z, old).run(tiles, changed, restless);
+                           const TileRow* tiles, const HeatTiles& found, Books& books) {
+  books.conducted += DistantConduction<Arch, kLatent, Axes>(view, step, z, old).run(tiles, found);
 }
 
 template <class Arch, bool kLatent>
 void convect_slice(const View& view, const Step& step, int z, const TileRow* tiles, HeatFlux& flux,
-                   TileRow* changed, TileRow* restless, Books& books) {
-  books.convected += Convection<Arch, kLatent>(view, step, z, flux).run(tiles, changed, restless);
+                   const HeatTiles& found, Books& books) {
+  books.convected += Convection<Arch, kLatent>(view, step, z, flux).run(tiles, found);
 }
 
 template <class Arch, HeatFeatures kFeatures>
-void exchange_slice(const View& view, const Step& step, int z, const TileRow* tiles, TileRow* changed,
-                    TileRow* restless, Books& books) {
-  Exchange<Arch, kFeatures>(view, step, z).run(tiles, changed, restless, books);
+void exchange_slice(const View& view, const Step& step, int z, const TileRow* tiles, const HeatTiles& found,
+                    Books& books) {
+  Exchange<Arch, kFeatures>(view, step, z).run(tiles, found, books);
 }
 
 template <class Arch, bool kPaper>

@@ -113,6 +113,13 @@ struct OldHeat {
   const std::uint16_t *below = nullptr, *own = nullptr, *above = nullptr;  // z - 1, z, z + 1
 };
 
+// What a pass of heat finds out about the tiles of a slice, [tile row]; it adds to the sets.
+struct HeatTiles {
+  TileRow* changed = nullptr;
+  TileRow* restless = nullptr;  // may change in a later step though they did not in this call
+  TileRow* hot = nullptr;       // of those that changed, all in which something may melt
+};
+
 // What flows through faces to cells that a sweep has not reached yet, modulo 65536.
 struct HeatFlux {
   std::uint16_t* up = nullptr;     // [row]: from the row below
@@ -163,25 +170,22 @@ struct Kernels {
   TileRow (*apply)(const View&, const Step&, int z, int r, const Gifts& below, const Gifts& own,
                    const Gifts& above, Books&) = nullptr;
 
-  // Heat, in this order; null where a scene has no such rule. All in place. `restless`: tiles that may change
-  // in a later step though they did not in this one; it is told only of tiles that this call did not change.
+  // Heat, in this order; null where a scene has no such rule. All in place.
 
   // Conduction through faces, slices ascending. Needs old.below and old.above; the slice itself holds its old
   // heats. `carried`: the tiles of the call for z - 1, which left its flux in HeatFlux; null: there was none.
   void (*conduct_faces)(const View&, const Step&, int z, const OldHeat& old, const TileRow* carried,
-                        const TileRow* tiles, HeatFlux&, TileRow* changed, TileRow* restless,
-                        Books&) = nullptr;
+                        const TileRow* tiles, HeatFlux&, const HeatTiles&, Books&) = nullptr;
   // Conduction over edges, then over corners. Needs the old heats of all three slices, its own as a copy.
   void (*conduct_edges)(const View&, const Step&, int z, const OldHeat& old, const TileRow* tiles,
-                        TileRow* changed, TileRow* restless, Books&) = nullptr;
+                        const HeatTiles&, Books&) = nullptr;
   void (*conduct_corners)(const View&, const Step&, int z, const OldHeat& old, const TileRow* tiles,
-                          TileRow* changed, TileRow* restless, Books&) = nullptr;
+                          const HeatTiles&, Books&) = nullptr;
   // Convection in the columns of slice z; uses HeatFlux::up.
-  void (*convect)(const View&, const Step&, int z, const TileRow* tiles, HeatFlux&, TileRow* changed,
-                  TileRow* restless, Books&) = nullptr;
+  void (*convect)(const View&, const Step&, int z, const TileRow* tiles, HeatFlux&, const HeatTiles&,
+                  Books&) = nullptr;
   // Radiation and air, cell by cell.
-  void (*exchange)(const View&, const Step&, int z, const TileRow* tiles, TileRow* changed, TileRow* restless,
-                   Books&) = nullptr;
+  void (*exchange)(const View&, const Step&, int z, const TileRow* tiles, const HeatTiles&, Books&) = nullptr;
   // Melting and reheating; no tile is restless after it.
   void (*melt)(const View&, const Step&, int z, const TileRow* tiles, TileRow* changed, Books&) = nullptr;
 

@@ -81,7 +81,7 @@ struct LaneLoops {
       }
       case RowOperation::conducted: {
         const simd::Flux<Arch> flux(r >> 16, static_cast<std::uint32_t>(r) & 0xFFFFu);
-        return each(in, out, [=](V a) { return flux.template between<true>(s, a, ~std::uint64_t{0}, 0); });
+        return each(in, out, [=](V a) { return flux.between(s, a); });
       }
       case RowOperation::falling: {
         const simd::Flux<Arch> flux(scalar, static_cast<std::uint32_t>(r));
@@ -111,6 +111,7 @@ struct LaneLoops {
       const M m = L::from_bits(word, part);
       L::store(lanes + static_cast<std::size_t>(part) * kCount, L::keep(m, L::set(0xFFFF)));
       back |= L::to_bits(m) << (part * L::kCount);
+      if (L::nonzero(one_if(m)) != (L::to_bits(m) != 0)) return ~word;
     }
     return back;
   }

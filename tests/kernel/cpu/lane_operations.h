@@ -42,7 +42,8 @@ struct Operations {
   void (*row)(RowOperation, int s, int r, const std::uint16_t* a, std::uint16_t* out);
   void (*shift)(bool left, int by, const std::uint16_t* a, std::uint16_t* out);
   void (*lookup)(const std::uint16_t* table, const std::uint16_t* index, std::uint16_t* out);
-  // 64 lanes from a word, and the word from the lanes.
+  // 64 lanes from a word, and the word from the lanes; asks `nonzero` of them, too: another word if that is
+  // wrong.
   std::uint64_t (*bits)(std::uint64_t word, std::uint16_t* lanes);
   // n / d, n given by halves. `size` is a multiple of 64, here and below.
   void (*divide)(std::size_t size, const std::uint16_t* low, const std::uint16_t* high,

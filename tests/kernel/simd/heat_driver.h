@@ -85,7 +85,8 @@ class HeatDriver {
   const View& view() const { return v_; }
 
   // `work`: where anything may happen before any of this phase has; grows as it happens.
-  void heat(const Step& step, TileSet& work, TileSet& changed, TileSet& restless, Books& books) {
+  void heat(const Step& step, TileSet& work, TileSet& changed, TileSet& restless, TileSet& hot,
+            Books& books) {
     HeatFlux flux{row_.data(), front_.data()};
     const auto pass = [&](auto&& slice) {
       TileSet now(v_, false);
@@ -94,31 +95,31 @@ class HeatDriver {
           std::copy_n(heats(z), v_.slice, saved_[z & 1]->data());
           const OldHeat old{z > begin ? saved_[(z - 1) & 1]->data() : before, saved_[z & 1]->data(),
                             z + 1 < end ? heats(z + 1) : behind};
-          slice(z, z == begin, old, now.slice(z));
+          slice(z, z == begin, old, HeatTiles{now.slice(z), restless.slice(z), hot.slice(z)});
         }
       });
       changed.add(now);
       work.add_around(now);
     };
     if (kernels_.conduct_faces)
-      pass([&](int z, bool first, OldHeat old, TileRow* now) {
+      pass([&](int z, bool first, OldHeat old, const HeatTiles& found) {
         if (!first) old.below = heats(z - 1);  // it must do without what was saved
         old.own = nullptr;
         kernels_.conduct_faces(v_, step, z, old, first ? nullptr : work.slice(z - 1), work.slice(z), flux,
-                               now, restless.slice(z), books);
+                               found, books);
       });
     for (const auto kernel : {kernels_.conduct_edges, kernels_.conduct_corners})
       if (kernel)
-        pass([&](int z, bool, const OldHeat& old, TileRow* now) {
-          kernel(v_, step, z, old, work.slice(z), now, restless.slice(z), books);
+        pass([&](int z, bool, const OldHeat& old, const HeatTiles& found) {
+          kernel(v_, step, z, old, work.slice(z), found, books);
         });
     if (kernels_.convect)
-      pass([&](int z, bool, const OldHeat&, TileRow* now) {
-        kernels_.convect(v_, step, z, work.slice(z), flux, now, restless.slice(z), books);
+      pass([&](int z, bool, const OldHeat&, const HeatTiles& found) {
+        kernels_.convect(v_, step, z, work.slice(z), flux, found, books);
       });
     if (kernels_.exchange)
-      pass([&](int z, bool, const OldHeat&, TileRow* now) {
-        kernels_.exchange(v_, step, z, work.slice(z), now, restless.slice(z), books);
+      pass([&](int z, bool, const OldHeat&, const HeatTiles& found) {
+        kernels_.exchange(v_, step, z, work.slice(z), found, books);
       });
   }
 

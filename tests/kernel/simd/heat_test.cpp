@@ -41,7 +41,7 @@ double run_both(const cpu::InstructionSet set, World world, Random& random, bool
   HeatDriver driver(kernels(set, p), v, random.any({0, 1, 3, 12}), cuts);
   const View& view = driver.view();
   Books own;
-  TileSet restless(view, true), last_changed(view, true);
+  TileSet restless(view, true), last_changed(view, true), for_melt(view, true);
   std::int64_t worked = 0, tiles = 0;
 
   for (std::uint32_t s = world.first; s < world.first + static_cast<std::uint32_t>(world.steps); ++s) {
@@ -57,6 +57,7 @@ double run_both(const cpu::InstructionSet set, World world, Random& random, bool
     reference.run(Phase::source, s, light, expected, books);
     run_sources(view, step, changed.data(), own);
     compare("source", at_begin);
+    for_melt.add(changed);
 
     TileSet work(view, !sleeps);
     work.add_around(last_changed);
@@ -66,14 +67,15 @@ double run_both(const cpu::InstructionSet set, World world, Random& random, bool
     tiles += work.size();
     restless = TileSet(view, false);
     reference.run(Phase::heat, s, light, expected, books);
-    driver.heat(step, work, changed, restless, own);
+    driver.heat(step, work, changed, restless, for_melt, own);
     compare("heat", at_begin);
 
-    TileSet hot(view, !sleeps);
-    hot.add(last_changed);
-    hot.add(changed);
+    TileSet melting(view, !sleeps), melted(view, false);
+    melting.add(for_melt);
     reference.run(Phase::melt, s, light, expected, books);
-    driver.melt(step, hot, changed, own);
+    driver.melt(step, melting, melted, own);
+    changed.add(melted);
+    for_melt = melted;
     compare("melt", at_begin);
     if (testing::Test::HasFatalFailure()) break;
 
@@ -81,7 +83,9 @@ double run_both(const cpu::InstructionSet set, World world, Random& random, bool
       state::Ledger unused;
       for (const Phase phase : {Phase::gravity, Phase::spread, Phase::excess})
         reference.run(phase, s, light, expected, unused);
-      changed.add(tiles_between(view, expected, v));
+      const TileSet moved = tiles_between(view, expected, v);
+      changed.add(moved);
+      for_melt.add(moved);
       std::copy_n(expected.amount.data(), expected.amount.layout().cells(), v.amount.data());
       std::copy_n(expected.energy.data(), expected.amount.layout().cells(), v.energy.data());
       std::copy_n(expected.temperature.data(), expected.amount.layout().cells(), v.temperature.data());
@@ -123,21 +127,21 @@ TEST_P(Heat, EveryStateAsTheReference) {
   check({200, 12, 7}, 10);
 }
 
-// A block of matter with few holes: words in which every pair counts, amounts of full cells and others, heats
-// far apart.
+// A block of matter with few holes or none: tiles and words in which every pair counts, amounts of full cells
+// and others, heats far apart.
 TEST_P(Heat, DenseMatter) {
   Random random(12);
   for (int i = 0; i < 40; ++i) {
-    World world = hostile_world(random, {random.any({64, 128, 150}), 7, 5}, 3);
+    World world = hostile_world(random, {random.any({64, 128, 150, 192}), random.any({7, 10, 18}), 5}, 3);
     world.parameters.vents.clear();
     world.parameters.drains.clear();
-    const bool far = random.one_in(2), full = random.one_in(2);
+    const bool far = random.one_in(2), full = random.one_in(2), holes = random.one_in(2);
     const std::int32_t large = random.any({4096, 36863, 36864, 65535});
     for_each(whole(world.volume.grid), [&](int x, int y, int z) {
       world.volume.inert.set(x, y, z, false);
       world.volume.solid.set(x, y, z, false);
       put(world.volume, x, y, z, 0);
-      if (random.one_in(300)) return;
+      if (holes && random.one_in(300)) return;
       const std::int32_t heat = far ? random.any({0, 65535}) : 30000 + random.below(9);
       const std::int32_t amount = full ? large : random.between(1, large);
       if (random.one_in(3))
@@ -235,9 +239,10 @@ TEST_P(Heat, EveryDifference) {
       const std::int32_t dither = random.any({0, 1, 32768, 65535, random.below(65536)});
       Volume v = start;
       HeatDriver driver(kernels(GetParam().set, p), v, 3, {});
-      TileSet work(driver.view(), true), changed(driver.view(), false), restless(driver.view(), false);
+      TileSet work(driver.view(), true), changed(driver.view(), false), restless(driver.view(), false),
+          hot(driver.view(), false);
       Books books;
-      driver.heat({&p, 0, static_cast<std::uint32_t>(dither), nullptr, nullptr}, work, changed, restless,
+      driver.heat({&p, 0, static_cast<std::uint32_t>(dither), nullptr, nullptr}, work, changed, restless, hot,
                   books);
       const std::int32_t part = (dither + 65536 * axis / 3) % 65536;
       for (std::size_t k = 0; k < first.size(); ++k) {
