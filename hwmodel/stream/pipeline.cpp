@@ -14,7 +14,8 @@ int sc_main(int, char**) { return 1; }
 namespace voxmelt::hwmodel {
 namespace {
 
-constexpr std::int64_t kHangAfter = 1000;  // cycles in which no token moves anywhere
+constexpr std::int64_t kHangAfter =
+    1000;  // cycles in which no token moves anywhere, and no stage can be draining
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t kPeriod = 1000;  // of the clock, in the kernel's units of time (1 ps)
 
@@ -132,6 +133,10 @@ struct Pipeline::Machine {
     }
     reader.connect(links.front()->fifo());
     writer.connect(links.back()->fifo());
+    // On a grid thinner than its stencil a stage has taken all before it gives anything: its lag passes in
+    // silence.
+    for (const auto& stage : steps.front()->stages())
+      hang_after = std::max(hang_after, kHangAfter + stage->lag());
     make_blocks();
   }
 
@@ -168,7 +173,7 @@ struct Pipeline::Machine {
   void watch_progress() {
     idle = shared.moves == moves_before ? idle + 1 : 0;
     moves_before = shared.moves;
-    shared.hangs = idle > kHangAfter;
+    shared.hangs = idle > hang_after;
     shared.complete = writer.done();
     if (shared.complete || shared.hangs) shared.end();
   }
@@ -205,7 +210,7 @@ struct Pipeline::Machine {
           [&](CellFifo& fifo, const Stage& producer) { visit(fifo, &producer, static_cast<int>(t)); });
   }
 
-  std::int64_t moves_before = 0, idle = 0;
+  std::int64_t moves_before = 0, idle = 0, hang_after = kHangAfter;
   FaultPlan* plan = nullptr;
   bool ran = false;
   Context context;  // first: everything of SystemC lives in it

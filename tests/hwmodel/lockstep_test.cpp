@@ -152,5 +152,12 @@ TEST(Lockstep, IrradianceStaysInStepAcrossBypasses) {
   }
 }
 
+// Grids thinner than the stencil: long after the last token has come, none has left, and it is no hang.
+TEST(Lockstep, ALongFillIsNoHang) {
+  for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
+    for (const state::Grid grid : {state::Grid{50, 30, 1}, state::Grid{3, 1500, 1}})
+      EXPECT_TRUE(agrees(hostile_start(7, law, grid), {4, 1, 2, 0}, 2)) << grid.x << " x " << grid.y;
+}
+
 }  // namespace
 }  // namespace voxmelt::hwmodel
