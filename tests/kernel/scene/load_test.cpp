@@ -30,6 +30,32 @@ TEST(Load, DefaultsOfTheLeastScene) {
   EXPECT_FALSE(scene.terrain.textured);
 }
 
+// The defaults are written twice: where parameters are declared, and where a table is read.
+TEST(Load, AnEmptyTableIsAsGoodAsNone) {
+  const SceneFolder folder;
+  const rule::Flow without = folder.load_text(kLeast).parameters.flow;
+  const rule::Flow with = folder.load_text(kLeast + "[flow.fall]\n[flow.paper]\n").parameters.flow;
+  EXPECT_EQ(with.fall.factor, without.fall.factor);
+  EXPECT_EQ(with.fall.wall_factor, without.fall.wall_factor);
+  EXPECT_EQ(with.fall.minimum, without.fall.minimum);
+  EXPECT_EQ(with.fall.hang, without.fall.hang);
+  const rule::PaperLaw &a = with.paper, &b = without.paper;
+  EXPECT_EQ(a.neighbours, b.neighbours);
+  EXPECT_EQ(a.threshold, b.threshold);
+  EXPECT_EQ(a.use_table, b.use_table);
+  EXPECT_EQ(a.share, b.share);
+  EXPECT_EQ(a.downhill, b.downhill);
+  EXPECT_EQ(a.margin, b.margin);
+  EXPECT_EQ(a.support, b.support);
+  EXPECT_EQ(a.slump, b.slump);
+  EXPECT_EQ(a.reading, b.reading);
+  EXPECT_EQ(a.beta, b.beta);
+  EXPECT_EQ(a.alpha_liquid, b.alpha_liquid);
+  EXPECT_EQ(a.alpha_solid, b.alpha_solid);
+  EXPECT_EQ(a.alpha_floor, b.alpha_floor);
+  EXPECT_EQ(a.reheat, b.reheat);
+}
+
 TEST(Load, UnitsOfTheAutomaton) {
   const SceneFolder folder;
   const rule::Parameters p = folder
