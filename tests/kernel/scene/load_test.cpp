@@ -1,4 +1,6 @@
 // Defaults, units, --set and extends of the scene loader.
+#include <algorithm>
+
 #include "kernel/scene/features.h"
 #include "tests/kernel/scene/scene_text.h"
 
@@ -28,6 +30,24 @@ TEST(Load, DefaultsOfTheLeastScene) {
   EXPECT_EQ(scene.camera.distance, 0);  // the renderer fits the grid
   EXPECT_EQ(scene.terrain.height.size(), 80u);
   EXPECT_FALSE(scene.terrain.textured);
+}
+
+TEST(Load, WhatASceneDoesNotModelIsNotThere) {
+  const SceneFolder folder;
+  const std::string warm =
+      kLeast + "temperature = 0.4\n[[liquid]]\nshape = \"box\"\nsize = [1, 1, 1]\nat = [1, 1, 1]\n";
+  const auto holds = [&](const std::string& more) {
+    const state::Volume volume = folder.load_text(warm + more).initial;
+    const auto any = [](const auto& field) {
+      return std::any_of(field.stored().begin(), field.stored().end(), [](int value) { return value != 0; });
+    };
+    return std::pair(any(volume.energy), any(volume.temperature));
+  };
+  const std::string heat = "[heat]\ngamma = 0.1\n",
+                    viscous = "[flow]\nlaw = \"viscous\"\nviscous = {kappa = 0.1}\n";
+  EXPECT_EQ(holds(heat), std::pair(true, true));
+  EXPECT_EQ(holds(""), std::pair(true, false)) << "no heat without [heat]";
+  EXPECT_EQ(holds(heat + viscous), std::pair(false, true)) << "no energy under the viscous law";
 }
 
 // The defaults are written twice: where parameters are declared, and where a table is read.
