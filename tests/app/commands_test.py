@@ -273,6 +273,57 @@ class Commands(unittest.TestCase):
         self.assertEqual(voxmelt("verify", self.scene, "--out", "foreign", cwd=self.folder).returncode, 2)
         self.assertEqual(voxmelt("verify", self.scene, "--out", ".", cwd=self.folder).returncode, 2)
 
+    def test_the_machine_is_the_one_asked_for(self):
+        asked = {"lanes": 8, "cascade": 3, "fifo_depth": 5, "stall_seed": 77}
+        sets = [a for key, value in asked.items() for a in ("--set", f"hw.{key}={value}")]
+        write(self.folder, "title = \"mine\"\n[hw]\n" + "".join(f"{k} = {v}\n" for k, v in asked.items()), "mine.toml")
+        for machine in (sets, ["--hw", "mine.toml"]):
+            self.good("verify", self.scene, "--steps", 6, "--report", "m.json", *machine)
+            report = json.loads((self.folder / "m.json").read_text())
+            self.assertEqual(report["hw"], asked)
+            self.assertEqual(report["passes"], 2)
+            self.assertEqual({c["depth"] for c in report["channels"]}, {5})
+            self.assertEqual({len(c["occupancy"]) for c in report["channels"]}, {6})
+            for channel in report["channels"]:
+                self.assertEqual(sum(channel["occupancy"]), report["cycles"], channel["name"])
+            self.assertEqual(report["buffer_bits"], sum(b["total_bits"] for s in report["stages"] for b in s["buffers"]))
+            self.assertEqual(report["channel_bits"], sum(8 * 5 * c["bits"] for c in report["channels"]))
+        for wrong in ("[hw]\nlane = 4\n", "[hw]\nlanes = 4\n[wh]\n"):
+            write(self.folder, wrong, "wrong.toml")
+            self.assertEqual(voxmelt("verify", self.scene, "--hw", "wrong.toml", cwd=self.folder).returncode, 2, wrong)
+
+    def test_verify_does_what_its_options_say(self):
+        base = self.good("verify", self.scene, "--steps", 6, "--report", "all.json", "--implementation", "reference")
+        self.assertIn("(the reference itself): no difference", base)
+        self.good("verify", self.scene, "--steps", 6, "--report", "some.json", "--every", 4)
+        every, some = (json.loads((self.folder / f"{name}.json").read_text()) for name in ("all", "some"))
+        self.assertEqual(some["compared_cells"] * 3, every["compared_cells"], "steps 4 and 6")
+        self.good("verify", self.scene, "--steps", 1, "--from", 19, "--report", "from.json")
+        self.assertEqual(json.loads((self.folder / "from.json").read_text())["first_step"], 16, "a step of visibility")
+
+    def test_a_fault_strikes_from_its_step_on_and_the_command_repeats_everything(self):
+        folder = self.folder / 'a "quoted" \\ folder'
+        folder.mkdir()
+        scene = write(folder, SMALL)
+        typed = ["--hw", "tiny", "--set", "hw.lanes=2", "--set", "heat.gamma=0.2", "--seed", 5]
+        for step, at in ((2, ["--plant-step", 2]), (10, ["--plant-step", 10]), (8, [])):
+            result = voxmelt("verify", scene, "--steps", 16, "--plant", "conduction-sign", "--report", "p.json", *at,
+                             *typed, cwd=self.folder)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            report = json.loads((self.folder / "p.json").read_text())
+            self.assertEqual(report["planted"]["step"], step)
+            self.assertEqual(report["mismatches"], 1)
+            line, = [line for line in result.stdout.splitlines() if line.startswith("  voxmelt verify")]
+            for part in ("--hw tiny", "--set hw.lanes=2", "--set heat.gamma=0.2", "--seed 5", f"--plant-step {step}",
+                         f"--steps {step % 8 + 1} "):
+                self.assertIn(part, line + " ")
+            repeated = voxmelt(*shlex.split(line)[1:], "--report", "again.json", cwd=self.folder)
+            self.assertEqual(repeated.returncode, 1, repeated.stderr)
+            again = json.loads((self.folder / "again.json").read_text())
+            for key in ("where", "step", "cell", "lane", "field", "expected", "actual", "neighbourhood"):
+                self.assertEqual(report["first_mismatch"][key], again["first_mismatch"][key], key)
+            self.assertEqual(again["first_step"], step - step % 8)
+
     def test_presets_verify(self):
         names = [line.split()[0] for line in self.good("list", "presets").splitlines()]
         self.assertGreaterEqual(len(names), 3)

@@ -47,5 +47,37 @@ TEST(StageAccount, NothingIsLostAndCyclesSum) {
   EXPECT_EQ(runs, 108);
 }
 
+// Three tokens through one stage that keeps each of them for one move, cycle by cycle.
+TEST(StageAccount, EveryCycleIsCountedAsWhatItWas) {
+  const Design design{{}, {{1, 3, 1}, 1}};
+  Late stage(design, 1);
+  CellFifo in("in", 0, 1, 2, 0), out("out", 1, 1, 1, 0);
+  stage.connect(in, out);
+  stage.begin_pass(0, false);
+  const auto cycle = [&](bool comes, bool leaves) {
+    stage.cycle();
+    if (comes) in.put()[0] = {};
+    if (leaves) out.get();
+    in.commit();
+    out.commit();
+  };
+  const auto expect = [&](std::int64_t busy, std::int64_t starved, std::int64_t blocked, std::int64_t other) {
+    EXPECT_EQ(stage.cycles().busy, busy);
+    EXPECT_EQ(stage.cycles().starved, starved);
+    EXPECT_EQ(stage.cycles().blocked, blocked);
+    EXPECT_EQ(stage.cycles().fill_drain, other);
+  };
+  cycle(true, false), expect(0, 0, 0, 1);   // nothing has come yet
+  cycle(false, false), expect(1, 0, 0, 1);  // takes the first token
+  cycle(true, false), expect(1, 1, 0, 1);   // the second one is late
+  cycle(true, false), expect(2, 1, 0, 1);   // takes it, gives the first one
+  cycle(false, true), expect(2, 1, 1, 1);   // which is in the way
+  cycle(false, false), expect(3, 1, 1, 1);  // takes the third, gives the second
+  cycle(false, true), expect(3, 1, 2, 1);   // which is in the way
+  cycle(false, false), expect(3, 1, 2, 2);  // gives the third
+  EXPECT_TRUE(stage.done());
+  cycle(false, false), expect(3, 1, 2, 3);  // nothing is left to do
+}
+
 }  // namespace
 }  // namespace voxmelt::hwmodel

@@ -43,6 +43,29 @@ TEST(Simulation, ARunRepeats) {
   }
 }
 
+// Dither, random bits, sources and vents go by the automaton's step number, not by the steps of this run.
+TEST(Simulation, ARunThatBeginsInTheMiddleGoesOnTheSame) {
+  for (const Law law : {Law::paper, Law::viscous})
+    for (const step::Implementation& implementation : implementations().all()) {
+      if (!implementation.supported) continue;
+      Parameters p = hot_parameters(law);
+      p.heat.sources = {{{{0, {16 * 20, 16 * 12, 16 * 8}, std::uint64_t{1} << 31},
+                          {60, {-16 * 20, 16 * 12, 16 * 8}, std::uint64_t{1} << 33}}}};
+      Simulation through(p, block(), implementation);
+      for (int i = 0; i < 40; ++i) through.step();  // to a step of visibility
+      Simulation from_there(p, through.volume(), implementation);
+      from_there.begin_at(40);
+      const Volume middle = through.volume();
+      for (int i = 0; i < 12; ++i) through.step(), from_there.step();
+      EXPECT_EQ(from_there.step_number(), 52u);
+      EXPECT_TRUE(from_there.volume() == through.volume()) << implementation.name;
+      EXPECT_GT(through.volume().liquid.count(), 0) << "nothing flows";
+      Simulation as_if_new(p, middle, implementation);
+      for (int i = 0; i < 12; ++i) as_if_new.step();
+      EXPECT_FALSE(as_if_new.volume() == through.volume()) << "the step numbers do not matter";
+    }
+}
+
 TEST(Simulation, TheSeedChangesThePaperLawOnly) {
   for (const Law law : {Law::paper, Law::viscous}) {
     Parameters p = hot_parameters(law);

@@ -179,6 +179,27 @@ TEST(Start, FieldsReplaceTheShapes) {
   EXPECT_EQ(volume.amount[volume.at(1, 1, 1)], 0x1234);
 }
 
+TEST(Start, EveryFieldOfEveryCellIsRead) {
+  const SceneFolder folder;
+  const Fields fields(folder);
+  const auto numbers = [](int first) {  // little endian, one more in every cell
+    std::string data;
+    for (int i = first; i < first + 8; ++i) data += {static_cast<char>(i & 0xFF), static_cast<char>(i >> 8)};
+    return data;
+  };
+  fields.write("liquid", "|u1", std::string(8, '\1'));
+  fields.write("amount", "<u2", numbers(4000));
+  fields.write("energy", "<u2", numbers(2000));
+  fields.write("temperature", "<u2", numbers(50000));
+  const state::Volume volume = folder.load_text(kStartScene + "[heat]\ngamma = 0.1\n").initial;
+  for (int i = 0; i < 8; ++i) {
+    const state::Slot cell = volume.at(i & 1, i >> 1 & 1, i >> 2);  // x fastest, z outermost
+    EXPECT_EQ(volume.amount[cell], 4000 + i);
+    EXPECT_EQ(volume.energy[cell], 2000 + i);
+    EXPECT_EQ(volume.temperature[cell], 50000 + i);
+  }
+}
+
 TEST(Start, BadFieldsAreRefused) {
   const SceneFolder folder;
   const Fields good(folder);

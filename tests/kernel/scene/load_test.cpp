@@ -1,4 +1,6 @@
 // Defaults, units, --set and extends of the scene loader.
+#include <algorithm>
+
 #include "kernel/scene/features.h"
 #include "tests/kernel/scene/scene_text.h"
 
@@ -28,6 +30,50 @@ TEST(Load, DefaultsOfTheLeastScene) {
   EXPECT_EQ(scene.camera.distance, 0);  // the renderer fits the grid
   EXPECT_EQ(scene.terrain.height.size(), 80u);
   EXPECT_FALSE(scene.terrain.textured);
+}
+
+TEST(Load, WhatASceneDoesNotModelIsNotThere) {
+  const SceneFolder folder;
+  const std::string warm =
+      kLeast + "temperature = 0.4\n[[liquid]]\nshape = \"box\"\nsize = [1, 1, 1]\nat = [1, 1, 1]\n";
+  const auto holds = [&](const std::string& more) {
+    const state::Volume volume = folder.load_text(warm + more).initial;
+    const auto any = [](const auto& field) {
+      return std::any_of(field.stored().begin(), field.stored().end(), [](int value) { return value != 0; });
+    };
+    return std::pair(any(volume.energy), any(volume.temperature));
+  };
+  const std::string heat = "[heat]\ngamma = 0.1\n",
+                    viscous = "[flow]\nlaw = \"viscous\"\nviscous = {kappa = 0.1}\n";
+  EXPECT_EQ(holds(heat), std::pair(true, true));
+  EXPECT_EQ(holds(""), std::pair(true, false)) << "no heat without [heat]";
+  EXPECT_EQ(holds(heat + viscous), std::pair(false, true)) << "no energy under the viscous law";
+}
+
+// The defaults are written twice: where parameters are declared, and where a table is read.
+TEST(Load, AnEmptyTableIsAsGoodAsNone) {
+  const SceneFolder folder;
+  const rule::Flow without = folder.load_text(kLeast).parameters.flow;
+  const rule::Flow with = folder.load_text(kLeast + "[flow.fall]\n[flow.paper]\n").parameters.flow;
+  EXPECT_EQ(with.fall.factor, without.fall.factor);
+  EXPECT_EQ(with.fall.wall_factor, without.fall.wall_factor);
+  EXPECT_EQ(with.fall.minimum, without.fall.minimum);
+  EXPECT_EQ(with.fall.hang, without.fall.hang);
+  const rule::PaperLaw &a = with.paper, &b = without.paper;
+  EXPECT_EQ(a.neighbours, b.neighbours);
+  EXPECT_EQ(a.threshold, b.threshold);
+  EXPECT_EQ(a.use_table, b.use_table);
+  EXPECT_EQ(a.share, b.share);
+  EXPECT_EQ(a.downhill, b.downhill);
+  EXPECT_EQ(a.margin, b.margin);
+  EXPECT_EQ(a.support, b.support);
+  EXPECT_EQ(a.slump, b.slump);
+  EXPECT_EQ(a.reading, b.reading);
+  EXPECT_EQ(a.beta, b.beta);
+  EXPECT_EQ(a.alpha_liquid, b.alpha_liquid);
+  EXPECT_EQ(a.alpha_solid, b.alpha_solid);
+  EXPECT_EQ(a.alpha_floor, b.alpha_floor);
+  EXPECT_EQ(a.reheat, b.reheat);
 }
 
 TEST(Load, UnitsOfTheAutomaton) {
