@@ -53,7 +53,9 @@ constexpr std::array kFaults{
     FaultInfo{viscous_dither, "viscous-dither", "spread", "an axis uses the dither of the next one"},
     FaultInfo{viscous_flow_lost, "viscous-flow-lost", "spread", "a flow leaves its cell and never arrives"},
     FaultInfo{buffer_bit, "buffer-bit", "plane memory", "a bit of an amount flips in the first plane memory"},
-    FaultInfo{fifo_overwrite, "fifo-overwrite", "channel", "a full channel's write pointer stands still"},
+    FaultInfo{fifo_overwrite, "fifo-overwrite", "channel",
+              "a channel's write pointer stands still: a token takes the place of the one before it (needs "
+              "stalls)"},
     FaultInfo{fifo_stale, "fifo-stale", "channel", "a channel stores the token before once more"},
     FaultInfo{fifo_swap_lanes, "fifo-swap-lanes", "channel", "the lanes of a token are rotated"},
     FaultInfo{fifo_never_ready, "fifo-never-ready", "channel",
