@@ -21,5 +21,6 @@ target_include_directories(voxmelt_tinyobj SYSTEM INTERFACE ${TINYOBJ_INCLUDE})
 pkg_check_modules(SYSTEMC REQUIRED systemc)
 add_library(voxmelt_systemc INTERFACE)
 target_include_directories(voxmelt_systemc SYSTEM INTERFACE ${SYSTEMC_INCLUDE_DIRS})
-target_link_libraries(voxmelt_systemc INTERFACE ${SYSTEMC_LINK_LIBRARIES})
+# Only where it is used: else a program without a simulation would have to define sc_main.
+target_link_libraries(voxmelt_systemc INTERFACE -Wl,--push-state,--as-needed ${SYSTEMC_LINK_LIBRARIES} -Wl,--pop-state)
 target_compile_definitions(voxmelt_systemc INTERFACE SC_CPLUSPLUS=201703L)
