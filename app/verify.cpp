@@ -205,7 +205,7 @@ int run_verify(VerifyCommand command) {
   const hwmodel::VerifyReport report =
       hwmodel::verify(scene.parameters, ahead.volume(), ahead.step_number(), fast, tuning, options);
 
-  if (fault != nullptr && !report.strike)
+  if (fault != nullptr && !report.strike && report.mismatch == nullptr)
     throw UsageError(fmt::format(
         "error: --plant {}: in these steps of this scene there is nothing that this fault could change",
         command.plant));
