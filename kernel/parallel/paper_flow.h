@@ -3,7 +3,8 @@
 // slices of gifts along z, small enough for the first cache level.
 //
 // A tile is awake for a phase where something that the phase reads has changed since it last ran there:
-//   gravity  it, or a tile beside it, changed since the last gravity (in it, or since)
+//   gravity  it, or a tile beside it, changed since the last gravity (in it, or since), or melted before it:
+//            only now that counts at the sides of cells
 //   pattern  the same, this step's gravity included; or some cell may give and only the dice said no
 //   apply    it or a neighbour gives
 // All three read no further than the next tile (gravity's chain up a column is followed by its kernel), so

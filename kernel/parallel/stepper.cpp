@@ -19,6 +19,20 @@ simd::View shape_of(state::Grid grid, int tile_shift) {
   return view;
 }
 
+// Does falling in this scene see another state of its sides than of all else?
+bool keeps_sides(const rule::Parameters& p) {
+  const rule::Fall& fall = p.flow.fall;
+  return p.flow.law == rule::Law::paper && p.heat.enabled &&
+         (fall.hang > 0 || fall.wall_factor != fall.factor);
+}
+
+void refresh(const simd::View& view, const Tiles& tiles, Walls& walls) {
+  for (int z = 0; z < view.nz; ++z)
+    for (int r = 0; tiles.any(z) && r < view.tile_rows(); ++r)
+      if (tiles.slice(z)[r] != 0)
+        for (int y = view.tile_begin(r); y < view.tile_end(r); ++y) walls.refresh(view, y, z);
+}
+
 int chunks_for(const step::Tuning& tuning) { return tuning.threads == 1 ? 1 : 4 * tuning.threads; }
 
 void book(const simd::Books& books, state::Ledger& ledger) {
@@ -57,7 +71,7 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
     paper_.emplace(parameters, view, chunks);
   else
     viscous_.emplace(grid, view, chunks);
-  dirty_ = dirty_next_ = changed_ = Tiles(view.nz, view.tile_rows());
+  dirty_ = dirty_next_ = changed_ = melted_ = freed_ = Tiles(view.nz, view.tile_rows());
   dirty_.fill(all_words(view));  // nothing is known about the first state
   if (heat_) heat_->note(dirty_);
   if (viscous_) viscous_->note(dirty_);
@@ -72,7 +86,9 @@ simd::View Stepper::view_of(state::Volume& volume) {
   view.liquid = volume.liquid.data();
   view.inert = volume.inert.data();
   if (!walls_) walls_.emplace(view);
+  if (!sides_ && keeps_sides(parameters_)) sides_ = walls_;
   view.walls = walls_->origin(view);
+  view.sides = sides_ ? sides_->origin(view) : view.walls;
   return view;
 }
 
@@ -130,21 +146,32 @@ void Stepper::heat(const Job& job, simd::Books& books) {
 void Stepper::melt(const Job& job, simd::Books& books) {
   if (!heat_) return;
   changed_.clear();
+  open_sides(job.view);
   heat_->melt(job, changed_, books);
-  for (int z = 0; z < job.view.nz; ++z)
-    for (int r = 0; changed_.any(z) && r < job.view.tile_rows(); ++r)
-      if (changed_.slice(z)[r] != 0)
-        for (int y = job.view.tile_begin(r); y < job.view.tile_end(r); ++y) walls_->refresh(job.view, y, z);
+  refresh(job.view, changed_, *walls_);
+  if (sides_) melted_.add(changed_);
   dirty_.add(changed_);
   if (viscous_) viscous_->note(changed_);
 }
 
+// What has melted is no side any more; the next gravity must look at what it held.
+void Stepper::open_sides(const simd::View& view) {
+  if (!sides_) return;
+  refresh(view, melted_, *sides_);
+  freed_.add(melted_);
+  melted_.clear();
+}
+
 void Stepper::gravity(const Job& job, simd::Books& books) {
-  if (paper_)
-    paper_->gravity(job, dirty_, books);
-  else
+  if (viscous_) {
     viscous_->fall(job, books);
-  if (viscous_ && heat_) heat_->note(viscous_->take_changed());
+    if (heat_) heat_->note(viscous_->take_changed());
+    return;
+  }
+  if (sides_) dirty_.add(freed_);
+  paper_->gravity(job, dirty_, books);
+  freed_.clear();
+  open_sides(job.view);
 }
 
 void Stepper::spread(const Job& job, simd::Books& books) {

@@ -30,6 +30,7 @@ class Stepper final : public step::Stepper {
   void heat(const Job& job, simd::Books& books);
   void melt(const Job& job, simd::Books& books);
   void gravity(const Job& job, simd::Books& books);
+  void open_sides(const simd::View& view);
   void spread(const Job& job, simd::Books& books);
   void settle(const Job& job, simd::Books& books);
 
@@ -38,12 +39,14 @@ class Stepper final : public step::Stepper {
   simd::Kernels kernels_;
   rule::RoundKeys keys_;
   cpu::Workers workers_;
-  std::optional<Walls> walls_;
+  std::optional<Walls> walls_, sides_;  // sides_: before this step's melt, where gravity asks for them
   std::optional<HeatFlow> heat_;
   std::optional<PaperFlow> paper_;
   std::optional<ViscousFlow> viscous_;
   Tiles dirty_, dirty_next_;  // paper law: changed since the last gravity; scratch
   Tiles changed_;             // by a phase
+  Tiles melted_;              // solids there have melted, and are sides still
+  Tiles freed_;               // their sides have gone since the last gravity began
 };
 
 template <cpu::InstructionSet kSet>

@@ -1,5 +1,7 @@
 // Solid or inert, or beyond the grid, in one bit a cell: the plane that kernels ask what blocks. One word and
-// one row wider than the grid at every side, where everything is blocked.
+// one row wider than the grid at every side, where everything is blocked. Scenes in which the paper's law
+// asks for the sides of a falling cell, and solids melt, keep a second one: the sides as they were before
+// melt.
 #pragma once
 
 #include "kernel/simd/kernels.h"

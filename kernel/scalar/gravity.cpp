@@ -8,9 +8,11 @@
 namespace voxmelt::scalar {
 namespace {
 
-rule::FallSurroundings surroundings(const Cells& cells, int x, int y, int z, bool empty_below) {
-  const bool wall = cells.blocked(x - 1, y, z) || cells.blocked(x + 1, y, z) || cells.blocked(x, y, z - 1) ||
-                    cells.blocked(x, y, z + 1);
+// side(x, y, z): does that cell count as a blocked side?
+template <class Side>
+rule::FallSurroundings surroundings(const Cells& cells, const Side& side, int x, int y, int z,
+                                    bool empty_below) {
+  const bool wall = side(x - 1, y, z) || side(x + 1, y, z) || side(x, y, z - 1) || side(x, y, z + 1);
   return {wall, empty_below && (wall || cells.blocked(x, y + 1, z))};
 }
 
@@ -23,6 +25,10 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
   const std::int32_t offset = rule::dither(step);
   const ActiveRows columns = ActiveRows::columns(volume);  // excess may climb as far as it must
   const Cells cells(volume);  // masks are those of the phase's begin until settle_masks
+  // Under the paper's law the sides are those before this step's melt.
+  const auto side = [&](int x, int y, int z) {
+    return cells.blocked(x, y, z) || (paper && melted_.test(x, y, z));
+  };
 
   // Moves `flow` (and energy) from cell `from` to cell `to`, and mixes their heat.
   const auto transfer = [&](state::Slot from, state::Slot to, std::int32_t flow) {
@@ -54,8 +60,8 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
 
         // Down: only into free space, so a cell filled by falling never exceeds 1.
         if (upper > 0 && lower < rule::kOne && (paper || !in_run_[high])) {
-          const std::int32_t ready =
-              rule::released(upper, parameters_.flow.fall, surroundings(cells, x, y + 1, z, lower == 0));
+          const std::int32_t ready = rule::released(upper, parameters_.flow.fall,
+                                                    surroundings(cells, side, x, y + 1, z, lower == 0));
           const std::int32_t flow = rule::fallen(lower, ready);
           if (flow == 0) continue;
           if (paper) {
@@ -78,6 +84,7 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
       }
     }
   settle_masks(columns, volume);
+  melted_.clear();
 }
 
 }  // namespace voxmelt::scalar

@@ -8,6 +8,7 @@ void Reference::melt(Volume& volume, Ledger& ledger) {
   if (!parameters_.heat.enabled) return;
   const bool paper = parameters_.flow.law == rule::Law::paper;
   const std::int32_t reheat = parameters_.flow.paper.reheat;
+  melted_.clear();
 
   ActiveRows(volume).for_each([&](int x, int y, int z) {
     const state::Slot i = volume.at(x, y, z);
@@ -16,6 +17,7 @@ void Reference::melt(Volume& volume, Ledger& ledger) {
       volume.solid.set(x, y, z, false);
       volume.liquid.set(x, y, z, true);
       if (!paper) return;
+      melted_.set(x, y, z, true);
       volume.energy[i] = volume.amount[i];
       ledger.energy.melted += volume.amount[i];
     } else if (paper && reheat > 0 && volume.liquid.test(x, y, z)) {

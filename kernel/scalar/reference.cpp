@@ -6,6 +6,7 @@ Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
     : parameters_(parameters), keys_(rule::round_keys(parameters.seed)) {
   if (parameters.flow.law == rule::Law::paper) {
     pattern_ = decltype(pattern_)(grid);
+    melted_ = decltype(melted_)(grid);
   } else {
     in_run_ = decltype(in_run_)(grid);
     head_ = decltype(head_)(grid);

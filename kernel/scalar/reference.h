@@ -38,6 +38,7 @@ class Reference final : public step::Stepper {
   rule::Parameters parameters_;
   rule::RoundKeys keys_;
   state::Field<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
+  state::BitPlane melted_;              // paper law: by the last `melt`, until `gravity` has run
   state::Field<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
   state::Field<std::int32_t> head_, mobility_, exposed_,
       dead_;     // viscous law: of each cell, see rule::Column

@@ -26,8 +26,8 @@ std::uint64_t available_bytes() {
 }  // namespace
 
 std::uint64_t needed_bytes(state::Grid grid) {
-  // What is taken even where nothing is: three masks, the walls, the books of pages; half a byte a cell is
-  // enough.
+  // What is taken even where nothing is: three masks, the walls (and sides), the books of pages; half a byte
+  // a cell is enough.
   return static_cast<std::uint64_t>(grid.cells()) / 2;
 }
 

@@ -76,12 +76,11 @@ class Gravity {
   struct Around {
     std::uint64_t wall, overhang;
   };
-  // Of the cells q of word w in row y: a side is blocked; something to hang from.
+  // Of the cells q of word w in row y: a side was blocked before melt; something to hang from.
   [[gnu::always_inline]] Around surroundings(int w, int y) const {
-    const std::uint64_t own = v_.blocked(w, y, z_);
-    const std::uint64_t wall = cpu::from_right(own, v_.blocked(w + 1, y, z_)) |
-                               cpu::from_left(own, v_.blocked(w - 1, y, z_)) | v_.blocked(w, y, z_ - 1) |
-                               v_.blocked(w, y, z_ + 1);
+    const std::uint64_t* row = v_.sides_at(y, z_);
+    const std::uint64_t wall = cpu::from_right(row[w], row[w + 1]) | cpu::from_left(row[w], row[w - 1]) |
+                               v_.sides_at(y, z_ - 1)[w] | v_.sides_at(y, z_ + 1)[w];
     return {wall, wall | v_.blocked(w, y + 1, z_)};
   }
 

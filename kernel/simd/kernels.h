@@ -19,6 +19,7 @@ using TileRow = std::uint64_t;
 struct View {
   std::uint16_t *amount = nullptr, *energy = nullptr, *temperature = nullptr;
   const std::uint64_t* walls = nullptr;  // of (0, 0, 0), in a plane one word and one row wider at every side
+  const std::uint64_t* sides = nullptr;  // the same before this step's melt, for the paper law's gravity
   std::uint64_t *solid = nullptr, *liquid = nullptr, *inert = nullptr;
   int nx = 0, ny = 0, nz = 0;
   std::size_t row = 0, slice = 0;  // cells from y to y + 1, from z to z + 1
@@ -45,6 +46,9 @@ struct View {
   [[gnu::always_inline]] std::uint64_t blocked(int w, int y, int z) const { return walls_at(y, z)[w]; }
   [[gnu::always_inline]] const std::uint64_t* walls_at(int y, int z) const {
     return walls + (static_cast<std::ptrdiff_t>(z) * (ny + 2) + y) * (words + 2);
+  }
+  [[gnu::always_inline]] const std::uint64_t* sides_at(int y, int z) const {
+    return sides + (static_cast<std::ptrdiff_t>(z) * (ny + 2) + y) * (words + 2);
   }
 };
 

@@ -30,6 +30,8 @@ class BitPlane {
     word = value ? word | bit : word & ~bit;
   }
 
+  void clear() { pages_.clear(); }
+
   std::size_t row_words() const { return row_words_; }
   std::span<const std::uint64_t> row(int y, int z) const {
     return {data() + word_index(0, y, z), row_words_};

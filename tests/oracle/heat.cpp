@@ -130,6 +130,7 @@ void melt(State& state) {
     if (cell.solid == 1) {
       cell.solid = 0;
       cell.liquid = 1;
+      state.melted_in[i] = state.step;
       if (parameters.paper_law) {
         cell.energy = cell.amount;
         state.ledgers.energy.melted += cell.amount;

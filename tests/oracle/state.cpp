@@ -32,6 +32,7 @@ State read_state(const std::string& folder) {
   }
 
   state.irradiance.resize(count);
+  state.melted_in.resize(count, -1);
   state.runs.resize(count);
   state.exchanges.resize(count);
   state.listed.resize(count);

@@ -45,6 +45,7 @@ struct State {
   Parameters parameters;
   std::vector<Cell> cells;
   std::vector<Int> irradiance;  // section 5, kept between its steps
+  std::vector<Int> melted_in;   // section 7: the step in which the cell's solid melted, -1: in none
   std::vector<Run> runs;
   std::vector<Exchange> exchanges;
   Ledgers ledgers;
@@ -62,9 +63,14 @@ struct State {
   // The border is inert (section 1): blocked, never air.
   bool blocked(Int x, Int y, Int z) const { return !inside(x, y, z) || blocked(index(x, y, z)); }
   bool air(Int x, Int y, Int z) const { return !blocked(x, y, z) && cells[index(x, y, z)].liquid == 0; }
+  // Section 8: a side that melted in this very step still counts under the paper law.
+  bool wall(Int x, Int y, Int z) const {
+    if (blocked(x, y, z)) return true;
+    return parameters.paper_law && melted_in[index(x, y, z)] == step;
+  }
   bool beside_wall(Place p) const {
-    return blocked(p.x + 1, p.y, p.z) || blocked(p.x - 1, p.y, p.z) || blocked(p.x, p.y, p.z + 1) ||
-           blocked(p.x, p.y, p.z - 1);
+    return wall(p.x + 1, p.y, p.z) || wall(p.x - 1, p.y, p.z) || wall(p.x, p.y, p.z + 1) ||
+           wall(p.x, p.y, p.z - 1);
   }
 
   void touch(Int i) {

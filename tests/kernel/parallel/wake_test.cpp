@@ -43,6 +43,63 @@ TEST(Sleep, WhatHungFromAMeltingSolidFalls) {
     }
 }
 
+// Paper's law: a film clings to a solid that melts and stays where it is. It falls one step later, when
+// nothing else moves.
+TEST(Sleep, WhatClungToAMeltedSolidFalls) {
+  constexpr int kSides[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  for (const bool drips : {true, false})
+    for (const auto& [dx, dz] : kSides)
+      for (const int z : {2, 3, 4}) {  // within a chunk, beside a cut
+        Parameters p = with_drops(rule::Law::paper);
+        p.flow.fall.hang = drips ? 1024 : 0;
+        p.flow.fall.wall_factor = drips ? 65536 : 0;
+        p.flow.fall.minimum = 0;
+        p.flow.paper.threshold = 65535;
+        p.flow.paper.slump = 0;
+        const int x = dx > 0 ? 63 : 64;
+        Volume start({130, 8, 7});
+        put_solid(start, x + dx, 4, z + dz, 4096, 20000);
+        put_inert(start, x + dx, 3, z + dz);
+        put(start, x, 4, z, 900, 0, 40000);
+        run::Simulation reference = simulate(p, start);
+        int melted = 0;
+        while (reference.volume().solid.count() > 0 && melted < 18) reference.step(), ++melted;
+        ASSERT_LT(melted, 16);
+        ASSERT_EQ(amount_at(reference, x, 4, z), 900);
+        reference.step();
+        ASSERT_EQ(amount_at(reference, x, 3, z), 900);
+        ASSERT_TRUE(same_asleep(p, start, 18)) << drips << dx << dz << z;
+      }
+}
+
+// The same with phases in any order: sides go with the gravity that follows, or with another melt.
+TEST(Sleep, SidesGoInAnyOrderOfPhases) {
+  Parameters p = with_drops(rule::Law::paper);
+  p.heat.air_exchange = 20000;
+  p.flow.fall.wall_factor = 30000;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    Random random(seed);
+    const Grid grid{random.any({5, 66}), 8, random.between(1, 6)};
+    Volume start(grid);
+    for_each(whole(grid), [&](int x, int y, int z) {
+      const int kind = random.below(6), heat = random.between(10000, 29000);
+      if (kind == 0) put_solid(start, x, y, z, 4096, heat);
+      if (kind == 1) put(start, x, y, z, random.between(1, 5000), 0, heat);
+      if (kind == 2 && y < 2) put_inert(start, x, y, z);
+    });
+    run::Simulation expected = simulate(p, start);
+    run::Simulation actual(p, start, implementation(fast_implementations().back()),
+                           sleepy(random.between(1, 2), random.any({0, 1, 3})));
+    for (int i = 0; i < 30; ++i) {
+      using enum step::Phase;
+      const step::Phase phase = random.any({heat, melt, melt, gravity, gravity, spread});
+      expected.run_phase(phase);
+      actual.run_phase(phase);
+      ASSERT_EQ(difference(expected.volume(), actual.volume()), "") << seed << ", phase " << i;
+    }
+  }
+}
+
 // A shaft of full cells: its lowest cell is drained, then fed. All of it moves in one step.
 TEST(Sleep, ShaftsMoveWhole) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {

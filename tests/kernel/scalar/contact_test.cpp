@@ -61,5 +61,62 @@ TEST(Contact, ADryBedHasItsOwnHeight) {
   }
 }
 
+// The step in which a film that touches one solid falls; the solid melts in step 0.
+int falls_in(rule::Law law, const rule::Fall& fall, int dx, int dy, int dz) {
+  Volume v(Grid{5, 7, 5});
+  put(v, 2, 3, 2, 900, 0, 20000);
+  put_solid(v, 2 + dx, 3 + dy, 2 + dz, kOne, 40000);
+  if (dy == 0) put_inert(v, 2 + dx, 2, 2 + dz);  // what has melted stays
+  Parameters p = law == rule::Law::paper ? paper_showcase() : viscous(0);
+  p.flow.fall = fall;
+  p.flow.paper.threshold = 65535;
+  p.flow.paper.slump = 0;
+  p.heat.enabled = true;
+  p.material.melting_point = 30000;
+  run::Simulation s = simulate(p, v);
+  for (int step = 0; step < 4; ++step) {
+    s.step();
+    EXPECT_EQ(s.volume().solid.count(), 0);
+    if (amount_at(s, 2, 2, 2) == 900) return step;
+    EXPECT_EQ(amount_at(s, 2, 3, 2), 900);
+  }
+  return -1;
+}
+
+// Under the paper's law a side that melts still holds in that step; what is above, and all under the viscous
+// law, holds no more.
+TEST(Contact, ASideHoldsInTheStepInWhichItMelts) {
+  const rule::Fall drip{.factor = 65536, .wall_factor = 65536, .minimum = 0, .hang = 1024};
+  const rule::Fall adhesion{.factor = 65536, .wall_factor = 0, .minimum = 0, .hang = 0};
+  constexpr int kSides[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  for (const rule::Fall& fall : {drip, adhesion})
+    for (const auto& [dx, dz] : kSides) {
+      EXPECT_EQ(falls_in(rule::Law::paper, fall, dx, 0, dz), 1) << dx << dz;
+      EXPECT_EQ(falls_in(rule::Law::viscous, fall, dx, 0, dz), 0) << dx << dz;
+    }
+  EXPECT_EQ(falls_in(rule::Law::paper, drip, 0, 1, 0), 0);
+  EXPECT_EQ(falls_in(rule::Law::viscous, drip, 0, 1, 0), 0);
+}
+
+// Phases that run apart: melting is forgotten when gravity has run, and by another melt.
+TEST(Contact, OnlyTheLastMeltCounts) {
+  Parameters p = paper_showcase();
+  p.flow.fall.hang = 1024;
+  p.heat.enabled = true;
+  p.material.melting_point = 30000;
+  for (const step::Phase between : {step::Phase::gravity, step::Phase::melt, step::Phase::source}) {
+    Volume v(Grid{5, 7, 5});
+    put(v, 2, 3, 2, 900, 0, 20000);
+    put_solid(v, 1, 3, 2, kOne, 40000);
+    put_inert(v, 1, 2, 2);
+    run::Simulation s = simulate(p, v);
+    s.run_phase(step::Phase::melt);
+    s.run_phase(between);
+    EXPECT_EQ(amount_at(s, 2, 3, 2), 900);
+    s.run_phase(step::Phase::gravity);
+    EXPECT_EQ(amount_at(s, 2, 2, 2), between == step::Phase::source ? 0 : 900);
+  }
+}
+
 }  // namespace
 }  // namespace voxmelt::scalar
