@@ -21,7 +21,7 @@ struct Cell {
   State state = State::inert;
   UInt<2> exposed_axes;  // conduction -> exchange: axes on which a face neighbour is air
   UInt<8> pattern;       // pattern -> apply: directions that the cell gives to
-  UInt<1> beside_wall;   // walls or viscous spread -> gravity: one of the four sides is blocked
+  UInt<1> beside_wall;   // conduction, walls or viscous spread -> gravity: one of the four sides is blocked
   UInt<1> in_run;        // settle -> viscous spread -> gravity
   // settle -> viscous spread, of cells in a run. Head in 1/256 cell (the used width depends on the grid's
   // height), mobilities in 1/65536; head differences up to `dead` do not move the cell.

@@ -55,7 +55,7 @@ class ConductionPass : public Stage {
         last_(last),
         line_(lanes(), static_cast<std::size_t>(lag())) {}
 
-  int output_bits() const override { return design().cell_bits() + (design().parameters.heat.air ? 2 : 0); }
+  int output_bits() const override { return heated_cell_bits(design()); }
   std::vector<BufferCost> buffers() const override { return heat_buffers(design(), kPairs, 2); }
   Units units() const override { return {.multipliers = static_cast<int>(kParts)}; }
 

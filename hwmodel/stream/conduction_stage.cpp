@@ -1,5 +1,5 @@
-// Conduction through faces, and the exposed axes of each cell for the exchange with air: both look at the six
-// face neighbours.
+// Conduction through faces; and what else the six face neighbours tell: the exposed axes of each cell, for
+// the exchange with air, and whether one of its four sides is blocked, for gravity.
 #include <bit>
 
 #include "hwmodel/stream/conduction_pass.h"
@@ -13,7 +13,8 @@ class FaceConduction final : public ConductionPass<kFacePairs> {
   explicit FaceConduction(const Design& design)
       : ConductionPass("conduction", design, design.parameters.heat.weight_face,
                        design.parameters.heat.neighbours < 18),
-        counts_axes_(design.parameters.heat.air) {}
+        counts_axes_(design.parameters.heat.air),
+        finds_walls_(design.walls_in_conduction()) {}
 
   std::vector<BufferCost> buffers() const override { return heat_buffers(design(), kFacePairs, 3); }
 
@@ -24,6 +25,7 @@ class FaceConduction final : public ConductionPass<kFacePairs> {
       expose<1>();
       expose<2>();
     }
+    if (finds_walls_) find_walls();
     if (armed(Fault::buffer_bit)) [[unlikely]]
       flip_bit();
   }
@@ -40,6 +42,20 @@ class FaceConduction final : public ConductionPass<kFacePairs> {
     });
   }
 
+  void find_walls() {
+    const auto touch = [](HeatWord& p, HeatWord& q) {
+      if (p.blocked()) q.beside_wall = 1;
+      if (q.blocked()) p.beside_wall = 1;
+    };
+    each_pair<0>(touch);
+    each_pair<2>(touch);
+    const state::Grid& grid = shape().grid;
+    const bool at_end = came().z == 0 || came().z == grid.z - 1;  // the border is blocked
+    for (int lane = 0; lane < lanes(); ++lane)
+      if (const int x = came().x + lane; at_end || x == 0 || x == grid.x - 1)
+        word(kHere, lane).beside_wall = 1;
+  }
+
   // In the word that leaves the plane memory: the lowest bit of the amount that is 0 (a cell's energy may not
   // exceed its amount, which therefore must not shrink).
   void flip_bit() {
@@ -52,7 +68,7 @@ class FaceConduction final : public ConductionPass<kFacePairs> {
     }
   }
 
-  const bool counts_axes_;
+  const bool counts_axes_, finds_walls_;
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ class Convection final : public Stage {
         weight_(design.parameters.heat.convection),
         line_(lanes(), 1) {}
 
-  int output_bits() const override { return design().cell_bits() + (design().parameters.heat.air ? 2 : 0); }
+  int output_bits() const override { return heated_cell_bits(design()); }
   std::vector<BufferCost> buffers() const override {
     return {{"token register", 1, lanes(), heat_word_bits(design(), 2)}};
   }

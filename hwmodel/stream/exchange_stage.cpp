@@ -18,6 +18,7 @@ class Exchange final : public FedStage {
     if (air_) air_temperature_.assign(heat.air_temperature.begin(), heat.air_temperature.end());
   }
 
+  int output_bits() const override { return design().cell_bits() + (design().walls_in_conduction() ? 1 : 0); }
   std::vector<BufferCost> buffers() const override {
     if (!air_) return {};
     return {{"air temperatures", shape().grid.y, 1, 16}};

@@ -15,7 +15,9 @@ struct HeatWord {
   UInt<16> heat;         // with the fluxes computed so far
   State state = State::inert;
   UInt<3> exposed;  // faces: a bit per axis on which a face neighbour is air; later: their number
+  UInt<1> beside_wall;
 
+  bool blocked() const { return state == State::solid || state == State::inert; }
   bool matter() const { return state == State::solid || state == State::liquid; }
   bool air() const { return state == State::air; }
   bool liquid() const { return state == State::liquid; }
@@ -28,6 +30,7 @@ inline void take_cell(const Cell& cell, const rule::Material& material, HeatWord
   word.temperature = temperature_of(cell.heat, material);
   word.state = cell.state;
   word.exposed = std::int64_t{cell.exposed_axes};
+  word.beside_wall = cell.beside_wall;
 }
 
 inline Cell give_cell(const HeatWord& word, std::int64_t exposed_axes) {
@@ -37,12 +40,18 @@ inline Cell give_cell(const HeatWord& word, std::int64_t exposed_axes) {
   cell.heat = word.heat;
   cell.state = word.state;
   cell.exposed_axes = exposed_axes;
+  cell.beside_wall = word.beside_wall;
   return cell;
 }
 
 // Bits of a word that a design needs; `exposed` bits where air exchange counts axes.
 inline int heat_word_bits(const Design& design, int exposed) {
-  return design.cell_bits() + 16 + (design.parameters.heat.air ? exposed : 0);
+  return design.cell_bits() + 16 + (design.parameters.heat.air ? exposed : 0) +
+         (design.walls_in_conduction() ? 1 : 0);
+}
+// Of a cell that leaves conduction or convection, side-bands included.
+inline int heated_cell_bits(const Design& design) {
+  return design.cell_bits() + (design.parameters.heat.air ? 2 : 0) + (design.walls_in_conduction() ? 1 : 0);
 }
 
 // Of a planted fault: does a wrong heat before the exchange leave it wrong for certain? Radiation adds at

@@ -12,6 +12,7 @@ class Melt final : public Stage {
         paper_(design.paper()),
         reheat_(design.paper() ? design.parameters.flow.paper.reheat : 0) {}
 
+  int output_bits() const override { return design().cell_bits() + (design().walls_in_conduction() ? 1 : 0); }
   Units units() const override { return {.multipliers = reheat_ > 0 ? 1 : 0}; }
 
  private:

@@ -20,10 +20,10 @@ std::vector<Lag> lags_of_step(const Design& design) {
     stage(0, 0, 0);                                      // melt
   }
   if (design.paper()) {
-    if (design.needs_walls()) stage(1, 0, 0);  // walls: the side towards +z
-    stage(0, 0, above);                        // gravity
-    stage(1, 1, 0);                            // pattern: the diagonal towards +x, +z
-    stage(1, 1, 0);                            // apply
+    if (design.needs_walls() && !p.heat.enabled) stage(1, 0, 0);  // walls: the side towards +z
+    stage(0, 0, above);                                           // gravity
+    stage(1, 1, 0);                                               // pattern: the diagonal towards +x, +z
+    stage(1, 1, 0);                                               // apply
   } else {
     stage(0, 2, 1);      // settle: a column reversed twice, one token of look-ahead
     stage(1, 1, 0);      // spread

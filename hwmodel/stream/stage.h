@@ -30,6 +30,9 @@ struct Design {
     const rule::Fall& fall = parameters.flow.fall;
     return fall.hang > 0 || fall.wall_factor != fall.factor;
   }
+  // The paper law means the sides before melt, which conduction has in its window. Without heat nothing
+  // melts, and a stage of its own finds them.
+  bool walls_in_conduction() const { return paper() && hot() && needs_walls(); }
   // Bits of a cell between two stages without side-bands.
   int cell_bits() const { return 2 + 16 + (paper() ? 16 : 0) + (hot() ? 16 : 0); }
 };

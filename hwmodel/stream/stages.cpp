@@ -22,7 +22,7 @@ StepStages make_step(const Design& design) {
     add(make_melt(design));
   }
   if (design.paper()) {
-    if (design.needs_walls()) add(make_walls(design));
+    if (design.needs_walls() && !design.walls_in_conduction()) add(make_walls(design));
     add(make_gravity(design));
     add(make_pattern(design));
     add(make_apply(design));

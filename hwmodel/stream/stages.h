@@ -21,13 +21,14 @@ class FedStage : public Stage {
 using Stages = std::vector<std::unique_ptr<Stage>>;
 
 std::unique_ptr<Stage> make_source(const Design& design);
-std::unique_ptr<Stage> make_conduction(const Design& design);  // faces, and the exposed axes
+std::unique_ptr<Stage> make_conduction(const Design& design);  // faces; also exposed axes and sides
 std::unique_ptr<Stage> make_edge_conduction(const Design& design);
 std::unique_ptr<Stage> make_corner_conduction(const Design& design);
 std::unique_ptr<Stage> make_convection(const Design& design);
 std::unique_ptr<FedStage> make_exchange(const Design& design);  // radiation and air
 std::unique_ptr<Stage> make_melt(const Design& design);
-std::unique_ptr<Stage> make_walls(const Design& design);  // paper law: sides of a cell, for gravity
+std::unique_ptr<Stage> make_walls(
+    const Design& design);  // paper law without heat: sides of a cell, for gravity
 std::unique_ptr<Stage> make_gravity(const Design& design);
 std::unique_ptr<Stage> make_pattern(const Design& design);
 std::unique_ptr<Stage> make_apply(const Design& design);

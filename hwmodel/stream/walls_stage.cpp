@@ -1,5 +1,5 @@
 // Finds the cells that stand beside a wall: one of their four sides is blocked, the border included. Gravity
-// needs it, and has no window of its own across columns.
+// needs it, and has no window of its own across columns. Only without heat: else conduction finds them.
 #include "hwmodel/stream/stages.h"
 
 namespace voxmelt::hwmodel {

@@ -6,10 +6,6 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-bool is_blocked(const state::Volume& v, int x, int y, int z) {
-  return !v.grid.contains(x, y, z) || v.solid.test(x, y, z) || v.inert.test(x, y, z);
-}
-
 using Marks = std::vector<std::uint8_t>;  // by the index of a cell
 
 std::size_t index_of(state::Grid g, int x, int y, int z) {
@@ -51,8 +47,7 @@ class Marker final : public Stage {
       const int x = came().x + lane, y = came().y, z = came().z;
       if (x >= shape().grid.x) continue;
       out[lane].in_run = in_run[index_of(shape().grid, x, y, z)];
-      out[lane].beside_wall = is_blocked(*volume, x - 1, y, z) || is_blocked(*volume, x + 1, y, z) ||
-                              is_blocked(*volume, x, y, z - 1) || is_blocked(*volume, x, y, z + 1);
+      out[lane].beside_wall = stands_beside_wall(*volume, x, y, z);
     }
   }
 };

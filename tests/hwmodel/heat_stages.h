@@ -5,7 +5,7 @@
 
 namespace voxmelt::hwmodel {
 
-// Stands behind a phase: a cell that leaves it brings no side-bands.
+// Stands behind a phase: a cell that leaves it brings no side-bands, but what conduction tells gravity.
 class NoSideBands final : public Stage {
  public:
   NoSideBands(const Design& design, std::string phase)
@@ -19,6 +19,7 @@ class NoSideBands final : public Stage {
       out[lane].energy = in[lane].energy;
       out[lane].heat = in[lane].heat;
       out[lane].state = in[lane].state;
+      if (design().walls_in_conduction()) out[lane].beside_wall = in[lane].beside_wall;
       if (out[lane] != in[lane]) ADD_FAILURE() << "a side-band leaves the phase " << phase();
     }
   }

@@ -90,11 +90,12 @@ TEST(HeatStages, LargeGrid) {
 
 // The memories of a stage are its whole lag, and as wide as the scene needs.
 TEST(HeatStages, Memories) {
-  for (const bool air : {false, true})
+  for (const auto& [air, walls] : {std::pair{false, false}, {false, true}, {true, false}, {true, true}})
     for (const rule::Law law : kBothLaws)
       for (const state::Grid grid : {state::Grid{64, 32, 16}, state::Grid{16, 1, 3}, state::Grid{1, 1, 1}}) {
         Design design{{}, {grid, 16}};
         design.parameters.flow.law = law;
+        if (walls) design.parameters.flow.fall.wall_factor = 1;
         design.parameters.heat.enabled = true;
         design.parameters.heat.air = air;
         design.parameters.heat.air_temperature.resize(static_cast<std::size_t>(grid.y));
@@ -105,10 +106,12 @@ TEST(HeatStages, Memories) {
         heat_of(design, stages, fed);
         const std::int64_t column = grid.y, plane = design.shape.plane();
         const std::int64_t lags[] = {plane, plane + column, plane + column + 1, 1};
-        const int bits = (law == rule::Law::paper ? 50 : 34) + 16;
+        const bool paper = law == rule::Law::paper;
+        const int cell = paper ? 50 : 34, side = paper && walls ? 1 : 0, bits = cell + side + 16;
         for (std::size_t i = 0; i < 4; ++i) {
           EXPECT_EQ(stages[i]->lag(), lags[i]) << stages[i]->name();
           EXPECT_EQ(stages[i]->phase(), "heat");
+          EXPECT_EQ(stages[i]->output_bits(), cell + side + (air ? 2 : 0)) << stages[i]->name();
           std::int64_t words = 0;
           for (const BufferCost& cost : stages[i]->buffers()) {
             words += cost.words * cost.lanes;

@@ -46,10 +46,13 @@ std::map<std::string, Memory> memories_of(const std::string& scene_name) {
 }
 
 TEST(MemoryCost, OfThePaperLawWithHeat) {
-  EXPECT_EQ(
-      memories_of("cello"),
-      (std::map<std::string, Memory>{
-          {"conduction", {66, 66}}, {"walls", {51, 0}}, {"pattern", {53, 122}}, {"apply", {113, 188}}}));
+  EXPECT_EQ(memories_of("cello"),
+            (std::map<std::string, Memory>{
+                {"conduction", {67, 67}}, {"pattern", {53, 122}}, {"apply", {113, 188}}}));
+}
+
+TEST(MemoryCost, OfTheSidesWithoutHeat) {
+  EXPECT_EQ(memories_of("lesson_gravity").at("walls"), (Memory{34 + 1, 0}));
 }
 
 TEST(MemoryCost, OfTheViscousLawWithHeat) {
@@ -83,9 +86,12 @@ TEST(MemoryCost, ChannelsAreAsWideAsWhatTheyCarry) {
   };
   const std::map<std::string, int> paper = widths_of("cello");
   EXPECT_EQ(paper.at("reader"), 50) << "state, amount, energy, heat";
-  EXPECT_EQ(paper.at("walls"), 50 + 1);
+  for (const char* stage : {"conduction", "exchange", "melt"})
+    EXPECT_EQ(paper.at(stage), 50 + 1) << stage << ": beside a wall";
+  EXPECT_EQ(paper.at("gravity"), 50);
   EXPECT_EQ(paper.at("pattern"), 50 + 8);
   EXPECT_EQ(paper.at("apply"), 50);
+  EXPECT_EQ(widths_of("lesson_gravity").at("walls"), 34 + 1);
   const std::map<std::string, int> viscous = widths_of("cello_viscous");
   EXPECT_EQ(viscous.at("reader"), 34) << "state, amount, heat";
   EXPECT_EQ(viscous.at("settle"), 34 + 1 + 23 + 14 + 14 + 25) << "in a run; head, mobility, exposed, dead";

@@ -6,6 +6,7 @@
 
 #include "hwmodel/stream/stages.h"
 #include "hwmodel/stream/volume_port.h"
+#include "tests/hwmodel/sides.h"
 #include "tests/kernel/parallel/equal.h"
 
 namespace voxmelt::hwmodel {
@@ -13,7 +14,8 @@ namespace voxmelt::hwmodel {
 struct StageRun {
   int depth = 2;
   std::uint64_t stall_seed = 0;
-  std::int64_t cycles = 0;  // of the last run
+  std::int64_t cycles = 0;               // of the last run
+  const state::Volume* sides = nullptr;  // what comes in brings the side-band `beside_wall` from here
 };
 
 // One pass of `volume` through `stages` as step number `step`.
@@ -37,7 +39,9 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, std:
   run.cycles = 0;
   while (writing.ordinal < shape.tokens()) {
     if (reading.ordinal < shape.tokens() && channels.front()->ready()) {
-      read_token(volume, shape, reading, channels.front()->put());
+      Cell* lanes = channels.front()->put();
+      read_token(volume, shape, reading, lanes);
+      if (run.sides != nullptr) mark_walls(*run.sides, shape, reading, lanes);
       reading.next(shape);
     }
     if (fed != nullptr && irradiance != nullptr && feeding.ordinal < shape.tokens() && feed.ready()) {
@@ -96,8 +100,10 @@ void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& ma
       if (radiates && number % heat.visibility_every == 0)
         provider->irradiance(simulation.volume(), heat, number, irradiance);
       simulation.begin_step();
-      state::Volume before = simulation.volume();
+      state::Volume before = simulation.volume(), unmelted = before;
+      if (first == step::Phase::gravity && design.walls_in_conduction()) run.sides = &unmelted;
       for (const step::Phase each : step::phase_order(law)) {
+        if (each == step::Phase::melt) unmelted = simulation.volume();
         if (each == first) before = simulation.volume();
         simulation.run_phase(each);
         if (each != last || stages.empty()) continue;

@@ -47,8 +47,11 @@ void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, 
     for (int step = 0; step < steps && !plan.struck(); ++step) {
       const auto number = simulation.steps_done();
       simulation.begin_step();
+      state::Volume unmelted = simulation.volume();
+      if (phase == step::Phase::gravity && design.walls_in_conduction()) run.sides = &unmelted;
       for (const step::Phase each : step::phase_order(law)) {
         const state::Volume before = simulation.volume();
+        if (each == step::Phase::melt) unmelted = before;
         simulation.run_phase(each);
         if (each != phase || plan.struck()) continue;
         const state::Volume result = run_stages(design, stages, number, nullptr, nullptr, before, run);

@@ -1,0 +1,24 @@
+// The four sides of a cell, from a volume: what the side-band `beside_wall` is held against, or filled with.
+#pragma once
+
+#include "hwmodel/stream/cell.h"
+#include "hwmodel/stream/shape.h"
+#include "kernel/state/volume.h"
+
+namespace voxmelt::hwmodel {
+
+inline bool is_blocked(const state::Volume& v, int x, int y, int z) {
+  return !v.grid.contains(x, y, z) || v.solid.test(x, y, z) || v.inert.test(x, y, z);
+}
+
+inline bool stands_beside_wall(const state::Volume& v, int x, int y, int z) {
+  return is_blocked(v, x - 1, y, z) || is_blocked(v, x + 1, y, z) || is_blocked(v, x, y, z - 1) ||
+         is_blocked(v, x, y, z + 1);
+}
+
+inline void mark_walls(const state::Volume& v, const Shape& shape, const Place& place, Cell* lanes) {
+  for (int lane = 0; lane < shape.lanes && place.x + lane < shape.grid.x; ++lane)
+    lanes[lane].beside_wall = stands_beside_wall(v, place.x + lane, place.y, place.z);
+}
+
+}  // namespace voxmelt::hwmodel
