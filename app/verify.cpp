@@ -205,13 +205,13 @@ int run_verify(VerifyCommand command) {
   const hwmodel::VerifyReport report =
       hwmodel::verify(scene.parameters, ahead.volume(), ahead.step_number(), fast, tuning, options);
 
-  if (fault != nullptr && !report.strike && report.mismatch == nullptr)
+  const hwmodel::Verdict verdict = hwmodel::verdict_of(report, fault != nullptr);
+  if (verdict == hwmodel::Verdict::never_struck)
     throw UsageError(fmt::format(
         "error: --plant {}: in these steps of this scene there is nothing that this fault could change",
         command.plant));
   print_result(command, scene, report, {scene.parameters, {ahead.volume().grid, preset.configuration.lanes}},
                options.configuration, fast.name);
-  const bool good = report.mismatch == nullptr && fault == nullptr;
   const auto write = [&] {
     write_report(
         command.common,
@@ -220,7 +220,7 @@ int run_verify(VerifyCommand command) {
                 .dump(2) +
             '\n');
   };
-  if (good) {
+  if (verdict == hwmodel::Verdict::good) {
     write();
     return kDone;
   }

@@ -38,6 +38,21 @@ Design design_of(rule::Law law) {
   return {parameters, {{10, 5, 2}, 4}};
 }
 
+TEST(Report, ADifferenceFailsWhetherTheFaultStruckOrNot) {
+  const auto verdict = [](bool planted, bool struck, bool differs) {
+    VerifyReport report;
+    if (struck) report.strike.emplace();
+    if (differs) report.mismatch = std::make_unique<Mismatch>(mismatch_with_distinct_numbers());
+    return verdict_of(report, planted);
+  };
+  EXPECT_EQ(verdict(false, false, false), Verdict::good);
+  EXPECT_EQ(verdict(false, false, true), Verdict::failed);
+  EXPECT_EQ(verdict(true, false, false), Verdict::never_struck);
+  EXPECT_EQ(verdict(true, false, true), Verdict::failed) << "a real difference, seen before the fault struck";
+  EXPECT_EQ(verdict(true, true, false), Verdict::failed) << "the checker is blind";
+  EXPECT_EQ(verdict(true, true, true), Verdict::failed);
+}
+
 TEST(Report, JsonHoldsEveryNumberUnderItsName) {
   const auto json = json_of(report_with_distinct_numbers(), design_of(rule::Law::viscous), kMachine);
   const auto expected = nlohmann::ordered_json::parse(R"({
