@@ -44,14 +44,13 @@ struct VerifyReport {
   bool found_where_planted() const;
 };
 
-// What a run comes to. A difference is a difference, whether it was planted or not; a fault that was planted
-// and changed nothing is no proof of anything.
+// What a run comes to. A difference is a difference, whether it was planted or not; a fault that changed
+// nothing is no proof of anything; one that was struck and not found shows a blind checker.
 enum class Verdict { good, failed, never_struck };
 inline Verdict verdict_of(const VerifyReport& report, bool planted) {
   if (report.mismatch != nullptr) return Verdict::failed;
   if (!planted) return Verdict::good;
-  return report.strike ? Verdict::failed
-                       : Verdict::never_struck;  // struck and not found: the checker is blind
+  return report.strike ? Verdict::failed : Verdict::never_struck;
 }
 
 // Verifies from `start`, the state before step number `first_step`. With radiation that must be a step of

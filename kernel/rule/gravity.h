@@ -13,7 +13,7 @@ VOXMELT_RULE std::int32_t released(std::int32_t a, std::uint32_t factor, std::in
 }
 
 struct FallSurroundings {
-  bool beside_wall;  // one of the four sides is solid, inert or the border
+  bool beside_wall;  // one of the four sides is solid, inert or the border; paper's law: before melt
   bool overhangs;    // nothing below now, and solid, inert or the border above or at a side
 };
 

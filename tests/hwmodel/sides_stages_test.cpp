@@ -138,7 +138,10 @@ TEST(SidesStages, OnlyWhereFallingDependsOnThem) {
       for (const bool walls : {false, true}) {
         Design design{{}, {{4, 3, 2}, 2}};
         design.parameters.flow.law = law;
-        design.parameters.heat.enabled = hot;
+        rule::Heat& heat = design.parameters.heat;
+        heat.enabled = heat.radiation = hot;
+        heat.neighbours = 26;
+        heat.convection = 1;
         if (walls) design.parameters.flow.fall.hang = 1;
         const bool paper = law == rule::Law::paper;
         EXPECT_EQ(design.walls_in_conduction(), paper && hot && walls);
