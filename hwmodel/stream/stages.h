@@ -27,8 +27,7 @@ std::unique_ptr<Stage> make_corner_conduction(const Design& design);
 std::unique_ptr<Stage> make_convection(const Design& design);
 std::unique_ptr<FedStage> make_exchange(const Design& design);  // radiation and air
 std::unique_ptr<Stage> make_melt(const Design& design);
-std::unique_ptr<Stage> make_walls(
-    const Design& design);  // paper law without heat: sides of a cell, for gravity
+std::unique_ptr<Stage> make_walls(const Design& design);  // cold paper law: sides, for gravity
 std::unique_ptr<Stage> make_gravity(const Design& design);
 std::unique_ptr<Stage> make_pattern(const Design& design);
 std::unique_ptr<Stage> make_apply(const Design& design);
