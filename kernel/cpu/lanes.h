@@ -32,10 +32,21 @@ namespace voxmelt::cpu {
 //   Wide pair_product(V f0, V h0, V f1, V h1)   f0 h0 + f1 h1, all signed 16-bit
 //   V after(V previous, V current)      lanes moved up by one: lane 0 is the last of `previous`
 //   W pair_sums(V a, V b)               a b + a b of neighbouring lanes, all signed 16-bit
-//   Bits                                one bit a lane
-//   void dice(keys, step, const uint32_t blocks[4], Bits planes[8][4])    the random bytes
-//   (docs/automaton.md,
-//                                       section 2) of four vectors of cells; planes[b][i]: bit b of vector i
+//   Bytes                               2 kCount bytes: one for each lane of two neighbouring vectors
+//   Twin                                2 kCount bits
+//   Bytes load_bytes(const uint8_t*), void store_bytes(uint8_t*, Bytes)      any alignment
+//   Bytes none(), every()               all 0; all ones
+//   Bytes put(Bytes, M low, M high, int bit)     with this bit set where the masks say
+//   Bytes in_order(Bytes)               what `put` has put together, by cells
+//   Bytes put(Bytes, Twin, int bit)     the same for bytes that are by cells
+//   Bytes both(Bytes a, Bytes b)        a & b
+//   Twin nonzero_bytes(Bytes)
+//   V widen_bytes(const uint8_t*)       kCount bytes as lanes
+//   M has(V v, int bit)                 lanes with this bit
+//   V count_four(V v)                   how many of the lowest four bits are set
+//   void dice(keys, step, const uint32_t blocks[2], Bytes dice[2])    the random bytes (docs/automaton.md,
+//                                       section 2) of the cells of two pairs of vectors, by their first
+//                                       blocks
 //   V lookup(const uint16_t table[32], V index)      table[index >> 11]
 template <class Arch>
 struct Lanes;
@@ -54,6 +65,7 @@ struct LanesOf {
   };
   static constexpr int kCount = static_cast<int>(V::size);
   static constexpr int kParts = 64 / kCount;
+  static constexpr int kTwins = kParts / 2;  // pairs of vectors in a word
 
   VOXMELT_LANES V load(const std::uint16_t* at) { return V::load_aligned(at); }  // 64-byte aligned rows
   VOXMELT_LANES V load_any(const std::uint16_t* at) { return V::load_unaligned(at); }

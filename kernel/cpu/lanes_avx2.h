@@ -55,13 +55,50 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
   }
   VOXMELT_LANES W pair_sums(V a, V b) { return W(_mm256_madd_epi16(a, b)); }
 
-  using Bits = std::uint16_t;
+  using Bytes = __m256i;
+  using Twin = std::uint32_t;
+  VOXMELT_LANES Bytes load_bytes(const std::uint8_t* at) {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at));
+  }
+  VOXMELT_LANES void store_bytes(std::uint8_t* at, Bytes b) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(at), b);
+  }
+  VOXMELT_LANES Bytes none() { return _mm256_setzero_si256(); }
+  VOXMELT_LANES Bytes every() { return _mm256_set1_epi8(-1); }
+  VOXMELT_LANES Bytes put(Bytes b, M low, M high, int bit) {
+    const __m256i where = _mm256_packs_epi16(low, high);
+    return _mm256_or_si256(b, _mm256_and_si256(where, _mm256_set1_epi8(static_cast<char>(bit))));
+  }
+  VOXMELT_LANES Bytes in_order(Bytes b) { return _mm256_permute4x64_epi64(b, 0xD8); }
+  VOXMELT_LANES Bytes put(Bytes b, Twin where, int bit) {
+    const __m256i eighth = _mm256_setr_epi64x(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303);
+    const __m256i one = _mm256_set1_epi64x(static_cast<long long>(0x8040201008040201u));
+    const __m256i all = _mm256_shuffle_epi8(_mm256_set1_epi32(static_cast<int>(where)), eighth);
+    const __m256i set = _mm256_cmpeq_epi8(_mm256_and_si256(all, one), one);
+    return _mm256_or_si256(b, _mm256_and_si256(set, _mm256_set1_epi8(static_cast<char>(bit))));
+  }
+  VOXMELT_LANES Bytes both(Bytes a, Bytes b) { return _mm256_and_si256(a, b); }
+  VOXMELT_LANES Twin nonzero_bytes(Bytes b) {
+    return ~static_cast<Twin>(_mm256_movemask_epi8(_mm256_cmpeq_epi8(b, none())));
+  }
+  VOXMELT_LANES V widen_bytes(const std::uint8_t* at) {
+    return V(_mm256_cvtepu8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at))));
+  }
+  VOXMELT_LANES M has(V v, int bit) {  // one bit
+    const __m256i one = _mm256_set1_epi16(static_cast<short>(bit));
+    return M(_mm256_cmpeq_epi16(_mm256_and_si256(v, one), one));
+  }
+  VOXMELT_LANES V count_four(V v) {
+    const __m256i counts =
+        _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
+    return V(_mm256_shuffle_epi8(counts, _mm256_and_si256(v, _mm256_set1_epi16(15))));
+  }
   VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
-                          Bits (*planes)[4]) {
-    const auto block = [&](int i) { return static_cast<int>(blocks[i]); };
-    __m256i y = _mm256_add_epi32(
-        _mm256_setr_epi32(block(0), block(0), block(1), block(1), block(2), block(2), block(3), block(3)),
-        _mm256_setr_epi32(0, 1, 0, 1, 0, 1, 0, 1));
+                          Bytes* dice) {
+    // Blocks in the order in which unpacking leaves the bytes of a pair in one vector.
+    const int a = static_cast<int>(blocks[0]), b = static_cast<int>(blocks[1]);
+    __m256i y = _mm256_add_epi32(_mm256_setr_epi32(a, a, b, b, a, a, b, b),
+                                 _mm256_setr_epi32(0, 1, 0, 1, 2, 3, 2, 3));
     __m256i x = _mm256_set1_epi32(static_cast<int>(step));
     const __m256i ror8 = _mm256_setr_epi8(1, 2, 3, 0, 5, 6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12, 1, 2, 3, 0, 5,
                                           6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12);
@@ -70,17 +107,8 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
                            _mm256_set1_epi32(static_cast<int>(keys[i])));
       y = _mm256_xor_si256(_mm256_or_si256(_mm256_slli_epi32(y, 3), _mm256_srli_epi32(y, 29)), x);
     }
-    __m256i even = _mm256_unpacklo_epi32(y, x), odd = _mm256_unpackhi_epi32(y, x);  // items 0 and 2, 1 and 3
-    for (int b = 7; b >= 0; --b) {
-      const auto e = static_cast<std::uint32_t>(_mm256_movemask_epi8(even));
-      const auto o = static_cast<std::uint32_t>(_mm256_movemask_epi8(odd));
-      planes[b][0] = static_cast<Bits>(e);
-      planes[b][1] = static_cast<Bits>(o);
-      planes[b][2] = static_cast<Bits>(e >> 16);
-      planes[b][3] = static_cast<Bits>(o >> 16);
-      even = _mm256_add_epi8(even, even);
-      odd = _mm256_add_epi8(odd, odd);
-    }
+    dice[0] = _mm256_unpacklo_epi32(y, x);
+    dice[1] = _mm256_unpackhi_epi32(y, x);
   }
 
   // table[index >> 11]: 32 entries.

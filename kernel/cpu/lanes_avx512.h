@@ -44,31 +44,46 @@ struct Lanes<xsimd::avx512bw> : LanesOf<xsimd::avx512bw> {
   }
   VOXMELT_LANES W pair_sums(V a, V b) { return W(_mm512_madd_epi16(a, b)); }
 
-  using Bits = std::uint32_t;
+  using Bytes = __m512i;
+  using Twin = std::uint64_t;
+  VOXMELT_LANES Bytes load_bytes(const std::uint8_t* at) { return _mm512_loadu_si512(at); }
+  VOXMELT_LANES void store_bytes(std::uint8_t* at, Bytes b) { _mm512_storeu_si512(at, b); }
+  VOXMELT_LANES Bytes none() { return _mm512_setzero_si512(); }
+  VOXMELT_LANES Bytes every() { return _mm512_set1_epi8(-1); }
+  VOXMELT_LANES Bytes put(Bytes b, M low, M high, int bit) {
+    return put(b, _mm512_kunpackd(bits(high), bits(low)), bit);
+  }
+  VOXMELT_LANES Bytes put(Bytes b, Twin where, int bit) {
+    return _mm512_mask_add_epi8(b, where, b, _mm512_set1_epi8(static_cast<char>(bit)));
+  }
+  VOXMELT_LANES Bytes in_order(Bytes b) { return b; }
+  VOXMELT_LANES Bytes both(Bytes a, Bytes b) { return _mm512_and_si512(a, b); }
+  VOXMELT_LANES Twin nonzero_bytes(Bytes b) { return _mm512_test_epi8_mask(b, b); }
+  VOXMELT_LANES V widen_bytes(const std::uint8_t* at) {
+    return V(_mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at))));
+  }
+  VOXMELT_LANES M has(V v, int bits) {
+    return M(_mm512_test_epi16_mask(v, _mm512_set1_epi16(static_cast<short>(bits))));
+  }
+  VOXMELT_LANES V count_four(V v) {
+    const __m512i counts =
+        _mm512_broadcast_i32x4(_mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
+    return V(_mm512_shuffle_epi8(counts, _mm512_and_si512(v, _mm512_set1_epi16(15))));
+  }
   VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
-                          Bits (*planes)[4]) {
-    __m512i y = _mm512_add_epi32(
-        _mm512_permutexvar_epi32(
-            _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3),
-            _mm512_castsi128_si512(_mm_loadu_si128(reinterpret_cast<const __m128i*>(blocks)))),
-        _mm512_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3));
+                          Bytes* dice) {
+    // Blocks in the order in which unpacking leaves the bytes of a pair in one vector.
+    const __m512i first = _mm512_mask_set1_epi32(_mm512_set1_epi32(static_cast<int>(blocks[0])), 0xCCCC,
+                                                 static_cast<int>(blocks[1]));
+    __m512i y = _mm512_add_epi32(first, _mm512_setr_epi32(0, 1, 0, 1, 2, 3, 2, 3, 4, 5, 4, 5, 6, 7, 6, 7));
     __m512i x = _mm512_set1_epi32(static_cast<int>(step));
     for (int i = 0; i < 10; ++i) {
       x = _mm512_xor_si512(_mm512_add_epi32(_mm512_ror_epi32(x, 8), y),
                            _mm512_set1_epi32(static_cast<int>(keys[i])));
       y = _mm512_xor_si512(_mm512_rol_epi32(y, 3), x);
     }
-    // Bytes of cells 0..15 of each item, and of cells 16..31; then of items 0 and 1, and of items 2 and 3.
-    const __m512i first = _mm512_unpacklo_epi32(y, x), second = _mm512_unpackhi_epi32(y, x);
-    const __m512i front =
-        _mm512_permutex2var_epi64(first, _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), second);
-    const __m512i back =
-        _mm512_permutex2var_epi64(first, _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15), second);
-    for (int b = 0; b < 8; ++b) {
-      const __m512i bit = _mm512_set1_epi8(static_cast<char>(1 << b));
-      const std::uint64_t pairs[2] = {_mm512_test_epi8_mask(front, bit), _mm512_test_epi8_mask(back, bit)};
-      __builtin_memcpy(planes[b], pairs, sizeof pairs);
-    }
+    dice[0] = _mm512_unpacklo_epi32(y, x);
+    dice[1] = _mm512_unpackhi_epi32(y, x);
   }
 
   // table[index >> 11]: 32 entries.

@@ -50,32 +50,44 @@ struct Lanes<xsimd::neon64> : LanesOf<xsimd::neon64> {
     return wide(vpaddq_s32(vmull_s16(vget_low_s16(x), vget_low_s16(y)), vmull_high_s16(x, y)));
   }
 
-  using Bits = std::uint8_t;
+  using Bytes = uint8x16_t;
+  using Twin = std::uint16_t;
+  VOXMELT_LANES Bytes load_bytes(const std::uint8_t* at) { return vld1q_u8(at); }
+  VOXMELT_LANES void store_bytes(std::uint8_t* at, Bytes b) { vst1q_u8(at, b); }
+  VOXMELT_LANES Bytes none() { return vdupq_n_u8(0); }
+  VOXMELT_LANES Bytes every() { return vdupq_n_u8(0xFF); }
+  VOXMELT_LANES Bytes put(Bytes b, M low, M high, int bit) {
+    const uint8x16_t where = vcombine_u8(vmovn_u16(low), vmovn_u16(high));
+    return vorrq_u8(b, vandq_u8(where, vdupq_n_u8(static_cast<std::uint8_t>(bit))));
+  }
+  VOXMELT_LANES Bytes in_order(Bytes b) { return b; }
+  VOXMELT_LANES Bytes put(Bytes b, Twin where, int bit) {
+    const uint8x16_t all = vcombine_u8(vdup_n_u8(static_cast<std::uint8_t>(where)),
+                                       vdup_n_u8(static_cast<std::uint8_t>(where >> 8)));
+    return vorrq_u8(b, vandq_u8(vtstq_u8(all, bit_of_byte()), vdupq_n_u8(static_cast<std::uint8_t>(bit))));
+  }
+  VOXMELT_LANES Bytes both(Bytes a, Bytes b) { return vandq_u8(a, b); }
+  VOXMELT_LANES Twin nonzero_bytes(Bytes b) {
+    const uint8x16_t set = vandq_u8(vtstq_u8(b, b), bit_of_byte());
+    return static_cast<Twin>(vaddv_u8(vget_low_u8(set)) | vaddv_u8(vget_high_u8(set)) << 8);
+  }
+  VOXMELT_LANES V widen_bytes(const std::uint8_t* at) { return V(vmovl_u8(vld1_u8(at))); }
+  VOXMELT_LANES M has(V v, int bits) {
+    return M(vtstq_u16(v, vdupq_n_u16(static_cast<std::uint16_t>(bits))));
+  }
+  VOXMELT_LANES V count_four(V v) {
+    return V(vreinterpretq_u16_u8(vcntq_u8(vreinterpretq_u8_u16(vandq_u16(v, vdupq_n_u16(15))))));
+  }
   VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
-                          Bits (*planes)[4]) {
-    uint32x4_t y = vld1q_u32(blocks), x = vdupq_n_u32(step);
+                          Bytes* dice) {
+    uint32x4_t y{blocks[0], blocks[0] + 1, blocks[1], blocks[1] + 1}, x = vdupq_n_u32(step);
     for (int i = 0; i < 10; ++i) {
       const uint32x4_t right8 = vsriq_n_u32(vshlq_n_u32(x, 24), x, 8);
       x = veorq_u32(vaddq_u32(right8, y), vdupq_n_u32(keys[i]));
       y = veorq_u32(vsriq_n_u32(vshlq_n_u32(y, 3), y, 29), x);
     }
-    const uint8x16_t front = vreinterpretq_u8_u32(vzip1q_u32(y, x));  // items 0 and 1
-    const uint8x16_t back = vreinterpretq_u8_u32(vzip2q_u32(y, x));   // items 2 and 3
-    // Each sum of neighbours halves the vectors of a bit; after three a byte is eight cells.
-    const uint8x16_t weight = vreinterpretq_u8_u64(vdupq_n_u64(0x8040201008040201u));
-    uint8x16_t fours[4];  // of bits 2 i and 2 i + 1: of four cells each
-    unrolled<4>([&](auto i) VOXMELT_LAMBDA {
-      constexpr int b = 2 * i;
-      const uint8x16_t bit = vdupq_n_u8(1 << b), next = vdupq_n_u8(2 << b);
-      const uint8x16_t even =
-          vpaddq_u8(vandq_u8(vtstq_u8(front, bit), weight), vandq_u8(vtstq_u8(back, bit), weight));
-      const uint8x16_t odd =
-          vpaddq_u8(vandq_u8(vtstq_u8(front, next), weight), vandq_u8(vtstq_u8(back, next), weight));
-      fours[i] = vpaddq_u8(even, odd);
-    });
-    auto* to = reinterpret_cast<std::uint8_t*>(planes);
-    vst1q_u8(to, vpaddq_u8(fours[0], fours[1]));
-    vst1q_u8(to + 16, vpaddq_u8(fours[2], fours[3]));
+    dice[0] = vreinterpretq_u8_u32(vzip1q_u32(y, x));
+    dice[1] = vreinterpretq_u8_u32(vzip2q_u32(y, x));
   }
 
   // table[index >> 11]: 32 entries, 64 bytes.
@@ -86,6 +98,7 @@ struct Lanes<xsimd::neon64> : LanesOf<xsimd::neon64> {
   }
 
  private:
+  VOXMELT_LANES uint8x16_t bit_of_byte() { return vreinterpretq_u8_u64(vdupq_n_u64(0x8040201008040201u)); }
   VOXMELT_LANES uint16x8_t bit_of_lane() { return uint16x8_t{1, 2, 4, 8, 16, 32, 64, 128}; }
   VOXMELT_LANES int16x8_t number(V v) { return vreinterpretq_s16_u16(v); }
   VOXMELT_LANES W wide(int32x4_t lanes) { return W(lanes); }

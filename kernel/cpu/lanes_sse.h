@@ -49,10 +49,46 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
   VOXMELT_LANES V after(V previous, V current) { return V(_mm_alignr_epi8(current, previous, 14)); }
   VOXMELT_LANES W pair_sums(V a, V b) { return W(_mm_madd_epi16(a, b)); }
 
-  using Bits = std::uint8_t;
+  using Bytes = __m128i;
+  using Twin = std::uint16_t;
+  VOXMELT_LANES Bytes load_bytes(const std::uint8_t* at) {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(at));
+  }
+  VOXMELT_LANES void store_bytes(std::uint8_t* at, Bytes b) {
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(at), b);
+  }
+  VOXMELT_LANES Bytes none() { return _mm_setzero_si128(); }
+  VOXMELT_LANES Bytes every() { return _mm_set1_epi8(-1); }
+  VOXMELT_LANES Bytes put(Bytes b, M low, M high, int bit) {
+    return _mm_or_si128(b, _mm_and_si128(_mm_packs_epi16(low, high), _mm_set1_epi8(static_cast<char>(bit))));
+  }
+  VOXMELT_LANES Bytes in_order(Bytes b) { return b; }
+  VOXMELT_LANES Bytes put(Bytes b, Twin where, int bit) {
+    const __m128i eighth = _mm_setr_epi8(0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1);
+    const __m128i one = _mm_set1_epi64x(static_cast<long long>(0x8040201008040201u));
+    const __m128i all = _mm_shuffle_epi8(_mm_cvtsi32_si128(where), eighth);
+    const __m128i set = _mm_cmpeq_epi8(_mm_and_si128(all, one), one);
+    return _mm_or_si128(b, _mm_and_si128(set, _mm_set1_epi8(static_cast<char>(bit))));
+  }
+  VOXMELT_LANES Bytes both(Bytes a, Bytes b) { return _mm_and_si128(a, b); }
+  VOXMELT_LANES Twin nonzero_bytes(Bytes b) {
+    return static_cast<Twin>(~_mm_movemask_epi8(_mm_cmpeq_epi8(b, none())));
+  }
+  VOXMELT_LANES V widen_bytes(const std::uint8_t* at) {
+    return V(_mm_cvtepu8_epi16(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at))));
+  }
+  VOXMELT_LANES M has(V v, int bit) {  // one bit
+    const __m128i one = _mm_set1_epi16(static_cast<short>(bit));
+    return M(_mm_cmpeq_epi16(_mm_and_si128(v, one), one));
+  }
+  VOXMELT_LANES V count_four(V v) {
+    const __m128i counts = _mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4);
+    return V(_mm_shuffle_epi8(counts, _mm_and_si128(v, _mm_set1_epi16(15))));
+  }
   VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
-                          Bits (*planes)[4]) {
-    __m128i y = _mm_loadu_si128(reinterpret_cast<const __m128i*>(blocks));
+                          Bytes* dice) {
+    const int a = static_cast<int>(blocks[0]), b = static_cast<int>(blocks[1]);
+    __m128i y = _mm_add_epi32(_mm_setr_epi32(a, a, b, b), _mm_setr_epi32(0, 1, 0, 1));
     __m128i x = _mm_set1_epi32(static_cast<int>(step));
     const __m128i ror8 = _mm_setr_epi8(1, 2, 3, 0, 5, 6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12);
     for (int i = 0; i < 10; ++i) {
@@ -60,17 +96,8 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
                         _mm_set1_epi32(static_cast<int>(keys[i])));
       y = _mm_xor_si128(_mm_or_si128(_mm_slli_epi32(y, 3), _mm_srli_epi32(y, 29)), x);
     }
-    __m128i front = _mm_unpacklo_epi32(y, x), back = _mm_unpackhi_epi32(y, x);  // items 0 and 1, 2 and 3
-    for (int b = 7; b >= 0; --b) {
-      const auto f = static_cast<std::uint32_t>(_mm_movemask_epi8(front));
-      const auto k = static_cast<std::uint32_t>(_mm_movemask_epi8(back));
-      planes[b][0] = static_cast<Bits>(f);
-      planes[b][1] = static_cast<Bits>(f >> 8);
-      planes[b][2] = static_cast<Bits>(k);
-      planes[b][3] = static_cast<Bits>(k >> 8);
-      front = _mm_add_epi8(front, front);
-      back = _mm_add_epi8(back, back);
-    }
+    dice[0] = _mm_unpacklo_epi32(y, x);
+    dice[1] = _mm_unpackhi_epi32(y, x);
   }
 
   // table[index >> 11]: 32 entries.

@@ -12,15 +12,14 @@ class SliceGifts {
  public:
   // For `rows` rows. `flows`: arrays that differ: 1, 2 (axes, diagonals) or 4 (by direction).
   SliceGifts(const simd::View& view, int rows, int flows)
-      : planes_(sizeof(std::uint64_t) * 8 * count(rows) * static_cast<std::size_t>(view.words + 2)),
-        giving_(sizeof(simd::TileRow) * 4 * count(rows)),
+      : patterns_(array_cells(view, rows)),
+        giving_(sizeof(simd::TileRow) * count(rows) * static_cast<std::size_t>(view.words + 4)),
         fields_(sizeof(std::uint16_t) * (array_cells(view, rows) * static_cast<std::size_t>(2 * flows + 1))) {
     gifts_.rows = rows;
-    gifts_.planes = reinterpret_cast<std::uint64_t*>(planes_.data());
+    gifts_.pattern = reinterpret_cast<std::uint8_t*>(patterns_.data()) + kGuard;
     gifts_.giving = reinterpret_cast<simd::TileRow*>(giving_.data());
-    gifts_.giving_left = gifts_.giving + rows;
-    gifts_.giving_right = gifts_.giving_left + rows;
-    gifts_.giving_tiles = gifts_.giving_right + rows;
+    gifts_.giving_tiles = gifts_.giving + rows;
+    gifts_.givers = gifts_.giving_tiles + rows;
     auto* field = reinterpret_cast<std::uint16_t*>(fields_.data()) + kGuard;
     const auto array = [&](int i) { return field + array_cells(view, rows) * count(i); };
     for (int d = 0; d < 8; ++d) {
@@ -46,7 +45,7 @@ class SliceGifts {
     return view.row * count(rows) + 2 * kGuard;
   }
 
-  state::Pages planes_, giving_, fields_;
+  state::Pages patterns_, giving_, fields_;
   simd::Gifts gifts_;
 };
 

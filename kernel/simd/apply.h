@@ -36,21 +36,32 @@ class Apply {
     int count = 0;
     for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y) {
       const std::size_t below = below_.row(y), own = own_.row(y), above = above_.row(y);
-      const TileRow right = below_.giving_right[below] | own_.giving_right[own] | above_.giving_right[above];
-      const TileRow left = below_.giving_left[below] | own_.giving_left[own] | above_.giving_left[above];
-      TileRow work = below_.giving[below] | own_.giving[own] | above_.giving[above] | right << 1 | left >> 1;
-      for (work &= words; work != 0; work &= work - 1) {
+      const TileRow giving = below_.giving[below] | own_.giving[own] | above_.giving[above];
+      const auto givers = [&](int w) VOXMELT_LAMBDA {
+        return below_.givers[below_.word(v_, w, below)] | own_.givers[own_.word(v_, w, own)] |
+               above_.givers[above_.word(v_, w, above)];
+      };
+      for (TileRow work = (giving | giving << 1 | giving >> 1) & words; work != 0; work &= work - 1) {
         const int w = __builtin_ctzll(work);
-        const std::uint64_t any = gather(w, y, masks_[masks_used_]);
+        const std::uint64_t here = givers(w);
+        // Whoever may give or take.
+        const std::uint64_t any =
+            here | cpu::from_right(here, givers(w + 1)) | cpu::from_left(here, givers(w - 1));
         for (int part = 0; part < L::kParts; ++part) {
-          items_[count] = {y, w, part, masks_used_};
+          const std::size_t lane = static_cast<std::size_t>(64 * w + part * L::kCount);
+          items_[count] = {v_.cell(0, y, z_) + lane,
+                           below * v_.row + lane,
+                           own * v_.row + lane,
+                           above * v_.row + lane,
+                           y,
+                           w,
+                           part};
           count += (any >> (part * L::kCount) & kAll) != 0;
         }
-        ++masks_used_;
         changed |= any != 0 ? TileRow{1} << w : 0;
-        if (masks_used_ < kBatch) continue;
+        if (count + L::kParts <= kBatch) continue;
         process(count);
-        count = masks_used_ = 0;
+        count = 0;
       }
     }
     process(count);
@@ -58,43 +69,18 @@ class Apply {
   }
 
  private:
-  static constexpr int kBatch = 32;  // words
-  struct Masks {
-    std::uint64_t out[8], in[8];  // by direction: gives to the neighbour there, takes from it
-  };
+  static constexpr int kBatch = 64;
   struct Item {
-    int y, w, part, masks;
+    std::size_t cell, below, own, above;  // where it begins in the state, in the gifts of the three slices
+    int y, w, part;
   };
-
-  // Who gives and takes in word w of row y; returns the cells that do either.
-  [[gnu::always_inline]] std::uint64_t gather(int w, int y, Masks& masks) const {
-    const auto planes = [&](const Gifts& gifts) VOXMELT_LAMBDA {
-      return gifts.planes +
-             8 * (gifts.row(y) * static_cast<std::size_t>(v_.words + 2) + 1 + static_cast<std::size_t>(w));
-    };
-    const std::uint64_t *own = planes(own_), *front = planes(above_), *back = planes(below_);
-    std::uint64_t any = 0;
-    for (int d = 0; d < kDirections; ++d) any |= masks.out[d] = own[d];
-    // A neighbour gives in the opposite direction: planes 1, 0, 3, 2, 7, 6, 5, 4.
-    any |= masks.in[0] = cpu::from_right(own[1], own[8 + 1]);
-    any |= masks.in[1] = cpu::from_left(own[0], own[-8 + 0]);
-    any |= masks.in[2] = front[3];
-    any |= masks.in[3] = back[2];
-    if constexpr (kFeatures.eight) {
-      any |= masks.in[4] = cpu::from_right(front[7], front[8 + 7]);
-      any |= masks.in[5] = cpu::from_right(back[6], back[8 + 6]);
-      any |= masks.in[6] = cpu::from_left(front[5], front[-8 + 5]);
-      any |= masks.in[7] = cpu::from_left(back[4], back[-8 + 4]);
-    }
-    return any;
-  }
 
   [[gnu::always_inline]] void process(int count) {
     if (count == 0) return;
     for (int i = 0; i < count; ++i) {
-      const Item item = items_[i];
+      const Item& item = items_[i];
       const int shift = item.part * L::kCount;
-      const std::uint64_t wet = vectors(item.w, item.y, item.part, masks_[item.masks]) << shift;
+      const std::uint64_t wet = vectors(item) << shift;
       std::uint64_t& liquid = v_.liquid[v_.word(item.w, item.y, z_)];
       liquid = ((liquid & ~(kAll << shift)) | wet) & ~v_.blocked(item.w, item.y, z_);
     }
@@ -102,27 +88,39 @@ class Apply {
   }
 
   // Returns the lanes that hold something.
-  [[gnu::always_inline]] std::uint64_t vectors(int w, int y, int part, const Masks& masks) {
-    const std::size_t lane = 64 * static_cast<std::size_t>(w) + static_cast<std::size_t>(part * L::kCount);
-    const std::size_t cell = v_.cell(0, y, z_) + lane, gift = own_.row(y) * v_.row + lane;
-    const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
+  [[gnu::always_inline]] std::uint64_t vectors(const Item& item) {
+    const V amount = L::load(v_.amount + item.cell), energy = L::load(v_.energy + item.cell);
 
-    V out = L::zero(), energy_out = L::zero();
-    cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
-      const M gives = L::from_bits(masks.out[d], part);
-      out = L::add_if(gives, out, flow<d>(own_, gift));
-      energy_out = L::add_if(gives, energy_out, energy_flow<d>(own_, gift));
-    });
+    const V pattern = L::widen_bytes(own_.pattern + item.own);
+    V out, energy_out;
+    if constexpr (kFeatures.general) {
+      out = energy_out = L::zero();
+      cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
+        const M gives = L::has(pattern, 1 << d);
+        out = L::add_if(gives, out, flow<d>(own_, item.own));
+        energy_out = L::add_if(gives, energy_out, energy_flow<d>(own_, item.own));
+      });
+    } else {
+      const V axes = L::count_four(pattern), diagonals = L::count_four(L::template shift_right<4>(pattern));
+      out = L::low(axes, flow<0>(own_, item.own));
+      energy_out = L::low(axes, energy_flow<0>(own_, item.own));
+      if constexpr (kFeatures.eight) {
+        out = out + L::low(diagonals, flow<4>(own_, item.own));
+        energy_out = energy_out + L::low(diagonals, energy_flow<4>(own_, item.own));
+      }
+    }
 
     V in = L::zero(), energy_in = L::zero();
     typename L::Wide content{};
     V taken, heats;
     cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
+      // The neighbour there gives in the opposite direction.
       constexpr int opposite = d ^ (d < 4 ? 1 : 3);
       constexpr std::ptrdiff_t dx = d < 4 ? (d == 0) - (d == 1) : (d < 6 ? 1 : -1);
       const Gifts& giver = d < 2 ? own_ : (d % 2 == 0 ? above_ : below_);
-      const std::size_t from = giver.row(y) * v_.row + lane + static_cast<std::size_t>(dx);
-      const M takes = L::from_bits(masks.in[d], part);
+      const std::size_t from =
+          (d < 2 ? item.own : (d % 2 == 0 ? item.above : item.below)) + static_cast<std::size_t>(dx);
+      const M takes = L::has(L::widen_bytes(giver.pattern + from), 1 << opposite);
       energy_in = L::add_if(takes, energy_in, energy_flow<opposite>(giver, from));
       if constexpr (!kFeatures.hot) {
         in = L::add_if(takes, in, flow<opposite>(giver, from));
@@ -140,16 +138,16 @@ class Apply {
     });
 
     const V kept = amount - out, now = kept + in;
-    L::store(v_.amount + cell, now);
-    const V gained = friction(energy_in, w, y, part);
+    L::store(v_.amount + item.cell, now);
+    const V gained = friction(energy_in, item.w, item.y, item.part);
     const V uncapped = energy - energy_out + gained, capped = L::min(uncapped, now);
-    L::store(v_.energy + cell, capped);
+    L::store(v_.energy + item.cell, capped);
     dissipated_.add(energy_in - gained);
     capped_.add(uncapped - capped);
 
     const M dry = L::equal(now, L::zero());
     if constexpr (kFeatures.hot) {
-      const V heat = L::load(v_.temperature + cell);
+      const V heat = L::load(v_.temperature + item.cell);
       const M fed = L::less(L::zero(), in);
       V mixed = heat;
       if (L::to_bits(fed) != 0) {
@@ -158,7 +156,7 @@ class Apply {
         const auto all = L::sum(L::sum(content, biased), L::product(kept, heat));
         mixed = L::select(fed, mix_.mean(all, now, fed), heat);
       }
-      L::store(v_.temperature + cell, L::select(dry, L::zero(), mixed));
+      L::store(v_.temperature + item.cell, L::select(dry, L::zero(), mixed));
     }
     return L::to_bits(dry) ^ kAll;
   }
@@ -198,9 +196,7 @@ class Apply {
   Books& books_;
   Mix<Arch> mix_;
   typename L::Sums dissipated_, capped_;
-  int masks_used_ = 0;
-  Masks masks_[kBatch];
-  Item items_[kBatch * L::kParts + L::kParts];
+  Item items_[kBatch + L::kParts];
 };
 
 }  // namespace voxmelt::simd

@@ -96,16 +96,19 @@ struct Books {
 // `apply`. Arrays begin with row `first_row`, the first of a tile.
 struct Gifts {
   int first_row = 0, rows = 0;
-  std::uint64_t* planes = nullptr;  // [row][1 + words + 1][8]: directions given to, one plane per direction
-  TileRow* giving = nullptr;        // [row]: words with a plane that is not empty; the planes of others are 0
-  TileRow *giving_left = nullptr,
-          *giving_right = nullptr;  // [row]: those that give into the word beside them
+  std::uint8_t* pattern =
+      nullptr;  // [row][x]: directions given to, a bit each; 0 in words of which nobody gives
+  std::uint64_t* givers = nullptr;  // [row][1 + words + 1]: cells whose pattern is not 0
+  TileRow* giving = nullptr;        // [row]: words with givers
   TileRow* giving_tiles = nullptr;  // [tile row]: of all its rows
   std::uint16_t* flow[8] = {};      // [row][x]: amount given to a direction of the pattern
   std::uint16_t* energy[8] = {};    // [row][x]
   std::uint16_t* heat = nullptr;    // [row][x]: heat of the giver, xor 0x8000
 
   [[gnu::always_inline]] std::size_t row(int y) const { return static_cast<std::size_t>(y - first_row); }
+  [[gnu::always_inline]] std::size_t word(const View& view, int w, std::size_t row) const {
+    return row * static_cast<std::size_t>(view.words + 2) + 1 + static_cast<std::size_t>(w);
+  }
   [[gnu::always_inline]] TileRow& tiles(const View& view, int r) const {
     return giving_tiles[r - (first_row >> view.tile_shift)];
   }

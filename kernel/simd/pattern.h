@@ -1,8 +1,8 @@
 // Phase `spread` of the paper's law, first half (Eqs. 7-10): which directions each cell gives to, and what.
 //
-// The work of a tile row is cut into items of one vector each, and goes through three stages by the batch, so
-// that no stage waits for, or guesses, what another finds: items with a liquid cell; those with a direction
-// that may receive; dice for four items at a time.
+// The work of a tile row is cut into items of two vectors each (a pattern is a byte, and so are dice), and
+// goes through three stages by the batch, so that no stage waits for, or guesses, what another finds: items
+// with a liquid cell; those with a direction that may receive; dice for two at a time.
 #pragma once
 
 #include "kernel/simd/contact.h"
@@ -15,11 +15,12 @@ class Pattern {
   using L = cpu::Lanes<Arch>;
   using V = typename L::V;
   using M = typename L::M;
-  using Bits = typename L::Bits;
+  using Bytes = typename L::Bytes;
+  using Twin = typename L::Twin;
   static constexpr int kDirections = kFeatures.eight ? 8 : 4;
   static constexpr int kCap = kFeatures.eight ? 4096 : 8192;
   static constexpr int kLimit = kFeatures.eight ? 11 * 4096 : 8 * 4096;
-  static constexpr int kBatch = 128;
+  static constexpr int kBatch = 64;
 
  public:
   [[gnu::always_inline]] Pattern(const View& view, const Step& step, int z, const std::uint64_t* below,
@@ -43,43 +44,50 @@ class Pattern {
   [[gnu::always_inline]] TileRow run(int r, TileRow tiles) {
     clear(r);
     int count = 0;
-    for (int y = v_.tile_begin(r); tiles != 0 && y < v_.tile_end(r); ++y)
+    for (int y = v_.tile_begin(r); tiles != 0 && y < v_.tile_end(r); ++y) {
+      const std::size_t row = gifts_.row(y);
       for (TileRow work = tiles; work != 0; work &= work - 1) {
         const int w = __builtin_ctzll(work);
         const std::uint64_t givers = givers_of(w, y);
         if (givers == 0) continue;
-        for (int part = 0; part < L::kParts; ++part) {
-          const auto own = static_cast<Bits>(givers >> (part * L::kCount));
-          items_[count] = {y, w, part, own};
+        for (int twin = 0; twin < L::kTwins; ++twin) {
+          const auto own = static_cast<Twin>(givers >> (twin * kCells));
+          const std::size_t lane = static_cast<std::size_t>(64 * w + twin * kCells);
+          items_[count] = {own, v_.cell(0, y, z_) + lane, row * v_.row + lane, gifts_.word(v_, w, row), y, w,
+                           twin};
           count += own != 0;
         }
-        if (count + L::kParts <= kBatch) continue;
+        if (count + L::kTwins <= kBatch) continue;
         process(count);
         count = 0;
       }
+    }
     process(count);
     gifts_.tiles(v_, r) = giving_;
     return restless_;
   }
 
  private:
+  static constexpr int kCells = 2 * L::kCount;  // of an item
   struct Item {
-    int y, w, part;
-    Bits givers;
+    Twin givers;
+    std::size_t cell, gift, word;  // where it begins in the state, in the gifts, in their planes
+    int y, w, twin;
   };
-  using Four = Bits[4];  // of four items
 
-  // Planes of words that give nothing are 0. (Rows beyond a last, shorter tile row stay as they are: unread.)
+  // Patterns of words that give nothing are 0. (Rows beyond a last, shorter tile row stay as they are:
+  // unread.)
   [[gnu::always_inline]] void clear(int r) {
     if (gifts_.tiles(v_, r) == 0) return;
     const std::size_t first = gifts_.row(v_.tile_begin(r)), rows = static_cast<std::size_t>(gifts_.rows);
     const std::size_t tile = std::size_t{1} << v_.tile_shift, end = first + tile < rows ? first + tile : rows;
     for (std::size_t row = first; row < end; ++row) {
       for (TileRow old = gifts_.giving[row]; old != 0; old &= old - 1) {
-        std::uint64_t* planes = gifts_.planes + gift_word(__builtin_ctzll(old), row);
-        for (int d = 0; d < 8; ++d) planes[d] = 0;
+        const int w = __builtin_ctzll(old);
+        __builtin_memset(gifts_.pattern + row * v_.row + 64 * static_cast<std::size_t>(w), 0, 64);
+        gifts_.givers[gifts_.word(v_, w, row)] = 0;
       }
-      gifts_.giving[row] = gifts_.giving_left[row] = gifts_.giving_right[row] = 0;
+      gifts_.giving[row] = 0;
     }
   }
 
@@ -95,80 +103,91 @@ class Pattern {
     int found = 0;
     for (int i = 0; i < count; ++i) {
       const Item item = items_[i];
-      const bool any = find_available(item, available_[found / 4], found % 4);
+      const bool any = find_available(item);
       items_[found] = item;
       restless_ |= TileRow{any} << item.w;
       found += any;
     }
-    for (int i = found; i % 4 != 0; ++i) {  // the last four are filled up with items that give nothing
-      items_[i] = items_[0];
-      for (int d = 0; d < kDirections; ++d) available_[i / 4][d][i % 4] = 0;
-    }
-    for (int i = 0; i < found; i += 4) throw_dice(i, found - i < 4 ? found - i : 4);
+    for (int i = 0; i < found; i += 2) throw_dice(i, i + 1 < found);
   }
 
-  // The directions to which the cells of an item may give: open, and low enough. Lean: writes the gifts, too.
-  [[gnu::always_inline]] bool find_available(const Item& item, Four* available, int place) {
-    const std::size_t lane = lane_of(item);
-    const std::size_t cell = v_.cell(0, item.y, z_) + lane;
+  struct Limits {
+    V axis, diagonal;  // a neighbour receives if it holds less
+    V flow, share;
+    M energetic;
+  };
+
+  // The directions to which the cells of an item may give: open, and low enough; into its pattern, if there
+  // is one. Lean: writes the gifts, too.
+  [[gnu::always_inline]] bool find_available(const Item& item) {
+    const std::size_t cell = item.cell;
+    const Limits low = limits_of(cell), high = limits_of(cell + L::kCount);
+    Bytes available = L::none();
+    cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
+      const std::uint16_t* there = v_.amount + static_cast<std::ptrdiff_t>(cell) + places_[d];
+      const M first = L::less(L::load_any(there), d < 4 ? low.axis : low.diagonal);
+      const M second = L::less(L::load_any(there + L::kCount), d < 4 ? high.axis : high.diagonal);
+      available = L::put(available, first, second, 1 << d);
+    });
+    available = L::both(L::in_order(available), givers_of(item, low, high));
+    available = only_open(item, available);
+    if (L::nonzero_bytes(available) == 0) return false;
+    L::store_bytes(gifts_.pattern + item.gift, available);
+    if constexpr (!kFeatures.general) {
+      write_gifts(cell, item.gift, low);
+      write_gifts(cell + L::kCount, item.gift + L::kCount, high);
+    }
+    return true;
+  }
+  [[gnu::always_inline]] void write_gifts(std::size_t cell, std::size_t gift, const Limits& of) const {
+    const V warm = L::min(of.flow, L::high(L::load(v_.energy + cell), of.share));
+    L::store(gifts_.flow[0] + gift, of.flow);
+    L::store(gifts_.energy[0] + gift, warm);
+    if constexpr (kFeatures.eight) {
+      L::store(gifts_.flow[4] + gift, L::template shift_right<2>(of.flow));
+      L::store(gifts_.energy[4] + gift, L::template shift_right<2>(warm));
+    }
+    if constexpr (kFeatures.hot)
+      L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
+  }
+
+  // Of one vector: a neighbour receives if it holds less than the giver's amount less the larger of flow and
+  // margin.
+  [[gnu::always_inline]] Limits limits_of(std::size_t cell) const {
     const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
     const V sh = share(cell);
     V flow = L::min(L::high(amount, sh), L::set(kCap));
     if constexpr (kFeatures.general)
       if (law_.use_table) flow = L::zero();
-    // A neighbour receives if it holds less than a limit: the giver's amount less the larger of flow and
-    // margin.
     const M energetic = L::less(L::set(law_.threshold), energy);
     V margin = L::set(law_.margin);
     if constexpr (kBuilt.slump) margin = L::select(energetic, margin, L::set(law_.slump));
     const V most = L::set(kLimit);
-    V limits[2];
-    limits[0] = L::min(most, L::sub_saturated(amount, L::max(flow, margin)));
-    const V diagonal = L::add_saturated(margin, L::template shift_right<3>(margin));
-    limits[1] = L::min(most, L::sub_saturated(amount, L::max(flow, diagonal)));
+    V axis = L::min(most, L::sub_saturated(amount, L::max(flow, margin)));
+    const V wider = L::add_saturated(margin, L::template shift_right<3>(margin));
+    V diagonal = L::min(most, L::sub_saturated(amount, L::max(flow, wider)));
     if constexpr (kFeatures.general)
-      if (!law_.downhill) limits[0] = limits[1] = most;
-
-    Bits givers = item.givers;
-    if (!kBuilt.slump || law_.slump == 0) givers = static_cast<Bits>(givers & L::to_bits(energetic));
-    givers = static_cast<Bits>(givers & ~L::to_bits(L::equal(limits[0], L::zero())));
-    if (givers == 0) return false;  // films too thin to give
-
-    Bits own[8], any = 0;
-    const Bits* open = open_directions(item, own);
-    cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
-      const V there = L::load_any(v_.amount + static_cast<std::ptrdiff_t>(cell) + places_[d]);
-      const auto receives = static_cast<Bits>(L::to_bits(L::less(there, limits[d / 4])) & open[d] & givers);
-      available[d][place] = receives;
-      any = static_cast<Bits>(any | receives);
-    });
-    if (any == 0) return false;
-    if constexpr (!kFeatures.general) {
-      const std::size_t gift = gifts_.row(item.y) * v_.row + lane;
-      const V warm = L::min(flow, L::high(energy, sh));
-      L::store(gifts_.flow[0] + gift, flow);
-      L::store(gifts_.energy[0] + gift, warm);
-      if constexpr (kFeatures.eight) {
-        L::store(gifts_.flow[4] + gift, L::template shift_right<2>(flow));
-        L::store(gifts_.energy[4] + gift, L::template shift_right<2>(warm));
-      }
-      if constexpr (kFeatures.hot)
-        L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
-    }
-    return true;
+      if (!law_.downhill) axis = diagonal = most;
+    return {axis, diagonal, flow, sh, energetic};
   }
 
-  // Cells whose neighbour is neither blocked nor, across a diagonal, behind two blocked ones; in `own` unless
-  // no wall is near, which is most of the time.
-  [[gnu::always_inline]] const Bits* open_directions(const Item& item, Bits* own_open) const {
-    static constexpr Bits kOpen[8] = {kEvery, kEvery, kEvery, kEvery, kEvery, kEvery, kEvery, kEvery};
-    const int w = item.w, shift = item.part * L::kCount;
+  // All ones where a cell is liquid, and has the energy to give.
+  [[gnu::always_inline]] Bytes givers_of(const Item& item, const Limits& low, const Limits& high) const {
+    const Bytes liquid = item.givers == kEvery ? L::every() : L::put(L::none(), item.givers, 0xFF);
+    if (kBuilt.slump && law_.slump != 0) return liquid;
+    return L::both(liquid, L::in_order(L::put(L::none(), low.energetic, high.energetic, 0xFF)));
+  }
+
+  // Without directions whose neighbour is blocked or, across a diagonal, behind two blocked ones.
+  [[gnu::always_inline]] Bytes only_open(const Item& item, Bytes available) const {
+    const int w = item.w, shift = item.twin * kCells;
     const std::uint64_t *own = v_.walls_at(item.y, z_) + w, *front = own + walls_slice_,
                         *back = own - walls_slice_;
     const auto around = [](const std::uint64_t* row) { return row[0] | row[-1] >> 63 | row[1] << 63; };
-    if ((around(own) | around(front) | around(back)) == 0) return kOpen;
-    const auto put = [&](int d, std::uint64_t blocked) {
-      own_open[d] = static_cast<Bits>(~blocked >> shift);
+    if ((around(own) | around(front) | around(back)) == 0) return available;  // most of the time
+    Bytes open = L::none();
+    const auto put = [&](int d, std::uint64_t blocked) VOXMELT_LAMBDA {
+      open = L::put(open, static_cast<Twin>(~blocked >> shift), 1 << d);
     };
     const std::uint64_t right = cpu::from_right(own[0], own[1]), left = cpu::from_left(own[0], own[-1]);
     put(0, right);
@@ -181,54 +200,35 @@ class Pattern {
       put(6, cpu::from_left(front[0], front[-1]) | (left & front[0]));
       put(7, cpu::from_left(back[0], back[-1]) | (left & back[0]));
     }
-    return own_open;
+    return L::both(available, open);
   }
 
-  // Keeps a random subset of the directions of four items, of which the first `count` are there.
-  [[gnu::always_inline]] void throw_dice(int first, int count) {
-    std::uint32_t blocks[4];
-    for (int i = 0; i < 4; ++i) {
-      const Item& item = items_[first + i];
+  // Keeps a random subset of the directions of an item, and of the next one if `two`.
+  [[gnu::always_inline]] void throw_dice(int first, bool two) {
+    const Item* items = items_ + first;
+    std::uint32_t blocks[2];
+    for (int i = 0; i < 2; ++i) {
+      const Item& item = items[two ? i : 0];
       const auto row = static_cast<std::uint32_t>(z_) * static_cast<std::uint32_t>(v_.ny) +
                        static_cast<std::uint32_t>(item.y);
-      blocks[i] = row * row_blocks_ + static_cast<std::uint32_t>(lane_of(item)) / 8;
+      blocks[i] = row * row_blocks_ + static_cast<std::uint32_t>(64 * item.w + item.twin * kCells) / 8;
     }
-    alignas(16) Four dice[8];
+    Bytes dice[2];
     L::dice(step_.keys, step_.number, blocks, dice);
-    Four* patterns = available_[first / 4];
-    Four any{}, left{}, right{};
-    cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
-      for (int i = 0; i < 4; ++i) {
-        const auto pattern = static_cast<Bits>(patterns[d][i] & dice[d][i]);
-        patterns[d][i] = pattern;
-        any[i] = static_cast<Bits>(any[i] | pattern);
-        if constexpr (d == 1 || d == 6 || d == 7) left[i] = static_cast<Bits>(left[i] | pattern);
-        if constexpr (d == 0 || d == 4 || d == 5) right[i] = static_cast<Bits>(right[i] | pattern);
-      }
-    });
-    for (int i = 0; i < count; ++i) {
-      const Item& item = items_[first + i];
-      const std::size_t row = gifts_.row(item.y);
-      auto* planes = reinterpret_cast<Bits*>(gifts_.planes + gift_word(item.w, row)) + item.part;
-      cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA { planes[d * L::kParts] = patterns[d][i]; });
-      const TileRow word = TileRow{1} << item.w, gives = any[i] != 0 ? word : 0;
-      giving_ |= gives;
-      gifts_.giving[row] |= gives;
-      gifts_.giving_left[row] |= item.part == 0 && (left[i] & 1u) != 0 ? word : 0;
-      gifts_.giving_right[row] |= item.part == L::kParts - 1 && (right[i] >> (L::kCount - 1)) != 0 ? word : 0;
-      if constexpr (kFeatures.general) {
-        Bits pattern[8];
-        for (int d = 0; d < kDirections; ++d) pattern[d] = patterns[d][i];
-        if (any[i] != 0) give(item, pattern);
-      }
-    }
+    keep(items[0], dice[0]);
+    if (two) keep(items[1], dice[1]);
   }
-
-  [[gnu::always_inline]] std::size_t gift_word(int w, std::size_t row) const {
-    return 8 * (row * static_cast<std::size_t>(v_.words + 2) + 1 + static_cast<std::size_t>(w));
-  }
-  [[gnu::always_inline]] static std::size_t lane_of(const Item& item) {
-    return 64 * static_cast<std::size_t>(item.w) + static_cast<std::size_t>(item.part * L::kCount);
+  [[gnu::always_inline]] void keep(const Item& item, Bytes dice) {
+    std::uint8_t* at = gifts_.pattern + item.gift;
+    const Bytes pattern = L::both(L::load_bytes(at), dice);
+    L::store_bytes(at, pattern);
+    const Twin any = L::nonzero_bytes(pattern);
+    reinterpret_cast<Twin*>(gifts_.givers + item.word)[item.twin] = any;
+    const TileRow gives = TileRow{any != 0} << item.w;
+    giving_ |= gives;
+    gifts_.giving[gifts_.row(item.y)] |= gives;
+    if constexpr (kFeatures.general)
+      if (any != 0) give(item);
   }
 
   // Thermal viscosity: share times the table, cut at what all neighbours together can take.
@@ -243,38 +243,36 @@ class Pattern {
   }
 
   // The gifts of every direction on their own: shares by pattern, energy by the printed reading.
-  [[gnu::always_inline]] void give(const Item& item, const Bits* pattern) {
-    const std::size_t cell = v_.cell(0, item.y, z_) + lane_of(item);
-    const std::size_t gift = gifts_.row(item.y) * v_.row + lane_of(item);
-    const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
-    if constexpr (kFeatures.hot)
-      L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
-    const V same = law_.use_table ? L::zero() : share(cell);
-    for (int d = 0; d < kDirections; ++d) {
-      const V sh = law_.use_table ? share_by_pattern(pattern, d) : same;
-      V flow = L::min(L::high(amount, sh), L::set(kCap)), warm = L::min(L::high(energy, sh), L::set(kCap));
-      if (d >= 4) {
-        flow = L::template shift_right<2>(flow);
-        warm = L::template shift_right<2>(warm);
+  [[gnu::always_inline]] void give(const Item& item) {
+    for (int k = 0; k < 2; ++k) {
+      const auto at = static_cast<std::size_t>(k * L::kCount);
+      const std::size_t cell = item.cell + at, gift = item.gift + at;
+      const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
+      if constexpr (kFeatures.hot)
+        L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
+      const V same = law_.use_table ? L::zero() : share(cell);
+      for (int d = 0; d < kDirections; ++d) {
+        const V sh = law_.use_table ? share_by_pattern(gifts_.pattern + gift, d) : same;
+        V flow = L::min(L::high(amount, sh), L::set(kCap)), warm = L::min(L::high(energy, sh), L::set(kCap));
+        if (d >= 4) {
+          flow = L::template shift_right<2>(flow);
+          warm = L::template shift_right<2>(warm);
+        }
+        warm = L::min(flow, warm);
+        if (law_.reading == rule::EnergyReading::printed)
+          warm = L::high(warm, contact_alpha<Arch>(v_, law_, item.w, item.y, z_, 2 * item.twin + k));
+        L::store(gifts_.flow[d] + gift, flow);
+        L::store(gifts_.energy[d] + gift, warm);
       }
-      warm = L::min(flow, warm);
-      if (law_.reading == rule::EnergyReading::printed)
-        warm = L::high(warm, contact_alpha<Arch>(v_, law_, item.w, item.y, z_, item.part));
-      L::store(gifts_.flow[d] + gift, flow);
-      L::store(gifts_.energy[d] + gift, warm);
     }
   }
-  [[gnu::always_inline]] V share_by_pattern(const Bits* planes, int d) const {
+  [[gnu::always_inline]] V share_by_pattern(const std::uint8_t* patterns, int d) const {
     alignas(64) std::uint16_t shares[L::kCount];
-    for (int i = 0; i < L::kCount; ++i) {
-      std::size_t pattern = 0;
-      for (std::size_t k = 0; k < 4; ++k) pattern |= static_cast<std::size_t>(planes[k] >> i & 1u) << k;
-      shares[i] = (&law_.table[0][0])[4 * pattern + static_cast<std::size_t>(d)];
-    }
+    for (int i = 0; i < L::kCount; ++i) shares[i] = law_.table[patterns[i] & 15][d];
     return L::load(shares);
   }
 
-  static constexpr Bits kEvery = static_cast<Bits>(~Bits{0});
+  static constexpr Twin kEvery = static_cast<Twin>(~Twin{0});
   const View v_;
   const Step& step_;
   const rule::PaperLaw& law_;
@@ -285,8 +283,7 @@ class Pattern {
   const std::uint64_t* below_;
   Gifts& gifts_;
   std::ptrdiff_t places_[8];
-  Item items_[kBatch + 4];
-  alignas(64) Four available_[kBatch / 4 + 1][8];
+  Item items_[kBatch + L::kTwins];
 };
 
 }  // namespace voxmelt::simd

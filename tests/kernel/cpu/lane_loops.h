@@ -155,20 +155,42 @@ struct LaneLoops {
     return mix.flush();
   }
 
-  static void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
-                   std::uint8_t* bytes) {
-    alignas(16) typename L::Bits planes[8][4];
-    L::dice(keys, step, blocks, planes);
-    for (std::size_t i = 0; i < 4 * kCount; ++i) {
-      unsigned byte = 0;
-      for (int b = 0; b < 8; ++b)
-        byte |= static_cast<unsigned>(planes[b][i / kCount] >> (i % kCount) & 1u) << b;
-      bytes[i] = static_cast<std::uint8_t>(byte);
+  static std::uint64_t bytes(const std::uint16_t (*low)[32], const std::uint16_t (*high)[32],
+                             std::uint64_t keep, std::uint8_t* out) {
+    typename L::Bytes together = L::none(), apart = L::none();
+    for (int d = 0; d < 8; ++d) {
+      const M first = L::less(L::zero(), L::load(low[d])), second = L::less(L::zero(), L::load(high[d]));
+      together = L::put(together, first, second, 1 << d);
+      const std::uint64_t bits = L::to_bits(first) | L::to_bits(second) << L::kCount;
+      apart = L::put(apart, static_cast<typename L::Twin>(bits), 1 << d);
+    }
+    const typename L::Bytes kept = L::put(L::none(), static_cast<typename L::Twin>(keep), 0xFF);
+    std::uint8_t other[64];
+    L::store_bytes(out, L::both(L::in_order(together), kept));
+    L::store_bytes(other, L::both(kept, apart));
+    const std::uint64_t found = L::nonzero_bytes(L::both(L::every(), L::load_bytes(out)));
+    return __builtin_memcmp(out, other, 2 * kCount) == 0 ? found : ~found;
+  }
+
+  static void widen(const std::uint8_t* bytes, int bit, Out lanes, Out has, Out count) {
+    for (std::size_t i = 0; i < 64; i += kCount) {
+      const V wide = L::widen_bytes(bytes + i);
+      L::store(lanes + i, wide);
+      L::store(has + i, L::keep(L::has(wide, 1 << bit), L::set(0xFFFF)));
+      L::store(count + i, L::count_four(wide));
     }
   }
 
+  static void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
+                   std::uint8_t* bytes) {
+    typename L::Bytes dice[2];
+    L::dice(keys, step, blocks, dice);
+    for (int i = 0; i < 2; ++i) L::store_bytes(bytes + static_cast<std::size_t>(i) * 2 * kCount, dice[i]);
+  }
+
   static Operations operations() {
-    return {L::kCount, row, shift, lookup, bits, divide, pair_product, pair_sums, after, total, mix, dice};
+    return {L::kCount, row,   shift, lookup, bits,  divide, pair_product,
+            pair_sums, after, total, mix,    bytes, widen,  dice};
   }
 };
 

@@ -195,6 +195,45 @@ TEST_P(Vectors, MeanHeatIsTheRules) {
   }
 }
 
+TEST_P(Vectors, MasksBecomeBytes) {
+  alignas(64) std::uint16_t low[8][32], high[8][32];
+  Numbers random(10);
+  const auto count = static_cast<std::size_t>(own_.count);
+  for (int round = 0; round < 20'000; ++round) {
+    const std::uint64_t sparse = round % 2 == 0 ? ~std::uint64_t{0} : random() & random();
+    std::uint8_t expected[64] = {}, got[64] = {};
+    const std::uint64_t keep = round % 3 == 0 ? ~std::uint64_t{0} : random();
+    std::uint64_t nonzero = 0;
+    for (std::size_t i = 0; i < 2 * count; ++i) {
+      for (std::size_t d = 0; d < 8; ++d) {
+        const auto lane = static_cast<std::uint16_t>(random() & 1 & sparse >> i ? any_value(random) : 0);
+        (i < count ? low[d][i] : high[d][i - count]) = lane;
+        expected[i] =
+            static_cast<std::uint8_t>(expected[i] | (lane != 0 && (keep >> i & 1) != 0 ? 1 << d : 0));
+      }
+      nonzero |= std::uint64_t{expected[i] != 0} << i;
+    }
+    ASSERT_EQ(own_.bytes(low, high, keep, got), nonzero) << round;
+    for (std::size_t i = 0; i < 2 * count; ++i) ASSERT_EQ(got[i], expected[i]) << round << ", " << i;
+  }
+}
+
+TEST_P(Vectors, BytesBecomeLanes) {
+  Row<64> lanes, has, count;
+  std::uint8_t bytes[65];
+  for (int first = 0; first < 256; ++first)
+    for (int bit = 0; bit < 8; ++bit) {
+      for (int i = 0; i < 65; ++i) bytes[i] = static_cast<std::uint8_t>(first + 37 * i);
+      own_.widen(bytes + 1, bit, lanes.data(), has.data(), count.data());  // from any address
+      for (std::size_t i = 0; i < 64; ++i) {
+        const unsigned byte = bytes[i + 1];
+        ASSERT_EQ(lanes[i], byte);
+        ASSERT_EQ(has[i], (byte >> bit & 1) != 0 ? 0xFFFF : 0) << byte << ", bit " << bit;
+        ASSERT_EQ(count[i], std::popcount(byte & 15)) << byte;
+      }
+    }
+}
+
 TEST_P(Vectors, DiceAreTheRules) {
   Numbers random(9);
   std::uint8_t bytes[4 * 32];
@@ -203,15 +242,15 @@ TEST_P(Vectors, DiceAreTheRules) {
     const rule::RoundKeys keys = rule::round_keys(random());
     const auto step =
         round < 4 ? 0u - static_cast<std::uint32_t>(round) : static_cast<std::uint32_t>(random());
-    std::uint32_t blocks[4];
+    std::uint32_t blocks[2];
     for (std::uint32_t& block : blocks) {  // one in four near 2^32: numbers of blocks turn over
       block = static_cast<std::uint32_t>(random());
       if (random() % 4 == 0) block |= 0xFFFFFFF8u;
     }
     own_.dice(keys.data(), step, blocks, bytes);
     for (std::size_t i = 0; i < 4 * count; ++i) {
-      const auto lane = static_cast<std::uint32_t>(i % count);
-      const std::uint64_t block = rule::random_block(keys, step, blocks[i / count] + lane / 8);
+      const auto lane = static_cast<std::uint32_t>(i % (2 * count));
+      const std::uint64_t block = rule::random_block(keys, step, blocks[i / (2 * count)] + lane / 8);
       ASSERT_EQ(bytes[i], rule::random_byte(block, static_cast<int>(lane))) << round << ", cell " << i;
     }
   }
