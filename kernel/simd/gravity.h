@@ -52,6 +52,8 @@ class Gravity {
  private:
   [[gnu::always_inline]] bool pair(int w, int y, std::uint64_t open) {
     const std::size_t low = v_.cell(w, y, z_), high = v_.cell(w, y + 1, z_);
+    prefetch_word(v_.amount + high + 3 * v_.row);
+    prefetch_word(v_.energy + high + 3 * v_.row);
     Around around{};
     if constexpr (kFeatures.guided) around = surroundings(w, y + 1);
     bool moved = false;

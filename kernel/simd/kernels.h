@@ -52,6 +52,12 @@ struct View {
   }
 };
 
+// Asks for the 64 cells of a word: for processors whose own guesses end at a page.
+[[gnu::always_inline]] inline void prefetch_word(const std::uint16_t* cells) {
+  __builtin_prefetch(cells);
+  __builtin_prefetch(cells + 32);
+}
+
 // What a step needs besides the state.
 struct Step {
   const rule::Parameters* parameters = nullptr;
