@@ -64,7 +64,7 @@ void register_workloads(
   }
   workloads.push_back(measure::dense_heat(64, 6));
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
-    workloads.push_back(measure::asleep(64, law));
+    workloads.push_back(measure::asleep({64, 64, 64}, 32, law));
   for (const measure::Workload& workload : workloads)
     for (const step::Implementation& implementation : run::implementations().all())
       for (const int threads : {1, 2}) {

@@ -44,6 +44,7 @@ std::optional<BaselineRuns> BaselineRuns::of(const Workload& workload) {
 BaselineRuns::BaselineRuns(const Workload& workload, rule::Parameters parameters, state::Volume start)
     : parameters_(std::move(parameters)),
       start_(std::move(start)),
+      lead_steps_(workload.lead_steps),
       steps_(workload.steps),
       has_heat_(workload.times_heat) {
   if (!parameters_.heat.radiation || !parameters_.heat.enabled) return;
@@ -56,8 +57,8 @@ template <baseline::Variant variant>
 BaselineSeconds BaselineRuns::run() const {
   baseline::Baseline<float, variant> program(start_, parameters_);
   BaselineSeconds seconds;
-  for (int step = 0; step < kLeadSteps + steps_; ++step) {
-    if (step == kLeadSteps) seconds = {};
+  for (int step = 0; step < lead_steps_ + steps_; ++step) {
+    if (step == lead_steps_) seconds = {};
     if (has_heat_) timed(seconds.heat, [&] { program.heat(irradiance_); });
     timed(seconds.gravity, [&] { program.gravity(); });
     timed(seconds.spread, [&] { program.spread(static_cast<std::uint32_t>(step)); });

@@ -36,7 +36,7 @@ class BaselineRuns {
   rule::Parameters parameters_;
   state::Volume start_;
   std::vector<float> irradiance_;
-  int steps_;
+  int lead_steps_, steps_;
   bool has_heat_;
 };
 

@@ -69,13 +69,13 @@ double Seconds::total() const {
 std::uint64_t expected_digest(const Workload& workload) {
   const step::Implementation* judge = run::implementations().find(workload.judge);
   run::Simulation simulation = fresh(workload, {judge, 1});
-  for (int i = 0; i < kLeadSteps + workload.steps; ++i) simulation.step();
+  for (int i = 0; i < workload.lead_steps + workload.steps; ++i) simulation.step();
   return state::digest(simulation.volume());
 }
 
 Seconds timed_run(const Workload& workload, const Candidate& candidate, std::uint64_t expected) {
   run::Simulation simulation = fresh(workload, candidate);
-  for (int i = 0; i < kLeadSteps; ++i) simulation.step();
+  for (int i = 0; i < workload.lead_steps; ++i) simulation.step();
   const auto before = simulation.seconds().phase;
   for (int i = 0; i < workload.steps; ++i) simulation.step();
   Seconds seconds;
@@ -88,8 +88,8 @@ Seconds timed_run(const Workload& workload, const Candidate& candidate, std::uin
   };
   const std::uint64_t digest = state::digest(simulation.volume());
   if (digest != expected)
-    fail(fmt::format("digest {:016x} after {} steps; {} has {:016x}", digest, kLeadSteps + workload.steps,
-                     workload.judge, expected));
+    fail(fmt::format("digest {:016x} after {} steps; {} has {:016x}", digest,
+                     workload.lead_steps + workload.steps, workload.judge, expected));
   const state::Drift drift = simulation.drift();
   if (drift.mass != 0 || drift.energy != 0 || drift.heat != 0) fail("the ledgers do not balance");
   return seconds;

@@ -25,7 +25,7 @@ struct Candidate {
   int threads = 1;
 };
 
-// The digest after kLeadSteps + workload.steps, as the workload's judge computes it.
+// The digest after workload.lead_steps + workload.steps, as the workload's judge computes it.
 std::uint64_t expected_digest(const Workload& workload);
 
 // Seconds per step.
@@ -36,8 +36,8 @@ struct Seconds {
   double total() const;
 };
 
-// One fresh simulation: kLeadSteps untimed, then workload.steps timed. Throws Mismatch unless the state has
-// `expected` for a digest afterwards and the ledgers balance.
+// One fresh simulation: workload.lead_steps untimed, then workload.steps timed. Throws Mismatch unless the
+// state has `expected` for a digest afterwards and the ledgers balance.
 Seconds timed_run(const Workload& workload, const Candidate& candidate, std::uint64_t expected);
 
 struct Timing {

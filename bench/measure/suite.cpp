@@ -141,11 +141,15 @@ void Suite::run_dense() {
   if (!plan_.quick) run(dense_paper(256, false));
   run(dense_heat(n, 6));
   if (!plan_.quick) run(dense_heat(n, 26));
-  for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) run(asleep(n, law));
+  for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) run(asleep({n, n, n}, n / 2, law));
 
   // Too large for the reference, and for the baseline's seven real fields: another implementation is judge.
   if (plan_.quick || findings_.machine_text.memory_bytes < std::size_t{8} << 30) return;
-  Workload large = dense_paper(512, false);
+  run_large(dense_paper(512, false));
+  run_large(asleep({1024, 256, 1024}, 16, rule::Law::paper));
+}
+
+void Suite::run_large(Workload large) {
   const auto& all = run::implementations().all();
   const std::vector<const step::Implementation*> chosen =
       std::exchange(plan_.implementations, {plan_.implementations.back()});

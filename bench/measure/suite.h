@@ -81,6 +81,7 @@ class Suite {
   Findings take();
 
  private:
+  void run_large(Workload large);  // one implementation, judged by another
   std::vector<Case> cases_of(const Workload& workload, const Result& result);
   std::optional<Roof> roof_of_case(const Case& one);
   std::vector<Scaling> scaling() const;

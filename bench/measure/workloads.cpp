@@ -41,12 +41,10 @@ rule::Parameters showcase(rule::Law law, bool heat) {
   return p;
 }
 
-std::string dense_name(const char* kind, int n, rule::Law law, bool heat) {
-  return fmt::format("{}:{}/law:{}/heat:{}", kind, n, law == rule::Law::paper ? "paper" : "viscous",
+std::string dense_name(int n, rule::Law law, bool heat) {
+  return fmt::format("dense:{}/law:{}/heat:{}", n, law == rule::Law::paper ? "paper" : "viscous",
                      heat ? "on" : "off");
 }
-
-int dense_steps(int n) { return n >= 512 ? 2 : 4; }
 
 constexpr struct {
   const char* scene;
@@ -96,10 +94,10 @@ Workload scene_at(const scene::Scene& scene, std::uint32_t step, int threads) {
 
 Workload dense_paper(int n, bool heat) {
   Workload w;
-  w.name = dense_name("dense", n, rule::Law::paper, heat);
+  w.name = dense_name(n, rule::Law::paper, heat);
   w.parameters = showcase(rule::Law::paper, heat);
   w.start = state::Volume(state::Grid{n, n, n});
-  w.steps = dense_steps(n);
+  w.lead_steps = w.steps = 1;
   for_each_cell(w.start, [&](int x, int y, int z, state::Slot i, std::size_t cell) {
     w.start.amount[i] = static_cast<std::uint16_t>(rule::kOne / 2 + drawn(1, cell, rule::kOne));
     w.start.energy[i] = static_cast<std::uint16_t>(1 + drawn(2, cell, rule::kOne / 2));
@@ -111,10 +109,10 @@ Workload dense_paper(int n, bool heat) {
 
 Workload dense_viscous(int n, bool heat) {
   Workload w;
-  w.name = dense_name("dense", n, rule::Law::viscous, heat);
+  w.name = dense_name(n, rule::Law::viscous, heat);
   w.parameters = showcase(rule::Law::viscous, heat);
   w.start = state::Volume(state::Grid{n, n, n});
-  w.steps = dense_steps(n);
+  w.steps = 4;
   for_each_cell(w.start, [&](int x, int y, int z, state::Slot i, std::size_t cell) {
     const std::uint32_t column = drawn(4, w.start.grid.index(x, 0, z), rule::kOne);
     w.start.amount[i] = static_cast<std::uint16_t>(rule::kOne + column / 2 + drawn(5, cell, 256));
@@ -132,7 +130,7 @@ Workload dense_heat(int n, int neighbours) {
   w.parameters.heat.weight_edge = 1043;
   w.parameters.heat.weight_corner = 695;
   w.start = state::Volume(state::Grid{n, n, n});
-  w.steps = dense_steps(n);
+  w.steps = 4;
   w.times_flow = false;
   w.times_heat = true;
   for_each_cell(w.start, [&](int x, int y, int z, state::Slot i, std::size_t cell) {
@@ -143,19 +141,23 @@ Workload dense_heat(int n, int neighbours) {
   return w;
 }
 
-Workload asleep(int n, rule::Law law) {
+Workload asleep(state::Grid grid, int depth, rule::Law law) {
+  const bool cube = grid.x == grid.y && grid.y == grid.z;
   Workload w;
-  w.name = dense_name("asleep", n, law, false);
+  w.name = fmt::format("asleep:{}/law:{}/heat:off",
+                       cube ? fmt::format("{}", grid.x) : fmt::format("{}x{}x{}", grid.x, grid.y, grid.z),
+                       law == rule::Law::paper ? "paper" : "viscous");
   w.parameters = showcase(law, false);
   w.parameters.flow.paper.threshold = rule::kOne / 4;
-  w.start = state::Volume(state::Grid{n, n, n});
+  w.start = state::Volume(grid);
   w.at_rest = true;
   w.steps = 20;
-  for_each_cell(w.start, [&](int x, int y, int z, state::Slot i, std::size_t) {
-    if (y >= n / 2) return;
-    w.start.amount[i] = rule::kOne;
-    w.start.liquid.set(x, y, z, true);
-  });
+  for (int z = 0; z < grid.z; ++z)
+    for (int y = 0; y < depth; ++y)
+      for (int x = 0; x < grid.x; ++x) {
+        w.start.amount[w.start.at(x, y, z)] = rule::kOne;
+        w.start.liquid.set(x, y, z, true);
+      }
   return w;
 }
 

@@ -17,13 +17,12 @@ struct Workload {
   state::Volume start;
   bool times_flow = true, times_heat = false;
   bool at_rest = false;  // nothing in it can move: no roof
-  int steps = 8;         // timed, after kLeadSteps that are not
+  // Steps before the timed ones: a fresh stepper does not know yet what sleeps.
+  int lead_steps = 2;
+  int steps = 8;  // timed
   // Whose digest the results must have.
   std::string judge = "reference";
 };
-
-// Steps before the timed ones: a fresh stepper does not know yet what sleeps.
-inline constexpr int kLeadSteps = 2;
 
 // The middle of the scene's melt: the first multiple of 50 after which less than half of its solid cells are
 // left (for a _viscous sister, its sister's), or, for lava, half the time that its vent is open. 0: unknown.
@@ -40,7 +39,8 @@ Workload scene_at(const scene::Scene& scene, std::uint32_t step, int threads);
 rule::Parameters later(rule::Parameters parameters, std::uint32_t steps);
 
 // An n-cubed volume in which every cell is liquid and holds between half a cell and one and a half, at
-// random: columns fall and are pushed up, cells give and take.
+// random: columns fall and are pushed up, cells give and take. Timed in its second step, before it settles:
+// in the fifth hardly a cell gives, and nothing would be timed but asking.
 Workload dense_paper(int n, bool heat);
 
 // A closed pool: every cell liquid and full, the columns under different pressure, so that every cell flows.
@@ -49,8 +49,8 @@ Workload dense_viscous(int n, bool heat);
 // Every cell solid, at a random temperature below its melting point.
 Workload dense_heat(int n, int neighbours);
 
-// A pool that came to rest in the lower half of a box.
-Workload asleep(int n, rule::Law law);
+// A pool that came to rest in a box, `depth` cells deep.
+Workload asleep(state::Grid grid, int depth, rule::Law law);
 
 std::int64_t active_cells(const Workload& workload, bool heat);  // liquid; for heat also solid
 

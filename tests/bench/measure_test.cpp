@@ -62,7 +62,7 @@ TEST(Measure, AWrongResultIsNotTimed) {
 TEST(Measure, DenseVolumesAreInMotionAllTheTime) {
   for (const Workload& workload : {dense_paper(24, true), dense_viscous(24, true), dense_heat(24, 6)}) {
     run::Simulation simulation(workload.parameters, workload.start, run::implementations().all().front());
-    for (int step = 0; step < kLeadSteps + workload.steps; ++step) {
+    for (int step = 0; step < workload.lead_steps + workload.steps; ++step) {
       const state::Volume before = simulation.volume();
       simulation.step();
       std::size_t changed = 0;
@@ -81,7 +81,7 @@ TEST(Measure, DenseVolumesAreInMotionAllTheTime) {
 
 TEST(Measure, WhatSleepsStaysAsItIs) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
-    const Workload workload = asleep(16, law);
+    const Workload workload = asleep({16, 16, 16}, 8, law);
     EXPECT_EQ(expected_digest(workload), state::digest(workload.start));
   }
 }
