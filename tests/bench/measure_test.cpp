@@ -24,7 +24,7 @@ class Faulty : public step::Stepper {
   void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override {
     sound_->run(phase, step, irradiance, volume, ledger);
-    if (phase != step::Phase::spread || step != 3) return;
+    if (phase != step::Phase::spread || step != 1) return;
     if (fault == Fault::amount)
       ++volume.amount[volume.at(3, 3, 3)];
     else
