@@ -98,19 +98,23 @@ struct LanesOf {
   class Sums {
    public:
     VOXMELT_MEMBER void add(V v) {
-      const W pairs = xsimd::bitwise_cast<W>(v);
-      sum_ = sum_ + (pairs & W(0xFFFF)) + ((pairs >> 16) & W(0xFFFF));
+      const Pairs pairs = xsimd::bitwise_cast<Pairs>(v);
+      pairs_ = pairs_ + pairs;
+      high_ = high_ + (pairs >> 16);
     }
     VOXMELT_MEMBER std::uint64_t total() const {
-      alignas(64) std::uint32_t parts[W::size];
-      xsimd::bitwise_cast<xsimd::batch<std::uint32_t, Arch>>(sum_).store_aligned(parts);
-      std::uint64_t total = 0;
-      for (const std::uint32_t part : parts) total += part;
+      alignas(64) std::uint32_t pairs[W::size], high[W::size];
+      pairs_.store_aligned(pairs);
+      high_.store_aligned(high);
+      std::uint64_t total = 0;  // pairs are summed modulo 2^32: less the upper lanes, the lower ones are left
+      for (std::size_t i = 0; i < W::size; ++i)
+        total += (pairs[i] - (high[i] << 16)) + std::uint64_t{high[i]};
       return total;
     }
 
    private:
-    W sum_ = W(0);
+    using Pairs = xsimd::batch<std::uint32_t, Arch>;
+    Pairs pairs_ = Pairs(0), high_ = Pairs(0);
   };
 
  private:

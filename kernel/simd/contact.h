@@ -12,9 +12,11 @@ VOXMELT_LANES typename cpu::Lanes<Arch>::V contact_alpha(const View& view, const
   using L = cpu::Lanes<Arch>;
   if (y == 0) return L::set(law.alpha_floor);
   const std::size_t below = view.word(w, y - 1, z);
+  const std::uint64_t solid = view.solid[below], inert = view.inert[below];
+  if ((solid | inert) == 0) return L::set(law.alpha_liquid);
   const auto on_solid =
-      L::select(L::from_bits(view.solid[below], part), L::set(law.alpha_solid), L::set(law.alpha_liquid));
-  return L::select(L::from_bits(view.inert[below], part), L::set(law.alpha_floor), on_solid);
+      L::select(L::from_bits(solid, part), L::set(law.alpha_solid), L::set(law.alpha_liquid));
+  return L::select(L::from_bits(inert, part), L::set(law.alpha_floor), on_solid);
 }
 
 }  // namespace voxmelt::simd
