@@ -52,7 +52,6 @@ class FaceConduction {
             if (differs(__builtin_ctzll(left), y + k, ~std::uint64_t{0})) tile.restless |= left & -left;
         from_below = tiles[r];
         y += rows;
-        books_.end_row();
       }
       for (; y < v_.tile_end(r); ++y) {
         row(y, tiles[r], from_below, from_back, tile);

@@ -69,6 +69,7 @@ class FullConduction {
     Sums sums{0, L::zero()};
     for (; w < last; ++w) full_word<false>(rules, y, rows, w, ends, before, sums);
     full_word<true>(rules, y, rows, w, ends, before, sums);
+    for (int k = 0; k < rows; ++k) books_.end_row();
     return sums;
   }
 

@@ -257,6 +257,29 @@ TEST_P(Heat, EveryDifference) {
   }
 }
 
+// A slice so large that a sum over it, in 32 bits, would turn over: every cell loses, and none is full.
+TEST_P(Heat, BooksOfManyCells) {
+  const Grid grid{4096, 520, 2};
+  Volume start(grid);
+  for_each(whole(grid),
+           [&](int x, int y, int z) { put(start, x, y, z, kOne + 1 + z, 0, z == 0 ? 1000 : 900); });
+  Parameters p;
+  p.heat.enabled = true;
+  p.heat.weight_face = 10922;
+  Volume v = start;
+  HeatDriver driver(kernels(GetParam().set, p), v, 3, {});
+  TileSet work(driver.view(), true), changed(driver.view(), false), restless(driver.view(), false),
+      hot(driver.view(), false);
+  Books books;
+  driver.heat({&p, 0, 0, nullptr, nullptr}, work, changed, restless, hot, books);
+  std::int64_t conducted = 0;
+  for_each(whole(grid), [&](int x, int y, int z) {
+    const state::Slot i = v.at(x, y, z);
+    conducted += std::int64_t{v.amount[i]} * (int{v.temperature[i]} - int{start.temperature[i]});
+  });
+  EXPECT_EQ(books.conducted, conducted);
+}
+
 INSTANTIATE_TEST_SUITE_P(Sets, Heat, testing::ValuesIn(cpu::kInstructionSets), [](const auto& set) {
   std::string name(set.param.name);
   std::erase(name, '.');
