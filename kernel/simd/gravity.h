@@ -27,7 +27,7 @@ class Gravity {
 
   [[gnu::always_inline]] void run(int r, TileRow tiles, TileRow& follow, TileRow* changed) {
     TileRow moved = follow;  // tiles that the last pair of rows changed: what is above may follow
-    bool any = false;
+    int rows = 0;
     const int end = v_.tile_end(r) < v_.ny ? v_.tile_end(r) : v_.ny - 1;
     for (int y = v_.tile_begin(r); y < end; ++y) {
       TileRow work = tiles | moved;
@@ -41,12 +41,12 @@ class Gravity {
         if (pair(w, y, open)) moved |= TileRow{1} << w;
       }
       if (moved == 0) continue;
-      any = true;
       changed[r] |= moved;
       changed[(y + 1) >> v_.tile_shift] |= moved;
+      if ((++rows & 31) == 0) flush();  // sums hold 32,768 vectors, a row has at most 512
     }
     follow = moved;
-    if (any) flush();
+    if ((rows & 31) != 0) flush();
   }
 
  private:

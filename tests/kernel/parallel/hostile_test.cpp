@@ -60,6 +60,26 @@ TEST_P(Hostile, SameBitsOnWideGrids) {
   }
 }
 
+// Books of a tile row so tall that a sum over it, in 32 bits, would turn over: everything is pushed up.
+TEST(Hostile, BooksOfTallTiles) {
+  Parameters parameters = paper_showcase();
+  parameters.heat.enabled = true;
+  Volume start({4096, 132, 1});
+  for_each(whole(start.grid), [&](int x, int y, int z) {
+    put(start, x, y, z, y == 0 ? 65535 : 65534, 0, 1000 + 2000 * (y % 2));
+  });
+  for (const std::string& name : fast_implementations()) {
+    run::Simulation expected(parameters, start, implementation("reference"));
+    run::Simulation actual(parameters, start, implementation(name), {.threads = 1, .tile_shift = 12});
+    for (run::Simulation* one : {&expected, &actual}) {
+      one->begin_at(65535);
+      one->run_phase(step::Phase::gravity);
+    }
+    EXPECT_EQ(difference(expected.volume(), actual.volume()), "") << name;
+    EXPECT_TRUE(expected.ledger() == actual.ledger()) << name << ": the books differ";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Implementations, Hostile,
                          testing::Combine(testing::Values(rule::Law::paper, rule::Law::viscous),
                                           testing::ValuesIn(fast_implementations())),
