@@ -223,7 +223,8 @@ class Pattern {
     const Bytes pattern = L::both(L::load_bytes(at), dice);
     L::store_bytes(at, pattern);
     const Twin any = L::nonzero_bytes(pattern);
-    reinterpret_cast<Twin*>(gifts_.givers + item.word)[item.twin] = any;
+    auto* givers = reinterpret_cast<std::uint8_t*>(gifts_.givers + item.word);
+    __builtin_memcpy(givers + static_cast<std::size_t>(item.twin) * sizeof(Twin), &any, sizeof(Twin));
     const TileRow gives = TileRow{any != 0} << item.w;
     giving_ |= gives;
     gifts_.giving[gifts_.row(item.y)] |= gives;
