@@ -212,16 +212,38 @@ TEST(Sleep, HeatGoesOnInTheSameStep) {
   }
 }
 
-// One drop beside the border of two words: gifts that cross it, each direction alone.
+// One drop beside the border of two words: gifts that cross it, each direction alone; what is hot goes on
+// beyond it.
 TEST(Sleep, ADropGivesAcrossWords) {
   for (int seed = 0; seed < 150; ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
     Parameters p = paper_showcase();
     p.seed = random.bits();
     p.flow.paper.neighbours = seed % 3 == 0 ? 4 : 8;
+    p.heat.enabled = seed % 2 == 0;
+    p.heat.weight_face = 0;
+    p.material.melting_point = 30000;
+    p.flow.paper.reheat = 20000;
     Volume start({130, 2, 5});
-    put(start, random.any({63, 64, 127, 128}), 0, random.any({0, 2, 4}), 4096, 4096);
+    put(start, random.any({63, 64, 127, 128}), 0, random.any({0, 2, 4}), 4096, 4096,
+        p.heat.enabled ? 40000 : 0);
     ASSERT_TRUE(same_steps(p, start, fast_implementations().back(), sleepy(seed % 2 + 1, 0), 3));
+  }
+}
+
+// The same beside walls of the next word, in a word that has none.
+TEST(Sleep, ADropStopsAtTheNextWord) {
+  for (int seed = 0; seed < 150; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    Parameters p = paper_showcase();
+    p.seed = random.bits();
+    p.flow.paper.neighbours = seed % 3 == 0 ? 4 : 8;
+    Volume start({194, 1, 5});
+    const int x = random.any({64, 127});
+    for (int walls = random.between(1, 2); walls > 0; --walls)
+      put_inert(start, x == 64 ? 63 : 128, 0, random.between(1, 3));
+    put(start, x, 0, 2, 4096, 4096);
+    ASSERT_TRUE(same_steps(p, start, fast_implementations().back(), sleepy(1, 0), 3));
   }
 }
 
