@@ -156,8 +156,7 @@ TEST_P(Heat, DenseMatter) {
 }
 
 // Few bodies, of few temperatures, in a large room; weights so small that hardly a step moves a unit.
-World sleepy_world(Random& random) {
-  const Grid grid{random.any({65, 128, 190}), random.any({6, 17}), random.any({4, 9})};
+World sleepy_world(Random& random, Grid grid) {
   World world = hostile_world(random, grid, 24);
   Parameters& p = world.parameters;
   const auto small = [&](int most) {
@@ -205,10 +204,85 @@ TEST_P(Heat, SleepChangesNothing) {
   constexpr int kCases = 200;
   for (int i = 0; i < kCases; ++i) {
     SCOPED_TRACE(i);
-    slept += run_both(GetParam().set, sleepy_world(random), random, true);
+    const Grid grid{random.any({65, 128, 190}), random.any({6, 17}), random.any({4, 9})};
+    slept += run_both(GetParam().set, sleepy_world(random, grid), random, true);
     ASSERT_FALSE(HasFatalFailure());
   }
   EXPECT_GT(slept / kCases, 0.5) << "of the tiles should sleep";
+}
+
+// The same where all is matter, of one heat but for a few cells.
+TEST_P(Heat, SleepChangesNothingInDenseMatter) {
+  Random random(15);
+  double slept = 0;
+  constexpr int kCases = 40;
+  for (int i = 0; i < kCases; ++i) {
+    SCOPED_TRACE(i);
+    const Grid grid{64 * random.between(1, 10), random.any({7, 10, 18}), random.any({2, 4})};
+    World world = sleepy_world(random, grid);
+    world.flows = false;
+    const std::int32_t common = random.any({29990, 30000, 30400, 40000});
+    const std::int32_t amount = random.any({4096, 4096, 5000}), solid = random.any({1, 3, 100});
+    const auto matter = [&](int x, int y, int z, std::int32_t heat) {
+      if (random.one_in(solid))
+        put_solid(world.volume, x, y, z, amount, heat);
+      else
+        put(world.volume, x, y, z, amount, 0, heat);
+    };
+    world.volume = Volume(grid);
+    for_each(whole(grid), [&](int x, int y, int z) { matter(x, y, z, common); });
+    for (int n = random.any({2, 8, 20}); n > 0; --n) {
+      const int x = 64 * random.below(grid.x / 64) + random.any({0, 63, random.below(64)});
+      const int y = random.one_in(2) ? 3 : random.below(grid.y), z = random.below(grid.z);
+      world.volume.solid.set(x, y, z, false);
+      if (random.one_in(2))
+        put(world.volume, x, y, z, 0);
+      else
+        matter(x, y, z, common + random.any({1, 9, 40, 9000, -40}));
+    }
+    slept += run_both(GetParam().set, std::move(world), random, true);
+    ASSERT_FALSE(HasFatalFailure());
+  }
+  EXPECT_GT(slept / kCases, 0.2) << "of the tiles should sleep";
+}
+
+// Conduction in tiles chosen at random, each row's side by side: right whatever the tiles beside them hold.
+TEST_P(Heat, AnyTilesOfDenseMatter) {
+  Random random(16);
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const Grid grid{64 * random.between(1, 6), random.any({7, 10, 18}), 4};
+    Parameters p;
+    p.heat.enabled = true;
+    p.heat.weight_face = 10922;
+    p.material.latent_heat = random.any<rule::Temperature>({0, 20000});
+    Volume expected(grid);
+    for_each(whole(grid), [&](int x, int y, int z) {
+      if (!random.one_in(2000)) put_solid(expected, x, y, z, kOne, random.below(65536));
+    });
+    Volume v = expected;
+    state::Ledger unused;
+    scalar::Reference(p, grid).run(Phase::heat, 3, nullptr, expected, unused);
+
+    HeatDriver driver(kernels(GetParam().set, p), v, random.any({0, 1, 3, 12}), {2});
+    const View& view = driver.view();
+    TileSet work(view, false), changed(view, false), restless(view, false), hot(view, false);
+    for (int z = 0; z < grid.z; ++z)
+      for (int r = 0; r < view.tile_rows(); ++r) {
+        const int first = random.below(view.words), last = random.between(first, view.words - 1);
+        work.slice(z)[r] = (TileRow{2} << last) - (TileRow{1} << first);
+      }
+    const TileSet asked = work;
+    Books books;
+    driver.heat({&p, 3, static_cast<std::uint32_t>(rule::dither(3)), nullptr, nullptr}, work, changed,
+                restless, hot, books);
+    for_each(whole(grid), [&](int x, int y, int z) {
+      if ((asked.slice(z)[y >> view.tile_shift] >> (x / 64) & 1) == 0) return;
+      ASSERT_EQ(v.temperature[v.at(x, y, z)], expected.temperature[v.at(x, y, z)])
+          << x << ", " << y << ", " << z;
+    });
+    ASSERT_FALSE(HasFatalFailure());
+  }
 }
 
 // Every difference of two temperatures: pairs of cells along an axis, all else air.
