@@ -1,0 +1,89 @@
+// Every task runs once, and what it wrote is there when the run ends, whoever ran it.
+#include "kernel/cpu/workers.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <numeric>
+#include <set>
+#include <thread>
+#include <vector>
+
+namespace voxmelt::cpu {
+namespace {
+
+TEST(Workers, EveryTaskOnceAndItsResultThere) {
+  for (const int threads : {1, 2, 3, 8}) {
+    Workers workers(threads);
+    for (int run = 0; run < 3000; ++run) {
+      std::vector<int> results(
+          static_cast<std::size_t>(run % 70));  // plain memory: the run's end must publish it
+      workers.run(static_cast<int>(results.size()),
+                  [&](int i) { results[static_cast<std::size_t>(i)] += i + run; });
+      for (std::size_t i = 0; i < results.size(); ++i)
+        ASSERT_EQ(results[i], static_cast<int>(i) + run) << threads << " threads, run " << run;
+    }
+  }
+}
+
+// What one run wrote, another task of the next one reads.
+TEST(Workers, RunsSeeWhatEarlierRunsWrote) {
+  Workers workers(4);
+  std::vector<std::int64_t> now(64), next(64);
+  std::iota(now.begin(), now.end(), 0);
+  std::int64_t sum = 64 * 63 / 2;
+  for (int run = 0; run < 5000; ++run) {
+    workers.run(64, [&](int i) {
+      next[static_cast<std::size_t>(i)] = now[static_cast<std::size_t>(i + 1) % 64] + 1;
+    });
+    std::swap(now, next);
+    sum += 64;
+  }
+  EXPECT_EQ(std::accumulate(now.begin(), now.end(), std::int64_t{0}), sum);
+}
+
+TEST(Workers, TwoThreadsRunAtOnce) {
+  Workers workers(2);
+  for (int round = 0; round < 5; ++round) {
+    std::atomic<int> there{0};
+    // Two tasks that wait for each other need two threads (or give up).
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    workers.run(2, [&](int) {
+      for (++there; there < 2 && std::chrono::steady_clock::now() < give_up;) std::this_thread::yield();
+    });
+    EXPECT_EQ(there, 2);
+    EXPECT_LT(std::chrono::steady_clock::now(), give_up) << "nobody helped";
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // and again when they have gone to sleep
+  }
+}
+
+TEST(Workers, ManyShortLivesAndSeveralAtOnce) {
+  for (int round = 0; round < 300; ++round) {
+    Workers one(2), other(3);
+    std::atomic<int> sum{0};
+    one.run(5, [&](int i) { sum += i; });
+    other.run(6, [&](int i) { sum += i; });
+    ASSERT_EQ(sum, 10 + 15);
+  }
+  std::atomic<int> sum{0};
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < 4; ++caller)
+    callers.emplace_back([&sum] {
+      Workers own(2);
+      for (int run = 0; run < 500; ++run) own.run(4, [&](int i) { sum += i; });
+    });
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(sum, 4 * 500 * 6);
+}
+
+TEST(Workers, ManyTasksAndNone) {
+  Workers workers(2);
+  std::vector<unsigned char> done(100'000);
+  workers.run(static_cast<int>(done.size()), [&](int i) { ++done[static_cast<std::size_t>(i)]; });
+  EXPECT_EQ(std::set<unsigned char>(done.begin(), done.end()), std::set<unsigned char>{1});
+  workers.run(0, [](int) { ADD_FAILURE(); });
+}
+
+}  // namespace
+}  // namespace voxmelt::cpu
