@@ -46,7 +46,8 @@ class Settle {
       base_ = base;
       gather(group);
       for (int y = v_.ny - 1; y >= 0; --y) changed[y >> v_.tile_shift] |= write(group, y) << base;
-      // A cell outside runs shows something else only if it, or the cell below, has changed since it last did.
+      // A cell outside runs shows something else only if it, or the cell below, has changed since it last
+      // did.
       for (int y = 0; y < v_.ny; ++y) {
         const int t = y >> v_.tile_shift, below = (y > 0 ? y - 1 : 0) >> v_.tile_shift;
         const TileRow anew = (tiles[t] | tiles[below] | changed[t] | changed[below]) >> base & group;
