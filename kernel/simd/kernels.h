@@ -202,8 +202,9 @@ struct Kernels {
   // Melting and reheating; no tile is restless after it.
   void (*melt)(const View&, const Step&, int z, const TileRow* tiles, TileRow* changed, Books&) = nullptr;
 
-  // Viscous law, phase `excess`: settles the columns of slice z that have a tile in `tiles`. `changed`: where
-  // the state, or what a cell shows, is not what it was.
+  // Viscous law, phase `excess`: settles the columns of slice z that have a tile in `tiles`, which must hold
+  // all that has changed since the last call. `changed`: where the state, or what a cell shows, is not what
+  // it was.
   void (*settle)(const View&, const Step&, int z, const TileRow* tiles, Runs&, void* scratch,
                  TileRow* changed, Books&) = nullptr;
   // Viscous law, phase `spread`, first half: what the pairs of the tiles of slice z exchange, among

@@ -275,5 +275,30 @@ TEST(Sleep, ADrainMakesRoom) {
   ASSERT_TRUE(same_asleep(p, start, 12));
 }
 
+// Viscous law: liquid rests by its yield, level with the upper faces of a floating slab, which melts one tile
+// below: the cells on it show no ground any more, though nothing else in their tile has changed.
+TEST(Sleep, GroundThatMeltsIsShownNoMore) {
+  Parameters p = viscous(0.3, 0.125);
+  p.heat = with_drops(rule::Law::viscous).heat;
+  p.heat.air_temperature.assign(16, 40000);
+  p.material.melting_point = 30000;
+  for (const int first : {0, 256}) {  // in the first group of words, and in another
+    const Grid grid{first + 6, 16, 2};
+    Volume start(grid);
+    fill_inert(start, {0, 0, 1, grid.x, 8, 2});
+    for (int x = first; x < grid.x; ++x) put_solid(start, x, 7, 0, 4096, 20000);
+    put(start, first + 3, 8, 1, 1024, 0, 40000);
+    run::Simulation reference = simulate(p, start);
+    int melted = 0;
+    for (; reference.volume().solid.count() > 0 && melted < 30; ++melted) {
+      ASSERT_EQ(amount_at(reference, first + 3, 8, 1), 1024) << "rests while the slab is there";
+      reference.step();
+    }
+    ASSERT_GT(melted, 3);
+    ASSERT_LT(amount_at(reference, first + 3, 8, 1), 1024) << "flows when it has melted";
+    ASSERT_TRUE(same_asleep(p, start, melted + 2)) << first;
+  }
+}
+
 }  // namespace
 }  // namespace voxmelt::parallel
