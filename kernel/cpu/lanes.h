@@ -23,6 +23,7 @@ namespace voxmelt::cpu {
 //   M less(V a, V b)                    unsigned
 //   M from_bits(uint64_t word, int part), uint64_t to_bits(M)
 //   bool nonzero(V)                     any lane is not 0
+//   Twin filled(V a, V b)               lanes that are not 0; those of a come first
 //   V keep(M, V)                        the lane, or 0
 //   V add_if(M, V a, V b)               a + b where M, else a
 //   V sub_if(M, V a, V b)               a - b where M, else a
@@ -35,11 +36,14 @@ namespace voxmelt::cpu {
 //   Bytes                               2 kCount bytes: one for each lane of two neighbouring vectors
 //   Twin                                2 kCount bits
 //   Bytes load_bytes(const uint8_t*), void store_bytes(uint8_t*, Bytes)      any alignment
-//   Bytes none(), every()               all 0; all ones
-//   Bytes put(Bytes, M low, M high, int bit)     with this bit set where the masks say
-//   Bytes in_order(Bytes)               what `put` has put together, by cells
-//   Bytes put(Bytes, Twin, int bit)     the same for bytes that are by cells
-//   Bytes both(Bytes a, Bytes b)        a & b
+//   Bytes none(), bytes(int value)      all 0; all the same
+//   Where                               a truth value for each of Bytes
+//   Where not_less(V a0, V b0, V a1, V b1)       not a < b; in an order of its own
+//   Bytes in_order(Bytes)               what came from `not_less` by cells
+//   Where where(Twin)                   by cells
+//   Bytes push(Bytes, Where, int bit)   sets this bit; bits must come in descending order, down to 0
+//   Bytes fill(Bytes, Where)            sets all bits
+//   Bytes both(Bytes a, Bytes b), without(Bytes a, Bytes b)          a & b; a & ~b
 //   Twin nonzero_bytes(Bytes)
 //   V widen_bytes(const uint8_t*)       kCount bytes as lanes
 //   M has(V v, int bit)                 lanes with this bit
@@ -47,7 +51,7 @@ namespace voxmelt::cpu {
 //   void dice(keys, step, const uint32_t blocks[2], Bytes dice[2])    the random bytes (docs/automaton.md,
 //                                       section 2) of the cells of two pairs of vectors, by their first
 //                                       blocks
-//   V lookup(const uint16_t table[32], V index)      table[index >> 11]
+//   Table table(const uint16_t entries[32]); V lookup(Table, V index)          entries[index >> 11]
 template <class Arch>
 struct Lanes;
 
@@ -103,12 +107,13 @@ struct LanesOf {
       high_ = high_ + (pairs >> 16);
     }
     VOXMELT_MEMBER std::uint64_t total() const {
-      alignas(64) std::uint32_t pairs[W::size], high[W::size];
-      pairs_.store_aligned(pairs);
-      high_.store_aligned(high);
-      std::uint64_t total = 0;  // pairs are summed modulo 2^32: less the upper lanes, the lower ones are left
-      for (std::size_t i = 0; i < W::size; ++i)
-        total += (pairs[i] - (high[i] << 16)) + std::uint64_t{high[i]};
+      // Pairs are summed modulo 2^32: less the upper lanes, the lower ones are left. Both: below 2^32.
+      const auto sums =
+          xsimd::bitwise_cast<xsimd::batch<std::uint64_t, Arch>>(pairs_ - (high_ << 16) + high_);
+      alignas(64) std::uint64_t two[W::size / 2];
+      ((sums >> 32) + (sums & xsimd::batch<std::uint64_t, Arch>(0xFFFFFFFF))).store_aligned(two);
+      std::uint64_t total = 0;
+      for (const std::uint64_t sum : two) total += sum;
       return total;
     }
 

@@ -64,29 +64,38 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(at), b);
   }
   VOXMELT_LANES Bytes none() { return _mm256_setzero_si256(); }
-  VOXMELT_LANES Bytes every() { return _mm256_set1_epi8(-1); }
-  VOXMELT_LANES Bytes put(Bytes b, M low, M high, int bit) {
-    const __m256i where = _mm256_packs_epi16(low, high);
-    return _mm256_or_si256(b, _mm256_and_si256(where, _mm256_set1_epi8(static_cast<char>(bit))));
+  VOXMELT_LANES Bytes bytes(int value) { return _mm256_set1_epi8(static_cast<char>(value)); }
+  using Where = __m256i;
+  // What b is more than a by; packing keeps what is not 0 (from 32768 on it counts as negative).
+  VOXMELT_LANES Where not_less(V a0, V b0, V a1, V b1) {
+    return _mm256_cmpeq_epi8(_mm256_packs_epi16(_mm256_subs_epu16(b0, a0), _mm256_subs_epu16(b1, a1)),
+                             none());
   }
+  VOXMELT_LANES Bytes push(Bytes b, Where where, int /*bit*/) {
+    return _mm256_sub_epi8(_mm256_add_epi8(b, b), where);
+  }
+  VOXMELT_LANES Bytes fill(Bytes b, Where where) { return _mm256_or_si256(b, where); }
   VOXMELT_LANES Bytes in_order(Bytes b) { return _mm256_permute4x64_epi64(b, 0xD8); }
-  VOXMELT_LANES Bytes put(Bytes b, Twin where, int bit) {
+  VOXMELT_LANES Where where(Twin bits) {
     const __m256i eighth = _mm256_setr_epi64x(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303);
     const __m256i one = _mm256_set1_epi64x(static_cast<long long>(0x8040201008040201u));
-    const __m256i all = _mm256_shuffle_epi8(_mm256_set1_epi32(static_cast<int>(where)), eighth);
-    const __m256i set = _mm256_cmpeq_epi8(_mm256_and_si256(all, one), one);
-    return _mm256_or_si256(b, _mm256_and_si256(set, _mm256_set1_epi8(static_cast<char>(bit))));
+    const __m256i all = _mm256_shuffle_epi8(_mm256_set1_epi32(static_cast<int>(bits)), eighth);
+    return _mm256_cmpeq_epi8(_mm256_and_si256(all, one), one);
   }
   VOXMELT_LANES Bytes both(Bytes a, Bytes b) { return _mm256_and_si256(a, b); }
+  VOXMELT_LANES Bytes without(Bytes a, Bytes b) { return _mm256_andnot_si256(b, a); }
   VOXMELT_LANES Twin nonzero_bytes(Bytes b) {
     return ~static_cast<Twin>(_mm256_movemask_epi8(_mm256_cmpeq_epi8(b, none())));
+  }
+  VOXMELT_LANES Twin filled(V a, V b) {
+    const __m256i empty = _mm256_packs_epi16(_mm256_cmpeq_epi16(a, none()), _mm256_cmpeq_epi16(b, none()));
+    return ~static_cast<Twin>(_mm256_movemask_epi8(in_order(empty)));
   }
   VOXMELT_LANES V widen_bytes(const std::uint8_t* at) {
     return V(_mm256_cvtepu8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at))));
   }
-  VOXMELT_LANES M has(V v, int bit) {  // one bit
-    const __m256i one = _mm256_set1_epi16(static_cast<short>(bit));
-    return M(_mm256_cmpeq_epi16(_mm256_and_si256(v, one), one));
+  VOXMELT_LANES M has(V v, int bit) {  // one of the lowest 15
+    return M(_mm256_cmpgt_epi16(_mm256_and_si256(v, set(bit)), _mm256_setzero_si256()));
   }
   VOXMELT_LANES V count_four(V v) {
     const __m256i counts =
@@ -111,12 +120,30 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
     dice[1] = _mm256_unpackhi_epi32(y, x);
   }
 
-  // table[index >> 11]: 32 entries.
-  VOXMELT_LANES V lookup(const std::uint16_t* table, V index) {
-    alignas(64) std::uint16_t found[kCount];
-    store(found, index);
-    for (std::uint16_t& entry : found) entry = table[entry >> 11];
-    return load(found);
+  // Low and high bytes of the first and of the last 16 of 32 entries, twice each.
+  struct Table {
+    __m256i low[2], high[2];
+  };
+  VOXMELT_LANES Table table(const std::uint16_t* entries) {
+    Table table;
+    for (int half = 0; half < 2; ++half) {
+      const auto* from = reinterpret_cast<const __m128i*>(entries + 16 * half);
+      const __m128i a = _mm_loadu_si128(from), b = _mm_loadu_si128(from + 1), byte = _mm_set1_epi16(0xFF);
+      const __m128i low = _mm_packus_epi16(_mm_and_si128(a, byte), _mm_and_si128(b, byte));
+      const __m128i high = _mm_packus_epi16(_mm_srli_epi16(a, 8), _mm_srli_epi16(b, 8));
+      table.low[half] = _mm256_broadcastsi128_si256(low);
+      table.high[half] = _mm256_broadcastsi128_si256(high);
+    }
+    return table;
+  }
+  VOXMELT_LANES V lookup(const Table& table, V index) {
+    const __m256i at = shift_right<11>(index), last = _mm256_cmpgt_epi16(at, _mm256_set1_epi16(15));
+    // The upper byte of a lane finds entry 0, which is cut off, or pushed out.
+    const __m256i low = _mm256_blendv_epi8(_mm256_shuffle_epi8(table.low[0], at),
+                                           _mm256_shuffle_epi8(table.low[1], at), last);
+    const __m256i high = _mm256_blendv_epi8(_mm256_shuffle_epi8(table.high[0], at),
+                                            _mm256_shuffle_epi8(table.high[1], at), last);
+    return V(_mm256_or_si256(_mm256_and_si256(low, _mm256_set1_epi16(0xFF)), _mm256_slli_epi16(high, 8)));
   }
 };
 

@@ -49,16 +49,23 @@ struct Lanes<xsimd::avx512bw> : LanesOf<xsimd::avx512bw> {
   VOXMELT_LANES Bytes load_bytes(const std::uint8_t* at) { return _mm512_loadu_si512(at); }
   VOXMELT_LANES void store_bytes(std::uint8_t* at, Bytes b) { _mm512_storeu_si512(at, b); }
   VOXMELT_LANES Bytes none() { return _mm512_setzero_si512(); }
-  VOXMELT_LANES Bytes every() { return _mm512_set1_epi8(-1); }
-  VOXMELT_LANES Bytes put(Bytes b, M low, M high, int bit) {
-    return put(b, _mm512_kunpackd(bits(high), bits(low)), bit);
+  VOXMELT_LANES Bytes bytes(int value) { return _mm512_set1_epi8(static_cast<char>(value)); }
+  using Where = __mmask64;
+  VOXMELT_LANES Where not_less(V a0, V b0, V a1, V b1) {
+    return _mm512_kunpackd(_mm512_cmpge_epu16_mask(a1, b1), _mm512_cmpge_epu16_mask(a0, b0));
   }
-  VOXMELT_LANES Bytes put(Bytes b, Twin where, int bit) {
-    return _mm512_mask_add_epi8(b, where, b, _mm512_set1_epi8(static_cast<char>(bit)));
+  VOXMELT_LANES Where where(Twin bits) { return bits; }
+  VOXMELT_LANES Bytes push(Bytes b, Where where, int bit) {
+    return _mm512_mask_add_epi8(b, where, b, bytes(1 << bit));
   }
+  VOXMELT_LANES Bytes fill(Bytes b, Where where) { return _mm512_mask_mov_epi8(b, where, bytes(0xFF)); }
   VOXMELT_LANES Bytes in_order(Bytes b) { return b; }
   VOXMELT_LANES Bytes both(Bytes a, Bytes b) { return _mm512_and_si512(a, b); }
+  VOXMELT_LANES Bytes without(Bytes a, Bytes b) { return _mm512_andnot_si512(b, a); }
   VOXMELT_LANES Twin nonzero_bytes(Bytes b) { return _mm512_test_epi8_mask(b, b); }
+  VOXMELT_LANES Twin filled(V a, V b) {
+    return Twin{_mm512_test_epi16_mask(b, b)} << 32 | _mm512_test_epi16_mask(a, a);
+  }
   VOXMELT_LANES V widen_bytes(const std::uint8_t* at) {
     return V(_mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at))));
   }
@@ -86,9 +93,10 @@ struct Lanes<xsimd::avx512bw> : LanesOf<xsimd::avx512bw> {
     dice[1] = _mm512_unpackhi_epi32(y, x);
   }
 
-  // table[index >> 11]: 32 entries.
-  VOXMELT_LANES V lookup(const std::uint16_t* table, V index) {
-    return V(_mm512_permutexvar_epi16(shift_right<11>(index), _mm512_loadu_si512(table)));
+  using Table = __m512i;
+  VOXMELT_LANES Table table(const std::uint16_t* entries) { return _mm512_loadu_si512(entries); }
+  VOXMELT_LANES V lookup(const Table& table, V index) {
+    return V(_mm512_permutexvar_epi16(shift_right<11>(index), table));
   }
 
  private:

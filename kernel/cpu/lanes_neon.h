@@ -55,21 +55,27 @@ struct Lanes<xsimd::neon64> : LanesOf<xsimd::neon64> {
   VOXMELT_LANES Bytes load_bytes(const std::uint8_t* at) { return vld1q_u8(at); }
   VOXMELT_LANES void store_bytes(std::uint8_t* at, Bytes b) { vst1q_u8(at, b); }
   VOXMELT_LANES Bytes none() { return vdupq_n_u8(0); }
-  VOXMELT_LANES Bytes every() { return vdupq_n_u8(0xFF); }
-  VOXMELT_LANES Bytes put(Bytes b, M low, M high, int bit) {
-    const uint8x16_t where = vcombine_u8(vmovn_u16(low), vmovn_u16(high));
-    return vorrq_u8(b, vandq_u8(where, vdupq_n_u8(static_cast<std::uint8_t>(bit))));
+  VOXMELT_LANES Bytes bytes(int value) { return vdupq_n_u8(static_cast<std::uint8_t>(value)); }
+  using Where = uint8x16_t;
+  VOXMELT_LANES Where not_less(V a0, V b0, V a1, V b1) {
+    return vcombine_u8(vmovn_u16(vcgeq_u16(a0, b0)), vmovn_u16(vcgeq_u16(a1, b1)));
   }
+  VOXMELT_LANES Bytes push(Bytes b, Where where, int /*bit*/) { return vsubq_u8(vaddq_u8(b, b), where); }
+  VOXMELT_LANES Bytes fill(Bytes b, Where where) { return vorrq_u8(b, where); }
   VOXMELT_LANES Bytes in_order(Bytes b) { return b; }
-  VOXMELT_LANES Bytes put(Bytes b, Twin where, int bit) {
-    const uint8x16_t all = vcombine_u8(vdup_n_u8(static_cast<std::uint8_t>(where)),
-                                       vdup_n_u8(static_cast<std::uint8_t>(where >> 8)));
-    return vorrq_u8(b, vandq_u8(vtstq_u8(all, bit_of_byte()), vdupq_n_u8(static_cast<std::uint8_t>(bit))));
+  VOXMELT_LANES Where where(Twin bits) {
+    return vtstq_u8(vcombine_u8(vdup_n_u8(static_cast<std::uint8_t>(bits)),
+                                vdup_n_u8(static_cast<std::uint8_t>(bits >> 8))),
+                    bit_of_byte());
   }
   VOXMELT_LANES Bytes both(Bytes a, Bytes b) { return vandq_u8(a, b); }
+  VOXMELT_LANES Bytes without(Bytes a, Bytes b) { return vbicq_u8(a, b); }
   VOXMELT_LANES Twin nonzero_bytes(Bytes b) {
     const uint8x16_t set = vandq_u8(vtstq_u8(b, b), bit_of_byte());
     return static_cast<Twin>(vaddv_u8(vget_low_u8(set)) | vaddv_u8(vget_high_u8(set)) << 8);
+  }
+  VOXMELT_LANES Twin filled(V a, V b) {
+    return nonzero_bytes(vcombine_u8(vmovn_u16(vtstq_u16(a, a)), vmovn_u16(vtstq_u16(b, b))));
   }
   VOXMELT_LANES V widen_bytes(const std::uint8_t* at) { return V(vmovl_u8(vld1_u8(at))); }
   VOXMELT_LANES M has(V v, int bits) {
@@ -90,11 +96,13 @@ struct Lanes<xsimd::neon64> : LanesOf<xsimd::neon64> {
     dice[1] = vreinterpretq_u8_u32(vzip2q_u32(y, x));
   }
 
-  // table[index >> 11]: 32 entries, 64 bytes.
-  VOXMELT_LANES V lookup(const std::uint16_t* table, V index) {
-    const uint8x16x4_t bytes = vld1q_u8_x4(reinterpret_cast<const std::uint8_t*>(table));
+  using Table = uint8x16x4_t;  // 32 entries, 64 bytes
+  VOXMELT_LANES Table table(const std::uint16_t* entries) {
+    return vld1q_u8_x4(reinterpret_cast<const std::uint8_t*>(entries));
+  }
+  VOXMELT_LANES V lookup(const Table& table, V index) {
     const uint16x8_t both = vmlaq_n_u16(vdupq_n_u16(0x0100), shift_right<11>(index), 0x0202);
-    return V(vreinterpretq_u16_u8(vqtbl4q_u8(bytes, vreinterpretq_u8_u16(both))));
+    return V(vreinterpretq_u16_u8(vqtbl4q_u8(table, vreinterpretq_u8_u16(both))));
   }
 
  private:

@@ -58,28 +58,37 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(at), b);
   }
   VOXMELT_LANES Bytes none() { return _mm_setzero_si128(); }
-  VOXMELT_LANES Bytes every() { return _mm_set1_epi8(-1); }
-  VOXMELT_LANES Bytes put(Bytes b, M low, M high, int bit) {
-    return _mm_or_si128(b, _mm_and_si128(_mm_packs_epi16(low, high), _mm_set1_epi8(static_cast<char>(bit))));
+  VOXMELT_LANES Bytes bytes(int value) { return _mm_set1_epi8(static_cast<char>(value)); }
+  using Where = __m128i;
+  // What b is more than a by; packing keeps what is not 0 (from 32768 on it counts as negative).
+  VOXMELT_LANES Where not_less(V a0, V b0, V a1, V b1) {
+    return _mm_cmpeq_epi8(_mm_packs_epi16(_mm_subs_epu16(b0, a0), _mm_subs_epu16(b1, a1)), none());
   }
+  VOXMELT_LANES Bytes push(Bytes b, Where where, int /*bit*/) {
+    return _mm_sub_epi8(_mm_add_epi8(b, b), where);
+  }
+  VOXMELT_LANES Bytes fill(Bytes b, Where where) { return _mm_or_si128(b, where); }
   VOXMELT_LANES Bytes in_order(Bytes b) { return b; }
-  VOXMELT_LANES Bytes put(Bytes b, Twin where, int bit) {
+  VOXMELT_LANES Where where(Twin bits) {
     const __m128i eighth = _mm_setr_epi8(0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1);
     const __m128i one = _mm_set1_epi64x(static_cast<long long>(0x8040201008040201u));
-    const __m128i all = _mm_shuffle_epi8(_mm_cvtsi32_si128(where), eighth);
-    const __m128i set = _mm_cmpeq_epi8(_mm_and_si128(all, one), one);
-    return _mm_or_si128(b, _mm_and_si128(set, _mm_set1_epi8(static_cast<char>(bit))));
+    const __m128i all = _mm_shuffle_epi8(_mm_cvtsi32_si128(bits), eighth);
+    return _mm_cmpeq_epi8(_mm_and_si128(all, one), one);
   }
   VOXMELT_LANES Bytes both(Bytes a, Bytes b) { return _mm_and_si128(a, b); }
+  VOXMELT_LANES Bytes without(Bytes a, Bytes b) { return _mm_andnot_si128(b, a); }
   VOXMELT_LANES Twin nonzero_bytes(Bytes b) {
     return static_cast<Twin>(~_mm_movemask_epi8(_mm_cmpeq_epi8(b, none())));
+  }
+  VOXMELT_LANES Twin filled(V a, V b) {
+    const __m128i empty = _mm_packs_epi16(_mm_cmpeq_epi16(a, none()), _mm_cmpeq_epi16(b, none()));
+    return static_cast<Twin>(~_mm_movemask_epi8(empty));
   }
   VOXMELT_LANES V widen_bytes(const std::uint8_t* at) {
     return V(_mm_cvtepu8_epi16(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at))));
   }
-  VOXMELT_LANES M has(V v, int bit) {  // one bit
-    const __m128i one = _mm_set1_epi16(static_cast<short>(bit));
-    return M(_mm_cmpeq_epi16(_mm_and_si128(v, one), one));
+  VOXMELT_LANES M has(V v, int bit) {  // one of the lowest 15
+    return M(_mm_cmpgt_epi16(_mm_and_si128(v, set(bit)), _mm_setzero_si128()));
   }
   VOXMELT_LANES V count_four(V v) {
     const __m128i counts = _mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4);
@@ -100,12 +109,28 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
     dice[1] = _mm_unpackhi_epi32(y, x);
   }
 
-  // table[index >> 11]: 32 entries.
-  VOXMELT_LANES V lookup(const std::uint16_t* table, V index) {
-    alignas(64) std::uint16_t found[kCount];
-    store(found, index);
-    for (std::uint16_t& entry : found) entry = table[entry >> 11];
-    return load(found);
+  // Low and high bytes of the first and of the last 16 of 32 entries.
+  struct Table {
+    __m128i low[2], high[2];
+  };
+  VOXMELT_LANES Table table(const std::uint16_t* entries) {
+    Table table;
+    for (int half = 0; half < 2; ++half) {
+      const auto* from = reinterpret_cast<const __m128i*>(entries + 16 * half);
+      const __m128i a = _mm_loadu_si128(from), b = _mm_loadu_si128(from + 1), byte = _mm_set1_epi16(0xFF);
+      table.low[half] = _mm_packus_epi16(_mm_and_si128(a, byte), _mm_and_si128(b, byte));
+      table.high[half] = _mm_packus_epi16(_mm_srli_epi16(a, 8), _mm_srli_epi16(b, 8));
+    }
+    return table;
+  }
+  VOXMELT_LANES V lookup(const Table& table, V index) {
+    const __m128i at = shift_right<11>(index), last = _mm_cmpgt_epi16(at, _mm_set1_epi16(15));
+    // The upper byte of a lane finds entry 0, which is cut off, or pushed out.
+    const __m128i low =
+        _mm_blendv_epi8(_mm_shuffle_epi8(table.low[0], at), _mm_shuffle_epi8(table.low[1], at), last);
+    const __m128i high =
+        _mm_blendv_epi8(_mm_shuffle_epi8(table.high[0], at), _mm_shuffle_epi8(table.high[1], at), last);
+    return V(_mm_or_si128(_mm_and_si128(low, _mm_set1_epi16(0xFF)), _mm_slli_epi16(high, 8)));
   }
 };
 

@@ -6,12 +6,13 @@
 
 namespace voxmelt::simd {
 
+// Of the cells of vector `part` of mask word `word`; `floor`: they are the lowest of the grid.
 template <class Arch>
-VOXMELT_LANES typename cpu::Lanes<Arch>::V contact_alpha(const View& view, const rule::PaperLaw& law, int w,
-                                                         int y, int z, int part) {
+VOXMELT_LANES typename cpu::Lanes<Arch>::V contact_alpha(const View& view, const rule::PaperLaw& law,
+                                                         bool floor, std::size_t word, int part) {
   using L = cpu::Lanes<Arch>;
-  if (y == 0) return L::set(law.alpha_floor);
-  const std::size_t below = view.word(w, y - 1, z);
+  if (floor) return L::set(law.alpha_floor);
+  const std::size_t below = word - static_cast<std::size_t>(view.words);
   const std::uint64_t solid = view.solid[below], inert = view.inert[below];
   if ((solid | inert) == 0) return L::set(law.alpha_liquid);
   const auto on_solid =

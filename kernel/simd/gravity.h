@@ -29,20 +29,21 @@ class Gravity {
     TileRow moved = follow;  // tiles that the last pair of rows changed: what is above may follow
     int rows = 0;
     const int end = v_.tile_end(r) < v_.ny ? v_.tile_end(r) : v_.ny - 1;
-    for (int y = v_.tile_begin(r); y < end; ++y) {
+    Row row = row_of(v_.tile_begin(r));
+    for (; row.y < end; row.climb(v_)) {
       TileRow work = tiles | moved;
       moved = 0;
       for (; work != 0; work &= work - 1) {
         const int w = __builtin_ctzll(work);
-        const std::uint64_t low = v_.liquid[v_.word(w, y, z_)], high = v_.liquid[v_.word(w, y + 1, z_)];
-        if ((low | high) == 0) continue;
-        const std::uint64_t open = ~(v_.blocked(w, y, z_) | v_.blocked(w, y + 1, z_)) & (low | high);
+        const std::uint64_t liquid = row.liquid[w] | row.liquid[w + v_.words];
+        if (liquid == 0) continue;
+        const std::uint64_t open = liquid & ~(row.walls[w] | row.walls[w + v_.words + 2]);
         if (open == 0) continue;
-        if (pair(w, y, open)) moved |= TileRow{1} << w;
+        if (pair(w, row, open)) moved |= TileRow{1} << w;
       }
       if (moved == 0) continue;
       changed[r] |= moved;
-      changed[(y + 1) >> v_.tile_shift] |= moved;
+      changed[(row.y + 1) >> v_.tile_shift] |= moved;
       if ((++rows & 31) == 0) flush();  // sums hold 32,768 vectors, a row has at most 512
     }
     follow = moved;
@@ -50,31 +51,46 @@ class Gravity {
   }
 
  private:
-  [[gnu::always_inline]] bool pair(int w, int y, std::uint64_t open) {
-    const std::size_t low = v_.cell(w, y, z_), high = v_.cell(w, y + 1, z_);
+  // The lower row of a pair: where it begins.
+  struct Row {
+    int y;
+    std::size_t cell;
+    std::uint64_t* liquid;
+    const std::uint64_t* walls;
+    [[gnu::always_inline]] void climb(const View& v) {
+      ++y;
+      cell += v.row;
+      liquid += v.words;
+      walls += v.words + 2;
+    }
+  };
+  [[gnu::always_inline]] Row row_of(int y) const {
+    return {y, v_.cell(0, y, z_), v_.liquid + v_.word(0, y, z_), v_.walls_at(y, z_)};
+  }
+
+  [[gnu::always_inline]] bool pair(int w, const Row& row, std::uint64_t open) {
+    const std::size_t low = row.cell + 64 * static_cast<std::size_t>(w), high = low + v_.row;
     prefetch_word(v_.amount + high + 3 * v_.row);
     prefetch_word(v_.energy + high + 3 * v_.row);
     Around around{};
-    if constexpr (kFeatures.guided) around = surroundings(w, y + 1);
+    if constexpr (kFeatures.guided) around = surroundings(w, row.y + 1);
+    std::uint64_t &low_liquid = row.liquid[w], &high_liquid = row.liquid[w + v_.words];
+    Wet wet{low_liquid, high_liquid};
     bool moved = false;
-    std::uint64_t low_wet = 0, high_wet = 0;
     for (int part = 0; part < L::kParts; ++part) {
-      const int shift = part * L::kCount;
-      if ((open >> shift & kAll) == 0) {  // nothing moves here: what was wet stays so
-        low_wet |= v_.liquid[v_.word(w, y, z_)] & kAll << shift;
-        high_wet |= v_.liquid[v_.word(w, y + 1, z_)] & kAll << shift;
-        continue;
-      }
-      const std::size_t at = static_cast<std::size_t>(shift);
-      vectors(low + at, high + at, open, around, part, moved, low_wet, high_wet);
+      if ((open & kAll << (part * L::kCount)) == 0) continue;
+      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
+      moved |= vectors(low + at, high + at, open, around, part, wet);
     }
     if (!moved) return false;
-    const std::size_t low_word = v_.word(w, y, z_), high_word = v_.word(w, y + 1, z_);
-    v_.liquid[low_word] = low_wet & ~(v_.solid[low_word] | v_.inert[low_word]);
-    v_.liquid[high_word] = high_wet & ~(v_.solid[high_word] | v_.inert[high_word]);
+    low_liquid = wet.low & ~row.walls[w];
+    high_liquid = wet.high & ~row.walls[w + v_.words + 2];
     return true;
   }
 
+  struct Wet {  // cells of two words that hold something; what is blocked may be among them
+    std::uint64_t low, high;
+  };
   struct Around {
     std::uint64_t wall, overhang;
   };
@@ -104,31 +120,27 @@ class Gravity {
     return factor > 0xFFFF ? a : L::high(a, L::set(static_cast<int>(factor)));
   }
 
-  [[gnu::always_inline]] void vectors(std::size_t low, std::size_t high, std::uint64_t open, Around around,
-                                      int part, bool& moved, std::uint64_t& low_wet,
-                                      std::uint64_t& high_wet) {
+  // Returns whether anything moved.
+  [[gnu::always_inline]] bool vectors(std::size_t low, std::size_t high, std::uint64_t open, Around around,
+                                      int part, Wet& wet) {
     const V one = L::set(4096);
     const V lower = L::load(v_.amount + low), upper = L::load(v_.amount + high);
     const M gate = L::from_bits(open, part);
     const V down = L::keep(gate, L::min(ready(upper, lower, around, part), L::sub_saturated(one, lower)));
     const V up = L::keep(gate, L::min(L::sub_saturated(lower, one), L::sub_saturated(L::set(0xFFFF), upper)));
-    const int shift = part * L::kCount;
-    if (L::to_bits(L::equal(down + up, L::zero())) == kAll) {
-      low_wet |= (L::to_bits(L::equal(lower, L::zero())) ^ kAll) << shift;
-      high_wet |= (L::to_bits(L::equal(upper, L::zero())) ^ kAll) << shift;
-      return;
-    }
-    moved = true;
-    const M no_rise = L::equal(up, L::zero());
+    if (!L::nonzero(down + up)) return false;
     const V new_lower = lower + down - up, new_upper = upper - down + up;
     L::store(v_.amount + low, new_lower);
     L::store(v_.amount + high, new_upper);
-    const M low_dry = L::equal(new_lower, L::zero()), high_dry = L::equal(new_upper, L::zero());
-    low_wet |= (L::to_bits(low_dry) ^ kAll) << shift;
-    high_wet |= (L::to_bits(high_dry) ^ kAll) << shift;
+    const auto filled = L::filled(new_lower, new_upper);
+    const int shift = part * L::kCount;
+    wet.low = (wet.low & ~(kAll << shift)) | (filled & kAll) << shift;
+    wet.high = (wet.high & ~(kAll << shift)) | (std::uint64_t{filled} >> L::kCount) << shift;
     move_energy(low, high, down, up, new_lower, new_upper);
     if constexpr (kFeatures.hot) {
       // A cell either gives or takes through this face.
+      const M no_rise = L::equal(up, L::zero());
+      const M low_dry = L::equal(new_lower, L::zero()), high_dry = L::equal(new_upper, L::zero());
       const V low_heat = L::load(v_.temperature + low), high_heat = L::load(v_.temperature + high);
       const V taker_had = L::select(no_rise, lower, upper),
               taker_heat = L::select(no_rise, low_heat, high_heat);
@@ -138,6 +150,7 @@ class Gravity {
       L::store(v_.temperature + low, L::select(low_dry, L::zero(), L::select(falls, mixed, low_heat)));
       L::store(v_.temperature + high, L::select(high_dry, L::zero(), L::select(climbs, mixed, high_heat)));
     }
+    return true;
   }
 
   [[gnu::always_inline]] void move_energy(std::size_t low, std::size_t high, V down, V up, V new_lower,

@@ -14,7 +14,6 @@ template <class Arch, SpreadFeatures kFeatures>
 class Pattern {
   using L = cpu::Lanes<Arch>;
   using V = typename L::V;
-  using M = typename L::M;
   using Bytes = typename L::Bytes;
   using Twin = typename L::Twin;
   static constexpr int kDirections = kFeatures.eight ? 8 : 4;
@@ -29,40 +28,49 @@ class Pattern {
         step_(step),
         law_(step.parameters->flow.paper),
         z_(z),
+        base_(view.cell(0, gifts.first_row, z)),
         row_blocks_((static_cast<std::uint32_t>(view.nx) + 7) / 8),
+        first_block_((static_cast<std::uint32_t>(z) * static_cast<std::uint32_t>(view.ny) +
+                      static_cast<std::uint32_t>(gifts.first_row)) *
+                     row_blocks_),
         walls_slice_(static_cast<std::ptrdiff_t>(view.ny + 2) * (view.words + 2)),
+        last_lane_((view.nx - 1) / kCells * kCells),
+        west_(L::both(L::fill(L::none(), L::where(Twin{1})), L::bytes(kWest))),
+        east_(L::both(L::fill(L::none(), L::where(static_cast<Twin>(Twin{1} << ((view.nx - 1) % kCells)))),
+                      L::bytes(kEast))),
+        share_(L::set(law_.share)),
+        threshold_(L::set(law_.threshold)),
+        margin_(L::set(law_.margin)),
+        wider_(wider(margin_)),
         below_(below),
         gifts_(gifts) {
-    // The neighbour's place; beyond the grid its own: a masked lane.
-    const std::ptrdiff_t front = z + 1 < v_.nz ? static_cast<std::ptrdiff_t>(v_.slice) : 0;
-    const std::ptrdiff_t back = z > 0 ? -static_cast<std::ptrdiff_t>(v_.slice) : 0;
-    const std::ptrdiff_t places[8] = {1, -1, front, back, front + 1, back + 1, front - 1, back - 1};
-    for (int d = 0; d < 8; ++d) places_[d] = places[d];
+    if constexpr (kFeatures.thermal) shares_ = share_table(*step.parameters);
+    // Rows beyond the grid are masked: any address will do.
+    own_ = view.amount + base_;
+    front_ = z + 1 < view.nz ? own_ + view.slice : own_;
+    back_ = z > 0 ? own_ - view.slice : own_;
   }
 
   // Returns the tiles where some cell may give.
   [[gnu::always_inline]] TileRow run(int r, TileRow tiles) {
     clear(r);
-    int count = 0;
-    for (int y = v_.tile_begin(r); tiles != 0 && y < v_.tile_end(r); ++y) {
-      const std::size_t row = gifts_.row(y);
-      for (TileRow work = tiles; work != 0; work &= work - 1) {
-        const int w = __builtin_ctzll(work);
-        const std::uint64_t givers = givers_of(w, y);
-        if (givers == 0) continue;
-        for (int twin = 0; twin < L::kTwins; ++twin) {
-          const auto own = static_cast<Twin>(givers >> (twin * kCells));
-          const std::size_t lane = static_cast<std::size_t>(64 * w + twin * kCells);
-          items_[count] = {own, v_.cell(0, y, z_) + lane, row * v_.row + lane, gifts_.word(v_, w, row), y, w,
-                           twin};
-          count += own != 0;
+    const int end = v_.tile_end(r);
+    Row row = row_of(v_.tile_begin(r));
+    TileRow work = tiles;
+    while (row.y < end) {
+      int count = 0;
+      while (count + L::kTwins <= kBatch) {
+        if (work == 0) {
+          row.climb(*this);
+          if (row.y == end) break;
+          work = tiles;
+          continue;
         }
-        if (count + L::kTwins <= kBatch) continue;
-        process(count);
-        count = 0;
+        count = collect(__builtin_ctzll(work), row, count);
+        work &= work - 1;
       }
+      process(count);
     }
-    process(count);
     gifts_.tiles(v_, r) = giving_;
     return restless_;
   }
@@ -70,10 +78,40 @@ class Pattern {
  private:
   static constexpr int kCells = 2 * L::kCount;  // of an item
   struct Item {
+    std::uint32_t at;    // where it begins in the state and in the gifts, from their first row
+    std::uint32_t mask;  // its word in the planes of the gifts
+    std::uint32_t row;   // in the gifts
+    std::uint16_t lane;  // its first cell along x
+    bool walls;          // beside some of its cells, not counting the border in x
     Twin givers;
-    std::size_t cell, gift, word;  // where it begins in the state, in the gifts, in their planes
-    int y, w, twin;
   };
+
+  // Where a row begins in the planes and fields.
+  struct Row {
+    int y;
+    std::uint32_t row, at, mask;  // in the gifts
+    const std::uint64_t *liquid, *below, *walls;
+    [[gnu::always_inline]] void climb(const Pattern& p) {
+      ++y;
+      ++row;
+      at += static_cast<std::uint32_t>(p.v_.row);
+      mask += static_cast<std::uint32_t>(p.v_.words) + 2;
+      below = liquid;
+      liquid += p.v_.words;
+      walls += p.v_.words + 2;
+    }
+  };
+  [[gnu::always_inline]] Row row_of(int y) const {
+    const std::size_t row = gifts_.row(y);
+    const std::uint64_t* liquid = v_.liquid + v_.word(0, y, z_);
+    return {y,
+            static_cast<std::uint32_t>(row),
+            static_cast<std::uint32_t>(row * v_.row),
+            static_cast<std::uint32_t>(gifts_.word(v_, 0, row)),
+            liquid,
+            below_ != nullptr ? below_ : liquid - (y > 0 ? v_.words : 0),
+            v_.walls_at(y, z_)};
+  }
 
   // Patterns of words that give nothing are 0. (Rows beyond a last, shorter tile row stay as they are:
   // unread.)
@@ -91,169 +129,203 @@ class Pattern {
     }
   }
 
-  [[gnu::always_inline]] std::uint64_t givers_of(int w, int y) const {
-    const std::uint64_t liquid = v_.liquid[v_.word(w, y, z_)];
-    if (!kFeatures.support || y == 0) return liquid;
-    const bool first = (y & ((1 << v_.tile_shift) - 1)) == 0;
-    const std::uint64_t* below = first && below_ != nullptr ? below_ : v_.liquid + v_.word(0, y - 1, z_);
-    return liquid & (v_.blocked(w, y - 1, z_) | below[w]);
+  // Appends the items of a word in which somebody may give; returns how many there are then.
+  [[gnu::always_inline]] int collect(int w, const Row& row, int count) {
+    std::uint64_t givers = row.liquid[w];
+    if (givers == 0) return count;
+    // With support only who stands on something.
+    if (kFeatures.support && row.y > 0) givers &= row.walls[w - (v_.words + 2)] | row.below[w];
+    const std::uint64_t walls = beside_walls(w, row.walls);
+    for (int twin = 0; twin < L::kTwins; ++twin) {
+      const auto lane = static_cast<std::uint32_t>(64 * w + twin * kCells);
+      items_[count] = {row.at + lane,
+                       row.mask + static_cast<std::uint32_t>(w),
+                       row.row,
+                       static_cast<std::uint16_t>(lane),
+                       static_cast<Twin>(walls >> (twin * kCells)) != 0,
+                       static_cast<Twin>(givers >> (twin * kCells))};
+      count += items_[count].givers != 0;
+    }
+    return count;
+  }
+
+  // Cells with a wall beside them or across a diagonal; the border in x left out: every row has that.
+  [[gnu::always_inline]] std::uint64_t beside_walls(int w, const std::uint64_t* walls) const {
+    const std::uint64_t *own = walls + w, *front = own + walls_slice_, *back = own - walls_slice_;
+    std::uint64_t here = own[0] | front[0] | back[0];
+    std::uint64_t left = own[-1] | front[-1] | back[-1], right = own[1] | front[1] | back[1];
+    if (w == 0) left = 0;
+    if (w == v_.words - 1) right = 0, here &= v_.last_word;
+    return here | cpu::from_left(here, left) | cpu::from_right(here, right);
   }
 
   [[gnu::always_inline]] void process(int count) {
     int found = 0;
     for (int i = 0; i < count; ++i) {
-      const Item item = items_[i];
+      const Item& item = items_[i];
       const bool any = find_available(item);
-      items_[found] = item;
-      restless_ |= TileRow{any} << item.w;
+      found_[found] = static_cast<std::uint8_t>(i);
+      restless_ |= TileRow{any} << (item.lane / 64);
       found += any;
     }
-    for (int i = 0; i < found; i += 2) throw_dice(i, i + 1 < found);
+    found_[found] = found == 0 ? std::uint8_t{0} : found_[found - 1];  // for the last of an odd number
+    for (int i = 0; i < found; i += 2) throw_dice(items_[found_[i]], items_[found_[i + 1]]);
   }
 
   struct Limits {
     V axis, diagonal;  // a neighbour receives if it holds less
     V flow, share;
-    M energetic;
   };
 
-  // The directions to which the cells of an item may give: open, and low enough; into its pattern, if there
-  // is one. Lean: writes the gifts, too.
+  // The directions to which the cells of an item may give: open, and low enough; into its pattern. Lean:
+  // writes the gifts, too. Returns whether there is any.
   [[gnu::always_inline]] bool find_available(const Item& item) {
-    const std::size_t cell = item.cell;
-    const Limits low = limits_of(cell), high = limits_of(cell + L::kCount);
-    Bytes available = L::none();
-    cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
-      const std::uint16_t* there = v_.amount + static_cast<std::ptrdiff_t>(cell) + places_[d];
-      const M first = L::less(L::load_any(there), d < 4 ? low.axis : low.diagonal);
-      const M second = L::less(L::load_any(there + L::kCount), d < 4 ? high.axis : high.diagonal);
-      available = L::put(available, first, second, 1 << d);
+    const std::size_t at = item.at;
+    const Limits low = limits_of(at), high = limits_of(at + L::kCount);
+    Bytes closed = L::none();
+    cpu::unrolled<kDirections>([&](auto i) VOXMELT_LAMBDA {
+      constexpr int d = kDirections - 1 - i;
+      constexpr std::ptrdiff_t dx = d < 4 ? (d == 0) - (d == 1) : (d < 6 ? 1 : -1);
+      const std::uint16_t* there = (d < 2 ? own_ : d % 2 == 0 ? front_ : back_) + at + dx;
+      const auto full = L::not_less(L::load_any(there), d < 4 ? low.axis : low.diagonal,
+                                    L::load_any(there + L::kCount), d < 4 ? high.axis : high.diagonal);
+      closed = L::push(closed, full, d);
     });
-    available = L::both(L::in_order(available), givers_of(item, low, high));
-    available = only_open(item, available);
-    if (L::nonzero_bytes(available) == 0) return false;
-    L::store_bytes(gifts_.pattern + item.gift, available);
-    if constexpr (!kFeatures.general) {
-      write_gifts(cell, item.gift, low);
-      write_gifts(cell + L::kCount, item.gift + L::kCount, high);
+    if (!slumps()) {  // who has no energy gives nothing
+      const std::uint16_t* energy = v_.energy + base_ + at;
+      closed =
+          L::fill(closed, L::not_less(threshold_, L::load(energy), threshold_, L::load(energy + L::kCount)));
     }
-    return true;
+    Bytes available = L::without(L::bytes(kDirectionBits), L::in_order(closed));
+    if (item.givers != kEvery) available = L::both(available, L::fill(L::none(), L::where(item.givers)));
+    if (item.lane == 0) available = L::without(available, west_);
+    if (item.lane == last_lane_) available = L::without(available, east_);
+    if (item.walls) available = only_open(item, available);
+    const bool any = L::nonzero_bytes(available) != 0;
+    // Writing what nobody asks for costs less than a wrong guess; with heat, more.
+    if (kFeatures.hot && !any) return false;
+    L::store_bytes(gifts_.pattern + at, available);
+    if constexpr (!kFeatures.general) {
+      write_gifts(at, low);
+      write_gifts(at + L::kCount, high);
+    }
+    return any;
   }
-  [[gnu::always_inline]] void write_gifts(std::size_t cell, std::size_t gift, const Limits& of) const {
-    const V warm = L::min(of.flow, L::high(L::load(v_.energy + cell), of.share));
-    L::store(gifts_.flow[0] + gift, of.flow);
-    L::store(gifts_.energy[0] + gift, warm);
+  [[gnu::always_inline]] void write_gifts(std::size_t at, const Limits& of) const {
+    const V warm = L::min(of.flow, L::high(L::load(v_.energy + base_ + at), of.share));
+    L::store(gifts_.flow[0] + at, of.flow);
+    L::store(gifts_.energy[0] + at, warm);
     if constexpr (kFeatures.eight) {
-      L::store(gifts_.flow[4] + gift, L::template shift_right<2>(of.flow));
-      L::store(gifts_.energy[4] + gift, L::template shift_right<2>(warm));
+      L::store(gifts_.flow[4] + at, L::template shift_right<2>(of.flow));
+      L::store(gifts_.energy[4] + at, L::template shift_right<2>(warm));
     }
     if constexpr (kFeatures.hot)
-      L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
+      L::store(gifts_.heat + at, L::load(v_.temperature + base_ + at) ^ L::set(0x8000));
   }
+
+  [[gnu::always_inline]] bool slumps() const { return kBuilt.slump && law_.slump != 0; }
 
   // Of one vector: a neighbour receives if it holds less than the giver's amount less the larger of flow and
   // margin.
-  [[gnu::always_inline]] Limits limits_of(std::size_t cell) const {
-    const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
-    const V sh = share(cell);
+  [[gnu::always_inline]] Limits limits_of(std::size_t at) const {
+    const V amount = L::load(own_ + at);
+    const V sh = share(at);
     V flow = L::min(L::high(amount, sh), L::set(kCap));
     if constexpr (kFeatures.general)
       if (law_.use_table) flow = L::zero();
-    const M energetic = L::less(L::set(law_.threshold), energy);
-    V margin = L::set(law_.margin);
-    if constexpr (kBuilt.slump) margin = L::select(energetic, margin, L::set(law_.slump));
+    V margin = margin_, for_diagonal = wider_;
+    if (slumps()) {
+      const auto energetic = L::less(threshold_, L::load(v_.energy + base_ + at));
+      margin = L::select(energetic, margin_, L::set(law_.slump));
+      for_diagonal = wider(margin);
+    }
     const V most = L::set(kLimit);
     V axis = L::min(most, L::sub_saturated(amount, L::max(flow, margin)));
-    const V wider = L::add_saturated(margin, L::template shift_right<3>(margin));
-    V diagonal = L::min(most, L::sub_saturated(amount, L::max(flow, wider)));
+    V diagonal = L::min(most, L::sub_saturated(amount, L::max(flow, for_diagonal)));
     if constexpr (kFeatures.general)
       if (!law_.downhill) axis = diagonal = most;
-    return {axis, diagonal, flow, sh, energetic};
+    return {axis, diagonal, flow, sh};
   }
 
-  // All ones where a cell is liquid, and has the energy to give.
-  [[gnu::always_inline]] Bytes givers_of(const Item& item, const Limits& low, const Limits& high) const {
-    const Bytes liquid = item.givers == kEvery ? L::every() : L::put(L::none(), item.givers, 0xFF);
-    if (kBuilt.slump && law_.slump != 0) return liquid;
-    return L::both(liquid, L::in_order(L::put(L::none(), low.energetic, high.energetic, 0xFF)));
+  [[gnu::always_inline]] static V wider(V margin) {
+    return L::add_saturated(margin, L::template shift_right<3>(margin));
   }
 
   // Without directions whose neighbour is blocked or, across a diagonal, behind two blocked ones.
   [[gnu::always_inline]] Bytes only_open(const Item& item, Bytes available) const {
-    const int w = item.w, shift = item.twin * kCells;
-    const std::uint64_t *own = v_.walls_at(item.y, z_) + w, *front = own + walls_slice_,
+    const int w = item.lane / 64, shift = item.lane % 64, y = gifts_.first_row + static_cast<int>(item.row);
+    const std::uint64_t *own = v_.walls_at(y, z_) + w, *front = own + walls_slice_,
                         *back = own - walls_slice_;
-    const auto around = [](const std::uint64_t* row) { return row[0] | row[-1] >> 63 | row[1] << 63; };
-    if ((around(own) | around(front) | around(back)) == 0) return available;  // most of the time
-    Bytes open = L::none();
+    Bytes closed = L::none();
     const auto put = [&](int d, std::uint64_t blocked) VOXMELT_LAMBDA {
-      open = L::put(open, static_cast<Twin>(~blocked >> shift), 1 << d);
+      closed = L::push(closed, L::where(static_cast<Twin>(blocked >> shift)), d);
     };
     const std::uint64_t right = cpu::from_right(own[0], own[1]), left = cpu::from_left(own[0], own[-1]);
-    put(0, right);
-    put(1, left);
-    put(2, front[0]);
-    put(3, back[0]);
     if constexpr (kFeatures.eight) {
-      put(4, cpu::from_right(front[0], front[1]) | (right & front[0]));
-      put(5, cpu::from_right(back[0], back[1]) | (right & back[0]));
-      put(6, cpu::from_left(front[0], front[-1]) | (left & front[0]));
       put(7, cpu::from_left(back[0], back[-1]) | (left & back[0]));
+      put(6, cpu::from_left(front[0], front[-1]) | (left & front[0]));
+      put(5, cpu::from_right(back[0], back[1]) | (right & back[0]));
+      put(4, cpu::from_right(front[0], front[1]) | (right & front[0]));
     }
-    return L::both(available, open);
+    put(3, back[0]);
+    put(2, front[0]);
+    put(1, left);
+    put(0, right);
+    return L::without(available, closed);
   }
 
-  // Keeps a random subset of the directions of an item, and of the next one if `two`.
-  [[gnu::always_inline]] void throw_dice(int first, bool two) {
-    const Item* items = items_ + first;
-    std::uint32_t blocks[2];
-    for (int i = 0; i < 2; ++i) {
-      const Item& item = items[two ? i : 0];
-      const auto row = static_cast<std::uint32_t>(z_) * static_cast<std::uint32_t>(v_.ny) +
-                       static_cast<std::uint32_t>(item.y);
-      blocks[i] = row * row_blocks_ + static_cast<std::uint32_t>(64 * item.w + item.twin * kCells) / 8;
-    }
+  // Keeps a random subset of the directions of two items, which may be the same one.
+  [[gnu::always_inline]] void throw_dice(const Item& first, const Item& second) {
+    const std::uint32_t blocks[2] = {first_block_ + first.row * row_blocks_ + first.lane / 8u,
+                                     first_block_ + second.row * row_blocks_ + second.lane / 8u};
     Bytes dice[2];
     L::dice(step_.keys, step_.number, blocks, dice);
-    keep(items[0], dice[0]);
-    if (two) keep(items[1], dice[1]);
+    keep(first, dice[0]);
+    if (&first != &second) keep(second, dice[1]);
   }
   [[gnu::always_inline]] void keep(const Item& item, Bytes dice) {
-    std::uint8_t* at = gifts_.pattern + item.gift;
+    std::uint8_t* at = gifts_.pattern + item.at;
     const Bytes pattern = L::both(L::load_bytes(at), dice);
     L::store_bytes(at, pattern);
     const Twin any = L::nonzero_bytes(pattern);
-    auto* givers = reinterpret_cast<std::uint8_t*>(gifts_.givers + item.word);
-    __builtin_memcpy(givers + static_cast<std::size_t>(item.twin) * sizeof(Twin), &any, sizeof(Twin));
-    const TileRow gives = TileRow{any != 0} << item.w;
+    auto* givers = reinterpret_cast<std::uint8_t*>(gifts_.givers + item.mask);
+    __builtin_memcpy(givers + item.lane % 64 / kCells * sizeof(Twin), &any, sizeof(Twin));
+    const TileRow gives = TileRow{any != 0} << (item.lane / 64);
     giving_ |= gives;
-    gifts_.giving[gifts_.row(item.y)] |= gives;
+    gifts_.giving[item.row] |= gives;
     if constexpr (kFeatures.general)
       if (any != 0) give(item);
   }
 
   // Thermal viscosity: share times the table, cut at what all neighbours together can take.
-  [[gnu::always_inline]] V share(std::size_t cell) const {
-    if constexpr (!kFeatures.thermal) return L::set(law_.share);
-    const V mobility =
-        L::lookup(step_.parameters->flow.mobility_table.data(), L::load(v_.temperature + cell));
-    const V sh = L::set(law_.share);  // below 2^15: the product >> 15 may need 17 bits, which the cut takes
-    const V high = L::high(sh, mobility), low = L::template shift_right<15>(L::low(sh, mobility));
-    return L::min(L::add_saturated(L::add_saturated(high, high), low),
-                  L::set(kFeatures.eight ? 13107 : 16384));
+  [[gnu::always_inline]] V share(std::size_t at) const {
+    if constexpr (!kFeatures.thermal) return share_;
+    return L::lookup(shares_, L::load(v_.temperature + base_ + at));
+  }
+  [[gnu::always_inline]] static typename L::Table share_table(const rule::Parameters& parameters) {
+    alignas(64) std::uint16_t shares[32];
+    const V sh = L::set(parameters.flow.paper.share);  // below 2^15
+    for (std::size_t i = 0; i < 32; i += L::kCount) {
+      const V mobility = L::load_any(parameters.flow.mobility_table.data() + i);
+      // The product >> 15 may need 17 bits, which the cut takes.
+      const V high = L::high(sh, mobility), low = L::template shift_right<15>(L::low(sh, mobility));
+      L::store(shares + i, L::min(L::add_saturated(L::add_saturated(high, high), low),
+                                  L::set(kFeatures.eight ? 13107 : 16384)));
+    }
+    return L::table(shares);
   }
 
   // The gifts of every direction on their own: shares by pattern, energy by the printed reading.
   [[gnu::always_inline]] void give(const Item& item) {
+    const int y = gifts_.first_row + static_cast<int>(item.row);
     for (int k = 0; k < 2; ++k) {
-      const auto at = static_cast<std::size_t>(k * L::kCount);
-      const std::size_t cell = item.cell + at, gift = item.gift + at;
-      const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
+      const std::size_t at = item.at + static_cast<std::size_t>(k * L::kCount);
+      const V amount = L::load(own_ + at), energy = L::load(v_.energy + base_ + at);
       if constexpr (kFeatures.hot)
-        L::store(gifts_.heat + gift, L::load(v_.temperature + cell) ^ L::set(0x8000));
-      const V same = law_.use_table ? L::zero() : share(cell);
+        L::store(gifts_.heat + at, L::load(v_.temperature + base_ + at) ^ L::set(0x8000));
+      const V same = law_.use_table ? L::zero() : share(at);
       for (int d = 0; d < kDirections; ++d) {
-        const V sh = law_.use_table ? share_by_pattern(gifts_.pattern + gift, d) : same;
+        const V sh = law_.use_table ? share_by_pattern(gifts_.pattern + at, d) : same;
         V flow = L::min(L::high(amount, sh), L::set(kCap)), warm = L::min(L::high(energy, sh), L::set(kCap));
         if (d >= 4) {
           flow = L::template shift_right<2>(flow);
@@ -261,9 +333,10 @@ class Pattern {
         }
         warm = L::min(flow, warm);
         if (law_.reading == rule::EnergyReading::printed)
-          warm = L::high(warm, contact_alpha<Arch>(v_, law_, item.w, item.y, z_, 2 * item.twin + k));
-        L::store(gifts_.flow[d] + gift, flow);
-        L::store(gifts_.energy[d] + gift, warm);
+          warm = L::high(warm, contact_alpha<Arch>(v_, law_, y == 0, v_.word(item.lane / 64, y, z_),
+                                                   item.lane % 64 / L::kCount + k));
+        L::store(gifts_.flow[d] + at, flow);
+        L::store(gifts_.energy[d] + at, warm);
       }
     }
   }
@@ -274,17 +347,25 @@ class Pattern {
   }
 
   static constexpr Twin kEvery = static_cast<Twin>(~Twin{0});
+  static constexpr int kDirectionBits = (1 << kDirections) - 1;
+  static constexpr int kEast = 0b00110001, kWest = 0b11000010;  // directions to the next and previous x
   const View v_;
   const Step& step_;
   const rule::PaperLaw& law_;
   const int z_;
-  const std::uint32_t row_blocks_;
+  const std::size_t base_;  // first cell of the gifts' first row
+  const std::uint32_t row_blocks_, first_block_;
   const std::ptrdiff_t walls_slice_;
+  const int last_lane_;
+  const Bytes west_, east_;  // directions that leave the grid
+  const V share_, threshold_, margin_, wider_;
+  typename L::Table shares_;                   // by heat; with thermal viscosity
+  const std::uint16_t *own_, *front_, *back_;  // amounts there, in this slice and the ones beside it
   TileRow restless_ = 0, giving_ = 0;
   const std::uint64_t* below_;
   Gifts& gifts_;
-  std::ptrdiff_t places_[8];
-  Item items_[kBatch + L::kTwins];
+  Item items_[kBatch];
+  std::uint8_t found_[kBatch + 1];
 };
 
 }  // namespace voxmelt::simd

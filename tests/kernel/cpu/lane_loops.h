@@ -102,7 +102,8 @@ struct LaneLoops {
   }
 
   static void lookup(In table, In index, Out out) {
-    each(index, out, [=](V a) { return L::lookup(table, a); });
+    const auto entries = L::table(table);
+    each(index, out, [&](V a) { return L::lookup(entries, a); });
   }
 
   static std::uint64_t bits(std::uint64_t word, Out lanes) {
@@ -155,21 +156,31 @@ struct LaneLoops {
     return mix.flush();
   }
 
-  static std::uint64_t bytes(const std::uint16_t (*low)[32], const std::uint16_t (*high)[32],
-                             std::uint64_t keep, std::uint8_t* out) {
-    typename L::Bytes together = L::none(), apart = L::none();
-    for (int d = 0; d < 8; ++d) {
-      const M first = L::less(L::zero(), L::load(low[d])), second = L::less(L::zero(), L::load(high[d]));
-      together = L::put(together, first, second, 1 << d);
-      const std::uint64_t bits = L::to_bits(first) | L::to_bits(second) << L::kCount;
-      apart = L::put(apart, static_cast<typename L::Twin>(bits), 1 << d);
+  static std::uint64_t bytes(const std::uint16_t (*a)[64], const std::uint16_t (*b)[64], std::uint64_t keep,
+                             std::uint8_t* out) {
+    using Bytes = typename L::Bytes;
+    using Twin = typename L::Twin;
+    Bytes together = L::none(), apart = L::none(), filled = L::none(), spread = L::none();
+    for (int d = 7; d >= 0; --d) {
+      const V a0 = L::load(a[d]), b0 = L::load(b[d]), a1 = L::load_any(a[d] + kCount),
+              b1 = L::load_any(b[d] + kCount);
+      const auto not_less = L::not_less(a0, b0, a1, b1);
+      together = L::push(together, not_less, d);
+      filled = L::fill(filled, not_less);
+      const Twin less = L::filled(L::keep(L::less(a0, b0), a0 ^ b0), L::keep(L::less(a1, b1), a1 ^ b1));
+      apart = L::push(apart, L::where(static_cast<Twin>(~less)), d);
+      spread = L::fill(spread, L::where(static_cast<Twin>(~less)));
     }
-    const typename L::Bytes kept = L::put(L::none(), static_cast<typename L::Twin>(keep), 0xFF);
-    std::uint8_t other[64];
+    const Bytes kept = L::fill(L::none(), L::where(static_cast<Twin>(keep))),
+                left_out = L::fill(L::none(), L::where(static_cast<Twin>(~keep)));
+    std::uint8_t other[64], all[64], one[64];
     L::store_bytes(out, L::both(L::in_order(together), kept));
-    L::store_bytes(other, L::both(kept, apart));
-    const std::uint64_t found = L::nonzero_bytes(L::both(L::every(), L::load_bytes(out)));
-    return __builtin_memcmp(out, other, 2 * kCount) == 0 ? found : ~found;
+    L::store_bytes(other, L::without(apart, left_out));
+    L::store_bytes(all, L::in_order(filled));
+    L::store_bytes(one, L::both(spread, L::bytes(0xFF)));
+    const std::uint64_t found = L::nonzero_bytes(L::load_bytes(out));
+    const std::size_t size = 2 * static_cast<std::size_t>(kCount);
+    return __builtin_memcmp(out, other, size) == 0 && __builtin_memcmp(all, one, size) == 0 ? found : ~found;
   }
 
   static void widen(const std::uint8_t* bytes, int bit, Out lanes, Out has, Out count) {

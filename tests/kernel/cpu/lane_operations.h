@@ -59,10 +59,10 @@ struct Operations {
   // The mean heat of two; returns what was rounded, in lanes with a1 > 0.
   std::int64_t (*mix)(std::size_t size, int dither, const std::uint16_t* a0, const std::uint16_t* h0,
                       const std::uint16_t* a1, const std::uint16_t* h1, std::uint16_t* out);
-  // Of two neighbouring vectors: bit d of byte i set where low[d] (high[d]) is not 0 in that lane, kept where
-  // `keep` has a bit. Also by way of `bits`, bit d of lane i each; returns the lanes with a byte that is not
-  // 0, or its complement if the two ways differ.
-  std::uint64_t (*bytes)(const std::uint16_t (*low)[32], const std::uint16_t (*high)[32], std::uint64_t keep,
+  // Of two neighbouring vectors: bit d of byte i set unless a[d] < b[d] in that lane, kept where `keep` has a
+  // bit. Also by way of bits, bit i for lane i; returns the lanes with a byte that is not 0, or its
+  // complement if the two ways differ.
+  std::uint64_t (*bytes)(const std::uint16_t (*a)[64], const std::uint16_t (*b)[64], std::uint64_t keep,
                          std::uint8_t* bytes);
   // 64 bytes as lanes, lanes that have a bit (all ones), how many of their lowest four are set.
   void (*widen)(const std::uint8_t* bytes, int bit, std::uint16_t* lanes, std::uint16_t* has,
