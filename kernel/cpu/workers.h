@@ -3,6 +3,8 @@
 
 #include <memory>
 
+#include "kernel/cpu/turns.h"
+
 namespace voxmelt::cpu {
 
 class Workers {
@@ -14,7 +16,8 @@ class Workers {
 
   int threads() const { return threads_; }
 
-  // task(0) .. task(count - 1), in any order; returns when all are done. Tasks may not throw.
+  // task(0) .. task(count - 1), in any order (the last one begins first); returns when all are done. Tasks
+  // may not throw.
   template <class Task>
   void run(int count, const Task& task) {
     if (threads_ == 1 || count <= 1) {
@@ -23,6 +26,14 @@ class Workers {
     }
     spread(
         count, [](const void* context, int i) { (*static_cast<const Task*>(context))(i); }, &task);
+  }
+
+  // The same for tasks that come again, the dearest first.
+  template <class Task>
+  void run(int count, Turns& turns, const Task& task) {
+    if (threads_ == 1 || count <= 1) return run(count, task);
+    turns.sort(count);
+    run(count, [&](int turn) { turns.time(turns.at(turn), task); });
   }
 
  private:

@@ -119,7 +119,7 @@ void HeatFlow::save_cuts(const Job& job) {
 template <class Visit>
 void HeatFlow::sweep(const Job& job, const Visit& visit) {
   save_cuts(job);
-  job.workers.run(chunks_.count(), [&](int chunk) {
+  job.workers.run(chunks_.count(), sweep_turns_, [&](int chunk) {
     Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
     const int begin = chunks_.begin(chunk), end = chunks_.end(chunk);
     for (int z = begin; z < end; ++z) {
@@ -188,7 +188,7 @@ void HeatFlow::exchange(const Job& job, int z, Worker& worker) {
 }
 
 void HeatFlow::melt(const Job& job, Tiles& changed, simd::Books& books) {
-  job.workers.run(chunks_.count(), [&](int chunk) {
+  job.workers.run(chunks_.count(), melt_turns_, [&](int chunk) {
     Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
     const TileRow all = all_words(job.view);
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {

@@ -52,6 +52,7 @@ class HeatFlow {
   void exchange(const Job& job, int z, Worker& worker);
 
   Chunks chunks_;
+  cpu::Turns sweep_turns_, melt_turns_;
   Tiles stale_, taken_, awake_, restless_, moved_, for_melt_;
   std::vector<Worker> chunk_, cut_;
 };

@@ -42,7 +42,7 @@ PaperFlow::PaperFlow(const rule::Parameters& parameters, const simd::View& view,
 }
 
 void PaperFlow::gravity(const Job& job, const Tiles& dirty, simd::Books& books) {
-  job.workers.run(chunks_.count(), [&](int chunk) {
+  job.workers.run(chunks_.count(), gravity_turns_, [&](int chunk) {
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z)
       fall(job, dirty, z, chunk_[static_cast<std::size_t>(chunk)]);
   });
@@ -51,8 +51,8 @@ void PaperFlow::gravity(const Job& job, const Tiles& dirty, simd::Books& books) 
 
 void PaperFlow::spread(const Job& job, const Tiles& dirty, Tiles& dirty_next, simd::Books& books) {
   const Sweep sweep{job, dirty, dirty_next};
-  job.workers.run(chunks_.cuts(), [&](int cut) { run_cut(sweep, cut); });
-  job.workers.run(chunks_.count(), [&](int chunk) { run_chunk(sweep, chunk); });
+  job.workers.run(chunks_.cuts(), cut_turns_, [&](int cut) { run_cut(sweep, cut); });
+  job.workers.run(chunks_.count(), chunk_turns_, [&](int chunk) { run_chunk(sweep, chunk); });
   close(books);
 }
 

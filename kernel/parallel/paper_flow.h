@@ -52,6 +52,7 @@ class PaperFlow {
   void close(simd::Books& books);
 
   Chunks chunks_;
+  cpu::Turns gravity_turns_, cut_turns_, chunk_turns_;
   Tiles fallen_, restless_;
   std::vector<Worker> chunk_, cut_;
   SliceGifts none_;  // of slices beyond the grid

@@ -52,7 +52,7 @@ void ViscousFlow::find_work(const Job& job, const Tiles* noted, int z, bool besi
 }
 
 void ViscousFlow::settle(const Job& job, simd::Books& books) {
-  job.workers.run(chunks_.count(), [&](int chunk) {
+  job.workers.run(chunks_.count(), settle_turns_, [&](int chunk) {
     Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
       if (job.sleep && !for_settle_.any(z)) continue;
@@ -82,11 +82,11 @@ void ViscousFlow::exchange(const Job& job, int z, Worker& worker, SliceCurrents&
 void ViscousFlow::spread(const Job& job, simd::Books& books) {
   std::swap(taken_, for_exchange_);
   // The slice before a cut exchanges with the one behind it before either is changed.
-  job.workers.run(chunks_.cuts(), [&](int i) {
+  job.workers.run(chunks_.cuts(), cut_turns_, [&](int i) {
     Worker& worker = cut_[static_cast<std::size_t>(i)];
     exchange(job, chunks_.cut(i) - 1, worker, worker.ring[0]);
   });
-  job.workers.run(chunks_.count(), [&](int chunk) { spread_chunk(job, chunk); });
+  job.workers.run(chunks_.count(), chunk_turns_, [&](int chunk) { spread_chunk(job, chunk); });
   close(books);
 }
 
@@ -113,7 +113,7 @@ void ViscousFlow::spread_chunk(const Job& job, int chunk) {
 
 void ViscousFlow::fall(const Job& job, simd::Books& books) {
   std::swap(taken_, for_fall_);
-  job.workers.run(chunks_.count(), [&](int chunk) {
+  job.workers.run(chunks_.count(), fall_turns_, [&](int chunk) {
     Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
       for_fall_.clear(z);

@@ -44,6 +44,7 @@ class ViscousFlow {
   void close(simd::Books& books);
 
   Chunks chunks_;
+  cpu::Turns settle_turns_, cut_turns_, chunk_turns_, fall_turns_;
   RunMemory memory_;
   Tiles for_settle_, for_exchange_, for_fall_, taken_, restless_, changed_, changed_before_;
   std::vector<Worker> chunk_, cut_;

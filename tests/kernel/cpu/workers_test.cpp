@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <numeric>
 #include <set>
 #include <thread>
@@ -75,6 +76,41 @@ TEST(Workers, ManyShortLivesAndSeveralAtOnce) {
     });
   for (std::thread& caller : callers) caller.join();
   EXPECT_EQ(sum, 4 * 500 * 6);
+}
+
+// Tasks that come again: the dearest first, each once, a new number of them all alike.
+TEST(Turns, TheDearestFirst) {
+  Turns turns;
+  turns.sort(4);
+  for (int turn = 0; turn < 4; ++turn) EXPECT_EQ(turns.at(turn), turn);
+  const int micros[] = {30, 10, 40, 20};
+  for (int task = 0; task < 4; ++task) turns.took(task, std::chrono::microseconds(micros[task]));
+  turns.sort(4);
+  const int cheapest_first[] = {1, 3, 0, 2};  // Workers begin with the last turn
+  for (int turn = 0; turn < 4; ++turn) EXPECT_EQ(turns.at(turn), cheapest_first[turn]);
+  turns.took(1, std::chrono::microseconds(100));
+  turns.sort(4);
+  EXPECT_EQ(turns.at(3), 1);
+  turns.sort(2);
+  for (int turn = 0; turn < 2; ++turn) EXPECT_EQ(turns.at(turn), turn);
+}
+
+TEST(Turns, WorkersFollowThem) {
+  Workers workers(2);
+  Turns turns;
+  for (int round = 0; round < 50; ++round) {
+    turns.sort(6);
+    turns.took(round % 6, std::chrono::hours(1));
+    std::vector<int> began;
+    std::mutex one_at_a_time;
+    workers.run(6, turns, [&](int task) {
+      const std::lock_guard lock(one_at_a_time);
+      began.push_back(task);
+    });
+    ASSERT_EQ(std::set<int>(began.begin(), began.end()).size(), 6U);
+    // Another thread may have taken its task later, and written it down sooner.
+    EXPECT_TRUE(began[0] == round % 6 || began[1] == round % 6) << began[0] << ", " << began[1];
+  }
 }
 
 TEST(Workers, ManyTasksAndNone) {

@@ -1,0 +1,30 @@
+// The order in which tasks that come again and again are run: what took longest the last time begins first,
+// so that threads end together. Nothing that tasks compute may depend on it.
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+namespace voxmelt::cpu {
+
+class Turns {
+ public:
+  // Sorts the tasks 0 .. count - 1, the dearest last; with a new count all are alike.
+  void sort(int count);
+  int at(int turn) const { return order_[static_cast<std::size_t>(turn)]; }
+
+  // Runs one, and remembers how long it took. Several threads may do so at once, each for another task.
+  template <class Task>
+  void time(int task, const Task& run) {
+    const auto begin = std::chrono::steady_clock::now();
+    run(task);
+    took(task, std::chrono::steady_clock::now() - begin);
+  }
+  void took(int task, std::chrono::nanoseconds time) { times_[static_cast<std::size_t>(task)] = time; }
+
+ private:
+  std::vector<std::chrono::nanoseconds> times_;
+  std::vector<int> order_;
+};
+
+}  // namespace voxmelt::cpu
