@@ -126,7 +126,7 @@ void Stepper::source(const Job& job, simd::Books& books) {
   if (parameters_.vents.empty() && parameters_.drains.empty()) return;
   changed_.clear();
   for (int z = 0; z < job.view.nz; ++z) changed_.edit(z);  // all slices: the sources say which
-  simd::run_sources(job.view, job.step, changed_.edit(0), books);
+  simd::run_sources(job.view, job.step, changed_.edit(0), changed_.stride(), books);
   for (int z = 0; z < job.view.nz; ++z) changed_.tidy(z);
   dirty_.add(changed_);
   if (heat_) heat_->note(changed_);

@@ -1,5 +1,5 @@
-// Sets of tiles: one bit per mask word of x, [slice][tile row]. What sleeps is told by sets; slices in which
-// nothing is awake cost one look.
+// Sets of tiles: one bit per mask word of x, [slice][tile row], with an empty slice and row at every side.
+// What sleeps is told by sets; slices in which nothing is awake cost one look.
 #pragma once
 
 #include <algorithm>
@@ -23,10 +23,12 @@ inline bool any(const std::vector<TileRow>& rows) {
 class Tiles {
  public:
   Tiles() = default;
-  Tiles(int slices, int rows) : slices_(slices), rows_(rows), bits_(index(slices)), touched_(count(slices)) {}
+  Tiles(int slices, int rows)
+      : slices_(slices), rows_(rows), bits_(index(slices + 1)), touched_(count(slices)) {}
 
   int slices() const { return slices_; }
   int rows() const { return rows_; }
+  std::ptrdiff_t stride() const { return rows_ + 2; }  // from a slice to the next
   const TileRow* slice(int z) const { return bits_.data() + index(z); }
   // For writing; slices that stay empty should be tidied.
   TileRow* edit(int z) {
@@ -42,8 +44,7 @@ class Tiles {
   bool any_near(int z) const { return any(z - 1) || any(z) || any(z + 1); }
 
   void fill(TileRow value) {
-    std::fill(bits_.begin(), bits_.end(), value);
-    std::fill(touched_.begin(), touched_.end(), std::uint8_t{1});
+    for (int z = 0; z < slices_; ++z) std::fill_n(edit(z), rows_, value);
   }
   void clear(int z) {
     if (touched_[count(z)] == 0) return;
@@ -65,19 +66,15 @@ class Tiles {
 
   // Tiles of row r of slice z that are, or are beside, one of this set.
   TileRow near(int z, int r, TileRow words) const {
-    TileRow near = 0;
-    for (int nz = std::max(0, z - 1); nz <= std::min(slices_ - 1, z + 1); ++nz) {
-      const TileRow* rows = slice(nz);
-      near |= rows[r];
-      if (r > 0) near |= rows[r - 1];
-      if (r + 1 < rows_) near |= rows[r + 1];
-    }
+    const TileRow *own = slice(z) + r, *front = slice(z + 1) + r, *back = slice(z - 1) + r;
+    const TileRow near =
+        own[-1] | own[0] | own[1] | front[-1] | front[0] | front[1] | back[-1] | back[0] | back[1];
     return (near | near << 1 | near >> 1) & words;
   }
 
  private:
   static std::size_t count(int z) { return static_cast<std::size_t>(z); }
-  std::size_t index(int z) const { return count(z) * count(rows_); }
+  std::size_t index(int z) const { return count(z + 1) * count(rows_ + 2) + 1; }
 
   int slices_ = 0, rows_ = 0;
   std::vector<TileRow> bits_;

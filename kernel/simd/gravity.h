@@ -35,9 +35,9 @@ class Gravity {
       moved = 0;
       for (; work != 0; work &= work - 1) {
         const int w = __builtin_ctzll(work);
-        const std::uint64_t liquid = row.liquid[w] | row.liquid[w + v_.words];
+        const std::uint64_t liquid = row.liquid[w] | row.upper_liquid[w];
         if (liquid == 0) continue;
-        const std::uint64_t open = liquid & ~(row.walls[w] | row.walls[w + v_.words + 2]);
+        const std::uint64_t open = liquid & ~(row.walls[w] | row.upper_walls[w]);
         if (open == 0) continue;
         if (pair(w, row, open)) moved |= TileRow{1} << w;
       }
@@ -51,21 +51,25 @@ class Gravity {
   }
 
  private:
-  // The lower row of a pair: where it begins.
+  // A pair of rows: where the lower one begins, and the upper one's masks.
   struct Row {
     int y;
     std::size_t cell;
-    std::uint64_t* liquid;
-    const std::uint64_t* walls;
+    std::uint64_t *liquid, *upper_liquid;
+    const std::uint64_t *walls, *upper_walls;
     [[gnu::always_inline]] void climb(const View& v) {
       ++y;
       cell += v.row;
-      liquid += v.words;
-      walls += v.words + 2;
+      liquid = upper_liquid;
+      upper_liquid += v.words;
+      walls = upper_walls;
+      upper_walls += v.words + 2;
     }
   };
   [[gnu::always_inline]] Row row_of(int y) const {
-    return {y, v_.cell(0, y, z_), v_.liquid + v_.word(0, y, z_), v_.walls_at(y, z_)};
+    std::uint64_t* liquid = v_.liquid + v_.word(0, y, z_);
+    const std::uint64_t* walls = v_.walls_at(y, z_);
+    return {y, v_.cell(0, y, z_), liquid, liquid + v_.words, walls, walls + v_.words + 2};
   }
 
   [[gnu::always_inline]] bool pair(int w, const Row& row, std::uint64_t open) {
@@ -74,7 +78,7 @@ class Gravity {
     prefetch_word(v_.energy + high + 3 * v_.row);
     Around around{};
     if constexpr (kFeatures.guided) around = surroundings(w, row.y + 1);
-    std::uint64_t &low_liquid = row.liquid[w], &high_liquid = row.liquid[w + v_.words];
+    std::uint64_t &low_liquid = row.liquid[w], &high_liquid = row.upper_liquid[w];
     Wet wet{low_liquid, high_liquid};
     bool moved = false;
     for (int part = 0; part < L::kParts; ++part) {
@@ -84,7 +88,7 @@ class Gravity {
     }
     if (!moved) return false;
     low_liquid = wet.low & ~row.walls[w];
-    high_liquid = wet.high & ~row.walls[w + v_.words + 2];
+    high_liquid = wet.high & ~row.upper_walls[w];
     return true;
   }
 

@@ -16,13 +16,13 @@ Range range(std::int64_t at, std::int64_t radius, int size) {
 
 class Sources {
  public:
-  Sources(const View& view, const Step& step, TileRow* changed, Books& books)
+  Sources(const View& view, const Step& step, TileRow* changed, std::ptrdiff_t stride, Books& books)
       : v_(view),
         dither_(step.dither),
         paper_(step.parameters->flow.law == rule::Law::paper),
         hot_(step.parameters->heat.enabled),
-        tile_rows_(((view.ny - 1) >> view.tile_shift) + 1),
         changed_(changed),
+        stride_(stride),
         books_(books) {}
 
   void vent(const rule::Vent& vent) {
@@ -79,7 +79,7 @@ class Sources {
       for (int y = ys.begin; y < ys.end; ++y) {
         const std::int64_t left = reach - square(y, region.at.y) - square(z, region.at.z);
         if (left < 0) continue;
-        TileRow* changed = changed_ + z * tile_rows_ + (y >> v_.tile_shift);
+        TileRow* changed = changed_ + z * stride_ + (y >> v_.tile_shift);
         for (int x = xs.begin; x < xs.end; ++x) {
           const std::uint64_t bit = std::uint64_t{1} << (x & 63);
           const std::size_t mask = v_.word(x >> 6, y, z);
@@ -93,15 +93,15 @@ class Sources {
   const View v_;
   const std::int64_t dither_;
   const bool paper_, hot_;
-  const std::ptrdiff_t tile_rows_;
   TileRow* const changed_;
+  const std::ptrdiff_t stride_;
   Books& books_;
 };
 
 }  // namespace
 
-void run_sources(const View& view, const Step& step, TileRow* changed, Books& books) {
-  Sources sources(view, step, changed, books);
+void run_sources(const View& view, const Step& step, TileRow* changed, std::ptrdiff_t stride, Books& books) {
+  Sources sources(view, step, changed, stride, books);
   for (const rule::Vent& vent : step.parameters->vents)
     if (vent.from <= step.number && step.number < vent.until) sources.vent(vent);
   for (const rule::Drain& drain : step.parameters->drains)

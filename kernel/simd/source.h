@@ -5,7 +5,7 @@
 
 namespace voxmelt::simd {
 
-// `changed`: [z][tile row].
-void run_sources(const View& view, const Step& step, TileRow* changed, Books& books);
+// `changed`: [z][tile row], its slices `stride` apart.
+void run_sources(const View& view, const Step& step, TileRow* changed, std::ptrdiff_t stride, Books& books);
 
 }  // namespace voxmelt::simd

@@ -55,7 +55,7 @@ double run_both(const cpu::InstructionSet set, World world, Random& random, bool
     };
     const Volume at_begin = v;
     reference.run(Phase::source, s, light, expected, books);
-    run_sources(view, step, changed.data(), own);
+    run_sources(view, step, changed.data(), view.tile_rows(), own);
     compare("source", at_begin);
     for_melt.add(changed);
 
