@@ -7,6 +7,7 @@
 
 #include "kernel/simd/contact.h"
 #include "kernel/simd/features.h"
+#include "kernel/simd/openness.h"
 
 namespace voxmelt::simd {
 
@@ -33,11 +34,7 @@ class Pattern {
         first_block_((static_cast<std::uint32_t>(z) * static_cast<std::uint32_t>(view.ny) +
                       static_cast<std::uint32_t>(gifts.first_row)) *
                      row_blocks_),
-        walls_slice_(static_cast<std::ptrdiff_t>(view.ny + 2) * (view.words + 2)),
-        last_lane_((view.nx - 1) / kCells * kCells),
-        west_(L::both(L::fill(L::none(), L::where(Twin{1})), L::bytes(kWest))),
-        east_(L::both(L::fill(L::none(), L::where(static_cast<Twin>(Twin{1} << ((view.nx - 1) % kCells)))),
-                      L::bytes(kEast))),
+        openness_(view),
         share_(L::set(law_.share)),
         threshold_(L::set(law_.threshold)),
         margin_(L::set(law_.margin)),
@@ -113,6 +110,10 @@ class Pattern {
             v_.walls_at(y, z_)};
   }
 
+  [[gnu::always_inline]] int y_of(const Item& item) const {
+    return gifts_.first_row + static_cast<int>(item.row);
+  }
+
   // Patterns of words that give nothing are 0. (Rows beyond a last, shorter tile row stay as they are:
   // unread.)
   [[gnu::always_inline]] void clear(int r) {
@@ -135,7 +136,7 @@ class Pattern {
     if (givers == 0) return count;
     // With support only who stands on something.
     if (kFeatures.support && row.y > 0) givers &= row.walls[w - (v_.words + 2)] | row.below[w];
-    const std::uint64_t walls = beside_walls(w, row.walls);
+    const std::uint64_t walls = openness_.beside_walls(w, row.walls);
     for (int twin = 0; twin < L::kTwins; ++twin) {
       const auto lane = static_cast<std::uint32_t>(64 * w + twin * kCells);
       items_[count] = {row.at + lane,
@@ -147,16 +148,6 @@ class Pattern {
       count += items_[count].givers != 0;
     }
     return count;
-  }
-
-  // Cells with a wall beside them or across a diagonal; the border in x left out: every row has that.
-  [[gnu::always_inline]] std::uint64_t beside_walls(int w, const std::uint64_t* walls) const {
-    const std::uint64_t *own = walls + w, *front = own + walls_slice_, *back = own - walls_slice_;
-    std::uint64_t here = own[0] | front[0] | back[0];
-    std::uint64_t left = own[-1] | front[-1] | back[-1], right = own[1] | front[1] | back[1];
-    if (w == 0) left = 0;
-    if (w == v_.words - 1) right = 0, here &= v_.last_word;
-    return here | cpu::from_left(here, left) | cpu::from_right(here, right);
   }
 
   [[gnu::always_inline]] void process(int count) {
@@ -198,9 +189,8 @@ class Pattern {
     }
     Bytes available = L::without(L::bytes(kDirectionBits), L::in_order(closed));
     if (item.givers != kEvery) available = L::both(available, L::fill(L::none(), L::where(item.givers)));
-    if (item.lane == 0) available = L::without(available, west_);
-    if (item.lane == last_lane_) available = L::without(available, east_);
-    if (item.walls) available = only_open(item, available);
+    available = openness_.inside(item.lane, available);
+    if (item.walls) available = openness_.past_walls(item.lane, v_.walls_at(y_of(item), z_), available);
     const bool any = L::nonzero_bytes(available) != 0;
     // Writing what nobody asks for costs less than a wrong guess; with heat, more.
     if (kFeatures.hot && !any) return false;
@@ -251,29 +241,6 @@ class Pattern {
     return L::add_saturated(margin, L::template shift_right<3>(margin));
   }
 
-  // Without directions whose neighbour is blocked or, across a diagonal, behind two blocked ones.
-  [[gnu::always_inline]] Bytes only_open(const Item& item, Bytes available) const {
-    const int w = item.lane / 64, shift = item.lane % 64, y = gifts_.first_row + static_cast<int>(item.row);
-    const std::uint64_t *own = v_.walls_at(y, z_) + w, *front = own + walls_slice_,
-                        *back = own - walls_slice_;
-    Bytes closed = L::none();
-    const auto put = [&](int d, std::uint64_t blocked) VOXMELT_LAMBDA {
-      closed = L::push(closed, L::where(static_cast<Twin>(blocked >> shift)), d);
-    };
-    const std::uint64_t right = cpu::from_right(own[0], own[1]), left = cpu::from_left(own[0], own[-1]);
-    if constexpr (kFeatures.eight) {
-      put(7, cpu::from_left(back[0], back[-1]) | (left & back[0]));
-      put(6, cpu::from_left(front[0], front[-1]) | (left & front[0]));
-      put(5, cpu::from_right(back[0], back[1]) | (right & back[0]));
-      put(4, cpu::from_right(front[0], front[1]) | (right & front[0]));
-    }
-    put(3, back[0]);
-    put(2, front[0]);
-    put(1, left);
-    put(0, right);
-    return L::without(available, closed);
-  }
-
   // Keeps a random subset of the directions of two items, which may be the same one.
   [[gnu::always_inline]] void throw_dice(const Item& first, const Item& second) {
     const std::uint32_t blocks[2] = {first_block_ + first.row * row_blocks_ + first.lane / 8u,
@@ -317,7 +284,7 @@ class Pattern {
 
   // The gifts of every direction on their own: shares by pattern, energy by the printed reading.
   [[gnu::always_inline]] void give(const Item& item) {
-    const int y = gifts_.first_row + static_cast<int>(item.row);
+    const int y = y_of(item);
     for (int k = 0; k < 2; ++k) {
       const std::size_t at = item.at + static_cast<std::size_t>(k * L::kCount);
       const V amount = L::load(own_ + at), energy = L::load(v_.energy + base_ + at);
@@ -348,16 +315,13 @@ class Pattern {
 
   static constexpr Twin kEvery = static_cast<Twin>(~Twin{0});
   static constexpr int kDirectionBits = (1 << kDirections) - 1;
-  static constexpr int kEast = 0b00110001, kWest = 0b11000010;  // directions to the next and previous x
   const View v_;
   const Step& step_;
   const rule::PaperLaw& law_;
   const int z_;
   const std::size_t base_;  // first cell of the gifts' first row
   const std::uint32_t row_blocks_, first_block_;
-  const std::ptrdiff_t walls_slice_;
-  const int last_lane_;
-  const Bytes west_, east_;  // directions that leave the grid
+  const Openness<Arch, kDirections> openness_;
   const V share_, threshold_, margin_, wider_;
   typename L::Table shares_;                   // by heat; with thermal viscosity
   const std::uint16_t *own_, *front_, *back_;  // amounts there, in this slice and the ones beside it
