@@ -1,5 +1,6 @@
 // Phase `heat`: conduction to neighbours over edges or corners (Eq. 1 with 18 or 26 neighbours), one slice.
-// Every cell gathers from both sides of each axis; the heats are read from slices of before the pass.
+// Every cell gathers from both sides of each axis; the heats are read from slices of before the pass. Words
+// in the midst of matter need no masks.
 #pragma once
 
 #include "kernel/simd/flux.h"
@@ -34,25 +35,33 @@ class DistantConduction {
   [[gnu::always_inline]] DistantConduction(const View& view, const Step& step, int z, const OldHeat& old)
       : v_(view),
         slices_{old.below, old.own, old.above},
-        step_(step),
         weight_(Axes::weight(step.parameters->heat)),
         z_(z),
         plateau_(step.parameters->material),
         melting_(step.parameters->material),
-        books_(2 * Axes::kCount * weight_) {}
+        books_(2 * Axes::kCount * weight_) {
+    for (int k = 0; k < Axes::kCount; ++k)
+      fluxes_[k] = Flux<Arch>(weight_, part_dither(step, k, Axes::kCount));
+  }
 
   [[gnu::always_inline]] std::int64_t run(const TileRow* tiles, const HeatTiles& tell) {
     for (int r = 0; r < v_.tile_rows(); ++r) {
       if (tiles[r] == 0) continue;
+      const TileRow inner = amid_matter(r, tiles[r]);
       for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y) {
+        const TileRow full = y > 0 && y + 1 < v_.ny ? inner : 0;
         for (TileRow work = tiles[r]; work != 0; work &= work - 1) {
           const int w = __builtin_ctzll(work);
+          const TileRow bit = work & -work;
           const std::uint64_t own = matter(v_, w, y, z_);
           if (own == 0) continue;
-          const Found found = word(w, y, own);
-          if (found.changed) tell.changed[r] |= work & -work;
-          if (found.restless) tell.restless[r] |= work & -work;
-          if (found.hot) tell.hot[r] |= work & -work;
+          const Sum sum = (full & bit) != 0 ? full_word(w, y) : word(w, y, own);
+          if (L::nonzero(sum.any)) {
+            tell.changed[r] |= bit;
+            if (melting_.reached(sum.hottest)) tell.hot[r] |= bit;
+          } else if ((tell.restless[r] & bit) == 0 && differs(w, y, own)) {
+            tell.restless[r] |= bit;
+          }
         }
         books_.end_row();
       }
@@ -65,9 +74,25 @@ class DistantConduction {
     const std::uint16_t* heat;
     std::uint64_t pairs;
   };
-  struct Found {
-    bool changed, restless, hot;
+  struct Sum {
+    V any, hottest;  // any: not 0 where heat changed
   };
+
+  // Those of the words whose cells, and all around them in the rows and slices beside tile row r, are matter;
+  // beyond the grid only along x.
+  [[gnu::always_inline]] TileRow amid_matter(int r, TileRow words) const {
+    if (z_ == 0 || z_ + 1 == v_.nz) return 0;
+    const int begin = v_.tile_begin(r) > 0 ? v_.tile_begin(r) - 1 : 0,
+              end = v_.tile_end(r) < v_.ny ? v_.tile_end(r) + 1 : v_.ny;
+    TileRow all = 0;
+    for (int w = 0; w < v_.words; ++w) {
+      std::uint64_t every = ~std::uint64_t{0};
+      for (int z = z_ - 1; z <= z_ + 1; ++z)
+        for (int y = begin; y < end; ++y) every &= matter(v_, w, y, z);
+      all |= TileRow{every == ~std::uint64_t{0}} << w;
+    }
+    return words & all & (all << 1 | 1) & (all >> 1 | TileRow{1} << (v_.words - 1));
+  }
 
   // Cells of the word whose neighbour at this offset is matter as they are, and its heats.
   [[gnu::always_inline]] Neighbour neighbour(int w, int y, std::uint64_t own, int dx, int dy, int dz) const {
@@ -79,46 +104,111 @@ class DistantConduction {
     return {slice + v_.cell(w, row, 0) + dx, own & there};
   }
 
-  [[gnu::always_inline]] Found word(int w, int y, std::uint64_t own) {
+  // Where there is no pair, a neighbour as warm as the cell: nothing flows.
+  [[gnu::always_inline]] Sum word(int w, int y, std::uint64_t own) {
     Neighbour to[Axes::kCount], from[Axes::kCount];
+    find_neighbours(w, y, own, to, from);
+    return add_up(w, y, [&](int part, V heat) VOXMELT_LAMBDA {
+      typename Flux<Arch>::Total out, in;
+      for (int k = 0; k < Axes::kCount; ++k) {
+        fluxes_[k].add(out, heat, of_pairs(to[k], part, heat));
+        fluxes_[k].add(in, of_pairs(from[k], part, heat), heat);
+      }
+      return fluxes_[0].value(out) - fluxes_[0].value(in);
+    });
+  }
+  [[gnu::always_inline]] V of_pairs(const Neighbour& neighbour, int part, V heat) const {
+    const V there = plateau_(L::load_any(neighbour.heat + part * L::kCount));
+    return L::select(L::from_bits(neighbour.pairs, part), there, heat);
+  }
+
+  // Amid matter: every neighbour is there, but for those beyond the grid along x.
+  [[gnu::always_inline]] Sum full_word(int w, int y) {
+    const std::uint16_t* slices[3];
+    for (int i = 0; i < 3; ++i) slices[i] = slices_[i] + v_.cell(w, y, 0);
+    const bool first = w == 0, last = w + 1 == v_.words;
+    return add_up(w, y, [&](int part, V heat) VOXMELT_LAMBDA {
+      // Lanes whose previous, and next, cell along x is in the grid.
+      const std::uint64_t previous = first && part == 0 ? kAll - 1 : kAll,
+                          next = last && part + 1 == L::kParts ? kAll >> 1 : kAll;
+      const auto at = static_cast<std::size_t>(part * L::kCount);
+      const std::uint16_t* here[3] = {slices[0] + at, slices[1] + at, slices[2] + at};
+      return (previous & next) == kAll ? vector<false>(here, heat, previous, next)
+                                       : vector<true>(here, heat, previous, next);
+    });
+  }
+  template <bool kBorder>
+  [[gnu::always_inline]] V vector(const std::uint16_t* const* here, V heat, std::uint64_t previous,
+                                  std::uint64_t next) const {
+    typename Flux<Arch>::Total out, in;
+    cpu::unrolled<Axes::kCount>([&](auto k) VOXMELT_LAMBDA {
+      constexpr Axis a = Axes::kAxes[k];
+      const std::ptrdiff_t away = a.dy * static_cast<std::ptrdiff_t>(v_.row) + a.dx;
+      V after = plateau_(L::load_any(here[1 + a.dz] + away)),
+        before = plateau_(L::load_any(here[1 - a.dz] - away));
+      if constexpr (kBorder && a.dx != 0) {
+        after = L::select(L::from_bits(next, 0), after, heat);
+        before = L::select(L::from_bits(previous, 0), before, heat);
+      }
+      fluxes_[k].add(out, heat, after);
+      fluxes_[k].add(in, before, heat);
+    });
+    return fluxes_[0].value(out) - fluxes_[0].value(in);
+  }
+
+  // gain(part, temperatures): what the cells of a vector gain.
+  template <class Gain>
+  [[gnu::always_inline]] Sum add_up(int w, int y, const Gain& gain) {
+    const std::size_t cell = v_.cell(w, y, z_);
+    const std::uint16_t* before = slices_[1] + v_.cell(w, y, 0);
+    Sum sum{L::zero(), L::zero()};
+    V gains[L::kParts];
+    for (int part = 0; part < L::kParts; ++part) {
+      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
+      const V old = L::load(before + at);
+      gains[part] = gain(part, plateau_(old));
+      const V now = old + gains[part];
+      L::store(v_.temperature + cell + at, now);
+      sum.any = sum.any | gains[part];
+      sum.hottest = L::max(sum.hottest, now);
+    }
+    books_.add(v_.amount + cell, v_.temperature + cell, gains);
+    return sum;
+  }
+
+  // Whether any pair of this word was of two temperatures.
+  [[gnu::always_inline]] bool differs(int w, int y, std::uint64_t own) const {
+    Neighbour to[Axes::kCount], from[Axes::kCount];
+    find_neighbours(w, y, own, to, from);
+    V differ = L::zero();
+    for (int part = 0; part < L::kParts; ++part) {
+      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
+      const V heat = plateau_(L::load(slices_[1] + v_.cell(w, y, 0) + at));
+      for (int k = 0; k < Axes::kCount; ++k)
+        for (const Neighbour* one : {&to[k], &from[k]})
+          differ =
+              differ | L::keep(L::from_bits(one->pairs, part), heat ^ plateau_(L::load_any(one->heat + at)));
+    }
+    return L::nonzero(differ);
+  }
+
+  [[gnu::always_inline]] void find_neighbours(int w, int y, std::uint64_t own, Neighbour* to,
+                                              Neighbour* from) const {
     for (int k = 0; k < Axes::kCount; ++k) {
       const Axis a = Axes::kAxes[k];
       to[k] = neighbour(w, y, own, a.dx, a.dy, a.dz);
       from[k] = neighbour(w, y, own, -a.dx, -a.dy, -a.dz);
     }
-    const std::size_t cell = v_.cell(w, y, z_);
-    V any = L::zero(), differ = L::zero(), hottest = L::zero();
-    V gains[L::kParts];
-    for (int part = 0; part < L::kParts; ++part) {
-      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
-      const V old = L::load(slices_[1] + v_.cell(w, y, 0) + at), heat = plateau_(old);
-      V gain = L::zero();
-      for (int k = 0; k < Axes::kCount; ++k) {
-        const Flux<Arch> flux(weight_, part_dither(step_, k, Axes::kCount));
-        const V after = plateau_(L::load_any(to[k].heat + at)),
-                before = plateau_(L::load_any(from[k].heat + at));
-        gain = gain + flux.between(heat, after, L::from_bits(to[k].pairs, part)) -
-               flux.between(before, heat, L::from_bits(from[k].pairs, part));
-        differ = differ | L::keep(L::from_bits(to[k].pairs, part), heat ^ after) |
-                 L::keep(L::from_bits(from[k].pairs, part), heat ^ before);
-      }
-      const V now = old + gain;
-      L::store(v_.temperature + cell + at, now);
-      gains[part] = gain;
-      any = any | gain;
-      hottest = L::max(hottest, now);
-    }
-    books_.add(v_.amount + cell, v_.temperature + cell, gains);
-    return {L::nonzero(any), L::nonzero(differ), L::nonzero(any) && melting_.reached(hottest)};
   }
 
+  static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
   const View v_;
   const std::uint16_t* const slices_[3];
-  const Step& step_;
   const int weight_;
   const int z_;
   const Plateau<Arch, kLatent> plateau_;
   const MeltingHeat<Arch> melting_;
+  Flux<Arch> fluxes_[Axes::kCount];
   PairBooks<Arch> books_;
 };
 

@@ -49,6 +49,7 @@ class Flux {
   using M = typename L::M;
 
  public:
+  [[gnu::always_inline]] Flux() {}  // to be assigned
   [[gnu::always_inline]] Flux(int weight, std::uint32_t dither)
       : weight_(L::set(weight)), most_(L::set(static_cast<int>(0xFFFF - dither))) {}
 
@@ -58,6 +59,19 @@ class Flux {
   // Of pairs only, else 0.
   [[gnu::always_inline]] V between(V first, V second, M pair) const {
     return L::sub_if(L::less(second, first) & pair, flux(L::keep(pair, second - first)), weight_);
+  }
+
+  // Sums of fluxes of one weight: of differences modulo 65536, and how many of these were negative.
+  struct Total {
+    V fluxes = L::zero(), negative = L::zero();
+  };
+  [[gnu::always_inline]] void add(Total& total, V first, V second) const {
+    const V difference = second - first;
+    total.fluxes = L::carry(total.fluxes + L::high(difference, weight_), L::low(difference, weight_), most_);
+    total.negative = L::carry(total.negative, first, second);
+  }
+  [[gnu::always_inline]] V value(const Total& total) const {
+    return total.fluxes - L::low(total.negative, weight_);
   }
 
   // Of a difference that is not negative.
