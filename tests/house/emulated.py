@@ -1,0 +1,89 @@
+"""What neon_test.py and avx512_test.py share: kernel/ and its tests, built apart for one instruction set that this
+machine lacks, and what they give, compared with the reference and the approved digests."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+HEADERS = Path("/usr/include")
+GTEST = Path("/usr/src/googletest/googletest")
+GTEST_SOURCES = [GTEST / "src/gtest-all.cc", GTEST / "src/gtest_main.cc"]
+KERNEL = [f"kernel/{folder}" for folder in ("state", "scalar", "simd", "simd/arch", "parallel", "cpu", "visibility", "run")]
+SETS = {"sse", "avx2", "avx512", "neon"}
+# -ffp-contract as in cmake/VoxmeltTarget.cmake.
+OPTIONS = ["-std=c++20", "-ffp-contract=off", "-DVOXMELT_PLAIN_THREADS", "-pthread"]
+WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wno-sign-conversion", "-Werror"]
+
+
+class Build:
+    """In build/NAME of `root`, for the instruction set NAME. `own`: options of the sources written for it; `runner`:
+    what comes before a program that is run."""
+
+    def __init__(self, root, name, compiler, own, runner=(), left_out=()):
+        self.root, self.name, self.compiler, self.own, self.runner = root, name, compiler, own, list(runner)
+        self.left_out = {*left_out, *(f"{kind}{other}.cpp" for other in SETS - {name} for kind in ("", "arch_"))}
+        self.folder = root / "build" / name
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.include = self.folder / "include"  # the libraries' headers, without those of this machine's own system
+        self.include.mkdir(parents=True)
+        for library in ("xsimd", "gtest", "fmt", "toml++", "tiny_obj_loader.h"):
+            (self.include / library).symlink_to(HEADERS / library)
+        self.own_objects = []
+
+    def sources(self, *folders):
+        return [p for folder in folders for p in sorted((self.root / folder).glob("*.cpp")) if p.name not in self.left_out]
+
+    def is_own(self, source):
+        return source.name in (f"{self.name}.cpp", f"arch_{self.name}.cpp")
+
+    def compiled(self, source, *options):
+        out = self.folder / (source.relative_to(source.anchor).as_posix().replace("/", "_") + ".o")
+        level = self.own if self.is_own(source) else ["-O2"]
+        subprocess.run([self.compiler, *OPTIONS, *level, *options, "-I", self.root, "-isystem", self.include,
+                        "-c", source, "-o", out], check=True)
+        if self.is_own(source):
+            self.own_objects.append(out)
+        return out
+
+    def all_compiled(self, files, *options):
+        with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+            return list(pool.map(lambda source: self.compiled(source, *options), files))
+
+    def compiled_kernel(self, *more):
+        slowest_first = sorted(self.sources(*KERNEL), key=lambda source: not self.is_own(source))
+        return self.all_compiled([*slowest_first, *more], *WARNINGS)
+
+    def link(self, program, objects):
+        # Static, so that no emulated system is needed. getaddrinfo, in GoogleTest, is not called: the linker's
+        # warning about it is left out.
+        linker = subprocess.run([self.compiler, "-static", "-pthread", *objects, "-o", self.folder / program],
+                                stderr=subprocess.PIPE, text=True)
+        if linker.returncode != 0:
+            sys.exit(linker.stderr)
+
+    def link_programs(self, kernel, tests):
+        """Program `digests`, and one for each of `tests`: name -> sources."""
+        scene = self.all_compiled([*self.sources("kernel/scene"), self.root / "tests/house/digests_main.cpp"], *WARNINGS,
+                                  "-DFMT_HEADER_ONLY")
+        self.link("digests", [*scene, *kernel])
+        gtest = self.all_compiled(GTEST_SOURCES, "-I", GTEST)
+        for name, files in tests.items():
+            self.link(name, [*self.all_compiled(files, *WARNINGS), *gtest, *kernel])
+
+    def differ(self, runs):
+        """What fails of the tests in `runs`, (program, filter), and of the committed scenes. All side by side: emulation
+        is slow."""
+        running = [subprocess.Popen([*self.runner, self.folder / name, "--gtest_brief=1", f"--gtest_filter={which}"])
+                   for name, which in runs]
+        digests = json.loads((self.root / "tests/app/digests.json").read_text())
+        approved = {name: lines["10"].split()[3] for name, lines in digests.items()
+                    if name.startswith(("lesson_", "paper_")) or "_small" in name}
+        listing = subprocess.run([*self.runner, self.folder / "digests", self.root / "scenes", self.name, "10", *approved],
+                                 check=True, capture_output=True, text=True).stdout
+        failed = [f"scene {name}" for name, found in approved.items() if f"{name} {found}\n" not in listing]
+        failed += [f"{name} {which}" for (name, which), process in zip(runs, running) if process.wait() != 0]
+        print(f"differ: {failed}" if failed else f"{self.name} gives the reference's bits; {len(approved)} scenes have their digests")
+        return bool(failed)
