@@ -134,8 +134,8 @@ class Pattern {
   [[gnu::always_inline]] int collect(int w, const Row& row, int count) {
     std::uint64_t givers = row.liquid[w];
     if (givers == 0) return count;
-    // With support only who stands on something.
-    if (kFeatures.support && row.y > 0) givers &= row.walls[w - (v_.words + 2)] | row.below[w];
+    // With support only who stands on something; what is below the grid is a wall.
+    if (kFeatures.support) givers &= row.walls[w - (v_.words + 2)] | row.below[w];
     const std::uint64_t walls = openness_.beside_walls(w, row.walls);
     for (int twin = 0; twin < L::kTwins; ++twin) {
       const auto lane = static_cast<std::uint32_t>(64 * w + twin * kCells);
