@@ -91,8 +91,10 @@ TEST(Turns, TheDearestFirst) {
   turns.took(1, std::chrono::microseconds(100));
   turns.sort(4);
   EXPECT_EQ(turns.at(3), 1);
-  turns.sort(2);
-  for (int turn = 0; turn < 2; ++turn) EXPECT_EQ(turns.at(turn), turn);
+  for (const int count : {2, 6}) {
+    turns.sort(count);
+    for (int turn = 0; turn < count; ++turn) EXPECT_EQ(turns.at(turn), turn) << count;
+  }
 }
 
 TEST(Turns, WorkersFollowThem) {
