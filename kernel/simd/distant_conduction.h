@@ -85,7 +85,9 @@ class DistantConduction {
     const int begin = v_.tile_begin(r) > 0 ? v_.tile_begin(r) - 1 : 0,
               end = v_.tile_end(r) < v_.ny ? v_.tile_end(r) + 1 : v_.ny;
     TileRow all = 0;
-    for (int w = 0; w < v_.words; ++w) {
+    const TileRow in_grid = v_.words == 64 ? ~TileRow{0} : (TileRow{1} << v_.words) - 1;
+    for (TileRow asked = (words | words << 1 | words >> 1) & in_grid; asked != 0; asked &= asked - 1) {
+      const int w = __builtin_ctzll(asked);
       std::uint64_t every = ~std::uint64_t{0};
       for (int z = z_ - 1; z <= z_ + 1; ++z)
         for (int y = begin; y < end; ++y) every &= matter(v_, w, y, z);

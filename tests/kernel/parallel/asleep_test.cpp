@@ -4,6 +4,7 @@
 #include "kernel/parallel/walls.h"
 #include "kernel/rule/random.h"
 #include "tests/kernel/parallel/equal.h"
+#include "tests/kernel/simd/heat_driver.h"
 
 namespace voxmelt::parallel {
 namespace {
@@ -29,27 +30,6 @@ TileRow apply(const simd::View& v, const simd::Step& s, int z, int r, const simd
   return counted.apply(v, s, z, r, below, own, above, books);
 }
 
-simd::View view_of(Volume& volume, Walls& walls) {
-  const state::Layout layout(volume.grid);
-  simd::View view;
-  view.amount = volume.amount.data();
-  view.energy = volume.energy.data();
-  view.temperature = volume.temperature.data();
-  view.solid = volume.solid.data();
-  view.liquid = volume.liquid.data();
-  view.inert = volume.inert.data();
-  view.nx = volume.grid.x;
-  view.ny = volume.grid.y;
-  view.nz = volume.grid.z;
-  view.row = layout.row();
-  view.slice = layout.slice();
-  view.words = (view.nx + 63) / 64;
-  view.last_word = view.nx % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (view.nx % 64)) - 1;
-  walls = Walls(view);
-  view.walls = view.sides = walls.origin(view);
-  return view;
-}
-
 // How often the kernels are called in each of some steps.
 std::vector<int> calls_of_steps(cpu::InstructionSet set, const Parameters& parameters, Volume volume,
                                 int steps) {
@@ -58,8 +38,9 @@ std::vector<int> calls_of_steps(cpu::InstructionSet set, const Parameters& param
   kernels.gravity = gravity;
   kernels.pattern = pattern;
   kernels.apply = apply;
-  Walls walls;
-  const simd::View view = view_of(volume, walls);
+  simd::View view = simd::view_of(volume, simd::View{}.tile_shift);
+  const Walls walls(view);
+  view.walls = view.sides = walls.origin(view);
   PaperFlow flow(parameters, view, 1);
   cpu::Workers workers(1);
   const rule::RoundKeys keys = rule::round_keys(parameters.seed);
