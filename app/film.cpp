@@ -57,7 +57,7 @@ std::filesystem::path Film::frame_file(std::size_t frame) const {
 
 void Film::add_frame(const state::Volume& volume, std::uint32_t step) {
   const auto begin = std::chrono::steady_clock::now();
-  field_.update(volume, scene_.look, scene_.terrain);
+  field_.update(volume, scene_.look, scene_.terrain, threads_);
   update_seconds_ += seconds_since(begin);
 
   const auto drawing = std::chrono::steady_clock::now();

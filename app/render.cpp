@@ -55,7 +55,7 @@ int run_render(const RenderOptions& options) {
   settings.threads = thread_count(options.common);
   settings.antialias = options.setting == "fast" ? 1 : options.setting == "best" ? 4 : 2;
   render::DensityField field;
-  field.update(simulation.volume(), scene.look, scene.terrain);
+  field.update(simulation.volume(), scene.look, scene.terrain, settings.threads);
   const auto picture = [&] {
     return render::draw(field, scene.camera, scene.light, scene.look, scene.terrain, settings);
   };

@@ -24,11 +24,11 @@ double update_seconds(const Workload& workload, const scene::Look& look, const s
   tuning.threads = candidate.threads;
   run::Simulation simulation(workload.parameters, workload.start, *candidate.implementation, tuning);
   render::DensityField field;
-  field.update(simulation.volume(), look, terrain);
+  field.update(simulation.volume(), look, terrain, candidate.threads);
   std::vector<double> seconds;
   for (int round = 0; round < rounds; ++round) {
     simulation.step();
-    seconds.push_back(timed([&] { field.update(simulation.volume(), look, terrain); }));
+    seconds.push_back(timed([&] { field.update(simulation.volume(), look, terrain, candidate.threads); }));
   }
   return median(seconds);
 }

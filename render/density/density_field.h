@@ -9,8 +9,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "kernel/cpu/workers.h"
 #include "kernel/scene/look.h"
 #include "kernel/state/volume.h"
 #include "render/density/brick.h"
@@ -29,16 +31,18 @@ struct BrickRange {
 class DensityField {
  public:
   // Takes over a new state. Only bricks in which something changed, and their neighbours, are filtered again;
-  // the result is the same, bit for bit, as that of a fresh field. Returns the number of bricks filtered.
-  // Inert cells above the terrain are obstacles; where it does not fit the volume, those above any gap are.
-  int update(const state::Volume& volume, const scene::Look& look, const scene::Terrain& terrain = {});
+  // the result is the same, bit for bit, as that of a fresh field, on any number of threads. Returns the
+  // number of bricks filtered. Inert cells above the terrain are obstacles; where it does not fit the volume,
+  // those above any gap are.
+  int update(const state::Volume& volume, const scene::Look& look, const scene::Terrain& terrain = {},
+             int threads = 1);
 
   const state::Grid& grid() const { return cells_.grid; }
-  const state::Grid& bricks() const { return bricks_; }
-  const std::vector<std::uint16_t>& intensity() const { return intensity_; }
-  const std::vector<std::uint16_t>& solid() const { return solid_; }
-  const std::vector<std::uint16_t>& liquid() const { return liquid_; }
-  const std::vector<std::uint16_t>& heat() const { return heat_; }
+  const state::Grid& bricks() const { return cells_.bricks; }
+  const Values<std::uint16_t>& intensity() const { return filtered_.intensity; }
+  const Values<std::uint16_t>& solid() const { return filtered_.solid; }
+  const Values<std::uint16_t>& liquid() const { return filtered_.liquid; }
+  const Values<std::uint16_t>& heat() const { return filtered_.heat; }
   const std::vector<float>& ground() const { return cells_.ground; }
   const std::vector<float>& wetness() const { return cells_.wetness; }
   const std::vector<BrickRange>& ranges() const { return ranges_; }
@@ -50,17 +54,16 @@ class DensityField {
   int liquid_passes() const { return liquid_passes_; }
 
  private:
-  std::vector<std::uint8_t> changed_bricks(const CellFields& fresh) const;
-  void filter_brick(int bx, int by, int bz);
-  void refresh_range(int bx, int by, int bz);
+  void refresh_range(const state::Grid& brick);
+  void refresh_pyramids(const BrickFlags& bricks, bool all);
 
   CellFields cells_;
-  state::Grid bricks_;
+  ChannelValues filtered_;
   int liquid_passes_ = -1, solid_passes_ = -1;
-  std::vector<std::uint16_t> intensity_, solid_, liquid_, heat_, obstacle_;
   std::vector<BrickRange> ranges_;
   double glow_cold_ = 0, glow_hot_ = 0;
   Pyramid pyramid_, matter_pyramid_;
+  std::unique_ptr<cpu::Workers> workers_;
 };
 
 }  // namespace voxmelt::render

@@ -1,89 +1,95 @@
 #include "render/density/low_pass.h"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-
-#include "render/density/brick.h"
 
 namespace voxmelt::render {
+
 namespace {
 
-constexpr int kMaxSide = kBrickSide + 2 * kMaxPasses;
-using Block = std::array<std::uint32_t, static_cast<std::size_t>(kMaxSide) * kMaxSide * kMaxSide>;
+constexpr std::size_t kMostSide = kBrickSide + 2 * kMaxPasses;
+constexpr std::size_t kMostRow = (kMostBricks * kBrickSide + 2 * kMaxPasses + kLanes - 1) / kLanes * kLanes;
 
-std::size_t at(int x, int y, int z) {
-  return (static_cast<std::size_t>(z) * kMaxSide + static_cast<std::size_t>(y)) * kMaxSide +
-         static_cast<std::size_t>(x);
-}
-
-// One 1-2-1 sweep along the axis whose cells are `stride` apart, in place: reading runs ahead of writing.
-// Cell i of the result is centred on cell i + 1 of the input along this axis.
-void sweep(Block& block, std::size_t stride, int nx, int ny, int nz) {
-  for (int z = 0; z < nz; ++z)
-    for (int y = 0; y < ny; ++y) {
-      std::uint32_t* row = block.data() + at(0, y, z);
-      for (int x = 0; x < nx; ++x) row[x] = row[x] + 2 * row[x + stride] + row[x + 2 * stride];
-    }
-}
-
-// Loads the brick and a halo of `passes` cells; tells whether all of it has one value.
-bool load(Block& block, const state::Grid& grid, int x0, int y0, int z0, int side,
-          const std::vector<std::uint16_t>& from) {
-  const std::uint32_t first = from[grid.index(std::clamp(x0, 0, grid.x - 1), std::clamp(y0, 0, grid.y - 1),
-                                              std::clamp(z0, 0, grid.z - 1))];
-  std::uint32_t differences = 0;
-  for (int z = 0; z < side; ++z)
-    for (int y = 0; y < side; ++y) {
-      const std::size_t row =
-          grid.index(0, std::clamp(y0 + y, 0, grid.y - 1), std::clamp(z0 + z, 0, grid.z - 1));
-      std::uint32_t* target = block.data() + at(0, y, z);
-      for (int x = 0; x < side; ++x) {
-        target[x] = from[row + static_cast<std::size_t>(std::clamp(x0 + x, 0, grid.x - 1))];
-        differences |= target[x] ^ first;
-      }
-    }
-  return differences == 0;
+std::size_t whole_groups(int cells) {
+  return static_cast<std::size_t>((cells + kLanes - 1) / kLanes) * kLanes;
 }
 
 }  // namespace
 
-void low_pass_brick(const state::Grid& grid, int bx, int by, int bz, int passes,
-                    const std::vector<std::uint16_t>& from, std::vector<std::uint16_t>& to) {
-  Block block;
-  const int x0 = bx * kBrickSide, y0 = by * kBrickSide, z0 = bz * kBrickSide;
-  int side = kBrickSide + 2 * passes;
+LowPass::LowPass(const state::Grid& grid)
+    : grid_(grid),
+      block_(std::make_unique_for_overwrite<std::uint16_t[]>(kMostRow * kMostSide * kMostSide + 2 * kLanes)),
+      sums_(std::make_unique_for_overwrite<std::uint32_t[]>((kMostRow + kLanes) * (kMostSide + 1))) {}
 
-  // A constant block stays as it is; it is stored at the place where the passes would leave it.
-  const bool constant = load(block, grid, x0 - passes, y0 - passes, z0 - passes, side, from);
-  for (int pass = 0; pass < passes && !constant; ++pass) {
-    sweep(block, 1, side - 2, side, side);
-    sweep(block, kMaxSide, side - 2, side - 2, side);
-    sweep(block, static_cast<std::size_t>(kMaxSide) * kMaxSide, side - 2, side - 2, side - 2);
-    side -= 2;
-    for (int z = 0; z < side; ++z)
-      for (int y = 0; y < side; ++y) {
-        std::uint32_t* row = block.data() + at(0, y, z);
-        for (int x = 0; x < side; ++x) row[x] = (row[x] + 32) >> 6;
-      }
+void LowPass::load(const Values<std::uint16_t>& from, const state::Grid& first, int bricks, int passes) {
+  const CellBox box = cells_of(grid_, first, bricks);
+  origin_ = {box.low.x - passes, box.low.y - passes, box.low.z - passes};
+  x_ = box.high.x - box.low.x + 2 * passes;
+  y_ = box.high.y - box.low.y + 2 * passes;
+  z_ = box.high.z - box.low.z + 2 * passes;
+  done_ = 0;
+  if (grid_.contains(origin_.x, origin_.y, origin_.z) &&
+      grid_.contains(origin_.x + x_ - 1, origin_.y + y_ - 1, origin_.z + z_ - 1)) {
+    here_ = {from.data() + grid_.index(origin_.x, origin_.y, origin_.z), grid_.index(0, 1, 0),
+             grid_.index(0, 0, 1)};
+  } else {
+    here_ = {block_.get(), whole_groups(x_), whole_groups(x_) * static_cast<std::size_t>(y_)};
+    copy(from);
   }
+}
 
-  const int x_count = std::min(kBrickSide, grid.x - x0);
-  for (int z = 0; z < std::min(kBrickSide, grid.z - z0); ++z)
-    for (int y = 0; y < std::min(kBrickSide, grid.y - y0); ++y) {
-      const std::uint32_t* row = block.data() + at(0, y, z);
-      std::uint16_t* target = to.data() + grid.index(x0, y0 + y, z0 + z);
-      for (int x = 0; x < x_count; ++x) target[x] = static_cast<std::uint16_t>(row[x]);
+// With what lies outside the grid.
+void LowPass::copy(const Values<std::uint16_t>& from) {
+  const int inside = std::clamp(origin_.x, 0, grid_.x - 1), end = std::min(origin_.x + x_, grid_.x);
+  const int before = inside - origin_.x, after = origin_.x + x_ - end;
+  for (int z = 0; z < z_; ++z)
+    for (int y = 0; y < y_; ++y) {
+      const std::uint16_t* row = from.data() + grid_.index(0, std::clamp(origin_.y + y, 0, grid_.y - 1),
+                                                           std::clamp(origin_.z + z, 0, grid_.z - 1));
+      std::uint16_t* to =
+          block_.get() + static_cast<std::size_t>(z) * here_.slice + static_cast<std::size_t>(y) * here_.row;
+      std::fill_n(to, before, row[inside]);
+      std::copy(row + inside, row + end, to + before);
+      std::fill_n(to + (x_ - after), after, row[end - 1]);
     }
 }
 
-std::vector<std::uint16_t> low_pass(const state::Grid& grid, int passes,
-                                    const std::vector<std::uint16_t>& from) {
-  std::vector<std::uint16_t> to(from.size());
+// In place after the first: reading runs ahead of writing. Cell i of a result is centred on cell i + 1
+// before.
+void LowPass::advance(int passes) {
+  for (; done_ < passes; ++done_) {
+    x_ -= 2;
+    y_ -= 2;
+    z_ -= 2;
+    origin_ = {origin_.x + 1, origin_.y + 1, origin_.z + 1};
+    const bool copied = here_.cells == block_.get();
+    const std::size_t row = whole_groups(x_);
+    const Block<std::uint16_t> to{block_.get(), copied ? here_.row : row,
+                                  copied ? here_.slice : row * static_cast<std::size_t>(y_)};
+    loops().low_pass(here_, to, x_, y_, z_, sums_.get());
+    here_ = {to.cells, to.row, to.slice};
+  }
+}
+
+const std::uint16_t* LowPass::at(int x, int y, int z) const {
+  return here_.cells + static_cast<std::size_t>(z - origin_.z) * here_.slice +
+         static_cast<std::size_t>(y - origin_.y) * here_.row + static_cast<std::size_t>(x - origin_.x);
+}
+
+Values<std::uint16_t> low_pass(const state::Grid& grid, int passes, const Values<std::uint16_t>& from) {
+  Values<std::uint16_t> to(from.size());
+  LowPass filter(grid);
   const state::Grid bricks = brick_grid(grid);
   for (int z = 0; z < bricks.z; ++z)
     for (int y = 0; y < bricks.y; ++y)
-      for (int x = 0; x < bricks.x; ++x) low_pass_brick(grid, x, y, z, passes, from, to);
+      for (int x = 0; x < bricks.x; x += kMostBricks) {
+        const int count = std::min(kMostBricks, bricks.x - x);
+        filter.load(from, {x, y, z}, count, passes);
+        filter.advance(passes);
+        for_rows(grid, cells_of(grid, {x, y, z}, count),
+                 [&](std::size_t i, const state::Grid& cell, int cells) {
+                   std::copy_n(filter.at(cell.x, cell.y, cell.z), cells, to.data() + i);
+                 });
+      }
   return to;
 }
 

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
-#include "render/density/cell_fields.h"
+#include "render/density/loops.h"
 
 namespace voxmelt::render {
 namespace {
+
+constexpr int kBrickLevel = 3;  // a brick is one cell of it
+static_assert(kBrickSide == 1 << kBrickLevel);
 
 void add(Blend& sum, const Blend& part, float weight) {
   sum.matter += weight * part.matter;
@@ -18,14 +22,23 @@ void add(Blend& sum, const Blend& part, float weight) {
 
 state::Grid half(const state::Grid& grid) { return {(grid.x + 1) / 2, (grid.y + 1) / 2, (grid.z + 1) / 2}; }
 
-// Averages of 2x2x2 cells; `cell(x, y, z)` reads the finer level.
-template <class Cell>
-void reduce(const state::Grid& from, PyramidLevel& to, const Cell& cell) {
-  to.grid = half(from);
-  to.cells.assign(to.slice() * (static_cast<std::size_t>(to.grid.z) + 2), Blend{});
-  for (int z = 0; z < from.z; ++z)
-    for (int y = 0; y < from.y; ++y)
-      for (int x = 0; x < from.x; ++x) add(to.cells[to.index(x / 2, y / 2, z / 2)], cell(x, y, z), 0.125f);
+// What is empty already takes no memory.
+void put(Blend& to, const Blend& value) {
+  if (std::memcmp(&to, &value, sizeof to) != 0) to = value;
+}
+
+// Cells low .. high of a level become the averages of 2x2x2 cells of the finer one.
+void reduce(const PyramidLevel& from, PyramidLevel& to, const CellBox& box) {
+  for (int z = box.low.z; z < box.high.z; ++z)
+    for (int y = box.low.y; y < box.high.y; ++y)
+      for (int x = box.low.x; x < box.high.x; ++x) {
+        Blend sum;
+        for (int fz = 2 * z; fz < std::min(2 * z + 2, from.grid.z); ++fz)
+          for (int fy = 2 * y; fy < std::min(2 * y + 2, from.grid.y); ++fy)
+            for (int fx = 2 * x; fx < std::min(2 * x + 2, from.grid.x); ++fx)
+              add(sum, from.cells[from.index(fx, fy, fz)], 0.125f);
+        put(to.cells[to.index(x, y, z)], sum);
+      }
 }
 
 Blend sample_level(const PyramidLevel& level, float x, float y, float z, float scale) {
@@ -51,24 +64,48 @@ Blend sample_level(const PyramidLevel& level, float x, float y, float z, float s
 
 }  // namespace
 
-void Pyramid::build(const state::Grid& grid, const std::vector<std::uint16_t>& solid,
-                    const std::vector<std::uint16_t>& liquid, const std::vector<std::uint16_t>& heat,
-                    const std::vector<std::uint16_t>& obstacle, const std::array<float, 257>& emission) {
-  constexpr float kUnit = 1.0f / static_cast<float>(kFull);
-  reduce(grid, levels_[0], [&](int x, int y, int z) {
-    const std::size_t i = grid.index(x, y, z);
-    Blend blend;
-    const int hard = solid[i] + (obstacle.empty() ? 0 : obstacle[i]);
-    if (hard == 0 && liquid[i] == 0) return blend;
-    blend.matter = static_cast<float>(std::min(kFull, hard + liquid[i])) * kUnit;
-    blend.liquid = static_cast<float>(liquid[i]) * kUnit;
-    blend.heat = static_cast<float>(heat[i]) * kUnit;
-    if (liquid[i] != 0) blend.glow = blend.liquid * emission[std::min(256u, heat[i] * 256u / liquid[i])];
-    return blend;
-  });
-  for (std::size_t l = 1; l < levels_.size(); ++l)
-    reduce(levels_[l - 1].grid, levels_[l],
-           [&](int x, int y, int z) { return levels_[l - 1].cells[levels_[l - 1].index(x, y, z)]; });
+Pyramid::Pyramid(const state::Grid& grid) {
+  state::Grid side = grid;
+  for (PyramidLevel& level : levels_) level = PyramidLevel(side = half(side));
+}
+
+void Pyramid::refresh(const state::Grid& grid, const state::Grid& brick, const ChannelValues& filtered,
+                      bool obstacles, const std::array<float, 257>& emission) {
+  const std::uint16_t* obstacle =
+      obstacles && !filtered.obstacle.empty() ? filtered.obstacle.data() : nullptr;
+  const auto box = [&](int level) {
+    const state::Grid& side = levels_[static_cast<std::size_t>(level - 1)].grid;
+    const int cells = kBrickSide >> level;
+    const state::Grid low{brick.x * cells, brick.y * cells, brick.z * cells};
+    return CellBox{
+        low,
+        {std::min(low.x + cells, side.x), std::min(low.y + cells, side.y), std::min(low.z + cells, side.z)}};
+  };
+  const CellBox cells = cells_of(grid, brick), first = box(1);
+  for (int z = first.low.z; z < first.high.z; ++z)
+    for (int y = first.low.y; y < first.high.y; ++y) {
+      std::array<ShownRow, 4> rows;
+      int count = 0;
+      for (int fz = 2 * z; fz < std::min(2 * z + 2, grid.z); ++fz)
+        for (int fy = 2 * y; fy < std::min(2 * y + 2, grid.y); ++fy) {
+          const std::size_t i = grid.index(cells.low.x, fy, fz);
+          rows[static_cast<std::size_t>(count++)] = {filtered.solid.data() + i, filtered.liquid.data() + i,
+                                                     filtered.heat.data() + i,
+                                                     obstacle == nullptr ? nullptr : obstacle + i};
+        }
+      std::array<Blend, 4> blends;
+      loops().shrink(rows.data(), count, cells.high.x - cells.low.x, emission.data(), blends.data());
+      for (int x = first.low.x; x < first.high.x; ++x)
+        put(levels_[0].cells[levels_[0].index(x, y, z)], blends[static_cast<std::size_t>(x - first.low.x)]);
+    }
+  for (int level = 2; level <= kBrickLevel; ++level)
+    reduce(levels_[static_cast<std::size_t>(level - 2)], levels_[static_cast<std::size_t>(level - 1)],
+           box(level));
+}
+
+void Pyramid::refresh_top() {
+  for (std::size_t level = kBrickLevel; level < levels_.size(); ++level)
+    reduce(levels_[level - 1], levels_[level], {{0, 0, 0}, levels_[level].grid});
 }
 
 Blend Pyramid::sample(float x, float y, float z, float level) const {

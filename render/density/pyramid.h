@@ -8,9 +8,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "kernel/state/grid.h"
+#include "render/density/cell_fields.h"
+#include "render/density/values.h"
 
 namespace voxmelt::render {
 
@@ -19,12 +20,17 @@ struct Blend {
   float liquid = 0;  // the liquid's part of it
   float heat = 0;    // liquid * temperature
   float glow = 0;    // liquid * emitted light
+  friend bool operator==(const Blend&, const Blend&) = default;
 };
 
 // Stored with a border of one empty cell on every side, so that sampling needs no case for the edge.
 struct PyramidLevel {
+  PyramidLevel() = default;
+  explicit PyramidLevel(const state::Grid& size)
+      : grid(size), cells(slice() * (static_cast<std::size_t>(size.z) + 2)) {}
+
   state::Grid grid;  // without the border
-  std::vector<Blend> cells;
+  Values<Blend> cells;
 
   std::size_t row() const { return static_cast<std::size_t>(grid.x) + 2; }
   std::size_t slice() const { return row() * (static_cast<std::size_t>(grid.y) + 2); }
@@ -39,11 +45,16 @@ class Pyramid {
  public:
   static constexpr int kLevels = 5;
 
-  // `obstacle` may be empty: none. `emission` gives the light of a temperature 0..65535, for each of 256
-  // equal steps.
-  void build(const state::Grid& grid, const std::vector<std::uint16_t>& solid,
-             const std::vector<std::uint16_t>& liquid, const std::vector<std::uint16_t>& heat,
-             const std::vector<std::uint16_t>& obstacle, const std::array<float, 257>& emission);
+  Pyramid() = default;
+  explicit Pyramid(const state::Grid& grid);  // of nothing
+
+  // Takes over the filtered cells of a brick, as far as a brick is one cell; different bricks may be taken
+  // over at once. `emission` gives the light of a temperature 0..65535, for each of 256 equal steps.
+  // Obstacles count where there are any and `obstacles` says so.
+  void refresh(const state::Grid& grid, const state::Grid& brick, const ChannelValues& filtered,
+               bool obstacles, const std::array<float, 257>& emission);
+  // The levels above, when all bricks have been taken over.
+  void refresh_top();
 
   // Trilinear in space (position in cells of the grid) and linear between levels, 1 <= level <= kLevels.
   Blend sample(float x, float y, float z, float level) const;

@@ -30,7 +30,7 @@ struct Taps {
 
 }  // namespace
 
-float Sampler::linear(const std::vector<std::uint16_t>& cells, Vec point) const {
+float Sampler::linear(const Values<std::uint16_t>& cells, Vec point) const {
   const Place px(point.x), py(point.y), pz(point.z);
   const auto clamped = [](int cell, int side) {
     return static_cast<std::size_t>(std::clamp(cell, 0, side - 1));
@@ -48,7 +48,7 @@ float Sampler::linear(const std::vector<std::uint16_t>& cells, Vec point) const 
   return mix(low, high, pz.t);
 }
 
-float Sampler::cubic(const std::vector<std::uint16_t>& of, Vec point) const {
+float Sampler::cubic(const Values<std::uint16_t>& of, Vec point) const {
   const Place px(point.x), py(point.y), pz(point.z);
   const std::size_t row = static_cast<std::size_t>(grid_.x), slice = row * static_cast<std::size_t>(grid_.y);
   const Taps tx(px.cell, grid_.x, 1), ty(py.cell, grid_.y, row), tz(pz.cell, grid_.z, slice);

@@ -35,18 +35,18 @@ class Sampler {
   explicit Sampler(const DensityField& field) : grid_(field.grid()), intensity_(field.intensity()) {}
 
   // Trilinear: exact at cell centres, quick; tells how far the surface may be.
-  float linear(const std::vector<std::uint16_t>& cells, Vec point) const;
+  float linear(const Values<std::uint16_t>& cells, Vec point) const;
   float linear(Vec point) const { return linear(intensity_, point); }
 
   // Cubic B-spline: the surface itself. Its second derivatives are continuous, so neither the shape nor the
   // highlights show the cells. Never outside the range of the 4x4x4 cells around the point.
-  float cubic(const std::vector<std::uint16_t>& cells, Vec point) const;
+  float cubic(const Values<std::uint16_t>& cells, Vec point) const;
   float cubic(Vec point) const { return cubic(intensity_, point); }
   FieldSample cubic_with_gradient(Vec point) const;
 
  private:
   const state::Grid grid_;
-  const std::vector<std::uint16_t>& intensity_;
+  const Values<std::uint16_t>& intensity_;
 };
 
 }  // namespace voxmelt::render

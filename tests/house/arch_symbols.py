@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """No object of one instruction set may offer code that another could be linked with.
 
-  arch_symbols.py NM ARCHIVE         every symbol that an object arch/*.cpp.o defines must name its instruction set
+  arch_symbols.py NM ARCHIVE [SOURCE ...]
+                                     every symbol that an object arch/*.cpp.o defines must name its instruction set;
+                                     there must be one of each SOURCE (sse.cpp, avx2.cpp, avx512.cpp)
   arch_symbols.py --program PROGRAM  no function may hold an AVX instruction unless its name says so: the program
                                      runs on a processor without AVX
   arch_symbols.py --self-test
@@ -10,13 +12,13 @@ import re
 import subprocess
 import sys
 
-SETS = {"sse.cpp": ("xsimd::sse4_2", "sse42_kernels"), "avx2.cpp": ("xsimd::avx2", "avx2_kernels"),
-        "avx512.cpp": ("xsimd::avx512bw", "avx512_kernels")}
+SETS = {"sse.cpp": ("xsimd::sse4_2", "sse42_kernels", "sse42_loops"), "avx2.cpp": ("xsimd::avx2", "avx2_kernels", "avx2_loops"),
+        "avx512.cpp": ("xsimd::avx512bw", "avx512_kernels", "avx512_loops")}
 DEFINED = re.compile(r"^[0-9a-f]+ ([TWVuBDRi]) (.*)$")
 HARMLESS = re.compile(r"^DW\.ref\.")  # data that the linker merges; no code
 
 
-def offences(listing):
+def offences(listing, sources=tuple(SETS)):
     found, seen, names = [], set(), None
     for line in listing.splitlines():
         if line.endswith(".o:"):
@@ -28,7 +30,7 @@ def offences(listing):
         seen.add(names)
         if not any(name in match.group(2) for name in names) and not HARMLESS.match(match.group(2)):
             found.append(f"{names[0]}: {match.group(1)} {match.group(2)}")
-    missing = set(SETS.values()) - seen
+    missing = {SETS[source] for source in sources} - seen
     return found + [f"no object for {names[0]}" for names in sorted(missing)]
 
 
@@ -80,6 +82,6 @@ if __name__ == "__main__":
         print("\n".join(problems) if problems else "AVX only where the name says so")
         sys.exit(1 if problems else 0)
     text = subprocess.run([sys.argv[1], "-C", "--defined-only", sys.argv[2]], check=True, capture_output=True, text=True).stdout
-    problems = offences(text)
+    problems = offences(text, sys.argv[3:] or tuple(SETS))
     print("\n".join(problems) if problems else "every symbol names its instruction set")
     sys.exit(1 if problems else 0)

@@ -30,7 +30,8 @@ ALLOWED = {
     "kernel/io": ["kernel/rule", "kernel/state", "kernel/scene"],
     "kernel/run": KERNEL,
     "render/image": ["kernel/rule", "kernel/state", "kernel/scene"],
-    "render/density": ["kernel/rule", "kernel/state", "kernel/scene", "render/image"],
+    "render/density": ["kernel/rule", "kernel/state", "kernel/scene", "kernel/cpu", "render/image", "render/density/arch"],
+    "render/density/arch": ["render/density"],
     "render/raycast": ["kernel/rule", "kernel/state", "kernel/scene", "render/image", "render/density"],
     # The model computes with its own arithmetic: of the kernel it sees data only.
     "hwmodel/channel": [],

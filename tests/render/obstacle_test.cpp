@@ -255,7 +255,7 @@ TEST(Obstacle, UpdatesLikeAFreshField) {
     EXPECT_LT(kept.update(volume, look, terrain), static_cast<int>(kept.bricks().cells()));
     DensityField fresh;
     fresh.update(volume, look, terrain);
-    EXPECT_EQ(kept.intensity(), fresh.intensity());
+    EXPECT_TRUE(kept.intensity() == fresh.intensity());
     EXPECT_EQ(kept.ranges(), fresh.ranges());
     EXPECT_TRUE(kept.cells() == fresh.cells());
     const scene::Camera camera = test::small_camera(kGrid);
@@ -264,7 +264,7 @@ TEST(Obstacle, UpdatesLikeAFreshField) {
   // Obstacles that appear for the first time, and those that go.
   for (const state::Volume& next : {test::floor_volume(kGrid), walled()}) {
     kept.update(next, look, terrain);
-    EXPECT_EQ(kept.intensity(), field_of(next).intensity());
+    EXPECT_TRUE(kept.intensity() == field_of(next).intensity());
     EXPECT_EQ(kept.ranges(), field_of(next).ranges());
   }
 }

@@ -41,7 +41,8 @@ TEST(Smooth, DrySolidGetsItsOwnPasses) {
   test::ball(volume, 20, 19, 21, 9);
   const auto cells = render::cell_fields(volume).intensity;
   for (const int solid : {0, 1, 4})
-    EXPECT_EQ(field_of(volume, 3, solid).intensity(), render::low_pass(volume.grid, solid, cells)) << solid;
+    EXPECT_TRUE(field_of(volume, 3, solid).intensity() == render::low_pass(volume.grid, solid, cells))
+        << solid;
 }
 
 TEST(Smooth, LiquidGetsItsOwnPasses) {
@@ -51,7 +52,7 @@ TEST(Smooth, LiquidGetsItsOwnPasses) {
   std::swap(volume.solid, volume.liquid);
   const auto cells = render::cell_fields(volume).intensity;
   for (const int liquid : {0, 3, 6})
-    EXPECT_EQ(field_of(volume, liquid, 1).intensity(), render::low_pass(grid, liquid, cells)) << liquid;
+    EXPECT_TRUE(field_of(volume, liquid, 1).intensity() == render::low_pass(grid, liquid, cells)) << liquid;
 }
 
 // A rod as thin as a peg melts away under the liquid's filter; under the solid's it stays, film or not.

@@ -1,0 +1,31 @@
+// The field that is drawn, written plainly: whole grids, one cell after the other, everything anew. What
+// render/density keeps up to date in pieces must be the same, bit for bit.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/scene/look.h"
+#include "kernel/state/volume.h"
+#include "render/density/density_field.h"
+#include "render/density/levels.h"
+
+namespace voxmelt::test {
+
+using Cells = std::vector<std::uint16_t>;
+
+struct PlainCells {
+  Cells intensity, solid, liquid, heat, obstacle;
+  std::vector<float> ground, wetness;
+};
+std::vector<std::int32_t> plain_level_shifts(const render::Levels& levels, int passes);
+PlainCells plain_cells(const state::Volume& volume, int smooth, const scene::Terrain& terrain);
+
+Cells plain_low_pass(const state::Grid& grid, int passes, const Cells& from);
+
+// Checks everything that can be drawn of the field against the plain one.
+void expect_plain(const render::DensityField& field, const state::Volume& volume, const scene::Look& look,
+                  const scene::Terrain& terrain = {});
+
+}  // namespace voxmelt::test
