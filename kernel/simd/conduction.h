@@ -114,8 +114,11 @@ class FaceConduction {
                                     std::uint64_t pairs, const Flux<Arch>& rule) {
     for (int part = 0; part < L::kParts; ++part) {
       const int at = part * L::kCount;
-      L::store(flux + at, rule.between(plateau_(L::load(from + at)), plateau_(L::load(to + at)),
-                                       L::from_bits(pairs, part)));
+      if (!L::in_part(pairs, part))
+        L::store(flux + at, L::zero());
+      else
+        L::store(flux + at, rule.between(plateau_(L::load(from + at)), plateau_(L::load(to + at)),
+                                         L::from_bits(pairs, part)));
     }
   }
 
@@ -144,9 +147,15 @@ class FaceConduction {
     if (y + 1 < v_.ny) up += v_.row;
     if (above_ != nullptr) front = above_ + in_slice;
     const std::size_t in_row = 64 * static_cast<std::size_t>(w);
-    V any = L::zero(), hottest = L::zero(), gains[L::kParts];
+    V any = L::zero(), hottest = L::zero();
     for (int part = 0; part < L::kParts; ++part) {
       const std::size_t at = static_cast<std::size_t>(part * L::kCount);
+      if (!L::in_part(own, part)) {
+        before_ = L::zero();
+        L::store(up_ + in_row + at, before_);
+        L::store(front_ + in_slice + at, before_);
+        continue;
+      }
       std::uint16_t* here = heat_ + cell + at;
       const V old = L::load(here), heat = plateau_(old);
       const V x_flux =
@@ -160,11 +169,10 @@ class FaceConduction {
       L::store(front_ + in_slice + at, z_flux);
       const V now = old + gain;
       L::store(here, now);
-      gains[part] = gain;
+      books_.add(L::load(v_.amount + cell + at), now, gain);
       any = any | gain;
       hottest = L::max(hottest, now);
     }
-    books_.add(v_.amount + cell, heat_ + cell, gains);
     return {any, hottest};
   }
 
@@ -186,6 +194,7 @@ class FaceConduction {
                                      std::uint64_t pairs) const {
     std::uint64_t same = 0;
     for (int part = 0; part < L::kParts; ++part) {
+      if (!L::in_part(pairs, part)) continue;
       const int at = part * L::kCount;
       same |= L::to_bits(L::equal(plateau_(L::load(here + at)), plateau_(L::load_any(there + at)))) << at;
     }

@@ -80,19 +80,22 @@ class Convection {
     std::uint16_t* here = v_.temperature + cell;
     const std::uint16_t* upper = last ? here : here + v_.row;
     V any = L::zero(), differ = L::zero(), hottest = L::zero();
-    V gains[L::kParts];
+    const std::uint64_t paired = pairs | (y > 0 ? own & v_.liquid[v_.word(w, y - 1, z_)] : 0);
     for (int part = 0; part < L::kParts; ++part) {
       const int at = part * L::kCount;
+      if (!L::in_part(paired, part)) {
+        L::store(rising + at, L::zero());
+        continue;
+      }
       const V old = L::load(here + at), step = hotter(old, L::load(upper + at), pairs, part);
       const V out = flux_.falling(step), gain = L::load(rising + at) - out, now = old + gain;
       L::store(rising + at, out);
       L::store(here + at, now);
-      gains[part] = gain;
+      books_.add(L::load(v_.amount + cell + at), now, gain);
       any = any | gain;
       differ = differ | step;
       hottest = L::max(hottest, now);
     }
-    books_.add(v_.amount + cell, here, gains);
     return {L::nonzero(any), L::nonzero(differ), L::nonzero(any) && melting_.reached(hottest)};
   }
 

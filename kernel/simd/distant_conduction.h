@@ -110,7 +110,7 @@ class DistantConduction {
   [[gnu::always_inline]] Sum word(int w, int y, std::uint64_t own) {
     Neighbour to[Axes::kCount], from[Axes::kCount];
     find_neighbours(w, y, own, to, from);
-    return add_up(w, y, [&](int part, V heat) VOXMELT_LAMBDA {
+    return add_up(w, y, own, [&](int part, V heat) VOXMELT_LAMBDA {
       typename Flux<Arch>::Total out, in;
       for (int k = 0; k < Axes::kCount; ++k) {
         fluxes_[k].add(out, heat, of_pairs(to[k], part, heat));
@@ -129,7 +129,7 @@ class DistantConduction {
     const std::uint16_t* slices[3];
     for (int i = 0; i < 3; ++i) slices[i] = slices_[i] + v_.cell(w, y, 0);
     const bool first = w == 0, last = w + 1 == v_.words;
-    return add_up(w, y, [&](int part, V heat) VOXMELT_LAMBDA {
+    return add_up(w, y, ~std::uint64_t{0}, [&](int part, V heat) VOXMELT_LAMBDA {
       // Lanes whose previous, and next, cell along x is in the grid.
       const std::uint64_t previous = first && part == 0 ? kAll - 1 : kAll,
                           next = last && part + 1 == L::kParts ? kAll >> 1 : kAll;
@@ -160,21 +160,20 @@ class DistantConduction {
 
   // gain(part, temperatures): what the cells of a vector gain.
   template <class Gain>
-  [[gnu::always_inline]] Sum add_up(int w, int y, const Gain& gain) {
+  [[gnu::always_inline]] Sum add_up(int w, int y, std::uint64_t own, const Gain& gain) {
     const std::size_t cell = v_.cell(w, y, z_);
     const std::uint16_t* before = slices_[1] + v_.cell(w, y, 0);
     Sum sum{L::zero(), L::zero()};
-    V gains[L::kParts];
     for (int part = 0; part < L::kParts; ++part) {
+      if (!L::in_part(own, part)) continue;
       const std::size_t at = static_cast<std::size_t>(part * L::kCount);
       const V old = L::load(before + at);
-      gains[part] = gain(part, plateau_(old));
-      const V now = old + gains[part];
+      const V gained = gain(part, plateau_(old)), now = old + gained;
       L::store(v_.temperature + cell + at, now);
-      sum.any = sum.any | gains[part];
+      books_.add(L::load(v_.amount + cell + at), now, gained);
+      sum.any = sum.any | gained;
       sum.hottest = L::max(sum.hottest, now);
     }
-    books_.add(v_.amount + cell, v_.temperature + cell, gains);
     return sum;
   }
 
@@ -184,6 +183,7 @@ class DistantConduction {
     find_neighbours(w, y, own, to, from);
     V differ = L::zero();
     for (int part = 0; part < L::kParts; ++part) {
+      if (!L::in_part(own, part)) continue;
       const std::size_t at = static_cast<std::size_t>(part * L::kCount);
       const V heat = plateau_(L::load(slices_[1] + v_.cell(w, y, 0) + at));
       for (int k = 0; k < Axes::kCount; ++k)

@@ -33,8 +33,9 @@ class Exchange {
     for (int r = 0; r < v_.tile_rows(); ++r) {
       if (tiles[r] == 0) continue;
       for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y) {
+        const Row row = row_at(y);
         for (TileRow left = tiles[r]; left != 0; left &= left - 1) {
-          const Found found = word(__builtin_ctzll(left), y);
+          const Found found = word(row, __builtin_ctzll(left));
           if (found.changed) tell.changed[r] |= left & -left;
           if (found.restless) tell.restless[r] |= left & -left;
           if (found.hot) tell.hot[r] |= left & -left;
@@ -57,30 +58,58 @@ class Exchange {
     std::uint64_t one, two, three;
   };
 
-  [[gnu::always_inline]] std::uint64_t air(int w, int y, int z) const {
-    const std::uint64_t open = ~v_.blocked(w, y, z);
-    return open != 0 ? open & ~v_.liquid[v_.word(w, y, z)] : 0;
+  struct Near {  // words of a row
+    const std::uint64_t *walls, *liquid;
+    // A word beyond the grid along x is no air, and none of the liquid's.
+    [[gnu::always_inline]] std::uint64_t air(int w) const {
+      const std::uint64_t open = ~walls[w];
+      return open != 0 ? open & ~liquid[w] : 0;
+    }
+  };
+  struct Row {
+    int y;
+    std::size_t mask, cell;  // of its first word
+    Near own, up, down, front, back;
+  };
+  [[gnu::always_inline]] Row row_at(int y) const {
+    Row row{y, v_.word(0, y, z_), v_.cell(0, y, z_), {}, {}, {}, {}, {}};
+    if constexpr (kFeatures.air) {
+      const std::size_t line = v_.word(0, 1, 0), slice = v_.word(0, 0, 1);
+      const std::uint64_t* liquid = v_.liquid + row.mask;
+      // Beyond the grid all is wall, and what is read as liquid does not matter.
+      row.own = {v_.walls_at(y, z_), liquid};
+      row.up = {v_.walls_at(y + 1, z_), y + 1 < v_.ny ? liquid + line : liquid};
+      row.down = {v_.walls_at(y - 1, z_), y > 0 ? liquid - line : liquid};
+      row.front = {v_.walls_at(y, z_ + 1), z_ + 1 < v_.nz ? liquid + slice : liquid};
+      row.back = {v_.walls_at(y, z_ - 1), z_ > 0 ? liquid - slice : liquid};
+    }
+    return row;
   }
-  [[gnu::always_inline]] Exposed exposed(int w, int y, std::uint64_t cells) const {
-    const std::uint64_t own = air(w, y, z_);
+  [[gnu::always_inline]] Exposed exposed(const Row& row, int w, std::uint64_t cells) const {
+    const std::uint64_t own = ~(row.own.walls[w] | row.own.liquid[w]);
     const std::uint64_t x =
-        cells & (cpu::from_right(own, air(w + 1, y, z_)) | cpu::from_left(own, air(w - 1, y, z_)));
-    const std::uint64_t up = cells & (air(w, y + 1, z_) | air(w, y - 1, z_));
-    const std::uint64_t front = cells & (air(w, y, z_ + 1) | air(w, y, z_ - 1));
+        cells & (cpu::from_right(own, row.own.air(w + 1)) | cpu::from_left(own, row.own.air(w - 1)));
+    const std::uint64_t up =
+        cells & ~((row.up.walls[w] | row.up.liquid[w]) & (row.down.walls[w] | row.down.liquid[w]));
+    const std::uint64_t front =
+        cells & ~((row.front.walls[w] | row.front.liquid[w]) & (row.back.walls[w] | row.back.liquid[w]));
     return {x | up | front, (x & up) | (x & front) | (up & front), x & up & front};
   }
 
-  [[gnu::always_inline]] Found word(int w, int y) {
-    const std::size_t mask = v_.word(w, y, z_), cell = v_.cell(w, y, z_);
+  [[gnu::always_inline]] Found word(const Row& row, int w) {
+    const std::size_t mask = row.mask + static_cast<std::size_t>(w),
+                      cell = row.cell + 64 * static_cast<std::size_t>(w);
     const std::uint64_t solid = v_.solid[mask];
     Exposed bare{};
     if constexpr (kFeatures.air)
-      if (blows_ && (solid | v_.liquid[mask]) != 0) bare = exposed(w, y, solid | v_.liquid[mask]);
+      if (const std::uint64_t cells = solid | v_.liquid[mask]; blows_ && cells != 0)
+        bare = exposed(row, w, cells);
     const bool lit = kFeatures.radiation && irradiance_ != nullptr && solid != 0;
     if (!lit && bare.one == 0) return {};
 
     V any = L::zero(), left = L::zero(), hottest = L::zero();
     for (int part = 0; part < L::kParts; ++part) {
+      if (!L::in_part((lit ? solid : 0) | bare.one, part)) continue;
       const std::size_t at = cell + static_cast<std::size_t>(part * L::kCount);
       const V old = L::load(v_.temperature + at), amount = L::load(v_.amount + at);
       V heat = old;
@@ -88,7 +117,7 @@ class Exchange {
         if (lit)
           heat = radiate(heat, amount, L::keep(L::from_bits(solid, part), L::load(irradiance_ + at)), left);
       if constexpr (kFeatures.air)
-        if (bare.one != 0) heat = blow(heat, amount, bare, L::set(air_temperature_[y]), part, left);
+        if (bare.one != 0) heat = blow(heat, amount, bare, L::set(air_temperature_[row.y]), part, left);
       L::store(v_.temperature + at, heat);
       any = any | (heat ^ old);
       hottest = L::max(hottest, heat);

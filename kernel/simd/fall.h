@@ -53,12 +53,17 @@ class FallOutside {
     if constexpr (kFeatures.guided) around = surroundings(w, y + 1);
     bool moved = false;
     std::uint64_t low_wet = 0, high_wet = 0;
+    const std::size_t low_word = v_.word(w, y, z_), high_word = v_.word(w, y + 1, z_);
     for (int part = 0; part < L::kParts; ++part) {
       const std::size_t at = static_cast<std::size_t>(part * L::kCount);
+      if (!L::in_part(open, part)) {
+        low_wet |= v_.liquid[low_word] & kAll << (part * L::kCount);
+        high_wet |= v_.liquid[high_word] & kAll << (part * L::kCount);
+        continue;
+      }
       vectors(low + at, high + at, open, around, part, moved, low_wet, high_wet);
     }
     if (!moved) return false;
-    const std::size_t low_word = v_.word(w, y, z_), high_word = v_.word(w, y + 1, z_);
     v_.liquid[low_word] = low_wet & ~(v_.solid[low_word] | v_.inert[low_word]);
     v_.liquid[high_word] = high_wet & ~(v_.solid[high_word] | v_.inert[high_word]);
     return true;

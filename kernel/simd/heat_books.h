@@ -21,15 +21,15 @@ class PairBooks {
   // Not 0 where cells must be booked.
   [[gnu::always_inline]] static V beside_full(V amount) { return amount ^ L::set(kFull); }
 
-  // A word of 64 cells, whose heats are those after they gained.
+  // A vector of cells, whose heats are those after they gained.
+  [[gnu::always_inline]] void add(V amount, V now, V gain) {
+    if (L::nonzero(beside_full(amount))) book(amount, now, gain);
+  }
+  // A word of them.
   [[gnu::always_inline]] void add(const std::uint16_t* amounts, const std::uint16_t* heats,
                                   const V (&gains)[L::kParts]) {
-    V other = L::zero();
     for (int part = 0; part < L::kParts; ++part)
-      other = other | beside_full(L::load(amounts + part * L::kCount));
-    if (!L::nonzero(other)) return;
-    for (int part = 0; part < L::kParts; ++part)
-      add(L::load(amounts + part * L::kCount), L::load(heats + part * L::kCount), gains[part]);
+      book(L::load(amounts + part * L::kCount), L::load(heats + part * L::kCount), gains[part]);
   }
 
   // To be called for every row: lanes overflow after 32,768 vectors, a row has at most 512.
@@ -44,7 +44,7 @@ class PairBooks {
  private:
   static constexpr int kFull = 4096;
 
-  [[gnu::always_inline]] void add(V amount, V now, V gain) {
+  [[gnu::always_inline]] void book(V amount, V now, V gain) {
     // An amount from a full cell fits 16 signed bits up to here; a gain if its sign is that of old and now,
     // or theirs differ as it says.
     V odd = L::sub_saturated(amount, L::set(0x7FFF + kFull));

@@ -42,6 +42,7 @@ class Melt {
     if ((solid | wet) == 0) return false;
     std::uint64_t cold = 0;
     for (int part = 0; part < L::kParts; ++part) {
+      if (!L::in_part(solid | wet, part)) continue;
       const int at = part * L::kCount;
       cold |= L::to_bits(L::less(L::load(v_.temperature + cell + at), melts_)) << at;
     }
@@ -58,6 +59,7 @@ class Melt {
   [[gnu::always_inline]] bool energise(std::size_t cell, std::uint64_t fresh, std::uint64_t again) {
     V any = L::zero();
     for (int part = 0; part < L::kParts; ++part) {
+      if (!L::in_part(fresh | again, part)) continue;
       const std::size_t at = cell + static_cast<std::size_t>(part * L::kCount);
       const V amount = L::load(v_.amount + at), energy = L::load(v_.energy + at);
       const V melted = L::keep(L::from_bits(fresh, part), amount - energy);

@@ -1,5 +1,5 @@
-// Viscous law: from the sums of runs that end at one height to their settled amounts and what they show; 64
-// columns at a time. Plain loops over lanes, for the compiler to vectorise.
+// Viscous law: from the sums of runs that end at one height to their settled amounts and what they show,
+// those parts of 64 columns that have one. Plain loops over lanes, for the compiler to vectorise.
 #pragma once
 
 #include "kernel/cpu/lanes.h"
@@ -39,38 +39,48 @@ class RunData {
 
   // Other columns keep what they have. Returns what the books call `rounded`.
   [[gnu::always_inline]] std::int64_t settle(const EndedRuns& runs, SettledRuns& settled) const {
-    alignas(64) std::int32_t mass[64], over[64];
-    alignas(64) std::uint16_t counts[64];
-    SettledRuns now{};
+    std::int64_t rounded = 0;
     for (int part = 0; part < L::kParts; ++part)
-      L::store(counts + part * L::kCount, L::keep(L::from_bits(runs.columns, part), L::set(1)));
-    for (int i = 0; i < 64; ++i) {
+      if (L::in_part(runs.columns, part)) rounded += settle(part, runs, settled);
+    return rounded;
+  }
+
+ private:
+  using Lanes16 = std::uint16_t[64];  // of which one part at a time is in use
+  using Lanes32 = std::int32_t[64];
+
+  [[gnu::always_inline]] std::int64_t settle(int part, const EndedRuns& runs, SettledRuns& settled) const {
+    alignas(64) Lanes32 mass, over;
+    alignas(64) Lanes16 counts;
+    SettledRuns now;
+    const int begin = part * L::kCount, end = begin + L::kCount;
+    L::store(counts + begin, L::keep(L::from_bits(runs.columns, part), L::set(1)));
+    for (int i = begin; i < end; ++i) {
       const int excess = static_cast<int>(std::uint32_t{runs.excess_high[i]} << 16 | runs.excess_low[i]);
       const int cells = runs.last[i] - runs.first[i] + 1;
       // Lanes that are not asked for get a harmless run.
       mass[i] = counts[i] != 0 ? excess + 4096 * cells : 4096;
       over[i] = counts[i] != 0 && excess > 0 ? excess : 0;
     }
-    fill(mass, over, runs, now);
-    const std::int64_t rounded = kHot ? mix(mass, counts, runs, now) : 0;
-    show(mass, over, runs, now);
+    fill(begin, mass, over, runs, now);
+    const std::int64_t rounded = kHot ? mix(begin, mass, counts, runs, now) : 0;
+    show(begin, mass, over, runs, now);
     const auto* from = reinterpret_cast<const std::uint16_t*>(&now);
     auto* to = reinterpret_cast<std::uint16_t*>(&settled);
-    for (int part = 0; part < L::kParts; ++part) {
-      const auto which = L::from_bits(runs.columns, part);
-      for (std::size_t field = 0; field < sizeof(SettledRuns) / 128; ++field) {
-        const std::size_t lane = 64 * field + static_cast<std::size_t>(part * L::kCount);
-        L::store(to + lane, L::select(which, L::load(from + lane), L::load(to + lane)));
-      }
+    const auto which = L::from_bits(runs.columns, part);
+    for (std::size_t field = 0; field < sizeof(SettledRuns) / 128; ++field) {
+      if (!kHot && from + 64 * field == now.heat) continue;
+      const std::size_t lane = 64 * field + static_cast<std::size_t>(begin);
+      L::store(to + lane, L::select(which, L::load(from + lane), L::load(to + lane)));
     }
     return rounded;
   }
 
- private:
-  [[gnu::always_inline]] static void fill(const std::int32_t* mass, const std::int32_t* over,
+  [[gnu::always_inline]] static void fill(int begin, const Lanes32& mass, const Lanes32& over,
                                           const EndedRuns& runs, SettledRuns& now) {
+    const int end = begin + L::kCount;
     int any = 0;
-    for (int i = 0; i < 64; ++i) {
+    for (int i = begin; i < end; ++i) {
       const int below = (mass[i] - 1) >> 12;
       now.pivot[i] = static_cast<std::uint16_t>(runs.first[i] + below + 1);
       now.at[i] = static_cast<std::uint16_t>(mass[i] - 4096 * below);
@@ -78,7 +88,7 @@ class RunData {
       any |= over[i];
     }
     if (any == 0) return;
-    for (int i = 0; i < 64; ++i) {  // under a ceiling: what does not fit is stacked from the top down
+    for (int i = begin; i < end; ++i) {  // under a ceiling: what does not fit is stacked from the top down
       if (over[i] == 0) continue;
       constexpr int kHeadroom = 65535 - 4096;
       const int filled = over[i] / kHeadroom;
@@ -90,10 +100,11 @@ class RunData {
 
   // One heat for a whole run. Numbers below 2^53: exact in double, and a quotient is rounded to the next
   // whole number only if it is one.
-  [[gnu::always_inline]] std::int64_t mix(const std::int32_t* mass, const std::uint16_t* counts,
+  [[gnu::always_inline]] std::int64_t mix(int begin, const Lanes32& mass, const Lanes16& counts,
                                           const EndedRuns& runs, SettledRuns& now) const {
-    alignas(64) std::int32_t rounded[64];
-    for (int i = 0; i < 64; ++i) {
+    const int end = begin + L::kCount;
+    alignas(64) Lanes32 rounded;
+    for (int i = begin; i < end; ++i) {
       const std::uint32_t low = std::uint32_t{runs.content[1][i]} << 16 | runs.content[0][i];
       const std::uint32_t high = std::uint32_t{runs.content[3][i]} << 16 | runs.content[2][i];
       const double content =
@@ -105,17 +116,18 @@ class RunData {
       rounded[i] = counts[i] != 0 ? static_cast<int>(m * heat - content) : 0;
     }
     std::int64_t sum = 0;
-    for (int i = 0; i < 64; ++i) sum += rounded[i];
+    for (int i = begin; i < end; ++i) sum += rounded[i];
     return sum;
   }
 
   // Head, mobility, dead zone.
-  [[gnu::always_inline]] void show(const std::int32_t* mass, const std::int32_t* over, const EndedRuns& runs,
+  [[gnu::always_inline]] void show(int begin, const Lanes32& mass, const Lanes32& over, const EndedRuns& runs,
                                    SettledRuns& now) const {
+    const int end = begin + L::kCount;
     const int stiffness = flow_.viscous.stiffness, yield = static_cast<int>(flow_.viscous.yield);
     const double mobility = flow_.viscous.mobility;
-    alignas(64) std::int32_t raw[64];
-    for (int i = 0; i < 64; ++i) {
+    alignas(64) Lanes32 raw;
+    for (int i = begin; i < end; ++i) {
       const int head = 512 + 256 * runs.first[i] + ((runs.bed[i] - 2048) >> 4) + (mass[i] >> 4) +
                        (stiffness - 1) * (over[i] >> 4);
       now.head_low[i] = static_cast<std::uint16_t>(head & 0xFFFF);
@@ -135,11 +147,11 @@ class RunData {
       raw[i] = static_cast<int>(wide < 268435456.0 ? wide : 268435456.0);    // more is cut in any case
     }
     if (kBuilt.thermal && flow_.thermal_viscosity)
-      for (int i = 0; i < 64; ++i) {
+      for (int i = begin; i < end; ++i) {
         const std::uint16_t factor = table_[kHot ? now.heat[i] >> 11 : 0];
         raw[i] = static_cast<int>(static_cast<double>(raw[i]) * factor * (1.0 / 32768));
       }
-    for (int i = 0; i < 64; ++i) {
+    for (int i = begin; i < end; ++i) {
       // Quotients of whole numbers below 2^13: a float's whole part is theirs.
       const float limit = 8192.f / static_cast<float>((mass[i] >> 12) + 1);
       const int whole = static_cast<int>(limit);

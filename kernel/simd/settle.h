@@ -8,6 +8,8 @@
 // changes nothing.
 #pragma once
 
+#include <algorithm>
+
 #include "kernel/simd/features.h"
 #include "kernel/simd/run_data.h"
 #include "kernel/simd/show_outside.h"
@@ -44,14 +46,19 @@ class Settle {
       const TileRow group = columns >> base & ((TileRow{1} << kGroup) - 1);
       if (group == 0) continue;
       base_ = base;
-      gather(group);
-      for (int y = v_.ny - 1; y >= 0; --y) changed[y >> v_.tile_shift] |= write(group, y) << base;
+      const Rows rows = gather(group);
+      for (int y = rows.last; y >= rows.first; --y) changed[y >> v_.tile_shift] |= write(group, y) << base;
       // A cell outside runs shows something else only if it, or the cell below, has changed since it last
       // did.
-      for (int y = 0; y < v_.ny; ++y) {
-        const int t = y >> v_.tile_shift, below = (y > 0 ? y - 1 : 0) >> v_.tile_shift;
-        const TileRow anew = (tiles[t] | tiles[below] | changed[t] | changed[below]) >> base & group;
-        if (anew != 0) changed[t] |= outside.row(anew, base, y) << base;
+      TileRow below = 0;
+      for (int t = 0; t < v_.tile_rows(); ++t) {
+        for (int y = v_.tile_begin(t); y < v_.tile_end(t); ++y) {
+          const TileRow anew = ((tiles[t] | changed[t]) >> base & group) | below;
+          below = 0;
+          if (anew == 0) break;  // nor in the rows above, up to the next tile
+          changed[t] |= outside.row(anew, base, y) << base;
+        }
+        below = (tiles[t] | changed[t]) >> base & group;
       }
     }
   }
@@ -62,8 +69,14 @@ class Settle {
     V first[L::kParts], bed[L::kParts];
   };
 
-  // Upwards: which cells runs take, and the sums of those that end.
-  [[gnu::always_inline]] void gather(TileRow group) {
+  struct Rows {
+    int first, last;
+  };
+
+  // Upwards: which cells runs take, and the sums of those that end. Returns the rows in which there is, or
+  // was, a run.
+  [[gnu::always_inline]] Rows gather(TileRow group) {
+    Rows rows{v_.ny, -1};
     Sums sums[kGroup];
     std::uint64_t goes_on[kGroup] = {}, blocked[kGroup];
     for (int g = 0; g < kGroup; ++g) {
@@ -84,6 +97,10 @@ class Settle {
         const std::uint64_t start = v_.liquid[v_.word(w, y, z_)] & ~blocked[g] & below;
         const std::uint64_t taken = start | goes_on[g];
         taken_[y * kGroup + g] = taken;
+        if ((taken | r_.in_run[v_.word(w, y, z_)]) != 0) {
+          rows.first = std::min(rows.first, y);
+          rows.last = y;
+        }
         if (taken == 0) continue;
         if (start != 0) {
           if (open_[g] && (record(g, used_[g] - 1).columns & start) != 0) open_[g] = false;
@@ -93,6 +110,7 @@ class Settle {
         std::uint64_t over = 0, half = 0;
         const std::size_t cell = v_.cell(w, y, z_);
         for (int part = 0; part < L::kParts; ++part) {
+          if (!L::in_part(taken, part)) continue;
           const std::size_t at = cell + static_cast<std::size_t>(part * L::kCount);
           const int shift = part * L::kCount;
           const V amount = L::load(v_.amount + at);
@@ -111,10 +129,12 @@ class Settle {
         goes_on[g] = taken & ~v_.blocked(w, y + 1, z_) & (over | (half & wet));
         if ((taken & ~goes_on[g]) != 0) keep(sums[g], g, taken & ~goes_on[g], y);
       }
+    return rows;
   }
 
   [[gnu::always_inline]] void begin(Sums& sums, std::uint64_t start, int w, int y) const {
     for (int part = 0; part < L::kParts; ++part) {
+      if (!L::in_part(start, part)) continue;
       const M which = L::from_bits(start, part);
       const V old = L::select(which, L::zero(), L::set(0xFFFF));
       const Wide kept = L::unpack(old, old);
@@ -138,6 +158,7 @@ class Settle {
     to.columns |= ended;
     to.top = y;
     for (int part = 0; part < L::kParts; ++part) {
+      if (!L::in_part(ended, part)) continue;
       const int lane = part * L::kCount;
       const M which = L::from_bits(ended, part);
       const auto add = [&](std::uint16_t* field, V value) {
@@ -170,9 +191,8 @@ class Settle {
   // Downwards: amounts and heats of the cells taken, and what those of a run show.
   [[gnu::always_inline]] TileRow write(TileRow group, int y) {
     TileRow changed = 0;
-    for (int g = kGroup - 1; g >= 0; --g) {
-      if ((group >> g & 1u) == 0) continue;
-      const int w = base_ + g;
+    for (; group != 0; group &= group - 1) {
+      const int g = __builtin_ctzll(group), w = base_ + g;
       const std::uint64_t taken = taken_[y * kGroup + g];
       const std::size_t word = v_.word(w, y, z_);
       if ((taken | r_.in_run[word]) == 0) continue;
@@ -184,7 +204,8 @@ class Settle {
         if (used_[g] > 0 && record(g, used_[g] - 1).top == y)
           books_.rounded += data_.settle(record(g, --used_[g]), settled_[g]);
         for (int part = 0; part < L::kParts; ++part)
-          in_run |= vectors(w, y, part, taken, settled_[g], deep, differs) << (part * L::kCount);
+          if (L::in_part(taken, part))
+            in_run |= vectors(w, y, part, taken, settled_[g], deep, differs) << (part * L::kCount);
         v_.liquid[word] = (v_.liquid[word] & ~taken) | in_run;
       }
       if (r_.in_run[word] != in_run) {

@@ -38,6 +38,7 @@ class ShowOutside {
       if (work == 0) continue;
       bool differs = false;
       for (int part = 0; part < L::kParts; ++part) {
+        if (!L::in_part(work, part)) continue;
         const std::size_t at = v_.cell(w, y, z_) + static_cast<std::size_t>(part * L::kCount);
         const M which = L::from_bits(work, part), stands = L::from_bits(on_bed, part);
         V head =

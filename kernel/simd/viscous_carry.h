@@ -40,7 +40,7 @@ class Carry {
   }
 
  private:
-  // Returns the lanes that hold something.
+  // Returns the lanes that are liquid, or hold something else.
   [[gnu::always_inline]] std::uint64_t vectors(int w, int y, int part, bool& differs) {
     const auto lane = static_cast<std::ptrdiff_t>(64 * w + part * L::kCount);
     const std::ptrdiff_t at = y * static_cast<std::ptrdiff_t>(v_.row) + lane;
@@ -54,8 +54,8 @@ class Carry {
       net = net + gain;
       any = any | gain;
     }
-    const V amount = L::load(v_.amount + cell), now = amount + net;
-    if (L::to_bits(L::equal(any, L::zero())) == kAll) return L::to_bits(L::equal(amount, L::zero())) ^ kAll;
+    if (!L::nonzero(any)) return v_.liquid[v_.word(w, y, z_)] >> (part * L::kCount) & kAll;
+    const V now = L::load(v_.amount + cell) + net;
     const M dry = L::equal(now, L::zero());
     V difference = net;
     L::store(v_.amount + cell, now);

@@ -42,13 +42,18 @@ class ExchangePairs {
       Masks masks;
       if (!find_pairs(w, y, masks)) continue;
       bool flows = false, may_flow = false;
+      const bool gave = (c_.giving[y] & bit) != 0;
       for (int part = 0; part < L::kParts; ++part)
-        vectors(w, y, part, masks, (deep & bit) != 0, (c_.giving[y] & bit) != 0, flows, may_flow);
+        if (L::in_part(masks.any, part))
+          vectors(w, y, part, masks, (deep & bit) != 0, gave, flows, may_flow);
+        else if (gave)
+          clear(w, y, part);
       if (may_flow) restless |= bit;
       if (flows) giving |= bit;
     }
     // Words that gave, and were not looked at now, or have no pairs any more.
-    for (TileRow old = c_.giving[y] & ~giving; old != 0; old &= old - 1) clear(__builtin_ctzll(old), y);
+    for (TileRow old = c_.giving[y] & ~giving; old != 0; old &= old - 1)
+      for (int part = 0; part < L::kParts; ++part) clear(__builtin_ctzll(old), y, part);
     c_.giving[y] = giving;
     if constexpr (kFeatures.hot) keep_heat(y, giving);
     return restless;
@@ -57,7 +62,7 @@ class ExchangePairs {
  private:
   struct Masks {
     std::uint64_t in_run, there[4];  // this cell, the other one of a pair
-    std::uint64_t pair[4];           // open, and one of them is in a run
+    std::uint64_t pair[4], any;      // open, and one of them is in a run
   };
 
   [[gnu::always_inline]] TileRow deep_words(int y, int z) const {
@@ -85,9 +90,9 @@ class ExchangePairs {
     m.pair[1] = ~(own | front);
     m.pair[2] = ~(own | front_right | (right & front));
     m.pair[3] = ~(own | front_left | (left & front));
-    std::uint64_t any = 0;
-    for (int axis = 0; axis < 4; ++axis) any |= m.pair[axis] &= m.in_run | m.there[axis];
-    return any != 0;
+    m.any = 0;
+    for (int axis = 0; axis < 4; ++axis) m.any |= m.pair[axis] &= m.in_run | m.there[axis];
+    return m.any != 0;
   }
 
   struct Cell {
@@ -165,11 +170,9 @@ class ExchangePairs {
                      L::keep(cut, L::load_any(r_.deep_high + at)));
   }
 
-  [[gnu::always_inline]] void clear(int w, int y) {
+  [[gnu::always_inline]] void clear(int w, int y, int part) {
     for (int axis = 0; axis < 4; ++axis)
-      for (int part = 0; part < L::kParts; ++part)
-        L::store(c_.flow[axis] + static_cast<std::size_t>(y) * v_.row + (64 * w + part * L::kCount),
-                 L::zero());
+      L::store(c_.flow[axis] + static_cast<std::size_t>(y) * v_.row + (64 * w + part * L::kCount), L::zero());
   }
 
   // The heats of all cells that a pair of these words has: the phase goes on in place.
