@@ -70,12 +70,39 @@ class FaceConduction {
     TileRow changed, restless, hot;
   };
 
+  // A row's masks of matter, and those above and in front of it (beyond the grid: any, and not asked).
+  struct Row {
+    int y;
+    bool last_row, last_slice;
+    std::size_t cell, in_slice;  // of its first word: in the volume, in a slice
+    const std::uint64_t *solid, *liquid;
+    std::size_t up, front;  // words from here to there
+    [[gnu::always_inline]] std::uint64_t own(int w) const { return solid[w] | liquid[w]; }
+    [[gnu::always_inline]] std::uint64_t above(std::size_t w) const { return solid[w + up] | liquid[w + up]; }
+    [[gnu::always_inline]] std::uint64_t ahead(std::size_t w) const {
+      return solid[w + front] | liquid[w + front];
+    }
+  };
+  [[gnu::always_inline]] Row row_at(int y) const {
+    const std::size_t word = v_.word(0, y, z_);
+    return {y,
+            y + 1 == v_.ny,
+            z_ + 1 == v_.nz,
+            v_.cell(0, y, z_),
+            v_.cell(0, y, 0),
+            v_.solid + word,
+            v_.liquid + word,
+            v_.word(0, 1, 0),
+            v_.word(0, 0, 1)};
+  }
+
   // from_below, from_back: words whose flux is carried.
   [[gnu::always_inline]] void row(int y, TileRow work, TileRow from_below, TileRow from_back, Found& found) {
+    const Row row = row_at(y);
     for (TileRow left = work; left != 0; left &= left - 1) {
       const TileRow bit = left & -left;
       const int w = __builtin_ctzll(left);
-      const std::uint64_t own = matter(v_, w, y, z_);
+      const std::uint64_t own = row.own(w);
       if (own == 0) {
         nothing(w, y);
         continue;
@@ -83,7 +110,7 @@ class FaceConduction {
       if ((from_below & bit) == 0) enter_y(w, y, own);
       if ((from_back & bit) == 0) enter_z(w, y, own);
       if ((work & bit >> 1) == 0) enter_x(w, y, own);
-      const Sum sum = word(w, y, own);
+      const Sum sum = word(row, w, own);
       if (L::nonzero(sum.any)) {
         found.changed |= bit;
         if (melting_.reached(sum.hottest)) found.hot |= bit;
@@ -139,14 +166,15 @@ class FaceConduction {
     V any, hottest;  // any: not 0 where heat changed
   };
 
-  [[gnu::always_inline]] Sum word(int w, int y, std::uint64_t own) {
-    const Pairs pairs{own & cpu::from_right(own, matter(v_, w + 1, y, z_)), own & matter(v_, w, y + 1, z_),
-                      own & matter(v_, w, y, z_ + 1)};
-    const std::size_t cell = v_.cell(w, y, z_), in_slice = v_.cell(w, y, 0);
+  [[gnu::always_inline]] Sum word(const Row& row, int w, std::uint64_t own) {
+    const auto in_words = static_cast<std::size_t>(w);
+    const std::uint64_t right = w + 1 < v_.words ? row.own(w + 1) : 0;
+    const Pairs pairs{own & cpu::from_right(own, right), row.last_row ? 0 : own & row.above(in_words),
+                      row.last_slice ? 0 : own & row.ahead(in_words)};
+    const std::size_t in_row = 64 * in_words, cell = row.cell + in_row, in_slice = row.in_slice + in_row;
     const std::uint16_t *up = heat_ + cell, *front = up;
-    if (y + 1 < v_.ny) up += v_.row;
+    if (!row.last_row) up += v_.row;
     if (above_ != nullptr) front = above_ + in_slice;
-    const std::size_t in_row = 64 * static_cast<std::size_t>(w);
     V any = L::zero(), hottest = L::zero();
     for (int part = 0; part < L::kParts; ++part) {
       const std::size_t at = static_cast<std::size_t>(part * L::kCount);
