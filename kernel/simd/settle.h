@@ -191,8 +191,9 @@ class Settle {
   // Downwards: amounts and heats of the cells taken, and what those of a run show.
   [[gnu::always_inline]] TileRow write(TileRow group, int y) {
     TileRow changed = 0;
-    for (; group != 0; group &= group - 1) {
-      const int g = __builtin_ctzll(group), w = base_ + g;
+    while (group != 0) {  // as y does, downwards: so memory is foreseen
+      const int g = 63 - __builtin_clzll(group), w = base_ + g;
+      group &= ~(TileRow{1} << g);
       const std::uint64_t taken = taken_[y * kGroup + g];
       const std::size_t word = v_.word(w, y, z_);
       if ((taken | r_.in_run[word]) == 0) continue;
