@@ -1,6 +1,8 @@
 // States and parameters that a scene may have but none would ask for: every bound at once.
 #pragma once
 
+#include <algorithm>
+
 #include "tests/kernel/worlds.h"
 
 namespace voxmelt::worlds {
@@ -117,6 +119,22 @@ inline Volume hostile_volume(Random& random, const Parameters& p, Grid g) {
     put(v, x, y, z, a, energy ? random.any({0, 1, a - 1, a, random.below(a + 1)}) : 0, h);
   });
   return v;
+}
+
+// Takes matter and obstacles out of half of all pieces of 16 cells along x: vectors that hold nothing lie
+// beside, above and in front of others.
+inline void thin_out(Random& random, Volume& v) {
+  constexpr int kPiece = 16;
+  for (int z = 0; z < v.grid.z; ++z)
+    for (int y = 0; y < v.grid.y; ++y)
+      for (int first = 0; first < v.grid.x; first += kPiece) {
+        if (random.one_in(2)) continue;
+        for (int x = first; x < std::min(first + kPiece, v.grid.x); ++x) {
+          put(v, x, y, z, 0);
+          v.solid.set(x, y, z, false);
+          v.inert.set(x, y, z, false);
+        }
+      }
 }
 
 }  // namespace voxmelt::worlds

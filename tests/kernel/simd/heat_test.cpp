@@ -102,6 +102,7 @@ World hostile_world(Random& random, Grid grid, int steps) {
       hostile_parameters(random, random.one_in(3) ? rule::Law::viscous : rule::Law::paper, grid);
   world.parameters.heat.enabled = true;
   world.volume = hostile_volume(random, world.parameters, grid);
+  if (random.one_in(2)) thin_out(random, world.volume);
   world.first = static_cast<std::uint32_t>(random.any({0, 65533, random.below(65536)}));
   world.steps = steps;
   return world;
