@@ -104,7 +104,7 @@ class FaceConduction {
       const int w = __builtin_ctzll(left);
       const std::uint64_t own = row.own(w);
       if (own == 0) {
-        nothing(w, y);
+        nothing(w, y, (from_below & bit) != 0, (from_back & bit) != 0);
         continue;
       }
       if ((from_below & bit) == 0) enter_y(w, y, own);
@@ -149,12 +149,12 @@ class FaceConduction {
     }
   }
 
-  // No matter: nothing flows on.
-  [[gnu::always_inline]] void nothing(int w, int y) {
+  // No matter: nothing flows on. A flux that was carried here is 0.
+  [[gnu::always_inline]] void nothing(int w, int y, bool from_below, bool from_back) {
     before_ = L::zero();
     for (int at = 0; at < 64; at += L::kCount) {
-      L::store(up_ + 64 * w + at, L::zero());
-      L::store(front_ + v_.cell(w, y, 0) + at, L::zero());
+      if (!from_below) L::store(up_ + 64 * w + at, L::zero());
+      if (!from_back) L::store(front_ + v_.cell(w, y, 0) + at, L::zero());
     }
   }
 
@@ -178,10 +178,8 @@ class FaceConduction {
     V any = L::zero(), hottest = L::zero();
     for (int part = 0; part < L::kParts; ++part) {
       const std::size_t at = static_cast<std::size_t>(part * L::kCount);
-      if (!L::in_part(own, part)) {
+      if (!L::in_part(own, part)) {  // the fluxes into it, that lie there, are 0: so is what flows on
         before_ = L::zero();
-        L::store(up_ + in_row + at, before_);
-        L::store(front_ + in_slice + at, before_);
         continue;
       }
       std::uint16_t* here = heat_ + cell + at;
