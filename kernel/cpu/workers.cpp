@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 
 #if defined(VOXMELT_PLAIN_THREADS)
 #include <thread>
@@ -55,9 +56,17 @@ Workers::~Workers() = default;
 void Workers::spread(int count, Call call, const void* context) {
   // The last first: who relies on what an earlier task left is seen on any machine.
   std::atomic<int> left{count};
+  std::atomic_flag failed;
+  std::exception_ptr thrown;
   arena_->run(std::min(threads_, count), [&] {
-    for (int i = --left; i >= 0; i = --left) call(context, i);
+    try {
+      for (int i = --left; i >= 0; i = --left) call(context, i);
+    } catch (...) {
+      if (!failed.test_and_set()) thrown = std::current_exception();
+      left = 0;
+    }
   });
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace voxmelt::cpu

@@ -16,8 +16,8 @@ class Workers {
 
   int threads() const { return threads_; }
 
-  // task(0) .. task(count - 1), in any order (the last one begins first); returns when all are done. Tasks
-  // may not throw.
+  // task(0) .. task(count - 1), in any order (the last one begins first); returns when all are done. What a
+  // task throws (memory may run out) is thrown from here, and tasks that were not begun are left out.
   template <class Task>
   void run(int count, const Task& task) {
     if (threads_ == 1 || count <= 1) {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <new>
 #include <numeric>
 #include <set>
 #include <thread>
@@ -42,6 +43,25 @@ TEST(Workers, RunsSeeWhatEarlierRunsWrote) {
     sum += 64;
   }
   EXPECT_EQ(std::accumulate(now.begin(), now.end(), std::int64_t{0}), sum);
+}
+
+TEST(Workers, WhatATaskThrowsArrives) {
+  for (const int threads : {1, 2, 8}) {
+    Workers workers(threads);
+    for (int run = 0; run < 200; ++run) {
+      std::atomic<int> begun{0};
+      EXPECT_THROW(workers.run(1000,
+                               [&](int) {
+                                 ++begun;
+                                 throw std::bad_alloc();
+                               }),
+                   std::bad_alloc);
+      EXPECT_LE(begun, threads) << "tasks that were not begun are left out";
+    }
+    int done = 0;
+    workers.run(1, [&](int) { ++done; });
+    EXPECT_EQ(done, 1) << "and the workers are as before";
+  }
 }
 
 TEST(Workers, TwoThreadsRunAtOnce) {
