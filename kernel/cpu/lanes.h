@@ -104,6 +104,22 @@ struct LanesOf {
     return {Lanes<Arch>::narrow({l.quotient, h.quotient}), Lanes<Arch>::narrow({l.remainder, h.remainder})};
   }
 
+  // Sum of lanes below 32,768 over at most 32,768 vectors.
+  class SmallSums {
+   public:
+    VOXMELT_MEMBER void add(V v) { pairs_ = pairs_ + Lanes<Arch>::pair_sums(v, V(std::uint16_t{1})); }
+    VOXMELT_MEMBER std::uint64_t total() const {
+      alignas(64) std::int32_t pairs[W::size];
+      pairs_.store_aligned(pairs);
+      std::uint64_t total = 0;
+      for (const std::int32_t sum : pairs) total += static_cast<std::uint32_t>(sum);
+      return total;
+    }
+
+   private:
+    W pairs_ = W(0);
+  };
+
   // Sum of lanes over at most 32,768 vectors.
   class Sums {
    public:
@@ -152,6 +168,14 @@ VOXMELT_LANES void unrolled(const F& f) {
     (f(std::integral_constant<int, i>{}), ...);
   }
   (std::make_integer_sequence<int, n>{});
+}
+
+// The same address, as one number in one register: where addresses are added up from parts that many cells
+// share, GCC 12 keeps the parts in memory and adds them up again for every cell.
+template <class T>
+VOXMELT_LANES T* settled(T* address) {
+  asm("" : "+r"(address));
+  return address;
 }
 
 // 64 bits moved along x: bit x of the result is bit x + 1, or x - 1, of the row.

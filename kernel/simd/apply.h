@@ -241,7 +241,8 @@ class Apply {
   Givers givers_{};
   Books& books_;
   Mix<Arch> mix_;
-  typename L::Sums dissipated_, capped_;
+  // With eight neighbours at most 5 ONE is given or taken; with four, 8 ONE.
+  std::conditional_t<kFeatures.eight, typename L::SmallSums, typename L::Sums> dissipated_, capped_;
   Item items_[kBatch];
 };
 

@@ -80,16 +80,29 @@ class Gravity {
     if constexpr (kFeatures.guided) around = surroundings(w, row.y + 1);
     std::uint64_t &low_liquid = row.liquid[w], &high_liquid = row.upper_liquid[w];
     Wet wet{low_liquid, high_liquid};
+    const Fields lower = fields_at(low), upper = fields_at(high);
+    const std::uint64_t walls = row.walls[w] | row.upper_walls[w];
     bool moved = false;
-    for (int part = 0; part < L::kParts; ++part) {
-      if ((open & kAll << (part * L::kCount)) == 0) continue;
-      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
-      moved |= vectors(low + at, high + at, open, around, part, wet);
-    }
+    cpu::unrolled<L::kParts>([&](auto part) VOXMELT_LAMBDA {
+      if (!L::in_part(open, part)) return;
+      moved |= vectors(lower + part * L::kCount, upper + part * L::kCount, walls, around, part, wet);
+    });
     if (!moved) return false;
     low_liquid = wet.low & ~row.walls[w];
     high_liquid = wet.high & ~row.upper_walls[w];
     return true;
+  }
+
+  // The fields of a row from some cell on.
+  struct Fields {
+    std::uint16_t *amount, *energy, *temperature;
+    [[gnu::always_inline]] Fields operator+(int cells) const {
+      return {amount + cells, energy + cells, temperature + cells};
+    }
+  };
+  [[gnu::always_inline]] Fields fields_at(std::size_t cell) const {
+    return {cpu::settled(v_.amount + cell), cpu::settled(v_.energy + cell),
+            kFeatures.hot ? cpu::settled(v_.temperature + cell) : nullptr};
   }
 
   struct Wet {  // cells of two words that hold something; what is blocked may be among them
@@ -125,17 +138,21 @@ class Gravity {
   }
 
   // Returns whether anything moved.
-  [[gnu::always_inline]] bool vectors(std::size_t low, std::size_t high, std::uint64_t open, Around around,
-                                      int part, Wet& wet) {
+  [[gnu::always_inline]] bool vectors(const Fields& low, const Fields& high, std::uint64_t walls,
+                                      Around around, int part, Wet& wet) {
     const V one = L::set(4096);
-    const V lower = L::load(v_.amount + low), upper = L::load(v_.amount + high);
-    const M gate = L::from_bits(open, part);
-    const V down = L::keep(gate, L::min(ready(upper, lower, around, part), L::sub_saturated(one, lower)));
-    const V up = L::keep(gate, L::min(L::sub_saturated(lower, one), L::sub_saturated(L::set(0xFFFF), upper)));
+    const V lower = L::load(low.amount), upper = L::load(high.amount);
+    V down = L::min(ready(upper, lower, around, part), L::sub_saturated(one, lower));
+    V up = L::min(L::sub_saturated(lower, one), ~upper);  // no more than fits
+    if (L::in_part(walls, part)) {
+      const M open = L::from_bits(~walls, part);
+      down = L::keep(open, down);
+      up = L::keep(open, up);
+    }
     if (!L::nonzero(down + up)) return false;
     const V new_lower = lower + down - up, new_upper = upper - down + up;
-    L::store(v_.amount + low, new_lower);
-    L::store(v_.amount + high, new_upper);
+    L::store(low.amount, new_lower);
+    L::store(high.amount, new_upper);
     const auto filled = L::filled(new_lower, new_upper);
     const int shift = part * L::kCount;
     wet.low = (wet.low & ~(kAll << shift)) | (filled & kAll) << shift;
@@ -145,25 +162,24 @@ class Gravity {
       // A cell either gives or takes through this face.
       const M no_rise = L::equal(up, L::zero());
       const M low_dry = L::equal(new_lower, L::zero()), high_dry = L::equal(new_upper, L::zero());
-      const V low_heat = L::load(v_.temperature + low), high_heat = L::load(v_.temperature + high);
+      const V low_heat = L::load(low.temperature), high_heat = L::load(high.temperature);
       const V taker_had = L::select(no_rise, lower, upper),
               taker_heat = L::select(no_rise, low_heat, high_heat);
       const V flow = down + up, giver_heat = L::select(no_rise, high_heat, low_heat);
       const V mixed = mix_.two(taker_had, taker_heat, flow, giver_heat);
-      const M falls = L::less(L::zero(), down), climbs = L::less(L::zero(), up);
-      L::store(v_.temperature + low, L::select(low_dry, L::zero(), L::select(falls, mixed, low_heat)));
-      L::store(v_.temperature + high, L::select(high_dry, L::zero(), L::select(climbs, mixed, high_heat)));
+      const M no_fall = L::equal(down, L::zero());
+      L::store(low.temperature, L::select(low_dry, L::zero(), L::select(no_fall, low_heat, mixed)));
+      L::store(high.temperature, L::select(high_dry, L::zero(), L::select(no_rise, high_heat, mixed)));
     }
     return true;
   }
 
-  [[gnu::always_inline]] void move_energy(std::size_t low, std::size_t high, V down, V up, V new_lower,
+  [[gnu::always_inline]] void move_energy(const Fields& low, const Fields& high, V down, V up, V new_lower,
                                           V new_upper) {
-    const V lower = L::load(v_.energy + low), upper = L::load(v_.energy + high);
+    const V lower = L::load(low.energy), upper = L::load(high.energy);
     V lost = L::min(upper, down), gained = lost;
     if constexpr (kFeatures.guided) {
-      // Room of a receiver: its new amount less its energy.
-      const V room = L::keep(L::less(L::zero(), down), new_lower - lower);
+      const V room = new_lower - lower;  // of a receiver; where nothing falls, nothing is lost either
       const std::uint32_t beta = law_.beta;
       V accelerated = L::high(lost, L::set(static_cast<int>(beta & 0xFFFF)));
       for (std::uint32_t whole = beta >> 16; whole > 0; --whole) accelerated = accelerated + lost;
@@ -174,11 +190,10 @@ class Gravity {
     }
     const V climbs = L::min(lower, up);
     const V uncapped = upper - lost + climbs;
-    // Only a giver can hold too much.
-    const V capped = L::min(uncapped, L::select(L::equal(down, L::zero()), L::set(0xFFFF), new_upper));
+    const V capped = L::min(uncapped, new_upper);  // who does not give holds no more before nor after
     capped_.add(uncapped - capped);
-    L::store(v_.energy + low, lower + gained - climbs);
-    L::store(v_.energy + high, capped);
+    L::store(low.energy, lower + gained - climbs);
+    L::store(high.energy, capped);
   }
 
   [[gnu::always_inline]] void flush() {
@@ -201,7 +216,7 @@ class Gravity {
   const int z_;
   Books& books_;
   Mix<Arch> mix_;
-  typename L::Sums faster_, slower_, capped_;
+  typename L::SmallSums faster_, slower_, capped_;  // of what moves down: at most ONE a cell
 };
 
 }  // namespace voxmelt::simd

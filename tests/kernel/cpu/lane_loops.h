@@ -143,8 +143,9 @@ struct LaneLoops {
       L::store(out + i, L::after(L::load(previous + i), L::load(current + i)));
   }
 
+  template <class Sums>
   static std::uint64_t total(std::size_t size, In a) {
-    typename L::Sums sums;
+    Sums sums;
     for (std::size_t i = 0; i < size; i += kCount) sums.add(L::load(a + i));
     return sums.total();
   }
@@ -200,8 +201,21 @@ struct LaneLoops {
   }
 
   static Operations operations() {
-    return {L::kCount, row,   shift, lookup, bits,  divide, pair_product,
-            pair_sums, after, total, mix,    bytes, widen,  dice};
+    return {L::kCount,
+            row,
+            shift,
+            lookup,
+            bits,
+            divide,
+            pair_product,
+            pair_sums,
+            after,
+            total<typename L::Sums>,
+            total<typename L::SmallSums>,
+            mix,
+            bytes,
+            widen,
+            dice};
   }
 };
 

@@ -56,6 +56,7 @@ struct Operations {
   void (*after)(std::size_t size, const std::uint16_t* previous, const std::uint16_t* current,
                 std::uint16_t* out);
   std::uint64_t (*total)(std::size_t size, const std::uint16_t* a);
+  std::uint64_t (*small_total)(std::size_t size, const std::uint16_t* a);  // of lanes below 32,768
   // The mean heat of two; returns what was rounded, in lanes with a1 > 0.
   std::int64_t (*mix)(std::size_t size, int dither, const std::uint16_t* a0, const std::uint16_t* h0,
                       const std::uint16_t* a1, const std::uint16_t* h1, std::uint16_t* out);
