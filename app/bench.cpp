@@ -34,6 +34,10 @@ std::string or_dash(const std::optional<double>& value) {
   return value ? measure::three_digits(*value) : std::string("-");
 }
 
+std::string percent_or_dash(const std::optional<double>& value) {
+  return value ? fmt::format("{:.0f}", *value) : "-";
+}
+
 void print_case(const Case& one) {
   const auto phase = [&](step::Phase p) {
     return measure::three_digits(one.phases.phase[static_cast<std::size_t>(p)] * 1e3);
@@ -42,12 +46,13 @@ void print_case(const Case& one) {
   const std::string phases = one.subject == Subject::flow
                                  ? fmt::format("{} + {} + {}", phase(gravity), phase(spread), phase(excess))
                                  : fmt::format("{} + {}", phase(heat), phase(melt));
-  fmt::print("  {:<5} {:<9} {:>7}  {:>8}  {:<22} {:>8.0f} {:>8.0f} {:>8} {:>6} {:>6} {:>8} {:>8}\n",
+  fmt::print("  {:<5} {:<9} {:>7}  {:>8}  {:<22} {:>8.0f} {:>8.0f} {:>8} {:>6} {:>6} {:>6} {:>8} {:>8}\n",
              measure::name_of(one.subject), one.implementation, one.threads,
              measure::three_digits(one.seconds * 1e3), phases, one.cells_per_second() / 1e6,
              one.active_per_second() / 1e6, measure::three_digits(1e9 / one.active_per_second()),
-             one.bytes_per_cell, one.roof ? fmt::format("{:.0f}", *one.percent_of_roof()) : "-",
-             or_dash(one.ratio_to_baseline), or_dash(one.ratio_to_native));
+             one.bytes_per_cell, percent_or_dash(one.percent_of_roof()),
+             percent_or_dash(one.percent_of_roof_beside()), or_dash(one.ratio_to_baseline),
+             or_dash(one.ratio_to_native));
 }
 
 void print_workload(const measure::Workload& workload, const measure::Result& result,
@@ -104,11 +109,12 @@ int run_bench(const BenchOptions& options) {
   catch_interrupts();
 
   note(options.common, "measuring the machine");
-  fmt::print("{:<25}{:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8}\n", "", "ms per",
-             "gravity+spread+excess", "Mcells/s", "Mcells/s", "ns per", "bytes", "% of", "times", "times");
-  fmt::print("  {:<5} {:<9} {:>7}  {:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8}\n", "", "by",
-             "threads", "step", "or heat+melt", "grid", "active", "active", "/cell", "roof", "baseline",
-             "native");
+  fmt::print("{:<25}{:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>6} {:>8} {:>8}\n", "", "ms per",
+             "gravity+spread+excess", "Mcells/s", "Mcells/s", "ns per", "bytes", "% of", "% be-", "times",
+             "times");
+  fmt::print("  {:<5} {:<9} {:>7}  {:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>6} {:>8} {:>8}\n", "", "by",
+             "threads", "step", "or heat+melt", "grid", "active", "active", "/cell", "roof", "side",
+             "baseline", "native");
   measure::Suite suite(plan, print_workload);
   for (const scene::Scene& scene : scenes) {
     const std::uint32_t middle = measure::middle_of(scene.name);

@@ -61,6 +61,7 @@ json case_json(const Case& one) {
           {"other_operations_per_cell", one.work.others},
           {"roof", roof},
           {"percent_of_roof", number(one.percent_of_roof())},
+          {"percent_of_roof_beside", number(one.percent_of_roof_beside())},
           {"ratio_to_baseline", number(one.ratio_to_baseline)},
           {"ratio_to_native_baseline", number(one.ratio_to_native)}};
 }

@@ -1,6 +1,7 @@
 // What this machine can do, measured in the same run as everything that is compared with it.
 //
-// All rates are the best of several short trials: a bound that a busy machine had lowered would flatter us.
+// Rates, but for those of the moment, are the best of several short trials: a bound that a busy machine had
+// lowered would flatter us.
 #pragma once
 
 #include <cstddef>
@@ -40,6 +41,8 @@ class Machine {
   // 512 MiB.
   Bandwidth bandwidth(std::size_t footprint, int threads);
   LaneRates lane_rates(cpu::InstructionSet set, int threads);
+  // What others leave to us at this moment: the better of two short trials, which nothing remembers.
+  LaneRates lane_rates_now(cpu::InstructionSet set, int threads) const;
 
   // Measures again what has been measured, and keeps the better: others may have been at work then.
   void refresh_rates();
@@ -53,7 +56,7 @@ class Machine {
 
  private:
   Bandwidth measure(std::size_t footprint, int threads) const;
-  LaneRates measure(cpu::InstructionSet set, int threads) const;
+  static LaneRates measure(cpu::InstructionSet set, int threads, int trials, double trial_seconds);
 
   double trial_seconds_;
   std::map<std::pair<std::size_t, int>, Bandwidth> bandwidths_;

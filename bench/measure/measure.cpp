@@ -39,11 +39,15 @@ std::optional<double> median_or_none(const Series& values) {
 struct Ours {
   std::array<Series, step::kPhaseCount> phase;
   Series flow, heat;
+  std::vector<Round> rounds;
 
-  void add(const Seconds& seconds) {
+  void add(const Seconds& seconds, const LaneRates& before, const LaneRates& after) {
     for (std::size_t p = 0; p < phase.size(); ++p) phase[p].push_back(seconds.phase[p]);
     flow.push_back(seconds.flow());
     heat.push_back(seconds.heat());
+    rounds.push_back({seconds.flow(),
+                      seconds.heat(),
+                      {std::max(before.multiply, after.multiply), std::max(before.add, after.add)}});
   }
 };
 
@@ -96,7 +100,7 @@ Seconds timed_run(const Workload& workload, const Candidate& candidate, std::uin
 }
 
 Result measure(const Workload& workload, const std::vector<Candidate>& candidates, const Rounds& rounds,
-               bool baseline) {
+               bool baseline, const RatesNow& rates_now) {
   const std::uint64_t expected = expected_digest(workload);
   for (const Candidate& candidate : candidates) timed_run(workload, candidate, expected);
 
@@ -109,6 +113,7 @@ Result measure(const Workload& workload, const std::vector<Candidate>& candidate
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     return done < rounds.fewest || (done < kMostRounds && spent.count() < rounds.seconds);
   };
+  const auto now = [&](const Candidate& candidate) { return rates_now ? rates_now(candidate) : LaneRates{}; };
   for (int round = 0; more(round); ++round) {
     if (runs) {
       const BaselineSeconds plain = runs->plain();
@@ -124,14 +129,18 @@ Result measure(const Workload& workload, const std::vector<Candidate>& candidate
         if (native) native_heat.push_back(native->heat);
       }
     }
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-      ours[i].add(timed_run(workload, candidates[i], expected));
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const LaneRates before = now(candidates[i]);
+      const Seconds seconds = timed_run(workload, candidates[i], expected);
+      ours[i].add(seconds, before, now(candidates[i]));
+    }
   }
 
   Result result;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Timing timing;
     timing.candidate = candidates[i];
+    timing.rounds = ours[i].rounds;
     for (std::size_t p = 0; p < timing.median.phase.size(); ++p)
       timing.median.phase[p] = median(ours[i].phase[p]);
     timing.flow = median(ours[i].flow);

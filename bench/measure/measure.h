@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "bench/measure/machine.h"
 #include "bench/measure/workloads.h"
 #include "kernel/step/stepper.h"
 
@@ -40,8 +42,16 @@ struct Seconds {
 // state has `expected` for a digest afterwards and the ledgers balance.
 Seconds timed_run(const Workload& workload, const Candidate& candidate, std::uint64_t expected);
 
+// One timed run: seconds per step, and what the machine could do right before or after it, whichever was
+// more.
+struct Round {
+  double flow = 0, heat = 0;
+  LaneRates rates;
+};
+
 struct Timing {
   Candidate candidate;
+  std::vector<Round> rounds;
   Seconds median;                                       // of each phase
   double flow = 0, heat = 0;                            // median seconds per step
   std::optional<double> flow_ratio, flow_native_ratio;  // median of the ratios, baseline / ours
@@ -62,8 +72,10 @@ struct Rounds {
   double seconds = 3;
 };
 inline constexpr int kMostRounds = 41;
+// `rates_now`: asked before and after each timed run of a candidate.
+using RatesNow = std::function<LaneRates(const Candidate&)>;
 Result measure(const Workload& workload, const std::vector<Candidate>& candidates, const Rounds& rounds,
-               bool baseline);
+               bool baseline, const RatesNow& rates_now = {});
 
 double median(std::vector<double> values);
 

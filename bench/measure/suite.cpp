@@ -33,6 +33,17 @@ std::size_t footprint(const Workload& workload, std::int64_t active) {
 
 }  // namespace
 
+std::optional<double> Case::percent_of_roof_beside() const {
+  if (!roof || rounds.empty()) return std::nullopt;
+  std::vector<double> percents;
+  for (const Round& round : rounds) {
+    const double rate = static_cast<double>(active) / (subject == Subject::heat ? round.heat : round.flow);
+    const Roof beside{roof_of(work, round.rates, {}).operations, roof->bytes};
+    percents.push_back(100 * rate / beside.cells());
+  }
+  return median(percents);
+}
+
 Suite::Suite(Plan plan, Tell tell) : plan_(std::move(plan)), tell_(std::move(tell)) {
   findings_.machine_text = describe_machine();
   findings_.machine = Machine(plan_.quick ? 0.004 : 0.02);
@@ -77,6 +88,7 @@ std::vector<Case> Suite::cases_of(const Workload& workload, const Result& result
       one.bytes_per_cell = one.work.bytes;
       if (!workload.at_rest) one.footprint = footprint(workload, one.active);
       one.roof = roof_of_case(one);
+      one.rounds = timing.rounds;
       one.ratio_to_baseline = heat ? timing.heat_ratio : timing.flow_ratio;
       one.ratio_to_native = heat ? timing.heat_native_ratio : timing.flow_native_ratio;
       cases.push_back(std::move(one));
@@ -93,7 +105,11 @@ void Suite::run(const Workload& workload, bool baseline) {
       candidates.push_back({implementation, threads});
     }
   findings_.machine.refresh_rates();
-  const Result result = measure(workload, candidates, plan_.rounds, baseline);
+  const auto rates_now = [this](const Candidate& candidate) {
+    const std::optional<cpu::InstructionSet> set = set_named(candidate.implementation->name);
+    return set ? findings_.machine.lane_rates_now(*set, candidate.threads) : LaneRates{};
+  };
+  const Result result = measure(workload, candidates, plan_.rounds, baseline, rates_now);
   const std::vector<Case> cases = cases_of(workload, result);
   tell_(workload, result, cases);
 

@@ -28,6 +28,7 @@ struct Case {
   Work work;
   std::size_t footprint = 0;  // bytes of the active cells' state
   std::optional<Roof> roof;   // none at rest, and for the reference
+  std::vector<Round> rounds;
   std::optional<double> ratio_to_baseline, ratio_to_native;
 
   double cells_per_second() const { return static_cast<double>(cells) / seconds; }
@@ -35,6 +36,8 @@ struct Case {
   std::optional<double> percent_of_roof() const {
     return roof ? std::optional(100 * active_per_second() / roof->cells()) : std::nullopt;
   }
+  // Against what others left of the operations' roof beside each round: the median.
+  std::optional<double> percent_of_roof_beside() const;
 };
 
 // A row of the paper's Table 1 beside ours, milliseconds.

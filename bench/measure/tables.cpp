@@ -12,8 +12,8 @@ std::string begin(const char* name) { return fmt::format("<!-- table: {} -->\n",
 std::string or_dash(const std::optional<double>& value) {
   return value ? three_digits(*value) : std::string("–");
 }
-std::string percent(const Case& one) {
-  return one.roof ? fmt::format("{:.0f} %", *one.percent_of_roof()) : std::string("–");
+std::string percent(const std::optional<double>& value) {
+  return value ? fmt::format("{:.0f} %", *value) : std::string("–");
 }
 std::string ms(double seconds) { return three_digits(seconds * 1e3); }
 
@@ -45,8 +45,8 @@ std::string case_table(const Findings& findings, Subject subject) {
   text += fmt::format(
       "| case | instruction set | threads | {} | Mcells/s, whole grid | Mcells/s, active | ns per active "
       "cell | "
-      "bytes per cell | of the roof | x baseline | x native "
-      "|\n|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+      "bytes per cell | of the roof | of the roof beside it | x baseline | x native "
+      "|\n|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
       flow ? "ms per step: gravity + spread + excess" : "ms per step: heat + melt");
   std::string last;
   for (const Case& one : findings.cases) {
@@ -56,12 +56,12 @@ std::string case_table(const Findings& findings, Subject subject) {
     const std::string phases =
         flow ? fmt::format("{} = {} + {} + {}", ms(one.seconds), phase(gravity), phase(spread), phase(excess))
              : fmt::format("{} = {} + {}", ms(one.seconds), phase(heat), phase(melt));
-    text += fmt::format("| {} | {} | {} | {} | {:.0f} | {:.0f} | {} | {} | {} | {} | {} |\n",
-                        one.workload == last ? std::string() : fmt::format("`{}`", one.workload),
-                        one.implementation, one.threads, phases, one.cells_per_second() / 1e6,
-                        one.active_per_second() / 1e6, three_digits(1e9 / one.active_per_second()),
-                        one.bytes_per_cell, percent(one), or_dash(one.ratio_to_baseline),
-                        or_dash(one.ratio_to_native));
+    text += fmt::format(
+        "| {} | {} | {} | {} | {:.0f} | {:.0f} | {} | {} | {} | {} | {} | {} |\n",
+        one.workload == last ? std::string() : fmt::format("`{}`", one.workload), one.implementation,
+        one.threads, phases, one.cells_per_second() / 1e6, one.active_per_second() / 1e6,
+        three_digits(1e9 / one.active_per_second()), one.bytes_per_cell, percent(one.percent_of_roof()),
+        percent(one.percent_of_roof_beside()), or_dash(one.ratio_to_baseline), or_dash(one.ratio_to_native));
     last = one.workload;
   }
   return text + "\n";

@@ -47,6 +47,9 @@ class Bench(unittest.TestCase):
             self.assertIn("percent_of_roof", case)
             if case["percent_of_roof"] is not None:
                 self.assertGreater(case["percent_of_roof"], 0)
+            self.assertEqual(case["percent_of_roof_beside"] is None, case["percent_of_roof"] is None)
+            if case["percent_of_roof_beside"] is not None:
+                self.assertGreater(case["percent_of_roof_beside"], 0)
             self.assertGreater(case["ratio_to_baseline"], 0)
             if case["ratio_to_native_baseline"] is not None:  # null where it was compiled for another processor
                 self.assertGreater(case["ratio_to_native_baseline"], 0)
@@ -60,7 +63,7 @@ class Bench(unittest.TestCase):
         lines = [line.split() for line in text.splitlines() if re.match(r"  (flow|heat) ", line)]
         self.assertEqual(len(lines), len(names))
         for line in lines:
-            self.assertEqual(len(line), 16 if line[0] == "flow" else 14, line)
+            self.assertEqual(len(line), 17 if line[0] == "flow" else 15, line)
 
         tables = (self.folder / "out/performance_tables.md").read_text()
         for name in ("machine", "rates", "flow", "heat", "paper", "scaling", "roofs"):

@@ -6,6 +6,7 @@
 #include "bench/measure/machine.h"
 #include "bench/measure/report.h"
 #include "bench/measure/roof.h"
+#include "bench/measure/suite.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scalar/reference.h"
 #include "kernel/state/digest.h"
@@ -123,6 +124,25 @@ TEST(Measure, TheRoofIsTheLowestOfThreeLimits) {
   EXPECT_DOUBLE_EQ(roof_of(work, {1000, 8000}, {1e6, 0}).cells(), 100);
   EXPECT_DOUBLE_EQ(roof_of(work, {8000, 2000}, {1e6, 0}).cells(), 50);
   EXPECT_DOUBLE_EQ(roof_of(work, {8000, 8000}, {160, 80}).cells(), 20);
+}
+
+// Every round against what was measured beside it; bytes, which are not, against the best.
+TEST(Measure, TheRoofBesideIsOfEachRound) {
+  Case one;
+  one.active = 100;
+  one.work.multiplies = 1;
+  one.work.others = 9;
+  one.work.bytes = 2;
+  EXPECT_FALSE(one.percent_of_roof_beside());
+  one.roof = Roof{1000, 1e6};
+  one.rounds = {{1, 9, {1e9, 10'000}}, {2, 9, {1e9, 2'500}}, {4, 9, {1e9, 2'500}}};  // 10, 20 and 10 %
+  EXPECT_DOUBLE_EQ(*one.percent_of_roof_beside(), 10);
+  one.rounds[2].rates.multiply = 50;  // 50 %
+  EXPECT_DOUBLE_EQ(*one.percent_of_roof_beside(), 20);
+  one.roof->bytes = 125;  // 80, 40 and 50 %
+  EXPECT_DOUBLE_EQ(*one.percent_of_roof_beside(), 50);
+  one.subject = Subject::heat;  // (100 / 9) / 125
+  EXPECT_NEAR(*one.percent_of_roof_beside(), 100.0 / 9 / 125 * 100, 1e-9);
 }
 
 TEST(Measure, MediansAndDigits) {
