@@ -39,6 +39,7 @@ class Pattern {
         threshold_(L::set(law_.threshold)),
         margin_(L::set(law_.margin)),
         wider_(wider(margin_)),
+        slumps_(kBuilt.slump && law_.slump != 0),
         below_(below),
         gifts_(gifts) {
     if constexpr (kFeatures.thermal) shares_ = share_table(*step.parameters);
@@ -163,6 +164,16 @@ class Pattern {
     for (int i = 0; i < found; i += 2) throw_dice(items_[found_[i]], items_[found_[i + 1]]);
   }
 
+  struct Margins {
+    V axis, diagonal;
+  };
+  // Of one vector: who is starved of energy has a margin of its own.
+  [[gnu::always_inline]] Margins margins_of(std::size_t at) const {
+    const auto energetic = L::less(threshold_, L::load(v_.energy + base_ + at));
+    const V margin = L::select(energetic, margin_, L::set(law_.slump));
+    return {margin, wider(margin)};
+  }
+
   struct Limits {
     V axis, diagonal;  // a neighbour receives if it holds less
     V flow, share;
@@ -172,7 +183,12 @@ class Pattern {
   // writes the gifts, too. Returns whether there is any.
   [[gnu::always_inline]] bool find_available(const Item& item) {
     const std::size_t at = item.at;
-    const Limits low = limits_of(at), high = limits_of(at + L::kCount);
+    Margins low_margins{margin_, wider_}, high_margins = low_margins;
+    if (slumps_) {
+      low_margins = margins_of(at);
+      high_margins = margins_of(at + L::kCount);
+    }
+    const Limits low = limits_of(at, low_margins), high = limits_of(at + L::kCount, high_margins);
     Bytes closed = L::none();
     cpu::unrolled<kDirections>([&](auto i) VOXMELT_LAMBDA {
       constexpr int d = kDirections - 1 - i;
@@ -182,7 +198,7 @@ class Pattern {
                                     L::load_any(there + L::kCount), d < 4 ? high.axis : high.diagonal);
       closed = L::push(closed, full, d);
     });
-    if (!slumps()) {  // who has no energy gives nothing
+    if (!slumps_) {  // who has no energy gives nothing
       const std::uint16_t* energy = v_.energy + base_ + at;
       closed =
           L::fill(closed, L::not_less(threshold_, L::load(energy), threshold_, L::load(energy + L::kCount)));
@@ -213,25 +229,17 @@ class Pattern {
       L::store(gifts_.heat + at, L::load(v_.temperature + base_ + at) ^ L::set(0x8000));
   }
 
-  [[gnu::always_inline]] bool slumps() const { return kBuilt.slump && law_.slump != 0; }
-
   // Of one vector: a neighbour receives if it holds less than the giver's amount less the larger of flow and
   // margin.
-  [[gnu::always_inline]] Limits limits_of(std::size_t at) const {
+  [[gnu::always_inline]] Limits limits_of(std::size_t at, const Margins& margins) const {
     const V amount = L::load(own_ + at);
     const V sh = share(at);
     V flow = L::min(L::high(amount, sh), L::set(kCap));
     if constexpr (kFeatures.general)
       if (law_.use_table) flow = L::zero();
-    V margin = margin_, for_diagonal = wider_;
-    if (slumps()) {
-      const auto energetic = L::less(threshold_, L::load(v_.energy + base_ + at));
-      margin = L::select(energetic, margin_, L::set(law_.slump));
-      for_diagonal = wider(margin);
-    }
     const V most = L::set(kLimit);
-    V axis = L::min(most, L::sub_saturated(amount, L::max(flow, margin)));
-    V diagonal = L::min(most, L::sub_saturated(amount, L::max(flow, for_diagonal)));
+    V axis = L::min(most, L::sub_saturated(amount, L::max(flow, margins.axis)));
+    V diagonal = L::min(most, L::sub_saturated(amount, L::max(flow, margins.diagonal)));
     if constexpr (kFeatures.general)
       if (!law_.downhill) axis = diagonal = most;
     return {axis, diagonal, flow, sh};
@@ -323,6 +331,7 @@ class Pattern {
   const std::uint32_t row_blocks_, first_block_;
   const Openness<Arch, kDirections> openness_;
   const V share_, threshold_, margin_, wider_;
+  const bool slumps_;
   typename L::Table shares_;                   // by heat; with thermal viscosity
   const std::uint16_t *own_, *front_, *back_;  // amounts there, in this slice and the ones beside it
   TileRow restless_ = 0, giving_ = 0;
