@@ -110,10 +110,10 @@ int run_bench(const BenchOptions& options) {
 
   note(options.common, "measuring the machine");
   fmt::print("{:<25}{:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>6} {:>8} {:>8}\n", "", "ms per",
-             "gravity+spread+excess", "Mcells/s", "Mcells/s", "ns per", "bytes", "% of", "% be-", "times",
+             "gravity+spread+excess", "Mcells/s", "Mcells/s", "ns per", "bytes", "% of", "roof", "times",
              "times");
   fmt::print("  {:<5} {:<9} {:>7}  {:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>6} {:>8} {:>8}\n", "", "by",
-             "threads", "step", "or heat+melt", "grid", "active", "active", "/cell", "roof", "side",
+             "threads", "step", "or heat+melt", "grid", "active", "active", "/cell", "roof", "beside",
              "baseline", "native");
   measure::Suite suite(plan, print_workload);
   for (const scene::Scene& scene : scenes) {

@@ -145,6 +145,25 @@ TEST(Measure, TheRoofBesideIsOfEachRound) {
   EXPECT_NEAR(*one.percent_of_roof_beside(), 100.0 / 9 / 125 * 100, 1e-9);
 }
 
+// The machine is asked right before and after every timed run; the better answer counts.
+TEST(Measure, RatesAreTakenBesideEveryRun) {
+  const Workload workload = dense_paper(4, false);
+  double asked = 0;
+  const auto rates_now = [&](const Candidate&) {
+    ++asked;
+    return LaneRates{100 - asked, asked};
+  };
+  const Result result =
+      measure(workload, {{&run::implementations().all().front(), 1}}, {3, 0}, false, rates_now);
+  const std::vector<Round>& rounds = result.timings.at(0).rounds;
+  ASSERT_EQ(rounds.size(), 3U);
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    EXPECT_EQ(rounds[i].rates.multiply, 100 - (2.0 * static_cast<double>(i) + 1)) << "before";
+    EXPECT_EQ(rounds[i].rates.add, 2.0 * static_cast<double>(i) + 2) << "after";
+    EXPECT_GT(rounds[i].flow, 0);
+  }
+}
+
 TEST(Measure, MediansAndDigits) {
   EXPECT_DOUBLE_EQ(median({3, 1, 2}), 2);
   EXPECT_DOUBLE_EQ(median({4, 1, 2, 3}), 2.5);
