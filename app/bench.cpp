@@ -10,7 +10,7 @@
 #include "app/version.h"
 #include "bench/measure/report.h"
 #include "bench/measure/suite.h"
-#include "kernel/io/output_folder.h"
+#include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
 namespace {

@@ -6,7 +6,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/report.h"
-#include "kernel/state/digest.h"
+#include "kernel/automaton/state/digest.h"
 
 namespace voxmelt::app {
 namespace {

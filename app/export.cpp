@@ -1,5 +1,5 @@
 // voxmelt export: the state after N steps, for other programs.
-#include "kernel/io/export.h"
+#include "kernel/run/io/export.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "app/interrupt.h"
 #include "app/options.h"
 #include "app/report.h"
-#include "kernel/io/output_folder.h"
+#include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
 namespace {

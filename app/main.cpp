@@ -10,7 +10,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/version.h"
-#include "kernel/io/output_folder.h"
+#include "kernel/run/io/output_folder.h"
 #include "kernel/scene/scene.h"
 #include "render/image/png.h"
 

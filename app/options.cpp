@@ -8,7 +8,7 @@
 #include <iostream>
 #include <thread>
 
-#include "kernel/io/output_folder.h"
+#include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
 namespace {

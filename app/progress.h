@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include "kernel/state/volume.h"
+#include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::app {
 

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/version.h"
-#include "kernel/io/export.h"
-#include "kernel/state/connectivity.h"
-#include "kernel/state/digest.h"
+#include "kernel/automaton/state/connectivity.h"
+#include "kernel/automaton/state/digest.h"
+#include "kernel/run/io/export.h"
 
 namespace voxmelt::app {
 namespace {

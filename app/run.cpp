@@ -9,7 +9,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/report.h"
-#include "kernel/io/output_folder.h"
+#include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "hwmodel/lockstep/replay.h"
 #include "hwmodel/lockstep/report.h"
 #include "hwmodel/presets/presets.h"
-#include "kernel/io/output_folder.h"
+#include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
 namespace {

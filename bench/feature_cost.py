@@ -20,7 +20,7 @@ STEP = "voxmelt::run::Simulation::step()"
 # Scene: steps, long enough that every phase which it uses has work.
 STEPS = {"lesson_spread": 60, "lesson_conduction": 60, "lesson_oven": 200, "lesson_tubes": 400, "paper_literal": 300,
          "bunny_small": 200}
-# Feature (the names of kernel/simd/features.h): what it is, and scenes that do not use it.
+# Feature (the names of kernel/engine/simd/features.h): what it is, and scenes that do not use it.
 FEATURES = {
     "heat": ("heat as a whole", ["lesson_spread", "lesson_tubes"]),
     "latent": ("latent heat", ["lesson_conduction", "lesson_oven"]),

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "hwmodel/stream/pipeline.h"
+#include "kernel/automaton/state/digest.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
-#include "kernel/state/digest.h"
 
 namespace voxmelt {
 namespace {

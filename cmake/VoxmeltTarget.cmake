@@ -1,5 +1,5 @@
 # voxmelt_library(<folder target> SOURCES ... PUBLIC ... PRIVATE ...): one static library per folder.
-# Headers are included by their path from the top of the house: "kernel/rule/spread.h".
+# Headers are included by their path from the top of the house: "kernel/automaton/rule/spread.h".
 add_library(voxmelt_options INTERFACE)
 target_include_directories(voxmelt_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(voxmelt_options INTERFACE

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/state/volume.h"
+#include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::baseline {
 

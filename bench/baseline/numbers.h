@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/rule/parameters.h"
+#include "kernel/automaton/rule/parameters.h"
 
 namespace voxmelt::baseline {
 

@@ -5,8 +5,8 @@
 
 #include "bench/baseline/numbers.h"
 #include "bench/measure/native_needs.h"
-#include "kernel/cpu/instruction_set.h"
-#include "kernel/visibility/visibility.h"
+#include "kernel/engine/cpu/instruction_set.h"
+#include "kernel/engine/visibility/visibility.h"
 
 namespace voxmelt::measure {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "kernel/cpu/instruction_set.h"
+#include "kernel/engine/cpu/instruction_set.h"
 
 namespace voxmelt::measure {
 

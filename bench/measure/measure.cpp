@@ -6,8 +6,8 @@
 #include <chrono>
 
 #include "bench/measure/baseline_run.h"
+#include "kernel/automaton/state/digest.h"
 #include "kernel/run/simulation.h"
-#include "kernel/state/digest.h"
 
 namespace voxmelt::measure {
 namespace {

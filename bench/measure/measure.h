@@ -12,7 +12,7 @@
 
 #include "bench/measure/machine.h"
 #include "bench/measure/workloads.h"
-#include "kernel/step/stepper.h"
+#include "kernel/automaton/step/stepper.h"
 
 namespace voxmelt::measure {
 

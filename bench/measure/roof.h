@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/measure/machine.h"
-#include "kernel/rule/parameters.h"
+#include "kernel/automaton/rule/parameters.h"
 
 namespace voxmelt::measure {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernel/automaton/state/digest.h"
 #include "kernel/run/simulation.h"
-#include "kernel/state/digest.h"
 
 namespace voxmelt::measure {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "kernel/rule/parameters.h"
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/volume.h"
 #include "kernel/scene/scene.h"
-#include "kernel/state/volume.h"
 
 namespace voxmelt::measure {
 

@@ -9,8 +9,8 @@
 
 #include "hwmodel/lockstep/mismatch.h"
 #include "hwmodel/stream/pipeline.h"
+#include "kernel/engine/scalar/reference.h"
 #include "kernel/run/simulation.h"
-#include "kernel/scalar/reference.h"
 
 namespace voxmelt::hwmodel {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "kernel/io/export.h"
-#include "kernel/io/output_folder.h"
+#include "kernel/run/io/export.h"
+#include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::hwmodel {
 namespace {

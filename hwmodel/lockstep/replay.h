@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/state/volume.h"
+#include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::hwmodel {
 

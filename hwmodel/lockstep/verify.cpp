@@ -6,7 +6,7 @@
 
 #include "hwmodel/lockstep/checker.h"
 #include "hwmodel/stream/prediction.h"
-#include "kernel/state/digest.h"
+#include "kernel/automaton/state/digest.h"
 
 namespace voxmelt::hwmodel {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "hwmodel/lockstep/mismatch.h"
 #include "hwmodel/stream/pipeline.h"
-#include "kernel/step/stepper.h"
+#include "kernel/automaton/step/stepper.h"
 
 namespace voxmelt::hwmodel {
 

@@ -2,9 +2,9 @@
 
 #include <bit>
 
-#include "kernel/scene/compose.h"
-#include "kernel/scene/reader.h"
 #include "kernel/scene/scene.h"
+#include "kernel/scene/text/compose.h"
+#include "kernel/scene/text/reader.h"
 
 namespace voxmelt::hwmodel {
 

@@ -1,5 +1,5 @@
-// The pipeline's own arithmetic, written from docs/automaton.md and apart from kernel/rule: if they shared
-// code, their agreement would prove nothing.
+// The pipeline's own arithmetic, written from docs/automaton.md and apart from kernel/automaton/rule: if they
+// shared code, their agreement would prove nothing.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "hwmodel/channel/wires.h"
-#include "kernel/rule/parameters.h"
+#include "kernel/automaton/rule/parameters.h"
 
 namespace voxmelt::hwmodel {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "hwmodel/stream/stage.h"
-#include "kernel/state/volume.h"
+#include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::hwmodel {
 

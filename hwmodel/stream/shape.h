@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "kernel/state/grid.h"
+#include "kernel/automaton/state/grid.h"
 
 namespace voxmelt::hwmodel {
 

@@ -12,7 +12,7 @@
 #include "hwmodel/stream/cell.h"
 #include "hwmodel/stream/faults.h"
 #include "hwmodel/stream/shape.h"
-#include "kernel/rule/parameters.h"
+#include "kernel/automaton/rule/parameters.h"
 
 namespace voxmelt::hwmodel {
 

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <utility>
 
-#include "kernel/parallel/stepper.h"
-#include "kernel/scalar/reference.h"
+#include "kernel/engine/parallel/stepper.h"
+#include "kernel/engine/scalar/reference.h"
 
 namespace voxmelt::run {
 namespace {
@@ -27,7 +27,7 @@ const step::Registry& implementations() {
   static const step::Registry registry = [] {
     step::Registry r;
     using enum cpu::InstructionSet;
-    r.add({"reference", "plain loops over kernel/rule, one thread", scalar::create_reference});
+    r.add({"reference", "plain loops over kernel/automaton/rule, one thread", scalar::create_reference});
 #if defined(__aarch64__)
     r.add({"neon", "8 lanes of 16 bits, threads", parallel::create<neon>, cpu::supported(neon)});
 #else

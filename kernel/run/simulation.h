@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "kernel/state/ledger.h"
-#include "kernel/step/stepper.h"
-#include "kernel/visibility/visibility.h"
+#include "kernel/automaton/state/ledger.h"
+#include "kernel/automaton/step/stepper.h"
+#include "kernel/engine/visibility/visibility.h"
 
 namespace voxmelt::run {
 

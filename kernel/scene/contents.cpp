@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/scene/heightfield.h"
+#include "kernel/scene/shape/heightfield.h"
 #include "kernel/scene/shape_reader.h"
 #include "kernel/scene/units.h"
 

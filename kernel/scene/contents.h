@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "kernel/automaton/state/volume.h"
 #include "kernel/scene/look.h"
-#include "kernel/scene/mesh.h"
-#include "kernel/scene/reader.h"
-#include "kernel/scene/shape.h"
-#include "kernel/state/volume.h"
+#include "kernel/scene/shape/mesh.h"
+#include "kernel/scene/shape/shape.h"
+#include "kernel/scene/text/reader.h"
 
 namespace voxmelt::scene {
 

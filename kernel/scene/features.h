@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/rule/parameters.h"
+#include "kernel/automaton/rule/parameters.h"
 
 namespace voxmelt::scene {
 

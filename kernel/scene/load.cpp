@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
-#include "kernel/scene/compose.h"
+#include "kernel/automaton/state/digest.h"
 #include "kernel/scene/contents.h"
 #include "kernel/scene/features.h"
 #include "kernel/scene/look_reader.h"
 #include "kernel/scene/memory.h"
 #include "kernel/scene/parameter_readers.h"
-#include "kernel/scene/reader.h"
 #include "kernel/scene/scene.h"
 #include "kernel/scene/start.h"
-#include "kernel/state/digest.h"
+#include "kernel/scene/text/compose.h"
+#include "kernel/scene/text/reader.h"
 
 namespace voxmelt::scene {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernel/scene/geometry.h"
+#include "kernel/scene/shape/geometry.h"
 #include "kernel/scene/units.h"
 
 namespace voxmelt::scene {

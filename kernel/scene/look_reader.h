@@ -1,9 +1,9 @@
 // [camera], [light] and [look]. All throw InputError.
 #pragma once
 
+#include "kernel/automaton/state/grid.h"
 #include "kernel/scene/look.h"
-#include "kernel/scene/reader.h"
-#include "kernel/state/grid.h"
+#include "kernel/scene/text/reader.h"
 
 namespace voxmelt::scene {
 

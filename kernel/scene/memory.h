@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "kernel/scene/document.h"
-#include "kernel/state/grid.h"
+#include "kernel/automaton/state/grid.h"
+#include "kernel/scene/text/document.h"
 
 namespace voxmelt::scene {
 

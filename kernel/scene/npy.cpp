@@ -6,7 +6,7 @@
 #include <cctype>
 #include <string>
 
-#include "kernel/scene/text_file.h"
+#include "kernel/scene/text/text_file.h"
 
 namespace voxmelt::scene {
 namespace {

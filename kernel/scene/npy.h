@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "kernel/scene/document.h"
-#include "kernel/state/grid.h"
+#include "kernel/automaton/state/grid.h"
+#include "kernel/scene/text/document.h"
 
 namespace voxmelt::scene {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "kernel/rule/parameters.h"
-#include "kernel/scene/reader.h"
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/scene/text/reader.h"
 
 namespace voxmelt::scene {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "kernel/rule/parameters.h"
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/volume.h"
 #include "kernel/scene/look.h"
-#include "kernel/state/volume.h"
 
 namespace voxmelt::scene {
 

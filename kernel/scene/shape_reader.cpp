@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "kernel/scene/polygon.h"
+#include "kernel/scene/shape/polygon.h"
 #include "kernel/scene/units.h"
 
 namespace voxmelt::scene {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "kernel/scene/reader.h"
-#include "kernel/scene/shape.h"
+#include "kernel/scene/shape/shape.h"
+#include "kernel/scene/text/reader.h"
 
 namespace voxmelt::scene {
 

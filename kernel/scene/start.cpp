@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "kernel/rule/fixed_point.h"
+#include "kernel/automaton/rule/fixed_point.h"
 #include "kernel/scene/npy.h"
 
 namespace voxmelt::scene {

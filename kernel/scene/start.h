@@ -3,14 +3,14 @@
 
 #include <filesystem>
 
-#include "kernel/scene/document.h"
-#include "kernel/state/volume.h"
+#include "kernel/automaton/state/volume.h"
+#include "kernel/scene/text/document.h"
 
 namespace voxmelt::scene {
 
 // Reads solid, liquid, inert (u8, 0 or 1), amount, energy, temperature (u16) from FOLDER/<field>.npy and
-// checks what every volume promises (kernel/state/volume.h). Throws InputError naming `place`, the file and
-// the first bad cell.
+// checks what every volume promises (kernel/automaton/state/volume.h). Throws InputError naming `place`, the
+// file and the first bad cell.
 state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid, const Place& place);
 
 }  // namespace voxmelt::scene

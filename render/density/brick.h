@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/state/grid.h"
+#include "kernel/automaton/state/grid.h"
 
 namespace voxmelt::render {
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "kernel/rule/fixed_point.h"
+#include "kernel/automaton/rule/fixed_point.h"
 #include "render/density/levels.h"
 
 namespace voxmelt::render {

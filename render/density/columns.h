@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/cpu/workers.h"
+#include "kernel/automaton/state/volume.h"
+#include "kernel/engine/cpu/workers.h"
 #include "kernel/scene/look.h"
-#include "kernel/state/volume.h"
 
 namespace voxmelt::render {
 

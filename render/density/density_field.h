@@ -12,9 +12,9 @@
 #include <memory>
 #include <vector>
 
-#include "kernel/cpu/workers.h"
+#include "kernel/automaton/state/volume.h"
+#include "kernel/engine/cpu/workers.h"
 #include "kernel/scene/look.h"
-#include "kernel/state/volume.h"
 #include "render/density/brick.h"
 #include "render/density/cell_fields.h"
 #include "render/density/pyramid.h"

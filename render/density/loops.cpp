@@ -1,6 +1,6 @@
 #include "render/density/loops.h"
 
-#include "kernel/cpu/instruction_set.h"
+#include "kernel/engine/cpu/instruction_set.h"
 #include "render/density/arch/arch.h"
 
 namespace voxmelt::render {

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel/state/grid.h"
+#include "kernel/automaton/state/grid.h"
 #include "render/density/cell_fields.h"
 #include "render/density/values.h"
 

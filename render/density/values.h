@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "kernel/state/pages.h"
+#include "kernel/automaton/state/pages.h"
 
 namespace voxmelt::render {
 

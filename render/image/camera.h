@@ -1,8 +1,8 @@
 // From pixels to rays.
 #pragma once
 
+#include "kernel/automaton/state/grid.h"
 #include "kernel/scene/look.h"
-#include "kernel/state/grid.h"
 #include "render/image/vector.h"
 
 namespace voxmelt::render {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "kernel/rule/neighbourhood.h"
+#include "kernel/automaton/rule/neighbourhood.h"
 #include "tests/bench/melting_drop.h"
 
 namespace voxmelt::baseline {

@@ -7,9 +7,9 @@
 #include "bench/measure/report.h"
 #include "bench/measure/roof.h"
 #include "bench/measure/suite.h"
+#include "kernel/automaton/state/digest.h"
+#include "kernel/engine/scalar/reference.h"
 #include "kernel/run/simulation.h"
-#include "kernel/scalar/reference.h"
-#include "kernel/state/digest.h"
 
 namespace voxmelt::measure {
 namespace {

@@ -1,5 +1,5 @@
-// AVX-512 without such a processor, for house.avx512: those intrinsics that kernel/cpu/lanes_avx512.h and
-// xsimd call for it, as plain loops over 64-byte vectors of g++.
+// AVX-512 without such a processor, for house.avx512: those intrinsics that kernel/engine/cpu/lanes_avx512.h
+// and xsimd call for it, as plain loops over 64-byte vectors of g++.
 //
 // Comes before everything else (-include) where g++ compiles for AVX2: xsimd then believes in AVX-512, and
 // every name below stands for one of ours. An intrinsic that is missing here stays g++'s own, and using it is

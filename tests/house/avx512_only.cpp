@@ -1,8 +1,8 @@
-// For house.avx512, in place of kernel/cpu/instruction_set.cpp and the other instruction sets' objects:
-// AVX-512, emulated, and nothing else.
-#include "kernel/cpu/instruction_set.h"
-#include "kernel/simd/arch/arch.h"
-#include "tests/kernel/cpu/lane_operations.h"
+// For house.avx512, in place of kernel/engine/cpu/instruction_set.cpp and the other instruction sets'
+// objects: AVX-512, emulated, and nothing else.
+#include "kernel/engine/cpu/instruction_set.h"
+#include "kernel/engine/simd/arch/arch.h"
+#include "tests/kernel/engine/cpu/lane_operations.h"
 
 namespace voxmelt {
 namespace cpu {

@@ -3,7 +3,7 @@
 
   avx512_test.py ROOT     builds in build/avx512/
 
-Runs tests/kernel/cpu (single operations against kernel/rule), tests/kernel/parallel but for its scenes (hostile and
+Runs tests/kernel/engine/cpu (single operations against kernel/automaton/rule), tests/kernel/engine/parallel but for its scenes (hostile and
 sleeping worlds of both laws, compared after every phase), and committed scenes, whose digests are those approved.
 The kernels are the real ones, with xsimd; each intrinsic they use is a plain loop of avx512_emulated.h. Without AVX2,
 g++, xsimd or the sources of GoogleTest: skipped (77).
@@ -33,14 +33,14 @@ house = root / "tests/house"
 build = Build(root, "avx512", COMPILER, ["-O1", "-march=x86-64-v3", "-Wno-psabi", "-include", house / "avx512_emulated.h"],
               left_out=["instruction_set.cpp"])
 kernel = build.compiled_kernel(house / "avx512_only.cpp")
-build.link_programs(kernel, {"lanes": build.sources("tests/kernel/cpu"),
-                             "parallel": [root / f"tests/kernel/parallel/{name}_test.cpp" for name in ("hostile", "sleep", "wake")]})
+build.link_programs(kernel, {"lanes": build.sources("tests/kernel/engine/cpu"),
+                             "parallel": [root / f"tests/kernel/engine/parallel/{name}_test.cpp" for name in ("hostile", "sleep", "wake")]})
 
 for emulated in build.own_objects:
     code = subprocess.run(["objdump", "-d", emulated], check=True, capture_output=True, text=True).stdout
     if found := re.search(r".*%(zmm|k[0-7]).*", code):
         sys.exit(f"real AVX-512 in {emulated.name}: {found[0].strip()}")
 
-# Of tests/kernel/cpu, only the tests of no instruction set or this one.
+# Of tests/kernel/engine/cpu, only the tests of no instruction set or this one.
 sys.exit(build.differ([("lanes", "-*/sse42:*/avx2"), ("parallel", "*paper*"), ("parallel", "*viscous*"),
                        ("parallel", "-*paper*:*viscous*")]))

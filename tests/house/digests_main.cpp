@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "kernel/automaton/state/digest.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
-#include "kernel/state/digest.h"
 
 using namespace voxmelt;
 

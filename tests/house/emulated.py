@@ -11,7 +11,8 @@ from pathlib import Path
 HEADERS = Path("/usr/include")
 GTEST = Path("/usr/src/googletest/googletest")
 GTEST_SOURCES = [GTEST / "src/gtest-all.cc", GTEST / "src/gtest_main.cc"]
-KERNEL = [f"kernel/{folder}" for folder in ("state", "scalar", "simd", "simd/arch", "parallel", "cpu", "visibility", "run")]
+KERNEL = ["kernel/automaton/state", "kernel/run"] + [
+    f"kernel/engine/{folder}" for folder in ("scalar", "simd", "simd/arch", "parallel", "cpu", "visibility")]
 SETS = {"sse", "avx2", "avx512", "neon"}
 # -ffp-contract as in cmake/VoxmeltTarget.cmake.
 OPTIONS = ["-std=c++20", "-ffp-contract=off", "-DVOXMELT_PLAIN_THREADS", "-pthread"]
@@ -66,8 +67,8 @@ class Build:
 
     def link_programs(self, kernel, tests):
         """Program `digests`, and one for each of `tests`: name -> sources."""
-        scene = self.all_compiled([*self.sources("kernel/scene"), self.root / "tests/house/digests_main.cpp"], *WARNINGS,
-                                  "-DFMT_HEADER_ONLY")
+        scene = self.sources("kernel/scene", "kernel/scene/text", "kernel/scene/shape")
+        scene = self.all_compiled([*scene, self.root / "tests/house/digests_main.cpp"], *WARNINGS, "-DFMT_HEADER_ONLY")
         self.link("digests", [*scene, *kernel])
         gtest = self.all_compiled(GTEST_SOURCES, "-I", GTEST)
         for name, files in tests.items():

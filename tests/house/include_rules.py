@@ -10,39 +10,42 @@ import tempfile
 from pathlib import Path
 
 # Folder -> folders of ours that it may include (besides itself).
-KERNEL = ["kernel/rule", "kernel/state", "kernel/scene", "kernel/visibility", "kernel/step", "kernel/scalar",
-          "kernel/cpu", "kernel/simd", "kernel/parallel", "kernel/io", "kernel/run"]
+KERNEL = ["kernel/automaton/rule", "kernel/automaton/state", "kernel/scene", "kernel/scene/text", "kernel/scene/shape",
+          "kernel/engine/visibility", "kernel/automaton/step", "kernel/engine/scalar",
+          "kernel/engine/cpu", "kernel/engine/simd", "kernel/engine/parallel", "kernel/run/io", "kernel/run"]
 ALLOWED = {
-    "kernel/rule": [],
-    "kernel/state": ["kernel/rule"],
-    "kernel/scene": ["kernel/rule", "kernel/state"],
-    "kernel/visibility": ["kernel/rule", "kernel/state", "kernel/scene", "kernel/cpu"],
-    "kernel/step": ["kernel/rule", "kernel/state"],
-    "kernel/scalar": ["kernel/rule", "kernel/state", "kernel/step"],
-    "kernel/cpu": [],
-    "kernel/simd": ["kernel/rule", "kernel/cpu", "kernel/simd/arch"],
-    "kernel/simd/arch": ["kernel/rule", "kernel/cpu", "kernel/simd"],
-    "kernel/parallel": ["kernel/rule", "kernel/state", "kernel/step", "kernel/cpu", "kernel/simd"],
-    "bench/baseline": ["kernel/rule", "kernel/state"],
+    "kernel/automaton/rule": [],
+    "kernel/automaton/state": ["kernel/automaton/rule"],
+    "kernel/scene": ["kernel/automaton/rule", "kernel/automaton/state", "kernel/scene/text", "kernel/scene/shape"],
+    "kernel/scene/text": ["kernel/scene"],
+    "kernel/scene/shape": ["kernel/automaton/state", "kernel/scene", "kernel/scene/text"],
+    "kernel/engine/visibility": ["kernel/automaton/rule", "kernel/automaton/state", "kernel/scene", "kernel/engine/cpu"],
+    "kernel/automaton/step": ["kernel/automaton/rule", "kernel/automaton/state"],
+    "kernel/engine/scalar": ["kernel/automaton/rule", "kernel/automaton/state", "kernel/automaton/step"],
+    "kernel/engine/cpu": [],
+    "kernel/engine/simd": ["kernel/automaton/rule", "kernel/engine/cpu", "kernel/engine/simd/arch"],
+    "kernel/engine/simd/arch": ["kernel/automaton/rule", "kernel/engine/cpu", "kernel/engine/simd"],
+    "kernel/engine/parallel": ["kernel/automaton/rule", "kernel/automaton/state", "kernel/automaton/step", "kernel/engine/cpu", "kernel/engine/simd"],
+    "bench/baseline": ["kernel/automaton/rule", "kernel/automaton/state"],
     "bench/measure": KERNEL + ["bench/baseline", "bench/measure/arch", "render/density"],
-    "bench/measure/arch": ["kernel/cpu"],
+    "bench/measure/arch": ["kernel/engine/cpu"],
     "bench": KERNEL + ["bench/measure", "hwmodel/stream"],
-    "kernel/io": ["kernel/rule", "kernel/state", "kernel/scene"],
+    "kernel/run/io": ["kernel/automaton/rule", "kernel/automaton/state", "kernel/scene"],
     "kernel/run": KERNEL,
-    "render/image": ["kernel/rule", "kernel/state", "kernel/scene"],
-    "render/density": ["kernel/rule", "kernel/state", "kernel/scene", "kernel/cpu", "render/image", "render/density/arch"],
+    "render/image": ["kernel/automaton/rule", "kernel/automaton/state", "kernel/scene"],
+    "render/density": ["kernel/automaton/rule", "kernel/automaton/state", "kernel/scene", "kernel/engine/cpu", "render/image", "render/density/arch"],
     "render/density/arch": ["render/density"],
-    "render/raycast": ["kernel/rule", "kernel/state", "kernel/scene", "render/image", "render/density"],
+    "render/raycast": ["kernel/automaton/rule", "kernel/automaton/state", "kernel/scene", "render/image", "render/density"],
     # The model computes with its own arithmetic: of the kernel it sees data only.
     "hwmodel/channel": [],
-    "hwmodel/stream": ["hwmodel/channel", "kernel/rule", "kernel/state"],
-    "hwmodel/presets": ["hwmodel/stream", "kernel/scene"],
+    "hwmodel/stream": ["hwmodel/channel", "kernel/automaton/rule", "kernel/automaton/state"],
+    "hwmodel/presets": ["hwmodel/stream", "kernel/scene", "kernel/scene/text"],
     "hwmodel/lockstep": KERNEL + ["hwmodel/channel", "hwmodel/stream", "hwmodel/presets"],
     "app": KERNEL + ["bench/measure", "bench/baseline", "render/image", "render/density", "render/raycast",
                      "hwmodel/stream", "hwmodel/lockstep", "hwmodel/presets"],
 }
-# What hwmodel may take from kernel/rule: numbers that describe a scene, no rule.
-RULE_DATA = {"kernel/rule/parameters.h"}
+# What hwmodel may take from kernel/automaton/rule: numbers that describe a scene, no rule.
+RULE_DATA = {"kernel/automaton/rule/parameters.h"}
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
@@ -68,11 +71,11 @@ def offences(root):
                 continue
             kind, target = match.groups()
             ours = target.split("/")[0] in ("kernel", "render", "app", "tests", "bench", "hwmodel")
-            if folder == "kernel/rule" and kind == '"' and not target.startswith("kernel/rule/"):
-                found.append(f"{name}:{number}: kernel/rule includes the standard library only, not {target}")
-            elif folder == "kernel/rule" and kind == "<" and ("/" in target or target.endswith(".h")):
-                found.append(f"{name}:{number}: kernel/rule includes the standard library only, not <{target}>")
-            elif folder == "hwmodel/stream" and target.startswith("kernel/rule/") and target not in RULE_DATA:
+            if folder == "kernel/automaton/rule" and kind == '"' and not target.startswith("kernel/automaton/rule/"):
+                found.append(f"{name}:{number}: kernel/automaton/rule includes the standard library only, not {target}")
+            elif folder == "kernel/automaton/rule" and kind == "<" and ("/" in target or target.endswith(".h")):
+                found.append(f"{name}:{number}: kernel/automaton/rule includes the standard library only, not <{target}>")
+            elif folder == "hwmodel/stream" and target.startswith("kernel/automaton/rule/") and target not in RULE_DATA:
                 found.append(f"{name}:{number}: hwmodel/stream may include {', '.join(RULE_DATA)} only, not {target}")
             elif kind == "<" and target.startswith("systemc") and not folder.startswith("hwmodel"):
                 found.append(f"{name}:{number}: SystemC appears only in hwmodel")
@@ -85,22 +88,22 @@ def offences(root):
 
 def self_test():
     planted = {
-        "kernel/rule/a.h": '#include "kernel/state/grid.h"\n',
-        "kernel/rule/b.h": "#include <fmt/format.h>\n",
-        "kernel/state/c.h": '#include "kernel/scene/scene.h"\n',
-        "kernel/scalar/d.cpp": '#include "kernel/run/simulation.h"\n',
-        "render/image/e.h": '#include "kernel/step/phase.h"\n',
-        "kernel/io/f.cpp": '#include "app/options.h"\n',
+        "kernel/automaton/rule/a.h": '#include "kernel/automaton/state/grid.h"\n',
+        "kernel/automaton/rule/b.h": "#include <fmt/format.h>\n",
+        "kernel/automaton/state/c.h": '#include "kernel/scene/scene.h"\n',
+        "kernel/engine/scalar/d.cpp": '#include "kernel/run/simulation.h"\n',
+        "render/image/e.h": '#include "kernel/automaton/step/phase.h"\n',
+        "kernel/run/io/f.cpp": '#include "app/options.h"\n',
         "kernel/other/g.h": "\n",
         "app/h.cpp": "\n" * (LONGEST + 1),
-        "hwmodel/stream/i.cpp": '#include "kernel/rule/heat.h"\n',
+        "hwmodel/stream/i.cpp": '#include "kernel/automaton/rule/heat.h"\n',
         "hwmodel/stream/j.cpp": "const int f = rule::scaled(1, 2);\n",
-        "hwmodel/stream/k.cpp": '#include "kernel/scalar/reference.h"\n',
+        "hwmodel/stream/k.cpp": '#include "kernel/engine/scalar/reference.h"\n',
         "hwmodel/channel/l.h": '#include "hwmodel/stream/cell.h"\n',
         "app/m.cpp": "#include <systemc>\n",
     }
-    fine = {"kernel/scalar/ok.cpp": '#include "kernel/rule/heat.h"\n#include <vector>\n',
-            "hwmodel/stream/ok.cpp": '#include "kernel/rule/parameters.h"\n#include <systemc>\n'}
+    fine = {"kernel/engine/scalar/ok.cpp": '#include "kernel/automaton/rule/heat.h"\n#include <vector>\n',
+            "hwmodel/stream/ok.cpp": '#include "kernel/automaton/rule/parameters.h"\n#include <systemc>\n'}
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         for name, text in {**planted, **fine}.items():

@@ -3,8 +3,8 @@
 
   neon_test.py ROOT     builds in build/neon/
 
-Runs tests/kernel/cpu (single operations against kernel/rule; not the threads, of which each that ends costs the
-emulator memory), tests/kernel/parallel/hostile_test.cpp (random worlds of both laws, compared after every phase), the
+Runs tests/kernel/engine/cpu (single operations against kernel/automaton/rule; not the threads, of which each that ends costs the
+emulator memory), tests/kernel/engine/parallel/hostile_test.cpp (random worlds of both laws, compared after every phase), the
 picture's field against the plain one, and committed scenes, whose digests are those approved. Without a cross compiler:
 skipped (77). Without an emulator, or the sources of GoogleTest: compiled only.
 """
@@ -28,8 +28,8 @@ print(f"{len(kernel)} sources of kernel/ compile for aarch64")
 if EMULATOR is None or not GTEST_SOURCES[0].exists():
     print("no emulator, or no GoogleTest to compile: nothing was run")
     sys.exit(0)
-build.link_programs(kernel, {"lanes": build.sources("tests/kernel/cpu"),
-                             "hostile": [root / "tests/kernel/parallel/hostile_test.cpp"],
+build.link_programs(kernel, {"lanes": build.sources("tests/kernel/engine/cpu"),
+                             "hostile": [root / "tests/kernel/engine/parallel/hostile_test.cpp"],
                              "picture": [*build.sources("render/density", "render/density/arch"),
                                          *sorted((root / "tests/render").glob("plain_*.cpp"))]})
 sys.exit(build.differ([("lanes", "-Workers.*:Turns.*"), ("hostile", "*paper*"), ("hostile", "*viscous*"),

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "kernel/state/digest.h"
+#include "kernel/automaton/state/digest.h"
 #include "tests/hwmodel/lockstep_world.h"
 
 namespace voxmelt::hwmodel {

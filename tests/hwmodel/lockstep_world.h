@@ -10,7 +10,7 @@
 
 #include "hwmodel/lockstep/verify.h"
 #include "kernel/scene/scene.h"
-#include "tests/kernel/parallel/equal.h"
+#include "tests/kernel/engine/parallel/equal.h"
 
 namespace voxmelt::hwmodel {
 

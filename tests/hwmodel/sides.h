@@ -3,7 +3,7 @@
 
 #include "hwmodel/stream/cell.h"
 #include "hwmodel/stream/shape.h"
-#include "kernel/state/volume.h"
+#include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::hwmodel {
 

@@ -7,7 +7,7 @@
 #include "hwmodel/stream/stages.h"
 #include "hwmodel/stream/volume_port.h"
 #include "tests/hwmodel/sides.h"
-#include "tests/kernel/parallel/equal.h"
+#include "tests/kernel/engine/parallel/equal.h"
 
 namespace voxmelt::hwmodel {
 

@@ -1,5 +1,5 @@
 // Settle and viscous spread against the reference. Spread reads what settle shows, so the two run together.
-#include "kernel/rule/viscous.h"
+#include "kernel/automaton/rule/viscous.h"
 #include "tests/hwmodel/viscous_worlds.h"
 
 namespace voxmelt::hwmodel {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "kernel/rule/fixed_point.h"
+#include "kernel/automaton/rule/fixed_point.h"
 #include "tests/render/plain_field.h"
 
 namespace voxmelt::test {

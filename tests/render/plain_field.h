@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/automaton/state/volume.h"
 #include "kernel/scene/look.h"
-#include "kernel/state/volume.h"
 #include "render/density/density_field.h"
 #include "render/density/levels.h"
 

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "kernel/rule/fixed_point.h"
+#include "kernel/automaton/rule/fixed_point.h"
 #include "render/density/low_pass.h"
 #include "tests/render/plain_field.h"
 

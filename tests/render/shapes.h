@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "kernel/rule/fixed_point.h"
+#include "kernel/automaton/rule/fixed_point.h"
+#include "kernel/automaton/state/volume.h"
 #include "kernel/scene/look.h"
-#include "kernel/state/volume.h"
 
 namespace voxmelt::test {
 

@@ -1,6 +1,6 @@
 // The loops for AVX2.
 #include "bench/measure/arch/lane_loops.h"
-#include "kernel/cpu/lanes_avx2.h"
+#include "kernel/engine/cpu/lanes_avx2.h"
 
 namespace voxmelt::measure {
 

@@ -1,6 +1,6 @@
 // The loops for AVX-512BW.
 #include "bench/measure/arch/lane_loops.h"
-#include "kernel/cpu/lanes_avx512.h"
+#include "kernel/engine/cpu/lanes_avx512.h"
 
 namespace voxmelt::measure {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bench/measure/arch/arch.h"
-#include "kernel/cpu/lanes.h"
+#include "kernel/engine/cpu/lanes.h"
 
 // Internal linkage: no object offers code of one instruction set to another.
 namespace voxmelt::measure {

@@ -1,6 +1,6 @@
 // The loops for NEON.
 #include "bench/measure/arch/lane_loops.h"
-#include "kernel/cpu/lanes_neon.h"
+#include "kernel/engine/cpu/lanes_neon.h"
 
 namespace voxmelt::measure {
 

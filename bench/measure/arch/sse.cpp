@@ -1,6 +1,6 @@
 // The loops for SSE4.2.
 #include "bench/measure/arch/lane_loops.h"
-#include "kernel/cpu/lanes_sse.h"
+#include "kernel/engine/cpu/lanes_sse.h"
 
 namespace voxmelt::measure {
 

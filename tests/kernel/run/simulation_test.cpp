@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernel/state/digest.h"
+#include "kernel/automaton/state/digest.h"
 #include "tests/kernel/worlds.h"
 
 namespace voxmelt::run {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernel/scene/coverage.h"
-#include "kernel/scene/polygon.h"
-#include "kernel/scene/shape.h"
+#include "kernel/scene/shape/coverage.h"
+#include "kernel/scene/shape/polygon.h"
+#include "kernel/scene/shape/shape.h"
 #include "tests/kernel/scene/scene_text.h"
 
 namespace voxmelt::scene {

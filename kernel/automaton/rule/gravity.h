@@ -1,0 +1,50 @@
+// Gravity (Eqs. 2-6) and excess (piling), one face of a column at a time, ascending.
+#pragma once
+
+#include "kernel/automaton/rule/fixed_point.h"
+#include "kernel/automaton/rule/parameters.h"
+
+namespace voxmelt::rule {
+
+// What a cell with amount a is ready to give downwards; dust below `minimum` goes whole.
+VOXMELT_RULE std::int32_t released(std::int32_t a, std::uint32_t factor, std::int32_t minimum) {
+  const auto part = static_cast<std::int32_t>((static_cast<std::uint64_t>(a) * factor) >> 16);
+  return std::min(a, part + minimum);
+}
+
+struct FallSurroundings {
+  bool beside_wall;  // one of the four sides is solid, inert or the border; paper's law: before melt
+  bool overhangs;    // nothing below now, and solid, inert or the border above or at a side
+};
+
+VOXMELT_RULE std::int32_t released(std::int32_t a, const Fall& fall, FallSurroundings at) {
+  if (at.overhangs && a < fall.hang) return 0;
+  return released(a, at.beside_wall ? fall.wall_factor : fall.factor, fall.minimum);
+}
+
+// The flow down through a face; `lower` is the amount below after its own outflow.
+VOXMELT_RULE std::int32_t fallen(std::int32_t lower, std::int32_t ready) {
+  return std::min(ready, std::max(0, kOne - lower));
+}
+
+// The flow up through a face: what `lower` holds above a full cell, as far as `upper` has room.
+VOXMELT_RULE std::int32_t pushed_up(std::int32_t lower, std::int32_t upper) {
+  return std::min(std::max(0, lower - kOne), kAmountMax - upper);
+}
+
+// Energy lost by the giver and gained by the receiver of a vertical flow.
+struct EnergyMove {
+  std::int32_t lost, gained;
+};
+
+// `room` is what the receiver can take without exceeding its new amount.
+VOXMELT_RULE EnergyMove energy_fallen(std::int32_t energy, std::int32_t flow, std::int32_t room,
+                                      const PaperLaw& law) {
+  const std::int32_t moved = std::min(energy, flow);
+  const auto accelerated = static_cast<std::int32_t>((static_cast<std::uint64_t>(moved) * law.beta) >> 16);
+  if (law.reading == EnergyReading::text) return {moved, std::min(accelerated, room)};
+  const std::int32_t both = std::min({accelerated, energy, room});
+  return {both, both};
+}
+
+}  // namespace voxmelt::rule

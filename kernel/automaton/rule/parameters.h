@@ -1,0 +1,121 @@
+// Everything that the rules of a scene depend on besides its state: integers only, resolved once from the
+// scene file. `voxmelt export` writes exactly these as parameters.json (docs/automaton.md, "Parameters").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/automaton/rule/fixed_point.h"
+
+namespace voxmelt::rule {
+
+enum class Law : std::uint8_t { paper, viscous };
+enum class EnergyReading : std::uint8_t { text, printed };
+
+// Positions and radii of sources are in sixteenths of a cell; the centre of cell c is 16 c + 8.
+inline constexpr std::int64_t kPositionUnit = 16;
+
+struct Position {
+  std::int64_t x = 0, y = 0, z = 0;
+};
+
+// A point source between two keyframes moves, and changes its power, linearly in the step.
+struct SourceKey {
+  std::uint32_t step = 0;
+  Position at;
+  std::uint64_t power = 0;  // irradiance x squared distance: 1/16 temperature unit per step x (1/16 cell)^2
+};
+
+struct PointSource {
+  std::vector<SourceKey> keys;  // at least one, ascending in step
+};
+
+struct Heat {
+  bool enabled = false;
+  int neighbours = 6;               // of Eq. 1: 6, 18 or 26
+  std::uint16_t weight_face = 0;    // floor(65536 gamma / (pi l^2)), l = 1
+  std::uint16_t weight_edge = 0;    // l^2 = 2
+  std::uint16_t weight_corner = 0;  // l^2 = 3
+  std::uint16_t convection = 0;     // upward exchange in liquid, 1/65536, at most 32767; 0 is off
+  bool radiation = false;           // point sources present
+  std::uint32_t visibility_every = 8;
+  std::vector<PointSource> sources;
+  bool air = false;                          // exchange with moving air at exposed cells (oven, or cooling)
+  std::uint16_t air_exchange = 0;            // 1/65536 per step and unit area, at most 37837
+  std::vector<Temperature> air_temperature;  // one per y
+};
+
+struct Material {
+  Temperature melting_point = 32768;
+  Temperature latent_heat = 0;  // extra `latent_heat`: temperature units absorbed at the melting point
+};
+
+struct Region {  // all cells whose centre is within radius
+  Position at;
+  std::int64_t radius = 0;
+};
+
+struct Vent {
+  Region region;
+  Amount rate = 0;  // added per cell and step
+  Temperature temperature = 0;
+  Energy energy = 4096;                         // per kOne of amount
+  std::uint32_t from = 0, until = 0xFFFFFFFFu;  // open while from <= step < until
+};
+
+struct Drain {
+  Region region;
+  Amount rate = 0;
+  std::uint32_t from = 0, until = 0xFFFFFFFFu;
+};
+
+// Vertical motion, both laws: a cell gives min(A, (A x factor >> 16) + minimum); factor 65536 gives all.
+struct Fall {
+  std::uint32_t factor = 65536;       // free air
+  std::uint32_t wall_factor = 65536;  // extra `adhesion`: a side or diagonal-free neighbour is solid
+  Amount minimum = 32;                // dust moves whole
+  Amount hang = 0;                    // extra `drip`: an overhanging film below this amount waits; 0 is off
+};
+
+struct PaperLaw {
+  int neighbours = 8;           // 4 or 8 (8 is the extra `diagonal`)
+  std::uint16_t threshold = 0;  // energy above which a cell spreads (Eqs. 7-10)
+  bool use_table = false;       // factors per pattern (paper, 4 neighbours) instead of one share
+  std::array<std::array<std::uint16_t, 4>, 16> table{};  // [pattern][direction], 1/65536
+  std::uint16_t share = 8192;                            // 1/65536 of the amount per axis direction
+  bool downhill = true;                                  // receive only below the giver
+  Amount margin = 256;                                   // and by more than this
+  bool support = false;  // extra `support`: only cells that stand on something spread
+  Amount slump = 0;      // extra `slump`: margin at which a starved cell still yields; 0 is off
+  EnergyReading reading = EnergyReading::text;
+  std::uint32_t beta = 65536;                                                    // Eqs. 5, 6; 1/65536
+  std::uint16_t alpha_liquid = 65535, alpha_solid = 65535, alpha_floor = 65535;  // Eqs. 16-20; 1/65536
+  std::uint16_t reheat = 0;  // extra `reheat`: (A - E) x reheat / 65536 at or above the melting point
+};
+
+struct ViscousLaw {
+  std::uint32_t mobility = 0;  // kq = (2/3)(kappa/3), 1/2^20: docs/automaton.md, "Mobility"
+  std::uint32_t yield = 0;     // yield stress: depth x head difference that rests, 1/65536
+  std::uint8_t stiffness = 8;  // K: 1..8, of closed conduits
+};
+
+struct Flow {
+  Law law = Law::paper;
+  Fall fall;
+  PaperLaw paper;
+  ViscousLaw viscous;
+  bool thermal_viscosity = false;                  // extra: mobility or share times the table / 32768
+  std::array<std::uint16_t, 32> mobility_table{};  // indexed by T >> 11; 32768 is 1
+};
+
+struct Parameters {
+  std::uint64_t seed = 1;
+  Heat heat;
+  Material material;
+  std::vector<Vent> vents;
+  std::vector<Drain> drains;
+  Flow flow;
+};
+
+}  // namespace voxmelt::rule

@@ -1,0 +1,52 @@
+// Vents, drains and the path of a moving point source: integers in sixteenths of a cell.
+#pragma once
+
+#include "kernel/automaton/rule/fixed_point.h"
+#include "kernel/automaton/rule/parameters.h"
+
+namespace voxmelt::rule {
+
+VOXMELT_RULE bool contains(const Region& region, int x, int y, int z) {
+  const std::int64_t dx = kPositionUnit * x + 8 - region.at.x, dy = kPositionUnit * y + 8 - region.at.y,
+                     dz = kPositionUnit * z + 8 - region.at.z;
+  return dx * dx + dy * dy + dz * dz <= region.radius * region.radius;
+}
+
+VOXMELT_RULE bool is_open(std::uint32_t from, std::uint32_t until, std::uint32_t step) {
+  return from <= step && step < until;
+}
+
+// What a vent adds to, or a drain takes from, a cell that holds `amount`.
+VOXMELT_RULE std::int32_t vented(std::int32_t amount, std::int32_t rate) {
+  return std::min(rate, kAmountMax - amount);
+}
+VOXMELT_RULE std::int32_t drained(std::int32_t amount, std::int32_t rate) { return std::min(rate, amount); }
+
+// Energy of freshly vented liquid: `energy` per kOne.
+VOXMELT_RULE std::int32_t vented_energy(std::int32_t added, std::int32_t energy) {
+  return (added * energy) >> 12;
+}
+
+// a + (b - a) i / n, rounded towards minus infinity.
+VOXMELT_RULE std::int64_t between(std::int64_t a, std::int64_t b, std::int64_t i, std::int64_t n) {
+  const std::int64_t product = (b - a) * i;
+  const std::int64_t quotient = product / n;
+  return a + quotient - (product % n < 0 ? 1 : 0);
+}
+
+// Position and power of a source at a step.
+inline SourceKey source_at(const PointSource& source, std::uint32_t step) {
+  const auto& keys = source.keys;
+  if (step <= keys.front().step) return keys.front();
+  if (step >= keys.back().step) return keys.back();
+  std::size_t k = 0;
+  while (keys[k + 1].step <= step) ++k;
+  const SourceKey &a = keys[k], &b = keys[k + 1];
+  const std::int64_t i = step - a.step, n = b.step - a.step;
+  return {step,
+          {between(a.at.x, b.at.x, i, n), between(a.at.y, b.at.y, i, n), between(a.at.z, b.at.z, i, n)},
+          static_cast<std::uint64_t>(
+              between(static_cast<std::int64_t>(a.power), static_cast<std::int64_t>(b.power), i, n))};
+}
+
+}  // namespace voxmelt::rule

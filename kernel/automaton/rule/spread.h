@@ -1,0 +1,47 @@
+// Spreading of the paper's law (Eqs. 7-20): a giver's share, its available directions, its energy.
+#pragma once
+
+#include "kernel/automaton/rule/fixed_point.h"
+#include "kernel/automaton/rule/neighbourhood.h"
+#include "kernel/automaton/rule/parameters.h"
+
+namespace voxmelt::rule {
+
+// Bounds that make overflow impossible (docs/automaton.md, "Bounds"): with 8 neighbours a receiver below 11
+// takes at most 4 x 1 + 4 x 1/4; with 4 neighbours one below 8 takes at most 4 x 2.
+VOXMELT_RULE std::int32_t flow_cap(int neighbours) { return neighbours == 8 ? kOne : 2 * kOne; }
+VOXMELT_RULE std::int32_t receiver_limit(int neighbours) { return (neighbours == 8 ? 11 : 8) * kOne; }
+
+VOXMELT_RULE std::int32_t thermal_share(std::int32_t share, std::int32_t h, const Flow& flow) {
+  if (!flow.thermal_viscosity) return share;
+  const std::int32_t limit = flow.paper.neighbours == 8 ? 13107 : 16384;
+  return std::min((share * std::int32_t{flow.mobility_table[static_cast<std::size_t>(h >> 11)]}) >> 15,
+                  limit);
+}
+
+// factor x A, capped; a diagonal takes a quarter.
+VOXMELT_RULE std::int32_t shared(std::int32_t a, std::int32_t share, std::int32_t cap, bool diagonal) {
+  const std::int32_t f = std::min(scaled(a, share), cap);
+  return diagonal ? f >> 2 : f;
+}
+
+// How much lower than its giver a neighbour must stand: an energetic cell spreads down to `margin`, a starved
+// one yields only over steps above `slump`. Negative: the cell does not spread at all.
+VOXMELT_RULE std::int32_t spread_margin(std::int32_t energy, const PaperLaw& law) {
+  if (energy > law.threshold) return law.margin;
+  return law.slump > 0 ? std::int32_t{law.slump} : -1;
+}
+
+// May a giver with amount a and axis flow f give to a neighbour with amount b?
+// A diagonal's margin is 9/8: then piles at rest are as long along the axes as along the diagonals.
+VOXMELT_RULE bool receives(std::int32_t a, std::int32_t f, std::int32_t b, std::int32_t margin, bool diagonal,
+                           const PaperLaw& law) {
+  if (b >= receiver_limit(law.neighbours)) return false;
+  return !law.downhill || b + std::max(f, diagonal ? (9 * margin) >> 3 : margin) < a;
+}
+
+VOXMELT_RULE std::int32_t contact_alpha(bool solid_below, bool inert_below, const PaperLaw& law) {
+  return inert_below ? law.alpha_floor : solid_below ? law.alpha_solid : law.alpha_liquid;
+}
+
+}  // namespace voxmelt::rule

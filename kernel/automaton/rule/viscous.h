@@ -1,0 +1,87 @@
+// The viscous law: free-surface heads and lubrication mobility of settled runs of liquid.
+//
+// A run is the contiguous liquid standing on a solid. Heads are in 1/256 cell from the grid's bottom.
+#pragma once
+
+#include "kernel/automaton/rule/fixed_point.h"
+#include "kernel/automaton/rule/parameters.h"
+
+namespace voxmelt::rule {
+
+inline constexpr std::int32_t kHeadOne = 256;
+inline constexpr std::int32_t kRunHalf = kOne / 2;
+
+// Does the run go on above n cells that hold the sum `mass`, the uppermost `top`, when the next holds `next`?
+VOXMELT_RULE bool run_continues(std::int64_t mass, std::int32_t n, std::int32_t top, std::int32_t next) {
+  return mass > std::int64_t{n} * kOne || (top >= kRunHalf && next > 0);
+}
+
+// Settled amount of cell k of a run of n cells with sum `mass`: full from the bottom; what does not fit below
+// a ceiling is stacked from the top cell down.
+VOXMELT_RULE std::int32_t settled(std::int64_t mass, std::int32_t n, std::int32_t k) {
+  const std::int64_t over = std::max<std::int64_t>(0, mass - std::int64_t{n} * kOne);
+  const std::int64_t base = std::clamp<std::int64_t>(mass - std::int64_t{k} * kOne, 0, kOne);
+  constexpr std::int64_t headroom = kAmountMax - kOne;
+  const std::int64_t stacked = std::clamp<std::int64_t>(over - headroom * (n - 1 - k), 0, headroom);
+  return static_cast<std::int32_t>(base + stacked);
+}
+
+struct Column {           // what a cell shows to its neighbours
+  std::int32_t head;      // 1/256 cell
+  std::int32_t mobility;  // 1/65536, towards a cell in a run: limited by the depth
+  std::int32_t exposed;   // 1/65536, towards a cell outside a run: a bare flank, limited per cell only
+  std::int32_t dead;      // head differences up to this do not move it (yield stress; at least one unit)
+  bool in_run;
+};
+
+VOXMELT_RULE std::int32_t bed_head(int y, std::int32_t bed_amount) {
+  return y * kHeadOne + ((bed_amount - kBedHalf) >> 4);
+}
+
+// Head, mobility and dead zone of a run of n cells with sum `mass`, its bed at `bed`, heat content h.
+VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t bed, std::int32_t h,
+                               const Flow& flow) {
+  const ViscousLaw& law = flow.viscous;
+  const std::int64_t over = std::max<std::int64_t>(0, mass - std::int64_t{n} * kOne);
+  const auto depth = static_cast<std::int32_t>(std::max<std::int64_t>(1, mass >> 4));
+  const std::int32_t head =
+      bed + static_cast<std::int32_t>(mass >> 4) + (law.stiffness - 1) * static_cast<std::int32_t>(over >> 4);
+
+  // Mobility kq M^2 of a column of depth M, limited so that a cell gives at most an eighth per neighbour, and
+  // a column at most that to another column; only a bare flank may give it from every cell.
+  const std::int64_t capped = std::min(depth, 64 * kHeadOne);
+  std::int64_t mobility = (static_cast<std::int64_t>(law.mobility) * capped * capped + (1 << 19)) >> 20;
+  if (flow.thermal_viscosity)
+    mobility = (mobility * flow.mobility_table[static_cast<std::size_t>(h >> 11)]) >> 15;
+  const std::int64_t cells = (mass >> 12) + 1;
+  const std::int64_t limit = 8192 / cells / (over > 0 ? law.stiffness : 1);
+
+  const std::int64_t dead = (static_cast<std::int64_t>(law.yield) + depth / 2) / depth;
+  return {head, static_cast<std::int32_t>(std::min(mobility, limit)),
+          static_cast<std::int32_t>(std::min<std::int64_t>(mobility, 8192)),
+          static_cast<std::int32_t>(std::max<std::int64_t>(1, dead)), true};
+}
+
+// A cell outside a run: on a bed, on top of a run (`below`), or in the air.
+VOXMELT_RULE Column bed_column(std::int32_t bed) { return {bed, 0, 0, 0, false}; }
+VOXMELT_RULE Column top_column(const Column& below) { return {below.head, below.mobility, 0, 0, false}; }
+VOXMELT_RULE Column air_column(int y) { return {(y - 2) * kHeadOne, 0, 0, 0, false}; }
+
+// The flow from `giver` (amount a) to `taker` (amount b); 0 unless the giver stands higher and in a run.
+VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, const Column& taker,
+                                       std::int32_t b, bool diagonal, std::int32_t dither) {
+  if (!giver.in_run) return 0;
+  const std::int32_t dead = diagonal ? (giver.dead * 11) >> 3 : giver.dead;
+  std::int32_t drop = giver.head - taker.head;
+  if (drop <= dead) return 0;
+  drop = std::min(drop, diagonal ? 362 : kHeadOne);
+
+  const std::int64_t mobilities = (taker.in_run ? giver.mobility : giver.exposed) + taker.mobility;
+  const auto conductance = static_cast<std::int32_t>(std::min<std::int64_t>(65535, (mobilities * a) >> 12));
+  const std::int32_t wanted =
+      diagonal ? (conductance * drop + (dither >> 1)) >> 15 : (conductance * drop + (dither >> 3)) >> 13;
+  const std::int32_t room = (taker.in_run ? kAmountMax : kOne) - b;
+  return std::min({wanted, a >> 3, std::max(0, room) >> 3});
+}
+
+}  // namespace voxmelt::rule

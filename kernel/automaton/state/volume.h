@@ -1,0 +1,33 @@
+// The state of a volume: three bit-packed masks and three 16-bit fields, all [z][y][x], x fastest.
+//
+//   solid   meltable solid; amount is its mass (a full cell holds kOne; a surface cell its covered part)
+//   inert   never melts and never moves; its amount is the bed offset (kBedHalf: flat), no mass
+//   liquid  exactly the cells that are neither and hold amount > 0
+//
+// A cell with neither solid nor liquid has energy 0 and temperature 0; an empty cell has amount 0 too.
+// What a scene does not use (energy, temperature), and what is empty, takes no memory.
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/automaton/state/bit_plane.h"
+#include "kernel/automaton/state/field.h"
+#include "kernel/automaton/state/grid.h"
+
+namespace voxmelt::state {
+
+struct Volume {
+  Volume() = default;
+  explicit Volume(Grid size)
+      : grid(size), solid(size), liquid(size), inert(size), amount(size), energy(size), temperature(size) {}
+
+  Slot at(int x, int y, int z) const { return amount.layout().at(x, y, z); }
+
+  Grid grid;
+  BitPlane solid, liquid, inert;
+  Field<std::uint16_t> amount, energy, temperature;
+
+  friend bool operator==(const Volume&, const Volume&) = default;
+};
+
+}  // namespace voxmelt::state

@@ -1,0 +1,62 @@
+// What every implementation of the automaton offers: one phase at a time, so that any two can be compared
+// after each of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/ledger.h"
+#include "kernel/automaton/state/volume.h"
+#include "kernel/automaton/step/phase.h"
+
+namespace voxmelt::step {
+
+using Irradiance = state::Field<std::uint16_t>;  // UQ12.4 temperature units per step
+
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+
+  // Runs one phase of step number `step` on `volume` and books it in `ledger`.
+  // `irradiance`: null when the scene has no radiation.
+  virtual void run(Phase phase, std::uint32_t step, const Irradiance* irradiance, state::Volume& volume,
+                   state::Ledger& ledger) = 0;
+};
+
+// How an implementation works; no result depends on it.
+struct Tuning {
+  int threads = 1;
+  bool sleep = true;   // skip what provably stays as it is
+  int tile_shift = 3;  // rows of a tile of work: 2^tile_shift, 0..12
+};
+
+struct Implementation {
+  std::string name;
+  std::string description;
+  std::unique_ptr<Stepper> (*create)(const rule::Parameters& parameters, state::Grid grid,
+                                     const Tuning& tuning);
+  bool supported = true;  // by this processor
+};
+
+// A registry is filled by who links the implementations (kernel/run), never by their headers.
+class Registry {
+ public:
+  void add(Implementation implementation) { implementations_.push_back(std::move(implementation)); }
+  const std::vector<Implementation>& all() const { return implementations_; }
+
+  // "auto" is the last supported one (the fastest); nullptr for an unknown name.
+  const Implementation* find(const std::string& name) const {
+    const Implementation* found = nullptr;
+    for (const Implementation& candidate : implementations_)
+      if (name == "auto" ? candidate.supported : candidate.name == name) found = &candidate;
+    return found;
+  }
+
+ private:
+  std::vector<Implementation> implementations_;
+};
+
+}  // namespace voxmelt::step

@@ -1,0 +1,72 @@
+#include "kernel/engine/cpu/workers.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+
+#if defined(VOXMELT_PLAIN_THREADS)
+#include <thread>
+#include <vector>
+#else
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace voxmelt::cpu {
+
+#if defined(VOXMELT_PLAIN_THREADS)
+
+// For the thread sanitizer, which does not understand TBB's own synchronisation: plain threads for each call.
+struct Workers::Arena {
+  template <class Work>
+  void run(int threads, const Work& work) {
+    std::vector<std::thread> others;
+    for (int t = 1; t < threads; ++t) others.emplace_back(work);
+    work();
+    for (std::thread& other : others) other.join();
+  }
+};
+
+Workers::Workers(int threads) : threads_(threads), arena_(std::make_unique<Arena>()) {}
+
+#else
+
+struct Workers::Arena {
+  explicit Arena(int threads) : arena(threads) {}
+  template <class Work>
+  void run(int threads, const Work& work) {
+    arena.execute([&] {
+      tbb::parallel_for(
+          tbb::blocked_range<int>(0, threads, 1), [&](const tbb::blocked_range<int>&) { work(); },
+          tbb::simple_partitioner());
+    });
+  }
+  tbb::task_arena arena;
+};
+
+Workers::Workers(int threads)
+    : threads_(threads), arena_(threads > 1 ? std::make_unique<Arena>(threads) : nullptr) {}
+
+#endif
+
+Workers::~Workers() = default;
+
+void Workers::spread(int count, Call call, const void* context) {
+  // The last first: who relies on what an earlier task left is seen on any machine.
+  std::atomic<int> left{count};
+  std::atomic_flag failed;
+  std::exception_ptr thrown;
+  arena_->run(std::min(threads_, count), [&] {
+    try {
+      for (int i = --left; i >= 0; i = --left) call(context, i);
+    } catch (...) {
+      if (!failed.test_and_set()) thrown = std::current_exception();
+      left = 0;
+    }
+  });
+  if (thrown) std::rethrow_exception(thrown);
+}
+
+}  // namespace voxmelt::cpu

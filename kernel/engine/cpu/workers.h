@@ -1,0 +1,48 @@
+// Runs independent tasks on a fixed number of threads. Nothing that they compute may depend on who runs what.
+#pragma once
+
+#include <memory>
+
+#include "kernel/engine/cpu/turns.h"
+
+namespace voxmelt::cpu {
+
+class Workers {
+ public:
+  explicit Workers(int threads);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  int threads() const { return threads_; }
+
+  // task(0) .. task(count - 1), in any order (the last one begins first); returns when all are done. What a
+  // task throws (memory may run out) is thrown from here, and tasks that were not begun are left out.
+  template <class Task>
+  void run(int count, const Task& task) {
+    if (threads_ == 1 || count <= 1) {
+      for (int i = 0; i < count; ++i) task(i);
+      return;
+    }
+    spread(
+        count, [](const void* context, int i) { (*static_cast<const Task*>(context))(i); }, &task);
+  }
+
+  // The same for tasks that come again, the dearest first.
+  template <class Task>
+  void run(int count, Turns& turns, const Task& task) {
+    if (threads_ == 1 || count <= 1) return run(count, task);
+    turns.sort(count);
+    run(count, [&](int turn) { turns.time(turns.at(turn), task); });
+  }
+
+ private:
+  using Call = void (*)(const void* context, int i);
+  void spread(int count, Call call, const void* context);
+
+  struct Arena;
+  int threads_;
+  std::unique_ptr<Arena> arena_;
+};
+
+}  // namespace voxmelt::cpu

@@ -1,0 +1,52 @@
+// Memory of the viscous law: what runs show to their neighbours, and what the pairs of one slice exchange.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kernel/automaton/state/bit_plane.h"
+#include "kernel/automaton/state/field.h"
+#include "kernel/engine/simd/kernels.h"
+
+namespace voxmelt::parallel {
+
+class RunMemory {
+ public:
+  explicit RunMemory(state::Grid grid)
+      : planes_{state::BitPlane(grid), state::BitPlane(grid)},
+        deep_(static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(grid.z)) {
+    for (auto& field : fields_) field = state::Field<std::uint16_t>(grid);
+    runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(), fields_[4].data(),
+             fields_[5].data(), planes_[0].data(), planes_[1].data(), deep_.data()};
+  }
+  simd::Runs& runs() { return runs_; }
+
+ private:
+  std::array<state::Field<std::uint16_t>, 6> fields_;
+  std::array<state::BitPlane, 2> planes_;
+  std::vector<simd::TileRow> deep_;
+  simd::Runs runs_;
+};
+
+class SliceCurrents {
+ public:
+  explicit SliceCurrents(state::Grid grid) : giving_(static_cast<std::size_t>(grid.y)) {
+    for (auto& field : fields_) field = state::Field<std::uint16_t>(state::Grid{grid.x, grid.y, 1});
+    for (std::size_t i = 0; i < 4; ++i) currents_.flow[i] = fields_[i].data();
+    for (std::size_t i = 0; i < 2; ++i) currents_.heat[i] = fields_[4 + i].data();
+    currents_.giving = giving_.data();
+  }
+  simd::Currents& currents() { return currents_; }
+
+  // False: nothing is exchanged, no kernel need look.
+  bool written() const { return written_; }
+  void set_written(bool written) { written_ = written; }
+
+ private:
+  std::array<state::Field<std::uint16_t>, 6> fields_;
+  std::vector<simd::TileRow> giving_;
+  simd::Currents currents_;
+  bool written_ = false;
+};
+
+}  // namespace voxmelt::parallel

@@ -1,0 +1,216 @@
+#include "kernel/engine/parallel/heat_flow.h"
+
+namespace voxmelt::parallel {
+namespace {
+
+std::uint16_t* heats(const Job& job, int z) { return job.view.temperature + job.view.cell(0, 0, z); }
+
+}  // namespace
+
+HeatFlow::HeatFlow(state::Grid grid, const simd::View& view, int chunks)
+    : chunks_(view.nz, chunks),
+      stale_(view.nz, view.tile_rows()),
+      taken_(stale_),
+      awake_(stale_),
+      restless_(stale_),
+      moved_(stale_),
+      for_melt_(stale_),
+      chunk_(static_cast<std::size_t>(chunks_.count())),
+      cut_(static_cast<std::size_t>(chunks_.cuts())) {
+  const state::Grid slice{grid.x, grid.y, 1};
+  for (std::vector<Worker>* workers : {&chunk_, &cut_})
+    for (Worker& worker : *workers) {
+      worker.old.assign(2, Slice(slice));
+      worker.moved.resize(static_cast<std::size_t>(view.tile_rows()));
+      worker.hot.resize(worker.moved.size());
+    }
+  for (Worker& worker : chunk_) {
+    worker.up = Slice({grid.x, 1, 1});
+    worker.front = Slice(slice);
+    worker.flux = {worker.up.data(), worker.front.data()};
+  }
+}
+
+void HeatFlow::note(const Tiles& changed) {
+  stale_.add(changed);
+  for_melt_.add(changed);
+}
+
+void HeatFlow::heat(const Job& job, bool new_irradiance, Tiles& changed, simd::Books& books) {
+  wake(job, new_irradiance);
+  const bool later = job.kernels.conduct_edges || job.kernels.conduct_corners || job.kernels.convect;
+  if (job.kernels.conduct_faces) {
+    conduct_faces(job);
+    end_pass(job, later);
+  }
+  if (job.kernels.conduct_edges) {
+    conduct_distant(job, false);
+    end_pass(job, true);
+  }
+  if (job.kernels.conduct_corners) {
+    conduct_distant(job, true);
+    end_pass(job, true);
+  }
+  if (job.kernels.convect) {
+    convect(job);
+    end_pass(job, false);
+  }
+  // Cell by cell: where nothing else has changed, only what is restless may.
+  if (job.kernels.exchange) {
+    sweep(job, [&](int z, Worker& worker, const Neighbours&) { exchange(job, z, worker); });
+    end_pass(job, false);
+  }
+  changed.add(stale_);
+  close(books);
+}
+
+void HeatFlow::wake(const Job& job, bool new_irradiance) {
+  std::swap(taken_, stale_);
+  job.workers.run(chunks_.count(), [&](int chunk) {
+    const TileRow all = all_words(job.view);
+    for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
+      awake_.clear(z);
+      if (!job.sleep || new_irradiance)
+        std::fill_n(awake_.edit(z), awake_.rows(), all);
+      else if (taken_.any_near(z) || restless_.any(z))
+        for (int r = 0; r < job.view.tile_rows(); ++r)
+          awake_.edit(z)[r] = taken_.near(z, r, all) | restless_.slice(z)[r];
+      stale_.clear(z);
+      restless_.clear(z);
+      moved_.clear(z);
+    }
+  });
+}
+
+// What a pass has moved; its neighbours are awake for the passes that follow.
+void HeatFlow::end_pass(const Job& job, bool wake_neighbours) {
+  job.workers.run(chunks_.count(), [&](int chunk) {
+    const TileRow all = all_words(job.view);
+    for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
+      if (wake_neighbours && moved_.any_near(z))
+        for (int r = 0; r < job.view.tile_rows(); ++r) awake_.edit(z)[r] |= moved_.near(z, r, all);
+      stale_.add(z, moved_.slice(z));
+    }
+  });
+  moved_.clear();
+}
+
+// The slices beside a cut, before either is changed: the rows that somebody awake may read.
+void HeatFlow::save_cuts(const Job& job) {
+  job.workers.run(chunks_.cuts(), [&](int i) {
+    Worker& worker = cut_[static_cast<std::size_t>(i)];
+    const int cut = chunks_.cut(i), rows = job.view.tile_rows();
+    int first = rows, last = -1;
+    for (int r = 0; r < rows; ++r)
+      if ((awake_.slice(cut - 1)[r] | awake_.slice(cut)[r]) != 0) {
+        first = std::min(first, std::max(0, r - 1));
+        last = std::min(rows - 1, r + 1);
+      }
+    if (last < 0) return;
+    const std::size_t begin = job.view.row * static_cast<std::size_t>(job.view.tile_begin(first));
+    const std::size_t end = job.view.row * static_cast<std::size_t>(job.view.tile_end(last));
+    for (std::size_t k = 0; k < 2; ++k)
+      std::copy_n(heats(job, cut - 1 + static_cast<int>(k)) + begin, end - begin,
+                  worker.old[k].data() + begin);
+  });
+}
+
+// visit(z, worker, neighbours) for the slices with something awake, ascending within a chunk.
+template <class Visit>
+void HeatFlow::sweep(const Job& job, const Visit& visit) {
+  save_cuts(job);
+  job.workers.run(chunks_.count(), sweep_turns_, [&](int chunk) {
+    Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
+    const int begin = chunks_.begin(chunk), end = chunks_.end(chunk);
+    for (int z = begin; z < end; ++z) {
+      if (!awake_.any(z)) continue;
+      Neighbours near{nullptr, nullptr, z == begin};
+      if (z > begin)
+        near.below = heats(job, z - 1);
+      else if (chunk > 0)
+        near.below = cut_[static_cast<std::size_t>(chunk - 1)].old[0].data();
+      if (z + 1 < end)
+        near.above = heats(job, z + 1);
+      else if (chunk < chunks_.cuts())
+        near.above = cut_[static_cast<std::size_t>(chunk)].old[1].data();
+      visit(z, worker, near);
+    }
+  });
+}
+
+// One kernel on slice z: kernel(found).
+template <class Call>
+void HeatFlow::call(int z, Worker& worker, const Call& kernel) {
+  std::fill(worker.moved.begin(), worker.moved.end(), TileRow{0});
+  std::fill(worker.hot.begin(), worker.hot.end(), TileRow{0});
+  kernel(simd::HeatTiles{worker.moved.data(), restless_.edit(z), worker.hot.data()});
+  restless_.tidy(z);
+  moved_.add(z, worker.moved.data());
+  for_melt_.add(z, worker.hot.data());
+}
+
+void HeatFlow::conduct_faces(const Job& job) {
+  sweep(job, [&](int z, Worker& worker, const Neighbours& near) {
+    const TileRow* carried = near.first || !awake_.any(z - 1) ? nullptr : awake_.slice(z - 1);
+    call(z, worker, [&](const simd::HeatTiles& found) {
+      job.kernels.conduct_faces(job.view, job.step, z, {near.below, nullptr, near.above}, carried,
+                                awake_.slice(z), worker.flux, found, worker.books);
+    });
+  });
+}
+
+void HeatFlow::conduct_distant(const Job& job, bool corners) {
+  const auto kernel = corners ? job.kernels.conduct_corners : job.kernels.conduct_edges;
+  sweep(job, [&](int z, Worker& worker, const Neighbours& near) {
+    // The slice below has been changed if it was awake: its old heats are in the ring.
+    const auto ring = [&](int slice) -> Slice& { return worker.old[static_cast<std::size_t>(slice & 1)]; };
+    std::copy_n(heats(job, z), job.view.slice, ring(z).data());
+    const bool below_changed = !near.first && awake_.any(z - 1);
+    const simd::OldHeat old{below_changed ? ring(z - 1).data() : near.below, ring(z).data(), near.above};
+    call(z, worker, [&](const simd::HeatTiles& found) {
+      kernel(job.view, job.step, z, old, awake_.slice(z), found, worker.books);
+    });
+  });
+}
+
+void HeatFlow::convect(const Job& job) {
+  sweep(job, [&](int z, Worker& worker, const Neighbours&) {
+    call(z, worker, [&](const simd::HeatTiles& found) {
+      job.kernels.convect(job.view, job.step, z, awake_.slice(z), worker.flux, found, worker.books);
+    });
+  });
+}
+
+void HeatFlow::exchange(const Job& job, int z, Worker& worker) {
+  call(z, worker, [&](const simd::HeatTiles& found) {
+    job.kernels.exchange(job.view, job.step, z, awake_.slice(z), found, worker.books);
+  });
+}
+
+void HeatFlow::melt(const Job& job, Tiles& changed, simd::Books& books) {
+  job.workers.run(chunks_.count(), melt_turns_, [&](int chunk) {
+    Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
+    const TileRow all = all_words(job.view);
+    for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
+      if (!job.sleep) std::fill_n(for_melt_.edit(z), for_melt_.rows(), all);
+      if (!for_melt_.any(z)) continue;
+      std::fill(worker.moved.begin(), worker.moved.end(), TileRow{0});
+      job.kernels.melt(job.view, job.step, z, for_melt_.slice(z), worker.moved.data(), worker.books);
+      for_melt_.clear(z);
+      for_melt_.add(z, worker.moved.data());
+      stale_.add(z, worker.moved.data());
+      changed.add(z, worker.moved.data());
+    }
+  });
+  close(books);
+}
+
+// Sums what the workers booked.
+void HeatFlow::close(simd::Books& books) {
+  for (Worker& worker : chunk_) {
+    books += worker.books;
+    worker.books = {};
+  }
+}
+
+}  // namespace voxmelt::parallel

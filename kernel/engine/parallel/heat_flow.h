@@ -1,0 +1,60 @@
+// Phases heat and melt over all slices.
+//
+// A tile is awake for heat where it, or a tile beside it, has changed since its last heat (its heat, its
+// amounts, its masks), or where another dither might move heat; each pass wakes the neighbours of what it
+// changes. A tile is awake for melt where it has changed since its last melt. Bodies of one temperature
+// sleep.
+#pragma once
+
+#include <vector>
+
+#include "kernel/automaton/state/field.h"
+#include "kernel/engine/parallel/chunks.h"
+#include "kernel/engine/parallel/job.h"
+
+namespace voxmelt::parallel {
+
+class HeatFlow {
+ public:
+  HeatFlow(state::Grid grid, const simd::View& view, int chunks);
+
+  void note(const Tiles& changed);  // by other phases
+
+  // Both add to `changed` the tiles that they change.
+  void heat(const Job& job, bool new_irradiance, Tiles& changed, simd::Books& books);
+  void melt(const Job& job, Tiles& changed, simd::Books& books);
+
+ private:
+  using Slice = state::Field<std::uint16_t>;
+  struct Worker {
+    std::vector<Slice> old;  // of a chunk: a ring of two; at a cut: the slices before and after it
+    Slice up, front;
+    simd::HeatFlux flux;
+    std::vector<TileRow> moved, hot;  // by a call
+    simd::Books books;
+  };
+  struct Neighbours {
+    const std::uint16_t *below, *above;  // old heats; null beyond the grid
+    bool first;                          // of its chunk
+  };
+
+  void wake(const Job& job, bool new_irradiance);
+  void save_cuts(const Job& job);
+  void end_pass(const Job& job, bool wake_neighbours);
+  void close(simd::Books& books);
+  template <class Visit>
+  void sweep(const Job& job, const Visit& visit);
+  template <class Call>
+  void call(int z, Worker& worker, const Call& kernel);
+  void conduct_faces(const Job& job);
+  void conduct_distant(const Job& job, bool corners);
+  void convect(const Job& job);
+  void exchange(const Job& job, int z, Worker& worker);
+
+  Chunks chunks_;
+  cpu::Turns sweep_turns_, melt_turns_;
+  Tiles stale_, taken_, awake_, restless_, moved_, for_melt_;
+  std::vector<Worker> chunk_, cut_;
+};
+
+}  // namespace voxmelt::parallel

@@ -1,0 +1,188 @@
+#include "kernel/engine/parallel/stepper.h"
+
+#include "kernel/engine/simd/source.h"
+
+namespace voxmelt::parallel {
+namespace {
+
+simd::View shape_of(state::Grid grid, int tile_shift) {
+  const state::Layout layout(grid);
+  simd::View view;
+  view.nx = grid.x;
+  view.ny = grid.y;
+  view.nz = grid.z;
+  view.row = layout.row();
+  view.slice = layout.slice();
+  view.words = (grid.x + 63) / 64;
+  view.last_word = grid.x % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (grid.x % 64)) - 1;
+  view.tile_shift = tile_shift;
+  return view;
+}
+
+// Does falling in this scene see another state of its sides than of all else?
+bool keeps_sides(const rule::Parameters& p) {
+  const rule::Fall& fall = p.flow.fall;
+  return p.flow.law == rule::Law::paper && p.heat.enabled &&
+         (fall.hang > 0 || fall.wall_factor != fall.factor);
+}
+
+void refresh(const simd::View& view, const Tiles& tiles, Walls& walls) {
+  for (int z = 0; z < view.nz; ++z)
+    for (int r = 0; tiles.any(z) && r < view.tile_rows(); ++r)
+      if (tiles.slice(z)[r] != 0)
+        for (int y = view.tile_begin(r); y < view.tile_end(r); ++y) walls.refresh(view, y, z);
+}
+
+int chunks_for(const step::Tuning& tuning) { return tuning.threads == 1 ? 1 : 4 * tuning.threads; }
+
+void book(const simd::Books& books, state::Ledger& ledger) {
+  ledger.mass.added += books.mass_added;
+  ledger.mass.removed += books.mass_removed;
+  ledger.energy.melted += books.melted;
+  ledger.energy.added += books.energy_added;
+  ledger.energy.removed += books.energy_removed;
+  ledger.energy.reheated += books.reheated;
+  ledger.energy.accelerated += books.accelerated;
+  ledger.energy.dissipated += books.dissipated;
+  ledger.energy.capped += books.capped;
+  ledger.heat.conducted += books.conducted;
+  ledger.heat.convected += books.convected;
+  ledger.heat.radiated += books.radiated;
+  ledger.heat.warmed += books.warmed;
+  ledger.heat.cooled += books.cooled;
+  ledger.heat.added += books.heat_added;
+  ledger.heat.removed += books.heat_removed;
+  ledger.heat.rounded += books.rounded;
+}
+
+}  // namespace
+
+Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, state::Grid grid,
+                 const step::Tuning& tuning)
+    : parameters_(parameters),
+      tuning_(tuning),
+      kernels_(simd::kernels(set, parameters)),
+      keys_(rule::round_keys(parameters.seed)),
+      workers_(tuning.threads) {
+  const simd::View view = shape_of(grid, tuning.tile_shift);
+  const int chunks = chunks_for(tuning);
+  if (parameters.heat.enabled) heat_.emplace(grid, view, chunks);
+  if (parameters.flow.law == rule::Law::paper)
+    paper_.emplace(parameters, view, chunks);
+  else
+    viscous_.emplace(grid, view, chunks);
+  dirty_ = dirty_next_ = changed_ = melted_ = freed_ = Tiles(view.nz, view.tile_rows());
+  dirty_.fill(all_words(view));  // nothing is known about the first state
+  if (heat_) heat_->note(dirty_);
+  if (viscous_) viscous_->note(dirty_);
+}
+
+simd::View Stepper::view_of(state::Volume& volume) {
+  simd::View view = shape_of(volume.grid, tuning_.tile_shift);
+  view.amount = volume.amount.data();
+  view.energy = volume.energy.data();
+  view.temperature = volume.temperature.data();
+  view.solid = volume.solid.data();
+  view.liquid = volume.liquid.data();
+  view.inert = volume.inert.data();
+  if (!walls_) walls_.emplace(view);
+  if (!sides_ && keeps_sides(parameters_)) sides_ = walls_;
+  view.walls = walls_->origin(view);
+  view.sides = sides_ ? sides_->origin(view) : view.walls;
+  return view;
+}
+
+void Stepper::run(step::Phase phase, std::uint32_t number, const step::Irradiance* irradiance,
+                  state::Volume& volume, state::Ledger& ledger) {
+  const simd::View view = view_of(volume);
+  const simd::Step step{&parameters_, number, static_cast<std::uint32_t>(rule::dither(number)), keys_.data(),
+                        irradiance == nullptr ? nullptr : irradiance->data()};
+  const Job job{view, step, kernels_, workers_, tuning_.sleep};
+  simd::Books books;
+  switch (phase) {
+    case step::Phase::source:
+      source(job, books);
+      break;
+    case step::Phase::heat:
+      heat(job, books);
+      break;
+    case step::Phase::melt:
+      melt(job, books);
+      break;
+    case step::Phase::gravity:
+      gravity(job, books);
+      break;
+    case step::Phase::spread:
+      spread(job, books);
+      break;
+    case step::Phase::excess:
+      settle(job, books);
+      break;
+  }
+  book(books, ledger);
+}
+
+void Stepper::source(const Job& job, simd::Books& books) {
+  if (parameters_.vents.empty() && parameters_.drains.empty()) return;
+  changed_.clear();
+  for (int z = 0; z < job.view.nz; ++z) changed_.edit(z);  // all slices: the sources say which
+  simd::run_sources(job.view, job.step, changed_.edit(0), changed_.stride(), books);
+  for (int z = 0; z < job.view.nz; ++z) changed_.tidy(z);
+  dirty_.add(changed_);
+  if (heat_) heat_->note(changed_);
+  if (viscous_) viscous_->note(changed_);
+}
+
+void Stepper::heat(const Job& job, simd::Books& books) {
+  if (!heat_) return;
+  const rule::Heat& heat = parameters_.heat;
+  changed_.clear();
+  heat_->heat(job, heat.radiation && job.step.number % heat.visibility_every == 0, changed_, books);
+  // The flow of the paper's law asks for heat only where it mixes, unless its shares depend on it.
+  if (parameters_.flow.thermal_viscosity) dirty_.add(changed_);
+  if (viscous_) viscous_->note(changed_);
+}
+
+void Stepper::melt(const Job& job, simd::Books& books) {
+  if (!heat_) return;
+  changed_.clear();
+  open_sides(job.view);
+  heat_->melt(job, changed_, books);
+  refresh(job.view, changed_, *walls_);
+  if (sides_) melted_.add(changed_);
+  dirty_.add(changed_);
+  if (viscous_) viscous_->note(changed_);
+}
+
+// What has melted is no side any more; the next gravity must look at what it held.
+void Stepper::open_sides(const simd::View& view) {
+  if (!sides_) return;
+  refresh(view, melted_, *sides_);
+  freed_.add(melted_);
+  melted_.clear();
+}
+
+void Stepper::gravity(const Job& job, simd::Books& books) {
+  if (viscous_) {
+    viscous_->fall(job, books);
+    if (heat_) heat_->note(viscous_->take_changed());
+    return;
+  }
+  if (sides_) dirty_.add(freed_);
+  paper_->gravity(job, dirty_, books);
+  freed_.clear();
+  open_sides(job.view);
+}
+
+void Stepper::spread(const Job& job, simd::Books& books) {
+  if (viscous_) return viscous_->spread(job, books);
+  paper_->spread(job, dirty_, dirty_next_, books);
+  std::swap(dirty_, dirty_next_);
+  if (heat_) heat_->note(dirty_);
+}
+
+void Stepper::settle(const Job& job, simd::Books& books) {
+  if (viscous_) viscous_->settle(job, books);
+}
+
+}  // namespace voxmelt::parallel

@@ -1,0 +1,58 @@
+// The SIMD kernels of one instruction set over all slices, with threads, and with everything asleep that
+// provably stays as it is. Gives the bits of the reference whatever the instruction set, threads, tiles and
+// sleeping.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "kernel/automaton/rule/random.h"
+#include "kernel/automaton/step/stepper.h"
+#include "kernel/engine/cpu/instruction_set.h"
+#include "kernel/engine/parallel/heat_flow.h"
+#include "kernel/engine/parallel/paper_flow.h"
+#include "kernel/engine/parallel/viscous_flow.h"
+#include "kernel/engine/parallel/walls.h"
+
+namespace voxmelt::parallel {
+
+class Stepper final : public step::Stepper {
+ public:
+  Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, state::Grid grid,
+          const step::Tuning& tuning);
+
+  void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
+           state::Ledger& ledger) override;
+
+ private:
+  simd::View view_of(state::Volume& volume);
+  void source(const Job& job, simd::Books& books);
+  void heat(const Job& job, simd::Books& books);
+  void melt(const Job& job, simd::Books& books);
+  void gravity(const Job& job, simd::Books& books);
+  void open_sides(const simd::View& view);
+  void spread(const Job& job, simd::Books& books);
+  void settle(const Job& job, simd::Books& books);
+
+  rule::Parameters parameters_;
+  step::Tuning tuning_;
+  simd::Kernels kernels_;
+  rule::RoundKeys keys_;
+  cpu::Workers workers_;
+  std::optional<Walls> walls_, sides_;  // sides_: before this step's melt, where gravity asks for them
+  std::optional<HeatFlow> heat_;
+  std::optional<PaperFlow> paper_;
+  std::optional<ViscousFlow> viscous_;
+  Tiles dirty_, dirty_next_;  // paper law: changed since the last gravity; scratch
+  Tiles changed_;             // by a phase
+  Tiles melted_;              // solids there have melted, and are sides still
+  Tiles freed_;               // their sides have gone since the last gravity began
+};
+
+template <cpu::InstructionSet kSet>
+std::unique_ptr<step::Stepper> create(const rule::Parameters& parameters, state::Grid grid,
+                                      const step::Tuning& tuning) {
+  return std::make_unique<Stepper>(kSet, parameters, grid, tuning);
+}
+
+}  // namespace voxmelt::parallel

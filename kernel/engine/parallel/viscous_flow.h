@@ -1,0 +1,54 @@
+// The flow of the viscous law over all slices: settle, spread (exchange, carry), fall.
+//
+// A tile is awake for a phase where something that the phase reads has changed since it last ran there:
+//   settle    it changed since the last settle (in it, or since); its whole column is settled
+//   exchange  it, or a tile beside it, changed since the last exchange; or some pair there may exchange
+//   something
+//             at another step's dither
+//   fall      it, or a tile beside it, changed since the last fall
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kernel/engine/parallel/chunks.h"
+#include "kernel/engine/parallel/currents.h"
+#include "kernel/engine/parallel/job.h"
+
+namespace voxmelt::parallel {
+
+class ViscousFlow {
+ public:
+  ViscousFlow(state::Grid grid, const simd::View& view, int chunks);
+
+  void note(const Tiles& changed);  // by phases that are not here
+  void settle(const Job& job, simd::Books& books);
+  void spread(const Job& job, simd::Books& books);
+  void fall(const Job& job, simd::Books& books);  // the last phase of a step
+
+  // What the three phases have changed in this step.
+  const Tiles& take_changed();
+
+ private:
+  struct Worker {
+    std::vector<SliceCurrents> ring;  // of a chunk: two; of a cut: one, of the slice before it
+    state::Pages scratch;
+    std::vector<TileRow> work, changed;
+    simd::Books books;
+  };
+
+  void find_work(const Job& job, const Tiles* noted, int z, bool beside, Worker& worker);
+  void exchange(const Job& job, int z, Worker& worker, SliceCurrents& to);
+  void spread_chunk(const Job& job, int chunk);
+  void note(int z, const TileRow* changed);
+  void close(simd::Books& books);
+
+  Chunks chunks_;
+  cpu::Turns settle_turns_, cut_turns_, chunk_turns_, fall_turns_;
+  RunMemory memory_;
+  Tiles for_settle_, for_exchange_, for_fall_, taken_, restless_, changed_, changed_before_;
+  std::vector<Worker> chunk_, cut_;
+  SliceCurrents none_;  // of the slice before the first
+};
+
+}  // namespace voxmelt::parallel

@@ -1,0 +1,40 @@
+// Solid or inert, or beyond the grid, in one bit a cell: the plane that kernels ask what blocks. One word and
+// one row wider than the grid at every side, where everything is blocked. Scenes in which the paper's law
+// asks for the sides of a falling cell, and solids melt, keep a second one: the sides as they were before
+// melt.
+#pragma once
+
+#include "kernel/automaton/state/pages.h"
+#include "kernel/engine/simd/kernels.h"
+
+namespace voxmelt::parallel {
+
+class Walls {
+ public:
+  Walls() = default;
+  explicit Walls(const simd::View& view);
+
+  // Row y of slice z anew, after solids there have melted.
+  void refresh(const simd::View& view, int y, int z) {
+    std::uint64_t* walls = row(view, y, z);
+    const std::size_t masks = view.word(0, y, z);
+    for (int w = 0; w < view.words; ++w) {
+      const std::size_t at = static_cast<std::size_t>(w);
+      walls[w] = view.solid[masks + at] | view.inert[masks + at];
+    }
+    walls[view.words - 1] |= ~view.last_word;
+  }
+  const std::uint64_t* origin(const simd::View& view) const {
+    return const_cast<Walls*>(this)->row(view, 0, 0);
+  }
+
+ private:
+  std::uint64_t* row(const simd::View& view, int y, int z) {
+    const std::ptrdiff_t rows = static_cast<std::ptrdiff_t>(z + 1) * (view.ny + 2) + y + 1;
+    return reinterpret_cast<std::uint64_t*>(pages_.data()) + rows * (view.words + 2) + 1;
+  }
+
+  state::Pages pages_;
+};
+
+}  // namespace voxmelt::parallel

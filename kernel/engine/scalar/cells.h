@@ -1,0 +1,73 @@
+// Cells by their coordinates, the border included, and the rows where anything can happen.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel/automaton/state/volume.h"
+
+namespace voxmelt::scalar {
+
+// The border acts as flat inert solid on all six sides.
+class Cells {
+ public:
+  explicit Cells(const state::Volume& volume) : v_(volume), g_(volume.grid) {}
+
+  bool outside(int x, int y, int z) const { return !g_.contains(x, y, z); }
+  bool inert(int x, int y, int z) const { return outside(x, y, z) || v_.inert.test(x, y, z); }
+  bool blocked(int x, int y, int z) const {
+    return outside(x, y, z) || v_.solid.test(x, y, z) || v_.inert.test(x, y, z);
+  }
+  bool liquid(int x, int y, int z) const { return !outside(x, y, z) && v_.liquid.test(x, y, z); }
+  bool matter(int x, int y, int z) const {
+    return !outside(x, y, z) && (v_.solid.test(x, y, z) || v_.liquid.test(x, y, z));
+  }
+  bool air(int x, int y, int z) const { return !blocked(x, y, z) && !v_.liquid.test(x, y, z); }
+
+  state::Slot at(int x, int y, int z) const { return v_.at(x, y, z); }
+  std::int32_t amount(int x, int y, int z) const { return v_.amount[at(x, y, z)]; }
+  std::int32_t energy(int x, int y, int z) const { return v_.energy[at(x, y, z)]; }
+  std::int32_t heat(int x, int y, int z) const { return v_.temperature[at(x, y, z)]; }
+
+ private:
+  const state::Volume& v_;
+  state::Grid g_;
+};
+
+// For each row (y, z) the interval of x that holds matter, here or in one of the eight rows around it, one
+// cell wider on each side. A cell outside it and all its neighbours are without matter: no rule changes it.
+class ActiveRows {
+ public:
+  explicit ActiveRows(const state::Volume& volume);
+
+  // The same for rules that scan along gravity: every row of a slice z gets the union of its rows.
+  static ActiveRows columns(const state::Volume& volume);
+
+  struct Interval {
+    int begin, end;
+  };
+  Interval operator()(int y, int z) const {
+    return intervals_[static_cast<std::size_t>(z) * static_cast<std::size_t>(rows_) +
+                      static_cast<std::size_t>(y)];
+  }
+
+  // Calls visit(x, y, z) for every active cell: x fastest, then y ascending, then z.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (int z = 0; z < slices_; ++z)
+      for (int y = 0; y < rows_; ++y) {
+        const Interval row = (*this)(y, z);
+        for (int x = row.begin; x < row.end; ++x) visit(x, y, z);
+      }
+  }
+
+ private:
+  int rows_, slices_;
+  std::vector<Interval> intervals_;
+};
+
+// Re-establishes the invariants of state::Volume after amounts changed: the liquid mask, and no energy or
+// heat where nothing is.
+void settle_masks(const ActiveRows& rows, state::Volume& volume);
+
+}  // namespace voxmelt::scalar

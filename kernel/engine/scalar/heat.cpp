@@ -1,0 +1,121 @@
+// Phase `heat`: conduction (Eq. 1) in one pass per neighbour distance, convection in liquid, then radiation
+// received and exchange with air, cell by cell.
+#include "kernel/automaton/rule/heat.h"
+
+#include <span>
+
+#include "kernel/automaton/rule/neighbourhood.h"
+#include "kernel/engine/scalar/reference.h"
+
+namespace voxmelt::scalar {
+namespace {
+
+// One pass over a set of axes; returns the change of the sum of amount x heat.
+std::int64_t conduct(std::span<const rule::Offset> axes, std::int32_t weight, std::uint32_t step,
+                     const rule::Material& material, const ActiveRows& rows, state::Volume& volume,
+                     state::Field<std::uint16_t>& next) {
+  const Cells cells(volume);
+  const int parts = static_cast<int>(axes.size());
+  next = volume.temperature;
+  std::int64_t change = 0;
+
+  rows.for_each([&](int x, int y, int z) {
+    if (!cells.matter(x, y, z)) return;
+    const std::int32_t own = rule::temperature_of(cells.heat(x, y, z), material);
+    std::int32_t gain = 0;
+    for (int part = 0; part < parts; ++part) {
+      const rule::Offset d = axes[static_cast<std::size_t>(part)];
+      const std::int32_t offset = rule::dither(step, part, parts);
+      if (cells.matter(x + d.dx, y + d.dy, z + d.dz)) {
+        const std::int32_t there = rule::temperature_of(cells.heat(x + d.dx, y + d.dy, z + d.dz), material);
+        gain += rule::conducted(own, there, weight, offset);
+      }
+      if (cells.matter(x - d.dx, y - d.dy, z - d.dz)) {
+        const std::int32_t there = rule::temperature_of(cells.heat(x - d.dx, y - d.dy, z - d.dz), material);
+        gain -= rule::conducted(there, own, weight, offset);
+      }
+    }
+    const state::Slot i = cells.at(x, y, z);
+    next[i] = static_cast<std::uint16_t>(volume.temperature[i] + gain);
+    change += std::int64_t{gain} * volume.amount[i];
+  });
+  std::swap(volume.temperature, next);
+  return change;
+}
+
+std::int64_t convect(std::int32_t weight, std::uint32_t step, const rule::Material& material,
+                     const ActiveRows& rows, state::Volume& volume, state::Field<std::uint16_t>& next) {
+  const Cells cells(volume);
+  const std::int32_t offset = rule::dither(step);
+  next = volume.temperature;
+  std::int64_t change = 0;
+
+  const auto rising = [&](int x, int y, int z) {  // through the upper face of (x, y, z)
+    if (!cells.liquid(x, y, z) || !cells.liquid(x, y + 1, z)) return 0;
+    return rule::convected(rule::temperature_of(cells.heat(x, y, z), material),
+                           rule::temperature_of(cells.heat(x, y + 1, z), material), weight, offset);
+  };
+  rows.for_each([&](int x, int y, int z) {
+    if (!cells.liquid(x, y, z)) return;
+    const std::int32_t gain = rising(x, y - 1, z) - rising(x, y, z);
+    const state::Slot i = cells.at(x, y, z);
+    next[i] = static_cast<std::uint16_t>(volume.temperature[i] + gain);
+    change += std::int64_t{gain} * volume.amount[i];
+  });
+  std::swap(volume.temperature, next);
+  return change;
+}
+
+int exposed_axes(const Cells& cells, int x, int y, int z) {
+  int axes = 0;
+  for (const rule::Offset d : rule::kFaceAxes)
+    axes += cells.air(x + d.dx, y + d.dy, z + d.dz) || cells.air(x - d.dx, y - d.dy, z - d.dz);
+  return axes;
+}
+
+}  // namespace
+
+void Reference::heat(std::uint32_t step, const step::Irradiance* irradiance, Volume& volume, Ledger& ledger) {
+  const rule::Heat& heat = parameters_.heat;
+  const rule::Material& material = parameters_.material;
+  if (!heat.enabled) return;
+  const ActiveRows rows(volume);
+  state::Field<std::uint16_t>& next = next_.temperature;
+
+  // Conduction among solid and liquid, nearest neighbours first.
+  state::Sum& conducted = ledger.heat.conducted;
+  conducted += conduct(rule::kFaceAxes, heat.weight_face, step, material, rows, volume, next);
+  if (heat.neighbours >= 18)
+    conducted += conduct(rule::kEdgeAxes, heat.weight_edge, step, material, rows, volume, next);
+  if (heat.neighbours >= 26)
+    conducted += conduct(rule::kCornerAxes, heat.weight_corner, step, material, rows, volume, next);
+
+  if (heat.convection > 0)
+    ledger.heat.convected += convect(heat.convection, step, material, rows, volume, next);
+
+  // Radiation and air act on each cell alone.
+  if (irradiance == nullptr && !heat.air) return;
+  const Cells cells(volume);
+  const std::int32_t offset = rule::dither(step);
+  rows.for_each([&](int x, int y, int z) {
+    if (!cells.matter(x, y, z)) return;
+    const state::Slot i = cells.at(x, y, z);
+    const std::int64_t amount = volume.amount[i];
+    std::int32_t h = volume.temperature[i];
+
+    if (irradiance != nullptr && volume.solid.test(x, y, z)) {
+      const std::int32_t gain = rule::radiated(h, (*irradiance)[i], offset);
+      h += gain;
+      ledger.heat.radiated += gain * amount;
+    }
+    if (const int axes = heat.air ? exposed_axes(cells, x, y, z) : 0; axes > 0) {
+      const std::int32_t gain = rule::exchanged(h, heat.air_temperature[static_cast<std::size_t>(y)],
+                                                heat.air_exchange, axes, offset, material);
+      h += gain;
+      (gain > 0 ? ledger.heat.warmed : ledger.heat.cooled) += (gain > 0 ? gain : -gain) * amount;
+    }
+    volume.temperature[i] = static_cast<std::uint16_t>(h);
+  });
+}
+
+}  // namespace voxmelt::scalar

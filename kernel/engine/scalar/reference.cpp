@@ -1,0 +1,43 @@
+#include "kernel/engine/scalar/reference.h"
+
+namespace voxmelt::scalar {
+
+Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
+    : parameters_(parameters), keys_(rule::round_keys(parameters.seed)) {
+  if (parameters.flow.law == rule::Law::paper) {
+    pattern_ = decltype(pattern_)(grid);
+    melted_ = decltype(melted_)(grid);
+  } else {
+    in_run_ = decltype(in_run_)(grid);
+    head_ = decltype(head_)(grid);
+    mobility_ = decltype(mobility_)(grid);
+    exposed_ = decltype(exposed_)(grid);
+    dead_ = decltype(dead_)(grid);
+  }
+}
+
+void Reference::run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance,
+                    state::Volume& volume, state::Ledger& ledger) {
+  switch (phase) {
+    case step::Phase::source:
+      return source(step, volume, ledger);
+    case step::Phase::heat:
+      return heat(step, irradiance, volume, ledger);
+    case step::Phase::melt:
+      return melt(volume, ledger);
+    case step::Phase::gravity:
+      return gravity(step, volume, ledger);
+    case step::Phase::spread:
+      return spread(step, volume, ledger);
+    case step::Phase::excess:
+      if (parameters_.flow.law == rule::Law::viscous) settle(step, volume, ledger);
+      return;
+  }
+}
+
+std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid,
+                                                const step::Tuning& /*one thread, nothing sleeps*/) {
+  return std::make_unique<Reference>(parameters, grid);
+}
+
+}  // namespace voxmelt::scalar

@@ -1,0 +1,51 @@
+// The reference implementation: plain loops over kernel/automaton/rule, one file per phase. Everything else
+// is held against it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "kernel/automaton/rule/random.h"
+#include "kernel/automaton/step/stepper.h"
+#include "kernel/engine/scalar/cells.h"
+
+namespace voxmelt::scalar {
+
+class Reference final : public step::Stepper {
+ public:
+  Reference(const rule::Parameters& parameters, state::Grid grid);
+
+  void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
+           state::Ledger& ledger) override;
+
+  // Paper law, after `spread`: the directions that each liquid cell gave to, one bit each.
+  const state::Field<std::uint8_t>& pattern() const { return pattern_; }
+
+ private:
+  using Volume = state::Volume;
+  using Ledger = state::Ledger;
+
+  void source(std::uint32_t step, Volume& volume, Ledger& ledger);
+  void heat(std::uint32_t step, const step::Irradiance* irradiance, Volume& volume, Ledger& ledger);
+  void melt(Volume& volume, Ledger& ledger);
+  void gravity(std::uint32_t step, Volume& volume, Ledger& ledger);
+  void spread(std::uint32_t step, Volume& volume, Ledger& ledger);
+  void settle(std::uint32_t step, Volume& volume, Ledger& ledger);
+  void viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledger);
+
+  void find_patterns(std::uint32_t step, const Volume& volume, const ActiveRows& rows);
+
+  rule::Parameters parameters_;
+  rule::RoundKeys keys_;
+  state::Field<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
+  state::BitPlane melted_;              // paper law: by the last `melt`, until `gravity` has run
+  state::Field<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
+  state::Field<std::int32_t> head_, mobility_, exposed_,
+      dead_;     // viscous law: of each cell, see rule::Column
+  Volume next_;  // the result of a phase while it is computed
+};
+
+std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid,
+                                                const step::Tuning& tuning);
+
+}  // namespace voxmelt::scalar

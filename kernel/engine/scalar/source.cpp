@@ -1,0 +1,81 @@
+// Phase `source`: vents add liquid, drains take it.
+#include "kernel/automaton/rule/source.h"
+
+#include <algorithm>
+
+#include "kernel/automaton/rule/heat.h"
+#include "kernel/engine/scalar/reference.h"
+
+namespace voxmelt::scalar {
+namespace {
+
+// Calls visit(x, y, z) for the non-blocked cells of a region, x fastest.
+template <class Visit>
+void for_region(const rule::Region& region, const state::Volume& volume, Visit&& visit) {
+  const state::Grid g = volume.grid;
+  const auto first = [&](std::int64_t at) {
+    return static_cast<int>(std::max<std::int64_t>(0, (at - region.radius) / rule::kPositionUnit - 1));
+  };
+  const auto last = [&](std::int64_t at, int size) {
+    return static_cast<int>(std::min<std::int64_t>(size - 1, (at + region.radius) / rule::kPositionUnit + 1));
+  };
+  for (int z = first(region.at.z); z <= last(region.at.z, g.z); ++z)
+    for (int y = first(region.at.y); y <= last(region.at.y, g.y); ++y)
+      for (int x = first(region.at.x); x <= last(region.at.x, g.x); ++x)
+        if (rule::contains(region, x, y, z) && !volume.solid.test(x, y, z) && !volume.inert.test(x, y, z))
+          visit(x, y, z);
+}
+
+}  // namespace
+
+void Reference::source(std::uint32_t step, Volume& volume, Ledger& ledger) {
+  const bool paper = parameters_.flow.law == rule::Law::paper;
+
+  for (const rule::Vent& vent : parameters_.vents) {
+    if (!rule::is_open(vent.from, vent.until, step)) continue;
+    for_region(vent.region, volume, [&](int x, int y, int z) {
+      const state::Slot i = volume.at(x, y, z);
+      const std::int32_t before = volume.amount[i], added = rule::vented(before, vent.rate);
+      if (added == 0) return;
+      const std::int32_t after = before + added;
+      volume.amount[i] = static_cast<std::uint16_t>(after);
+      volume.liquid.set(x, y, z, true);
+      ledger.mass.added += added;
+
+      if (paper) {
+        const std::int32_t energy = rule::vented_energy(added, vent.energy);
+        volume.energy[i] = static_cast<std::uint16_t>(volume.energy[i] + energy);
+        ledger.energy.added += energy;
+      }
+      if (parameters_.heat.enabled) {
+        const std::uint64_t brought = static_cast<std::uint64_t>(added) * vent.temperature;
+        const std::uint64_t content = static_cast<std::uint64_t>(before) * volume.temperature[i] + brought;
+        const std::int32_t h = rule::mixed(content, static_cast<std::uint64_t>(after), rule::dither(step));
+        volume.temperature[i] = static_cast<std::uint16_t>(h);
+        ledger.heat.added += static_cast<state::Sum>(brought);
+        ledger.heat.rounded += static_cast<state::Sum>(after) * h - static_cast<state::Sum>(content);
+      }
+    });
+  }
+
+  for (const rule::Drain& drain : parameters_.drains) {
+    if (!rule::is_open(drain.from, drain.until, step)) continue;
+    for_region(drain.region, volume, [&](int x, int y, int z) {
+      const state::Slot i = volume.at(x, y, z);
+      const std::int32_t taken = rule::drained(volume.amount[i], drain.rate);
+      if (taken == 0) return;
+      const std::int32_t left = volume.amount[i] - taken;
+      const std::int32_t energy = std::min<std::int32_t>(volume.energy[i], left);
+      ledger.mass.removed += taken;
+      ledger.energy.removed += volume.energy[i] - energy;
+      ledger.heat.removed += static_cast<state::Sum>(taken) * volume.temperature[i];
+      volume.amount[i] = static_cast<std::uint16_t>(left);
+      volume.energy[i] = static_cast<std::uint16_t>(energy);
+      if (left > 0) return;
+      volume.liquid.set(x, y, z, false);
+      volume.temperature[i] = 0;
+    });
+  }
+}
+
+}  // namespace voxmelt::scalar

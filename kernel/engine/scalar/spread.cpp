@@ -1,0 +1,132 @@
+// Phase `spread` of the paper's law (Eqs. 7-20), in two sub-phases: `pattern` (which directions each cell
+// gives to) and `apply` (every cell gathers what its neighbours give).
+#include "kernel/automaton/rule/spread.h"
+
+#include "kernel/automaton/rule/heat.h"
+#include "kernel/engine/scalar/reference.h"
+
+namespace voxmelt::scalar {
+namespace {
+
+// A neighbour is open unless it is blocked, or a diagonal between two blocked cells.
+bool is_open(const Cells& cells, int x, int y, int z, rule::Direction d) {
+  if (cells.blocked(x + d.dx, y, z + d.dz)) return false;
+  return d.dx == 0 || d.dz == 0 || !(cells.blocked(x + d.dx, y, z) && cells.blocked(x, y, z + d.dz));
+}
+
+// The share of its amount and energy that cell (x, y, z) gives to direction d of its pattern.
+std::int32_t share_of(const rule::Flow& flow, std::int32_t heat, std::uint8_t pattern, std::size_t d) {
+  if (flow.paper.use_table) return flow.paper.table[pattern][d];
+  return rule::thermal_share(flow.paper.share, heat, flow);
+}
+
+}  // namespace
+
+void Reference::find_patterns(std::uint32_t step, const Volume& volume, const ActiveRows& rows) {
+  const Cells cells(volume);
+  const rule::Flow& flow = parameters_.flow;
+  const rule::PaperLaw& law = flow.paper;
+  const std::int32_t cap = rule::flow_cap(law.neighbours);
+
+  rows.for_each([&](int x, int y, int z) {
+    std::uint8_t& pattern = pattern_[cells.at(x, y, z)];
+    pattern = 0;
+    if (!cells.liquid(x, y, z)) return;
+    if (law.support && cells.air(x, y - 1, z)) return;
+
+    const std::int32_t margin = rule::spread_margin(cells.energy(x, y, z), law);
+    if (margin < 0) return;
+    const std::int32_t a = cells.amount(x, y, z);
+    const std::int32_t share = rule::thermal_share(law.share, cells.heat(x, y, z), flow);
+    const std::int32_t axis_flow = law.use_table ? 0 : rule::shared(a, share, cap, false);
+    std::uint8_t available = 0;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(law.neighbours); ++d) {
+      const rule::Direction to = rule::kDirections[d];
+      if (!is_open(cells, x, y, z, to)) continue;
+      const bool diagonal = rule::is_diagonal(static_cast<int>(d));
+      if (rule::receives(a, axis_flow, cells.amount(x + to.dx, y, z + to.dz), margin, diagonal, law))
+        available = static_cast<std::uint8_t>(available | 1u << d);
+    }
+
+    // All subsets of the available directions are equally likely (section 4.2.2).
+    if (available == 0) return;
+    const std::uint32_t block = rule::random_block_index(x, y, z, volume.grid.x, volume.grid.y);
+    pattern = available & rule::random_byte(rule::random_block(keys_, step, block), x);
+  });
+}
+
+void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
+  if (parameters_.flow.law == rule::Law::viscous) return viscous_spread(step, volume, ledger);
+  const ActiveRows rows(volume);
+  find_patterns(step, volume, rows);
+
+  const Cells cells(volume);
+  const rule::Flow& flow = parameters_.flow;
+  const rule::PaperLaw& law = flow.paper;
+  const bool printed = law.reading == rule::EnergyReading::printed;
+  const bool hot = parameters_.heat.enabled;
+  const std::int32_t cap = rule::flow_cap(law.neighbours), offset = rule::dither(step);
+  const auto alpha = [&](int x, int y, int z) {
+    return rule::contact_alpha(cells.blocked(x, y - 1, z), cells.inert(x, y - 1, z), law);
+  };
+
+  struct Flow {
+    std::int32_t amount = 0, energy = 0;
+  };
+  const auto given = [&](int x, int y, int z, std::size_t d) -> Flow {
+    const state::Slot i = cells.at(x, y, z);
+    const std::uint8_t pattern = pattern_[i];
+    if (!(pattern >> d & 1u)) return {};
+    const bool diagonal = rule::is_diagonal(static_cast<int>(d));
+    const std::int32_t share = share_of(flow, volume.temperature[i], pattern, d);
+    const std::int32_t f = rule::shared(volume.amount[i], share, cap, diagonal);
+    const std::int32_t e = std::min(f, rule::shared(volume.energy[i], share, cap, diagonal));
+    return {f, printed ? rule::scaled(e, alpha(x, y, z)) : e};
+  };
+
+  // The cells outside the active rows do not change: start from a copy.
+  next_.amount = volume.amount;
+  next_.energy = volume.energy;
+  next_.temperature = volume.temperature;
+  rows.for_each([&](int x, int y, int z) {
+    if (cells.blocked(x, y, z)) return;
+    const state::Slot i = cells.at(x, y, z);
+    Flow out, in;
+    std::uint64_t content = 0;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(law.neighbours); ++d) {
+      const Flow mine = given(x, y, z, d);
+      out.amount += mine.amount;
+      out.energy += mine.energy;
+      const int nx = x + rule::kDirections[d].dx, nz = z + rule::kDirections[d].dz;
+      if (!cells.liquid(nx, y, nz)) continue;
+      const Flow theirs = given(nx, y, nz, static_cast<std::size_t>(rule::kOpposite[d]));
+      in.amount += theirs.amount;
+      in.energy += theirs.energy;
+      content += static_cast<std::uint64_t>(theirs.amount) * volume.temperature[cells.at(nx, y, nz)];
+    }
+    if (out.amount == 0 && in.amount == 0) return;
+
+    const std::int32_t amount = volume.amount[i] - out.amount + in.amount;
+    next_.amount[i] = static_cast<std::uint16_t>(amount);
+
+    // Friction takes 1 - alpha of what arrives; energy never exceeds the amount.
+    const std::int32_t gained = printed ? in.energy : rule::scaled(in.energy, alpha(x, y, z), offset);
+    const std::int32_t energy = volume.energy[i] - out.energy + gained;
+    next_.energy[i] = static_cast<std::uint16_t>(std::min(energy, amount));
+    ledger.energy.dissipated += in.energy - gained;
+    ledger.energy.capped += std::max(0, energy - amount);
+
+    if (hot && in.amount > 0) {
+      content += static_cast<std::uint64_t>(volume.amount[i] - out.amount) * volume.temperature[i];
+      const std::int32_t h = rule::mixed(content, static_cast<std::uint64_t>(amount), offset);
+      ledger.heat.rounded += static_cast<state::Sum>(amount) * h - static_cast<state::Sum>(content);
+      next_.temperature[i] = static_cast<std::uint16_t>(h);
+    }
+  });
+  std::swap(volume.amount, next_.amount);
+  std::swap(volume.energy, next_.energy);
+  std::swap(volume.temperature, next_.temperature);
+  settle_masks(rows, volume);
+}
+
+}  // namespace voxmelt::scalar

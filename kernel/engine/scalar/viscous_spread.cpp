@@ -1,0 +1,75 @@
+// Phase `spread` of the viscous law: flow down the difference of free-surface heads.
+#include "kernel/automaton/rule/heat.h"
+#include "kernel/automaton/rule/neighbourhood.h"
+#include "kernel/automaton/rule/viscous.h"
+#include "kernel/engine/scalar/reference.h"
+
+namespace voxmelt::scalar {
+namespace {
+
+// Each axis has its own part of the dither: x, z, and the two diagonals.
+constexpr std::array<int, 8> kDitherPart{0, 0, 1, 1, 2, 3, 3, 2};
+
+}  // namespace
+
+void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
+  const ActiveRows rows(volume);
+  const Cells cells(volume);
+  const bool hot = parameters_.heat.enabled;
+
+  // What a cell shows to its neighbours.
+  const auto run_column = [&](state::Slot i) {
+    return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], in_run_[i] != 0};
+  };
+  const auto column = [&](int x, int y, int z) {
+    const state::Slot i = cells.at(x, y, z);
+    if (in_run_[i]) return run_column(i);
+    if (y == 0) return rule::bed_column(rule::bed_head(0, rule::kBedHalf));
+    const state::Slot below = cells.at(x, y - 1, z);
+    if (volume.solid.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, rule::kBedHalf));
+    if (volume.inert.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, volume.amount[below]));
+    if (in_run_[below]) return rule::top_column(run_column(below));
+    return rule::air_column(y);
+  };
+
+  next_.amount = volume.amount;
+  next_.temperature = volume.temperature;
+  rows.for_each([&](int x, int y, int z) {
+    if (cells.blocked(x, y, z)) return;
+    const state::Slot i = cells.at(x, y, z);
+    const rule::Column own = column(x, y, z);
+    std::int32_t out = 0, in = 0;
+    std::uint64_t content = 0;
+    for (std::size_t d = 0; d < 8; ++d) {
+      const rule::Direction to = rule::kDirections[d];
+      const int nx = x + to.dx, nz = z + to.dz;
+      const bool diagonal = rule::is_diagonal(static_cast<int>(d));
+      if (cells.blocked(nx, y, nz)) continue;
+      if (diagonal && cells.blocked(nx, y, z) && cells.blocked(x, y, nz)) continue;
+      const state::Slot j = cells.at(nx, y, nz);
+      if (!in_run_[i] && !in_run_[j]) continue;
+      const rule::Column there = column(nx, y, nz);
+      const std::int32_t offset = rule::dither(step, kDitherPart[d], 4);
+      out += rule::viscous_flow(own, volume.amount[i], there, volume.amount[j], diagonal, offset);
+      const std::int32_t taken =
+          rule::viscous_flow(there, volume.amount[j], own, volume.amount[i], diagonal, offset);
+      in += taken;
+      content += static_cast<std::uint64_t>(taken) * volume.temperature[j];
+    }
+    if (out == 0 && in == 0) return;
+
+    const std::int32_t amount = volume.amount[i] - out + in;
+    next_.amount[i] = static_cast<std::uint16_t>(amount);
+    if (hot && in > 0) {
+      content += static_cast<std::uint64_t>(volume.amount[i] - out) * volume.temperature[i];
+      const std::int32_t h = rule::mixed(content, static_cast<std::uint64_t>(amount), rule::dither(step));
+      ledger.heat.rounded += static_cast<state::Sum>(amount) * h - static_cast<state::Sum>(content);
+      next_.temperature[i] = static_cast<std::uint16_t>(h);
+    }
+  });
+  std::swap(volume.amount, next_.amount);
+  std::swap(volume.temperature, next_.temperature);
+  settle_masks(rows, volume);
+}
+
+}  // namespace voxmelt::scalar

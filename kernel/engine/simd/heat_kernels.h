@@ -1,0 +1,74 @@
+// The heat kernels of one instruction set, one set per combination of features.
+#pragma once
+
+#include "kernel/engine/simd/conduction.h"
+#include "kernel/engine/simd/convection.h"
+#include "kernel/engine/simd/distant_conduction.h"
+#include "kernel/engine/simd/exchange.h"
+#include "kernel/engine/simd/melt.h"
+
+namespace voxmelt::simd {
+
+template <class Arch, bool kLatent>
+void conduct_faces_slice(const View& view, const Step& step, int z, const OldHeat& old,
+                         const TileRow* carried, const TileRow* tiles, HeatFlux& flux, const HeatTiles& found,
+                         Books& books) {
+  FullConduction<Arch, kLatent> full(view, step, z, old, flux);
+  books.conducted += FaceConduction<Arch, kLatent>(view, step, z, old, flux).run(carried, tiles, full, found);
+  books.conducted += full.total();
+}
+
+template <class Arch, bool kLatent, class Axes>
+void conduct_distant_slice(const View& view, const Step& step, int z, const OldHeat& old,
+                           const TileRow* tiles, const HeatTiles& found, Books& books) {
+  books.conducted += DistantConduction<Arch, kLatent, Axes>(view, step, z, old).run(tiles, found);
+}
+
+template <class Arch, bool kLatent>
+void convect_slice(const View& view, const Step& step, int z, const TileRow* tiles, HeatFlux& flux,
+                   const HeatTiles& found, Books& books) {
+  books.convected += Convection<Arch, kLatent>(view, step, z, flux).run(tiles, found);
+}
+
+template <class Arch, HeatFeatures kFeatures>
+void exchange_slice(const View& view, const Step& step, int z, const TileRow* tiles, const HeatTiles& found,
+                    Books& books) {
+  Exchange<Arch, kFeatures>(view, step, z).run(tiles, found, books);
+}
+
+template <class Arch, bool kPaper>
+void melt_slice(const View& view, const Step& step, int z, const TileRow* tiles, TileRow* changed,
+                Books& books) {
+  Melt<Arch, kPaper>(view, step, z, books).run(tiles, changed);
+}
+
+template <class Arch, bool kLatent>
+void choose_latent_kernels(const rule::Heat& heat, Kernels& kernels) {
+  if (heat.weight_face > 0) kernels.conduct_faces = conduct_faces_slice<Arch, kLatent>;
+  if (kBuilt.edges && heat.neighbours >= 18 && heat.weight_edge > 0)
+    kernels.conduct_edges = conduct_distant_slice<Arch, kLatent, EdgeAxes<Arch>>;
+  if (kBuilt.corners && heat.neighbours >= 26 && heat.weight_corner > 0)
+    kernels.conduct_corners = conduct_distant_slice<Arch, kLatent, CornerAxes<Arch>>;
+  if (kBuilt.convection && heat.convection > 0) kernels.convect = convect_slice<Arch, kLatent>;
+  const bool air = kBuilt.air && heat.air && heat.air_exchange > 0;
+  const bool radiation = kBuilt.radiation && heat.radiation;
+  if (radiation && air)
+    kernels.exchange = exchange_slice<Arch, HeatFeatures{kLatent, true, true}>;
+  else if (radiation)
+    kernels.exchange = exchange_slice<Arch, HeatFeatures{kLatent, true, false}>;
+  else if (air)
+    kernels.exchange = exchange_slice<Arch, HeatFeatures{kLatent, false, true}>;
+}
+
+// Sets what phases `heat` and `melt` need; leaves them null without heat.
+template <class Arch>
+void choose_heat_kernels(const rule::Parameters& parameters, Kernels& kernels) {
+  if (!kBuilt.heat || !parameters.heat.enabled) return;
+  if (kBuilt.latent && parameters.material.latent_heat > 0)
+    choose_latent_kernels<Arch, true>(parameters.heat, kernels);
+  else
+    choose_latent_kernels<Arch, false>(parameters.heat, kernels);
+  kernels.melt = parameters.flow.law == rule::Law::paper ? melt_slice<Arch, true> : melt_slice<Arch, false>;
+}
+
+}  // namespace voxmelt::simd

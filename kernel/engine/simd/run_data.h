@@ -1,0 +1,170 @@
+// Viscous law: from the sums of runs that end at one height to their settled amounts and what they show,
+// those parts of 64 columns that have one. Plain loops over lanes, for the compiler to vectorise.
+#pragma once
+
+#include "kernel/engine/cpu/lanes.h"
+#include "kernel/engine/simd/features.h"
+#include "kernel/engine/simd/kernels.h"
+
+namespace voxmelt::simd {
+
+// Sums of runs that have ended, at most one a column.
+struct alignas(64) EndedRuns {
+  std::uint16_t excess_low[64], excess_high[64];  // mass - 4096 cells, signed 32-bit
+  std::uint16_t first[64], last[64];              // heights of the first and the last cell
+  std::uint16_t bed[64];                          // amount of the bed
+  std::uint16_t content[4][64];  // sums of the low and of the high halves of amount x heat, 32-bit each
+  std::uint64_t columns;         // that have a run here
+  int top;                       // greatest of `last`
+};
+static_assert(sizeof(EndedRuns) == kSettleRecord);
+
+// Below the pivot a cell gets 4096, at it `at`, above it `above`.
+struct alignas(64) SettledRuns {
+  std::uint16_t pivot[64];  // 1 + its height
+  std::uint16_t at[64], above[64];
+  std::uint16_t head_low[64], head_high[64];  // 512 + head above the grid's bottom
+  std::uint16_t mobility[64], exposed[64], dead[64], heat[64];
+};
+
+template <class Arch, bool kHot>
+class RunData {
+  using L = cpu::Lanes<Arch>;
+
+ public:
+  [[gnu::always_inline]] RunData(const Step& step)
+      : flow_(step.parameters->flow),
+        table_(step.parameters->flow.mobility_table.data()),
+        dither_(step.dither) {}
+
+  // Other columns keep what they have. Returns what the books call `rounded`.
+  [[gnu::always_inline]] std::int64_t settle(const EndedRuns& runs, SettledRuns& settled) const {
+    std::int64_t rounded = 0;
+    for (int part = 0; part < L::kParts; ++part)
+      if (L::in_part(runs.columns, part)) rounded += settle(part, runs, settled);
+    return rounded;
+  }
+
+ private:
+  using Lanes16 = std::uint16_t[64];  // of which one part at a time is in use
+  using Lanes32 = std::int32_t[64];
+
+  [[gnu::always_inline]] std::int64_t settle(int part, const EndedRuns& runs, SettledRuns& settled) const {
+    alignas(64) Lanes32 mass, over;
+    alignas(64) Lanes16 counts;
+    SettledRuns now;
+    const int begin = part * L::kCount, end = begin + L::kCount;
+    L::store(counts + begin, L::keep(L::from_bits(runs.columns, part), L::set(1)));
+    for (int i = begin; i < end; ++i) {
+      const int excess = static_cast<int>(std::uint32_t{runs.excess_high[i]} << 16 | runs.excess_low[i]);
+      const int cells = runs.last[i] - runs.first[i] + 1;
+      // Lanes that are not asked for get a harmless run.
+      mass[i] = counts[i] != 0 ? excess + 4096 * cells : 4096;
+      over[i] = counts[i] != 0 && excess > 0 ? excess : 0;
+    }
+    fill(begin, mass, over, runs, now);
+    const std::int64_t rounded = kHot ? mix(begin, mass, counts, runs, now) : 0;
+    show(begin, mass, over, runs, now);
+    const auto* from = reinterpret_cast<const std::uint16_t*>(&now);
+    auto* to = reinterpret_cast<std::uint16_t*>(&settled);
+    const auto which = L::from_bits(runs.columns, part);
+    for (std::size_t field = 0; field < sizeof(SettledRuns) / 128; ++field) {
+      if (!kHot && from + 64 * field == now.heat) continue;
+      const std::size_t lane = 64 * field + static_cast<std::size_t>(begin);
+      L::store(to + lane, L::select(which, L::load(from + lane), L::load(to + lane)));
+    }
+    return rounded;
+  }
+
+  [[gnu::always_inline]] static void fill(int begin, const Lanes32& mass, const Lanes32& over,
+                                          const EndedRuns& runs, SettledRuns& now) {
+    const int end = begin + L::kCount;
+    int any = 0;
+    for (int i = begin; i < end; ++i) {
+      const int below = (mass[i] - 1) >> 12;
+      now.pivot[i] = static_cast<std::uint16_t>(runs.first[i] + below + 1);
+      now.at[i] = static_cast<std::uint16_t>(mass[i] - 4096 * below);
+      now.above[i] = 0;
+      any |= over[i];
+    }
+    if (any == 0) return;
+    for (int i = begin; i < end; ++i) {  // under a ceiling: what does not fit is stacked from the top down
+      if (over[i] == 0) continue;
+      constexpr int kHeadroom = 65535 - 4096;
+      const int filled = over[i] / kHeadroom;
+      now.pivot[i] = static_cast<std::uint16_t>(runs.last[i] - filled + 1);
+      now.at[i] = static_cast<std::uint16_t>(4096 + over[i] - kHeadroom * filled);
+      now.above[i] = 65535;
+    }
+  }
+
+  // One heat for a whole run. Numbers below 2^53: exact in double, and a quotient is rounded to the next
+  // whole number only if it is one.
+  [[gnu::always_inline]] std::int64_t mix(int begin, const Lanes32& mass, const Lanes16& counts,
+                                          const EndedRuns& runs, SettledRuns& now) const {
+    const int end = begin + L::kCount;
+    alignas(64) Lanes32 rounded;
+    for (int i = begin; i < end; ++i) {
+      const std::uint32_t low = std::uint32_t{runs.content[1][i]} << 16 | runs.content[0][i];
+      const std::uint32_t high = std::uint32_t{runs.content[3][i]} << 16 | runs.content[2][i];
+      const double content =
+          counts[i] != 0 ? 65536.0 * static_cast<std::int32_t>(high) + static_cast<std::int32_t>(low) : 0.0;
+      const double m = mass[i];
+      const int offset = static_cast<int>(m * dither_ * (1.0 / 65536));
+      const int heat = static_cast<int>((content + offset) / m);
+      now.heat[i] = static_cast<std::uint16_t>(heat);
+      rounded[i] = counts[i] != 0 ? static_cast<int>(m * heat - content) : 0;
+    }
+    std::int64_t sum = 0;
+    for (int i = begin; i < end; ++i) sum += rounded[i];
+    return sum;
+  }
+
+  // Head, mobility, dead zone.
+  [[gnu::always_inline]] void show(int begin, const Lanes32& mass, const Lanes32& over, const EndedRuns& runs,
+                                   SettledRuns& now) const {
+    const int end = begin + L::kCount;
+    const int stiffness = flow_.viscous.stiffness, yield = static_cast<int>(flow_.viscous.yield);
+    const double mobility = flow_.viscous.mobility;
+    alignas(64) Lanes32 raw;
+    for (int i = begin; i < end; ++i) {
+      const int head = 512 + 256 * runs.first[i] + ((runs.bed[i] - 2048) >> 4) + (mass[i] >> 4) +
+                       (stiffness - 1) * (over[i] >> 4);
+      now.head_low[i] = static_cast<std::uint16_t>(head & 0xFFFF);
+      now.head_high[i] = static_cast<std::uint16_t>(head >> 16);
+
+      // depth < 2^24. The float quotient of whole numbers is less than one off wherever it is below 131072.
+      const int depth = mass[i] < 16 ? 1 : mass[i] >> 4, sum = yield + depth / 2;
+      int dead = static_cast<int>(static_cast<float>(sum) / static_cast<float>(depth));
+      const int rest = sum - dead * depth;
+      dead += rest < 0 ? -1 : rest >= depth ? 1 : 0;
+      dead = dead < 1 ? 1 : dead;
+      now.dead[i] = static_cast<std::uint16_t>(dead < 65535 ? dead : 65535);
+
+      const double square = static_cast<double>(depth < 16384 ? depth : 16384) *
+                            static_cast<double>(depth < 16384 ? depth : 16384);
+      const double wide = (mobility * square + 524288.0) * (1.0 / 1048576);  // below 2^52 before: exact
+      raw[i] = static_cast<int>(wide < 268435456.0 ? wide : 268435456.0);    // more is cut in any case
+    }
+    if (kBuilt.thermal && flow_.thermal_viscosity)
+      for (int i = begin; i < end; ++i) {
+        const std::uint16_t factor = table_[kHot ? now.heat[i] >> 11 : 0];
+        raw[i] = static_cast<int>(static_cast<double>(raw[i]) * factor * (1.0 / 32768));
+      }
+    for (int i = begin; i < end; ++i) {
+      // Quotients of whole numbers below 2^13: a float's whole part is theirs.
+      const float limit = 8192.f / static_cast<float>((mass[i] >> 12) + 1);
+      const int whole = static_cast<int>(limit);
+      const int stiff = static_cast<int>(static_cast<float>(whole) / static_cast<float>(stiffness));
+      const int most = over[i] > 0 ? stiff : whole, exposed = raw[i] < 8192 ? raw[i] : 8192;
+      now.exposed[i] = static_cast<std::uint16_t>(exposed);
+      now.mobility[i] = static_cast<std::uint16_t>(exposed < most ? exposed : most);
+    }
+  }
+
+  const rule::Flow& flow_;
+  const std::uint16_t* table_;
+  const std::uint32_t dither_;
+};
+
+}  // namespace voxmelt::simd

@@ -1,0 +1,11 @@
+// Phase `source`: vents add liquid, drains take it. Few cells: plain code for every instruction set.
+#pragma once
+
+#include "kernel/engine/simd/kernels.h"
+
+namespace voxmelt::simd {
+
+// `changed`: [z][tile row], its slices `stride` apart.
+void run_sources(const View& view, const Step& step, TileRow* changed, std::ptrdiff_t stride, Books& books);
+
+}  // namespace voxmelt::simd

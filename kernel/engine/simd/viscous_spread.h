@@ -1,0 +1,202 @@
+// Phase `spread` of the viscous law (docs/automaton.md, section 11), first half: what each pair of neighbours
+// exchanges. A pair is computed once, at its first cell: right, front, front right and front left of it. Row
+// by row of one slice, 64 cells at a time. Free of kernel/automaton/rule on purpose.
+#pragma once
+
+#include "kernel/engine/cpu/lanes.h"
+#include "kernel/engine/simd/features.h"
+#include "kernel/engine/simd/kernels.h"
+
+namespace voxmelt::simd {
+
+template <class Arch, ViscousFeatures kFeatures>
+class ExchangePairs {
+  using L = cpu::Lanes<Arch>;
+  using V = typename L::V;
+  using M = typename L::M;
+  using Wide = typename L::Wide;
+
+ public:
+  [[gnu::always_inline]] ExchangePairs(const View& view, const Step& step, int z, const Runs& runs,
+                                       Currents& currents)
+      : v_(view), r_(runs), z_(z), c_(currents) {
+    const auto front = z + 1 < view.nz ? static_cast<std::ptrdiff_t>(view.slice) : 0;  // else masked
+    const std::ptrdiff_t steps[4] = {1, front, front + 1, front - 1};
+    for (int axis = 0; axis < 4; ++axis) {
+      step_[axis] = steps[axis];
+      const std::uint32_t dither = (step.dither + 16384u * static_cast<std::uint32_t>(axis)) & 0xFFFFu;
+      undithered_[axis] = 0xFFFF - static_cast<int>(dither);
+    }
+  }
+
+  // Returns the restless words of row y.
+  [[gnu::always_inline]] TileRow row(int y, TileRow work) {
+    if ((work | c_.giving[y]) == 0) return 0;
+    TileRow restless = 0, giving = 0;
+    if (v_.words < 64) work &= (TileRow{1} << v_.words) - 1;
+    TileRow deep = deep_words(y, z_) | deep_words(y, z_ + 1);
+    deep |= deep << 1 | deep >> 1;
+    for (; work != 0; work &= work - 1) {
+      const int w = __builtin_ctzll(work);
+      const TileRow bit = work & -work;
+      Masks masks;
+      if (!find_pairs(w, y, masks)) continue;
+      bool flows = false, may_flow = false;
+      const bool gave = (c_.giving[y] & bit) != 0;
+      for (int part = 0; part < L::kParts; ++part)
+        if (L::in_part(masks.any, part))
+          vectors(w, y, part, masks, (deep & bit) != 0, gave, flows, may_flow);
+        else if (gave)
+          clear(w, y, part);
+      if (may_flow) restless |= bit;
+      if (flows) giving |= bit;
+    }
+    // Words that gave, and were not looked at now, or have no pairs any more.
+    for (TileRow old = c_.giving[y] & ~giving; old != 0; old &= old - 1)
+      for (int part = 0; part < L::kParts; ++part) clear(__builtin_ctzll(old), y, part);
+    c_.giving[y] = giving;
+    if constexpr (kFeatures.hot) keep_heat(y, giving);
+    return restless;
+  }
+
+ private:
+  struct Masks {
+    std::uint64_t in_run, there[4];  // this cell, the other one of a pair
+    std::uint64_t pair[4], any;      // open, and one of them is in a run
+  };
+
+  [[gnu::always_inline]] TileRow deep_words(int y, int z) const {
+    return z < v_.nz ? r_.deep[z * v_.ny + y] : 0;
+  }
+  [[gnu::always_inline]] std::uint64_t in_run(int w, int y, int z) const {
+    return w < 0 || w >= v_.words || z >= v_.nz ? 0 : r_.in_run[v_.word(w, y, z)];
+  }
+
+  [[gnu::always_inline]] bool find_pairs(int w, int y, Masks& m) const {
+    const std::uint64_t front_run = in_run(w, y, z_ + 1);
+    m.in_run = in_run(w, y, z_);
+    m.there[0] = cpu::from_right(m.in_run, in_run(w + 1, y, z_));
+    m.there[1] = front_run;
+    m.there[2] = cpu::from_right(front_run, in_run(w + 1, y, z_ + 1));
+    m.there[3] = cpu::from_left(front_run, in_run(w - 1, y, z_ + 1));
+    if ((m.in_run | m.there[0] | m.there[1] | m.there[2] | m.there[3]) == 0) return false;
+
+    const std::uint64_t own = v_.blocked(w, y, z_), front = v_.blocked(w, y, z_ + 1);
+    const std::uint64_t right = cpu::from_right(own, v_.blocked(w + 1, y, z_));
+    const std::uint64_t left = cpu::from_left(own, v_.blocked(w - 1, y, z_));
+    const std::uint64_t front_right = cpu::from_right(front, v_.blocked(w + 1, y, z_ + 1));
+    const std::uint64_t front_left = cpu::from_left(front, v_.blocked(w - 1, y, z_ + 1));
+    m.pair[0] = ~(own | right);
+    m.pair[1] = ~(own | front);
+    m.pair[2] = ~(own | front_right | (right & front));
+    m.pair[3] = ~(own | front_left | (left & front));
+    m.any = 0;
+    for (int axis = 0; axis < 4; ++axis) m.any |= m.pair[axis] &= m.in_run | m.there[axis];
+    return m.any != 0;
+  }
+
+  struct Cell {
+    V head, amount, dead, mobility, exposed;
+  };
+
+  [[gnu::always_inline]] void vectors(int w, int y, int part, const Masks& m, bool deep, bool gave,
+                                      bool& flows, bool& may_flow) {
+    const auto lane = static_cast<std::ptrdiff_t>(64 * w + part * L::kCount);
+    const auto at = static_cast<std::ptrdiff_t>(v_.cell(0, y, z_)) + lane;
+    const std::ptrdiff_t to = y * static_cast<std::ptrdiff_t>(v_.row) + lane;
+    const Cell own{L::load(r_.head + at), L::load(v_.amount + at), L::load(r_.dead + at),
+                   L::load(r_.mobility + at), L::load(r_.exposed + at)};
+    V flow[4], all = L::zero();
+    for (int axis = 0; axis < 4; ++axis) {
+      flow[axis] = axis < 2 ? pair<false>(own, at, axis, part, m, deep, may_flow)
+                            : pair<true>(own, at, axis, part, m, deep, may_flow);
+      all = all | flow[axis];
+    }
+    const bool moves = L::to_bits(L::equal(all, L::zero())) != kAll;
+    if (!moves && !gave) return;
+    flows |= moves;
+    for (int axis = 0; axis < 4; ++axis) L::store(c_.flow[axis] + to, flow[axis]);
+  }
+
+  template <bool kDiagonal>
+  [[gnu::always_inline]] V pair(const Cell& own, std::ptrdiff_t at, int axis, int part, const Masks& m,
+                                bool deep, bool& may_flow) const {
+    const std::ptrdiff_t there = at + step_[axis];
+    const V head = L::load_any(r_.head + there);
+    V down = L::sub_saturated(own.head, head), up = L::sub_saturated(head, own.head);
+    if (deep) {
+      const Wide a = plumbed(own.head, at), b = plumbed(head, there);
+      down = L::narrow({a.low - b.low, a.high - b.high});
+      up = L::narrow({b.low - a.low, b.high - a.high});
+    }
+    const V drop = down | up;
+    const M gives = L::less(L::zero(), down);
+    // A cell outside a run has a dead zone that no drop exceeds, or (air) nothing below it.
+    V dead = L::select(gives, own.dead, L::load_any(r_.dead + there));
+    if constexpr (kDiagonal) dead = L::add_saturated(dead, L::high(dead, L::set(3 << 13)));
+    const std::uint64_t moves = L::to_bits(L::less(dead, drop)) & (m.pair[axis] >> (part * L::kCount));
+    if (moves == 0) return L::zero();
+
+    const M here_runs = L::from_bits(m.in_run, part), there_runs = L::from_bits(m.there[axis], part);
+    const V mobility =
+        L::select(there_runs, own.mobility, own.exposed) +
+        L::select(here_runs, L::load_any(r_.mobility + there), L::load_any(r_.exposed + there));
+    const V amount = L::load_any(v_.amount + there);
+    const V giver = L::select(gives, own.amount, amount), taker = L::select(gives, amount, own.amount);
+    const V high = L::high(mobility, giver);
+    const V conductance =
+        L::select(L::less(L::set(4095), high), L::set(0xFFFF),
+                  L::template shift_left<4>(high) | L::template shift_right<12>(L::low(mobility, giver)));
+    const M both = L::from_bits(m.in_run & m.there[axis], part);
+    const V room = L::sub_saturated(L::select(both, L::set(0xFFFF), L::set(4096)), taker);
+    const V most = L::template shift_right<3>(L::min(giver, room));
+    const M gate = L::from_bits(moves << (part * L::kCount), part);
+    if ((L::to_bits(L::less(L::zero(), L::min(conductance, most))) & moves) != 0) may_flow = true;
+
+    // (c drop + (R >> 3)) >> 13 as the upper half of 8 c drop, and a carry from its lower half, a multiple of
+    // 8: so the bits of R that the shift drops do not matter. Likewise for diagonals.
+    const V fall = kDiagonal ? L::template shift_left<1>(L::min(drop, L::set(362)))
+                             : L::template shift_left<3>(L::min(drop, L::set(256)));
+    const M carry = L::less(L::set(undithered_[axis]), L::low(conductance, fall));
+    const V wanted = L::add_if(carry, L::high(conductance, fall), L::set(1));
+    const V flow = L::keep(gate, L::min(wanted, most));
+    return L::select(gives, flow, L::zero() - flow);
+  }
+
+  // Heads in 32 bits.
+  [[gnu::always_inline]] Wide plumbed(V head, std::ptrdiff_t at) const {
+    const M cut = L::equal(head, L::set(0xFFFF));
+    return L::unpack(L::select(cut, L::load_any(r_.deep_low + at), head),
+                     L::keep(cut, L::load_any(r_.deep_high + at)));
+  }
+
+  [[gnu::always_inline]] void clear(int w, int y, int part) {
+    for (int axis = 0; axis < 4; ++axis)
+      L::store(c_.flow[axis] + static_cast<std::size_t>(y) * v_.row + (64 * w + part * L::kCount), L::zero());
+  }
+
+  // The heats of all cells that a pair of these words has: the phase goes on in place.
+  [[gnu::always_inline]] void keep_heat(int y, TileRow words) {
+    words |= words << 1 | words >> 1;
+    if (v_.words < 64) words &= (TileRow{1} << v_.words) - 1;
+    for (; words != 0; words &= words - 1) {
+      const std::size_t lane = 64 * static_cast<std::size_t>(__builtin_ctzll(words));
+      const std::size_t to = static_cast<std::size_t>(y) * v_.row + lane;
+      for (int next = 0; next < 2 && z_ + next < v_.nz; ++next) {
+        const std::uint16_t* from = v_.temperature + v_.cell(0, y, z_ + next) + lane;
+        for (int part = 0; part < L::kParts; ++part)
+          L::store(c_.heat[next] + to + part * L::kCount, L::load(from + part * L::kCount) ^ L::set(0x8000));
+      }
+    }
+  }
+
+  static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
+  const View v_;
+  const Runs r_;
+  const int z_;
+  Currents& c_;
+  std::ptrdiff_t step_[4];  // to the other cell of a pair
+  int undithered_[4];       // 65535 less the dither
+};
+
+}  // namespace voxmelt::simd

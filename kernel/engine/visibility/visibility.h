@@ -1,0 +1,34 @@
+// What each surface cell receives from the point sources, as data: recomputed at steps divisible by
+// heat.visibility_every, a pure function of that step's masks and sources (docs/automaton.md, "Visibility").
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/volume.h"
+#include "kernel/engine/cpu/workers.h"
+
+namespace voxmelt::visibility {
+
+class Provider {
+ public:
+  virtual ~Provider() = default;
+
+  // Fills one UQ12.4 irradiance per cell; 0 for every cell that is not a lit surface cell. `result` has the
+  // size of the volume.
+  virtual void irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
+                          state::Field<std::uint16_t>& result) = 0;
+};
+
+// The exact integer walk through the voxels: the definition.
+class VoxelWalkProvider final : public Provider {
+ public:
+  explicit VoxelWalkProvider(int threads = 1) : workers_(threads) {}
+  void irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
+                  state::Field<std::uint16_t>& result) override;
+
+ private:
+  cpu::Workers workers_;
+};
+
+}  // namespace voxmelt::visibility

@@ -1,0 +1,104 @@
+#include <nlohmann/json.hpp>
+
+#include "kernel/run/io/export.h"
+
+namespace voxmelt::io {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json position(rule::Position p) { return {p.x, p.y, p.z}; }
+
+json sources_json(const rule::Heat& heat) {
+  json sources = json::array();
+  for (const rule::PointSource& source : heat.sources) {
+    json keys = json::array();
+    for (const rule::SourceKey& key : source.keys)
+      keys.push_back({{"step", key.step}, {"at", position(key.at)}, {"power", key.power}});
+    sources.push_back({{"keys", keys}});
+  }
+  return sources;
+}
+
+json heat_json(const rule::Heat& heat) {
+  return {{"enabled", heat.enabled},
+          {"neighbours", heat.neighbours},
+          {"weight_face", heat.weight_face},
+          {"weight_edge", heat.weight_edge},
+          {"weight_corner", heat.weight_corner},
+          {"convection", heat.convection},
+          {"radiation", heat.radiation},
+          {"visibility_every", heat.visibility_every},
+          {"sources", sources_json(heat)},
+          {"air", heat.air},
+          {"air_exchange", heat.air_exchange},
+          {"air_temperature", heat.air_temperature}};
+}
+
+json regions_json(const rule::Parameters& p) {
+  json vents = json::array(), drains = json::array();
+  for (const rule::Vent& vent : p.vents)
+    vents.push_back({{"at", position(vent.region.at)},
+                     {"radius", vent.region.radius},
+                     {"rate", vent.rate},
+                     {"temperature", vent.temperature},
+                     {"energy", vent.energy},
+                     {"from", vent.from},
+                     {"until", vent.until}});
+  for (const rule::Drain& drain : p.drains)
+    drains.push_back({{"at", position(drain.region.at)},
+                      {"radius", drain.region.radius},
+                      {"rate", drain.rate},
+                      {"from", drain.from},
+                      {"until", drain.until}});
+  return {{"vents", vents}, {"drains", drains}};
+}
+
+json flow_json(const rule::Flow& flow) {
+  const rule::PaperLaw& paper = flow.paper;
+  return {{"law", flow.law == rule::Law::paper ? "paper" : "viscous"},
+          {"fall",
+           {{"factor", flow.fall.factor},
+            {"wall_factor", flow.fall.wall_factor},
+            {"minimum", flow.fall.minimum},
+            {"hang", flow.fall.hang}}},
+          {"paper",
+           {{"neighbours", paper.neighbours},
+            {"threshold", paper.threshold},
+            {"use_table", paper.use_table},
+            {"table", paper.table},
+            {"share", paper.share},
+            {"downhill", paper.downhill},
+            {"margin", paper.margin},
+            {"support", paper.support},
+            {"slump", paper.slump},
+            {"energy", paper.reading == rule::EnergyReading::text ? "text" : "printed"},
+            {"beta", paper.beta},
+            {"alpha_liquid", paper.alpha_liquid},
+            {"alpha_solid", paper.alpha_solid},
+            {"alpha_floor", paper.alpha_floor},
+            {"reheat", paper.reheat}}},
+          {"viscous",
+           {{"mobility", flow.viscous.mobility},
+            {"yield", flow.viscous.yield},
+            {"stiffness", flow.viscous.stiffness}}},
+          {"thermal_viscosity", flow.thermal_viscosity},
+          {"mobility_table", flow.mobility_table}};
+}
+
+}  // namespace
+
+std::string parameters_json(const rule::Parameters& parameters, state::Grid grid, std::uint32_t step) {
+  json result = {{"grid", {grid.x, grid.y, grid.z}},
+                 {"step", step},
+                 {"seed", parameters.seed},
+                 {"material",
+                  {{"melting_point", parameters.material.melting_point},
+                   {"latent_heat", parameters.material.latent_heat}}},
+                 {"heat", heat_json(parameters.heat)},
+                 {"flow", flow_json(parameters.flow)}};
+  result.update(regions_json(parameters));
+  return result.dump(2) + "\n";
+}
+
+}  // namespace voxmelt::io

@@ -1,0 +1,31 @@
+// Terrain: ESRI ASCII grids of elevation, stretched smoothly over the whole grid.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kernel/scene/text/document.h"
+
+namespace voxmelt::scene {
+
+// Elevations as in the file: `columns` per row from west to east, rows from north to south.
+struct Elevation {
+  int columns = 0, rows = 0;
+  std::vector<double> value;
+  long long missing = 0;  // cells without data, which were given the lowest elevation of the file
+
+  double at(int column, int row) const;  // clamped to the border
+};
+
+// Throws InputError naming `place` and file:line: missing, truncated, malformed, sizes outside 2..8192.
+Elevation read_esri_ascii(const std::filesystem::path& file, const Place& place);
+
+// `passes` of the 3 x 3 binomial filter: takes the terraces out of elevations in whole metres.
+void smooth(Elevation& elevation, int passes);
+
+// Elevation above the file's lowest at the centres of nx x nz columns (west to +x, north to -z), by a cubic
+// B-spline: smooth to the second derivative, and never outside the range of the data. z outermost.
+std::vector<double> resample(const Elevation& elevation, int nx, int nz);
+
+}  // namespace voxmelt::scene

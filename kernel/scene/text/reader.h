@@ -1,0 +1,81 @@
+// Strict access to one table of a document: every read checks type and range and remembers the key, so that
+// finish() can refuse whatever no read has asked for. Paths in messages are those of --set:
+// heat_source.0.power.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/scene/text/document.h"
+
+namespace voxmelt::scene {
+
+struct Range {
+  double lowest = 0, highest = 1;
+  bool above = false;  // the lowest value itself is not allowed
+  std::string why;     // follows the upper bound in the message: "the bound for 6 neighbours"
+};
+
+class Reader {
+ public:
+  Reader(const Value& table, std::string path);
+
+  bool has(std::string_view key);
+  Value::Kind kind(std::string_view key) const { return table_->find(key)->kind; }  // of a key that is there
+  std::string name(std::string_view key) const;                                     // full path of a key
+  const Place& place() const { return table_->place; }
+  const Place& place(std::string_view key) const;  // of its value; of the table where the key is missing
+
+  // Each: the value of `key`; without the key the fallback, or InputError where there is none.
+  double number(std::string_view key, const Range& range, std::optional<double> fallback = {});
+  std::int64_t integer(std::string_view key, std::int64_t lowest, std::int64_t highest,
+                       std::optional<std::int64_t> fallback = {});
+  bool flag(std::string_view key, bool fallback);
+  std::string text(std::string_view key, std::optional<std::string> fallback = {});
+  // Index of the chosen name.
+  std::size_t choice(std::string_view key, const std::vector<std::string>& names,
+                     std::optional<std::size_t> fallback = {});
+  // A file named in the scene, relative to the scene file that names it; by --set, to the current folder.
+  std::filesystem::path file(std::string_view key);
+
+  template <std::size_t N>
+  std::array<double, N> vector(std::string_view key, const Range& range,
+                               std::optional<std::array<double, N>> fallback = {}) {
+    const std::optional<std::vector<double>> read = numbers(key, N, range, !fallback);
+    std::array<double, N> result = fallback.value_or(std::array<double, N>{});
+    for (std::size_t i = 0; read && i < N; ++i) result[i] = (*read)[i];
+    return result;
+  }
+  // A list of `lowest`..`highest` rows of `width` numbers each, row after row.
+  std::vector<double> rows(std::string_view key, std::size_t width, std::size_t lowest, std::size_t highest,
+                           const Range& range);
+
+  std::optional<Reader> table(std::string_view key);
+  std::vector<Reader> tables(std::string_view key);  // none where the key is missing
+
+  // Complains about the value of `key`: "<place>: error: <path of key><rest>".
+  [[noreturn]] void fail(std::string_view key, const std::string& rest) const;
+  void finish() const;  // InputError for the first key that was never asked for
+
+ private:
+  const Value* find(std::string_view key);
+  const Value* find_or_fail(std::string_view key, bool required);
+  [[noreturn]] void fail_unknown(std::size_t index) const;
+  std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count, const Range& range,
+                                             bool required);
+
+  const Value* table_;
+  std::string path_;
+  std::vector<std::string> asked_;
+};
+
+// Checks one number: its type, that it is finite, its range. `name` is its full path.
+double checked_number(const Value& value, const std::string& name, const Range& range);
+
+}  // namespace voxmelt::scene

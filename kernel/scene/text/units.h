@@ -1,0 +1,32 @@
+// From the units of a scene file to those of the automaton. Ranges are checked by the readers before.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/scene/look.h"
+
+namespace voxmelt::scene {
+
+inline constexpr double kLargestAmount = 15;         // a cell's excess must fit UQ4.12
+inline constexpr double kLargestCoordinate = 65536;  // of sources, vents and shapes, cells
+
+inline rule::Temperature to_temperature(double t) {
+  return static_cast<rule::Temperature>(std::lround(t * rule::kTemperatureMax));
+}
+inline rule::Amount to_amount(double a) { return static_cast<rule::Amount>(std::lround(a * rule::kOne)); }
+
+// Factors 0..1 in 1/65536; 1 itself is one unit less where 16 bits must hold it.
+inline std::uint16_t to_factor16(double f) {
+  return static_cast<std::uint16_t>(std::min<long>(65535, std::lround(f * 65536)));
+}
+inline std::uint32_t to_factor32(double f) { return static_cast<std::uint32_t>(std::llround(f * 65536)); }
+
+inline std::int64_t to_position(double cells) { return std::llround(cells * rule::kPositionUnit); }
+inline rule::Position to_position(const Vec3& at) {
+  return {to_position(at[0]), to_position(at[1]), to_position(at[2])};
+}
+
+}  // namespace voxmelt::scene

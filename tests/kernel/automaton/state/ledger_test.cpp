@@ -1,0 +1,142 @@
+// Books that balance, and that show a planted leak of one unit.
+#include "kernel/automaton/state/ledger.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/kernel/worlds.h"
+
+namespace voxmelt::state {
+namespace {
+
+using namespace worlds;
+
+TEST(SumText, WritesAll128Bits) {
+  EXPECT_EQ(to_string(Sum{0}), "0");
+  EXPECT_EQ(to_string(Sum{-1}), "-1");
+  EXPECT_EQ(to_string(Sum{1234567890}), "1234567890");
+  const Sum power = Sum{1} << 64;
+  EXPECT_EQ(to_string(power), "18446744073709551616");
+  EXPECT_EQ(to_string(-power), "-18446744073709551616");
+  const Sum largest = ~(Sum{1} << 127);
+  EXPECT_EQ(to_string(largest), "170141183460469231731687303715884105727");
+  EXPECT_EQ(to_string(-largest - 1), "-170141183460469231731687303715884105728");
+}
+
+TEST(Holdings, CountsMatterOnly) {
+  Volume v(Grid{3, 2, 1});
+  put(v, 0, 0, 0, 100, 40, 7);
+  put_solid(v, 1, 0, 0, 50, 3);
+  put_inert(v, 2, 0, 0, 1234);  // a bed offset is no mass
+  const Holdings held = holdings(v);
+  EXPECT_EQ(held.liquid, 100);
+  EXPECT_EQ(held.solid, 50);
+  EXPECT_EQ(held.energy, 40);
+  EXPECT_EQ(held.heat, 700 + 150);
+  EXPECT_TRUE(drift(Ledger::open(v), v).none());
+}
+
+TEST(Holdings, LargestCells) {
+  Volume v(Grid{64, 64, 16});
+  fill(v, whole(v.grid), 65535, 65535, 65535);
+  const Holdings held = holdings(v);
+  EXPECT_EQ(held.liquid, Sum{65536} * 65535);
+  EXPECT_EQ(held.heat, Sum{65536} * 65535 * 65535);
+}
+
+// A run that uses every term of the ledgers.
+enum class Case { paper, paper_printed, viscous };
+run::Simulation busy(Case which) {
+  Parameters p = which == Case::viscous ? viscous(0.02, 0.002) : paper_showcase();
+  if (which == Case::paper_printed) p.flow.paper.reading = rule::EnergyReading::printed;
+  p.flow.paper.beta = 40000;
+  p.flow.paper.reheat = 4000;
+  p.material = {20000, 3000};
+  p.heat.enabled = true;
+  p.heat.neighbours = 26;
+  p.heat.weight_face = 6000;
+  p.heat.weight_edge = 3000;
+  p.heat.weight_corner = 2000;
+  p.heat.convection = 5000;
+  p.heat.radiation = true;
+  p.heat.sources = {{{{0, {200, 200, 100}, 1u << 30}}}};
+  p.heat.air = true;
+  p.heat.air_exchange = 9000;
+  p.heat.air_temperature.assign(12, 30000);
+  for (std::size_t y = 6; y < 12; ++y) p.heat.air_temperature[y] = 1000;
+  p.vents = {{{{16 * 3, 16 * 9, 16 * 3}, 24}, 700, 60000, 3000, 0, 0xFFFFFFFFu}};
+  p.drains = {{{{16 * 9, 16 * 1, 16 * 6}, 40}, 500, 5, 0xFFFFFFFFu}};
+  Volume v(Grid{12, 12, 9});
+  for_each({2, 2, 2, 10, 8, 7}, [&](int x, int y, int z) { put_solid(v, x, y, z, 4000, 15000 + 100 * x); });
+  return simulate(p, v);
+}
+
+class LedgerOfALaw : public testing::TestWithParam<Case> {};
+
+TEST_P(LedgerOfALaw, BalancesAndEveryTermIsUsed) {
+  run::Simulation s = busy(GetParam());
+  for (int i = 0; i < 200; ++i) {
+    s.step();
+    ASSERT_TRUE(s.drift().none()) << "step " << i;
+  }
+  const HeatLedger& h = s.ledger().heat;
+  for (const Sum term : {s.ledger().mass.added, s.ledger().mass.removed, h.conducted, h.convected, h.radiated,
+                         h.warmed, h.cooled, h.added, h.removed, h.rounded})
+    EXPECT_NE(term, 0);
+  const EnergyLedger& e = s.ledger().energy;
+  for (const Sum term : {e.melted, e.added, e.removed, e.reheated})
+    EXPECT_EQ(term != 0, GetParam() != Case::viscous);
+  for (const Sum term : {e.accelerated, e.dissipated}) EXPECT_EQ(term != 0, GetParam() == Case::paper);
+  EXPECT_EQ(e.capped != 0, GetParam() == Case::paper_printed) << "by the text nothing needs to be cut";
+  EXPECT_GE(e.dissipated, 0);
+  EXPECT_GE(h.warmed, 0);
+  EXPECT_GE(h.cooled, 0);
+}
+
+TEST_P(LedgerOfALaw, OneUnitPlantedInTheStateShows) {
+  run::Simulation s = busy(GetParam());
+  steps(s, 30);
+  Volume& v = s.mutable_volume();
+  int liquids = 0, solids = 0;
+  for_each(whole(v.grid), [&](int x, int y, int z) {
+    const state::Slot i = v.at(x, y, z);
+    if (!v.liquid.test(x, y, z) && !v.solid.test(x, y, z)) return;
+    ++(v.liquid.test(x, y, z) ? liquids : solids);
+    --v.amount[i];
+    EXPECT_EQ(s.drift().mass, -1);
+    EXPECT_EQ(s.drift().heat, -Sum{v.temperature[i]});
+    ++v.amount[i];
+    ++v.energy[i];
+    EXPECT_EQ(s.drift().energy, 1);
+    --v.energy[i];
+    ++v.temperature[i];
+    EXPECT_EQ(s.drift().heat, Sum{v.amount[i]});
+    --v.temperature[i];
+  });
+  EXPECT_GT(liquids, 0);
+  EXPECT_GT(solids, 0);
+  EXPECT_TRUE(s.drift().none());
+}
+
+TEST_P(LedgerOfALaw, OneUnitPlantedInAnyTermShows) {
+  run::Simulation s = busy(GetParam());
+  steps(s, 10);
+  Ledger& l = s.mutable_ledger();
+  for (Sum* term :
+       {&l.mass.start,    &l.mass.added,     &l.mass.removed,    &l.energy.start,       &l.energy.melted,
+        &l.energy.added,  &l.energy.removed, &l.energy.reheated, &l.energy.accelerated, &l.energy.dissipated,
+        &l.energy.capped, &l.heat.start,     &l.heat.conducted,  &l.heat.convected,     &l.heat.radiated,
+        &l.heat.warmed,   &l.heat.cooled,    &l.heat.added,      &l.heat.removed,       &l.heat.rounded}) {
+    ++*term;
+    const Drift d = s.drift();
+    EXPECT_EQ(d.mass * d.mass + d.energy * d.energy + d.heat * d.heat, 1) << "one unit, in one ledger";
+    EXPECT_FALSE(d.none());
+    --*term;
+  }
+  EXPECT_TRUE(s.drift().none());
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, LedgerOfALaw,
+                         testing::Values(Case::paper, Case::paper_printed, Case::viscous));
+
+}  // namespace
+}  // namespace voxmelt::state

@@ -1,0 +1,88 @@
+// Every committed scene, every implementation, threads, tile sizes, asleep and awake: the digests of the
+// reference, step by step. Twice: from the scene's start, and from the middle of its melt, where everything
+// moves.
+#include <filesystem>
+
+#include "kernel/automaton/state/digest.h"
+#include "kernel/scene/scene.h"
+#include "tests/kernel/engine/parallel/equal.h"
+
+namespace voxmelt::parallel {
+namespace {
+
+using namespace worlds;
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(VOXMELT_SCENES_FOLDER))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+struct Case {
+  std::string implementation;
+  step::Tuning tuning;
+};
+
+// Each instruction set; and each way to work with the fastest.
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const std::string& name : fast_implementations()) all.push_back({name, {.threads = 1}});
+  const std::string fastest = fast_implementations().back();
+  for (const int threads : {2, 3})
+    for (const bool sleep : {true, false})
+      for (const int tile_shift : {1, 3, 6})
+        all.push_back({fastest, {.threads = threads, .sleep = sleep, .tile_shift = tile_shift}});
+  return all;
+}
+
+void compare(const Parameters& parameters, const Volume& start, int steps) {
+  std::vector<std::uint64_t> expected;
+  run::Simulation reference(parameters, start, implementation("reference"));
+  for (int i = 0; i < steps; ++i) {
+    reference.step();
+    expected.push_back(state::digest(reference.volume()));
+  }
+  for (const Case& one : cases()) {
+    run::Simulation fast(parameters, start, implementation(one.implementation), one.tuning);
+    for (int i = 0; i < steps; ++i) {
+      fast.step();
+      ASSERT_EQ(state::digest(fast.volume()), expected[static_cast<std::size_t>(i)])
+          << one.implementation << ", threads " << one.tuning.threads << ", sleep " << one.tuning.sleep
+          << ", tile_shift " << one.tuning.tile_shift << ", step " << i;
+    }
+    ASSERT_TRUE(fast.ledger() == reference.ledger()) << "the books differ: " << one.implementation;
+  }
+}
+
+class Scenes : public testing::TestWithParam<std::string> {
+ protected:
+  scene::Scene load() const {
+    return scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (GetParam() + ".toml"), {});
+  }
+};
+
+#ifdef VOXMELT_SLOW
+constexpr int kSteps = 300;
+#else
+constexpr int kSteps = 20;
+#endif
+
+TEST_P(Scenes, FromTheStart) {
+  const scene::Scene scene = load();
+  compare(scene.parameters, scene.initial, kSteps);
+}
+
+TEST_P(Scenes, InTheMiddleOfTheMelt) {
+  const scene::Scene scene = load();
+  run::Simulation fast(scene.parameters, scene.initial, implementation("auto"), {.threads = 2});
+  steps(fast, static_cast<int>(scene.steps) / 3);
+  compare(scene.parameters, fast.volume(), kSteps / 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Committed, Scenes, testing::ValuesIn(scene_names()),
+                         [](const auto& chosen) { return chosen.param; });
+
+}  // namespace
+}  // namespace voxmelt::parallel

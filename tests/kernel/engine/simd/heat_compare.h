@@ -1,0 +1,70 @@
+// How two volumes, two ledgers, or what changed and what was told of it, differ.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/kernel/engine/scalar/hostile.h"
+#include "tests/kernel/engine/simd/heat_driver.h"
+
+namespace voxmelt::simd {
+
+using namespace worlds;
+
+inline step::Irradiance hostile_irradiance(Random& random, const Volume& v, bool faint) {
+  step::Irradiance field(v.grid);
+  for_each(whole(v.grid), [&](int x, int y, int z) {
+    if (v.solid.test(x, y, z))
+      field[v.at(x, y, z)] = static_cast<std::uint16_t>(
+          faint ? random.any({0, 0, 0, 0, 1})
+                : random.any({0, 1, 15, 16, 17, 4095, 65535, random.below(65536)}));
+  });
+  return field;
+}
+
+inline std::string difference(const Volume& a, const Volume& b) {
+  std::string text;
+  for_each(whole(a.grid), [&](int x, int y, int z) {
+    const state::Slot i = a.at(x, y, z);
+    if (!text.empty() ||
+        (a.amount[i] == b.amount[i] && a.energy[i] == b.energy[i] && a.temperature[i] == b.temperature[i] &&
+         a.solid.test(x, y, z) == b.solid.test(x, y, z) && a.liquid.test(x, y, z) == b.liquid.test(x, y, z)))
+      return;
+    text = "at " + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ": A " +
+           std::to_string(a.amount[i]) + " and " + std::to_string(b.amount[i]) + ", E " +
+           std::to_string(a.energy[i]) + " and " + std::to_string(b.energy[i]) + ", h " +
+           std::to_string(a.temperature[i]) + " and " + std::to_string(b.temperature[i]);
+  });
+  return text.empty() ? "in the padding, or a mask" : text;
+}
+
+inline std::string terms(const state::Ledger& l) {
+  std::string text;
+  for (const state::Sum term :
+       {l.mass.added, l.mass.removed, l.energy.melted, l.energy.reheated, l.energy.added, l.energy.removed,
+        l.heat.conducted, l.heat.convected, l.heat.radiated, l.heat.warmed, l.heat.cooled, l.heat.added,
+        l.heat.removed, l.heat.rounded})
+    text += state::to_string(term) + " ";
+  return text;
+}
+
+// Tiles in which the volumes differ.
+inline TileSet tiles_between(const View& view, const Volume& a, const Volume& b) {
+  TileSet set(view, false);
+  for_each(whole(a.grid), [&](int x, int y, int z) {
+    const state::Slot i = a.at(x, y, z);
+    if (a.amount[i] != b.amount[i] || a.energy[i] != b.energy[i] || a.temperature[i] != b.temperature[i] ||
+        a.solid.test(x, y, z) != b.solid.test(x, y, z) || a.liquid.test(x, y, z) != b.liquid.test(x, y, z))
+      set.slice(z)[y >> view.tile_shift] |= TileRow{1} << (x / 64);
+  });
+  return set;
+}
+
+inline void expect_reported(const View& view, const Volume& before, const Volume& after, TileSet changed) {
+  const std::int64_t told = changed.count();
+  changed.add(tiles_between(view, before, after));
+  ASSERT_EQ(changed.count(), told) << "a change was not reported";
+}
+
+}  // namespace voxmelt::simd

@@ -1,0 +1,209 @@
+// Exported fields, byte by byte; output folders that are never half-written.
+#include "kernel/run/io/export.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "kernel/run/io/output_folder.h"
+#include "tests/kernel/worlds.h"
+
+namespace voxmelt::io {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace worlds;
+
+class Export : public testing::Test {
+ protected:
+  Export()
+      : folder_(fs::temp_directory_path() / ("voxmelt_io_test_" + std::to_string(::getpid()) + "_" +
+                                             testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::create_directories(folder_);
+  }
+  ~Export() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  std::string read(const fs::path& name) const {
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  fs::path folder_;
+};
+
+Volume sample() {
+  Volume v(Grid{3, 2, 2});
+  put(v, 1, 0, 0, 0x1234, 0x0102, 0xFFFE);
+  put_solid(v, 2, 1, 0, 4096, 7);
+  put_inert(v, 0, 0, 1);
+  return v;
+}
+
+TEST_F(Export, NpyIsCOrderZYXLittleEndian) {
+  export_npy(sample(), folder_);
+  for (const auto& [name, type, size] : {std::tuple{"solid", "'|u1'", 1u},
+                                         {"liquid", "'|u1'", 1u},
+                                         {"inert", "'|u1'", 1u},
+                                         {"amount", "'<u2'", 2u},
+                                         {"energy", "'<u2'", 2u},
+                                         {"temperature", "'<u2'", 2u}}) {
+    const std::string bytes = read(std::string(name) + ".npy");
+    ASSERT_GE(bytes.size(), 10u);
+    EXPECT_EQ(bytes.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
+    const std::size_t header =
+        10 + static_cast<unsigned char>(bytes[8]) + 256u * static_cast<unsigned char>(bytes[9]);
+    EXPECT_EQ(header % 64, 0u);
+    EXPECT_EQ(bytes[header - 1], '\n');
+    EXPECT_NE(bytes.find(type), std::string::npos) << name;
+    EXPECT_NE(bytes.find("(2, 2, 3)"), std::string::npos);
+    EXPECT_NE(bytes.find("'fortran_order': False"), std::string::npos);
+    EXPECT_EQ(bytes.size(), header + 12u * size) << name;
+  }
+  const std::string amount = read("amount.npy");
+  EXPECT_EQ(amount.substr(amount.size() - 24 + 2, 2), "\x34\x12");
+  EXPECT_EQ(amount.substr(amount.size() - 24 + 10, 2), std::string("\x00\x10", 2));
+  const std::string solid = read("solid.npy"), liquid = read("liquid.npy"), inert = read("inert.npy");
+  EXPECT_EQ(solid[solid.size() - 12 + 5], 1);
+  EXPECT_EQ(liquid[liquid.size() - 12 + 1], 1);
+  EXPECT_EQ(inert[inert.size() - 12 + 6], 1);
+}
+
+TEST_F(Export, VtiHoldsTheSameBytes) {
+  export_vti(sample(), folder_);
+  const std::string vti = read("volume.vti");
+  EXPECT_NE(vti.find("WholeExtent=\"0 3 0 2 0 2\""), std::string::npos);
+  const std::size_t start = vti.find("encoding=\"raw\">\n_") + 17;
+  std::uint64_t size = 0;
+  std::memcpy(&size, vti.data() + start, 8);
+  EXPECT_EQ(size, 12u) << "first solid, one byte a cell";
+  EXPECT_EQ(vti[start + 8 + 5], 1);
+  std::memcpy(&size, vti.data() + start + 3 * 20, 8);
+  EXPECT_EQ(size, 24u) << "fourth amount";
+  EXPECT_EQ(vti.substr(start + 3 * 20 + 8 + 2, 2), "\x34\x12");
+}
+
+bool names(const std::string& json, const std::string& key) {
+  for (std::size_t at = json.find(key + "\":"); at != std::string::npos; at = json.find(key + "\":", at + 1))
+    if (json[at - 1] == '"') return true;
+  return false;
+}
+
+TEST(ParametersJson, NamesEverythingOfSection14) {
+  Parameters p = paper_showcase();
+  p.seed = ~std::uint64_t{0};
+  p.heat.sources = {{{{3, {1, -2, 3}, (std::uint64_t{1} << 50) - 1}}}};
+  p.vents = {{}};
+  p.drains = {{}};
+  const std::string json = parameters_json(p, {3, 4, 5}, 17);
+  for (const char* key : {"grid",
+                          "step",
+                          "seed",
+                          "material",
+                          "melting_point",
+                          "latent_heat",
+                          "heat",
+                          "enabled",
+                          "neighbours",
+                          "weight_face",
+                          "weight_edge",
+                          "weight_corner",
+                          "convection",
+                          "radiation",
+                          "visibility_every",
+                          "sources",
+                          "keys",
+                          "at",
+                          "power",
+                          "air",
+                          "air_exchange",
+                          "air_temperature",
+                          "vents",
+                          "radius",
+                          "rate",
+                          "temperature",
+                          "energy",
+                          "from",
+                          "until",
+                          "drains",
+                          "flow",
+                          "law",
+                          "fall",
+                          "factor",
+                          "wall_factor",
+                          "minimum",
+                          "hang",
+                          "paper",
+                          "threshold",
+                          "use_table",
+                          "table",
+                          "share",
+                          "downhill",
+                          "margin",
+                          "support",
+                          "slump",
+                          "beta",
+                          "alpha_liquid",
+                          "alpha_solid",
+                          "alpha_floor",
+                          "reheat",
+                          "viscous",
+                          "mobility",
+                          "yield",
+                          "stiffness",
+                          "thermal_viscosity",
+                          "mobility_table"})
+    EXPECT_TRUE(names(json, key)) << key;
+  for (const char* value : {"\"seed\": 18446744073709551615", "\"step\": 17", "\"power\": 1125899906842623",
+                            "\"law\": \"paper\""})
+    EXPECT_NE(json.find(value), std::string::npos) << value;
+}
+
+TEST_F(Export, AnOutputFolderAppearsWholeOrNotAtAll) {
+  const fs::path place = folder_ / "out";
+  {
+    OutputFolder out(place);
+    write_file(out.partial() / "a", "1");
+    EXPECT_FALSE(fs::exists(place));
+  }
+  EXPECT_TRUE(fs::is_empty(folder_)) << "not committed: nothing is left";
+  {
+    OutputFolder out(place);
+    write_file(out.partial() / "a", "1");
+    out.commit();
+  }
+  EXPECT_EQ(read("out/a"), "1");
+  {
+    OutputFolder out(place);  // ours: replaced whole
+    write_file(out.partial() / "b", "2");
+    out.commit();
+  }
+  EXPECT_FALSE(fs::exists(place / "a"));
+  EXPECT_EQ(read("out/b"), "2");
+}
+
+TEST_F(Export, ForeignFilesAreNotTouched) {
+  fs::create_directories(folder_ / "mine");
+  std::ofstream(folder_ / "mine" / "letter") << "dear";
+  EXPECT_THROW(OutputFolder(folder_ / "mine"), OutputError);
+  EXPECT_THROW(OutputFolder(folder_ / "mine" / "letter"), OutputError);
+  EXPECT_EQ(read("mine/letter"), "dear");
+}
+
+TEST(WriteFile, SaysWhyItCannot) {
+  try {
+    write_file("/nonexistent folder/x", "1");
+    FAIL();
+  } catch (const OutputError& error) {
+    EXPECT_FALSE(error.out_of_space());
+    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace voxmelt::io
