@@ -38,7 +38,7 @@ Fields<Real>::Fields(const state::Volume& volume)
     if (!c.inert) {  // there it is the height of the bed, no amount
       c.amount = static_cast<Real>(volume.amount[slot]) / 4096;
       c.energy = static_cast<Real>(volume.energy[slot]) / 4096;
-      c.temperature = static_cast<Real>(volume.temperature[slot]) / 65535;
+      c.temperature = static_cast<Real>(volume.heat[slot]) / 65535;
     }
     set_cell(x, y, z, c);
   });

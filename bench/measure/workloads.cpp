@@ -101,7 +101,7 @@ Workload dense_paper(int n, bool heat) {
   for_each_cell(w.start, [&](int x, int y, int z, state::Slot i, std::size_t cell) {
     w.start.amount[i] = static_cast<std::uint16_t>(rule::kOne / 2 + drawn(1, cell, rule::kOne));
     w.start.energy[i] = static_cast<std::uint16_t>(1 + drawn(2, cell, rule::kOne / 2));
-    if (heat) w.start.temperature[i] = static_cast<std::uint16_t>(drawn(3, cell, 50000));
+    if (heat) w.start.heat[i] = static_cast<std::uint16_t>(drawn(3, cell, 50000));
     w.start.liquid.set(x, y, z, true);
   });
   return w;
@@ -116,7 +116,7 @@ Workload dense_viscous(int n, bool heat) {
   for_each_cell(w.start, [&](int x, int y, int z, state::Slot i, std::size_t cell) {
     const std::uint32_t column = drawn(4, w.start.grid.index(x, 0, z), rule::kOne);
     w.start.amount[i] = static_cast<std::uint16_t>(rule::kOne + column / 2 + drawn(5, cell, 256));
-    if (heat) w.start.temperature[i] = static_cast<std::uint16_t>(drawn(3, cell, 50000));
+    if (heat) w.start.heat[i] = static_cast<std::uint16_t>(drawn(3, cell, 50000));
     w.start.liquid.set(x, y, z, true);
   });
   return w;
@@ -135,7 +135,7 @@ Workload dense_heat(int n, int neighbours) {
   w.times_heat = true;
   for_each_cell(w.start, [&](int x, int y, int z, state::Slot i, std::size_t cell) {
     w.start.amount[i] = rule::kOne;
-    w.start.temperature[i] = static_cast<std::uint16_t>(drawn(6, cell, 50000));
+    w.start.heat[i] = static_cast<std::uint16_t>(drawn(6, cell, 50000));
     w.start.solid.set(x, y, z, true);
   });
   return w;

@@ -57,7 +57,7 @@ void Checker::compare(Channel& channel, const Cell* lanes) {
     differs("state", static_cast<int>(want.state), static_cast<int>(is.state));
     differs("amount", want.amount, is.amount);
     differs("energy", want.energy, is.energy);
-    differs("temperature", want.heat, is.heat);
+    differs("heat", want.heat, is.heat);
     if (expected.pattern != nullptr)
       differs("pattern", (*expected.pattern)[expected.after->at(place.x + lane, place.y, place.z)],
               is.pattern);
@@ -81,7 +81,7 @@ void Checker::left(int number, std::int64_t ordinal, const Cell* lanes) {
     differs("state", static_cast<int>(entered.state), static_cast<int>(is.state));
     differs("amount", entered.amount, is.amount);
     differs("energy", entered.energy, is.energy);
-    differs("temperature", entered.heat, is.heat);
+    differs("heat", entered.heat, is.heat);
     differs("side band", 0, 1);
     return;
   }

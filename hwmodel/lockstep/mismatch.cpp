@@ -83,8 +83,7 @@ Difference first_difference(const state::Volume& expected, const state::Volume& 
           return differs("amount", expected.amount[i], actual.amount[i]);
         if (expected.energy[i] != actual.energy[i])
           return differs("energy", expected.energy[i], actual.energy[i]);
-        if (expected.temperature[i] != actual.temperature[i])
-          return differs("temperature", expected.temperature[i], actual.temperature[i]);
+        if (expected.heat[i] != actual.heat[i]) return differs("heat", expected.heat[i], actual.heat[i]);
       }
   return {};
 }

@@ -2,7 +2,6 @@
 
 #include <bit>
 
-#include "kernel/scene/scene.h"
 #include "kernel/scene/text/compose.h"
 #include "kernel/scene/text/reader.h"
 

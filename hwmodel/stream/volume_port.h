@@ -23,7 +23,7 @@ inline void read_token(const state::Volume& volume, const Shape& shape, const Pl
     lanes[lane].state = state_at(volume, x, place.y, place.z);
     lanes[lane].amount = volume.amount[slot];
     lanes[lane].energy = volume.energy[slot];
-    lanes[lane].heat = volume.temperature[slot];
+    lanes[lane].heat = volume.heat[slot];
   }
 }
 
@@ -37,7 +37,7 @@ inline void write_token(const Cell* lanes, const Shape& shape, const Place& plac
     volume.liquid.set(x, place.y, place.z, cell.state == State::liquid);
     volume.amount[slot] = static_cast<std::uint16_t>(cell.amount);
     volume.energy[slot] = static_cast<std::uint16_t>(cell.energy);
-    volume.temperature[slot] = static_cast<std::uint16_t>(cell.heat);
+    volume.heat[slot] = static_cast<std::uint16_t>(cell.heat);
   }
 }
 

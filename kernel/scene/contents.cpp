@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/scene/look.h"
 #include "kernel/scene/shape/heightfield.h"
 #include "kernel/scene/shape_reader.h"
-#include "kernel/scene/units.h"
+#include "kernel/scene/text/units.h"
 
 namespace voxmelt::scene {
 namespace {

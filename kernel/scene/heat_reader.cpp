@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "kernel/scene/parameter_readers.h"
-#include "kernel/scene/units.h"
+#include "kernel/scene/text/units.h"
 
 namespace voxmelt::scene {
 namespace {

@@ -96,9 +96,9 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
 
   scene.initial =
       start ? read_fields(fields, grid, start->place("fields")) : voxelise(contents, grid, scene.warnings);
-  // What the scene does not model is not there: no energy under the viscous law, no heat without [heat].
-  if (scene.parameters.flow.law == rule::Law::viscous) scene.initial.energy.clear();
-  if (!scene.parameters.heat.enabled) scene.initial.temperature.clear();
+  // What the scene does not model is not there. Fields that a user made are not dropped without a word.
+  const std::vector<std::string> dropped = drop_unused(scene.initial, scene.parameters);
+  if (start) scene.warnings.insert(scene.warnings.end(), dropped.begin(), dropped.end());
   scene.initial_digest = state::digest(scene.initial);
   scene.terrain = std::move(contents.terrain);
   return scene;

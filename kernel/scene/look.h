@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 namespace voxmelt::scene {
 
@@ -35,13 +34,6 @@ struct Look {
   bool glow = false;    // colour and light of the liquid by its temperature (lava)
   double glow_cold = 0.3, glow_hot = 0.95;  // temperatures at the ends of the glow ramp, 0..1
   int smooth = 3, smooth_solid = 1;  // low-pass of liquid and of solid: passes of the 3x3x3 binomial filter
-};
-
-// Height of the ground above y = 0 at the centre of each column, in cells; z outermost.
-struct Terrain {
-  int x = 0, z = 0;
-  std::vector<float> height;
-  bool textured = false;  // a height field (drawn with elevation shading) or a flat floor
 };
 
 }  // namespace voxmelt::scene

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "kernel/scene/shape/geometry.h"
-#include "kernel/scene/units.h"
+#include "kernel/scene/text/units.h"
 
 namespace voxmelt::scene {
 namespace {

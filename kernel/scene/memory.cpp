@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "kernel/scene/scene.h"
+#include "kernel/scene/text/error.h"
 
 namespace voxmelt::scene {
 namespace {

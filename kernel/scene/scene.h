@@ -3,27 +3,16 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "kernel/automaton/rule/parameters.h"
 #include "kernel/automaton/state/volume.h"
 #include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
+#include "kernel/scene/text/error.h"
 
 namespace voxmelt::scene {
-
-// Bad input, already in its final form: "file:line:column: error: what is wrong, what is allowed".
-class InputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-// Out of memory or disk: exit code 3 of the program.
-class ResourceError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct Scene {
   std::string name;  // file name without folder and suffix

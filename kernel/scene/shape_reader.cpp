@@ -7,8 +7,9 @@
 #include <set>
 #include <utility>
 
+#include "kernel/scene/look.h"
 #include "kernel/scene/shape/polygon.h"
-#include "kernel/scene/units.h"
+#include "kernel/scene/text/units.h"
 
 namespace voxmelt::scene {
 namespace {

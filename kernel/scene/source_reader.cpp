@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
+#include "kernel/scene/look.h"
 #include "kernel/scene/parameter_readers.h"
-#include "kernel/scene/units.h"
+#include "kernel/scene/text/units.h"
 
 namespace voxmelt::scene {
 namespace {

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "kernel/automaton/rule/fixed_point.h"
 #include "kernel/scene/npy.h"
@@ -37,6 +39,12 @@ state::Field<std::uint16_t> read_field(const std::filesystem::path& file, state:
   return field;
 }
 
+// Exports of version 0.1 call the field `temperature`.
+std::filesystem::path heat_file(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "heat.npy", old = folder / "temperature.npy";
+  return !std::filesystem::exists(file) && std::filesystem::exists(old) ? old : file;
+}
+
 // The first promise that a cell breaks, or nothing.
 const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
   const state::Slot cell = volume.at(x, y, z);
@@ -51,7 +59,7 @@ const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
   if (solid && volume.energy[cell] != 0) return "no energy in solids";
   if (volume.energy[cell] > amount) return "energy not more than the amount";
   if (!solid && !liquid && volume.energy[cell] != 0) return "no energy without solid or liquid";
-  if (!solid && !liquid && volume.temperature[cell] != 0) return "no temperature without solid or liquid";
+  if (!solid && !liquid && volume.heat[cell] != 0) return "no heat without solid or liquid";
   return nullptr;
 }
 
@@ -64,7 +72,7 @@ state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid,
   volume.inert = read_mask(folder / "inert.npy", grid, place);
   volume.amount = read_field(folder / "amount.npy", grid, place);
   volume.energy = read_field(folder / "energy.npy", grid, place);
-  volume.temperature = read_field(folder / "temperature.npy", grid, place);
+  volume.heat = read_field(heat_file(folder), grid, place);
   for (int z = 0; z < grid.z; ++z)
     for (int y = 0; y < grid.y; ++y)
       for (int x = 0; x < grid.x; ++x)
@@ -72,6 +80,21 @@ state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid,
           fail_at(place,
                   fmt::format("{}: cell ({}, {}, {}) breaks a rule: {}", folder.string(), x, y, z, promise));
   return volume;
+}
+
+std::vector<std::string> drop_unused(state::Volume& volume, const rule::Parameters& parameters) {
+  std::vector<std::string> dropped;
+  const auto drop = [&](state::Field<std::uint16_t>& field, const char* what, const char* why) {
+    const auto cells = std::ranges::count_if(field.stored(), [](std::uint16_t value) { return value != 0; });
+    if (cells > 0)
+      dropped.push_back(
+          fmt::format("start.fields: {} of {} cell{} dropped: {}", what, cells, cells == 1 ? "" : "s", why));
+    field.clear();
+  };
+  if (parameters.flow.law == rule::Law::viscous)
+    drop(volume.energy, "energy", "the viscous law has no energy");
+  if (!parameters.heat.enabled) drop(volume.heat, "heat", "the scene has no [heat]");
+  return dropped;
 }
 
 }  // namespace voxmelt::scene

@@ -16,7 +16,7 @@
 
 #include "kernel/automaton/state/volume.h"
 #include "kernel/engine/cpu/workers.h"
-#include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
 #include "render/density/brick.h"
 #include "render/density/columns.h"
 #include "render/density/values.h"

@@ -10,7 +10,7 @@
 
 #include "kernel/automaton/state/volume.h"
 #include "kernel/engine/cpu/workers.h"
-#include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
 
 namespace voxmelt::render {
 

@@ -15,6 +15,7 @@
 #include "kernel/automaton/state/volume.h"
 #include "kernel/engine/cpu/workers.h"
 #include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
 #include "render/density/brick.h"
 #include "render/density/cell_fields.h"
 #include "render/density/pyramid.h"

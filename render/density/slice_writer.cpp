@@ -76,7 +76,7 @@ void SliceWriter::write_matter(int y) {
         all[lane] = hard[lane] | soft[lane];
       }
       if (liquids == 0) continue;
-      const std::uint16_t* temperature = volume_.temperature.row(y, z_) + first;
+      const std::uint16_t* temperature = volume_.heat.row(y, z_) + first;
       std::uint16_t* heat = row(kHeat, y) + first;
       for (std::size_t lane = 0; lane < kGroup; ++lane)
         heat[lane] = static_cast<std::uint16_t>(std::uint32_t{soft[lane]} * temperature[lane] /

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
 #include "render/density/density_field.h"
 #include "render/image/image.h"
 

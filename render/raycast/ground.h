@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
 #include "render/density/density_field.h"
 #include "render/raycast/surface.h"
 

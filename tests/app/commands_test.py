@@ -131,7 +131,7 @@ class Commands(unittest.TestCase):
     def test_export_and_start_from_it(self):
         self.good("export", self.scene, "--steps", "4", "--out", "at4")
         names = {p.name for p in (self.folder / "at4").iterdir()} - {".voxmelt-output"}
-        fields = {f"{f}.npy" for f in ("solid", "liquid", "inert", "amount", "energy", "temperature")}
+        fields = {f"{f}.npy" for f in ("solid", "liquid", "inert", "amount", "energy", "heat")}
         self.assertEqual(names, fields | {"parameters.json"})
         amount = (self.folder / "at4/amount.npy").read_bytes()
         self.assertEqual(amount[:6], b"\x93NUMPY")

@@ -144,7 +144,7 @@ TEST(BaselineRules, ConductionIsEquationOne) {
     parameters.material.melting_point = 65535;
     state::Volume volume(state::Grid{5, 5, 5});
     worlds::for_each({1, 1, 1, 4, 4, 4}, [&](int x, int y, int z) { worlds::put_solid(volume, x, y, z); });
-    volume.temperature[volume.at(2, 2, 2)] = 32768;
+    volume.heat[volume.at(2, 2, 2)] = 32768;
     Baseline<double> baseline(volume, parameters);
     baseline.heat();
     const double hot = 32768.0 / 65535;

@@ -69,7 +69,7 @@ TEST(Measure, DenseVolumesAreInMotionAllTheTime) {
       std::size_t changed = 0;
       for (std::size_t i = 0; i < before.amount.layout().cells(); ++i)
         changed += before.amount[{i}] != simulation.volume().amount[{i}] ||
-                   before.temperature[{i}] != simulation.volume().temperature[{i}];
+                   before.heat[{i}] != simulation.volume().heat[{i}];
       EXPECT_GT(changed, before.grid.cells() * 9 / 10) << workload.name << ", step " << step;
     }
     const std::int64_t cells = static_cast<std::int64_t>(workload.start.grid.cells());

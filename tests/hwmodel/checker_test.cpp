@@ -22,7 +22,7 @@ Start warm_start(rule::Law law = rule::Law::paper) {
 }
 
 // The reference, with one thing wrong after a phase of step 3.
-enum class Wrong { liquid, amount, temperature, books };
+enum class Wrong { liquid, amount, heat, books };
 void drop_a_liquid_cell(state::Volume& volume) {
   bool done = false;
   worlds::for_each(worlds::whole(volume.grid), [&](int x, int y, int z) {
@@ -45,7 +45,7 @@ class Damaged final : public step::Stepper {
     if (step != 3 || phase != step::Phase::melt) return;
     if (wrong == Wrong::liquid) drop_a_liquid_cell(volume);
     if (wrong == Wrong::amount) ++volume.amount[volume.at(6, 2, 4)];
-    if (wrong == Wrong::temperature) ++volume.temperature[volume.at(6, 2, 4)];
+    if (wrong == Wrong::heat) ++volume.heat[volume.at(6, 2, 4)];
     if (wrong == Wrong::books) ++ledger.energy.melted;
   }
 
@@ -67,7 +67,7 @@ std::string field_found_in_software() {
   EXPECT_EQ(report.mismatch->phase, "melt");
   EXPECT_EQ(report.mismatch->step, 3u);
   EXPECT_EQ(report.steps, 2u) << "of a pass that was not done";
-  if (wrong == Wrong::amount || wrong == Wrong::temperature) {
+  if (wrong == Wrong::amount || wrong == Wrong::heat) {
     EXPECT_EQ((std::array{report.mismatch->x, report.mismatch->y, report.mismatch->z}),
               (std::array{6, 2, 4}));
   }
@@ -77,7 +77,7 @@ std::string field_found_in_software() {
 TEST(Checker, ASoftwareKernelThatDiffersIsNamed) {
   EXPECT_EQ(field_found_in_software<Wrong::liquid>(), "state");
   EXPECT_EQ(field_found_in_software<Wrong::amount>(), "amount");
-  EXPECT_EQ(field_found_in_software<Wrong::temperature>(), "temperature");
+  EXPECT_EQ(field_found_in_software<Wrong::heat>(), "heat");
   EXPECT_EQ(field_found_in_software<Wrong::books>(), "ledger");
 }
 
@@ -240,7 +240,7 @@ TEST(Checker, AChannelThatChangesAnythingIsNamed) {
       {"state", [](Cell& cell) { cell.state = State::solid; }},
       {"amount", [](Cell& cell) { cell.amount = 1; }},
       {"energy", [](Cell& cell) { cell.energy = 1; }},
-      {"temperature", [](Cell& cell) { cell.heat = 1; }},
+      {"heat", [](Cell& cell) { cell.heat = 1; }},
       {"side band", [](Cell& cell) { cell.pattern = 1; }},
       {"side band", [](Cell& cell) { cell.beside_wall = 1; }},
       {"side band", [](Cell& cell) { cell.head = 1; }}};

@@ -61,7 +61,7 @@ inline Start crop(const Start& whole, int side) {
     cut.volume.inert.set(x, y, z, whole.volume.inert.test(x0 + x, y0 + y, z0 + z));
     cut.volume.amount[to] = whole.volume.amount[from];
     cut.volume.energy[to] = whole.volume.energy[from];
-    cut.volume.temperature[to] = whole.volume.temperature[from];
+    cut.volume.heat[to] = whole.volume.heat[from];
   });
   const auto move = [&](rule::Position& at) { at.x -= 16 * x0, at.y -= 16 * y0, at.z -= 16 * z0; };
   for (rule::PointSource& source : cut.parameters.heat.sources)

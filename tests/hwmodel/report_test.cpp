@@ -185,7 +185,7 @@ TEST(Report, TheFirstDifferenceOfEveryField) {
   expect(base, "", 0, 0);
   expect(changed(101, 50, 25), "amount", 100, 101);
   expect(changed(100, 51, 25), "energy", 50, 51);
-  expect(changed(100, 50, 26), "temperature", 25, 26);
+  expect(changed(100, 50, 26), "heat", 25, 26);
   state::Volume solid = base;
   solid.liquid.set(1, 1, 1, false), solid.solid.set(1, 1, 1, true);
   expect(solid, "state", 1, 2);

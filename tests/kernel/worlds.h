@@ -39,7 +39,7 @@ inline void put(Volume& v, int x, int y, int z, std::int32_t amount, std::int32_
   const state::Slot i = v.at(x, y, z);
   v.amount[i] = static_cast<std::uint16_t>(amount);
   v.energy[i] = static_cast<std::uint16_t>(energy);
-  v.temperature[i] = static_cast<std::uint16_t>(heat);
+  v.heat[i] = static_cast<std::uint16_t>(heat);
   v.liquid.set(x, y, z, amount > 0);
 }
 inline void put_solid(Volume& v, int x, int y, int z, std::int32_t amount = kOne, std::int32_t heat = 0) {
@@ -119,14 +119,14 @@ inline std::string broken_invariant(const Volume& v, const Parameters& p) {
     const auto fails = [&](const char* what) {
       broken = std::string(what) + " at " + std::to_string(x) + ", " + std::to_string(y) + ", " +
                std::to_string(z) + ": A " + std::to_string(v.amount[i]) + ", E " +
-               std::to_string(v.energy[i]) + ", h " + std::to_string(v.temperature[i]);
+               std::to_string(v.energy[i]) + ", h " + std::to_string(v.heat[i]);
     };
     if (solid + inert + liquid > 1) fails("two masks");
     if (solid && v.amount[i] == 0) fails("a solid of nothing");
     if (liquid != (!solid && !inert && v.amount[i] > 0)) fails("liquid is not what is defined");
     if (v.energy[i] > v.amount[i]) fails("E > A");
     if (v.energy[i] > 0 && (!liquid || p.flow.law == rule::Law::viscous)) fails("energy where none may be");
-    if (v.temperature[i] > 0 && ((!solid && !liquid) || !p.heat.enabled)) fails("heat where none may be");
+    if (v.heat[i] > 0 && ((!solid && !liquid) || !p.heat.enabled)) fails("heat where none may be");
   });
   return broken;
 }

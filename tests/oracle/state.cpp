@@ -25,7 +25,7 @@ State read_state(const std::string& folder) {
   };
   const Field fields[] = {{"solid", 1, &Cell::solid},   {"liquid", 1, &Cell::liquid},
                           {"inert", 1, &Cell::inert},   {"amount", 2, &Cell::amount},
-                          {"energy", 2, &Cell::energy}, {"temperature", 2, &Cell::heat}};
+                          {"energy", 2, &Cell::energy}, {"heat", 2, &Cell::heat}};
   for (const Field& field : fields) {
     const std::vector<Int> values = read_npy(folder + "/" + field.name + ".npy", shape, field.width);
     for (Int i = 0; i < count; ++i) state.cells[i].*field.member = values[i];
@@ -55,7 +55,7 @@ void write_fields(const State& state, const std::string& folder) {
   write("inert", 1, &Cell::inert);
   write("amount", 2, &Cell::amount);
   write("energy", 2, &Cell::energy);
-  write("temperature", 2, &Cell::heat);
+  write("heat", 2, &Cell::heat);
 }
 
 bool is_open(const State& state, Place from, const Direction& d) {
@@ -76,7 +76,7 @@ void check_cell(const State& state, Int i, const char* when) {
   else if (cell.amount < 0 || cell.amount > AMAX)
     wrong = "amount outside 0..AMAX";
   else if (cell.heat < 0 || cell.heat > 65535)
-    wrong = "temperature outside 0..65535";
+    wrong = "heat outside 0..65535";
   else if (cell.energy < 0 || cell.energy > cell.amount)
     wrong = "energy outside 0..amount";
   else if (cell.solid == 1 && cell.amount == 0)
@@ -84,20 +84,20 @@ void check_cell(const State& state, Int i, const char* when) {
   else if (cell.solid == 1 && cell.energy != 0)
     wrong = "energy in a solid";
   else if (!matter && (cell.energy != 0 || cell.heat != 0))
-    wrong = "energy or temperature without matter";
+    wrong = "energy or heat without matter";
   else if (cell.solid == 0 && cell.inert == 0 && cell.liquid != (cell.amount > 0 ? 1 : 0))
     wrong = "liquid is not amount > 0";
   else if (!state.parameters.paper_law && cell.energy != 0)
     wrong = "energy under the viscous law";
   else if (!state.parameters.heat.enabled && cell.heat != 0)
-    wrong = "temperature without heat.enabled";
+    wrong = "heat without heat.enabled";
   if (wrong == nullptr) return;
   const Place p = state.place(i);
   throw Violation("step " + std::to_string(state.step) + ", " + when + ": cell (" + std::to_string(p.x) +
                   ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + "): " + wrong + " (solid " +
                   std::to_string(cell.solid) + " inert " + std::to_string(cell.inert) + " liquid " +
                   std::to_string(cell.liquid) + " amount " + std::to_string(cell.amount) + " energy " +
-                  std::to_string(cell.energy) + " temperature " + std::to_string(cell.heat) + ")");
+                  std::to_string(cell.energy) + " heat " + std::to_string(cell.heat) + ")");
 }
 
 void check_all(const State& state, const char* when) {

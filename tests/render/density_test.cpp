@@ -157,7 +157,7 @@ TEST(DensityField, UpdatesLikeAFreshField) {
         if (volume.solid.test(x, y, z)) continue;
         const state::Slot i = volume.at(x, y, z);
         volume.amount[i] = static_cast<std::uint16_t>(random() % 5000);
-        volume.temperature[i] = static_cast<std::uint16_t>(random());
+        volume.heat[i] = static_cast<std::uint16_t>(random());
         volume.liquid.set(x, y, z, volume.amount[i] > 0);
       }
       const int filtered = kept.update(volume, look);

@@ -68,8 +68,8 @@ class Builder {
     if (volume_.solid.test(x, y, z)) to_.solid[i] = value;
     if (!volume_.liquid.test(x, y, z)) return;
     to_.liquid[i] = value;
-    to_.heat[i] = static_cast<std::uint16_t>(
-        static_cast<std::uint32_t>(value) * volume_.temperature[volume_.at(x, y, z)] / rule::kTemperatureMax);
+    to_.heat[i] = static_cast<std::uint16_t>(static_cast<std::uint32_t>(value) *
+                                             volume_.heat[volume_.at(x, y, z)] / rule::kTemperatureMax);
   }
 
   void find_ground(int x, int z) {

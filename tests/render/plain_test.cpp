@@ -28,7 +28,7 @@ void put(state::Volume& volume, int x, int y, int z, int kind, Random& random) {
   volume.liquid.set(x, y, z, kind == 2);
   volume.inert.set(x, y, z, kind == 3);
   volume.amount[at] = static_cast<std::uint16_t>(kind == 0 ? 0 : amount);
-  volume.temperature[at] = static_cast<std::uint16_t>(kind == 1 || kind == 2 ? random.below(65536) : 0);
+  volume.heat[at] = static_cast<std::uint16_t>(kind == 1 || kind == 2 ? random.below(65536) : 0);
 }
 
 // Uneven ground, puddles on it, lumps and walls above: what scenes are made of, and some dust.

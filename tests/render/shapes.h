@@ -39,7 +39,7 @@ inline void pour(state::Volume& volume, int x, int z, double height, double temp
     const state::Slot i = volume.at(x, y, z);
     volume.liquid.set(x, y, z, true);
     volume.amount[i] = static_cast<std::uint16_t>(std::min(left, rule::kOne));
-    volume.temperature[i] = static_cast<std::uint16_t>(temperature * rule::kTemperatureMax);
+    volume.heat[i] = static_cast<std::uint16_t>(temperature * rule::kTemperatureMax);
   }
 }
 

@@ -21,16 +21,16 @@ std::uint64_t digest(const Volume& volume) {
       const auto solid = volume.solid.row(y, z), liquid = volume.liquid.row(y, z),
                  inert = volume.inert.row(y, z);
       const std::uint16_t *amount = volume.amount.row(y, z), *energy = volume.energy.row(y, z),
-                          *temperature = volume.temperature.row(y, z);
+                          *heat = volume.heat.row(y, z);
       for (std::size_t w = 0; w < solid.size(); ++w) {
         const int first = static_cast<int>(64 * w), count = std::min(64, g.x - first);
         if ((solid[w] | liquid[w] | inert[w]) == 0 && !any_of(amount + first, count) &&
-            !any_of(energy + first, count) && !any_of(temperature + first, count))
+            !any_of(energy + first, count) && !any_of(heat + first, count))
           continue;
         for (int bit = 0; bit < count; ++bit) {
           const int x = first + bit;
           const std::uint64_t packed = std::uint64_t{amount[x]} | std::uint64_t{energy[x]} << 16 |
-                                       std::uint64_t{temperature[x]} << 32 | (solid[w] >> bit & 1u) << 48 |
+                                       std::uint64_t{heat[x]} << 32 | (solid[w] >> bit & 1u) << 48 |
                                        (liquid[w] >> bit & 1u) << 49 | (inert[w] >> bit & 1u) << 50;
           sum += cell_digest(g.index(x, y, z), packed);
         }

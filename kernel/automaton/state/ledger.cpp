@@ -30,7 +30,7 @@ Holdings holdings(const Volume& volume) {
           const Slot i = volume.at(static_cast<int>(64 * w) + bit, y, z);
           (solids[w] >> bit & 1u ? solid : liquid) += volume.amount[i];
           energy += volume.energy[i];
-          heat += std::uint64_t{volume.amount[i]} * volume.temperature[i];
+          heat += std::uint64_t{volume.amount[i]} * volume.heat[i];
         }
     }
   return {static_cast<Sum>(solid), static_cast<Sum>(liquid), static_cast<Sum>(energy),

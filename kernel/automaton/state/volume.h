@@ -4,8 +4,8 @@
 //   inert   never melts and never moves; its amount is the bed offset (kBedHalf: flat), no mass
 //   liquid  exactly the cells that are neither and hold amount > 0
 //
-// A cell with neither solid nor liquid has energy 0 and temperature 0; an empty cell has amount 0 too.
-// What a scene does not use (energy, temperature), and what is empty, takes no memory.
+// A cell with neither solid nor liquid has energy 0 and heat 0; an empty cell has amount 0 too.
+// What a scene does not use (energy, heat), and what is empty, takes no memory.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ namespace voxmelt::state {
 struct Volume {
   Volume() = default;
   explicit Volume(Grid size)
-      : grid(size), solid(size), liquid(size), inert(size), amount(size), energy(size), temperature(size) {}
+      : grid(size), solid(size), liquid(size), inert(size), amount(size), energy(size), heat(size) {}
 
   Slot at(int x, int y, int z) const { return amount.layout().at(x, y, z); }
 
   Grid grid;
   BitPlane solid, liquid, inert;
-  Field<std::uint16_t> amount, energy, temperature;
+  Field<std::uint16_t> amount, energy, heat;
 
   friend bool operator==(const Volume&, const Volume&) = default;
 };

@@ -3,7 +3,7 @@
 namespace voxmelt::parallel {
 namespace {
 
-std::uint16_t* heats(const Job& job, int z) { return job.view.temperature + job.view.cell(0, 0, z); }
+std::uint16_t* heats(const Job& job, int z) { return job.view.heat + job.view.cell(0, 0, z); }
 
 }  // namespace
 

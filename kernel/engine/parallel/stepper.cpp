@@ -81,7 +81,7 @@ simd::View Stepper::view_of(state::Volume& volume) {
   simd::View view = shape_of(volume.grid, tuning_.tile_shift);
   view.amount = volume.amount.data();
   view.energy = volume.energy.data();
-  view.temperature = volume.temperature.data();
+  view.heat = volume.heat.data();
   view.solid = volume.solid.data();
   view.liquid = volume.liquid.data();
   view.inert = volume.inert.data();

@@ -60,7 +60,7 @@ void settle_masks(const ActiveRows& rows, state::Volume& volume) {
     const state::Slot i = volume.at(x, y, z);
     const bool wet = volume.amount[i] > 0;
     volume.liquid.set(x, y, z, wet);
-    if (!wet) volume.energy[i] = volume.temperature[i] = 0;
+    if (!wet) volume.energy[i] = volume.heat[i] = 0;
   });
 }
 

@@ -27,7 +27,7 @@ class Cells {
   state::Slot at(int x, int y, int z) const { return v_.at(x, y, z); }
   std::int32_t amount(int x, int y, int z) const { return v_.amount[at(x, y, z)]; }
   std::int32_t energy(int x, int y, int z) const { return v_.energy[at(x, y, z)]; }
-  std::int32_t heat(int x, int y, int z) const { return v_.temperature[at(x, y, z)]; }
+  std::int32_t heat(int x, int y, int z) const { return v_.heat[at(x, y, z)]; }
 
  private:
   const state::Volume& v_;

@@ -22,7 +22,7 @@ void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
       const state::Slot i = cells.at(x, bottom + n, z);
       const std::int32_t top = next_amount;
       mass += top;
-      content += static_cast<std::uint64_t>(top) * volume.temperature[i];
+      content += static_cast<std::uint64_t>(top) * volume.heat[i];
       ++n;
       if (cells.blocked(x, bottom + n, z)) break;
       next_amount = cells.amount(x, bottom + n, z);
@@ -41,7 +41,7 @@ void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
       const state::Slot i = cells.at(x, bottom + k, z);
       const std::int32_t amount = rule::settled(mass, n, k);
       volume.amount[i] = static_cast<std::uint16_t>(amount);
-      volume.temperature[i] = static_cast<std::uint16_t>(h);
+      volume.heat[i] = static_cast<std::uint16_t>(h);
       if (amount == 0) continue;  // emptied: above the surface, no part of the run any more
       in_run_[i] = 1;
       head_[i] = column.head;

@@ -33,13 +33,13 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
   // Moves `flow` (and energy) from cell `from` to cell `to`, and mixes their heat.
   const auto transfer = [&](state::Slot from, state::Slot to, std::int32_t flow) {
     if (hot) {
-      const std::uint64_t content = std::uint64_t{volume.amount[to]} * volume.temperature[to] +
-                                    static_cast<std::uint64_t>(flow) * volume.temperature[from];
+      const std::uint64_t content = std::uint64_t{volume.amount[to]} * volume.heat[to] +
+                                    static_cast<std::uint64_t>(flow) * volume.heat[from];
       const std::uint64_t after = std::uint64_t{volume.amount[to]} + static_cast<std::uint64_t>(flow);
       const std::int32_t h = rule::mixed(content, after, offset);
       ledger.heat.rounded +=
           static_cast<state::Sum>(after * static_cast<std::uint64_t>(h)) - static_cast<state::Sum>(content);
-      volume.temperature[to] = static_cast<std::uint16_t>(h);
+      volume.heat[to] = static_cast<std::uint16_t>(h);
     }
     volume.amount[from] = static_cast<std::uint16_t>(volume.amount[from] - flow);
     volume.amount[to] = static_cast<std::uint16_t>(volume.amount[to] + flow);

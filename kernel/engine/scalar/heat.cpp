@@ -16,7 +16,7 @@ std::int64_t conduct(std::span<const rule::Offset> axes, std::int32_t weight, st
                      state::Field<std::uint16_t>& next) {
   const Cells cells(volume);
   const int parts = static_cast<int>(axes.size());
-  next = volume.temperature;
+  next = volume.heat;
   std::int64_t change = 0;
 
   rows.for_each([&](int x, int y, int z) {
@@ -36,10 +36,10 @@ std::int64_t conduct(std::span<const rule::Offset> axes, std::int32_t weight, st
       }
     }
     const state::Slot i = cells.at(x, y, z);
-    next[i] = static_cast<std::uint16_t>(volume.temperature[i] + gain);
+    next[i] = static_cast<std::uint16_t>(volume.heat[i] + gain);
     change += std::int64_t{gain} * volume.amount[i];
   });
-  std::swap(volume.temperature, next);
+  std::swap(volume.heat, next);
   return change;
 }
 
@@ -47,7 +47,7 @@ std::int64_t convect(std::int32_t weight, std::uint32_t step, const rule::Materi
                      const ActiveRows& rows, state::Volume& volume, state::Field<std::uint16_t>& next) {
   const Cells cells(volume);
   const std::int32_t offset = rule::dither(step);
-  next = volume.temperature;
+  next = volume.heat;
   std::int64_t change = 0;
 
   const auto rising = [&](int x, int y, int z) {  // through the upper face of (x, y, z)
@@ -59,10 +59,10 @@ std::int64_t convect(std::int32_t weight, std::uint32_t step, const rule::Materi
     if (!cells.liquid(x, y, z)) return;
     const std::int32_t gain = rising(x, y - 1, z) - rising(x, y, z);
     const state::Slot i = cells.at(x, y, z);
-    next[i] = static_cast<std::uint16_t>(volume.temperature[i] + gain);
+    next[i] = static_cast<std::uint16_t>(volume.heat[i] + gain);
     change += std::int64_t{gain} * volume.amount[i];
   });
-  std::swap(volume.temperature, next);
+  std::swap(volume.heat, next);
   return change;
 }
 
@@ -80,7 +80,7 @@ void Reference::heat(std::uint32_t step, const step::Irradiance* irradiance, Vol
   const rule::Material& material = parameters_.material;
   if (!heat.enabled) return;
   const ActiveRows rows(volume);
-  state::Field<std::uint16_t>& next = next_.temperature;
+  state::Field<std::uint16_t>& next = next_.heat;
 
   // Conduction among solid and liquid, nearest neighbours first.
   state::Sum& conducted = ledger.heat.conducted;
@@ -101,7 +101,7 @@ void Reference::heat(std::uint32_t step, const step::Irradiance* irradiance, Vol
     if (!cells.matter(x, y, z)) return;
     const state::Slot i = cells.at(x, y, z);
     const std::int64_t amount = volume.amount[i];
-    std::int32_t h = volume.temperature[i];
+    std::int32_t h = volume.heat[i];
 
     if (irradiance != nullptr && volume.solid.test(x, y, z)) {
       const std::int32_t gain = rule::radiated(h, (*irradiance)[i], offset);
@@ -114,7 +114,7 @@ void Reference::heat(std::uint32_t step, const step::Irradiance* irradiance, Vol
       h += gain;
       (gain > 0 ? ledger.heat.warmed : ledger.heat.cooled) += (gain > 0 ? gain : -gain) * amount;
     }
-    volume.temperature[i] = static_cast<std::uint16_t>(h);
+    volume.heat[i] = static_cast<std::uint16_t>(h);
   });
 }
 

@@ -12,7 +12,7 @@ void Reference::melt(Volume& volume, Ledger& ledger) {
 
   ActiveRows(volume).for_each([&](int x, int y, int z) {
     const state::Slot i = volume.at(x, y, z);
-    if (!rule::melts(volume.temperature[i], parameters_.material)) return;
+    if (!rule::melts(volume.heat[i], parameters_.material)) return;
     if (volume.solid.test(x, y, z)) {
       volume.solid.set(x, y, z, false);
       volume.liquid.set(x, y, z, true);

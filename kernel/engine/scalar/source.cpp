@@ -49,9 +49,9 @@ void Reference::source(std::uint32_t step, Volume& volume, Ledger& ledger) {
       }
       if (parameters_.heat.enabled) {
         const std::uint64_t brought = static_cast<std::uint64_t>(added) * vent.temperature;
-        const std::uint64_t content = static_cast<std::uint64_t>(before) * volume.temperature[i] + brought;
+        const std::uint64_t content = static_cast<std::uint64_t>(before) * volume.heat[i] + brought;
         const std::int32_t h = rule::mixed(content, static_cast<std::uint64_t>(after), rule::dither(step));
-        volume.temperature[i] = static_cast<std::uint16_t>(h);
+        volume.heat[i] = static_cast<std::uint16_t>(h);
         ledger.heat.added += static_cast<state::Sum>(brought);
         ledger.heat.rounded += static_cast<state::Sum>(after) * h - static_cast<state::Sum>(content);
       }
@@ -68,12 +68,12 @@ void Reference::source(std::uint32_t step, Volume& volume, Ledger& ledger) {
       const std::int32_t energy = std::min<std::int32_t>(volume.energy[i], left);
       ledger.mass.removed += taken;
       ledger.energy.removed += volume.energy[i] - energy;
-      ledger.heat.removed += static_cast<state::Sum>(taken) * volume.temperature[i];
+      ledger.heat.removed += static_cast<state::Sum>(taken) * volume.heat[i];
       volume.amount[i] = static_cast<std::uint16_t>(left);
       volume.energy[i] = static_cast<std::uint16_t>(energy);
       if (left > 0) return;
       volume.liquid.set(x, y, z, false);
-      volume.temperature[i] = 0;
+      volume.heat[i] = 0;
     });
   }
 }

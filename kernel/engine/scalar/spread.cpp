@@ -78,7 +78,7 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
     const std::uint8_t pattern = pattern_[i];
     if (!(pattern >> d & 1u)) return {};
     const bool diagonal = rule::is_diagonal(static_cast<int>(d));
-    const std::int32_t share = share_of(flow, volume.temperature[i], pattern, d);
+    const std::int32_t share = share_of(flow, volume.heat[i], pattern, d);
     const std::int32_t f = rule::shared(volume.amount[i], share, cap, diagonal);
     const std::int32_t e = std::min(f, rule::shared(volume.energy[i], share, cap, diagonal));
     return {f, printed ? rule::scaled(e, alpha(x, y, z)) : e};
@@ -87,7 +87,7 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
   // The cells outside the active rows do not change: start from a copy.
   next_.amount = volume.amount;
   next_.energy = volume.energy;
-  next_.temperature = volume.temperature;
+  next_.heat = volume.heat;
   rows.for_each([&](int x, int y, int z) {
     if (cells.blocked(x, y, z)) return;
     const state::Slot i = cells.at(x, y, z);
@@ -102,7 +102,7 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
       const Flow theirs = given(nx, y, nz, static_cast<std::size_t>(rule::kOpposite[d]));
       in.amount += theirs.amount;
       in.energy += theirs.energy;
-      content += static_cast<std::uint64_t>(theirs.amount) * volume.temperature[cells.at(nx, y, nz)];
+      content += static_cast<std::uint64_t>(theirs.amount) * volume.heat[cells.at(nx, y, nz)];
     }
     if (out.amount == 0 && in.amount == 0) return;
 
@@ -117,15 +117,15 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
     ledger.energy.capped += std::max(0, energy - amount);
 
     if (hot && in.amount > 0) {
-      content += static_cast<std::uint64_t>(volume.amount[i] - out.amount) * volume.temperature[i];
+      content += static_cast<std::uint64_t>(volume.amount[i] - out.amount) * volume.heat[i];
       const std::int32_t h = rule::mixed(content, static_cast<std::uint64_t>(amount), offset);
       ledger.heat.rounded += static_cast<state::Sum>(amount) * h - static_cast<state::Sum>(content);
-      next_.temperature[i] = static_cast<std::uint16_t>(h);
+      next_.heat[i] = static_cast<std::uint16_t>(h);
     }
   });
   std::swap(volume.amount, next_.amount);
   std::swap(volume.energy, next_.energy);
-  std::swap(volume.temperature, next_.temperature);
+  std::swap(volume.heat, next_.heat);
   settle_masks(rows, volume);
 }
 

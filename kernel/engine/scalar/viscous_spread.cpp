@@ -33,7 +33,7 @@ void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledge
   };
 
   next_.amount = volume.amount;
-  next_.temperature = volume.temperature;
+  next_.heat = volume.heat;
   rows.for_each([&](int x, int y, int z) {
     if (cells.blocked(x, y, z)) return;
     const state::Slot i = cells.at(x, y, z);
@@ -54,21 +54,21 @@ void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledge
       const std::int32_t taken =
           rule::viscous_flow(there, volume.amount[j], own, volume.amount[i], diagonal, offset);
       in += taken;
-      content += static_cast<std::uint64_t>(taken) * volume.temperature[j];
+      content += static_cast<std::uint64_t>(taken) * volume.heat[j];
     }
     if (out == 0 && in == 0) return;
 
     const std::int32_t amount = volume.amount[i] - out + in;
     next_.amount[i] = static_cast<std::uint16_t>(amount);
     if (hot && in > 0) {
-      content += static_cast<std::uint64_t>(volume.amount[i] - out) * volume.temperature[i];
+      content += static_cast<std::uint64_t>(volume.amount[i] - out) * volume.heat[i];
       const std::int32_t h = rule::mixed(content, static_cast<std::uint64_t>(amount), rule::dither(step));
       ledger.heat.rounded += static_cast<state::Sum>(amount) * h - static_cast<state::Sum>(content);
-      next_.temperature[i] = static_cast<std::uint16_t>(h);
+      next_.heat[i] = static_cast<std::uint16_t>(h);
     }
   });
   std::swap(volume.amount, next_.amount);
-  std::swap(volume.temperature, next_.temperature);
+  std::swap(volume.heat, next_.heat);
   settle_masks(rows, volume);
 }
 

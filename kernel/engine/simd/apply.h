@@ -179,7 +179,7 @@ class Apply {
 
     const M dry = L::equal(now, L::zero());
     if constexpr (kFeatures.hot) {
-      const V heat = L::load(v_.temperature + cell);
+      const V heat = L::load(v_.heat + cell);
       const M fed = L::less(L::zero(), in);
       V mixed = heat;
       if (L::to_bits(fed) != 0) {
@@ -188,7 +188,7 @@ class Apply {
         const auto all = L::sum(L::sum(content, biased), L::product(kept, heat));
         mixed = L::select(fed, mix_.mean(all, now, fed), heat);
       }
-      L::store(v_.temperature + cell, L::select(dry, L::zero(), mixed));
+      L::store(v_.heat + cell, L::select(dry, L::zero(), mixed));
     }
     set_liquid(item, L::to_bits(dry) ^ kAll);
   }

@@ -17,7 +17,7 @@ class FaceConduction {
   [[gnu::always_inline]] FaceConduction(const View& view, const Step& step, int z, const OldHeat& old,
                                         const HeatFlux& flux)
       : v_(view),
-        heat_(view.temperature),
+        heat_(view.heat),
         below_(old.below),
         above_(old.above),
         up_(flux.up),

@@ -64,7 +64,7 @@ class Convection {
   }
 
   [[gnu::always_inline]] void enter(int w, int y, std::uint64_t own, std::uint16_t* rising) {
-    const std::uint16_t* upper = v_.temperature + v_.cell(w, y, z_);
+    const std::uint16_t* upper = v_.heat + v_.cell(w, y, z_);
     const std::uint16_t* lower = y > 0 ? upper - v_.row : upper;
     const std::uint64_t pairs = y > 0 ? own & v_.liquid[v_.word(w, y - 1, z_)] : 0;
     for (int part = 0; part < L::kParts; ++part) {
@@ -77,7 +77,7 @@ class Convection {
     const bool last = y + 1 == v_.ny;
     const std::size_t cell = v_.cell(w, y, z_);
     const std::uint64_t pairs = last ? 0 : own & v_.liquid[v_.word(w, y + 1, z_)];
-    std::uint16_t* here = v_.temperature + cell;
+    std::uint16_t* here = v_.heat + cell;
     const std::uint16_t* upper = last ? here : here + v_.row;
     V any = L::zero(), differ = L::zero(), hottest = L::zero();
     const std::uint64_t paired = pairs | (y > 0 ? own & v_.liquid[v_.word(w, y - 1, z_)] : 0);

@@ -169,7 +169,7 @@ class DistantConduction {
       const std::size_t at = static_cast<std::size_t>(part * L::kCount);
       const V old = L::load(before + at);
       const V gained = gain(part, plateau_(old)), now = old + gained;
-      L::store(v_.temperature + cell + at, now);
+      L::store(v_.heat + cell + at, now);
       books_.add(L::load(v_.amount + cell + at), now, gained);
       sum.any = sum.any | gained;
       sum.hottest = L::max(sum.hottest, now);

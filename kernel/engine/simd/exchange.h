@@ -111,14 +111,14 @@ class Exchange {
     for (int part = 0; part < L::kParts; ++part) {
       if (!L::in_part((lit ? solid : 0) | bare.one, part)) continue;
       const std::size_t at = cell + static_cast<std::size_t>(part * L::kCount);
-      const V old = L::load(v_.temperature + at), amount = L::load(v_.amount + at);
+      const V old = L::load(v_.heat + at), amount = L::load(v_.amount + at);
       V heat = old;
       if constexpr (kFeatures.radiation)
         if (lit)
           heat = radiate(heat, amount, L::keep(L::from_bits(solid, part), L::load(irradiance_ + at)), left);
       if constexpr (kFeatures.air)
         if (bare.one != 0) heat = blow(heat, amount, bare, L::set(air_temperature_[row.y]), part, left);
-      L::store(v_.temperature + at, heat);
+      L::store(v_.heat + at, heat);
       any = any | (heat ^ old);
       hottest = L::max(hottest, heat);
     }

@@ -115,10 +115,10 @@ class FallOutside {
     L::store(v_.amount + low, new_lower);
     L::store(v_.amount + high, new_upper);
     if constexpr (kFeatures.hot) {
-      const V low_heat = L::load(v_.temperature + low), high_heat = L::load(v_.temperature + high);
+      const V low_heat = L::load(v_.heat + low), high_heat = L::load(v_.heat + high);
       const V mixed = mix_.two(lower, low_heat, flow, high_heat);
-      L::store(v_.temperature + low, L::select(L::less(L::zero(), flow), mixed, low_heat));
-      L::store(v_.temperature + high, L::select(high_dry, L::zero(), high_heat));
+      L::store(v_.heat + low, L::select(L::less(L::zero(), flow), mixed, low_heat));
+      L::store(v_.heat + high, L::select(high_dry, L::zero(), high_heat));
     }
   }
 

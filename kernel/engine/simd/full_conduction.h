@@ -18,7 +18,7 @@ class FullConduction {
   [[gnu::always_inline]] FullConduction(const View& view, const Step& step, int z, const OldHeat& old,
                                         const HeatFlux& flux)
       : v_(view),
-        heat_(view.temperature + view.cell(0, 0, z)),
+        heat_(view.heat + view.cell(0, 0, z)),
         amount_(view.amount + view.cell(0, 0, z)),
         above_(old.above),
         up_(flux.up),

@@ -95,14 +95,14 @@ class Gravity {
 
   // The fields of a row from some cell on.
   struct Fields {
-    std::uint16_t *amount, *energy, *temperature;
+    std::uint16_t *amount, *energy, *heat;
     [[gnu::always_inline]] Fields operator+(int cells) const {
-      return {amount + cells, energy + cells, temperature + cells};
+      return {amount + cells, energy + cells, heat + cells};
     }
   };
   [[gnu::always_inline]] Fields fields_at(std::size_t cell) const {
     return {cpu::settled(v_.amount + cell), cpu::settled(v_.energy + cell),
-            kFeatures.hot ? cpu::settled(v_.temperature + cell) : nullptr};
+            kFeatures.hot ? cpu::settled(v_.heat + cell) : nullptr};
   }
 
   struct Wet {  // cells of two words that hold something; what is blocked may be among them
@@ -162,14 +162,14 @@ class Gravity {
       // A cell either gives or takes through this face.
       const M no_rise = L::equal(up, L::zero());
       const M low_dry = L::equal(new_lower, L::zero()), high_dry = L::equal(new_upper, L::zero());
-      const V low_heat = L::load(low.temperature), high_heat = L::load(high.temperature);
+      const V low_heat = L::load(low.heat), high_heat = L::load(high.heat);
       const V taker_had = L::select(no_rise, lower, upper),
               taker_heat = L::select(no_rise, low_heat, high_heat);
       const V flow = down + up, giver_heat = L::select(no_rise, high_heat, low_heat);
       const V mixed = mix_.two(taker_had, taker_heat, flow, giver_heat);
       const M no_fall = L::equal(down, L::zero());
-      L::store(low.temperature, L::select(low_dry, L::zero(), L::select(no_fall, low_heat, mixed)));
-      L::store(high.temperature, L::select(high_dry, L::zero(), L::select(no_rise, high_heat, mixed)));
+      L::store(low.heat, L::select(low_dry, L::zero(), L::select(no_fall, low_heat, mixed)));
+      L::store(high.heat, L::select(high_dry, L::zero(), L::select(no_rise, high_heat, mixed)));
     }
     return true;
   }

@@ -44,7 +44,7 @@ class Melt {
     for (int part = 0; part < L::kParts; ++part) {
       if (!L::in_part(solid | wet, part)) continue;
       const int at = part * L::kCount;
-      cold |= L::to_bits(L::less(L::load(v_.temperature + cell + at), melts_)) << at;
+      cold |= L::to_bits(L::less(L::load(v_.heat + cell + at), melts_)) << at;
     }
     const std::uint64_t fresh = solid & ~cold, again = wet & ~cold;
     if ((fresh | again) == 0) return false;

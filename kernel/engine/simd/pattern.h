@@ -225,8 +225,7 @@ class Pattern {
       L::store(gifts_.flow[4] + at, L::template shift_right<2>(of.flow));
       L::store(gifts_.energy[4] + at, L::template shift_right<2>(warm));
     }
-    if constexpr (kFeatures.hot)
-      L::store(gifts_.heat + at, L::load(v_.temperature + base_ + at) ^ L::set(0x8000));
+    if constexpr (kFeatures.hot) L::store(gifts_.heat + at, L::load(v_.heat + base_ + at) ^ L::set(0x8000));
   }
 
   // Of one vector: a neighbour receives if it holds less than the giver's amount less the larger of flow and
@@ -275,7 +274,7 @@ class Pattern {
   // Thermal viscosity: share times the table, cut at what all neighbours together can take.
   [[gnu::always_inline]] V share(std::size_t at) const {
     if constexpr (!kFeatures.thermal) return share_;
-    return L::lookup(shares_, L::load(v_.temperature + base_ + at));
+    return L::lookup(shares_, L::load(v_.heat + base_ + at));
   }
   [[gnu::always_inline]] static typename L::Table share_table(const rule::Parameters& parameters) {
     alignas(64) std::uint16_t shares[32];
@@ -296,8 +295,7 @@ class Pattern {
     for (int k = 0; k < 2; ++k) {
       const std::size_t at = item.at + static_cast<std::size_t>(k * L::kCount);
       const V amount = L::load(own_ + at), energy = L::load(v_.energy + base_ + at);
-      if constexpr (kFeatures.hot)
-        L::store(gifts_.heat + at, L::load(v_.temperature + base_ + at) ^ L::set(0x8000));
+      if constexpr (kFeatures.hot) L::store(gifts_.heat + at, L::load(v_.heat + base_ + at) ^ L::set(0x8000));
       const V same = law_.use_table ? L::zero() : share(at);
       for (int d = 0; d < kDirections; ++d) {
         const V sh = law_.use_table ? share_by_pattern(gifts_.pattern + at, d) : same;

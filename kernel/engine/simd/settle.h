@@ -120,7 +120,7 @@ class Settle {
           over |= L::to_bits(L::less(L::zero(), L::narrow(excess))) << shift;
           half |= L::to_bits(L::less(L::set(2047), amount)) << shift;
           if constexpr (kFeatures.hot) {
-            const V heat = L::load(v_.temperature + at);
+            const V heat = L::load(v_.heat + at);
             sums[g].low[part] = L::sum(sums[g].low[part], L::widen(L::low(amount, heat)));
             sums[g].high[part] = L::sum(sums[g].high[part], L::widen(L::high(amount, heat)));
           }
@@ -244,10 +244,10 @@ class Settle {
     V difference = (old ^ amount) | (old_head ^ new_head) | (old_mobility ^ mobility) |
                    (old_exposed ^ exposed) | (old_dead ^ dead);
     if constexpr (kFeatures.hot) {
-      const V old_heat = L::load(v_.temperature + at);
+      const V old_heat = L::load(v_.heat + at);
       const V heat = L::select(takes, L::keep(in_run, L::load(settled.heat + lane)), old_heat);
       difference = difference | (old_heat ^ heat);
-      L::store(v_.temperature + at, heat);
+      L::store(v_.heat + at, heat);
     }
     if (L::to_bits(L::equal(cut, L::set(0xFFFF))) != 0) {
       deep |= TileRow{1} << w;

@@ -39,9 +39,9 @@ class Sources {
       }
       if (hot_) {
         const std::int64_t now = had + added, brought = added * vent.temperature;
-        const std::int64_t content = had * v_.temperature[i] + brought;
+        const std::int64_t content = had * v_.heat[i] + brought;
         const std::int64_t mean = (content + now * dither_ / 65536) / now;
-        v_.temperature[i] = static_cast<std::uint16_t>(mean);
+        v_.heat[i] = static_cast<std::uint16_t>(mean);
         books_.heat_added += brought;
         books_.rounded += now * mean - content;
       }
@@ -56,12 +56,12 @@ class Sources {
       const std::int64_t left = had - taken, energy = std::min<std::int64_t>(v_.energy[i], left);
       books_.mass_removed += taken;
       books_.energy_removed += v_.energy[i] - energy;
-      books_.heat_removed += taken * v_.temperature[i];
+      books_.heat_removed += taken * v_.heat[i];
       v_.amount[i] = static_cast<std::uint16_t>(left);
       v_.energy[i] = static_cast<std::uint16_t>(energy);
       if (left == 0) {
         wet &= ~bit;
-        v_.temperature[i] = 0;
+        v_.heat[i] = 0;
       }
       return true;
     });

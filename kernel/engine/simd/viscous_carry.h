@@ -73,7 +73,7 @@ class Carry {
             L::pair_product(first, L::load_any(heats[d] + at), second, L::load_any(heats[d + 1] + at));
         content = d == 0 ? pair : L::sum(content, pair);
       }
-      const V heat = L::load(v_.temperature + cell);
+      const V heat = L::load(v_.heat + cell);
       const M fed = L::less(L::zero(), in);
       V mixed = heat;
       if (L::to_bits(fed) != 0) {
@@ -83,7 +83,7 @@ class Carry {
         mixed = L::select(fed, mix_.mean(all, now, fed), heat);
       }
       const V left = L::select(dry, L::zero(), mixed);
-      L::store(v_.temperature + cell, left);
+      L::store(v_.heat + cell, left);
       difference = difference | (heat ^ left);
     }
     if (L::to_bits(L::equal(difference, L::zero())) != kAll) differs = true;

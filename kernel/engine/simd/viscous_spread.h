@@ -183,7 +183,7 @@ class ExchangePairs {
       const std::size_t lane = 64 * static_cast<std::size_t>(__builtin_ctzll(words));
       const std::size_t to = static_cast<std::size_t>(y) * v_.row + lane;
       for (int next = 0; next < 2 && z_ + next < v_.nz; ++next) {
-        const std::uint16_t* from = v_.temperature + v_.cell(0, y, z_ + next) + lane;
+        const std::uint16_t* from = v_.heat + v_.cell(0, y, z_ + next) + lane;
         for (int part = 0; part < L::kParts; ++part)
           L::store(c_.heat[next] + to + part * L::kCount, L::load(from + part * L::kCount) ^ L::set(0x8000));
       }

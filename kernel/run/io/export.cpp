@@ -41,7 +41,7 @@ void for_each_field(const state::Volume& v, const std::function<void(const Field
   visit({"inert", "|u1", "UInt8", unpacked(v.inert, v.grid)});
   visit({"amount", "<u2", "UInt16", bytes_of(v.amount, v.grid)});
   visit({"energy", "<u2", "UInt16", bytes_of(v.energy, v.grid)});
-  visit({"temperature", "<u2", "UInt16", bytes_of(v.temperature, v.grid)});
+  visit({"heat", "<u2", "UInt16", bytes_of(v.heat, v.grid)});
 }
 
 std::string npy_header(const char* type, state::Grid g) {

@@ -9,7 +9,7 @@
 
 namespace voxmelt::io {
 
-// solid, liquid, inert as u8 and amount, energy, temperature as u16: FIELD.npy, C order, axes (z, y, x).
+// solid, liquid, inert as u8 and amount, energy, heat as u16: FIELD.npy, C order, axes (z, y, x).
 void export_npy(const state::Volume& volume, const std::filesystem::path& folder);
 
 // The same fields as cell data of one VTK image: volume.vti (raw appended, little endian).

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/scene/scene.h"
+#include "kernel/scene/text/error.h"
 
 namespace voxmelt::scene {
 namespace {

@@ -1,10 +1,11 @@
+#include "kernel/scene/shape/voxelise.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/scene/contents.h"
-#include "kernel/scene/units.h"
+#include "kernel/scene/text/units.h"
 
 namespace voxmelt::scene {
 namespace {
@@ -120,7 +121,7 @@ class Voxeliser {
     if (samples < kLeastSolid || poured <= amount) return;
     amount = poured;
     energy = std::min(to_amount(entry.energy * covered), poured);
-    volume_.temperature[cell] = to_temperature(entry.temperature);
+    volume_.heat[cell] = to_temperature(entry.temperature);
   }
 
   void decide(int x, int y, int z, bool ground) {
@@ -131,12 +132,12 @@ class Voxeliser {
     if (inert) amount = rule::kBedHalf;
     if (solid) {
       amount = static_cast<rule::Amount>(solid_[cell] * kAmountPerSample);
-      volume_.temperature[cell] = solid_temperature_[cell];
+      volume_.heat[cell] = solid_temperature_[cell];
     }
     const bool liquid = !inert && !solid && amount > 0;
     // Memory is only touched where something changes.
     if (!liquid && volume_.energy[cell] != 0) volume_.energy[cell] = 0;
-    if (!liquid && !solid && volume_.temperature[cell] != 0) volume_.temperature[cell] = 0;
+    if (!liquid && !solid && volume_.heat[cell] != 0) volume_.heat[cell] = 0;
     if (inert) volume_.inert.set(x, y, z, true);
     if (solid) volume_.solid.set(x, y, z, true);
     if (liquid) volume_.liquid.set(x, y, z, true);

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cstddef>
 
-#include "kernel/scene/scene.h"
+#include "kernel/scene/text/error.h"
 #include "kernel/scene/text/text_file.h"
 
 namespace voxmelt::scene {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "kernel/scene/scene.h"
+#include "kernel/scene/text/error.h"
 
 namespace voxmelt::scene {
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
 #include "kernel/automaton/rule/parameters.h"
-#include "kernel/scene/look.h"
 
 namespace voxmelt::scene {
 
@@ -25,7 +25,7 @@ inline std::uint16_t to_factor16(double f) {
 inline std::uint32_t to_factor32(double f) { return static_cast<std::uint32_t>(std::llround(f * 65536)); }
 
 inline std::int64_t to_position(double cells) { return std::llround(cells * rule::kPositionUnit); }
-inline rule::Position to_position(const Vec3& at) {
+inline rule::Position to_position(const std::array<double, 3>& at) {
   return {to_position(at[0]), to_position(at[1]), to_position(at[2])};
 }
 

@@ -151,7 +151,7 @@ TEST(Melting, AtExactlyTheMeltingPoint) {
           EXPECT_EQ(s.volume().solid.test(1, 0, 1), below == 1);
           EXPECT_EQ(amount_at(s, 1, 0, 1), 3000);
           EXPECT_EQ(s.volume().energy[s.volume().at(1, 0, 1)], law == Law::paper && below == 0 ? 3000 : 0);
-          EXPECT_EQ(s.volume().temperature[s.volume().at(1, 0, 1)], 32768 + latent - below);
+          EXPECT_EQ(s.volume().heat[s.volume().at(1, 0, 1)], 32768 + latent - below);
         });
       }
 }

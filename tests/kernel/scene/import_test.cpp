@@ -148,7 +148,7 @@ class Fields {
  public:
   explicit Fields(const SceneFolder& folder) : folder_(folder) {
     for (const char* mask : {"solid", "liquid", "inert"}) write(mask, "|u1", std::string(8, '\0'));
-    for (const char* field : {"amount", "energy", "temperature"}) write(field, "<u2", std::string(16, '\0'));
+    for (const char* field : {"amount", "energy", "heat"}) write(field, "<u2", std::string(16, '\0'));
   }
 
   void write(const std::string& field, const std::string& type, const std::string& data,
@@ -157,6 +157,9 @@ class Fields {
     header += std::string(118 - header.size() - 1, ' ') + "\n";
     folder_.write("fields/" + field + ".npy", std::string("\x93NUMPY\x01\x00", 8) +
                                                   static_cast<char>(header.size()) + '\0' + header + data);
+  }
+  void remove(const std::string& field) const {
+    std::filesystem::remove(folder_.path() / "fields" / (field + ".npy"));
   }
 
  private:
@@ -190,14 +193,44 @@ TEST(Start, EveryFieldOfEveryCellIsRead) {
   fields.write("liquid", "|u1", std::string(8, '\1'));
   fields.write("amount", "<u2", numbers(4000));
   fields.write("energy", "<u2", numbers(2000));
-  fields.write("temperature", "<u2", numbers(50000));
+  fields.write("heat", "<u2", numbers(50000));
   const state::Volume volume = folder.load_text(kStartScene + "[heat]\ngamma = 0.1\n").initial;
   for (int i = 0; i < 8; ++i) {
     const state::Slot cell = volume.at(i & 1, i >> 1 & 1, i >> 2);  // x fastest, z outermost
     EXPECT_EQ(volume.amount[cell], 4000 + i);
     EXPECT_EQ(volume.energy[cell], 2000 + i);
-    EXPECT_EQ(volume.temperature[cell], 50000 + i);
+    EXPECT_EQ(volume.heat[cell], 50000 + i);
   }
+}
+
+TEST(Start, AFolderOfVersion01CallsHeatTemperature) {
+  const SceneFolder folder;
+  const Fields fields(folder);
+  fields.write("liquid", "|u1", std::string(8, '\1'));
+  fields.write("amount", "<u2", std::string(16, '\1'));
+  fields.write("temperature", "<u2", std::string(16, '\2'));
+  const std::string scene = kStartScene + "[heat]\ngamma = 0.1\n";
+  EXPECT_EQ(folder.load_text(scene).initial.heat[state::Slot{}], 0) << "heat.npy is there, and wins";
+  fields.remove("heat");
+  EXPECT_EQ(folder.load_text(scene).initial.heat[state::Slot{}], 0x0202);
+}
+
+TEST(Start, WhatIsDroppedIsSaid) {
+  const SceneFolder folder;
+  const Fields fields(folder);
+  fields.write("liquid", "|u1", std::string(8, '\1'));
+  fields.write("amount", "<u2", std::string(16, '\1'));
+  fields.write("energy", "<u2", std::string(6, '\1') + std::string(10, '\0'));
+  fields.write("heat", "<u2", std::string(2, '\1') + std::string(14, '\0'));
+  const std::string no_heat = "start.fields: heat of 1 cell dropped: the scene has no [heat]";
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(folder.load_text(kStartScene).warnings, Lines{no_heat});
+  const scene::Scene viscous =
+      folder.load_text(kStartScene + "[flow]\nlaw = \"viscous\"\nviscous = {kappa = 0.1}\n");
+  EXPECT_EQ(viscous.warnings,
+            (Lines{"start.fields: energy of 3 cells dropped: the viscous law has no energy", no_heat}));
+  EXPECT_EQ(viscous.initial.energy[state::Slot{}], 0);
+  EXPECT_EQ(folder.load_text(kStartScene + "[heat]\ngamma = 0.1\n").warnings, Lines{});
 }
 
 TEST(Start, BadFieldsAreRefused) {
@@ -224,8 +257,8 @@ TEST(Start, BadFieldsAreRefused) {
           ": cell (0, 0, 0) breaks a rule: liquid exactly where there is an amount, neither solid nor inert");
   EXPECT_EQ(error("energy", "<u2", std::string(16, '\1')),
             place + ": cell (0, 0, 0) breaks a rule: energy not more than the amount");
-  EXPECT_EQ(error("temperature", "<u2", std::string(16, '\1')),
-            place + ": cell (0, 0, 0) breaks a rule: no temperature without solid or liquid");
+  EXPECT_EQ(error("heat", "<u2", std::string(16, '\1')),
+            place + ": cell (0, 0, 0) breaks a rule: no heat without solid or liquid");
   folder.write("fields/inert.npy", "junk");
   EXPECT_EQ(folder.error_of(kStartScene), place + "/inert.npy: not an npy file");
 }

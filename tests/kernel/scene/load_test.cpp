@@ -41,7 +41,7 @@ TEST(Load, WhatASceneDoesNotModelIsNotThere) {
     const auto any = [](const auto& field) {
       return std::any_of(field.stored().begin(), field.stored().end(), [](int value) { return value != 0; });
     };
-    return std::pair(any(volume.energy), any(volume.temperature));
+    return std::pair(any(volume.energy), any(volume.heat));
   };
   const std::string heat = "[heat]\ngamma = 0.1\n",
                     viscous = "[flow]\nlaw = \"viscous\"\nviscous = {kappa = 0.1}\n";

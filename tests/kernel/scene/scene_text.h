@@ -58,9 +58,7 @@ class SceneFolder {
   std::filesystem::path folder_;
 };
 
-inline std::filesystem::path committed_scenes() {
-  return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path().parent_path() / "scenes";
-}
+inline std::filesystem::path committed_scenes() { return VOXMELT_SCENES_FOLDER; }
 
 // Mass of the solid in cells.
 inline double solid_mass(const state::Volume& volume) {

@@ -124,13 +124,13 @@ shape = "floor"
   for (int x = 0; x < 4; ++x) {
     EXPECT_TRUE(volume.inert.test(x, 0, 0));
     EXPECT_EQ(volume.amount[volume.at(x, 0, 0)], 2048);
-    EXPECT_EQ(volume.temperature[volume.at(x, 0, 0)], 0);
+    EXPECT_EQ(volume.heat[volume.at(x, 0, 0)], 0);
     const state::Slot above = volume.at(x, 1, 0);
     EXPECT_EQ(volume.solid.test(x, 1, 0), x < 2);
     EXPECT_EQ(volume.liquid.test(x, 1, 0), x >= 2);
     EXPECT_EQ(volume.amount[above], x < 2 ? 4096 : 2048);
     EXPECT_EQ(volume.energy[above], x < 2 ? 0 : 1024);
-    EXPECT_EQ(volume.temperature[above], x < 2 ? 32768 : 65535);
+    EXPECT_EQ(volume.heat[above], x < 2 ? 32768 : 65535);
   }
 }
 

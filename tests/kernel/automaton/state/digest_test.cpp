@@ -27,7 +27,7 @@ std::uint64_t by_the_page(const Volume& v) {
       for (int y = v.grid.y; y-- > 0;) {
         const auto i = static_cast<std::uint64_t>((z * v.grid.y + y) * v.grid.x + x);
         const state::Slot at = v.at(x, y, z);
-        std::uint64_t packed = v.amount[at] + 65536ull * v.energy[at] + 4294967296ull * v.temperature[at];
+        std::uint64_t packed = v.amount[at] + 65536ull * v.energy[at] + 4294967296ull * v.heat[at];
         if (v.solid.test(x, y, z)) packed += 281474976710656ull;
         if (v.liquid.test(x, y, z)) packed += 562949953421312ull;
         if (v.inert.test(x, y, z)) packed += 1125899906842624ull;
@@ -85,7 +85,7 @@ TEST(Digest, AnyDifferenceInAnyCellShows) {
     const state::Slot i = v.at(x, y, z);
     for (const int bit : {0, 7, 15}) {
       const auto flip = static_cast<std::uint16_t>(1u << bit);
-      for (auto field : {&Volume::amount, &Volume::energy, &Volume::temperature}) {
+      for (auto field : {&Volume::amount, &Volume::energy, &Volume::heat}) {
         (v.*field)[i] ^= flip;
         differs(v);
         (v.*field)[i] ^= flip;

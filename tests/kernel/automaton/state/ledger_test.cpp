@@ -103,14 +103,14 @@ TEST_P(LedgerOfALaw, OneUnitPlantedInTheStateShows) {
     ++(v.liquid.test(x, y, z) ? liquids : solids);
     --v.amount[i];
     EXPECT_EQ(s.drift().mass, -1);
-    EXPECT_EQ(s.drift().heat, -Sum{v.temperature[i]});
+    EXPECT_EQ(s.drift().heat, -Sum{v.heat[i]});
     ++v.amount[i];
     ++v.energy[i];
     EXPECT_EQ(s.drift().energy, 1);
     --v.energy[i];
-    ++v.temperature[i];
+    ++v.heat[i];
     EXPECT_EQ(s.drift().heat, Sum{v.amount[i]});
-    --v.temperature[i];
+    --v.heat[i];
   });
   EXPECT_GT(liquids, 0);
   EXPECT_GT(solids, 0);

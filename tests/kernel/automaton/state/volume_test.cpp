@@ -24,7 +24,7 @@ TEST(Volume, AnyChangeOfAnyFieldOrMaskMakesItAnother) {
   const Volume base = full_volume();
   for (const auto& [x, y, z] : {std::array{0, 0, 0}, {63, 7, 3}, {64, 19, 8}, {129, 19, 8}}) {
     const Slot cell = base.at(x, y, z);
-    for (const auto field : {&Volume::amount, &Volume::energy, &Volume::temperature}) {
+    for (const auto field : {&Volume::amount, &Volume::energy, &Volume::heat}) {
       Volume other = base;
       EXPECT_TRUE(other == base);
       ++(other.*field)[cell];
@@ -52,7 +52,7 @@ TEST(Volume, ACopyHoldsEveryCellAndIsApart) {
       const Slot cell = base.at(x, y, z);
       ASSERT_EQ(copy->amount[cell], base.amount[cell]);
       ASSERT_EQ(copy->energy[cell], base.energy[cell]);
-      ASSERT_EQ(copy->temperature[cell], base.temperature[cell]);
+      ASSERT_EQ(copy->heat[cell], base.heat[cell]);
       ASSERT_TRUE(copy->liquid.test(x, y, z));
     });
   constructed.amount.clear();

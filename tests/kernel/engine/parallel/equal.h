@@ -23,7 +23,7 @@ inline std::string difference(const Volume& expected, const Volume& actual) {
     check("inert", expected.inert.test(x, y, z), actual.inert.test(x, y, z));
     check("amount", expected.amount[i], actual.amount[i]);
     check("energy", expected.energy[i], actual.energy[i]);
-    check("temperature", expected.temperature[i], actual.temperature[i]);
+    check("heat", expected.heat[i], actual.heat[i]);
     check("liquid", expected.liquid.test(x, y, z), actual.liquid.test(x, y, z));
   });
   return found.empty() ? "the padding, which must stay 0" : found;

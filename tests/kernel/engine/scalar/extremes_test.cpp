@@ -80,7 +80,7 @@ TEST(Heat, StaysBetweenItsExtremes) {
         for (int i = 0; i < 600; ++i) {
           s.step();
           for_each(whole(v.grid), [&](int x, int y, int z) {
-            const std::int32_t h = s.volume().temperature[v.at(x, y, z)];
+            const std::int32_t h = s.volume().heat[v.at(x, y, z)];
             ASSERT_TRUE(low <= h && h <= high) << "step " << i;
           });
           ASSERT_EQ(static_cast<std::int64_t>(state::holdings(s.volume()).heat), total)
@@ -103,7 +103,7 @@ TEST(Heat, PastTheBoundItWraps) {
     std::uint16_t hottest = 0;
     for (int i = 0; i < 16; ++i) {
       s.step();
-      for (const std::uint16_t h : s.volume().temperature.stored()) hottest = std::max(hottest, h);
+      for (const std::uint16_t h : s.volume().heat.stored()) hottest = std::max(hottest, h);
     }
     EXPECT_EQ(hottest > 1, weight == 10923) << hottest;
   }
@@ -134,7 +134,7 @@ TEST(Heat, OvenAndConvectionStayBetweenTheAirs) {
         for_each(whole(v.grid), [&](int x, int y, int z) {
           const state::Slot c = v.at(x, y, z);
           if (s.volume().amount[c] == 0) return;
-          const std::int32_t t = rule::temperature_of(s.volume().temperature[c], p.material);
+          const std::int32_t t = rule::temperature_of(s.volume().heat[c], p.material);
           ASSERT_TRUE(low <= t && t <= high) << i;
         });
       }

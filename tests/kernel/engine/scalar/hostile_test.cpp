@@ -47,7 +47,7 @@ void expect_only_near_changed(const Volume& before, const Volume& after, Phase p
         << "ActiveRows misses " << x << ' ' << y << ' ' << z;
     if (active && near[before.grid.index(x, y, z)]) return;
     ASSERT_TRUE(before.amount[i] == after.amount[i] && before.energy[i] == after.energy[i] &&
-                before.temperature[i] == after.temperature[i] &&
+                before.heat[i] == after.heat[i] &&
                 before.liquid.test(x, y, z) == after.liquid.test(x, y, z) &&
                 before.solid.test(x, y, z) == after.solid.test(x, y, z))
         << "changed far from matter: " << x << ' ' << y << ' ' << z;

@@ -74,8 +74,8 @@ TEST(HeatWithFlow, IsCarriedExactly) {
     for_each(whole(v.grid), [&](int x, int y, int z) {
       const state::Slot i = v.at(x, y, z);
       if (s.volume().amount[i] == 0) return;
-      ASSERT_TRUE(s.volume().temperature[i] >= 10000 && s.volume().temperature[i] <= 60000);
-      warm += s.volume().temperature[i] > 10000;
+      ASSERT_TRUE(s.volume().heat[i] >= 10000 && s.volume().heat[i] <= 60000);
+      warm += s.volume().heat[i] > 10000;
     });
     EXPECT_GT(warm, 300);
     RecordProperty("rounded", state::to_string(end - start));

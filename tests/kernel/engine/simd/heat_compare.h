@@ -28,13 +28,13 @@ inline std::string difference(const Volume& a, const Volume& b) {
   for_each(whole(a.grid), [&](int x, int y, int z) {
     const state::Slot i = a.at(x, y, z);
     if (!text.empty() ||
-        (a.amount[i] == b.amount[i] && a.energy[i] == b.energy[i] && a.temperature[i] == b.temperature[i] &&
+        (a.amount[i] == b.amount[i] && a.energy[i] == b.energy[i] && a.heat[i] == b.heat[i] &&
          a.solid.test(x, y, z) == b.solid.test(x, y, z) && a.liquid.test(x, y, z) == b.liquid.test(x, y, z)))
       return;
     text = "at " + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ": A " +
            std::to_string(a.amount[i]) + " and " + std::to_string(b.amount[i]) + ", E " +
            std::to_string(a.energy[i]) + " and " + std::to_string(b.energy[i]) + ", h " +
-           std::to_string(a.temperature[i]) + " and " + std::to_string(b.temperature[i]);
+           std::to_string(a.heat[i]) + " and " + std::to_string(b.heat[i]);
   });
   return text.empty() ? "in the padding, or a mask" : text;
 }
@@ -54,7 +54,7 @@ inline TileSet tiles_between(const View& view, const Volume& a, const Volume& b)
   TileSet set(view, false);
   for_each(whole(a.grid), [&](int x, int y, int z) {
     const state::Slot i = a.at(x, y, z);
-    if (a.amount[i] != b.amount[i] || a.energy[i] != b.energy[i] || a.temperature[i] != b.temperature[i] ||
+    if (a.amount[i] != b.amount[i] || a.energy[i] != b.energy[i] || a.heat[i] != b.heat[i] ||
         a.solid.test(x, y, z) != b.solid.test(x, y, z) || a.liquid.test(x, y, z) != b.liquid.test(x, y, z))
       set.slice(z)[y >> view.tile_shift] |= TileRow{1} << (x / 64);
   });

@@ -19,7 +19,7 @@ inline View view_of(state::Volume& v, int tile_shift) {
   View view;
   view.amount = v.amount.data();
   view.energy = v.energy.data();
-  view.temperature = v.temperature.data();
+  view.heat = v.heat.data();
   view.solid = v.solid.data();
   view.liquid = v.liquid.data();
   view.inert = v.inert.data();
@@ -131,7 +131,7 @@ class HeatDriver {
   }
 
  private:
-  std::uint16_t* heats(int z) const { return v_.temperature + v_.cell(0, 0, z); }
+  std::uint16_t* heats(int z) const { return v_.heat + v_.cell(0, 0, z); }
 
   // Calls run(begin, end, old heats of slice begin - 1, of slice end) for each chunk, the last one first.
   template <class Run>

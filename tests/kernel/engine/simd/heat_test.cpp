@@ -88,7 +88,7 @@ double run_both(const cpu::InstructionSet set, World world, Random& random, bool
       for_melt.add(moved);
       std::copy_n(expected.amount.data(), expected.amount.layout().cells(), v.amount.data());
       std::copy_n(expected.energy.data(), expected.amount.layout().cells(), v.energy.data());
-      std::copy_n(expected.temperature.data(), expected.amount.layout().cells(), v.temperature.data());
+      std::copy_n(expected.heat.data(), expected.amount.layout().cells(), v.heat.data());
       std::copy_n(expected.liquid.data(), expected.liquid.words().size(), v.liquid.data());
     }
     last_changed = changed;
@@ -279,8 +279,7 @@ TEST_P(Heat, AnyTilesOfDenseMatter) {
                 restless, hot, books);
     for_each(whole(grid), [&](int x, int y, int z) {
       if ((asked.slice(z)[y >> view.tile_shift] >> (x / 64) & 1) == 0) return;
-      ASSERT_EQ(v.temperature[v.at(x, y, z)], expected.temperature[v.at(x, y, z)])
-          << x << ", " << y << ", " << z;
+      ASSERT_EQ(v.heat[v.at(x, y, z)], expected.heat[v.at(x, y, z)]) << x << ", " << y << ", " << z;
     });
     ASSERT_FALSE(HasFatalFailure());
   }
@@ -321,12 +320,10 @@ TEST_P(Heat, EveryDifference) {
                   books);
       const std::int32_t part = (dither + 65536 * axis / 3) % 65536;
       for (std::size_t k = 0; k < first.size(); ++k) {
-        const std::int32_t a = start.temperature[first[k]], b = start.temperature[second[k]];
+        const std::int32_t a = start.heat[first[k]], b = start.heat[second[k]];
         const std::int32_t flow = rule::conducted(a, b, p.heat.weight_face, part);
-        ASSERT_EQ(v.temperature[first[k]], a + flow)
-            << b - a << " x " << p.heat.weight_face << ", D " << part;
-        ASSERT_EQ(v.temperature[second[k]], b - flow)
-            << b - a << " x " << p.heat.weight_face << ", D " << part;
+        ASSERT_EQ(v.heat[first[k]], a + flow) << b - a << " x " << p.heat.weight_face << ", D " << part;
+        ASSERT_EQ(v.heat[second[k]], b - flow) << b - a << " x " << p.heat.weight_face << ", D " << part;
       }
     }
   }
@@ -350,7 +347,7 @@ TEST_P(Heat, BooksOfManyCells) {
   std::int64_t conducted = 0;
   for_each(whole(grid), [&](int x, int y, int z) {
     const state::Slot i = v.at(x, y, z);
-    conducted += std::int64_t{v.amount[i]} * (int{v.temperature[i]} - int{start.temperature[i]});
+    conducted += std::int64_t{v.amount[i]} * (int{v.heat[i]} - int{start.heat[i]});
   });
   EXPECT_EQ(books.conducted, conducted);
 }

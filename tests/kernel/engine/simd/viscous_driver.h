@@ -88,7 +88,7 @@ class ViscousDriver {
     View view;
     view.amount = v.amount.data();
     view.energy = v.energy.data();
-    view.temperature = v.temperature.data();
+    view.heat = v.heat.data();
     view.solid = v.solid.data();
     view.liquid = v.liquid.data();
     view.inert = v.inert.data();
@@ -181,7 +181,7 @@ class ViscousDriver {
       for (int y = 0; y < volume.grid.y; ++y)
         for (int x = 0; x < volume.grid.x; ++x) {
           const state::Slot i = volume.at(x, y, z);
-          if (before.amount[i] != volume.amount[i] || before.temperature[i] != volume.temperature[i] ||
+          if (before.amount[i] != volume.amount[i] || before.heat[i] != volume.heat[i] ||
               before.solid.test(x, y, z) != volume.solid.test(x, y, z))
             changed[slice(z) + static_cast<std::size_t>(y >> way_.tile_shift)] |= TileRow{1} << (x / 64);
         }

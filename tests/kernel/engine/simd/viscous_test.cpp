@@ -33,7 +33,7 @@ std::string difference(const Volume& expected, const Volume& actual) {
     };
     check("solid", expected.solid.test(x, y, z), actual.solid.test(x, y, z));
     check("amount", expected.amount[i], actual.amount[i]);
-    check("temperature", expected.temperature[i], actual.temperature[i]);
+    check("heat", expected.heat[i], actual.heat[i]);
     check("liquid", expected.liquid.test(x, y, z), actual.liquid.test(x, y, z));
   });
   if (found.empty() && !(expected == actual)) found = "the padding, or what no phase may change";

@@ -187,14 +187,14 @@ TEST(Refresh, ExposedCellsWaitAndMeltedCellsStop) {
     }
     melted = melted || now;
     if (i < 10) {
-      EXPECT_EQ(s.volume().temperature[lower], 0) << "hidden or waiting, step " << i;
+      EXPECT_EQ(s.volume().heat[lower], 0) << "hidden or waiting, step " << i;
     }
     if (melted && i < 10) {
       EXPECT_EQ(s.ledger().heat.radiated, taken) << "the melted cell takes no more";
     }
   }
   EXPECT_TRUE(melted);
-  EXPECT_GT(s.volume().temperature[lower] + !s.volume().solid.test(5, 3, 5), 0) << "lit after the refresh";
+  EXPECT_GT(s.volume().heat[lower] + !s.volume().solid.test(5, 3, 5), 0) << "lit after the refresh";
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST_F(Export, NpyIsCOrderZYXLittleEndian) {
                                          {"inert", "'|u1'", 1u},
                                          {"amount", "'<u2'", 2u},
                                          {"energy", "'<u2'", 2u},
-                                         {"temperature", "'<u2'", 2u}}) {
+                                         {"heat", "'<u2'", 2u}}) {
     const std::string bytes = read(std::string(name) + ".npy");
     ASSERT_GE(bytes.size(), 10u);
     EXPECT_EQ(bytes.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));

@@ -1,0 +1,15 @@
+// The ground that a scene stands on, as heights: the voxels and the renderer both take it from here.
+#pragma once
+
+#include <vector>
+
+namespace voxmelt::scene {
+
+// Height of the ground above y = 0 at the centre of each column, in cells; z outermost.
+struct Terrain {
+  int x = 0, z = 0;
+  std::vector<float> height;
+  bool textured = false;  // a height field (drawn with elevation shading) or a flat floor
+};
+
+}  // namespace voxmelt::scene

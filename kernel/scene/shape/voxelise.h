@@ -1,0 +1,37 @@
+// From shapes, meshes and terrain to the cells of the initial state.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kernel/automaton/state/volume.h"
+#include "kernel/scene/shape/mesh.h"
+#include "kernel/scene/shape/shape.h"
+#include "kernel/scene/shape/terrain.h"
+
+namespace voxmelt::scene {
+
+enum class Role { solid, liquid, inert };
+
+struct Entry {
+  Role role = Role::solid;
+  std::string name;  // "solid.0"
+  bool cut = false;  // taken away from what its list has built so far
+  ShapePtr shape;    // or, without it:
+  Mesh mesh;         // placed in the grid
+  std::string mesh_file;
+  double temperature = 0;         // 0..1
+  double amount = 1, energy = 1;  // liquid: of a fully covered cell
+};
+
+struct Contents {
+  std::vector<Entry> entries;
+  Terrain terrain;  // floors and height fields; always nx x nz columns
+};
+
+// The cells: solid from coverage 1/16 on (amount = coverage), inert from 1/2 on; inert wins over solid, solid
+// over liquid. The top inert cell of a terrain column holds the height's fraction: kBedHalf + (h - round(h))
+// x kOne.
+state::Volume voxelise(const Contents& contents, state::Grid grid, std::vector<std::string>& warnings);
+
+}  // namespace voxmelt::scene
