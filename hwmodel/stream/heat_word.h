@@ -1,7 +1,7 @@
 // The word that conduction and convection keep of a cell: what it was when it came, and its heat so far.
 // A pass is synchronous, so every flux is computed from the temperatures of its begin; the heat takes the
 // fluxes one by one and stays in 16 bits after each: what any subset of the neighbours takes or gives is no
-// more than the whole bound of docs/automaton.md, section 15.
+// more than the whole bound of docs/proofs.md, "Heat: 0 <= h <= 65535".
 #pragma once
 
 #include "hwmodel/stream/stage.h"

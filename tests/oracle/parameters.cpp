@@ -195,7 +195,7 @@ Parameters read_parameters(const std::string& path) {
   }
   p.thermal_viscosity = yes(flow, "thermal_viscosity");
   if (p.thermal_viscosity) {
-    // 16 bits: section 15.
+    // 16 bits: docs/proofs.md, "Widths".
     p.mobility_table = integers(member(flow, "mobility_table"), "mobility_table", 0, 65535);
     require(p.mobility_table.size() == 32, "mobility_table has not 32 numbers");
   }

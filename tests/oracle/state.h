@@ -9,7 +9,7 @@
 
 namespace oracle {
 
-// A broken invariant (section 1), bound (section 15) or ledger (section 12).
+// A broken invariant (section 1), bound (docs/proofs.md) or ledger (section 12).
 struct Violation : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -96,7 +96,7 @@ bool is_open(const State& state, Place from, const Direction& d);  // section 2
 State read_state(const std::string& folder);
 void write_fields(const State& state, const std::string& folder);
 void finish_phase(State& state, const char* name);             // section 3, last sentence
-void check_cell(const State& state, Int i, const char* when);  // sections 1 and 15
+void check_cell(const State& state, Int i, const char* when);  // section 1, docs/proofs.md
 void check_all(const State& state, const char* when);
 void forget_empty_cells(State& state);
 

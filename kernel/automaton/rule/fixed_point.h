@@ -1,4 +1,4 @@
-// Number formats and roundings of the automaton (docs/automaton.md, "State and formats").
+// Number formats and roundings of the automaton (docs/automaton.md, sections 1 and 2).
 #pragma once
 
 #include <algorithm>

@@ -95,7 +95,7 @@ struct PaperLaw {
 };
 
 struct ViscousLaw {
-  std::uint32_t mobility = 0;  // kq = (2/3)(kappa/3), 1/2^20: docs/automaton.md, "Mobility"
+  std::uint32_t mobility = 0;  // kq = (2/3)(kappa/3), 1/2^20: docs/automaton.md, section 10
   std::uint32_t yield = 0;     // yield stress: depth x head difference that rests, 1/65536
   std::uint8_t stiffness = 8;  // K: 1..8, of closed conduits
 };

@@ -7,8 +7,8 @@
 
 namespace voxmelt::rule {
 
-// Bounds that make overflow impossible (docs/automaton.md, "Bounds"): with 8 neighbours a receiver below 11
-// takes at most 4 x 1 + 4 x 1/4; with 4 neighbours one below 8 takes at most 4 x 2.
+// Bounds that make overflow impossible (docs/proofs.md, "Amounts stay in 0..AMAX"): with 8 neighbours a
+// receiver below 11 takes at most 4 x 1 + 4 x 1/4; with 4 neighbours one below 8 takes at most 4 x 2.
 VOXMELT_RULE std::int32_t flow_cap(int neighbours) { return neighbours == 8 ? kOne : 2 * kOne; }
 VOXMELT_RULE std::int32_t receiver_limit(int neighbours) { return (neighbours == 8 ? 11 : 8) * kOne; }
 

@@ -1,4 +1,4 @@
-// The bounds of heat, section 15 of docs/automaton.md, on the real functions.
+// The bounds of heat (docs/proofs.md) on the real functions.
 #include "kernel/automaton/rule/heat.h"
 
 #include <gtest/gtest.h>

@@ -51,8 +51,8 @@ TEST(FullBox, WithALittleRoomNeverLosesAUnit) {
     }
 }
 
-// Temperatures at both ends and one unit inside, all neighbours at the bound of section 15: 0..65535 is never
-// left (a wrap would be a jump from cold to hot), and conduction creates no new extreme.
+// Temperatures at both ends and one unit inside, all neighbours at the bound of docs/proofs.md: 0..65535 is
+// never left (a wrap would be a jump from cold to hot), and conduction creates no new extreme.
 TEST(Heat, StaysBetweenItsExtremes) {
   for (const int neighbours : {6, 18, 26})
     for (const auto& [cold_end, hot_end] :
