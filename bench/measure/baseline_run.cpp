@@ -12,10 +12,11 @@ namespace voxmelt::measure {
 namespace {
 
 template <class Task>
-void timed(double& total, const Task& task) {
+void timed(Seconds& step, step::Phase phase, const Task& task) {
   const auto start = std::chrono::steady_clock::now();
   task();
-  total += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  step.phase[static_cast<std::size_t>(phase)] =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
@@ -54,22 +55,21 @@ BaselineRuns::BaselineRuns(const Workload& workload, rule::Parameters parameters
 }
 
 template <baseline::Variant variant>
-BaselineSeconds BaselineRuns::run() const {
+Steps BaselineRuns::run() const {
+  using enum step::Phase;
   baseline::Baseline<float, variant> program(start_, parameters_);
-  BaselineSeconds seconds;
-  for (int step = 0; step < lead_steps_ + steps_; ++step) {
-    if (step == lead_steps_) seconds = {};
-    if (has_heat_) timed(seconds.heat, [&] { program.heat(irradiance_); });
-    timed(seconds.gravity, [&] { program.gravity(); });
-    timed(seconds.spread, [&] { program.spread(static_cast<std::uint32_t>(step)); });
-    timed(seconds.excess, [&] { program.excess(); });
+  Steps steps(static_cast<std::size_t>(lead_steps_ + steps_));
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (has_heat_) timed(steps[i], heat, [&] { program.heat(irradiance_); });
+    timed(steps[i], gravity, [&] { program.gravity(); });
+    timed(steps[i], spread, [&] { program.spread(static_cast<std::uint32_t>(i)); });
+    timed(steps[i], excess, [&] { program.excess(); });
   }
-  for (double* one : {&seconds.heat, &seconds.gravity, &seconds.spread, &seconds.excess}) *one /= steps_;
-  return seconds;
+  return {steps.begin() + lead_steps_, steps.end()};
 }
 
-BaselineSeconds BaselineRuns::plain() const { return run<baseline::Variant::plain>(); }
-std::optional<BaselineSeconds> BaselineRuns::native() const {
+Steps BaselineRuns::plain() const { return run<baseline::Variant::plain>(); }
+std::optional<Steps> BaselineRuns::native() const {
   if (kNativeNeeds >= 0 && !cpu::supported(cpu::kInstructionSets[static_cast<std::size_t>(kNativeNeeds)].set))
     return std::nullopt;
   return run<baseline::Variant::native>();

@@ -1,37 +1,32 @@
 // The paper's program on a workload, timed like ours: the same state, as many steps before and while the
 // clock runs.
 //
-// Its flow is gravity + spread + excess of the paper's law. For a workload of the viscous law, which it does
-// not know, it runs the paper's law on the same state: the parameters' paper part, liquid with full energy.
+// Its flow is gravity + spread + excess of the paper's law, and its heat includes melting. It does not know
+// the viscous law. For such a workload it runs the paper's law on the same state: the parameters' paper
+// part, liquid with full energy.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "bench/baseline/baseline.h"
-#include "bench/measure/workloads.h"
+#include "bench/measure/measure.h"
 
 namespace voxmelt::measure {
-
-struct BaselineSeconds {  // per step
-  double heat = 0, gravity = 0, spread = 0, excess = 0;
-  double flow() const { return gravity + spread + excess; }
-};
 
 class BaselineRuns {
  public:
   // Nothing where the baseline cannot run the workload's parameters.
   static std::optional<BaselineRuns> of(const Workload& workload);
 
-  BaselineSeconds plain() const;
-  std::optional<BaselineSeconds> native() const;  // nothing on a processor that it was not compiled for
-  bool has_heat() const { return has_heat_; }
+  Steps plain() const;
+  std::optional<Steps> native() const;  // nothing on a processor that it was not compiled for
 
  private:
   BaselineRuns(const Workload& workload, rule::Parameters parameters, state::Volume start);
 
   template <baseline::Variant variant>
-  BaselineSeconds run() const;
+  Steps run() const;
 
   rule::Parameters parameters_;
   state::Volume start_;

@@ -29,15 +29,21 @@ json machine_json(const Findings& findings) {
                      {"threads", key.second},
                      {"multiply_lanes_per_second", found.multiply},
                      {"add_lanes_per_second", found.add}});
-  return {{"processor", text.processor}, {"threads", text.threads},   {"l1_bytes", text.l1_bytes},
-          {"l2_bytes", text.l2_bytes},   {"l3_bytes", text.l3_bytes}, {"memory_bytes", text.memory_bytes},
-          {"bandwidth", bandwidth},      {"lanes_16_bit", rates}};
+  return {{"processor", text.processor},
+          {"threads", text.threads},
+          {"l1_bytes", text.l1_bytes},
+          {"l2_bytes", text.l2_bytes},
+          {"l3_bytes", text.l3_bytes},
+          {"memory_bytes", text.memory_bytes},
+          {"load_average", {{"before", findings.load_before}, {"after", findings.load_after}}},
+          {"bandwidth", bandwidth},
+          {"lanes_16_bit", rates}};
 }
 
 json case_json(const Case& one) {
   json phases;
   for (std::size_t p = 0; p < step::kPhaseCount; ++p)
-    phases[std::string(step::kPhaseNames[p])] = one.phases.phase[p] * 1e3;
+    phases[std::string(step::kPhaseNames[p])] = one.step.phase[p] * 1e3;
   json roof = nullptr;
   if (one.roof)
     roof = {{"operations_cells_per_second", one.roof->operations},
@@ -51,6 +57,7 @@ json case_json(const Case& one) {
           {"grid", grid_json(one.grid)},
           {"cells", one.cells},
           {"active_cells", one.active},
+          {"rounds", one.rounds},
           {"milliseconds", one.seconds * 1e3},
           {"phase_milliseconds", phases},
           {"cells_per_second", one.cells_per_second()},
@@ -61,7 +68,6 @@ json case_json(const Case& one) {
           {"other_operations_per_cell", one.work.others},
           {"roof", roof},
           {"percent_of_roof", number(one.percent_of_roof())},
-          {"percent_of_roof_beside", number(one.percent_of_roof_beside())},
           {"ratio_to_baseline", number(one.ratio_to_baseline)},
           {"ratio_to_native_baseline", number(one.ratio_to_native)}};
 }
@@ -84,7 +90,7 @@ std::string bench_json(const Findings& findings, const std::string& version) {
                        {"implementation", one.implementation},
                        {"threads", one.threads},
                        {"speedup", one.speedup},
-                       {"bound", one.bound}});
+                       {"efficiency", one.efficiency()}});
   const json report = {{"version", version},
                        {"machine", machine_json(findings)},
                        {"cases", cases},

@@ -7,6 +7,7 @@
 #include <bit>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -27,9 +28,9 @@ double seconds_since(Clock::time_point start) {
 
 // All threads start together; the work of all is over when the last one is done. Returns the best rate.
 // `piece(thread)` does one piece of work and says how much that was.
-double best_rate(int threads, int trials, double trial_seconds, const std::function<double(int)>& piece) {
+double best_rate(int threads, double trial_seconds, const std::function<double(int)>& piece) {
   double best = 0;
-  for (int trial = 0; trial < trials; ++trial) {
+  for (int trial = 0; trial < kTrials; ++trial) {
     std::barrier ready(threads);
     std::vector<double> rates(static_cast<std::size_t>(threads));
     const auto work = [&](int thread) {
@@ -107,6 +108,11 @@ MachineText describe_machine() {
           cache_bytes(_SC_PHYS_PAGES) * cache_bytes(_SC_PAGESIZE)};
 }
 
+double load_average() {
+  double last_minute = 0;
+  return ::getloadavg(&last_minute, 1) == 1 ? last_minute : 0;
+}
+
 std::size_t Machine::rounded(std::size_t footprint) {
   return std::bit_ceil(std::clamp(footprint, std::size_t{1} << 18, std::size_t{1} << 29));
 }
@@ -120,23 +126,23 @@ Bandwidth Machine::measure(std::size_t footprint, int threads) const {
   const LaneLoops widest = widest_loops();
 
   Bandwidth result;
-  result.copy = best_rate(threads, kTrials, trial_seconds_, [&](int thread) {
+  result.copy = best_rate(threads, trial_seconds_, [&](int thread) {
     std::memcpy(own(thread), own(thread) + part / 2, part / 2 * sizeof(Line));
     asm volatile("" : : "r"(own(thread)) : "memory");
     return bytes;  // half of them read, half of them written
   });
-  result.update = best_rate(threads, kTrials, trial_seconds_, [&](int thread) {
+  result.update = best_rate(threads, trial_seconds_, [&](int thread) {
     widest.update(own(thread)->lanes, part * 32);
     return 2 * bytes;
   });
   return result;
 }
 
-LaneRates Machine::measure(cpu::InstructionSet set, int threads, int trials, double trial_seconds) {
+LaneRates Machine::measure(cpu::InstructionSet set, int threads) const {
   const LaneLoops loop = loops(set);
   constexpr std::uint64_t kRounds = 20000;
   const auto rate = [&](std::uint64_t (*run)(std::uint64_t, std::uint16_t*)) {
-    return best_rate(threads, trials, trial_seconds, [run](int) {
+    return best_rate(threads, trial_seconds_, [run](int) {
       alignas(64) std::uint16_t sink[32];
       return static_cast<double>(run(kRounds, sink));
     });
@@ -157,7 +163,7 @@ Bandwidth Machine::bandwidth(std::size_t footprint, int threads) {
 
 LaneRates Machine::lane_rates(cpu::InstructionSet set, int threads) {
   const std::pair key{set, threads};
-  if (!rates_.contains(key)) rates_[key] = measure(set, threads, kTrials, trial_seconds_);
+  if (!rates_.contains(key)) rates_[key] = measure(set, threads);
   LaneRates best;
   for (const auto& [other, found] : rates_)
     if (other.first == set && other.second <= threads)
@@ -165,13 +171,9 @@ LaneRates Machine::lane_rates(cpu::InstructionSet set, int threads) {
   return best;
 }
 
-LaneRates Machine::lane_rates_now(cpu::InstructionSet set, int threads) const {
-  return measure(set, threads, 2, trial_seconds_ / 20);
-}
-
 void Machine::refresh_rates() {
   for (auto& [key, known] : rates_) {
-    const LaneRates now = measure(key.first, key.second, kTrials, trial_seconds_);
+    const LaneRates now = measure(key.first, key.second);
     known = {std::max(known.multiply, now.multiply), std::max(known.add, now.add)};
   }
 }

@@ -1,7 +1,7 @@
 // What this machine can do, measured in the same run as everything that is compared with it.
 //
-// Rates, but for those of the moment, are the best of several short trials: a bound that a busy machine had
-// lowered would flatter us.
+// Rates are the best of many short trials, as times are minima: a roof that a busy machine had lowered would
+// flatter us.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,11 @@ namespace voxmelt::measure {
 
 struct MachineText {
   std::string processor;
-  int threads = 1;  // that the system offers
+  int threads = 1;  // of the processor
   std::size_t l1_bytes = 0, l2_bytes = 0, l3_bytes = 0, memory_bytes = 0;
 };
 MachineText describe_machine();
+double load_average();  // of the last minute: threads of the whole system that run or want to
 
 // Bytes per second, read and written bytes both counted.
 struct Bandwidth {
@@ -37,12 +38,9 @@ class Machine {
   // `trial_seconds`: how long one trial takes.
   explicit Machine(double trial_seconds = 0.02) : trial_seconds_(trial_seconds) {}
 
-  // Of `threads` threads that share `footprint` bytes. Footprints are rounded to a power of two, 256 KiB to
-  // 512 MiB.
+  // `threads` threads share `footprint` bytes, rounded to a power of two from 256 KiB to 512 MiB.
   Bandwidth bandwidth(std::size_t footprint, int threads);
   LaneRates lane_rates(cpu::InstructionSet set, int threads);
-  // What others leave to us at this moment: the better of two short trials, which nothing remembers.
-  LaneRates lane_rates_now(cpu::InstructionSet set, int threads) const;
 
   // Measures again what has been measured, and keeps the better: others may have been at work then.
   void refresh_rates();
@@ -56,7 +54,7 @@ class Machine {
 
  private:
   Bandwidth measure(std::size_t footprint, int threads) const;
-  static LaneRates measure(cpu::InstructionSet set, int threads, int trials, double trial_seconds);
+  LaneRates measure(cpu::InstructionSet set, int threads) const;
 
   double trial_seconds_;
   std::map<std::pair<std::size_t, int>, Bandwidth> bandwidths_;

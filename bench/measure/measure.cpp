@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "bench/measure/baseline_run.h"
 #include "kernel/automaton/state/digest.h"
@@ -20,44 +19,7 @@ run::Simulation fresh(const Workload& workload, const Candidate& candidate) {
   return {workload.parameters, workload.start, *candidate.implementation, tuning};
 }
 
-// The values of one quantity over all rounds.
-using Series = std::vector<double>;
-
-std::optional<double> median_ratio(const Series& baseline, const Series& ours) {
-  if (baseline.empty() || ours.empty()) return std::nullopt;
-  Series ratios;
-  for (std::size_t i = 0; i < ours.size(); ++i)
-    if (ours[i] > 0) ratios.push_back(baseline[i] / ours[i]);
-  if (ratios.empty()) return std::nullopt;
-  return median(ratios);
-}
-
-std::optional<double> median_or_none(const Series& values) {
-  return values.empty() ? std::nullopt : std::optional(median(values));
-}
-
-struct Ours {
-  std::array<Series, step::kPhaseCount> phase;
-  Series flow, heat;
-  std::vector<Round> rounds;
-
-  void add(const Seconds& seconds, const LaneRates& before, const LaneRates& after) {
-    for (std::size_t p = 0; p < phase.size(); ++p) phase[p].push_back(seconds.phase[p]);
-    flow.push_back(seconds.flow());
-    heat.push_back(seconds.heat());
-    rounds.push_back({seconds.flow(),
-                      seconds.heat(),
-                      {std::max(before.multiply, after.multiply), std::max(before.add, after.add)}});
-  }
-};
-
 }  // namespace
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
 
 double Seconds::flow() const {
   using enum step::Phase;
@@ -70,6 +32,21 @@ double Seconds::total() const {
   return sum;
 }
 
+Seconds mean(const Steps& steps) {
+  Seconds result;
+  for (const Seconds& step : steps)
+    for (std::size_t p = 0; p < result.phase.size(); ++p)
+      result.phase[p] += step.phase[p] / static_cast<double>(steps.size());
+  return result;
+}
+
+void Fastest::add(const Steps& round) {
+  if (rounds_++ == 0) least_ = round;
+  for (std::size_t i = 0; i < least_.size(); ++i)
+    for (std::size_t p = 0; p < least_[i].phase.size(); ++p)
+      least_[i].phase[p] = std::min(least_[i].phase[p], round[i].phase[p]);
+}
+
 std::uint64_t expected_digest(const Workload& workload) {
   const step::Implementation* judge = run::implementations().find(workload.judge);
   run::Simulation simulation = fresh(workload, {judge, 1});
@@ -77,14 +54,16 @@ std::uint64_t expected_digest(const Workload& workload) {
   return state::digest(simulation.volume());
 }
 
-Seconds timed_run(const Workload& workload, const Candidate& candidate, std::uint64_t expected) {
+Steps timed_run(const Workload& workload, const Candidate& candidate, std::uint64_t expected) {
   run::Simulation simulation = fresh(workload, candidate);
   for (int i = 0; i < workload.lead_steps; ++i) simulation.step();
-  const auto before = simulation.seconds().phase;
-  for (int i = 0; i < workload.steps; ++i) simulation.step();
-  Seconds seconds;
-  for (std::size_t p = 0; p < before.size(); ++p)
-    seconds.phase[p] = (simulation.seconds().phase[p] - before[p]) / workload.steps;
+  Steps steps;
+  for (int i = 0; i < workload.steps; ++i) {
+    const auto before = simulation.seconds().phase;
+    simulation.step();
+    Seconds& step = steps.emplace_back();
+    for (std::size_t p = 0; p < before.size(); ++p) step.phase[p] = simulation.seconds().phase[p] - before[p];
+  }
 
   const auto fail = [&](const std::string& what) {
     throw Mismatch(fmt::format("{} on {}, {} threads: {}", candidate.implementation->name, workload.name,
@@ -96,67 +75,37 @@ Seconds timed_run(const Workload& workload, const Candidate& candidate, std::uin
                      workload.lead_steps + workload.steps, workload.judge, expected));
   const state::Drift drift = simulation.drift();
   if (drift.mass != 0 || drift.energy != 0 || drift.heat != 0) fail("the ledgers do not balance");
-  return seconds;
+  return steps;
+}
+
+bool RoundClock::more(int done) const {
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+  return done < rounds_.fewest || (done < kMostRounds && spent.count() < rounds_.seconds);
 }
 
 Result measure(const Workload& workload, const std::vector<Candidate>& candidates, const Rounds& rounds,
-               bool baseline, const RatesNow& rates_now) {
+               bool baseline) {
   const std::uint64_t expected = expected_digest(workload);
-  for (const Candidate& candidate : candidates) timed_run(workload, candidate, expected);
-
   std::optional<BaselineRuns> runs;
   if (baseline) runs = BaselineRuns::of(workload);
-  std::vector<Ours> ours(candidates.size());
-  Series plain_flow, native_flow, plain_heat, native_heat, plain_gravity, plain_spread;
-  const auto start = std::chrono::steady_clock::now();
-  const auto more = [&](int done) {
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    return done < rounds.fewest || (done < kMostRounds && spent.count() < rounds.seconds);
-  };
-  const auto now = [&](const Candidate& candidate) { return rates_now ? rates_now(candidate) : LaneRates{}; };
-  for (int round = 0; more(round); ++round) {
+
+  Fastest plain, native;
+  std::vector<Fastest> ours(candidates.size());
+  const RoundClock clock(rounds);
+  Result result;
+  for (; clock.more(result.rounds); ++result.rounds) {
     if (runs) {
-      const BaselineSeconds plain = runs->plain();
-      const std::optional<BaselineSeconds> native = runs->native();
-      if (workload.times_flow) {
-        plain_flow.push_back(plain.flow());
-        if (native) native_flow.push_back(native->flow());
-        plain_gravity.push_back(plain.gravity);
-        plain_spread.push_back(plain.spread + plain.excess);
-      }
-      if (workload.times_heat && runs->has_heat()) {
-        plain_heat.push_back(plain.heat);
-        if (native) native_heat.push_back(native->heat);
-      }
+      plain.add(runs->plain());
+      if (const std::optional<Steps> steps = runs->native()) native.add(*steps);
     }
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      const LaneRates before = now(candidates[i]);
-      const Seconds seconds = timed_run(workload, candidates[i], expected);
-      ours[i].add(seconds, before, now(candidates[i]));
-    }
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      ours[i].add(timed_run(workload, candidates[i], expected));
   }
 
-  Result result;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    Timing timing;
-    timing.candidate = candidates[i];
-    timing.rounds = ours[i].rounds;
-    for (std::size_t p = 0; p < timing.median.phase.size(); ++p)
-      timing.median.phase[p] = median(ours[i].phase[p]);
-    timing.flow = median(ours[i].flow);
-    timing.heat = median(ours[i].heat);
-    timing.flow_ratio = median_ratio(plain_flow, ours[i].flow);
-    timing.flow_native_ratio = median_ratio(native_flow, ours[i].flow);
-    timing.heat_ratio = median_ratio(plain_heat, ours[i].heat);
-    timing.heat_native_ratio = median_ratio(native_heat, ours[i].heat);
-    result.timings.push_back(timing);
-  }
-  result.plain_flow = median_or_none(plain_flow);
-  result.native_flow = median_or_none(native_flow);
-  result.plain_heat = median_or_none(plain_heat);
-  result.native_heat = median_or_none(native_heat);
-  result.plain_gravity = median_or_none(plain_gravity);
-  result.plain_spread = median_or_none(plain_spread);
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    result.timings.push_back({candidates[i], ours[i].step()});
+  if (plain.rounds() > 0) result.plain = plain.step();
+  if (native.rounds() > 0) result.native = native.step();
   return result;
 }
 

@@ -1,16 +1,17 @@
 // Times workloads, and the paper's program on the same state in the same minutes. Nothing is timed whose
 // result is not checked.
+//
+// A time is a minimum: every timed step is repeated from the same state, and each of its phases counts with
+// the shortest time that any round needed. Whatever else the machine does only adds to a time.
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
-#include "bench/measure/machine.h"
 #include "bench/measure/workloads.h"
 #include "kernel/automaton/step/stepper.h"
 
@@ -30,53 +31,64 @@ struct Candidate {
 // The digest after workload.lead_steps + workload.steps, as the workload's judge computes it.
 std::uint64_t expected_digest(const Workload& workload);
 
-// Seconds per step.
+// Seconds of one step.
 struct Seconds {
-  std::array<double, step::kPhaseCount> phase{};
-  double flow() const;  // gravity + spread + excess
-  double heat() const;  // heat + melt
+  std::array<double, step::kPhaseCount> phase{};  // by step::Phase
+  double flow() const;                            // gravity + spread + excess
+  double heat() const;                            // heat + melt
   double total() const;
 };
+using Steps = std::vector<Seconds>;  // the timed steps of one run, in their order
+
+Seconds mean(const Steps& steps);
 
 // One fresh simulation: workload.lead_steps untimed, then workload.steps timed. Throws Mismatch unless the
 // state has `expected` for a digest afterwards and the ledgers balance.
-Seconds timed_run(const Workload& workload, const Candidate& candidate, std::uint64_t expected);
+Steps timed_run(const Workload& workload, const Candidate& candidate, std::uint64_t expected);
 
-// One timed run: seconds per step, and what the machine could do right before or after it, whichever was
-// more.
-struct Round {
-  double flow = 0, heat = 0;
-  LaneRates rates;
+// The least time of each phase of each step over all rounds.
+class Fastest {
+ public:
+  void add(const Steps& round);  // every round has the same steps
+  int rounds() const { return rounds_; }
+  Seconds step() const { return mean(least_); }  // the mean step of these least times
+
+ private:
+  Steps least_;
+  int rounds_ = 0;
 };
 
 struct Timing {
   Candidate candidate;
-  std::vector<Round> rounds;
-  Seconds median;                                       // of each phase
-  double flow = 0, heat = 0;                            // median seconds per step
-  std::optional<double> flow_ratio, flow_native_ratio;  // median of the ratios, baseline / ours
-  std::optional<double> heat_ratio, heat_native_ratio;
+  Seconds step;
 };
 
 struct Result {
+  int rounds = 0;
   std::vector<Timing> timings;
-  // The paper's program; empty where it cannot run the scene.
-  std::optional<double> plain_flow, native_flow, plain_heat, native_heat;
-  std::optional<double> plain_gravity, plain_spread;  // spread with excess, as the paper counts
+  // The paper's program, plainly written and compiled for this processor; empty where it cannot run.
+  std::optional<Seconds> plain, native;
 };
 
-// Rounds of: plain baseline, native baseline, each candidate; an untimed run of each candidate comes first.
 // At least `fewest` rounds, and more, up to kMostRounds, while `seconds` are not over.
 struct Rounds {
   int fewest = 5;
-  double seconds = 3;
+  double seconds = 15;
 };
-inline constexpr int kMostRounds = 41;
-// `rates_now`: asked before and after each timed run of a candidate.
-using RatesNow = std::function<LaneRates(const Candidate&)>;
-Result measure(const Workload& workload, const std::vector<Candidate>& candidates, const Rounds& rounds,
-               bool baseline, const RatesNow& rates_now = {});
+inline constexpr int kMostRounds = 40;
 
-double median(std::vector<double> values);
+class RoundClock {  // starts when it is made
+ public:
+  explicit RoundClock(const Rounds& rounds) : rounds_(rounds) {}
+  bool more(int done) const;
+
+ private:
+  Rounds rounds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// A round is: plain baseline, native baseline, each candidate.
+Result measure(const Workload& workload, const std::vector<Candidate>& candidates, const Rounds& rounds,
+               bool baseline);
 
 }  // namespace voxmelt::measure

@@ -1,6 +1,8 @@
 #include "bench/measure/picture.h"
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "bench/baseline/baseline.h"
 #include "kernel/run/simulation.h"
@@ -8,6 +10,15 @@
 
 namespace voxmelt::measure {
 namespace {
+
+// The least of the seconds that `task` returns, over all rounds.
+template <class Task>
+double least(const Rounds& rounds, const Task& task) {
+  const RoundClock clock(rounds);
+  double result = std::numeric_limits<double>::infinity();
+  for (int round = 0; clock.more(round); ++round) result = std::min(result, task());
+  return result;
+}
 
 template <class Task>
 double timed(const Task& task) {
@@ -19,25 +30,22 @@ double timed(const Task& task) {
 }  // namespace
 
 double update_seconds(const Workload& workload, const scene::Look& look, const scene::Terrain& terrain,
-                      const Candidate& candidate, int rounds) {
+                      const Candidate& candidate, const Rounds& rounds) {
   step::Tuning tuning;
   tuning.threads = candidate.threads;
-  run::Simulation simulation(workload.parameters, workload.start, *candidate.implementation, tuning);
-  render::DensityField field;
-  field.update(simulation.volume(), look, terrain, candidate.threads);
-  std::vector<double> seconds;
-  for (int round = 0; round < rounds; ++round) {
+  return least(rounds, [&] {
+    run::Simulation simulation(workload.parameters, workload.start, *candidate.implementation, tuning);
+    render::DensityField field;
+    const auto update = [&] { field.update(simulation.volume(), look, terrain, candidate.threads); };
+    update();
     simulation.step();
-    seconds.push_back(timed([&] { field.update(simulation.volume(), look, terrain, candidate.threads); }));
-  }
-  return median(seconds);
+    return timed(update);
+  });
 }
 
-double baseline_update_seconds(const Workload& workload, int rounds) {
+double baseline_update_seconds(const Workload& workload, const Rounds& rounds) {
   baseline::Baseline<float> program(workload.start, workload.parameters);
-  std::vector<double> seconds;
-  for (int round = 0; round < rounds; ++round) seconds.push_back(timed([&] { program.update(); }));
-  return median(seconds);
+  return least(rounds, [&] { return timed([&] { program.update(); }); });
 }
 
 }  // namespace voxmelt::measure

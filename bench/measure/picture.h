@@ -6,11 +6,11 @@
 
 namespace voxmelt::measure {
 
-// Median seconds of DensityField::update after one more step of the workload, on one thread.
+// Least seconds of DensityField::update after one more step of the workload, with the candidate's threads.
 double update_seconds(const Workload& workload, const scene::Look& look, const scene::Terrain& terrain,
-                      const Candidate& candidate, int rounds);
+                      const Candidate& candidate, const Rounds& rounds);
 
-// The same of the plain baseline: intensities and their low-pass filter, the whole grid.
-double baseline_update_seconds(const Workload& workload, int rounds);
+// The same for the plain baseline: intensities and their low-pass filter, the whole grid.
+double baseline_update_seconds(const Workload& workload, const Rounds& rounds);
 
 }  // namespace voxmelt::measure

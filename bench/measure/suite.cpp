@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bench/measure/picture.h"
+#include "bench/measure/report.h"
 #include "kernel/run/simulation.h"
 
 namespace voxmelt::measure {
@@ -31,21 +32,44 @@ std::size_t footprint(const Workload& workload, std::int64_t active) {
   return static_cast<std::size_t>(bytes * static_cast<double>(active));
 }
 
+// The paper counts excess as spreading.
+TableRow table_row(std::string scene, std::string who, const state::Grid& grid, const Seconds& step,
+                   double update) {
+  const double gravity = step.phase[static_cast<std::size_t>(step::Phase::gravity)];
+  return {std::move(scene),
+          std::move(who),
+          grid,
+          gravity * 1e3,
+          (step.flow() - gravity) * 1e3,
+          update * 1e3,
+          1 / (step.total() + update)};
+}
+
 }  // namespace
 
-std::optional<double> Case::percent_of_roof_beside() const {
-  if (!roof || rounds.empty()) return std::nullopt;
-  std::vector<double> percents;
-  for (const Round& round : rounds) {
-    const double rate = static_cast<double>(active) / (subject == Subject::heat ? round.heat : round.flow);
-    const Roof beside{roof_of(work, round.rates, {}).operations, roof->bytes};
-    percents.push_back(100 * rate / beside.cells());
-  }
-  return median(percents);
+double seconds_of(Subject subject, const Seconds& step) {
+  return subject == Subject::heat ? step.heat() : step.flow();
+}
+
+std::optional<double> ratio_to(const std::optional<Seconds>& baseline, const Seconds& ours, Subject subject) {
+  if (!baseline) return std::nullopt;
+  return seconds_of(subject, *baseline) / seconds_of(subject, ours);
+}
+
+std::vector<Scaling> scaling_of(const std::vector<Case>& cases) {
+  std::vector<Scaling> result;
+  for (const Case& several : cases)
+    for (const Case& one : cases)
+      if (one.workload == several.workload && one.workload.starts_with("dense:") &&
+          one.subject == several.subject && one.implementation == several.implementation &&
+          one.threads == 1 && several.threads > 1)
+        result.push_back({one.workload, one.implementation, several.threads, one.seconds / several.seconds});
+  return result;
 }
 
 Suite::Suite(Plan plan, Tell tell) : plan_(std::move(plan)), tell_(std::move(tell)) {
   findings_.machine_text = describe_machine();
+  findings_.load_before = load_average();
   findings_.machine = Machine(plan_.quick ? 0.004 : 0.02);
   for (const int threads : plan_.threads) {
     for (const auto& [set, name] : cpu::kInstructionSets)
@@ -82,15 +106,15 @@ std::vector<Case> Suite::cases_of(const Workload& workload, const Result& result
       one.grid = workload.start.grid;
       one.cells = static_cast<std::int64_t>(workload.start.grid.cells());
       one.active = active_cells(workload, heat);
-      one.phases = timing.median;
-      one.seconds = heat ? timing.heat : timing.flow;
+      one.rounds = result.rounds;
+      one.step = timing.step;
+      one.seconds = seconds_of(subject, timing.step);
       one.work = work_of(subject, workload.parameters);
       one.bytes_per_cell = one.work.bytes;
       if (!workload.at_rest) one.footprint = footprint(workload, one.active);
       one.roof = roof_of_case(one);
-      one.rounds = timing.rounds;
-      one.ratio_to_baseline = heat ? timing.heat_ratio : timing.flow_ratio;
-      one.ratio_to_native = heat ? timing.heat_native_ratio : timing.flow_native_ratio;
+      one.ratio_to_baseline = ratio_to(result.plain, timing.step, subject);
+      one.ratio_to_native = ratio_to(result.native, timing.step, subject);
       cases.push_back(std::move(one));
     }
   }
@@ -105,25 +129,19 @@ void Suite::run(const Workload& workload, bool baseline) {
       candidates.push_back({implementation, threads});
     }
   findings_.machine.refresh_rates();
-  const auto rates_now = [this](const Candidate& candidate) {
-    const std::optional<cpu::InstructionSet> set = set_named(candidate.implementation->name);
-    return set ? findings_.machine.lane_rates_now(*set, candidate.threads) : LaneRates{};
-  };
-  const Result result = measure(workload, candidates, plan_.rounds, baseline, rates_now);
+  const Result result = measure(workload, candidates, plan_.rounds, baseline);
   const std::vector<Case> cases = cases_of(workload, result);
   tell_(workload, result, cases);
 
   findings_.cases.insert(findings_.cases.end(), cases.begin(), cases.end());
 
   for (const auto& row : kPaper) {
-    if (!workload.name.starts_with(fmt::format("scene:{}/", row.scene)) || !result.plain_gravity) continue;
+    if (!workload.name.starts_with(fmt::format("scene:{}/", row.scene)) || !result.plain) continue;
     const state::Grid g = workload.start.grid;
     findings_.table_1.push_back(
         {row.as, "the paper, 2003", g, row.gravity, row.spreading, row.update, row.frames});
-    const double update = baseline_update_seconds(workload, 3);
-    const double step = *result.plain_flow + result.plain_heat.value_or(0);
-    findings_.table_1.push_back({row.as, "its program, plainly written, here", g, *result.plain_gravity * 1e3,
-                                 *result.plain_spread * 1e3, update * 1e3, 1 / (step + update)});
+    findings_.table_1.push_back(table_row(row.as, "its program, plainly written, here", g, *result.plain,
+                                          baseline_update_seconds(workload, plan_.picture_rounds())));
   }
 }
 
@@ -134,18 +152,15 @@ void Suite::run_scene(const Workload& workload, const scene::Scene& scene) {
   const std::string as = findings_.table_1.back().scene;
   for (const int threads : plan_.threads) {
     const Candidate candidate{plan_.implementations.back(), threads};
-    const double update = update_seconds(workload, scene.look, scene.terrain, candidate, plan_.quick ? 1 : 3);
+    const double update =
+        update_seconds(workload, scene.look, scene.terrain, candidate, plan_.picture_rounds());
     for (const Case& one : findings_.cases) {
       if (one.workload != workload.name || one.subject != Subject::flow || one.threads != threads ||
           one.implementation != candidate.implementation->name)
         continue;
-      const auto ms = [&](step::Phase phase) {
-        return one.phases.phase[static_cast<std::size_t>(phase)] * 1e3;
-      };
       findings_.table_1.push_back(
-          {as, fmt::format("voxmelt, {}, {} thread{}", one.implementation, threads, threads == 1 ? "" : "s"),
-           one.grid, ms(step::Phase::gravity), ms(step::Phase::spread) + ms(step::Phase::excess),
-           update * 1e3, 1 / (one.phases.total() + update)});
+          table_row(as, fmt::format("voxmelt, {}, {}", one.implementation, threads_text(threads)), one.grid,
+                    one.step, update));
     }
   }
 }
@@ -175,23 +190,11 @@ void Suite::run_large(Workload large) {
   plan_.implementations = chosen;
 }
 
-// Each implementation with all threads against the same with one, where the whole grid works.
-std::vector<Scaling> Suite::scaling() const {
-  std::vector<Scaling> result;
-  for (const Case& all : findings_.cases)
-    for (const Case& one : findings_.cases)
-      if (one.workload == all.workload && one.workload.starts_with("dense:") && one.subject == all.subject &&
-          one.implementation == all.implementation && one.threads == 1 && all.threads > 1 && one.roof &&
-          all.roof)
-        result.push_back({one.workload, one.implementation, all.threads, one.seconds / all.seconds,
-                          std::min(static_cast<double>(all.threads), all.roof->cells() / one.roof->cells())});
-  return result;
-}
-
 Findings Suite::take() {
   findings_.machine.refresh_all();
   for (Case& one : findings_.cases) one.roof = roof_of_case(one);
-  findings_.scaling = scaling();
+  findings_.scaling = scaling_of(findings_.cases);
+  findings_.load_after = load_average();
   return std::move(findings_);
 }
 

@@ -22,13 +22,13 @@ struct Case {
   std::string judge;
   state::Grid grid;
   std::int64_t cells = 0, active = 0;  // of the grid; that have to do with the subject
-  Seconds phases;                      // medians
-  double seconds = 0;                  // per step, of the subject
+  int rounds = 0;                      // that the minima were taken over
+  Seconds step;                        // with all phases
+  double seconds = 0;                  // of the subject in that step
   double bytes_per_cell = 0;           // that the definition needs
   Work work;
   std::size_t footprint = 0;  // bytes of the active cells' state
   std::optional<Roof> roof;   // none at rest, and for the reference
-  std::vector<Round> rounds;
   std::optional<double> ratio_to_baseline, ratio_to_native;
 
   double cells_per_second() const { return static_cast<double>(cells) / seconds; }
@@ -36,8 +36,6 @@ struct Case {
   std::optional<double> percent_of_roof() const {
     return roof ? std::optional(100 * active_per_second() / roof->cells()) : std::nullopt;
   }
-  // Against what others left of the operations' roof beside each round: the median.
-  std::optional<double> percent_of_roof_beside() const;
 };
 
 // A row of the paper's Table 1 beside ours, milliseconds.
@@ -48,14 +46,24 @@ struct TableRow {
   double frames_per_second = 0;  // of a step with all its phases, and the update
 };
 
+// How many times faster several threads are than one. Neither number has a bound that a measurement could
+// not pass: docs/decisions/performance-minima.md.
 struct Scaling {
   std::string workload, implementation;
   int threads = 2;
-  double speedup = 1, bound = 1;  // bound: min(threads, roof of all threads / roof of one)
+  double speedup = 1;
+  double efficiency() const { return speedup / threads; }
 };
+// Each dense case with more than one thread, against the same case with one.
+std::vector<Scaling> scaling_of(const std::vector<Case>& cases);
+
+double seconds_of(Subject subject, const Seconds& step);  // flow or heat
+// How many times as long the baseline takes. Nothing where it did not run.
+std::optional<double> ratio_to(const std::optional<Seconds>& baseline, const Seconds& ours, Subject subject);
 
 struct Findings {
   MachineText machine_text;
+  double load_before = 0, load_after = 0;  // load averages, before and after everything was measured
   Machine machine;
   std::vector<Case> cases;
   std::vector<TableRow> table_1;
@@ -67,6 +75,7 @@ struct Plan {
   std::vector<const step::Implementation*> implementations;
   std::vector<int> threads{1};  // ascending
   Rounds rounds;
+  Rounds picture_rounds() const { return {rounds.fewest, rounds.seconds / 5}; }
 };
 
 class Suite {
@@ -80,14 +89,13 @@ class Suite {
   void run_scene(const Workload& workload, const scene::Scene& scene);
   void run_dense();  // everything that is no scene
 
-  // The machine is measured once more; tables and report have the better of its rates, for all cases alike.
+  // Measures the machine once more. Tables and report have the better of its rates, for all cases alike.
   Findings take();
 
  private:
   void run_large(Workload large);  // one implementation, judged by another
   std::vector<Case> cases_of(const Workload& workload, const Result& result);
   std::optional<Roof> roof_of_case(const Case& one);
-  std::vector<Scaling> scaling() const;
 
   Plan plan_;
   Tell tell_;

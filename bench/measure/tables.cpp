@@ -1,7 +1,7 @@
+// The tables of docs/performance_tables.md: every case, and the machine's rates that they are held against.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "bench/measure/report.h"
 
@@ -9,28 +9,21 @@ namespace voxmelt::measure {
 namespace {
 
 std::string begin(const char* name) { return fmt::format("<!-- table: {} -->\n", name); }
-std::string or_dash(const std::optional<double>& value) {
-  return value ? three_digits(*value) : std::string("–");
-}
-std::string percent(const std::optional<double>& value) {
-  return value ? fmt::format("{:.0f} %", *value) : std::string("–");
-}
-std::string ms(double seconds) { return three_digits(seconds * 1e3); }
 
-std::string machine_table(const Findings& findings) {
-  const MachineText& m = findings.machine_text;
-  std::string text = begin("machine");
-  text += fmt::format("{}; {} threads; caches {} (L1), {} (L2), {} (L3); {} of memory.\n\n", m.processor,
-                      m.threads, size_text(m.l1_bytes), size_text(m.l2_bytes), size_text(m.l3_bytes),
-                      size_text(m.memory_bytes));
-  text += "| footprint | threads | copy, GB/s | update in place, GB/s |\n|---|--:|--:|--:|\n";
+std::string memory_table(const Findings& findings) {
+  std::string text =
+      begin("memory") + "| footprint | threads | copy, GB/s | update in place, GB/s |\n|---|--:|--:|--:|\n";
   for (const auto& [key, found] : findings.machine.bandwidths())
     text += fmt::format("| {} | {} | {} | {} |\n", size_text(key.first), key.second,
                         three_digits(found.copy / 1e9), three_digits(found.update / 1e9));
-  text += fmt::format("\n{}", begin("rates"));
+  return text + "\n";
+}
+
+std::string rates_table(const Findings& findings) {
+  std::string text = begin("rates");
   text +=
-      "| instruction set | threads | 16-bit multiplies, G lanes/s | 16-bit adds, G lanes/s "
-      "|\n|---|--:|--:|--:|\n";
+      "| instruction set | threads | 16-bit multiplies, G lanes/s | 16-bit adds, G lanes/s |\n"
+      "|---|--:|--:|--:|\n";
   for (const auto& [key, found] : findings.machine.rates())
     for (const auto& [set, name] : cpu::kInstructionSets)
       if (set == key.first)
@@ -45,48 +38,39 @@ std::string case_table(const Findings& findings, Subject subject) {
   text += fmt::format(
       "| case | instruction set | threads | {} | Mcells/s, whole grid | Mcells/s, active | ns per active "
       "cell | "
-      "bytes per cell | of the roof | of the roof beside it | x baseline | x native "
-      "|\n|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+      "bytes per cell | of the roof | x baseline | x native | rounds |\n"
+      "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
       flow ? "ms per step: gravity + spread + excess" : "ms per step: heat + melt");
   std::string last;
   for (const Case& one : findings.cases) {
     if (one.subject != subject) continue;
-    const auto phase = [&](step::Phase p) { return ms(one.phases.phase[static_cast<std::size_t>(p)]); };
+    const auto phase = [&](step::Phase p) {
+      return milliseconds(one.step.phase[static_cast<std::size_t>(p)]);
+    };
     using enum step::Phase;
     const std::string phases =
-        flow ? fmt::format("{} = {} + {} + {}", ms(one.seconds), phase(gravity), phase(spread), phase(excess))
-             : fmt::format("{} = {} + {}", ms(one.seconds), phase(heat), phase(melt));
-    text += fmt::format(
-        "| {} | {} | {} | {} | {:.0f} | {:.0f} | {} | {} | {} | {} | {} | {} |\n",
-        one.workload == last ? std::string() : fmt::format("`{}`", one.workload), one.implementation,
-        one.threads, phases, one.cells_per_second() / 1e6, one.active_per_second() / 1e6,
-        three_digits(1e9 / one.active_per_second()), one.bytes_per_cell, percent(one.percent_of_roof()),
-        percent(one.percent_of_roof_beside()), or_dash(one.ratio_to_baseline), or_dash(one.ratio_to_native));
+        flow ? fmt::format("{} = {} + {} + {}", milliseconds(one.seconds), phase(gravity), phase(spread),
+                           phase(excess))
+             : fmt::format("{} = {} + {}", milliseconds(one.seconds), phase(heat), phase(melt));
+    text += fmt::format("| {} | {} | {} | {} | {:.0f} | {:.0f} | {} | {} | {} | {} | {} | {} |\n",
+                        one.workload == last ? std::string() : fmt::format("`{}`", one.workload),
+                        one.implementation, one.threads, phases, one.cells_per_second() / 1e6,
+                        one.active_per_second() / 1e6, three_digits(1e9 / one.active_per_second()),
+                        one.bytes_per_cell, percent_or_dash(one.percent_of_roof()),
+                        or_dash(one.ratio_to_baseline), or_dash(one.ratio_to_native), one.rounds);
     last = one.workload;
   }
-  return text + "\n";
-}
-
-std::string paper_table(const Findings& findings) {
-  std::string text = begin("paper");
-  text +=
-      "| scene | grid | who | gravity, ms | spreading, ms | update, ms | frames per second |\n"
-      "|---|---|---|--:|--:|--:|--:|\n";
-  for (const TableRow& row : findings.table_1)
-    text += fmt::format("| {} | {} x {} x {} | {} | {} | {} | {} | {} |\n", row.scene, row.grid.x, row.grid.y,
-                        row.grid.z, row.who, three_digits(row.gravity), three_digits(row.spreading),
-                        three_digits(row.update), three_digits(row.frames_per_second));
   return text + "\n";
 }
 
 std::string scaling_table(const Findings& findings) {
   std::string text = begin("scaling");
   text +=
-      "| case | instruction set | threads | speed-up over one | at most: min(threads, ratio of the roofs) |\n"
+      "| case | instruction set | threads | speed-up over one | parallel efficiency |\n"
       "|---|---|--:|--:|--:|\n";
   for (const Scaling& one : findings.scaling)
-    text += fmt::format("| `{}` | {} | {} | {:.2f} | {:.2f} |\n", one.workload, one.implementation,
-                        one.threads, one.speedup, one.bound);
+    text += fmt::format("| `{}` | {} | {} | {:.2f} | {:.0f} % |\n", one.workload, one.implementation,
+                        one.threads, one.speedup, 100 * one.efficiency());
   return text + "\n";
 }
 
@@ -172,24 +156,9 @@ std::string roof_tables(const Findings& findings) {
 
 }  // namespace
 
-std::string size_text(std::size_t bytes) {
-  if (bytes >= std::size_t{1} << 30) return fmt::format("{:.0f} GiB", static_cast<double>(bytes) / (1 << 30));
-  if (bytes >= std::size_t{1} << 20) return fmt::format("{} MiB", bytes >> 20);
-  return fmt::format("{} KiB", bytes >> 10);
-}
-
-std::string three_digits(double value) {
-  if (!std::isfinite(value)) return fmt::format("–");
-  const double size = std::abs(value);
-  if (size >= 99.95) return fmt::format("{:.0f}", value);
-  if (size >= 9.995) return fmt::format("{:.1f}", value);
-  if (size >= 0.9995) return fmt::format("{:.2f}", value);
-  return fmt::format("{:.3f}", value);
-}
-
-std::string tables_markdown(const Findings& findings) {
-  return machine_table(findings) + case_table(findings, Subject::flow) + case_table(findings, Subject::heat) +
-         paper_table(findings) + scaling_table(findings) + roof_tables(findings);
+std::string full_tables(const Findings& findings) {
+  return memory_table(findings) + rates_table(findings) + case_table(findings, Subject::flow) +
+         case_table(findings, Subject::heat) + scaling_table(findings) + roof_tables(findings);
 }
 
 }  // namespace voxmelt::measure

@@ -126,50 +126,106 @@ TEST(Measure, TheRoofIsTheLowestOfThreeLimits) {
   EXPECT_DOUBLE_EQ(roof_of(work, {8000, 8000}, {160, 80}).cells(), 20);
 }
 
-// Every round against what was measured beside it; bytes, which are not, against the best.
-TEST(Measure, TheRoofBesideIsOfEachRound) {
-  Case one;
-  one.active = 100;
-  one.work.multiplies = 1;
-  one.work.others = 9;
-  one.work.bytes = 2;
-  EXPECT_FALSE(one.percent_of_roof_beside());
-  one.roof = Roof{1000, 1e6};
-  one.rounds = {{1, 9, {1e9, 10'000}}, {2, 9, {1e9, 2'500}}, {4, 9, {1e9, 2'500}}};  // 10, 20 and 10 %
-  EXPECT_DOUBLE_EQ(*one.percent_of_roof_beside(), 10);
-  one.rounds[2].rates.multiply = 50;  // 50 %
-  EXPECT_DOUBLE_EQ(*one.percent_of_roof_beside(), 20);
-  one.roof->bytes = 125;  // 80, 40 and 50 %
-  EXPECT_DOUBLE_EQ(*one.percent_of_roof_beside(), 50);
-  one.subject = Subject::heat;  // (100 / 9) / 125
-  EXPECT_NEAR(*one.percent_of_roof_beside(), 100.0 / 9 / 125 * 100, 1e-9);
+Seconds seconds(double gravity, double spread) {
+  Seconds result;
+  result.phase[static_cast<std::size_t>(step::Phase::gravity)] = gravity;
+  result.phase[static_cast<std::size_t>(step::Phase::spread)] = spread;
+  return result;
 }
 
-// The machine is asked right before and after every timed run; the better answer counts.
-TEST(Measure, RatesAreTakenBesideEveryRun) {
-  const Workload workload = dense_paper(4, false);
-  double asked = 0;
-  const auto rates_now = [&](const Candidate&) {
-    ++asked;
-    return LaneRates{100 - asked, asked};
+// Two steps, three rounds, each disturbed somewhere else. Gravity: (2 + 3) / 2; spread: (10 + 30) / 2.
+TEST(Measure, EachPhaseOfEachStepCountsWithItsLeastTime) {
+  Fastest fastest;
+  fastest.add({seconds(9, 10), seconds(3, 90)});
+  fastest.add({seconds(2, 50), seconds(7, 30)});
+  fastest.add({seconds(4, 11), seconds(5, 31)});
+  EXPECT_EQ(fastest.rounds(), 3);
+  EXPECT_DOUBLE_EQ(fastest.step().flow(), 2.5 + 20);
+  EXPECT_DOUBLE_EQ(fastest.step().phase[static_cast<std::size_t>(step::Phase::gravity)], 2.5);
+  EXPECT_DOUBLE_EQ(fastest.step().heat(), 0);
+}
+
+TEST(Measure, RoundsEndByNumberAndByTime) {
+  const RoundClock hasty({.fewest = 3, .seconds = 0}), patient({.fewest = 3, .seconds = 1e9});
+  EXPECT_TRUE(hasty.more(2));
+  EXPECT_FALSE(hasty.more(3));
+  EXPECT_TRUE(patient.more(39));
+  EXPECT_FALSE(patient.more(40));
+}
+
+TEST(Measure, ARatioSaysHowManyTimesAsLongTheBaselineTakes) {
+  EXPECT_DOUBLE_EQ(*ratio_to(seconds(6, 18), seconds(1, 2), Subject::flow), 8);
+  EXPECT_FALSE(ratio_to(std::nullopt, seconds(1, 2), Subject::flow));
+}
+
+// 6 ms on one thread, 4 ms on two, 1.2 ms on eight: 1.5 and 5 times as fast.
+TEST(Measure, SpeedUpsAreAgainstTheSameCaseOnOneThread) {
+  std::vector<Case> cases;
+  const auto add = [&](const char* workload, const char* implementation, Subject subject, int threads,
+                       double seconds) {
+    Case& one = cases.emplace_back();
+    one.workload = workload;
+    one.implementation = implementation;
+    one.subject = subject;
+    one.threads = threads;
+    one.seconds = seconds;
   };
-  const Result result =
-      measure(workload, {{&run::implementations().all().front(), 1}}, {3, 0}, false, rates_now);
-  const std::vector<Round>& rounds = result.timings.at(0).rounds;
-  ASSERT_EQ(rounds.size(), 3U);
-  for (std::size_t i = 0; i < rounds.size(); ++i) {
-    EXPECT_EQ(rounds[i].rates.multiply, 100 - (2.0 * static_cast<double>(i) + 1)) << "before";
-    EXPECT_EQ(rounds[i].rates.add, 2.0 * static_cast<double>(i) + 2) << "after";
-    EXPECT_GT(rounds[i].flow, 0);
+  add("dense:128", "avx2", Subject::flow, 1, 6e-3);
+  add("dense:128", "avx2", Subject::flow, 2, 4e-3);
+  add("dense:128", "avx2", Subject::flow, 8, 1.2e-3);
+  add("dense:128", "avx2", Subject::heat, 1, 1e-3);
+  add("dense:128", "sse4.2", Subject::flow, 1, 9e-3);
+  add("dense:256", "avx2", Subject::flow, 1, 50e-3);
+  add("scene:cello", "avx2", Subject::flow, 1, 1e-3);
+  add("scene:cello", "avx2", Subject::flow, 2, 1e-3);
+  const std::vector<Scaling> scaling = scaling_of(cases);
+  ASSERT_EQ(scaling.size(), 2U);
+  EXPECT_EQ(scaling[0].threads, 2);
+  EXPECT_DOUBLE_EQ(scaling[0].speedup, 1.5);
+  EXPECT_DOUBLE_EQ(scaling[0].efficiency(), 0.75);
+  EXPECT_EQ(scaling[1].threads, 8);
+  EXPECT_DOUBLE_EQ(scaling[1].speedup, 5);
+  EXPECT_DOUBLE_EQ(scaling[1].efficiency(), 0.625);
+}
+
+TEST(Measure, ARunTimesEachOfItsSteps) {
+  const Workload workload = dense_viscous(8, false);
+  const Steps steps =
+      timed_run(workload, {&run::implementations().all().front(), 1}, expected_digest(workload));
+  ASSERT_EQ(steps.size(), 4U);
+  for (const Seconds& step : steps) {
+    EXPECT_GT(step.flow(), 0);
+    EXPECT_LT(step.flow(), 1) << "an 8-cubed volume";
   }
 }
 
-TEST(Measure, MediansAndDigits) {
-  EXPECT_DOUBLE_EQ(median({3, 1, 2}), 2);
-  EXPECT_DOUBLE_EQ(median({4, 1, 2, 3}), 2.5);
+TEST(Measure, ThreeDigits) {
   EXPECT_EQ(three_digits(0.01234), "0.012");
   EXPECT_EQ(three_digits(1.234), "1.23");
   EXPECT_EQ(three_digits(99.99), "100");
+  EXPECT_EQ(or_dash(std::nullopt), "–");
+}
+
+// The page shows the widest instruction set on all threads: of these four cases the last.
+TEST(Measure, ThePageShowsTheWidestSetOnAllThreads) {
+  Findings findings;
+  double seconds = 0.008;
+  for (const char* implementation : {"sse4.2", "avx2"})
+    for (const int threads : {1, 2}) {
+      Case& one = findings.cases.emplace_back();
+      one.workload = "scene:cello/step:1050";
+      one.implementation = implementation;
+      one.threads = threads;
+      one.cells = 1'500'000;
+      one.active = 30'000;
+      one.seconds = seconds /= 2;  // the last: 0.5 ms
+      one.ratio_to_baseline = 12;
+    }
+  const std::string text = short_tables(findings);
+  EXPECT_NE(text.find("Instruction set avx2, 2 threads."), std::string::npos) << text;
+  EXPECT_NE(text.find("| `cello/step:1050` | 1.50 | 2.0 % | 0.500 | 12.0 | – | – |"), std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("1.00 |"), std::string::npos) << "another set or fewer threads\n" << text;
 }
 
 TEST(Machine, MoreThreadsAreNeverAWorseBound) {
