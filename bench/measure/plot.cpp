@@ -1,5 +1,6 @@
-// The roofline plot, written as SVG by hand. A case stands at the operations per byte that the definition
-// needs and at the operations per second that were done; colours tell instruction sets, numbers cases.
+// The roofline plot, written as SVG by hand: the widest instruction set on one thread. A case stands at the
+// operations per byte that the definition needs and at the operations per second that were done. Its number
+// leads to its name, its colour tells a scene from a dense volume.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,11 +27,29 @@ struct Scale {
   }
 };
 
-std::string_view colour(std::string_view implementation) {
-  if (implementation == "sse4.2") return "#b5651d";
-  if (implementation == "avx2") return "#2a7f62";
-  if (implementation == "avx512") return "#2b5fa8";
+constexpr struct {
+  std::string_view prefix, what, colour;  // of the workloads' names
+} kKinds[] = {{"scene:", "scenes: active cells only", "#b5651d"}, {"dense:", "dense volumes", "#2b5fa8"}};
+
+std::string_view colour(const Case& one) {
+  for (const auto& kind : kKinds)
+    if (one.workload.starts_with(kind.prefix)) return kind.colour;
   return "#666666";
+}
+
+// The widest instruction set: the last one of the run for which the machine's rates are known.
+std::string widest(const Findings& findings) {
+  std::string result;
+  for (const Case& one : findings.cases)
+    if (one.roof) result = one.implementation;
+  return result;
+}
+
+LaneRates rates_of(const Findings& findings, const std::string& implementation) {
+  for (const auto& [key, found] : findings.machine.rates())
+    for (const auto& [set, name] : cpu::kInstructionSets)
+      if (key.second == 1 && set == key.first && name == implementation) return found;
+  return {};
 }
 
 std::string text(double x, double y, std::string_view anchor, int size, std::string_view fill,
@@ -70,7 +89,8 @@ std::string axes(const Scale& scale) {
 
 std::string roofs(const Findings& findings, const Scale& scale) {
   std::string svg;
-  // Slopes: how fast bytes come. The smallest footprint measured on one thread (caches), and the largest.
+  // Slopes: how fast bytes come, in the smallest footprint measured on one thread (caches) and in the
+  // largest.
   const std::pair<std::size_t, int>* ends[2] = {nullptr, nullptr};
   for (const auto& [key, found] : findings.machine.bandwidths()) {
     if (key.second != 1) continue;
@@ -92,28 +112,15 @@ std::string roofs(const Findings& findings, const Scale& scale) {
                          scale.y(at * rate), slope * 180 / std::acos(-1.0)) +
                  std::string(kHalo));
   }
-  // Level lines: how fast operations are done. Their labels stand at the right, from the top down.
-  struct Level {
-    double rate;
-    std::string_view set, what;
+  // Level lines: how fast operations are done.
+  const auto level = [&](double rate, const std::string& what, std::string_view dashes) {
+    if (rate <= 0) return;
+    svg += line(kLeft, scale.y(rate), kRight, scale.y(rate), "#333", 1.5, dashes);
+    svg += text(kRight + 8, scale.y(rate) + 4, "start", 11, "#333", what);
   };
-  std::vector<Level> levels;
-  for (const auto& [key, found] : findings.machine.rates())
-    for (const auto& [set, name] : cpu::kInstructionSets)
-      if (key.second == 1 && set == key.first) {
-        levels.push_back({found.add, name, "adds"});
-        levels.push_back({found.multiply, name, "multiplies"});
-      }
-  std::sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.rate > b.rate; });
-  double free = 0;
-  for (const Level& level : levels) {
-    const double y = scale.y(level.rate);
-    free = std::max(free, y + 4);
-    svg += line(kLeft, y, kRight, y, colour(level.set), 1.5, level.what == "adds" ? "" : "5 4");
-    svg +=
-        text(kRight + 8, free, "start", 11, colour(level.set), fmt::format("{} {}", level.set, level.what));
-    free += 13;
-  }
+  const std::string set = widest(findings);
+  level(rates_of(findings, set).add, set + " additions", "");
+  level(rates_of(findings, set).multiply, set + " multiplications", "5 4");
   return svg;
 }
 
@@ -124,31 +131,25 @@ struct Mark {
 }  // namespace
 
 std::string roofline_svg(const Findings& findings) {
+  const std::string set = widest(findings);
   std::vector<const Case*> shown;
   for (const Case& one : findings.cases)
-    if (one.threads == 1 && one.roof) shown.push_back(&one);
+    if (one.threads == 1 && one.roof && one.implementation == set) shown.push_back(&one);
   const auto rate = [](const Case& one) { return one.active_per_second() * one.work.operations(); };
 
-  double low = 1e12, high = 1e9;
+  double low = 1e12, high = std::max(1e9, rates_of(findings, set).add);
   for (const Case* one : shown) low = std::min(low, rate(*one)), high = std::max(high, rate(*one));
-  for (const auto& [key, found] : findings.machine.rates())
-    if (key.second == 1) high = std::max({high, found.add, found.multiply});
   low = std::pow(10, std::floor(std::log10(low * 0.9)));
   const Scale scale{low, high * 1.5};
 
   std::string key_text, leaders, marks;
   std::vector<Mark> placed;
-  std::vector<std::string> numbers;  // of (subject, workload)
   double key_y = kTop + 14;
-  for (const Case* one : shown) {
-    const std::string what = fmt::format("{} {}", name_of(one->subject), one->workload);
-    auto number = std::find(numbers.begin(), numbers.end(), what);
-    if (number == numbers.end()) {
-      numbers.push_back(what);
-      number = numbers.end() - 1;
-      key_text += text(kKey, key_y, "start", 12, "#222", fmt::format("{}  {}", numbers.size(), what));
-      key_y += 17;
-    }
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const Case* one = shown[i];
+    key_text += text(kKey, key_y, "start", 12, "#222",
+                     fmt::format("{}  {} {}", i + 1, name_of(one->subject), one->workload));
+    key_y += 17;
     // Beside marks that are there already, as near to its own place as can be.
     const double x = scale.x(std::clamp(one->work.operations() / one->work.bytes, kFewestOps, kMostOps));
     const double y = scale.y(rate(*one));
@@ -165,9 +166,8 @@ std::string roofline_svg(const Findings& findings) {
         "<g><title>{}: {:.0f} Mcells/s, {:.0f} % of its roof</title><circle cx=\"{:.1f}\" cy=\"{:.1f}\" "
         "r=\"{}\" "
         "fill=\"{}\"/>{}</g>\n",
-        one->name, one->active_per_second() / 1e6, *one->percent_of_roof(), best, y, kRadius,
-        colour(one->implementation),
-        text(best, y + 4, "middle", 11, "#fff", std::to_string(number - numbers.begin() + 1)));
+        one->name, one->active_per_second() / 1e6, *one->percent_of_roof(), best, y, kRadius, colour(*one),
+        text(best, y + 4, "middle", 11, "#fff", std::to_string(i + 1)));
   }
 
   const double height = std::max(kBottom + 60, key_y + 90);
@@ -179,17 +179,15 @@ std::string roofline_svg(const Findings& findings) {
       kWidth, height);
   svg += text(kLeft, 30, "start", 18, "#111", "How near to this machine's limits");
   svg += text(kLeft, 52, "start", 12, "#555",
-              findings.machine_text.processor +
-                  ". No point can stand above its own set's solid line. Scenes: active cells only.");
+              findings.machine_text.processor + ", one thread. No point can stand above the solid line.");
   svg += axes(scale) + roofs(findings, scale) + leaders + marks + key_text;
   key_y += 12;
-  for (const auto& [set, name] : cpu::kInstructionSets)
-    if (cpu::supported(set)) {
-      svg += fmt::format("<circle cx=\"{}\" cy=\"{:.1f}\" r=\"6\" fill=\"{}\"/>\n", kKey + 6, key_y - 4,
-                         colour(name));
-      svg += text(kKey + 20, key_y, "start", 12, "#222", std::string(name));
-      key_y += 18;
-    }
+  for (const auto& kind : kKinds) {
+    svg += fmt::format("<circle cx=\"{}\" cy=\"{:.1f}\" r=\"6\" fill=\"{}\"/>\n", kKey + 6, key_y - 4,
+                       kind.colour);
+    svg += text(kKey + 20, key_y, "start", 12, "#222", std::string(kind.what));
+    key_y += 18;
+  }
   return svg + "</svg>\n";
 }
 
