@@ -79,7 +79,7 @@ std::string bench_json(const Findings& findings, const std::string& version) {
   for (const Case& one : findings.cases) cases.push_back(case_json(one));
   for (const TableRow& row : findings.table_1)
     table_1.push_back({{"scene", row.scene},
-                       {"who", row.who},
+                       {"program", row.program},
                        {"grid", grid_json(row.grid)},
                        {"gravity_ms", row.gravity},
                        {"spreading_ms", row.spreading},

@@ -19,7 +19,7 @@
 namespace voxmelt::measure {
 namespace {
 
-constexpr int kTrials = 5;
+constexpr double kTrialSeconds = 0.001;  // shorter than a turn of the scheduler
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
@@ -28,9 +28,10 @@ double seconds_since(Clock::time_point start) {
 
 // All threads start together; the work of all is over when the last one is done. Returns the best rate.
 // `piece(thread)` does one piece of work and says how much that was.
-double best_rate(int threads, double trial_seconds, const std::function<double(int)>& piece) {
+double best_rate(int threads, const Rounds& trials, const std::function<double(int)>& piece) {
   double best = 0;
-  for (int trial = 0; trial < kTrials; ++trial) {
+  const RoundClock clock(trials);
+  for (int trial = 0; clock.more(trial); ++trial) {
     std::barrier ready(threads);
     std::vector<double> rates(static_cast<std::size_t>(threads));
     const auto work = [&](int thread) {
@@ -38,7 +39,7 @@ double best_rate(int threads, double trial_seconds, const std::function<double(i
       ready.arrive_and_wait();
       const Clock::time_point start = Clock::now();
       double done = 0, seconds = 0;
-      while (seconds < trial_seconds) {
+      while (seconds < kTrialSeconds) {
         done += piece(thread);
         seconds = seconds_since(start);
       }
@@ -126,12 +127,12 @@ Bandwidth Machine::measure(std::size_t footprint, int threads) const {
   const LaneLoops widest = widest_loops();
 
   Bandwidth result;
-  result.copy = best_rate(threads, trial_seconds_, [&](int thread) {
+  result.copy = best_rate(threads, trials_, [&](int thread) {
     std::memcpy(own(thread), own(thread) + part / 2, part / 2 * sizeof(Line));
     asm volatile("" : : "r"(own(thread)) : "memory");
     return bytes;  // half of them read, half of them written
   });
-  result.update = best_rate(threads, trial_seconds_, [&](int thread) {
+  result.update = best_rate(threads, trials_, [&](int thread) {
     widest.update(own(thread)->lanes, part * 32);
     return 2 * bytes;
   });
@@ -142,7 +143,7 @@ LaneRates Machine::measure(cpu::InstructionSet set, int threads) const {
   const LaneLoops loop = loops(set);
   constexpr std::uint64_t kRounds = 20000;
   const auto rate = [&](std::uint64_t (*run)(std::uint64_t, std::uint16_t*)) {
-    return best_rate(threads, trial_seconds_, [run](int) {
+    return best_rate(threads, trials_, [run](int) {
       alignas(64) std::uint16_t sink[32];
       return static_cast<double>(run(kRounds, sink));
     });

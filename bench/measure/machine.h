@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "bench/measure/rounds.h"
 #include "kernel/engine/cpu/instruction_set.h"
 
 namespace voxmelt::measure {
@@ -35,8 +36,8 @@ struct LaneRates {
 
 class Machine {
  public:
-  // `trial_seconds`: how long one trial takes.
-  explicit Machine(double trial_seconds = 0.02) : trial_seconds_(trial_seconds) {}
+  // `trials`: of each rate, a millisecond each.
+  explicit Machine(const Rounds& trials = {.fewest = 5, .seconds = 0.2}) : trials_(trials) {}
 
   // `threads` threads share `footprint` bytes, rounded to a power of two from 256 KiB to 512 MiB.
   Bandwidth bandwidth(std::size_t footprint, int threads);
@@ -56,7 +57,7 @@ class Machine {
   Bandwidth measure(std::size_t footprint, int threads) const;
   LaneRates measure(cpu::InstructionSet set, int threads) const;
 
-  double trial_seconds_;
+  Rounds trials_;
   std::map<std::pair<std::size_t, int>, Bandwidth> bandwidths_;
   std::map<std::pair<cpu::InstructionSet, int>, LaneRates> rates_;
 };

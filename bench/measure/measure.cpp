@@ -78,11 +78,6 @@ Steps timed_run(const Workload& workload, const Candidate& candidate, std::uint6
   return steps;
 }
 
-bool RoundClock::more(int done) const {
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
-  return done < rounds_.fewest || (done < kMostRounds && spent.count() < rounds_.seconds);
-}
-
 Result measure(const Workload& workload, const std::vector<Candidate>& candidates, const Rounds& rounds,
                bool baseline) {
   const std::uint64_t expected = expected_digest(workload);

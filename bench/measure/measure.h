@@ -6,12 +6,12 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "bench/measure/rounds.h"
 #include "bench/measure/workloads.h"
 #include "kernel/automaton/step/stepper.h"
 
@@ -68,23 +68,6 @@ struct Result {
   std::vector<Timing> timings;
   // The paper's program, plainly written and compiled for this processor; empty where it cannot run.
   std::optional<Seconds> plain, native;
-};
-
-// At least `fewest` rounds, and more, up to kMostRounds, while `seconds` are not over.
-struct Rounds {
-  int fewest = 5;
-  double seconds = 15;
-};
-inline constexpr int kMostRounds = 40;
-
-class RoundClock {  // starts when it is made
- public:
-  explicit RoundClock(const Rounds& rounds) : rounds_(rounds) {}
-  bool more(int done) const;
-
- private:
-  Rounds rounds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 // A round is: plain baseline, native baseline, each candidate.

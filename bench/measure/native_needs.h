@@ -1,4 +1,4 @@
-// What a processor must have to run the baseline that was compiled for the processor of the build.
+// The instruction set that the native baseline needs: it is compiled for the processor of the build.
 #pragma once
 
 namespace voxmelt::measure {

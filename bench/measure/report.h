@@ -1,4 +1,4 @@
-// What was found, for programs and for people.
+// The findings as text: JSON for programs, tables and a plot for people.
 #pragma once
 
 #include <cstddef>

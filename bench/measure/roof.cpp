@@ -106,7 +106,8 @@ Work viscous_spread_work(const rule::Parameters& p) {
   c.add("settle: M + A, M > n ONE, clamp(M - k ONE, 0, ONE)", 0, 2 * kWideAdd + 3);
   if (p.heat.enabled)
     c.add("settle: sum of products amount x heat; every cell its run's heat", 1, kWideAdd + 1);
-  c.add("spread: drop = head_i - head_j; who gives; its mobility, amount, dead", 0, pairs * (kWideAdd + 4));
+  c.add("spread: drop = head_i - head_j; which cell gives; its mobility, amount, dead", 0,
+        pairs * (kWideAdd + 4));
   c.add("spread: drop > z, min(drop, 256)", 0, pairs * 2);
   c.add("spread: c = min(65535, ((g + mobility_j) A_i) >> 12): both halves of the product", pairs * 2,
         pairs * 5);

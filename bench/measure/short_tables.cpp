@@ -79,7 +79,7 @@ std::string picture_table(const Findings& findings) {
       "|---|---|--:|--:|--:|--:|\n";
   for (const TableRow& row : findings.table_1)
     text += fmt::format("| {}, {} x {} x {} | {} | {} | {} | {} | {} |\n", row.scene, row.grid.x, row.grid.y,
-                        row.grid.z, row.who, three_digits(row.gravity), three_digits(row.spreading),
+                        row.grid.z, row.program, three_digits(row.gravity), three_digits(row.spreading),
                         three_digits(row.update), three_digits(row.frames_per_second));
   return text + "\n";
 }

@@ -33,16 +33,11 @@ std::size_t footprint(const Workload& workload, std::int64_t active) {
 }
 
 // The paper counts excess as spreading.
-TableRow table_row(std::string scene, std::string who, const state::Grid& grid, const Seconds& step,
+TableRow table_row(std::string scene, std::string program, const state::Grid& grid, const Seconds& step,
                    double update) {
   const double gravity = step.phase[static_cast<std::size_t>(step::Phase::gravity)];
-  return {std::move(scene),
-          std::move(who),
-          grid,
-          gravity * 1e3,
-          (step.flow() - gravity) * 1e3,
-          update * 1e3,
-          1 / (step.total() + update)};
+  return {std::move(scene), std::move(program),         grid, gravity * 1e3, (step.flow() - gravity) * 1e3,
+          update * 1e3,     1 / (step.total() + update)};
 }
 
 }  // namespace
@@ -70,7 +65,7 @@ std::vector<Scaling> scaling_of(const std::vector<Case>& cases) {
 Suite::Suite(Plan plan, Tell tell) : plan_(std::move(plan)), tell_(std::move(tell)) {
   findings_.machine_text = describe_machine();
   findings_.load_before = load_average();
-  findings_.machine = Machine(plan_.quick ? 0.004 : 0.02);
+  findings_.machine = Machine({.fewest = 5, .seconds = plan_.quick ? 0.04 : 0.2});
   for (const int threads : plan_.threads) {
     for (const auto& [set, name] : cpu::kInstructionSets)
       if (cpu::supported(set)) findings_.machine.lane_rates(set, threads);

@@ -40,7 +40,7 @@ struct Case {
 
 // A row of the paper's Table 1 beside ours, milliseconds.
 struct TableRow {
-  std::string scene, who;
+  std::string scene, program;
   state::Grid grid;
   double gravity = 0, spreading = 0, update = 0;
   double frames_per_second = 0;  // of a step with all its phases, and the update

@@ -24,7 +24,7 @@ void for_each_cell(state::Volume& volume, const Fill& fill) {
       for (int x = 0; x < g.x; ++x) fill(x, y, z, volume.at(x, y, z), g.index(x, y, z));
 }
 
-// What the showcase scenes use, less what would let cells rest.
+// The parameters of the showcase scenes, less those that would let cells rest.
 rule::Parameters showcase(rule::Law law, bool heat) {
   rule::Parameters p;
   p.flow.law = law;
@@ -72,7 +72,7 @@ rule::Parameters later(rule::Parameters parameters, std::uint32_t steps) {
   for (rule::Vent& vent : parameters.vents) shift(vent.from), shift(vent.until);
   for (rule::Drain& drain : parameters.drains) shift(drain.from), shift(drain.until);
   for (rule::PointSource& source : parameters.heat.sources) {
-    // Of the keys that have passed the last one stays, at step 0: a source on its way sets out anew.
+    // The last key that has passed stays, at step 0: a source on its way sets out anew.
     while (source.keys.size() > 1 && source.keys[1].step <= steps) source.keys.erase(source.keys.begin());
     for (rule::SourceKey& key : source.keys) shift(key.step);
   }

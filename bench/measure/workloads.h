@@ -20,7 +20,7 @@ struct Workload {
   // Steps before the timed ones: a fresh stepper does not know yet what sleeps.
   int lead_steps = 2;
   int steps = 8;  // timed
-  // Whose digest the results must have.
+  // The implementation whose digest the results must have.
   std::string judge = "reference";
 };
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
+#include "bench/measure/baseline_run.h"
 #include "bench/measure/machine.h"
 #include "bench/measure/report.h"
 #include "bench/measure/roof.h"
@@ -189,14 +192,32 @@ TEST(Measure, SpeedUpsAreAgainstTheSameCaseOnOneThread) {
 }
 
 TEST(Measure, ARunTimesEachOfItsSteps) {
-  const Workload workload = dense_viscous(8, false);
-  const Steps steps =
-      timed_run(workload, {&run::implementations().all().front(), 1}, expected_digest(workload));
+  const Workload workload = dense_viscous(24, false);
+  const std::uint64_t expected = expected_digest(workload);
+  const auto start = std::chrono::steady_clock::now();
+  const Steps steps = timed_run(workload, {&run::implementations().all().front(), 1}, expected);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   ASSERT_EQ(steps.size(), 4U);
+  double sum = 0;
   for (const Seconds& step : steps) {
     EXPECT_GT(step.flow(), 0);
-    EXPECT_LT(step.flow(), 1) << "an 8-cubed volume";
+    sum += step.total();
   }
+  EXPECT_LE(sum, wall.count()) << "steps hold the time of those before them";
+}
+
+TEST(Measure, TheBaselineTimesTheSameSteps) {
+  const Workload workload = dense_heat(8, 6);
+  const Steps steps = BaselineRuns::of(workload)->plain();
+  ASSERT_EQ(steps.size(), 4U);
+  for (const Seconds& step : steps) {
+    EXPECT_GT(step.heat(), 0);
+    EXPECT_GT(step.flow(), 0);
+  }
+  const Result result = measure(workload, {{&run::implementations().all().front(), 1}}, {2, 0}, true);
+  EXPECT_EQ(result.rounds, 2);
+  ASSERT_TRUE(result.plain);
+  EXPECT_GT(result.plain->heat(), 0);
 }
 
 TEST(Measure, ThreeDigits) {
@@ -229,7 +250,7 @@ TEST(Measure, ThePageShowsTheWidestSetOnAllThreads) {
 }
 
 TEST(Machine, MoreThreadsAreNeverAWorseBound) {
-  Machine machine(0.001);
+  Machine machine({.fewest = 2, .seconds = 0});
   const Bandwidth one = machine.bandwidth(1 << 20, 1), two = machine.bandwidth(1 << 20, 2);
   EXPECT_GT(one.copy, 1e8);
   EXPECT_GE(two.copy, one.copy);

@@ -1,0 +1,29 @@
+// How long a measurement is repeated: long enough for one round that nothing else disturbed.
+#pragma once
+
+#include <chrono>
+
+namespace voxmelt::measure {
+
+// At least `fewest` rounds, and more, up to kMostRounds, while `seconds` are not over.
+struct Rounds {
+  int fewest = 5;
+  double seconds = 15;
+};
+inline constexpr int kMostRounds = 40;
+
+class RoundClock {  // starts when it is made
+ public:
+  explicit RoundClock(const Rounds& rounds) : rounds_(rounds) {}
+
+  bool more(int done) const {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+    return done < rounds_.fewest || (done < kMostRounds && spent.count() < rounds_.seconds);
+  }
+
+ private:
+  Rounds rounds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace voxmelt::measure
