@@ -3,8 +3,10 @@
 
   bench/feature_cost.py [--build FOLDER] [--out FILE] [--jobs N] [FEATURE ...]
 
-Builds the program whole, then once per feature with AVX2 kernels that lack it (CMake option VOXMELT_WITHOUT), runs
-scenes that do not use it under callgrind, and writes a table. Only what Simulation::step() executes counts; one thread. The digests of the two programs must agree. Exit code 1: a feature costs a scene more than LIMIT.
+Builds the program whole, then once per feature with AVX2 kernels that lack it (CMake option
+VOXMELT_WITHOUT). Runs scenes that do not use it under callgrind, and writes a table. Only what
+Simulation::step() executes on one thread counts. The digests of the two programs must agree.
+Exit code 1: a feature costs a scene more than LIMIT.
 """
 import argparse
 import re
@@ -95,8 +97,8 @@ def main():
             lines.append(f"| {what} | `{scene}` | {whole[scene][1] / STEPS[scene]:,.0f} | {count / STEPS[scene]:,.0f} | "
                          f"{cost:+.3%} |")
             print(lines[-1], flush=True)
-    lines += ["", "Instructions executed in `Simulation::step()`, counted by callgrind (AVX2, one thread); the digests of "
-              "both programs agree. One command: `bench/feature_cost.py`."]
+    lines += ["", "The figures are instructions executed in `Simulation::step()`, counted by callgrind with AVX2 on",
+              "one thread. The digests of both programs agree. `bench/feature_cost.py` writes this table."]
     if dear:
         lines += ["", f"Above {LIMIT:.0%}: " + "; ".join(dear) + "."]
     if options.features == list(FEATURES):

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """`voxmelt bench`: the quick run works, what it writes can be read, bad use ends in one line."""
 import json
+import os
 import re
+import subprocess
 import tempfile
 import unittest
 import xml.etree.ElementTree as xml
@@ -9,6 +11,7 @@ from pathlib import Path
 
 from program import SMALL, voxmelt, write
 
+ROOT = Path(__file__).resolve().parents[2]
 CASE = re.compile(r"^(flow|heat)/[\w.]+/[\w:/.]+/threads:\d+$")
 
 
@@ -70,6 +73,29 @@ class Bench(unittest.TestCase):
             self.assertEqual(len({row.count("|") for row in block.splitlines()}), 1, block)
         svg = xml.parse(self.folder / "out/roofline.svg").getroot()
         self.assertTrue(svg.tag.endswith("svg"))
+
+        self.pages(self.folder / "out")
+
+    def pages(self, out):
+        """The pages of docs come from these files, and the one that people read stays short."""
+        stub = self.folder / "voxmelt"  # bench --out FOLDER
+        stub.write_text(f'#!/bin/sh\ncp -r "{out}" "$3"\n')
+        stub.chmod(0o755)
+        docs = self.folder / "docs"
+        result = subprocess.run([ROOT / "bench/write_performance.sh", stub], capture_output=True, text=True,
+                                env={**os.environ, "WRITE_TO": str(docs)})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        short = (docs / "performance.md").read_text()
+        full = (docs / "performance_tables.md").read_text()
+        for page, heading in ((short, "| scene | million cells |"), (short, "| subject | volume |"),
+                              (short, "| scene | program |"), (full, "| footprint | threads |"),
+                              (full, "| Feature | A scene without it |"), (full, "| **in all** |")):
+            self.assertIn(heading, page)
+        for page in (short, full):
+            self.assertTrue(page.startswith("<!-- Generated"))
+            self.assertNotIn("{{", page)
+        self.assertLessEqual(len(short.splitlines()), 120)
+        self.assertTrue((docs / "gallery/roofline.svg").exists())
 
     def test_a_scene_of_ones_own(self):
         write(self.folder, SMALL)
