@@ -139,12 +139,12 @@ std::string roof_table(const Findings& findings, Subject subject, rule::Law law)
     }
     text += '\n';
   }
-  text += fmt::format("| **in all** |{}\n| bytes |{}\n\nBytes:", sums, bytes);
+  text += fmt::format("| **in all** |{}\n| bytes |{}\n\n| bytes | what they are |\n|--:|---|\n", sums, bytes);
   for (const Kind& kind : columns) {
-    const std::string one = fmt::format(" {}: {}.", kind.work->bytes, kind.work->bytes_text);
+    const std::string one = fmt::format("| {} | {} |\n", kind.work->bytes, kind.work->bytes_text);
     if (text.find(one) == std::string::npos) text += one;
   }
-  return text + "\n\n";
+  return text + "\n";
 }
 
 std::string roof_tables(const Findings& findings) {

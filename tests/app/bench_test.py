@@ -92,7 +92,7 @@ class Bench(unittest.TestCase):
                               (full, "| Feature | A scene without it |"), (full, "| **in all** |")):
             self.assertIn(heading, page)
         for page in (short, full):
-            self.assertTrue(page.startswith("<!-- Generated"))
+            self.assertTrue(page.startswith("<!-- Written by"))
             self.assertNotIn("{{", page)
         self.assertLessEqual(len(short.splitlines()), 120)
         self.assertTrue((docs / "gallery/roofline.svg").exists())
