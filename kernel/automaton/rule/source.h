@@ -27,11 +27,14 @@ VOXMELT_RULE std::int32_t vented_energy(std::int32_t added, std::int32_t energy)
   return (added * energy) >> 12;
 }
 
-// a + (b - a) i / n, rounded towards minus infinity.
+// a + floor((b - a) i / n), where 0 <= i < n < 2^32. The difference is parted into a multiple of n and a rest
+// below n: then no product exceeds 64 bits, whatever a and b are.
 VOXMELT_RULE std::int64_t between(std::int64_t a, std::int64_t b, std::int64_t i, std::int64_t n) {
-  const std::int64_t product = (b - a) * i;
-  const std::int64_t quotient = product / n;
-  return a + quotient - (product % n < 0 ? 1 : 0);
+  const std::int64_t difference = b - a;
+  const std::int64_t whole = difference / n - (difference % n < 0 ? 1 : 0);
+  const auto rest = static_cast<std::uint64_t>(difference - whole * n);
+  return a + whole * i +
+         static_cast<std::int64_t>(rest * static_cast<std::uint64_t>(i) / static_cast<std::uint64_t>(n));
 }
 
 // Position and power of a source at a step.

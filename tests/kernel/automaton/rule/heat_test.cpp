@@ -5,8 +5,6 @@
 
 #include <random>
 
-#include "kernel/automaton/rule/source.h"
-
 namespace voxmelt::rule {
 namespace {
 
@@ -187,14 +185,6 @@ TEST(Mixing, IsAMean) {
                 static_cast<std::int64_t>(amount));  // `rounded` is less than one unit of heat per mixing
     }
   }
-}
-
-TEST(Between, FloorsBothSlopes) {
-  EXPECT_EQ(between(0, 10, 1, 3), 3);
-  EXPECT_EQ(between(10, 0, 1, 3), 6);  // 10 + floor(-10 / 3)
-  EXPECT_EQ(between(-7, -8, 1, 2), -8);
-  EXPECT_EQ(between(5, -5, 2, 4), 0);
-  EXPECT_EQ(between(0, -1, 1, 1000), -1);
 }
 
 }  // namespace

@@ -165,6 +165,17 @@ TEST(Irradiance, AMovingSourceIsWhereItsStepSays) {
               irradiance(v, lit_by({{std::min(9 * std::int64_t{step}, std::int64_t{144}), 24, 24}}, kPower)));
 }
 
+// Half-way and one step to power (2^22 - 1) 2^28, 2^17 sixteenths above: the cell gets
+// (2^22 - 1) 2^14 x 8193 / 2^34 = 4 x 8193 - 8193 / 2^20.
+TEST(Irradiance, OfASourceThatGrowsToTheMostPower) {
+  Volume v(Grid{3, 3, 3});
+  put_solid(v, 1, 1, 1);
+  const Position far{24, 24 + (1 << 17), 24};
+  rule::Heat growing = lit_by({far}, 0);
+  growing.sources[0].keys.push_back({16384, far, std::uint64_t{4194303} << 28});
+  EXPECT_EQ(irradiance(v, growing, 8193)[v.at(1, 1, 1)], 32771);
+}
+
 // Between refreshes: a cell exposed by melting has no irradiance yet, and the melted one takes no more.
 TEST(Refresh, ExposedCellsWaitAndMeltedCellsStop) {
   Parameters p = viscous(0.02);

@@ -1,0 +1,33 @@
+#!/usr/bin/env python3
+"""The program and the oracle agree on sources with keys far apart, strong and late: on both sides of the steps
+from which (b - a)(s - a.step) exceeds 64 bits.
+
+  far_keys_test.py VOXMELT ORACLE SCENE
+"""
+import subprocess
+import sys
+import tempfile
+
+
+def output(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+
+
+def main():
+    voxmelt, oracle, scene = sys.argv[1:]
+    found = set()
+    with tempfile.TemporaryDirectory() as folder:
+        start = f"{folder}/start"
+        output(voxmelt, "export", scene, "--steps", "0", "--out", start, "--quiet")
+        for steps in ("8192", "8200", "11999", "12001", "20192", "20200"):
+            mine = output(voxmelt, "digest", scene, "--steps", steps, "--quiet")
+            judge = output(oracle, start, "--steps", steps)
+            if mine != judge:
+                sys.exit(f"{steps} steps:\n  voxmelt {mine}\n  oracle  {judge}")
+            found.add(mine.split()[3])
+    if len(found) < 4:
+        sys.exit("the source does not show in the state: nothing was compared")
+    print(f"{len(found)} different states agree")
+
+
+main()
