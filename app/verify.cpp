@@ -102,12 +102,11 @@ void check_replay_place(const VerifyCommand& command, const scene::Scene& scene)
 // The software runs alone to the step from which to verify; with radiation to the last step of visibility
 // before.
 run::Simulation run_ahead(scene::Scene& scene, const VerifyCommand& command) {
-  const rule::Heat& heat = scene.parameters.heat;
   const std::uint64_t asked = std::uint64_t{scene.first_step} + command.from;
   if (asked + command.steps > 0xFFFFFFFFu)
     throw UsageError(fmt::format("error: --from {}: step numbers end at {}", command.from, 0xFFFFFFFFu));
   auto until = static_cast<std::uint32_t>(asked);
-  if (heat.enabled && heat.radiation) until -= until % heat.visibility_every;
+  until -= scene.parameters.heat.visibility_age(until);
   until = std::max(until, scene.first_step);
   if (!command.common.quiet && until != asked)
     fmt::print("verifying from step {}, a step of visibility\n", until);

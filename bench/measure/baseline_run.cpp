@@ -48,7 +48,7 @@ BaselineRuns::BaselineRuns(const Workload& workload, rule::Parameters parameters
       lead_steps_(workload.lead_steps),
       steps_(workload.steps),
       has_heat_(workload.times_heat) {
-  if (!parameters_.heat.radiation || !parameters_.heat.enabled) return;
+  if (!parameters_.heat.radiates()) return;
   state::Field<std::uint16_t> irradiance(start_.grid);
   visibility::VoxelWalkProvider().irradiance(start_, parameters_.heat, 0, irradiance);
   irradiance_ = baseline::irradiance_of<float>(start_.grid, irradiance);

@@ -16,8 +16,7 @@ int steps_of_pass(const Design& design, const Configuration& configuration, std:
                   std::uint32_t left) {
   std::uint32_t steps = std::min(left, static_cast<std::uint32_t>(configuration.cascade));
   const rule::Heat& heat = design.parameters.heat;
-  if (heat.enabled && heat.radiation)
-    steps = std::min(steps, heat.visibility_every - step % heat.visibility_every);
+  if (heat.radiates()) steps = std::min(steps, heat.visibility_every - heat.visibility_age(step));
   return static_cast<int>(steps);
 }
 
@@ -164,9 +163,7 @@ class Run {
 
   // A replay must begin where visibility is computed, or where this run began.
   bool starts_replay(std::uint32_t step) const {
-    const rule::Heat& heat = pipeline_.design().parameters.heat;
-    return step == report_.first_step || !heat.enabled || !heat.radiation ||
-           step % heat.visibility_every == 0;
+    return step == report_.first_step || pipeline_.design().parameters.heat.visibility_age(step) == 0;
   }
 
   // Every cycle of every stage is accounted for exactly once.

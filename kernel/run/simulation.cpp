@@ -49,12 +49,12 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
       provider_(provider != nullptr ? std::move(provider)
                                     : std::make_unique<visibility::VoxelWalkProvider>(tuning.threads)),
       ledger_(state::Ledger::open(volume_)) {
-  if (parameters_.heat.enabled && parameters_.heat.radiation) irradiance_ = step::Irradiance(volume_.grid);
+  if (parameters_.heat.radiates()) irradiance_ = step::Irradiance(volume_.grid);
 }
 
 void Simulation::begin_step() {
   const rule::Heat& heat = parameters_.heat;
-  if (!heat.enabled || !heat.radiation || step_number() % heat.visibility_every != 0) return;
+  if (!heat.is_visibility_step(step_number())) return;
   const Stopwatch watch(seconds_.visibility);
   provider_->irradiance(volume_, heat, step_number(), irradiance_);
 }

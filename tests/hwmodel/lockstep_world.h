@@ -26,8 +26,7 @@ inline Start start_of(const std::string& scene_name, std::uint32_t ahead) {
   scene::Scene scene = scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (scene_name + ".toml"), {});
   run::Simulation simulation(scene.parameters, std::move(scene.initial),
                              *run::implementations().find("auto"));
-  const rule::Heat& heat = scene.parameters.heat;
-  if (heat.enabled && heat.radiation) ahead -= ahead % heat.visibility_every;
+  ahead -= scene.parameters.heat.visibility_age(ahead);
   while (simulation.steps_done() < ahead) simulation.step();
   return {scene_name, scene.parameters, simulation.volume(), simulation.step_number()};
 }

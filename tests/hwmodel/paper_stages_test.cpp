@@ -96,7 +96,7 @@ TEST(PaperStages, WidestSums) {
       rule::PaperLaw& law = design.parameters.flow.paper;
       design.parameters.heat.enabled = true;
       law.neighbours = neighbours;
-      law.share = neighbours == 8 ? 13107 : 16384;
+      law.share = static_cast<std::uint16_t>(rule::largest_share(neighbours));
       law.alpha_floor = 65535;
       law.reading = reading;
       state::Volume volume(grid);

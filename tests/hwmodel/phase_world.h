@@ -14,11 +14,10 @@ void each_phase(const rule::Parameters& parameters, const state::Volume& start, 
   visibility::VoxelWalkProvider provider(1);
   step::Irradiance irradiance(start.grid);
   const rule::Heat& heat = parameters.heat;
-  const bool radiates = heat.enabled && heat.radiation;
+  const bool radiates = heat.radiates();
   for (int step = 0; step < steps; ++step) {
     const std::uint32_t number = simulation.steps_done();
-    if (radiates && number % heat.visibility_every == 0)
-      provider.irradiance(simulation.volume(), heat, number, irradiance);
+    if (heat.is_visibility_step(number)) provider.irradiance(simulation.volume(), heat, number, irradiance);
     simulation.begin_step();
     for (const step::Phase each : step::phase_order(parameters.flow.law)) {
       const state::Volume before = simulation.volume();

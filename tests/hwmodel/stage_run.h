@@ -90,14 +90,14 @@ void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& ma
     const std::unique_ptr<visibility::Provider> provider = std::make_unique<visibility::VoxelWalkProvider>(1);
     step::Irradiance irradiance(grid);
     const rule::Heat& heat = design.parameters.heat;
-    const bool radiates = heat.enabled && heat.radiation;
+    const bool radiates = heat.radiates();
     Stages stages;
     FedStage* fed = nullptr;
     make(design, stages, fed);
     StageRun run{random.any({1, 2, 5}), random.one_in(2) ? 0 : seed + 1, 0};
     for (int step = 0; step < steps; ++step) {
       const auto number = simulation.steps_done();
-      if (radiates && number % heat.visibility_every == 0)
+      if (heat.is_visibility_step(number))
         provider->irradiance(simulation.volume(), heat, number, irradiance);
       simulation.begin_step();
       state::Volume before = simulation.volume(), unmelted = before;

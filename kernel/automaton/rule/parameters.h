@@ -1,5 +1,6 @@
 // Everything that the rules of a scene depend on besides its state: integers only, resolved once from the
-// scene file. `voxmelt export` writes exactly these as parameters.json (docs/automaton.md, "Parameters").
+// scene file, and what follows from them alone. `voxmelt export` writes exactly these as parameters.json
+// (docs/automaton.md, "Parameters").
 #pragma once
 
 #include <array>
@@ -44,6 +45,16 @@ struct Heat {
   bool air = false;                          // exchange with moving air at exposed cells (oven, or cooling)
   std::uint16_t air_exchange = 0;            // 1/65536 per step and unit area, at most 37837
   std::vector<Temperature> air_temperature;  // one per y
+
+  VOXMELT_RULE bool radiates() const { return enabled && radiation; }
+  // How many steps ago the irradiance of this step was computed; 0 where nothing radiates.
+  VOXMELT_RULE std::uint32_t visibility_age(std::uint32_t step) const {
+    return radiates() ? step % visibility_every : 0;
+  }
+  // Is the irradiance computed anew before this step?
+  VOXMELT_RULE bool is_visibility_step(std::uint32_t step) const {
+    return radiates() && visibility_age(step) == 0;
+  }
 };
 
 struct Material {
@@ -76,7 +87,21 @@ struct Fall {
   std::uint32_t wall_factor = 65536;  // extra `adhesion`: a side or diagonal-free neighbour is solid
   Amount minimum = 32;                // dust moves whole
   Amount hang = 0;                    // extra `drip`: an overhanging film below this amount waits; 0 is off
+
+  // Does what a cell gives depend on what stands beside it?
+  VOXMELT_RULE bool sees_sides() const { return hang > 0 || wall_factor != factor; }
+  // Does every cell give all that it holds?
+  VOXMELT_RULE bool is_free() const { return factor == 65536 && !sees_sides(); }
 };
+
+// Bounds of spreading, by the number of neighbours (docs/proofs.md, "Amounts stay in 0..AMAX"). Nothing gives
+// more than it has: with 8 neighbours a cell gives 4 shares and, to its diagonals, 4 quarters of one.
+VOXMELT_RULE std::int32_t most_shares(int neighbours) { return neighbours == 8 ? 5 : 4; }
+VOXMELT_RULE std::int32_t largest_share(int neighbours) { return 65536 / most_shares(neighbours); }
+// Nothing overflows: with 8 neighbours a receiver below 11 takes at most 4 x 1 + 4 x 1/4; with 4 neighbours
+// one below 8 takes at most 4 x 2.
+VOXMELT_RULE std::int32_t flow_cap(int neighbours) { return neighbours == 8 ? kOne : 2 * kOne; }
+VOXMELT_RULE std::int32_t receiver_limit(int neighbours) { return (neighbours == 8 ? 11 : 8) * kOne; }
 
 struct PaperLaw {
   int neighbours = 8;           // 4 or 8 (8 is the extra `diagonal`)

@@ -7,16 +7,10 @@
 
 namespace voxmelt::rule {
 
-// Bounds that make overflow impossible (docs/proofs.md, "Amounts stay in 0..AMAX"): with 8 neighbours a
-// receiver below 11 takes at most 4 x 1 + 4 x 1/4; with 4 neighbours one below 8 takes at most 4 x 2.
-VOXMELT_RULE std::int32_t flow_cap(int neighbours) { return neighbours == 8 ? kOne : 2 * kOne; }
-VOXMELT_RULE std::int32_t receiver_limit(int neighbours) { return (neighbours == 8 ? 11 : 8) * kOne; }
-
 VOXMELT_RULE std::int32_t thermal_share(std::int32_t share, std::int32_t h, const Flow& flow) {
   if (!flow.thermal_viscosity) return share;
-  const std::int32_t limit = flow.paper.neighbours == 8 ? 13107 : 16384;
   return std::min((share * std::int32_t{flow.mobility_table[static_cast<std::size_t>(h >> 11)]}) >> 15,
-                  limit);
+                  largest_share(flow.paper.neighbours));
 }
 
 // factor x A, capped; a diagonal takes a quarter.

@@ -21,9 +21,7 @@ simd::View shape_of(state::Grid grid, int tile_shift) {
 
 // Does falling in this scene see another state of its sides than of all else?
 bool keeps_sides(const rule::Parameters& p) {
-  const rule::Fall& fall = p.flow.fall;
-  return p.flow.law == rule::Law::paper && p.heat.enabled &&
-         (fall.hang > 0 || fall.wall_factor != fall.factor);
+  return p.flow.law == rule::Law::paper && p.heat.enabled && p.flow.fall.sees_sides();
 }
 
 void refresh(const simd::View& view, const Tiles& tiles, Walls& walls) {
@@ -135,9 +133,8 @@ void Stepper::source(const Job& job, simd::Books& books) {
 
 void Stepper::heat(const Job& job, simd::Books& books) {
   if (!heat_) return;
-  const rule::Heat& heat = parameters_.heat;
   changed_.clear();
-  heat_->heat(job, heat.radiation && job.step.number % heat.visibility_every == 0, changed_, books);
+  heat_->heat(job, parameters_.heat.is_visibility_step(job.step.number), changed_, books);
   // The flow of the paper's law asks for heat only where it mixes, unless its shares depend on it.
   if (parameters_.flow.thermal_viscosity) dirty_.add(changed_);
   if (viscous_) viscous_->note(changed_);

@@ -18,8 +18,8 @@ class Pattern {
   using Bytes = typename L::Bytes;
   using Twin = typename L::Twin;
   static constexpr int kDirections = kFeatures.eight ? 8 : 4;
-  static constexpr int kCap = kFeatures.eight ? 4096 : 8192;
-  static constexpr int kLimit = kFeatures.eight ? 11 * 4096 : 8 * 4096;
+  static constexpr int kCap = rule::flow_cap(kDirections);
+  static constexpr int kLimit = rule::receiver_limit(kDirections);
   static constexpr int kBatch = 64;
 
  public:
@@ -284,7 +284,7 @@ class Pattern {
       // The product >> 15 may need 17 bits, which the cut takes.
       const V high = L::high(sh, mobility), low = L::template shift_right<15>(L::low(sh, mobility));
       L::store(shares + i, L::min(L::add_saturated(L::add_saturated(high, high), low),
-                                  L::set(kFeatures.eight ? 13107 : 16384)));
+                                  L::set(rule::largest_share(kDirections))));
     }
     return L::table(shares);
   }

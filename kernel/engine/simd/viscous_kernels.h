@@ -37,8 +37,7 @@ void fall_slice(const View& view, const Step& step, int z, const TileRow* tiles,
 
 template <class Arch>
 void choose_viscous_kernels(const rule::Parameters& parameters, Kernels& kernels) {
-  const rule::Fall& fall = parameters.flow.fall;
-  const bool guided = kBuilt.guided && (fall.factor != 65536 || fall.wall_factor != 65536 || fall.hang > 0);
+  const bool guided = kBuilt.guided && !parameters.flow.fall.is_free();
   const auto choose = [&]<bool kHot>() {
     constexpr ViscousFeatures plain{kHot, false}, all{kHot, true};
     kernels.settle = settle_slice<Arch, plain>;

@@ -56,7 +56,7 @@ inline void hostile_paper_law(Random& random, rule::PaperLaw& law) {
       left -= share = static_cast<std::uint16_t>(random.below(std::min(left, 65535) + 1));
     std::swap(row[0], row[static_cast<std::size_t>(random.below(4))]);
   }
-  const std::int32_t most = law.neighbours == 8 ? 13107 : 16384;
+  const std::int32_t most = rule::largest_share(law.neighbours);
   law.share = static_cast<std::uint16_t>(random.any({0, 8192, most}));
   law.downhill = !random.one_in(3);
   law.margin = static_cast<rule::Amount>(random.any({0, 1, 256, 65535}));
