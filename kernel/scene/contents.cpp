@@ -28,9 +28,8 @@ void read_floor(Reader& reader, Terrain& terrain, state::Grid grid) {
 void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid,
                       std::vector<std::string>& warnings) {
   const std::filesystem::path file = reader.file("file");
-  const double scale = reader.number("vertical_scale", {0, kLargestScale, true, {}});
-  const double base =
-      reader.number("base", {0, static_cast<double>(grid.y), false, "the height of the grid"}, 1.0);
+  const double scale = reader.number("vertical_scale", above(0).at_most(kLargestScale));
+  const double base = reader.number("base", at_most(grid.y).because("the height of the grid"), 1.0);
   const auto passes = static_cast<int>(reader.integer("smooth", 0, 64, 1));
 
   Elevation elevation = read_esri_ascii(file, reader.place("file"));
@@ -54,11 +53,10 @@ void read_mesh_entry(Reader& reader, Entry& entry) {
   entry.mesh_file = file.filename().string();
   const bool by_height = reader.has("height"), by_scale = reader.has("scale");
   if (by_height && by_scale) reader.fail("scale", " and height exclude each other");
-  const Range positive{0, kLargestScale, true, {}};
+  const Range positive = above(0).at_most(kLargestScale);
   const double wanted = reader.number(by_scale ? "scale" : "height", positive);
-  const Point at =
-      to_point(reader.vector<3>("at", {-kLargestCoordinate, kLargestCoordinate, false, {}}, Vec3{}));
-  const Rotation rotation(reader.vector<3>("rotate", {-360, 360, false, {}}, Vec3{}));
+  const Point at = to_point(reader.vector<3>("at", coordinate(), Vec3{}));
+  const Rotation rotation(reader.vector<3>("rotate", within(kFullTurn), Vec3{}));
 
   Mesh mesh = read_mesh(file, reader.place("file"));
   for (Point& vertex : mesh.vertices) vertex = rotation.apply(vertex);
@@ -78,10 +76,10 @@ void read_mesh_entry(Reader& reader, Entry& entry) {
 
 void read_state(Reader& reader, Entry& entry) {
   if (entry.role == Role::inert || entry.cut) return;
-  entry.temperature = reader.number("temperature", {0, 1, false, {}}, 0.0);
+  entry.temperature = reader.number("temperature", fraction(), 0.0);
   if (entry.role != Role::liquid) return;
-  entry.amount = reader.number("amount", {0, kLargestAmount, true, {}}, 1.0);
-  entry.energy = reader.number("energy", {0, entry.amount, false, "the amount"}, entry.amount);
+  entry.amount = reader.number("amount", above(0).at_most(kLargestAmount), 1.0);
+  entry.energy = reader.number("energy", at_most(entry.amount).because("the amount"), entry.amount);
 }
 
 }  // namespace

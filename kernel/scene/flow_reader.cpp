@@ -9,19 +9,16 @@
 namespace voxmelt::scene {
 namespace {
 
-constexpr double kLargestShare4 = 0.25,
-                 kLargestShare8 = 0.2;  // all directions together give at most what a cell has
-constexpr double kLargestKappa = 71;    // mobility fits 24 bits
-constexpr double kLargestYield = 255;   // x 65536 fits 24 bits
+constexpr double kLargestKappa = 71;   // mobility fits 24 bits
+constexpr double kLargestYield = 255;  // x 65536 fits 24 bits
 
-Range unit() { return {0, 1, false, {}}; }
-Range amount() { return {0, kLargestAmount, false, {}}; }
+Range amount() { return at_most(kLargestAmount); }
 
 rule::Fall read_fall(Reader& reader) {
   rule::Fall fall;
-  const double factor = reader.number("factor", unit(), 1.0);
+  const double factor = reader.number("factor", fraction(), 1.0);
   fall.factor = to_factor32(factor);
-  fall.wall_factor = to_factor32(reader.number("wall_factor", unit(), factor));
+  fall.wall_factor = to_factor32(reader.number("wall_factor", fraction(), factor));
   fall.minimum = to_amount(reader.number("minimum", amount(), 32.0 / rule::kOne));
   fall.hang = to_amount(reader.number("hang", amount(), 0.0));
   reader.finish();
@@ -32,7 +29,7 @@ rule::Fall read_fall(Reader& reader) {
 void read_table(Reader& reader, rule::PaperLaw& law) {
   if (law.neighbours != 4) reader.fail("table", " needs flow.paper.neighbours = 4");
   if (reader.has("share")) reader.fail("table", " replaces share: give only one of them");
-  const std::vector<double> flat = reader.rows("table", 4, 16, 16, unit());
+  const std::vector<double> flat = reader.rows("table", 4, 16, 16, fraction());
   law.use_table = true;
   for (std::size_t pattern = 0; pattern < 16; ++pattern) {
     double sum = 0;
@@ -56,8 +53,8 @@ rule::PaperLaw read_paper(Reader& reader) {
     reader.fail("neighbours", fmt::format(" = {} is not 4 or 8", law.neighbours));
   law.threshold = to_amount(reader.number("threshold", amount(), 0.0));
   if (reader.has("table")) read_table(reader, law);
-  const Range share{0, law.neighbours == 4 ? kLargestShare4 : kLargestShare8, false,
-                    fmt::format("the bound for {} neighbours", law.neighbours)};
+  const Range share = at_most(1.0 / rule::most_shares(law.neighbours))
+                          .because(fmt::format("the bound for {} neighbours", law.neighbours));
   law.share = to_factor16(reader.number("share", share, 0.125));
   law.downhill = reader.flag("downhill", true);
   law.margin = to_amount(reader.number("margin", amount(), 1.0 / 16));
@@ -65,11 +62,11 @@ rule::PaperLaw read_paper(Reader& reader) {
   law.slump = to_amount(reader.number("slump", amount(), 0.0));
   law.reading = reader.choice("energy", {"text", "printed"}, 0) == 0 ? rule::EnergyReading::text
                                                                      : rule::EnergyReading::printed;
-  law.beta = to_factor32(reader.number("beta", {0, 4, false, {}}, 1.0));
-  law.alpha_liquid = to_factor16(reader.number("alpha_liquid", unit(), 1.0));
-  law.alpha_solid = to_factor16(reader.number("alpha_solid", unit(), 1.0));
-  law.alpha_floor = to_factor16(reader.number("alpha_floor", unit(), 1.0));
-  law.reheat = to_factor16(reader.number("reheat", unit(), 0.0));
+  law.beta = to_factor32(reader.number("beta", at_most(4), 1.0));
+  law.alpha_liquid = to_factor16(reader.number("alpha_liquid", fraction(), 1.0));
+  law.alpha_solid = to_factor16(reader.number("alpha_solid", fraction(), 1.0));
+  law.alpha_floor = to_factor16(reader.number("alpha_floor", fraction(), 1.0));
+  law.reheat = to_factor16(reader.number("reheat", fraction(), 0.0));
   reader.finish();
   return law;
 }
@@ -77,10 +74,10 @@ rule::PaperLaw read_paper(Reader& reader) {
 rule::ViscousLaw read_viscous(Reader& reader) {
   rule::ViscousLaw law;
   // kq = (2/3) (kappa / 3), with kappa = g dt / nu
-  const double kappa = reader.number("kappa", {0, kLargestKappa, true, {}});
+  const double kappa = reader.number("kappa", above(0).at_most(kLargestKappa));
   law.mobility = static_cast<std::uint32_t>(std::llround((1 << 20) * (2.0 / 9) * kappa));
-  law.yield = static_cast<std::uint32_t>(
-      std::lround(reader.number("yield", {0, kLargestYield, false, {}}, 0.0) * 65536));
+  law.yield =
+      static_cast<std::uint32_t>(std::lround(reader.number("yield", at_most(kLargestYield), 0.0) * 65536));
   law.stiffness = static_cast<std::uint8_t>(reader.integer("stiffness", 1, 8, 8));
   reader.finish();
   return law;
@@ -88,8 +85,8 @@ rule::ViscousLaw read_viscous(Reader& reader) {
 
 // Mobility doubles every `doubling` of temperature and is 1 at `reference`.
 void read_thermal(Reader& reader, rule::Flow& flow) {
-  const double reference = reader.number("reference", unit());
-  const double doubling = reader.number("doubling", {0.001, 1, false, {}});
+  const double reference = reader.number("reference", fraction());
+  const double doubling = reader.number("doubling", at_least(0.001).at_most(1));
   flow.thermal_viscosity = true;
   for (std::size_t i = 0; i < flow.mobility_table.size(); ++i) {
     const double temperature =

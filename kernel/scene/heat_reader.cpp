@@ -16,9 +16,7 @@ constexpr double kLargestExchange =
     0.57735;  // 1 / sqrt 3: a corner exposed on three axes stays within the air
 constexpr std::int64_t kLastStep = 0xFFFFFFFFll;
 
-Range unit() { return {0, 1, false, {}}; }
-Range coordinate() { return {-kLargestCoordinate, kLargestCoordinate, false, {}}; }
-Range power() { return {0, kLargestPower, false, {}}; }
+Range power() { return at_most(kLargestPower); }
 
 std::uint64_t to_power(double value) { return static_cast<std::uint64_t>(std::llround(value * kPowerUnit)); }
 
@@ -32,7 +30,8 @@ void read_conduction(Reader& reader, rule::Heat& heat) {
   if (asked != 6 && asked != 18 && asked != 26)
     reader.fail("neighbours", fmt::format(" = {} is not one of 6, 18, 26", asked));
   heat.neighbours = static_cast<int>(asked);
-  const Range range{0, kLargestGamma, true, fmt::format("the bound for {} neighbours", asked)};
+  const Range range =
+      above(0).at_most(kLargestGamma).because(fmt::format("the bound for {} neighbours", asked));
   const double gamma = reader.number("gamma", range, 0.15);
   heat.weight_face = weight(gamma, 1);
   if (asked >= 18) heat.weight_edge = weight(gamma, 2);
@@ -41,9 +40,9 @@ void read_conduction(Reader& reader, rule::Heat& heat) {
 
 void read_air(Reader& reader, rule::Heat& heat, int ny) {
   heat.air = true;
-  heat.air_exchange = to_factor16(reader.number("exchange", {0, kLargestExchange, true, {}}));
-  const double bottom = reader.number("bottom", unit());
-  const double top = reader.number("top", unit(), bottom);
+  heat.air_exchange = to_factor16(reader.number("exchange", above(0).at_most(kLargestExchange)));
+  const double bottom = reader.number("bottom", fraction());
+  const double top = reader.number("top", fraction(), bottom);
   for (int y = 0; y < ny; ++y)
     heat.air_temperature.push_back(to_temperature(ny == 1 ? bottom : bottom + (top - bottom) * y / (ny - 1)));
   reader.finish();
@@ -88,7 +87,7 @@ rule::Heat read_heat(Reader& root, int ny) {
   heat.enabled = true;
   read_conduction(*reader, heat);
   heat.convection = static_cast<std::uint16_t>(
-      std::min<long>(32767, std::lround(reader->number("convection", {0, 0.5, false, {}}, 0.0) * 65536)));
+      std::min<long>(32767, std::lround(reader->number("convection", at_most(0.5), 0.0) * 65536)));
   heat.visibility_every = static_cast<std::uint32_t>(reader->integer("visibility_every", 1, 1024, 8));
   if (std::optional<Reader> air = reader->table("air")) read_air(*air, heat, ny);
   reader->finish();

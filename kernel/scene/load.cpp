@@ -16,13 +16,13 @@
 namespace voxmelt::scene {
 namespace {
 
-constexpr std::int64_t kLargestSide = 4096;
+constexpr double kLargestSide = 4096;
 constexpr std::int64_t kMostSteps = 0xFFFFFFFFll;
 
 state::Grid read_grid(Reader& root) {
   std::optional<Reader> reader = root.table("grid");
   if (!reader) fail_at(root.place(), "grid.size is missing: a scene needs [grid] size = [x, y, z]");
-  const Vec3 size = reader->vector<3>("size", {1, static_cast<double>(kLargestSide), false, {}});
+  const Vec3 size = reader->vector<3>("size", at_least(1).at_most(kLargestSide));
   for (const double side : size)
     if (side != static_cast<double>(static_cast<int>(side)))
       reader->fail("size", " must be whole numbers of cells");

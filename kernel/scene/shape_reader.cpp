@@ -16,11 +16,9 @@ namespace {
 
 constexpr std::size_t kMostPoints = 1024;
 constexpr int kDeepestParts = 8;  // each mirror doubles the work below it
-constexpr double kFullTurn = 360;
 
-Range length() { return {0, kLargestCoordinate, true, {}}; }
-Range length_or_zero() { return {0, kLargestCoordinate, false, {}}; }
-Range coordinate() { return {-kLargestCoordinate, kLargestCoordinate, false, {}}; }
+Range length() { return above(0).at_most(kLargestCoordinate); }
+Range length_or_zero() { return at_most(kLargestCoordinate); }
 
 Point read_point(Reader& reader, std::string_view key, std::optional<Vec3> fallback = {}) {
   return to_point(reader.vector<3>(key, coordinate(), fallback));
@@ -47,14 +45,14 @@ std::vector<Point2> read_outline(Reader& reader, std::string_view key, bool radi
 ShapePtr read_box(Reader& reader) {
   const Point size = to_point(reader.vector<3>("size", length()));
   const double limit = std::min({size.x, size.y, size.z}) / 2;
-  return make_box(size, reader.number("round", {0, limit, false, "half the least side"}, 0.0));
+  return make_box(size, reader.number("round", at_most(limit).because("half the least side"), 0.0));
 }
 
 ShapePtr read_extrude(Reader& reader) {
   const std::vector<Point2> outline = read_outline(reader, "outline", false);
   Extrusion extrusion;
   extrusion.depth = reader.number("depth", length());
-  extrusion.rounding = reader.number("round", {0, extrusion.depth / 2, false, "half the depth"}, 0.0);
+  extrusion.rounding = reader.number("round", at_most(extrusion.depth / 2).because("half the depth"), 0.0);
   extrusion.bulge = reader.number("bulge", length_or_zero(), 0.0);
   extrusion.bulge_width = reader.number("bulge_width", length(), std::max(1.0, 3 * extrusion.bulge));
   return make_extrude(Polygon(outline), extrusion);
@@ -112,7 +110,7 @@ ShapePtr read_bare_shape(Reader& reader, const std::string& name, int depth) {
 }
 
 Point read_scale(Reader& reader) {
-  const Range range{0.001, 1000, false, {}};
+  const Range range = at_least(0.001).at_most(1000);
   const Value::Kind array = Value::Kind::array;
   if (reader.has("scale") && reader.kind("scale") != array) {
     const double all = reader.number("scale", range);
@@ -126,7 +124,7 @@ ShapePtr read_shape(Reader& reader, const std::string& name, int depth) {
   if (reader.has("mirror"))
     shape = make_mirrored(std::move(shape), static_cast<int>(reader.choice("mirror", {"x", "y", "z"})));
   const Placement placement{read_point(reader, "at", Vec3{}),
-                            Rotation(reader.vector<3>("rotate", {-kFullTurn, kFullTurn, false, {}}, Vec3{})),
+                            Rotation(reader.vector<3>("rotate", within(kFullTurn), Vec3{})),
                             read_scale(reader)};
   return make_placed(std::move(shape), placement);
 }

@@ -11,12 +11,12 @@ constexpr std::int64_t kForever = 0xFFFFFFFFll;
 constexpr double kLargestRadius = 8192;
 
 rule::Region read_region(Reader& reader) {
-  const Vec3 at = reader.vector<3>("at", {-kLargestCoordinate, kLargestCoordinate, false, {}});
-  return {to_position(at), to_position(reader.number("radius", {0, kLargestRadius, true, {}}))};
+  const Vec3 at = reader.vector<3>("at", coordinate());
+  return {to_position(at), to_position(reader.number("radius", above(0).at_most(kLargestRadius)))};
 }
 
 rule::Amount read_rate(Reader& reader) {
-  return to_amount(reader.number("rate", {0, 1, true, "a full cell per cell and step"}));
+  return to_amount(reader.number("rate", above(0).at_most(1).because("a full cell per cell and step")));
 }
 
 template <class Source>
@@ -33,8 +33,8 @@ rule::Material read_material(Reader& root) {
   rule::Material material;
   std::optional<Reader> reader = root.table("material");
   if (!reader) return material;
-  material.melting_point = to_temperature(reader->number("melting_point", {0, 1, true, {}}, 0.5));
-  material.latent_heat = to_temperature(reader->number("latent_heat", {0, 1, false, {}}, 0.0));
+  material.melting_point = to_temperature(reader->number("melting_point", above(0).at_most(1), 0.5));
+  material.latent_heat = to_temperature(reader->number("latent_heat", fraction(), 0.0));
   if (material.melting_point + material.latent_heat > rule::kTemperatureMax)
     reader->fail("latent_heat", " and melting_point exceed 1 together: it could never melt");
   reader->finish();
@@ -47,8 +47,8 @@ std::vector<rule::Vent> read_vents(Reader& root) {
     rule::Vent vent;
     vent.region = read_region(reader);
     vent.rate = read_rate(reader);
-    vent.temperature = to_temperature(reader.number("temperature", {0, 1, false, {}}, 0.0));
-    vent.energy = to_amount(reader.number("energy", {0, 1, false, {}}, 1.0));
+    vent.temperature = to_temperature(reader.number("temperature", fraction(), 0.0));
+    vent.energy = to_amount(reader.number("energy", fraction(), 1.0));
     read_interval(reader, vent);
     reader.finish();
     vents.push_back(vent);

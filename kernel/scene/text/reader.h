@@ -13,14 +13,9 @@
 #include <vector>
 
 #include "kernel/scene/text/document.h"
+#include "kernel/scene/text/range.h"
 
 namespace voxmelt::scene {
-
-struct Range {
-  double lowest = 0, highest = 1;
-  bool above = false;  // the lowest value itself is not allowed
-  std::string why;     // follows the upper bound in the message: "the bound for 6 neighbours"
-};
 
 class Reader {
  public:

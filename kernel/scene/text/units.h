@@ -7,11 +7,16 @@
 #include <cstdint>
 
 #include "kernel/automaton/rule/parameters.h"
+#include "kernel/scene/text/range.h"
 
 namespace voxmelt::scene {
 
 inline constexpr double kLargestAmount = 15;         // a cell's excess must fit UQ4.12
 inline constexpr double kLargestCoordinate = 65536;  // of sources, vents and shapes, cells
+inline constexpr double kFullTurn = 360;             // degrees
+
+inline Range coordinate() { return within(kLargestCoordinate); }
+inline Range fraction() { return at_most(1); }  // of a temperature range, an amount or a colour
 
 inline rule::Temperature to_temperature(double t) {
   return static_cast<rule::Temperature>(std::lround(t * rule::kTemperatureMax));
