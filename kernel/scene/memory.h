@@ -8,7 +8,7 @@
 
 namespace voxmelt::scene {
 
-// Bytes that a run of this grid needs: four times its state.
+// Bytes that a run of this grid needs even while nothing is in it: half a byte for each cell.
 std::uint64_t needed_bytes(state::Grid grid);
 
 // Throws ResourceError naming the needed and the available bytes.
