@@ -90,21 +90,21 @@ void Checker::left(int number, std::int64_t ordinal, const Cell* lanes) {
 void Checker::report(const Channel& channel, Mismatch::Kind kind, const Place& place, int lane,
                      const char* field, std::int64_t expected, std::int64_t actual) {
   const bool in_channel = kind == Mismatch::Kind::channel;
-  mismatch_ = std::make_unique<Mismatch>(Mismatch{kind,
-                                                  in_channel ? channel.name : channel.producer,
-                                                  channel.phase,
-                                                  first_step_ + static_cast<std::uint32_t>(channel.cascade),
-                                                  channel.cascade,
-                                                  lane,
-                                                  pipeline_.cycle(),
-                                                  place.x + lane,
-                                                  place.y,
-                                                  place.z,
-                                                  field,
-                                                  expected,
-                                                  actual,
-                                                  "",
-                                                  {}});
+  mismatch_ = std::make_unique<Mismatch>(Mismatch{
+      .kind = kind,
+      .where = in_channel ? channel.name : channel.producer,
+      .phase = channel.phase,
+      .step = first_step_ + static_cast<std::uint32_t>(channel.cascade),
+      .cascade = channel.cascade,
+      .lane = lane,
+      .cycle = pipeline_.cycle(),
+      .x = place.x + lane,
+      .y = place.y,
+      .z = place.z,
+      .field = field,
+      .expected = expected,
+      .actual = actual,
+  });
   pipeline_.stop();
 }
 

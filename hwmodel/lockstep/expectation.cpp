@@ -40,21 +40,18 @@ Expectation::Step Expectation::step(bool keep) {
     if (!staged) {
       const Difference changed = first_difference(*before, volume());
       if (changed.field.empty()) continue;
-      result.mismatch = std::make_unique<Mismatch>(Mismatch{Mismatch::Kind::missing,
-                                                            "no stage for this phase",
-                                                            name,
-                                                            step_number(),
-                                                            0,
-                                                            0,
-                                                            0,
-                                                            changed.x,
-                                                            changed.y,
-                                                            changed.z,
-                                                            changed.field,
-                                                            changed.actual,
-                                                            changed.expected,
-                                                            "",
-                                                            {}});
+      result.mismatch = std::make_unique<Mismatch>(Mismatch{
+          .kind = Mismatch::Kind::missing,
+          .where = "no stage for this phase",
+          .phase = name,
+          .step = step_number(),
+          .x = changed.x,
+          .y = changed.y,
+          .z = changed.z,
+          .field = changed.field,
+          .expected = changed.actual,
+          .actual = changed.expected,
+      });
       return result;
     }
     const auto after = std::make_shared<const state::Volume>(volume());
@@ -69,8 +66,11 @@ Expectation::Step Expectation::step(bool keep) {
 
 std::unique_ptr<Mismatch> Expectation::compare_software(const std::string& phase) const {
   if (reference_.volume() == fast_.volume() && reference_.ledger() == fast_.ledger()) return nullptr;
-  Mismatch found{
-      Mismatch::Kind::software, fast_name_, phase, step_number(), 0, 0, 0, 0, 0, 0, "ledger", 0, 0, "", {}};
+  Mismatch found{.kind = Mismatch::Kind::software,
+                 .where = fast_name_,
+                 .phase = phase,
+                 .step = step_number(),
+                 .field = "ledger"};
   const Difference d = first_difference(reference_.volume(), fast_.volume());
   if (!d.field.empty()) {
     found.x = d.x, found.y = d.y, found.z = d.z;

@@ -20,16 +20,16 @@ struct Mismatch {
     hang,      // nothing moves any more
   };
   Kind kind = Kind::stage;
-  std::string where;  // stage, channel or implementation
-  std::string phase;  // empty: not known
+  std::string where{};  // stage, channel or implementation
+  std::string phase{};  // empty: not known
   std::uint32_t step = 0;
   int cascade = 0, lane = 0;
   std::int64_t cycle = 0;  // of the pass; 0 in software
   int x = 0, y = 0, z = 0;
-  std::string field;
+  std::string field{};
   std::int64_t expected = 0, actual = 0;
-  std::string detail;                      // a hang's channels, a width's message
-  std::vector<std::string> neighbourhood;  // lines: what the cells around held before the phase
+  std::string detail{};                      // a hang's channels, a width's message
+  std::vector<std::string> neighbourhood{};  // lines: what the cells around held before the phase
 };
 
 const char* name_of(Mismatch::Kind kind);

@@ -22,7 +22,7 @@ int steps_of_pass(const Design& design, const Configuration& configuration, std:
 
 // Where everything waits: the first empty channel behind a full one, and the cell that should enter it.
 Mismatch hang_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_t cycle) {
-  Mismatch m{Mismatch::Kind::hang, "", "", first_step, 0, 0, cycle, 0, 0, 0, "", 0, 0, "", {}};
+  Mismatch m{.kind = Mismatch::Kind::hang, .step = first_step, .cycle = cycle};
   std::string full, empty;
   const std::vector<ChannelReport> channels = pipeline.channels();
   std::size_t last_full = 0;
@@ -111,21 +111,14 @@ class Run {
     try {
       end = pipeline_.run_pass(step, steps, irradiance, memory_);
     } catch (const Pipeline::StageError& error) {
-      report_.mismatch = std::make_unique<Mismatch>(Mismatch{Mismatch::Kind::width,
-                                                             error.stage,
-                                                             error.phase,
-                                                             step + static_cast<std::uint32_t>(error.cascade),
-                                                             error.cascade,
-                                                             0,
-                                                             0,
-                                                             0,
-                                                             0,
-                                                             0,
-                                                             "",
-                                                             0,
-                                                             0,
-                                                             error.what(),
-                                                             {}});
+      report_.mismatch = std::make_unique<Mismatch>(Mismatch{
+          .kind = Mismatch::Kind::width,
+          .where = error.stage,
+          .phase = error.phase,
+          .step = step + static_cast<std::uint32_t>(error.cascade),
+          .cascade = error.cascade,
+          .detail = error.what(),
+      });
       return false;
     }
     report_.model_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -144,21 +137,18 @@ class Run {
   void compare_memory(std::uint32_t step) {
     const Difference d = first_difference(software_.volume(), memory_);
     if (d.field.empty()) return;
-    report_.mismatch = std::make_unique<Mismatch>(Mismatch{Mismatch::Kind::memory,
-                                                           "writer",
-                                                           "",
-                                                           step,
-                                                           options_.configuration.cascade - 1,
-                                                           0,
-                                                           0,
-                                                           d.x,
-                                                           d.y,
-                                                           d.z,
-                                                           d.field,
-                                                           d.expected,
-                                                           d.actual,
-                                                           "",
-                                                           {}});
+    report_.mismatch = std::make_unique<Mismatch>(Mismatch{
+        .kind = Mismatch::Kind::memory,
+        .where = "writer",
+        .step = step,
+        .cascade = options_.configuration.cascade - 1,
+        .x = d.x,
+        .y = d.y,
+        .z = d.z,
+        .field = d.field,
+        .expected = d.expected,
+        .actual = d.actual,
+    });
   }
 
   // A replay must begin where visibility is computed, or where this run began.
