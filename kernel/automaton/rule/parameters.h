@@ -1,6 +1,6 @@
 // Everything that the rules of a scene depend on besides its state: integers only, resolved once from the
-// scene file, and what follows from them alone. `voxmelt export` writes exactly these as parameters.json
-// (docs/automaton.md, "Parameters").
+// scene file. `voxmelt export` writes exactly these as parameters.json (docs/automaton.md, "Parameters").
+// The functions say what follows from the parameters alone.
 #pragma once
 
 #include <array>
