@@ -1,6 +1,7 @@
 #include "kernel/run/simulation.h"
 
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
 #include "kernel/engine/parallel/stepper.h"
@@ -46,28 +47,60 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
     : parameters_(std::move(parameters)),
       volume_(std::move(initial)),
       stepper_(implementation.create(parameters_, volume_.grid, tuning)),
+      host_(dynamic_cast<step::HostStepper*>(stepper_.get())),
+      device_(dynamic_cast<step::DeviceStepper*>(stepper_.get())),
       provider_(provider != nullptr ? std::move(provider)
                                     : std::make_unique<visibility::VoxelWalkProvider>(tuning.threads)),
       ledger_(state::Ledger::open(volume_)) {
-  if (parameters_.heat.radiates()) irradiance_ = step::Irradiance(volume_.grid);
+  make_irradiance();
+}
+
+// Kept once it is there: sources that have been taken away shine until the next step of visibility.
+void Simulation::make_irradiance() {
+  if (parameters_.heat.radiates() && irradiance_.empty()) irradiance_ = step::Irradiance(volume_.grid);
+}
+
+void Simulation::change_sources(Sources sources) {
+  parameters_.heat.sources = std::move(sources.points);
+  parameters_.heat.radiation = parameters_.heat.radiation || !parameters_.heat.sources.empty();
+  parameters_.vents = std::move(sources.vents);
+  parameters_.drains = std::move(sources.drains);
+  make_irradiance();
+  stepper_->change_sources(parameters_);
 }
 
 void Simulation::begin_step() {
+  if (device_ != nullptr && !uploaded_) {
+    device_->upload(volume_, ledger_);
+    uploaded_ = true;
+  }
   const rule::Heat& heat = parameters_.heat;
   if (!heat.is_visibility_step(step_number())) return;
   const Stopwatch watch(seconds_.visibility);
+  if (behind_) device_->download_masks(volume_);
   provider_->irradiance(volume_, heat, step_number(), irradiance_);
 }
 
 void Simulation::run_phase(step::Phase phase) {
+  if (host_ == nullptr) throw std::logic_error("a device stepper runs whole steps only, not one phase");
   const Stopwatch watch(seconds_.phase[static_cast<std::size_t>(phase)]);
-  stepper_->run(phase, step_number(), irradiance(), volume_, ledger_);
+  host_->run(phase, step_number(), irradiance(), volume_, ledger_);
 }
 
 void Simulation::step() {
   begin_step();
-  for (const step::Phase phase : step::phase_order(parameters_.flow.law)) run_phase(phase);
+  if (device_ != nullptr) {
+    device_->run_step(step_number(), irradiance());
+    behind_ = true;
+  } else {
+    for (const step::Phase phase : step::phase_order(parameters_.flow.law)) run_phase(phase);
+  }
   end_step();
+}
+
+void Simulation::download() const {
+  device_->download(volume_, ledger_);
+  behind_ = false;
 }
 
 }  // namespace voxmelt::run

@@ -1,9 +1,13 @@
 // The run loop: state, visibility, phases, books.
+//
+// With a device stepper the state lies in the device's memory. volume(), ledger() and drift() then fetch it,
+// at most once a step; visibility fetches the two masks that it needs.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "kernel/automaton/state/ledger.h"
 #include "kernel/automaton/step/stepper.h"
@@ -26,33 +30,57 @@ class Simulation {
   // Runs one whole step.
   void step();
 
-  // Runs one phase of the present step; used where implementations are compared phase by phase.
+  // Runs one phase of the present step; used where implementations are compared phase by phase. A device
+  // stepper has no phases: std::logic_error.
   void begin_step();
   void run_phase(step::Phase phase);
   void end_step() { ++steps_done_; }
 
+  // Other point sources, vents and drains, between two steps. Vents and drains count from the next step on,
+  // point sources from the next step of visibility on (docs/automaton.md, "Visibility"): as if the scene had
+  // said so from the start. The caller has checked their ranges; sources need a scene with heat.
+  struct Sources {
+    std::vector<rule::PointSource> points;
+    std::vector<rule::Vent> vents;
+    std::vector<rule::Drain> drains;
+  };
+  void change_sources(Sources sources);
+
   std::uint32_t steps_done() const { return steps_done_; }
   std::uint32_t step_number() const { return first_step_ + steps_done_; }
   const step::Irradiance* irradiance() const { return irradiance_.empty() ? nullptr : &irradiance_; }
-  const state::Volume& volume() const { return volume_; }
-  state::Volume& mutable_volume() { return volume_; }  // for tests that plant a leak
-  const state::Ledger& ledger() const { return ledger_; }
-  state::Ledger& mutable_ledger() { return ledger_; }
+  const state::Volume& volume() const { return fetch(), volume_; }
+  const state::Ledger& ledger() const { return fetch(), ledger_; }
   const rule::Parameters& parameters() const { return parameters_; }
-  state::Drift drift() const { return state::drift(ledger_, volume_); }
+  state::Drift drift() const { return state::drift(ledger(), volume()); }
+
+  // For tests that plant a leak: what the next step begins with.
+  state::Volume& mutable_volume() { return touch(), volume_; }
+  state::Ledger& mutable_ledger() { return touch(), ledger_; }
 
   struct Seconds {
-    std::array<double, step::kPhaseCount> phase{};  // by step::Phase
+    std::array<double, step::kPhaseCount> phase{};  // by step::Phase; all 0 with a device stepper
     double visibility = 0;
   };
   const Seconds& seconds() const { return seconds_; }
 
  private:
+  void make_irradiance();
+  void fetch() const {
+    if (behind_) download();
+  }
+  void download() const;
+  void touch() { fetch(), uploaded_ = false; }
+
   rule::Parameters parameters_;
-  state::Volume volume_;
+  mutable state::Volume volume_;
   std::unique_ptr<step::Stepper> stepper_;
+  step::HostStepper* host_;      // the stepper, if it is one; else null
+  step::DeviceStepper* device_;  // likewise
   std::unique_ptr<visibility::Provider> provider_;
-  state::Ledger ledger_;
+  mutable state::Ledger ledger_;
+  mutable bool behind_ = false;  // the device has run on: volume_ and ledger_ are old
+  bool uploaded_ = false;        // the device has a state of ours
   step::Irradiance irradiance_;  // empty without radiation
   std::uint32_t first_step_ = 0, steps_done_ = 0;
   Seconds seconds_;

@@ -20,14 +20,14 @@ namespace {
 // The reference, but for one fault in one cell.
 enum class Fault { amount, leak };
 template <Fault fault>
-class Faulty : public step::Stepper {
+class Faulty : public step::HostStepper {
  public:
-  Faulty(const rule::Parameters& parameters, state::Grid grid, const step::Tuning& tuning)
-      : sound_(scalar::create_reference(parameters, grid, tuning)) {}
+  Faulty(const rule::Parameters& parameters, state::Grid grid) : sound_(parameters, grid) {}
 
+  void change_sources(const rule::Parameters& parameters) override { sound_.change_sources(parameters); }
   void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override {
-    sound_->run(phase, step, irradiance, volume, ledger);
+    sound_.run(phase, step, irradiance, volume, ledger);
     if (phase != step::Phase::spread || step != 1) return;
     if (fault == Fault::amount)
       ++volume.amount[volume.at(3, 3, 3)];
@@ -36,15 +36,15 @@ class Faulty : public step::Stepper {
   }
 
  private:
-  std::unique_ptr<step::Stepper> sound_;
+  scalar::Reference sound_;
 };
 
 template <Fault fault>
 step::Implementation faulty() {
   return {"faulty", "",
           [](const rule::Parameters& parameters, state::Grid grid,
-             const step::Tuning& tuning) -> std::unique_ptr<step::Stepper> {
-            return std::make_unique<Faulty<fault>>(parameters, grid, tuning);
+             const step::Tuning&) -> std::unique_ptr<step::Stepper> {
+            return std::make_unique<Faulty<fault>>(parameters, grid);
           }};
 }
 

@@ -32,16 +32,17 @@ void drop_a_liquid_cell(state::Volume& volume) {
   });
 }
 template <Wrong wrong>
-class Damaged final : public step::Stepper {
+class Damaged final : public step::HostStepper {
  public:
   static std::unique_ptr<step::Stepper> create(const rule::Parameters& parameters, state::Grid grid,
-                                               const step::Tuning& tuning) {
-    return std::make_unique<Damaged>(worlds::implementation("reference").create(parameters, grid, tuning));
+                                               const step::Tuning&) {
+    return std::make_unique<Damaged>(parameters, grid);
   }
-  explicit Damaged(std::unique_ptr<step::Stepper> right) : right_(std::move(right)) {}
+  Damaged(const rule::Parameters& parameters, state::Grid grid) : right_(parameters, grid) {}
+  void change_sources(const rule::Parameters& parameters) override { right_.change_sources(parameters); }
   void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override {
-    right_->run(phase, step, irradiance, volume, ledger);
+    right_.run(phase, step, irradiance, volume, ledger);
     if (step != 3 || phase != step::Phase::melt) return;
     if (wrong == Wrong::liquid) drop_a_liquid_cell(volume);
     if (wrong == Wrong::amount) ++volume.amount[volume.at(6, 2, 4)];
@@ -50,7 +51,7 @@ class Damaged final : public step::Stepper {
   }
 
  private:
-  std::unique_ptr<step::Stepper> right_;
+  scalar::Reference right_;
 };
 
 template <Wrong wrong>

@@ -57,7 +57,8 @@ void book(const simd::Books& books, state::Ledger& ledger) {
 
 Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, state::Grid grid,
                  const step::Tuning& tuning)
-    : parameters_(parameters),
+    : set_(set),
+      parameters_(parameters),
       tuning_(tuning),
       kernels_(simd::kernels(set, parameters)),
       keys_(rule::round_keys(parameters.seed)),
@@ -88,6 +89,12 @@ simd::View Stepper::view_of(state::Volume& volume) {
   view.walls = walls_->origin(view);
   view.sides = sides_ ? sides_->origin(view) : view.walls;
   return view;
+}
+
+// Vents and drains say themselves what they change, and each step of visibility wakes all.
+void Stepper::change_sources(const rule::Parameters& parameters) {
+  parameters_ = parameters;
+  kernels_ = simd::kernels(set_, parameters);  // others, where there was no radiation
 }
 
 void Stepper::run(step::Phase phase, std::uint32_t number, const step::Irradiance* irradiance,

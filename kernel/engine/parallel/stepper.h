@@ -16,13 +16,14 @@
 
 namespace voxmelt::parallel {
 
-class Stepper final : public step::Stepper {
+class Stepper final : public step::HostStepper {
  public:
   Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, state::Grid grid,
           const step::Tuning& tuning);
 
   void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override;
+  void change_sources(const rule::Parameters& parameters) override;
 
  private:
   simd::View view_of(state::Volume& volume);
@@ -34,6 +35,7 @@ class Stepper final : public step::Stepper {
   void spread(const Job& job, simd::Books& books);
   void settle(const Job& job, simd::Books& books);
 
+  cpu::InstructionSet set_;
   rule::Parameters parameters_;
   step::Tuning tuning_;
   simd::Kernels kernels_;

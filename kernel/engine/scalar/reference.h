@@ -11,12 +11,13 @@
 
 namespace voxmelt::scalar {
 
-class Reference final : public step::Stepper {
+class Reference final : public step::HostStepper {
  public:
   Reference(const rule::Parameters& parameters, state::Grid grid);
 
   void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override;
+  void change_sources(const rule::Parameters& parameters) override { parameters_ = parameters; }
 
   // Paper law, after `spread`: the directions that each liquid cell gave to, one bit each.
   const state::Field<std::uint8_t>& pattern() const { return pattern_; }

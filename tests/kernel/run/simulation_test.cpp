@@ -79,8 +79,9 @@ TEST(Simulation, TheSeedChangesThePaperLawOnly) {
 }
 
 // Notes what it is asked to do.
-class Recorder final : public step::Stepper {
+class Recorder final : public step::HostStepper {
  public:
+  void change_sources(const Parameters&) override {}
   void run(Phase phase, std::uint32_t step, const step::Irradiance* irradiance, Volume&,
            state::Ledger&) override {
     calls.push_back({phase, step, irradiance == nullptr ? -1 : *irradiance->data()});

@@ -1,0 +1,148 @@
+// A device stepper: the run loop with a state that lies in memory of the stepper's own. The device here is
+// the reference behind a wall: it hides its state, and counts what is asked of it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "kernel/automaton/state/digest.h"
+#include "kernel/engine/scalar/reference.h"
+#include "kernel/run/simulation.h"
+#include "kernel/scene/scene.h"
+#include "tests/kernel/worlds.h"
+
+namespace voxmelt::run {
+namespace {
+
+using namespace worlds;
+
+struct Traffic {
+  int uploads = 0, steps = 0, mask_downloads = 0, downloads = 0;
+};
+
+class HiddenReference final : public step::DeviceStepper {
+ public:
+  HiddenReference(const Parameters& parameters, Grid grid)
+      : law_(parameters.flow.law), reference_(parameters, grid) {
+    traffic = {};
+  }
+
+  void change_sources(const Parameters& parameters) override { reference_.change_sources(parameters); }
+  void upload(const Volume& volume, const state::Ledger& ledger) override {
+    ++traffic.uploads;
+    volume_ = volume;
+    ledger_ = ledger;
+  }
+  void run_step(std::uint32_t step, const step::Irradiance* irradiance) override {
+    ++traffic.steps;
+    for (const step::Phase phase : step::phase_order(law_))
+      reference_.run(phase, step, irradiance, volume_, ledger_);
+  }
+  void download_masks(Volume& volume) override {
+    ++traffic.mask_downloads;
+    volume.solid = volume_.solid;
+    volume.inert = volume_.inert;
+  }
+  void download(Volume& volume, state::Ledger& ledger) override {
+    ++traffic.downloads;
+    volume = volume_;
+    ledger = ledger_;
+  }
+
+  static inline Traffic traffic;
+
+ private:
+  rule::Law law_;
+  scalar::Reference reference_;
+  Volume volume_;
+  state::Ledger ledger_;
+};
+
+const step::Implementation kHidden{
+    "hidden", "",
+    [](const Parameters& parameters, Grid grid, const step::Tuning&) -> std::unique_ptr<step::Stepper> {
+      return std::make_unique<HiddenReference>(parameters, grid);
+    }};
+
+// "step 10 digest 38ec6dd4b2ee9cb7 mass ..." of the approved digests; the oracle agrees with them.
+std::uint64_t approved_digest(const std::string& scene) {
+  std::ifstream file(VOXMELT_APPROVED_DIGESTS);
+  const std::string line = nlohmann::json::parse(file).at(scene).at("10");
+  return std::stoull(line.substr(line.find("digest ") + 7, 16), nullptr, 16);
+}
+
+TEST(Device, EveryCommittedSceneHasItsDigestAndTheStateIsFetchedOnce) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(VOXMELT_SCENES_FOLDER)) {
+    if (entry.path().extension() != ".toml") continue;
+    scene::Scene scene = scene::load(entry.path(), {});
+    const rule::Heat heat = scene.parameters.heat;
+    Simulation simulation(scene.parameters, std::move(scene.initial), kHidden);
+    steps(simulation, 10);
+    EXPECT_EQ(HiddenReference::traffic.downloads, 0) << scene.name;
+    EXPECT_EQ(state::digest(simulation.volume()), approved_digest(scene.name)) << scene.name;
+    EXPECT_TRUE(simulation.drift().none()) << scene.name;
+
+    const auto visible = heat.enabled && heat.radiation ? 9 / static_cast<int>(heat.visibility_every) : 0;
+    EXPECT_EQ(HiddenReference::traffic.uploads, 1) << scene.name;
+    EXPECT_EQ(HiddenReference::traffic.steps, 10) << scene.name;
+    EXPECT_EQ(HiddenReference::traffic.mask_downloads, visible) << scene.name << ": step 0 needs none";
+    EXPECT_EQ(HiddenReference::traffic.downloads, 1) << scene.name;
+    ++scenes;
+  }
+  EXPECT_GT(scenes, 20);
+}
+
+Volume melting_block() {
+  Volume v(Grid{16, 12, 16});
+  for_each({5, 2, 5, 11, 10, 11}, [&](int x, int y, int z) { put_solid(v, x, y, z, kOne, 25000); });
+  return v;
+}
+Parameters melting_parameters() {
+  Parameters p = paper_showcase();
+  p.heat.enabled = true;
+  p.heat.weight_face = 8000;
+  p.heat.radiation = true;
+  p.heat.sources = {{{{0, {16 * 20, 16 * 12, 16 * 8}, std::uint64_t{1} << 31}}}};
+  return p;
+}
+
+TEST(Device, HasTheStateAndTheBooksOfTheReferenceWheneverTheyAreRead) {
+  Simulation hidden(melting_parameters(), melting_block(), kHidden);
+  Simulation reference = simulate(melting_parameters(), melting_block());
+  for (int step = 0; step < 60; ++step) {
+    hidden.step(), reference.step();
+    if (step % 7 != 3) continue;
+    ASSERT_TRUE(hidden.ledger() == reference.ledger()) << "step " << step;
+    ASSERT_TRUE(hidden.volume() == reference.volume()) << "step " << step;
+  }
+  EXPECT_GT(hidden.volume().liquid.count(), 20) << "it did melt: visibility saw the masks of its step";
+  EXPECT_EQ(HiddenReference::traffic.uploads, 1);
+  EXPECT_EQ(HiddenReference::traffic.downloads, 9) << "steps 3, 10, .. 52, and the last";
+}
+
+TEST(Device, GoesOnFromWhatTheHostHasChanged) {
+  Simulation hidden(melting_parameters(), melting_block(), kHidden);
+  Simulation reference = simulate(melting_parameters(), melting_block());
+  for (Simulation* one : {&hidden, &reference}) {
+    steps(*one, 20);
+    Volume& v = one->mutable_volume();
+    v.amount[v.at(6, 9, 6)] = 1234;
+    one->mutable_ledger().mass.added += 5;
+    steps(*one, 5);
+  }
+  EXPECT_TRUE(hidden.volume() == reference.volume());
+  EXPECT_TRUE(hidden.ledger() == reference.ledger());
+  EXPECT_EQ(HiddenReference::traffic.uploads, 2);
+}
+
+TEST(Device, HasNoPhases) {
+  Simulation hidden(melting_parameters(), melting_block(), kHidden);
+  hidden.begin_step();
+  EXPECT_THROW(hidden.run_phase(step::Phase::heat), std::logic_error);
+}
+
+}  // namespace
+}  // namespace voxmelt::run
