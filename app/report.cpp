@@ -90,7 +90,7 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"digest", fmt::format("{:016x}", state::digest(volume))},
       {"initial_digest", fmt::format("{:016x}", scene.initial_digest)},
       {"implementation", run::implementations().find(common.implementation)->name},
-      {"threads", 1},
+      {"threads", simulation.threads()},
       {"version", version_number()},
       {"law", simulation.parameters().flow.law == rule::Law::paper ? "paper" : "viscous"},
       {"features", scene.features},

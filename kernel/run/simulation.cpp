@@ -1,9 +1,11 @@
 #include "kernel/run/simulation.h"
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <utility>
 
+#include "kernel/engine/cpu/workers.h"
 #include "kernel/engine/parallel/stepper.h"
 #include "kernel/engine/scalar/reference.h"
 
@@ -51,7 +53,8 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
       device_(dynamic_cast<step::DeviceStepper*>(stepper_.get())),
       provider_(provider != nullptr ? std::move(provider)
                                     : std::make_unique<visibility::VoxelWalkProvider>(tuning.threads)),
-      ledger_(state::Ledger::open(volume_)) {
+      ledger_(state::Ledger::open(volume_)),
+      threads_(std::min(tuning.threads, cpu::Workers::most())) {
   make_irradiance();
 }
 

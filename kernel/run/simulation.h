@@ -52,6 +52,7 @@ class Simulation {
   const state::Volume& volume() const { return fetch(), volume_; }
   const state::Ledger& ledger() const { return fetch(), ledger_; }
   const rule::Parameters& parameters() const { return parameters_; }
+  int threads() const { return threads_; }  // really used, for whatever the implementation divides among them
   state::Drift drift() const { return state::drift(ledger(), volume()); }
 
   // For tests that plant a leak: what the next step begins with.
@@ -82,6 +83,7 @@ class Simulation {
   mutable bool behind_ = false;  // the device has run on: volume_ and ledger_ are old
   bool uploaded_ = false;        // the device has a state of ours
   step::Irradiance irradiance_;  // empty without radiation
+  int threads_;
   std::uint32_t first_step_ = 0, steps_done_ = 0;
   Seconds seconds_;
 };

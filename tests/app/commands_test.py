@@ -60,6 +60,12 @@ class Commands(unittest.TestCase):
         line = self.good("digest", self.scene, "--steps", report["steps"], "--seed", report["seed"], *arguments)
         self.assertEqual(LINE.match(line.strip()).group(2), report["digest"])
 
+    def test_the_report_says_how_many_threads_worked(self):
+        here = len(os.sched_getaffinity(0))
+        for asked, used in ((["--threads", 1], 1), (["--threads", 2], min(2, here)), ([], here)):
+            self.good("digest", self.scene, "--report", "t.json", *asked)
+            self.assertEqual(json.loads((self.folder / "t.json").read_text())["threads"], used, asked)
+
     def test_run_replaces_only_its_own_folder(self):
         self.good("run", self.scene, "--out", "mine", "--steps", "0")
         self.good("run", self.scene, "--out", "mine", "--steps", "1")

@@ -29,7 +29,7 @@ ALLOWED = {
     "kernel/engine/simd/arch": [CPU, "kernel/engine/simd"],
     "kernel/engine/parallel": [f"{RULE}/random.h", STATE, STEP, CPU, "kernel/engine/simd"],
     VISIBILITY: [RULE, STATE, CPU],
-    "kernel/run": [STATE, STEP, "kernel/engine/scalar", "kernel/engine/parallel", VISIBILITY],
+    "kernel/run": [STATE, STEP, f"{CPU}/workers.h", "kernel/engine/scalar", "kernel/engine/parallel", VISIBILITY],
     "kernel/run/io": [PARAMETERS, STATE],
     "render/image": [f"{STATE}/grid.h", "kernel/scene/look.h"],
     "render/density": [RULE, STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU, "render/density/arch"],

@@ -5,10 +5,12 @@
 #include <exception>
 
 #if defined(VOXMELT_PLAIN_THREADS)
+#include <limits>
 #include <thread>
 #include <vector>
 #else
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
@@ -31,6 +33,8 @@ struct Workers::Arena {
 
 Workers::Workers(int threads) : threads_(threads), arena_(std::make_unique<Arena>()) {}
 
+int Workers::most() { return std::numeric_limits<int>::max(); }
+
 #else
 
 struct Workers::Arena {
@@ -48,6 +52,10 @@ struct Workers::Arena {
 
 Workers::Workers(int threads)
     : threads_(threads), arena_(threads > 1 ? std::make_unique<Arena>(threads) : nullptr) {}
+
+int Workers::most() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
 
 #endif
 

@@ -16,6 +16,9 @@ class Workers {
 
   int threads() const { return threads_; }
 
+  // Threads that run at a time at most, however many are asked for: the machine's.
+  static int most();
+
   // task(0) .. task(count - 1), in any order (the last one begins first); returns when all are done. What a
   // task throws (memory may run out) is thrown from here, and tasks that were not begun are left out.
   template <class Task>
