@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/options.h"
+#include "app/resources.h"
 #include "hwmodel/presets/presets.h"
 #include "hwmodel/stream/faults.h"
 #include "kernel/scene/features.h"
@@ -54,7 +55,8 @@ int list_faults() {
 
 int list_presets() {
   std::set<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(VOXMELT_PRESETS_FOLDER))
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(resource_folder("presets"), ignored))
     if (entry.path().extension() == ".toml") files.insert(entry.path());
   for (const fs::path& file : files)
     fmt::print("{:<24} {}\n", file.stem().string(), hwmodel::load_preset(file, {}).title);

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <thread>
 
+#include "app/resources.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
@@ -55,7 +56,7 @@ void add_common(CLI::App& command, Common& common) {
 std::vector<fs::path> scene_folders() {
   std::vector<fs::path> folders{"scenes"};
   if (const char* installed = std::getenv("VOXMELT_SCENES")) folders.emplace_back(installed);
-  folders.emplace_back(VOXMELT_SCENES_FOLDER);
+  folders.push_back(resource_folder("scenes"));
   return folders;
 }
 

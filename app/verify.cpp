@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/options.h"
+#include "app/resources.h"
 #include "hwmodel/lockstep/replay.h"
 #include "hwmodel/lockstep/report.h"
 #include "hwmodel/presets/presets.h"
@@ -31,7 +32,7 @@ struct VerifyCommand {
 fs::path find_preset(const std::string& given) {
   const fs::path path(given);
   if (given.empty() || path.has_parent_path() || path.has_extension()) return path;
-  const fs::path named = fs::path(VOXMELT_PRESETS_FOLDER) / (given + ".toml");
+  const fs::path named = resource_folder("presets") / (given + ".toml");
   std::error_code ignored;
   if (fs::exists(named, ignored)) return named;
   throw UsageError(

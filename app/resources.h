@@ -1,0 +1,12 @@
+// Files that came with the program. They lie beside it: bin/voxmelt and share/voxmelt/, wherever both were
+// moved together. A build folder has links to the source tree in the same places.
+#pragma once
+
+#include <filesystem>
+
+namespace voxmelt::app {
+
+// share/voxmelt/NAME of this program: `scenes`, or `presets` (hardware configurations). It need not exist.
+std::filesystem::path resource_folder(const std::filesystem::path& name);
+
+}  // namespace voxmelt::app
