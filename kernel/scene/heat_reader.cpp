@@ -11,14 +11,11 @@ namespace {
 
 constexpr double kLargestGamma = 0.5236;   // pi / 6: weight_face <= 10922, and conduction cannot overshoot
 constexpr double kLargestPower = 4194303;  // x 2^28 fits 50 bits
-constexpr double kPowerUnit = 65536.0 * 16 * 256;  // 1/16 temperature unit x (1/16 cell)^2
 constexpr double kLargestExchange =
     0.57735;  // 1 / sqrt 3: a corner exposed on three axes stays within the air
 constexpr std::int64_t kLastStep = 0xFFFFFFFFll;
 
 Range power() { return at_most(kLargestPower); }
-
-std::uint64_t to_power(double value) { return static_cast<std::uint64_t>(std::llround(value * kPowerUnit)); }
 
 // Eq. 1: weight = gamma / (pi l^2) for a neighbour at distance l.
 std::uint16_t weight(double gamma, double squared_distance) {
@@ -75,11 +72,17 @@ rule::PointSource read_source(Reader& reader) {
 
 }  // namespace
 
+std::vector<rule::PointSource> read_heat_sources(Reader& root) {
+  std::vector<rule::PointSource> sources;
+  for (Reader& source : root.tables("heat_source")) sources.push_back(read_source(source));
+  return sources;
+}
+
 rule::Heat read_heat(Reader& root, int ny) {
   rule::Heat heat;
-  std::vector<Reader> sources = root.tables("heat_source");
   std::optional<Reader> reader = root.table("heat");
   if (!reader) {
+    const std::vector<Reader> sources = root.tables("heat_source");
     if (!sources.empty())
       fail_at(sources.front().place(), "heat_source needs a [heat] table: without it nothing is heated");
     return heat;
@@ -92,7 +95,7 @@ rule::Heat read_heat(Reader& root, int ny) {
   if (std::optional<Reader> air = reader->table("air")) read_air(*air, heat, ny);
   reader->finish();
 
-  for (Reader& source : sources) heat.sources.push_back(read_source(source));
+  heat.sources = read_heat_sources(root);
   heat.radiation = !heat.sources.empty();
   return heat;
 }

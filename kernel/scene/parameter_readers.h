@@ -9,10 +9,11 @@
 
 namespace voxmelt::scene {
 
-rule::Material read_material(Reader& root);          // [material]
-rule::Heat read_heat(Reader& root, int ny);          // [heat], [heat.air] and [[heat_source]]
-std::vector<rule::Vent> read_vents(Reader& root);    // [[vent]]
-std::vector<rule::Drain> read_drains(Reader& root);  // [[drain]]
-rule::Flow read_flow(Reader& root);                  // [flow] and its tables
+rule::Material read_material(Reader& root);                      // [material]
+rule::Heat read_heat(Reader& root, int ny);                      // [heat], [heat.air] and [[heat_source]]
+std::vector<rule::PointSource> read_heat_sources(Reader& root);  // [[heat_source]] alone
+std::vector<rule::Vent> read_vents(Reader& root);                // [[vent]]
+std::vector<rule::Drain> read_drains(Reader& root);              // [[drain]]
+rule::Flow read_flow(Reader& root);                              // [flow] and its tables
 
 }  // namespace voxmelt::scene

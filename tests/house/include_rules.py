@@ -45,6 +45,11 @@ ALLOWED = {
     "bench/measure": ["bench/baseline", "bench/measure/arch", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
                       "kernel/run", "render/density"],
     "bench/measure/arch": [CPU],
+    # What strangers include: the standard library only.
+    "include/voxmelt": [],
+    "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
+                "render/density", "render/image", "render/raycast"],
+    "examples": ["include/voxmelt"],
     "app": ["bench/measure", "hwmodel/lockstep", "hwmodel/presets", "hwmodel/stream", STATE, "kernel/scene", "kernel/run",
             "kernel/run/io", "render/density", "render/image", "render/raycast"],
 }
@@ -64,11 +69,14 @@ THIRD_PARTY = {
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
-TOPS = ("kernel", "render", "hwmodel", "app", "bench")
+TOPS = ("kernel", "render", "hwmodel", "app", "bench", "include", "library", "examples")
+STANDARD_ONLY = (RULE, "include/voxmelt")
 
 
 def offence_of(folder, kind, target, used):
     """What is wrong with one include, or nothing; `used` collects the allowances it needed."""
+    if target.startswith("voxmelt/"):
+        target = f"include/{target}"
     if kind == '"' or target.split("/")[0] in (*TOPS, "tests"):
         into = Path(target).parent.as_posix()
         if into == folder:
@@ -82,7 +90,7 @@ def offence_of(folder, kind, target, used):
         if target.startswith(library):
             used.add((library, folder))
             return None if folder in folders else f"{folder} may not include <{target}>"
-    if folder == RULE and ("/" in target or target.endswith(".h")):
+    if folder in STANDARD_ONLY and ("/" in target or target.endswith(".h")):
         return f"{folder} includes the standard library only, not <{target}>"
     return None
 
@@ -131,9 +139,15 @@ def self_test():
         "hwmodel/channel/o.h": '#include "hwmodel/stream/cell.h"\n',
         "app/p.cpp": "#include <systemc>\n",
         "kernel/engine/parallel/q.cpp": "#include <tbb/parallel_for.h>\n",
+        "include/voxmelt/s.h": "#include <fmt/format.h>\n",
+        "include/voxmelt/t.h": f'#include "{STATE}/grid.h"\n',
+        "library/u.cpp": f'#include "{RULE}/heat.h"\n',
+        "examples/v.cpp": '#include "kernel/scene/scene.h"\n',
+        "kernel/scene/w.cpp": '#include <voxmelt/voxmelt.h>\n',
         "kernel/run/r.cpp": '#include "tests/kernel/worlds.h"\n',
     }
     fine = {"kernel/engine/scalar/ok.cpp": f'#include "{RULE}/heat.h"\n#include <vector>\n',
+            "examples/ok.cpp": '#include <voxmelt/voxmelt.h>\n',
             "hwmodel/stream/ok.cpp": f'#include "{PARAMETERS}"\n#include <systemc>\n'}
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)

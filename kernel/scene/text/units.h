@@ -29,6 +29,13 @@ inline std::uint16_t to_factor16(double f) {
 }
 inline std::uint32_t to_factor32(double f) { return static_cast<std::uint32_t>(std::llround(f * 65536)); }
 
+// Power: in scenes, temperature per step times squared cells; 1/16 temperature unit x (1/16 cell)^2 inside.
+inline constexpr double kPowerUnit = 65536.0 * 16 * 256;
+inline std::uint64_t to_power(double value) {
+  return static_cast<std::uint64_t>(std::llround(value * kPowerUnit));
+}
+inline double from_power(std::uint64_t power) { return static_cast<double>(power) / kPowerUnit; }
+
 inline std::int64_t to_position(double cells) { return std::llround(cells * rule::kPositionUnit); }
 inline rule::Position to_position(const std::array<double, 3>& at) {
   return {to_position(at[0]), to_position(at[1]), to_position(at[2])};

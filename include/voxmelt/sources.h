@@ -1,0 +1,57 @@
+/// @file
+/// What acts on a volume from outside: point sources of heat, vents and drains, in the units and ranges of
+/// scene files (docs/scenes.md). Lengths are in cells; cell c covers c..c+1.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace voxmelt {
+
+/// x, y, z in cells, each -65536..65536; rounded to sixteenths.
+using Position = std::array<double, 3>;
+
+/// For an `until`: never.
+inline constexpr std::uint32_t kNever = 0xFFFFFFFFu;
+
+/// Where a heat source is at a step, and how strong.
+struct Keyframe {
+  std::uint32_t step = 0;  ///< number of the step
+  Position at{};           ///< position
+  /// A surface cell at distance d that faces the source gains power / d^2 per step, in temperature (the
+  /// scene's range is 0..1); docs/automaton.md, section 5. 0..4194303.
+  double power = 0;
+};
+
+/// A point source of heat. Between two keyframes position and power change linearly in the step; before the
+/// first and after the last they stay.
+struct HeatSource {
+  std::vector<Keyframe> keyframes;  ///< at least one, steps ascending
+
+  /// A source that stays where it is.
+  static HeatSource fixed(const Position& at, double power) { return {{{0, at, power}}}; }
+};
+
+/// Adds liquid to all cells that are not solid or inert and whose centre is within `radius` of `at`, at steps
+/// with from <= step < until; docs/automaton.md, section 4.
+struct Vent {
+  Position at{};                 ///< centre
+  double radius = 1;             ///< more than 0, at most 8192
+  double rate = 0.1;             ///< full cells of liquid per cell and step: more than 0, at most 1
+  double temperature = 0;        ///< of the liquid, 0..1
+  double energy = 1;             ///< of the liquid, as a part of its amount, 0..1; the viscous law has none
+  std::uint32_t from = 0;        ///< first step
+  std::uint32_t until = kNever;  ///< first step after it, more than `from`
+};
+
+/// Takes liquid away, where and when a vent of the same numbers would add it.
+struct Drain {
+  Position at{};                 ///< centre
+  double radius = 1;             ///< more than 0, at most 8192
+  double rate = 0.1;             ///< full cells of liquid per cell and step: more than 0, at most 1
+  std::uint32_t from = 0;        ///< first step
+  std::uint32_t until = kNever;  ///< first step after it, more than `from`
+};
+
+}  // namespace voxmelt

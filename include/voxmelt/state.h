@@ -1,0 +1,105 @@
+/// @file
+/// The state of a volume, to be read in place: views of three masks and three fields, without a copy.
+///
+/// x is fastest, y points up (gravity acts along -y), z is outermost. Rows are contiguous; between rows and
+/// slices lies padding, so a whole field is not one span. docs/automaton.md, section 1, defines all values.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace voxmelt {
+
+/// Size of a volume in cells, each 1..4096.
+struct Grid {
+  int x = 0;  ///< cells along x, the fastest axis
+  int y = 0;  ///< cells along y, upwards
+  int z = 0;  ///< cells along z, the outermost axis
+
+  /// The number of cells, x * y * z.
+  std::size_t cells() const {
+    return static_cast<std::size_t>(x) * static_cast<std::size_t>(y) * static_cast<std::size_t>(z);
+  }
+  friend bool operator==(const Grid&, const Grid&) = default;  ///< all three sides are equal
+};
+
+/// One unsigned 16-bit number per cell. Coordinates are not checked: 0 <= x < grid.x, and so on.
+class FieldView {
+ public:
+  /// `row` and `slice`: the distance from (x, y, z) to (x, y + 1, z) and to (x, y, z + 1), in numbers.
+  FieldView(const std::uint16_t* data, Grid grid, std::size_t row, std::size_t slice)
+      : data_(data), grid_(grid), row_(row), slice_(slice) {}
+
+  /// The grid.x numbers of one row, contiguous.
+  std::span<const std::uint16_t> row(int y, int z) const {
+    return {data_ + static_cast<std::size_t>(z) * slice_ + static_cast<std::size_t>(y) * row_,
+            static_cast<std::size_t>(grid_.x)};
+  }
+  /// The number of one cell.
+  std::uint16_t at(int x, int y, int z) const { return row(y, z)[static_cast<std::size_t>(x)]; }
+
+  const std::uint16_t* data() const { return data_; }  ///< the cell (0, 0, 0)
+  std::size_t row_stride() const { return row_; }      ///< numbers from a row to the next along y
+  std::size_t slice_stride() const { return slice_; }  ///< numbers from a row to the next along z
+  Grid grid() const { return grid_; }                  ///< the size of the volume
+
+ private:
+  const std::uint16_t* data_;
+  Grid grid_;
+  std::size_t row_, slice_;
+};
+
+/// One bit per cell, 64 cells a word along x. Coordinates are not checked: 0 <= x < grid.x, and so on.
+class MaskView {
+ public:
+  /// The words of all rows follow each other, rows along y first; each row begins a new word.
+  MaskView(const std::uint64_t* data, Grid grid) : data_(data), grid_(grid) {}
+
+  /// The words of one row: bit b of word w is the cell x = 64 w + b. Bits beyond the grid are 0.
+  std::span<const std::uint64_t> row(int y, int z) const {
+    const std::size_t words = (static_cast<std::size_t>(grid_.x) + 63) / 64;
+    return {data_ + (static_cast<std::size_t>(z) * static_cast<std::size_t>(grid_.y) +
+                     static_cast<std::size_t>(y)) *
+                        words,
+            words};
+  }
+  /// Is the bit of this cell set?
+  bool test(int x, int y, int z) const {
+    return (row(y, z)[static_cast<std::size_t>(x) / 64] >> (x & 63)) & 1;
+  }
+
+  /// The number of cells whose bit is set. Takes a pass over the mask.
+  std::size_t count() const {
+    std::size_t total = 0;
+    for (int z = 0; z < grid_.z; ++z)
+      for (int y = 0; y < grid_.y; ++y)
+        for (const std::uint64_t word : row(y, z)) total += static_cast<std::size_t>(std::popcount(word));
+    return total;
+  }
+  Grid grid() const { return grid_; }  ///< the size of the volume
+
+ private:
+  const std::uint64_t* data_;
+  Grid grid_;
+};
+
+/// Everything that the automaton knows of a volume. The views point into a Simulation: they are valid until
+/// it steps, is moved from or ends. At most one of the three masks is set in a cell.
+struct State {
+  Grid grid;        ///< the size of everything below
+  MaskView solid;   ///< meltable solid
+  MaskView liquid;  ///< exactly the cells that are neither solid nor inert and hold an amount
+  MaskView inert;   ///< floor and terrain, which never melt and never move
+  /// UQ4.12: 4096 is a full cell, 65535 the most. In an inert cell it is no mass but the height of the bed:
+  /// the surface lies (amount - 2048) / 4096 cells above the cell's upper face.
+  FieldView amount;
+  /// UQ4.12, at most the amount: the potential to expand, of liquid. 0 everywhere under the viscous law.
+  FieldView energy;
+  /// Heat content, 0..65535 for 0..1 of the scene's range of temperatures; a temperature with latent heat
+  /// included (section 6). 0 where there is neither solid nor liquid, and in scenes without [heat].
+  FieldView heat;
+};
+
+}  // namespace voxmelt

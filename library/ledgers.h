@@ -1,0 +1,11 @@
+// The books of a run as the public face shows them.
+#pragma once
+
+#include "kernel/automaton/state/ledger.h"
+#include "voxmelt/ledgers.h"
+
+namespace voxmelt::library {
+
+Ledgers to_ledgers(const state::Ledger& ledger, const state::Holdings& held);
+
+}  // namespace voxmelt::library

@@ -1,0 +1,140 @@
+#include "library/sources.h"
+
+#include <memory>
+#include <string>
+
+#include "kernel/scene/parameter_readers.h"
+#include "kernel/scene/text/document.h"
+#include "kernel/scene/text/units.h"
+
+namespace voxmelt::library {
+namespace {
+
+using scene::Value;
+
+// The document that a scene file with these tables would be.
+class Document {
+ public:
+  explicit Document(const char* caller)
+      : place_{std::make_shared<const scene::Origin>(scene::Origin{caller, {}, false}), 0, 0} {}
+
+  Value value(Value::Kind kind) const {
+    Value value;
+    value.kind = kind;
+    value.place = value.key_place = place_;
+    return value;
+  }
+  Value table() const { return value(Value::Kind::table); }
+  Value array(std::vector<Value> items) const {
+    Value array = value(Value::Kind::array);
+    array.items = std::move(items);
+    return array;
+  }
+  Value number(double number) const {
+    Value real = value(Value::Kind::real);
+    real.real = number;
+    return real;
+  }
+  Value step(std::uint32_t step) const {
+    Value integer = value(Value::Kind::integer);
+    integer.integer = step;
+    integer.real = step;
+    return integer;
+  }
+  Value position(const Position& at) const { return array({number(at[0]), number(at[1]), number(at[2])}); }
+
+  // The document with one list: [[key]], as to_table makes each of its tables.
+  template <class Item, class ToTable>
+  Value list(const char* key, const std::vector<Item>& items, const ToTable& to_table) const {
+    std::vector<Value> tables;
+    for (const Item& item : items) tables.push_back(to_table(item));
+    Value root = table();
+    root.put(key, array(std::move(tables)));
+    return root;
+  }
+
+ private:
+  scene::Place place_;
+};
+
+template <class Source>  // what vents and drains have in common
+Value region_table(const Document& document, const Source& source) {
+  Value table = document.table();
+  table.put("at", document.position(source.at));
+  table.put("radius", document.number(source.radius));
+  table.put("rate", document.number(source.rate));
+  table.put("from", document.step(source.from));
+  table.put("until", document.step(source.until));
+  return table;
+}
+
+template <class Rules>
+Rules checked(const Value& root, Rules (*read)(scene::Reader&)) {
+  scene::Reader reader(root, "");
+  return read(reader);
+}
+
+Position to_cells(const rule::Position& at) {
+  const auto cells = [](std::int64_t v) { return static_cast<double>(v) / rule::kPositionUnit; };
+  return {cells(at.x), cells(at.y), cells(at.z)};
+}
+double to_cells(std::int64_t length) { return static_cast<double>(length) / rule::kPositionUnit; }
+double to_part(rule::Amount amount) { return static_cast<double>(amount) / rule::kOne; }
+
+}  // namespace
+
+std::vector<rule::PointSource> to_rules(const std::vector<HeatSource>& sources) {
+  const Document document("set_heat_sources");
+  const Value root = document.list("heat_source", sources, [&](const HeatSource& source) {
+    return document.list("keyframes", source.keyframes, [&](const Keyframe& keyframe) {
+      Value table = document.table();
+      table.put("step", document.step(keyframe.step));
+      table.put("at", document.position(keyframe.at));
+      table.put("power", document.number(keyframe.power));
+      return table;
+    });
+  });
+  return checked(root, scene::read_heat_sources);
+}
+
+std::vector<rule::Vent> to_rules(const std::vector<Vent>& vents) {
+  const Document document("set_vents");
+  const Value root = document.list("vent", vents, [&](const Vent& vent) {
+    Value table = region_table(document, vent);
+    table.put("temperature", document.number(vent.temperature));
+    table.put("energy", document.number(vent.energy));
+    return table;
+  });
+  return checked(root, scene::read_vents);
+}
+
+std::vector<rule::Drain> to_rules(const std::vector<Drain>& drains) {
+  const Document document("set_drains");
+  const Value root =
+      document.list("drain", drains, [&](const Drain& drain) { return region_table(document, drain); });
+  return checked(root, scene::read_drains);
+}
+
+HeatSource from_rule(const rule::PointSource& source) {
+  HeatSource result;
+  for (const rule::SourceKey& key : source.keys)
+    result.keyframes.push_back({key.step, to_cells(key.at), scene::from_power(key.power)});
+  return result;
+}
+
+Vent from_rule(const rule::Vent& vent) {
+  return {to_cells(vent.region.at),
+          to_cells(vent.region.radius),
+          to_part(vent.rate),
+          static_cast<double>(vent.temperature) / rule::kTemperatureMax,
+          to_part(vent.energy),
+          vent.from,
+          vent.until};
+}
+
+Drain from_rule(const rule::Drain& drain) {
+  return {to_cells(drain.region.at), to_cells(drain.region.radius), to_part(drain.rate), drain.from,
+          drain.until};
+}
+
+}  // namespace voxmelt::library

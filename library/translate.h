@@ -1,0 +1,40 @@
+// From the errors of the rooms inside to those of the public face.
+#pragma once
+
+#include <filesystem>
+#include <new>
+
+#include "kernel/run/io/output_folder.h"
+#include "kernel/scene/text/error.h"
+#include "render/image/png.h"
+#include "voxmelt/errors.h"
+
+namespace voxmelt::library {
+
+template <class Error>
+[[noreturn]] void throw_unwritten(const Error& error) {
+  if (error.out_of_space()) throw ResourceError(error.what());
+  throw OutputError(error.what());
+}
+
+// What `work` returns; what it throws is thrown as one of the public errors.
+template <class Work>
+decltype(auto) translated(const Work& work) {
+  try {
+    return work();
+  } catch (const scene::InputError& error) {
+    throw InputError(error.what());
+  } catch (const scene::ResourceError& error) {
+    throw ResourceError(error.what());
+  } catch (const io::OutputError& error) {
+    throw_unwritten(error);
+  } catch (const render::ImageError& error) {
+    throw_unwritten(error);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw OutputError(error.what());
+  } catch (const std::bad_alloc&) {
+    throw ResourceError("error: out of memory");
+  }
+}
+
+}  // namespace voxmelt::library

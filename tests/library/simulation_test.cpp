@@ -1,0 +1,187 @@
+// The public face: what it gives is what the rooms inside give, and its errors are its own.
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "tests/library/scene_file.h"
+
+namespace voxmelt {
+namespace {
+
+using Library = SceneFile;
+
+// The approved digests were agreed on by the oracle, a second program.
+TEST_F(Library, HasTheApprovedDigestsAndCounts) {
+  std::ifstream approved_file(VOXMELT_APPROVED_DIGESTS);
+  const nlohmann::json approved = nlohmann::json::parse(approved_file);
+  for (const char* scene : {"bunny_small", "proving_ground", "proving_ground_viscous", "lesson_tubes"})
+    for (const Implementation& one : implementations()) {
+      if (!one.supported) continue;
+      Options options;
+      options.implementation = one.name;
+      Simulation simulation(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (std::string(scene) + ".toml"),
+                            options);
+      EXPECT_EQ(simulation.implementation(), one.name);
+      simulation.step(10);
+      std::array<char, 200> line{};
+      std::snprintf(line.data(), line.size(), "step %u digest %016llx mass %s solid %zu liquid %zu",
+                    simulation.steps_done(), static_cast<unsigned long long>(simulation.digest()),
+                    to_string(simulation.ledgers().mass.held).c_str(), simulation.state().solid.count(),
+                    simulation.state().liquid.count());
+      EXPECT_EQ(line.data(), approved.at(scene).at("10").get<std::string>()) << one.name;
+      EXPECT_TRUE(simulation.ledgers().balance());
+    }
+}
+
+// Section 13 of docs/automaton.md, by the views alone: their values, their order, their padding.
+TEST_F(Library, TheDigestFollowsFromTheViews) {
+  Simulation simulation(std::filesystem::path(VOXMELT_SCENES_FOLDER) / "proving_ground.toml");
+  simulation.step(40);
+  const State s = simulation.state();
+  ASSERT_GT(s.liquid.count(), 0u);
+  std::uint64_t sum = 0, index = 0;
+  for (int z = 0; z < s.grid.z; ++z)
+    for (int y = 0; y < s.grid.y; ++y)
+      for (int x = 0; x < s.grid.x; ++x, ++index) {
+        const std::uint64_t packed =
+            s.amount.at(x, y, z) | std::uint64_t{s.energy.at(x, y, z)} << 16 |
+            std::uint64_t{s.heat.at(x, y, z)} << 32 | std::uint64_t{s.solid.test(x, y, z)} << 48 |
+            std::uint64_t{s.liquid.test(x, y, z)} << 49 | std::uint64_t{s.inert.test(x, y, z)} << 50;
+        if (packed == 0) continue;
+        std::uint64_t v = packed + 0x9E3779B97F4A7C15u * (index + 1);
+        v = (v ^ (v >> 30)) * 0xBF58476D1CE4E5B9u;
+        v = (v ^ (v >> 27)) * 0x94D049BB133111EBu;
+        sum += v ^ (v >> 31);
+      }
+  EXPECT_EQ(sum, simulation.digest());
+}
+
+// The names and signs of report.json's terms; each ledger adds up to what the views hold.
+TEST_F(Library, LedgersAddUpToWhatIsThere) {
+  Options options;
+  options.overrides = {"flow.paper.beta=1.5"};
+  Simulation simulation(std::filesystem::path(VOXMELT_SCENES_FOLDER) / "proving_ground.toml", options);
+  simulation.step(60);
+  const State s = simulation.state();
+  Sum mass = 0, energy = 0, heat = 0;
+  for (int z = 0; z < s.grid.z; ++z)
+    for (int y = 0; y < s.grid.y; ++y)
+      for (int x = 0; x < s.grid.x; ++x) {
+        if (s.inert.test(x, y, z)) continue;
+        mass += s.amount.at(x, y, z);
+        energy += s.energy.at(x, y, z);
+        heat += Sum{s.amount.at(x, y, z)} * s.heat.at(x, y, z);
+      }
+  const Ledgers books = simulation.ledgers();
+  const auto check = [](const Ledger& ledger, Sum held, const std::vector<std::string>& names) {
+    EXPECT_TRUE(ledger.held == held);
+    std::vector<std::string> found;
+    Sum sum = ledger.start;
+    for (const Term& term : ledger.terms) {
+      found.push_back(term.name);
+      sum += term.value;
+      EXPECT_NE(to_string(term.value), "0") << term.name << ": every rule has acted";
+    }
+    EXPECT_EQ(found, names);
+    EXPECT_TRUE(sum == held);
+  };
+  check(books.mass, mass, {"added", "removed"});
+  check(books.energy, energy,
+        {"melted", "added", "removed", "reheated", "accelerated", "dissipated", "capped"});
+  check(books.heat, heat,
+        {"conducted", "convected", "radiated", "warmed", "cooled", "added", "removed", "rounded"});
+  EXPECT_TRUE(books.mass.terms[1].value < 0) << "what is removed is negative";
+
+  Ledgers broken = books;
+  broken.heat.held += 1;
+  EXPECT_EQ(to_string(broken.heat.drift()), "1");
+  EXPECT_FALSE(broken.balance());
+}
+
+TEST_F(Library, OverridesThreadsAndSteps) {
+  Options options;
+  options.overrides = {"run.steps=77", "title=other"};
+  options.threads = 1;
+  Simulation simulation(file, options);
+  EXPECT_EQ(simulation.title(), "other");
+  EXPECT_EQ(simulation.scene_steps(), 77u);
+  EXPECT_EQ(simulation.threads(), 1);
+  EXPECT_EQ(simulation.grid(), (Grid{70, 12, 20}));
+  simulation.step();
+  simulation.step(2);
+  EXPECT_EQ(simulation.steps_done(), 3u);
+  EXPECT_EQ(simulation.step_number(), 3u);
+  Simulation moved = std::move(simulation);
+  EXPECT_EQ(moved.steps_done(), 3u);
+}
+
+TEST_F(Library, AnExportGoesOnTheSame) {
+  Simulation simulation(file);
+  simulation.step(8);
+  simulation.export_state(folder / "there");
+  simulation.export_state(folder / "there");  // over itself
+  simulation.export_state(folder / "vti", Format::vti);
+  EXPECT_TRUE(std::filesystem::exists(folder / "vti/volume.vti"));
+  Options options;
+  options.overrides = {"start={fields=\"" + (folder / "there").string() + "\", step=8}"};
+  Simulation again(file, options);
+  EXPECT_EQ(again.step_number(), 8u);
+  EXPECT_EQ(again.digest(), simulation.digest());
+  simulation.step(9), again.step(9);
+  EXPECT_EQ(again.digest(), simulation.digest());
+}
+
+TEST_F(Library, DrawsWithTheScenesCameraOrAnother) {
+  Simulation simulation(file);
+  Picture small;
+  small.width = 64;
+  small.height = 48;
+  const auto bytes = [&](const Picture& picture) {
+    simulation.draw(folder / "p.png", picture);
+    std::ifstream png(folder / "p.png", std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(png), {});
+  };
+  const std::string first = bytes(small);
+  EXPECT_EQ(first.substr(1, 3), "PNG");
+  EXPECT_EQ(first.substr(16, 8), std::string("\0\0\0\x40\0\0\0\x30", 8));
+  EXPECT_EQ(bytes(small), first);
+  small.azimuth = 90;
+  const std::string aside = bytes(small);
+  EXPECT_NE(aside, first);
+  simulation.step(120);
+  EXPECT_NE(bytes(small), aside) << "it has melted";
+}
+
+TEST_F(Library, ErrorsAreItsOwn) {
+  const auto open = [](const std::filesystem::path& scene, const Options& options = {}) {
+    return [=] { Simulation simulation(scene, options); };
+  };
+  EXPECT_NE(message_of<InputError>(open(folder / "no.toml")).find("no.toml"), std::string::npos);
+  const auto wrong = write("wrong.toml", "[grid]\nsize = [1, 2]\n");
+  EXPECT_NE(message_of<InputError>(open(wrong)).find("wrong.toml:2:8: error: grid.size"), std::string::npos);
+  EXPECT_EQ(message_of<InputError>(open(file, {{"heat.gamma=7"}, "auto", 0})),
+            "--set heat.gamma=7: error: heat.gamma = 7 exceeds 0.5236, the bound for 6 neighbours");
+  EXPECT_NE(message_of<InputError>(open(file, {{}, "abacus", 0})).find("abacus"), std::string::npos);
+  for (const int threads : {-1, 1025})
+    EXPECT_NE(message_of<InputError>(open(file, {{}, "auto", threads})).find("threads"), std::string::npos);
+  EXPECT_NE(
+      message_of<ResourceError>(open(file, {{"grid.size=[4096, 4096, 4096]"}, "auto", 0})).find("bytes"),
+      std::string::npos);
+
+  Simulation simulation(file);
+  EXPECT_NE(message_of<OutputError>([&] { simulation.draw(folder / "no/p.png"); }).find("p.png"),
+            std::string::npos);
+  EXPECT_NE(message_of<OutputError>([&] { simulation.export_state(file); }), "nothing");
+  Picture picture;
+  picture.width = 8193;
+  EXPECT_EQ(message_of<InputError>([&] { simulation.draw(folder / "p.png", picture); }),
+            "Picture: error: width = 8193 is outside 16..8192");
+  picture = {};
+  picture.azimuth = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(message_of<InputError>([&] { simulation.draw(folder / "p.png", picture); }), "nothing");
+  simulation.step();
+  EXPECT_NE(message_of<InputError>([&] { simulation.step(0xFFFFFFFFu); }), "nothing");
+  EXPECT_EQ(simulation.steps_done(), 1u);
+}
+
+}  // namespace
+}  // namespace voxmelt
