@@ -1,6 +1,7 @@
 // Sources, vents and drains that a user changes between steps: the bits of a scene that said so from the
 // start, for every implementation; and nothing out of range passes.
 #include <cmath>
+#include <limits>
 
 #include "tests/library/scene_file.h"
 
