@@ -6,7 +6,7 @@
 
 - Links and paths exist, in README, docs, scenes and examples, and the paths that include/ names.
 - A line has at most 100 columns, but in tables, code and generated pages.
-- README has at most 90 lines, and no sentence of more than 30 words. A decision has at most 40 lines and stands in the index.
+- README has at most 90 lines, and no sentence of more than 30 words. Its C++ programs are files of examples/. A decision has at most 40 lines and stands in the index.
 - The scripts that the README names parse.
 """
 import re
@@ -66,6 +66,10 @@ def offences(root):
     for sentence in sentences(readme):
         if len(sentence.split()) > SENTENCE_WORDS:
             found.append(f"README.md: more than {SENTENCE_WORDS} words: {sentence}")
+    examples = {path.read_text() for path in (root / "examples").glob("*.cpp")}
+    for program in re.findall(r"```cpp\n(.*?)```", readme, re.S):
+        if program not in examples:
+            found.append(f"README.md: a program that is no file of examples/: {program.splitlines()[0]}")
     decisions = root / "docs/decisions"
     index = (decisions / "README.md").read_text()
     for page in sorted(decisions.glob("*.md")):
@@ -85,7 +89,8 @@ def offences(root):
 def self_test():
     long = "a word and " * 8
     fine = {
-        "README.md": "# House\n\nSee [docs](docs/a.md), `docs/a.md`.\n\n```\n" + "x" * 120 + "\n```\n",
+        "README.md": "# House\n\nSee [docs](docs/a.md), `docs/a.md`.\n\n```\n" + "x" * 120 + "\n```\n\n```cpp\nint a;\n```\n",
+        "examples/a.cpp": "int a;\n",
         "docs/a.md": "| " + "x" * 120 + " |\n",
         "docs/performance.md": "<!-- Written by a script -->\n" + "x " * 60 + "\n",
         "docs/decisions/README.md": "- [one](one.md)\n- [long](long.md)\n",
@@ -94,7 +99,8 @@ def self_test():
         "run.sh": "", "test.sh": "", ".ci/run": "", "cmake/install-dependencies.sh": "",
     }
     planted = {  # file: its text, and what is said
-        "README.md": (fine["README.md"] + f"\n{long}\n{long}.\n" + "\n" * README_LINES, ["words", "lines"]),
+        "README.md": (fine["README.md"] + f"\n{long}\n{long}.\n```cpp\nint b;\n```\n" + "\n" * README_LINES,
+                      ["words", "lines", "README.md: a program that is no file of examples/: int b;"]),
         "docs/deep/b.md": ("[gone](gone.md)\n", ["docs/deep/b.md: link to gone.md"]),
         "docs/c.md": ("`kernel/gone.h`\n", ["docs/c.md: names kernel/gone.h"]),
         "docs/d.md": ("y" * 101 + "\n", ["docs/d.md:1: 101 columns"]),

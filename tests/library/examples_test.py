@@ -31,9 +31,14 @@ class Examples(unittest.TestCase):
 
     def test_each_is_tested_and_short(self):
         sources = sorted((root / "examples").glob("*.cpp"))
-        self.assertEqual([s.stem for s in sources], ["heights", "melt", "picture", "torch"])
+        self.assertEqual([s.stem for s in sources], ["cello", "heights", "melt", "picture", "torch"])
         for source in sources:
             self.assertLessEqual(len(source.read_text().splitlines()), LONGEST, source.name)
+
+    def test_cello_draws_the_molten_cello(self):
+        (self.folder / "scenes").symlink_to(root / "scenes")
+        self.good("cello")
+        self.assertEqual(struct.unpack(">II", (self.folder / "cello.png").read_bytes()[16:24]), (640, 480))
 
     def test_melt_prints_the_approved_digest(self):
         approved = json.loads((root / "tests/app/digests.json").read_text())["bunny_small"]["500"]
