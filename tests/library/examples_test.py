@@ -38,7 +38,7 @@ class Examples(unittest.TestCase):
     def test_cello_draws_the_molten_cello(self):
         (self.folder / "scenes").symlink_to(root / "scenes")
         self.good("cello")
-        self.assertEqual(struct.unpack(">II", (self.folder / "cello.png").read_bytes()[16:24]), (640, 480))
+        self.assertEqual(struct.unpack(">II", (self.folder / "cello.png").read_bytes()[16:24]), (600, 600))
 
     def test_melt_prints_the_approved_digest(self):
         approved = json.loads((root / "tests/app/digests.json").read_text())["bunny_small"]["500"]
