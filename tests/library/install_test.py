@@ -52,7 +52,7 @@ class Install(unittest.TestCase):
         for file in files:
             data = file.read_bytes()
             for tree in (root, build):
-                self.assertNotIn(os.fsencode(tree) + b"/", data, file)
+                self.assertFalse(os.fsencode(tree) + b"/" in data, f"{file} names {tree}")
 
     def test_the_moved_program_finds_scenes_and_presets(self):
         program = self.prefix / "bin/voxmelt"
