@@ -138,7 +138,7 @@ Value parse_file(const std::filesystem::path& file) {
   }
 }
 
-Value parse_value(const std::string& text, std::shared_ptr<const Origin> origin) {
+Value parse_value(const std::string& text, const std::shared_ptr<const Origin>& origin) {
   const Place place{origin, 0, 0};
   if (text.find_first_of("\r\n") != std::string::npos) fail_at(place, "the value must be one line");
   try {
