@@ -1,6 +1,7 @@
 #include "render/density/pyramid.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
