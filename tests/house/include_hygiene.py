@@ -12,7 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-TOPS = ("kernel", "render", "hwmodel", "app", "bench", "library", "include", "examples", "tests")
+NOT_OURS = ("build", "out")
 # Header -> its names in namespace std. A name that several headers give is satisfied by each; the first is the usual one.
 TABLE = {
     "algorithm": "all_of any_of none_of clamp copy copy_n count count_if equal fill fill_n find find_if for_each is_sorted "
@@ -126,7 +126,8 @@ def examined(path):
 
 
 def sources(root):
-    return sorted(p for top in TOPS for p in (root / top).rglob("*") if p.suffix in (".h", ".cpp"))
+    tops = [p for p in root.iterdir() if p.is_dir() and p.name not in NOT_OURS and not p.name.startswith(".")]
+    return sorted(p for top in tops for p in top.rglob("*") if p.suffix in (".h", ".cpp"))
 
 
 def offences(root):

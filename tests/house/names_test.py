@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-TOPS = ("kernel", "render", "hwmodel", "app", "bench", "library", "include", "examples", "tests", "cmake", "docs", "scenes")
+TOPS = ("kernel", "render", "hwmodel", "app", "bench", "accuracy", "library", "include", "examples", "tests", "cmake", "docs", "scenes")
 CPP = (".h", ".cpp")
 HASHED = (".py", ".sh", ".cmake", ".txt", ".toml", ".yml")
 # What a page says in backticks of times past, of trials and of other programs is not looked for in the code.
