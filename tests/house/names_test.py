@@ -19,8 +19,8 @@ from pathlib import Path
 TOPS = ("kernel", "render", "hwmodel", "app", "bench", "accuracy", "library", "include", "examples", "tests", "cmake", "docs", "scenes")
 CPP = (".h", ".cpp")
 HASHED = (".py", ".sh", ".cmake", ".txt", ".toml", ".yml")
-# What a page says in backticks of times past, of trials and of other programs is not looked for in the code.
-HISTORY = ("CHANGELOG.md", "docs/decisions.md", "docs/decisions/", "docs/verification.md")
+# Pages whose names in backticks are not looked for in the code: they tell of times past, of trials and of tests.
+ELSEWHERE = ("CHANGELOG.md", "CONTRIBUTING.md", "docs/decisions.md", "docs/decisions/", "docs/verification.md")
 
 OTHERS = {"immintrin.h", "rol", "ror"}  # of the compiler; operations that a page defines
 
@@ -152,7 +152,7 @@ class House:
                 anchors = {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in self.headings.get(other, [])}
                 if other and anchor not in anchors:
                     self.say(page, f"links to {target}#{anchor}, which is no heading there")
-            if page.startswith(HISTORY):
+            if page.startswith(ELSEWHERE):
                 continue
             for names, file in IN_FILE.findall(text):
                 places = [p for p in self.words_of if p.as_posix().endswith("/" + file)]

@@ -4,7 +4,8 @@
   recipes_test.py ROOT BUILD
   recipes_test.py --self-test
 
-A path with NAME is one to be made: its folder exists, and other files there have names of that form. Tests are those that ctest knows in BUILD.
+A path with <name> is one to be made: its folder exists, and other files there have names of that form. Tests are those
+that ctest knows in BUILD.
 """
 import json
 import re
@@ -22,9 +23,9 @@ def known_tests(build):
 
 
 def exists(root, path):
-    if "NAME" not in path:
+    if "<name>" not in path:
         return (root / path).is_file()
-    return any(path != found.relative_to(root).as_posix() for found in root.glob(path.replace("NAME", "*")))
+    return any(path != found.relative_to(root).as_posix() for found in root.glob(path.replace("<name>", "*")))
 
 
 def offences(root, tests):
@@ -36,7 +37,7 @@ def offences(root, tests):
     for recipe in recipes:
         title = recipe.split("\n")[0]
         steps = re.findall(r"^\d+\. (.*(?:\n {3}.*)*)", recipe, re.M)
-        paths = [path for step in steps for path in re.findall(r"`([\w.-]+/[\w./-]+)`", step)]
+        paths = [path for step in steps for path in re.findall(r"`([\w.-]+/[\w./<>-]+)`", step)]
         found += [f"{title}: {path} does not exist" for path in paths if not exists(root, path)]
         said = re.search(r"^Test: (.*(?:\n.+)*)", recipe, re.M)
         tested = re.findall(r"`([\w.]+)`", said[1]) if said else []
@@ -50,10 +51,10 @@ def offences(root, tests):
 
 
 def self_test():
-    recipe = "### A {}\n\n1. `app/NAME.cpp` (or\n   `app/main.cpp`): its `value`.\n\nTest: `app.commands` (begin\nhere), `unit_test`.\n\n"
+    recipe = "### A {}\n\n1. `app/<name>.cpp` (or\n   `app/main.cpp`): its `value`.\n\nTest: `app.commands` (begin\nhere), `unit_test`.\n\n"
     fine = "| `house.docs` |\n\n## Recipes\n\nEach.\n\n" + "".join(recipe.format(name) for name in sorted(WANTED))
     tests = {"app.commands", "house.docs", "unit_test.Suite.Case"}
-    planted = [("app/main.cpp", "app/gone.cpp"), ("app/NAME.cpp", "app/gone/NAME.cpp"), ("app/NAME.cpp", "app/NAME.toml"), ("app.commands", "app.gone"),
+    planted = [("app/main.cpp", "app/gone.cpp"), ("app/<name>.cpp", "app/gone/<name>.cpp"), ("app/<name>.cpp", "app/<name>.toml"), ("app.commands", "app.gone"),
                ("unit_test", "unit_gone"), ("house.docs", "house.gone"), ("### A look", "### A view"), ("Test:", "Tested:")]
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
