@@ -141,6 +141,21 @@ def offences(root):
     return found
 
 
+def place_of_block(lines):
+    """Where the standard headers go in a file that has none yet: behind those of third parties or its own one."""
+    includes = [n for n, line in enumerate(lines) if line.startswith("#include")]
+    third_party = [n for n in includes if lines[n].startswith("#include <")]
+    if third_party:
+        end = third_party[0]
+        while lines[end].startswith("#include <"):
+            end += 1
+        return end
+    if len(includes) > 1 and includes[1] > includes[0] + 1 and lines[includes[0] + 1] == "":
+        return includes[0] + 1
+    once = [n for n, line in enumerate(lines) if line.startswith("#pragma once")]
+    return once[0] + 1 if once else includes[0] if includes else 0
+
+
 def fix(path):
     missing, spare, _ = examined(path)
     if not missing and not spare:
@@ -152,14 +167,9 @@ def fix(path):
     if standard and added:
         lines[standard[0]:standard[0]] = added
     elif added:
-        own = f'#include "{path.with_suffix(".h").as_posix()}"'
-        includes = [n for n, line in enumerate(lines) if line.startswith("#include")]
-        after = next((n for n, line in enumerate(lines) if line.startswith("#pragma once")), None)
-        if includes and own.endswith(lines[includes[0]][len("#include \""):]):
-            after = includes[0]
-        if after is None:
-            after = (includes[0] if includes else 0) - 1
-        lines[after + 1:after + 1] = ["", *added, ""] if lines[after] and after >= 0 else [*added, ""]
+        at = place_of_block(lines)
+        apart = at > 0 and lines[at - 1] != "" and not lines[at - 1].startswith("//")
+        lines[at:at] = ["", *added, ""] if apart else [*added, ""]
     path.write_text(re.sub(r"\n{3,}", "\n\n", "\n".join(lines)))
 
 
@@ -185,7 +195,7 @@ def self_test():
             assert any(offence.startswith(name + ":") and said in offence for offence in found), f"missed: {name}; {found}"
         extra = [offence for offence in found if offence.split(":")[0] not in planted]
         assert not extra, f"wrongly reported: {extra}"
-        for path in sources(root):
+        for path in sources(root) * 2:
             fix(path)
         left = offences(root)
         assert len(left) == 1 and "std::nonsense" in left[0], left
@@ -200,7 +210,7 @@ if __name__ == "__main__":
         sys.exit(0)
     house = Path(sys.argv[1])
     if "--fix" in sys.argv:
-        for source in sources(house):
+        for source in sources(house) * 2:  # what a header gives up, its source may need
             fix(source)
     problems = offences(house)
     print("\n".join(problems) if problems else "every file includes the standard headers whose names it uses")
