@@ -13,18 +13,18 @@ text { font-family: -apple-system, "Segoe UI", "Noto Sans", "DejaVu Sans", Helve
 .page { fill: #ffffff; } .walls { fill: #f6f8fa; stroke: #afb8c1; stroke-width: 1.5; }
 .box { fill: #ffffff; fill-opacity: 0.75; } .title { font-size: 15px; font-weight: 600; } .name { font-size: 12.5px; font-weight: 600; }
 .what, .count { font-size: 12px; fill: #57606a; } .house { font-size: 25px; font-weight: 600; }
-.app { fill: #ddeaf8; stroke: #2f6fb3; } .bench { fill: #e9ebee; stroke: #6b7683; } .library { fill: #e3e4fa; stroke: #5d5bb8; }
+.app { fill: #ddeaf8; stroke: #2f6fb3; } .bench { fill: #e9ebee; stroke: #6b7683; } .door { fill: #e3e4fa; stroke: #5d5bb8; }
 .hwmodel { fill: #fbead0; stroke: #b3701c; } .render { fill: #f2e2f3; stroke: #95489c; } .kernel { fill: #d9f0e6; stroke: #1a7f64; }
 .arrow { fill: none; stroke-width: 1.9; } .tip { stroke: none; }
-.tip.app { fill: #2f6fb3; } .tip.bench { fill: #6b7683; } .tip.library { fill: #5d5bb8; }
+.tip.app { fill: #2f6fb3; } .tip.bench { fill: #6b7683; } .tip.door { fill: #5d5bb8; }
 .tip.hwmodel { fill: #b3701c; } .tip.render { fill: #95489c; } .tip.kernel { fill: #1a7f64; }
 """
 DARK = """
 text { fill: #e6edf3; } .page { fill: #0d1117; } .walls { fill: #161b22; stroke: #484f58; }
 .box { fill: #0d1117; fill-opacity: 0.55; } .what, .count { fill: #a9b4c0; }
-.app { fill: #152a42; stroke: #6aa9ee; } .bench { fill: #23282f; stroke: #8b949e; } .library { fill: #22224a; stroke: #9a98f0; }
+.app { fill: #152a42; stroke: #6aa9ee; } .bench { fill: #23282f; stroke: #8b949e; } .door { fill: #22224a; stroke: #9a98f0; }
 .hwmodel { fill: #38270f; stroke: #e0a04a; } .render { fill: #331d36; stroke: #cf86d6; } .kernel { fill: #10332a; stroke: #4fc3a1; }
-.tip.app { fill: #6aa9ee; } .tip.bench { fill: #8b949e; } .tip.library { fill: #9a98f0; }
+.tip.app { fill: #6aa9ee; } .tip.bench { fill: #8b949e; } .tip.door { fill: #9a98f0; }
 .tip.hwmodel { fill: #e0a04a; } .tip.render { fill: #cf86d6; } .tip.kernel { fill: #4fc3a1; }
 """
 
@@ -56,11 +56,13 @@ def counted(right, y, folder, lines):
 class Room:
     """A card with a title, and below it a grid of boxes."""
 
-    def __init__(self, name, x, width, purposes, lines):
+    def __init__(self, name, x, width, purposes, folders, lines):
         self.name, self.x, self.width, self.purposes, self.lines = name, x, width, purposes, lines
         self.middle = x + width / 2
         self.wing = name.split("/")[0]
-        self.boxes = sorted((box for box in lines if box.rpartition("/")[0] == name), key=list(purposes).index)
+        own = [box for box in lines if box in folders.get(name, ()) or box.rpartition("/")[0] == name]
+        self.boxes = sorted(own, key=list(purposes).index)
+        self.prefix = 0 if name in folders else len(name) + 1
         columns = max(1, int((width - PAD) / 165))
         rows = -(-len(self.boxes) // columns)
         columns = -(-len(self.boxes) // rows) if rows else 1
@@ -88,7 +90,7 @@ class Room:
             for column, box in enumerate(row):
                 x = self.x + PAD + column * (cell + PAD)
                 out += f'<rect x="{x:g}" y="{top:g}" width="{cell:g}" height="{height:g}" rx="5" class="box"/>\n'
-                out += written(x + 8, top + 18, "name", box.rpartition("/")[2])
+                out += written(x + 8, top + 18, "name", box[self.prefix:])
                 out += counted(x + cell - 8, top + 18, box, self.lines[box])
                 for number, line in enumerate(self.text(box, row)):
                     out += written(x + 8, top + 35 + number * LINE, "what", line)
@@ -163,13 +165,13 @@ def keep_apart(arrows, rooms):
                 setattr(arrow, place, x)
 
 
-def picture(floors, purposes, lines, needed):
+def picture(floors, purposes, folders, lines, needed):
     storeys, y = [], ROOF + 18
-    for floor in floors:
+    for floor in ([(name, share) for name, share in floor if name in lines] for floor in floors):
         width = WIDTH - 2 * MARGIN - GAP * (len(floor) - 1)
         shares, x, storey = sum(share for _, share in floor), MARGIN, []
         for name, share in floor:
-            room = Room(name, x, width * share / shares, purposes, lines)
+            room = Room(name, x, width * share / shares, purposes, folders, lines)
             storey.append(room)
             x += room.width + GAP
         for room in storey:

@@ -23,7 +23,7 @@ from pathlib import Path
 
 TIDY = shutil.which("clang-tidy")
 BUDGET = 60  # seconds for --changed
-INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
+INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+\.h)[">]', re.M)
 SKIPPED = 77
 
 
@@ -66,8 +66,8 @@ class Sources:
             if name not in self.known:
                 self.known[name] = INCLUDE.findall((self.root / name).read_text())
             for other in self.known[name]:
-                beside = (Path(name).parent / other).as_posix()
-                self.included(beside if (self.root / beside).is_file() else other, seen)
+                for place in (Path(name).parent, Path(), Path("include")):
+                    self.included((place / other).as_posix(), seen)
         return seen
 
     def seeing(self, names):
@@ -135,6 +135,7 @@ def self_test():
         sources = Sources(root, build)
         assert sorted(sources.commands) == ["kernel/clean.cpp", "kernel/null.cpp", "kernel/other.cpp", "kernel/through.cpp"]
         assert sources.included("kernel/through.cpp") == {"kernel/through.cpp", "kernel/null.h", "kernel/fine.h"}
+        assert Sources(root, build).included("kernel/other.cpp") == {"kernel/other.cpp", "kernel/fine.h"}
         assert sources.seeing({"kernel/null.h"}) == ["kernel/through.cpp"]
         assert sources.seeing({"kernel/fine.h"}) == ["kernel/other.cpp"]
         assert sources.seeing({"kernel/fine.h", "kernel/through.cpp", "README.md"}) == ["kernel/through.cpp"]
