@@ -185,7 +185,7 @@ def main(arguments):
         if differing is None:
             print("no history to compare with: the slow test looks at everything")
             return SKIPPED
-        names, budget = sources.seeing(differing), BUDGET
+        names, budget = sorted(sources.seeing(differing), key=lambda name: -(root / name).stat().st_mtime), BUDGET  # the latest first
     found, left = check(sources, names, budget)
     print("".join(found) + f"{len(names) - len(left)} sources looked at, {len(found)} with findings")
     if left:
