@@ -1,6 +1,7 @@
 #include "kernel/run/simulation.h"
 
 #include <chrono>
+#include <cstddef>
 #include <utility>
 
 #include "kernel/engine/parallel/stepper.h"

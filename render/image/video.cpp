@@ -10,6 +10,7 @@
 #include <cstring>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 namespace voxmelt::render {
 namespace {

@@ -1,7 +1,9 @@
 // Small volumes, the parameters they are run with, and what every state must satisfy.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <random>
 #include <string>
 #include <utility>

@@ -1,6 +1,9 @@
 #include "kernel/engine/parallel/paper_flow.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 
 namespace voxmelt::parallel {
 namespace {

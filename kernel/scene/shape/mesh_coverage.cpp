@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "kernel/scene/shape/mesh.h"
 #include "kernel/scene/shape/mesh_rays.h"

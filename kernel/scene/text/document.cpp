@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <utility>
 
 #include "kernel/scene/text/error.h"
 #include "kernel/scene/text/text_file.h"
