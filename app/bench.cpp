@@ -1,8 +1,15 @@
 // voxmelt bench: how fast, how near to the machine's limits, how many times the paper's program.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/interrupt.h"

@@ -1,7 +1,11 @@
 // voxmelt digest: one line per K steps; equal lines mean equal bits.
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <cstdio>
 #include <iostream>
+#include <memory>
+#include <string>
 
 #include "app/commands.h"
 #include "app/options.h"

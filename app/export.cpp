@@ -3,6 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/options.h"

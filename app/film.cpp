@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <system_error>
+#include <utility>
 
 #include "app/options.h"
 #include "render/image/contact_sheet.h"

@@ -1,6 +1,8 @@
 // The frames of a run, and what is made of them.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -1,7 +1,11 @@
 // voxmelt list: what this build and its scenes can do.
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <memory>
 #include <set>
+#include <string>
+#include <system_error>
 
 #include "app/commands.h"
 #include "app/options.h"

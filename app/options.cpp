@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 #include "app/resources.h"
 #include "kernel/run/io/output_folder.h"

@@ -1,7 +1,10 @@
 // voxmelt render: one picture, or a turntable.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
 
 #include "app/commands.h"
 #include "app/film.h"

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <cstddef>
+#include <cstdint>
+
 #include <nlohmann/json.hpp>
 
 #include "app/version.h"

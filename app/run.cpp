@@ -1,7 +1,13 @@
 // voxmelt run: the main job. Steps, frames, a contact sheet, a film, a report.
 #include <fmt/format.h>
 
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
 #include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
 
 #include "app/commands.h"
 #include "app/film.h"

@@ -1,4 +1,7 @@
 // Single phases of the dense workloads, for Google Benchmark.
+#include <cstddef>
+#include <string>
+
 #include "bench/registered.h"
 
 int main(int argc, char** argv) {

@@ -2,11 +2,12 @@
 // pass, one core, nothing compared while the clock runs. Each result is checked against the reference first.
 #include <benchmark/benchmark.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <string>
+#include <utility>
 
 #include "hwmodel/stream/pipeline.h"
 #include "kernel/automaton/state/digest.h"

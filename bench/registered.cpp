@@ -2,10 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include <iostream>
+#include <cstdint>
 #include <map>
-#include <memory>
-#include <thread>
 #include <vector>
 
 #include "kernel/run/simulation.h"

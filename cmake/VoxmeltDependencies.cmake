@@ -1,4 +1,4 @@
-# Third-party libraries, all from Debian 12's packages (docs/dependencies: see README).
+# Third-party libraries, all from Debian 12's packages (cmake/install-dependencies.sh installs them).
 # Their headers are taken as system headers: our warnings are for our code.
 find_package(PkgConfig REQUIRED)
 find_package(PNG REQUIRED)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 
 #include "bench/baseline/baseline.h"
 #include "bench/baseline/rows.h"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 
 #include "bench/baseline/baseline.h"
 #include "bench/baseline/rows.h"

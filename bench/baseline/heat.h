@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <span>
 
 #include "bench/baseline/baseline.h"
 #include "bench/baseline/rows.h"

@@ -1,7 +1,7 @@
 #include "bench/baseline/numbers.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 
 namespace voxmelt::baseline {

@@ -1,7 +1,10 @@
 // What the native variant adds: is there anything in a row along x?
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include "bench/baseline/fields.h"
 

@@ -1,7 +1,10 @@
 #include "bench/measure/baseline_run.h"
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
+#include <utility>
 
 #include "bench/baseline/numbers.h"
 #include "bench/measure/native_needs.h"

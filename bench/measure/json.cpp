@@ -1,5 +1,9 @@
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
+#include <optional>
+#include <string>
+
 #include "bench/measure/report.h"
 
 namespace voxmelt::measure {

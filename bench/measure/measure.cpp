@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
 
 #include "bench/measure/baseline_run.h"
 #include "kernel/automaton/state/digest.h"

@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "bench/measure/report.h"
 
@@ -155,7 +159,8 @@ std::string roofline_svg(const Findings& findings) {
     const double y = scale.y(rate(*one));
     double best = x;
     for (int k = 0; k < 60; ++k) {
-      best = x + (k % 2 ? 1 : -1) * ((k + 1) / 2) * 4.0;
+      const int away = (k + 1) / 2;
+      best = x + (k % 2 ? 4.0 : -4.0) * away;
       if (std::none_of(placed.begin(), placed.end(),
                        [&](const Mark& m) { return std::hypot(m.x - best, m.y - y) < 2 * kRadius + 1; }))
         break;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 
 #include "bench/measure/picture.h"
 #include "bench/measure/report.h"

@@ -1,6 +1,8 @@
 // All that `voxmelt bench` measures, and what comes out of it.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>

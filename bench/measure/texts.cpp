@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
 
 #include "bench/measure/report.h"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
+#include <cstddef>
 
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/simulation.h"

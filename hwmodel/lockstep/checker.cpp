@@ -1,6 +1,9 @@
 #include "hwmodel/lockstep/checker.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 
 #include "hwmodel/stream/volume_port.h"
 

@@ -2,8 +2,11 @@
 // leaves a channel must be what entered it. The first difference stops the pass.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "hwmodel/lockstep/expectation.h"

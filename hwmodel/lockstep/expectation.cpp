@@ -1,6 +1,9 @@
 #include "hwmodel/lockstep/expectation.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 
 namespace voxmelt::hwmodel {
 

@@ -3,6 +3,7 @@
 // switched off.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+
 #include "kernel/run/io/export.h"
 #include "kernel/run/io/output_folder.h"
 

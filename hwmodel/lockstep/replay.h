@@ -1,9 +1,9 @@
 // The state before a mismatch as a scene: `voxmelt verify FOLDER/scene.toml` finds the mismatch again.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "kernel/automaton/state/volume.h"
 

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "hwmodel/lockstep/checker.h"
 #include "hwmodel/stream/prediction.h"

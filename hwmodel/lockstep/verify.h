@@ -1,10 +1,10 @@
 // Lock-step: the hardware model beside the reference and a software kernel, compared after every stage.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "hwmodel/lockstep/mismatch.h"

@@ -1,6 +1,8 @@
 #include "hwmodel/presets/presets.h"
 
 #include <bit>
+#include <cstdint>
+#include <optional>
 
 #include "kernel/scene/text/compose.h"
 #include "kernel/scene/text/reader.h"

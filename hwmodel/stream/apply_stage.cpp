@@ -1,7 +1,13 @@
 // What the patterns say flows (paper's law). All that a cell gives depends on itself alone, and is computed
 // twice: when the cell comes, for its southern neighbours, and when it comes out of the plane memory, for all
 // others. Between, it waits as it came, with the sums of what has arrived from the south beside it.
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "hwmodel/stream/paper_flow.h"
 #include "hwmodel/stream/paper_window.h"

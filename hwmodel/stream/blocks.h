@@ -2,6 +2,8 @@
 // SystemC process.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>

@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "hwmodel/stream/conduction_pass.h"
 
 namespace voxmelt::hwmodel {

@@ -1,6 +1,10 @@
 // Conduction through faces; and what else the six face neighbours tell: the exposed axes of each cell, for
 // the exchange with air, and whether one of its four sides is blocked, for gravity.
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "hwmodel/stream/conduction_pass.h"
 #include "hwmodel/stream/stages.h"

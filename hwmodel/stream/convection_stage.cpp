@@ -1,4 +1,8 @@
 // Convection: warmer liquid below gives heat to colder liquid above. The cell above comes right after.
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "hwmodel/stream/heat_word.h"
 #include "hwmodel/stream/stages.h"
 

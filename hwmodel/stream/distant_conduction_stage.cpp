@@ -1,4 +1,6 @@
 // Conduction with 18 or 26 neighbours: a pass for those across an edge, another for those across a corner.
+#include <memory>
+
 #include "hwmodel/stream/conduction_pass.h"
 #include "hwmodel/stream/stages.h"
 

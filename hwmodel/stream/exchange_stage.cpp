@@ -1,5 +1,12 @@
 // What a cell takes from outside the volume: radiation, from the feed of irradiance that runs beside the
 // stream, and the air at its exposed axes.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "hwmodel/stream/stages.h"
 
 namespace voxmelt::hwmodel {

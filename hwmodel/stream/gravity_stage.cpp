@@ -1,6 +1,12 @@
 // Gravity, both laws, and the paper's excess: one sweep up each column, a pair of cells a cycle. The lower
 // cell of the pair is finished by it and leaves. The loop from one cycle to the next runs through the upper
 // cell: two comparisons, a product, and with heat a division (docs/automaton.md, section 8).
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "hwmodel/stream/stages.h"
 
 namespace voxmelt::hwmodel {

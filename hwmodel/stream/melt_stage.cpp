@@ -1,4 +1,7 @@
 // Melting: hot solids become liquid; with the extra `reheat` hot liquid gains energy.
+#include <cstdint>
+#include <memory>
+
 #include "hwmodel/stream/stages.h"
 
 namespace voxmelt::hwmodel {

@@ -2,7 +2,10 @@
 // caps and bounds. Used by the pattern stage (who may get it) and the apply stage (who gets it).
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "hwmodel/stream/arithmetic.h"
 #include "hwmodel/stream/cell.h"

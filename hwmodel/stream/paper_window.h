@@ -3,6 +3,7 @@
 // out of the plane memory: what is known early would have to be kept (a partial sum is as wide as a cell).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "hwmodel/channel/tap_line.h"

@@ -1,6 +1,12 @@
 // Which directions each cell gives to (paper's law): those of its neighbours that are open and stand low
 // enough, each with one chance in two. A giver's facts are two numbers, the least amounts of a neighbour that
 // gets nothing; behind the plane memory they are computed once more, which is cheaper than to keep them.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "hwmodel/stream/paper_flow.h"
 #include "hwmodel/stream/paper_window.h"
 #include "hwmodel/stream/random_block.h"

@@ -1,5 +1,8 @@
 #include "hwmodel/stream/pipeline.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <exception>
 #include <utility>
 
 #include "hwmodel/stream/blocks.h"

@@ -6,10 +6,12 @@
 //                        feed          feed        (irradiance, where the scene has radiation)
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hwmodel/stream/stage.h"

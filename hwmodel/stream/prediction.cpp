@@ -1,3 +1,6 @@
+#include <cstdint>
+#include <vector>
+
 #include "hwmodel/stream/prediction.h"
 
 namespace voxmelt::hwmodel {

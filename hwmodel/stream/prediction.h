@@ -1,6 +1,9 @@
 // How many cycles a pass takes when nothing stalls, from the configuration alone.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "hwmodel/stream/pipeline.h"
 
 namespace voxmelt::hwmodel {

@@ -5,6 +5,9 @@
 // What a cell outside a run shows (docs/automaton.md, end of section 10) follows from its column, too.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 #include "hwmodel/stream/viscous_run.h"
 
 namespace voxmelt::hwmodel {

@@ -2,6 +2,9 @@
 // first cell, and up again to share them out. Between two scans a ColumnReverser turns the column round.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 #include "hwmodel/stream/viscous_run.h"
 
 namespace voxmelt::hwmodel {

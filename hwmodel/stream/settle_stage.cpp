@@ -1,6 +1,11 @@
 // Phase `excess` of the viscous law (docs/automaton.md, section 10). A run's sums are known at its uppermost
 // cell, and are needed at its lowest one: so the column is turned round twice.
+#include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "hwmodel/channel/column_reverser.h"
 #include "hwmodel/stream/settle_scans.h"

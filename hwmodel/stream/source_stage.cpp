@@ -1,4 +1,9 @@
 // Vents and drains. All that are open act on a cell one after another while it passes.
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "hwmodel/stream/stages.h"
 
 namespace voxmelt::hwmodel {

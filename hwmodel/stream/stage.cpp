@@ -1,5 +1,6 @@
 #include "hwmodel/stream/stage.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace voxmelt::hwmodel {

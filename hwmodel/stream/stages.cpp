@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "hwmodel/stream/stages.h"
 
 namespace voxmelt::hwmodel {

@@ -2,6 +2,10 @@
 // cells), the amounts it settles to, and what it shows to its neighbours.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
 #include "hwmodel/stream/stage.h"
 
 namespace voxmelt::hwmodel {

@@ -1,6 +1,13 @@
 // Phase `spread` of the viscous law (docs/automaton.md, section 11). When a cell q comes, the four pairs
 // whose last cell (of the two and, for a diagonal, its two corners) it is are done: q with the cells W and S
 // beside it, q with SW, and W with S. Each pair is computed once and booked at both cells, in the taps.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "hwmodel/stream/run_reader.h"
 #include "hwmodel/stream/stages.h"
 

@@ -1,6 +1,8 @@
 // Between the memory that holds a volume and the stream: a token read, a token written.
 #pragma once
 
+#include <cstdint>
+
 #include "hwmodel/stream/cell.h"
 #include "hwmodel/stream/shape.h"
 #include "kernel/automaton/state/volume.h"

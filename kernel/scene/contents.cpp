@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <utility>
 
 #include "kernel/scene/look.h"
 #include "kernel/scene/shape/heightfield.h"

@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "kernel/scene/parameter_readers.h"
 #include "kernel/scene/text/units.h"

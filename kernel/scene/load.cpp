@@ -1,6 +1,11 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "kernel/automaton/state/digest.h"
 #include "kernel/scene/contents.h"

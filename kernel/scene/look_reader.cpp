@@ -1,8 +1,6 @@
 #include "kernel/scene/look_reader.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <optional>
 
 #include "kernel/scene/shape/geometry.h"
 #include "kernel/scene/text/units.h"

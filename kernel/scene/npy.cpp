@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <string>
 
 #include "kernel/scene/text/text_file.h"

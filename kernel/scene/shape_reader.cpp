@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
+#include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "kernel/scene/look.h"

@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "kernel/scene/look.h"
 #include "kernel/scene/parameter_readers.h"
 #include "kernel/scene/text/units.h"

@@ -1,6 +1,7 @@
 #include "render/density/brick_filter.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "render/density/loops.h"
 

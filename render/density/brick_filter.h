@@ -1,6 +1,7 @@
 // Filters the channels of some bricks side by side, and mixes the intensities that liquid and solid ask for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 

@@ -1,5 +1,7 @@
 #include "render/density/cell_fields.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "render/density/slice_writer.h"

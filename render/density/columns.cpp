@@ -45,14 +45,14 @@ class Finder {
   // Calls visit(x, y) for the first cell of each column, from y = `from` by `step`, whose bit is `wanted`.
   template <class Visit>
   void first_inert(int z, bool wanted, int from, int step, const Visit& visit) const {
-    for (std::size_t w = 0; w < volume_.inert.row_words(); ++w) {
-      const int columns = std::min(64, volume_.grid.x - static_cast<int>(w) * 64);
+    for (int first = 0; first < volume_.grid.x; first += 64) {
+      const int columns = std::min(64, volume_.grid.x - first);
       std::uint64_t left = ~std::uint64_t{0} >> (64 - columns);
       for (int y = from; y >= 0 && y < volume_.grid.y && left != 0; y += step) {
-        const std::uint64_t word = volume_.inert.row(y, z)[w];
+        const std::uint64_t word = volume_.inert.row(y, z)[static_cast<std::size_t>(first) / 64];
         std::uint64_t found = left & (wanted ? word : ~word);
         left &= ~found;
-        for (; found != 0; found &= found - 1) visit(static_cast<int>(w) * 64 + std::countr_zero(found), y);
+        for (; found != 0; found &= found - 1) visit(first + std::countr_zero(found), y);
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "render/density/brick_filter.h"
 #include "render/density/loops.h"

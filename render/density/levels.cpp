@@ -40,7 +40,9 @@ class Sheet {
     for (int z = 0; z < rows_; ++z) {
       int first = columns_, end = 0;
       for (int x = 0; x < columns_; ++x) {
-        const std::int32_t level = levels.level[static_cast<std::size_t>(z * columns_ + x)];
+        const std::int32_t level =
+            levels.level[static_cast<std::size_t>(z) * static_cast<std::size_t>(columns_) +
+                         static_cast<std::size_t>(x)];
         if (level == kNoLevel) continue;
         now_[at(x, z)] = level * kFraction;
         first = std::min(first, x);

@@ -1,6 +1,7 @@
 #include "render/density/low_pass.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace voxmelt::render {
 

@@ -4,7 +4,6 @@
 // depends on the cells alone, not on the pieces in which it is done.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 

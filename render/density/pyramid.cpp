@@ -1,9 +1,11 @@
 #include "render/density/pyramid.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
 
 #include "render/density/loops.h"
 
@@ -24,7 +26,8 @@ state::Grid half(const state::Grid& grid) { return {(grid.x + 1) / 2, (grid.y + 
 
 // What is empty already takes no memory.
 void put(Blend& to, const Blend& value) {
-  if (std::memcmp(&to, &value, sizeof to) != 0) to = value;
+  using Bits = std::array<std::uint64_t, sizeof(Blend) / 8>;
+  if (std::bit_cast<Bits>(to) != std::bit_cast<Bits>(value)) to = value;
 }
 
 // Cells low .. high of a level become the averages of 2x2x2 cells of the finer one.

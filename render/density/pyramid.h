@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 
 #include "kernel/automaton/state/grid.h"
 #include "render/density/cell_fields.h"

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cctype>
+#include <cstddef>
+#include <cstdint>
 
 namespace voxmelt::render {
 namespace {

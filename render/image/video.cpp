@@ -10,6 +10,7 @@
 #include <cstring>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 namespace voxmelt::render {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 // not be started.
 int run_quietly(const std::vector<std::string>& arguments) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
 

@@ -58,12 +58,11 @@ float Ground::spline(const Heights& heights, float x, float z) const {
   const SplineWeights wx(fx - bx), wz(fz - bz);
   float sum = 0;
   for (int k = 0; k < 4; ++k) {
-    const int row = std::clamp(static_cast<int>(bz) - 1 + k, 0, size_z_ - 1) * size_x_;
+    const float* row =
+        heights.data() + std::ptrdiff_t{size_x_} * std::clamp(static_cast<int>(bz) - 1 + k, 0, size_z_ - 1);
     float along = 0;
     for (int i = 0; i < 4; ++i)
-      along +=
-          wx.value[i] *
-          heights[static_cast<std::size_t>(row + std::clamp(static_cast<int>(bx) - 1 + i, 0, size_x_ - 1))];
+      along += wx.value[i] * row[std::clamp(static_cast<int>(bx) - 1 + i, 0, size_x_ - 1)];
     sum += wz.value[k] * along;
   }
   return sum;
@@ -74,7 +73,7 @@ float Ground::linear(const Heights& heights, float x, float z) const {
   const auto at = [&](int dx, int dz) {
     const int cx = std::clamp(static_cast<int>(bx) + dx, 0, size_x_ - 1);
     const int cz = std::clamp(static_cast<int>(bz) + dz, 0, size_z_ - 1);
-    return heights[static_cast<std::size_t>(cz * size_x_ + cx)];
+    return heights.data()[std::ptrdiff_t{size_x_} * cz + cx];
   };
   return mix(mix(at(0, 0), at(1, 0), fx - bx), mix(at(0, 1), at(1, 1), fx - bx), fz - bz);
 }

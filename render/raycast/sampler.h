@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "render/density/density_field.h"
 #include "render/image/vector.h"

@@ -182,10 +182,12 @@ class Commands(unittest.TestCase):
         for name in ("cello", "goblet", "lava", "bunny", "paper_literal"):
             self.assertRegex(scenes.stdout, rf"(?m)^{name} +\S")
         self.assertIn("compiler:", self.good("--version"))
-        for command in ([], ["run"], ["digest"], ["export"], ["render"], ["list"]):
-            text = self.good(*command, "--help")
-            self.assertIn("--", text)
-        self.assertIn("voxmelt run cello", self.good("--help"))
+        told = self.good("--help")
+        self.assertIn("voxmelt run cello", told)
+        commands = ["run", "digest", "export", "render", "bench", "verify", "list"]
+        self.assertEqual(re.findall(r"(?m)^  ([a-z]\w*) +\S", told.split("Subcommands:")[1]), commands)
+        for command in commands:
+            self.assertIn("--", self.good(command, "--help"))
 
     def test_an_interrupted_run_keeps_what_it_made(self):
         process = subprocess.Popen([PROGRAM, "run", self.scene, "--steps", "4000000", "--quiet", "--frame-every", "0"],

@@ -1,8 +1,11 @@
 // Each rule of the baseline where its result is known beforehand.
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "kernel/automaton/rule/neighbourhood.h"
 #include "tests/bench/melting_drop.h"

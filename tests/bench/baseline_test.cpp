@@ -1,10 +1,12 @@
 // The baseline as a whole: conservation, float against double, native against plain, and the reference.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 #include "tests/bench/melting_drop.h"
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/simulation.h"

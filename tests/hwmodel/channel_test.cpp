@@ -1,7 +1,10 @@
 // What the pipeline is built of: channels, their stalls, line buffers, column memories, wires.
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "hwmodel/channel/column_reverser.h"
 #include "hwmodel/channel/fifo.h"

@@ -1,7 +1,13 @@
 // The checker itself: what it compares, and what it says where software, widths or channels are at fault.
 #include "hwmodel/lockstep/checker.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "kernel/automaton/state/digest.h"
 #include "tests/hwmodel/lockstep_world.h"

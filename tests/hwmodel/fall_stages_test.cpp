@@ -1,6 +1,11 @@
 // Gravity under the viscous law, alone: the side bands that settle and spread will bring are set by a stage
 // of the test, from its own few lines of docs/automaton.md, section 10. The result is held against the
 // reference.
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "tests/hwmodel/strike_run.h"
 
 namespace voxmelt::hwmodel {

@@ -1,7 +1,9 @@
 // Every fault that can be planted is found: the first mismatch names its stage, step and cell.
 #include "tests/hwmodel/lockstep_world.h"
 
+#include <cstdint>
 #include <ostream>
+#include <string>
 
 #include "hwmodel/stream/faults.h"
 

@@ -1,6 +1,10 @@
 // Every planted fault of source, heat and melt: where it strikes, the phase's result is wrong, and the first
 // wrong cell in the order of the stream is the one that it names.
+#include <algorithm>
+#include <cstdint>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "tests/hwmodel/heat_stages.h"
 

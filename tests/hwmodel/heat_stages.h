@@ -1,6 +1,10 @@
 // The stages of the phases source, heat and melt, as make_step puts them together.
 #pragma once
 
+#include <memory>
+#include <string>
+#include <utility>
+
 #include "tests/hwmodel/phase_world.h"
 
 namespace voxmelt::hwmodel {

@@ -1,4 +1,9 @@
 // The stages of source, heat and melt against the reference, and what their memories cost.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
 #include "tests/hwmodel/heat_stages.h"
 
 namespace voxmelt::hwmodel {

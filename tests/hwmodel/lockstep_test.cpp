@@ -3,7 +3,12 @@
 #include "tests/hwmodel/lockstep_world.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "hwmodel/stream/prediction.h"
 

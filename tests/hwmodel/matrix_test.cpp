@@ -1,6 +1,9 @@
 // The full matrix of docs/hardware.md (slow): whole showcase scenes in the middle of their melt over the
 // covering array, and the full product on crops of 24 cells. Prints a line per scene.
+#include <cstdint>
 #include <cstdio>
+#include <string>
+#include <utility>
 
 #include "tests/hwmodel/lockstep_world.h"
 

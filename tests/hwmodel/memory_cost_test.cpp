@@ -2,7 +2,11 @@
 // cells.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <map>
+#include <ostream>
+#include <string>
 
 #include "hwmodel/stream/pipeline.h"
 #include "kernel/scene/scene.h"

@@ -1,4 +1,6 @@
 // Gravity and spread of the paper's law against the reference: hostile worlds, every size of grid, faults.
+#include <cstdint>
+
 #include "hwmodel/stream/random_block.h"
 #include "tests/hwmodel/strike_run.h"
 

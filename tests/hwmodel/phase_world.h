@@ -2,6 +2,11 @@
 // need more than the random worlds of expect_phase.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "tests/hwmodel/stage_run.h"
 
 namespace voxmelt::hwmodel {

@@ -1,7 +1,13 @@
 // Which cells stand beside a wall: the bit that conduction (or, without heat, the stage `walls`) writes is
 // the state's at the begin of the step, on every size of grid and number of lanes, and reaches gravity's
 // input.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "tests/hwmodel/heat_stages.h"
 

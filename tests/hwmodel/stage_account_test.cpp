@@ -1,4 +1,9 @@
 // What every stage does, whatever its rule: it loses nothing under stalls, and every cycle of it is counted.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
 #include "tests/hwmodel/stage_run.h"
 
 namespace voxmelt::hwmodel {

@@ -4,6 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "hwmodel/stream/stages.h"
 #include "hwmodel/stream/volume_port.h"
 #include "tests/hwmodel/sides.h"

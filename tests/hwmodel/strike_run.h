@@ -2,7 +2,11 @@
 // from the reference is the one that the fault names.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "tests/hwmodel/stage_run.h"
 

@@ -1,4 +1,11 @@
 // Settle and viscous spread against the reference. Spread reads what settle shows, so the two run together.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
 #include "kernel/automaton/rule/viscous.h"
 #include "tests/hwmodel/viscous_worlds.h"
 

@@ -1,7 +1,9 @@
 // Small volumes, the parameters they are run with, and what every state must satisfy.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <random>
 #include <string>
 #include <utility>
@@ -87,8 +89,8 @@ inline Parameters paper_showcase() {
 inline Parameters viscous(double kappa, double yield = 0, int stiffness = 8) {
   Parameters p;
   p.flow.law = rule::Law::viscous;
-  p.flow.viscous.mobility = static_cast<std::uint32_t>(kappa * (2.0 / 9) * (1 << 20) + 0.5);
-  p.flow.viscous.yield = static_cast<std::uint32_t>(yield * 65536 + 0.5);
+  p.flow.viscous.mobility = static_cast<std::uint32_t>(std::lround(kappa * (2.0 / 9) * (1 << 20)));
+  p.flow.viscous.yield = static_cast<std::uint32_t>(std::lround(yield * 65536));
   p.flow.viscous.stiffness = static_cast<std::uint8_t>(stiffness);
   return p;
 }

@@ -1,4 +1,6 @@
 // docs/automaton.md section 13.
+#include <cstdint>
+
 #include "state.h"
 
 namespace oracle {

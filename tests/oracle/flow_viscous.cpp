@@ -1,4 +1,6 @@
 // docs/automaton.md sections 10 (settle) and 11 (spread), viscous law.
+#include <vector>
+
 #include "state.h"
 
 namespace oracle {

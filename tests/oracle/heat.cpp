@@ -1,4 +1,6 @@
 // docs/automaton.md sections 6 (heat) and 7 (melt).
+#include <vector>
+
 #include "state.h"
 
 namespace oracle {

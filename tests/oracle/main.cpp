@@ -3,8 +3,11 @@
 #include "state.h"
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
+#include <string>
 
 namespace oracle {
 

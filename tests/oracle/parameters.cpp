@@ -1,6 +1,7 @@
 // docs/automaton.md section 14: parameters.json and the ranges a scene may use.
 #include "parameters.h"
 
+#include <cstdint>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>

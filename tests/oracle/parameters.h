@@ -3,6 +3,7 @@
 #include "arithmetic.h"
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 

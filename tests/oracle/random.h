@@ -3,6 +3,8 @@
 #include "arithmetic.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace oracle {
 

@@ -1,4 +1,6 @@
 // docs/automaton.md section 4: vents and drains.
+#include <cstddef>
+
 #include "state.h"
 
 namespace oracle {

@@ -1,6 +1,8 @@
 // docs/automaton.md section 9: spread under the paper law.
 #include "state.h"
 
+#include <vector>
+
 #include "random.h"
 
 namespace oracle {

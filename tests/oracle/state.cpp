@@ -4,6 +4,8 @@
 #include "npy.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace oracle {
 

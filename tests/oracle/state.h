@@ -3,6 +3,7 @@
 #include "ledger.h"
 #include "parameters.h"
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>

@@ -3,6 +3,10 @@
 // The ray is cut into the layers of cells along its longest axis. In a layer it meets few cells; each opaque
 // one of them is tested by itself: the ray, as the set of t in (0, 1) with C + t delta, and the cell's
 // interior, as an open interval of t per axis, have a point in common. All numbers are exact fractions.
+#include <array>
+#include <cstddef>
+#include <vector>
+
 #include "state.h"
 
 namespace oracle {

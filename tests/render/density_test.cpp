@@ -1,7 +1,9 @@
 // The field that is drawn: filter, column heights, ground below films, updates brick by brick.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <random>
 

@@ -3,10 +3,14 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "render/image/camera.h"
 #include "render/image/contact_sheet.h"

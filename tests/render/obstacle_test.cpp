@@ -1,6 +1,9 @@
 // Inert cells that are no ground: walls, posts, basins.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <random>
 
 #include "render/density/density_field.h"

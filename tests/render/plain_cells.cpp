@@ -1,7 +1,11 @@
 // What each cell contributes before filtering, column by column.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <utility>
+#include <vector>
 
 #include "kernel/automaton/rule/fixed_point.h"
 #include "tests/render/plain_field.h"

@@ -2,7 +2,6 @@
 // render/density keeps up to date in pieces must be the same, bit for bit.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

@@ -1,6 +1,9 @@
 // The level of puddles smoothed along the surface, column by column, in 64 bits.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <vector>
 
 #include "kernel/automaton/rule/fixed_point.h"
 #include "tests/render/plain_field.h"

@@ -1,7 +1,10 @@
 // The field in its pieces against the field written plainly: random worlds of any size, kept up to date.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <random>
+#include <utility>
 
 #include "kernel/automaton/rule/fixed_point.h"
 #include "render/density/low_pass.h"

@@ -1,8 +1,12 @@
 // Two strengths of smoothing, for liquid and for solid, and puddles without terraces.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "render/density/density_field.h"
 #include "render/density/levels.h"

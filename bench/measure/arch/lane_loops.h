@@ -1,6 +1,9 @@
 // The loops, for any instruction set: enough independent chains to keep every unit busy.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "bench/measure/arch/arch.h"
 #include "kernel/engine/cpu/lanes.h"
 

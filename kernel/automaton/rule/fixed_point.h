@@ -1,7 +1,6 @@
 // Number formats and roundings of the automaton (docs/automaton.md, sections 1 and 2).
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 // Rule functions are always inlined: no weak copy of the definition, compiled for one instruction set, can be

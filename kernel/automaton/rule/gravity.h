@@ -1,6 +1,9 @@
 // Gravity (Eqs. 2-6) and excess (piling), one face of a column at a time, ascending.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 #include "kernel/automaton/rule/fixed_point.h"
 #include "kernel/automaton/rule/parameters.h"
 

@@ -4,7 +4,10 @@
 // where a cell at the melting point takes up `latent_heat` units before its temperature rises again.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "kernel/automaton/rule/fixed_point.h"
 #include "kernel/automaton/rule/parameters.h"

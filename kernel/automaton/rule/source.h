@@ -1,6 +1,10 @@
 // Vents, drains and the path of a moving point source: integers in sixteenths of a cell.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/automaton/rule/fixed_point.h"
 #include "kernel/automaton/rule/parameters.h"
 

@@ -1,6 +1,10 @@
 // Spreading of the paper's law (Eqs. 7-20): a giver's share, its available directions, its energy.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/automaton/rule/fixed_point.h"
 #include "kernel/automaton/rule/neighbourhood.h"
 #include "kernel/automaton/rule/parameters.h"

@@ -3,6 +3,10 @@
 // A run is the contiguous liquid standing on a solid. Heads are in 1/256 cell from the grid's bottom.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/automaton/rule/fixed_point.h"
 #include "kernel/automaton/rule/parameters.h"
 

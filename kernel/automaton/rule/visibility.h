@@ -1,8 +1,10 @@
 // Irradiance of a cell from a point source: integer falloff, and the exact walk of its visibility ray.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cstddef>
+#include <cstdint>
 
 #include "kernel/automaton/rule/fixed_point.h"
 #include "kernel/automaton/rule/heat.h"

@@ -1,6 +1,7 @@
 #include "kernel/automaton/state/digest.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace voxmelt::state {
 namespace {

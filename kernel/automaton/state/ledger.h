@@ -4,7 +4,6 @@
 // start + all terms = what the state holds, to the unit.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "kernel/automaton/state/volume.h"

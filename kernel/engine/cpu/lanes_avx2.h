@@ -3,6 +3,8 @@
 
 #include <immintrin.h>
 
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 
 namespace voxmelt::cpu {

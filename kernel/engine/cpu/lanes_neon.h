@@ -3,6 +3,8 @@
 
 #include <arm_neon.h>
 
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 
 namespace voxmelt::cpu {

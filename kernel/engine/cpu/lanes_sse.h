@@ -3,6 +3,8 @@
 
 #include <nmmintrin.h>
 
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 
 namespace voxmelt::cpu {

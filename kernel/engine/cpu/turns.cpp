@@ -1,6 +1,7 @@
 #include "kernel/engine/cpu/turns.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
 
 namespace voxmelt::cpu {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
 #include "kernel/automaton/state/pages.h"
 #include "kernel/engine/simd/kernels.h"

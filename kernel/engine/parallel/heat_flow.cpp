@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
 #include "kernel/engine/parallel/heat_flow.h"
 
 namespace voxmelt::parallel {

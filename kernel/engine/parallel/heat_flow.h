@@ -6,6 +6,7 @@
 // sleep.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "kernel/automaton/state/field.h"

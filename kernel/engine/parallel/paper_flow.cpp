@@ -1,6 +1,9 @@
 #include "kernel/engine/parallel/paper_flow.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 
 namespace voxmelt::parallel {
 namespace {
@@ -143,7 +146,7 @@ void PaperFlow::run_rows(const Sweep& sweep, int chunk, int r) {
   for (int z = begin - 1; z < end; ++z) {
     SliceGifts& next = gifts(z + 1);
     if (z + 1 >= pattern_from && z + 1 < pattern_to) {
-      const bool awake_next = worker.awake[static_cast<std::size_t>(z + 1)] != 0;
+      const bool awake_next = worker.awake[static_cast<std::size_t>(z) + 1] != 0;
       if (awake_next) prefetch(job.view, z + 2, r, z + 2 < end ? sweep.dirty.slice(z + 2)[r] : 0);
       if (awake_next || next.gifts().tiles(job.view, r) != 0)
         find_patterns(sweep, z + 1, r, r > 0 ? ceiling(z + 1) : nullptr, next);

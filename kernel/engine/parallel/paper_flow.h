@@ -11,6 +11,7 @@
 // that whatever sleeps would compute what it has.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "kernel/engine/parallel/chunks.h"

@@ -1,5 +1,8 @@
 #include "kernel/engine/parallel/stepper.h"
 
+#include <cstdint>
+#include <utility>
+
 #include "kernel/engine/simd/source.h"
 
 namespace voxmelt::parallel {

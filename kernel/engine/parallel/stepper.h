@@ -3,6 +3,7 @@
 // sleeping.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 

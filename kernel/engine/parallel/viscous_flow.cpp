@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
 #include "kernel/engine/parallel/viscous_flow.h"
 
 namespace voxmelt::parallel {

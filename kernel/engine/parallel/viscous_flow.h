@@ -8,7 +8,6 @@
 //   fall      it, or a tile beside it, changed since the last fall
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "kernel/engine/parallel/chunks.h"

@@ -1,6 +1,8 @@
 #include "kernel/engine/parallel/walls.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
 namespace voxmelt::parallel {
 

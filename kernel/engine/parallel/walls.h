@@ -4,6 +4,9 @@
 // melt.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/automaton/state/pages.h"
 #include "kernel/engine/simd/kernels.h"
 

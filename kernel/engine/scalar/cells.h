@@ -1,6 +1,7 @@
 // Cells by their coordinates, the border included, and the rows where anything can happen.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 

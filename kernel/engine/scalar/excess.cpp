@@ -1,5 +1,8 @@
 // Phase `excess` of the viscous law: settle every run and give its cells their head and mobility.
 // (The paper's law moves its excess in the same sweep as gravity.)
+#include <algorithm>
+#include <cstdint>
+
 #include "kernel/automaton/rule/heat.h"
 #include "kernel/automaton/rule/viscous.h"
 #include "kernel/engine/scalar/reference.h"

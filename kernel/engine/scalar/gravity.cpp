@@ -2,6 +2,9 @@
 // not fit (excess); under the viscous law only cells outside a run fall.
 #include "kernel/automaton/rule/gravity.h"
 
+#include <algorithm>
+#include <cstdint>
+
 #include "kernel/automaton/rule/heat.h"
 #include "kernel/engine/scalar/reference.h"
 

@@ -2,7 +2,10 @@
 // received and exchange with air, cell by cell.
 #include "kernel/automaton/rule/heat.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
+#include <utility>
 
 #include "kernel/automaton/rule/neighbourhood.h"
 #include "kernel/engine/scalar/reference.h"

@@ -1,4 +1,6 @@
 // Phase `melt`: hot solids become liquid; the extra `reheat` gives hot liquid its energy back.
+#include <cstdint>
+
 #include "kernel/automaton/rule/heat.h"
 #include "kernel/engine/scalar/reference.h"
 

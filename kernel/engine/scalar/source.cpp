@@ -2,6 +2,7 @@
 #include "kernel/automaton/rule/source.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "kernel/automaton/rule/heat.h"
 #include "kernel/engine/scalar/reference.h"

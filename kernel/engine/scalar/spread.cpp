@@ -2,6 +2,11 @@
 // gives to) and `apply` (every cell gathers what its neighbours give).
 #include "kernel/automaton/rule/spread.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
 #include "kernel/automaton/rule/heat.h"
 #include "kernel/engine/scalar/reference.h"
 

@@ -1,4 +1,9 @@
 // Phase `spread` of the viscous law: flow down the difference of free-surface heads.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
 #include "kernel/automaton/rule/heat.h"
 #include "kernel/automaton/rule/neighbourhood.h"
 #include "kernel/automaton/rule/viscous.h"

@@ -2,6 +2,10 @@
 // Row by row of one slice, in place: what a neighbour gives, and its heat, are read from the gifts.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
 #include "kernel/engine/simd/contact.h"
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/mix.h"

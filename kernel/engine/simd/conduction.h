@@ -3,6 +3,9 @@
 // slice before it. So no old heats need be kept: what a cell still has to read has not been written yet.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/simd/full_conduction.h"
 
 namespace voxmelt::simd {

@@ -1,6 +1,9 @@
 // Friction of a cell, by what it stands on (Eqs. 16-20).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/kernels.h"
 

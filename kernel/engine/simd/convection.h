@@ -2,6 +2,9 @@
 // ascending: what rises into a row is carried from the row below it.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/simd/flux.h"
 #include "kernel/engine/simd/heat_books.h"
 

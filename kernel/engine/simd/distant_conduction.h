@@ -3,6 +3,9 @@
 // in the midst of matter need no masks.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/simd/flux.h"
 #include "kernel/engine/simd/heat_books.h"
 

@@ -1,6 +1,9 @@
 // Phase `heat`: radiation received by solids, and exchange with air at exposed cells; each cell alone.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/simd/flux.h"
 #include "kernel/engine/simd/heat_books.h"
 

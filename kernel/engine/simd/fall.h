@@ -2,6 +2,9 @@
 // ascending, pairs of rows (y, y + 1), 64 cells at a time. Free of kernel/automaton/rule on purpose.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/kernels.h"

@@ -2,6 +2,9 @@
 // on purpose: compared with it, not built from it.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/kernels.h"

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
 #include "kernel/engine/simd/flux.h"
 #include "kernel/engine/simd/heat_books.h"

@@ -3,6 +3,9 @@
 // built from it.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/kernels.h"

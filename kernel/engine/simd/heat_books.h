@@ -2,6 +2,9 @@
 // melt.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 
 namespace voxmelt::simd {

@@ -1,6 +1,9 @@
 // Phase `melt`: hot solids become liquid; the extra `reheat` gives hot liquid its energy back.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/kernels.h"

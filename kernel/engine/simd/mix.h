@@ -2,6 +2,8 @@
 // exact.
 #pragma once
 
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 
 namespace voxmelt::simd {

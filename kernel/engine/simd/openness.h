@@ -2,6 +2,9 @@
 // (docs/automaton.md, section 2), for the two vectors of an item.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/kernels.h"
 

@@ -1,6 +1,8 @@
 // The paper law's kernels of one instruction set, one set per combination of features.
 #pragma once
 
+#include <cstdint>
+
 #include "kernel/engine/simd/apply.h"
 #include "kernel/engine/simd/gravity.h"
 #include "kernel/engine/simd/pattern.h"

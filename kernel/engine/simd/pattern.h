@@ -5,6 +5,9 @@
 // with a liquid cell; those with a direction that may receive; dice for two at a time.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/simd/contact.h"
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/openness.h"

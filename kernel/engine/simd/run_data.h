@@ -2,6 +2,9 @@
 // those parts of 64 columns that have one. Plain loops over lanes, for the compiler to vectorise.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/kernels.h"

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/run_data.h"

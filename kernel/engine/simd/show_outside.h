@@ -1,6 +1,9 @@
 // Viscous law: what cells outside runs show: those on a bed, on a run, or (all zero) in the air.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/kernels.h"
 

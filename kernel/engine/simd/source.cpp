@@ -1,6 +1,8 @@
 #include "kernel/engine/simd/source.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
 namespace voxmelt::simd {
 namespace {

@@ -1,6 +1,8 @@
 // Phase `source`: vents add liquid, drains take it. Few cells: plain code for every instruction set.
 #pragma once
 
+#include <cstddef>
+
 #include "kernel/engine/simd/kernels.h"
 
 namespace voxmelt::simd {

@@ -2,6 +2,9 @@
 // in place.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/kernels.h"
 #include "kernel/engine/simd/mix.h"

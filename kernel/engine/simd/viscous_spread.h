@@ -3,6 +3,9 @@
 // by row of one slice, 64 cells at a time. Free of kernel/automaton/rule on purpose.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/kernels.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 
 #include "kernel/automaton/rule/source.h"
 #include "kernel/engine/visibility/visibility.h"

@@ -1,6 +1,7 @@
 #include "kernel/run/io/export.h"
 
-#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 
 #include "kernel/run/io/output_folder.h"

@@ -1,6 +1,7 @@
 // A state written for other programs: one file per field, and the resolved parameters.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 

@@ -5,7 +5,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -61,7 +60,7 @@ void check_replaceable(const fs::path& place) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path place) : place_(fs::weakly_canonical(fs::absolute(std::move(place)))) {
+OutputFolder::OutputFolder(const fs::path& place) : place_(fs::weakly_canonical(fs::absolute(place))) {
   if (!place_.has_filename()) place_ = place_.parent_path();
   check_replaceable(place_);
 

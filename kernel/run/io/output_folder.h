@@ -22,7 +22,7 @@ class OutputFolder {
  public:
   // Prepares a fresh "<place>.partial-..." beside `place`; fails at once if that cannot be done. `place` must
   // not exist, or hold nothing but what an earlier commit() wrote there (it is then replaced whole).
-  explicit OutputFolder(std::filesystem::path place);
+  explicit OutputFolder(const std::filesystem::path& place);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
   ~OutputFolder();  // removes the partial folder unless committed

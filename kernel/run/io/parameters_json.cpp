@@ -1,5 +1,8 @@
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
+#include <string>
+
 #include "kernel/run/io/export.h"
 
 namespace voxmelt::io {

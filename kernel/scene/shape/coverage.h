@@ -1,6 +1,7 @@
 // How much of each cell a shape covers, by 4 x 4 x 4 sample points per cell at (i + 1/2) / 4.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 

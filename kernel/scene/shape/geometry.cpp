@@ -1,5 +1,6 @@
 #include "kernel/scene/shape/geometry.h"
 
+#include <cstddef>
 #include <numbers>
 
 namespace voxmelt::scene {

@@ -6,9 +6,12 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include "kernel/scene/text/text_file.h"
 

@@ -6,8 +6,8 @@
 #include <tiny_obj_loader.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
-#include <limits>
 #include <sstream>
 #include <string>
 

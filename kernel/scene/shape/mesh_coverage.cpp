@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "kernel/scene/shape/mesh.h"
 #include "kernel/scene/shape/mesh_rays.h"
@@ -12,8 +16,8 @@ std::vector<FixedPoint> snapped(const Mesh& mesh) {
   std::vector<FixedPoint> result;
   result.reserve(mesh.vertices.size());
   const auto snap = [](double v) {
-    return static_cast<std::int64_t>(std::llround(v * static_cast<double>(kMeshUnit / kMeshSnap))) *
-           kMeshSnap;
+    constexpr std::int64_t snaps_per_cell = kMeshUnit / kMeshSnap;
+    return static_cast<std::int64_t>(std::llround(v * static_cast<double>(snaps_per_cell))) * kMeshSnap;
   };
   for (const Point& p : mesh.vertices) result.push_back({snap(p.x), snap(p.y), snap(p.z)});
   return result;

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "kernel/scene/shape/polygon.h"
 #include "kernel/scene/shape/shape.h"

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <memory>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace voxmelt::scene {
 namespace {

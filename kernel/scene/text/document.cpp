@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <utility>
 
 #include "kernel/scene/text/error.h"
 #include "kernel/scene/text/text_file.h"
@@ -138,7 +139,7 @@ Value parse_file(const std::filesystem::path& file) {
   }
 }
 
-Value parse_value(const std::string& text, std::shared_ptr<const Origin> origin) {
+Value parse_value(const std::string& text, const std::shared_ptr<const Origin>& origin) {
   const Place place{origin, 0, 0};
   if (text.find_first_of("\r\n") != std::string::npos) fail_at(place, "the value must be one line");
   try {

@@ -52,6 +52,6 @@ const char* name_of(Value::Kind kind);  // "a number", "a string", ...
 Value parse_file(const std::filesystem::path& file);
 
 // One value in TOML syntax; a bare word is a string. Throws InputError naming `origin`.
-Value parse_value(const std::string& text, std::shared_ptr<const Origin> origin);
+Value parse_value(const std::string& text, const std::shared_ptr<const Origin>& origin);
 
 }  // namespace voxmelt::scene

@@ -1,6 +1,7 @@
 #include "kernel/scene/text/suggestion.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace voxmelt::scene {
 

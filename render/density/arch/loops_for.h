@@ -3,6 +3,7 @@
 // in place of another's.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <xsimd/xsimd.hpp>

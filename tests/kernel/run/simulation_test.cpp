@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "kernel/automaton/state/digest.h"
 #include "tests/kernel/worlds.h"
 

@@ -1,4 +1,9 @@
 // Bad scenes end in one clear line with its place; none is accepted, crashes or hangs.
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "tests/kernel/scene/scene_text.h"
 
 namespace voxmelt::scene {

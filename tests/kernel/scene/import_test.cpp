@@ -1,6 +1,9 @@
 // Meshes, height fields and exported fields: what comes out, and what is refused.
 #include <cmath>
-#include <cstring>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 #include "tests/kernel/scene/scene_text.h"
 

@@ -1,5 +1,10 @@
 // Defaults, units, --set and extends of the scene loader.
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "kernel/scene/features.h"
 #include "tests/kernel/scene/scene_text.h"

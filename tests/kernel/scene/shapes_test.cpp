@@ -1,6 +1,8 @@
 // Volumes of voxelised shapes against the analytic ones: coverage by 64 samples a cell is that exact.
-#include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "kernel/scene/shape/coverage.h"
 #include "kernel/scene/shape/polygon.h"

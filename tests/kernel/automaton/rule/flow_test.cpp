@@ -1,6 +1,10 @@
 // Bounds of the vertical rules and of the paper's spreading, at 0, 1, the maximum and in between.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <random>
 
 #include "kernel/automaton/rule/gravity.h"

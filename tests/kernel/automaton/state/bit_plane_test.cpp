@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
+#include <cstddef>
+#include <cstdint>
 #include <tuple>
+#include <utility>
 
 namespace voxmelt::state {
 namespace {

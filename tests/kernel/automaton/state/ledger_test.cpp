@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+
 #include "tests/kernel/worlds.h"
 
 namespace voxmelt::state {

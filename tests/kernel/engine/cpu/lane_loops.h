@@ -1,6 +1,9 @@
 // The operations of tests/kernel/engine/cpu/lane_operations.h for one instruction set.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/flux.h"
 #include "kernel/engine/simd/mix.h"

@@ -1,6 +1,10 @@
 // Operations on whole vectors, and those whose domain is too large to be gone through.
+#include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "kernel/automaton/rule/heat.h"

@@ -1,6 +1,8 @@
 // Operations on two 16-bit numbers, each with every value of the first: against kernel/automaton/rule, or
 // integers. VOXMELT_SLOW: every value of the second, too; else 257 of them.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include "kernel/automaton/rule/fixed_point.h"

@@ -1,5 +1,10 @@
 // What rests costs nothing: of a flat pool the paper law's kernels are not even called. (That sleepers have
 // the right bits is asked elsewhere; here, that there are any.)
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "kernel/automaton/rule/random.h"
 #include "kernel/engine/parallel/paper_flow.h"
 #include "kernel/engine/parallel/walls.h"

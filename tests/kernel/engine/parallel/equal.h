@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <string>
+#include <vector>
+
 #include "tests/kernel/engine/scalar/hostile.h"
 
 namespace voxmelt::worlds {

@@ -1,5 +1,9 @@
 // Every instruction set, with threads, tiles of any size, asleep or not, gives the bits of the reference: on
 // random hostile states, on grids that straddle words and tiles.
+#include <cstdint>
+#include <string>
+#include <tuple>
+
 #include "tests/kernel/engine/parallel/equal.h"
 
 namespace voxmelt::parallel {

@@ -1,5 +1,10 @@
 // What wakes a sleeper beyond the tiles that changed, one cause at a time, in worlds where nothing else
 // moves: the bits of the reference after every phase, with the smallest tiles.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "tests/kernel/engine/parallel/equal.h"
 
 namespace voxmelt::parallel {

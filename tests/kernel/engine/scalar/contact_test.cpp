@@ -1,6 +1,8 @@
 // What a flow touches: the corner it passes, the ground under its receiver, the bed beside it.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+
 #include "tests/kernel/worlds.h"
 
 namespace voxmelt::scalar {

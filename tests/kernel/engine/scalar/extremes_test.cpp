@@ -1,6 +1,10 @@
 // Everything at its maximum, for long.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
 #include "kernel/automaton/rule/heat.h"
 #include "tests/kernel/engine/scalar/hostile.h"
 

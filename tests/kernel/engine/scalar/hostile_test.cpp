@@ -2,7 +2,11 @@
 // matter have changed. Grids of 1, 2, 63, 64 and 65 cells along each axis in turn.
 #include <gtest/gtest.h>
 
-#include <bit>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "kernel/engine/scalar/cells.h"
 #include "tests/kernel/engine/scalar/hostile.h"

@@ -2,6 +2,8 @@
 // melts a block slowly.
 #pragma once
 
+#include <string>
+
 #include "tests/kernel/worlds.h"
 
 namespace voxmelt::worlds {

@@ -1,6 +1,9 @@
 // Which cells may exchange at all, phase by phase, on worlds of a few cells.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <initializer_list>
+
 #include "tests/kernel/worlds.h"
 
 namespace voxmelt::scalar {

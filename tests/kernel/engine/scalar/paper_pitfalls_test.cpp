@@ -1,6 +1,10 @@
 // What went wrong in prototypes of the paper's law, each with its number (under the showcase parameters).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
 #include "kernel/automaton/state/connectivity.h"
 #include "tests/kernel/measure.h"
 

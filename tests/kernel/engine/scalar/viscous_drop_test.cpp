@@ -2,7 +2,11 @@
 // carried with the flow.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <string>
 
 #include "tests/kernel/measure.h"
 

@@ -1,6 +1,11 @@
 // What went wrong in prototypes of the viscous law, each with its number.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "tests/kernel/measure.h"
 
 namespace voxmelt::scalar {

@@ -2,6 +2,14 @@
 // and every term of the ledgers; and against themselves awake.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "kernel/automaton/rule/heat.h"
 #include "kernel/engine/scalar/reference.h"
 #include "tests/kernel/engine/simd/heat_compare.h"

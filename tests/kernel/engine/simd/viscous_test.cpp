@@ -2,6 +2,12 @@
 // state and the same books, whatever sleeps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "tests/kernel/engine/scalar/hostile.h"
 #include "tests/kernel/engine/simd/viscous_driver.h"
 

@@ -1,6 +1,12 @@
 // What each solid cell receives: by brute force on random grids, and on worlds with a known answer.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "kernel/engine/visibility/visibility.h"
 #include "tests/kernel/worlds.h"
 

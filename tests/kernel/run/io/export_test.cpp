@@ -5,10 +5,15 @@
 
 #include <unistd.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <system_error>
+#include <tuple>
 
 #include "kernel/run/io/output_folder.h"
 #include "tests/kernel/worlds.h"
