@@ -220,7 +220,11 @@ struct Kernels {
                Books&) = nullptr;
 };
 
-// The kernels that a scene needs; `set` must be supported.
+// The kernels that a scene needs, compiled for an architecture of xsimd (choose_kernels.h).
+template <class Arch>
+Kernels kernels_for(const rule::Parameters& parameters);
+
+// The same by the instruction set, which must be supported.
 Kernels kernels(cpu::InstructionSet set, const rule::Parameters& parameters);
 
 }  // namespace voxmelt::simd

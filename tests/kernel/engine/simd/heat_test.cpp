@@ -11,7 +11,7 @@ namespace {
 
 using step::Phase;
 
-class Heat : public testing::TestWithParam<cpu::InstructionSetName> {
+class Heat : public testing::TestWithParam<cpu::InstructionSetRow> {
  protected:
   void SetUp() override {
     if (!cpu::supported(GetParam().set)) GTEST_SKIP() << "not on this processor";

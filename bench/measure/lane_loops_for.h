@@ -1,12 +1,10 @@
 // The loops, for any instruction set: enough independent chains to keep every unit busy.
 #pragma once
 
-#include "bench/measure/arch/arch.h"
+#include "bench/measure/lane_loops.h"
 #include "kernel/engine/cpu/lanes.h"
 
-// Internal linkage: no object offers code of one instruction set to another.
 namespace voxmelt::measure {
-namespace {
 
 template <class Arch>
 struct Loops {
@@ -74,5 +72,4 @@ LaneLoops loops_for() {
   return {Loops<Arch>::multiply, Loops<Arch>::add, Loops<Arch>::update};
 }
 
-}  // namespace
 }  // namespace voxmelt::measure

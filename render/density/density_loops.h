@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <xsimd/xsimd.hpp>
 
 #include "render/density/loops.h"
 #include "render/density/pyramid.h"
