@@ -25,7 +25,7 @@ ALLOWED = {
     "kernel/scene": [RULE, STATE, "kernel/scene/text", "kernel/scene/shape"],
     CPU: [],
     "kernel/engine/scalar": [RULE, STATE, STEP],
-    "kernel/engine/simd": [PARAMETERS, CPU],
+    "kernel/engine/simd": [PARAMETERS, f"{STATE}/ledger_terms.h", CPU],
     "kernel/engine/parallel": [f"{RULE}/random.h", STATE, STEP, CPU, "kernel/engine/simd"],
     VISIBILITY: [RULE, STATE, CPU],
     "kernel/run": [STATE, STEP, CPU, "kernel/engine/scalar", "kernel/engine/parallel", VISIBILITY],
