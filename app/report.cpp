@@ -5,8 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
-
+#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/version.h"
 #include "kernel/automaton/state/connectivity.h"
@@ -25,39 +26,15 @@ json integer(Sum value) {
   return state::to_string(value);
 }
 
-json mass_json(const state::Ledger& ledger, const state::Holdings& held, Sum drift) {
-  const state::MassLedger& m = ledger.mass;
-  return {{"start", integer(m.start)}, {"solid", integer(held.solid)},  {"liquid", integer(held.liquid)},
-          {"added", integer(m.added)}, {"removed", integer(m.removed)}, {"drift", integer(drift)}};
-}
-
-json energy_json(const state::Ledger& ledger, const state::Holdings& held, Sum drift) {
-  const state::EnergyLedger& e = ledger.energy;
-  return {{"start", integer(e.start)},
-          {"held", integer(held.energy)},
-          {"melted", integer(e.melted)},
-          {"added", integer(e.added)},
-          {"removed", integer(e.removed)},
-          {"reheated", integer(e.reheated)},
-          {"accelerated", integer(e.accelerated)},
-          {"dissipated", integer(e.dissipated)},
-          {"capped", integer(e.capped)},
-          {"drift", integer(drift)}};
-}
-
-json heat_json(const state::Ledger& ledger, const state::Holdings& held, Sum drift) {
-  const state::HeatLedger& h = ledger.heat;
-  return {{"start", integer(h.start)},
-          {"held", integer(held.heat)},
-          {"conducted", integer(h.conducted)},
-          {"convected", integer(h.convected)},
-          {"radiated", integer(h.radiated)},
-          {"warmed", integer(h.warmed)},
-          {"cooled", integer(h.cooled)},
-          {"added", integer(h.added)},
-          {"removed", integer(h.removed)},
-          {"rounded", integer(h.rounded)},
-          {"drift", integer(drift)}};
+// `held`: what the state holds, by name.
+template <template <class> class Terms>
+json ledger_json(const state::LedgerOf<Terms>& ledger,
+                 std::initializer_list<std::pair<const char*, Sum>> held, Sum drift) {
+  json result{{"start", integer(ledger.start)}};
+  for (const auto& [name, sum] : held) result[name] = integer(sum);
+  for (const auto& term : Terms<Sum>::table()) result[std::string(term.name)] = integer(ledger.*term.value);
+  result["drift"] = integer(drift);
+  return result;
 }
 
 json seconds_json(const run::Simulation::Seconds& steps, const RunSeconds& run) {
@@ -83,6 +60,7 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
                         const RunSeconds& seconds) {
   const state::Volume& volume = simulation.volume();
   const state::Holdings held = state::holdings(volume);
+  const state::Ledger& ledger = simulation.ledger();
   const state::Drift drift = simulation.drift();
   const json report = {
       {"scene", scene.name},
@@ -99,9 +77,9 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"features", scene.features},
       {"warnings", scene.warnings},
       {"grid", {volume.grid.x, volume.grid.y, volume.grid.z}},
-      {"mass", mass_json(simulation.ledger(), held, drift.mass)},
-      {"energy", energy_json(simulation.ledger(), held, drift.energy)},
-      {"heat", heat_json(simulation.ledger(), held, drift.heat)},
+      {"mass", ledger_json(ledger.mass, {{"solid", held.solid}, {"liquid", held.liquid}}, drift.mass)},
+      {"energy", ledger_json(ledger.energy, {{"held", held.energy}}, drift.energy)},
+      {"heat", ledger_json(ledger.heat, {{"held", held.heat}}, drift.heat)},
       {"cells",
        {{"solid", volume.solid.count()},
         {"liquid", volume.liquid.count()},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/engine/cpu/instruction_set.h"
 #include "render/image/video.h"
 
 namespace voxmelt::app {
@@ -17,14 +18,11 @@ std::string compiler() {
 
 std::string instruction_sets() {
   std::string found;
-#if defined(__x86_64__)
-  const auto add = [&](bool has, const char* name) {
-    if (has) found += found.empty() ? name : std::string(" ") + name;
-  };
-  add(__builtin_cpu_supports("sse4.2"), "sse4.2");
-  add(__builtin_cpu_supports("avx2"), "avx2");
-  add(__builtin_cpu_supports("avx512bw"), "avx512bw");
-#endif
+  for (const cpu::InstructionSetRow& row : cpu::kInstructionSets) {
+    if (!row.supported()) continue;
+    if (!found.empty()) found += ' ';
+    found += row.name;
+  }
   return found.empty() ? "none of those this build looks for" : found;
 }
 

@@ -73,8 +73,7 @@ Steps BaselineRuns::run() const {
 
 Steps BaselineRuns::plain() const { return run<baseline::Variant::plain>(); }
 std::optional<Steps> BaselineRuns::native() const {
-  if (kNativeNeeds >= 0 && !cpu::supported(cpu::kInstructionSets[static_cast<std::size_t>(kNativeNeeds)].set))
-    return std::nullopt;
+  if (kNativeNeeds && !cpu::supported(*kNativeNeeds)) return std::nullopt;
   return run<baseline::Variant::native>();
 }
 

@@ -14,12 +14,6 @@ using json = nlohmann::ordered_json;
 json number(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 json grid_json(const state::Grid& grid) { return {grid.x, grid.y, grid.z}; }
 
-std::string set_name(cpu::InstructionSet wanted) {
-  for (const auto& [set, name] : cpu::kInstructionSets)
-    if (set == wanted) return std::string(name);
-  return "";
-}
-
 json machine_json(const Findings& findings) {
   const MachineText& text = findings.machine_text;
   json bandwidth = json::array(), rates = json::array();
@@ -29,7 +23,7 @@ json machine_json(const Findings& findings) {
                          {"copy_bytes_per_second", found.copy},
                          {"update_bytes_per_second", found.update}});
   for (const auto& [key, found] : findings.machine.rates())
-    rates.push_back({{"instruction_set", set_name(key.first)},
+    rates.push_back({{"instruction_set", cpu::name_of(key.first)},
                      {"threads", key.second},
                      {"multiply_lanes_per_second", found.multiply},
                      {"add_lanes_per_second", found.add}});

@@ -13,7 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "bench/measure/arch/arch.h"
+#include "bench/measure/lane_loops.h"
+#include "kernel/engine/cpu/instruction_set.h"
 
 namespace voxmelt::measure {
 namespace {
@@ -56,27 +57,17 @@ double best_rate(int threads, const Rounds& trials, const std::function<double(i
 }
 
 LaneLoops loops(cpu::InstructionSet set) {
-#if defined(__aarch64__)
-  if (set == cpu::InstructionSet::neon) return neon_loops();
-#else
-  switch (set) {
-    case cpu::InstructionSet::sse42:
-      return sse42_loops();
-    case cpu::InstructionSet::avx2:
-      return avx2_loops();
-    case cpu::InstructionSet::avx512:
-      return avx512_loops();
-    case cpu::InstructionSet::neon:
-      break;
-  }
-#endif
-  return {};
+  LaneLoops found;
+  cpu::for_each_instruction_set([&]<cpu::InstructionSet kSet>() {
+    if (kSet == set) found = loops_for<cpu::ArchOf<kSet>>();
+  });
+  return found;
 }
 
 LaneLoops widest_loops() {
   LaneLoops widest = loops(cpu::kInstructionSets.front().set);
-  for (const auto& [set, name] : cpu::kInstructionSets)
-    if (cpu::supported(set)) widest = loops(set);
+  for (const cpu::InstructionSetRow& row : cpu::kInstructionSets)
+    if (row.supported()) widest = loops(row.set);
   return widest;
 }
 

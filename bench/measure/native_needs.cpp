@@ -3,13 +3,13 @@
 namespace voxmelt::measure {
 
 #if defined(__AVX512F__)
-constinit const int kNativeNeeds = 2;
+constinit const std::optional<cpu::InstructionSet> kNativeNeeds = cpu::InstructionSet::avx512;
 #elif defined(__AVX__)
-constinit const int kNativeNeeds = 1;
+constinit const std::optional<cpu::InstructionSet> kNativeNeeds = cpu::InstructionSet::avx2;
 #elif defined(__SSE4_1__)
-constinit const int kNativeNeeds = 0;
+constinit const std::optional<cpu::InstructionSet> kNativeNeeds = cpu::InstructionSet::sse42;
 #else
-constinit const int kNativeNeeds = -1;
+constinit const std::optional<cpu::InstructionSet> kNativeNeeds = std::nullopt;
 #endif
 
 }  // namespace voxmelt::measure

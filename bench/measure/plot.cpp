@@ -51,8 +51,7 @@ std::string widest(const Findings& findings) {
 
 LaneRates rates_of(const Findings& findings, const std::string& implementation) {
   for (const auto& [key, found] : findings.machine.rates())
-    for (const auto& [set, name] : cpu::kInstructionSets)
-      if (key.second == 1 && set == key.first && name == implementation) return found;
+    if (key.second == 1 && cpu::name_of(key.first) == implementation) return found;
   return {};
 }
 

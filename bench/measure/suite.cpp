@@ -22,8 +22,8 @@ constexpr struct {
               {"lava", "Lava", 3.2, 21.6, 90.2, 1000 / 115.0}};
 
 std::optional<cpu::InstructionSet> set_named(const std::string& name) {
-  for (const auto& [set, its_name] : cpu::kInstructionSets)
-    if (name == its_name) return set;
+  for (const cpu::InstructionSetRow& row : cpu::kInstructionSets)
+    if (name == row.name) return row.set;
   return std::nullopt;
 }
 
@@ -69,8 +69,8 @@ Suite::Suite(Plan plan, Tell tell) : plan_(std::move(plan)), tell_(std::move(tel
   findings_.load_before = load_average();
   findings_.machine = Machine({.fewest = 5, .seconds = plan_.quick ? 0.04 : 0.2});
   for (const int threads : plan_.threads) {
-    for (const auto& [set, name] : cpu::kInstructionSets)
-      if (cpu::supported(set)) findings_.machine.lane_rates(set, threads);
+    for (const cpu::InstructionSetRow& row : cpu::kInstructionSets)
+      if (row.supported()) findings_.machine.lane_rates(row.set, threads);
     if (findings_.machine_text.l2_bytes > 0)
       findings_.machine.bandwidth(findings_.machine_text.l2_bytes / 2 * static_cast<std::size_t>(threads),
                                   threads);

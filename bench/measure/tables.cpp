@@ -28,10 +28,8 @@ std::string rates_table(const Findings& findings) {
       "| instruction set | threads | 16-bit multiplies, G lanes/s | 16-bit adds, G lanes/s |\n"
       "|---|--:|--:|--:|\n";
   for (const auto& [key, found] : findings.machine.rates())
-    for (const auto& [set, name] : cpu::kInstructionSets)
-      if (set == key.first)
-        text += fmt::format("| {} | {} | {} | {} |\n", name, key.second, three_digits(found.multiply / 1e9),
-                            three_digits(found.add / 1e9));
+    text += fmt::format("| {} | {} | {} | {} |\n", cpu::name_of(key.first), key.second,
+                        three_digits(found.multiply / 1e9), three_digits(found.add / 1e9));
   return text + "\n";
 }
 

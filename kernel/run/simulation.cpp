@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "kernel/engine/cpu/instruction_set.h"
 #include "kernel/engine/cpu/workers.h"
 #include "kernel/engine/parallel/stepper.h"
 #include "kernel/engine/scalar/reference.h"
@@ -30,15 +32,12 @@ class Stopwatch {
 const step::Registry& implementations() {
   static const step::Registry registry = [] {
     step::Registry r;
-    using enum cpu::InstructionSet;
     r.add({"reference", "plain loops over kernel/automaton/rule, one thread", scalar::create_reference});
-#if defined(__aarch64__)
-    r.add({"neon", "8 lanes of 16 bits, threads", parallel::create<neon>, cpu::supported(neon)});
-#else
-    r.add({"sse4.2", "8 lanes of 16 bits, threads", parallel::create<sse42>, cpu::supported(sse42)});
-    r.add({"avx2", "16 lanes of 16 bits, threads", parallel::create<avx2>, cpu::supported(avx2)});
-    r.add({"avx512", "32 lanes of 16 bits, threads", parallel::create<avx512>, cpu::supported(avx512)});
-#endif
+    cpu::for_each_instruction_set([&]<cpu::InstructionSet kSet>() {
+      const cpu::InstructionSetRow& row = cpu::row_of(kSet);
+      r.add({std::string(row.name), std::string(row.description) + ", threads", parallel::create<kSet>,
+             row.supported()});
+    });
     return r;
   }();
   return registry;

@@ -1,16 +1,16 @@
 #include "render/density/loops.h"
 
 #include "kernel/engine/cpu/instruction_set.h"
-#include "render/density/arch/arch.h"
 
 namespace voxmelt::render {
 
 const Loops& loops() {
+  using enum cpu::InstructionSet;
 #if defined(__aarch64__)
-  static const Loops chosen = neon_loops();
+  static const Loops chosen = loops_for<cpu::ArchOf<neon>>();
 #else
-  using cpu::InstructionSet;
-  static const Loops chosen = cpu::supported(InstructionSet::avx2) ? avx2_loops() : sse42_loops();
+  static const Loops chosen =
+      cpu::supported(avx2) ? loops_for<cpu::ArchOf<avx2>>() : loops_for<cpu::ArchOf<sse42>>();
 #endif
   return chosen;
 }

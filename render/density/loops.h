@@ -49,6 +49,10 @@ struct Loops {
   void (*shrink)(const ShownRow* from, int rows, int count, const float* emission, Blend* to);
 };
 
+// Compiled for an architecture of xsimd (density_loops.h).
+template <class Arch>
+Loops loops_for();
+
 const Loops& loops();  // the best that this processor can run
 
 }  // namespace voxmelt::render

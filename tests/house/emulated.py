@@ -12,20 +12,21 @@ HEADERS = Path("/usr/include")
 GTEST = Path("/usr/src/googletest/googletest")
 GTEST_SOURCES = [GTEST / "src/gtest-all.cc", GTEST / "src/gtest_main.cc"]
 KERNEL = ["kernel/automaton/state", "kernel/run"] + [
-    f"kernel/engine/{folder}" for folder in ("scalar", "simd", "simd/arch", "parallel", "cpu", "visibility")]
-SETS = {"sse", "avx2", "avx512", "neon"}
+    f"kernel/engine/{folder}" for folder in ("scalar", "simd", "parallel", "cpu", "visibility")]
+INSTANCE = "_instance.cpp"  # how sources end that are compiled once for each instruction set
 # -ffp-contract as in cmake/VoxmeltTarget.cmake.
 OPTIONS = ["-std=c++20", "-ffp-contract=off", "-DVOXMELT_PLAIN_THREADS", "-pthread"]
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wno-sign-conversion", "-Werror"]
 
 
 class Build:
-    """In build/NAME of `root`, for the instruction set NAME. `own`: options of the sources written for it; `runner`:
-    what comes before a program that is run."""
+    """In build/NAME of `root`, for the instruction set NAME. `own`: options of the sources compiled for it; `runner`:
+    what comes before a program that is run; `first`: a folder whose headers stand in place of those of `root`."""
 
-    def __init__(self, root, name, compiler, own, runner=(), left_out=()):
-        self.root, self.name, self.compiler, self.own, self.runner = root, name, compiler, own, list(runner)
-        self.left_out = {*left_out, *(f"{kind}{other}.cpp" for other in SETS - {name} for kind in ("", "arch_"))}
+    def __init__(self, root, name, compiler, own, runner=(), first=None):
+        self.root, self.name, self.compiler, self.runner = root, name, compiler, list(runner)
+        self.own = [*own, f"-DVOXMELT_INSTRUCTION_SET={name}", f'-DVOXMELT_LANES_HEADER="kernel/engine/cpu/lanes_{name}.h"']
+        self.folders = [first, root] if first else [root]
         self.folder = root / "build" / name
         shutil.rmtree(self.folder, ignore_errors=True)
         self.include = self.folder / "include"  # the libraries' headers, without those of this machine's own system
@@ -35,15 +36,16 @@ class Build:
         self.own_objects = []
 
     def sources(self, *folders):
-        return [p for folder in folders for p in sorted((self.root / folder).glob("*.cpp")) if p.name not in self.left_out]
+        return [p for folder in folders for p in sorted((self.root / folder).glob("*.cpp"))]
 
     def is_own(self, source):
-        return source.name in (f"{self.name}.cpp", f"arch_{self.name}.cpp")
+        return source.name.endswith(INSTANCE)
 
     def compiled(self, source, *options):
         out = self.folder / (source.relative_to(source.anchor).as_posix().replace("/", "_") + ".o")
         level = self.own if self.is_own(source) else ["-O2"]
-        subprocess.run([self.compiler, *OPTIONS, *level, *options, "-I", self.root, "-isystem", self.include,
+        include = [word for folder in self.folders for word in ("-I", folder)]
+        subprocess.run([self.compiler, *OPTIONS, *level, *options, *include, "-isystem", self.include,
                         "-c", source, "-o", out], check=True)
         if self.is_own(source):
             self.own_objects.append(out)

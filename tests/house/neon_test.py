@@ -30,7 +30,7 @@ if EMULATOR is None or not GTEST_SOURCES[0].exists():
     sys.exit(0)
 build.link_programs(kernel, {"lanes": build.sources("tests/kernel/engine/cpu"),
                              "hostile": [root / "tests/kernel/engine/parallel/hostile_test.cpp"],
-                             "picture": [*build.sources("render/density", "render/density/arch"),
+                             "picture": [*build.sources("render/density"),
                                          *sorted((root / "tests/render").glob("plain_*.cpp"))]})
 sys.exit(build.differ([("lanes", "-Workers.*:Turns.*"), ("hostile", "*paper*"), ("hostile", "*viscous*"),
                        ("picture", "*")]))

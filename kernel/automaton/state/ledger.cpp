@@ -48,6 +48,12 @@ Ledger Ledger::open(const Volume& volume) {
   return ledger;
 }
 
+void Ledger::book(const LedgerTerms<std::int64_t>& terms) {
+  add_terms<MassTerms>(mass, terms.mass);
+  add_terms<EnergyTerms>(energy, terms.energy);
+  add_terms<HeatTerms>(heat, terms.heat);
+}
+
 Drift drift(const Ledger& ledger, const Volume& volume) {
   const Holdings held = holdings(volume);
   return {held.solid + held.liquid - ledger.mass.expected(), held.energy - ledger.energy.expected(),

@@ -1,11 +1,12 @@
 // Exact books of mass, energy and heat (docs/automaton.md, "Ledgers").
 //
-// Every term is summed where a rule applies it; none is found by subtraction. A ledger balances when
-// start + all terms = what the state holds, to the unit.
+// Every term (ledger_terms.h) is summed where a rule applies it; none is found by subtraction. A ledger
+// balances when start + all terms = what the state holds, to the unit.
 #pragma once
 
 #include <string>
 
+#include "kernel/automaton/state/ledger_terms.h"
 #include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::state {
@@ -23,42 +24,20 @@ struct Holdings {
 
 Holdings holdings(const Volume& volume);
 
-struct MassLedger {
-  Sum start = 0, added = 0, removed = 0;
-  Sum expected() const { return start + added - removed; }
-  friend bool operator==(const MassLedger&, const MassLedger&) = default;
-};
-
-struct EnergyLedger {
+// The ledger of mass, energy or heat.
+template <template <class> class Terms>
+struct LedgerOf : Terms<Sum> {
   Sum start = 0;
-  Sum melted = 0;       // energy of freshly melted cells
-  Sum added = 0;        // brought by vents
-  Sum removed = 0;      // left through drains
-  Sum reheated = 0;     // extra `reheat`
-  Sum accelerated = 0;  // gained (beta > 1) or lost (beta < 1) in falling
-  Sum dissipated = 0;   // friction, alpha < 1
-  Sum capped = 0;       // lost to the bound energy <= amount
   Sum expected() const {
-    return start + melted + added - removed + reheated + accelerated - dissipated - capped;
+    Sum sum = start;
+    for (const auto& term : Terms<Sum>::table()) sum += term.sign * (this->*term.value);
+    return sum;
   }
-  friend bool operator==(const EnergyLedger&, const EnergyLedger&) = default;
+  friend bool operator==(const LedgerOf&, const LedgerOf&) = default;
 };
-
-struct HeatLedger {
-  Sum start = 0;
-  Sum conducted = 0;  // pair flows between cells of different amount change the sum of amount x heat
-  Sum convected = 0;  // the same for convection in liquid
-  Sum radiated = 0;   // from point sources
-  Sum warmed = 0;     // gained from air
-  Sum cooled = 0;     // lost to air
-  Sum added = 0;      // brought by vents
-  Sum removed = 0;    // left through drains
-  Sum rounded = 0;    // rounding of the mean where liquid mixes (either sign)
-  Sum expected() const {
-    return start + conducted + convected + radiated + warmed - cooled + added - removed + rounded;
-  }
-  friend bool operator==(const HeatLedger&, const HeatLedger&) = default;
-};
+using MassLedger = LedgerOf<MassTerms>;
+using EnergyLedger = LedgerOf<EnergyTerms>;
+using HeatLedger = LedgerOf<HeatTerms>;
 
 struct Ledger {
   MassLedger mass;
@@ -66,6 +45,7 @@ struct Ledger {
   HeatLedger heat;
 
   static Ledger open(const Volume& volume);
+  void book(const LedgerTerms<std::int64_t>& terms);
   friend bool operator==(const Ledger&, const Ledger&) = default;
 };
 

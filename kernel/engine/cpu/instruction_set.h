@@ -1,26 +1,34 @@
-// Which of our instruction sets this processor has.
+// Which instruction sets there are, and how to get from one to the code that was compiled for it.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <string_view>
+#include <utility>
+
+#include "kernel/engine/cpu/instruction_set_table.h"
 
 namespace voxmelt::cpu {
 
-enum class InstructionSet { sse42, avx2, avx512, neon };  // x86-64-v2, -v3, -v4; 64-bit ARM
+constexpr const InstructionSetRow& row_of(InstructionSet set) {
+  return kInstructionSets[static_cast<std::size_t>(set)];
+}
+constexpr std::string_view name_of(InstructionSet set) { return row_of(set).name; }
+inline bool supported(InstructionSet set) { return row_of(set).supported(); }
 
-struct InstructionSetName {
-  InstructionSet set;
-  std::string_view name;
-};
-// Those that we are built for, the widest last.
-#if defined(__aarch64__)
-inline constexpr std::array<InstructionSetName, 1> kInstructionSets{{{InstructionSet::neon, "neon"}}};
-#else
-inline constexpr std::array<InstructionSetName, 3> kInstructionSets{
-    {{InstructionSet::sse42, "sse4.2"}, {InstructionSet::avx2, "avx2"}, {InstructionSet::avx512, "avx512"}}};
-#endif
+// The type that templates are compiled for.
+template <InstructionSet kSet>
+using ArchOf = std::tuple_element_t<static_cast<std::size_t>(kSet), Architectures>;
 
-// Everything that the compiler may use for that set, and that the operating system keeps its registers.
-bool supported(InstructionSet set);
+// Calls f<set>() for every instruction set, the narrowest first.
+template <class F>
+void for_each_instruction_set(const F& f) {
+  static_assert(kInstructionSets.size() == std::tuple_size_v<Architectures>);
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    static_assert(((kInstructionSets[i].set == InstructionSet{i}) && ...),
+                  "rows in the order of InstructionSet");
+    (f.template operator()<InstructionSet{i}>(), ...);
+  }
+  (std::make_index_sequence<kInstructionSets.size()>{});
+}
 
 }  // namespace voxmelt::cpu

@@ -36,26 +36,6 @@ void refresh(const simd::View& view, const Tiles& tiles, Walls& walls) {
 
 int chunks_for(const step::Tuning& tuning) { return tuning.threads == 1 ? 1 : 4 * tuning.threads; }
 
-void book(const simd::Books& books, state::Ledger& ledger) {
-  ledger.mass.added += books.mass_added;
-  ledger.mass.removed += books.mass_removed;
-  ledger.energy.melted += books.melted;
-  ledger.energy.added += books.energy_added;
-  ledger.energy.removed += books.energy_removed;
-  ledger.energy.reheated += books.reheated;
-  ledger.energy.accelerated += books.accelerated;
-  ledger.energy.dissipated += books.dissipated;
-  ledger.energy.capped += books.capped;
-  ledger.heat.conducted += books.conducted;
-  ledger.heat.convected += books.convected;
-  ledger.heat.radiated += books.radiated;
-  ledger.heat.warmed += books.warmed;
-  ledger.heat.cooled += books.cooled;
-  ledger.heat.added += books.heat_added;
-  ledger.heat.removed += books.heat_removed;
-  ledger.heat.rounded += books.rounded;
-}
-
 }  // namespace
 
 Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, state::Grid grid,
@@ -127,7 +107,7 @@ void Stepper::run(step::Phase phase, std::uint32_t number, const step::Irradianc
       settle(job, books);
       break;
   }
-  book(books, ledger);
+  ledger.book(books);
 }
 
 void Stepper::source(const Job& job, simd::Books& books) {

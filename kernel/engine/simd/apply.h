@@ -227,10 +227,10 @@ class Apply {
   }
 
   [[gnu::always_inline]] void flush() {
-    books_.dissipated += static_cast<std::int64_t>(dissipated_.total());
-    books_.capped += static_cast<std::int64_t>(capped_.total());
+    books_.energy.dissipated += static_cast<std::int64_t>(dissipated_.total());
+    books_.energy.capped += static_cast<std::int64_t>(capped_.total());
     dissipated_ = capped_ = {};
-    if constexpr (kFeatures.hot) books_.rounded += mix_.flush();
+    if constexpr (kFeatures.hot) books_.heat.rounded += mix_.flush();
   }
 
   static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;

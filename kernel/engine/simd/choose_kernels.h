@@ -1,4 +1,4 @@
-// The kernels that a scene needs, of one instruction set.
+// Which kernels a scene needs.
 #pragma once
 
 #include "kernel/engine/simd/heat_kernels.h"

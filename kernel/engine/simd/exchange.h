@@ -48,9 +48,9 @@ class Exchange {
         cooled_.end_row();
       }
     }
-    books.radiated += radiated_.total();
-    books.warmed += warmed_.total();
-    books.cooled += cooled_.total();
+    books.heat.radiated += radiated_.total();
+    books.heat.warmed += warmed_.total();
+    books.heat.cooled += cooled_.total();
   }
 
  private:

@@ -45,7 +45,7 @@ class FallOutside {
       if (moved == 0) continue;
       changed[y >> v_.tile_shift] |= moved;
       changed[(y + 1) >> v_.tile_shift] |= moved;
-      if constexpr (kFeatures.hot) books_.rounded += mix_.flush();
+      if constexpr (kFeatures.hot) books_.heat.rounded += mix_.flush();
     }
   }
 

@@ -200,14 +200,14 @@ class Gravity {
   }
 
   [[gnu::always_inline]] void flush() {
-    books_.capped += static_cast<std::int64_t>(capped_.total());
+    books_.energy.capped += static_cast<std::int64_t>(capped_.total());
     capped_ = {};
     if constexpr (kFeatures.guided) {
-      books_.accelerated +=
+      books_.energy.accelerated +=
           static_cast<std::int64_t>(faster_.total()) - static_cast<std::int64_t>(slower_.total());
       faster_ = slower_ = {};
     }
-    if constexpr (kFeatures.hot) books_.rounded += mix_.flush();
+    if constexpr (kFeatures.hot) books_.heat.rounded += mix_.flush();
   }
 
   static constexpr std::uint64_t kAll =

@@ -14,20 +14,21 @@ void conduct_faces_slice(const View& view, const Step& step, int z, const OldHea
                          const TileRow* carried, const TileRow* tiles, HeatFlux& flux, const HeatTiles& found,
                          Books& books) {
   FullConduction<Arch, kLatent> full(view, step, z, old, flux);
-  books.conducted += FaceConduction<Arch, kLatent>(view, step, z, old, flux).run(carried, tiles, full, found);
-  books.conducted += full.total();
+  books.heat.conducted +=
+      FaceConduction<Arch, kLatent>(view, step, z, old, flux).run(carried, tiles, full, found);
+  books.heat.conducted += full.total();
 }
 
 template <class Arch, bool kLatent, class Axes>
 void conduct_distant_slice(const View& view, const Step& step, int z, const OldHeat& old,
                            const TileRow* tiles, const HeatTiles& found, Books& books) {
-  books.conducted += DistantConduction<Arch, kLatent, Axes>(view, step, z, old).run(tiles, found);
+  books.heat.conducted += DistantConduction<Arch, kLatent, Axes>(view, step, z, old).run(tiles, found);
 }
 
 template <class Arch, bool kLatent>
 void convect_slice(const View& view, const Step& step, int z, const TileRow* tiles, HeatFlux& flux,
                    const HeatTiles& found, Books& books) {
-  books.convected += Convection<Arch, kLatent>(view, step, z, flux).run(tiles, found);
+  books.heat.convected += Convection<Arch, kLatent>(view, step, z, flux).run(tiles, found);
 }
 
 template <class Arch, HeatFeatures kFeatures>

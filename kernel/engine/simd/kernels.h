@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/ledger_terms.h"
 #include "kernel/engine/cpu/instruction_set.h"
 
 namespace voxmelt::simd {
@@ -67,36 +68,9 @@ struct Step {
   const std::uint16_t* irradiance = nullptr;  // null without radiation
 };
 
-// Terms of the ledgers, summed over what a kernel did.
-struct Books {
-  std::int64_t accelerated = 0, dissipated = 0, capped = 0, rounded = 0;
-  // Of conducted and convected only the sum over a whole pass means something: see PairBooks.
-  std::int64_t conducted = 0, convected = 0, radiated = 0, warmed = 0, cooled = 0;
-  std::int64_t melted = 0, reheated = 0;
-  std::int64_t mass_added = 0, mass_removed = 0, energy_added = 0, energy_removed = 0, heat_added = 0,
-               heat_removed = 0;
-
-  Books& operator+=(const Books& other) {
-    accelerated += other.accelerated;
-    dissipated += other.dissipated;
-    capped += other.capped;
-    rounded += other.rounded;
-    conducted += other.conducted;
-    convected += other.convected;
-    radiated += other.radiated;
-    warmed += other.warmed;
-    cooled += other.cooled;
-    melted += other.melted;
-    reheated += other.reheated;
-    mass_added += other.mass_added;
-    mass_removed += other.mass_removed;
-    energy_added += other.energy_added;
-    energy_removed += other.energy_removed;
-    heat_added += other.heat_added;
-    heat_removed += other.heat_removed;
-    return *this;
-  }
-};
+// Terms of the ledgers, summed over what a kernel did. Of conducted and convected only the sum over a whole
+// pass means something: see PairBooks.
+using Books = state::LedgerTerms<std::int64_t>;
 
 // What the cells of some rows of one slice give in the paper law's spread: written by `pattern`, read by
 // `apply`. Arrays begin with row `first_row`, the first of a tile.
@@ -220,7 +194,11 @@ struct Kernels {
                Books&) = nullptr;
 };
 
-// The kernels that a scene needs; `set` must be supported.
+// The kernels that a scene needs, compiled for an architecture of xsimd (choose_kernels.h).
+template <class Arch>
+Kernels kernels_for(const rule::Parameters& parameters);
+
+// The same by the instruction set, which must be supported.
 Kernels kernels(cpu::InstructionSet set, const rule::Parameters& parameters);
 
 }  // namespace voxmelt::simd

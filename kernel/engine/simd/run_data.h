@@ -68,14 +68,19 @@ class RunData {
     fill(begin, mass, over, runs, now);
     const std::int64_t rounded = kHot ? mix(begin, mass, counts, runs, now) : 0;
     show(begin, mass, over, runs, now);
-    const auto* from = reinterpret_cast<const std::uint16_t*>(&now);
-    auto* to = reinterpret_cast<std::uint16_t*>(&settled);
-    const auto which = L::from_bits(runs.columns, part);
-    for (std::size_t field = 0; field < sizeof(SettledRuns) / 128; ++field) {
-      if (!kHot && from + 64 * field == now.heat) continue;
-      const std::size_t lane = 64 * field + static_cast<std::size_t>(begin);
-      L::store(to + lane, L::select(which, L::load(from + lane), L::load(to + lane)));
-    }
+    const auto asked = L::from_bits(runs.columns, part);
+    const auto keep = [&](const Lanes16& value, Lanes16& kept) VOXMELT_LAMBDA {
+      L::store(kept + begin, L::select(asked, L::load(value + begin), L::load(kept + begin)));
+    };
+    keep(now.pivot, settled.pivot);
+    keep(now.at, settled.at);
+    keep(now.above, settled.above);
+    keep(now.head_low, settled.head_low);
+    keep(now.head_high, settled.head_high);
+    keep(now.mobility, settled.mobility);
+    keep(now.exposed, settled.exposed);
+    keep(now.dead, settled.dead);
+    if constexpr (kHot) keep(now.heat, settled.heat);
     return rounded;
   }
 

@@ -205,7 +205,7 @@ class Settle {
       bool differs = false;
       if (taken != 0) {
         if (used_[g] > 0 && record(g, used_[g] - 1).top == y)
-          books_.rounded += data_.settle(record(g, --used_[g]), settled_[g]);
+          books_.heat.rounded += data_.settle(record(g, --used_[g]), settled_[g]);
         for (int part = 0; part < L::kParts; ++part)
           if (L::in_part(taken, part))
             in_run |= vectors(w, y, part, taken, settled_[g], deep, differs) << (part * L::kCount);

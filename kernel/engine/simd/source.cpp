@@ -33,19 +33,19 @@ class Sources {
       if (added == 0) return false;
       v_.amount[i] = static_cast<std::uint16_t>(had + added);
       wet |= bit;
-      books_.mass_added += added;
+      books_.mass.added += added;
       if (paper_) {
         const std::int64_t energy = added * vent.energy / 4096;
         v_.energy[i] = static_cast<std::uint16_t>(v_.energy[i] + energy);
-        books_.energy_added += energy;
+        books_.energy.added += energy;
       }
       if (hot_) {
         const std::int64_t now = had + added, brought = added * vent.temperature;
         const std::int64_t content = had * v_.heat[i] + brought;
         const std::int64_t mean = (content + now * dither_ / 65536) / now;
         v_.heat[i] = static_cast<std::uint16_t>(mean);
-        books_.heat_added += brought;
-        books_.rounded += now * mean - content;
+        books_.heat.added += brought;
+        books_.heat.rounded += now * mean - content;
       }
       return true;
     });
@@ -56,9 +56,9 @@ class Sources {
       const std::int64_t had = v_.amount[i], taken = std::min<std::int64_t>(drain.rate, had);
       if (taken == 0) return false;
       const std::int64_t left = had - taken, energy = std::min<std::int64_t>(v_.energy[i], left);
-      books_.mass_removed += taken;
-      books_.energy_removed += v_.energy[i] - energy;
-      books_.heat_removed += taken * v_.heat[i];
+      books_.mass.removed += taken;
+      books_.energy.removed += v_.energy[i] - energy;
+      books_.heat.removed += taken * v_.heat[i];
       v_.amount[i] = static_cast<std::uint16_t>(left);
       v_.energy[i] = static_cast<std::uint16_t>(energy);
       if (left == 0) {

@@ -38,7 +38,7 @@ class Carry {
       const std::size_t mask = v_.word(w, y, z_);
       v_.liquid[mask] = wet & ~(v_.solid[mask] | v_.inert[mask]);
     }
-    if constexpr (kFeatures.hot) books_.rounded += mix_.flush();
+    if constexpr (kFeatures.hot) books_.heat.rounded += mix_.flush();
     return changed;
   }
 

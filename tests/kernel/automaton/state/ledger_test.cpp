@@ -45,6 +45,79 @@ TEST(Holdings, LargestCells) {
   EXPECT_EQ(held.heat, Sum{65536} * 65535 * 65535);
 }
 
+// Signs as in docs/automaton.md, section 12: a power of ten for each term.
+TEST(Ledger, ExpectsTheStartAndEveryTermWithItsSign) {
+  Ledger l;
+  l.mass.start = 5000;
+  l.mass.added = 10;
+  l.mass.removed = 1;
+  EXPECT_EQ(l.mass.expected(), 5009);
+
+  l.energy.start = 50000000;
+  l.energy.melted = 1000000;
+  l.energy.added = 100000;
+  l.energy.removed = 10000;
+  l.energy.reheated = 1000;
+  l.energy.accelerated = 100;
+  l.energy.dissipated = 10;
+  l.energy.capped = 1;
+  EXPECT_EQ(l.energy.expected(), 51091089);
+
+  l.heat.start = 500000000;
+  l.heat.conducted = 10000000;
+  l.heat.convected = 1000000;
+  l.heat.radiated = 100000;
+  l.heat.warmed = 10000;
+  l.heat.cooled = 1000;
+  l.heat.added = 100;
+  l.heat.removed = 10;
+  l.heat.rounded = 1;
+  EXPECT_EQ(l.heat.expected(), 511109091);
+}
+
+// Values that tell every term from the others, and that 64 bits hold.
+LedgerTerms<std::int64_t> some_books() {
+  LedgerTerms<std::int64_t> books;
+  books.mass = {1, -2};
+  books.energy = {3, 4, 5, 6, 7, 8, std::int64_t{1} << 62};
+  books.heat = {-10, 11, 12, 13, 14, 15, 16, -17};
+  return books;
+}
+
+TEST(Ledger, BooksEveryTermInItsPlace) {
+  Ledger l;
+  l.energy.start = 9;
+  for (int i = 0; i < 3; ++i) l.book(some_books());
+  EXPECT_EQ(l.mass.added, 3);
+  EXPECT_EQ(l.mass.removed, -6);
+  EXPECT_EQ(l.energy.start, 9);
+  EXPECT_EQ(l.energy.melted, 9);
+  EXPECT_EQ(l.energy.added, 12);
+  EXPECT_EQ(l.energy.removed, 15);
+  EXPECT_EQ(l.energy.reheated, 18);
+  EXPECT_EQ(l.energy.accelerated, 21);
+  EXPECT_EQ(l.energy.dissipated, 24);
+  EXPECT_EQ(l.energy.capped, Sum{3} << 62) << "more than 64 bits";
+  EXPECT_EQ(l.heat.conducted, -30);
+  EXPECT_EQ(l.heat.convected, 33);
+  EXPECT_EQ(l.heat.radiated, 36);
+  EXPECT_EQ(l.heat.warmed, 39);
+  EXPECT_EQ(l.heat.cooled, 42);
+  EXPECT_EQ(l.heat.added, 45);
+  EXPECT_EQ(l.heat.removed, 48);
+  EXPECT_EQ(l.heat.rounded, -51);
+}
+
+TEST(Ledger, TermsOfManyWorkersAddUp) {
+  LedgerTerms<std::int64_t> sum;
+  LedgerTerms<std::int64_t> books = some_books();
+  books.energy.capped = 9;
+  for (int i = 0; i < 2; ++i) sum += books;
+  EXPECT_EQ(sum.mass, (MassTerms<std::int64_t>{2, -4}));
+  EXPECT_EQ(sum.energy, (EnergyTerms<std::int64_t>{6, 8, 10, 12, 14, 16, 18}));
+  EXPECT_EQ(sum.heat, (HeatTerms<std::int64_t>{-20, 22, 24, 26, 28, 30, 32, -34}));
+}
+
 // A run that uses every term of the ledgers.
 enum class Case { paper, paper_printed, viscous };
 run::Simulation busy(Case which) {
@@ -123,17 +196,20 @@ TEST_P(LedgerOfALaw, OneUnitPlantedInAnyTermShows) {
   run::Simulation s = busy(GetParam());
   steps(s, 10);
   Ledger& l = s.mutable_ledger();
-  for (Sum* term :
-       {&l.mass.start,    &l.mass.added,     &l.mass.removed,    &l.energy.start,       &l.energy.melted,
-        &l.energy.added,  &l.energy.removed, &l.energy.reheated, &l.energy.accelerated, &l.energy.dissipated,
-        &l.energy.capped, &l.heat.start,     &l.heat.conducted,  &l.heat.convected,     &l.heat.radiated,
-        &l.heat.warmed,   &l.heat.cooled,    &l.heat.added,      &l.heat.removed,       &l.heat.rounded}) {
-    ++*term;
+  const auto shows = [&](Sum& term) {
+    ++term;
     const Drift d = s.drift();
     EXPECT_EQ(d.mass * d.mass + d.energy * d.energy + d.heat * d.heat, 1) << "one unit, in one ledger";
     EXPECT_FALSE(d.none());
-    --*term;
-  }
+    --term;
+  };
+  const auto every_term_shows = [&](auto& ledger) {
+    shows(ledger.start);
+    for (const auto& term : ledger.table()) shows(ledger.*term.value);
+  };
+  every_term_shows(l.mass);
+  every_term_shows(l.energy);
+  every_term_shows(l.heat);
   EXPECT_TRUE(s.drift().none());
 }
 

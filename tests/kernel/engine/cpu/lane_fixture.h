@@ -16,33 +16,19 @@ namespace voxmelt::cpu {
 template <std::size_t size>
 struct alignas(64) Row : std::array<std::uint16_t, size> {};
 
-class LanesTest : public testing::TestWithParam<InstructionSetName> {
+class LanesTest : public testing::TestWithParam<InstructionSetRow> {
  protected:
   void SetUp() override {
-    if (!supported(GetParam().set)) GTEST_SKIP() << "not on this processor";
-#if defined(__aarch64__)
-    own_ = neon_operations();
-#else
-    switch (GetParam().set) {
-      case InstructionSet::sse42:
-        own_ = sse_operations();
-        break;
-      case InstructionSet::avx2:
-        own_ = avx2_operations();
-        break;
-      case InstructionSet::avx512:
-        own_ = avx512_operations();
-        break;
-      case InstructionSet::neon:
-        break;
-    }
-#endif
+    if (!GetParam().supported()) GTEST_SKIP() << "not on this processor";
+    for_each_instruction_set([this]<InstructionSet kSet>() {
+      if (kSet == GetParam().set) own_ = operations_for<ArchOf<kSet>>();
+    });
   }
 
   Operations own_{};
 };
 
-inline std::string test_name(const testing::TestParamInfo<InstructionSetName>& info) {
+inline std::string test_name(const testing::TestParamInfo<InstructionSetRow>& info) {
   std::string name(info.param.name);
   std::erase(name, '.');
   return name;

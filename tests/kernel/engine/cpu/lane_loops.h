@@ -222,4 +222,9 @@ struct LaneLoops {
   }
 };
 
+template <class Arch>
+Operations operations_for() {
+  return LaneLoops<Arch>::operations();
+}
+
 }  // namespace voxmelt::cpu

@@ -73,9 +73,8 @@ struct Operations {
                std::uint8_t* bytes);
 };
 
-Operations sse_operations();
-Operations avx2_operations();
-Operations avx512_operations();
-Operations neon_operations();
+// Compiled for an architecture of xsimd (lane_loops.h).
+template <class Arch>
+Operations operations_for();
 
 }  // namespace voxmelt::cpu

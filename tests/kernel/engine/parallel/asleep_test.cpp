@@ -67,7 +67,7 @@ std::vector<int> calls_of_steps(cpu::InstructionSet set, const Parameters& param
   return result;
 }
 
-class Asleep : public testing::TestWithParam<cpu::InstructionSetName> {};
+class Asleep : public testing::TestWithParam<cpu::InstructionSetRow> {};
 
 // With energy to spread, and nowhere to: every cell is full, and its neighbours are.
 TEST_P(Asleep, FlatPoolsCallNoKernel) {

@@ -40,14 +40,22 @@ inline std::string difference(const Volume& a, const Volume& b) {
   return text.empty() ? "in the padding, or a mask" : text;
 }
 
-inline std::string terms(const state::Ledger& l) {
+inline std::string terms(const state::Ledger& ledger) {
   std::string text;
-  for (const state::Sum term :
-       {l.mass.added, l.mass.removed, l.energy.melted, l.energy.reheated, l.energy.added, l.energy.removed,
-        l.heat.conducted, l.heat.convected, l.heat.radiated, l.heat.warmed, l.heat.cooled, l.heat.added,
-        l.heat.removed, l.heat.rounded})
-    text += state::to_string(term) + " ";
+  const auto append = [&text](const auto& one) {
+    for (const auto& term : one.table())
+      text += std::string(term.name) + " " + state::to_string(one.*term.value) + " ";
+  };
+  append(ledger.mass);
+  append(ledger.energy);
+  append(ledger.heat);
   return text;
+}
+
+inline std::string terms(const Books& books) {
+  state::Ledger ledger;
+  ledger.book(books);
+  return terms(ledger);
 }
 
 // Tiles in which the volumes differ.

@@ -167,23 +167,4 @@ class HeatDriver {
   Slice row_{{v_.nx, 1, 1}}, front_{{v_.nx, v_.ny, 1}};
 };
 
-inline state::Ledger ledger_of(const Books& b) {
-  state::Ledger l;
-  l.mass.added = b.mass_added;
-  l.mass.removed = b.mass_removed;
-  l.energy.melted = b.melted;
-  l.energy.reheated = b.reheated;
-  l.energy.added = b.energy_added;
-  l.energy.removed = b.energy_removed;
-  l.heat.conducted = b.conducted;
-  l.heat.convected = b.convected;
-  l.heat.radiated = b.radiated;
-  l.heat.warmed = b.warmed;
-  l.heat.cooled = b.cooled;
-  l.heat.added = b.heat_added;
-  l.heat.removed = b.heat_removed;
-  l.heat.rounded = b.rounded;
-  return l;
-}
-
 }  // namespace voxmelt::simd

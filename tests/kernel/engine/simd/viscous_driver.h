@@ -68,7 +68,7 @@ class ViscousDriver {
       fall(view, step, books);
     else
       others(phase, number, volume, ledger);
-    ledger.heat.rounded += books.rounded;
+    ledger.book(books);
   }
 
   // Tiles that the last phase was asked for.

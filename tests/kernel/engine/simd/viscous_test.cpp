@@ -22,7 +22,7 @@ using Way = ViscousDriver::Way;
 
 std::vector<cpu::InstructionSet> sets() {
   std::vector<cpu::InstructionSet> found;
-  for (const cpu::InstructionSetName& one : cpu::kInstructionSets)
+  for (const cpu::InstructionSetRow& one : cpu::kInstructionSets)
     if (cpu::supported(one.set)) found.push_back(one.set);
   return found;
 }

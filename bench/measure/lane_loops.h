@@ -1,5 +1,4 @@
-// How fast one thread does the operations that the automaton is made of. One object per instruction set: each
-// holds its own copy of everything it needs, and shares nothing but these.
+// How fast one thread does the operations that the automaton is made of.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +15,8 @@ struct LaneLoops {
   void (*update)(std::uint16_t* at, std::size_t lanes) = nullptr;
 };
 
-LaneLoops sse42_loops();
-LaneLoops avx2_loops();
-LaneLoops avx512_loops();
-LaneLoops neon_loops();
+// Compiled for an architecture of xsimd (lane_loops_for.h).
+template <class Arch>
+LaneLoops loops_for();
 
 }  // namespace voxmelt::measure

@@ -4,12 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "bench/measure/arch/arch.h"
+#include "bench/measure/lane_loops.h"
 #include "kernel/engine/cpu/lanes.h"
 
-// Internal linkage: no object offers code of one instruction set to another.
 namespace voxmelt::measure {
-namespace {
 
 template <class Arch>
 struct Loops {
@@ -77,5 +75,4 @@ LaneLoops loops_for() {
   return {Loops<Arch>::multiply, Loops<Arch>::add, Loops<Arch>::update};
 }
 
-}  // namespace
 }  // namespace voxmelt::measure

@@ -1,0 +1,63 @@
+// The instruction sets that kernels are compiled for: their names, what they are, and what a processor must
+// have. The compiler's options stand in cmake/InstructionSets.cmake, the lanes in lanes_<enumerator>.h.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <tuple>
+
+namespace xsimd {  // lanes.h includes their definitions
+struct sse4_2;
+struct avx2;
+struct avx512bw;
+struct neon64;
+}  // namespace xsimd
+
+namespace voxmelt::cpu {
+
+// The narrowest comes first.
+#if defined(__aarch64__)
+enum class InstructionSet { neon };
+using Architectures = std::tuple<xsimd::neon64>;
+#else
+enum class InstructionSet { sse42, avx2, avx512 };
+using Architectures = std::tuple<xsimd::sse4_2, xsimd::avx2, xsimd::avx512bw>;
+#endif
+
+struct InstructionSetRow {
+  InstructionSet set;
+  std::string_view name, description;
+  // Whether this processor has everything that the compiler may use, and the operating system keeps its
+  // registers.
+  bool (*supported)();
+};
+
+#if defined(__aarch64__)
+inline bool has_neon() { return true; }  // every such processor
+
+inline constexpr std::array kInstructionSets{
+    InstructionSetRow{InstructionSet::neon, "neon", "8 lanes of 16 bits", has_neon},
+};
+#else
+inline bool has_sse42() {  // x86-64-v2
+  return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("ssse3") &&
+         __builtin_cpu_supports("popcnt");
+}
+inline bool has_avx2() {  // x86-64-v3
+  return has_sse42() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+         __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+}
+inline bool has_avx512() {  // x86-64-v4
+  return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl");
+}
+
+inline constexpr std::array kInstructionSets{
+    InstructionSetRow{InstructionSet::sse42, "sse4.2", "8 lanes of 16 bits", has_sse42},
+    InstructionSetRow{InstructionSet::avx2, "avx2", "16 lanes of 16 bits", has_avx2},
+    InstructionSetRow{InstructionSet::avx512, "avx512", "32 lanes of 16 bits", has_avx512},
+};
+#endif
+
+}  // namespace voxmelt::cpu

@@ -1,0 +1,12 @@
+// The lanes of the instruction set that this object is compiled for. For sources that
+// cmake/InstructionSets.cmake compiles once for each: they instantiate templates, and share nothing else.
+#pragma once
+
+#include "kernel/engine/cpu/instruction_set.h"
+#include VOXMELT_LANES_HEADER  // "kernel/engine/cpu/lanes_<VOXMELT_INSTRUCTION_SET>.h"
+
+namespace voxmelt::cpu {
+
+using OwnArch = ArchOf<InstructionSet::VOXMELT_INSTRUCTION_SET>;
+
+}  // namespace voxmelt::cpu

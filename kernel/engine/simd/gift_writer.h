@@ -1,0 +1,109 @@
+// Phase `spread` of the paper's law: what cells give to a direction (Eqs. 9, 10), written into the gifts.
+#pragma once
+
+#include "kernel/engine/simd/contact.h"
+#include "kernel/engine/simd/features.h"
+
+namespace voxmelt::simd {
+
+template <class Arch, SpreadFeatures kFeatures>
+class GiftWriter {
+  using L = cpu::Lanes<Arch>;
+  using V = typename L::V;
+  static constexpr int kDirections = kFeatures.eight ? 8 : 4;
+  static constexpr int kCap = rule::flow_cap(kDirections);
+
+ public:
+  [[gnu::always_inline]] GiftWriter(const View& view, const Step& step, int z, const Gifts& gifts)
+      : law_(step.parameters->flow.paper),
+        z_(z),
+        gifts_(gifts),
+        amount_(view.amount + view.cell(0, gifts.first_row, z)),
+        energy_(view.energy + view.cell(0, gifts.first_row, z)),
+        heat_(view.heat + view.cell(0, gifts.first_row, z)),
+        share_(L::set(law_.share)) {
+    if constexpr (kFeatures.thermal) shares_ = share_table(*step.parameters);
+  }
+
+  // What cells give of what they hold. Thermal viscosity: the share times the table.
+  [[gnu::always_inline]] V share(std::size_t at) const {
+    if constexpr (!kFeatures.thermal) return share_;
+    return L::lookup(shares_, L::load(heat_ + at));
+  }
+  // The amount along an axis, but with shares by pattern: there it is not known yet, and 0.
+  [[gnu::always_inline]] V flow(V amount, V share) const {
+    if constexpr (kFeatures.general)
+      if (law_.use_table) return L::zero();
+    return capped(amount, share);
+  }
+
+  // One gift for all directions of an axis, one for all diagonals.
+  [[gnu::always_inline]] void write(std::size_t at, V flow, V share) const {
+    const V warm = L::min(flow, L::high(L::load(energy_ + at), share));
+    L::store(gifts_.flow[0] + at, flow);
+    L::store(gifts_.energy[0] + at, warm);
+    if constexpr (kFeatures.eight) {
+      L::store(gifts_.flow[4] + at, L::template shift_right<2>(flow));
+      L::store(gifts_.energy[4] + at, L::template shift_right<2>(warm));
+    }
+    write_heat(at);
+  }
+
+  // The gifts of every direction on their own: shares by pattern, energy by the printed reading.
+  [[gnu::always_inline]] void write_each(const View& view, std::size_t at, int y, std::uint32_t lane) const {
+    const V amount = L::load(amount_ + at), energy = L::load(energy_ + at);
+    write_heat(at);
+    const V same = law_.use_table ? L::zero() : share(at);
+    for (int d = 0; d < kDirections; ++d) {
+      const V sh = law_.use_table ? share_by_pattern(gifts_.pattern + at, d) : same;
+      V flow = capped(amount, sh), warm = capped(energy, sh);
+      if (d >= 4) {
+        flow = L::template shift_right<2>(flow);
+        warm = L::template shift_right<2>(warm);
+      }
+      warm = L::min(flow, warm);
+      if (law_.reading == rule::EnergyReading::printed)
+        warm = L::high(warm,
+                       contact_alpha<Arch>(view, law_, y == 0, view.word(static_cast<int>(lane / 64), y, z_),
+                                           static_cast<int>(lane % 64 / L::kCount)));
+      L::store(gifts_.flow[d] + at, flow);
+      L::store(gifts_.energy[d] + at, warm);
+    }
+  }
+
+ private:
+  [[gnu::always_inline]] static V capped(V value, V share) {
+    return L::min(L::high(value, share), L::set(kCap));
+  }
+  [[gnu::always_inline]] void write_heat(std::size_t at) const {
+    if constexpr (kFeatures.hot) L::store(gifts_.heat + at, L::load(heat_ + at) ^ L::set(0x8000));
+  }
+
+  // Shares by heat, cut at what all neighbours together can take.
+  [[gnu::always_inline]] static typename L::Table share_table(const rule::Parameters& parameters) {
+    alignas(64) std::uint16_t shares[32];
+    const V sh = L::set(parameters.flow.paper.share);  // below 2^15
+    for (std::size_t i = 0; i < 32; i += L::kCount) {
+      const V mobility = L::load_any(parameters.flow.mobility_table.data() + i);
+      // The product >> 15 may need 17 bits, which the cut takes.
+      const V high = L::high(sh, mobility), low = L::template shift_right<15>(L::low(sh, mobility));
+      L::store(shares + i, L::min(L::add_saturated(L::add_saturated(high, high), low),
+                                  L::set(rule::largest_share(kDirections))));
+    }
+    return L::table(shares);
+  }
+  [[gnu::always_inline]] V share_by_pattern(const std::uint8_t* patterns, int d) const {
+    alignas(64) std::uint16_t shares[L::kCount];
+    for (int i = 0; i < L::kCount; ++i) shares[i] = law_.table[patterns[i] & 15][d];
+    return L::load(shares);
+  }
+
+  const rule::PaperLaw& law_;
+  const int z_;
+  const Gifts& gifts_;
+  const std::uint16_t *const amount_, *const energy_, *const heat_;  // from the gifts' first row on
+  const V share_;
+  typename L::Table shares_;  // by heat; with thermal viscosity
+};
+
+}  // namespace voxmelt::simd

@@ -1,0 +1,9 @@
+// Compiled once for each instruction set that has vectors of its own for eight cells.
+#include "kernel/engine/cpu/own_lanes.h"
+#include "render/density/density_loops.h"
+
+namespace voxmelt::render {
+
+template Loops loops_for<cpu::OwnArch>();
+
+}  // namespace voxmelt::render
