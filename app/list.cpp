@@ -5,8 +5,8 @@
 
 #include "app/commands.h"
 #include "app/options.h"
+#include "hwmodel/faults/faults.h"
 #include "hwmodel/presets/presets.h"
-#include "hwmodel/stream/faults.h"
 #include "kernel/scene/features.h"
 
 namespace voxmelt::app {

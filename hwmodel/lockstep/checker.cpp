@@ -11,9 +11,9 @@ Checker::Checker(Pipeline& pipeline)
   int cascade = -1;
   std::size_t stage = 0;
   for (const ChannelReport& report : pipeline.channels()) {
-    if (report.producer == "feed") continue;
-    Channel channel{report.name, report.producer, report.phase, report.cascade, 0, false, nullptr, {}, {}};
-    if (report.producer != "reader") {
+    if (report.producer == StageKind::feed) continue;
+    Channel channel{report.name, report.producer, report.cascade, 0, false, nullptr, {}, {}};
+    if (report.producer != StageKind::reader) {
       stage = report.cascade == cascade ? stage + 1 : 0;
       cascade = report.cascade;
       channel.stage = stage;
@@ -90,21 +90,22 @@ void Checker::left(int number, std::int64_t ordinal, const Cell* lanes) {
 void Checker::report(const Channel& channel, Mismatch::Kind kind, const Place& place, int lane,
                      const char* field, std::int64_t expected, std::int64_t actual) {
   const bool in_channel = kind == Mismatch::Kind::channel;
-  mismatch_ = std::make_unique<Mismatch>(Mismatch{kind,
-                                                  in_channel ? channel.name : channel.producer,
-                                                  channel.phase,
-                                                  first_step_ + static_cast<std::uint32_t>(channel.cascade),
-                                                  channel.cascade,
-                                                  lane,
-                                                  pipeline_.cycle(),
-                                                  place.x + lane,
-                                                  place.y,
-                                                  place.z,
-                                                  field,
-                                                  expected,
-                                                  actual,
-                                                  "",
-                                                  {}});
+  mismatch_ =
+      std::make_unique<Mismatch>(Mismatch{kind,
+                                          in_channel ? channel.name : std::string(name_of(channel.producer)),
+                                          phase_of(channel.producer),
+                                          first_step_ + static_cast<std::uint32_t>(channel.cascade),
+                                          channel.cascade,
+                                          lane,
+                                          pipeline_.cycle(),
+                                          place.x + lane,
+                                          place.y,
+                                          place.z,
+                                          field,
+                                          expected,
+                                          actual,
+                                          "",
+                                          {}});
   pipeline_.stop();
 }
 

@@ -14,7 +14,7 @@ inline constexpr std::int64_t kFlatBed = 2048;  // amount of an inert cell whose
 enum class State : std::uint8_t { air, liquid, solid, inert };
 
 // A cell, and the side-band signals that live only between the stages named beside them. Which fields a
-// channel really has depends on the scene: Structure::cell_bits. A default cell is the border: flat inert.
+// channel really has depends on the scene: Design::cell_bits. A default cell is the border: flat inert.
 struct Cell {
   UInt<16> amount = kFlatBed;  // inert: bed offset
   UInt<16> energy, heat;

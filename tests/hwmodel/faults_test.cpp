@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "hwmodel/stream/faults.h"
+#include "hwmodel/faults/faults.h"
 
 namespace voxmelt::hwmodel {
 
