@@ -50,11 +50,8 @@ class ColumnReverser {
     upwards_ = !upwards_;
     address_ = upwards_ ? 0 : depth_ - 1;
   }
-  // The token written last: the address has moved on since, but not at the end of a column.
-  Word* newest() {
-    const std::size_t newest = done_ == 0 ? address_ : upwards_ ? address_ - 1 : address_ + 1;
-    return &words_[newest * lanes_];
-  }
+  // Within a column: the token written last.
+  Word* newest() { return &words_[(upwards_ ? address_ - 1 : address_ + 1) * lanes_]; }
 
  private:
   std::size_t lanes_, depth_, address_ = 0, done_ = 0;
