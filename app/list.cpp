@@ -10,8 +10,8 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/resources.h"
+#include "hwmodel/faults/faults.h"
 #include "hwmodel/presets/presets.h"
-#include "hwmodel/stream/faults.h"
 #include "kernel/scene/features.h"
 
 namespace voxmelt::app {

@@ -174,7 +174,7 @@ void print_result(const VerifyCommand& command, const scene::Scene& scene,
   if (!command.common.quiet) fmt::print("{}", hwmodel::table_of(report, design, c));
   const auto stages = std::count_if(
       report.stages.begin(), report.stages.end(),
-      [](const hwmodel::StageReport& stage) { return !stage.phase.empty() && stage.cascade == 0; });
+      [](const hwmodel::StageReport& stage) { return phase_of(stage.kind) && stage.cascade == 0; });
   if (report.mismatch == nullptr)
     fmt::print(
         "{} cells compared behind {} stages of a time step, {} of the software ({}): no difference; digest "

@@ -30,7 +30,6 @@ class ColumnReverser {
     Word* slot = &words_[address_ * lanes_];
     std::copy(slot, slot + lanes_, out);
     std::copy(in, in + lanes_, slot);
-    newest_ = slot;
     if (++done_ == depth_) {
       done_ = 0;
       upwards_ = !upwards_;  // and the address stays: the last word written is the first one to be read
@@ -43,7 +42,7 @@ class ColumnReverser {
     return {std::move(name), static_cast<std::int64_t>(depth_), static_cast<std::int64_t>(lanes_), bits};
   }
 
-  // For faults. At the begin of a column: the token that the n-th exchange will give.
+  // For planted faults. At the begin of a column: the token that the n-th exchange will give.
   const Word* will_give(std::int64_t n) const {
     const std::size_t from = static_cast<std::size_t>(n);
     return &words_[(upwards_ ? address_ + from : address_ - from) * lanes_];
@@ -53,13 +52,13 @@ class ColumnReverser {
     upwards_ = !upwards_;
     address_ = upwards_ ? 0 : depth_ - 1;
   }
-  Word* newest() { return newest_; }  // the token written last
+  // Within a column: the token written last.
+  Word* newest() { return &words_[(upwards_ ? address_ - 1 : address_ + 1) * lanes_]; }
 
  private:
   std::size_t lanes_, depth_, address_ = 0, done_ = 0;
   bool upwards_ = true;
   std::vector<Word> words_;
-  Word* newest_ = nullptr;
 };
 
 }  // namespace voxmelt::hwmodel

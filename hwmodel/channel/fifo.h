@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,15 +14,6 @@
 
 namespace voxmelt::hwmodel {
 
-// A corruption to be planted: it strikes the first token in which it makes a difference.
-enum class FifoFault : std::uint8_t {
-  none,
-  overwrite,    // the write pointer stands still: the token takes the place of the one before it
-  stale,        // the write enable is missed: the token before it is stored again
-  swap_lanes,   // the lanes are rotated by one
-  never_ready,  // ready is lost for ever
-};
-
 // Sees what enters and leaves a channel; ordinals count the tokens of a pass from 0.
 template <class Word>
 class FifoWatcher {
@@ -31,6 +21,16 @@ class FifoWatcher {
   virtual ~FifoWatcher() = default;
   virtual void entered(int channel, std::int64_t ordinal, const Word* lanes) = 0;
   virtual void left(int channel, std::int64_t ordinal, const Word* lanes) = 0;
+};
+
+// Spoils what is stored. `last`: the token stored before `now`; `waiting`: how many tokens are in front of
+// it.
+template <class Word>
+class FifoFault {
+ public:
+  enum class Effect : std::uint8_t { none, lost, jammed };  // `now` is not stored; it is the last one ever
+  virtual ~FifoFault() = default;
+  virtual Effect stores(std::int64_t ordinal, Word* now, Word* last, int waiting) = 0;
 };
 
 template <class Word>
@@ -52,7 +52,7 @@ class Fifo {
   int depth() const { return depth_; }
 
   // Producer side. `put` gives the place of the new token, to be filled before `commit`.
-  bool ready() const { return count_ < depth_ && !stall_.put && !stuck_; }
+  bool ready() const { return count_ < depth_ && !stall_.put && !jammed_; }
   Word* put() {
     putting_ = true;
     return slot(tail_);
@@ -82,12 +82,7 @@ class Fifo {
   }
   void watch(FifoWatcher<Word>* watcher) { watcher_ = watcher; }
 
-  void plant(FifoFault fault) { fault_ = fault; }
-  struct Strike {
-    std::int64_t ordinal;  // of the first token that comes out wrong
-    int lane;
-  };
-  const std::optional<Strike>& struck() const { return struck_; }
+  void plant(FifoFault<Word>* fault) { fault_ = fault; }  // null: none
 
   int count() const { return count_; }
   int highest() const { return highest_; }                                   // occupancy, since the begin
@@ -103,9 +98,13 @@ class Fifo {
 
   void end_put() {
     if (watcher_ != nullptr) watcher_->entered(channel_, entered_, slot(tail_));
-    const bool kept = fault_ == FifoFault::none || struck_ || !strike();
+    using Effect = typename FifoFault<Word>::Effect;
+    Effect effect = Effect::none;
+    if (fault_ != nullptr) [[unlikely]]
+      effect = fault_->stores(entered_, slot(tail_), slot(before(tail_)), count_ - (getting_ ? 1 : 0));
     ++entered_;
-    if (!kept) return;
+    if (effect == Effect::lost) return;
+    jammed_ |= effect == Effect::jammed;
     ++count_;
     tail_ = after(tail_);
   }
@@ -115,8 +114,6 @@ class Fifo {
     --count_;
     head_ = after(head_);
   }
-  // Applies the planted fault where it makes a difference; true if the new token is lost.
-  bool strike();
 
   std::string name_;
   int channel_;
@@ -131,38 +128,8 @@ class Fifo {
   StallInjector::Stall stall_;
   std::int64_t entered_ = 0, left_ = 0;
   FifoWatcher<Word>* watcher_ = nullptr;
-  FifoFault fault_ = FifoFault::none;
-  bool stuck_ = false;
-  std::optional<Strike> struck_;
+  FifoFault<Word>* fault_ = nullptr;
+  bool jammed_ = false;
 };
-
-template <class Word>
-bool Fifo<Word>::strike() {
-  Word* now = slot(tail_);
-  Word* last = slot(before(tail_));
-  const auto first_difference = [&](const Word* a, const Word* b) {
-    return static_cast<int>(std::mismatch(a, a + lanes_, b).first - a);
-  };
-  const int lanes = static_cast<int>(lanes_);
-  if (fault_ == FifoFault::never_ready) {
-    stuck_ = true;
-    struck_ = {entered_ + 1, 0};
-  } else if (fault_ == FifoFault::swap_lanes) {
-    std::vector<Word> rotated(now, now + lanes_);
-    std::rotate(rotated.begin(), rotated.begin() + 1, rotated.end());
-    const int lane = first_difference(now, rotated.data());
-    if (lane == lanes) return false;
-    std::copy(rotated.begin(), rotated.end(), now);
-    struck_ = {entered_, lane};
-  } else if (entered_ > 0 && (fault_ == FifoFault::stale || count_ > (getting_ ? 1 : 0))) {
-    const int lane = first_difference(now, last);
-    if (lane == lanes) return false;
-    const bool lost = fault_ == FifoFault::overwrite;
-    std::copy(lost ? now : last, (lost ? now : last) + lanes_, lost ? last : now);
-    struck_ = {lost ? entered_ - 1 : entered_, lane};
-    return lost;
-  }
-  return false;
-}
 
 }  // namespace voxmelt::hwmodel

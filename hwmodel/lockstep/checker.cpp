@@ -14,9 +14,9 @@ Checker::Checker(Pipeline& pipeline)
   int cascade = -1;
   std::size_t stage = 0;
   for (const ChannelReport& report : pipeline.channels()) {
-    if (report.producer == "feed") continue;
-    Channel channel{report.name, report.producer, report.phase, report.cascade, 0, false, nullptr, {}, {}};
-    if (report.producer != "reader") {
+    if (report.producer == StageKind::feed) continue;
+    Channel channel{report.name, report.producer, report.cascade, 0, false, nullptr, {}, {}};
+    if (report.producer != StageKind::reader) {
       stage = report.cascade == cascade ? stage + 1 : 0;
       cascade = report.cascade;
       channel.stage = stage;
@@ -95,8 +95,8 @@ void Checker::report(const Channel& channel, Mismatch::Kind kind, const Place& p
   const bool in_channel = kind == Mismatch::Kind::channel;
   mismatch_ = std::make_unique<Mismatch>(Mismatch{
       .kind = kind,
-      .where = in_channel ? channel.name : channel.producer,
-      .phase = channel.phase,
+      .where = in_channel ? channel.name : std::string(name_of(channel.producer)),
+      .phase = phase_of(channel.producer),
       .step = first_step_ + static_cast<std::uint32_t>(channel.cascade),
       .cascade = channel.cascade,
       .lane = lane,

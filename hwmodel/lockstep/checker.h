@@ -11,6 +11,7 @@
 
 #include "hwmodel/lockstep/expectation.h"
 #include "hwmodel/lockstep/mismatch.h"
+#include "hwmodel/stream/pipeline.h"
 
 namespace voxmelt::hwmodel {
 
@@ -29,7 +30,8 @@ class Checker final : public FifoWatcher<Cell> {
 
  private:
   struct Channel {
-    std::string name, producer, phase;
+    std::string name;
+    StageKind producer = StageKind::reader;
     int cascade = 0;
     std::size_t stage = 0;  // number of the producer in its time step
     bool behind_stage = false;

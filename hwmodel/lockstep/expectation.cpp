@@ -9,15 +9,14 @@ namespace voxmelt::hwmodel {
 
 Expectation::Expectation(const rule::Parameters& parameters, const state::Volume& start,
                          std::uint32_t first_step, const step::Implementation& fast,
-                         const step::Tuning& tuning, const std::vector<StageReport>& stages)
+                         const step::Tuning& tuning, std::vector<StageKind> stages)
     : parameters_(parameters),
       reference_(parameters, start, *run::implementations().find("reference")),
       fast_(parameters, start, fast, tuning),
-      fast_name_(fast.name) {
+      fast_name_(fast.name),
+      stages_(std::move(stages)) {
   reference_.begin_at(first_step);
   fast_.begin_at(first_step);
-  for (const StageReport& stage : stages)
-    if (!stage.phase.empty() && stage.cascade == 0) stages_.push_back({stage.name, stage.phase});
 }
 
 void Expectation::begin_step() {
@@ -32,12 +31,11 @@ Expectation::Step Expectation::step(bool keep) {
   Step result;
   Snapshot before = keep ? std::make_shared<state::Volume>(reference_.volume()) : nullptr;
   for (const step::Phase phase : step::phase_order(parameters_.flow.law)) {
-    const std::string name(step::kPhaseNames[static_cast<std::size_t>(phase)]);
     const bool staged =
-        std::any_of(stages_.begin(), stages_.end(), [&](const StageName& one) { return one.phase == name; });
+        std::any_of(stages_.begin(), stages_.end(), [&](StageKind one) { return phase_of(one) == phase; });
     reference_.run_phase(phase);
     fast_.run_phase(phase);
-    if ((result.mismatch = compare_software(name))) return result;
+    if ((result.mismatch = compare_software(phase))) return result;
     compared_cells_ += static_cast<std::int64_t>(volume().grid.cells());
     if (!keep) continue;
     if (!staged) {
@@ -46,7 +44,7 @@ Expectation::Step Expectation::step(bool keep) {
       result.mismatch = std::make_unique<Mismatch>(Mismatch{
           .kind = Mismatch::Kind::missing,
           .where = "no stage for this phase",
-          .phase = name,
+          .phase = phase,
           .step = step_number(),
           .x = changed.x,
           .y = changed.y,
@@ -58,7 +56,7 @@ Expectation::Step Expectation::step(bool keep) {
       return result;
     }
     const auto after = std::make_shared<const state::Volume>(volume());
-    expect_inside(name, before, after, result.stages);
+    expect_inside(phase, before, after, result.stages);
     before = after;
   }
   reference_.end_step();
@@ -67,7 +65,7 @@ Expectation::Step Expectation::step(bool keep) {
   return result;
 }
 
-std::unique_ptr<Mismatch> Expectation::compare_software(const std::string& phase) const {
+std::unique_ptr<Mismatch> Expectation::compare_software(step::Phase phase) const {
   if (reference_.volume() == fast_.volume() && reference_.ledger() == fast_.ledger()) return nullptr;
   Mismatch found{.kind = Mismatch::Kind::software,
                  .where = fast_name_,
@@ -83,30 +81,30 @@ std::unique_ptr<Mismatch> Expectation::compare_software(const std::string& phase
   return std::make_unique<Mismatch>(std::move(found));
 }
 
-void Expectation::expect_inside(const std::string& phase, const Snapshot& before, const Snapshot& after,
+void Expectation::expect_inside(step::Phase phase, const Snapshot& before, const Snapshot& after,
                                 std::vector<Expected>& stages) {
-  std::vector<std::string> names;
-  for (const StageName& stage : stages_)
-    if (stage.phase == phase) names.push_back(stage.name);
+  std::vector<StageKind> kinds;
+  for (const StageKind stage : stages_)
+    if (phase_of(stage) == phase) kinds.push_back(stage);
   Snapshot last = before;
-  for (const std::string& name : names) {
+  for (const StageKind kind : kinds) {
     Expected expected{last, after, nullptr};
-    if (name != names.back()) {  // inside the phase
-      expected.after = phase == "heat" ? heat_up_to(name, *before) : last;
-      if (name == "pattern") expected.pattern = patterns(*before);
+    if (kind != kinds.back()) {  // inside the phase
+      expected.after = phase == step::Phase::heat ? heat_up_to(kind, *before) : last;
+      if (kind == StageKind::pattern) expected.pattern = patterns(*before);
     }
     last = expected.after;
     stages.push_back(std::move(expected));
   }
 }
 
-Expectation::Snapshot Expectation::heat_up_to(const std::string& stage, const state::Volume& before) {
+Expectation::Snapshot Expectation::heat_up_to(StageKind stage, const state::Volume& before) {
   rule::Parameters cut = parameters_;
   rule::Heat& heat = cut.heat;
   heat.radiation = heat.air = false;
-  if (stage != "convection") heat.convection = 0;
-  if (stage == "conduction") heat.neighbours = 6;
-  if (stage == "edges") heat.neighbours = 18;
+  if (stage != StageKind::convection) heat.convection = 0;
+  if (stage == StageKind::conduction) heat.neighbours = 6;
+  if (stage == StageKind::edges) heat.neighbours = 18;
   auto result = std::make_shared<state::Volume>(before);
   state::Ledger ledger;
   scalar::Reference(cut, before.grid).run(step::Phase::heat, step_number(), nullptr, *result, ledger);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hwmodel/lockstep/mismatch.h"
-#include "hwmodel/stream/pipeline.h"
+#include "hwmodel/stream/stage_kind.h"
 #include "kernel/engine/scalar/reference.h"
 #include "kernel/run/simulation.h"
 
@@ -17,15 +17,14 @@ namespace voxmelt::hwmodel {
 
 struct Expected {
   std::shared_ptr<const state::Volume> before, after;         // the stage
-  std::shared_ptr<const state::Field<std::uint8_t>> pattern;  // behind stage `pattern` only
+  std::shared_ptr<const state::Field<std::uint8_t>> pattern;  // behind `pattern` only
 };
 
 class Expectation {
  public:
-  // `fast` is the software kernel that is held against the reference on the way.
+  // `fast` is the software kernel that is held against the reference on the way; `stages`: of a time step.
   Expectation(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
-              const step::Implementation& fast, const step::Tuning& tuning,
-              const std::vector<StageReport>& stages);
+              const step::Implementation& fast, const step::Tuning& tuning, std::vector<StageKind> stages);
 
   // Runs one step. `keep`: also returns what is expected behind every stage, in the order of the stages of
   // one time step. A difference between the two software kernels, or a phase without a stage that changes
@@ -45,22 +44,19 @@ class Expectation {
   void begin_step();
 
  private:
-  struct StageName {
-    std::string name, phase;
-  };
   using Snapshot = std::shared_ptr<const state::Volume>;
 
-  std::unique_ptr<Mismatch> compare_software(const std::string& phase) const;
+  std::unique_ptr<Mismatch> compare_software(step::Phase phase) const;
   // The stages of one phase, given the state before and after it.
-  void expect_inside(const std::string& phase, const Snapshot& before, const Snapshot& after,
+  void expect_inside(step::Phase phase, const Snapshot& before, const Snapshot& after,
                      std::vector<Expected>& stages);
-  Snapshot heat_up_to(const std::string& stage, const state::Volume& before);
+  Snapshot heat_up_to(StageKind stage, const state::Volume& before);
   std::shared_ptr<const state::Field<std::uint8_t>> patterns(const state::Volume& before);
 
   rule::Parameters parameters_;
   run::Simulation reference_, fast_;
   std::string fast_name_;
-  std::vector<StageName> stages_;
+  std::vector<StageKind> stages_;
   bool begun_ = false;
   std::int64_t compared_cells_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "hwmodel/stream/stage_kind.h"
 #include "hwmodel/stream/volume_port.h"
 
 namespace voxmelt::hwmodel {
@@ -30,7 +31,7 @@ const char* name_of(Mismatch::Kind kind) {
 std::string text_of(const Mismatch& m) {
   using enum Mismatch::Kind;
   std::string place = fmt::format("step {}", m.step);
-  if (!m.phase.empty()) place += fmt::format(", phase {}", m.phase);
+  if (m.phase) place += fmt::format(", phase {}", name_of(m.phase));
   if (m.kind != software && m.kind != missing)
     place += fmt::format(", cascade position {}, lane {}, cycle {}", m.cascade, m.lane, m.cycle);
   std::string text = fmt::format("first mismatch ({}): {}\n  {}\n", name_of(m.kind), m.where, place);

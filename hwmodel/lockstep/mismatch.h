@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kernel/automaton/state/volume.h"
+#include "kernel/automaton/step/phase.h"
 
 namespace voxmelt::hwmodel {
 
@@ -20,8 +22,8 @@ struct Mismatch {
     hang,      // nothing moves any more
   };
   Kind kind = Kind::stage;
-  std::string where{};  // stage, channel or implementation
-  std::string phase{};  // empty: not known
+  std::string where{};                 // stage, channel or implementation
+  std::optional<step::Phase> phase{};  // none: not known
   std::uint32_t step = 0;
   int cascade = 0, lane = 0;
   std::int64_t cycle = 0;  // of the pass; 0 in software

@@ -19,8 +19,8 @@ json stage_json(const StageReport& stage) {
                        {"lanes", b.lanes},
                        {"bits", b.bits},
                        {"total_bits", b.total()}});
-  return {{"name", stage.name},
-          {"phase", stage.phase},
+  return {{"name", name_of(stage.kind)},
+          {"phase", name_of(phase_of(stage.kind))},
           {"cascade", stage.cascade},
           {"lag", stage.lag},
           {"cycles",
@@ -37,7 +37,7 @@ json stage_json(const StageReport& stage) {
 json mismatch_json(const Mismatch& m) {
   return {{"kind", name_of(m.kind)},
           {"where", m.where},
-          {"phase", m.phase},
+          {"phase", name_of(m.phase)},
           {"step", m.step},
           {"cascade", m.cascade},
           {"lane", m.lane},
@@ -71,7 +71,7 @@ std::vector<Row> rows_of(const std::vector<StageReport>& stages) {
   std::vector<Row> rows;
   for (const StageReport& stage : stages) {
     const auto same =
-        std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.stage.name == stage.name; });
+        std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.stage.kind == stage.kind; });
     if (same == rows.end()) {
       rows.push_back({stage, 1});
       continue;
@@ -113,7 +113,7 @@ struct Traffic {
 Traffic traffic_of(const VerifyReport& report, const Design& design, int lanes) {
   Traffic bits{std::int64_t{lanes} * design.cell_bits(), std::int64_t{lanes} * design.cell_bits(), 0};
   for (const StageReport& stage : report.stages)
-    if (stage.name == "feed") bits.irradiance += std::int64_t{lanes} * 16;
+    if (stage.kind == StageKind::feed) bits.irradiance += std::int64_t{lanes} * 16;
   return bits;
 }
 
@@ -133,7 +133,7 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
   int highest = 0;
   std::string fullest;
   for (const ChannelReport& channel : report.channels)
-    if (channel.producer != "feed" && channel.highest > highest)
+    if (channel.producer != StageKind::feed && channel.highest > highest)
       highest = channel.highest, fullest = channel.name;
   text += fmt::format("channels: {} of depth {}, {} bits; high-water mark {} ({})\n", report.channels.size(),
                       configuration.fifo_depth, channel_bits(report, configuration.lanes), highest, fullest);
@@ -225,8 +225,9 @@ std::string table_of(const VerifyReport& report, const Design& design, const Con
     const auto share = [&](std::int64_t cycles) {
       return fmt::format("{:.1f}", 100.0 * static_cast<double>(cycles) / (total * row.times));
     };
-    text += fmt::format(kLine, row.stage.name, row.times, share(c.busy), share(c.starved), share(c.blocked),
-                        share(c.fill_drain), share(c.bypassed), row.stage.lag, bits_of(row.stage) * row.times,
+    text += fmt::format(kLine, name_of(row.stage.kind), row.times, share(c.busy), share(c.starved),
+                        share(c.blocked), share(c.fill_drain), share(c.bypassed), row.stage.lag,
+                        bits_of(row.stage) * row.times,
                         fmt::format("{} + {}", row.stage.units.multipliers * configuration.lanes * row.times,
                                     row.stage.units.dividers * configuration.lanes * row.times));
   }

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "hwmodel/faults/channel_fault.h"
+#include "hwmodel/faults/planted_stages.h"
 #include "hwmodel/lockstep/checker.h"
 #include "hwmodel/stream/prediction.h"
 #include "kernel/automaton/state/digest.h"
@@ -33,7 +35,7 @@ Mismatch hang_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_
   std::size_t last = 0;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const ChannelReport& channel = channels[i];
-    const bool feed = channel.producer == "feed";
+    const bool feed = channel.producer == StageKind::feed;
     if (!feed) last = i;
     if (!feed && channel.count == channel.depth) last_full = i;
     std::string& list = channel.count == channel.depth ? full : empty;
@@ -43,7 +45,7 @@ Mismatch hang_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_
   const ChannelReport& blamed = channels[std::min(last_full + 1, last)];
   const Place place = place_of(pipeline.design().shape, blamed.entered);
   m.where = blamed.name;
-  m.phase = blamed.phase;
+  m.phase = phase_of(blamed.producer);
   m.cascade = blamed.cascade;
   m.step += static_cast<std::uint32_t>(blamed.cascade);
   m.x = place.x, m.y = place.y, m.z = place.z;
@@ -56,14 +58,15 @@ class Run {
   Run(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
       const step::Implementation& fast, const step::Tuning& tuning, const VerifyOptions& options)
       : options_(options),
-        pipeline_(parameters, start.grid, options.configuration),
-        checker_(pipeline_),
-        software_(parameters, start, first_step, fast, tuning, pipeline_.stages()),
         plan_(options.fault, options.fault_step),
+        pipeline_(parameters, start.grid, options.configuration,
+                  options.fault == Fault::none ? StageMaker(make_stage) : planted_stages(plan_)),
+        channel_fault_(plan_, pipeline_),
+        checker_(pipeline_),
+        software_(parameters, start, first_step, fast, tuning, stages_of_step(pipeline_.design())),
         memory_(start) {
     pipeline_.watch(&checker_);
     pipeline_.poll(options.poll);
-    if (options.fault != Fault::none) pipeline_.plant(&plan_);
     report_.first_step = first_step;
   }
 
@@ -102,6 +105,7 @@ class Run {
     }
 
     checker_.begin_pass(step, expected);
+    channel_fault_.begin_pass(step, steps);
     if (!run_model(step, steps, software_.irradiance())) return;
     compare_memory(step + static_cast<std::uint32_t>(steps) - 1);
     if (report_.mismatch != nullptr) return;
@@ -117,8 +121,8 @@ class Run {
     } catch (const Pipeline::StageError& error) {
       report_.mismatch = std::make_unique<Mismatch>(Mismatch{
           .kind = Mismatch::Kind::width,
-          .where = error.stage,
-          .phase = error.phase,
+          .where = std::string(name_of(error.stage)),
+          .phase = phase_of(error.stage),
           .step = step + static_cast<std::uint32_t>(error.cascade),
           .cascade = error.cascade,
           .detail = error.what(),
@@ -143,7 +147,7 @@ class Run {
     if (d.field.empty()) return;
     report_.mismatch = std::make_unique<Mismatch>(Mismatch{
         .kind = Mismatch::Kind::memory,
-        .where = "writer",
+        .where = std::string(name_of(StageKind::writer)),
         .step = step,
         .cascade = options_.configuration.cascade - 1,
         .x = d.x,
@@ -164,15 +168,17 @@ class Run {
   void check_accounts() const {
     for (const StageReport& stage : report_.stages)
       if (stage.cycles.total() != report_.cycles && report_.mismatch == nullptr)
-        throw std::logic_error("cycles of stage " + stage.name + ": " + std::to_string(stage.cycles.total()) +
-                               " are accounted for, " + std::to_string(report_.cycles) + " have passed");
+        throw std::logic_error("cycles of stage " + std::string(name_of(stage.kind)) + ": " +
+                               std::to_string(stage.cycles.total()) + " are accounted for, " +
+                               std::to_string(report_.cycles) + " have passed");
   }
 
   const VerifyOptions& options_;
+  FaultPlan plan_;
   Pipeline pipeline_;
+  ChannelFault channel_fault_;
   Checker checker_;
   Expectation software_;
-  FaultPlan plan_;
   state::Volume memory_;
   VerifyReport report_;
 };

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "hwmodel/faults/faults.h"
 #include "hwmodel/lockstep/mismatch.h"
 #include "hwmodel/stream/pipeline.h"
 #include "kernel/automaton/step/stepper.h"

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hwmodel/stream/stages.h"
@@ -103,27 +104,28 @@ class Writer {
 // The stages of one time step and the channels between them.
 class StepBlock {
  public:
-  StepBlock(const Design& design, int first_channel, const std::string& prefix, int depth,
+  StepBlock(const Design& design, Stages stages, int first_channel, const std::string& prefix, int depth,
             std::uint64_t stall_seed)
-      : step_(make_step(design)), out_channel_(first_channel) {
-    for (std::size_t i = 0; i + 1 < step_.stages.size(); ++i)
+      : stages_(std::move(stages)), out_channel_(first_channel) {
+    for (std::size_t i = 0; i + 1 < stages_.size(); ++i)
       channels_.push_back(
-          std::make_unique<CellFifo>(prefix + step_.stages[i]->name() + " -> " + step_.stages[i + 1]->name(),
+          std::make_unique<CellFifo>(prefix + stages_[i]->name() + " -> " + stages_[i + 1]->name(),
                                      out_channel_++, design.shape.lanes, depth, stall_seed));
   }
 
-  const Stages& stages() const { return step_.stages; }
+  const Stages& stages() const { return stages_; }
   int out_channel() const { return out_channel_; }  // number of the channel that leaves this block
 
   void connect(CellFifo& in, CellFifo& out) {
     out_ = &out;
-    for (std::size_t i = 0; i < step_.stages.size(); ++i)
-      step_.stages[i]->connect(i == 0 ? in : *channels_[i - 1],
-                               i + 1 == step_.stages.size() ? out : *channels_[i]);
+    for (std::size_t i = 0; i < stages_.size(); ++i)
+      stages_[i]->connect(i == 0 ? in : *channels_[i - 1], i + 1 == stages_.size() ? out : *channels_[i]);
   }
-  void feed(HeatFifo& feed) { step_.fed->feed(feed); }
+  void feed(HeatFifo& feed) {
+    for (const auto& stage : stages_) stage->feed(feed);
+  }
   void begin_pass(std::uint32_t step, bool bypass) {
-    for (const auto& stage : step_.stages) stage->begin_pass(step, bypass);
+    for (const auto& stage : stages_) stage->begin_pass(step, bypass);
   }
 
   const Stage& running() const { return *running_; }  // the last one that was evaluated
@@ -131,7 +133,7 @@ class StepBlock {
   // One cycle; the number of stages that moved.
   int cycle() {
     int moved = 0;
-    for (const auto& stage : step_.stages) {
+    for (const auto& stage : stages_) {
       running_ = stage.get();
       moved += stage->cycle() ? 1 : 0;
     }
@@ -141,12 +143,12 @@ class StepBlock {
 
   template <class Visit>  // visit(channel, its producer)
   void for_each_output(Visit&& visit) const {
-    for (std::size_t i = 0; i < step_.stages.size(); ++i)
-      visit(i + 1 == step_.stages.size() ? *out_ : *channels_[i], *step_.stages[i]);
+    for (std::size_t i = 0; i < stages_.size(); ++i)
+      visit(i + 1 == stages_.size() ? *out_ : *channels_[i], *stages_[i]);
   }
 
  private:
-  StepStages step_;
+  Stages stages_;
   int out_channel_;
   std::vector<std::unique_ptr<CellFifo>> channels_;
   CellFifo* out_ = nullptr;

@@ -1,8 +1,6 @@
 // What travels through the pipeline: one word per cell, P of them (neighbours along x) per token and cycle.
 #pragma once
 
-#include <cstdint>
-
 #include "hwmodel/channel/wires.h"
 
 namespace voxmelt::hwmodel {
@@ -16,7 +14,7 @@ inline constexpr std::int64_t kFlatBed = 2048;  // amount of an inert cell whose
 enum class State : std::uint8_t { air, liquid, solid, inert };
 
 // A cell, and the side-band signals that live only between the stages named beside them. Which fields a
-// channel really has depends on the scene: Design::cell_bits(). A default cell is the border: flat inert.
+// channel really has depends on the scene: Design::cell_bits. A default cell is the border: flat inert.
 struct Cell {
   UInt<16> amount = kFlatBed;  // inert: bed offset
   UInt<16> energy, heat;

@@ -4,12 +4,9 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
 #include <span>
-#include <string>
+#include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "hwmodel/stream/heat_word.h"
 
@@ -46,17 +43,21 @@ std::vector<std::int64_t> tap_delays(const Shape& shape, std::span<const HeatPai
 // The memories between them.
 std::vector<BufferCost> heat_buffers(const Design& design, std::span<const HeatPair> pairs, int exposed_bits);
 
-template <const auto& kPairs>
+// A number as a type: the part of the dither that the pairs of one axis use.
+template <std::size_t kPart>
+inline constexpr std::integral_constant<std::size_t, kPart> part{};
+
+template <const auto& kPairs, class Faults>
 class ConductionPass : public Stage {
  public:
   static constexpr std::size_t kParts = kPairs.size();
 
-  // `weight`: of this distance. `last`: no other pass of conduction follows.
-  ConductionPass(std::string name, const Design& design, std::uint16_t weight, bool last)
-      : Stage(std::move(name), "heat", design, tap_delays(design.shape, kPairs).back()),
+  // `weight`: of this distance.
+  ConductionPass(StageKind kind, const Design& design, std::uint16_t weight, Faults faults)
+      : Stage(kind, design, tap_delays(design.shape, kPairs).back()),
         material_(design.parameters.material),
+        faults_(faults),
         weight_(weight),
-        last_(last),
         line_(lanes(), static_cast<std::size_t>(lag())) {}
 
   int output_bits() const override { return heated_cell_bits(design()); }
@@ -79,8 +80,7 @@ class ConductionPass : public Stage {
       for (int lane = 0; lane < lanes(); ++lane) take_cell(in[lane], material_, rows_[kHere][lane]);
       conduct(std::make_index_sequence<kParts>());
       watch();
-      if (last_ && conduction_fault_armed()) [[unlikely]]
-        misbehave();
+      faults_.conducted(*this);
     }
     if (out == nullptr) return;
     const HeatWord* oldest = line_.tap(line_.delay());
@@ -93,7 +93,7 @@ class ConductionPass : public Stage {
 
   // Calls visit(p, q) for the pairs of one axis that the token that comes closes.
   template <std::size_t kPart, class Visit>
-  void each_pair(Visit&& visit) {
+  void each_pair(std::integral_constant<std::size_t, kPart> /*part*/, Visit&& visit) {
     constexpr unsigned p = kPairs[kPart].p, q = kPairs[kPart].q, span = p | q;
     if ((span & kBelow) != 0 && came().y == 0) return;
     if ((span & kSouth) != 0 && came().z == 0) return;
@@ -112,6 +112,8 @@ class ConductionPass : public Stage {
   const rule::Material material_;
 
  private:
+  friend Faults;
+
   // What flows from q to p.
   std::int64_t flux(const HeatWord& p, const HeatWord& q, std::int64_t dither) const {
     if (!p.matter() || !q.matter()) return 0;
@@ -128,70 +130,11 @@ class ConductionPass : public Stage {
         q.heat = q.heat - flow;
       };
     };
-    (each_pair<kPart>(exchange(dither_[kPart])), ...);
+    (each_pair(part<kPart>, exchange(dither_[kPart])), ...);
   }
 
-  bool conduction_fault_armed() const {
-    return armed(Fault::conduction_sign) || armed(Fault::conduction_dither) ||
-           armed(Fault::conduction_stale_row) || (kParts > 3 && armed(Fault::distant_wrong_axis));
-  }
-
-  // Is the pair with the cell that comes the last of the cell p? Only then is it known what p will be.
-  bool completes(unsigned p, int lane) const {
-    switch (p) {
-      case kSouth:
-        return true;
-      case kSouth | kWest:
-        return kParts == 6 && lane == 0;
-      case kSouth | kBelow:
-        return kParts == 6 && lane + 1 < lanes();
-      case kSouth | kWest | kBelow:
-        return true;
-      default:
-        return false;
-    }
-  }
-
-  std::int64_t wrong_flux(std::size_t part, int lane) {
-    const unsigned corner = kPairs[part].p;
-    const HeatWord &p = word(corner, lane), &q = word(kHere, lane);
-    if (armed(Fault::conduction_sign)) return -flux(p, q, dither_[part]);
-    if (armed(Fault::conduction_dither)) return flux(p, q, dither_[(part + 1) % kParts]);
-    if (armed(Fault::conduction_stale_row)) {
-      const bool same_token = lane > 0 && (corner & kWest) != 0;
-      const std::int64_t delay = corner_delay(shape(), same_token ? corner & ~kWest : corner);
-      const HeatWord* row = line_.tap(static_cast<std::size_t>(delay - 1));
-      return flux(row[(corner & kWest) == 0 ? lane : (lane + lanes() - 1) % lanes()], q, dither_[part]);
-    }
-    return flux(p, came().y > 0 ? word(kBelow, lane) : q, dither_[part]);
-  }
-
-  // Lets the planted fault strike the part of a flux that goes to the cell in the plane before. It may only
-  // do so where that cell is the first one in the stream that the end of the phase shows wrong: where no
-  // later pass carries the error to a cell before it, and the exchange does not hide it.
-  void misbehave() {
-    const rule::Heat& heat = design().parameters.heat;
-    if (came().z == 0) return;
-    for (int lane = 0; lane < lanes(); ++lane)
-      for (std::size_t part = 0; part < kParts; ++part) {
-        const HeatPair pair = kPairs[part];
-        if (pair.q != kHere || !completes(pair.p, lane)) continue;
-        const int x = came().x + lane - ((pair.p & kWest) != 0), y = came().y - ((pair.p & kBelow) != 0);
-        if (x < 0 || y < 0) continue;
-        HeatWord& p = word(pair.p, lane);
-        const HeatWord& q = word(kHere, lane);
-        if (!p.matter() || !q.matter() || (heat.convection > 0 && p.liquid())) continue;
-        const std::int64_t right = p.heat, wrong = right - flux(p, q, dither_[part]) + wrong_flux(part, lane);
-        if (wrong == right || wrong < 0 || wrong > kHeatMax || !survives_exchange(heat, p, right, wrong))
-          continue;
-        p.heat = wrong;
-        strike(x, y, came().z - 1);
-        return;
-      }
-  }
-
+  [[no_unique_address]] Faults faults_;
   const std::uint16_t weight_;
-  const bool last_;
   std::array<UInt<16>, kParts> dither_;
   TapLine<HeatWord> line_;
   std::array<HeatWord*, 8> rows_{};

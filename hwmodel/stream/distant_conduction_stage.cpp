@@ -1,20 +1,15 @@
-// Conduction with 18 or 26 neighbours: a pass for those across an edge, another for those across a corner.
-#include <memory>
+#include "hwmodel/stream/distant_conduction_stage.h"
 
-#include "hwmodel/stream/conduction_pass.h"
-#include "hwmodel/stream/stages.h"
+#include "hwmodel/stream/make_stages.h"
 
 namespace voxmelt::hwmodel {
 
 std::unique_ptr<Stage> make_edge_conduction(const Design& design) {
-  const rule::Heat& heat = design.parameters.heat;
-  return std::make_unique<ConductionPass<kEdgePairs>>("edges", design, heat.weight_edge,
-                                                      heat.neighbours < 26);
+  return std::make_unique<EdgeConduction<NoFaults>>(design);
 }
 
 std::unique_ptr<Stage> make_corner_conduction(const Design& design) {
-  return std::make_unique<ConductionPass<kCornerPairs>>("corners", design,
-                                                        design.parameters.heat.weight_corner, true);
+  return std::make_unique<CornerConduction<NoFaults>>(design);
 }
 
 }  // namespace voxmelt::hwmodel

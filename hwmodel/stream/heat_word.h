@@ -57,12 +57,4 @@ inline int heated_cell_bits(const Design& design) {
   return design.cell_bits() + (design.parameters.heat.air ? 2 : 0) + (design.walls_in_conduction() ? 1 : 0);
 }
 
-// Of a planted fault: does a wrong heat before the exchange leave it wrong for certain? Radiation adds at
-// most 4096 to a solid and cuts at the top; air can make two heats equal.
-inline bool survives_exchange(const rule::Heat& heat, const HeatWord& word, std::int64_t right,
-                              std::int64_t wrong) {
-  if (heat.air && word.exposed > 0) return false;
-  return !heat.radiation || word.liquid() || std::max(right, wrong) <= kHeatMax - 4096;
-}
-
 }  // namespace voxmelt::hwmodel

@@ -24,7 +24,8 @@ constexpr std::int64_t kPollEvery = 4096;  // cycles
 }  // namespace
 
 struct Pipeline::Machine {
-  Machine(const rule::Parameters& parameters, state::Grid grid, const Configuration& c)
+  Machine(const rule::Parameters& parameters, state::Grid grid, const Configuration& c,
+          const StageMaker& make)
       : configuration(c),
         design{parameters, {grid, c.lanes}},
         clock("clock", 1, sc_core::SC_NS),
@@ -33,7 +34,8 @@ struct Pipeline::Machine {
     const bool fed = design.hot() && parameters.heat.radiation;
     for (int t = 0; t < c.cascade; ++t) {
       const int channel = t == 0 ? 1 : steps.back()->out_channel() + 1;
-      steps.push_back(std::make_unique<StepBlock>(design, channel, step_name(t), c.fifo_depth, c.stall_seed));
+      steps.push_back(std::make_unique<StepBlock>(design, make_step(design, make), channel, step_name(t),
+                                                  c.fifo_depth, c.stall_seed));
     }
     const auto link = [&](int channel, const std::string& name) {
       links.push_back(std::make_unique<Link<Cell>>(name, channel, c));
@@ -71,8 +73,7 @@ struct Pipeline::Machine {
         try {
           shared.moves += steps[t]->cycle();
         } catch (const WidthError& error) {
-          const Stage& failed = steps[t]->running();
-          throw StageError(error.what(), failed.name(), failed.phase(), static_cast<int>(t));
+          throw StageError(error.what(), steps[t]->running().kind(), static_cast<int>(t));
         }
         links[t + 1]->tick();
       });
@@ -100,36 +101,7 @@ struct Pipeline::Machine {
   static std::size_t at(int t) { return static_cast<std::size_t>(t); }
   static std::string step_name(int t) { return "step " + std::to_string(t) + ": "; }
 
-  // A fault of a channel is planted behind the stage in the middle of the first time step in which it may
-  // strike.
-  struct Planted {
-    CellFifo* channel = nullptr;
-    std::uint32_t step = 0;
-  };
-  Planted plant_in_channel(std::uint32_t first, int active) {
-    if (plan == nullptr || plan->struck()) return {};
-    const std::uint32_t later = plan->first_step() > first ? plan->first_step() - first : 0;
-    if (later >= static_cast<std::uint32_t>(active)) return {};
-    FifoFault fault = FifoFault::none;
-    if (plan->fault() == Fault::fifo_overwrite) fault = FifoFault::overwrite;
-    if (plan->fault() == Fault::fifo_stale) fault = FifoFault::stale;
-    if (plan->fault() == Fault::fifo_swap_lanes) fault = FifoFault::swap_lanes;
-    if (plan->fault() == Fault::fifo_never_ready) fault = FifoFault::never_ready;
-    if (fault == FifoFault::none) return {};
-    std::vector<CellFifo*> outputs;
-    steps[later]->for_each_output([&](CellFifo& fifo, const Stage&) { outputs.push_back(&fifo); });
-    CellFifo* faulty = outputs[outputs.size() / 2];
-    faulty->plant(fault);
-    return {faulty, first + later};
-  }
-  void note_strike(const Planted& planted) {
-    if (planted.channel == nullptr || !planted.channel->struck()) return;
-    const auto& strike = *planted.channel->struck();
-    const Place place = place_of(design.shape, strike.ordinal);
-    plan->strike({planted.channel->name(), planted.step, place.x + strike.lane, place.y, place.z});
-  }
-
-  template <class Visit>  // visit(fifo, producer stage or null, cascade position)
+  template <class Visit>  // visit(fifo, producer stage or null: the reader, cascade position)
   void for_each_channel(Visit&& visit) const {
     visit(links.front()->fifo(), static_cast<const Stage*>(nullptr), 0);
     for (std::size_t t = 0; t < steps.size(); ++t)
@@ -138,7 +110,6 @@ struct Pipeline::Machine {
   }
 
   std::int64_t moves_before = 0, idle = 0;
-  FaultPlan* plan = nullptr;
   std::function<void()> poll;
   bool ran = false;
   Context context;  // first: everything of SystemC lives in it
@@ -155,8 +126,9 @@ struct Pipeline::Machine {
   std::vector<std::unique_ptr<Block>> blocks;
 };
 
-Pipeline::Pipeline(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration)
-    : machine_(std::make_unique<Machine>(parameters, grid, configuration)) {
+Pipeline::Pipeline(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration,
+                   const StageMaker& make)
+    : machine_(std::make_unique<Machine>(parameters, grid, configuration, make)) {
   machine_->context.leave();
 }
 
@@ -170,10 +142,12 @@ void Pipeline::poll(std::function<void()> poll) { machine_->poll = std::move(pol
 
 void Pipeline::stop() { machine_->shared.end(); }
 
-void Pipeline::plant(FaultPlan* plan) {
-  machine_->plan = plan;
-  for (const auto& step : machine_->steps)
-    for (const auto& stage : step->stages()) stage->plant(plan);
+std::vector<CellFifo*> Pipeline::channels_behind_stages(int cascade) {
+  std::vector<CellFifo*> channels;
+  machine_->steps.at(static_cast<std::size_t>(cascade))->for_each_output([&](CellFifo& fifo, const Stage&) {
+    channels.push_back(&fifo);
+  });
+  return channels;
 }
 
 PassEnd Pipeline::run_pass(std::uint32_t first, int steps, const state::Field<std::uint16_t>* irradiance,
@@ -192,7 +166,6 @@ PassEnd Pipeline::run_pass(std::uint32_t first, int steps, const state::Field<st
     m.steps[t]->begin_pass(first + static_cast<std::uint32_t>(t), bypass);
     if (t < m.feeds.size()) m.feeds[t]->begin_pass(bypass ? nullptr : irradiance);
   }
-  const Machine::Planted planted = m.plant_in_channel(first, steps);
 
   m.context.enter();
   shared.first_cycle = m.ran ? Shared::now() + 1 : 0;
@@ -200,7 +173,6 @@ PassEnd Pipeline::run_pass(std::uint32_t first, int steps, const state::Field<st
   sc_core::sc_start();
   m.context.leave();
 
-  m.note_strike(planted);
   if (shared.error) std::rethrow_exception(std::exchange(shared.error, nullptr));
   return {shared.last_cycle + 1, shared.complete, shared.hangs};
 }
@@ -215,14 +187,13 @@ std::vector<ChannelReport> Pipeline::channels() const {
   const Machine& m = *machine_;
   m.for_each_channel([&](const CellFifo& fifo, const Stage* producer, int cascade) {
     const bool behind_stage = producer != nullptr;
-    reports.push_back({fifo.name(), behind_stage ? producer->name() : "reader",
-                       behind_stage ? producer->phase() : "", cascade, fifo.depth(),
-                       behind_stage ? producer->output_bits() : m.design.cell_bits(), fifo.highest(),
-                       fifo.count(), fifo.entered(), fifo.occupancy()});
+    reports.push_back({fifo.name(), behind_stage ? producer->kind() : StageKind::reader, cascade,
+                       fifo.depth(), behind_stage ? producer->output_bits() : m.design.cell_bits(),
+                       fifo.highest(), fifo.count(), fifo.entered(), fifo.occupancy()});
   });
   for (std::size_t t = 0; t < m.feed_links.size(); ++t) {
     const HeatFifo& fifo = m.feed_links[t]->fifo();
-    reports.push_back({fifo.name(), "feed", "", static_cast<int>(t), fifo.depth(), 16, fifo.highest(),
+    reports.push_back({fifo.name(), StageKind::feed, static_cast<int>(t), fifo.depth(), 16, fifo.highest(),
                        fifo.count(), fifo.entered(), fifo.occupancy()});
   }
   return reports;
@@ -230,14 +201,14 @@ std::vector<ChannelReport> Pipeline::channels() const {
 
 std::vector<StageReport> Pipeline::stages() const {
   const Machine& m = *machine_;
-  std::vector<StageReport> reports{{"reader", "", 0, 0, m.reader.cycles(), {}, {}}};
+  std::vector<StageReport> reports{{StageKind::reader, 0, 0, m.reader.cycles(), {}, {}}};
   for (std::size_t t = 0; t < m.steps.size(); ++t)
     for (const auto& stage : m.steps[t]->stages())
-      reports.push_back({stage->name(), stage->phase(), static_cast<int>(t), stage->lag(), stage->cycles(),
-                         stage->buffers(), stage->units()});
+      reports.push_back({stage->kind(), static_cast<int>(t), stage->lag(), stage->cycles(), stage->buffers(),
+                         stage->units()});
   for (std::size_t t = 0; t < m.feeds.size(); ++t)
-    reports.push_back({"feed", "", static_cast<int>(t), 0, m.feeds[t]->cycles(), {}, {}});
-  reports.push_back({"writer", "", m.configuration.cascade - 1, 0, m.writer.cycles(), {}, {}});
+    reports.push_back({StageKind::feed, static_cast<int>(t), 0, m.feeds[t]->cycles(), {}, {}});
+  reports.push_back({StageKind::writer, m.configuration.cascade - 1, 0, m.writer.cycles(), {}, {}});
   return reports;
 }
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "hwmodel/stream/stage.h"
+#include "hwmodel/stream/stages.h"
 #include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::hwmodel {
@@ -30,17 +30,16 @@ inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024;
 
 // A channel: those of the main stream in its order, then the feeds.
 struct ChannelReport {
-  std::string name;      // "step 0: gravity -> pattern"
-  std::string producer;  // stage, "reader" or "feed"
-  std::string phase;     // of its producer; empty behind the reader
-  int cascade = 0;       // position of its producer
+  std::string name;  // "step 0: gravity -> pattern"
+  StageKind producer = StageKind::reader;
+  int cascade = 0;  // position of its producer
   int depth = 0, bits = 0, highest = 0, count = 0;
   std::int64_t entered = 0;             // tokens, in the present pass
   std::vector<std::int64_t> occupancy;  // cycles with 0, 1, ... tokens
 };
 
 struct StageReport {
-  std::string name, phase;
+  StageKind kind = StageKind::reader;
   int cascade = 0;
   std::int64_t lag = 0;
   StageCycles cycles;
@@ -57,7 +56,9 @@ struct PassEnd {
 
 class Pipeline {
  public:
-  Pipeline(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration);
+  // `make`: makes its stages; they may have planted faults.
+  Pipeline(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration,
+           const StageMaker& make = make_stage);
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
@@ -65,15 +66,15 @@ class Pipeline {
   // Sees every token of the main stream; `stop` from within ends the pass after the present cycle.
   void watch(FifoWatcher<Cell>* watcher);
   void stop();
-  void plant(FaultPlan* plan);
+  std::vector<CellFifo*> channels_behind_stages(int cascade);  // of one time step, for faults to be planted
   void poll(std::function<void()> poll);  // called now and then during a pass; may throw, which ends the pass
 
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {
    public:
-    StageError(const std::string& what, std::string failed, std::string of_phase, int position)
-        : std::runtime_error(what), stage(std::move(failed)), phase(std::move(of_phase)), cascade(position) {}
-    std::string stage, phase;
+    StageError(const std::string& what, StageKind failed, int position)
+        : std::runtime_error(what), stage(failed), cascade(position) {}
+    StageKind stage;
     int cascade;
   };
 

@@ -24,7 +24,6 @@ struct Lag {
     return planes * shape.plane() + columns * shape.column() + singles;
   }
 };
-// Of every stage of one time step.
-std::vector<Lag> lags_of_step(const Design& design);
+Lag lag_of(StageKind kind, const Design& design);
 
 }  // namespace voxmelt::hwmodel

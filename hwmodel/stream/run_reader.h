@@ -47,10 +47,10 @@ struct SpreadWord {
   static constexpr int kDoneBits = 2 + 16;
 };
 
-// A cell in the window: its word, where it lies, and what it shows.
+// A cell in the window: its word, where it lies along x, and what it shows.
 struct SeenCell {
   SpreadWord* word = nullptr;
-  int x = 0, z = 0;
+  int x = 0;
   SInt<30> head;
   RunPace pace;
 };

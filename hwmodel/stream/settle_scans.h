@@ -41,7 +41,6 @@ class SumScan {
         done.kind = held_.kind == SettleKind::first ? SettleKind::single : SettleKind::top;
         done.sum = sum_, done.last = last_;
         if (hot) done.heat = mix(content_, sum_, dither);
-        top_ = held_, top_content_ = content_;
       }
     }
     held_ = {kind, std::int64_t{cell.amount}, 0, cell.heat};
@@ -56,10 +55,6 @@ class SumScan {
     return done;
   }
 
-  // For faults: the uppermost cell by itself, and the content, of the run whose record was given last.
-  const SettleWord& top_cell() const { return top_; }
-  std::int64_t content() const { return top_content_; }
-
  private:
   SettleKind kind_of(const Cell& cell, bool bottom, bool was_in_run) const {
     if (cell.blocked()) return cell.state == State::solid ? SettleKind::solid : SettleKind::inert;
@@ -73,8 +68,6 @@ class SumScan {
   UInt<28> sum_;
   UInt<12> last_;
   UInt<44> content_;
-  SettleWord top_;
-  std::int64_t top_content_ = 0;
 };
 
 // Second scan, downwards: takes the record along to the first cell.

@@ -1,12 +1,11 @@
 #include "hwmodel/stream/stage.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace voxmelt::hwmodel {
 
-Stage::Stage(std::string name, std::string phase, const Design& design, std::int64_t lag)
-    : name_(std::move(name)), phase_(std::move(phase)), design_(design), lag_(lag) {}
+Stage::Stage(StageKind kind, const Design& design, std::int64_t lag)
+    : kind_(kind), design_(design), lag_(lag) {}
 
 void Stage::begin_pass(std::uint32_t step, bool bypass) {
   step_ = step;

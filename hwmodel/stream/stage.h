@@ -10,8 +10,9 @@
 #include "hwmodel/channel/tap_line.h"
 #include "hwmodel/stream/arithmetic.h"
 #include "hwmodel/stream/cell.h"
-#include "hwmodel/stream/faults.h"
+#include "hwmodel/stream/no_faults.h"
 #include "hwmodel/stream/shape.h"
+#include "hwmodel/stream/stage_kind.h"
 #include "kernel/automaton/rule/parameters.h"
 
 namespace voxmelt::hwmodel {
@@ -53,24 +54,31 @@ struct Units {
 
 class Stage {
  public:
-  // `phase`: one of step::kPhaseNames; `lag` in tokens.
-  Stage(std::string name, std::string phase, const Design& design, std::int64_t lag);
+  // `lag` in tokens.
+  Stage(StageKind kind, const Design& design, std::int64_t lag);
   virtual ~Stage() = default;
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
   void connect(CellFifo& in, CellFifo& out) { in_ = &in, out_ = &out; }
-  void plant(FaultPlan* plan) { plan_ = plan; }
+  virtual void feed(HeatFifo& /*feed*/) {}  // a second input, of irradiance: `exchange` has one
 
   // A pass streams the whole grid once. A stage in bypass hands its tokens on, without lag.
   void begin_pass(std::uint32_t step, bool bypass);
   bool cycle();  // true if the stage moved
   bool done() const { return left_.ordinal == design_.shape.tokens(); }
 
-  const std::string& name() const { return name_; }
-  const std::string& phase() const { return phase_; }
+  StageKind kind() const { return kind_; }
+  std::string name() const { return std::string(name_of(kind_)); }
+  const Design& design() const { return design_; }
+  const Shape& shape() const { return design_.shape; }
+  int lanes() const { return design_.shape.lanes; }
   std::int64_t lag() const { return lag_; }
   std::uint32_t step() const { return step_; }
+  // The places of the token that comes and of the one that leaves; came() runs on beyond the last plane, into
+  // the border.
+  const Place& came() const { return came_; }
+  const Place& leaving() const { return left_; }
   const StageCycles& cycles() const { return cycles_; }
   virtual int output_bits() const { return design_.cell_bits(); }  // per lane, side bands included
   virtual std::vector<BufferCost> buffers() const { return {}; }
@@ -79,35 +87,16 @@ class Stage {
  protected:
   // One move. `in`: the token that comes, null after the last one (then the border comes). `out`: the token
   // that leaves, to be filled; null while the stage fills.
-  // came() and leaving() are the places of the two; came() runs on beyond the last plane, into the border.
   virtual void advance(const Cell* in, Cell* out) = 0;
   virtual void begin_step() {}                      // step() has changed; memories hold an old pass
   virtual bool side_input_ready() { return true; }  // of a stage with a second input
 
-  const Place& came() const { return came_; }
-  const Place& leaving() const { return left_; }
-  const Design& design() const { return design_; }
-  const Shape& shape() const { return design_.shape; }
-  int lanes() const { return design_.shape.lanes; }
-
-  // Is this lane of the token that comes (or leaves) a cell of the grid?
-  bool inside(const Place& place, int lane) const { return place.x + lane < shape().grid.x; }
-
-  bool armed(Fault fault) const { return plan_ != nullptr && plan_->armed(fault, step_); }
-  // Notes that the planted fault struck, and the first cell that leaves wrong.
-  void strike(int x, int y, int z) { plan_->strike({name_, step_, x, y, z}); }
-  void strike_first(int x0, int z0, int x1, int z1, int y) {  // the one of two cells that leaves first
-    const bool first = stream_order(shape(), x0, y, z0) < stream_order(shape(), x1, y, z1);
-    first ? strike(x0, y, z0) : strike(x1, y, z1);
-  }
-
  private:
-  std::string name_, phase_;
+  StageKind kind_;
   const Design& design_;
   std::int64_t lag_;
   CellFifo* in_ = nullptr;
   CellFifo* out_ = nullptr;
-  FaultPlan* plan_ = nullptr;
   std::uint32_t step_ = 0;
   bool bypass_ = false;
   std::int64_t moves_ = 0;

@@ -1,6 +1,7 @@
 // The stages of one time step, in the order of the stream. A scene gets only those that it uses.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -8,37 +9,14 @@
 
 namespace voxmelt::hwmodel {
 
-// Reads a feed of irradiance beside its input: only radiation.
-class FedStage : public Stage {
- public:
-  using Stage::Stage;
-  void feed(HeatFifo& feed) { feed_ = &feed; }
-
- protected:
-  HeatFifo* feed_ = nullptr;
-};
-
 using Stages = std::vector<std::unique_ptr<Stage>>;
+using StageMaker = std::function<std::unique_ptr<Stage>(StageKind, const Design&)>;
 
-std::unique_ptr<Stage> make_source(const Design& design);
-std::unique_ptr<Stage> make_conduction(const Design& design);  // faces; also exposed axes and sides
-std::unique_ptr<Stage> make_edge_conduction(const Design& design);
-std::unique_ptr<Stage> make_corner_conduction(const Design& design);
-std::unique_ptr<Stage> make_convection(const Design& design);
-std::unique_ptr<FedStage> make_exchange(const Design& design);  // radiation and air
-std::unique_ptr<Stage> make_melt(const Design& design);
-std::unique_ptr<Stage> make_walls(const Design& design);  // cold paper law: sides, for gravity
-std::unique_ptr<Stage> make_gravity(const Design& design);
-std::unique_ptr<Stage> make_pattern(const Design& design);
-std::unique_ptr<Stage> make_apply(const Design& design);
-std::unique_ptr<Stage> make_settle(const Design& design);
-std::unique_ptr<Stage> make_viscous_spread(const Design& design);
+std::vector<StageKind> stages_of_step(const Design& design);
 
-// All of a step; `fed`: the one that reads irradiance, or null.
-struct StepStages {
-  Stages stages;
-  FedStage* fed = nullptr;
-};
-StepStages make_step(const Design& design);
+// A stage as it should be. Throws std::logic_error for a kind that is no stage of a time step.
+std::unique_ptr<Stage> make_stage(StageKind kind, const Design& design);
+
+Stages make_step(const Design& design, const StageMaker& make = make_stage);
 
 }  // namespace voxmelt::hwmodel

@@ -1,11 +1,8 @@
 // Finds the cells that stand beside a wall: one of their four sides is blocked, the border included. Gravity
 // needs it, and has no window of its own across columns. Only without heat: else conduction finds them.
 #include <algorithm>
-#include <cstddef>
-#include <memory>
-#include <vector>
 
-#include "hwmodel/stream/stages.h"
+#include "hwmodel/stream/make_stages.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -13,7 +10,7 @@ namespace {
 class Walls final : public Stage {
  public:
   explicit Walls(const Design& design)
-      : Stage("walls", "gravity", design, design.shape.plane()),
+      : Stage(StageKind::walls, design, design.shape.plane()),
         line_(design.shape.lanes, static_cast<std::size_t>(design.shape.plane())) {}
 
   // A cell waits for its east and its north side. Between them, and in lane P - 1 before them, it holds one

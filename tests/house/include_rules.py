@@ -35,9 +35,10 @@ ALLOWED = {
     "render/raycast": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", "render/image", "render/density"],
     # The model computes with its own arithmetic: of the kernel it sees data only.
     "hwmodel/channel": [],
-    "hwmodel/stream": ["hwmodel/channel", PARAMETERS, STATE],
+    "hwmodel/stream": ["hwmodel/channel", PARAMETERS, STATE, f"{STEP}/phase.h"],
+    "hwmodel/faults": ["hwmodel/channel", "hwmodel/stream"],
     "hwmodel/presets": ["hwmodel/stream", "kernel/scene/text"],
-    "hwmodel/lockstep": ["hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
+    "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
     "bench": ["bench/measure", "hwmodel/stream", STATE, "kernel/scene", "kernel/run"],
     "bench/baseline": [PARAMETERS, STATE],
     "bench/measure": ["bench/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
@@ -47,7 +48,7 @@ ALLOWED = {
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
                 "render/density", "render/image", "render/raycast"],
     "examples": ["include/voxmelt"],
-    "app": [CPU, "bench/measure", "hwmodel/lockstep", "hwmodel/presets", "hwmodel/stream", STATE, "kernel/scene", "kernel/run",
+    "app": [CPU, "bench/measure", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
             "kernel/run/io", "render/density", "render/image", "render/raycast"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.

@@ -71,7 +71,7 @@ std::string field_found_in_software() {
   if (report.mismatch == nullptr) return "nothing";
   EXPECT_EQ(report.mismatch->kind, Mismatch::Kind::software);
   EXPECT_EQ(report.mismatch->where, "damaged");
-  EXPECT_EQ(report.mismatch->phase, "melt");
+  EXPECT_EQ(report.mismatch->phase, step::Phase::melt);
   EXPECT_EQ(report.mismatch->step, 3u);
   EXPECT_EQ(report.steps, 2u) << "of a pass that was not done";
   if (wrong == Wrong::amount || wrong == Wrong::heat) {
@@ -90,14 +90,14 @@ TEST(Checker, ASoftwareKernelThatDiffersIsNamed) {
 
 TEST(Checker, AMissingStageIsNamed) {
   const Start start = warm_start();
-  std::vector<StageReport> stages = Pipeline(start.parameters, start.volume.grid, {}).stages();
-  std::erase_if(stages, [](const StageReport& stage) { return stage.phase == "heat"; });
+  std::vector<StageKind> stages = stages_of_step({start.parameters, {start.volume.grid, 4}});
+  std::erase_if(stages, [](StageKind stage) { return phase_of(stage) == step::Phase::heat; });
   Expectation expectation(start.parameters, start.volume, start.step, worlds::implementation("auto"), {},
                           stages);
   const std::unique_ptr<Mismatch> found = expectation.step(true).mismatch;
   ASSERT_NE(found, nullptr);
   EXPECT_EQ(found->kind, Mismatch::Kind::missing);
-  EXPECT_EQ(found->phase, "heat");
+  EXPECT_EQ(found->phase, step::Phase::heat);
   EXPECT_EQ(found->step, start.step);
 }
 
@@ -114,7 +114,7 @@ TEST(Checker, EverySecondStepAndTheLastAreCompared) {
   const auto cells = static_cast<std::int64_t>(start.volume.grid.cells());
   const std::int64_t stages =
       std::count_if(report.stages.begin(), report.stages.end(),
-                    [](const StageReport& s) { return !s.phase.empty() && s.cascade == 0; });
+                    [](const StageReport& s) { return phase_of(s.kind) && s.cascade == 0; });
   EXPECT_EQ(report.compared_cells, 3 * stages * cells) << "steps 2, 4 and 5";
   EXPECT_EQ(report.software_cells, 5 * step::kPhaseCount * cells) << "the software after every phase";
   EXPECT_EQ(report.cell_steps, 5 * cells);
@@ -137,9 +137,9 @@ TEST(Checker, AMismatchHasItsLaneItsCycleAndTheStateBefore) {
   const Shape shape{start.volume.grid, c.lanes};
   std::int64_t cycle = stream_order(shape, m.x, m.y, m.z) / c.lanes;
   for (const StageReport& stage : report.stages) {
-    if (stage.phase.empty()) continue;
+    if (!phase_of(stage.kind)) continue;
     cycle += stage.lag + 1;
-    if (stage.cascade == m.cascade && stage.name == m.where) break;
+    if (stage.cascade == m.cascade && name_of(stage.kind) == m.where) break;
   }
   EXPECT_EQ(m.cycle, cycle);
   EXPECT_EQ(report.cycles, m.cycle + 1) << "the pass ends with the cycle of the first mismatch";
@@ -210,7 +210,7 @@ TEST(Checker, AValueTooWideForItsWireIsReportedWithItsStage) {
   ASSERT_NE(report.mismatch, nullptr);
   EXPECT_EQ(report.mismatch->kind, Mismatch::Kind::width);
   EXPECT_EQ(report.mismatch->where, "source");
-  EXPECT_EQ(report.mismatch->phase, "source");
+  EXPECT_EQ(report.mismatch->phase, step::Phase::source);
   EXPECT_EQ(report.mismatch->step, 2u);
   EXPECT_EQ(report.mismatch->cascade, 2);
   EXPECT_EQ(text_of(*report.mismatch),
@@ -237,7 +237,7 @@ TEST(Checker, TheFailingStageIsNotTheFirst) {
   ASSERT_NE(report.mismatch, nullptr);
   EXPECT_EQ(report.mismatch->kind, Mismatch::Kind::width);
   EXPECT_EQ(report.mismatch->where, "conduction");
-  EXPECT_EQ(report.mismatch->phase, "heat");
+  EXPECT_EQ(report.mismatch->phase, step::Phase::heat);
 }
 
 // What leaves a channel changed, in any field or side-band, is seen where it leaves.

@@ -41,7 +41,7 @@ Marks cells_in_runs(const state::Volume& v) {
 
 class Marker final : public Stage {
  public:
-  explicit Marker(const Design& design) : Stage("marker", "gravity", design, 0) {}
+  explicit Marker(const Design& design) : Stage(StageKind::viscous_spread, design, 0) {}
   const state::Volume* volume = nullptr;
   Marks in_run;
 
@@ -66,10 +66,10 @@ bool same_until_struck(std::uint64_t seed, state::Grid grid, int steps, Fault fa
                              worlds::implementation("reference"));
   Stages stages;
   stages.push_back(std::make_unique<Marker>(design));
-  stages.push_back(make_gravity(design));
-  Marker& marker = static_cast<Marker&>(*stages.front());
   FaultPlan plan(fault, 0);
-  stages.back()->plant(&plan);
+  const StageMaker make = fault == Fault::none ? StageMaker(make_stage) : planted_stages(plan);
+  stages.push_back(make(StageKind::gravity, design));
+  Marker& marker = static_cast<Marker&>(*stages.front());
   StageRun run{random.any({1, 2, 5}), random.one_in(2) ? 0 : seed + 1, 0};
   for (int step = 0; step < steps && !plan.struck(); ++step) {
     const auto number = simulation.steps_done();
@@ -80,7 +80,7 @@ bool same_until_struck(std::uint64_t seed, state::Grid grid, int steps, Fault fa
       simulation.run_phase(phase);
       if (phase != step::Phase::gravity) continue;
       marker.volume = &before;
-      const state::Volume result = run_stages(design, stages, number, nullptr, nullptr, before, run);
+      const state::Volume result = run_stages(design, stages, number, nullptr, before, run);
       EXPECT_EQ(worlds::broken_invariant(result, design.parameters), "");
       EXPECT_EQ(first_difference(design.shape, simulation.volume(), result),
                 plan.struck() ? name_of(*plan.struck()) : "")

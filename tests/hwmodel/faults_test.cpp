@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "hwmodel/stream/faults.h"
+#include "hwmodel/faults/faults.h"
 
 namespace voxmelt::hwmodel {
 

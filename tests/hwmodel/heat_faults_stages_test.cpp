@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "hwmodel/faults/planted_stages.h"
 #include "tests/hwmodel/heat_stages.h"
 
 namespace voxmelt::hwmodel {
 namespace {
 
-using Make = void (*)(const Design&, Stages&, FedStage*&);
+using Make = void (*)(const Design&, const StageMaker&, Stages&);
 
 struct Planted {
   Fault fault;
@@ -30,14 +31,12 @@ std::map<std::string, int> strikes(const Planted& planted, int count) {
     const Design design{worlds::hostile_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
     FaultPlan plan(planted.fault, random.one_in(2) ? 0 : 1);
     Stages stages;
-    FedStage* fed = nullptr;
-    planted.make(design, stages, fed);
+    planted.make(design, planted_stages(plan), stages);
     if (stages.empty()) continue;
-    for (const auto& stage : stages) stage->plant(&plan);
     StageRun run{random.any({1, 2, 5}), random.one_in(2) ? 0u : 7u, 0};
     each_phase(design.parameters, worlds::hostile_volume(random, design.parameters, grid), planted.phase, 3,
                [&](std::uint32_t step, const auto& before, const auto& after, auto* irradiance) {
-                 const state::Volume result = run_stages(design, stages, step, irradiance, fed, before, run);
+                 const state::Volume result = run_stages(design, stages, step, irradiance, before, run);
                  const auto found = first_difference(design.shape, after, result);
                  EXPECT_EQ(found.has_value(), plan.struck().has_value()) << "world " << world;
                  if (!found || !plan.struck()) return !found;

@@ -12,8 +12,7 @@ namespace voxmelt::hwmodel {
 // Stands behind a phase: a cell that leaves it brings no side-bands, but what conduction tells gravity.
 class NoSideBands final : public Stage {
  public:
-  NoSideBands(const Design& design, std::string phase)
-      : Stage("no side-bands", std::move(phase), design, 0) {}
+  NoSideBands(const Design& design, StageKind before) : Stage(before, design, 0) {}
 
  private:
   void advance(const Cell* in, Cell* out) override {
@@ -24,33 +23,28 @@ class NoSideBands final : public Stage {
       out[lane].heat = in[lane].heat;
       out[lane].state = in[lane].state;
       if (design().walls_in_conduction()) out[lane].beside_wall = in[lane].beside_wall;
-      if (out[lane] != in[lane]) ADD_FAILURE() << "a side-band leaves the phase " << phase();
+      if (out[lane] != in[lane]) ADD_FAILURE() << "a side-band leaves " << name();
     }
   }
 };
 
-inline void source_of(const Design& design, Stages& stages, FedStage*&) {
-  if (!design.parameters.vents.empty() || !design.parameters.drains.empty())
-    stages.push_back(make_source(design));
+// The stages of one phase, in their order.
+inline void phase_stages(const Design& design, const StageMaker& make, step::Phase phase, Stages& stages) {
+  for (const StageKind kind : stages_of_step(design))
+    if (phase_of(kind) == phase) stages.push_back(make(kind, design));
 }
 
-inline void heat_of(const Design& design, Stages& stages, FedStage*& fed) {
-  const rule::Heat& heat = design.parameters.heat;
-  if (!heat.enabled) return;
-  stages.push_back(make_conduction(design));
-  if (heat.neighbours >= 18) stages.push_back(make_edge_conduction(design));
-  if (heat.neighbours >= 26) stages.push_back(make_corner_conduction(design));
-  if (heat.convection > 0) stages.push_back(make_convection(design));
-  if (heat.radiation || heat.air) {
-    std::unique_ptr<FedStage> exchange = make_exchange(design);
-    if (heat.radiation) fed = exchange.get();
-    stages.push_back(std::move(exchange));
-  }
-  stages.push_back(std::make_unique<NoSideBands>(design, "heat"));
+inline void source_of(const Design& design, const StageMaker& make, Stages& stages) {
+  phase_stages(design, make, step::Phase::source, stages);
 }
 
-inline void melt_of(const Design& design, Stages& stages, FedStage*&) {
-  if (design.hot()) stages.push_back(make_melt(design));
+inline void heat_of(const Design& design, const StageMaker& make, Stages& stages) {
+  phase_stages(design, make, step::Phase::heat, stages);
+  if (!stages.empty()) stages.push_back(std::make_unique<NoSideBands>(design, stages.back()->kind()));
+}
+
+inline void melt_of(const Design& design, const StageMaker& make, Stages& stages) {
+  phase_stages(design, make, step::Phase::melt, stages);
 }
 
 }  // namespace voxmelt::hwmodel

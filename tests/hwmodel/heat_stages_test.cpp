@@ -35,14 +35,13 @@ int compare_size(const state::Grid& grid, std::uint64_t seed, step::Phase phase,
   const rule::Law law = random.any({rule::Law::paper, rule::Law::viscous});
   const Design design{worlds::hostile_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
   Stages stages;
-  FedStage* fed = nullptr;
-  make(design, stages, fed);
+  make(design, make_stage, stages);
   if (stages.empty()) return 0;
   StageRun run{random.any({1, 2, 5}), random.one_in(2) ? 0 : seed, 0};
   int compared = 0;
   each_phase(design.parameters, worlds::hostile_volume(random, design.parameters, grid), phase, 2,
              [&](std::uint32_t step, const auto& before, const auto& after, auto* irradiance) {
-               const state::Volume result = run_stages(design, stages, step, irradiance, fed, before, run);
+               const state::Volume result = run_stages(design, stages, step, irradiance, before, run);
                EXPECT_EQ(worlds::difference(after, result), "")
                    << grid.x << " x " << grid.y << " x " << grid.z << ", seed " << seed;
                ++compared;
@@ -78,16 +77,14 @@ TEST(HeatStages, LargeGrid) {
       heat.neighbours = 26;
       heat.convection = 32767;
       Stages stages;
-      FedStage* fed = nullptr;
-      heat_of(design, stages, fed);
+      heat_of(design, make_stage, stages);
       ASSERT_EQ(stages.size(), 6u);  // with the watcher
       StageRun run;
       each_phase(
           design.parameters, worlds::hostile_volume(random, design.parameters, grid), step::Phase::heat, 2,
           [&](std::uint32_t step, const auto& before, const auto& after, auto* irradiance) {
-            EXPECT_EQ(
-                worlds::difference(after, run_stages(design, stages, step, irradiance, fed, before, run)),
-                "");
+            EXPECT_EQ(worlds::difference(after, run_stages(design, stages, step, irradiance, before, run)),
+                      "");
             return true;
           });
     }
@@ -107,15 +104,14 @@ TEST(HeatStages, Memories) {
         design.parameters.heat.neighbours = 26;
         design.parameters.heat.convection = 1;
         Stages stages;
-        FedStage* fed = nullptr;
-        heat_of(design, stages, fed);
+        heat_of(design, make_stage, stages);
         const std::int64_t column = grid.y, plane = design.shape.plane();
         const std::int64_t lags[] = {plane, plane + column, plane + column + 1, 1};
         const bool paper = law == rule::Law::paper;
         const int cell = paper ? 50 : 34, side = paper && walls ? 1 : 0, bits = cell + side + 16;
         for (std::size_t i = 0; i < 4; ++i) {
           EXPECT_EQ(stages[i]->lag(), lags[i]) << stages[i]->name();
-          EXPECT_EQ(stages[i]->phase(), "heat");
+          EXPECT_EQ(phase_of(stages[i]->kind()), step::Phase::heat);
           EXPECT_EQ(stages[i]->output_bits(), cell + side + (air ? 2 : 0)) << stages[i]->name();
           std::int64_t words = 0;
           for (const BufferCost& cost : stages[i]->buffers()) {

@@ -109,12 +109,12 @@ TEST(Lockstep, CyclesOfStagesSumUnderStalls) {
     ASSERT_GT(report.stages.size(), 8u);
     std::int64_t starved = 0, blocked = 0;
     for (const StageReport& stage : report.stages) {
-      EXPECT_EQ(stage.cycles.total(), report.cycles) << stage.name;
+      EXPECT_EQ(stage.cycles.total(), report.cycles) << name_of(stage.kind);
       starved += stage.cycles.starved;
       blocked += stage.cycles.blocked;
       const std::int64_t tokens = Shape{start.volume.grid, 4}.tokens();
-      if (stage.name != "feed") {
-        EXPECT_EQ(stage.cycles.busy + stage.cycles.bypassed, tokens * report.passes) << stage.name;
+      if (stage.kind != StageKind::feed) {
+        EXPECT_EQ(stage.cycles.busy + stage.cycles.bypassed, tokens * report.passes) << name_of(stage.kind);
       }
     }
     EXPECT_GT(starved, 0);
@@ -136,7 +136,7 @@ TEST(Lockstep, WithoutStallsNoStageWaits) {
     ASSERT_EQ(report.mismatch, nullptr);
     std::int64_t waits = 0;
     for (const StageReport& stage : report.stages)
-      if (stage.name != "feed") waits += stage.cycles.starved + stage.cycles.blocked;
+      if (stage.kind != StageKind::feed) waits += stage.cycles.starved + stage.cycles.blocked;
     EXPECT_EQ(waits > 0, depth == 1) << depth;
     const StageCycles& reader = report.stages.front().cycles;
     EXPECT_EQ(reader.blocked > 0, depth == 1) << depth;

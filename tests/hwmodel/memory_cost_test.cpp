@@ -24,12 +24,12 @@ void PrintTo(const Memory& memory, std::ostream* out) {
 }
 
 // Of every stage that has any; also sees that what a stage delays is what its memories hold.
-std::map<std::string, Memory> memories_of(const std::string& scene_name) {
+std::map<StageKind, Memory> memories_of(const std::string& scene_name) {
   constexpr int kLanes = 4;
   const scene::Scene scene =
       scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (scene_name + ".toml"), {});
   const Shape shape{scene.initial.grid, kLanes};
-  std::map<std::string, Memory> memories;
+  std::map<StageKind, Memory> memories;
   for (const StageReport& stage : Pipeline(scene.parameters, shape.grid, {kLanes, 1, 4, 0}).stages()) {
     Memory memory;
     std::int64_t cells = 0, others = 0;
@@ -40,29 +40,30 @@ std::map<std::string, Memory> memories_of(const std::string& scene_name) {
       if (!buffer.name.starts_with("floor")) cells += buffer.words * buffer.lanes;
     }
     memory.beside = (others + 2 * shape.column()) / (kLanes * shape.column());
-    if (memory != Memory{} && stage.name != "gravity") memories[stage.name] = memory;
-    const std::int64_t scan = stage.name == "settle" ? 1 : 0;  // of its lag: a look ahead, no memory
-    if (stage.name != "exchange") {
-      EXPECT_EQ(cells, kLanes * (stage.lag - scan)) << stage.name;
+    if (memory != Memory{} && stage.kind != StageKind::gravity) memories[stage.kind] = memory;
+    const std::int64_t scan = stage.kind == StageKind::settle ? 1 : 0;  // of its lag: a look ahead, no memory
+    if (stage.kind != StageKind::exchange) {
+      EXPECT_EQ(cells, kLanes * (stage.lag - scan)) << name_of(stage.kind);
     }
   }
   return memories;
 }
 
 TEST(MemoryCost, OfThePaperLawWithHeat) {
-  EXPECT_EQ(memories_of("cello"),
-            (std::map<std::string, Memory>{
-                {"conduction", {67, 67}}, {"pattern", {53, 122}}, {"apply", {113, 188}}}));
+  EXPECT_EQ(memories_of("cello"), (std::map<StageKind, Memory>{{StageKind::conduction, {67, 67}},
+                                                               {StageKind::pattern, {53, 122}},
+                                                               {StageKind::apply, {113, 188}}}));
 }
 
 TEST(MemoryCost, OfTheSidesWithoutHeat) {
-  EXPECT_EQ(memories_of("lesson_gravity").at("walls"), (Memory{34 + 1, 0}));
+  EXPECT_EQ(memories_of("lesson_gravity").at(StageKind::walls), (Memory{34 + 1, 0}));
 }
 
 TEST(MemoryCost, OfTheViscousLawWithHeat) {
-  EXPECT_EQ(
-      memories_of("cello_viscous"),
-      (std::map<std::string, Memory>{{"conduction", {50, 50}}, {"settle", {0, 98}}, {"spread", {106, 170}}}));
+  EXPECT_EQ(memories_of("cello_viscous"),
+            (std::map<StageKind, Memory>{{StageKind::conduction, {50, 50}},
+                                         {StageKind::settle, {0, 98}},
+                                         {StageKind::viscous_spread, {106, 170}}}));
 }
 
 TEST(MemoryCost, OfTheAirOneTemperaturePerHeight) {
@@ -70,7 +71,7 @@ TEST(MemoryCost, OfTheAirOneTemperaturePerHeight) {
   parameters.heat.enabled = parameters.heat.air = true;
   parameters.heat.air_temperature.resize(9);
   for (const StageReport& stage : Pipeline(parameters, {5, 9, 3}, {}).stages()) {
-    if (stage.name != "exchange") continue;
+    if (stage.kind != StageKind::exchange) continue;
     ASSERT_EQ(stage.buffers.size(), 1u);
     EXPECT_EQ(stage.buffers.front().total(), 9 * 16);
     return;
@@ -83,23 +84,24 @@ TEST(MemoryCost, ChannelsAreAsWideAsWhatTheyCarry) {
   const auto widths_of = [](const std::string& scene_name) {
     const scene::Scene scene =
         scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (scene_name + ".toml"), {});
-    std::map<std::string, int> widths;
+    std::map<StageKind, int> widths;
     for (const ChannelReport& channel : Pipeline(scene.parameters, scene.initial.grid, {}).channels())
       widths[channel.producer] = channel.bits;
     return widths;
   };
-  const std::map<std::string, int> paper = widths_of("cello");
-  EXPECT_EQ(paper.at("reader"), 50) << "state, amount, energy, heat";
-  for (const char* stage : {"conduction", "exchange", "melt"})
-    EXPECT_EQ(paper.at(stage), 50 + 1) << stage << ": beside a wall";
-  EXPECT_EQ(paper.at("gravity"), 50);
-  EXPECT_EQ(paper.at("pattern"), 50 + 8);
-  EXPECT_EQ(paper.at("apply"), 50);
-  EXPECT_EQ(widths_of("lesson_gravity").at("walls"), 34 + 1);
-  const std::map<std::string, int> viscous = widths_of("cello_viscous");
-  EXPECT_EQ(viscous.at("reader"), 34) << "state, amount, heat";
-  EXPECT_EQ(viscous.at("settle"), 34 + 1 + 23 + 14 + 14 + 25) << "in a run; head, mobility, exposed, dead";
-  EXPECT_EQ(viscous.at("gravity"), 34);
+  const std::map<StageKind, int> paper = widths_of("cello");
+  EXPECT_EQ(paper.at(StageKind::reader), 50) << "state, amount, energy, heat";
+  for (const StageKind stage : {StageKind::conduction, StageKind::exchange, StageKind::melt})
+    EXPECT_EQ(paper.at(stage), 50 + 1) << name_of(stage) << ": beside a wall";
+  EXPECT_EQ(paper.at(StageKind::gravity), 50);
+  EXPECT_EQ(paper.at(StageKind::pattern), 50 + 8);
+  EXPECT_EQ(paper.at(StageKind::apply), 50);
+  EXPECT_EQ(widths_of("lesson_gravity").at(StageKind::walls), 34 + 1);
+  const std::map<StageKind, int> viscous = widths_of("cello_viscous");
+  EXPECT_EQ(viscous.at(StageKind::reader), 34) << "state, amount, heat";
+  EXPECT_EQ(viscous.at(StageKind::settle), 34 + 1 + 23 + 14 + 14 + 25)
+      << "in a run; head, mobility, exposed, dead";
+  EXPECT_EQ(viscous.at(StageKind::gravity), 34);
 }
 
 }  // namespace

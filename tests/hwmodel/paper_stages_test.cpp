@@ -7,26 +7,23 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-const auto make_fall = [](const Design& design, Stages& stages) {
-  if (design.needs_walls() && !design.hot()) stages.push_back(make_walls(design));
-  stages.push_back(make_gravity(design));
+const auto make_fall = [](const Design& design, const StageMaker& make, Stages& stages) {
+  if (design.needs_walls() && !design.hot()) stages.push_back(make(StageKind::walls, design));
+  stages.push_back(make(StageKind::gravity, design));
 };
-const auto make_spread = [](const Design& design, Stages& stages) {
-  stages.push_back(make_pattern(design));
-  stages.push_back(make_apply(design));
-};
-const auto unfed = [](auto make) {
-  return [make](const Design& design, Stages& stages, FedStage*&) { make(design, stages); };
+const auto make_spread = [](const Design& design, const StageMaker& make, Stages& stages) {
+  stages.push_back(make(StageKind::pattern, design));
+  stages.push_back(make(StageKind::apply, design));
 };
 
 TEST(PaperStages, GravityIsTheReferences) {
   for (const std::uint64_t seed : {0u, 5000u, 90000u})
-    expect_phase(rule::Law::paper, step::Phase::gravity, unfed(make_fall), 400, 3, seed);
+    expect_phase(rule::Law::paper, step::Phase::gravity, make_fall, 400, 3, seed);
 }
 
 TEST(PaperStages, SpreadIsTheReferences) {
   for (const std::uint64_t seed : {0u, 5000u, 90000u})
-    expect_phase(rule::Law::paper, step::Phase::spread, unfed(make_spread), 500, 3, seed);
+    expect_phase(rule::Law::paper, step::Phase::spread, make_spread, 500, 3, seed);
 }
 
 // Sizes around a block of lanes, a word of 64 and nothing at all, on every axis in turn.
@@ -44,8 +41,8 @@ TEST(PaperStages, EverySizeOfGrid) {
         run::Simulation simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
                                    worlds::implementation("reference"));
         Stages falling, spreading;
-        make_fall(design, falling);
-        make_spread(design, spreading);
+        make_fall(design, make_stage, falling);
+        make_spread(design, make_stage, spreading);
         StageRun run{2, static_cast<std::uint64_t>(runs % 3), 0};
         state::Volume unmelted(grid);
         if (design.walls_in_conduction()) run.sides = &unmelted;
@@ -55,7 +52,7 @@ TEST(PaperStages, EverySizeOfGrid) {
             const bool falls = phase == step::Phase::gravity;
             if (falls || phase == step::Phase::spread) {
               const state::Volume result =
-                  run_stages(design, falls ? falling : spreading, step, nullptr, nullptr, before, run);
+                  run_stages(design, falls ? falling : spreading, step, nullptr, before, run);
               ASSERT_EQ(worlds::difference(simulation.volume(), result), "")
                   << grid.x << " x " << grid.y << " x " << grid.z << ", " << lanes << " lanes";
               ++runs;
@@ -106,11 +103,11 @@ TEST(PaperStages, WidestSums) {
       const int lowest = neighbours == 8 ? 45055 : 32767;
       worlds::put(volume, 1, 0, 1, lowest, lowest, 65535);
       Stages stages;
-      make_spread(design, stages);
+      make_spread(design, make_stage, stages);
       StageRun run;
       int full = 0;
       for (std::uint32_t step = 0; step < 3000; ++step) {
-        const state::Volume result = run_stages(design, stages, step, nullptr, nullptr, volume, run);
+        const state::Volume result = run_stages(design, stages, step, nullptr, volume, run);
         full += result.amount[result.at(1, 0, 1)] == 65535 ? 1 : 0;
       }
       EXPECT_GT(full, 0) << neighbours;
@@ -123,8 +120,8 @@ TEST(PaperStages, BuffersSpanTheLag) {
     Design design{worlds::paper_showcase(), {{64, 32, 8}, 16}};
     design.parameters.flow.paper.neighbours = neighbours;
     Stages stages;
-    make_spread(design, stages);
-    stages.push_back(make_walls(design));
+    make_spread(design, make_stage, stages);
+    stages.push_back(make_stage(StageKind::walls, design));
     for (const auto& stage : stages) {
       std::int64_t cells = 0;
       for (const BufferCost& buffer : stage->buffers()) cells += buffer.words * buffer.lanes;

@@ -22,19 +22,32 @@ VerifyReport report_with_distinct_numbers() {
   r.passes = 2, r.cycles = 200, r.predicted_cycles = 160;
   r.model_seconds = 0.5, r.cell_steps = 1'000'000;
   r.digest = 0xABC;
-  r.stages = {{"reader", "", 0, 0, {100, 0, 90, 10}, {}, {}},
-              {"melt", "melt", 0, 7, {50, 40, 30, 60, 20}, {{"memory", 5, 4, 11}}, {3, 2, 1}},
-              {"melt", "melt", 1, 7, {100, 20, 10, 70}, {{"memory", 5, 4, 11}}, {3, 2, 1}},
-              {"feed", "", 0, 0, {200, 0, 0, 0}, {}, {}},
-              {"writer", "", 1, 0, {100, 60, 0, 40}, {}, {}}};
-  r.channels = {{"a", "reader", "", 0, 8, 50, 3, 0, 9, {1, 2, 3, 4}},
-                {"b", "melt", "melt", 0, 8, 60, 5, 0, 9, {4, 3, 2, 1}},
-                {"c", "feed", "", 0, 8, 16, 8, 0, 9, {0, 1}}};
+  r.stages = {{StageKind::reader, 0, 0, {100, 0, 90, 10}, {}, {}},
+              {StageKind::melt, 0, 7, {50, 40, 30, 60, 20}, {{"memory", 5, 4, 11}}, {3, 2, 1}},
+              {StageKind::melt, 1, 7, {100, 20, 10, 70}, {{"memory", 5, 4, 11}}, {3, 2, 1}},
+              {StageKind::feed, 0, 0, {200, 0, 0, 0}, {}, {}},
+              {StageKind::writer, 1, 0, {100, 60, 0, 40}, {}, {}}};
+  r.channels = {{"a", StageKind::reader, 0, 8, 50, 3, 0, 9, {1, 2, 3, 4}},
+                {"b", StageKind::melt, 0, 8, 60, 5, 0, 9, {4, 3, 2, 1}},
+                {"c", StageKind::feed, 0, 8, 16, 8, 0, 9, {0, 1}}};
   return r;
 }
 Mismatch mismatch_with_distinct_numbers() {
-  return {
-      Mismatch::Kind::stage, "apply", "spread", 41, 1, 2, 77, 6, 5, 4, "amount", 300, 200, "words", {"line"}};
+  return {Mismatch::Kind::stage,
+          "apply",
+          step::Phase::spread,
+          41,
+          1,
+          2,
+          77,
+          6,
+          5,
+          4,
+          "amount",
+          300,
+          200,
+          "words",
+          {"line"}};
 }
 const Configuration kMachine{4, 2, 8, 9};
 Design design_of(rule::Law law) {

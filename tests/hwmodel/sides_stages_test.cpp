@@ -17,14 +17,14 @@ namespace {
 // Holds the bit of every cell that passes against a volume.
 class Probe final : public Stage {
  public:
-  explicit Probe(const Design& design) : Stage("probe", "heat", design, 0) {}
+  explicit Probe(const Design& design) : Stage(StageKind::melt, design, 0) {}
   const state::Volume* volume = nullptr;
   std::int64_t seen = 0;
 
  protected:
   void advance(const Cell* in, Cell* out) override {
     std::copy_n(in, lanes(), out);
-    for (int lane = 0; lane < lanes() && inside(came(), lane); ++lane) {
+    for (int lane = 0; lane < lanes() && came().x + lane < shape().grid.x; ++lane) {
       const int x = came().x + lane, y = came().y, z = came().z;
       const bool bit = in[lane].beside_wall;
       EXPECT_EQ(bit, stands_beside_wall(*volume, x, y, z)) << x << ", " << y << ", " << z;
@@ -61,8 +61,7 @@ void run_probes(worlds::Random& random, state::Grid grid, int lanes, bool hot, T
   const state::Volume start = worlds::hostile_volume(random, design.parameters, grid);
 
   Stages stages;
-  FedStage* fed = nullptr;
-  stages.push_back(hot ? make_conduction(design) : make_walls(design));
+  stages.push_back(make_stage(hot ? StageKind::conduction : StageKind::walls, design));
   std::vector<Probe*> probes;
   const auto probe = [&]() {
     auto made = std::make_unique<Probe>(design);
@@ -72,19 +71,15 @@ void run_probes(worlds::Random& random, state::Grid grid, int lanes, bool hot, T
   };
   probe();
   if (hot) {
-    stages.push_back(make_edge_conduction(design));
-    stages.push_back(make_corner_conduction(design));
-    stages.push_back(make_convection(design));
-    auto exchange = make_exchange(design);
-    fed = exchange.get();
-    stages.push_back(std::move(exchange));
-    stages.push_back(make_melt(design));
+    using enum StageKind;
+    for (const StageKind kind : {edges, corners, convection, exchange, melt})
+      stages.push_back(make_stage(kind, design));
     probe();
   }
   const step::Irradiance dark(grid);
   StageRun run{random.any({1, 2, 5}), random.one_in(2) ? 0u : 7u, 0};
   for (const std::uint32_t step : {0u, 1u}) {  // in the second pass the memories hold the first
-    const state::Volume result = run_stages(design, stages, step, &dark, fed, start, run);
+    const state::Volume result = run_stages(design, stages, step, &dark, start, run);
     totals.melted += sides_that_melted(start, result);
   }
   for (const Probe* one : probes) {
@@ -127,14 +122,13 @@ TEST(SidesStages, WithoutHeatWallsFindsThem) {
 
 // From the step's begin to gravity: the reference's phases, one after another.
 TEST(SidesStages, FromHeatToGravityIsTheReferences) {
-  const auto make = [](const Design& design, Stages& stages, FedStage*& fed) {
-    heat_of(design, stages, fed);
-    melt_of(design, stages, fed);
-    if (design.needs_walls() && !design.hot()) stages.push_back(make_walls(design));
-    stages.push_back(make_gravity(design));
+  const auto make_stages = [](const Design& design, const StageMaker& make, Stages& stages) {
+    heat_of(design, make, stages);
+    for (const step::Phase phase : {step::Phase::melt, step::Phase::gravity})
+      phase_stages(design, make, phase, stages);
   };
   for (const std::uint64_t seed : {0u, 5000u, 90000u})
-    expect_phases(rule::Law::paper, step::Phase::heat, step::Phase::gravity, make, 300, 3, seed);
+    expect_phases(rule::Law::paper, step::Phase::heat, step::Phase::gravity, make_stages, 300, 3, seed);
 }
 
 // Who needs none gets none: no bit in the words, none in the channels.
@@ -152,9 +146,10 @@ TEST(SidesStages, OnlyWhereFallingDependsOnThem) {
         const bool paper = law == rule::Law::paper;
         EXPECT_EQ(design.walls_in_conduction(), paper && hot && walls);
         bool has_stage = false;
-        for (const auto& stage : make_step(design).stages) {
-          has_stage |= stage->name() == "walls";
-          if (stage->phase() != "heat" && stage->phase() != "melt") continue;
+        for (const auto& stage : make_step(design)) {
+          has_stage |= stage->kind() == StageKind::walls;
+          const auto its_phase = phase_of(stage->kind());
+          if (its_phase != step::Phase::heat && its_phase != step::Phase::melt) continue;
           EXPECT_EQ(stage->output_bits(), design.cell_bits() + (paper && walls ? 1 : 0)) << stage->name();
         }
         EXPECT_EQ(has_stage, paper && !hot && walls);

@@ -13,7 +13,7 @@ namespace {
 class Late final : public Stage {
  public:
   Late(const Design& design, std::int64_t lag)
-      : Stage("late", "melt", design, lag), line_(design.shape.lanes, static_cast<std::size_t>(lag)) {}
+      : Stage(StageKind::melt, design, lag), line_(design.shape.lanes, static_cast<std::size_t>(lag)) {}
 
  protected:
   void advance(const Cell* in, Cell* out) override {
@@ -40,7 +40,7 @@ TEST(StageAccount, NothingIsLostAndCyclesSum) {
           Stages stages;
           for (int i = 0; i < 3; ++i) stages.push_back(std::make_unique<Late>(design, lag));
           StageRun run{depth, seed};
-          const state::Volume result = run_stages(design, stages, 0, nullptr, nullptr, volume, run);
+          const state::Volume result = run_stages(design, stages, 0, nullptr, volume, run);
           ASSERT_EQ(worlds::difference(volume, result), "");
           if (seed == 0) {
             const std::int64_t interval = depth == 1 ? 2 : 1, hops = 4;

@@ -27,21 +27,24 @@ struct StageRun {
 
 // One pass of `volume` through `stages` as step number `step`.
 inline state::Volume run_stages(const Design& design, const Stages& stages, std::uint32_t step,
-                                const step::Irradiance* irradiance, FedStage* fed,
-                                const state::Volume& volume, StageRun& run) {
+                                const step::Irradiance* irradiance, const state::Volume& volume,
+                                StageRun& run) {
   const Shape& shape = design.shape;
   std::vector<std::unique_ptr<CellFifo>> channels;
   for (std::size_t i = 0; i <= stages.size(); ++i)
     channels.push_back(
         std::make_unique<CellFifo>("channel", static_cast<int>(i), shape.lanes, run.depth, run.stall_seed));
   HeatFifo feed("feed", 1000, shape.lanes, run.depth, run.stall_seed);
-  if (fed != nullptr) fed->feed(feed);
   for (std::size_t i = 0; i < stages.size(); ++i) {
+    stages[i]->feed(feed);
     stages[i]->connect(*channels[i], *channels[i + 1]);
     stages[i]->begin_pass(step, false);
   }
 
   state::Volume result(volume.grid);
+  const bool fed = irradiance != nullptr && std::any_of(stages.begin(), stages.end(), [](const auto& stage) {
+                     return stage->kind() == StageKind::exchange;
+                   });
   Place reading, feeding, writing;
   run.cycles = 0;
   while (writing.ordinal < shape.tokens()) {
@@ -51,7 +54,7 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, std:
       if (run.sides != nullptr) mark_walls(*run.sides, shape, reading, lanes);
       reading.next(shape);
     }
-    if (fed != nullptr && irradiance != nullptr && feeding.ordinal < shape.tokens() && feed.ready()) {
+    if (fed && feeding.ordinal < shape.tokens() && feed.ready()) {
       UInt<16>* lanes = feed.put();
       for (int lane = 0; lane < shape.lanes; ++lane)
         lanes[lane] = feeding.x + lane < shape.grid.x
@@ -80,7 +83,7 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, std:
 
 // Holds `make`'s stages, which are to do the phases first..last whole, against the reference: on `worlds`
 // random hostile worlds of one law, `steps` steps each. The other phases are the reference's.
-template <class Make>  // void(const Design&, Stages&, FedStage*&)
+template <class Make>  // void(const Design&, const StageMaker&, Stages&)
 void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& make, int worlds, int steps,
                    std::uint64_t first_seed = 0) {
   std::int64_t compared = 0, changed = 0;
@@ -99,8 +102,7 @@ void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& ma
     const rule::Heat& heat = design.parameters.heat;
     const bool radiates = heat.radiates();
     Stages stages;
-    FedStage* fed = nullptr;
-    make(design, stages, fed);
+    make(design, make_stage, stages);
     StageRun run{random.any({1, 2, 5}), random.one_in(2) ? 0 : seed + 1, 0};
     for (int step = 0; step < steps; ++step) {
       const auto number = simulation.steps_done();
@@ -115,7 +117,7 @@ void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& ma
         simulation.run_phase(each);
         if (each != last || stages.empty()) continue;
         const state::Volume result =
-            run_stages(design, stages, number, radiates ? &irradiance : nullptr, fed, before, run);
+            run_stages(design, stages, number, radiates ? &irradiance : nullptr, before, run);
         const std::string found = worlds::difference(simulation.volume(), result);
         compared += static_cast<std::int64_t>(grid.cells());
         changed += simulation.volume() == before ? 0 : 1;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hwmodel/faults/planted_stages.h"
 #include "tests/hwmodel/stage_run.h"
 
 namespace voxmelt::hwmodel {
@@ -32,7 +33,7 @@ inline std::string name_of(const FaultPlan::Strike& strike) {
 
 // Every world is run until the fault strikes, for up to `steps` steps; at least `wanted` worlds must be
 // struck.
-template <class Make>  // void(const Design&, Stages&)
+template <class Make>  // void(const Design&, const StageMaker&, Stages&)
 void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, int worlds, int steps,
                     int wanted) {
   int struck = 0;
@@ -42,11 +43,10 @@ void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, 
     const Design design{worlds::hostile_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
     run::Simulation simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
                                worlds::implementation("reference"));
-    Stages stages;
-    make(design, stages);
-    if (stages.empty()) continue;
     FaultPlan plan(fault, static_cast<std::uint32_t>(random.below(2)));
-    for (const auto& stage : stages) stage->plant(&plan);
+    Stages stages;
+    make(design, planted_stages(plan), stages);
+    if (stages.empty()) continue;
     StageRun run{2, 0, 0};
     for (int step = 0; step < steps && !plan.struck(); ++step) {
       const auto number = simulation.steps_done();
@@ -58,7 +58,7 @@ void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, 
         if (each == step::Phase::melt) unmelted = before;
         simulation.run_phase(each);
         if (each != phase || plan.struck()) continue;
-        const state::Volume result = run_stages(design, stages, number, nullptr, nullptr, before, run);
+        const state::Volume result = run_stages(design, stages, number, nullptr, before, run);
         ASSERT_EQ(worlds::broken_invariant(result, design.parameters), "") << "world " << world;
         const std::string found = first_difference(design.shape, simulation.volume(), result);
         const std::string named = plan.struck() ? name_of(*plan.struck()) : "";

@@ -1,11 +1,6 @@
 // Each planted fault of settle and viscous spread strikes, and the first cell in stream order that leaves its
 // phase wrong is the one that it notes.
-#include <cstddef>
-#include <cstdint>
-#include <ostream>
-#include <string>
-#include <vector>
-
+#include "hwmodel/faults/planted_stages.h"
 #include "tests/hwmodel/viscous_worlds.h"
 
 namespace voxmelt::hwmodel {
@@ -41,17 +36,17 @@ void expect_found(Fault fault, Phase last, const std::string& stage) {
     worlds::Random random(seed * 7919 + 3);
     ViscousWorld world(random, small_grid(random), random.any({1, 2, 4, 8, 16}));
     Stages stages;
-    stages.push_back(make_settle(world.design));
-    if (last == Phase::spread) stages.push_back(make_viscous_spread(world.design));
     FaultPlan plan(fault, static_cast<std::uint32_t>(random.below(3)));
-    for (const auto& each : stages) each->plant(&plan);
+    const StageMaker make = planted_stages(plan);
+    stages.push_back(make(StageKind::settle, world.design));
+    if (last == Phase::spread) stages.push_back(make(StageKind::viscous_spread, world.design));
     StageRun run{2, random.one_in(2) ? 0 : seed + 1};
     for (std::uint32_t step = 0; step < 6 && !plan.struck(); ++step) {
       state::Volume start = world.simulation.volume();
       world.step([&](Phase phase, const state::Volume& before) {
         if (phase == Phase::excess) start = before;
         if (phase != last) return;
-        const state::Volume found = run_stages(world.design, stages, step, nullptr, nullptr, start, run);
+        const state::Volume found = run_stages(world.design, stages, step, nullptr, start, run);
         const state::Volume& expected = world.simulation.volume();
         const At first = first_difference(world.design.shape, expected, found);
         ASSERT_EQ(worlds::broken_invariant(found, world.design.parameters), "");
@@ -83,13 +78,12 @@ TEST(ViscousFaults, DamageKeepsItsWidths) {
       worlds::Random random(seed);
       ViscousWorld world(random, small_grid(random), random.any({1, 4, 16}));
       Stages stages;
-      stages.push_back(make_settle(world.design));
-      stages.push_back(make_viscous_spread(world.design));
       FaultPlan plan(fault, 0);
-      for (const auto& each : stages) each->plant(&plan);
+      for (const StageKind kind : {StageKind::settle, StageKind::viscous_spread})
+        stages.push_back(planted_stages(plan)(kind, world.design));
       StageRun run;
       const state::Volume found =
-          run_stages(world.design, stages, 0, nullptr, nullptr, world.simulation.volume(), run);
+          run_stages(world.design, stages, 0, nullptr, world.simulation.volume(), run);
       ASSERT_EQ(worlds::broken_invariant(found, world.design.parameters), "");
       strikes += plan.struck().has_value();
     }

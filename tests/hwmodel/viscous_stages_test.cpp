@@ -14,10 +14,12 @@ namespace {
 
 using step::Phase;
 
-void make_excess(const Design& design, Stages& stages, FedStage*&) { stages.push_back(make_settle(design)); }
-void make_both(const Design& design, Stages& stages, FedStage*& fed) {
-  make_excess(design, stages, fed);
-  stages.push_back(make_viscous_spread(design));
+void make_excess(const Design& design, const StageMaker& make, Stages& stages) {
+  stages.push_back(make(StageKind::settle, design));
+}
+void make_both(const Design& design, const StageMaker& make, Stages& stages) {
+  make_excess(design, make, stages);
+  stages.push_back(make(StageKind::viscous_spread, design));
 }
 
 TEST(ViscousStages, SettleIsTheReferences) {
@@ -33,8 +35,7 @@ TEST(ViscousStages, SpreadIsTheReferences) {
 // Both stages on a given world, `count` steps.
 void expect_steps(ViscousWorld& world, int count, std::uint64_t stall_seed) {
   Stages stages;
-  FedStage* none = nullptr;
-  make_both(world.design, stages, none);
+  make_both(world.design, make_stage, stages);
   StageRun run{2, stall_seed};
   for (int i = 0; i < count; ++i) {
     state::Volume start = world.simulation.volume();
@@ -42,7 +43,7 @@ void expect_steps(ViscousWorld& world, int count, std::uint64_t stall_seed) {
       if (phase == Phase::excess) start = before;
       if (phase != Phase::spread) return;
       const state::Volume found =
-          run_stages(world.design, stages, world.simulation.steps_done(), nullptr, nullptr, start, run);
+          run_stages(world.design, stages, world.simulation.steps_done(), nullptr, start, run);
       const state::Grid g = before.grid;
       ASSERT_EQ(worlds::difference(world.simulation.volume(), found), "")
           << g.x << " x " << g.y << " x " << g.z << ", " << world.design.shape.lanes << " lanes, step " << i;
@@ -111,24 +112,20 @@ TEST(ViscousStages, WidestNumbers) {
       simulation.begin_step();
       simulation.run_phase(Phase::excess);
       Stages settle, both;
-      FedStage* none = nullptr;
-      make_excess(design, settle, none);
-      make_both(design, both, none);
+      make_excess(design, make_stage, settle);
+      make_both(design, make_stage, both);
       StageRun run;
-      ASSERT_EQ(
-          worlds::difference(simulation.volume(), run_stages(design, settle, 0, nullptr, nullptr, full, run)),
-          "");
+      ASSERT_EQ(worlds::difference(simulation.volume(), run_stages(design, settle, 0, nullptr, full, run)),
+                "");
       simulation.run_phase(Phase::spread);
-      ASSERT_EQ(
-          worlds::difference(simulation.volume(), run_stages(design, both, 0, nullptr, nullptr, full, run)),
-          "");
+      ASSERT_EQ(worlds::difference(simulation.volume(), run_stages(design, both, 0, nullptr, full, run)), "");
     }
 }
 
 // Keeps what passes.
 class Tap final : public Stage {
  public:
-  Tap(const Design& design) : Stage("tap", "spread", design, 0) {}
+  Tap(const Design& design) : Stage(StageKind::viscous_spread, design, 0) {}
   const Cell& at(int x, int y, int z) const {
     return cells_[static_cast<std::size_t>(stream_order(shape(), x, y, z))];
   }
@@ -170,15 +167,14 @@ TEST(ViscousStages, SpreadHandsOnRunsAndWallsAndNothingElse) {
     worlds::Random random(seed);
     ViscousWorld world(random, small_grid(random), random.any({1, 2, 4, 8, 16}));
     Stages stages;
-    FedStage* none = nullptr;
-    make_both(world.design, stages, none);
+    make_both(world.design, make_stage, stages);
     auto tap = std::make_unique<Tap>(world.design);
     const Tap& seen = *tap;
     stages.push_back(std::move(tap));
     StageRun run;
     world.step([&](Phase phase, const state::Volume& before) {
       if (phase != Phase::excess) return;
-      run_stages(world.design, stages, 0, nullptr, nullptr, before, run);
+      run_stages(world.design, stages, 0, nullptr, before, run);
       const std::vector<bool> expected = in_runs(before);
       worlds::for_each(worlds::whole(before.grid), [&](int x, int y, int z) {
         const Cell& cell = seen.at(x, y, z);

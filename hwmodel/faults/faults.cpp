@@ -1,4 +1,4 @@
-#include "hwmodel/stream/faults.h"
+#include "hwmodel/faults/faults.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,70 @@
+#include "hwmodel/faults/channel_fault.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace voxmelt::hwmodel {
+
+void ChannelFault::begin_pass(std::uint32_t first, int steps) {
+  take_out();
+  if (plan_.fault() < Fault::fifo_overwrite || plan_.struck()) return;
+  step_ = std::max(first, plan_.first_step());
+  const std::uint32_t position = step_ - first;
+  if (position >= static_cast<std::uint32_t>(steps)) return;
+  const std::vector<CellFifo*> channels = pipeline_.channels_behind_stages(static_cast<int>(position));
+  channel_ = channels[channels.size() / 2];
+  channel_->plant(this);
+}
+
+void ChannelFault::take_out() {
+  if (channel_ != nullptr) channel_->plant(nullptr);
+  channel_ = nullptr;
+}
+
+FifoFault<Cell>::Effect ChannelFault::stores(std::int64_t ordinal, Cell* now, Cell* last, int waiting) {
+  if (plan_.struck()) return Effect::none;
+  const int lanes = pipeline_.design().shape.lanes;
+  const int lane = first_difference(now, last);
+  const bool differs = ordinal > 0 && lane < lanes;
+  switch (plan_.fault()) {
+    case Fault::fifo_never_ready:
+      strike(ordinal + 1, 0);  // the next token is waited for
+      return Effect::jammed;
+    case Fault::fifo_swap_lanes:
+      return swap_lanes(ordinal, now);
+    case Fault::fifo_stale:
+      if (!differs) break;
+      std::copy_n(last, lanes, now);
+      strike(ordinal, lane);
+      break;
+    case Fault::fifo_overwrite:
+      if (!differs || waiting == 0) break;
+      std::copy_n(now, lanes, last);
+      strike(ordinal - 1, lane);
+      return Effect::lost;
+    default:
+      break;
+  }
+  return Effect::none;
+}
+
+FifoFault<Cell>::Effect ChannelFault::swap_lanes(std::int64_t ordinal, Cell* now) {
+  std::vector<Cell> rotated(now, now + pipeline_.design().shape.lanes);
+  std::rotate(rotated.begin(), rotated.begin() + 1, rotated.end());
+  const int lane = first_difference(now, rotated.data());
+  if (lane == pipeline_.design().shape.lanes) return Effect::none;
+  std::copy(rotated.begin(), rotated.end(), now);
+  strike(ordinal, lane);
+  return Effect::none;
+}
+
+int ChannelFault::first_difference(const Cell* one, const Cell* other) const {
+  return static_cast<int>(std::mismatch(one, one + pipeline_.design().shape.lanes, other).first - one);
+}
+
+void ChannelFault::strike(std::int64_t ordinal, int lane) {
+  const Place place = place_of(pipeline_.design().shape, ordinal);
+  plan_.strike({channel_->name(), step_, place.x + lane, place.y, place.z});
+}
+
+}  // namespace voxmelt::hwmodel

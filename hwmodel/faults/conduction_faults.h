@@ -1,0 +1,111 @@
+// Faults of the passes of conduction. They strike in the last pass (conduction, edges or corners), where the
+// cell in the plane before is sure to be wrong at the end of the phase: it is no liquid that convects, no
+// cell at air that is exchanged with, and far from the hottest where there is radiation.
+#pragma once
+
+#include "hwmodel/faults/heat_survival.h"
+#include "hwmodel/faults/planted.h"
+#include "hwmodel/stream/conduction_pass.h"
+
+namespace voxmelt::hwmodel {
+
+class ConductionFaults : public Planted {
+ public:
+  using Planted::Planted;
+
+  template <const auto& kPairs>
+  void conducted(ConductionPass<kPairs, ConductionFaults>& pass) {
+    if (pass.came().z == 0) return;
+    if (pass.kind() == StageKind::conduction && armed(pass, Fault::buffer_bit)) flip_bit(pass);
+    if (is_last(pass) && any_armed(pass)) misbehave(pass);
+  }
+
+ private:
+  template <const auto& kPairs>
+  using Pass = ConductionPass<kPairs, ConductionFaults>;
+
+  static bool is_last(const Stage& pass) {
+    const int neighbours = pass.design().parameters.heat.neighbours;
+    return pass.kind() == (neighbours >= 26   ? StageKind::corners
+                           : neighbours >= 18 ? StageKind::edges
+                                              : StageKind::conduction);
+  }
+  bool any_armed(const Stage& pass) const {
+    return armed(pass, Fault::conduction_sign) || armed(pass, Fault::conduction_dither) ||
+           armed(pass, Fault::conduction_stale_row) ||
+           (pass.kind() != StageKind::conduction && armed(pass, Fault::distant_wrong_axis));
+  }
+
+  // In the word that leaves the plane memory: the lowest bit of the amount that is 0 (a cell's energy may not
+  // exceed its amount, which therefore must not shrink).
+  template <const auto& kPairs>
+  void flip_bit(Pass<kPairs>& pass) {
+    for (int lane = 0; lane < pass.lanes(); ++lane) {
+      HeatWord& leaves = pass.word(kSouth, lane);
+      if (!leaves.matter() || leaves.amount == kAmountMax) continue;
+      leaves.amount = leaves.amount | (leaves.amount + 1);
+      return strike(pass, pass.came().x + lane, pass.came().y, pass.came().z - 1);
+    }
+  }
+
+  // Lets the fault strike the part of a flux that goes to the cell in the plane before. It may only do so
+  // where that cell is the first one in the stream that the end of the phase shows wrong: where no later pair
+  // carries the error to a cell before it, and the exchange does not hide it.
+  template <const auto& kPairs>
+  void misbehave(Pass<kPairs>& pass) {
+    const rule::Heat& heat = pass.design().parameters.heat;
+    const Place& came = pass.came();
+    for (int lane = 0; lane < pass.lanes(); ++lane)
+      for (std::size_t part = 0; part < kPairs.size(); ++part) {
+        const HeatPair pair = kPairs[part];
+        if (pair.q != kHere || !completes(pass, pair.p, lane)) continue;
+        const int x = came.x + lane - ((pair.p & kWest) != 0), y = came.y - ((pair.p & kBelow) != 0);
+        if (x < 0 || y < 0) continue;
+        HeatWord& p = pass.word(pair.p, lane);
+        const HeatWord& q = pass.word(kHere, lane);
+        if (!p.matter() || !q.matter() || (heat.convection > 0 && p.liquid())) continue;
+        const std::int64_t right = p.heat;
+        const std::int64_t wrong = right - pass.flux(p, q, pass.dither_[part]) + wrong_flux(pass, part, lane);
+        if (wrong == right || wrong < 0 || wrong > kHeatMax || !survives_exchange(heat, p, right, wrong))
+          continue;
+        p.heat = wrong;
+        return strike(pass, x, y, came.z - 1);
+      }
+  }
+
+  // Is the pair with the cell that comes the last of the cell p? Only then is it known what p will be.
+  static bool completes(const Stage& pass, unsigned p, int lane) {
+    const bool edges = pass.kind() == StageKind::edges;
+    switch (p) {
+      case kSouth:
+        return true;
+      case kSouth | kWest:
+        return edges && lane == 0;
+      case kSouth | kBelow:
+        return edges && lane + 1 < pass.lanes();
+      case kSouth | kWest | kBelow:
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  template <const auto& kPairs>
+  std::int64_t wrong_flux(Pass<kPairs>& pass, std::size_t part, int lane) {
+    const unsigned corner = kPairs[part].p;
+    const HeatWord &p = pass.word(corner, lane), &q = pass.word(kHere, lane);
+    const auto& dither = pass.dither_;
+    if (armed(pass, Fault::conduction_sign)) return -pass.flux(p, q, dither[part]);
+    if (armed(pass, Fault::conduction_dither)) return pass.flux(p, q, dither[(part + 1) % kPairs.size()]);
+    if (armed(pass, Fault::conduction_stale_row)) {
+      const bool same_token = lane > 0 && (corner & kWest) != 0;
+      const std::int64_t delay = corner_delay(pass.shape(), same_token ? corner & ~kWest : corner);
+      const HeatWord* row = pass.line_.tap(static_cast<std::size_t>(delay - 1));
+      const int from = (corner & kWest) == 0 ? lane : (lane + pass.lanes() - 1) % pass.lanes();
+      return pass.flux(row[from], q, dither[part]);
+    }
+    return pass.flux(p, pass.came().y > 0 ? pass.word(kBelow, lane) : q, dither[part]);
+  }
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,19 @@
+// Does a wrong heat inside the phase leave the phase wrong for certain?
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "hwmodel/stream/heat_word.h"
+
+namespace voxmelt::hwmodel {
+
+// Behind conduction and convection comes the exchange. Radiation adds at most 4096 to a solid and cuts at the
+// top; air can make two heats equal.
+inline bool survives_exchange(const rule::Heat& heat, const HeatWord& word, std::int64_t right,
+                              std::int64_t wrong) {
+  if (heat.air && word.exposed > 0) return false;
+  return !heat.radiation || word.liquid() || std::max(right, wrong) <= kHeatMax - 4096;
+}
+
+}  // namespace voxmelt::hwmodel

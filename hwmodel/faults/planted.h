@@ -1,0 +1,57 @@
+// What the fault policies of all stages share: is their fault armed, and where did it strike? Such a policy
+// stands in a stage in the place of NoFaults and is called at the points named there.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "hwmodel/channel/tap_line.h"
+#include "hwmodel/faults/faults.h"
+#include "hwmodel/stream/stage.h"
+
+namespace voxmelt::hwmodel {
+
+class Planted {
+ public:
+  explicit Planted(FaultPlan& plan) : plan_(&plan) {}
+
+ protected:
+  bool armed(const Stage& stage, Fault fault) const { return plan_->armed(fault, stage.step()); }
+
+  // The fault strikes; the first cell that leaves the stage wrong is the one at x, y, z ...
+  void strike(const Stage& stage, int x, int y, int z) {
+    plan_->strike({stage.name(), stage.step(), x, y, z});
+  }
+  // ... in this lane of a token ...
+  void strike_lane(const Stage& stage, const Place& place, int lane) {
+    strike(stage, place.x + lane, place.y, place.z);
+  }
+  // ... or the one that a word of the stage's line holds, of two the one that leaves first.
+  template <class Word>
+  void strike_word(const Stage& stage, TapLine<Word>& line, const Word& word) {
+    strike_at(stage, position_of(stage, line, word));
+  }
+  template <class Word>
+  void strike_first_word(const Stage& stage, TapLine<Word>& line, const Word& one, const Word& other) {
+    strike_at(stage, std::min(position_of(stage, line, one), position_of(stage, line, other)));
+  }
+
+ private:
+  // Where a word stands in the stream, in cells.
+  template <class Word>
+  static std::int64_t position_of(const Stage& stage, TapLine<Word>& line, const Word& word) {
+    std::size_t delay = 0;
+    while (&word < line.tap(delay) || &word >= line.tap(delay) + stage.lanes()) ++delay;
+    return (stage.came().ordinal - static_cast<std::int64_t>(delay)) * stage.lanes() +
+           (&word - line.tap(delay));
+  }
+  void strike_at(const Stage& stage, std::int64_t position) {
+    strike_lane(stage, place_of(stage.shape(), position / stage.lanes()),
+                static_cast<int>(position % stage.lanes()));
+  }
+
+  FaultPlan* plan_;
+};
+
+}  // namespace voxmelt::hwmodel

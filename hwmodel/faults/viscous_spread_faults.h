@@ -1,0 +1,34 @@
+// Flows inside the dead zone, with the dither of the next axis, or lost on their way.
+#pragma once
+
+#include "hwmodel/faults/planted.h"
+#include "hwmodel/stream/viscous_spread_stage.h"
+
+namespace voxmelt::hwmodel {
+
+class ViscousSpreadFaults : public Planted {
+ public:
+  using Planted::Planted;
+  using Faulty = ViscousSpread<ViscousSpreadFaults>;
+
+  void wanted(Faulty& stage, const SeenCell& from, const SeenCell& to, int axis, UInt<16>& amount) {
+    const bool rests = stage.rests(from, to, axis);
+    UInt<16> wrong = amount;
+    if (rests && armed(stage, Fault::viscous_dead_zone))
+      wrong = stage.wanted(from, to, axis, stage.dither_of_axis(axis));
+    if (!rests && armed(stage, Fault::viscous_dither))
+      wrong = stage.wanted(from, to, axis, stage.dither_of_axis((axis + 1) % 4));
+    if (wrong == amount) return;
+    amount = wrong;
+    strike_first_word(stage, stage.line_, *from.word, *to.word);
+  }
+
+  void moved(Faulty& stage, const SeenCell& from, const SeenCell& to, std::int64_t amount) {
+    if (!armed(stage, Fault::viscous_flow_lost)) return;
+    to.word->present = to.word->present - amount;
+    if (stage.hot_) to.word->content = to.word->content - amount * from.word->heat;
+    strike_word(stage, stage.line_, *to.word);
+  }
+};
+
+}  // namespace voxmelt::hwmodel

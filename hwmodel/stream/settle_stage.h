@@ -1,0 +1,87 @@
+// Phase `excess` of the viscous law (docs/automaton.md, section 10). A run's sums are known at its uppermost
+// cell, and are needed at its lowest one: so the column is turned round twice.
+#pragma once
+
+#include "hwmodel/channel/column_reverser.h"
+#include "hwmodel/stream/settle_scans.h"
+#include "hwmodel/stream/stage.h"
+
+namespace voxmelt::hwmodel {
+
+template <class Faults>
+class Settle final : public Stage {
+ public:
+  explicit Settle(const Design& design, Faults faults = {})
+      : Stage(StageKind::settle, design, 2 * design.shape.column() + 1),
+        faults_(faults),
+        hot_(design.hot()),
+        flow_(design.parameters.flow),
+        widths_(design),
+        height_(design.shape.column()),
+        sums_(size()),
+        records_(size()),
+        shows_(size()),
+        words_(size()),
+        turned_(size()),
+        downwards_(lanes(), height_),
+        upwards_(lanes(), height_) {}
+
+  int output_bits() const override {  // in_run, head, mobility, exposed, dead
+    return design().cell_bits() + 1 + widths_.head + 14 + 14 + 25;
+  }
+  std::vector<BufferCost> buffers() const override {
+    const std::int64_t bits = SettleWord::bits(widths_, hot_);
+    return {downwards_.cost("column reverser down", bits), upwards_.cost("column reverser up", bits)};
+  }
+
+  // Depth squared, the mobility, its table; with heat amount x heat and the mixture's rounding. Dividers:
+  // the limit and the dead zone, and the mixture; each is used once per run, at most every second cycle.
+  Units units() const override {
+    return {2 + (flow_.thermal_viscosity ? 1 : 0) + (hot_ ? 2 : 0), 2 + (hot_ ? 1 : 0), 0};
+  }
+
+ protected:
+  void begin_step() override {
+    dither_ = dither_of(step());
+    downwards_.restart();
+    upwards_.restart();
+    std::fill(sums_.begin(), sums_.end(), SumScan{});
+  }
+
+  void advance(const Cell* in, Cell* out) override {
+    const Cell border;
+    const bool bottom = came().y == 0;
+    for (std::size_t lane = 0; lane < size(); ++lane)
+      words_[lane] = sums_[lane].next(in != nullptr ? in[lane] : border, bottom, hot_, dither_);
+    faults_.summed(*this, in);
+    if (came().ordinal == 0) return;  // the scan looks one token ahead
+    downwards_.exchange(words_.data(), turned_.data());
+    if (came().ordinal <= height_) return;
+    for (std::size_t lane = 0; lane < size(); ++lane) words_[lane] = records_[lane].next(turned_[lane]);
+
+    if (out != nullptr) faults_.turned(*this);
+    upwards_.exchange(words_.data(), turned_.data());
+    if (out == nullptr) return;
+    for (std::size_t lane = 0; lane < size(); ++lane)
+      shows_[lane].next(turned_[lane], leaving().y, flow_, widths_, out[lane]);
+  }
+
+ private:
+  friend Faults;
+
+  std::size_t size() const { return static_cast<std::size_t>(lanes()); }
+
+  [[no_unique_address]] Faults faults_;
+  bool hot_;
+  const rule::Flow& flow_;
+  RunWidths widths_;
+  std::int64_t height_;
+  UInt<16> dither_;
+  std::vector<SumScan> sums_;
+  std::vector<RecordScan> records_;
+  std::vector<ShowScan> shows_;
+  std::vector<SettleWord> words_, turned_;
+  ColumnReverser<SettleWord> downwards_, upwards_;
+};
+
+}  // namespace voxmelt::hwmodel
