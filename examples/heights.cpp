@@ -2,6 +2,8 @@
 //   heights SCENE.toml STEPS > heights.pgm
 #include <voxmelt/voxmelt.h>
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <vector>

@@ -1,6 +1,7 @@
 // Melts a scene and prints the digest of its state: equal digests mean equal bits.
 //   melt SCENE.toml STEPS
 #include <voxmelt/voxmelt.h>
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 

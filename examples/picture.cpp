@@ -1,6 +1,7 @@
 // Draws a scene while it melts: picture_0.png, picture_1.png, ...
 //   picture SCENE.toml PICTURES STEPS_BETWEEN
 #include <voxmelt/voxmelt.h>
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <string>

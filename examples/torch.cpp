@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <numbers>
+#include <vector>
 
 int main(int argc, char** argv) try {
   if (argc != 3) return std::cerr << "torch SCENE.toml TURNS\n", 2;

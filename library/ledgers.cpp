@@ -1,3 +1,5 @@
+#include <string>
+
 #include "library/ledgers.h"
 
 namespace voxmelt {

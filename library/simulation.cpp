@@ -1,9 +1,12 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <memory>
+#include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/io/export.h"

@@ -1,7 +1,8 @@
 #include "library/sources.h"
 
+#include <cstdint>
 #include <memory>
-#include <string>
+#include <utility>
 
 #include "kernel/scene/parameter_readers.h"
 #include "kernel/scene/text/document.h"

@@ -37,7 +37,7 @@ class Simulation {
   void end_step() { ++steps_done_; }
 
   // Other point sources, vents and drains, between two steps. Vents and drains count from the next step on,
-  // point sources from the next step of visibility on (docs/automaton.md, "Visibility"): as if the scene had
+  // point sources from the next step of visibility on (docs/automaton.md, section 5): as if the scene had
   // said so from the start. The caller has checked their ranges; sources need a scene with heat.
   struct Sources {
     std::vector<rule::PointSource> points;

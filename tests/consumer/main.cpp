@@ -1,5 +1,6 @@
 // consumer SCENE STEPS: the line that `voxmelt digest` prints, by the library.
 #include <voxmelt/voxmelt.h>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

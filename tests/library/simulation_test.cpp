@@ -1,7 +1,18 @@
 // The public face: what it gives is what the rooms inside give, and its errors are its own.
 #include <array>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <ios>
+#include <iterator>
 #include <limits>
+#include <new>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "library/ledgers.h"
 #include "library/translate.h"

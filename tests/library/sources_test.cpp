@@ -1,7 +1,11 @@
 // Sources, vents and drains that a user changes between steps: the bits of a scene that said so from the
 // start, for every implementation; and nothing out of range passes.
-#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/library/scene_file.h"
 

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <voxmelt/state.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace voxmelt {

@@ -1,5 +1,10 @@
 // Sources, vents and drains that are changed between steps: the same bits as a scene that said so from the
 // start, by keyframes and by from and until. Every implementation, threads, asleep and awake.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "tests/kernel/engine/parallel/equal.h"
 
 namespace voxmelt::run {

@@ -2,10 +2,14 @@
 // the reference behind a wall: it hides its state, and counts what is asked of it.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "kernel/automaton/state/digest.h"
 #include "kernel/engine/scalar/reference.h"
