@@ -67,7 +67,7 @@ TABLE = {
     "string_view": "string_view",
     "system_error": "errc error_code generic_category make_error_code system_category system_error",
     "thread": "jthread stop_token this_thread thread",
-    "tuple": "apply forward_as_tuple get ignore make_tuple tie tuple tuple_element tuple_size",
+    "tuple": "apply forward_as_tuple get ignore make_tuple tie tuple tuple_cat tuple_element tuple_element_t tuple_size tuple_size_v",
     "type_traits": "common_type_t conditional_t decay_t enable_if_t false_type integral_constant invoke_result_t is_arithmetic_v is_base_of_v "
                    "is_const_v is_constant_evaluated is_enum_v is_floating_point_v is_integral_v is_invocable_v is_same_v is_signed_v "
                    "is_trivially_copyable_v is_trivially_destructible_v is_unsigned_v is_void_v make_signed_t make_unsigned_t remove_const_t "
@@ -90,7 +90,7 @@ for header, names in TABLE.items():
 HEADERS.update({"abs": ["cmath", "cstdlib"], "get": ["tuple", "utility", "array", "variant"], "ios": ["ios", "fstream"],
                 "erase": ["vector", "string", "deque"], "erase_if": ["vector", "string", "map", "set", "deque", "unordered_map"],
                 "ostream": ["ostream", "iostream", "sstream", "fstream"], "flush": ["ostream", "iostream"], "endl": ["ostream", "iostream"],
-                "remove": ["cstdio", "algorithm"], "hex": ["ios", "iostream"], "dec": ["ios", "iostream"], "tuple_size": ["tuple", "utility", "array"], "swap": ["utility"]})
+                "remove": ["cstdio", "algorithm"], "hex": ["ios", "iostream"], "dec": ["ios", "iostream"], "tuple_size": ["tuple", "utility", "array"], "tuple_size_v": ["tuple", "utility", "array"], "swap": ["utility"]})
 CHECKED = set(TABLE) | set(PLAIN.values())
 
 DROPPED = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.S)

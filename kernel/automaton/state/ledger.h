@@ -4,6 +4,7 @@
 // balances when start + all terms = what the state holds, to the unit.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "kernel/automaton/state/ledger_terms.h"

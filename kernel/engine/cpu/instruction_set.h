@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "kernel/engine/cpu/instruction_set_table.h"

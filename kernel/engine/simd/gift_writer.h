@@ -1,6 +1,9 @@
 // Phase `spread` of the paper's law: what cells give to a direction (Eqs. 9, 10), written into the gifts.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/simd/contact.h"
 #include "kernel/engine/simd/features.h"
 

@@ -1,6 +1,8 @@
 // The work of `pattern` on a tile row, cut into items of two vectors each: those with a cell that may give.
 #pragma once
 
+#include <cstdint>
+
 #include "kernel/engine/simd/openness.h"
 
 namespace voxmelt::simd {

@@ -2,6 +2,9 @@
 // concerned (Eqs. 7, 8).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/gift_writer.h"
 

@@ -2,7 +2,6 @@
 // those parts of 64 columns that have one. Plain loops over lanes, for the compiler to vectorise.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "kernel/engine/cpu/lanes.h"
