@@ -1,6 +1,8 @@
 // Flows that get lost or are not quartered, and the friction of the wrong ground.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 
 #include "hwmodel/faults/planted.h"

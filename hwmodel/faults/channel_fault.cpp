@@ -1,6 +1,7 @@
 #include "hwmodel/faults/channel_fault.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace voxmelt::hwmodel {

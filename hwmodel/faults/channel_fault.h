@@ -2,6 +2,8 @@
 // strike. It strikes the first token in which it makes a difference.
 #pragma once
 
+#include <cstdint>
+
 #include "hwmodel/faults/faults.h"
 #include "hwmodel/stream/pipeline.h"
 

@@ -3,6 +3,9 @@
 // cell at air that is exchanged with, and far from the hottest where there is radiation.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "hwmodel/faults/heat_survival.h"
 #include "hwmodel/faults/planted.h"
 #include "hwmodel/stream/conduction_pass.h"

@@ -1,6 +1,8 @@
 // Heat that rises into the warmer cell.
 #pragma once
 
+#include <cstdint>
+
 #include "hwmodel/faults/heat_survival.h"
 #include "hwmodel/faults/planted.h"
 #include "hwmodel/stream/convection_stage.h"

@@ -1,6 +1,9 @@
 // The irradiance of the wrong lane, one exposed axis too few.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 #include "hwmodel/faults/planted.h"
 #include "hwmodel/stream/exchange_stage.h"
 

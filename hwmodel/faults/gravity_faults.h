@@ -1,6 +1,9 @@
 // Falls that take or bring the wrong amount or heat, and a counter of heights that wraps late.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 #include "hwmodel/faults/planted.h"
 #include "hwmodel/stream/gravity_stage.h"
 

@@ -1,6 +1,7 @@
 // Directions that should not be open, and the random byte of the next cell.
 #pragma once
 
+#include <cstdint>
 #include <map>
 
 #include "hwmodel/faults/planted.h"

@@ -1,5 +1,7 @@
 #include "hwmodel/faults/planted_stages.h"
 
+#include <memory>
+
 #include "hwmodel/faults/apply_faults.h"
 #include "hwmodel/faults/conduction_faults.h"
 #include "hwmodel/faults/convection_faults.h"

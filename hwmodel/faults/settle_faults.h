@@ -1,7 +1,10 @@
 // Runs that end too early or lose a bit of their sum, and columns that leave upside down.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "hwmodel/faults/planted.h"

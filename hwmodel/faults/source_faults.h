@@ -1,6 +1,9 @@
 // Vents that add too much, drains that leave too much energy: strikes where the treated cell shows it.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 #include "hwmodel/faults/planted.h"
 #include "hwmodel/stream/source_stage.h"
 

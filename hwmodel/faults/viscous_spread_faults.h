@@ -1,6 +1,8 @@
 // Flows inside the dead zone, with the dither of the next axis, or lost on their way.
 #pragma once
 
+#include <cstdint>
+
 #include "hwmodel/faults/planted.h"
 #include "hwmodel/stream/viscous_spread_stage.h"
 

@@ -1,7 +1,6 @@
 #include "hwmodel/lockstep/expectation.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <utility>
 

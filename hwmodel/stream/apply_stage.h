@@ -3,7 +3,12 @@
 // others. Between, it waits as it came, with the sums of what has arrived from the south beside it.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "hwmodel/stream/paper_flow.h"
 #include "hwmodel/stream/paper_window.h"

@@ -1,6 +1,8 @@
 // What travels through the pipeline: one word per cell, P of them (neighbours along x) per token and cycle.
 #pragma once
 
+#include <cstdint>
+
 #include "hwmodel/channel/wires.h"
 
 namespace voxmelt::hwmodel {

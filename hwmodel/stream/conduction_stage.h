@@ -3,6 +3,9 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "hwmodel/stream/conduction_pass.h"
 

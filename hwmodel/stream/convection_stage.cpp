@@ -1,5 +1,7 @@
 #include "hwmodel/stream/convection_stage.h"
 
+#include <memory>
+
 #include "hwmodel/stream/make_stages.h"
 
 namespace voxmelt::hwmodel {

@@ -1,6 +1,9 @@
 // Convection: warmer liquid below gives heat to colder liquid above. The cell above comes right after.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "hwmodel/stream/heat_word.h"
 #include "hwmodel/stream/stage.h"
 

@@ -2,6 +2,12 @@
 // stream, and the air at its exposed axes.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "hwmodel/stream/stage.h"
 
 namespace voxmelt::hwmodel {

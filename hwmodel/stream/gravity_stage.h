@@ -3,6 +3,11 @@
 // cell: two comparisons, a product, and with heat a division (docs/automaton.md, section 8).
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "hwmodel/stream/stage.h"
 
 namespace voxmelt::hwmodel {

@@ -4,7 +4,6 @@
 // more than the whole bound of docs/proofs.md, "Heat: 0 <= h <= 65535".
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "hwmodel/stream/stage.h"

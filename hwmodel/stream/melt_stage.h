@@ -1,6 +1,8 @@
 // Melting: hot solids become liquid; with the extra `reheat` hot liquid gains energy.
 #pragma once
 
+#include <cstdint>
+
 #include "hwmodel/stream/stage.h"
 
 namespace voxmelt::hwmodel {

@@ -3,6 +3,11 @@
 // gets nothing; behind the plane memory they are computed once more, which is cheaper than to keep them.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "hwmodel/stream/paper_flow.h"
 #include "hwmodel/stream/paper_window.h"
 #include "hwmodel/stream/random_block.h"

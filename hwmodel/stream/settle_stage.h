@@ -2,6 +2,11 @@
 // cell, and are needed at its lowest one: so the column is turned round twice.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "hwmodel/channel/column_reverser.h"
 #include "hwmodel/stream/settle_scans.h"
 #include "hwmodel/stream/stage.h"

@@ -1,6 +1,10 @@
 // Vents and drains. All that are open act on a cell one after another while it passes.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
 #include "hwmodel/stream/stage.h"
 
 namespace voxmelt::hwmodel {

@@ -1,8 +1,8 @@
-#include <utility>
 
 #include "hwmodel/stream/stages.h"
 
 #include <stdexcept>
+#include <string>
 
 #include "hwmodel/stream/make_stages.h"
 

@@ -3,6 +3,12 @@
 // beside it, q with SW, and W with S. Each pair is computed once and booked at both cells, in the taps.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "hwmodel/stream/run_reader.h"
 #include "hwmodel/stream/stage.h"
 

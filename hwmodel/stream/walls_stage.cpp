@@ -1,6 +1,9 @@
 // Finds the cells that stand beside a wall: one of their four sides is blocked, the border included. Gravity
 // needs it, and has no window of its own across columns. Only without heat: else conduction finds them.
 #include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <vector>
 
 #include "hwmodel/stream/make_stages.h"
 

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <utility>
 
 #include "tests/hwmodel/phase_world.h"
 

@@ -1,5 +1,7 @@
 // The kinds of stages: their names and phases are those of docs/hardware.md, and only stages of a time step
 // can be made.
+
+#include <stdexcept>
 #include <type_traits>
 
 #include "tests/hwmodel/stage_run.h"

@@ -1,5 +1,11 @@
 // Each planted fault of settle and viscous spread strikes, and the first cell in stream order that leaves its
 // phase wrong is the one that it notes.
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
 #include "hwmodel/faults/planted_stages.h"
 #include "tests/hwmodel/viscous_worlds.h"
 
