@@ -11,7 +11,7 @@
 int main(int argc, char** argv) try {
   if (argc != 3) return std::cerr << "heights SCENE.toml STEPS > heights.pgm\n", 2;
   voxmelt::Simulation simulation(argv[1]);
-  simulation.step(static_cast<std::uint32_t>(std::atol(argv[2])));
+  simulation.step(static_cast<std::uint32_t>(std::atoi(argv[2])));
 
   const voxmelt::State state = simulation.state();
   const voxmelt::Grid grid = state.grid;

@@ -2,36 +2,28 @@
 
 #include "library/ledgers.h"
 
+#include <string>
+
 namespace voxmelt {
+namespace {
+
+template <template <class> class Terms>
+Ledger to_ledger(const state::LedgerOf<Terms>& ledger, Sum held) {
+  Ledger result{ledger.start, {}, held};
+  for (const auto& term : Terms<Sum>::table())
+    result.terms.push_back({std::string(term.name), term.sign * (ledger.*term.value)});
+  return result;
+}
+
+}  // namespace
 
 std::string to_string(Sum value) { return state::to_string(value); }
 
 namespace library {
 
 Ledgers to_ledgers(const state::Ledger& ledger, const state::Holdings& held) {
-  const state::MassLedger& m = ledger.mass;
-  const state::EnergyLedger& e = ledger.energy;
-  const state::HeatLedger& h = ledger.heat;
-  return {{m.start, {{"added", m.added}, {"removed", -m.removed}}, held.solid + held.liquid},
-          {e.start,
-           {{"melted", e.melted},
-            {"added", e.added},
-            {"removed", -e.removed},
-            {"reheated", e.reheated},
-            {"accelerated", e.accelerated},
-            {"dissipated", -e.dissipated},
-            {"capped", -e.capped}},
-           held.energy},
-          {h.start,
-           {{"conducted", h.conducted},
-            {"convected", h.convected},
-            {"radiated", h.radiated},
-            {"warmed", h.warmed},
-            {"cooled", -h.cooled},
-            {"added", h.added},
-            {"removed", -h.removed},
-            {"rounded", h.rounded}},
-           held.heat}};
+  return {to_ledger(ledger.mass, held.solid + held.liquid), to_ledger(ledger.energy, held.energy),
+          to_ledger(ledger.heat, held.heat)};
 }
 
 }  // namespace library

@@ -8,7 +8,7 @@
 
 int main(int, char** argv) {
   voxmelt::Simulation simulation(std::filesystem::path(SCENES) / (std::string(argv[1]) + ".toml"));
-  simulation.step(static_cast<std::uint32_t>(std::atol(argv[2])));
+  simulation.step(static_cast<std::uint32_t>(std::atoi(argv[2])));
   const voxmelt::State state = simulation.state();
   std::printf("step %u digest %016llx mass %s solid %zu liquid %zu\n", simulation.steps_done(),
               static_cast<unsigned long long>(simulation.digest()),

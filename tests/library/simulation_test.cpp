@@ -110,9 +110,13 @@ TEST_F(Library, LedgersAddUpToWhatIsThere) {
 // Section 12 says which terms are subtracted.
 TEST_F(Library, TermsHaveTheirSigns) {
   state::Ledger ledger;
-  ledger.mass = {.start = 1, .added = 2, .removed = 3};
-  ledger.energy = {1, 2, 3, 4, 5, 6, 7, 8};
-  ledger.heat = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  ledger.mass.start = ledger.energy.start = ledger.heat.start = 1;
+  ledger.mass.added = 2, ledger.mass.removed = 3;
+  state::EnergyLedger& e = ledger.energy;
+  e.melted = 2, e.added = 3, e.removed = 4, e.reheated = 5, e.accelerated = 6, e.dissipated = 7, e.capped = 8;
+  state::HeatLedger& h = ledger.heat;
+  h.conducted = 2, h.convected = 3, h.radiated = 4, h.warmed = 5, h.cooled = 6, h.added = 7, h.removed = 8;
+  h.rounded = 9;
   const Ledgers books = library::to_ledgers(ledger, {.solid = 10, .liquid = 20, .energy = 30, .heat = 40});
   const auto text = [](const Ledger& one) {
     std::string all = to_string(one.start) + " ";
