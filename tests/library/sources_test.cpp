@@ -133,7 +133,7 @@ TEST_F(Sources, WhatASceneMayNotSayIsRefusedAndNothingChanges) {
   refused([&](Vent& v) { v.temperature = -0.1; });
   refused([&](Vent& v) { v.temperature = 1.1; });
   refused([&](Vent& v) { v.energy = 1.5; });
-  refused([&](Vent& v) { v.energy = HUGE_VAL; });
+  refused([&](Vent& v) { v.energy = std::numeric_limits<double>::infinity(); });
   refused([&](Vent& v) { v.from = v.until = 7; });
   good.rate = 2;
   EXPECT_EQ(message_of<InputError>([&] { simulation.set_vents({good}); }),
