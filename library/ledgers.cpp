@@ -1,5 +1,3 @@
-#include <string>
-
 #include "library/ledgers.h"
 
 #include <string>
