@@ -7,6 +7,7 @@
 #include <string>
 #include <system_error>
 
+#include "accuracy/case.h"
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/resources.h"
@@ -51,6 +52,11 @@ int list_features() {
   return kDone;
 }
 
+int list_cases() {
+  for (const accuracy::Case& one : accuracy::all_cases()) fmt::print("{:<24} {}\n", one.name, one.title);
+  return kDone;
+}
+
 int list_faults() {
   for (const hwmodel::FaultInfo& fault : hwmodel::all_faults())
     fmt::print("{:<24} {:<14} {}\n", fault.name, fault.stage, fault.what);
@@ -72,16 +78,18 @@ int list_presets() {
 void add_list(CLI::App& program, Chosen& chosen) {
   auto what = std::make_shared<std::string>();
   CLI::App* command = program.add_subcommand(
-      "list", "Name the implementations, scenes, features, presets or faults of this build");
+      "list", "Name the implementations, scenes, features, cases, presets or faults of this build");
   command
-      ->add_option("what", *what,
-                   "implementations, scenes, features, presets (hardware) or faults (to plant)")
+      ->add_option(
+          "what", *what,
+          "implementations, scenes, features, cases (of accuracy), presets (hardware) or faults (to plant)")
       ->required()
-      ->check(CLI::IsMember({"implementations", "scenes", "features", "presets", "faults"}));
+      ->check(CLI::IsMember({"implementations", "scenes", "features", "cases", "presets", "faults"}));
   command->callback([what, &chosen] {
     chosen = [what] {
       if (*what == "implementations") return list_implementations();
       if (*what == "scenes") return list_scenes();
+      if (*what == "cases") return list_cases();
       if (*what == "presets") return list_presets();
       if (*what == "faults") return list_faults();
       return list_features();

@@ -28,6 +28,7 @@ constexpr const char* kIntroduction =
     "  voxmelt verify lava --from 400 --set hw.lanes=16     the hardware model in lock-step with the "
     "software\n"
     "  voxmelt bench --quick                how fast, and how near to what this machine can do\n"
+    "  voxmelt accuracy --quick             how well, against what mathematics says\n"
     "  voxmelt list scenes\n\n"
     "A scene is a TOML file; docs/scenes.md explains its keys. Exit codes: 0 done, 1 a check failed,\n"
     "2 bad usage or input, 3 out of memory or disk.";
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
     app::add_export(program, chosen);
     app::add_render(program, chosen);
     app::add_bench(program, chosen);
+    app::add_accuracy(program, chosen);
     app::add_verify(program, chosen);
     app::add_list(program, chosen);
     if (argc > 1) check_subcommand(program, argv[1]);

@@ -15,7 +15,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-TOPS = "kernel|render|hwmodel|library|include|examples|app|bench|tests|scenes|docs|cmake"
+TOPS = "kernel|render|hwmodel|library|include|examples|app|bench|accuracy|tests|scenes|docs|cmake"
 COLUMNS, README_LINES, SENTENCE_WORDS, DECISION_LINES = 100, 90, 30, 40
 
 

@@ -43,12 +43,15 @@ ALLOWED = {
     "bench/baseline": [PARAMETERS, STATE],
     "bench/measure": ["bench/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
                       "kernel/run", "render/density"],
+    # The judge sees states and scenes, never a rule.
+    "accuracy": [STATE, STEP, "kernel/scene", "kernel/run", "bench/measure"],
+    "accuracy/report": ["accuracy"],
     # What strangers include: the standard library only.
     "include/voxmelt": [],
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
                 "render/density", "render/image", "render/raycast"],
     "examples": ["include/voxmelt"],
-    "app": [CPU, "bench/measure", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
+    "app": [CPU, "accuracy", "accuracy/report", "bench/measure", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
             "kernel/run/io", "render/density", "render/image", "render/raycast"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.
@@ -61,13 +64,14 @@ THIRD_PARTY = {
     "png.h": ["render/image"],
     "CLI/": ["app"],
     "benchmark/": ["bench"],
-    "nlohmann/": ["kernel/run/io", "hwmodel/lockstep", "bench/measure", "app"],
-    "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/lockstep", "bench/measure", "app"],
+    "nlohmann/": ["accuracy/report", "kernel/run/io", "hwmodel/lockstep", "bench/measure", "app"],
+    "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/lockstep", "bench/measure", "accuracy",
+             "accuracy/report", "app"],
 }
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
-TOPS = ("kernel", "render", "hwmodel", "app", "bench", "include", "library", "examples")
+TOPS = ("kernel", "render", "hwmodel", "app", "bench", "accuracy", "include", "library", "examples")
 STANDARD_ONLY = (RULE, "include/voxmelt")
 
 

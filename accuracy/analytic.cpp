@@ -1,0 +1,95 @@
+#include "accuracy/analytic.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace voxmelt::accuracy {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// The root of a function that grows from below 0 at `low`.
+template <class Function>
+double bisect(double low, double high, const Function& function) {
+  for (int i = 0; i < 200; ++i) {
+    const double middle = (low + high) / 2;
+    (function(middle) < 0 ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+// Integral of (1 - s^2)^(1/3) over 0..1.
+double plane_profile_area() { return std::sqrt(kPi) / 2 * std::tgamma(4.0 / 3) / std::tgamma(11.0 / 6); }
+
+}  // namespace
+
+double diffusivity(double gamma, int neighbours) {
+  return gamma / kPi * (neighbours == 6 ? 1 : neighbours == 18 ? 3 : 13.0 / 3);
+}
+
+double stefan_lambda(double stefan) {
+  return bisect(0, 10, [&](double lambda) {
+    return lambda * std::exp(lambda * lambda) * std::erf(lambda) - stefan / std::sqrt(kPi);
+  });
+}
+
+double stefan_lambda(double stefan, double stefan_solid) {
+  return bisect(1e-9, 5, [&](double lambda) {
+    const double gauss = std::exp(-lambda * lambda);
+    return lambda * std::sqrt(kPi) - stefan * gauss / std::erf(lambda) +
+           stefan_solid * gauss / std::erfc(lambda);
+  });
+}
+
+double stefan_temperature(double x, double time, double diffusivity, double stefan, double stefan_solid) {
+  const double lambda = stefan_lambda(stefan, stefan_solid);
+  const double at = x / (2 * std::sqrt(diffusivity * time));
+  if (at < lambda) return 1 - std::erf(at) / std::erf(lambda);
+  return -stefan_solid / stefan * (1 - std::erfc(at) / std::erfc(lambda));
+}
+
+double slab_temperature(double x, double time, double diffusivity, double depth) {
+  double sum = 0;
+  for (int n = 0; n < 200; ++n) {
+    const double k = (n + 0.5) * kPi / depth;
+    sum += 2 / (k * depth) * std::sin(k * x) * std::exp(-diffusivity * k * k * time);
+  }
+  return 1 - sum;
+}
+
+double Drop::front(double time) const {
+  const double constant = std::pow(1024 / (81 * kPi * kPi * kPi), 0.125);
+  return constant * std::pow(kappa * volume * volume * volume / 3 * time, 0.125);
+}
+double Drop::rms_radius(double time) const { return front(time) * std::sqrt(3.0 / 7); }
+double Drop::height(double radius, double time) const {
+  const double end = front(time), s = radius / end;
+  return s < 1 ? 4 * volume / (3 * kPi * end * end) * std::cbrt(1 - s * s) : 0;
+}
+double Drop::time_of_front(double wanted) const { return std::pow(wanted / front(1), 8); }
+
+double Dam::front(double time) const {
+  const double constant = std::pow(std::cbrt(0.3) * plane_profile_area(), -0.6);
+  return constant * std::pow(kappa * area * area * area / 3 * time, 0.2);
+}
+double Dam::height(double x, double time) const {
+  const double end = front(time), s = x / end;
+  return s < 1 ? area / (end * plane_profile_area()) * std::cbrt(1 - s * s) : 0;
+}
+double Dam::time_of_front(double wanted) const { return std::pow(wanted / front(1), 5); }
+
+double flux_front(double kappa, double flux, double time) {
+  return 0.715 * std::pow(kappa * flux * flux * flux / 3, 0.125) * std::sqrt(time);
+}
+
+double nusselt(double slope) {
+  const double stretch = 1 + slope * slope;
+  return slope / (stretch * stretch);
+}
+
+double ball_intercepts(double radius, double distance) {
+  const double sine = radius / distance;
+  return 2 * kPi * (1 - std::sqrt(1 - sine * sine));
+}
+
+}  // namespace voxmelt::accuracy

@@ -1,0 +1,79 @@
+// A case: one question to the automaton that mathematics has answered, and what was found.
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/automaton/step/stepper.h"
+
+namespace voxmelt::accuracy {
+
+// How the cases are run. No result but the speeds depends on `implementation` and `threads`.
+struct Conditions {
+  const step::Implementation* implementation = nullptr;
+  int threads = 1;
+  bool quick = false;             // small grids and few settings: all cases in less than a minute
+  std::vector<std::string> sets;  // --set, applied to the scene of every run after the case's own
+  std::filesystem::path scenes;   // folder with the cases' scenes
+  bool baseline = true;           // also time the plain baseline
+};
+
+struct Speed {
+  double cells_per_second = 0;                        // cells of the grid x steps, over seconds of the steps
+  std::optional<double> baseline_cells_per_second{};  // of the paper's program on the same start
+  int state_bits = 0;                                 // of a cell, as the run's law needs them
+};
+
+enum class Measure { relative, absolute };
+
+// One number beside its exact value. The gate is a bar on |error|; without one the row only reports.
+struct Row {
+  std::string setting{}, quantity{};
+  double value = 0, exact = 0;
+  Measure measure = Measure::relative;
+  std::optional<double> gate{};
+  std::string note{};  // a sentence, where the number needs one
+  Speed speed{};
+
+  // value / exact - 1, or value - exact.
+  double error() const { return measure == Measure::relative ? value / exact - 1 : value - exact; }
+  bool passed() const { return !gate || std::abs(error()) <= *gate; }  // false for what is not a number
+};
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+struct Curve {
+  std::string name{};
+  std::vector<Point> points{};
+  bool exact = false;  // drawn as a line; what was measured, as dots
+};
+
+struct Chart {
+  std::string title{}, x_label{}, y_label{};
+  std::vector<Curve> curves{};
+  bool logarithmic_x = false, logarithmic_y = false;
+};
+
+struct Outcome {
+  std::vector<Row> rows{};
+  std::vector<Chart> charts{};
+};
+
+struct Case {
+  std::string name;    // of --case
+  std::string family;  // a heading of the report
+  std::string title;   // one line of `voxmelt list cases`
+  std::string about;   // what is run, what is compared with what
+  Outcome (*measure)(const Conditions&);
+};
+
+// All cases, in the order of the report.
+const std::vector<Case>& all_cases();
+
+}  // namespace voxmelt::accuracy

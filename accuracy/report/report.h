@@ -1,0 +1,41 @@
+// What is written about the cases: a JSON file, a table of comma-separated values, a page, and a summary.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "accuracy/case.h"
+
+namespace voxmelt::accuracy {
+
+struct Found {
+  const Case* one = nullptr;
+  Outcome outcome;
+  double seconds = 0;
+};
+
+struct Report {
+  std::string version, implementation;
+  int threads = 1;
+  bool quick = false;
+  std::vector<std::string> sets;
+  std::vector<Found> found;
+
+  bool passed() const;
+  int gates() const;   // rows that have a gate
+  int missed() const;  // and do not pass it
+};
+
+// "heat_kernel/6 neighbours, gamma 0.3" is the full name of a row: case and setting.
+std::string json_text(const Report& report);
+std::string csv_text(const Report& report);
+std::string html_text(const Report& report);
+std::string markdown_text(const Report& report);
+
+// A number with as many digits as a reader wants; "1.25 %" for relative errors.
+std::string number_text(double value);
+std::string error_text(const Row& row);
+std::string gate_text(const Row& row);            // "1 %"; "reported" without a gate
+std::string speed_text(double cells_per_second);  // "12.5 M"
+
+}  // namespace voxmelt::accuracy

@@ -1,0 +1,39 @@
+// One run of a case: a committed scene, its start state, and how fast it ran.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "accuracy/case.h"
+#include "kernel/run/simulation.h"
+#include "kernel/scene/scene.h"
+
+namespace voxmelt::accuracy {
+
+class Trial {
+ public:
+  using Fill = std::function<void(state::Volume& empty)>;
+
+  // `scene`: a file of the cases' folder without its suffix; `sets`: "path.to.key=value", as of --set.
+  // `fill` writes the start state into an empty grid; without it the scene's own shapes are the start.
+  // Throws scene::InputError where the scene is refused.
+  Trial(const Conditions& conditions, const std::string& scene, std::vector<std::string> sets,
+        const Fill& fill = {});
+
+  void run_to(std::uint32_t step);  // steps done since the start
+  std::uint32_t steps() const { return simulation_->steps_done(); }
+  const state::Volume& volume() const { return simulation_->volume(); }
+  const run::Simulation& simulation() const { return *simulation_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  // Throws std::runtime_error where a ledger does not balance: such a run says nothing.
+  Speed speed() const;
+
+ private:
+  std::unique_ptr<run::Simulation> simulation_;
+  std::vector<std::string> warnings_;
+  std::optional<double> baseline_;
+};
+
+}  // namespace voxmelt::accuracy

@@ -1,0 +1,128 @@
+// voxmelt accuracy: how well the automaton does physics, against answers that mathematics gives.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <iostream>
+
+#include "accuracy/case.h"
+#include "accuracy/report/report.h"
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/options.h"
+#include "app/version.h"
+#include "kernel/run/io/output_folder.h"
+
+namespace voxmelt::app {
+namespace {
+
+namespace fs = std::filesystem;
+using accuracy::Case;
+
+struct AccuracyOptions {
+  Common common;
+  std::vector<std::string> cases;
+  std::string out;
+  bool quick = false;
+};
+
+fs::path scenes_of_cases() {
+  for (const fs::path& folder : scene_folders())
+    if (fs::is_directory(folder / "accuracy")) return folder / "accuracy";
+  throw UsageError("error: the scenes of the cases, scenes/accuracy, are not there");
+}
+
+std::vector<const Case*> chosen_cases(const std::vector<std::string>& names) {
+  std::vector<const Case*> chosen;
+  for (const Case& one : accuracy::all_cases())
+    if (names.empty() || std::find(names.begin(), names.end(), one.name) != names.end())
+      chosen.push_back(&one);
+  for (const std::string& name : names)
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const Case* one) { return one->name == name; }))
+      throw UsageError(
+          fmt::format("--case {}: error: unknown; `voxmelt list cases` names those that there are", name));
+  return chosen;
+}
+
+void print_rows(const accuracy::Found& found) {
+  fmt::print("{}: {}\n", found.one->name, found.one->title);
+  for (const accuracy::Row& row : found.outcome.rows) {
+    const auto& baseline = row.speed.baseline_cells_per_second;
+    fmt::print("  {:<40} {:>10} {:>10} {:>9} {:>9} {:<7} {:>7} {:>9}  {}\n", row.setting,
+               accuracy::number_text(row.value), accuracy::number_text(row.exact), accuracy::error_text(row),
+               accuracy::gate_text(row),
+               !row.gate      ? ""
+               : row.passed() ? "passed"
+                              : "MISSED",
+               accuracy::speed_text(row.speed.cells_per_second),
+               baseline ? accuracy::speed_text(*baseline) : "-",
+               row.quantity + (row.note.empty() ? "" : " (" + row.note + ")"));
+  }
+  std::fflush(stdout);
+}
+
+int run_accuracy(const AccuracyOptions& options) {
+  const Common& common = options.common;
+  accuracy::Conditions conditions;
+  conditions.implementation = &find_implementation(common);
+  conditions.threads = thread_count(common);
+  conditions.quick = options.quick;
+  conditions.sets = common.sets;
+  if (common.seed) conditions.sets.push_back(fmt::format("run.seed={}", *common.seed));
+  conditions.scenes = scenes_of_cases();
+  const std::vector<const Case*> cases = chosen_cases(options.cases);
+  check_report_place(common, options.out);
+  std::optional<io::OutputFolder> out;
+  if (!options.out.empty()) out.emplace(options.out);
+  catch_interrupts();
+
+  accuracy::Report report{.version = version_text(),
+                          .implementation = conditions.implementation->name,
+                          .threads = conditions.threads,
+                          .quick = options.quick,
+                          .sets = conditions.sets,
+                          .found = {}};
+  fmt::print("{:<42} {:>10} {:>10} {:>9} {:>9} {:<7} {:>7} {:>9}\n", "", "value", "exact", "error", "gate",
+             "", "Mcell/s", "baseline");
+  for (const Case* one : cases) {
+    const auto start = std::chrono::steady_clock::now();
+    accuracy::Found found{one, one->measure(conditions), 0};
+    found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    print_rows(found);
+    report.found.push_back(std::move(found));
+    stop_if_interrupted();
+  }
+  fmt::print("{} of {} gates passed\n", report.gates() - report.missed(), report.gates());
+
+  const std::string json = accuracy::json_text(report);
+  write_report(common, json);
+  if (out) {
+    io::write_file(out->partial() / "accuracy.json", json);
+    io::write_file(out->partial() / "accuracy.csv", accuracy::csv_text(report));
+    out->commit();
+    if (!common.quiet) fmt::print("page, tables and report  {}/\n", fs::proximate(out->place()).string());
+  }
+  return report.passed() ? kDone : kCheckFailed;
+}
+
+}  // namespace
+
+void add_accuracy(CLI::App& program, Chosen& chosen) {
+  auto options = std::make_shared<AccuracyOptions>();
+  CLI::App* command = program.add_subcommand(
+      "accuracy", "The physics: errors against analytic answers, with the bar that each must keep");
+  command->add_flag("--quick", options->quick, "small cases only: less than a minute");
+  command
+      ->add_option("--case", options->cases, "this case only (repeatable); `voxmelt list cases` names them")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command->add_option("--out", options->out,
+                      "folder for accuracy.html, accuracy.md, accuracy.csv and accuracy.json");
+  add_common(*command, options->common);
+  command->footer(
+      "Each case runs a scene of scenes/accuracy and compares with what mathematics says of it.\n"
+      "Ends with 1 where an error is larger than its gate. Baseline: the paper's program, plainly written,\n"
+      "on the same start; for a scene of the viscous law it runs the paper's law.");
+  command->callback([options, &chosen] { chosen = [options] { return run_accuracy(*options); }; });
+}
+
+}  // namespace voxmelt::app

@@ -1,0 +1,97 @@
+// The exact answers against published numbers, and against the equations that they solve.
+#include "accuracy/analytic.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace voxmelt::accuracy {
+namespace {
+
+// Lambda of the one-phase problem, to six digits, as tables have it.
+TEST(Analytic, StefanLambda) {
+  EXPECT_NEAR(stefan_lambda(0.041), 0.142215, 1e-6);
+  EXPECT_NEAR(stefan_lambda(0.1), 0.220016, 1e-6);
+  EXPECT_NEAR(stefan_lambda(0.5), 0.464786, 1e-6);
+  EXPECT_NEAR(stefan_lambda(1), 0.620063, 1e-6);
+  EXPECT_NEAR(stefan_lambda(2), 0.800601, 1e-6);
+  EXPECT_NEAR(stefan_lambda(10), 1.256972, 1e-6);
+}
+
+// Without a cold solid the two problems are one; a cold solid slows the front.
+TEST(Analytic, TwoPhaseStefanLambda) {
+  for (const double stefan : {0.05, 0.5, 2.0}) {
+    EXPECT_NEAR(stefan_lambda(stefan, 0), stefan_lambda(stefan), 1e-9);
+    EXPECT_LT(stefan_lambda(stefan, 0.5), 0.95 * stefan_lambda(stefan));
+  }
+}
+
+// The front moves as fast as the latent heat of the difference of the two flows of heat lets it: slopes taken
+// by finite differences of the temperature, which must also solve the heat equation on both sides.
+TEST(Analytic, TwoPhaseStefanTemperatureKeepsItsBooks) {
+  const double d = 0.1, time = 3000, stefan = 1, cold = 0.5, e = 1e-3;
+  const double front = 2 * stefan_lambda(stefan, cold) * std::sqrt(d * time);
+  const auto at = [&](double x, double t) { return stefan_temperature(x, t, d, stefan, cold); };
+  EXPECT_NEAR(at(0, time), 1, 1e-12);
+  EXPECT_NEAR(at(front, time), 0, 1e-9);
+  EXPECT_NEAR(at(1000, time), -0.5, 1e-9);
+  const double hot_side = (at(front - e, time) - at(front - 2 * e, time)) / e;
+  const double cold_side = (at(front + 2 * e, time) - at(front + e, time)) / e;
+  const double speed = front / (2 * time), latent = 1 / stefan;
+  EXPECT_NEAR(latent * speed, d * (cold_side - hot_side), 1e-3 * latent * speed);
+  for (const double x : {front / 2, 2 * front}) {
+    const double curvature = at(x + 1, time) - 2 * at(x, time) + at(x - 1, time);
+    const double change = (at(x, time + 1) - at(x, time - 1)) / 2;
+    EXPECT_NEAR(change, d * curvature, 1e-3 * std::abs(change));
+  }
+}
+
+TEST(Analytic, SlabStartsColdAndEndsWarm) {
+  EXPECT_NEAR(slab_temperature(32, 10, 0.1, 64), 0, 1e-2);  // a series of 200 terms
+  EXPECT_NEAR(slab_temperature(32, 1e6, 0.1, 64), 1, 1e-9);
+  // Early, the insulated end is not felt: 1 - erf(x / 2 sqrt(D t)).
+  EXPECT_NEAR(slab_temperature(8, 400, 0.1, 64), 1 - std::erf(8 / (2 * std::sqrt(40.0))), 1e-6);
+}
+
+// Huppert 1982: 0.894 and 1.411; the volumes under the profiles are those that were asked for.
+TEST(Analytic, HuppertConstants) {
+  EXPECT_NEAR((Drop{3, 1}.front(1)), 0.89391, 1e-5);
+  EXPECT_NEAR((Dam{3, 1}.front(1)), 1.41124, 1e-5);
+  EXPECT_NEAR(flux_front(3, 1, 1), 0.715, 1e-12);
+  const Drop drop{0.02, 9000};
+  const Dam dam{0.02, 500};
+  EXPECT_NEAR(drop.front(256) / drop.front(1), 2, 1e-12);
+  EXPECT_NEAR(dam.front(32) / dam.front(1), 2, 1e-12);
+  EXPECT_NEAR(drop.time_of_front(drop.front(77)), 77, 1e-9);
+  EXPECT_NEAR(dam.time_of_front(dam.front(77)), 77, 1e-9);
+  double volume = 0, area = 0, second = 0;
+  for (double r = 0.005; r < drop.front(100); r += 0.01) {
+    volume += 2 * std::numbers::pi * r * drop.height(r, 100) * 0.01;
+    second += 2 * std::numbers::pi * r * r * r * drop.height(r, 100) * 0.01;
+  }
+  for (double x = 0.005; x < dam.front(100); x += 0.01) area += dam.height(x, 100) * 0.01;
+  EXPECT_NEAR(volume, 9000, 1);
+  EXPECT_NEAR(area, 500, 0.1);
+  EXPECT_NEAR(std::sqrt(second / volume), drop.rms_radius(100), 1e-3);
+}
+
+// sin(a) cos(a)^3 by trigonometry.
+TEST(Analytic, NusseltIsOfTheDepthAlongGravity) {
+  for (const double slope : {0.1, 0.25, 0.5, 1.0}) {
+    const double angle = std::atan(slope);
+    EXPECT_NEAR(nusselt(slope), std::sin(angle) * std::pow(std::cos(angle), 3), 1e-12);
+  }
+  EXPECT_NEAR(nusselt(0.5), 0.32, 1e-12);
+}
+
+TEST(Analytic, Rest) {
+  EXPECT_NEAR(diffusivity(0.3, 6), 0.095493, 1e-6);
+  EXPECT_NEAR(diffusivity(0.3, 26) / diffusivity(0.3, 6), 4.3333, 1e-4);
+  EXPECT_NEAR(diffusivity(0.3, 18) / diffusivity(0.3, 6), 3, 1e-12);
+  EXPECT_NEAR(ball_intercepts(20, 1000), std::numbers::pi * 0.0004, 2e-7);  // far away: the disc
+  EXPECT_NEAR(ball_intercepts(1, 1), 2 * std::numbers::pi, 1e-12);          // touching: half of all
+}
+
+}  // namespace
+}  // namespace voxmelt::accuracy
