@@ -1,5 +1,6 @@
 #include "accuracy/analytic.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -77,6 +78,37 @@ double Dam::height(double x, double time) const {
   return s < 1 ? area / (end * plane_profile_area()) * std::cbrt(1 - s * s) : 0;
 }
 double Dam::time_of_front(double wanted) const { return std::pow(wanted / front(1), 5); }
+
+double Dam::rms_length(double time) const { return front(time) * std::sqrt(3.0 / 11); }
+
+Dam dam_of_depth(double kappa, double depth, double front) {
+  return {kappa, depth * front * plane_profile_area()};
+}
+
+std::vector<double> lubrication_flow(double kappa, std::vector<double> depth, double time,
+                                     int parts_per_cell) {
+  // Implicit steps, linearised: the conductance between two parts is that of the state before.
+  const std::size_t n = depth.size();
+  std::vector<double> g(n), c(n), d(n);
+  for (double done = 0, step = 0; done < time; done += step) {
+    step = std::min(time - done, std::max(1e-6 * time, done / 200));
+    const double scale = kappa / 3 * parts_per_cell * parts_per_cell * step;
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      const double a = depth[i], b = depth[i + 1];
+      g[i] = scale * (a + b) * (a * a + b * b) / 4;  // the mean of h^3 over a linear profile
+    }
+    // Thomas's algorithm for (1 + g[i - 1] + g[i]) h[i] - g[i - 1] h[i - 1] - g[i] h[i + 1] = old h[i].
+    for (std::size_t i = 0; i < n; ++i) {
+      const double left = i > 0 ? g[i - 1] : 0, right = i + 1 < n ? g[i] : 0;
+      const double pivot = 1 + left + right - (i > 0 ? left * c[i - 1] : 0);
+      c[i] = right / pivot;
+      d[i] = (depth[i] + (i > 0 ? left * d[i - 1] : 0)) / pivot;
+    }
+    depth[n - 1] = d[n - 1];
+    for (std::size_t i = n - 1; i-- > 0;) depth[i] = d[i] + c[i] * depth[i + 1];
+  }
+  return depth;
+}
 
 double flux_front(double kappa, double flux, double time) {
   return 0.715 * std::pow(kappa * flux * flux * flux / 3, 0.125) * std::sqrt(time);

@@ -1,6 +1,8 @@
 // Exact answers. Lengths are in cells, times in steps, temperatures in any one unit.
 #pragma once
 
+#include <vector>
+
 namespace voxmelt::accuracy {
 
 // Cell^2 per step that Eq. 1 of the paper conducts with 6, 18 or 26 neighbours, gamma / pi x 1, 3, 13/3.
@@ -33,8 +35,16 @@ struct Dam {  // of constant area, in a channel; `area` lies on the one side of 
   double kappa, area;
   double front(double time) const;
   double height(double x, double time) const;
+  double rms_length(double time) const;  // root of the mean of x^2
   double time_of_front(double front) const;
 };
+Dam dam_of_depth(double kappa, double depth, double front);  // on Huppert's profile, `depth` at x = 0
+
+// The same flow from any start, by finite volumes: depths at the middles of cells along a channel with
+// closed ends, `parts_per_cell` of them to a cell. For starts that have no formula.
+std::vector<double> lubrication_flow(double kappa, std::vector<double> depth, double time,
+                                     int parts_per_cell);
+
 // Front of what a constant flux feeds at the origin: 0.715 (kappa flux^3 / 3)^(1/8) t^(1/2).
 double flux_front(double kappa, double flux, double time);
 

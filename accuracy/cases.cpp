@@ -1,6 +1,10 @@
 #include "accuracy/case.h"
+#include "accuracy/convergence.h"
 #include "accuracy/heat.h"
+#include "accuracy/level.h"
 #include "accuracy/light.h"
+#include "accuracy/slope.h"
+#include "accuracy/spreading.h"
 
 namespace voxmelt::accuracy {
 
@@ -35,6 +39,57 @@ const std::vector<Case>& all_cases() {
        measure_lit_ball},
       {"shadow_edge", "Light", "The shadow of a wall ends where geometry says",
        "A wall 12 cells high on a floor. The edge is the first cell that gets heat.", measure_shadow_edge},
+      {"huppert", "Spreading", "A drop spreads as t^(1/8): depth 10 to 2",
+       "A drop of constant volume on a plane, kappa 0.02, that starts on Huppert's similarity profile with "
+       "radius 20. "
+       "Its rms radius must hold at each of five samples.",
+       measure_huppert},
+      {"thin_film", "Spreading", "The same as a film: depth 2 to 0.4",
+       "Kappa 0.1. Below depth 1/2 the film is thinner than the gates ask for, and is only reported.",
+       measure_thin_film},
+      {"flux_vent", "Spreading", "A vent of constant flux: the radius grows as t^(1/2)",
+       "Five cells of liquid per step from a vent of radius 3, which is felt early: hence 4 %. The radius is "
+       "that of the "
+       "area that is at least 1/256 cell deep.",
+       measure_flux_vent},
+      {"dam_length", "Spreading", "A dam in a channel spreads as t^(1/5)",
+       "A dam that starts on Huppert's profile, from depth 4 to 2, in the middle row of a channel 33 cells "
+       "wide.",
+       measure_dam_length},
+      {"dam_viscosity", "Spreading", "Dams of different viscosity are alike after equal kappa x steps",
+       "Dams 16 high and 32 long. Beside them stands lubrication theory, integrated by finite volumes an "
+       "eighth of a cell "
+       "long.",
+       measure_dam_viscosity},
+      {"drop_shape", "Spreading", "A drop stays round",
+       "A disc of radius 12 and depth 4 under both laws. The paper's law is no viscous liquid: its exponent "
+       "is reported.",
+       measure_drop_shape},
+      {"nusselt", "Slopes", "A film on a plane carries Nusselt's flux",
+       "Kappa 0.1. The flux through the middle of the plane is counted over 256 steps.", measure_nusselt},
+      {"stairs", "Slopes", "The same on steps of whole cells",
+       "A bed that cannot be told from stairs holds liquid back. Reported.", measure_stairs},
+      {"blob", "Slopes", "A blob runs straight down a plane at any angle to the grid",
+       "A paraboloid of radius 12 and depth 1.6, kappa 0.1. Its centre of mass moves by the integral of h^3 "
+       "over that of "
+       "h, whatever its shape.",
+       measure_blob},
+      {"tubes", "Levels", "Communicating vessels level: the scene lesson_tubes",
+       "600 cells of liquid: 480 of them fill the tunnel, so that both shafts should stand at 6.",
+       measure_tubes},
+      {"u_tube", "Levels", "A U-tube of 12 cells levels",
+       "Shafts of 3 x 3 cells. A closed tunnel may be compressed, which lowers both by up to a tenth.",
+       measure_u_tube},
+      {"melted_ball", "Convergence", "A melted ball of 32, 64 and 128 cells spreads alike",
+       "A ball of liquid falls apart under its weight. Physical time and viscosity are fixed, steps are as "
+       "many times "
+       "shorter as cells are smaller. With --quick the balls have 16 and 32 cells.",
+       measure_melted_ball},
+      {"convergence_grid", "Convergence", "A melting ball on grids of 32, 64 and 128 cells",
+       "One physical time. All numbers of the scene follow the size of its cells, and steps its square.",
+       measure_convergence_in_grid},
+      {"convergence_step", "Convergence", "A melting ball in shorter steps",
+       "The grid of 32 cells, with steps a half and a quarter as long.", measure_convergence_in_step},
   };
   return cases;
 }

@@ -93,5 +93,27 @@ TEST(Analytic, Rest) {
   EXPECT_NEAR(ball_intercepts(1, 1), 2 * std::numbers::pi, 1e-12);          // touching: half of all
 }
 
+// Finite volumes against the similarity profile: from depth 4 to 2, and the volume stays.
+TEST(Analytic, LubricationFlowFollowsHuppert) {
+  constexpr int kParts = 4;
+  const Dam dam = dam_of_depth(0.05, 4, 24);
+  const double age = dam.time_of_front(24);
+  EXPECT_NEAR(dam.height(0, age), 4, 1e-9);
+  std::vector<double> depth(64 * kParts);
+  const auto at = [](std::size_t i) { return (static_cast<double>(i) + 0.5) / kParts; };
+  for (std::size_t i = 0; i < depth.size(); ++i) depth[i] = dam.height(at(i), age);
+  const std::vector<double> later = lubrication_flow(0.05, depth, 31 * age, kParts);
+  double before = 0, after = 0, second = 0;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    before += depth[i], after += later[i], second += later[i] * at(i) * at(i);
+    if (at(i) < 40) {
+      EXPECT_NEAR(later[i], dam.height(at(i), 32 * age), 0.02) << at(i);
+    }
+  }
+  EXPECT_NEAR(after, before, 1e-9 * before);
+  EXPECT_NEAR(std::sqrt(second / after), dam.rms_length(32 * age), 0.005 * 24);
+  EXPECT_NEAR(dam.rms_length(1) / dam.front(1), 0.522233, 1e-6);  // sqrt(3 / 11)
+}
+
 }  // namespace
 }  // namespace voxmelt::accuracy

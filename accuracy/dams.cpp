@@ -1,0 +1,200 @@
+// Dams that break in a channel, and drops that start from a disc.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "accuracy/analytic.h"
+#include "accuracy/cells.h"
+#include "accuracy/measure.h"
+#include "accuracy/spreading.h"
+#include "accuracy/trial.h"
+
+namespace voxmelt::accuracy {
+namespace {
+
+// The middle row of a channel: side walls bar diagonals, and are not felt there.
+std::vector<double> middle_row(const Columns& columns) {
+  const auto first = columns.depth.begin() + static_cast<std::ptrdiff_t>(columns.nz / 2) * columns.nx;
+  return {first, first + columns.nx};
+}
+double mean_x(const std::vector<double>& depth) {  // from the closed end
+  double sum = 0, sum_x = 0;
+  for (std::size_t x = 0; x < depth.size(); ++x)
+    sum += depth[x], sum_x += depth[x] * (static_cast<double>(x) + 0.5);
+  return sum_x / sum;
+}
+double rms_x(const std::vector<double>& depth) {
+  double sum = 0, sum_x2 = 0;
+  for (std::size_t x = 0; x < depth.size(); ++x) {
+    const double at = static_cast<double>(x) + 0.5;
+    sum += depth[x], sum_x2 += depth[x] * at * at;
+  }
+  return std::sqrt(sum_x2 / sum);
+}
+
+Trial channel(const Conditions& conditions, double kappa, int length, int height, int width,
+              const std::function<double(int x)>& depth) {
+  return {conditions,
+          "flow",
+          {fmt::format("grid.size=[{},{},{}]", length, height, width),
+           fmt::format("flow.viscous.kappa={}", kappa)},
+          [&](state::Volume& v) {
+            for (int z = 0; z < width; ++z)
+              for (int x = 0; x < length; ++x) put_column(v, x, z, depth(x));
+          }};
+}
+
+}  // namespace
+
+// A dam on Huppert's profile, from depth 4 to 2 (32 times its age).
+Outcome measure_dam_length(const Conditions& conditions) {
+  const double kappa = 0.05, front = 24;
+  const Dam dam = dam_of_depth(kappa, 4, front);
+  const double age = dam.time_of_front(front);
+  Trial trial = channel(conditions, kappa, static_cast<int>(2 * front) + 8, 6, 33,
+                        [&](int x) { return dam.height(x + 0.5, age); });
+  Outcome outcome;
+  Curve error{.name = "depth 4 to 2, kappa 0.05"};
+  std::vector<Point> lengths;  // time, length
+  for (const double older : {2., 4., 8., 16., 32.}) {
+    trial.run_to(static_cast<std::uint32_t>(std::lround(age * (older - 1))));
+    const double time = age + trial.steps(), length = rms_x(middle_row(Columns(trial.volume())));
+    lengths.push_back({time, length});
+    error.points.push_back({static_cast<double>(trial.steps()), 100 * (length / dam.rms_length(time) - 1)});
+  }
+  const Point first = lengths[1], last = lengths.back();
+  const std::string setting = fmt::format("step {}", trial.steps());
+  outcome.rows.push_back({.setting = setting,
+                          .quantity = "rms length, cells",
+                          .value = last.y,
+                          .exact = dam.rms_length(last.x),
+                          .gate = 0.01,
+                          .speed = trial.speed()});
+  outcome.rows.push_back({.setting = setting,
+                          .quantity = "exponent of the length over time",
+                          .value = std::log(last.y / first.y) / std::log(last.x / first.x),
+                          .exact = 0.2,
+                          .measure = Measure::absolute,
+                          .gate = 0.01,
+                          .speed = trial.speed()});
+  Curve measured{.name = "automaton"}, exact{.name = "Huppert", .exact = true};
+  const std::vector<double> row = middle_row(Columns(trial.volume()));
+  for (std::size_t x = 0; x < row.size(); ++x) {
+    const double at = static_cast<double>(x) + 0.5;
+    measured.points.push_back({at, row[x]});
+    exact.points.push_back({at, dam.height(at, last.x)});
+  }
+  outcome.charts = {{.title = "Error of the rms length",
+                     .x_label = "step",
+                     .y_label = "error, %",
+                     .curves = {std::move(error)},
+                     .logarithmic_x = true},
+                    {.title = "Profile, " + setting,
+                     .x_label = "distance from the wall, cells",
+                     .y_label = "depth, cells",
+                     .curves = {std::move(exact), std::move(measured)}}};
+  return outcome;
+}
+
+// Dams 16 high and 32 long, looked at after equal kappa x steps: viscosity alone makes the difference.
+Outcome measure_dam_viscosity(const Conditions& conditions) {
+  constexpr int kHigh = 16, kLong = 32, kChannel = 112, kWide = 17, kParts = 8;
+  constexpr double kLater = 4;  // kappa x steps, when the far end of the dam is felt at the wall
+  Outcome outcome;
+  Chart chart{.title = "Dams after kappa x steps = 4",
+              .x_label = "distance from the wall, cells",
+              .y_label = "depth, cells"};
+  const auto exact_at = [&](double time) {
+    std::vector<double> start(kChannel * kParts, 0.0);
+    std::fill_n(start.begin(), kLong * kParts, double{kHigh});
+    return lubrication_flow(1, start, time, kParts);
+  };
+  const std::vector<double> after_1 = exact_at(1), after_4 = exact_at(kLater);
+  Curve exact{.name = "lubrication theory", .exact = true};
+  for (std::size_t i = 0; i < after_4.size(); i += 4)
+    exact.points.push_back({(static_cast<double>(i) + 0.5) / kParts, after_4[i]});
+  chart.curves.push_back(std::move(exact));
+  std::optional<double> first_height;
+  for (const double kappa : {0.001, 0.01, 0.1}) {
+    Trial trial =
+        channel(conditions, kappa, kChannel, kHigh + 2, kWide, [&](int x) { return x < kLong ? kHigh : 0.; });
+    const std::string setting = fmt::format("kappa {:g}", kappa);
+    trial.run_to(static_cast<std::uint32_t>(std::lround(1 / kappa)));
+    const double middle = mean_x(middle_row(Columns(trial.volume())));
+    outcome.rows.push_back({.setting = setting + ", kappa x steps = 1",
+                            .quantity = "centre of mass, cells from the wall",
+                            .value = middle,
+                            .exact = mean_x(after_1) / kParts,
+                            .speed = trial.speed()});
+    trial.run_to(static_cast<std::uint32_t>(std::lround(kLater / kappa)));
+    const std::vector<double> row = middle_row(Columns(trial.volume()));
+    if (!first_height) first_height = row[0];
+    outcome.rows.push_back({.setting = setting + ", kappa x steps = 4",
+                            .quantity = "height at the wall over that at kappa 0.001",
+                            .value = row[0] / *first_height,
+                            .exact = 1,
+                            .gate = 0.02,
+                            .speed = trial.speed()});
+    outcome.rows.push_back({.setting = setting + ", kappa x steps = 4",
+                            .quantity = "height at the wall, cells",
+                            .value = row[0],
+                            .exact = after_4[0],
+                            .speed = trial.speed()});
+    Curve curve{.name = setting};
+    for (std::size_t x = 0; x < row.size(); ++x)
+      curve.points.push_back({static_cast<double>(x) + 0.5, row[x]});
+    chart.curves.push_back(std::move(curve));
+  }
+  outcome.charts.push_back(std::move(chart));
+  return outcome;
+}
+
+// A disc of radius 12 and depth 4 under both laws: how round it stays, and how fast it grows in the end.
+Outcome measure_drop_shape(const Conditions& conditions) {
+  constexpr int kHalf = 40;
+  Outcome outcome;
+  Chart chart{
+      .title = "Roundness of a drop", .x_label = "step", .y_label = "a4 - 1, %", .logarithmic_x = true};
+  for (const std::string law : {"viscous", "paper"}) {
+    const bool viscous = law == "viscous";
+    Trial trial(conditions, viscous ? "flow" : "paper_drop",
+                {fmt::format("grid.size=[{0},7,{0}]", 2 * kHalf + 1)}, [&](state::Volume& v) {
+                  for (int z = 0; z < v.grid.z; ++z)
+                    for (int x = 0; x < v.grid.x; ++x) {
+                      if (std::hypot(x - kHalf, z - kHalf) > 12) continue;
+                      put_column(v, x, z, 4);
+                      for (int y = 0; y < 4 && !viscous; ++y)
+                        v.energy[v.at(x, y, z)] = v.amount[v.at(x, y, z)];
+                    }
+                });
+    Curve curve{.name = law + " law"};
+    std::vector<Point> radii;
+    double a4 = 1;
+    for (const std::uint32_t step : {50u, 100u, 200u, 400u, 800u, 1600u}) {
+      trial.run_to(step);
+      const Moments m = moments(Columns(trial.volume()));
+      a4 = m.a4;
+      radii.push_back({static_cast<double>(step), m.rms_radius});
+      curve.points.push_back({static_cast<double>(step), 100 * (a4 - 1)});
+    }
+    Row round{.setting = law + " law, step 1600",
+              .quantity = "four-fold moment a4",
+              .value = a4,
+              .exact = 1,
+              .measure = Measure::absolute,
+              .speed = trial.speed()};
+    if (viscous) round.gate = 0.005;
+    outcome.rows.push_back(std::move(round));
+    outcome.rows.push_back({.setting = law + " law, steps 800 to 1600",
+                            .quantity = "exponent of the radius over time",
+                            .value = std::log2(radii[5].y / radii[4].y),
+                            .exact = 0.125,
+                            .measure = Measure::absolute,
+                            .speed = trial.speed()});
+    chart.curves.push_back(std::move(curve));
+  }
+  outcome.charts.push_back(std::move(chart));
+  return outcome;
+}
+
+}  // namespace voxmelt::accuracy

@@ -1,0 +1,178 @@
+// Films and blobs that run down a plane, against Nusselt's film.
+#include "accuracy/slope.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "accuracy/analytic.h"
+#include "accuracy/cells.h"
+#include "accuracy/measure.h"
+#include "accuracy/trial.h"
+
+namespace voxmelt::accuracy {
+namespace {
+
+enum class Bed { smooth, stairs };
+
+// A column of inert cells with its surface at `height`, and `depth` of liquid on it.
+void put_bed(state::Volume& v, int x, int z, double height, double depth, Bed bed) {
+  const int top = static_cast<int>(std::lround(height));
+  for (int y = 0; y < top; ++y) put_inert(v, x, y, z, y + 1 == top && bed == Bed::smooth ? height - top : 0);
+  put_column(v, x, z, depth, top);
+}
+
+// A uniform film on a plane that falls along x. After `lead` steps its flux through 20 columns in the middle
+// is counted, and compared with Nusselt's at the depth that the film has there meanwhile.
+struct Film {
+  double slope, depth;
+  Bed bed = Bed::smooth;
+  int length = 96, width = 33;
+  std::uint32_t lead = 64, counted = 256;
+  double kappa = 0.1;
+
+  int first() const { return length / 2 - 10; }
+  int last() const { return length / 2 + 10; }
+  double volume_after(const Columns& c, int x) const {
+    double sum = 0;
+    for (; x < c.nx; ++x) sum += c.at(x, width / 2);
+    return sum;
+  }
+  double mean_depth(const Columns& c) const {
+    return (volume_after(c, first()) - volume_after(c, last())) / (last() - first());
+  }
+  Row measure(const Conditions& conditions) const {
+    const int high = static_cast<int>(std::ceil(slope * length)) + 1;
+    Trial trial(conditions, "flow",
+                {fmt::format("grid.size=[{},{},{}]", length, high + 4, width),
+                 fmt::format("flow.viscous.kappa={}", kappa)},
+                [&](state::Volume& v) {
+                  for (int z = 0; z < width; ++z)
+                    for (int x = 0; x < length; ++x)
+                      put_bed(v, x, z, 1 + slope * (length - 0.5 - x), depth, bed);
+                });
+    trial.run_to(lead);
+    const Columns before(trial.volume());
+    trial.run_to(lead + counted);
+    const Columns after(trial.volume());
+    double flux = 0;
+    for (int x = first(); x < last(); ++x) flux += volume_after(after, x) - volume_after(before, x);
+    flux /= (last() - first()) * static_cast<double>(counted);
+    const double h = (mean_depth(before) + mean_depth(after)) / 2;
+    return {.setting = fmt::format("slope {:g}, depth {:g}, along the grid", slope, depth),
+            .quantity = fmt::format("flux over Nusselt's, at depth {:.3f}", h),
+            .value = flux / (kappa / 3 * nusselt(slope) * h * h * h),
+            .exact = 1,
+            .speed = trial.speed()};
+  }
+};
+
+}  // namespace
+
+Outcome measure_nusselt(const Conditions& conditions) {
+  Outcome outcome;
+  Chart chart{.title = "Flux of a film over Nusselt's", .x_label = "slope", .y_label = "flux over exact"};
+  Curve one{.name = "exact", .points = {{0, 1}, {0.55, 1}}, .exact = true};
+  chart.curves.push_back(std::move(one));
+  for (const double depth : {0.8, 1.6}) {
+    Curve curve{.name = fmt::format("depth {:g}", depth)};
+    for (const double slope : {0.1, 0.25, 0.5}) {
+      Row row = Film{slope, depth}.measure(conditions);
+      row.gate = 0.05;
+      curve.points.push_back({slope, row.value});
+      outcome.rows.push_back(std::move(row));
+    }
+    chart.curves.push_back(std::move(curve));
+  }
+  Row deep = Film{0.1, 2}.measure(conditions);
+  deep.gate = 0.05;
+  outcome.rows.push_back(std::move(deep));
+  outcome.charts.push_back(std::move(chart));
+  return outcome;
+}
+
+Outcome measure_stairs(const Conditions& conditions) {
+  Outcome outcome;
+  const std::vector<double> depths =
+      conditions.quick ? std::vector<double>{0.5} : std::vector<double>{0.5, 1, 1.6};
+  for (const double depth : depths) {
+    // Until the liquid has found its depth on each step, and the end of the film has not come.
+    Film film{.slope = 0.1, .depth = depth, .bed = Bed::stairs, .length = 180, .width = 9};
+    film.lead = static_cast<std::uint32_t>(5000 / (depth * depth));
+    film.counted = film.lead / 4;
+    Row row = film.measure(conditions);
+    row.setting = fmt::format("slope 0.1, depth {:g}, steps of whole cells", depth);
+    outcome.rows.push_back(std::move(row));
+  }
+  return outcome;
+}
+
+// The centre of mass of any shape of liquid moves by kappa / 3 x nusselt(slope) x sum h^3 / sum h per step.
+Outcome measure_blob(const Conditions& conditions) {
+  constexpr int kHalf = 32;
+  constexpr double kKappa = 0.1, kDepth = 1.6, kRadius = 12;
+  constexpr std::uint32_t kSample = 16;
+  Outcome outcome;
+  Chart chart{.title = "A blob runs down a plane",
+              .x_label = "exact way, cells",
+              .y_label = "way of its centre, cells"};
+  Curve exact{.name = "exact", .exact = true};
+  double longest = 0;
+  for (const double slope : {0.1, 0.25, 0.5})
+    for (const double angle : {0., 22.5, 45.}) {
+      const double a = angle * std::numbers::pi / 180, sx = slope * std::cos(a), sz = slope * std::sin(a);
+      const int high = static_cast<int>(std::ceil(kHalf * (sx + sz) * 2)) + 1;
+      Trial trial(conditions, "flow",
+                  {fmt::format("grid.size=[{0},{1},{0}]", 2 * kHalf + 1, high + 5),
+                   fmt::format("flow.viscous.kappa={}", kKappa)},
+                  [&](state::Volume& v) {
+                    for (int z = 0; z <= 2 * kHalf; ++z)
+                      for (int x = 0; x <= 2 * kHalf; ++x) {
+                        const double r2 = (x - kHalf) * (x - kHalf) + (z - kHalf) * (z - kHalf);
+                        put_bed(v, x, z, 1 + sx * (2 * kHalf - x) + sz * (2 * kHalf - z),
+                                kDepth * (1 - r2 / (kRadius * kRadius)), Bed::smooth);
+                      }
+                  });
+      const auto rate = [&](const Columns& c) {
+        double sum = 0, cubes = 0;
+        for (const double h : c.depth) sum += h, cubes += h * h * h;
+        return kKappa / 3 * nusselt(slope) * cubes / sum;
+      };
+      Columns columns(trial.volume());
+      const Moments start = moments(columns);
+      double expected = 0, before = rate(columns), along = 0, aside = 0;
+      Curve curve{.name = fmt::format("slope {:g}, {:g} degrees", slope, angle)};
+      for (std::uint32_t step = kSample; step <= 16 * kSample; step += kSample) {
+        trial.run_to(step);
+        columns = Columns(trial.volume());
+        const double now = rate(columns);
+        expected += kSample * (before + now) / 2;
+        before = now;
+        const Moments m = moments(columns);
+        along = (m.x - start.x) * std::cos(a) + (m.z - start.z) * std::sin(a);
+        aside = (m.z - start.z) * std::cos(a) - (m.x - start.x) * std::sin(a);
+        curve.points.push_back({expected, along});
+      }
+      longest = std::max(longest, expected);
+      const std::string setting = fmt::format("slope {:g}, {:g} degrees to the grid", slope, angle);
+      outcome.rows.push_back({.setting = setting,
+                              .quantity = "way of the centre over exact",
+                              .value = along / expected,
+                              .exact = 1,
+                              .gate = 0.05,
+                              .speed = trial.speed()});
+      outcome.rows.push_back({.setting = setting,
+                              .quantity = "way aside over the exact way along",
+                              .value = aside / expected,
+                              .measure = Measure::absolute,
+                              .gate = 0.02,
+                              .speed = trial.speed()});
+      if (slope != 0.25 || angle == 0) chart.curves.push_back(std::move(curve));
+    }
+  exact.points = {{0, 0}, {longest, longest}};
+  chart.curves.insert(chart.curves.begin(), std::move(exact));
+  outcome.charts.push_back(std::move(chart));
+  return outcome;
+}
+
+}  // namespace voxmelt::accuracy

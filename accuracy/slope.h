@@ -1,0 +1,11 @@
+#pragma once
+
+#include "accuracy/case.h"
+
+namespace voxmelt::accuracy {
+
+Outcome measure_nusselt(const Conditions&);
+Outcome measure_stairs(const Conditions&);
+Outcome measure_blob(const Conditions&);
+
+}  // namespace voxmelt::accuracy

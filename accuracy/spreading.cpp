@@ -1,0 +1,220 @@
+// Viscous gravity currents on a plane against Huppert (1982).
+#include "accuracy/spreading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "accuracy/analytic.h"
+#include "accuracy/cells.h"
+#include "accuracy/measure.h"
+#include "accuracy/trial.h"
+
+namespace voxmelt::accuracy {
+namespace {
+
+// A drop that starts on Huppert's profile, and when it started from a point.
+struct Start {
+  double kappa, depth, front;
+
+  Drop drop() const { return {kappa, 0.75 * std::numbers::pi * front * front * depth}; }
+  double age() const { return drop().time_of_front(front); }
+  // Steps from the start until the drop is `thinner` times as deep: depth falls as t^(-1/4).
+  std::uint32_t steps_until(double thinner) const {
+    return static_cast<std::uint32_t>(std::lround(age() * (std::pow(thinner, 4) - 1)));
+  }
+  Trial trial(const Conditions& conditions, double thinnest) const {
+    const int half = static_cast<int>(std::ceil(front * std::sqrt(thinnest))) + 5;
+    return {conditions,
+            "flow",
+            {fmt::format("grid.size=[{0},{1},{0}]", 2 * half + 1, static_cast<int>(std::ceil(depth)) + 2),
+             fmt::format("flow.viscous.kappa={}", kappa)},
+            [&](state::Volume& v) {
+              for (int z = 0; z < v.grid.z; ++z)
+                for (int x = 0; x < v.grid.x; ++x)
+                  put_column(v, x, z, drop().height(std::hypot(x - half, z - half), age()));
+            }};
+  }
+};
+
+struct Sample {
+  double time, depth;  // since the drop was a point; in the middle, by Huppert
+  Moments moments;
+  double radius_error;  // relative
+};
+Sample sample(const Start& start, const Trial& trial) {
+  const Drop drop = start.drop();
+  const double time = start.age() + trial.steps();
+  const Moments m = moments(Columns(trial.volume()));
+  return {time, drop.height(0, time), m, m.rms_radius / drop.rms_radius(time) - 1};
+}
+
+// d log radius / d log time between two samples.
+double exponent(const Sample& a, const Sample& b) {
+  return std::log(b.moments.rms_radius / a.moments.rms_radius) / std::log(b.time / a.time);
+}
+
+Chart profile_chart(const std::string& title, const Trial& trial, const Start& start, double time) {
+  Curve measured{.name = "automaton"}, exact{.name = "Huppert", .exact = true};
+  const std::vector<double> rings = radial_profile(Columns(trial.volume()));
+  const double end = 1.15 * start.drop().front(time);
+  for (std::size_t r = 0; r < rings.size() && static_cast<double>(r) < end; ++r)
+    measured.points.push_back({static_cast<double>(r), rings[r]});
+  for (int i = 0; i <= 120; ++i)
+    exact.points.push_back({end * i / 120, start.drop().height(end * i / 120, time)});
+  return {.title = title, .x_label = "radius, cells", .y_label = "depth, cells", .curves = {exact, measured}};
+}
+
+Row radius_row(const std::string& setting, const Sample& at, const Drop& drop, const Trial& trial) {
+  return {.setting = setting,
+          .quantity = "rms radius, cells",
+          .value = at.moments.rms_radius,
+          .exact = drop.rms_radius(at.time),
+          .gate = 0.01,
+          .speed = trial.speed()};
+}
+Row exponent_row(const std::string& setting, double value, double exact, double gate, const Trial& trial) {
+  return {.setting = setting,
+          .quantity = "exponent of the radius over time",
+          .value = value,
+          .exact = exact,
+          .measure = Measure::absolute,
+          .gate = gate,
+          .speed = trial.speed()};
+}
+Row roundness_row(const std::string& setting, double a4, std::optional<double> gate, const Trial& trial) {
+  return {.setting = setting,
+          .quantity = "four-fold moment a4",
+          .value = a4,
+          .exact = 1,
+          .measure = Measure::absolute,
+          .gate = gate,
+          .speed = trial.speed()};
+}
+Row profile_row(const std::string& setting, const Trial& trial, const Start& start, double time) {
+  const double error =
+      profile_error(Columns(trial.volume()), [&](double r) { return start.drop().height(r, time); });
+  return {.setting = setting,
+          .quantity = "rms difference of the profile over its mean depth",
+          .value = error,
+          .measure = Measure::absolute,
+          .gate = 0.04,
+          .speed = trial.speed()};
+}
+
+}  // namespace
+
+// Depth 10 to 2 at kappa 0.02: five samples, each of which must hold.
+Outcome measure_huppert(const Conditions& conditions) {
+  const Start start{0.02, 10, 20};
+  Trial trial = start.trial(conditions, 5);
+  Outcome outcome;
+  Curve error{.name = "depth 10 to 2, kappa 0.02"};
+  std::vector<Sample> samples;
+  for (const std::uint32_t step : {220u, 500u, 1200u, 2100u, 7000u}) {
+    trial.run_to(step);
+    samples.push_back(sample(start, trial));
+    const std::string setting = fmt::format("depth {:.1f}, step {}", samples.back().depth, step);
+    outcome.rows.push_back(radius_row(setting, samples.back(), start.drop(), trial));
+    error.points.push_back({static_cast<double>(step), 100 * samples.back().radius_error});
+    if (step == 220 || step == 7000)
+      outcome.charts.push_back(profile_chart("Profile, " + setting, trial, start, samples.back().time));
+  }
+  const std::string last = "depth 4 to 2";
+  outcome.rows.push_back(exponent_row(last, exponent(samples[2], samples[4]), 0.125, 0.003, trial));
+  outcome.rows.push_back(profile_row("step 7000", trial, start, samples.back().time));
+  outcome.rows.push_back(roundness_row("step 7000", samples.back().moments.a4, 0.005, trial));
+  outcome.charts.insert(outcome.charts.begin(), {.title = "Error of the rms radius",
+                                                 .x_label = "step",
+                                                 .y_label = "error, %",
+                                                 .curves = {std::move(error)},
+                                                 .logarithmic_x = true});
+  return outcome;
+}
+
+// Films from depth 2 to 1/2, and on to 0.3, where the dead zone of one unit of head is felt.
+Outcome measure_thin_film(const Conditions& conditions) {
+  const Start start{0.1, 2, conditions.quick ? 16. : 20.};
+  Trial trial = start.trial(conditions, 2 / 0.35);
+  std::vector<double> depths{1.4, 1.0, 0.7, 0.5};
+  if (!conditions.quick) depths.push_back(0.4);
+  Outcome outcome;
+  Curve error{.name = "depth 2 to 0.4, kappa 0.1"};
+  std::vector<Sample> samples;
+  for (const double depth : depths) {
+    trial.run_to(start.steps_until(2 / depth));
+    samples.push_back(sample(start, trial));
+    const std::string setting = fmt::format("depth {:g}, step {}", depth, trial.steps());
+    outcome.rows.push_back(radius_row(setting, samples.back(), start.drop(), trial));
+    if (depth < 0.5) outcome.rows.back().gate.reset();
+    error.points.push_back({samples.back().depth, 100 * samples.back().radius_error});
+    if (depth == 0.5) {
+      outcome.rows.push_back(profile_row(setting, trial, start, samples.back().time));
+      outcome.rows.push_back(roundness_row(setting, samples.back().moments.a4, 0.005, trial));
+      outcome.charts.push_back(profile_chart("Profile, " + setting, trial, start, samples.back().time));
+    }
+  }
+  outcome.rows.push_back(
+      exponent_row("depth 1.4 to 0.7", exponent(samples[0], samples[2]), 0.125, 0.003, trial));
+  outcome.rows.push_back(
+      exponent_row("depth 0.7 to 0.5", exponent(samples[2], samples[3]), 0.125, 0.003, trial));
+  if (!conditions.quick) {
+    outcome.rows.push_back(
+        exponent_row("depth 0.5 to 0.4", exponent(samples[3], samples[4]), 0.125, 0.003, trial));
+    outcome.rows.back().gate.reset();
+  }
+  outcome.charts.insert(outcome.charts.begin(), {.title = "Error of the rms radius of a thin film",
+                                                 .x_label = "depth in the middle, cells",
+                                                 .y_label = "error, %",
+                                                 .curves = {std::move(error)}});
+  return outcome;
+}
+
+// A vent of radius 3 that gives 5 cells per step. The radius is that of the wet area.
+Outcome measure_flux_vent(const Conditions& conditions) {
+  constexpr double kFlux = 5, kWet = 1.0 / 256, kVentCells = 76;  // with their centre within the radius
+  Outcome outcome;
+  Chart radii{.title = "Radius of what a vent feeds",
+              .x_label = "step",
+              .y_label = "radius, cells",
+              .logarithmic_x = true,
+              .logarithmic_y = true};
+  Chart errors{
+      .title = "Error of that radius", .x_label = "step", .y_label = "error, %", .logarithmic_x = true};
+  for (const double kappa : {0.02, 0.2}) {
+    const int half = static_cast<int>(1.12 * flux_front(kappa, kFlux, 3200)) + 4;
+    Trial trial(
+        conditions, "vent",
+        {fmt::format("grid.size=[{0},{1},{0}]", 2 * half + 1, 22),
+         fmt::format("vent.0.at=[{0},0.5,{0}]", half + 0.5),
+         fmt::format("vent.0.rate={}", kFlux / kVentCells), fmt::format("flow.viscous.kappa={}", kappa)});
+    const std::string setting = fmt::format("kappa {:g}", kappa);
+    Curve measured{.name = setting}, exact{.name = setting + ", exact", .exact = true},
+        error{.name = setting};
+    for (const std::uint32_t step : {100u, 200u, 400u, 800u, 1600u, 3200u}) {
+      trial.run_to(step);
+      const double flux = static_cast<double>(trial.simulation().ledger().mass.added) / kOne / step;
+      const double radius = wet_radius(Columns(trial.volume()), kWet), wanted = flux_front(kappa, flux, step);
+      measured.points.push_back({static_cast<double>(step), radius});
+      exact.points.push_back({static_cast<double>(step), wanted});
+      error.points.push_back({static_cast<double>(step), 100 * (radius / wanted - 1)});
+      if (step != 3200) continue;
+      outcome.rows.push_back({.setting = setting + ", step 3200",
+                              .quantity = fmt::format("radius, cells, at {:.3f} cells per step", flux),
+                              .value = radius,
+                              .exact = wanted,
+                              .gate = 0.04,
+                              .speed = trial.speed()});
+    }
+    const auto& p = measured.points;
+    outcome.rows.push_back(exponent_row(setting + ", steps 800 to 3200",
+                                        std::log(p[5].y / p[3].y) / std::log(4.0), 0.5, 0.01, trial));
+    radii.curves.insert(radii.curves.end(), {std::move(exact), std::move(measured)});
+    errors.curves.push_back(std::move(error));
+  }
+  outcome.charts = {std::move(radii), std::move(errors)};
+  return outcome;
+}
+
+}  // namespace voxmelt::accuracy
