@@ -52,12 +52,14 @@ struct Curve {
   std::string name{};
   std::vector<Point> points{};
   bool exact = false;  // drawn as a line; what was measured, as dots
+  bool joined = true;  // few dots are joined by a thin line
 };
 
 struct Chart {
   std::string title{}, x_label{}, y_label{};
   std::vector<Curve> curves{};
   bool logarithmic_x = false, logarithmic_y = false;
+  std::optional<double> band{};  // of an error's gate: drawn from -band to band
 };
 
 struct Outcome {

@@ -88,7 +88,8 @@ Outcome measure_dam_length(const Conditions& conditions) {
                      .x_label = "step",
                      .y_label = "error, %",
                      .curves = {std::move(error)},
-                     .logarithmic_x = true},
+                     .logarithmic_x = true,
+                     .band = 1},
                     {.title = "Profile, " + setting,
                      .x_label = "distance from the wall, cells",
                      .y_label = "depth, cells",
@@ -128,13 +129,14 @@ Outcome measure_dam_viscosity(const Conditions& conditions) {
                             .speed = trial.speed()});
     trial.run_to(static_cast<std::uint32_t>(std::lround(kLater / kappa)));
     const std::vector<double> row = middle_row(Columns(trial.volume()));
+    if (first_height)
+      outcome.rows.push_back({.setting = setting + ", kappa x steps = 4",
+                              .quantity = "height at the wall over that at kappa 0.001",
+                              .value = row[0] / *first_height,
+                              .exact = 1,
+                              .gate = 0.02,
+                              .speed = trial.speed()});
     if (!first_height) first_height = row[0];
-    outcome.rows.push_back({.setting = setting + ", kappa x steps = 4",
-                            .quantity = "height at the wall over that at kappa 0.001",
-                            .value = row[0] / *first_height,
-                            .exact = 1,
-                            .gate = 0.02,
-                            .speed = trial.speed()});
     outcome.rows.push_back({.setting = setting + ", kappa x steps = 4",
                             .quantity = "height at the wall, cells",
                             .value = row[0],

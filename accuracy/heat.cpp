@@ -32,7 +32,7 @@ Trial::Fill solid_column(double heat) {
 double depth_of(const state::Volume& v, int y) { return v.grid.y - 1 - y - 0.5; }
 
 struct Stefan {
-  const char* law;
+  std::string law;
   double number, number_of_solid;
   static constexpr double kGamma = 0.3, kSpan = 0.97, kCold = 0.02;
 
@@ -46,7 +46,7 @@ struct Stefan {
     sets.push_back(fmt::format("material.melting_point={}", melting_point()));
     sets.push_back(fmt::format("material.latent_heat={}", latent()));
     sets.push_back(fmt::format("flow.law=\"{}\"", law));
-    if (std::string_view(law) == "viscous") sets.push_back("flow.viscous.kappa=0.02");
+    if (law == "viscous") sets.push_back("flow.viscous.kappa=0.02");
     return {conditions, "column", sets, solid_column(kCold * kHottest)};
   }
   double front(const Trial& trial) const {
@@ -63,7 +63,7 @@ struct Followed {
 Followed follow(const Conditions& conditions, const Stefan& stefan, int cells, double last) {
   Trial trial = stefan.trial(conditions, cells);
   Followed found;
-  found.error.name = fmt::format("{}, St {:g}", stefan.law, stefan.number);
+  found.error.name = fmt::format("St {:g}", stefan.number);
   double front = 0, time = 1;
   for (int sample = 1; sample <= 5; ++sample) {
     trial.run_to(static_cast<std::uint32_t>(std::lround(stefan.time_of(last * sample / 5))));
@@ -78,6 +78,7 @@ Followed follow(const Conditions& conditions, const Stefan& stefan, int cells, d
   row.quantity = "front, cells";
   row.value = front;
   row.exact = 2 * stefan.lambda() * std::sqrt(diffusivity(Stefan::kGamma, 6) * time);
+  if (front > cells - 0.5) row.note = "the whole column has melted";
   row.speed = trial.speed();
 
   found.profile = {.title = "Temperature below the wall: " + row.setting,
@@ -110,7 +111,8 @@ Outcome measure_heat_kernel(const Conditions& conditions) {
   Outcome outcome;
   Chart chart{.title = "Second moment of heat",
               .x_label = "exact growth, cells²",
-              .y_label = "error of the growth, %"};
+              .y_label = "error of the growth, %",
+              .band = 0.5};
   for (const Setting& s : settings) {
     const int side = 105;
     Trial trial(conditions, "heat",
@@ -184,23 +186,28 @@ Outcome measure_stefan(const Conditions& conditions) {
   const std::vector<double> numbers = conditions.quick ? std::vector<double>{0.05, 0.5, 2}
                                                        : std::vector<double>{0.01, 0.05, 0.1, 0.5, 1, 2, 10};
   Outcome outcome;
-  Chart errors{
-      .title = "Error of the front", .x_label = "exact depth of the front, cells", .y_label = "error, %"};
-  for (const char* law : {"paper", "viscous"})
+  std::vector<Chart> profiles;
+  for (const std::string law : {"paper", "viscous"}) {
+    Chart errors{.title = "Error of the front, " + law + " law",
+                 .x_label = "exact depth of the front, cells",
+                 .y_label = "error, %",
+                 .band = 1};
     for (const double number : numbers) {
       Followed found = follow(conditions, {law, number, 0}, 64, 48);
       if (number >= 0.05 && number <= 2) found.row.gate = 0.01;
       outcome.rows.push_back(std::move(found.row));
       errors.curves.push_back(std::move(found.error));
-      if (number == 0.5) outcome.charts.push_back(std::move(found.profile));
+      if (number == 0.5) profiles.push_back(std::move(found.profile));
     }
-  outcome.charts.insert(outcome.charts.begin(), std::move(errors));
+    outcome.charts.push_back(std::move(errors));
+  }
+  for (Chart& profile : profiles) outcome.charts.push_back(std::move(profile));
   return outcome;
 }
 
 Outcome measure_stefan_two_phase(const Conditions& conditions) {
   Outcome outcome;
-  for (const char* law : {"paper", "viscous"}) {
+  for (const std::string law : {"paper", "viscous"}) {
     Followed found =
         follow(conditions, {law, 1, 0.5}, conditions.quick ? 192 : 320, conditions.quick ? 32 : 64);
     found.row.gate = 0.01;

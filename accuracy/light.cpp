@@ -68,7 +68,7 @@ std::string text_of(const Direction& d) { return fmt::format("({:g}, {:g}, {:g})
 Outcome measure_lit_plane(const Conditions& conditions) {
   constexpr int kSide = 65, kRim = 22, kTop = 3;
   Outcome outcome;
-  Curve measured{.name = "automaton"}, exact{.name = "cosine", .exact = true};
+  Curve measured{.name = "automaton", .joined = false}, exact{.name = "cosine", .exact = true};
   for (const double angle : {0., 15., 30., 40., 44., 46., 60., 70., 75.}) {
     Row row{.setting = fmt::format("{:g} degrees, worst of three azimuths", angle),
             .quantity = "heat taken up over exact",
@@ -120,7 +120,8 @@ Outcome measure_lit_ball(const Conditions& conditions) {
             .value = 1,
             .exact = 1,
             .gate = 0.1};
-  Curve measured{.name = "automaton"}, one{.name = "exact", .points = {{1, 1}, {20, 1}}, .exact = true};
+  Curve measured{.name = "automaton", .joined = false},
+      one{.name = "exact", .points = {{1, 1}, {20, 1}}, .exact = true};
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const double m = kSide / 2.0;
     const Source source = far_source({m, m, m}, directions[i], kDistance);
@@ -155,7 +156,7 @@ Outcome measure_lit_ball(const Conditions& conditions) {
 Outcome measure_shadow_edge(const Conditions& conditions) {
   constexpr int kWide = 96, kDeep = 9, kFloor = 2, kWallEnd = 24, kWallTop = kFloor + 12;
   Outcome outcome;
-  Curve measured{.name = "automaton"}, exact{.name = "exact", .exact = true};
+  Curve measured{.name = "automaton", .joined = false}, exact{.name = "exact", .exact = true};
   for (const double angle : {15., 25., 35., 42., 50., 60., 70.}) {
     const Source source = far_source({kWallEnd, kWallTop, kDeep / 2.0}, from_angles(180 - angle, 0), -500);
     const Trial trial = light(conditions, kWide, kWallTop + 2, kDeep, source, [](state::Volume& v) {

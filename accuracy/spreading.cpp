@@ -129,7 +129,8 @@ Outcome measure_huppert(const Conditions& conditions) {
                                                  .x_label = "step",
                                                  .y_label = "error, %",
                                                  .curves = {std::move(error)},
-                                                 .logarithmic_x = true});
+                                                 .logarithmic_x = true,
+                                                 .band = 1});
   return outcome;
 }
 
@@ -167,7 +168,8 @@ Outcome measure_thin_film(const Conditions& conditions) {
   outcome.charts.insert(outcome.charts.begin(), {.title = "Error of the rms radius of a thin film",
                                                  .x_label = "depth in the middle, cells",
                                                  .y_label = "error, %",
-                                                 .curves = {std::move(error)}});
+                                                 .curves = {std::move(error)},
+                                                 .band = 1});
   return outcome;
 }
 
@@ -180,8 +182,11 @@ Outcome measure_flux_vent(const Conditions& conditions) {
               .y_label = "radius, cells",
               .logarithmic_x = true,
               .logarithmic_y = true};
-  Chart errors{
-      .title = "Error of that radius", .x_label = "step", .y_label = "error, %", .logarithmic_x = true};
+  Chart errors{.title = "Error of that radius",
+               .x_label = "step",
+               .y_label = "error, %",
+               .logarithmic_x = true,
+               .band = 4};
   for (const double kappa : {0.02, 0.2}) {
     const int half = static_cast<int>(1.12 * flux_front(kappa, kFlux, 3200)) + 4;
     Trial trial(

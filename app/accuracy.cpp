@@ -75,7 +75,7 @@ int run_accuracy(const AccuracyOptions& options) {
   if (!options.out.empty()) out.emplace(options.out);
   catch_interrupts();
 
-  accuracy::Report report{.version = version_text(),
+  accuracy::Report report{.version = "voxmelt " + version_number(),
                           .implementation = conditions.implementation->name,
                           .threads = conditions.threads,
                           .quick = options.quick,
@@ -98,6 +98,8 @@ int run_accuracy(const AccuracyOptions& options) {
   if (out) {
     io::write_file(out->partial() / "accuracy.json", json);
     io::write_file(out->partial() / "accuracy.csv", accuracy::csv_text(report));
+    io::write_file(out->partial() / "accuracy.md", accuracy::markdown_text(report));
+    io::write_file(out->partial() / "accuracy.html", accuracy::html_text(report));
     out->commit();
     if (!common.quiet) fmt::print("page, tables and report  {}/\n", fs::proximate(out->place()).string());
   }

@@ -8,6 +8,7 @@ namespace {
 
 std::string signed_digits(double value, const char* unit) {
   const double size = std::abs(value);
+  if (size != 0 && size < 0.0005) return fmt::format("{:+.0e}{}", value, unit);
   const int digits = size >= 100 ? 0 : size >= 10 ? 1 : size >= 0.1 ? 2 : 3;
   return fmt::format("{:+.{}f}{}", value, digits, unit);
 }
