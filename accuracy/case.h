@@ -20,6 +20,7 @@ struct Conditions {
   std::vector<std::string> sets;  // --set, applied to the scene of every run after the case's own
   std::filesystem::path scenes;   // folder with the cases' scenes
   bool baseline = true;           // also time the plain baseline
+  int threads_always = 0;         // more than 0: so many, on small grids too
 };
 
 struct Speed {

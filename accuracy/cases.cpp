@@ -1,8 +1,10 @@
+#include "accuracy/books.h"
 #include "accuracy/case.h"
 #include "accuracy/convergence.h"
 #include "accuracy/heat.h"
 #include "accuracy/level.h"
 #include "accuracy/light.h"
+#include "accuracy/rest.h"
 #include "accuracy/slope.h"
 #include "accuracy/spreading.h"
 
@@ -10,6 +12,11 @@ namespace voxmelt::accuracy {
 
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases{
+      {"books", "Arithmetic", "Mass, heat and energy balance to the unit",
+       "The scenes proving_ground, in which every rule acts, under both laws.", measure_books},
+      {"implementations", "Arithmetic", "Every implementation gives the reference's bits",
+       "The same scenes with every instruction set that this processor has, on one thread and on two.",
+       measure_implementations},
       {"heat_kernel", "Heat", "A Gaussian of heat widens: its second moment grows by 6 D per step",
        "Eq. 1 with 6, 18 and 26 neighbours against the heat kernel. The Gaussian starts with sigma 6 and a "
        "peak "
@@ -80,6 +87,14 @@ const std::vector<Case>& all_cases() {
       {"u_tube", "Levels", "A U-tube of 12 cells levels",
        "Shafts of 3 x 3 cells. A closed tunnel may be compressed, which lowers both by up to a tenth.",
        measure_u_tube},
+      {"rest", "Levels", "What should rest, rests",
+       "A closed full box, a checkerboard pool, and a film with a yield stress, which may cost 3 % of "
+       "roundness.",
+       measure_rest},
+      {"fall", "Levels", "A block falls whole, and a funnel of one cell empties a basin",
+       "In free air liquid falls one cell per step. Of the basin, a film may stay.", measure_fall},
+      {"filling", "Levels", "No cell in the open is squeezed",
+       "A ball drops and a vent pours. A cell may hold a quarter more than one.", measure_filling},
       {"melted_ball", "Convergence", "A melted ball of 32, 64 and 128 cells spreads alike",
        "A ball of liquid falls apart under its weight. Physical time and viscosity are fixed, steps are as "
        "many times "
