@@ -8,7 +8,8 @@ namespace {
 
 std::string signed_digits(double value, const char* unit) {
   const double size = std::abs(value);
-  if (size != 0 && size < 0.0005) return fmt::format("{:+.0e}{}", value, unit);
+  if (size == 0) return std::string("0") + unit;
+  if (size < 0.0005) return fmt::format("{:+.0e}{}", value, unit);
   const int digits = size >= 100 ? 0 : size >= 10 ? 1 : size >= 0.1 ? 2 : 3;
   return fmt::format("{:+.{}f}{}", value, digits, unit);
 }
@@ -17,7 +18,8 @@ std::string signed_digits(double value, const char* unit) {
 
 std::string number_text(double value) {
   const double size = std::abs(value);
-  if (size != 0 && size < 0.0001) return fmt::format("{:.1e}", value);
+  if (size == 0) return "0";
+  if (size < 0.0001) return fmt::format("{:.1e}", value);
   return fmt::format("{:.{}f}", value, size >= 1000 ? 0 : size >= 100 ? 1 : size >= 10 ? 2 : 3);
 }
 
