@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <string>
+
 #include "accuracy/trial.h"
 
 namespace voxmelt::accuracy {

@@ -1,3 +1,5 @@
+#include <vector>
+
 #include "accuracy/books.h"
 #include "accuracy/case.h"
 #include "accuracy/convergence.h"

@@ -3,7 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "accuracy/cells.h"
 #include "accuracy/measure.h"

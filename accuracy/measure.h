@@ -1,6 +1,7 @@
 // Numbers taken from a volume: columns of liquid, radii, moments, fronts.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 

@@ -1,8 +1,12 @@
 #include "accuracy/trial.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "bench/measure/baseline_run.h"
 

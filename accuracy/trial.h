@@ -1,7 +1,10 @@
 // One run of a case: a committed scene, its start state, and how fast it ran.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 

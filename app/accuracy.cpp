@@ -1,8 +1,15 @@
 // voxmelt accuracy: how well the automaton does physics, against answers that mathematics gives.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
-#include <iostream>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "accuracy/case.h"
 #include "accuracy/report/report.h"

@@ -25,6 +25,8 @@ PURPOSES = {
     "bench": "how fast it is, and how fast this machine could be",
     "bench/baseline": "the paper's program, plainly written",
     "bench/measure": "what `voxmelt bench` times and checks",
+    "accuracy": "how well it does physics, against analytic answers",
+    "accuracy/report": "the page and the tables",
     "hwmodel": "the hardware: a streaming pipeline in SystemC",
     "hwmodel/channel": "FIFOs, line buffers, wires of a declared width",
     "hwmodel/stream": "one stage per phase, with its own arithmetic",
@@ -53,7 +55,8 @@ PURPOSES = {
 }
 # From the roof to the ground: the rooms of each floor, from left to right, with their widths.
 FLOORS = [
-    [("door", 3), ("app", 3), ("bench", 4)],
+    [("app", 1)],
+    [("door", 3), ("accuracy", 3), ("bench", 4)],
     [("hwmodel", 5), ("render", 4)],
     [("kernel/run", 3), ("kernel/scene", 5)],
     [("kernel/engine", 1)],

@@ -1,6 +1,5 @@
 #include "accuracy/report/axis.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace voxmelt::accuracy {

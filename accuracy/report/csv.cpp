@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <optional>
+#include <string>
+
 #include "accuracy/report/report.h"
 
 namespace voxmelt::accuracy {

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
 
 #include "accuracy/report/style.h"
 #include "accuracy/report/svg.h"

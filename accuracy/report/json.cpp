@@ -1,5 +1,9 @@
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <optional>
+#include <string>
+
 #include "accuracy/report/report.h"
 
 namespace voxmelt::accuracy {

@@ -1,7 +1,9 @@
 // docs/accuracy.md: the tables of the page, for readers of the sources.
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <sstream>
+#include <string>
 
 #include "accuracy/report/report.h"
 

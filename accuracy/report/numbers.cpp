@@ -1,6 +1,9 @@
 // Numbers as a reader wants them.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <string>
+
 #include "accuracy/report/report.h"
 
 namespace voxmelt::accuracy {

@@ -1,8 +1,8 @@
 // Pictures of the page, drawn as SVG in the page's own colours (its style sheet names them).
 #pragma once
 
+#include <cstddef>
 #include <string>
-#include <vector>
 
 #include "accuracy/report/report.h"
 

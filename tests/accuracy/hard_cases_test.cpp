@@ -2,7 +2,10 @@
 // docs/verification.md.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
 
 #include "kernel/automaton/state/digest.h"
 #include "tests/kernel/worlds.h"
