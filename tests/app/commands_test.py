@@ -184,7 +184,7 @@ class Commands(unittest.TestCase):
         self.assertIn("compiler:", self.good("--version"))
         told = self.good("--help")
         self.assertIn("voxmelt run cello", told)
-        commands = ["run", "digest", "export", "render", "bench", "verify", "list"]
+        commands = ["run", "digest", "export", "render", "bench", "accuracy", "verify", "list"]
         self.assertEqual(re.findall(r"(?m)^  ([a-z]\w*) +\S", told.split("Subcommands:")[1]), commands)
         for command in commands:
             self.assertIn("--", self.good(command, "--help"))
