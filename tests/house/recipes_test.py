@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-WANTED = {"scene", "key", "rule", "kernel", "instruction set", "stage", "format", "subcommand", "look"}
+WANTED = {"scene", "key", "rule", "kernel", "instruction set", "stage", "format", "subcommand", "look", "ledger term"}
 
 
 def known_tests(build):
