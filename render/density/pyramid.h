@@ -52,7 +52,7 @@ class Pyramid {
   // Obstacles count where there are any and `obstacles` says so.
   void refresh(const state::Grid& grid, const state::Grid& brick, const ChannelValues& filtered,
                bool obstacles, const std::array<float, 257>& emission);
-  // The levels above, when all bricks have been taken over.
+  // Computes the levels above, when all bricks have been taken over.
   void refresh_top();
 
   // Trilinear in space (position in cells of the grid) and linear between levels, 1 <= level <= kLevels.
