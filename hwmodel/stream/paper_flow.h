@@ -31,7 +31,7 @@ class PaperFlow {
   int flow_bits() const { return bits_for(cap_); }
   int arrival_bits() const { return bits_for(eight_ ? 5 * cap_ : 4 * cap_); }  // a sum of all that may come
 
-  // Without a table: what a content of `whole` gives to each axis direction. One multiplier.
+  // Without a table: what a content of `whole` gives to each axis direction. It takes one multiplier.
   std::int64_t share(std::int64_t heat) const {
     if (!thermal_) return law_.share;
     const std::int64_t most = eight_ ? 13107 : 16384;

@@ -82,7 +82,7 @@ class Simulation {
   const std::string& title() const;
   /// What is odd about the scene but no error, one line each: leaks of a mesh, fields without effect.
   const std::vector<std::string>& warnings() const;
-  /// Steps that the scene asks for; a default for whoever runs it.
+  /// Number of steps that the scene suggests, for callers with no number of their own.
   std::uint32_t scene_steps() const;
   /// Name of the implementation in use.
   const std::string& implementation() const;

@@ -50,7 +50,7 @@ struct Loops {
   void (*shrink)(const ShownRow* from, int rows, int count, const float* emission, Blend* to);
 };
 
-// Compiled for an architecture of xsimd (density_loops.h).
+// The loops, compiled for an architecture of xsimd (density_loops.h).
 template <class Arch>
 Loops loops_for();
 

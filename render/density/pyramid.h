@@ -22,7 +22,8 @@ struct Blend {
   friend bool operator==(const Blend&, const Blend&) = default;
 };
 
-// Stored with a border of one empty cell on every side, so that sampling needs no case for the edge.
+// A level is stored with a border of one empty cell on every side, so that sampling needs no case for
+// the edge.
 struct PyramidLevel {
   PyramidLevel() = default;
   explicit PyramidLevel(const state::Grid& size)
