@@ -64,8 +64,8 @@ class Apply {
 
  private:
   static constexpr int kBatch = 64;
-  // Where a vector begins in the state and the same in the gifts, counted from the first row of the tile row.
-  // The upper 32 bits hold its word in the planes.
+  // Where a vector begins in the state and in the gifts, counted from the first row of the tile row. The
+  // upper 32 bits hold its word in the planes.
   using Item = std::uint64_t;
   static Item item(std::uint32_t at, std::uint32_t mask) { return Item{mask} << 32 | at; }
   static std::size_t at(Item item) { return item & 0xFFFFFFFF; }
@@ -74,7 +74,7 @@ class Apply {
     int y;
     std::uint32_t at, mask;
   };
-  // The cells that give something, in the rows of the three slices at the height of the present one.
+  // The cells that give something, in the present row of three slices.
   struct Givers {
     const std::uint64_t *below, *own, *above;
     [[gnu::always_inline]] void climb(const View& v) {
@@ -240,7 +240,7 @@ class Apply {
   const int z_;
   const Gifts &below_, &own_, &above_;
   std::size_t cell_ = 0, word_ = 0;                       // the tile row's first cell, in the state
-  std::size_t below_at_ = 0, own_at_ = 0, above_at_ = 0;  // in the gifts
+  std::size_t below_at_ = 0, own_at_ = 0, above_at_ = 0;  // in the gifts, likewise
   bool bottom_ = false;                                   // it is the lowest tile row
   Givers givers_{};
   Books& books_;

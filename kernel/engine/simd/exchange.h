@@ -138,7 +138,7 @@ class Exchange {
     return heat + gain;
   }
 
-  // floor((air - T) rate + D) / 65536): for air < T the rounding turns round: |difference| rate is rounded
+  // floor((air - T) rate + D) / 65536): for air < T the rounding is reversed: |difference| rate is rounded
   // with 65535 - D.
   [[gnu::always_inline]] V blow(V heat, V amount, const Exposed& bare, V air, int part, V& left) {
     const V own = plateau_(heat), warmer = L::sub_saturated(air, own), colder = L::sub_saturated(own, air);
