@@ -24,9 +24,8 @@ double load_average();  // of the last minute: threads of the whole system that 
 
 // Bytes per second, read and written bytes both counted.
 struct Bandwidth {
-  double copy = 0;  // memcpy from one half of the footprint to the other
-  double update =
-      0;  // every number read, changed and written back in place: no cache line is fetched in vain
+  double copy = 0;    // memcpy from one half of the footprint to the other
+  double update = 0;  // every number read, changed and written in place: no cache line is fetched in vain
   double best() const { return copy > update ? copy : update; }
 };
 

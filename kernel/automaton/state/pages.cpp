@@ -24,8 +24,7 @@ std::byte* reserve(std::size_t bytes) {
   void* address =
       ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (address == MAP_FAILED) throw std::bad_alloc();
-  if (bytes >= kLeastLarge && bytes <= kMostLarge)
-    ::madvise(address, bytes, MADV_HUGEPAGE);  // the kernel may ignore it
+  if (bytes >= kLeastLarge && bytes <= kMostLarge) ::madvise(address, bytes, MADV_HUGEPAGE);  // a hint
   return static_cast<std::byte*>(address);
 }
 

@@ -19,8 +19,7 @@ using TileRow = std::uint64_t;
 // The memory of a state::Volume. Rows begin at multiples of 64 cells.
 struct View {
   std::uint16_t *amount = nullptr, *energy = nullptr, *heat = nullptr;
-  const std::uint64_t* walls =
-      nullptr;  // at (0, 0, 0) of a plane that is one word and one row wider at every side
+  const std::uint64_t* walls = nullptr;  // at (0, 0, 0) of a plane one word and one row wider at every side
   const std::uint64_t* sides = nullptr;  // the same before this step's melt, for the paper law's gravity
   std::uint64_t *solid = nullptr, *liquid = nullptr, *inert = nullptr;
   int nx = 0, ny = 0, nz = 0;

@@ -25,8 +25,8 @@ class Reader {
   Value::Kind kind(std::string_view key) const { return table_->find(key)->kind; }  // the key must be there
   std::string name(std::string_view key) const;                                     // full path of a key
   const Place& place() const { return table_->place; }
-  const Place& place(
-      std::string_view key) const;  // the place of its value, or of the table where the key is missing
+  // The place of its value, or of the table where the key is missing.
+  const Place& place(std::string_view key) const;
 
   // Each gives the value of `key`. Without the key it gives the fallback, or throws InputError if there
   // is none.
