@@ -1,8 +1,9 @@
 // docs/automaton.md section 5: which solid cells see a source, and what they get from it.
 //
-// The ray is cut into the layers of cells along its longest axis. In a layer it meets few cells; each opaque
-// one of them is tested by itself: the ray, as the set of t in (0, 1) with C + t delta, and the cell's
-// interior, as an open interval of t per axis, have a point in common. All numbers are exact fractions.
+// The ray is cut into the layers of cells along its longest axis. In a layer it meets few cells, and
+// each opaque one is tested by itself. The ray is the set of t in (0, 1) with C + t delta. The cell's
+// interior is an open interval of t per axis. The cell blocks if all have a point in common. All numbers
+// are exact fractions.
 #include <array>
 #include <cstddef>
 #include <vector>
