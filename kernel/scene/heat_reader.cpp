@@ -49,6 +49,13 @@ void read_air(Reader& reader, rule::Heat& heat, int ny) {
   reader.finish();
 }
 
+int read_rays(Reader& reader) {
+  const std::int64_t asked = reader.integer("rays_per_face", 1, 16, 1);
+  if (asked != 1 && asked != 4 && asked != 16)
+    reader.fail("rays_per_face", fmt::format(" = {} is not one of 1, 4, 16", asked));
+  return static_cast<int>(asked);
+}
+
 rule::PointSource read_source(Reader& reader) {
   reader.choice("kind", {"point"}, 0);
   rule::PointSource source;
@@ -96,6 +103,7 @@ rule::Heat read_heat(Reader& root, int ny) {
   heat.convection = static_cast<std::uint16_t>(
       std::min<long>(32767, std::lround(reader->number("convection", at_most(0.5), 0.0) * 65536)));
   heat.visibility_every = static_cast<std::uint32_t>(reader->integer("visibility_every", 1, 1024, 8));
+  heat.rays_per_face = read_rays(*reader);
   if (std::optional<Reader> air = reader->table("air")) read_air(*air, heat, ny);
   reader->finish();
 

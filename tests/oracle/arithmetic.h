@@ -42,7 +42,12 @@ constexpr Int dither(Int s, Int k = 0, Int n = 1) { return (bit_reversed(s) + 65
 // Mixing (section 2): the heat of `amount` = sum a_i, with `products` = sum a_i h_i and D = D(s).
 constexpr Int mixed(Int products, Int amount, Int D) { return (products + ((amount * D) >> 16)) / amount; }
 
-// W[n] of section 5: 4096 times the square root of the number of axes.
-constexpr Int AXIS_WEIGHT[4] = {0, 4096, 5793, 7094};
+// The floor of the square root of a, for 0 <= a < 2^62: the greatest number whose square is at most a.
+constexpr Int square_root(Int a) {
+  Int root = 0;
+  for (Int bit = Int{1} << 30; bit > 0; bit >>= 1)
+    if ((root + bit) * (root + bit) <= a) root += bit;
+  return root;
+}
 
 }  // namespace oracle

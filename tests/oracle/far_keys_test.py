@@ -19,14 +19,15 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         start = f"{folder}/start"
         output(voxmelt, "export", scene, "--steps", "0", "--out", start, "--quiet")
-        for steps in ("8192", "8200", "11999", "12001", "20192", "20200"):
+        counts = ("8192", "8200", "11999", "12001", "20192", "20200")
+        for steps in counts:
             mine = output(voxmelt, "digest", scene, "--steps", steps, "--quiet")
             judge = output(oracle, start, "--steps", steps)
             if mine != judge:
                 sys.exit(f"{steps} steps:\n  voxmelt {mine}\n  oracle  {judge}")
             found.add(mine.split()[3])
-    if len(found) < 4:
-        sys.exit("the source does not show in the state: nothing was compared")
+    if len(found) < len(counts):
+        sys.exit("some of these states are the same: the source shows too little in them")
     print(f"{len(found)} different states agree")
 
 

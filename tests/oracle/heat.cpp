@@ -13,6 +13,9 @@ const std::vector<Axis> FACES = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 const std::vector<Axis> EDGES = {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
 const std::vector<Axis> CORNERS = {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}};
 
+// W[n] of section 6: 4096 times the square root of the number of axes.
+constexpr Int AXIS_WEIGHT[4] = {0, 4096, 5793, 7094};
+
 // T(h)
 Int temperature(const State& state, Int i) {
   const Int h = state.cells[i].heat;

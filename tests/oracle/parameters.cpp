@@ -109,6 +109,9 @@ Heat read_heat(const Json& json, Int ny) {
   heat.radiation = yes(json, "radiation");
   if (heat.radiation) {
     heat.visibility_every = integer(json, "visibility_every", 1, 1024);
+    heat.rays_per_face = integer(json, "rays_per_face", 1, 16);
+    require(heat.rays_per_face == 1 || heat.rays_per_face == 4 || heat.rays_per_face == 16,
+            "heat.rays_per_face is neither 1, 4 nor 16");
     for (const Json& entry : member(json, "sources")) heat.sources.push_back(read_radiation_source(entry));
   }
   heat.air = yes(json, "air");

@@ -38,6 +38,7 @@ struct Heat {
   Int convection = 0;
   bool radiation = false;
   Int visibility_every = 1;
+  Int rays_per_face = 1;
   std::vector<RadiationSource> sources;
   bool air = false;
   Int air_exchange = 0;

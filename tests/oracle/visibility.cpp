@@ -1,9 +1,9 @@
-// docs/automaton.md section 5: which solid cells see a source, and what they get from it.
+// docs/automaton.md section 5: which faces of solid cells see a source, and what the cells get from it.
 //
-// The ray is cut into the layers of cells along its longest axis. In a layer it meets few cells, and
-// each opaque one is tested by itself. The ray is the set of t in (0, 1) with C + t delta. The cell's
-// interior is an open interval of t per axis. The cell blocks if all have a point in common. All numbers
-// are exact fractions.
+// A ray is cut into the layers of cells along its longest axis. In a layer it meets few cells; each opaque
+// one of them is tested by itself: the ray, as the set of t in (0, 1) with start + t delta, and the cell's
+// interior, as an open interval of t per axis, have a point in common. All numbers are exact fractions.
+// A ray may start on the border of a cell; the test needs no exception for that, nor for the ray's own cell.
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -14,10 +14,9 @@ namespace oracle {
 namespace {
 
 struct Ray {
-  Point from{};                   // C, in sixteenths
-  Point delta{};                  // S - C
-  std::array<Int, 3> own_cell{};  // the cell of C: never in the way
-  std::size_t longest = 0;        // the axis of the greatest |delta|
+  Point from{};             // its start on a face, in sixteenths
+  Point delta{};            // from there to the source
+  std::size_t longest = 0;  // the axis of the greatest |delta|
 };
 
 struct Opaque {
@@ -33,7 +32,7 @@ struct Opaque {
 
 Int magnitude(Int a) { return a < 0 ? -a : a; }
 
-// Is there a t in (0, 1) with C + t delta strictly inside the cell?
+// Is there a t in (0, 1) with from + t delta strictly inside the cell?
 bool meets_interior(const Ray& ray, const std::array<Int, 3>& cell) {
   // The open intervals (low / length, high / length) of t; the first is the segment itself.
   Int low[4] = {0}, high[4] = {1}, length[4] = {1};
@@ -75,15 +74,16 @@ bool layer_is_clear(const Opaque& opaque, const Ray& ray, Int layer) {
   cell[main] = layer;
   for (cell[a] = smaller(a1, a2); cell[a] <= larger(a1, a2); ++cell[a])
     for (cell[b] = smaller(b1, b2); cell[b] <= larger(b1, b2); ++cell[b])
-      if (opaque.at(cell) && cell != ray.own_cell && meets_interior(ray, cell)) return false;
+      if (opaque.at(cell) && meets_interior(ray, cell)) return false;
   return true;
 }
 
 bool sees(const Opaque& opaque, const Ray& ray) {
   const std::size_t main = ray.longest;
+  const Int start = floor_divide<Int>(ray.from[main], 16);
   const Int end = floor_divide<Int>(ray.from[main] + ray.delta[main], 16);
-  const Int first = larger(smaller(ray.own_cell[main], end), opaque.low[main]);
-  const Int last = smaller(larger(ray.own_cell[main], end), opaque.high[main]);
+  const Int first = larger(smaller(start, end), opaque.low[main]);
+  const Int last = smaller(larger(start, end), opaque.high[main]);
   if (ray.delta[main] > 0) {
     for (Int layer = first; layer <= last; ++layer)
       if (!layer_is_clear(opaque, ray, layer)) return false;
@@ -134,30 +134,61 @@ Key key_at(const RadiationSource& source, Int s) {
   return keys.back();
 }
 
-Int received(const Opaque& opaque, Place p, const Key& source) {
+Ray ray_between(const Point& from, const Point& to) {
   Ray ray;
-  ray.own_cell = {p.x, p.y, p.z};
-  Int facing_axes = 0;
+  ray.from = from;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    ray.delta[axis] = to[axis] - from[axis];
+    if (magnitude(ray.delta[axis]) > magnitude(ray.delta[ray.longest])) ray.longest = axis;
+  }
+  return ray;
+}
+
+// How many of the m x m rays see the source that start at the face whose centre is given, across `axis`.
+Int seeing_rays(const Opaque& opaque, const Point& face, std::size_t axis, Int m, const Point& source) {
+  const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
+  Int count = 0;
+  Point start = face;
+  for (Int i = 0; i < m; ++i)
+    for (Int j = 0; j < m; ++j) {
+      start[a] = face[a] - 8 + (16 * i + 8) / m;
+      start[b] = face[b] - 8 + (16 * j + 8) / m;
+      if (sees(opaque, ray_between(start, source))) ++count;
+    }
+  return count;
+}
+
+Int received(const Opaque& opaque, Place p, const Key& source, Int rays_per_face) {
+  const std::array<Int, 3> own_cell = {p.x, p.y, p.z};
+  const Int m = square_root(rays_per_face);
+  Point centre{}, delta{};
   Int square = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    ray.from[axis] = 16 * ray.own_cell[axis] + 8;
-    const Int d = source.at[axis] - ray.from[axis];
-    ray.delta[axis] = d;
-    square += d * d;
-    if (magnitude(d) > magnitude(ray.delta[ray.longest])) ray.longest = axis;
-    if (d == 0) continue;
-    std::array<Int, 3> neighbour = ray.own_cell;
-    neighbour[axis] += d > 0 ? 1 : -1;
-    if (!opaque.at(neighbour)) ++facing_axes;
+    centre[axis] = 16 * own_cell[axis] + 8;
+    delta[axis] = source.at[axis] - centre[axis];
+    square += delta[axis] * delta[axis];
   }
-  if (facing_axes == 0 || !sees(opaque, ray)) return 0;
-  return static_cast<Int>(Sum{source.power} * AXIS_WEIGHT[facing_axes] / (4096 * Sum{larger(square, 256)}));
+  Int N = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Int ahead = delta[axis] > 0 ? 1 : -1;
+    std::array<Int, 3> neighbour = own_cell;
+    neighbour[axis] += ahead;
+    if (magnitude(delta[axis]) <= 8 || opaque.at(neighbour)) continue;  // this face does not look
+    Point face = centre;
+    face[axis] += 8 * ahead;
+    N += seeing_rays(opaque, face, axis, m, source.at) * magnitude(delta[axis]);
+  }
+  if (N == 0) return 0;
+  const Int d2 = larger(square, 256);
+  const Sum divisor = Sum{rays_per_face} * d2 * square_root(4096 * d2);
+  return static_cast<Int>(64 * Sum{source.power} * N / divisor);
 }
 
 }  // namespace
 
 void find_irradiance(State& state) {
   const Opaque opaque = opaque_cells(state);
+  const Int rays = state.parameters.heat.rays_per_face;
   std::vector<Key> sources;
   for (const RadiationSource& source : state.parameters.heat.sources)
     sources.push_back(key_at(source, state.step));
@@ -165,7 +196,7 @@ void find_irradiance(State& state) {
   for (const Int i : state.list) {
     if (state.cells[i].solid == 0) continue;
     for (const Key& source : sources) {
-      const Sum sum = Sum{state.irradiance[i]} + received(opaque, state.place(i), source);
+      const Sum sum = Sum{state.irradiance[i]} + received(opaque, state.place(i), source, rays);
       state.irradiance[i] = sum > 65535 ? 65535 : static_cast<Int>(sum);
     }
   }

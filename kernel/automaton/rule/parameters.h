@@ -41,6 +41,7 @@ struct Heat {
   std::uint16_t convection = 0;     // upward exchange in liquid, 1/65536, at most 32767; 0 is off
   bool radiation = false;           // point sources present
   std::uint32_t visibility_every = 8;
+  int rays_per_face = 1;  // 1, 4 or 16: from the centres of equal squares
   std::vector<PointSource> sources;
   bool air = false;                          // exchange with moving air at exposed cells (oven, or cooling)
   std::uint16_t air_exchange = 0;            // 1/65536 per step and unit area, at most 37837

@@ -1,4 +1,4 @@
-// Irradiance of a cell from a point source: integer falloff, and the exact walk of its visibility ray.
+// Irradiance of a cell from a point source: what its faces receive, and the exact walk of their rays.
 #pragma once
 
 #include <algorithm>
@@ -7,31 +7,52 @@
 #include <cstdint>
 
 #include "kernel/automaton/rule/fixed_point.h"
-#include "kernel/automaton/rule/heat.h"
 #include "kernel/automaton/rule/parameters.h"
 
 namespace voxmelt::rule {
 
 inline constexpr std::int32_t kIrradianceMax = 65535;  // UQ12.4 temperature units per step
 
-// Inverse-square falloff from `power`, no nearer than one cell; `facing_axes` 1..3 open towards the source.
-VOXMELT_RULE std::uint64_t irradiance(std::uint64_t power, std::uint64_t distance_squared, int facing_axes) {
-  constexpr std::uint64_t one_cell = kPositionUnit * kPositionUnit;
-  return power * static_cast<std::uint64_t>(kExposure[static_cast<std::size_t>(facing_axes)]) /
-         (4096 * std::max(distance_squared, one_cell));
+// floor(sqrt(a)), digit by digit: exact, and the same everywhere.
+VOXMELT_RULE std::uint64_t square_root(std::uint64_t a) {
+  std::uint64_t root = 0;
+  for (std::uint64_t bit = std::uint64_t{1} << 62; bit != 0; bit >>= 2) {
+    const std::uint64_t next = root + bit;
+    root >>= 1;
+    if (a < next) continue;
+    a -= next;
+    root += bit;
+  }
+  return root;
 }
 
-// Walks the cells whose interiors the open segment from a cell's centre to `target` crosses, in order, the
-// first one excluded. At an edge or corner it steps along all tied axes at once: touching is not crossing.
+// What the faces of a cell receive from a source: power x (sum of |delta_a| over them) / |delta|^3, which is
+// the inverse square times the cosine of each face; no nearer than one cell.
+//   facing            that sum, taken for every ray that sees the source
+//   rays              of a face: 1, 4 or 16
+//   distance_squared  |delta|^2 from the cell's centre, below 2^52
+VOXMELT_RULE std::uint64_t irradiance(std::uint64_t power, std::int64_t facing, int rays,
+                                      std::uint64_t distance_squared) {
+  __extension__ using Wide = unsigned __int128;
+  constexpr std::uint64_t one_cell = kPositionUnit * kPositionUnit;
+  const std::uint64_t squared = std::max(distance_squared, one_cell);
+  const std::uint64_t length = square_root(squared << 12);  // in 1/64 of a position's unit
+  return static_cast<std::uint64_t>(Wide{power} * static_cast<std::uint64_t>(64 * facing) /
+                                    (Wide{squared} * length * static_cast<unsigned>(rays)));
+}
+
+// Walks the cells whose interiors the open segment from `start` to `target` crosses, in order. At an edge or
+// a corner it steps along all tied axes at once: touching is not crossing.
 class VoxelWalk {
  public:
-  VoxelWalk(int x, int y, int z, Position target) : cell_{x, y, z} {
-    const std::array<std::int64_t, 3> to{target.x, target.y, target.z};
+  // `cell` is the first one that is crossed; `start` lies inside it, or on its border and behind it.
+  VoxelWalk(std::array<int, 3> cell, Position start, Position target) : cell_(cell) {
+    const std::array<std::int64_t, 3> from{start.x, start.y, start.z}, to{target.x, target.y, target.z};
     for (std::size_t a = 0; a < 3; ++a) {
-      const std::int64_t delta = to[a] - (kPositionUnit * cell_[a] + 8);
+      const std::int64_t delta = to[a] - from[a], lower = kPositionUnit * cell_[a];
       step_[a] = delta > 0 ? 1 : -1;
       length_[a] = delta > 0 ? delta : -delta;
-      crossing_[a] = 8;
+      crossing_[a] = delta > 0 ? lower + kPositionUnit - from[a] : from[a] - lower;
     }
   }
 

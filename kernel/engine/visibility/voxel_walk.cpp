@@ -1,9 +1,11 @@
 #include "kernel/automaton/rule/visibility.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #include "kernel/automaton/rule/source.h"
 #include "kernel/engine/visibility/visibility.h"
@@ -16,23 +18,49 @@ bool opaque(const state::Volume& volume, int x, int y, int z) {
   return volume.grid.contains(x, y, z) && (volume.solid.test(x, y, z) || volume.inert.test(x, y, z));
 }
 
-int facing_axes(const state::Volume& volume, int x, int y, int z, std::int64_t dx, std::int64_t dy,
-                std::int64_t dz) {
-  const auto side = [](std::int64_t d) { return d > 0 ? 1 : -1; };
-  return (dx != 0 && !opaque(volume, x + side(dx), y, z)) + (dy != 0 && !opaque(volume, x, y + side(dy), z)) +
-         (dz != 0 && !opaque(volume, x, y, z + side(dz)));
-}
+using Cell = std::array<int, 3>;
 
-bool sees(const state::Volume& volume, int x, int y, int z, rule::Position source) {
-  rule::VoxelWalk walk(x, y, z, source);
-  bool was_inside = true;
-  while (walk.next()) {
-    const bool inside = volume.grid.contains(walk.x(), walk.y(), walk.z());
-    if (was_inside && !inside) return true;  // a straight ray never comes back
+bool sees(const state::Volume& volume, Cell first, rule::Position start, rule::Position source) {
+  rule::VoxelWalk walk(first, start, source);
+  bool inside = volume.grid.contains(walk.x(), walk.y(), walk.z());
+  while (inside && walk.next()) {  // a straight ray that has left the grid never comes back
     if (opaque(volume, walk.x(), walk.y(), walk.z())) return false;
-    was_inside = inside;
+    inside = volume.grid.contains(walk.x(), walk.y(), walk.z());
   }
   return true;
+}
+
+// How many rays from the face of a cell towards `beyond`, along `axis`, see the source: `side` x `side` of
+// them, from the centres of equal squares.
+int seeing(const state::Volume& volume, Cell cell, std::size_t axis, Cell beyond, int side,
+           rule::Position source) {
+  std::array<std::int64_t, 3> start{};
+  start[axis] = rule::kPositionUnit * std::max(cell[axis], beyond[axis]);
+  const std::size_t across = (axis + 1) % 3, along = (axis + 2) % 3;
+  const std::int64_t square = rule::kPositionUnit / side;
+  int count = 0;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      start[across] = rule::kPositionUnit * cell[across] + square * i + square / 2;
+      start[along] = rule::kPositionUnit * cell[along] + square * j + square / 2;
+      count += sees(volume, beyond, {start[0], start[1], start[2]}, source);
+    }
+  return count;
+}
+
+// The sum of |delta_a| over the rays that see the source.
+std::int64_t facing(const state::Volume& volume, Cell cell, const std::array<std::int64_t, 3>& delta,
+                    int side, rule::Position source) {
+  std::int64_t sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t length = std::abs(delta[axis]);
+    if (length <= rule::kPositionUnit / 2) continue;  // the source is in the face's plane, or behind it
+    Cell beyond = cell;
+    beyond[axis] += delta[axis] > 0 ? 1 : -1;
+    if (opaque(volume, beyond[0], beyond[1], beyond[2])) continue;
+    sum += length * seeing(volume, cell, axis, beyond, side, source);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -41,19 +69,22 @@ void VoxelWalkProvider::irradiance(const state::Volume& volume, const rule::Heat
                                    state::Field<std::uint16_t>& result) {
   const state::Grid g = volume.grid;
   result.clear();
+  const int rays = heat.rays_per_face;
+  const int side = rays == 16 ? 4 : rays == 4 ? 2 : 1;
   for (const rule::PointSource& path : heat.sources) {
     const rule::SourceKey source = rule::source_at(path, step);
     if (source.power == 0) continue;
 
     const auto light = [&](int x, int y, int z) {
-      const std::int64_t dx = source.at.x - (rule::kPositionUnit * x + 8),
-                         dy = source.at.y - (rule::kPositionUnit * y + 8),
-                         dz = source.at.z - (rule::kPositionUnit * z + 8);
-      const int axes = facing_axes(volume, x, y, z, dx, dy, dz);
-      if (axes == 0 || !sees(volume, x, y, z, source.at)) return;
-      const auto distance_squared = static_cast<std::uint64_t>(dx * dx + dy * dy + dz * dz);
+      const std::array<std::int64_t, 3> delta{source.at.x - (rule::kPositionUnit * x + 8),
+                                              source.at.y - (rule::kPositionUnit * y + 8),
+                                              source.at.z - (rule::kPositionUnit * z + 8)};
+      const std::int64_t sum_facing = facing(volume, {x, y, z}, delta, side, source.at);
+      if (sum_facing == 0) return;
+      const auto squared =
+          static_cast<std::uint64_t>(delta[0] * delta[0] + delta[1] * delta[1] + delta[2] * delta[2]);
       std::uint16_t& cell = result[volume.at(x, y, z)];
-      const std::uint64_t sum = cell + rule::irradiance(source.power, distance_squared, axes);
+      const std::uint64_t sum = cell + rule::irradiance(source.power, sum_facing, rays, squared);
       cell = static_cast<std::uint16_t>(std::min<std::uint64_t>(sum, rule::kIrradianceMax));
     };
     workers_.run(g.z, [&](int z) {

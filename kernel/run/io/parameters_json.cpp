@@ -32,6 +32,7 @@ json heat_json(const rule::Heat& heat) {
           {"convection", heat.convection},
           {"radiation", heat.radiation},
           {"visibility_every", heat.visibility_every},
+          {"rays_per_face", heat.rays_per_face},
           {"sources", sources_json(heat)},
           {"air", heat.air},
           {"air_exchange", heat.air_exchange},

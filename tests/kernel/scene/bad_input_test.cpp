@@ -55,6 +55,8 @@ const std::vector<Case>& cases() {
        "scene.toml:8:9: error: heat.gamma must be a number, not a string"},
       {kBox + "[heat]\nneighbours = 7\n",
        "scene.toml:8:14: error: heat.neighbours = 7 is not one of 6, 18, 26"},
+      {kBox + "[heat]\nrays_per_face = 9\n",
+       "scene.toml:8:17: error: heat.rays_per_face = 9 is not one of 1, 4, 16"},
       {kBox + "[run]\nsteps = -1\n", "scene.toml:8:9: error: run.steps = -1 is outside 0..4294967295"},
       {kBox + "[run]\nsteps = 1.5\n", "scene.toml:8:9: error: run.steps must be an integer, not a number"},
       {kBox + "[run]\nsteps = 2024-01-01\n",

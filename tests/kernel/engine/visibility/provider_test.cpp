@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include "kernel/engine/visibility/visibility.h"
@@ -32,21 +34,13 @@ bool opaque(const Volume& v, int x, int y, int z) {
   return v.grid.contains(x, y, z) && (v.solid.test(x, y, z) || v.inert.test(x, y, z));
 }
 
-// Section 5, written again: the segment is cut by all cells of the grid, each by an exact slab test.
-std::uint64_t by_the_page(const Volume& v, int x, int y, int z, Position s, std::uint64_t power) {
-  const std::array<std::int64_t, 3> c{16 * x + 8, 16 * y + 8, 16 * z + 8},
-      d{s.x - c[0], s.y - c[1], s.z - c[2]};
-  std::size_t axes = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (d[a] == 0) continue;
-    std::array<int, 3> n{x, y, z};
-    n[a] += d[a] > 0 ? 1 : -1;
-    axes += !opaque(v, n[0], n[1], n[2]);
-  }
-  if (axes == 0) return 0;
+// Is the open segment from `c` to `s` cut by no opaque cell? Every cell of the grid is asked, by an exact
+// slab test.
+bool clear(const Volume& v, std::array<std::int64_t, 3> c, Position s) {
+  const std::array<std::int64_t, 3> d{s.x - c[0], s.y - c[1], s.z - c[2]};
   bool hidden = false;
   for_each(whole(v.grid), [&](int bx, int by, int bz) {
-    if (hidden || !opaque(v, bx, by, bz) || (bx == x && by == y && bz == z)) return;
+    if (hidden || !opaque(v, bx, by, bz)) return;
     // Cut t in (0, 1) to where c + t d is inside the open cell; fractions over / under with under > 0.
     std::int64_t low = 0, low_under = 1, high = 1, high_under = 1;
     const std::array<std::int64_t, 3> corner{16 * bx, 16 * by, 16 * bz};
@@ -60,10 +54,34 @@ std::uint64_t by_the_page(const Volume& v, int x, int y, int z, Position s, std:
     }
     hidden = low * high_under < high * low_under;
   });
-  if (hidden) return 0;
-  const std::array<std::uint64_t, 4> w{0, 4096, 5793, 7094};
-  const auto squared = static_cast<std::uint64_t>(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  return power * w[axes] / (4096 * std::max<std::uint64_t>(squared, 256));
+  return !hidden;
+}
+
+// Section 5, written again: every ray of every face by itself, the square root in floating point.
+std::uint64_t by_the_page(const Volume& v, int x, int y, int z, Position s, std::uint64_t power, int rays) {
+  const std::array<std::int64_t, 3> c{16 * x + 8, 16 * y + 8, 16 * z + 8},
+      d{s.x - c[0], s.y - c[1], s.z - c[2]};
+  const int side = rays == 1 ? 1 : rays == 4 ? 2 : 4;
+  std::int64_t sum = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (d[a] >= -8 && d[a] <= 8) continue;
+    std::array<int, 3> n{x, y, z};
+    n[a] += d[a] > 0 ? 1 : -1;
+    if (opaque(v, n[0], n[1], n[2])) continue;
+    for (int i = 0; i < side; ++i)
+      for (int j = 0; j < side; ++j) {
+        std::array<std::int64_t, 3> from = c;
+        from[a] += d[a] > 0 ? 8 : -8;
+        from[(a + 1) % 3] += -8 + 16 * i / side + 8 / side;
+        from[(a + 2) % 3] += -8 + 16 * j / side + 8 / side;
+        if (clear(v, from, s)) sum += std::abs(d[a]);
+      }
+  }
+  const std::int64_t squared = std::max<std::int64_t>(256, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const auto length =
+      static_cast<std::int64_t>(std::floor(std::sqrt(4096.0L * static_cast<long double>(squared))));
+  return power * static_cast<std::uint64_t>(64 * sum) /
+         (static_cast<std::uint64_t>(squared * length) * static_cast<std::uint64_t>(rays));
 }
 
 TEST(Irradiance, EqualsBruteForce) {
@@ -87,12 +105,15 @@ TEST(Irradiance, EqualsBruteForce) {
       sources.push_back({coordinate(v.grid.x), coordinate(v.grid.y), coordinate(v.grid.z)});
     }
     const std::uint64_t power = std::uint64_t{1} << random.between(10, 30);
-    const state::Field<std::uint16_t> result = irradiance(v, lit_by(sources, power));
+    rule::Heat heat = lit_by(sources, power);
+    heat.rays_per_face = random.any({1, 4, 16});
+    const state::Field<std::uint16_t> result = irradiance(v, heat);
     for_each(whole(v.grid), [&](int x, int y, int z) {
       std::uint64_t expected = 0;
       if (v.solid.test(x, y, z))
         for (const Position s : sources)
-          expected = std::min<std::uint64_t>(65535, expected + by_the_page(v, x, y, z, s, power));
+          expected = std::min<std::uint64_t>(
+              65535, expected + by_the_page(v, x, y, z, s, power, heat.rays_per_face));
       ++(expected > 0 ? lit : dark);
       ASSERT_EQ(result[v.at(x, y, z)], expected) << x << ' ' << y << ' ' << z << ", trial " << trial;
     });
@@ -108,11 +129,29 @@ TEST(Irradiance, OfACubeSeenFromItsFaceEdgeAndCorner) {
   put_solid(v, 4, 4, 4);  // centre (72, 72, 72)
   const auto from = [&](Position s) { return irradiance(v, lit_by({s}, kPower))[v.at(4, 4, 4)]; };
   EXPECT_EQ(from({72 + 32, 72, 72}), 4000);
-  EXPECT_EQ(from({72 + 32, 72 - 32, 72}), 16000 * 256 / 2048 * 5793 / 4096);
-  EXPECT_EQ(from({72 - 32, 72 + 32, 72 + 32}), kPower * 7094 / (4096 * 3072));
+  EXPECT_EQ(from({72 + 32, 72 - 32, 72}), 2828) << "16000 (256 / 2048) sqrt 2 = 2828.4";
+  EXPECT_EQ(from({72 - 32, 72 + 32, 72 + 32}), 2309) << "16000 (256 / 3072) sqrt 3 = 2309.4";
   EXPECT_EQ(from({72, 72, 72}), 0) << "at its centre no face looks at it";
-  EXPECT_EQ(from({73, 72, 72}), 16000) << "inside the cell: as from one cell away";
+  EXPECT_EQ(from({80, 72, 72}), 0) << "in the plane of a face";
+  EXPECT_EQ(from({81, 72, 72}), 9000) << "just beyond it: as from one cell away, 9 / 16 of the cosine";
   EXPECT_EQ(from({72 + 160, 72, 72}), 160) << "outside the grid";
+}
+
+// A flat surface receives the cosine, at every angle (the source 400 cells away); so do its sides' shadows.
+TEST(Irradiance, AFlatSurfaceReceivesTheCosine) {
+  Volume v(Grid{33, 9, 33});
+  for_each({0, 0, 0, 33, 4, 33}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
+  const double distance = 6400, power = 4e11;
+  for (const double degrees : {0.0, 20.0, 40.0, 44.0, 46.0, 60.0, 75.0, 85.0})
+    for (const double turn : {0.0, 22.5, 45.0, 200.0}) {
+      const double angle = degrees * 3.14159265358979 / 180, round = turn * 3.14159265358979 / 180;
+      const std::array<double, 3> to{std::sin(angle) * std::cos(round), std::cos(angle),
+                                     std::sin(angle) * std::sin(round)};
+      const Position s{264 + std::llround(distance * to[0]), 56 + std::llround(distance * to[1]),
+                       264 + std::llround(distance * to[2])};
+      const double received = irradiance(v, lit_by({s}, static_cast<std::uint64_t>(power)))[v.at(16, 3, 16)];
+      EXPECT_NEAR(received / (power / distance / distance), std::cos(angle), 0.001) << degrees << ' ' << turn;
+    }
 }
 
 TEST(Irradiance, SourceInsideASolidLightsNothingBeyondIt) {
@@ -121,9 +160,9 @@ TEST(Irradiance, SourceInsideASolidLightsNothingBeyondIt) {
   put_solid(v, 0, 4, 4);
   const state::Field<std::uint16_t> inside = irradiance(v, lit_by({{72, 72, 72}}, 1u << 30));
   for (const std::uint16_t i : inside.stored()) EXPECT_EQ(i, 0);
-  // On the block's face: the cell there is lit by it, and the far one too.
+  // In the plane of the block's face: what lies across is lit by it, and that plane is not.
   const state::Field<std::uint16_t> face = irradiance(v, lit_by({{48, 72, 72}}, 1u << 30));
-  EXPECT_GT(face[v.at(3, 4, 4)], 0);
+  EXPECT_EQ(face[v.at(3, 4, 4)], 0);
   EXPECT_GT(face[v.at(0, 4, 4)], 0);
   EXPECT_EQ(face[v.at(5, 4, 4)], 0);
 }

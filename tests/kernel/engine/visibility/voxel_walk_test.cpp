@@ -19,16 +19,15 @@ using namespace worlds;
 using rule::Position;
 using Cell = std::tuple<int, int, int>;
 
-// Does the open segment from the centre of `from` to `to` meet the interior of `cell`? Slab test: on each
-// axis the open interval of the parameter t in (0, 1); fractions compared by cross-multiplication.
+// Does the open segment from `from` to `to` meet the interior of `cell`? Slab test: on each axis the open
+// interval of the parameter t in (0, 1); fractions compared by cross-multiplication.
 struct Fraction {
   std::int64_t over, under;  // under > 0
 };
 bool less(Fraction a, Fraction b) { return a.over * b.under < b.over * a.under; }
 
-bool meets_interior(Cell from, Position to, Cell cell) {
-  const std::array<std::int64_t, 3> start{16 * std::get<0>(from) + 8, 16 * std::get<1>(from) + 8,
-                                          16 * std::get<2>(from) + 8};
+bool meets_interior(Position from, Position to, Cell cell) {
+  const std::array<std::int64_t, 3> start{from.x, from.y, from.z};
   const std::array<std::int64_t, 3> end{to.x, to.y, to.z};
   const std::array<std::int64_t, 3> low{16 * std::get<0>(cell), 16 * std::get<1>(cell),
                                         16 * std::get<2>(cell)};
@@ -53,7 +52,14 @@ bool meets_interior(Cell from, Position to, Cell cell) {
 TEST(VoxelWalk, CrossesExactlyTheCellsWhoseInteriorTheSegmentMeets) {
   Random random(21);
   for (int trial = 0; trial < 4000; ++trial) {
-    const Cell from{random.below(6), random.below(6), random.below(6)};
+    // From the inside of a cell, or from one of its faces inwards.
+    const Cell first{random.below(6), random.below(6), random.below(6)};
+    std::array<std::int64_t, 3> start{16 * std::get<0>(first) + random.between(1, 15),
+                                      16 * std::get<1>(first) + random.between(1, 15),
+                                      16 * std::get<2>(first) + random.between(1, 15)};
+    const auto axis = static_cast<std::size_t>(random.below(4));
+    const bool upwards = random.one_in(2);
+    if (axis < 3) start[axis] = (start[axis] & ~15) + (upwards ? 0 : 16);
     // Any point; a face, edge or corner point; a cell centre; far outside.
     const auto coordinate = [&]() -> std::int64_t {
       switch (random.below(4)) {
@@ -67,23 +73,26 @@ TEST(VoxelWalk, CrossesExactlyTheCellsWhoseInteriorTheSegmentMeets) {
           return random.between(-8, 104);
       }
     };
-    const Position to{coordinate(), coordinate(), coordinate()};
+    std::array<std::int64_t, 3> end{coordinate(), coordinate(), coordinate()};
+    if (axis < 3 && (upwards ? end[axis] <= start[axis] : end[axis] >= start[axis]))
+      end[axis] = start[axis] + (upwards ? 1 : -1) * random.between(1, 90);
+    const Position from{start[0], start[1], start[2]}, to{end[0], end[1], end[2]};
     std::set<Cell> walked;
     std::size_t count = 0;
-    for (rule::VoxelWalk walk(std::get<0>(from), std::get<1>(from), std::get<2>(from), to); walk.next();
-         ++count)
+    for (rule::VoxelWalk walk({std::get<0>(first), std::get<1>(first), std::get<2>(first)}, from, to);
+         walk.next(); ++count)
       walked.insert({walk.x(), walk.y(), walk.z()});
     ASSERT_EQ(walked.size(), count) << "no cell twice";
     std::set<Cell> expected;
-    for_each({-4, -4, -4, 10, 10, 10}, [&](int x, int y, int z) {
-      if (Cell{x, y, z} != from && meets_interior(from, to, {x, y, z})) expected.insert({x, y, z});
+    for_each({-7, -7, -7, 13, 13, 13}, [&](int x, int y, int z) {
+      if (Cell{x, y, z} != first && meets_interior(from, to, {x, y, z})) expected.insert({x, y, z});
     });
     ASSERT_EQ(walked, expected) << "to " << to.x << ' ' << to.y << ' ' << to.z;
   }
 }
 
 TEST(VoxelWalk, ThroughACornerTouchesNothing) {
-  rule::VoxelWalk walk(0, 0, 0, {40, 40, 40});  // along the space diagonal
+  rule::VoxelWalk walk({0, 0, 0}, {8, 8, 8}, {40, 40, 40});  // along the space diagonal
   ASSERT_TRUE(walk.next());
   EXPECT_EQ((std::tuple{walk.x(), walk.y(), walk.z()}), (Cell{1, 1, 1}));
   ASSERT_TRUE(walk.next());
@@ -91,24 +100,39 @@ TEST(VoxelWalk, ThroughACornerTouchesNothing) {
   EXPECT_FALSE(walk.next());
 }
 
-TEST(VoxelWalk, AtDistanceZeroAndOnTheOwnFaceGoesNowhere) {
-  EXPECT_FALSE(rule::VoxelWalk(2, 3, 4, {40, 56, 72}).next());
-  EXPECT_FALSE(rule::VoxelWalk(2, 3, 4, {48, 56, 72}).next()) << "on the own face";
-  EXPECT_FALSE(rule::VoxelWalk(2, 3, 4, {48, 64, 80}).next()) << "on the own corner";
-  EXPECT_TRUE(rule::VoxelWalk(2, 3, 4, {49, 56, 72}).next());
+TEST(VoxelWalk, AtDistanceZeroAndOnTheFirstCellsFaceGoesNowhere) {
+  const auto next = [](Position to) { return rule::VoxelWalk({2, 3, 4}, {40, 56, 72}, to).next(); };
+  EXPECT_FALSE(next({40, 56, 72}));
+  EXPECT_FALSE(next({48, 56, 72})) << "on the first cell's face";
+  EXPECT_FALSE(next({48, 64, 80})) << "on its corner";
+  EXPECT_TRUE(next({49, 56, 72}));
 }
 
-TEST(Irradiance, FallsWithTheSquareAndGrowsWithTheAxes) {
-  const std::uint64_t power = 4096ull * 256 * 1000;
-  EXPECT_EQ(rule::irradiance(power, 256, 1), 4096u * 1000);
-  EXPECT_EQ(rule::irradiance(power, 1024, 1), 4096u * 250);
-  EXPECT_EQ(rule::irradiance(power, 0, 1), rule::irradiance(power, 256, 1)) << "no nearer than one cell";
-  EXPECT_EQ(rule::irradiance(power, 255, 3), rule::irradiance(power, 256, 3));
-  EXPECT_EQ(rule::irradiance(power, 256, 2), 5793u * 1000);
-  EXPECT_EQ(rule::irradiance(power, 256, 3), 7094u * 1000);
-  EXPECT_EQ(rule::irradiance(power, 256, 0), 0u);
-  EXPECT_EQ(rule::irradiance(4095, 256, 1), 15u);  // floor
-  EXPECT_EQ(rule::irradiance((std::uint64_t{1} << 50) - 1, 256, 3), 7617124499455u) << "50 + 13 bits";
+TEST(SquareRoot, IsTheGreatestWholeNumberNotAbove) {
+  for (const std::uint64_t root :
+       {0ull, 1ull, 2ull, 3ull, 511ull, 512ull, 65535ull, 1ull << 30, (1ull << 31) - 1, (1ull << 32) - 1}) {
+    EXPECT_EQ(rule::square_root(root * root), root);
+    EXPECT_EQ(rule::square_root(root * root + 2 * root), root) << "the greatest number below the next square";
+    if (root > 0) {
+      EXPECT_EQ(rule::square_root(root * root - 1), root - 1);
+    }
+  }
+}
+
+TEST(Irradiance, FallsWithTheSquareAndTheCosine) {
+  const std::uint64_t power = 256ull * 1000;
+  EXPECT_EQ(rule::irradiance(power, 16, 1, 256), 1000u);
+  EXPECT_EQ(rule::irradiance(power, 32, 1, 1024), 250u);
+  EXPECT_EQ(rule::irradiance(power, 8, 1, 256), 500u) << "at 60 degrees";
+  EXPECT_EQ(rule::irradiance(power, 15, 1, 225), 937u) << "no nearer than one cell: 1000 x 15 / 16, floored";
+  EXPECT_EQ(rule::irradiance(power, 64, 4, 256), 1000u) << "four rays of one face";
+  EXPECT_EQ(rule::irradiance(power, 7 * 16, 16, 256), 437u) << "seven of sixteen rays";
+  EXPECT_EQ(rule::irradiance(power, 0, 1, 256), 0u);
+  // 1000 x 256 x 48 / 768^1.5 = 577.35; the length is floored: 64 sqrt(768) = 1773.6.
+  EXPECT_EQ(rule::irradiance(power, 48, 1, 768), 577u) << "all three faces along the space diagonal";
+  // Products wider than 64 bits: (2^50 - 1) 64 2^20 / (2^40 2^26) = 2^10 - 2^-40.
+  EXPECT_EQ(rule::irradiance((std::uint64_t{1} << 50) - 1, 1 << 20, 1, std::uint64_t{1} << 40), 1023u);
+  EXPECT_EQ(rule::irradiance((std::uint64_t{1} << 50) - 1, 3ll << 25, 1, 3ull << 50), 0u) << "0.577";
 }
 
 TEST(SourcePath, MovesLinearlyAndFloors) {

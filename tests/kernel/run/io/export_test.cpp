@@ -121,6 +121,7 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
                           "convection",
                           "radiation",
                           "visibility_every",
+                          "rays_per_face",
                           "sources",
                           "keys",
                           "at",
