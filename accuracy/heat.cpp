@@ -200,7 +200,7 @@ Outcome measure_stefan(const Conditions& conditions) {
                  .band = 1};
     for (const double number : numbers) {
       Followed found = follow(conditions, {law, number, 0}, 64, 48);
-      if (number >= 0.05 && number <= 2) found.row.gate = 0.01;
+      if (number >= 0.05) found.row.gate = 0.01;
       outcome.rows.push_back(std::move(found.row));
       errors.curves.push_back(std::move(found.error));
       if (number == 0.5) profiles.push_back(std::move(found.profile));

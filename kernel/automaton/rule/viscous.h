@@ -30,6 +30,25 @@ VOXMELT_RULE std::int32_t settled(std::int64_t mass, std::int32_t n, std::int32_
   return static_cast<std::int32_t>(base + stacked);
 }
 
+// Where heat goes when a run settles. The excess at the face above cell k is what cells 0..k hold beyond ONE
+// each, before settling. Up to this one, no cell holds more than kAmountMax while the parts move.
+inline constexpr std::int64_t kMostExcess = kAmountMax - kOne;
+
+VOXMELT_RULE std::int64_t face_excess(std::int64_t mass_below, std::int32_t k) {
+  return mass_below - (std::int64_t{k} + 1) * kOne;
+}
+VOXMELT_RULE bool keeps_order_at(std::int64_t excess) {
+  return -kMostExcess <= excess && excess <= kMostExcess;
+}
+// Through that face: first upwards from cell k, then downwards into it. `mass` is the whole run's.
+VOXMELT_RULE std::int32_t settles_up(std::int64_t excess) {
+  return static_cast<std::int32_t>(std::max<std::int64_t>(0, excess));
+}
+VOXMELT_RULE std::int32_t settles_down(std::int64_t mass, std::int64_t mass_below, std::int32_t k) {
+  const std::int64_t settled_below = std::min((std::int64_t{k} + 1) * kOne, mass);
+  return static_cast<std::int32_t>(std::max<std::int64_t>(0, settled_below - mass_below));
+}
+
 struct Column {           // what a cell shows to its neighbours
   std::int32_t head;      // 1/256 cell
   std::int32_t mobility;  // 1/65536, towards a cell in a run: limited by the depth
@@ -42,7 +61,7 @@ VOXMELT_RULE std::int32_t bed_head(int y, std::int32_t bed_amount) {
   return y * kHeadOne + ((bed_amount - kBedHalf) >> 4);
 }
 
-// Head, mobility and dead zone of a run of n cells with sum `mass`, its bed at `bed`, heat content h.
+// Head, mobility and dead zone of a run of n cells with sum `mass`, its bed at `bed`, mean heat content h.
 VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t bed, std::int32_t h,
                                const Flow& flow) {
   const ViscousLaw& law = flow.viscous;

@@ -1,13 +1,65 @@
 // Phase `excess` of the viscous law: settle every run and give its cells their head and mobility.
 // (The paper's law moves its excess in the same sweep as gravity.)
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "kernel/automaton/rule/heat.h"
 #include "kernel/automaton/rule/viscous.h"
 #include "kernel/engine/scalar/reference.h"
 
 namespace voxmelt::scalar {
+namespace {
+
+// Cells bottom .. bottom + n - 1 of a column, with the sum `mass`.
+struct Run {
+  const Cells& cells;
+  state::Volume& volume;
+  int x, bottom, z;
+  std::int32_t n;
+  std::int64_t mass;
+
+  state::Slot at(std::int32_t k) const { return cells.at(x, bottom + k, z); }
+  std::int32_t amount(std::int32_t k) const { return volume.amount[at(k)]; }
+};
+
+bool keeps_order(const Run& run) {
+  std::int64_t below = 0;
+  for (std::int32_t k = 0; k < run.n - 1; ++k) {
+    below += run.amount(k);
+    if (!rule::keeps_order_at(rule::face_excess(below, k))) return false;
+  }
+  return run.mass <= std::int64_t{run.n} * rule::kOne;
+}
+
+void move_part(const Run& run, std::int32_t from, std::int32_t to, std::int32_t flow, std::int32_t offset) {
+  if (flow == 0) return;
+  const auto held = static_cast<std::uint64_t>(run.amount(to)), part = static_cast<std::uint64_t>(flow);
+  std::uint16_t& h = run.volume.heat[run.at(to)];
+  h = static_cast<std::uint16_t>(
+      rule::mixed(held * h + part * run.volume.heat[run.at(from)], held + part, offset));
+  run.volume.amount[run.at(to)] += static_cast<std::uint16_t>(flow);
+  run.volume.amount[run.at(from)] -= static_cast<std::uint16_t>(flow);
+}
+
+// The parts move through the faces of the run, upwards and then downwards.
+void move_in_order(const Run& run, std::int32_t offset) {
+  std::vector<std::int64_t> below;  // of each face: the run's mass below it, before anything moves
+  std::int64_t sum = 0;
+  for (std::int32_t k = 0; k < run.n - 1; ++k) below.push_back(sum += run.amount(k));
+  const auto below_face = [&](std::int32_t k) { return below[static_cast<std::size_t>(k)]; };
+  for (std::int32_t k = 0; k < run.n - 1; ++k)
+    move_part(run, k, k + 1, rule::settles_up(rule::face_excess(below_face(k), k)), offset);
+  for (std::int32_t k = run.n - 2; k >= 0; --k)
+    move_part(run, k + 1, k, rule::settles_down(run.mass, below_face(k), k), offset);
+}
+
+void mix_all(const Run& run, std::int32_t h) {
+  for (std::int32_t k = 0; k < run.n; ++k) run.volume.heat[run.at(k)] = static_cast<std::uint16_t>(h);
+}
+
+}  // namespace
 
 void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
   const ActiveRows columns = ActiveRows::columns(volume);
@@ -33,18 +85,26 @@ void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
     }
     if (n == 0) return bottom;
 
-    // Settle it: one heat for the whole run, amounts full from the bottom.
-    const std::int32_t h = hot ? rule::mixed(content, static_cast<std::uint64_t>(mass), offset) : 0;
-    ledger.heat.rounded += static_cast<state::Sum>(mass) * h - static_cast<state::Sum>(content);
+    // Settle it: heat first, while the cells still hold what they held.
+    if (hot) {
+      const Run run{cells, volume, x, bottom, z, n, mass};
+      if (keeps_order(run))
+        move_in_order(run, offset);
+      else
+        mix_all(run, rule::mixed(content, static_cast<std::uint64_t>(mass), offset));
+    }
+    const auto mean = static_cast<std::int32_t>(content / static_cast<std::uint64_t>(mass));
+    ledger.heat.rounded -= static_cast<state::Sum>(content);
     const bool on_inert = bottom > 0 && volume.inert.test(x, bottom - 1, z);
     const std::int32_t bed =
         rule::bed_head(bottom, on_inert ? cells.amount(x, bottom - 1, z) : rule::kBedHalf);
-    const rule::Column column = rule::run_column(mass, n, bed, h, parameters_.flow);
+    const rule::Column column = rule::run_column(mass, n, bed, mean, parameters_.flow);
     for (std::int32_t k = 0; k < n; ++k) {
       const state::Slot i = cells.at(x, bottom + k, z);
       const std::int32_t amount = rule::settled(mass, n, k);
       volume.amount[i] = static_cast<std::uint16_t>(amount);
-      volume.heat[i] = static_cast<std::uint16_t>(h);
+      ledger.heat.rounded += static_cast<state::Sum>(amount) * volume.heat[i];
+      if (amount == 0) volume.heat[i] = 0;
       if (amount == 0) continue;  // emptied: above the surface, no part of the run any more
       in_run_[i] = 1;
       head_[i] = column.head;
