@@ -47,6 +47,7 @@ enum class Fault : std::uint8_t {
   settle_reversal,
   viscous_dead_zone,
   viscous_dither,
+  viscous_slope,
   viscous_flow_lost,
   // buffers and channels
   buffer_bit,

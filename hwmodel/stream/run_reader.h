@@ -14,6 +14,8 @@ namespace voxmelt::hwmodel {
 
 enum class Ground : std::uint8_t { solid, inert, outside, run };
 
+inline constexpr std::int64_t kNoBed = -1;  // of a cell in the air
+
 struct RunPace {  // of a run: how fast, and from which difference on, it flows
   UInt<14> mobility, exposed;
   UInt<25> dead;
@@ -53,6 +55,7 @@ struct SeenCell {
   int x = 0;
   SInt<30> head;
   RunPace pace;
+  SInt<18> bed = kNoBed;  // 1/16 cell
 };
 
 // One lane of one tap: the registers that hold the run being read.
@@ -77,16 +80,17 @@ class RunReader {
       return;
     }
     if (word.runs()) {
-      if (below_ == Below::blocked) head_ = word.head, pace_ = next_;
+      if (below_ == Below::blocked) head_ = word.head, pace_ = next_, run_bed_ = bed(y) >> 4;
       below_ = Below::run;
-      seen.head = head_, seen.pace = pace_;
+      seen.head = head_, seen.pace = pace_, seen.bed = run_bed_;
       return;
     }
     seen.pace = {};
     seen.head = 256 * (y - 2);
-    if (below_ == Below::blocked) seen.head = 256 * y + ((std::int64_t{bed_} - kFlatBed) >> 4);
+    seen.bed = kNoBed;
+    if (below_ == Below::blocked) seen.head = bed(y), seen.bed = bed(y) >> 4;
     if (below_ == Below::run) {
-      seen.head = head_;
+      seen.head = head_, seen.bed = run_bed_;
       seen.pace.mobility = pace_.mobility;
     }
     below_ = Below::outside;
@@ -94,9 +98,14 @@ class RunReader {
 
  private:
   enum class Below : std::uint8_t { blocked, run, outside };
+
+  // Of the blocked cell below, 1/256 cell.
+  std::int64_t bed(int y) const { return 256 * y + ((std::int64_t{bed_} - kFlatBed) >> 4); }
+
   Below below_ = Below::blocked;
   UInt<16> bed_ = kFlatBed;
   SInt<30> head_;
+  SInt<18> run_bed_;
   RunPace pace_, next_;
 };
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include "hwmodel/stream/run_reader.h"
@@ -43,8 +44,9 @@ class ViscousSpread final : public Stage {
     return costs;
   }
 
-  // Per pair: (g + mobility) A and c drop; with heat f h, and per cell A h and the mixture's rounding.
-  Units units() const override { return {8 + (hot_ ? 4 + 2 : 0), hot_ ? 1 : 0, 0}; }
+  // Per pair: (g + mobility) A, slope x drop (the slope's factor is read from 17 words) and c drive; with
+  // heat f h, and per cell A h and the mixture's rounding.
+  Units units() const override { return {12 + (hot_ ? 4 + 2 : 0), hot_ ? 1 : 0, 0}; }
 
  protected:
   void begin_step() override {
@@ -171,6 +173,15 @@ class ViscousSpread final : public Stage {
     return from.head - to.head <= (is_diagonal(axis) ? (11 * dead) >> 3 : dead);
   }
 
+  // By the difference of the beds, in 1/16 cell: two tables of 17 words.
+  static std::int64_t slope_factor(const SeenCell& from, const SeenCell& to, bool diagonal) {
+    if (from.bed == kNoBed || to.bed == kNoBed) return 16384;
+    const UInt<5> steps = std::min<std::int64_t>(16, std::abs(std::int64_t{from.bed} - to.bed));
+    const std::int64_t square = steps * steps, root = 65536 + 256 * square + square * square;
+    const std::int64_t divisor = diagonal ? root * root : 256 + 2 * square;
+    return ((std::int64_t{1} << (diagonal ? 46 : 22)) + divisor / 2) / divisor;
+  }
+
   static std::int64_t wanted(const SeenCell& from, const SeenCell& to, int axis, std::int64_t dither) {
     const bool diagonal = is_diagonal(axis);
     const std::int64_t drop = from.head - to.head;
@@ -180,8 +191,9 @@ class ViscousSpread final : public Stage {
     const UInt<15> mobility =
         (taker.runs() ? from.pace.mobility : from.pace.exposed) + std::int64_t{to.pace.mobility};
     const UInt<16> conductance = std::min<std::int64_t>(65535, (mobility * giver.amount) >> 12);
-    const UInt<25> product = std::int64_t{conductance} * capped;
-    const std::int64_t flows = diagonal ? (product + (dither >> 1)) >> 15 : (product + (dither >> 3)) >> 13;
+    const UInt<14> drive = (slope_factor(from, to, diagonal) * std::int64_t{capped}) >> 9;
+    const UInt<30> product = std::int64_t{conductance} * drive;
+    const std::int64_t flows = diagonal ? (product + (dither << 4)) >> 20 : (product + (dither << 2)) >> 18;
     const std::int64_t room = std::max<std::int64_t>(0, (taker.runs() ? kAmountMax : kOne) - taker.amount);
     return std::min({flows, std::int64_t{giver.amount} >> 3, room >> 3});
   }

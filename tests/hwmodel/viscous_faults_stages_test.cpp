@@ -101,6 +101,7 @@ TEST(ViscousFaults, SumCarry) { expect_found(Fault::settle_sum_carry, Phase::exc
 TEST(ViscousFaults, Reversal) { expect_found(Fault::settle_reversal, Phase::excess, "settle"); }
 TEST(ViscousFaults, DeadZone) { expect_found(Fault::viscous_dead_zone, Phase::spread, "spread"); }
 TEST(ViscousFaults, Dither) { expect_found(Fault::viscous_dither, Phase::spread, "spread"); }
+TEST(ViscousFaults, Slope) { expect_found(Fault::viscous_slope, Phase::spread, "spread"); }
 TEST(ViscousFaults, FlowLost) { expect_found(Fault::viscous_flow_lost, Phase::spread, "spread"); }
 
 }  // namespace

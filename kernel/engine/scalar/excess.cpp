@@ -111,6 +111,7 @@ void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
       mobility_[i] = column.mobility;
       exposed_[i] = column.exposed;
       dead_[i] = column.dead;
+      bed_[i] = column.bed;
     }
     return bottom + n;
   };

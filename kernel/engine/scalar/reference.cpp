@@ -13,6 +13,7 @@ Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
     mobility_ = decltype(mobility_)(grid);
     exposed_ = decltype(exposed_)(grid);
     dead_ = decltype(dead_)(grid);
+    bed_ = decltype(bed_)(grid);
   }
 }
 

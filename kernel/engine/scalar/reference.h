@@ -41,8 +41,7 @@ class Reference final : public step::HostStepper {
   state::Field<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
   state::BitPlane melted_;              // paper law: by the last `melt`, until `gravity` has run
   state::Field<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
-  state::Field<std::int32_t> head_, mobility_, exposed_,
-      dead_;     // viscous law: for each cell, see rule::Column
+  state::Field<std::int32_t> head_, mobility_, exposed_, dead_, bed_;  // viscous law: see rule::Column
   Volume next_;  // the result of a phase while it is computed
 };
 

@@ -24,7 +24,7 @@ void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledge
 
   // What a cell shows to its neighbours.
   const auto run_column = [&](state::Slot i) {
-    return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], in_run_[i] != 0};
+    return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], in_run_[i] != 0, bed_[i]};
   };
   const auto column = [&](int x, int y, int z) {
     const state::Slot i = cells.at(x, y, z);

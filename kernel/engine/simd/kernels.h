@@ -119,6 +119,7 @@ struct Runs {
   std::uint16_t* mobility = nullptr;  // 1/65536
   std::uint16_t* exposed = nullptr;   // 1/65536, cells in a run only
   std::uint16_t* dead = nullptr;      // cut at 65535, which a cell outside a run on a bed or a run has
+  std::uint16_t* bed = nullptr;       // 1 + the bed above the grid's bottom, 1/16 cell
   std::uint16_t *deep_low = nullptr, *deep_high = nullptr;  // where head is cut: all 32 bits of it
   std::uint64_t *in_run = nullptr, *shown = nullptr;        // shown: cells that are not all zero
   TileRow* deep = nullptr;                                  // [z][y]: words in which a head is cut

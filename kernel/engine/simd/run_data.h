@@ -27,6 +27,7 @@ struct alignas(64) SettledRuns {
   std::uint16_t at[64], above[64];
   std::uint16_t head_low[64], head_high[64];  // 512 + head above the grid's bottom
   std::uint16_t mobility[64], exposed[64], dead[64], heat[64];
+  std::uint16_t shown_bed[64];  // as in Runs
 };
 
 template <class Arch, bool kHot>
@@ -79,6 +80,7 @@ class RunData {
     keep(now.mobility, settled.mobility);
     keep(now.exposed, settled.exposed);
     keep(now.dead, settled.dead);
+    keep(now.shown_bed, settled.shown_bed);
     if constexpr (kHot) keep(now.heat, settled.heat);
     return rounded;
   }
@@ -139,6 +141,7 @@ class RunData {
                        (stiffness - 1) * (over[i] >> 4);
       now.head_low[i] = static_cast<std::uint16_t>(head & 0xFFFF);
       now.head_high[i] = static_cast<std::uint16_t>(head >> 16);
+      now.shown_bed[i] = static_cast<std::uint16_t>(16 * runs.first[i] + (runs.bed[i] >> 8) - 7);
 
       // depth < 2^24. The float quotient of whole numbers is less than one off wherever it is below 131072.
       const int depth = mass[i] < 16 ? 1 : mass[i] >> 4, sum = yield + depth / 2;

@@ -239,12 +239,13 @@ class Settle {
     const V cut = L::keep(in_run, L::narrow(head));
     const V old_head = L::load(r_.head + at), new_head = L::select(in_run, cut, old_head);
     const V old_mobility = L::load(r_.mobility + at), old_exposed = L::load(r_.exposed + at),
-            old_dead = L::load(r_.dead + at);
+            old_dead = L::load(r_.dead + at), old_bed = L::load(r_.bed + at);
     const V mobility = L::select(in_run, L::load(settled.mobility + lane), old_mobility);
     const V exposed = L::select(in_run, L::load(settled.exposed + lane), old_exposed);
     const V dead = L::select(in_run, L::load(settled.dead + lane), old_dead);
+    const V bed = L::select(in_run, L::load(settled.shown_bed + lane), old_bed);
     V difference = (old ^ amount) | (old_head ^ new_head) | (old_mobility ^ mobility) |
-                   (old_exposed ^ exposed) | (old_dead ^ dead);
+                   (old_exposed ^ exposed) | (old_dead ^ dead) | (old_bed ^ bed);
     if constexpr (kFeatures.hot) {
       const V old_heat = L::load(v_.heat + at);
       const V heat = L::select(takes, L::keep(in_run, L::load(settled.heat + lane)), old_heat);
@@ -262,6 +263,7 @@ class Settle {
       L::store(r_.mobility + at, mobility);
       L::store(r_.exposed + at, exposed);
       L::store(r_.dead + at, dead);
+      L::store(r_.bed + at, bed);
     }
     return L::to_bits(in_run);
   }

@@ -12,6 +12,15 @@
 
 namespace voxmelt::simd {
 
+// Less flows on a slope: by 16 times the difference of two beds in cells, 1 is 16384.
+struct SlopeFactors {
+  alignas(64) std::uint16_t axis[32] = {16384, 16257, 15888, 15308, 14564, 13707, 12788, 11848, 10923,
+                                        10034, 9198,  8422,  7710,  7061,  6473,  5941,  5461};
+  alignas(64) std::uint16_t diagonal[32] = {16384, 16256, 15876, 15254, 14407, 13365, 12168, 10864, 9511,
+                                            8165,  6880,  5696,  4641,  3730,  2962,  2331,  1820};
+};
+inline constexpr SlopeFactors kSlope;
+
 template <class Arch, ViscousFeatures kFeatures>
 class ExchangePairs {
   using L = cpu::Lanes<Arch>;
@@ -22,13 +31,15 @@ class ExchangePairs {
  public:
   [[gnu::always_inline]] ExchangePairs(const View& view, const Step& step, int z, const Runs& runs,
                                        Currents& currents)
-      : v_(view), r_(runs), z_(z), c_(currents) {
+      : v_(view), r_(runs), z_(z), c_(currents), slope_{L::table(kSlope.axis), L::table(kSlope.diagonal)} {
     const auto front = z + 1 < view.nz ? static_cast<std::ptrdiff_t>(view.slice) : 0;  // else masked
     const std::ptrdiff_t steps[4] = {1, front, front + 1, front - 1};
     for (int axis = 0; axis < 4; ++axis) {
       step_[axis] = steps[axis];
       const std::uint32_t dither = (step.dither + 16384u * static_cast<std::uint32_t>(axis)) & 0xFFFFu;
-      undithered_[axis] = 0xFFFF - static_cast<int>(dither);
+      const std::uint32_t offset = dither << (axis < 2 ? 2 : 4);
+      whole_[axis] = static_cast<int>(offset >> 16);
+      rest_[axis] = 0xFFFF - static_cast<int>(offset & 0xFFFF);
     }
   }
 
@@ -99,7 +110,7 @@ class ExchangePairs {
   }
 
   struct Cell {
-    V head, amount, dead, mobility, exposed;
+    V head, amount, dead, mobility, exposed, bed;
   };
 
   [[gnu::always_inline]] void vectors(int w, int y, int part, const Masks& m, bool deep, bool gave,
@@ -107,8 +118,8 @@ class ExchangePairs {
     const auto lane = static_cast<std::ptrdiff_t>(64 * w + part * L::kCount);
     const auto at = static_cast<std::ptrdiff_t>(v_.cell(0, y, z_)) + lane;
     const std::ptrdiff_t to = y * static_cast<std::ptrdiff_t>(v_.row) + lane;
-    const Cell own{L::load(r_.head + at), L::load(v_.amount + at), L::load(r_.dead + at),
-                   L::load(r_.mobility + at), L::load(r_.exposed + at)};
+    const Cell own{L::load(r_.head + at),     L::load(v_.amount + at),  L::load(r_.dead + at),
+                   L::load(r_.mobility + at), L::load(r_.exposed + at), L::load(r_.bed + at)};
     V flow[4], all = L::zero();
     for (int axis = 0; axis < 4; ++axis) {
       flow[axis] = axis < 2 ? pair<false>(own, at, axis, part, m, deep, may_flow)
@@ -156,14 +167,24 @@ class ExchangePairs {
     const M gate = L::from_bits(moves << (part * L::kCount), part);
     if ((L::to_bits(L::less(L::zero(), L::min(conductance, most))) & moves) != 0) may_flow = true;
 
-    // (c drop + (R >> 3)) >> 13 as the upper half of 8 c drop, and a carry from its lower half, a multiple of
-    // 8: so the bits of R that the shift drops do not matter. Likewise for diagonals.
-    const V fall = kDiagonal ? L::template shift_left<1>(L::min(drop, L::set(362)))
-                             : L::template shift_left<3>(L::min(drop, L::set(256)));
-    const M carry = L::less(L::set(undithered_[axis]), L::low(conductance, fall));
-    const V wanted = L::add_if(carry, L::high(conductance, fall), L::set(1));
+    const V drive = driven<kDiagonal>(L::min(drop, L::set(kDiagonal ? 362 : 256)), gate, own.bed,
+                                      L::load_any(r_.bed + there));
+    const V sum = L::carry(L::high(conductance, drive) + L::set(whole_[axis]), L::low(conductance, drive),
+                           L::set(rest_[axis]));
+    const V wanted = L::template shift_right < kDiagonal ? 4 : 2 > (sum);
     const V flow = L::keep(gate, L::min(wanted, most));
     return L::select(gives, flow, L::zero() - flow);
+  }
+
+  // The drop in 1/8192 cell, less on a slope. Most beds are level, or none: then nothing is looked up.
+  template <bool kDiagonal>
+  [[gnu::always_inline]] V driven(V drop, M gate, V bed, V other) const {
+    const V between = L::sub_saturated(bed, other) | L::sub_saturated(other, bed);
+    const M none = L::equal(L::min(bed, other), L::zero());
+    const V steps = L::keep(gate, L::select(none, L::zero(), L::min(between, L::set(16))));
+    if (!L::nonzero(steps)) return L::template shift_left<5>(drop);
+    return L::high(L::template shift_left<7>(drop),
+                   L::lookup(slope_[kDiagonal], L::template shift_left<11>(steps)));
   }
 
   // Heads in 32 bits.
@@ -199,7 +220,9 @@ class ExchangePairs {
   const int z_;
   Currents& c_;
   std::ptrdiff_t step_[4];  // to the other cell of a pair
-  int undithered_[4];       // 65535 less the dither
+  int whole_[4],
+      rest_[4];  // of the dither in 1/65536 of what a shift keeps: its whole part, 65535 less the rest
+  const typename L::Table slope_[2];  // of axes, of diagonals
 };
 
 }  // namespace voxmelt::simd

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <random>
 
@@ -141,6 +143,85 @@ TEST(ViscousFlow, Value) {
   EXPECT_EQ(viscous_flow(run_at(256, 4096), 4096, run_at(0, 4096), 4096, true, 0), 64);
   EXPECT_EQ(viscous_flow(run_at(256, 4096), 4096, bed_column(0), 0, false, 0),
             128);  // a dry bed has no mobility
+}
+
+// Axes 1 / (1 + 2 s^2): 2/3 at 1/2, 1/3 at 1. Diagonals 1 / (1 + s^2 + s^4)^2: (16/21)^2 and 1/9.
+TEST(SlopeFactor, Value) {
+  for (const bool diagonal : {false, true}) {
+    EXPECT_EQ(slope_factor(40, 40, diagonal), 16384);
+    EXPECT_EQ(slope_factor(40, kNoBed, diagonal), 16384) << "air has no slope";
+    EXPECT_EQ(slope_factor(40, 4000, diagonal), slope_factor(40, 56, diagonal)) << "a cliff is as steep as 1";
+    EXPECT_EQ(slope_factor(40, 43, diagonal), slope_factor(43, 40, diagonal));
+  }
+  EXPECT_EQ(slope_factor(40, 48, false), 10923);
+  EXPECT_EQ(slope_factor(40, 56, false), 5461);
+  EXPECT_EQ(slope_factor(40, 48, true), 9511);
+  EXPECT_EQ(slope_factor(40, 56, true), 1820);
+  for (std::int32_t t = 0; t <= 16; ++t) {
+    const double s2 = t * t / 256.0;
+    EXPECT_NEAR(slope_factor(0, t, false), 16384 / (1 + 2 * s2), 0.5);
+    EXPECT_NEAR(slope_factor(0, t, true), 16384 / std::pow(1 + s2 + s2 * s2, 2), 0.5);
+  }
+}
+
+// A film on a plane of slope S: axes carry 2/3, diagonals 1/3, and the sum goes straight down.
+TEST(SlopeFactor, AFilmCarriesNusseltsFluxInEveryDirection) {
+  const auto factor = [](double between, bool diagonal) {
+    return slope_factor(0, static_cast<std::int32_t>(std::lround(16 * std::abs(between))), diagonal) /
+           16384.0;
+  };
+  for (const std::array<double, 2> slope :
+       {std::array{0.25, 0.0}, {0.5, 0.0}, {0.25, 0.25}, {0.375, 0.375}, {0.4375, 0.1875}, {0.25, 0.125}}) {
+    const double x = slope[0], z = slope[1], sum = x + z, difference = x - z;
+    const double right = factor(sum, true) * sum / 6, left = factor(difference, true) * difference / 6;
+    const double along_x = factor(x, false) * x * 2 / 3 + right + left;
+    const double along_z = factor(z, false) * z * 2 / 3 + right - left;
+    const double square = x * x + z * z, exact = square / std::pow(1 + square, 2);
+    EXPECT_NEAR((along_x * x + along_z * z) / exact, 1, 0.01) << x << ", " << z;
+    EXPECT_NEAR((along_z * x - along_x * z) / exact, 0, 0.01) << x << ", " << z;
+  }
+}
+
+Column run_on(std::int32_t bed, Column column) {
+  column.bed = bed;
+  return column;
+}
+
+// Of 256 (a diagonal: 64), that flow between level beds, 2/3 on slope 1/2 (a diagonal: 0.5805) and 1/3 on 1.
+TEST(ViscousFlow, IsLessOnASlope) {
+  const auto flow = [](std::int32_t bed, bool diagonal, std::int32_t dither) {
+    return viscous_flow(run_on(24, run_at(256, 4096)), 4096, run_on(bed, run_at(0, 4096)), 4096, diagonal,
+                        dither);
+  };
+  EXPECT_EQ(flow(24, false, 0), 256);
+  EXPECT_EQ(flow(16, false, 0), 170);      // 170.66
+  EXPECT_EQ(flow(16, false, 24576), 171);  // and 3/8
+  EXPECT_EQ(flow(16, true, 0), 37);        // 37.14
+  EXPECT_EQ(flow(16, true, 57344), 38);    // and 7/8
+  EXPECT_EQ(flow(0, false, 0), 85);
+}
+
+TEST(ViscousFlow, BetweenLevelBedsIsAPlainProduct) {
+  std::mt19937_64 random(5);
+  for (int trial = 0; trial < 20000; ++trial) {
+    const auto below = [&](std::uint64_t n) { return static_cast<std::int32_t>(random() % n); };
+    const std::int32_t drop = 2 + below(400), mobility = below(8193), a = 1 + below(65535), r = below(65536);
+    const std::int64_t c = std::min<std::int64_t>(65535, (std::int64_t{2} * mobility * a) >> 12);
+    const std::int64_t axis = (c * std::min(drop, 256) + (r >> 3)) >> 13;
+    const std::int64_t diagonal = (c * std::min(drop, 362) + (r >> 1)) >> 15;
+    const Column giver = run_on(7, run_at(drop, mobility)), taker = run_on(7, run_at(0, mobility));
+    ASSERT_EQ(viscous_flow(giver, a, taker, 0, false, r), std::min<std::int64_t>(axis, a >> 3));
+    ASSERT_EQ(viscous_flow(giver, a, taker, 0, true, r), std::min<std::int64_t>(diagonal, a >> 3));
+  }
+}
+
+TEST(Bed, IsShownInSixteenths) {
+  const Flow flow = flow_of(4660);
+  EXPECT_EQ(run_column(3 * kOne, 3, bed_head(5, kBedHalf), 0, flow).bed, 80);
+  EXPECT_EQ(run_column(3 * kOne, 3, bed_head(5, 4095), 0, flow).bed, 87);  // 80 + 7.99
+  EXPECT_EQ(bed_column(bed_head(5, 0)).bed, 72);
+  EXPECT_EQ(top_column(run_on(33, run_at(700, 77))).bed, 33);
+  EXPECT_EQ(air_column(3).bed, kNoBed);
 }
 
 TEST(ViscousFlow, DeadZoneOfADiagonalIsElevenEighths) {

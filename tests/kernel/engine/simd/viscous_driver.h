@@ -41,7 +41,7 @@ class ViscousDriver {
         restless_(tiles(grid, 0)) {
     for (auto& field : fields_) field = state::Field<std::uint16_t>(grid);
     runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(), fields_[4].data(),
-             fields_[5].data(), planes_[0].data(), planes_[1].data(), deep_.data()};
+             fields_[5].data(), fields_[6].data(), planes_[0].data(), planes_[1].data(), deep_.data()};
     for (SliceCurrents& c : currents_) {
       for (auto& field : c.fields) field = state::Field<std::uint16_t>(state::Grid{grid.x, grid.y, 1});
       c.giving.assign(static_cast<std::size_t>(grid.y), 0);
@@ -199,7 +199,7 @@ class ViscousDriver {
   Kernels kernels_;
   Way way_;
   scalar::Reference rest_;
-  std::array<state::Field<std::uint16_t>, 6> fields_;
+  std::array<state::Field<std::uint16_t>, 7> fields_;
   std::array<state::BitPlane, 2> planes_;
   std::vector<TileRow> deep_;
   Runs runs_;

@@ -221,7 +221,7 @@ TEST(ViscousKernels, MaySleepInCalmScenes) {
     };
     std::vector<Way> ways = ways_for(random, grid, true);
     ways[0].tile_shift = 1;
-    ASSERT_TRUE(same(p, start, ways, 200, count)) << "round " << round;
+    ASSERT_TRUE(same(p, start, ways, 300, count)) << "round " << round;
     EXPECT_LT(last, first / 3) << "round " << round << ": of " << first;
   }
 }
