@@ -120,12 +120,15 @@ class Maker:
 
     def paper(self):
         paper = self.some("flow.paper", "neighbours", "energy")
+        asked = next((n for n in (4, 8) if self.gives(f"flow.paper.share ({n} neighbours)", 0)), None)
+        if asked or self.gives("flow.paper.table", 0):
+            paper["neighbours"] = asked or 4
         paper.update(self.some("flow.paper", "threshold", "downhill", "margin", "support", "slump", "beta", "alpha_liquid",
                                "alpha_solid", "alpha_floor", "reheat", given=0.4))
         neighbours = paper.get("neighbours", 8)
-        if neighbours == 4 and self.chance(0.4):
+        if neighbours == 4 and not asked and self.gives("flow.paper.table", 0.4):
             paper["table"] = self.table()
-        elif self.chance(0.7):
+        elif asked or self.chance(0.7):
             paper["share"] = self.draw(f"flow.paper.share ({neighbours} neighbours)")
         return paper
 

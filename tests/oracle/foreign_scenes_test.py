@@ -72,8 +72,8 @@ def compare(what, mine, judge):
     raise Differs(f"{what}, entry {at}:\n  voxmelt {a}\n  oracle  {b}")
 
 
-def amounts(folder):
-    data = (folder / "amount.npy").read_bytes()
+def field(folder, name):
+    data = (folder / f"{name}.npy").read_bytes()
     begin = 10 + struct.unpack("<H", data[8:10])[0]
     return struct.unpack(f"<{(len(data) - begin) // 2}H", data[begin:])
 
@@ -81,7 +81,7 @@ def amounts(folder):
 def events(scene, steps, digests, report, start, end):
     """What may happen in a scene, by name, and whether it did in this one."""
     first, side = scene.get("start", {}).get("step", 0), scene["grid"]["size"][0]
-    moved = sum(abs(a - b) for a, b in zip(amounts(start), amounts(end)))
+    moved = sum(abs(a - b) for a, b in zip(field(start, "amount"), field(end, "amount")))
     solids = [int(line.split()[7]) for line in (digests[0], digests[-1])]
     terms = {f"{name}: {term}": int(value) != 0 for name in LEDGERS for term, value in report[name].items()
              if term not in ("start", "solid", "liquid", "held", "drift")}
@@ -91,7 +91,9 @@ def events(scene, steps, digests, report, start, end):
         "liquid flows": flows, "solids melt": melts, "dead": not flows and not melts,
         "law: paper": report["law"] == "paper", "law: viscous": report["law"] == "viscous",
         "crosses step 2^31": first < 2**31 < first + steps, "crosses a multiple of 2^16": first % 2**16 + steps > 2**16,
-        "63 cells and more along x": side > 62, **{f"feature: {name}": True for name in report["features"]}}
+        "63 cells and more along x": side > 62,
+        **{f"{name} 65535 at the start": max(field(start, name)) == 65535 for name in ("amount", "energy", "heat")},
+        **{f"feature: {name}": True for name in report["features"]}}
 
 
 def run_scene(voxmelt, oracle, names, seed, folder):
