@@ -11,7 +11,7 @@ import tempfile
 from pathlib import Path
 
 TEST = Path(__file__).with_name("foreign_scenes_test.py")
-LAST = 3  # seeds 0..LAST
+LAST = 2  # seeds 0..LAST
 
 # Each is a program that runs the true one, with something changed.
 WRAPPER = """#!{python}
@@ -86,7 +86,8 @@ def try_one(name, programs, implementation, folder):
 
 def main():
     programs = {name: Path(word).resolve() for name, word in zip(("voxmelt", "oracle"), sys.argv[1:3])}
-    implementation = run(programs["voxmelt"], "list", "implementations")[1].splitlines()[-1].split()[0]
+    listed = run(programs["voxmelt"], "list", "implementations")[1].splitlines()
+    implementation = [line for line in listed if "not on this processor" not in line][-1].split()[0]
     with tempfile.TemporaryDirectory() as folder:
         os.environ["TMPDIR"] = folder
         for n, name in enumerate(PLANTED):

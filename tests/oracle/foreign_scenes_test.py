@@ -39,6 +39,11 @@ def output(*command):
     return done.stdout.strip().splitlines()
 
 
+def implementations(voxmelt):
+    """Names of those that this processor can run."""
+    return [line.split()[0] for line in output(voxmelt, "list", "implementations") if "not on this processor" not in line]
+
+
 def of_oracle(oracle, start, steps, fields):
     """Its digest lines, and for each ledger (start, terms..., what the state holds)."""
     lines = output(oracle, start, "--steps", steps, "--every", 1, "--ledger", "--fields", fields)
@@ -125,7 +130,7 @@ def offences(used, happened, scenes):
 
 def run_scenes(voxmelt, oracle, seeds, folder):
     """(how often each value was used, how often each event happened). Raises Differs; the scene's folder then stays."""
-    names = [line.split()[0] for line in output(voxmelt, "list", "implementations")]
+    names = implementations(voxmelt)
     used = collections.Counter()
     happened = collections.Counter({f"feature: {name}": 0 for name in output(voxmelt, "list", "features")})
 
@@ -166,8 +171,8 @@ def main():
     folder.rmdir()
     for name, count in happened.items():
         print(f"  {count:4d} {name}")
-    counts = [(used[name, end], name, end) for name, end in ENDS]
-    print("fewest uses of an end:", ", ".join(f"{name} = {end} {count} times" for count, name, end in sorted(counts, key=lambda c: c[0])[:5]))
+    rarest = sorted(ENDS, key=lambda end: used[end])[:5]
+    print("ends used least:", ", ".join(f"{name} = {end} ({used[name, end]} times)" for name, end in rarest))
     wrong = offences(used, happened, len(seeds)) if "--covering" in sys.argv else []
     print("\n".join(wrong))
     sys.exit(1 if wrong else 0)
