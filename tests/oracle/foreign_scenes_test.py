@@ -47,8 +47,7 @@ def implementations(voxmelt):
 def of_oracle(oracle, start, steps, fields):
     """Its digest lines, and for each ledger (start, terms..., what the state holds)."""
     lines = output(oracle, start, "--steps", steps, "--every", 1, "--ledger", "--fields", fields)
-    states = [line.split(" ", 2)[2] for line in lines if line.startswith("step")]
-    digests = [f"step {n} {state}" for n, state in enumerate(states)]  # section 13: N is from 0, whatever `start.step` is
+    digests = [line for line in lines if line.startswith("step")]
     return digests, {line.split()[1]: [int(n) for n in line.split()[2:]] for line in lines if line.startswith("ledger")}
 
 
