@@ -67,14 +67,15 @@ Options read_options(int count, char** words) {
   return options;
 }
 
-void print_line(const State& state) {
+// Section 13: N counts the steps of this run, wherever `step` of the parameters begins.
+void print_line(const State& state, Int done) {
   Int solid = 0, liquid = 0;
   for (const Cell& cell : state.cells) {
     solid += cell.solid;
     liquid += cell.liquid;
   }
   std::printf("step %lld digest %016llx mass %lld solid %lld liquid %lld\n",
-              static_cast<long long>(state.step), static_cast<unsigned long long>(digest(state)),
+              static_cast<long long>(done), static_cast<unsigned long long>(digest(state)),
               static_cast<long long>(mass_held(state)), static_cast<long long>(solid),
               static_cast<long long>(liquid));
   std::fflush(stdout);
@@ -90,12 +91,12 @@ void warn_of_unknown_irradiance(const State& state) {
 void run(const Options& options) {
   State state = read_state(options.folder);
   warn_of_unknown_irradiance(state);
-  if (options.every > 0) print_line(state);
+  if (options.every > 0) print_line(state, 0);
   for (Int done = 1; done <= options.steps; ++done) {
     run_step(state);
-    if (options.every > 0 && done % options.every == 0 && done < options.steps) print_line(state);
+    if (options.every > 0 && done % options.every == 0 && done < options.steps) print_line(state, done);
   }
-  if (options.every == 0 || options.steps > 0) print_line(state);
+  if (options.every == 0 || options.steps > 0) print_line(state, options.steps);
   check_all(state, "at the end");
   close_ledgers(state);
   if (options.ledger) std::cout << ledger_lines(state.ledgers) << std::flush;
