@@ -47,6 +47,7 @@ constexpr std::array kFaults{
     FaultInfo{apply_alpha, "apply-alpha", "apply", "the friction of the wrong ground"},
     FaultInfo{settle_run_broken, "settle-run-broken", "settle", "a run ends one cell too early"},
     FaultInfo{settle_sum_carry, "settle-sum-carry", "settle", "the sum of a run loses its highest bit"},
+    FaultInfo{settle_mix, "settle-mix", "settle", "the lowest cell of a run keeps its heat"},
     FaultInfo{settle_reversal, "settle-reversal", "settle",
               "the column memory is read in the wrong direction"},
     FaultInfo{viscous_dead_zone, "viscous-dead-zone", "spread", "a difference inside the dead zone flows"},

@@ -44,6 +44,7 @@ enum class Fault : std::uint8_t {
   // excess and spread, viscous law
   settle_run_broken,
   settle_sum_carry,
+  settle_mix,
   settle_reversal,
   viscous_dead_zone,
   viscous_dither,

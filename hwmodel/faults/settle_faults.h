@@ -1,4 +1,4 @@
-// Runs that end too early or lose a bit of their sum, and columns that leave upside down.
+// Runs that end too early, lose a bit of their sum or do not mix, and columns that leave upside down.
 #pragma once
 
 #include <algorithm>
@@ -20,17 +20,46 @@ class SettleFaults : public Planted {
       : Planted(plan), column_(design.shape.lanes, static_cast<std::size_t>(design.shape.column())) {}
 
   void summed(Faulty& stage, const Cell* in) {
-    const bool carry = armed(stage, Fault::settle_sum_carry);
-    if (!carry && !armed(stage, Fault::settle_run_broken)) return;
+    if (!armed(stage, Fault::settle_run_broken)) return;
     column_.shift();
     if (in != nullptr) std::copy_n(in, stage.lanes(), column_.tap(0));
     if (stage.came().ordinal == 0) return;
     for (std::size_t lane = 0; lane < stage.size(); ++lane) {
       const SettleWord& word = stage.words_[lane];
-      if (word.kind != SettleKind::top && (!carry || word.kind != SettleKind::single)) continue;
-      const Broken broken = carry ? without_highest_bit(word) : without_top(stage, word, lane);
-      const std::int64_t wrong = first_wrong(word, broken);
-      if (wrong >= 0) return damage(stage, lane, broken, wrong);
+      if (word.kind != SettleKind::top) continue;
+      std::vector<Cell> cells;  // of the run, from its bottom
+      for (auto below = static_cast<std::size_t>(word.last) + 1; below > 0; --below)
+        cells.push_back(column_.tap(below)[lane]);
+      const Cell top = cells.back();
+      const std::vector<Held> right = settled(stage, cells).cells;
+      cells.pop_back();
+      Outcome broken = settled(stage, cells);
+      broken.cells.push_back({std::int64_t{top.amount}, std::int64_t{top.heat}});
+      const auto wrong =
+          std::mismatch(right.begin(), right.end(), broken.cells.begin()).first - right.begin();
+      if (wrong < std::ssize(right)) return part(stage, lane, top, broken.record, static_cast<int>(wrong));
+    }
+  }
+
+  // The records that have come to the first cells of their runs.
+  void lowered(Faulty& stage) {
+    const bool carry = armed(stage, Fault::settle_sum_carry);
+    if (!carry && !armed(stage, Fault::settle_mix)) return;
+    for (std::size_t lane = 0; lane < stage.size(); ++lane) {
+      SettleWord& word = stage.words_[lane];
+      if (word.kind != SettleKind::first) continue;
+      if (!carry) {
+        if (word.heat == stage.turned_[lane].heat) continue;
+        word.heat = stage.turned_[lane].heat;
+        return strike_turned(stage, lane, 0);
+      }
+      const std::int64_t sum =
+          std::int64_t{word.sum} -
+          static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(word.sum)));
+      int k = 0;
+      while (settled_amount(sum, word.last, k) == settled_amount(word.sum, word.last, k)) ++k;
+      word.sum = sum;
+      return strike_turned(stage, lane, k);
     }
   }
 
@@ -55,56 +84,49 @@ class SettleFaults : public Planted {
   }
 
  private:
-  // The record of a run that is wrong, and the cell that the run lost.
-  struct Broken {
-    std::int64_t sum, last, heat;
-    std::int64_t above_amount = 0, above_heat = 0;
+  struct Held {
+    std::int64_t amount, heat;
+    bool operator==(const Held&) const = default;
+  };
+  struct Outcome {
+    std::vector<Held> cells;
+    SettleWord record;  // in the word of the uppermost cell
   };
 
-  static Broken without_highest_bit(const SettleWord& word) {
-    const std::int64_t highest = std::int64_t{1}
-                                 << (std::bit_width(static_cast<std::uint64_t>(word.sum)) - 1);
-    return {word.sum - highest, word.last, word.heat};
-  }
-
-  Broken without_top(const Faulty& stage, const SettleWord& word, std::size_t lane) {
-    const Cell& top = column_.tap(1)[lane];
-    Broken broken{word.sum - top.amount, word.last - 1, word.heat, top.amount, top.heat};
-    std::int64_t content = 0;
-    for (std::int64_t below = 1; below <= word.last; ++below) {
-      const Cell& cell = column_.tap(static_cast<std::size_t>(1 + below))[lane];
-      content += cell.amount * cell.heat;
+  // What a run of these cells comes to.
+  static Outcome settled(const Faulty& stage, const std::vector<Cell>& cells) {
+    SumScan up;
+    RecordScan down;
+    Outcome outcome;
+    std::vector<SettleWord> words;
+    for (const Cell& cell : cells) words.push_back(up.next(cell, words.empty(), stage.hot_, stage.dither_));
+    words.erase(words.begin());  // of the cell before the first one
+    words.push_back(outcome.record = up.next(Cell{}, false, stage.hot_, stage.dither_));
+    outcome.cells.resize(cells.size());
+    for (std::size_t k = cells.size(); k-- > 0;) {
+      const SettleWord& record = outcome.record;
+      const std::int64_t heat = down.next(words[k], stage.dither_).heat;
+      const std::int64_t amount = settled_amount(record.sum, record.last, static_cast<std::int64_t>(k));
+      outcome.cells[k] = {amount, amount > 0 ? heat : 0};
     }
-    if (stage.hot_) broken.heat = mix(content, broken.sum, stage.dither_);
-    return broken;
+    return outcome;
   }
 
-  // The lowest cell of the run that settles wrong; -1: none.
-  static std::int64_t first_wrong(const SettleWord& right, const Broken& broken) {
-    for (std::int64_t k = 0; k <= right.last; ++k) {
-      const bool lost = k > broken.last;
-      const std::int64_t amount = settled_amount(right.sum, right.last, k);
-      const std::int64_t other = lost ? broken.above_amount : settled_amount(broken.sum, broken.last, k);
-      const std::int64_t heat = lost ? broken.above_heat : broken.heat;
-      if (amount != other || (amount > 0 && heat != right.heat)) return k;
-    }
-    return -1;
-  }
-
-  // `wrong`: the first cell of the run that this leaves wrong.
-  void damage(Faulty& stage, std::size_t lane, const Broken& broken, std::int64_t wrong) {
+  // The record belongs to the cell below, and this one is outside. `wrong`: the first cell that this leaves
+  // wrong.
+  void part(Faulty& stage, std::size_t lane, const Cell& top, const SettleWord& record, int wrong) {
     SettleWord& word = stage.words_[lane];
     const Place place = place_of(stage.shape(), stage.came().ordinal - 1);
-    strike(stage, place.x + static_cast<int>(lane), place.y - static_cast<int>(word.last - wrong), place.z);
-    if (broken.last == word.last) {
-      word.sum = broken.sum;
-      return;
-    }
-    // The record belongs to the cell below, and this one is outside.
-    SettleWord& below = stage.downwards_.newest()[lane];
-    const SettleKind kind = below.kind == SettleKind::first ? SettleKind::single : SettleKind::top;
-    below = {kind, broken.sum, broken.last, broken.heat};
-    word = {SettleKind::outside, broken.above_amount, 0, broken.above_heat};
+    strike(stage, place.x + static_cast<int>(lane), place.y - static_cast<int>(word.last) + wrong, place.z);
+    stage.downwards_.newest()[lane] = record;
+    word = {SettleKind::outside, std::int64_t{top.amount}, 0, top.heat, 0, 0, 0};
+  }
+
+  // `above`: the cell that has come on its way down.
+  void strike_turned(const Faulty& stage, std::size_t lane, int above) {
+    const std::int64_t came = stage.came().ordinal - 1, y = stage.height_ - 1 - came % stage.height_;
+    const Place place = place_of(stage.shape(), (came / stage.height_ - 1) * stage.height_ + y);
+    strike(stage, place.x + static_cast<int>(lane), place.y + above, place.z);
   }
 
   TapLine<Cell> column_;  // what has come lately

@@ -23,8 +23,10 @@ struct NoFaults {
   // apply: what one cell gives another; the energy of a cell to which all has come
   static void gift(auto&&...) {}
   static void finished(auto&&...) {}
-  // settle: the words after the first scan; the column that is turned round the second time
+  // settle: the words after the first scan, and after the second; the column that is turned round the second
+  // time
   static void summed(auto&&...) {}
+  static void lowered(auto&&...) {}
   static void turned(auto&&...) {}
   // viscous spread: what a cell wants to give; the taker after it
   static void wanted(auto&&...) {}

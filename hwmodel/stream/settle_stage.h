@@ -35,14 +35,17 @@ class Settle final : public Stage {
     return design().cell_bits() + 1 + widths_.head + 14 + 14 + 25;
   }
   std::vector<BufferCost> buffers() const override {
-    const std::int64_t bits = SettleWord::bits(widths_, hot_);
-    return {downwards_.cost("column reverser down", bits), upwards_.cost("column reverser up", bits)};
+    const bool thermal = flow_.thermal_viscosity;
+    return {downwards_.cost("column reverser down", SettleWord::bits_upwards(widths_, hot_, thermal)),
+            upwards_.cost("column reverser up", SettleWord::bits(widths_, hot_, thermal))};
   }
 
-  // Depth squared, the mobility, its table; with heat amount x heat and the mixture's rounding. Dividers:
-  // the limit and the dead zone, and the mixture; each is used once per run, at most every second cycle.
+  // Depth squared, the mobility, its table. With heat: amount x heat and the mixture's rounding; flow x heat
+  // and rounding on the way up; amount x heat, flow x heat and rounding on the way down. Dividers: the limit
+  // and the dead zone, and the mixture; each is used once per run, at most every second cycle. With heat: one
+  // on each way, used every cycle.
   Units units() const override {
-    return {2 + (flow_.thermal_viscosity ? 1 : 0) + (hot_ ? 2 : 0), 2 + (hot_ ? 1 : 0), 0};
+    return {2 + (flow_.thermal_viscosity ? 1 : 0) + (hot_ ? 2 + 2 + 3 : 0), 2 + (hot_ ? 1 + 2 : 0), 0};
   }
 
  protected:
@@ -62,7 +65,9 @@ class Settle final : public Stage {
     if (came().ordinal == 0) return;  // the scan looks one token ahead
     downwards_.exchange(words_.data(), turned_.data());
     if (came().ordinal <= height_) return;
-    for (std::size_t lane = 0; lane < size(); ++lane) words_[lane] = records_[lane].next(turned_[lane]);
+    for (std::size_t lane = 0; lane < size(); ++lane)
+      words_[lane] = records_[lane].next(turned_[lane], dither_);
+    faults_.lowered(*this);
 
     if (out != nullptr) faults_.turned(*this);
     upwards_.exchange(words_.data(), turned_.data());

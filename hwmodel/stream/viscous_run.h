@@ -46,7 +46,8 @@ struct RunShow {
   UInt<25> dead;
 };
 
-inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std::int64_t heat,
+// `entry`: of the mobility table, by the run's mean heat.
+inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std::int64_t entry,
                      const rule::Flow& flow, const RunWidths& widths) {
   const rule::ViscousLaw& law = flow.viscous;
   const std::int64_t over = over_of(wire(sum, widths.sum), wire(last, widths.count)), cells = (sum >> 12) + 1;
@@ -55,7 +56,7 @@ inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std:
   const UInt<29> square = std::int64_t{capped} * capped;
   UInt<33> raw = (law.mobility * std::int64_t{square} + (1 << 19)) >> 20;
   if (flow.thermal_viscosity)
-    raw = (std::int64_t{raw} * flow.mobility_table[static_cast<std::size_t>(heat >> 11)]) >> 15;
+    raw = (std::int64_t{raw} * flow.mobility_table[static_cast<std::size_t>(entry)]) >> 15;
 
   RunShow show;
   show.head = signed_wire(bed + (sum >> 4) + (law.stiffness - 1) * (over >> 4), widths.head);

@@ -62,7 +62,7 @@ TEST(MemoryCost, OfTheSidesWithoutHeat) {
 TEST(MemoryCost, OfTheViscousLawWithHeat) {
   EXPECT_EQ(memories_of("cello_viscous"),
             (std::map<StageKind, Memory>{{StageKind::conduction, {50, 50}},
-                                         {StageKind::settle, {0, 98}},
+                                         {StageKind::settle, {0, 115}},
                                          {StageKind::viscous_spread, {106, 170}}}));
 }
 

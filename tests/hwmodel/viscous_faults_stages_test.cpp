@@ -79,7 +79,8 @@ void expect_found(Fault fault, Phase last, const std::string& stage) {
 // A damaged settling gives no number that the stage behind it cannot hold.
 TEST(ViscousFaults, DamageKeepsItsWidths) {
   int strikes = 0;
-  for (const Fault fault : {Fault::settle_run_broken, Fault::settle_sum_carry, Fault::settle_reversal})
+  for (const Fault fault :
+       {Fault::settle_run_broken, Fault::settle_sum_carry, Fault::settle_mix, Fault::settle_reversal})
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       worlds::Random random(seed);
       ViscousWorld world(random, small_grid(random), random.any({1, 4, 16}));
@@ -98,6 +99,7 @@ TEST(ViscousFaults, DamageKeepsItsWidths) {
 
 TEST(ViscousFaults, RunBroken) { expect_found(Fault::settle_run_broken, Phase::excess, "settle"); }
 TEST(ViscousFaults, SumCarry) { expect_found(Fault::settle_sum_carry, Phase::excess, "settle"); }
+TEST(ViscousFaults, SettleMix) { expect_found(Fault::settle_mix, Phase::excess, "settle"); }
 TEST(ViscousFaults, Reversal) { expect_found(Fault::settle_reversal, Phase::excess, "settle"); }
 TEST(ViscousFaults, DeadZone) { expect_found(Fault::viscous_dead_zone, Phase::spread, "spread"); }
 TEST(ViscousFaults, Dither) { expect_found(Fault::viscous_dither, Phase::spread, "spread"); }

@@ -27,6 +27,35 @@ TEST(ViscousStages, SettleIsTheReferences) {
     expect_phase(rule::Law::viscous, Phase::excess, make_excess, 200, 3, seed);
 }
 
+// Tall columns: some keep the order of their heat, others beside them do not.
+TEST(ViscousStages, SettleIsTheReferencesInLayers) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    worlds::Random random(seed);
+    const state::Grid grid{random.between(1, 9), random.any({4, 31, 32, 40}), 2};
+    Design design{worlds::hostile_parameters(random, rule::Law::viscous, grid),
+                  {grid, random.any({1, 2, 4})}};
+    design.parameters.vents.clear();
+    state::Volume start(grid);
+    for (int z = 0; z < grid.z; ++z)
+      for (int x = 0; x < grid.x; ++x) {
+        worlds::put_layers(random, start, x, z, design.hot());
+        if (random.one_in(8)) worlds::put_inert(start, x, random.below(grid.y), z);
+      }
+    ViscousWorld world(design, start);
+    Stages stages;
+    make_excess(design, make_stage, stages);
+    StageRun run;
+    for (std::uint32_t step = 0; step < 4; ++step)
+      world.step([&](Phase phase, const state::Volume& before) {
+        if (phase != Phase::excess) return;
+        ASSERT_EQ(worlds::difference(world.simulation.volume(),
+                                     run_stages(design, stages, step, nullptr, before, run)),
+                  "")
+            << "seed " << seed << ", step " << step;
+      });
+  }
+}
+
 TEST(ViscousStages, SpreadIsTheReferences) {
   for (const std::uint64_t seed : {0u, 3'000'000u, 4'000'000u})
     expect_phases(rule::Law::viscous, Phase::excess, Phase::spread, make_both, 200, 3, seed);

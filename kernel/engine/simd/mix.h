@@ -20,19 +20,25 @@ class Mix {
 
   // The mean of (a0, h0) and (a1, h1) where a1 > 0; other lanes are undefined and not booked.
   [[gnu::always_inline]] V two(V a0, V h0, V a1, V h1) {
+    return two(a0, h0, a1, h1, [&](V up, V down) VOXMELT_LAMBDA { book(up, down); });
+  }
+  // The same; book(up, down) takes what is rounded, up - down in each lane.
+  template <class Book>
+  [[gnu::always_inline]] V two(V a0, V h0, V a1, V h1, const Book& book) const {
     // With one part, or two of one heat, the mean is that heat and nothing is rounded.
     const V differs = L::keep(L::less(L::zero(), L::min(a0, a1)), h0 ^ h1);
     if (L::to_bits(L::equal(differs, L::zero())) == kAll) return L::select(L::equal(a0, L::zero()), h1, h0);
-    return mean(L::sum(L::product(a0, h0), L::product(a1, h1)), a0 + a1, L::less(L::zero(), a1));
+    return mean(L::sum(L::product(a0, h0), L::product(a1, h1)), a0 + a1, L::less(L::zero(), a1), book);
   }
 
   // content / amount, where `counts`.
   [[gnu::always_inline]] V mean(Wide content, V amount, M counts) {
-    const V offset = L::high(amount, dither_);
-    const auto divided = L::divide(L::sum(content, L::widen(offset)), amount);
-    up_.add(L::keep(counts, offset));
-    down_.add(L::keep(counts, divided.remainder));
-    return divided.quotient;
+    return mean(content, amount, counts, [&](V up, V down) VOXMELT_LAMBDA { book(up, down); });
+  }
+
+  [[gnu::always_inline]] void book(V up, V down) {
+    up_.add(up);
+    down_.add(down);
   }
 
   // What the books call `rounded`: amount x mean - content, which is offset - remainder.
@@ -44,6 +50,13 @@ class Mix {
   }
 
  private:
+  template <class Book>
+  [[gnu::always_inline]] V mean(Wide content, V amount, M counts, const Book& book) const {
+    const V offset = L::high(amount, dither_);
+    const auto divided = L::divide(L::sum(content, L::widen(offset)), amount);
+    book(L::keep(counts, offset), L::keep(counts, divided.remainder));
+    return divided.quotient;
+  }
   static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
   V dither_;
   typename L::Sums up_, down_;

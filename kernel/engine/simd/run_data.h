@@ -16,7 +16,9 @@ struct alignas(64) EndedRuns {
   std::uint16_t first[64], last[64];              // heights of the first and the last cell
   std::uint16_t bed[64];                          // amount of the bed
   std::uint16_t content[4][64];  // sums of the low and of the high halves of amount x heat, 32-bit each
+  std::uint16_t rounded[2][64];  // by heat on its way up, signed 32-bit
   std::uint64_t columns;         // that have a run here
+  std::uint64_t ordered;         // of these, those whose run keeps its order
   int top;                       // greatest of `last`
 };
 static_assert(sizeof(EndedRuns) == kSettleRecord);
@@ -26,7 +28,9 @@ struct alignas(64) SettledRuns {
   std::uint16_t pivot[64];  // 1 + its height
   std::uint16_t at[64], above[64];
   std::uint16_t head_low[64], head_high[64];  // 512 + head above the grid's bottom
-  std::uint16_t mobility[64], exposed[64], dead[64], heat[64];
+  std::uint16_t mobility[64], exposed[64], dead[64];
+  std::uint16_t heat[64];  // of runs that do not keep their order
+  std::uint64_t ordered;
   std::uint16_t shown_bed[64];  // as in Runs
 };
 
@@ -45,6 +49,7 @@ class RunData {
     std::int64_t rounded = 0;
     for (int part = 0; part < L::kParts; ++part)
       if (L::in_part(runs.columns, part)) rounded += settle(part, runs, settled);
+    settled.ordered = (settled.ordered & ~runs.columns) | runs.ordered;
     return rounded;
   }
 
@@ -54,7 +59,7 @@ class RunData {
 
   [[gnu::always_inline]] std::int64_t settle(int part, const EndedRuns& runs, SettledRuns& settled) const {
     alignas(64) Lanes32 mass, over;
-    alignas(64) Lanes16 counts;
+    alignas(64) Lanes16 counts, mean;
     SettledRuns now;
     const int begin = part * L::kCount, end = begin + L::kCount;
     L::store(counts + begin, L::keep(L::from_bits(runs.columns, part), L::set(1)));
@@ -66,8 +71,8 @@ class RunData {
       over[i] = counts[i] != 0 && excess > 0 ? excess : 0;
     }
     fill(begin, mass, over, runs, now);
-    const std::int64_t rounded = kHot ? mix(begin, mass, counts, runs, now) : 0;
-    show(begin, mass, over, runs, now);
+    const std::int64_t rounded = kHot ? mix(begin, mass, counts, runs, now, mean) : 0;
+    show(begin, mass, over, runs, mean, now);
     const auto asked = L::from_bits(runs.columns, part);
     const auto keep = [&](const Lanes16& value, Lanes16& kept) VOXMELT_LAMBDA {
       L::store(kept + begin, L::select(asked, L::load(value + begin), L::load(kept + begin)));
@@ -107,22 +112,33 @@ class RunData {
     }
   }
 
-  // One heat for a whole run. Numbers below 2^53: exact in double, and a quotient is rounded to the next
-  // whole number only if it is one.
+  // The mean heat, and one heat for a whole run where the order is not kept. Numbers below 2^53: exact in
+  // double, and a quotient is rounded to the next whole number only if it is one.
   [[gnu::always_inline]] std::int64_t mix(int begin, const Lanes32& mass, const Lanes16& counts,
-                                          const EndedRuns& runs, SettledRuns& now) const {
+                                          const EndedRuns& runs, SettledRuns& now, Lanes16& mean) const {
     const int end = begin + L::kCount;
-    alignas(64) Lanes32 rounded;
+    alignas(64) double content[64];
     for (int i = begin; i < end; ++i) {
       const std::uint32_t low = std::uint32_t{runs.content[1][i]} << 16 | runs.content[0][i];
       const std::uint32_t high = std::uint32_t{runs.content[3][i]} << 16 | runs.content[2][i];
-      const double content =
+      content[i] =
           counts[i] != 0 ? 65536.0 * static_cast<std::int32_t>(high) + static_cast<std::int32_t>(low) : 0.0;
-      const double m = mass[i];
-      const int offset = static_cast<int>(m * dither_ * (1.0 / 65536));
-      const int heat = static_cast<int>((content + offset) / m);
-      now.heat[i] = static_cast<std::uint16_t>(heat);
-      rounded[i] = counts[i] != 0 ? static_cast<int>(m * heat - content) : 0;
+      mean[i] = static_cast<std::uint16_t>(static_cast<int>(content[i] / mass[i]));
+    }
+    alignas(64) Lanes32 rounded;
+    for (int i = begin; i < end; ++i) {
+      const std::uint32_t bits = std::uint32_t{runs.rounded[1][i]} << 16 | runs.rounded[0][i];
+      rounded[i] = counts[i] != 0 ? static_cast<std::int32_t>(bits) : 0;
+    }
+    if (L::in_part(runs.columns & ~runs.ordered, begin / L::kCount)) {
+      for (int i = begin; i < end; ++i) {
+        const double m = mass[i];
+        const int offset = static_cast<int>(m * dither_ * (1.0 / 65536));
+        const int heat = static_cast<int>((content[i] + offset) / m);
+        now.heat[i] = static_cast<std::uint16_t>(heat);
+        if (counts[i] != 0 && (runs.ordered >> i & 1) == 0)
+          rounded[i] = static_cast<int>(m * heat - content[i]);
+      }
     }
     std::int64_t sum = 0;
     for (int i = begin; i < end; ++i) sum += rounded[i];
@@ -131,7 +147,7 @@ class RunData {
 
   // Head, mobility, dead zone.
   [[gnu::always_inline]] void show(int begin, const Lanes32& mass, const Lanes32& over, const EndedRuns& runs,
-                                   SettledRuns& now) const {
+                                   const Lanes16& mean, SettledRuns& now) const {
     const int end = begin + L::kCount;
     const int stiffness = flow_.viscous.stiffness, yield = static_cast<int>(flow_.viscous.yield);
     const double mobility = flow_.viscous.mobility;
@@ -158,7 +174,7 @@ class RunData {
     }
     if (kBuilt.thermal && flow_.thermal_viscosity)
       for (int i = begin; i < end; ++i) {
-        const std::uint16_t factor = table_[kHot ? now.heat[i] >> 11 : 0];
+        const std::uint16_t factor = table_[kHot ? mean[i] >> 11 : 0];
         raw[i] = static_cast<int>(static_cast<double>(raw[i]) * factor * (1.0 / 32768));
       }
     for (int i = begin; i < end; ++i) {

@@ -4,8 +4,8 @@
 //
 // A column is processed whole if one of its tiles is asked for. Settling is not idempotent (a run that comes
 // to rest may then reach liquid above it), but it is a function of the column alone, and of the dither only
-// where cells of a run differ in heat: where a settle has changed nothing, and nothing has since, another one
-// changes nothing.
+// where parts of different heats come together: where a settle has changed nothing, and nothing has since,
+// another one changes nothing.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,9 @@
 #include <cstdint>
 
 #include "kernel/engine/simd/features.h"
+#include "kernel/engine/simd/mix.h"
 #include "kernel/engine/simd/run_data.h"
+#include "kernel/engine/simd/run_order.h"
 #include "kernel/engine/simd/show_outside.h"
 
 namespace voxmelt::simd {
@@ -33,6 +35,7 @@ class Settle {
       : v_(view),
         r_(runs),
         data_(step),
+        mix_(step.dither),
         z_(z),
         records_(static_cast<EndedRuns*>(scratch)),
         taken_(static_cast<std::uint64_t*>(
@@ -48,8 +51,12 @@ class Settle {
       const TileRow group = columns >> base & ((TileRow{1} << kGroup) - 1);
       if (group == 0) continue;
       base_ = base;
-      const Rows rows = gather(group);
-      for (int y = rows.last; y >= rows.first; --y) changed[y >> v_.tile_shift] |= write(group, y) << base;
+      const Rows rows = gather(group, changed);
+      for (int y = rows.last; y >= rows.first; --y) {
+        changed[y >> v_.tile_shift] |= write(group, y) << base;
+        if ((y & 1023) == 0) close();  // what is mixed is summed over so many rows
+      }
+      close();
       // A cell outside runs shows something else only if it, or the cell below, has changed since it last
       // did.
       TileRow below = 0;
@@ -75,9 +82,13 @@ class Settle {
     int first, last;
   };
 
-  // Upwards: which cells runs take, and the sums of those that end. Returns the rows in which there is, or
-  // was, a run.
-  [[gnu::always_inline]] Rows gather(TileRow group) {
+  [[gnu::always_inline]] void close() {
+    if constexpr (kFeatures.hot) books_.heat.rounded += mix_.flush();
+  }
+
+  // Upwards: which cells runs take, and the sums of those that end; what moves up. Returns the rows in which
+  // there is, or was, a run.
+  [[gnu::always_inline]] Rows gather(TileRow group, TileRow* changed) {
     Rows rows{v_.ny, -1};
     Sums sums[kGroup];
     std::uint64_t goes_on[kGroup] = {}, blocked[kGroup];
@@ -104,12 +115,14 @@ class Settle {
           rows.last = y;
         }
         if (taken == 0) continue;
+        const std::uint64_t ceiling = v_.blocked(w, y + 1, z_);
         if (start != 0) {
           if (open_[g] && (record(g, used_[g] - 1).columns & start) != 0) open_[g] = false;
-          begin(sums[g], start, w, y);
+          begin(sums[g], g, start, w, y);
         }
 
         std::uint64_t over = 0, half = 0;
+        bool moves = false;
         const std::size_t cell = v_.cell(w, y, z_);
         for (int part = 0; part < L::kParts; ++part) {
           if (!L::in_part(taken, part)) continue;
@@ -117,24 +130,33 @@ class Settle {
           const int shift = part * L::kCount;
           const V amount = L::load(v_.amount + at);
           Wide& excess = sums[g].excess[part];
+          if constexpr (kFeatures.hot) orders_[g].meet(part, excess);
           excess = L::sum(excess, L::widen(amount));
           excess = {excess.low - W(4096), excess.high - W(4096)};
-          over |= L::to_bits(L::less(L::zero(), L::narrow(excess))) << shift;
+          const V too_much = L::narrow(excess);
+          over |= L::to_bits(L::less(L::zero(), too_much)) << shift;
           half |= L::to_bits(L::less(L::set(2047), amount)) << shift;
           if constexpr (kFeatures.hot) {
             const V heat = L::load(v_.heat + at);
             sums[g].low[part] = L::sum(sums[g].low[part], L::widen(L::low(amount, heat)));
             sums[g].high[part] = L::sum(sums[g].high[part], L::widen(L::high(amount, heat)));
+            const std::uint64_t rises = over & taken & ~ceiling;
+            if (L::in_part(rises, part) || orders_[g].moves(part)) {
+              const V up = L::keep(L::from_bits(rises, part), too_much);
+              orders_[g].lift(part, mix_, up, v_.amount + at, v_.heat + at);
+              moves = true;
+            }
           }
         }
         const std::uint64_t wet = y + 1 < v_.ny ? v_.liquid[v_.word(w, y + 1, z_)] : 0;
-        goes_on[g] = taken & ~v_.blocked(w, y + 1, z_) & (over | (half & wet));
+        if (moves) changed[y >> v_.tile_shift] |= TileRow{1} << w;
+        goes_on[g] = taken & ~ceiling & (over | (half & wet));
         if ((taken & ~goes_on[g]) != 0) keep(sums[g], g, taken & ~goes_on[g], y);
       }
     return rows;
   }
 
-  [[gnu::always_inline]] void begin(Sums& sums, std::uint64_t start, int w, int y) const {
+  [[gnu::always_inline]] void begin(Sums& sums, int g, std::uint64_t start, int w, int y) {
     for (int part = 0; part < L::kParts; ++part) {
       if (!L::in_part(start, part)) continue;
       const M which = L::from_bits(start, part);
@@ -144,6 +166,7 @@ class Settle {
       if constexpr (kFeatures.hot) {
         sums.low[part] = {sums.low[part].low & kept.low, sums.low[part].high & kept.high};
         sums.high[part] = {sums.high[part].low & kept.low, sums.high[part].high & kept.high};
+        orders_[g].begin(part, kept);
       }
       sums.first[part] = L::select(which, L::set(y), sums.first[part]);
       sums.bed[part] = L::select(which, bed_below<Arch>(v_, w, y, z_, part), sums.bed[part]);
@@ -154,7 +177,8 @@ class Settle {
   [[gnu::always_inline]] void keep(const Sums& sums, int g, std::uint64_t ended, int y) {
     if (!open_[g]) {
       open_[g] = true;
-      record(g, used_[g]++).columns = 0;
+      EndedRuns& fresh = record(g, used_[g]++);
+      fresh.columns = fresh.ordered = 0;
     }
     EndedRuns& to = record(g, used_[g] - 1);
     to.columns |= ended;
@@ -177,6 +201,8 @@ class Settle {
       if constexpr (kFeatures.hot) {
         add_wide(to.content[0], to.content[1], sums.low[part]);
         add_wide(to.content[2], to.content[3], sums.high[part]);
+        add_wide(to.rounded[0], to.rounded[1], orders_[g].rounded(part));
+        to.ordered |= ended & orders_[g].kept(part, sums.excess[part]) << lane;
       }
     }
   }
@@ -208,7 +234,7 @@ class Settle {
           books_.heat.rounded += data_.settle(record(g, --used_[g]), settled_[g]);
         for (int part = 0; part < L::kParts; ++part)
           if (L::in_part(taken, part))
-            in_run |= vectors(w, y, part, taken, settled_[g], deep, differs) << (part * L::kCount);
+            in_run |= vectors(w, y, part, taken, g, deep, differs) << (part * L::kCount);
         v_.liquid[word] = (v_.liquid[word] & ~taken) | in_run;
       }
       if (r_.in_run[word] != in_run) {
@@ -221,9 +247,9 @@ class Settle {
   }
 
   // Returns the lanes that are in a run.
-  [[gnu::always_inline]] std::uint64_t vectors(int w, int y, int part, std::uint64_t taken,
-                                               const SettledRuns& settled, TileRow& deep,
-                                               bool& differs) const {
+  [[gnu::always_inline]] std::uint64_t vectors(int w, int y, int part, std::uint64_t taken, int g,
+                                               TileRow& deep, bool& differs) {
+    const SettledRuns& settled = settled_[g];
     const int lane = part * L::kCount;
     const std::size_t at = v_.cell(w, y, z_) + static_cast<std::size_t>(lane);
     const V height = L::set(y + 1), pivot = L::load(settled.pivot + lane);
@@ -247,10 +273,17 @@ class Settle {
     V difference = (old ^ amount) | (old_head ^ new_head) | (old_mobility ^ mobility) |
                    (old_exposed ^ exposed) | (old_dead ^ dead) | (old_bed ^ bed);
     if constexpr (kFeatures.hot) {
-      const V old_heat = L::load(v_.heat + at);
-      const V heat = L::select(takes, L::keep(in_run, L::load(settled.heat + lane)), old_heat);
-      difference = difference | (old_heat ^ heat);
-      L::store(v_.heat + at, heat);
+      // Where no amount changes and nothing comes from above, no heat changes in runs that keep their order.
+      const std::uint64_t ordered = taken & settled.ordered, mixed = taken & ~settled.ordered;
+      if (L::in_part(mixed, part) || orders_[g].moves(part) || L::nonzero(old ^ amount)) {
+        const V old_heat = L::load(v_.heat + at);
+        const M keeps = L::from_bits(ordered, part);
+        const V own = orders_[g].sink(part, mix_, keeps, old, old_heat, value);
+        const V heat = L::select(keeps, own, L::load(settled.heat + lane));
+        const V new_heat = L::select(takes, L::keep(in_run, heat), old_heat);
+        difference = difference | (old_heat ^ new_heat);
+        L::store(v_.heat + at, new_heat);
+      }
     }
     if (L::to_bits(L::equal(cut, L::set(0xFFFF))) != 0) {
       deep |= TileRow{1} << w;
@@ -281,11 +314,13 @@ class Settle {
   const View v_;
   const Runs r_;
   const RunData<Arch, kFeatures.hot> data_;
+  Mix<Arch> mix_;
   const int z_;
   EndedRuns* const records_;    // [group][at most ny], stacks
   std::uint64_t* const taken_;  // [y][group]
   Books& books_;
   SettledRuns settled_[kGroup] = {};
+  RunOrder<Arch> orders_[kGroup];
   int base_ = 0;
   int used_[kGroup];   // records
   bool open_[kGroup];  // may the last one take more columns?

@@ -124,6 +124,25 @@ inline Volume hostile_volume(Random& random, const Parameters& p, Grid g) {
   return v;
 }
 
+// A column of liquid whose settling keeps the order of heat, or just does not: films and heaps in layers, and
+// excesses at both ends of what keeps the order, and one beyond.
+inline void put_layers(Random& random, Volume& v, int x, int z, bool hot) {
+  const int kind = random.below(6), height = random.between(1, v.grid.y), beyond = random.below(2);
+  const bool one_heat = random.one_in(4);
+  std::int32_t heat = random.below(65536);
+  for (int y = 0; y < height; ++y) {
+    std::int32_t a = 0;
+    if (kind == 0) a = random.between(2048, 4096);
+    if (kind == 1) a = random.between(2048, 6200);
+    if (kind == 2) a = random.one_in(3) ? 4096 : random.between(1, 12000);
+    if (kind == 3) a = y == 0 ? 2049 - beyond : 2048;  // 15 cells too little below the 30th face
+    if (kind == 4) a = y == 0 ? 61440 : y == 1 ? 8191 + beyond : 0;
+    if (kind == 5) a = 4096;
+    if (!one_heat) heat = random.one_in(2) ? random.below(65536) : std::min(65535, heat + random.below(2));
+    if (a > 0) put(v, x, y, z, a, 0, hot ? heat : 0);
+  }
+}
+
 // Takes matter and obstacles out of half of all pieces of 16 cells along x: vectors that hold nothing lie
 // beside, above and in front of others.
 inline void thin_out(Random& random, Volume& v) {

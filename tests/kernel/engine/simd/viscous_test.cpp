@@ -162,6 +162,27 @@ TEST(ViscousKernels, AreTheReferenceInDeepWater) {
   }
 }
 
+// Tall columns in layers: some keep the order of their heat, others beside them do not. Lids and shelves part
+// a few.
+TEST(ViscousKernels, AreTheReferenceInLayers) {
+  Random random(8);
+  for (int round = 0; round < 60; ++round) {
+    const Grid grid{random.any({3, 33, 64, 70, 300}), random.any({4, 31, 32, 60}), 2};
+    Parameters p = hostile_viscous(random, grid);
+    p.heat.enabled = !random.one_in(8);
+    p.flow.thermal_viscosity = random.one_in(2);
+    p.vents.clear();
+    Volume start(grid);
+    for (int z = 0; z < grid.z; ++z)
+      for (int x = 0; x < grid.x; ++x) {
+        if (random.one_in(6)) continue;
+        worlds::put_layers(random, start, x, z, p.heat.enabled);
+        if (random.one_in(8)) worlds::put_inert(start, x, random.below(grid.y), z, 2048);
+      }
+    ASSERT_TRUE(same(p, start, ways_for(random, grid, random.one_in(2)), 6)) << "round " << round;
+  }
+}
+
 // Heads at either side of what 16 bits hold, among them words that have none of the greater ones.
 TEST(ViscousKernels, AreTheReferenceWhereHeadsAreCut) {
   Random random(6);

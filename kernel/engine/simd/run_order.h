@@ -1,0 +1,97 @@
+// Heat keeps its order when runs settle (docs/automaton.md, section 10): the parts of the runs of one word of
+// columns move through the faces between their cells. A scan upwards, then one downwards, hand on what moves.
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/engine/cpu/lanes.h"
+#include "kernel/engine/simd/mix.h"
+
+namespace voxmelt::simd {
+
+template <class Arch>
+class RunOrder {
+  using L = cpu::Lanes<Arch>;
+  using V = typename L::V;
+  using M = typename L::M;
+  using W = typename L::W;
+  using Wide = typename L::Wide;
+
+ public:
+  // At the first cells of runs. Nothing flows to them: no run gives beyond its last cell.
+  [[gnu::always_inline]] void begin(int part, Wide kept) {
+    Part& p = parts_[part];
+    p.most = {p.most.low & kept.low, p.most.high & kept.high};
+    p.rounded = {p.rounded.low & kept.low, p.rounded.high & kept.high};
+  }
+
+  // The face that the scan upwards comes to.
+  [[gnu::always_inline]] void meet(int part, Wide excess) {
+    Part& p = parts_[part];
+    p.most = {xsimd::max(p.most.low, xsimd::abs(excess.low)),
+              xsimd::max(p.most.high, xsimd::abs(excess.high))};
+  }
+
+  // Upwards: a cell takes what comes from below and gives `up`.
+  [[gnu::always_inline]] void lift(int part, const Mix<Arch>& mix, V up, std::uint16_t* amount,
+                                   std::uint16_t* heat) {
+    Part& p = parts_[part];
+    const V held = L::load(amount);
+    V own = L::load(heat);
+    if (p.moves) {
+      own = take(p, mix, held, own, [&](V more, V less) VOXMELT_LAMBDA {
+        const Wide high = L::widen(more), low = L::widen(less);
+        p.rounded = L::sum(p.rounded, {high.low - low.low, high.high - low.high});
+      });
+      L::store(heat, own);
+    }
+    L::store(amount, held + p.flow - up);
+    hand_on(p, up, own);
+  }
+
+  // Downwards, where `ordered`: a cell takes what comes from above, keeps `settled` and gives the rest.
+  // Returns its heat.
+  [[gnu::always_inline]] V sink(int part, Mix<Arch>& mix, M ordered, V held, V heat, V settled) {
+    Part& p = parts_[part];
+    const V down = L::keep(ordered, held + p.flow - settled);
+    if (p.moves)
+      heat = take(p, mix, held, heat, [&](V more, V less) VOXMELT_LAMBDA { mix.book(more, less); });
+    hand_on(p, down, heat);
+    return heat;
+  }
+
+  // Does something flow to the next cells of the scan?
+  [[gnu::always_inline]] bool moves(int part) const { return parts_[part].moves; }
+  // Of runs that have ended, with this excess in all: what mixing on the way up has rounded, and the lanes of
+  // those that keep their order.
+  [[gnu::always_inline]] Wide rounded(int part) const { return parts_[part].rounded; }
+  [[gnu::always_inline]] std::uint64_t kept(int part, Wide excess) const {
+    constexpr int kMost = 65535 - 4096;
+    const V beyond = L::sub_saturated(L::narrow(parts_[part].most), L::set(kMost)) | L::narrow(excess);
+    return L::to_bits(L::equal(beyond, L::zero()));
+  }
+
+ private:
+  // In lanes of runs that do not keep their order, what moves is of no use to anybody.
+  struct Part {
+    V flow = L::zero(), heat = L::zero();  // what comes through the face to the cell that follows
+    bool moves = false;                    // is a flow not 0?
+    Wide most{W(0), W(0)};                 // of |excess| at the faces so far
+    Wide rounded{W(0), W(0)};
+  };
+
+  template <class Book>
+  [[gnu::always_inline]] static V take(const Part& p, const Mix<Arch>& mix, V held, V heat,
+                                       const Book& book) {
+    return L::select(L::less(L::zero(), p.flow), mix.two(held, heat, p.flow, p.heat, book), heat);
+  }
+  [[gnu::always_inline]] static void hand_on(Part& p, V flow, V heat) {
+    p.flow = flow;
+    p.heat = heat;
+    p.moves = L::nonzero(flow);
+  }
+
+  Part parts_[L::kParts];
+};
+
+}  // namespace voxmelt::simd
