@@ -14,15 +14,6 @@ Int ready_to_fall(const State& state, const Cell& p, const Cell& q, Place at) {
   return smaller(q.amount, ((q.amount * g) >> 16) + fall.minimum);
 }
 
-// The receiver's new heat; called before the amounts change.
-void mix_heat(State& state, Cell& receiver, const Cell& giver, Int f) {
-  if (!state.parameters.heat.enabled) return;
-  const Int products = receiver.amount * receiver.heat + f * giver.heat;
-  const Int amount = receiver.amount + f;
-  receiver.heat = mixed(products, amount, state.offset);
-  state.ledgers.heat.rounded += amount * receiver.heat - products;
-}
-
 void move_down(State& state, Cell& p, Cell& q, Int f) {
   const PaperFlow& paper = state.parameters.paper;
   EnergyLedger& ledger = state.ledgers.energy;

@@ -117,6 +117,14 @@ void finish_phase(State& state, const char* name) {
   }
 }
 
+void mix_heat(State& state, Cell& receiver, const Cell& giver, Int f) {
+  if (!state.parameters.heat.enabled) return;
+  const Int products = receiver.amount * receiver.heat + f * giver.heat;
+  const Int amount = receiver.amount + f;
+  receiver.heat = mixed(products, amount, state.offset);
+  state.ledgers.heat.rounded += amount * receiver.heat - products;
+}
+
 void forget_empty_cells(State& state) {
   std::vector<Int> kept;
   for (const Int i : state.list) {

@@ -4,6 +4,7 @@
 #include "parameters.h"
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct Exchange {
 // What a cell in a run shows its neighbours (section 10).
 struct Run {
   Int member = 0;  // 1: the cell is in a run
+  std::optional<Int> bed;
   Int head = 0, dead = 0;
   Int mobility = 0;  // between runs
   Int exposed = 0;   // towards cells outside runs
@@ -100,6 +102,8 @@ void finish_phase(State& state, const char* name);             // section 3, las
 void check_cell(const State& state, Int i, const char* when);  // section 1, docs/proofs.md
 void check_all(const State& state, const char* when);
 void forget_empty_cells(State& state);
+// The receiver's heat, once it has f > 0 of the giver too (section 2); called before the amounts change.
+void mix_heat(State& state, Cell& receiver, const Cell& giver, Int f);
 
 // The columns that hold liquid, with their lowest and highest liquid cell.
 struct Column {
