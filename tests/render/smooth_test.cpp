@@ -139,7 +139,7 @@ TEST(Levels, TerracesGo) {
   const auto shifts = render::level_shifts(levels, 12);
   for (int x = 6; x < 34; ++x) {
     const auto i = static_cast<std::size_t>(20 * 40 + x);
-    EXPECT_NEAR(levels.level[i] + shifts[i], even.level[i], rule::kOne / 100) << x;
+    EXPECT_NEAR(levels.level[i] + shifts[i], even.level[i], rule::kOne / 100.0) << x;
   }
 }
 
