@@ -53,6 +53,7 @@ KEYS = {
     "heat.gamma": Key(TINY, 0.5236, 0.02, 0.5, math.pi / 65536),
     "heat.convection": Key(0, 0.5, 0.01, 0.4, 1 / 65536),
     "heat.visibility_every": Key(1, 1024, 1, 4, 2, 1023),
+    "heat.rays_per_face": Choice(1, 4, 16),
     "heat.air.exchange": Key(TINY, 0.57735, 0.01, 0.5, 1 / 65536),
     "heat.air.bottom": TEMPERATURE,
     "heat.air.top": TEMPERATURE,

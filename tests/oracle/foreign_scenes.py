@@ -72,7 +72,7 @@ class Maker:
         return material
 
     def heat(self):
-        heat = self.some("heat", "neighbours", "gamma", "convection", "visibility_every")
+        heat = self.some("heat", "neighbours", "gamma", "convection", "visibility_every", "rays_per_face")
         if self.gives("heat.air", 0.5):
             heat["air"] = {"exchange": self.draw("heat.air.exchange"), "bottom": self.draw("heat.air.bottom"),
                            **self.some("heat.air", "top")}
