@@ -1,6 +1,7 @@
 // Runs that end too early, lose a bit of their sum or do not mix, and columns that leave upside down.
 #pragma once
 
+#include <iterator>
 #include <algorithm>
 #include <bit>
 #include <cstddef>
