@@ -1,11 +1,11 @@
 // Runs that end too early, lose a bit of their sum or do not mix, and columns that leave upside down.
 #pragma once
 
-#include <iterator>
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "hwmodel/faults/planted.h"
