@@ -135,7 +135,7 @@ struct Currents {
 };
 
 // Memory for `settle`: one block per thread, aligned to 64 bytes; what it holds between calls is nothing.
-inline constexpr std::size_t kSettleGroup = 4, kSettleRecord = 1472;
+inline constexpr std::size_t kSettleGroup = 4, kSettleRecord = 1216;
 [[gnu::always_inline]] inline constexpr std::size_t settle_scratch_bytes(int ny) {
   return kSettleGroup * static_cast<std::size_t>(ny) * kSettleRecord +
          (kSettleGroup * static_cast<std::size_t>(ny) * sizeof(std::uint64_t) + 63) / 64 * 64;

@@ -16,7 +16,6 @@ struct alignas(64) EndedRuns {
   std::uint16_t first[64], last[64];              // heights of the first and the last cell
   std::uint16_t bed[64];                          // amount of the bed
   std::uint16_t content[4][64];  // sums of the low and of the high halves of amount x heat, 32-bit each
-  std::uint16_t rounded[2][64];  // by heat on its way up, signed 32-bit
   std::uint64_t columns;         // that have a run here
   std::uint64_t ordered;         // of these, those whose run keeps its order
   int top;                       // greatest of `last`
@@ -44,7 +43,7 @@ class RunData {
         table_(step.parameters->flow.mobility_table.data()),
         dither_(step.dither) {}
 
-  // Other columns keep what they have. Returns what the books call `rounded`.
+  // Other columns keep what they have. Returns what the books call `rounded`, of runs that mix.
   [[gnu::always_inline]] std::int64_t settle(const EndedRuns& runs, SettledRuns& settled) const {
     std::int64_t rounded = 0;
     for (int part = 0; part < L::kParts; ++part)
@@ -119,30 +118,22 @@ class RunData {
     const int end = begin + L::kCount;
     alignas(64) double content[64];
     for (int i = begin; i < end; ++i) {
-      const std::uint32_t low = std::uint32_t{runs.content[1][i]} << 16 | runs.content[0][i];
-      const std::uint32_t high = std::uint32_t{runs.content[3][i]} << 16 | runs.content[2][i];
-      content[i] =
-          counts[i] != 0 ? 65536.0 * static_cast<std::int32_t>(high) + static_cast<std::int32_t>(low) : 0.0;
+      const std::uint32_t asked = 0u - counts[i];  // a mask: a branch would keep the loop from lanes
+      const std::uint32_t low = (std::uint32_t{runs.content[1][i]} << 16 | runs.content[0][i]) & asked;
+      const std::uint32_t high = (std::uint32_t{runs.content[3][i]} << 16 | runs.content[2][i]) & asked;
+      content[i] = 65536.0 * static_cast<std::int32_t>(high) + static_cast<std::int32_t>(low);
       mean[i] = static_cast<std::uint16_t>(static_cast<int>(content[i] / mass[i]));
     }
-    alignas(64) Lanes32 rounded;
+    if (!L::in_part(runs.columns & ~runs.ordered, begin / L::kCount)) return 0;
+    std::int64_t rounded = 0;
     for (int i = begin; i < end; ++i) {
-      const std::uint32_t bits = std::uint32_t{runs.rounded[1][i]} << 16 | runs.rounded[0][i];
-      rounded[i] = counts[i] != 0 ? static_cast<std::int32_t>(bits) : 0;
+      const double m = mass[i];
+      const int offset = static_cast<int>(m * dither_ * (1.0 / 65536));
+      const int heat = static_cast<int>((content[i] + offset) / m);
+      now.heat[i] = static_cast<std::uint16_t>(heat);
+      if ((runs.columns & ~runs.ordered) >> i & 1) rounded += static_cast<int>(m * heat - content[i]);
     }
-    if (L::in_part(runs.columns & ~runs.ordered, begin / L::kCount)) {
-      for (int i = begin; i < end; ++i) {
-        const double m = mass[i];
-        const int offset = static_cast<int>(m * dither_ * (1.0 / 65536));
-        const int heat = static_cast<int>((content[i] + offset) / m);
-        now.heat[i] = static_cast<std::uint16_t>(heat);
-        if (counts[i] != 0 && (runs.ordered >> i & 1) == 0)
-          rounded[i] = static_cast<int>(m * heat - content[i]);
-      }
-    }
-    std::int64_t sum = 0;
-    for (int i = begin; i < end; ++i) sum += rounded[i];
-    return sum;
+    return rounded;
   }
 
   // Head, mobility, dead zone.

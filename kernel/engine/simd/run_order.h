@@ -22,7 +22,7 @@ class RunOrder {
   [[gnu::always_inline]] void begin(int part, Wide kept) {
     Part& p = parts_[part];
     p.most = {p.most.low & kept.low, p.most.high & kept.high};
-    p.rounded = {p.rounded.low & kept.low, p.rounded.high & kept.high};
+    if (p.lifted) p.rounded = {p.rounded.low & kept.low, p.rounded.high & kept.high};
   }
 
   // The face that the scan upwards comes to.
@@ -44,6 +44,7 @@ class RunOrder {
         p.rounded = L::sum(p.rounded, {high.low - low.low, high.high - low.high});
       });
       L::store(heat, own);
+      p.lifted = true;
     }
     L::store(amount, held + p.flow - up);
     hand_on(p, up, own);
@@ -62,13 +63,32 @@ class RunOrder {
 
   // Does something flow to the next cells of the scan?
   [[gnu::always_inline]] bool moves(int part) const { return parts_[part].moves; }
-  // Of runs that have ended, with this excess in all: what mixing on the way up has rounded, and the lanes of
-  // those that keep their order.
-  [[gnu::always_inline]] Wide rounded(int part) const { return parts_[part].rounded; }
-  [[gnu::always_inline]] std::uint64_t kept(int part, Wide excess) const {
+  // Where `ended`, runs end with this excess in all: the lanes of those that keep their order. What the
+  // others have mixed on the way up is forgotten.
+  [[gnu::always_inline]] std::uint64_t end(int part, M ended, Wide excess) {
     constexpr int kMost = 65535 - 4096;
-    const V beyond = L::sub_saturated(L::narrow(parts_[part].most), L::set(kMost)) | L::narrow(excess);
-    return L::to_bits(L::equal(beyond, L::zero()));
+    Part& p = parts_[part];
+    const V beyond = L::sub_saturated(L::narrow(p.most), L::set(kMost)) | L::narrow(excess);
+    const V ordered = L::keep(ended, L::select(L::equal(beyond, L::zero()), L::set(0xFFFF), L::zero()));
+    if (p.lifted) {
+      const Wide kept = L::unpack(ordered, ordered);
+      p.booked = L::sum(p.booked, {p.rounded.low & kept.low, p.rounded.high & kept.high});
+    }
+    return L::to_bits(L::less(L::zero(), ordered));
+  }
+  // What mixing on the way up has rounded in runs that keep their order, in all columns so far.
+  [[gnu::always_inline]] std::int64_t flush() {
+    std::int64_t total = 0;
+    for (Part& p : parts_) {
+      if (!p.lifted) continue;
+      alignas(64) std::int32_t lanes[L::kCount];  // at most 65535 in each cell of a column
+      p.booked.low.store_aligned(lanes);
+      p.booked.high.store_aligned(lanes + L::kCount / 2);
+      for (const std::int32_t lane : lanes) total += lane;
+      p.lifted = false;
+      p.booked = p.rounded = Wide{W(0), W(0)};
+    }
+    return total;
   }
 
  private:
@@ -77,7 +97,8 @@ class RunOrder {
     V flow = L::zero(), heat = L::zero();  // what comes through the face to the cell that follows
     bool moves = false;                    // is a flow not 0?
     Wide most{W(0), W(0)};                 // of |excess| at the faces so far
-    Wide rounded{W(0), W(0)};
+    bool lifted = false;                   // since the last flush: else the two that follow are 0
+    Wide rounded{W(0), W(0)}, booked{W(0), W(0)};
   };
 
   template <class Book>

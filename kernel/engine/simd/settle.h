@@ -153,6 +153,8 @@ class Settle {
         goes_on[g] = taken & ~ceiling & (over | (half & wet));
         if ((taken & ~goes_on[g]) != 0) keep(sums[g], g, taken & ~goes_on[g], y);
       }
+    if constexpr (kFeatures.hot)
+      for (RunOrder<Arch>& order : orders_) books_.heat.rounded += order.flush();
     return rows;
   }
 
@@ -201,8 +203,7 @@ class Settle {
       if constexpr (kFeatures.hot) {
         add_wide(to.content[0], to.content[1], sums.low[part]);
         add_wide(to.content[2], to.content[3], sums.high[part]);
-        add_wide(to.rounded[0], to.rounded[1], orders_[g].rounded(part));
-        to.ordered |= ended & orders_[g].kept(part, sums.excess[part]) << lane;
+        to.ordered |= orders_[g].end(part, which, sums.excess[part]) << lane;
       }
     }
   }

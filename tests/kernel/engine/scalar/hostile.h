@@ -127,7 +127,8 @@ inline Volume hostile_volume(Random& random, const Parameters& p, Grid g) {
 // A column of liquid whose settling keeps the order of heat, or just does not: films and heaps in layers, and
 // excesses at both ends of what keeps the order, and one beyond.
 inline void put_layers(Random& random, Volume& v, int x, int z, bool hot) {
-  const int kind = random.below(6), height = random.between(1, v.grid.y), beyond = random.below(2);
+  const int kind = random.below(6), beyond = random.below(2);
+  const int height = kind == 3 ? std::min(31, v.grid.y) : random.between(1, v.grid.y);
   const bool one_heat = random.one_in(4);
   std::int32_t heat = random.below(65536);
   for (int y = 0; y < height; ++y) {

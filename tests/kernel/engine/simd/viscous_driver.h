@@ -61,7 +61,7 @@ class ViscousDriver {
     Books books;
     awake_ = 0;
     if (phase == step::Phase::excess)
-      settle(view, step, books);
+      settle(view, step, volume, books);
     else if (phase == step::Phase::spread)
       spread(view, step, books);
     else if (phase == step::Phase::gravity)
@@ -73,6 +73,8 @@ class ViscousDriver {
 
   // Tiles that the last phase was asked for.
   int awake() const { return awake_; }
+  // Did `settle` name every tile in which it changed something?
+  bool told() const { return told_; }
 
  private:
   using Tiles = std::vector<TileRow>;  // [z][tile row]
@@ -133,12 +135,15 @@ class ViscousDriver {
     for (const TileRow row : work) awake_ += std::popcount(row);
   }
 
-  void settle(const View& view, const Step& step, Books& books) {
+  void settle(const View& view, const Step& step, const state::Volume& volume, Books& books) {
+    const state::Volume before = volume;
     const Tiles work = take(for_settle_, view, false, false);
     count(work);
     Tiles changed(work.size());
     for (int z = 0; z < view.nz; ++z)
       kernels_.settle(view, step, z, &work[slice(z)], runs_, scratch_.get(), &changed[slice(z)], books);
+    const Tiles truly = differing(before, volume);
+    for (std::size_t i = 0; i < truly.size(); ++i) told_ = told_ && (truly[i] & ~changed[i]) == 0;
     note(changed);
   }
 
@@ -179,6 +184,10 @@ class ViscousDriver {
   void others(step::Phase phase, std::uint32_t number, state::Volume& volume, state::Ledger& ledger) {
     const state::Volume before = volume;
     rest_.run(phase, number, nullptr, volume, ledger);
+    note(differing(before, volume));
+  }
+
+  Tiles differing(const state::Volume& before, const state::Volume& volume) const {
     Tiles changed(for_fall_.size());
     for (int z = 0; z < volume.grid.z; ++z)
       for (int y = 0; y < volume.grid.y; ++y)
@@ -188,7 +197,7 @@ class ViscousDriver {
               before.solid.test(x, y, z) != volume.solid.test(x, y, z))
             changed[slice(z) + static_cast<std::size_t>(y >> way_.tile_shift)] |= TileRow{1} << (x / 64);
         }
-    note(changed);
+    return changed;
   }
 
   struct Free {
@@ -206,6 +215,7 @@ class ViscousDriver {
   std::array<SliceCurrents, 4> currents_;  // a ring of two, at the cut, beyond the grid
   std::unique_ptr<void, Free> scratch_;
   int rows_, awake_ = 0;
+  bool told_ = true;
   Tiles for_settle_, for_exchange_, for_fall_, restless_;
 };
 
