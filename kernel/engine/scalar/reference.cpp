@@ -31,6 +31,7 @@ void Reference::run(step::Phase phase, step::Moment moment, const step::Irradian
     case step::Phase::gravity:
       return gravity(step, volume, ledger);
     case step::Phase::spread:
+      if (parameters_.flow.law == rule::Law::viscous) return viscous_spread(moment, volume, ledger);
       return spread(step, volume, ledger);
     case step::Phase::excess:
       if (parameters_.flow.law == rule::Law::viscous) settle(moment, volume, ledger);
