@@ -37,6 +37,14 @@ json ledger_json(const state::LedgerOf<Terms>& ledger,
   return result;
 }
 
+// Section 10 of docs/automaton.md: counters of the viscous law.
+json limit_json(const state::LimitCounts<Sum>& limit) {
+  return {{"cells", integer(limit.cells)},
+          {"limited_cells", integer(limit.limited_cells)},
+          {"mass", integer(limit.mass)},
+          {"limited_mass", integer(limit.limited_mass)}};
+}
+
 json seconds_json(const run::Simulation::Seconds& steps, const RunSeconds& run) {
   json result;
   for (std::size_t p = 0; p < step::kPhaseCount; ++p)
@@ -80,6 +88,7 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"mass", ledger_json(ledger.mass, {{"solid", held.solid}, {"liquid", held.liquid}}, drift.mass)},
       {"energy", ledger_json(ledger.energy, {{"held", held.energy}}, drift.energy)},
       {"heat", ledger_json(ledger.heat, {{"held", held.heat}}, drift.heat)},
+      {"limit", limit_json(ledger.limit)},
       {"cells",
        {{"solid", volume.solid.count()},
         {"liquid", volume.liquid.count()},
@@ -89,6 +98,15 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"memory", {{"peak_bytes", peak_bytes()}}},
       {"parameters", json::parse(io::parameters_json(simulation.parameters(), volume.grid, 0))}};
   return report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+std::string limit_text(const state::LimitCounts<state::Sum>& limit) {
+  if (limit.limited_mass * 20 <= limit.mass) return {};
+  const double share = static_cast<double>(limit.limited_mass) / static_cast<double>(limit.mass);
+  return fmt::format(
+      "{:.0f} % of the liquid flows more slowly than its viscosity asks; flow.viscous.substeps "
+      "mends that",
+      100 * share);
 }
 
 std::string drift_text(const state::Drift& drift) {

@@ -15,6 +15,9 @@ struct RunSeconds {
 std::string report_json(const scene::Scene& scene, const Common& common, const run::Simulation& simulation,
                         const RunSeconds& seconds);
 
+// What the limit of the mobility withholds, where that is much; else empty.
+std::string limit_text(const state::LimitCounts<state::Sum>& limit);
+
 // What does not balance, as in "mass +1, heat -3"; empty when all ledgers balance.
 std::string drift_text(const state::Drift& drift);
 

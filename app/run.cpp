@@ -68,6 +68,8 @@ int run_scene(const RunOptions& options) {
                place);
     fmt::print("film           {}\n", video_note.empty() ? place + "/film.mp4" : video_note);
     fmt::print("report         {}/report.json\n", place);
+    if (const std::string limit = limit_text(simulation.ledger().limit); !limit.empty())
+      fmt::print("note           {}\n", limit);
   }
   const std::string drift = drift_text(simulation.drift());
   if (drift.empty()) return kDone;

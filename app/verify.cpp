@@ -263,8 +263,8 @@ void add_verify(CLI::App& program, Chosen& chosen) {
                       "folder for the replay of a mismatch (default: out/verify_SCENE)");
   add_common(*command, options->common);
   command->footer(
-      "--set also takes hw.lanes (1, 2, 4 .. 32), hw.cascade (1 .. 16), hw.fifo_depth (1 .. 1024), "
-      "hw.stall_seed (0: none).");
+      "--set also takes hw.lanes (1, 2, 4 .. 32), hw.cascade (1 .. 16), hw.substeps (1 .. 64), "
+      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none).");
   command->callback([options, &chosen] { chosen = [options] { return run_verify(*options); }; });
 }
 

@@ -58,7 +58,7 @@ void simulate(benchmark::State& state, const MidMelt& at, int lanes) {
     state.PauseTiming();
     state::Volume volume = prepared.before;
     state.ResumeTiming();
-    cycles += pipeline.run_pass(at.step, 1, irradiance, volume).cycles;
+    cycles += pipeline.run_pass({.first = at.step}, irradiance, volume).cycles;
     state.PauseTiming();
     if (state::digest(volume) != prepared.digest_after) {
       std::fprintf(stderr, "%s: the model's bits are not the reference's\n", at.scene);

@@ -34,7 +34,7 @@ rule::Parameters showcase(rule::Law law, bool heat) {
   p.flow.paper.alpha_liquid = 62915;
   p.flow.paper.alpha_solid = 60293;
   p.flow.paper.alpha_floor = 60293;
-  p.flow.viscous.mobility = 4660;  // kappa = 0.02
+  p.flow.viscous.mobility = 19088744;  // kappa = 0.02
   p.heat.enabled = heat;
   p.heat.weight_face = 2086;  // gamma = 0.1
   p.material.melting_point = 60000;

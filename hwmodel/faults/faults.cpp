@@ -53,6 +53,8 @@ constexpr std::array kFaults{
     FaultInfo{viscous_dead_zone, "viscous-dead-zone", "spread", "a difference inside the dead zone flows"},
     FaultInfo{viscous_dither, "viscous-dither", "spread", "an axis uses the dither of the next one"},
     FaultInfo{viscous_slope, "viscous-slope", "spread", "a pair on a slope flows as on a level bed"},
+    FaultInfo{viscous_substep, "viscous-substep", "spread",
+              "a pair uses the dither of the next sub-step (needs two)"},
     FaultInfo{viscous_flow_lost, "viscous-flow-lost", "spread", "a flow leaves its cell and never arrives"},
     FaultInfo{buffer_bit, "buffer-bit", "plane memory", "a bit of an amount flips in the first plane memory"},
     FaultInfo{fifo_overwrite, "fifo-overwrite", "channel",

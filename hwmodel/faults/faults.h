@@ -49,6 +49,7 @@ enum class Fault : std::uint8_t {
   viscous_dead_zone,
   viscous_dither,
   viscous_slope,
+  viscous_substep,
   viscous_flow_lost,
   // buffers and channels
   buffer_bit,

@@ -72,8 +72,8 @@ class SettleFaults : public Planted {
       for (std::size_t lane = 0; lane < stage.size(); ++lane) {
         Cell expected, found;
         const auto show = [&](ShowScan& scan, std::int64_t from, Cell& cell) {
-          scan.next(stage.upwards_.will_give(from)[lane], static_cast<int>(y), stage.flow_, stage.widths_,
-                    cell);
+          scan.next(stage.upwards_.will_give(from)[lane], static_cast<int>(y), stage.flow_, stage.pace_,
+                    stage.widths_, cell);
         };
         show(right[lane], y, expected);
         show(wrong[lane], stage.height_ - 1 - y, found);

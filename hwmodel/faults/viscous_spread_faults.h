@@ -1,4 +1,5 @@
-// Flows inside the dead zone, with the dither of the next axis, as on a level bed, or lost on their way.
+// Flows inside the dead zone, with the dither of the next axis or sub-step, as on a level bed, or lost on
+// their way.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,8 @@ class ViscousSpreadFaults : public Planted {
       wrong = stage.wanted(from, to, axis, stage.dither_of_axis(axis));
     if (!rests && armed(stage, Fault::viscous_dither))
       wrong = stage.wanted(from, to, axis, stage.dither_of_axis((axis + 1) % 4));
+    if (!rests && armed(stage, Fault::viscous_substep))
+      wrong = stage.wanted(from, to, axis, stage.pair_dither(axis, stage.moment().substep + 1));
     if (!rests && armed(stage, Fault::viscous_slope)) {
       SeenCell level = from;
       level.bed = to.bed;

@@ -29,7 +29,7 @@ Expectation::Step Expectation::step(bool keep) {
   begin_step();
   Step result;
   Snapshot before = keep ? std::make_shared<state::Volume>(reference_.volume()) : nullptr;
-  for (const step::Phase phase : step::phase_order(parameters_.flow.law)) {
+  for (const step::Phase phase : reference_.phases()) {
     const bool staged =
         std::any_of(stages_.begin(), stages_.end(), [&](StageKind one) { return phase_of(one) == phase; });
     reference_.run_phase(phase);

@@ -23,13 +23,13 @@ struct Expected {
 class Expectation {
  public:
   // `fast` is the software kernel that is compared with the reference on the way. `stages` are those of a
-  // time step.
+  // time step, with settle and spread once.
   Expectation(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
               const step::Implementation& fast, const step::Tuning& tuning, std::vector<StageKind> stages);
 
   // Runs one step. With `keep` it also returns what is expected behind every stage, in the order of the
-  // stages of one time step. A difference between the two software kernels, or a phase without a stage that
-  // changes something, is returned as a mismatch.
+  // stages of one time step, settle and spread once for each sub-step. A difference between the two software
+  // kernels, or a phase without a stage that changes something, is returned as a mismatch.
   struct Step {
     std::vector<Expected> stages;
     std::unique_ptr<Mismatch> mismatch;
@@ -39,6 +39,7 @@ class Expectation {
   const state::Volume& volume() const { return reference_.volume(); }
   const step::Irradiance* irradiance() const { return reference_.irradiance(); }
   std::uint32_t step_number() const { return reference_.step_number(); }
+  int substeps() const { return reference_.substeps(); }           // of the step that has begun last
   std::int64_t compared_cells() const { return compared_cells_; }  // reference with `fast`
 
   // Prepares the next step (its visibility) without running it.

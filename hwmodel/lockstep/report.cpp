@@ -182,6 +182,7 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
               {"hw",
                {{"lanes", configuration.lanes},
                 {"cascade", configuration.cascade},
+                {"substeps", configuration.substeps},
                 {"fifo_depth", configuration.fifo_depth},
                 {"stall_seed", configuration.stall_seed}}},
               {"first_step", report.first_step},

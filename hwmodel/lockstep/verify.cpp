@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -63,7 +64,8 @@ class Run {
                   options.fault == Fault::none ? StageMaker(make_stage) : planted_stages(plan_)),
         channel_fault_(plan_, pipeline_),
         checker_(pipeline_),
-        software_(parameters, start, first_step, fast, tuning, stages_of_step(pipeline_.design())),
+        software_(parameters, start, first_step, fast, tuning,
+                  stages_of_step({parameters, pipeline_.design().shape})),
         memory_(start) {
     pipeline_.watch(&checker_);
     pipeline_.poll(options.poll);
@@ -71,7 +73,7 @@ class Run {
   }
 
   VerifyReport run() {
-    while (report_.steps < options_.steps && report_.mismatch == nullptr) pass();
+    while (report_.steps < options_.steps && report_.mismatch == nullptr) advance();
     if (report_.mismatch == nullptr && options_.steps > 0 && checker_.compared_cells() == 0)
       throw std::logic_error("lock-step compared nothing");
     report_.compared_cells = checker_.compared_cells();
@@ -85,45 +87,85 @@ class Run {
   }
 
  private:
-  void pass() {
+  // One pass over several time steps, or several passes over one with many sub-steps.
+  void advance() {
     const std::uint32_t step = report_.first_step + report_.steps;
-    const int steps =
-        steps_of_pass(pipeline_.design(), options_.configuration, step, options_.steps - report_.steps);
-    report_.pass_end = step + static_cast<std::uint32_t>(steps);
     if (starts_replay(step)) {
       report_.replay = memory_;
       report_.replay_step = step;
     }
     software_.begin_step();
+    Pass pass{.first = step, .substeps = software_.substeps()};
+    pass.count = std::min(pass.substeps, options_.configuration.substeps);
+    // How many sub-steps a step has is known when it begins, unless the scene says so.
+    const bool known = !pipeline_.design().parameters.flow.viscous.counts_substeps();
+    if (pass.ends() && (known || pipeline_.design().paper()))
+      pass.steps =
+          steps_of_pass(pipeline_.design(), options_.configuration, step, options_.steps - report_.steps);
+    report_.pass_end = step + static_cast<std::uint32_t>(pass.steps);
+
     std::vector<std::vector<Expected>> expected;
-    for (int t = 0; t < steps; ++t) {
+    for (int t = 0; t < pass.steps; ++t) {
       const std::uint32_t done = report_.steps + static_cast<std::uint32_t>(t) + 1;
       Expectation::Step one = software_.step(done % options_.every == 0 || done == options_.steps);
       if (options_.poll) options_.poll();
       expected.push_back(std::move(one.stages));
       if ((report_.mismatch = std::move(one.mismatch))) return;
     }
+    for (; pass.substep < pass.substeps; pass.substep += pass.count) {
+      pass.count = std::min(pass.count, pass.substeps - pass.substep);
+      if (!run_pass(pass, expected)) return;
+    }
+    report_.steps += static_cast<std::uint32_t>(pass.steps);
+  }
 
-    checker_.begin_pass(step, expected);
-    channel_fault_.begin_pass(step, steps);
-    if (!run_model(step, steps, software_.irradiance())) return;
-    compare_memory(step + static_cast<std::uint32_t>(steps) - 1);
-    if (report_.mismatch != nullptr) return;
-    report_.steps += static_cast<std::uint32_t>(steps);
+  bool run_pass(const Pass& pass, const std::vector<std::vector<Expected>>& steps) {
+    std::vector<std::vector<Expected>> expected;
+    for (const std::vector<Expected>& step : steps) expected.push_back(expected_of(pass, step));
+    checker_.begin_pass(pass.first, expected);
+    channel_fault_.begin_pass(pass.first, pass.steps);
+    if (!run_model(pass, software_.irradiance())) return false;
+    const std::uint32_t last = pass.first + static_cast<std::uint32_t>(pass.steps) - 1;
+    if (pass.ends())
+      compare_memory(last, software_.volume());
+    else if (!expected.front().empty())
+      compare_memory(last, *expected.front().back().after);
+    return report_.mismatch == nullptr;
+  }
+
+  // What one pass has to give behind every stage, from what the sub-steps of a time step give.
+  std::vector<Expected> expected_of(const Pass& pass, const std::vector<Expected>& step) const {
+    if (pipeline_.design().paper() || step.empty()) return step;
+    const std::vector<StageKind> stages = stages_of_step(pipeline_.design());
+    const auto before =
+        static_cast<std::size_t>(std::find(stages.begin(), stages.end(), StageKind::settle) - stages.begin());
+    std::vector<Expected> expected;
+    std::size_t next = before + 2 * static_cast<std::size_t>(pass.substep);  // in `step`, of the sub-steps
+    std::shared_ptr<const state::Volume> now = pass.begins() ? step.front().before : step[next - 1].after;
+    int copy = -1;
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      if (stages[i] == StageKind::settle) ++copy;
+      if (!pass.uses(stages[i], copy))
+        expected.push_back({now, now, nullptr});
+      else
+        expected.push_back(i < before ? step[i] : step[next++]);
+      now = expected.back().after;
+    }
+    return expected;
   }
 
   // False when a mismatch was found.
-  bool run_model(std::uint32_t step, int steps, const step::Irradiance* irradiance) {
+  bool run_model(const Pass& pass, const step::Irradiance* irradiance) {
     const auto begin = std::chrono::steady_clock::now();
     PassEnd end;
     try {
-      end = pipeline_.run_pass(step, steps, irradiance, memory_);
+      end = pipeline_.run_pass(pass, irradiance, memory_);
     } catch (const Pipeline::StageError& error) {
       report_.mismatch = std::make_unique<Mismatch>(Mismatch{
           .kind = Mismatch::Kind::width,
           .where = std::string(name_of(error.stage)),
           .phase = phase_of(error.stage),
-          .step = step + static_cast<std::uint32_t>(error.cascade),
+          .step = pass.first + static_cast<std::uint32_t>(error.cascade),
           .cascade = error.cascade,
           .detail = error.what(),
       });
@@ -133,17 +175,17 @@ class Run {
     ++report_.passes;
     report_.cycles += end.cycles;
     if (end.complete) {
-      report_.cell_steps += static_cast<std::int64_t>(memory_.grid.cells()) * steps;
-      report_.predicted_cycles += predicted_cycles(pipeline_.design(), options_.configuration, steps);
+      if (pass.ends()) report_.cell_steps += static_cast<std::int64_t>(memory_.grid.cells()) * pass.steps;
+      report_.predicted_cycles += predicted_cycles(pipeline_.design(), options_.configuration, pass);
     }
     if (checker_.mismatch() != nullptr) report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
     if (report_.mismatch == nullptr && end.hangs)
-      report_.mismatch = std::make_unique<Mismatch>(hang_of(pipeline_, step, end.cycles));
+      report_.mismatch = std::make_unique<Mismatch>(hang_of(pipeline_, pass.first, end.cycles));
     return report_.mismatch == nullptr;
   }
 
-  void compare_memory(std::uint32_t step) {
-    const Difference d = first_difference(software_.volume(), memory_);
+  void compare_memory(std::uint32_t step, const state::Volume& wanted) {
+    const Difference d = first_difference(wanted, memory_);
     if (d.field.empty()) return;
     report_.mismatch = std::make_unique<Mismatch>(Mismatch{
         .kind = Mismatch::Kind::memory,

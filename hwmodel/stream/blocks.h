@@ -2,6 +2,7 @@
 // SystemC process.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -124,8 +125,14 @@ class StepBlock {
   void feed(HeatFifo& feed) {
     for (const auto& stage : stages_) stage->feed(feed);
   }
-  void begin_pass(std::uint32_t step, bool bypass) {
-    for (const auto& stage : stages_) stage->begin_pass(step, bypass);
+  void begin_pass(const Pass& pass, int position) {
+    const std::uint32_t step = pass.first + static_cast<std::uint32_t>(position);
+    int copy = -1;
+    for (const auto& stage : stages_) {
+      if (stage->kind() == StageKind::settle) ++copy;
+      const bool works = position < pass.steps && pass.uses(stage->kind(), copy);
+      stage->begin_pass({step, pass.substep + std::max(copy, 0), pass.substeps}, !works);
+    }
   }
 
   const Stage& running() const { return *running_; }  // the last one that was evaluated

@@ -27,7 +27,7 @@ struct Pipeline::Machine {
   Machine(const rule::Parameters& parameters, state::Grid grid, const Configuration& c,
           const StageMaker& make)
       : configuration(c),
-        design{parameters, {grid, c.lanes}},
+        design{parameters, {grid, c.lanes}, c.substeps},
         clock("clock", 1, sc_core::SC_NS),
         reader(design.shape),
         writer(design.shape) {
@@ -150,21 +150,21 @@ std::vector<CellFifo*> Pipeline::channels_behind_stages(int cascade) {
   return channels;
 }
 
-PassEnd Pipeline::run_pass(std::uint32_t first, int steps, const state::Field<std::uint16_t>* irradiance,
+PassEnd Pipeline::run_pass(const Pass& pass, const state::Field<std::uint16_t>* irradiance,
                            state::Volume& volume) {
   Machine& m = *machine_;
   Shared& shared = m.shared;
   shared.complete = shared.hangs = false;
   shared.last_cycle = kNever;
   m.idle = 0;
-  m.for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.begin_pass(first); });
-  for (const auto& link : m.feed_links) link->fifo().begin_pass(first);
+  m.for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.begin_pass(pass.first); });
+  for (const auto& link : m.feed_links) link->fifo().begin_pass(pass.first);
   m.reader.begin_pass(volume);
   m.writer.begin_pass(volume);
   for (std::size_t t = 0; t < m.steps.size(); ++t) {
-    const bool bypass = static_cast<int>(t) >= steps;
-    m.steps[t]->begin_pass(first + static_cast<std::uint32_t>(t), bypass);
-    if (t < m.feeds.size()) m.feeds[t]->begin_pass(bypass ? nullptr : irradiance);
+    const bool fed = static_cast<int>(t) < pass.steps && pass.uses(StageKind::exchange, 0);
+    m.steps[t]->begin_pass(pass, static_cast<int>(t));
+    if (t < m.feeds.size()) m.feeds[t]->begin_pass(fed ? irradiance : nullptr);
   }
 
   m.context.enter();

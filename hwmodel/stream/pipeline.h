@@ -23,9 +23,10 @@ struct Configuration {
   int cascade = 1;               // T: time steps per pass
   int fifo_depth = 4;            // tokens, of every channel
   std::uint64_t stall_seed = 0;  // 0: no stalls
+  int substeps = 1;              // viscous law: copies of settle and spread in a time step
 };
 
-inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024;
+inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024, kMostSubsteps = 64;
 
 // A channel: those of the main stream in its order, then the feeds.
 struct ChannelReport {
@@ -78,10 +79,9 @@ class Pipeline {
     int cascade;
   };
 
-  // Streams `volume` once: `steps` (1..cascade) time steps from number `first`; surplus steps are bypassed.
-  // `irradiance`: null without radiation. Throws StageError.
-  PassEnd run_pass(std::uint32_t first, int steps, const state::Field<std::uint16_t>* irradiance,
-                   state::Volume& volume);
+  // Streams `volume` once; what the pass does not use is bypassed. `irradiance`: null without radiation.
+  // Throws StageError.
+  PassEnd run_pass(const Pass& pass, const state::Field<std::uint16_t>* irradiance, state::Volume& volume);
 
   const Design& design() const;
   const Configuration& configuration() const;

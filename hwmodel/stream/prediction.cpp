@@ -29,16 +29,19 @@ Lag lag_of(StageKind kind, const Design& design) {
   }
 }
 
-std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, int steps) {
+std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, const Pass& pass) {
   const std::vector<StageKind> stages = stages_of_step(design);
   const std::int64_t interval = configuration.fifo_depth == 1 ? 2 : 1, tokens = design.shape.tokens();
   std::int64_t waits = 0;
+  int copy = -1;
   for (const StageKind stage : stages) {
+    if (stage == StageKind::settle) ++copy;
+    if (!pass.uses(stage, copy)) continue;
     const std::int64_t lag = lag_of(stage, design).tokens(design.shape);
     waits += lag < tokens ? interval * lag : interval * (tokens - 1) + lag - tokens + 1;
   }
   const std::int64_t channels = configuration.cascade * static_cast<std::int64_t>(stages.size()) + 1;
-  return interval * (tokens - 1) + steps * waits + channels + 1;
+  return interval * (tokens - 1) + pass.steps * waits + channels + 1;
 }
 
 }  // namespace voxmelt::hwmodel

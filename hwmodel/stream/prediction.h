@@ -15,7 +15,7 @@ namespace voxmelt::hwmodel {
 //   wait   = interval lag                          where lag < N
 //            interval (N - 1) + lag - N + 1        else (grids thinner than the stencil)
 //   interval = 1; 2 where channels hold one token only
-std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, int steps);
+std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, const Pass& pass);
 
 // How many planes, columns and single tokens a stage must have seen before it can give its first cell.
 struct Lag {

@@ -16,10 +16,14 @@ enum class Ground : std::uint8_t { solid, inert, outside, run };
 
 inline constexpr std::int64_t kNoBed = -1;  // of a cell in the air
 
-struct RunPace {  // of a run: how fast, and from which difference on, it flows
-  UInt<14> mobility, exposed;
+struct RunPace {      // of a run: how fast, and from which difference on, it flows
+  UInt<22> mobility;  // not limited yet
+  UInt<14> limit;     // 0: no run
   UInt<25> dead;
-  static constexpr int kBits = 14 + 14 + 25;
+  static constexpr int kBits = 22 + 14 + 25;
+
+  std::int64_t limited() const { return std::min<std::int64_t>(mobility, limit << 8); }  // to a run
+  std::int64_t exposed() const { return std::min<std::int64_t>(mobility, 1 << 21); }     // to a bare flank
 };
 
 struct SpreadWord {
@@ -91,7 +95,7 @@ class RunReader {
     if (below_ == Below::blocked) seen.head = bed(y), seen.bed = bed(y) >> 4;
     if (below_ == Below::run) {
       seen.head = head_, seen.bed = run_bed_;
-      seen.pace.mobility = pace_.mobility;
+      seen.pace.mobility = pace_.mobility, seen.pace.limit = pace_.limit;
     }
     below_ = Below::outside;
   }

@@ -156,7 +156,8 @@ class RecordScan {
 // cells outside runs show, the readers of the next stage work out: see run_reader.h.)
 class ShowScan {
  public:
-  void next(const SettleWord& word, int y, const rule::Flow& flow, const RunWidths& widths, Cell& cell) {
+  void next(const SettleWord& word, int y, const rule::Flow& flow, std::int64_t pace, const RunWidths& widths,
+            Cell& cell) {
     if (y == 0) bed_ = kFlatBed;
     cell = {};
     if (word.blocked()) {
@@ -170,18 +171,19 @@ class ShowScan {
     if (word.kind == SettleKind::outside)
       cell.amount = std::int64_t{word.sum}, cell.heat = word.heat;
     else
-      settle(word, y, flow, widths, cell);
+      settle(word, y, flow, pace, widths, cell);
     cell.state = State::liquid;
     cell.settle_state();
     if (!cell.in_run) return;
     cell.head = show_.head, cell.dead = show_.dead;
-    cell.mobility = show_.mobility, cell.exposed = show_.exposed;
+    cell.mobility = show_.mobility, cell.limit = show_.limit;
   }
 
  private:
-  void settle(const SettleWord& word, int y, const rule::Flow& flow, const RunWidths& widths, Cell& cell) {
+  void settle(const SettleWord& word, int y, const rule::Flow& flow, std::int64_t pace,
+              const RunWidths& widths, Cell& cell) {
     if (word.kind == SettleKind::first) {
-      show_ = shown(word.sum, word.last, bed(y), word.mobility, flow, widths);
+      show_ = shown(word.sum, word.last, bed(y), word.mobility, flow, pace, widths);
       level_ = word.sum;
       // x 61439 is two shifts and two subtractions
       spare_ = std::min(over_of(word.sum, word.last) - kOverMax * word.last, kOverMax);

@@ -31,8 +31,8 @@ class Settle final : public Stage {
         downwards_(lanes(), height_),
         upwards_(lanes(), height_) {}
 
-  int output_bits() const override {  // in_run, head, mobility, exposed, dead
-    return design().cell_bits() + 1 + widths_.head + 14 + 14 + 25;
+  int output_bits() const override {  // in_run, head, mobility, limit, dead
+    return design().cell_bits() + 1 + widths_.head + 22 + 14 + 25;
   }
   std::vector<BufferCost> buffers() const override {
     const bool thermal = flow_.thermal_viscosity;
@@ -40,17 +40,20 @@ class Settle final : public Stage {
             upwards_.cost("column reverser up", SettleWord::bits(widths_, hot_, thermal))};
   }
 
-  // Depth squared, the mobility, its table. With heat: amount x heat and the mixture's rounding; flow x heat
-  // and rounding on the way up; amount x heat, flow x heat and rounding on the way down. Dividers: the limit
-  // and the dead zone, and the mixture; each is used once per run, at most every second cycle. With heat: one
-  // on each way, used every cycle.
+  // Depth squared, the mobility in two parts, its table. With heat: amount x heat and the mixture's rounding;
+  // flow x heat and rounding on the way up; amount x heat, flow x heat and rounding on the way down.
+  // Dividers: the limit and the dead zone, and the mixture; each is used once per run, at most every second
+  // cycle. With heat: one on each way, used every cycle.
   Units units() const override {
-    return {2 + (flow_.thermal_viscosity ? 1 : 0) + (hot_ ? 2 + 2 + 3 : 0), 2 + (hot_ ? 1 + 2 : 0), 0};
+    return {3 + (flow_.thermal_viscosity ? 1 : 0) + (hot_ ? 2 + 2 + 3 : 0), 2 + (hot_ ? 1 + 2 : 0), 0};
   }
 
  protected:
   void begin_step() override {
-    dither_ = dither_of(step());
+    // Mixtures of no two sub-steps round alike.
+    dither_ = UInt<16>::truncated(dither_of(moment().step) +
+                                  dither_of(static_cast<std::uint32_t>(moment().substep)));
+    pace_ = (static_cast<std::int64_t>(flow_.viscous.mobility) + moment().substeps / 2) / moment().substeps;
     downwards_.restart();
     upwards_.restart();
     std::fill(sums_.begin(), sums_.end(), SumScan{});
@@ -73,7 +76,7 @@ class Settle final : public Stage {
     upwards_.exchange(words_.data(), turned_.data());
     if (out == nullptr) return;
     for (std::size_t lane = 0; lane < size(); ++lane)
-      shows_[lane].next(turned_[lane], leaving().y, flow_, widths_, out[lane]);
+      shows_[lane].next(turned_[lane], leaving().y, flow_, pace_, widths_, out[lane]);
   }
 
  private:
@@ -87,6 +90,7 @@ class Settle final : public Stage {
   RunWidths widths_;
   std::int64_t height_;
   UInt<16> dither_;
+  UInt<36> pace_;  // the mobility parameter of one sub-step; the host divides
   std::vector<SumScan> sums_;
   std::vector<RecordScan> records_;
   std::vector<ShowScan> shows_;

@@ -7,8 +7,8 @@ namespace voxmelt::hwmodel {
 Stage::Stage(StageKind kind, const Design& design, std::int64_t lag)
     : kind_(kind), design_(design), lag_(lag) {}
 
-void Stage::begin_pass(std::uint32_t step, bool bypass) {
-  step_ = step;
+void Stage::begin_pass(step::Moment moment, bool bypass) {
+  moment_ = moment;
   bypass_ = bypass;
   moves_ = 0;
   came_ = left_ = {};

@@ -24,6 +24,7 @@ using HeatFifo = Fifo<UInt<16>>;  // irradiance, 1/16 temperature unit per step
 struct Design {
   rule::Parameters parameters;
   Shape shape;
+  int substeps = 1;  // copies of settle and spread in a time step of the viscous law
 
   bool paper() const { return parameters.flow.law == rule::Law::paper; }
   bool hot() const { return parameters.heat.enabled; }
@@ -64,7 +65,7 @@ class Stage {
   virtual void feed(HeatFifo& /*feed*/) {}  // a second input, of irradiance: `exchange` has one
 
   // A pass streams the whole grid once. A stage in bypass hands its tokens on, without lag.
-  void begin_pass(std::uint32_t step, bool bypass);
+  void begin_pass(step::Moment moment, bool bypass);
   bool cycle();  // true if the stage moved
   bool done() const { return left_.ordinal == design_.shape.tokens(); }
 
@@ -74,7 +75,8 @@ class Stage {
   const Shape& shape() const { return design_.shape; }
   int lanes() const { return design_.shape.lanes; }
   std::int64_t lag() const { return lag_; }
-  std::uint32_t step() const { return step_; }
+  std::uint32_t step() const { return moment_.step; }
+  const step::Moment& moment() const { return moment_; }  // of the pass
   // The places of the token that comes and of the one that leaves; came() runs on beyond the last plane, into
   // the border.
   const Place& came() const { return came_; }
@@ -88,7 +90,7 @@ class Stage {
   // One move. `in` is the token that comes; it is null after the last one, and then the border comes. `out`
   // is the token that leaves, to be filled; it is null while the stage fills.
   virtual void advance(const Cell* in, Cell* out) = 0;
-  virtual void begin_step() {}                      // step() has changed; memories hold an old pass
+  virtual void begin_step() {}                      // moment() has changed; memories hold an old pass
   virtual bool side_input_ready() { return true; }  // of a stage with a second input
 
  private:
@@ -97,7 +99,7 @@ class Stage {
   std::int64_t lag_;
   CellFifo* in_ = nullptr;
   CellFifo* out_ = nullptr;
-  std::uint32_t step_ = 0;
+  step::Moment moment_ = 0;
   bool bypass_ = false;
   std::int64_t moves_ = 0;
   Place came_, left_;

@@ -30,8 +30,10 @@ std::vector<StageKind> stages_of_step(const Design& design) {
     add(pattern);
     add(apply);
   } else {
-    add(settle);
-    add(viscous_spread);
+    for (int copy = 0; copy < design.substeps; ++copy) {
+      add(settle);
+      add(viscous_spread);
+    }
     add(gravity);
   }
   return stages;

@@ -42,27 +42,33 @@ inline std::int64_t settled_amount(std::int64_t sum, std::int64_t last, std::int
 // What all cells of a run show: computed once, at its first cell.
 struct RunShow {
   SInt<30> head;
-  UInt<14> mobility, exposed;
+  UInt<22> mobility;  // not limited yet, but cut above every limit
+  UInt<14> limit;
   UInt<25> dead;
 };
 
-// `entry`: of the mobility table, by the run's mean heat.
+// `entry`: of the mobility table, by the run's mean heat. `pace`: the mobility parameter of one sub-step.
 inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std::int64_t entry,
-                     const rule::Flow& flow, const RunWidths& widths) {
+                     const rule::Flow& flow, std::int64_t pace, const RunWidths& widths) {
   const rule::ViscousLaw& law = flow.viscous;
   const std::int64_t over = over_of(wire(sum, widths.sum), wire(last, widths.count)), cells = (sum >> 12) + 1;
   const UInt<24> depth = std::max<std::int64_t>(1, sum >> 4);
-  const UInt<15> capped = std::min<std::int64_t>(depth, 16384);
-  const UInt<29> square = std::int64_t{capped} * capped;
-  UInt<33> raw = (law.mobility * std::int64_t{square} + (1 << 19)) >> 20;
+  const UInt<19> capped = std::min<std::int64_t>(sum, 1 << 18);
+  const UInt<29> square = (std::int64_t{capped} * capped) >> 8;
+  // The product has 64 bits: in two parts of 18 x 29.
+  const UInt<47> low = (wire(pace, 36) & 0x3FFFF) * square + (1 << 23);
+  const UInt<47> high = (pace >> 18) * square + (low >> 18);
+  UInt<41> raw = high >> 6;
   if (flow.thermal_viscosity)
-    raw = (std::int64_t{raw} * flow.mobility_table[static_cast<std::size_t>(entry)]) >> 15;
+    raw = (std::min<std::int64_t>(raw, std::int64_t{1} << 36) *
+           flow.mobility_table[static_cast<std::size_t>(entry)]) >>
+          15;
 
   RunShow show;
   show.head = signed_wire(bed + (sum >> 4) + (law.stiffness - 1) * (over >> 4), widths.head);
-  show.exposed = std::min<std::int64_t>(raw, 8192);
-  // floor(floor(8192 / cells) / stiffness) is one division by the product, and that three shifts and adds.
-  show.mobility = std::min<std::int64_t>(raw, 8192 / (over > 0 ? cells * law.stiffness : cells));
+  // floor(floor(13107 / cells) / stiffness) is one division by the product, and that three shifts and adds.
+  show.limit = std::max<std::int64_t>(1, 13107 / (over > 0 ? cells * law.stiffness : cells));
+  show.mobility = std::min<std::int64_t>(raw, (1 << 22) - 1);
   show.dead = std::max<std::int64_t>(1, (law.yield + (std::int64_t{depth} >> 1)) / depth);
   return show;
 }

@@ -46,13 +46,13 @@ class ViscousSpread final : public Stage {
 
   // Per pair: (g + mobility) A, slope x drop (the slope's factor is read from 17 words) and c drive; with
   // heat f h, and per cell A h and the mixture's rounding.
-  Units units() const override { return {12 + (hot_ ? 4 + 2 : 0), hot_ ? 1 : 0, 0}; }
+  Units units() const override { return {13 + (hot_ ? 4 + 2 : 0), hot_ ? 1 : 0, 0}; }
 
  protected:
   void begin_step() override {
-    dither_ = dither_of(step());
-    for (int axis = 0; axis < 4; ++axis)
-      axis_dither_[static_cast<std::size_t>(axis)] = dither_of(step(), axis, 4);
+    const int k = moment().substep;
+    dither_ = UInt<16>::truncated(dither_of(step()) + dither_of(static_cast<std::uint32_t>(k)));
+    for (int axis = 0; axis < 4; ++axis) axis_dither_[static_cast<std::size_t>(axis)] = pair_dither(axis, k);
   }
 
   void advance(const Cell* in, Cell* out) override {
@@ -110,7 +110,7 @@ class ViscousSpread final : public Stage {
     RunReader& reader = now_[static_cast<std::size_t>(lane)].reader;
     if (!cell.in_run || !reader.above_blocked(came().y)) return;
     word.head = signed_wire(cell.head, head_bits_);
-    const RunPace pace{cell.mobility, cell.exposed, cell.dead};
+    const RunPace pace{cell.mobility, cell.limit, cell.dead};
     reader.bring(pace);
     if (came().y == 0)
       floor_.tap(0)[lane] = pace;
@@ -154,6 +154,11 @@ class ViscousSpread final : public Stage {
     a.head > b.head ? flow(a, b, axis) : flow(b, a, axis);
   }
 
+  // Of sub-step k; the host divides.
+  std::int64_t pair_dither(int axis, int k) const {
+    const int n = moment().substeps;
+    return (dither_of(step(), axis, 4) + 65536 * ((k + axis * n / 4) % n)) / n;
+  }
   static bool is_diagonal(int axis) { return axis >= 2; }
   std::int64_t dither_of_axis(int axis) const { return axis_dither_[static_cast<std::size_t>(axis)]; }
 
@@ -188,14 +193,16 @@ class ViscousSpread final : public Stage {
     const SpreadWord& giver = *from.word;
     const SpreadWord& taker = *to.word;
     const UInt<9> capped = std::min<std::int64_t>(drop, diagonal ? 362 : 256);
-    const UInt<15> mobility =
-        (taker.runs() ? from.pace.mobility : from.pace.exposed) + std::int64_t{to.pace.mobility};
-    const UInt<16> conductance = std::min<std::int64_t>(65535, (mobility * giver.amount) >> 12);
+    std::int64_t mobility = (taker.runs() ? from.pace.limited() : from.pace.exposed()) + to.pace.limited();
+    if (to.pace.limit > 0) mobility = std::min<std::int64_t>(mobility, from.pace.limit << 9);
+    const UInt<39> conducted = UInt<23>(mobility) * giver.amount;
+    const UInt<24> conductance = std::min<std::int64_t>((1 << 24) - 1, conducted >> 12);
     const UInt<14> drive = (slope_factor(from, to, diagonal) * std::int64_t{capped}) >> 9;
-    const UInt<30> product = std::int64_t{conductance} * drive;
-    const std::int64_t flows = diagonal ? (product + (dither << 4)) >> 20 : (product + (dither << 2)) >> 18;
+    const UInt<38> product = std::int64_t{conductance} * drive;
+    const std::int64_t flows = diagonal ? (product + (dither << 12)) >> 28 : (product + (dither << 10)) >> 26;
     const std::int64_t room = std::max<std::int64_t>(0, (taker.runs() ? kAmountMax : kOne) - taker.amount);
-    return std::min({flows, std::int64_t{giver.amount} >> 3, room >> 3});
+    const std::int64_t most = (std::min(std::int64_t{giver.amount}, room) * 13107) >> 16;
+    return std::min(flows, diagonal ? most >> 2 : most);
   }
 
   void move(SpreadWord& giver, SpreadWord& taker, std::int64_t amount) const {

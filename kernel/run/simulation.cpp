@@ -11,6 +11,7 @@
 #include "kernel/engine/cpu/workers.h"
 #include "kernel/engine/parallel/stepper.h"
 #include "kernel/engine/scalar/reference.h"
+#include "kernel/engine/scalar/substeps.h"
 
 namespace voxmelt::run {
 namespace {
@@ -77,6 +78,8 @@ void Simulation::begin_step() {
     device_->upload(volume_, ledger_);
     uploaded_ = true;
   }
+  substep_ = 0;
+  substeps_ = count_substeps();
   const rule::Heat& heat = parameters_.heat;
   if (!heat.is_visibility_step(step_number())) return;
   const Stopwatch watch(seconds_.visibility);
@@ -84,19 +87,30 @@ void Simulation::begin_step() {
   provider_->irradiance(volume_, heat, step_number(), irradiance_);
 }
 
+int Simulation::count_substeps() const {
+  if (parameters_.flow.law == rule::Law::paper) return 1;
+  if (parameters_.flow.viscous.counts_substeps()) fetch();
+  return scalar::count_substeps(parameters_, volume_);
+}
+
+std::vector<step::Phase> Simulation::phases() const {
+  return step::phase_order(parameters_.flow.law, substeps_);
+}
+
 void Simulation::run_phase(step::Phase phase) {
   if (host_ == nullptr) throw std::logic_error("a device stepper runs whole steps only, not one phase");
   const Stopwatch watch(seconds_.phase[static_cast<std::size_t>(phase)]);
-  host_->run(phase, step_number(), irradiance(), volume_, ledger_);
+  host_->run(phase, moment(), irradiance(), volume_, ledger_);
+  if (phase == step::Phase::spread) ++substep_;
 }
 
 void Simulation::step() {
   begin_step();
   if (device_ != nullptr) {
-    device_->run_step(step_number(), irradiance());
+    device_->run_step(step_number(), substeps_, irradiance());
     behind_ = true;
   } else {
-    for (const step::Phase phase : step::phase_order(parameters_.flow.law)) run_phase(phase);
+    for (const step::Phase phase : phases()) run_phase(phase);
   }
   end_step();
 }

@@ -33,8 +33,11 @@ class Simulation {
   // Runs one phase of the present step, where implementations are compared phase by phase. With a device
   // stepper it throws std::logic_error: a device has no phases.
   void begin_step();
+  std::vector<step::Phase> phases() const;  // of the step that has begun, in their order
   void run_phase(step::Phase phase);
   void end_step() { ++steps_done_; }
+  int substeps() const { return substeps_; }  // of the step that has begun last
+  step::Moment moment() const { return {step_number(), substep_, substeps_}; }  // of the next phase
 
   // Other point sources, vents and drains, between two steps. Vents and drains take effect at the next step,
   // point sources at the next step of visibility (docs/automaton.md, section 5), as if the scene had them
@@ -67,6 +70,7 @@ class Simulation {
 
  private:
   void make_irradiance();
+  int count_substeps() const;
   void fetch() const {
     if (behind_) download();
   }
@@ -85,6 +89,7 @@ class Simulation {
   step::Irradiance irradiance_;  // empty without radiation
   int threads_;
   std::uint32_t first_step_ = 0, steps_done_ = 0;
+  int substeps_ = 1, substep_ = 0;  // substep_: that of the next phase
   Seconds seconds_;
 };
 

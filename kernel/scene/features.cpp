@@ -26,6 +26,7 @@ constexpr Feature kFeatures[] = {
     {"slump", [](P p) { return paper(p) && p.flow.paper.slump; }},
     {"reheat", [](P p) { return paper(p) && p.flow.paper.reheat > 0; }},
     {"thermal_viscosity", [](P p) { return p.flow.thermal_viscosity; }},
+    {"substeps", [](P p) { return !paper(p) && p.flow.viscous.substeps != 1; }},
     {"table", [](P p) { return paper(p) && p.flow.paper.use_table; }},
 };
 

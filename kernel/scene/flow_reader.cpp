@@ -14,7 +14,8 @@
 namespace voxmelt::scene {
 namespace {
 
-constexpr double kLargestKappa = 71;   // mobility fits 24 bits
+constexpr double kLargestKappa = 71;  // mobility fits 36 bits
+constexpr int kMostSubsteps = 1024;
 constexpr double kLargestYield = 255;  // x 65536 fits 24 bits
 
 Range amount() { return at_most(kLargestAmount); }
@@ -76,14 +77,25 @@ rule::PaperLaw read_paper(Reader& reader) {
   return law;
 }
 
+// A number, or "auto": 0.
+std::int64_t read_substeps(Reader& reader) {
+  if (!reader.has("substeps") || reader.kind("substeps") != Value::Kind::text)
+    return reader.integer("substeps", 1, kMostSubsteps, 1);
+  reader.choice("substeps", {"auto"});
+  return 0;
+}
+
 rule::ViscousLaw read_viscous(Reader& reader) {
   rule::ViscousLaw law;
   // kq = (2/3) (kappa / 3), with kappa = g dt / nu
   const double kappa = reader.number("kappa", above(0).at_most(kLargestKappa));
-  law.mobility = static_cast<std::uint32_t>(std::llround((1 << 20) * (2.0 / 9) * kappa));
+  law.mobility = static_cast<std::uint64_t>(std::llround(0x1p32 * (2.0 / 9) * kappa));
   law.yield =
       static_cast<std::uint32_t>(std::lround(reader.number("yield", at_most(kLargestYield), 0.0) * 65536));
   law.stiffness = static_cast<std::uint8_t>(reader.integer("stiffness", 1, 8, 8));
+  law.substeps = static_cast<std::uint16_t>(read_substeps(reader));
+  law.substeps_max =
+      static_cast<std::uint16_t>(reader.integer("substeps_max", 1, kMostSubsteps, kMostSubsteps));
   reader.finish();
   return law;
 }

@@ -60,6 +60,22 @@ class Commands(unittest.TestCase):
         line = self.good("digest", self.scene, "--steps", report["steps"], "--seed", report["seed"], *arguments)
         self.assertEqual(LINE.match(line.strip()).group(2), report["digest"])
 
+    def test_the_report_counts_what_a_limit_cuts(self):
+        (self.folder / "tank.toml").write_text('[grid]\nsize = [4, 10, 4]\n[[liquid]]\nshape = "box"\nsize = [4, 8, 4]\n'
+                                               'at = [2, 4, 2]\n[flow]\nlaw = "viscous"\nviscous = { kappa = 1 }\n')
+        cells = 4 * 8 * 4 * 5  # full ones, in five steps
+        # Depth 8: mobility 2/9 x 64 kappa, limit 1/45.
+        for sets, times, limited in (([], 1, True), (["flow.viscous.substeps=3"], 3, True),
+                                     (["flow.viscous.kappa=0.001"], 1, False),
+                                     (["flow.viscous.kappa=0.01", 'flow.viscous.substeps="auto"'], 7, False)):
+            arguments = [a for s in sets for a in ("--set", s)]
+            said = self.good("run", "tank.toml", "--steps", 5, "--frame-every", 0, "--report", "tank.json", *arguments)
+            count = json.loads((self.folder / "tank.json").read_text())["limit"]
+            self.assertEqual((count["cells"], count["mass"]), (times * cells, times * cells * 4096), sets)
+            self.assertEqual((count["limited_cells"], count["limited_mass"]),
+                             (count["cells"], count["mass"]) if limited else (0, 0), sets)
+            self.assertEqual("100 % of the liquid" in said, limited, sets)
+
     def test_the_report_says_how_many_threads_worked(self):
         here = len(os.sched_getaffinity(0))
         for asked, used in ((["--threads", 1], 1), (["--threads", 2], min(2, here)), ([], here)):
@@ -282,7 +298,7 @@ class Commands(unittest.TestCase):
         self.assertEqual(voxmelt("verify", self.scene, "--out", ".", cwd=self.folder).returncode, 2)
 
     def test_the_machine_is_the_one_asked_for(self):
-        asked = {"lanes": 8, "cascade": 3, "fifo_depth": 5, "stall_seed": 77}
+        asked = {"lanes": 8, "cascade": 3, "substeps": 2, "fifo_depth": 5, "stall_seed": 77}
         sets = [a for key, value in asked.items() for a in ("--set", f"hw.{key}={value}")]
         write(self.folder, "title = \"mine\"\n[hw]\n" + "".join(f"{k} = {v}\n" for k, v in asked.items()), "mine.toml")
         for machine in (sets, ["--hw", "mine.toml"]):

@@ -32,10 +32,10 @@ class Faulty : public step::HostStepper {
   Faulty(const rule::Parameters& parameters, state::Grid grid) : sound_(parameters, grid) {}
 
   void change_sources(const rule::Parameters& parameters) override { sound_.change_sources(parameters); }
-  void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
+  void run(step::Phase phase, step::Moment step, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override {
     sound_.run(phase, step, irradiance, volume, ledger);
-    if (phase != step::Phase::spread || step != 1) return;
+    if (phase != step::Phase::spread || step.step != 1) return;
     if (fault == Fault::amount)
       ++volume.amount[volume.at(3, 3, 3)];
     else

@@ -46,10 +46,10 @@ class Damaged final : public step::HostStepper {
   }
   Damaged(const rule::Parameters& parameters, state::Grid grid) : right_(parameters, grid) {}
   void change_sources(const rule::Parameters& parameters) override { right_.change_sources(parameters); }
-  void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
+  void run(step::Phase phase, step::Moment step, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override {
     right_.run(phase, step, irradiance, volume, ledger);
-    if (step != 3 || phase != step::Phase::melt) return;
+    if (step.step != 3 || phase != step::Phase::melt) return;
     if (wrong == Wrong::liquid) drop_a_liquid_cell(volume);
     if (wrong == Wrong::amount) ++volume.amount[volume.at(6, 2, 4)];
     if (wrong == Wrong::heat) ++volume.heat[volume.at(6, 2, 4)];

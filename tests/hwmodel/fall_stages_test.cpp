@@ -74,7 +74,7 @@ bool same_until_struck(std::uint64_t seed, state::Grid grid, int steps, Fault fa
   for (int step = 0; step < steps && !plan.struck(); ++step) {
     const auto number = simulation.steps_done();
     simulation.begin_step();
-    for (const step::Phase phase : step::phase_order(rule::Law::viscous)) {
+    for (const step::Phase phase : simulation.phases()) {
       const state::Volume before = simulation.volume();
       if (phase == step::Phase::excess) marker.in_run = cells_in_runs(before);
       simulation.run_phase(phase);

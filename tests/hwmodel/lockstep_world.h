@@ -82,7 +82,8 @@ inline Start hostile_start(std::uint64_t seed, rule::Law law, state::Grid grid) 
 
 inline std::string name_of(const Configuration& c) {
   return "P " + std::to_string(c.lanes) + ", T " + std::to_string(c.cascade) + ", depth " +
-         std::to_string(c.fifo_depth) + ", seed " + std::to_string(c.stall_seed);
+         std::to_string(c.fifo_depth) + ", seed " + std::to_string(c.stall_seed) + ", sub-steps " +
+         std::to_string(c.substeps);
 }
 
 inline VerifyReport lockstep(const Start& start, const Configuration& configuration, std::uint32_t steps,
@@ -105,7 +106,11 @@ inline bool agrees(const Start& start, const Configuration& configuration, std::
   std::int64_t stages = 0;  // of one time step
   for (const StageReport& stage : report.stages) stages += phase_of(stage.kind) && stage.cascade == 0;
   EXPECT_GE(stages, 3) << where;
-  EXPECT_EQ(report.compared_cells, cells * stages * steps) << where;
+  // A step with more sub-steps than the machine has copies takes several passes.
+  if (start.parameters.flow.law == rule::Law::paper || start.parameters.flow.viscous.substeps == 1)
+    EXPECT_EQ(report.compared_cells, cells * stages * steps) << where;
+  else
+    EXPECT_GE(report.compared_cells, cells * stages * steps) << where;
   if (configuration.stall_seed == 0) {
     EXPECT_EQ(report.cycles, report.predicted_cycles) << where;
   } else {
@@ -121,8 +126,8 @@ inline std::vector<Configuration> covering_array() {
   constexpr int kDepthOf[3][3] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      rows.push_back(
-          {kLanes[i], kCascade[j], kDepth[kDepthOf[i][j]], static_cast<std::uint64_t>((i + j) % 3)});
+      rows.push_back({kLanes[i], kCascade[j], kDepth[kDepthOf[i][j]], static_cast<std::uint64_t>((i + j) % 3),
+                      1 + (i + 2 * j) % 3});
   return rows;
 }
 

@@ -24,7 +24,7 @@ void each_phase(const rule::Parameters& parameters, const state::Volume& start, 
     const std::uint32_t number = simulation.steps_done();
     if (heat.is_visibility_step(number)) provider.irradiance(simulation.volume(), heat, number, irradiance);
     simulation.begin_step();
-    for (const step::Phase each : step::phase_order(parameters.flow.law)) {
+    for (const step::Phase each : simulation.phases()) {
       const state::Volume before = simulation.volume();
       simulation.run_phase(each);
       if (each == phase && !visit(number, before, simulation.volume(), radiates ? &irradiance : nullptr))

@@ -26,8 +26,8 @@ struct StageRun {
   const state::Volume* sides = nullptr;  // what comes in brings the side-band `beside_wall` from here
 };
 
-// One pass of `volume` through `stages` as step number `step`.
-inline state::Volume run_stages(const Design& design, const Stages& stages, std::uint32_t step,
+// One pass of `volume` through `stages` at `moment`.
+inline state::Volume run_stages(const Design& design, const Stages& stages, step::Moment moment,
                                 const step::Irradiance* irradiance, const state::Volume& volume,
                                 StageRun& run) {
   const Shape& shape = design.shape;
@@ -39,7 +39,7 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, std:
   for (std::size_t i = 0; i < stages.size(); ++i) {
     stages[i]->feed(feed);
     stages[i]->connect(*channels[i], *channels[i + 1]);
-    stages[i]->begin_pass(step, false);
+    stages[i]->begin_pass(moment, false);
   }
 
   state::Volume result(volume.grid);
@@ -112,13 +112,14 @@ void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& ma
       simulation.begin_step();
       state::Volume before = simulation.volume(), unmelted = before;
       if (first == step::Phase::gravity && design.walls_in_conduction()) run.sides = &unmelted;
-      for (const step::Phase each : step::phase_order(law)) {
+      for (const step::Phase each : simulation.phases()) {
+        const step::Moment moment = simulation.moment();
         if (each == step::Phase::melt) unmelted = simulation.volume();
         if (each == first) before = simulation.volume();
         simulation.run_phase(each);
         if (each != last || stages.empty()) continue;
         const state::Volume result =
-            run_stages(design, stages, number, radiates ? &irradiance : nullptr, before, run);
+            run_stages(design, stages, moment, radiates ? &irradiance : nullptr, before, run);
         const std::string found = worlds::difference(simulation.volume(), result);
         compared += static_cast<std::int64_t>(grid.cells());
         changed += simulation.volume() == before ? 0 : 1;

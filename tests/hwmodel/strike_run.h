@@ -53,12 +53,13 @@ void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, 
       simulation.begin_step();
       state::Volume unmelted = simulation.volume();
       if (phase == step::Phase::gravity && design.walls_in_conduction()) run.sides = &unmelted;
-      for (const step::Phase each : step::phase_order(law)) {
+      for (const step::Phase each : simulation.phases()) {
+        const step::Moment moment = simulation.moment();
         const state::Volume before = simulation.volume();
         if (each == step::Phase::melt) unmelted = before;
         simulation.run_phase(each);
         if (each != phase || plan.struck()) continue;
-        const state::Volume result = run_stages(design, stages, number, nullptr, before, run);
+        const state::Volume result = run_stages(design, stages, moment, nullptr, before, run);
         ASSERT_EQ(worlds::broken_invariant(result, design.parameters), "") << "world " << world;
         const std::string found = first_difference(design.shape, simulation.volume(), result);
         const std::string named = plan.struck() ? name_of(*plan.struck()) : "";

@@ -51,8 +51,8 @@ void expect_found(Fault fault, Phase last, const std::string& stage) {
       state::Volume start = world.simulation.volume();
       world.step([&](Phase phase, const state::Volume& before) {
         if (phase == Phase::excess) start = before;
-        if (phase != last) return;
-        const state::Volume found = run_stages(world.design, stages, step, nullptr, start, run);
+        if (phase != last || plan.struck()) return;
+        const state::Volume found = run_stages(world.design, stages, world.moment, nullptr, start, run);
         const state::Volume& expected = world.simulation.volume();
         const At first = first_difference(world.design.shape, expected, found);
         ASSERT_EQ(worlds::broken_invariant(found, world.design.parameters), "");
@@ -104,6 +104,7 @@ TEST(ViscousFaults, Reversal) { expect_found(Fault::settle_reversal, Phase::exce
 TEST(ViscousFaults, DeadZone) { expect_found(Fault::viscous_dead_zone, Phase::spread, "spread"); }
 TEST(ViscousFaults, Dither) { expect_found(Fault::viscous_dither, Phase::spread, "spread"); }
 TEST(ViscousFaults, Slope) { expect_found(Fault::viscous_slope, Phase::spread, "spread"); }
+TEST(ViscousFaults, Substep) { expect_found(Fault::viscous_substep, Phase::spread, "spread"); }
 TEST(ViscousFaults, FlowLost) { expect_found(Fault::viscous_flow_lost, Phase::spread, "spread"); }
 
 }  // namespace

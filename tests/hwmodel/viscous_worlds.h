@@ -8,6 +8,7 @@ namespace voxmelt::hwmodel {
 struct ViscousWorld {
   Design design;
   run::Simulation simulation;
+  step::Moment moment = 0;  // of the last phase
 
   ViscousWorld(worlds::Random& random, const state::Grid& grid, int lanes)
       : design{worlds::hostile_parameters(random, rule::Law::viscous, grid), {grid, lanes}},
@@ -21,8 +22,9 @@ struct ViscousWorld {
   template <class At>
   void step(At&& at) {
     simulation.begin_step();
-    for (const step::Phase phase : step::phase_order(rule::Law::viscous)) {
+    for (const step::Phase phase : simulation.phases()) {
       const state::Volume before = simulation.volume();
+      moment = simulation.moment();
       simulation.run_phase(phase);
       at(phase, before);
     }

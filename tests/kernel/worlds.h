@@ -89,7 +89,7 @@ inline Parameters paper_showcase() {
 inline Parameters viscous(double kappa, double yield = 0, int stiffness = 8) {
   Parameters p;
   p.flow.law = rule::Law::viscous;
-  p.flow.viscous.mobility = static_cast<std::uint32_t>(std::lround(kappa * (2.0 / 9) * (1 << 20)));
+  p.flow.viscous.mobility = static_cast<std::uint64_t>(std::llround(kappa * (2.0 / 9) * 0x1p32));
   p.flow.viscous.yield = static_cast<std::uint32_t>(std::lround(yield * 65536));
   p.flow.viscous.stiffness = static_cast<std::uint8_t>(stiffness);
   return p;
@@ -101,10 +101,10 @@ inline run::Simulation simulate(Parameters parameters, Volume volume) {
 inline void steps(run::Simulation& simulation, int n) {
   for (int i = 0; i < n; ++i) simulation.step();
 }
-template <class After>  // after(phase), six times
+template <class After>  // after(phase)
 void step_by_phase(run::Simulation& simulation, After&& after) {
   simulation.begin_step();
-  for (const step::Phase phase : step::phase_order(simulation.parameters().flow.law)) {
+  for (const step::Phase phase : simulation.phases()) {
     simulation.run_phase(phase);
     after(phase);
   }

@@ -121,9 +121,14 @@ struct PaperLaw {
 };
 
 struct ViscousLaw {
-  std::uint32_t mobility = 0;  // kq = (2/3)(kappa/3), 1/2^20: docs/automaton.md, section 10
+  std::uint64_t mobility = 0;  // kq = (2/3)(kappa/3), 1/2^32: docs/automaton.md, section 10
   std::uint32_t yield = 0;     // yield stress: depth x head difference that rests, 1/65536
   std::uint8_t stiffness = 8;  // K: 1..8, of closed conduits
+  std::uint16_t substeps =
+      1;  // settle and spread so often in a step, 1..1024; 0: as often as the state needs
+  std::uint16_t substeps_max = 1024;  // then at most so often
+
+  bool counts_substeps() const { return substeps == 0; }
 };
 
 struct Flow {

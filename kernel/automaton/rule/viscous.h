@@ -53,48 +53,78 @@ VOXMELT_RULE std::int32_t settles_down(std::int64_t mass, std::int64_t mass_belo
 
 struct Column {           // what a cell shows to its neighbours
   std::int32_t head;      // 1/256 cell
-  std::int32_t mobility;  // 1/65536, towards a cell in a run: limited by the depth
-  std::int32_t exposed;   // 1/65536, towards a cell outside a run: a bare flank, limited per cell only
+  std::int32_t mobility;  // 1/2^24, towards a cell in a run: limited by the depth
+  std::int32_t exposed;   // 1/2^24, towards a cell outside a run: a bare flank, limited per cell only
   std::int32_t dead;      // head differences up to this do not move it (yield stress; at least one unit)
   bool in_run;
   std::int32_t bed = kNoBed;  // 1/16 cell from the grid's bottom
+  std::int32_t limit = 0;     // 1/65536, of the mobility; 0: no run here or below
+  bool limited = false;       // has it cut the mobility?
 };
 
 VOXMELT_RULE std::int32_t bed_head(int y, std::int32_t bed_amount) {
   return y * kHeadOne + ((bed_amount - kBedHalf) >> 4);
 }
 
-// Head, mobility and dead zone of a run of n cells with sum `mass`, its bed at `bed`, mean heat content h.
+// Dithers of sub-step k of n. A pair's: n sub-steps at a steady flux round as one step does (Hermite's
+// identity). A mixture's: no two are alike, and that of sub-step 0 is the step's.
+VOXMELT_RULE std::int32_t pair_dither(std::uint32_t step, int axis, int k, int n) {
+  return (dither(step, axis, 4) + 65536 * ((k + axis * n / 4) % n)) / n;
+}
+VOXMELT_RULE std::int32_t mixing_dither(std::uint32_t step, int k) {
+  return (dither(step) + dither(static_cast<std::uint32_t>(k))) & 0xFFFF;
+}
+
+// Mobility kq M^2 of a run of sum `mass` and heat content h in one of n sub-steps, 1/2^24, without a limit.
+VOXMELT_RULE std::int64_t run_mobility(std::int64_t mass, std::int32_t h, const Flow& flow, int substeps) {
+  const auto n = static_cast<std::uint64_t>(substeps);
+  const std::uint64_t pace = (flow.viscous.mobility + n / 2) / n;
+  const auto depth = static_cast<std::uint64_t>(std::min<std::int64_t>(mass, 64 * kOne));
+  auto mobility = static_cast<std::int64_t>((pace * (depth * depth >> 8) + (1 << 23)) >> 24);
+  if (flow.thermal_viscosity)
+    mobility = (mobility * flow.mobility_table[static_cast<std::size_t>(h >> 11)]) >> 15;
+  return mobility;
+}
+// So that a column gives at most a fifth of a cell of height to another column; 1/65536.
+VOXMELT_RULE std::int32_t run_limit(std::int64_t mass, std::int64_t over, const ViscousLaw& law) {
+  const std::int64_t limit = 13107 / ((mass >> 12) + 1) / (over > 0 ? law.stiffness : 1);
+  return static_cast<std::int32_t>(std::max<std::int64_t>(1, limit));
+}
+// The sub-steps with which no limit cuts the mobility of this run.
+VOXMELT_RULE std::int64_t needed_substeps(std::int64_t mass, std::int32_t n, std::int32_t h,
+                                          const Flow& flow) {
+  const std::int64_t over = std::max<std::int64_t>(0, mass - std::int64_t{n} * kOne);
+  const std::int64_t limit = std::int64_t{run_limit(mass, over, flow.viscous)} << 8;
+  return (run_mobility(mass, h, flow, 1) + limit - 1) / limit;
+}
+
+// What a run of n cells with sum `mass` and mean heat content h shows, its bed at `bed`.
 VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t bed, std::int32_t h,
-                               const Flow& flow) {
+                               const Flow& flow, int substeps = 1) {
   const ViscousLaw& law = flow.viscous;
   const std::int64_t over = std::max<std::int64_t>(0, mass - std::int64_t{n} * kOne);
   const auto depth = static_cast<std::int32_t>(std::max<std::int64_t>(1, mass >> 4));
-  const std::int32_t head =
-      bed + static_cast<std::int32_t>(mass >> 4) + (law.stiffness - 1) * static_cast<std::int32_t>(over >> 4);
-
-  // Mobility kq M^2 of a column of depth M, limited so that a cell gives at most an eighth per neighbour, and
-  // a column at most that to another column; only a bare flank may give it from every cell.
-  const std::int64_t capped = std::min(depth, 64 * kHeadOne);
-  std::int64_t mobility = (static_cast<std::int64_t>(law.mobility) * capped * capped + (1 << 19)) >> 20;
-  if (flow.thermal_viscosity)
-    mobility = (mobility * flow.mobility_table[static_cast<std::size_t>(h >> 11)]) >> 15;
-  const std::int64_t cells = (mass >> 12) + 1;
-  const std::int64_t limit = 8192 / cells / (over > 0 ? law.stiffness : 1);
-
   const std::int64_t dead = (static_cast<std::int64_t>(law.yield) + depth / 2) / depth;
-  return {head,
-          static_cast<std::int32_t>(std::min(mobility, limit)),
-          static_cast<std::int32_t>(std::min<std::int64_t>(mobility, 8192)),
-          static_cast<std::int32_t>(std::max<std::int64_t>(1, dead)),
-          true,
-          bed >> 4};
+  const std::int64_t mobility = run_mobility(mass, h, flow, substeps);
+
+  Column column{};
+  column.head =
+      bed + static_cast<std::int32_t>(mass >> 4) + (law.stiffness - 1) * static_cast<std::int32_t>(over >> 4);
+  column.limit = run_limit(mass, over, law);
+  const std::int64_t most = std::int64_t{column.limit} << 8;
+  column.limited = mobility > most;
+  column.mobility = static_cast<std::int32_t>(std::min(mobility, most));
+  column.exposed = static_cast<std::int32_t>(std::min<std::int64_t>(mobility, 1 << 21));
+  column.dead = static_cast<std::int32_t>(std::max<std::int64_t>(1, dead));
+  column.in_run = true;
+  column.bed = bed >> 4;
+  return column;
 }
 
 // A cell outside a run: on a bed, on top of a run (`below`), or in the air.
 VOXMELT_RULE Column bed_column(std::int32_t bed) { return {bed, 0, 0, 0, false, bed >> 4}; }
 VOXMELT_RULE Column top_column(const Column& below) {
-  return {below.head, below.mobility, 0, 0, false, below.bed};
+  return {below.head, below.mobility, 0, 0, false, below.bed, below.limit};
 }
 VOXMELT_RULE Column air_column(int y) { return {(y - 2) * kHeadOne, 0, 0, 0, false}; }
 
@@ -128,13 +158,16 @@ VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, cons
   if (drop <= dead) return 0;
   drop = std::min(drop, diagonal ? 362 : kHeadOne);
 
-  const std::int64_t mobilities = (taker.in_run ? giver.mobility : giver.exposed) + taker.mobility;
-  const auto conductance = static_cast<std::int32_t>(std::min<std::int64_t>(65535, (mobilities * a) >> 12));
-  const std::int32_t drive = (slope_factor(giver.bed, taker.bed, diagonal) * drop) >> 9;  // 1/8192 cell
-  const std::int32_t wanted =
-      diagonal ? (conductance * drive + (dither << 4)) >> 20 : (conductance * drive + (dither << 2)) >> 18;
-  const std::int32_t room = (taker.in_run ? kAmountMax : kOne) - b;
-  return std::min({wanted, a >> 3, std::max(0, room) >> 3});
+  std::int64_t mobilities = std::int64_t{taker.in_run ? giver.mobility : giver.exposed} + taker.mobility;
+  if (taker.limit > 0) mobilities = std::min<std::int64_t>(mobilities, std::int64_t{giver.limit} << 9);
+  const std::int64_t conductance = std::min<std::int64_t>((1 << 24) - 1, (mobilities * a) >> 12);
+  const std::int64_t drive = (slope_factor(giver.bed, taker.bed, diagonal) * drop) >> 9;  // 1/8192 cell
+  const std::int64_t product = conductance * drive, offset = dither;
+  const auto wanted = static_cast<std::int32_t>(diagonal ? (product + (offset << 12)) >> 28
+                                                         : (product + (offset << 10)) >> 26);
+  const std::int32_t room = std::max(0, (taker.in_run ? kAmountMax : kOne) - b);
+  const std::int32_t most = scaled(std::min(a, room), 13107);  // four fifths, and four twentieths
+  return std::min(wanted, diagonal ? most >> 2 : most);
 }
 
 }  // namespace voxmelt::rule

@@ -52,6 +52,7 @@ void Ledger::book(const LedgerTerms<std::int64_t>& terms) {
   add_terms<MassTerms>(mass, terms.mass);
   add_terms<EnergyTerms>(energy, terms.energy);
   add_terms<HeatTerms>(heat, terms.heat);
+  limit.add(terms.limit);
 }
 
 Drift drift(const Ledger& ledger, const Volume& volume) {

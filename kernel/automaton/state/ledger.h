@@ -44,6 +44,7 @@ struct Ledger {
   MassLedger mass;
   EnergyLedger energy;
   HeatLedger heat;
+  LimitCounts<Sum> limit;
 
   static Ledger open(const Volume& volume);
   void book(const LedgerTerms<std::int64_t>& terms);

@@ -81,17 +81,33 @@ constexpr void add_terms(Terms<To>& to, const Terms<From>& from) {
   for (std::size_t i = 0; i < sums.size(); ++i) to.*sums[i].value += from.*terms[i].value;
 }
 
+// Liquid in settled runs of the viscous law, over all sub-steps, and that whose mobility a limit cuts.
+template <class Number>
+struct LimitCounts {
+  Number cells = 0, limited_cells = 0;
+  Number mass = 0, limited_mass = 0;
+
+  template <class From>
+  void add(const LimitCounts<From>& more) {
+    cells += more.cells, limited_cells += more.limited_cells;
+    mass += more.mass, limited_mass += more.limited_mass;
+  }
+  friend bool operator==(const LimitCounts&, const LimitCounts&) = default;
+};
+
 // The terms of all ledgers.
 template <class Number>
 struct LedgerTerms {
   MassTerms<Number> mass;
   EnergyTerms<Number> energy;
   HeatTerms<Number> heat;
+  LimitCounts<Number> limit;  // no ledger: it has no balance
 
   LedgerTerms& operator+=(const LedgerTerms& other) {
     add_terms(mass, other.mass);
     add_terms(energy, other.energy);
     add_terms(heat, other.heat);
+    limit.add(other.limit);
     return *this;
   }
 };

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "kernel/automaton/rule/parameters.h"
 
@@ -14,11 +16,22 @@ inline constexpr std::array<std::string_view, kPhaseCount> kPhaseNames{"source",
                                                                        "gravity", "spread", "excess"};
 
 // Paper law: gravity and excess are one ascending sweep, run as `gravity`; `excess` is empty.
-// Viscous law: settle (`excess`), spread, fall (`gravity`).
-constexpr std::array<Phase, kPhaseCount> phase_order(rule::Law law) {
+// Viscous law: settle (`excess`) and spread, so often as the step has sub-steps, then fall (`gravity`).
+inline std::vector<Phase> phase_order(rule::Law law, int substeps = 1) {
   using enum Phase;
   if (law == rule::Law::paper) return {source, heat, melt, gravity, spread, excess};
-  return {source, heat, melt, excess, spread, gravity};
+  std::vector<Phase> phases{source, heat, melt};
+  for (int k = 0; k < substeps; ++k) phases.insert(phases.end(), {excess, spread});
+  phases.push_back(gravity);
+  return phases;
 }
+
+// When a phase runs: in which step, and in which of its sub-steps (`excess` and `spread`, viscous law).
+struct Moment {
+  std::uint32_t step = 0;
+  int substep = 0, substeps = 1;
+  Moment(std::uint32_t number) : step(number) {}
+  Moment(std::uint32_t number, int of, int all) : step(number), substep(of), substeps(all) {}
+};
 
 }  // namespace voxmelt::step

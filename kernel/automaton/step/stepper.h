@@ -29,9 +29,9 @@ class Stepper {
 
 class HostStepper : public Stepper {
  public:
-  // Runs one phase of step number `step` on `volume` and books it in `ledger`. Between two steps, nothing
-  // else changes the volume. `irradiance` is null when the scene has no radiation.
-  virtual void run(Phase phase, std::uint32_t step, const Irradiance* irradiance, state::Volume& volume,
+  // Runs one phase on `volume` and books it in `ledger`. Between two steps, nothing else changes the volume.
+  // `irradiance` is null when the scene has no radiation.
+  virtual void run(Phase phase, Moment moment, const Irradiance* irradiance, state::Volume& volume,
                    state::Ledger& ledger) = 0;
 };
 
@@ -40,9 +40,10 @@ class DeviceStepper : public Stepper {
   // Copies a state and its books to the device, in place of what it held.
   virtual void upload(const state::Volume& volume, const state::Ledger& ledger) = 0;
 
-  // Runs all phases of step number `step`. `irradiance` lies in the host's memory and is null when the scene
-  // has no radiation; its values change only at steps divisible by heat.visibility_every.
-  virtual void run_step(std::uint32_t step, const Irradiance* irradiance) = 0;
+  // Runs all phases of step number `step`, with so many sub-steps. `irradiance` lies in the host's memory and
+  // is null when the scene has no radiation; its values change only at steps divisible by
+  // heat.visibility_every.
+  virtual void run_step(std::uint32_t step, int substeps, const Irradiance* irradiance) = 0;
 
   // Copies `solid` and `inert` into the volume, which has the grid's size. Visibility needs no more.
   virtual void download_masks(state::Volume& volume) = 0;

@@ -1,11 +1,19 @@
 // What every phase of a step gets.
 #pragma once
 
+#include <cstdint>
+
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/step/stepper.h"
 #include "kernel/engine/cpu/workers.h"
 #include "kernel/engine/parallel/tiles.h"
 #include "kernel/engine/simd/kernels.h"
 
 namespace voxmelt::parallel {
+
+// What the kernels get to know of a moment.
+simd::Step step_of(const rule::Parameters& parameters, step::Phase phase, step::Moment moment,
+                   const std::uint32_t* keys, const step::Irradiance* irradiance);
 
 struct Job {
   const simd::View& view;

@@ -80,11 +80,25 @@ void Stepper::change_sources(const rule::Parameters& parameters) {
   kernels_ = simd::kernels(set_, parameters);  // others, where there was no radiation
 }
 
-void Stepper::run(step::Phase phase, std::uint32_t number, const step::Irradiance* irradiance,
+simd::Step step_of(const rule::Parameters& parameters, step::Phase phase, step::Moment moment,
+                   const std::uint32_t* keys, const step::Irradiance* irradiance) {
+  const auto dither = static_cast<std::uint32_t>(rule::dither(moment.step));
+  simd::Step step{&parameters, moment.step, dither, keys,
+                  irradiance == nullptr ? nullptr : irradiance->data()};
+  if (parameters.flow.law == rule::Law::paper) return step;
+  const auto k = static_cast<std::uint32_t>(moment.substep), n = static_cast<std::uint32_t>(moment.substeps);
+  step.substeps = n;
+  for (std::uint32_t axis = 0; axis < 4; ++axis)
+    step.pair_dither[axis] = (((dither + 16384 * axis) & 0xFFFF) + 65536 * ((k + axis * n / 4) % n)) / n;
+  if (phase == step::Phase::excess || phase == step::Phase::spread)
+    step.dither = (dither + static_cast<std::uint32_t>(rule::dither(k))) & 0xFFFF;
+  return step;
+}
+
+void Stepper::run(step::Phase phase, step::Moment moment, const step::Irradiance* irradiance,
                   state::Volume& volume, state::Ledger& ledger) {
   const simd::View view = view_of(volume);
-  const simd::Step step{&parameters_, number, static_cast<std::uint32_t>(rule::dither(number)), keys_.data(),
-                        irradiance == nullptr ? nullptr : irradiance->data()};
+  const simd::Step step = step_of(parameters_, phase, moment, keys_.data(), irradiance);
   const Job job{view, step, kernels_, workers_, tuning_.sleep};
   simd::Books books;
   switch (phase) {

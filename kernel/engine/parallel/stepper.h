@@ -3,7 +3,6 @@
 // and sleeping.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -22,7 +21,7 @@ class Stepper final : public step::HostStepper {
   Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, state::Grid grid,
           const step::Tuning& tuning);
 
-  void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
+  void run(step::Phase phase, step::Moment moment, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override;
   void change_sources(const rule::Parameters& parameters) override;
 

@@ -56,6 +56,9 @@ void ViscousFlow::find_work(const Job& job, const Tiles* noted, int z, bool besi
 }
 
 void ViscousFlow::settle(const Job& job, simd::Books& books) {
+  // Every mobility is for one of so many sub-steps.
+  if (job.step.substeps != substeps_) for_settle_.fill(all_words(job.view));
+  substeps_ = job.step.substeps;
   job.workers.run(chunks_.count(), settle_turns_, [&](int chunk) {
     Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
@@ -68,6 +71,8 @@ void ViscousFlow::settle(const Job& job, simd::Books& books) {
     }
   });
   close(books);
+  limit_.add(books.limit);  // the kernel says what has changed
+  books.limit = limit_;
 }
 
 void ViscousFlow::exchange(const Job& job, int z, Worker& worker, SliceCurrents& to) {

@@ -8,6 +8,7 @@
 //   fall      it, or a tile beside it, changed since the last fall
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "kernel/engine/parallel/chunks.h"
@@ -47,7 +48,9 @@ class ViscousFlow {
   RunMemory memory_;
   Tiles for_settle_, for_exchange_, for_fall_, taken_, restless_, changed_, changed_before_;
   std::vector<Worker> chunk_, cut_;
-  SliceCurrents none_;  // of the slice before the first
+  SliceCurrents none_;                      // of the slice before the first
+  std::uint32_t substeps_ = 0;              // of the last settle
+  state::LimitCounts<std::int64_t> limit_;  // of all columns, at the last settle
 };
 
 }  // namespace voxmelt::parallel

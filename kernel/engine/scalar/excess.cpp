@@ -61,11 +61,11 @@ void mix_all(const Run& run, std::int32_t h) {
 
 }  // namespace
 
-void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
+void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
   const ActiveRows columns = ActiveRows::columns(volume);
   const Cells cells(volume);
   const bool hot = parameters_.heat.enabled;
-  const std::int32_t offset = rule::dither(step);
+  const std::int32_t offset = rule::mixing_dither(moment.step, moment.substep);
 
   const auto settle_run = [&](int x, int bottom, int z) {
     // Gather the run.
@@ -98,7 +98,8 @@ void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
     const bool on_inert = bottom > 0 && volume.inert.test(x, bottom - 1, z);
     const std::int32_t bed =
         rule::bed_head(bottom, on_inert ? cells.amount(x, bottom - 1, z) : rule::kBedHalf);
-    const rule::Column column = rule::run_column(mass, n, bed, mean, parameters_.flow);
+    const rule::Column column = rule::run_column(mass, n, bed, mean, parameters_.flow, moment.substeps);
+    std::int64_t held = 0;  // cells of the run that hold something
     for (std::int32_t k = 0; k < n; ++k) {
       const state::Slot i = cells.at(x, bottom + k, z);
       const std::int32_t amount = rule::settled(mass, n, k);
@@ -112,7 +113,11 @@ void Reference::settle(std::uint32_t step, Volume& volume, Ledger& ledger) {
       exposed_[i] = column.exposed;
       dead_[i] = column.dead;
       bed_[i] = column.bed;
+      limit_[i] = column.limit;
+      ++held;
     }
+    ledger.limit.add(
+        state::LimitCounts<std::int64_t>{held, column.limited ? held : 0, mass, column.limited ? mass : 0});
     return bottom + n;
   };
 

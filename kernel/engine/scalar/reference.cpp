@@ -14,11 +14,13 @@ Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
     exposed_ = decltype(exposed_)(grid);
     dead_ = decltype(dead_)(grid);
     bed_ = decltype(bed_)(grid);
+    limit_ = decltype(limit_)(grid);
   }
 }
 
-void Reference::run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance,
+void Reference::run(step::Phase phase, step::Moment moment, const step::Irradiance* irradiance,
                     state::Volume& volume, state::Ledger& ledger) {
+  const std::uint32_t step = moment.step;
   switch (phase) {
     case step::Phase::source:
       return source(step, volume, ledger);
@@ -29,9 +31,10 @@ void Reference::run(step::Phase phase, std::uint32_t step, const step::Irradianc
     case step::Phase::gravity:
       return gravity(step, volume, ledger);
     case step::Phase::spread:
+      if (parameters_.flow.law == rule::Law::viscous) return viscous_spread(moment, volume, ledger);
       return spread(step, volume, ledger);
     case step::Phase::excess:
-      if (parameters_.flow.law == rule::Law::viscous) settle(step, volume, ledger);
+      if (parameters_.flow.law == rule::Law::viscous) settle(moment, volume, ledger);
       return;
   }
 }

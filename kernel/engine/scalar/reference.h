@@ -15,7 +15,7 @@ class Reference final : public step::HostStepper {
  public:
   Reference(const rule::Parameters& parameters, state::Grid grid);
 
-  void run(step::Phase phase, std::uint32_t step, const step::Irradiance* irradiance, state::Volume& volume,
+  void run(step::Phase phase, step::Moment moment, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override;
   void change_sources(const rule::Parameters& parameters) override { parameters_ = parameters; }
 
@@ -31,8 +31,8 @@ class Reference final : public step::HostStepper {
   void melt(Volume& volume, Ledger& ledger);
   void gravity(std::uint32_t step, Volume& volume, Ledger& ledger);
   void spread(std::uint32_t step, Volume& volume, Ledger& ledger);
-  void settle(std::uint32_t step, Volume& volume, Ledger& ledger);
-  void viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledger);
+  void settle(step::Moment moment, Volume& volume, Ledger& ledger);
+  void viscous_spread(step::Moment moment, Volume& volume, Ledger& ledger);
 
   void find_patterns(std::uint32_t step, const Volume& volume, const ActiveRows& rows);
 
@@ -41,7 +41,8 @@ class Reference final : public step::HostStepper {
   state::Field<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
   state::BitPlane melted_;              // paper law: by the last `melt`, until `gravity` has run
   state::Field<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
-  state::Field<std::int32_t> head_, mobility_, exposed_, dead_, bed_;  // viscous law: see rule::Column
+  state::Field<std::int32_t> head_, mobility_, exposed_, dead_, bed_,
+      limit_;    // viscous law: see rule::Column
   Volume next_;  // the result of a phase while it is computed
 };
 

@@ -61,7 +61,6 @@ void Reference::find_patterns(std::uint32_t step, const Volume& volume, const Ac
 }
 
 void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
-  if (parameters_.flow.law == rule::Law::viscous) return viscous_spread(step, volume, ledger);
   const ActiveRows rows(volume);
   find_patterns(step, volume, rows);
 

@@ -13,18 +13,19 @@ namespace voxmelt::scalar {
 namespace {
 
 // Each axis has its own part of the dither: x, z, and the two diagonals.
-constexpr std::array<int, 8> kDitherPart{0, 0, 1, 1, 2, 3, 3, 2};
+constexpr std::array<int, 8> kDitherAxis{0, 0, 1, 1, 2, 3, 3, 2};
 
 }  // namespace
 
-void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
+void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledger) {
   const ActiveRows rows(volume);
   const Cells cells(volume);
   const bool hot = parameters_.heat.enabled;
+  const std::int32_t mixing = rule::mixing_dither(moment.step, moment.substep);
 
   // What a cell shows to its neighbours.
   const auto run_column = [&](state::Slot i) {
-    return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], in_run_[i] != 0, bed_[i]};
+    return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], in_run_[i] != 0, bed_[i], limit_[i]};
   };
   const auto column = [&](int x, int y, int z) {
     const state::Slot i = cells.at(x, y, z);
@@ -54,7 +55,8 @@ void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledge
       const state::Slot j = cells.at(nx, y, nz);
       if (!in_run_[i] && !in_run_[j]) continue;
       const rule::Column there = column(nx, y, nz);
-      const std::int32_t offset = rule::dither(step, kDitherPart[d], 4);
+      const std::int32_t offset =
+          rule::pair_dither(moment.step, kDitherAxis[d], moment.substep, moment.substeps);
       out += rule::viscous_flow(own, volume.amount[i], there, volume.amount[j], diagonal, offset);
       const std::int32_t taken =
           rule::viscous_flow(there, volume.amount[j], own, volume.amount[i], diagonal, offset);
@@ -67,7 +69,7 @@ void Reference::viscous_spread(std::uint32_t step, Volume& volume, Ledger& ledge
     next_.amount[i] = static_cast<std::uint16_t>(amount);
     if (hot && in > 0) {
       content += static_cast<std::uint64_t>(volume.amount[i] - out) * volume.heat[i];
-      const std::int32_t h = rule::mixed(content, static_cast<std::uint64_t>(amount), rule::dither(step));
+      const std::int32_t h = rule::mixed(content, static_cast<std::uint64_t>(amount), mixing);
       ledger.heat.rounded += static_cast<state::Sum>(amount) * h - static_cast<state::Sum>(content);
       next_.heat[i] = static_cast<std::uint16_t>(h);
     }

@@ -63,9 +63,11 @@ struct View {
 struct Step {
   const rule::Parameters* parameters = nullptr;
   std::uint32_t number = 0;
-  std::uint32_t dither = 0;                   // D(s)
+  std::uint32_t dither = 0;                   // D(s); in sub-steps, of mixtures
   const std::uint32_t* keys = nullptr;        // of the random function
   const std::uint16_t* irradiance = nullptr;  // null without radiation
+  std::uint32_t pair_dither[4] = {};          // viscous law: R of the axes
+  std::uint32_t substeps = 1;                 // of the step
 };
 
 // Terms of the ledgers, summed over what a kernel did. For conducted and convected, only the sum over a whole
@@ -118,11 +120,14 @@ struct Runs {
   std::uint16_t* head = nullptr;      // 512 + head above the cell's own bottom, 1/256 cell, cut at 65535
   std::uint16_t* mobility = nullptr;  // 1/65536
   std::uint16_t* exposed = nullptr;   // 1/65536, cells in a run only
+  std::uint16_t* fine = nullptr;      // eight bits more of mobility (low byte) and exposed (high byte)
+  std::uint16_t* limit = nullptr;     // 1/65536, not 0 where mobility is shown
   std::uint16_t* dead = nullptr;      // cut at 65535, which a cell outside a run on a bed or a run has
   std::uint16_t* bed = nullptr;       // 1 + the bed above the grid's bottom, 1/16 cell
   std::uint16_t *deep_low = nullptr, *deep_high = nullptr;  // where head is cut: all 32 bits of it
   std::uint64_t *in_run = nullptr, *shown = nullptr;        // shown: cells that are not all zero
   TileRow* deep = nullptr;                                  // [z][y]: words in which a head is cut
+  state::LimitCounts<std::int64_t>* limits = nullptr;       // [z][word]: of its columns
 };
 
 // What the pairs of one slice exchange in the viscous law's spread, each pair booked at its first cell (by x

@@ -2,6 +2,7 @@
 // those parts of 64 columns that have one. Plain loops over lanes, for the compiler to vectorise.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "kernel/engine/cpu/lanes.h"
@@ -30,7 +31,7 @@ struct alignas(64) SettledRuns {
   std::uint16_t mobility[64], exposed[64], dead[64];
   std::uint16_t heat[64];  // of runs that do not keep their order
   std::uint64_t ordered;
-  std::uint16_t shown_bed[64];  // as in Runs
+  std::uint16_t fine[64], limit[64], shown_bed[64];  // as in Runs
 };
 
 template <class Arch, bool kHot>
@@ -41,13 +42,18 @@ class RunData {
   [[gnu::always_inline]] RunData(const Step& step)
       : flow_(step.parameters->flow),
         table_(step.parameters->flow.mobility_table.data()),
+        pace_((step.parameters->flow.viscous.mobility + step.substeps / 2) / step.substeps),
         dither_(step.dither) {}
 
-  // Other columns keep what they have. Returns what the books call `rounded`, of runs that mix.
-  [[gnu::always_inline]] std::int64_t settle(const EndedRuns& runs, SettledRuns& settled) const {
+  using Limits = state::LimitCounts<std::int64_t>;
+
+  // Other columns keep what they have. Returns what the books call `rounded`, of runs that mix, and adds to
+  // `limits`.
+  [[gnu::always_inline]] std::int64_t settle(const EndedRuns& runs, SettledRuns& settled,
+                                             Limits& limits) const {
     std::int64_t rounded = 0;
     for (int part = 0; part < L::kParts; ++part)
-      if (L::in_part(runs.columns, part)) rounded += settle(part, runs, settled);
+      if (L::in_part(runs.columns, part)) rounded += settle(part, runs, settled, limits);
     settled.ordered = (settled.ordered & ~runs.columns) | runs.ordered;
     return rounded;
   }
@@ -56,7 +62,8 @@ class RunData {
   using Lanes16 = std::uint16_t[64];  // of which one part at a time is in use
   using Lanes32 = std::int32_t[64];
 
-  [[gnu::always_inline]] std::int64_t settle(int part, const EndedRuns& runs, SettledRuns& settled) const {
+  [[gnu::always_inline]] std::int64_t settle(int part, const EndedRuns& runs, SettledRuns& settled,
+                                             Limits& limits) const {
     alignas(64) Lanes32 mass, over;
     alignas(64) Lanes16 counts, mean;
     SettledRuns now;
@@ -71,7 +78,7 @@ class RunData {
     }
     fill(begin, mass, over, runs, now);
     const std::int64_t rounded = kHot ? mix(begin, mass, counts, runs, now, mean) : 0;
-    show(begin, mass, over, runs, mean, now);
+    show(begin, mass, over, counts, runs, mean, now, limits);
     const auto asked = L::from_bits(runs.columns, part);
     const auto keep = [&](const Lanes16& value, Lanes16& kept) VOXMELT_LAMBDA {
       L::store(kept + begin, L::select(asked, L::load(value + begin), L::load(kept + begin)));
@@ -84,6 +91,8 @@ class RunData {
     keep(now.mobility, settled.mobility);
     keep(now.exposed, settled.exposed);
     keep(now.dead, settled.dead);
+    keep(now.fine, settled.fine);
+    keep(now.limit, settled.limit);
     keep(now.shown_bed, settled.shown_bed);
     if constexpr (kHot) keep(now.heat, settled.heat);
     return rounded;
@@ -137,12 +146,12 @@ class RunData {
   }
 
   // Head, mobility, dead zone.
-  [[gnu::always_inline]] void show(int begin, const Lanes32& mass, const Lanes32& over, const EndedRuns& runs,
-                                   const Lanes16& mean, SettledRuns& now) const {
+  [[gnu::always_inline]] void show(int begin, const Lanes32& mass, const Lanes32& over, const Lanes16& counts,
+                                   const EndedRuns& runs, const Lanes16& mean, SettledRuns& now,
+                                   Limits& limits) const {
     const int end = begin + L::kCount;
     const int stiffness = flow_.viscous.stiffness, yield = static_cast<int>(flow_.viscous.yield);
-    const double mobility = flow_.viscous.mobility;
-    alignas(64) Lanes32 raw;
+    alignas(64) Lanes32 mobility;
     for (int i = begin; i < end; ++i) {
       const int head = 512 + 256 * runs.first[i] + ((runs.bed[i] - 2048) >> 4) + (mass[i] >> 4) +
                        (stiffness - 1) * (over[i] >> 4);
@@ -157,30 +166,61 @@ class RunData {
       dead += rest < 0 ? -1 : rest >= depth ? 1 : 0;
       dead = dead < 1 ? 1 : dead;
       now.dead[i] = static_cast<std::uint16_t>(dead < 65535 ? dead : 65535);
-
-      const double square = static_cast<double>(depth < 16384 ? depth : 16384) *
-                            static_cast<double>(depth < 16384 ? depth : 16384);
-      const double wide = (mobility * square + 524288.0) * (1.0 / 1048576);  // below 2^52 before: exact
-      raw[i] = static_cast<int>(wide < 268435456.0 ? wide : 268435456.0);    // more is cut in any case
     }
     if (kBuilt.thermal && flow_.thermal_viscosity)
-      for (int i = begin; i < end; ++i) {
-        const std::uint16_t factor = table_[kHot ? mean[i] >> 11 : 0];
-        raw[i] = static_cast<int>(static_cast<double>(raw[i]) * factor * (1.0 / 32768));
-      }
+      move<true>(begin, mass, mean, mobility);
+    else
+      move<false>(begin, mass, mean, mobility);
+
+    int cells = 0, limited_cells = 0, low = 0, limited_low = 0, high = 0, limited_high = 0;
     for (int i = begin; i < end; ++i) {
-      // Quotients of whole numbers below 2^13: a float's whole part is theirs.
-      const float limit = 8192.f / static_cast<float>((mass[i] >> 12) + 1);
-      const int whole = static_cast<int>(limit);
+      // Quotients of whole numbers below 2^14: a float's whole part is theirs.
+      const int whole = static_cast<int>(13107.f / static_cast<float>((mass[i] >> 12) + 1));
       const int stiff = static_cast<int>(static_cast<float>(whole) / static_cast<float>(stiffness));
-      const int most = over[i] > 0 ? stiff : whole, exposed = raw[i] < 8192 ? raw[i] : 8192;
-      now.exposed[i] = static_cast<std::uint16_t>(exposed);
-      now.mobility[i] = static_cast<std::uint16_t>(exposed < most ? exposed : most);
+      const int limit = over[i] > 0 ? stiff : whole, most = limit < 1 ? 1 : limit;
+      const int own = mobility[i] < 256 * most ? mobility[i] : 256 * most;
+      const int exposed = mobility[i] < 1 << 21 ? mobility[i] : 1 << 21;
+      now.limit[i] = static_cast<std::uint16_t>(most);
+      now.mobility[i] = static_cast<std::uint16_t>(own >> 8);
+      now.exposed[i] = static_cast<std::uint16_t>(exposed >> 8);
+      now.fine[i] = static_cast<std::uint16_t>((own & 0xFF) | (exposed & 0xFF) << 8);
+
+      const int one = counts[i], limited = mobility[i] > 256 * most ? one : 0;
+      const int held = over[i] > 0 ? runs.last[i] - runs.first[i] + 1 : ((mass[i] - 1) >> 12) + 1;
+      cells += one * held;
+      limited_cells += limited * held;
+      low += one * (mass[i] & 0xFFFF);
+      limited_low += limited * (mass[i] & 0xFFFF);
+      high += one * (mass[i] >> 16);
+      limited_high += limited * (mass[i] >> 16);
+    }
+    limits.add(Limits{cells, limited_cells, (std::int64_t{high} << 16) + low,
+                      (std::int64_t{limited_high} << 16) + limited_low});
+  }
+
+  // Mobilities, cut at 2^28, far above every limit. (p q + 2^23) >> 24 has up to 40 bits: p is parted in two
+  // of 18, so that all numbers are whole and exact in double.
+  template <bool kThermal>
+  [[gnu::always_inline]] void move(int begin, const Lanes32& mass, const Lanes16& mean,
+                                   Lanes32& mobility) const {
+    const int end = begin + L::kCount;
+    const double high = static_cast<double>(pace_ >> 18), low = static_cast<double>(pace_ & 0x3FFFF);
+    for (int i = begin; i < end; ++i) {
+      const double depth = mass[i] < 262144 ? mass[i] : 262144;
+      const double square = static_cast<int>(depth * depth * (1.0 / 256));
+      const int carried = static_cast<int>((low * square + 8388608.0) * (1.0 / 262144));
+      double free = (high * square + carried) * (1.0 / 64);
+      if constexpr (kThermal) {
+        free = free < 0x1p36 ? std::floor(free) : 0x1p36;  // times 1/32768: still above every limit
+        free *= table_[kHot ? mean[i] >> 11 : 0] * (1.0 / 32768);
+      }
+      mobility[i] = static_cast<int>(free < 268435456.0 ? free : 268435456.0);
     }
   }
 
   const rule::Flow& flow_;
   const std::uint16_t* table_;
+  const std::uint64_t pace_;  // mobility parameter of a sub-step
   const std::uint32_t dither_;
 };
 

@@ -51,12 +51,14 @@ class Settle {
       const TileRow group = columns >> base & ((TileRow{1} << kGroup) - 1);
       if (group == 0) continue;
       base_ = base;
+      for (Limits& limits : limits_) limits = {};
       const Rows rows = gather(group, changed);
       for (int y = rows.last; y >= rows.first; --y) {
         changed[y >> v_.tile_shift] |= write(group, y) << base;
         if ((y & 1023) == 0) close();  // what is mixed is summed over so many rows
       }
       close();
+      note_limits(group);
       // A cell outside runs shows something else only if it, or the cell below, has changed since it last
       // did.
       TileRow below = 0;
@@ -73,6 +75,20 @@ class Settle {
   }
 
  private:
+  using Limits = state::LimitCounts<std::int64_t>;
+
+  // The books get what is other than at the last call.
+  [[gnu::always_inline]] void note_limits(TileRow group) const {
+    for (; group != 0; group &= group - 1) {
+      const int g = __builtin_ctzll(group);
+      Limits& old = r_.limits[z_ * v_.words + base_ + g];
+      const Limits& now = limits_[g];
+      books_.limit.add(now);
+      books_.limit.add(Limits{-old.cells, -old.limited_cells, -old.mass, -old.limited_mass});
+      old = now;
+    }
+  }
+
   struct Sums {  // of the runs in progress; vectors in the order in which unpacking leaves them
     Wide excess[L::kParts], low[L::kParts], high[L::kParts];
     V first[L::kParts], bed[L::kParts];
@@ -232,7 +248,7 @@ class Settle {
       bool differs = false;
       if (taken != 0) {
         if (used_[g] > 0 && record(g, used_[g] - 1).top == y)
-          books_.heat.rounded += data_.settle(record(g, --used_[g]), settled_[g]);
+          books_.heat.rounded += data_.settle(record(g, --used_[g]), settled_[g], limits_[g]);
         for (int part = 0; part < L::kParts; ++part)
           if (L::in_part(taken, part))
             in_run |= vectors(w, y, part, taken, g, deep, differs) << (part * L::kCount);
@@ -271,8 +287,12 @@ class Settle {
     const V exposed = L::select(in_run, L::load(settled.exposed + lane), old_exposed);
     const V dead = L::select(in_run, L::load(settled.dead + lane), old_dead);
     const V bed = L::select(in_run, L::load(settled.shown_bed + lane), old_bed);
+    const V old_fine = L::load(r_.fine + at), old_limit = L::load(r_.limit + at);
+    const V fine = L::select(in_run, L::load(settled.fine + lane), old_fine);
+    const V limit = L::select(in_run, L::load(settled.limit + lane), old_limit);
     V difference = (old ^ amount) | (old_head ^ new_head) | (old_mobility ^ mobility) |
-                   (old_exposed ^ exposed) | (old_dead ^ dead) | (old_bed ^ bed);
+                   (old_exposed ^ exposed) | (old_dead ^ dead) | (old_bed ^ bed) | (old_fine ^ fine) |
+                   (old_limit ^ limit);
     if constexpr (kFeatures.hot) {
       // Where no amount changes and nothing comes from above, no heat changes in runs that keep their order.
       const std::uint64_t ordered = taken & settled.ordered, mixed = taken & ~settled.ordered;
@@ -298,6 +318,8 @@ class Settle {
       L::store(r_.exposed + at, exposed);
       L::store(r_.dead + at, dead);
       L::store(r_.bed + at, bed);
+      L::store(r_.fine + at, fine);
+      L::store(r_.limit + at, limit);
     }
     return L::to_bits(in_run);
   }
@@ -322,6 +344,7 @@ class Settle {
   Books& books_;
   SettledRuns settled_[kGroup] = {};
   RunOrder<Arch> orders_[kGroup];
+  Limits limits_[kGroup];  // of the words of a group
   int base_ = 0;
   int used_[kGroup];   // records
   bool open_[kGroup];  // may the last one take more columns?

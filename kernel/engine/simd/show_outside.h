@@ -47,19 +47,23 @@ class ShowOutside {
         const V amount = bed_below<Arch>(v_, w, y, z_, part);
         V head = L::keep(stands, L::set(384) + L::template shift_right<4>(amount));
         V bed = L::keep(stands, L::set(16 * y - 7) + L::template shift_right<8>(amount));
-        V mobility = L::zero();
+        V mobility = L::zero(), fine = L::zero(), limit = L::zero();
         if (on_run != 0) {
           const M tops = L::from_bits(on_run, part);
           const V below = L::load(r_.head + at - v_.row) - L::set(256);
           head = L::select(tops, below, head);
           bed = L::select(tops, L::load(r_.bed + at - v_.row), bed);
           mobility = L::keep(tops, L::load(r_.mobility + at - v_.row));
+          fine = L::keep(tops, L::load(r_.fine + at - v_.row) & L::set(0xFF));
+          limit = L::keep(tops, L::load(r_.limit + at - v_.row));
         }
         const V dead = L::keep(L::from_bits(on_run | on_bed, part), L::set(0xFFFF));
         differs |= put(r_.head + at, which, head);
         differs |= put(r_.mobility + at, which, mobility);
         differs |= put(r_.dead + at, which, dead);
         differs |= put(r_.bed + at, which, bed);
+        differs |= put(r_.fine + at, which, fine);
+        differs |= put(r_.limit + at, which, limit);
       }
       if (differs) changed |= TileRow{1} << g;
     }

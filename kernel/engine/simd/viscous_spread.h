@@ -36,8 +36,7 @@ class ExchangePairs {
     const std::ptrdiff_t steps[4] = {1, front, front + 1, front - 1};
     for (int axis = 0; axis < 4; ++axis) {
       step_[axis] = steps[axis];
-      const std::uint32_t dither = (step.dither + 16384u * static_cast<std::uint32_t>(axis)) & 0xFFFFu;
-      const std::uint32_t offset = dither << (axis < 2 ? 2 : 4);
+      const std::uint32_t offset = step.pair_dither[axis] << (axis < 2 ? 2 : 4);
       whole_[axis] = static_cast<int>(offset >> 16);
       rest_[axis] = 0xFFFF - static_cast<int>(offset & 0xFFFF);
     }
@@ -110,7 +109,7 @@ class ExchangePairs {
   }
 
   struct Cell {
-    V head, amount, dead, mobility, exposed, bed;
+    V head, amount, dead, mobility, exposed, fine, limit, bed;
   };
 
   [[gnu::always_inline]] void vectors(int w, int y, int part, const Masks& m, bool deep, bool gave,
@@ -119,7 +118,8 @@ class ExchangePairs {
     const auto at = static_cast<std::ptrdiff_t>(v_.cell(0, y, z_)) + lane;
     const std::ptrdiff_t to = y * static_cast<std::ptrdiff_t>(v_.row) + lane;
     const Cell own{L::load(r_.head + at),     L::load(v_.amount + at),  L::load(r_.dead + at),
-                   L::load(r_.mobility + at), L::load(r_.exposed + at), L::load(r_.bed + at)};
+                   L::load(r_.mobility + at), L::load(r_.exposed + at), L::load(r_.fine + at),
+                   L::load(r_.limit + at),    L::load(r_.bed + at)};
     V flow[4], all = L::zero();
     for (int axis = 0; axis < 4; ++axis) {
       flow[axis] = axis < 2 ? pair<false>(own, at, axis, part, m, deep, may_flow)
@@ -152,28 +152,61 @@ class ExchangePairs {
     if (moves == 0) return L::zero();
 
     const M here_runs = L::from_bits(m.in_run, part), there_runs = L::from_bits(m.there[axis], part);
-    const V mobility =
-        L::select(there_runs, own.mobility, own.exposed) +
-        L::select(here_runs, L::load_any(r_.mobility + there), L::load_any(r_.exposed + there));
     const V amount = L::load_any(v_.amount + there);
     const V giver = L::select(gives, own.amount, amount), taker = L::select(gives, amount, own.amount);
-    const V high = L::high(mobility, giver);
-    const V conductance =
-        L::select(L::less(L::set(4095), high), L::set(0xFFFF),
-                  L::template shift_left<4>(high) | L::template shift_right<12>(L::low(mobility, giver)));
-    const M both = L::from_bits(m.in_run & m.there[axis], part);
-    const V room = L::sub_saturated(L::select(both, L::set(0xFFFF), L::set(4096)), taker);
-    const V most = L::template shift_right<3>(L::min(giver, room));
+    const Mobility both = mobilities(own, there, gives, here_runs, there_runs);
+    const Conductance c = conductance(both, giver);
+    const M runs = L::from_bits(m.in_run & m.there[axis], part);
+    const V room = L::sub_saturated(L::select(runs, L::set(0xFFFF), L::set(4096)), taker);
+    V most = L::high(L::min(giver, room), L::set(13107));
+    if constexpr (kDiagonal) most = L::template shift_right<2>(most);
     const M gate = L::from_bits(moves << (part * L::kCount), part);
-    if ((L::to_bits(L::less(L::zero(), L::min(conductance, most))) & moves) != 0) may_flow = true;
 
+    // (c drive + (R << 10)) >> 26 as (c drive >> 8, and R << 2) >> 18: the fine bits of c only carry.
+    // Likewise for diagonals. In 32 bits a lane, of which the lower half is not kept.
     const V drive = driven<kDiagonal>(L::min(drop, L::set(kDiagonal ? 362 : 256)), gate, own.bed,
                                       L::load_any(r_.bed + there));
-    const V sum = L::carry(L::high(conductance, drive) + L::set(whole_[axis]), L::low(conductance, drive),
-                           L::set(rest_[axis]));
-    const V wanted = L::template shift_right < kDiagonal ? 4 : 2 > (sum);
-    const V flow = L::keep(gate, L::min(wanted, most));
+    const V fine = L::high(c.fine, drive), low = L::low(c.coarse, drive) + fine;
+    const V high = L::add_if(L::less(low, fine), L::high(c.coarse, drive), L::set(1));
+    constexpr int kShift = kDiagonal ? 4 : 2;
+    const V some = L::min(high | L::template shift_right<kShift>(low), most);  // with the largest R
+    if ((L::to_bits(L::less(L::zero(), some)) & moves) != 0) may_flow = true;
+    const V sum = L::carry(high + L::set(whole_[axis]), low, L::set(rest_[axis]));
+    const V flow = L::keep(gate, L::min(L::template shift_right<kShift>(sum), most));
     return L::select(gives, flow, L::zero() - flow);
+  }
+
+  struct Mobility {  // in 1/65536, and 256ths of that in the upper byte
+    V coarse, fine;
+  };
+  struct Conductance {
+    V coarse, fine;
+  };
+
+  // Of both cells of a pair.
+  [[gnu::always_inline]] Mobility mobilities(const Cell& own, std::ptrdiff_t there, M gives, M here_runs,
+                                             M there_runs) const {
+    const V other = L::load_any(r_.fine + there), top = L::set(0xFF00);
+    const V fine = L::select(there_runs, L::template shift_left<8>(own.fine), own.fine & top);
+    const V all = fine + L::select(here_runs, L::template shift_left<8>(other), other & top);
+    const V coarse = L::select(there_runs, own.mobility, own.exposed) +
+                     L::select(here_runs, L::load_any(r_.mobility + there), L::load_any(r_.exposed + there));
+    const V carried = L::add_if(L::less(all, fine), coarse, L::set(1));
+    // Where the taker is, or stands on, a run: at most twice the giver's limit.
+    const V limit = L::load_any(r_.limit + there);
+    const V giver = L::select(gives, own.limit, limit), taker = L::select(gives, limit, own.limit);
+    const V most = L::select(L::equal(taker, L::zero()), L::set(0xFFFF), giver + giver);
+    return {L::min(carried, most), L::keep(L::less(carried, most), all)};
+  }
+
+  // (s A) >> 12, at most 2^24 - 1.
+  [[gnu::always_inline]] static Conductance conductance(const Mobility& s, V amount) {
+    const V fine = L::high(s.fine, amount), low = L::low(s.coarse, amount) + fine;
+    const V high = L::add_if(L::less(low, fine), L::high(s.coarse, amount), L::set(1));
+    const M over = L::less(L::set(4095), high);
+    return {
+        L::select(over, L::set(0xFFFF), L::template shift_left<4>(high) | L::template shift_right<12>(low)),
+        L::select(over, L::set(0xFF00), L::template shift_left<4>(low) & L::set(0xFF00))};
   }
 
   // The drop in 1/8192 cell, less on a slope. Most beds are level, or none: then nothing is looked up.

@@ -85,7 +85,9 @@ json flow_json(const rule::Flow& flow) {
           {"viscous",
            {{"mobility", flow.viscous.mobility},
             {"yield", flow.viscous.yield},
-            {"stiffness", flow.viscous.stiffness}}},
+            {"stiffness", flow.viscous.stiffness},
+            {"substeps", flow.viscous.substeps},
+            {"substeps_max", flow.viscous.substeps_max}}},
           {"thermal_viscosity", flow.thermal_viscosity},
           {"mobility_table", flow.mobility_table}};
 }

@@ -39,10 +39,13 @@ class HiddenReference final : public step::DeviceStepper {
     volume_ = volume;
     ledger_ = ledger;
   }
-  void run_step(std::uint32_t step, const step::Irradiance* irradiance) override {
+  void run_step(std::uint32_t step, int substeps, const step::Irradiance* irradiance) override {
     ++traffic.steps;
-    for (const step::Phase phase : step::phase_order(law_))
-      reference_.run(phase, step, irradiance, volume_, ledger_);
+    step::Moment moment(step, 0, substeps);
+    for (const step::Phase phase : step::phase_order(law_, substeps)) {
+      reference_.run(phase, moment, irradiance, volume_, ledger_);
+      if (phase == step::Phase::spread) ++moment.substep;
+    }
   }
   void download_masks(Volume& volume) override {
     ++traffic.mask_downloads;

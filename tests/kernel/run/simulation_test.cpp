@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -88,14 +89,15 @@ TEST(Simulation, TheSeedChangesThePaperLawOnly) {
 class Recorder final : public step::HostStepper {
  public:
   void change_sources(const Parameters&) override {}
-  void run(Phase phase, std::uint32_t step, const step::Irradiance* irradiance, Volume&,
+  void run(Phase phase, step::Moment moment, const step::Irradiance* irradiance, Volume&,
            state::Ledger&) override {
-    calls.push_back({phase, step, irradiance == nullptr ? -1 : *irradiance->data()});
+    calls.push_back({phase, moment.step, moment.substep, moment.substeps,
+                     irradiance == nullptr ? -1 : *irradiance->data()});
   }
   struct Call {
     Phase phase;
     std::uint32_t step;
-    int irradiance;
+    int substep, substeps, irradiance;
   };
   static inline std::vector<Call> calls;
 };
@@ -129,6 +131,42 @@ TEST(Simulation, PhasesInTheOrderOfThePage) {
       EXPECT_EQ(Recorder::calls[i].irradiance, -1) << "no radiation, no irradiance";
     }
     EXPECT_EQ(s.steps_done(), 2u);
+  }
+}
+
+TEST(Simulation, SubstepsSettleAndSpreadAndFallOnce) {
+  using enum Phase;
+  Parameters p;
+  p.flow.law = Law::viscous;
+  p.flow.viscous.substeps = 3;
+  Simulation s(p, Volume(Grid{1, 1, 1}), kRecorder);
+  steps(s, 2);
+  const std::array<Phase, 10> order{source, heat,   melt,   excess, spread,
+                                    excess, spread, excess, spread, gravity};
+  ASSERT_EQ(Recorder::calls.size(), 20u);
+  for (std::size_t i = 0; i < 20; ++i) {
+    const auto& [phase, step, substep, substeps, irradiance] = Recorder::calls[i];
+    EXPECT_EQ(phase, order[i % 10]);
+    EXPECT_EQ(step, i / 10);
+    EXPECT_EQ(substeps, 3);
+    if (phase == excess || phase == spread) {
+      EXPECT_EQ(substep, static_cast<int>(i % 10 - 3) / 2);
+    }
+  }
+}
+
+// Columns of 1, 2 and 3 cells: mobility 2/9 x 0.1 x M^2 against 1/5 / (M + 1), so 0.22, 1.33 and 4.
+TEST(Simulation, CountsTheSubstepsThatItsDeepestColumnNeeds) {
+  Parameters p = viscous(0.1);
+  p.flow.viscous.substeps = 0;
+  for (const auto& [deepest, most, needed] :
+       {std::array{1, 1024, 1}, {2, 1024, 2}, {3, 1024, 5}, {3, 2, 2}}) {
+    p.flow.viscous.substeps_max = static_cast<std::uint16_t>(most);
+    Volume v(Grid{4, 5, 1});
+    for (int x = 0; x < 3; ++x) fill(v, {x, 0, 0, x + 1, std::min(x + 1, deepest), 1}, kOne);
+    Simulation s(p, v, kRecorder);
+    s.step();
+    EXPECT_EQ(s.substeps(), needed) << deepest;
   }
 }
 

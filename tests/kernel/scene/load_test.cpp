@@ -166,15 +166,28 @@ doubling = 0.03125
                                       "drain", "diagonal", "drip", "reheat", "thermal_viscosity"}));
 }
 
+TEST(Load, SubstepsOfTheViscousLaw) {
+  const SceneFolder folder;
+  const auto law = [&](const std::string& keys) {
+    return folder.load_text(kLeast + "[flow]\nlaw='viscous'\n[flow.viscous]\nkappa=1\n" + keys)
+        .parameters.flow.viscous;
+  };
+  EXPECT_EQ(law("substeps=7\n").substeps, 7);
+  EXPECT_EQ(law("substeps='auto'\n").substeps, 0);
+  EXPECT_EQ(law("substeps='auto'\nsubsteps_max=16\n").substeps_max, 16);
+}
+
 TEST(Load, MobilityOfTheViscousLaw) {
   const SceneFolder folder;
   const rule::Flow flow =
       folder.load_text(kLeast + "[flow]\nlaw='viscous'\n[flow.viscous]\nkappa=0.02\nyield=1\nstiffness=1\n")
           .parameters.flow;
   EXPECT_EQ(flow.law, rule::Law::viscous);
-  EXPECT_EQ(flow.viscous.mobility, 4660u);  // 2^20 x (2/9) x 0.02
+  EXPECT_EQ(flow.viscous.mobility, 19088744u);  // 2^32 x (2/9) x 0.02 = 19088743.5
   EXPECT_EQ(flow.viscous.yield, 65536u);
   EXPECT_EQ(flow.viscous.stiffness, 1);
+  EXPECT_EQ(flow.viscous.substeps, 1);
+  EXPECT_EQ(flow.viscous.substeps_max, 1024);
 }
 
 TEST(Overrides, ReplaceAndAddKeys) {

@@ -44,7 +44,7 @@ TEST(Run, Continues) {
   EXPECT_FALSE(run_continues(kOne / 2 - 1, 1, kOne / 2 - 1, kOne));  // falling liquid above a film
 }
 
-Flow flow_of(std::uint32_t mobility, std::uint32_t yield = 0, std::uint8_t stiffness = 8) {
+Flow flow_of(std::uint64_t mobility, std::uint32_t yield = 0, std::uint8_t stiffness = 8) {
   Flow flow;
   flow.law = Law::viscous;
   flow.viscous = {mobility, yield, stiffness};
@@ -52,7 +52,7 @@ Flow flow_of(std::uint32_t mobility, std::uint32_t yield = 0, std::uint8_t stiff
 }
 
 TEST(RunColumn, HeadIsTheFreeSurface) {
-  const Flow flow = flow_of(1 << 20);
+  const Flow flow = flow_of(std::uint64_t{1} << 32);
   EXPECT_EQ(run_column(3 * kOne, 3, bed_head(5, kBedHalf), 0, flow).head, 8 * 256);
   EXPECT_EQ(run_column(15, 1, 0, 0, flow).head, 0);
   EXPECT_EQ(run_column(16, 1, 0, 0, flow).head, 1);
@@ -64,16 +64,22 @@ TEST(RunColumn, HeadIsTheFreeSurface) {
 }
 
 TEST(RunColumn, MobilityIsQuadraticAndLimited) {
-  const Flow gentle = flow_of(4660);  // kappa 0.02
-  EXPECT_EQ(run_column(kOne, 1, 0, 0, gentle).mobility, (4660 * 65536LL + (1 << 19)) >> 20);
-  EXPECT_EQ(run_column(2 * kOne, 2, 0, 0, gentle).mobility, (4660 * 4 * 65536LL + (1 << 19)) >> 20);
-  const Flow runny = flow_of((1 << 24) - 1);
+  const Flow gentle = flow_of(19088744);  // kappa 0.02
+  // 2/9 x 0.02 of 2^24 is 74565.4; at depth 2 four times that; at depth 1/64 4096 times less.
+  EXPECT_EQ(run_column(kOne, 1, 0, 0, gentle).mobility, 74565);
+  EXPECT_EQ(run_column(2 * kOne, 2, 0, 0, gentle).mobility, 298262);
+  EXPECT_EQ(run_column(kOne / 64, 1, 0, 0, gentle).mobility, 18);
+  EXPECT_EQ(run_column(15, 1, 0, 0, gentle).mobility, 0);
+  EXPECT_EQ(run_column(100 * kOne, 100, 0, 0, gentle).exposed, 1 << 21);
+  const Flow runny = flow_of((std::uint64_t{1} << 36) - 1);
   for (std::int32_t n = 1; n <= 1024; ++n)
     for (const std::int64_t mass :
          {std::int64_t{n} * kOne, std::int64_t{n} * kOne + 1, std::int64_t{n} * kAmountMax}) {
       const Column c = run_column(mass, n, 0, 65535, runny);
-      ASSERT_TRUE(c.mobility >= 0 && c.mobility <= 8192 / (mass / kOne + 1));
-      ASSERT_TRUE(c.exposed >= c.mobility && c.exposed <= 8192) << "a bare flank: limited per cell";
+      ASSERT_TRUE(c.limit >= 1 && (c.limit == 1 || c.limit <= 13107 / (mass / kOne + 1)));
+      ASSERT_EQ(c.mobility, c.limit << 8);
+      ASSERT_TRUE(c.limited);
+      ASSERT_EQ(c.exposed, 1 << 21) << "a bare flank: limited per cell";
       ASSERT_GE(c.dead, 1);
       ASSERT_TRUE(c.in_run);
     }
@@ -81,19 +87,67 @@ TEST(RunColumn, MobilityIsQuadraticAndLimited) {
   Flow warm = gentle;
   warm.thermal_viscosity = true;
   warm.mobility_table.fill(16384);
-  EXPECT_EQ(run_column(2 * kOne, 2, 0, 0, warm).mobility, run_column(2 * kOne, 2, 0, 0, gentle).mobility / 2);
+  EXPECT_EQ(run_column(2 * kOne, 2, 0, 0, warm).mobility, 149131);
+}
+
+// A fifth of a cell, less by depth; an overfull run is stiffer.
+TEST(RunColumn, Limit) {
+  const Flow flow = flow_of(19088744);
+  EXPECT_EQ(run_column(kOne - 1, 1, 0, 0, flow).limit, 13107);
+  EXPECT_EQ(run_column(kOne, 1, 0, 0, flow).limit, 6553);
+  EXPECT_EQ(run_column(9 * kOne, 9, 0, 0, flow).limit, 1310);
+  EXPECT_EQ(run_column(9 * kOne, 8, 0, 0, flow).limit, 163);  // 1310 / 8
+  EXPECT_EQ(run_column(std::int64_t{65535} * 4096, 4096, 0, 0, flow).limit, 1);
+  EXPECT_FALSE(run_column(kOne, 1, 0, 0, flow).limited);
+  EXPECT_TRUE(run_column(9 * kOne, 9, 0, 0, flow).limited);  // 6039797 > 1310 x 256
+}
+
+// Sub-steps divide the mobility, and 19 of them leave nothing to the limit of depth 9: 6039797 / 335360.
+TEST(RunColumn, SubstepsDivideTheMobility) {
+  const Flow flow = flow_of(19088744);
+  EXPECT_EQ(run_column(kOne, 1, 0, 0, flow, 4).mobility, 18641);
+  EXPECT_EQ(run_column(kOne, 1, 0, 0, flow, 1024).mobility, 73);
+  EXPECT_EQ(needed_substeps(9 * kOne, 9, 0, flow), 19);
+  EXPECT_TRUE(run_column(9 * kOne, 9, 0, 0, flow, 18).limited);
+  EXPECT_FALSE(run_column(9 * kOne, 9, 0, 0, flow, 19).limited);
+  EXPECT_EQ(needed_substeps(kOne / 2, 1, 0, flow), 1);
+  EXPECT_EQ(needed_substeps(1, 1, 0, flow), 0);
+}
+
+// n sub-steps at a steady flux round as one step: sum of floor(x + R_k) = floor(n x + D), in 1/65536.
+TEST(PairDither, SubstepsRoundAsOneStep) {
+  for (const int n : {1, 2, 3, 7, 16, 1000, 1024})
+    for (const std::uint32_t step : {0u, 1u, 2u, 77u, 65535u})
+      for (int axis = 0; axis < 4; ++axis)
+        for (const std::int64_t x : {0, 1, 40, 65, 20000, 65535, 100000}) {
+          std::int64_t sum = 0;
+          for (int k = 0; k < n; ++k) sum += (x + pair_dither(step, axis, k, n)) >> 16;
+          ASSERT_EQ(sum, (n * x + dither(step, axis, 4)) >> 16) << n << " sub-steps";
+        }
+  // By hand, n = 2, D = 0: 0 and 1/2; the axis 2 begins with its second one.
+  EXPECT_EQ(pair_dither(0, 0, 0, 2), 0);
+  EXPECT_EQ(pair_dither(0, 0, 1, 2), 32768);
+  EXPECT_EQ(pair_dither(0, 2, 0, 2), 49152);  // (1/2 + 1) / 2
+  EXPECT_EQ(pair_dither(0, 2, 1, 2), 16384);
+}
+
+TEST(MixingDither, IsTheStepsInItsFirstSubstep) {
+  EXPECT_EQ(mixing_dither(5, 0), dither(5));
+  EXPECT_EQ(mixing_dither(1, 1), 0);  // 1/2 + 1/2
+  EXPECT_EQ(mixing_dither(0, 3), 49152);
 }
 
 TEST(RunColumn, YieldMakesADeadZone) {
-  const Flow flow = flow_of(4660, 655);                        // 0.01
+  const Flow flow = flow_of(19088744, 655);                    // 0.01
   EXPECT_EQ(run_column(kOne, 1, 0, 0, flow).dead, 3);          // 655 / 256 = 2.56
   EXPECT_EQ(run_column(kOne / 4, 1, 0, 0, flow).dead, 10);     // 655 / 64 = 10.2
   EXPECT_EQ(run_column(100 * kOne, 100, 0, 0, flow).dead, 1);  // at least one unit
   EXPECT_EQ(run_column(1, 1, 0, 0, flow).dead, 655);
 }
 
+// Mobility in 1/65536.
 Column run_at(std::int32_t head, std::int32_t mobility, std::int32_t dead = 1) {
-  return {head, mobility, mobility, dead, true};
+  return {head, mobility << 8, mobility << 8, dead, true, kNoBed, 13107};
 }
 
 TEST(ViscousFlow, StaysWithinGiverAndTaker) {
@@ -108,7 +162,8 @@ TEST(ViscousFlow, StaysWithinGiverAndTaker) {
                 taker.in_run = in_run;
                 const std::int32_t f = viscous_flow(run_at(1000 + drop, mobility), a, taker, b, diagonal, r);
                 const std::int32_t room = (in_run ? kAmountMax : kOne) - b;
-                ASSERT_TRUE(f >= 0 && 8 * f <= a && 8 * f <= std::max(0, room));
+                const std::int32_t times = diagonal ? 20 : 5;  // 4/5 + 4/20 = 1
+                ASSERT_TRUE(f >= 0 && times * f <= a && times * f <= std::max(0, room));
                 if (drop <= 1) {
                   ASSERT_EQ(f, 0);
                 }
@@ -146,6 +201,19 @@ TEST(ViscousFlow, Value) {
 }
 
 // Axes 1 / (1 + 2 s^2): 2/3 at 1/2, 1/3 at 1. Diagonals 1 / (1 + s^2 + s^4)^2: (16/21)^2 and 1/9.
+// Beside a run, or above one, at most twice the giver's limit: 200/65536 of 4096 over two. A bare flank has
+// its own bound.
+TEST(ViscousFlow, ADeepGiverHoldsBack) {
+  Column giver = run_at(256, 100);
+  giver.limit = 100;
+  giver.exposed = 1000 << 8;
+  EXPECT_EQ(viscous_flow(giver, 4096, run_at(0, 3000), 4096, false, 0), 6);              // 6.25
+  EXPECT_EQ(viscous_flow(giver, 4096, run_at(0, 50), 4096, false, 0), 4);                // 150: 4.69
+  EXPECT_EQ(viscous_flow(giver, 4096, top_column(run_at(0, 3000)), 0, false, 0), 6);     // 6.25
+  EXPECT_EQ(viscous_flow(giver, 4096, bed_column(0), 0, false, 0), 31);                  // 1000: 31.25
+  EXPECT_EQ(viscous_flow(run_at(256, 3000), 4096, run_at(0, 100), 4096, false, 0), 96);  // 3100: 96.9
+}
+
 TEST(SlopeFactor, Value) {
   for (const bool diagonal : {false, true}) {
     EXPECT_EQ(slope_factor(40, 40, diagonal), 16384);
@@ -206,17 +274,17 @@ TEST(ViscousFlow, BetweenLevelBedsIsAPlainProduct) {
   for (int trial = 0; trial < 20000; ++trial) {
     const auto below = [&](std::uint64_t n) { return static_cast<std::int32_t>(random() % n); };
     const std::int32_t drop = 2 + below(400), mobility = below(8193), a = 1 + below(65535), r = below(65536);
-    const std::int64_t c = std::min<std::int64_t>(65535, (std::int64_t{2} * mobility * a) >> 12);
-    const std::int64_t axis = (c * std::min(drop, 256) + (r >> 3)) >> 13;
-    const std::int64_t diagonal = (c * std::min(drop, 362) + (r >> 1)) >> 15;
+    const std::int64_t c = std::min<std::int64_t>((1 << 24) - 1, (std::int64_t{512} * mobility * a) >> 12);
+    const std::int64_t axis = (c * std::min(drop, 256) + (r << 5)) >> 21;
+    const std::int64_t diagonal = (c * std::min(drop, 362) + (r << 7)) >> 23, fifth = a * 13107 >> 16;
     const Column giver = run_on(7, run_at(drop, mobility)), taker = run_on(7, run_at(0, mobility));
-    ASSERT_EQ(viscous_flow(giver, a, taker, 0, false, r), std::min<std::int64_t>(axis, a >> 3));
-    ASSERT_EQ(viscous_flow(giver, a, taker, 0, true, r), std::min<std::int64_t>(diagonal, a >> 3));
+    ASSERT_EQ(viscous_flow(giver, a, taker, 0, false, r), std::min(axis, fifth));
+    ASSERT_EQ(viscous_flow(giver, a, taker, 0, true, r), std::min(diagonal, fifth >> 2));
   }
 }
 
 TEST(Bed, IsShownInSixteenths) {
-  const Flow flow = flow_of(4660);
+  const Flow flow = flow_of(19088744);
   EXPECT_EQ(run_column(3 * kOne, 3, bed_head(5, kBedHalf), 0, flow).bed, 80);
   EXPECT_EQ(run_column(3 * kOne, 3, bed_head(5, 4095), 0, flow).bed, 87);  // 80 + 7.99
   EXPECT_EQ(bed_column(bed_head(5, 0)).bed, 72);
@@ -236,7 +304,8 @@ TEST(ViscousFlow, OnlyRunsGive) {
   EXPECT_EQ(viscous_flow(bed_column(1000), 4096, run_at(0, 8192), 0, false, 65535), 0);
   EXPECT_EQ(viscous_flow(top_column(run_at(1000, 8192)), 4096, run_at(0, 8192), 0, false, 65535), 0);
   EXPECT_EQ(top_column(run_at(700, 77)).head, 700);
-  EXPECT_EQ(top_column(run_at(700, 77)).mobility, 77);
+  EXPECT_EQ(top_column(run_at(700, 77)).mobility, 77 << 8);
+  EXPECT_EQ(top_column(run_at(700, 77)).limit, 13107);
   EXPECT_EQ(air_column(3).head, 256);
 }
 

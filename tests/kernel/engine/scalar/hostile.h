@@ -79,9 +79,11 @@ inline Parameters hostile_parameters(Random& random, rule::Law law, Grid g) {
   hostile_heat_parameters(random, g, p);
   p.flow.law = law;
   if (law == rule::Law::paper) hostile_paper_law(random, p.flow.paper);
-  p.flow.viscous = {static_cast<std::uint32_t>(random.any({0, 4660, (1 << 24) - 1})),
+  p.flow.viscous = {random.any<std::uint64_t>({0, 19088744, 19088744000, (std::uint64_t{1} << 36) - 1}),
                     static_cast<std::uint32_t>(random.any({0, 131, (1 << 24) - 1})),
-                    static_cast<std::uint8_t>(random.between(1, 8))};
+                    static_cast<std::uint8_t>(random.between(1, 8)),
+                    static_cast<std::uint16_t>(random.any({1, 1, 2, 3, 0})),
+                    static_cast<std::uint16_t>(random.any({1, 2, 5}))};
   p.flow.fall.factor = static_cast<std::uint32_t>(random.any({0, 30000, 65536}));
   p.flow.fall.wall_factor = static_cast<std::uint32_t>(random.any({0, 8192, 65536}));
   p.flow.fall.minimum = static_cast<rule::Amount>(random.any({0, 32, 65535}));

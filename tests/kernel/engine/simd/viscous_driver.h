@@ -11,9 +11,10 @@
 #include <memory>
 #include <vector>
 
-#include "kernel/automaton/rule/fixed_point.h"
+#include "kernel/engine/parallel/job.h"
 #include "kernel/engine/parallel/walls.h"
 #include "kernel/engine/scalar/reference.h"
+#include "kernel/engine/scalar/substeps.h"
 #include "kernel/engine/simd/kernels.h"
 
 namespace voxmelt::simd {
@@ -34,6 +35,7 @@ class ViscousDriver {
         rest_(parameters, grid),
         planes_{state::BitPlane(grid), state::BitPlane(grid)},
         deep_(static_cast<std::size_t>(grid.y * grid.z)),
+        limits_(static_cast<std::size_t>((grid.x + 63) / 64 * grid.z)),
         rows_(((grid.y - 1) >> way.tile_shift) + 1),
         for_settle_(tiles(grid)),
         for_exchange_(tiles(grid)),
@@ -41,7 +43,8 @@ class ViscousDriver {
         restless_(tiles(grid, 0)) {
     for (auto& field : fields_) field = state::Field<std::uint16_t>(grid);
     runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(), fields_[4].data(),
-             fields_[5].data(), fields_[6].data(), planes_[0].data(), planes_[1].data(), deep_.data()};
+             fields_[5].data(), fields_[6].data(), fields_[7].data(), fields_[8].data(), planes_[0].data(),
+             planes_[1].data(), deep_.data(),      limits_.data()};
     for (SliceCurrents& c : currents_) {
       for (auto& field : c.fields) field = state::Field<std::uint16_t>(state::Grid{grid.x, grid.y, 1});
       c.giving.assign(static_cast<std::size_t>(grid.y), 0);
@@ -53,11 +56,12 @@ class ViscousDriver {
     scratch_.reset(std::aligned_alloc(64, bytes));
   }
 
-  void run(step::Phase phase, std::uint32_t number, state::Volume& volume, state::Ledger& ledger) {
+  void run(step::Phase phase, step::Moment moment, state::Volume& volume, state::Ledger& ledger) {
+    const std::uint32_t number = moment.step;
     View view = view_of(volume);
     const parallel::Walls walls(view);
     view.walls = walls.origin(view);
-    const Step step{&parameters_, number, static_cast<std::uint32_t>(rule::dither(number)), nullptr, nullptr};
+    const Step step = parallel::step_of(parameters_, phase, moment, nullptr, nullptr);
     Books books;
     awake_ = 0;
     if (phase == step::Phase::excess)
@@ -145,6 +149,8 @@ class ViscousDriver {
     const Tiles truly = differing(before, volume);
     for (std::size_t i = 0; i < truly.size(); ++i) told_ = told_ && (truly[i] & ~changed[i]) == 0;
     note(changed);
+    limit_.add(books.limit);
+    books.limit = limit_;
   }
 
   void spread(const View& view, const Step& step, Books& books) {
@@ -208,9 +214,11 @@ class ViscousDriver {
   Kernels kernels_;
   Way way_;
   scalar::Reference rest_;
-  std::array<state::Field<std::uint16_t>, 7> fields_;
+  std::array<state::Field<std::uint16_t>, 9> fields_;
   std::array<state::BitPlane, 2> planes_;
   std::vector<TileRow> deep_;
+  std::vector<state::LimitCounts<std::int64_t>> limits_;
+  state::LimitCounts<std::int64_t> limit_;
   Runs runs_;
   std::array<SliceCurrents, 4> currents_;  // a ring of two, at the cut, beyond the grid
   std::unique_ptr<void, Free> scratch_;

@@ -64,12 +64,13 @@ bool same(const Parameters& parameters, const Volume& start, const std::vector<W
   std::vector<Other> others;
   for (const Way& way : ways) others.push_back({ViscousDriver(parameters, start.grid, way), start, books});
 
-  for (std::uint32_t step = 0; step < steps; ++step)
-    for (const step::Phase phase : step::phase_order(rule::Law::viscous)) {
-      reference.run(phase, step, nullptr, expected, books);
+  for (std::uint32_t step = 0; step < steps; ++step) {
+    step::Moment moment(step, 0, scalar::count_substeps(parameters, expected));
+    for (const step::Phase phase : step::phase_order(rule::Law::viscous, moment.substeps)) {
+      reference.run(phase, moment, nullptr, expected, books);
       for (std::size_t i = 0; i < ways.size(); ++i) {
         Other& other = others[i];
-        other.driver.run(phase, step, other.volume, other.books);
+        other.driver.run(phase, moment, other.volume, other.books);
         after(i, phase, step, other.driver);
         std::string found = difference(expected, other.volume);
         if (found.empty() && books.heat.rounded != other.books.heat.rounded)
@@ -77,14 +78,18 @@ bool same(const Parameters& parameters, const Volume& start, const std::vector<W
                   digits(other.books.heat.rounded);
         if (found.empty() && !other.driver.told()) found = "a change in a tile that settle did not name";
         if (found.empty() && books.heat.expected() != other.books.heat.expected()) found = "other books";
+        if (found.empty() && books.limit != other.books.limit) found = "other counts of the limit";
         if (found.empty()) continue;
         ADD_FAILURE() << "set " << static_cast<int>(ways[i].set) << ", sleep " << ways[i].sleep
                       << ", tile_shift " << ways[i].tile_shift << ", cut " << ways[i].cut << ", grid "
                       << start.grid.x << " " << start.grid.y << " " << start.grid.z << ", step " << step
-                      << ", phase " << step::kPhaseNames[static_cast<std::size_t>(phase)] << ": " << found;
+                      << ", sub-step " << moment.substep << " of " << moment.substeps << ", phase "
+                      << step::kPhaseNames[static_cast<std::size_t>(phase)] << ": " << found;
         return false;
       }
+      if (phase == step::Phase::spread) ++moment.substep;
     }
+  }
   return true;
 }
 bool same(const Parameters& parameters, const Volume& start, const std::vector<Way>& ways,
@@ -102,7 +107,7 @@ std::vector<Way> ways_for(Random& random, Grid grid, bool sleep) {
 Parameters hostile_viscous(Random& random, Grid grid) {
   Parameters p = worlds::hostile_parameters(random, rule::Law::viscous, grid);
   p.heat.radiation = false;
-  if (random.one_in(2)) p.flow.viscous.mobility = static_cast<std::uint32_t>(random.below(30000));
+  if (random.one_in(2)) p.flow.viscous.mobility = static_cast<std::uint64_t>(random.below(30000 * 4096));
   if (random.one_in(2)) p.flow.viscous.yield = static_cast<std::uint32_t>(random.below(1 << 22));
   return p;
 }
@@ -208,7 +213,7 @@ TEST(ViscousKernels, MaySleepOnHostileStates) {
     const Grid grid{random.any({3, 64, 65, 130, 200}), random.between(2, 20), random.between(1, 6)};
     Parameters p = hostile_viscous(random, grid);
     if (random.one_in(2)) p.heat.enabled = false;
-    if (random.one_in(2)) p.flow.viscous.mobility = static_cast<std::uint32_t>(random.below(200));
+    if (random.one_in(2)) p.flow.viscous.mobility = static_cast<std::uint64_t>(random.below(200 * 4096));
     Volume start = worlds::hostile_volume(random, p, grid);
     if (round % 2 == 1) worlds::thin_out(random, start);
     ASSERT_TRUE(same(p, start, ways_for(random, grid, true), 40)) << "round " << round;

@@ -162,6 +162,8 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
                           "mobility",
                           "yield",
                           "stiffness",
+                          "substeps",
+                          "substeps_max",
                           "thermal_viscosity",
                           "mobility_table"})
     EXPECT_TRUE(names(json, key)) << key;

@@ -1,0 +1,12 @@
+// How many sub-steps the next step of the viscous law has (docs/automaton.md, section 10).
+#pragma once
+
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/volume.h"
+
+namespace voxmelt::scalar {
+
+// Where a scene asks for as many as the state needs: the most that one of its runs needs.
+int count_substeps(const rule::Parameters& parameters, const state::Volume& volume);
+
+}  // namespace voxmelt::scalar
