@@ -74,10 +74,9 @@ void print_line(const State& state, Int done) {
     solid += cell.solid;
     liquid += cell.liquid;
   }
-  std::printf("step %lld digest %016llx mass %lld solid %lld liquid %lld\n",
-              static_cast<long long>(done), static_cast<unsigned long long>(digest(state)),
-              static_cast<long long>(mass_held(state)), static_cast<long long>(solid),
-              static_cast<long long>(liquid));
+  std::printf("step %lld digest %016llx mass %lld solid %lld liquid %lld\n", static_cast<long long>(done),
+              static_cast<unsigned long long>(digest(state)), static_cast<long long>(mass_held(state)),
+              static_cast<long long>(solid), static_cast<long long>(liquid));
   std::fflush(stdout);
 }
 

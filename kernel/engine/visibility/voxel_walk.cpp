@@ -48,7 +48,7 @@ int seeing(const state::Volume& volume, Cell cell, std::size_t axis, Cell beyond
   return count;
 }
 
-// The sum of |delta_a| over the rays that see the source.
+// The sum, over the rays that see the source, of delta along the axis of their face (its magnitude).
 std::int64_t facing(const state::Volume& volume, Cell cell, const std::array<std::int64_t, 3>& delta,
                     int side, rule::Position source) {
   std::int64_t sum = 0;
