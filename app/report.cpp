@@ -103,9 +103,10 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
 std::string limit_text(const state::LimitCounts<state::Sum>& limit) {
   if (limit.limited_mass * 20 <= limit.mass) return {};
   const double share = static_cast<double>(limit.limited_mass) / static_cast<double>(limit.mass);
-  return fmt::format("{:.0f} % of the liquid flows more slowly than its viscosity asks; flow.viscous.substeps "
-                     "mends that",
-                     100 * share);
+  return fmt::format(
+      "{:.0f} % of the liquid flows more slowly than its viscosity asks; flow.viscous.substeps "
+      "mends that",
+      100 * share);
 }
 
 std::string drift_text(const state::Drift& drift) {

@@ -3,7 +3,6 @@
 // sleeping.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 

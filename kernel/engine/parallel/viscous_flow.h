@@ -8,6 +8,7 @@
 //   fall      it, or a tile beside it, changed since the last fall
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "kernel/engine/parallel/chunks.h"
