@@ -119,9 +119,8 @@ struct HeatFlux {
 // is given, not changed by others. Fields and masks are laid out as in View; all zero is a grid of air.
 struct Runs {
   std::uint16_t* head = nullptr;      // 512 + head above the cell's own bottom, 1/256 cell, cut at 65535
-  std::uint16_t* mobility = nullptr;  // 1/65536
-  std::uint16_t* exposed = nullptr;   // 1/65536, cells in a run only
-  std::uint16_t* fine = nullptr;      // eight bits more of mobility (low byte) and exposed (high byte)
+  std::uint16_t* mobility = nullptr;  // 1/65536, not limited yet, but cut above every limit
+  std::uint16_t* fine = nullptr;      // its 256ths, in the upper byte
   std::uint16_t* limit = nullptr;     // 1/65536, not 0 where mobility is shown
   std::uint16_t* dead = nullptr;      // cut at 65535, which a cell outside a run on a bed or a run has
   std::uint16_t* bed = nullptr;       // 1 + the bed above the grid's bottom, 1/16 cell

@@ -42,9 +42,9 @@ class ViscousDriver {
         for_fall_(tiles(grid)),
         restless_(tiles(grid, 0)) {
     for (auto& field : fields_) field = state::Field<std::uint16_t>(grid);
-    runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(), fields_[4].data(),
-             fields_[5].data(), fields_[6].data(), fields_[7].data(), fields_[8].data(), planes_[0].data(),
-             planes_[1].data(), deep_.data(),      limits_.data()};
+    runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(),
+             fields_[4].data(), fields_[5].data(), fields_[6].data(), fields_[7].data(),
+             planes_[0].data(), planes_[1].data(), deep_.data(),      limits_.data()};
     for (SliceCurrents& c : currents_) {
       for (auto& field : c.fields) field = state::Field<std::uint16_t>(state::Grid{grid.x, grid.y, 1});
       c.giving.assign(static_cast<std::size_t>(grid.y), 0);
@@ -205,7 +205,7 @@ class ViscousDriver {
   Kernels kernels_;
   Way way_;
   scalar::Reference rest_;
-  std::array<state::Field<std::uint16_t>, 9> fields_;
+  std::array<state::Field<std::uint16_t>, 8> fields_;
   std::array<state::BitPlane, 2> planes_;
   std::vector<TileRow> deep_;
   std::vector<state::LimitCounts<std::int64_t>> limits_;
