@@ -182,8 +182,8 @@ struct Kernels {
   void (*melt)(const View&, const Step&, int z, const TileRow* tiles, TileRow* changed, Books&) = nullptr;
 
   // Viscous law, phase `excess`: settles the columns of slice z that have a tile in `tiles`, which must hold
-  // all that has changed since the last call. `changed`: where the state, or what a cell shows, is not what
-  // it was.
+  // all that has changed since the last call: everything, if the number of sub-steps has. `changed`: where
+  // the state, or what a cell shows, is not what it was.
   void (*settle)(const View&, const Step&, int z, const TileRow* tiles, Runs&, void* scratch,
                  TileRow* changed, Books&) = nullptr;
   // Viscous law, phase `spread`, first half: what the pairs of the tiles of slice z exchange, among

@@ -138,6 +138,8 @@ class ViscousDriver {
   }
 
   void settle(const View& view, const Step& step, Books& books) {
+    if (step.substeps != substeps_) std::fill(for_settle_.begin(), for_settle_.end(), ~TileRow{0});
+    substeps_ = step.substeps;
     const Tiles work = take(for_settle_, view, false, false);
     count(work);
     Tiles changed(work.size());
@@ -214,6 +216,7 @@ class ViscousDriver {
   std::array<SliceCurrents, 4> currents_;  // a ring of two, at the cut, beyond the grid
   std::unique_ptr<void, Free> scratch_;
   int rows_, awake_ = 0;
+  std::uint32_t substeps_ = 0;  // of the last settle
   Tiles for_settle_, for_exchange_, for_fall_, restless_;
 };
 

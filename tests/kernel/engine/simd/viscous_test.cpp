@@ -231,28 +231,30 @@ TEST(ViscousKernels, MaySleepInCalmScenes) {
   }
 }
 
-// A dam breaks: the number of sub-steps falls with its depth, and then all runs show other mobilities, also
-// where everything slept.
+// Dams break beside pools at rest: the number of sub-steps falls with their depth, and then all runs show
+// other mobilities, also where everything slept.
 TEST(ViscousKernels, MaySleepWhileTheSubstepsChange) {
-  const Grid grid{130, 8, 5};
-  Parameters p = worlds::viscous(0.3, 0.5);
-  p.flow.viscous.substeps = 0;
-  p.flow.viscous.substeps_max = 6;
-  Volume start(grid);
-  worlds::fill(start, {0, 0, 0, 12, 7, 5}, 4096);
-  worlds::fill(start, {70, 0, 0, 130, 2, 5}, 4096);  // a pool at rest
-  EXPECT_EQ(scalar::count_substeps(p, 0, start), 6);
+  const Grid grid{130, 9, 4};
   Random random(8);
-  std::vector<int> counted(3);
-  const auto count = [&](std::size_t way, step::Phase phase, std::uint32_t step, ViscousDriver& driver) {
-    if (way == 0 && phase == step::Phase::spread && step % 60 == 0) ++counted[step / 60];
-    if (step > 0 && phase == step::Phase::gravity) EXPECT_LT(driver.awake(), 3 * 8 * 5);
-  };
-  std::vector<Way> ways = ways_for(random, grid, true);
-  for (Way& way : ways) way.tile_shift = 0;
-  ASSERT_TRUE(same(p, start, ways, 121, count));
-  EXPECT_EQ(counted[0], 6);
-  EXPECT_LT(counted[2], 6) << "as many as at first: nothing was tried";
+  int fewer = 0;
+  for (int round = 0; round < 8; ++round) {
+    Parameters p = worlds::viscous(random.any({0.1, 0.3, 1.0}), 0.02);
+    p.flow.viscous.substeps = 0;
+    p.flow.viscous.substeps_max = 24;
+    Volume start(grid);
+    worlds::fill(start, {0, 0, 0, 130, random.between(1, 3), 4}, 4096);
+    const int dam = random.between(20, 50);
+    worlds::fill(start, {dam, 0, 0, dam + random.between(4, 12), random.between(6, 9), 4}, 4096);
+    std::vector<int> counted(81);
+    const auto count = [&](std::size_t way, step::Phase phase, std::uint32_t step, ViscousDriver&) {
+      if (way == 0 && phase == step::Phase::spread) ++counted[step];
+    };
+    std::vector<Way> ways = ways_for(random, grid, true);
+    for (Way& way : ways) way.tile_shift = 0;
+    ASSERT_TRUE(same(p, start, ways, 81, count)) << "round " << round;
+    fewer += counted[80] < counted[0];
+  }
+  EXPECT_GT(fewer, 3) << "as many as at first: nothing was tried";
 }
 
 // A string of full cells that hangs by its lowest one: when what that one touches melts, all of them follow
