@@ -19,14 +19,14 @@ class RunMemory {
         deep_(static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(grid.z)),
         limits_((static_cast<std::size_t>(grid.x) + 63) / 64 * static_cast<std::size_t>(grid.z)) {
     for (auto& field : fields_) field = state::Field<std::uint16_t>(grid);
-    runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(), fields_[4].data(),
-             fields_[5].data(), fields_[6].data(), fields_[7].data(), fields_[8].data(), planes_[0].data(),
-             planes_[1].data(), deep_.data(),      limits_.data()};
+    runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(),
+             fields_[4].data(), fields_[5].data(), fields_[6].data(), fields_[7].data(),
+             planes_[0].data(), planes_[1].data(), deep_.data(),      limits_.data()};
   }
   simd::Runs& runs() { return runs_; }
 
  private:
-  std::array<state::Field<std::uint16_t>, 9> fields_;
+  std::array<state::Field<std::uint16_t>, 8> fields_;
   std::array<state::BitPlane, 2> planes_;
   std::vector<simd::TileRow> deep_;
   std::vector<state::LimitCounts<std::int64_t>> limits_;

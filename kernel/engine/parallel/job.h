@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "kernel/automaton/rule/parameters.h"
 #include "kernel/automaton/step/stepper.h"
 #include "kernel/engine/cpu/workers.h"
 #include "kernel/engine/parallel/tiles.h"

@@ -118,9 +118,8 @@ struct HeatFlux {
 // is given, not changed by others. Fields and masks are laid out as in View; all zero is a grid of air.
 struct Runs {
   std::uint16_t* head = nullptr;      // 512 + head above the cell's own bottom, 1/256 cell, cut at 65535
-  std::uint16_t* mobility = nullptr;  // 1/65536
-  std::uint16_t* exposed = nullptr;   // 1/65536, cells in a run only
-  std::uint16_t* fine = nullptr;      // eight bits more of mobility (low byte) and exposed (high byte)
+  std::uint16_t* mobility = nullptr;  // 1/65536, not limited yet, but cut above every limit
+  std::uint16_t* fine = nullptr;      // its 256ths, in the upper byte
   std::uint16_t* limit = nullptr;     // 1/65536, not 0 where mobility is shown
   std::uint16_t* dead = nullptr;      // cut at 65535, which a cell outside a run on a bed or a run has
   std::uint16_t* bed = nullptr;       // 1 + the bed above the grid's bottom, 1/16 cell
@@ -182,8 +181,8 @@ struct Kernels {
   void (*melt)(const View&, const Step&, int z, const TileRow* tiles, TileRow* changed, Books&) = nullptr;
 
   // Viscous law, phase `excess`: settles the columns of slice z that have a tile in `tiles`, which must hold
-  // all that has changed since the last call. `changed`: where the state, or what a cell shows, is not what
-  // it was.
+  // all that has changed since the last call: everything, if the number of sub-steps has. `changed`: where
+  // the state, or what a cell shows, is not what it was.
   void (*settle)(const View&, const Step&, int z, const TileRow* tiles, Runs&, void* scratch,
                  TileRow* changed, Books&) = nullptr;
   // Viscous law, phase `spread`, first half: what the pairs of the tiles of slice z exchange, among

@@ -28,7 +28,7 @@ struct alignas(64) SettledRuns {
   std::uint16_t pivot[64];  // 1 + its height
   std::uint16_t at[64], above[64];
   std::uint16_t head_low[64], head_high[64];  // 512 + head above the grid's bottom
-  std::uint16_t mobility[64], exposed[64], dead[64];
+  std::uint16_t mobility[64], dead[64];
   std::uint16_t heat[64];  // of runs that do not keep their order
   std::uint64_t ordered;
   std::uint16_t fine[64], limit[64], shown_bed[64];  // as in Runs
@@ -89,7 +89,6 @@ class RunData {
     keep(now.head_low, settled.head_low);
     keep(now.head_high, settled.head_high);
     keep(now.mobility, settled.mobility);
-    keep(now.exposed, settled.exposed);
     keep(now.dead, settled.dead);
     keep(now.fine, settled.fine);
     keep(now.limit, settled.limit);
@@ -178,12 +177,10 @@ class RunData {
       const int whole = static_cast<int>(13107.f / static_cast<float>((mass[i] >> 12) + 1));
       const int stiff = static_cast<int>(static_cast<float>(whole) / static_cast<float>(stiffness));
       const int limit = over[i] > 0 ? stiff : whole, most = limit < 1 ? 1 : limit;
-      const int own = mobility[i] < 256 * most ? mobility[i] : 256 * most;
-      const int exposed = mobility[i] < 1 << 21 ? mobility[i] : 1 << 21;
+      const int shown = mobility[i] < (1 << 22) - 1 ? mobility[i] : (1 << 22) - 1;
       now.limit[i] = static_cast<std::uint16_t>(most);
-      now.mobility[i] = static_cast<std::uint16_t>(own >> 8);
-      now.exposed[i] = static_cast<std::uint16_t>(exposed >> 8);
-      now.fine[i] = static_cast<std::uint16_t>((own & 0xFF) | (exposed & 0xFF) << 8);
+      now.mobility[i] = static_cast<std::uint16_t>(shown >> 8);
+      now.fine[i] = static_cast<std::uint16_t>((shown & 0xFF) << 8);
 
       const int one = counts[i], limited = mobility[i] > 256 * most ? one : 0;
       const int held = over[i] > 0 ? runs.last[i] - runs.first[i] + 1 : ((mass[i] - 1) >> 12) + 1;

@@ -281,18 +281,16 @@ class Settle {
     head = {head.low - W(256 * y), head.high - W(256 * y)};
     const V cut = L::keep(in_run, L::narrow(head));
     const V old_head = L::load(r_.head + at), new_head = L::select(in_run, cut, old_head);
-    const V old_mobility = L::load(r_.mobility + at), old_exposed = L::load(r_.exposed + at),
-            old_dead = L::load(r_.dead + at), old_bed = L::load(r_.bed + at);
+    const V old_mobility = L::load(r_.mobility + at), old_dead = L::load(r_.dead + at),
+            old_bed = L::load(r_.bed + at);
     const V mobility = L::select(in_run, L::load(settled.mobility + lane), old_mobility);
-    const V exposed = L::select(in_run, L::load(settled.exposed + lane), old_exposed);
     const V dead = L::select(in_run, L::load(settled.dead + lane), old_dead);
     const V bed = L::select(in_run, L::load(settled.shown_bed + lane), old_bed);
     const V old_fine = L::load(r_.fine + at), old_limit = L::load(r_.limit + at);
     const V fine = L::select(in_run, L::load(settled.fine + lane), old_fine);
     const V limit = L::select(in_run, L::load(settled.limit + lane), old_limit);
-    V difference = (old ^ amount) | (old_head ^ new_head) | (old_mobility ^ mobility) |
-                   (old_exposed ^ exposed) | (old_dead ^ dead) | (old_bed ^ bed) | (old_fine ^ fine) |
-                   (old_limit ^ limit);
+    V difference = (old ^ amount) | (old_head ^ new_head) | (old_mobility ^ mobility) | (old_dead ^ dead) |
+                   (old_bed ^ bed) | (old_fine ^ fine) | (old_limit ^ limit);
     if constexpr (kFeatures.hot) {
       // Where no amount changes and nothing comes from above, no heat changes in runs that keep their order.
       const std::uint64_t ordered = taken & settled.ordered, mixed = taken & ~settled.ordered;
@@ -315,7 +313,6 @@ class Settle {
       L::store(v_.amount + at, amount);
       L::store(r_.head + at, new_head);
       L::store(r_.mobility + at, mobility);
-      L::store(r_.exposed + at, exposed);
       L::store(r_.dead + at, dead);
       L::store(r_.bed + at, bed);
       L::store(r_.fine + at, fine);

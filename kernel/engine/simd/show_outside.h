@@ -54,7 +54,7 @@ class ShowOutside {
           head = L::select(tops, below, head);
           bed = L::select(tops, L::load(r_.bed + at - v_.row), bed);
           mobility = L::keep(tops, L::load(r_.mobility + at - v_.row));
-          fine = L::keep(tops, L::load(r_.fine + at - v_.row) & L::set(0xFF));
+          fine = L::keep(tops, L::load(r_.fine + at - v_.row));
           limit = L::keep(tops, L::load(r_.limit + at - v_.row));
         }
         const V dead = L::keep(L::from_bits(on_run | on_bed, part), L::set(0xFFFF));

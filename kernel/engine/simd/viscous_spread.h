@@ -109,7 +109,7 @@ class ExchangePairs {
   }
 
   struct Cell {
-    V head, amount, dead, mobility, exposed, fine, limit, bed;
+    V head, amount, dead, mobility, fine, limit, bed;
   };
 
   [[gnu::always_inline]] void vectors(int w, int y, int part, const Masks& m, bool deep, bool gave,
@@ -117,9 +117,9 @@ class ExchangePairs {
     const auto lane = static_cast<std::ptrdiff_t>(64 * w + part * L::kCount);
     const auto at = static_cast<std::ptrdiff_t>(v_.cell(0, y, z_)) + lane;
     const std::ptrdiff_t to = y * static_cast<std::ptrdiff_t>(v_.row) + lane;
-    const Cell own{L::load(r_.head + at),     L::load(v_.amount + at),  L::load(r_.dead + at),
-                   L::load(r_.mobility + at), L::load(r_.exposed + at), L::load(r_.fine + at),
-                   L::load(r_.limit + at),    L::load(r_.bed + at)};
+    const Cell own{L::load(r_.head + at),     L::load(v_.amount + at), L::load(r_.dead + at),
+                   L::load(r_.mobility + at), L::load(r_.fine + at),   L::load(r_.limit + at),
+                   L::load(r_.bed + at)};
     V flow[4], all = L::zero();
     for (int axis = 0; axis < 4; ++axis) {
       flow[axis] = axis < 2 ? pair<false>(own, at, axis, part, m, deep, may_flow)
@@ -183,17 +183,21 @@ class ExchangePairs {
     V coarse, fine;
   };
 
+  // Limited by depth towards a run, and towards a bare flank by 1/8.
+  [[gnu::always_inline]] static Mobility limited(V coarse, V fine, M to_run, V limit) {
+    const V most = L::select(to_run, limit, L::set(8192));
+    return {L::min(coarse, most), L::keep(L::less(coarse, most), fine)};
+  }
+
   // Of both cells of a pair.
   [[gnu::always_inline]] Mobility mobilities(const Cell& own, std::ptrdiff_t there, M gives, M here_runs,
                                              M there_runs) const {
-    const V other = L::load_any(r_.fine + there), top = L::set(0xFF00);
-    const V fine = L::select(there_runs, L::template shift_left<8>(own.fine), own.fine & top);
-    const V all = fine + L::select(here_runs, L::template shift_left<8>(other), other & top);
-    const V coarse = L::select(there_runs, own.mobility, own.exposed) +
-                     L::select(here_runs, L::load_any(r_.mobility + there), L::load_any(r_.exposed + there));
-    const V carried = L::add_if(L::less(all, fine), coarse, L::set(1));
-    // Where the taker is, or stands on, a run: at most twice the giver's limit.
     const V limit = L::load_any(r_.limit + there);
+    const Mobility a = limited(own.mobility, own.fine, there_runs, own.limit);
+    const Mobility b =
+        limited(L::load_any(r_.mobility + there), L::load_any(r_.fine + there), here_runs, limit);
+    const V all = a.fine + b.fine, carried = L::add_if(L::less(all, a.fine), a.coarse + b.coarse, L::set(1));
+    // Where the taker is, or stands on, a run: at most twice the giver's limit.
     const V giver = L::select(gives, own.limit, limit), taker = L::select(gives, limit, own.limit);
     const V most = L::select(L::equal(taker, L::zero()), L::set(0xFFFF), giver + giver);
     return {L::min(carried, most), L::keep(L::less(carried, most), all)};

@@ -42,9 +42,9 @@ class ViscousDriver {
         for_fall_(tiles(grid)),
         restless_(tiles(grid, 0)) {
     for (auto& field : fields_) field = state::Field<std::uint16_t>(grid);
-    runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(), fields_[4].data(),
-             fields_[5].data(), fields_[6].data(), fields_[7].data(), fields_[8].data(), planes_[0].data(),
-             planes_[1].data(), deep_.data(),      limits_.data()};
+    runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(),
+             fields_[4].data(), fields_[5].data(), fields_[6].data(), fields_[7].data(),
+             planes_[0].data(), planes_[1].data(), deep_.data(),      limits_.data()};
     for (SliceCurrents& c : currents_) {
       for (auto& field : c.fields) field = state::Field<std::uint16_t>(state::Grid{grid.x, grid.y, 1});
       c.giving.assign(static_cast<std::size_t>(grid.y), 0);
@@ -140,6 +140,8 @@ class ViscousDriver {
   }
 
   void settle(const View& view, const Step& step, const state::Volume& volume, Books& books) {
+    if (step.substeps != substeps_) std::fill(for_settle_.begin(), for_settle_.end(), ~TileRow{0});
+    substeps_ = step.substeps;
     const state::Volume before = volume;
     const Tiles work = take(for_settle_, view, false, false);
     count(work);
@@ -214,7 +216,7 @@ class ViscousDriver {
   Kernels kernels_;
   Way way_;
   scalar::Reference rest_;
-  std::array<state::Field<std::uint16_t>, 9> fields_;
+  std::array<state::Field<std::uint16_t>, 8> fields_;
   std::array<state::BitPlane, 2> planes_;
   std::vector<TileRow> deep_;
   std::vector<state::LimitCounts<std::int64_t>> limits_;
@@ -224,6 +226,7 @@ class ViscousDriver {
   std::unique_ptr<void, Free> scratch_;
   int rows_, awake_ = 0;
   bool told_ = true;
+  std::uint32_t substeps_ = 0;  // of the last settle
   Tiles for_settle_, for_exchange_, for_fall_, restless_;
 };
 
