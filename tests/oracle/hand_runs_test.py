@@ -77,7 +77,7 @@ CASES = [
     # e_29 = 61441 - 30 ONE = -61439, M = 65537. Only cell 0 is of another heat than what comes down.
     ("a deficit of AMAX - ONE keeps the order",
      *column((2048, 1000), *[(2048, 2000)] * 28, (2049, 2000), (4096, 2000)), VISCOUS, 0,
-     [(4096, 1500)] + [(4096, 2000)] * 15 + [(1, 2000)] + [(0, 0)] * 14),
+     [(4096, 1500)] + [(4096, 2000)] * 15 + [(1, 2000)] + [(0, 0)] * 14, (17, 65537, 17, 65537)),
     # e_29 = -61440: (2048 x 1000 + 63488 x 2000) / 65536 = 1968.75.
     ("one less mixes the run", *column((2048, 1000), *[(2048, 2000)] * 29, (4096, 2000)), VISCOUS, 0,
      [(4096, 1968)] * 16 + [(0, 0)] * 15),
@@ -139,6 +139,13 @@ CASES = [
     ("sub-steps are counted before the vents", [2, 1, 1], [AIR, AIR],
      viscous(1, 'substeps = "auto"') + "vent = [{ at = [0.5, 0.5, 0.5], radius = 0.5, rate = 1 }]\n", 0,
      [(3840, 0), (256, 0)], (1, 4096, 1, 4096)),
+    # raw = 1677722 and the limit is 13107 / 4 / 8 = 409, so n = 17. Then pace = 2807168 and raw = 98690.
+    ("sub-steps under a ceiling", [1, 2, 1], [liquid(8192, 1000), liquid(4096, 4000)],
+     VISCOUS.replace("0.05", '0.05, substeps = "auto"'), 0, [(4096, 2000), (8192, 2000)], (34, 208896, 0, 0)),
+    # mobility_parameter is 954 and raw 16 times that. The limit is 13107 / 1648 / 8 = 0, so 1 counts, and n = 60. Then
+    # pace = 16 and raw = 256.
+    ("a limit is at least 1", [1, 103, 1], [liquid(65535, 7)] * 103, viscous("1e-6", 'substeps = "auto"'), 0,
+     [(65535, 7)] * 103, (6180, 405006300, 0, 0)),
     # kappa 71: mobility_parameter is 67765039559, and raw 16 times that before the table. The limit is 201.
     ("the deepest and the stiffest", [1, 64, 1], [liquid(4096, 0)] * 64, DEEP, 0, [(4096, 0)] * 64, counted_when_deep),
 ]
