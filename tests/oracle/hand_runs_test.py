@@ -142,9 +142,9 @@ CASES = [
     # raw = 1677722 and the limit is 13107 / 4 / 8 = 409, so n = 17. Then pace = 2807168 and raw = 98690.
     ("sub-steps under a ceiling", [1, 2, 1], [liquid(8192, 1000), liquid(4096, 4000)],
      VISCOUS.replace("0.05", '0.05, substeps = "auto"'), 0, [(4096, 2000), (8192, 2000)], (34, 208896, 0, 0)),
-    # mobility_parameter is 954 and raw 16 times that. The limit is 13107 / 1648 / 8 = 0, so 1 counts, and n = 60. Then
-    # pace = 16 and raw = 256.
-    ("a limit is at least 1", [1, 103, 1], [liquid(65535, 7)] * 103, viscous("1e-6", 'substeps = "auto"'), 0,
+    # mobility_parameter is 960 and raw 16 times that. The limit is 13107 / 1648 / 8 = 0, so 1 counts, and n = 60. Then
+    # pace = 16 and raw = 256, which is not above the limit.
+    ("a limit is at least 1", [1, 103, 1], [liquid(65535, 7)] * 103, viscous("1.0058e-6", 'substeps = "auto"'), 0,
      [(65535, 7)] * 103, (6180, 405006300, 0, 0)),
     # kappa 71: mobility_parameter is 67765039559, and raw 16 times that before the table. The limit is 201.
     ("the deepest and the stiffest", [1, 64, 1], [liquid(4096, 0)] * 64, DEEP, 0, [(4096, 0)] * 64, counted_when_deep),
