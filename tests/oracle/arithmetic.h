@@ -39,8 +39,8 @@ constexpr Int bit_reversed(Int s) {
 // D(s, k, n) of section 2; D(s) = D(s, 0, 1).
 constexpr Int dither(Int s, Int k = 0, Int n = 1) { return (bit_reversed(s) + 65536 * k / n) % 65536; }
 
-// Mixing (section 2): the heat of `amount` = sum a_i, with `products` = sum a_i h_i and D = D(s).
-constexpr Int mixed(Int products, Int amount, Int D) { return (products + ((amount * D) >> 16)) / amount; }
+// Mixing (section 2): the heat of `amount` = sum a_i, with `products` = sum a_i h_i.
+constexpr Int mixed(Int products, Int amount, Int B) { return (products + ((amount * B) >> 16)) / amount; }
 
 // The floor of the square root of a, for 0 <= a < 2^62: the greatest number whose square is at most a.
 constexpr Int square_root(Int a) {

@@ -49,15 +49,16 @@ class Fields:
                 for x in range(nx):
                     self.add(self.kind(x, y, z, blocks))
 
-    def add(self, kind):
-        amount = energy = heat = 0
+    def add(self, kind, amount=None):
+        """A cell of this kind; without an amount, a random one."""
+        energy = heat = 0
         if kind == "inert":  # a bed offset
-            amount = self.dice.choice((0, 2048, 4095, self.dice.randint(0, 4095)))
+            amount = self.dice.choice((0, 2047, 2048, 2049, 4095, self.dice.randint(0, 4095)))
         if kind in ("solid", "liquid"):
-            amount, heat = self.one_of(self.amounts, 1, self.most), self.one_of(self.heats, 0, HEAT_MOST)
+            amount, heat = amount or self.one_of(self.amounts, 1, self.most), self.one_of(self.heats, 0, HEAT_MOST)
         if kind == "liquid":
             energy = self.dice.choice((0, 1, amount - 1, amount, self.dice.randint(0, amount)))
-        cell = {"amount": amount, "energy": min(energy, amount), "heat": heat}
+        cell = {"amount": amount or 0, "energy": min(energy, amount or 0), "heat": heat}
         for name, values in self.fields.items():
             values.append(cell.get(name, int(name == kind)))
 

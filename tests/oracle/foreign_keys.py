@@ -86,6 +86,8 @@ KEYS = {
     "flow.viscous.kappa": Key(TINY, 71, 0.01, 5.0, 9 / 2**21, 50),
     "flow.viscous.yield": Key(0, 255, 0.001, 0.1, 1 / 65536),
     "flow.viscous.stiffness": Key(1, 8, 1, 8),
+    "flow.viscous.substeps": Key(1, 1024, 1, 5, 2, 3, 4, 7, 64, 257),  # or "auto"
+    "flow.viscous.substeps_max": Key(1, 1024, 1, 12, 2, 63),
     "flow.thermal.reference": TEMPERATURE,
     "flow.thermal.doubling": Key(0.001, 1, 0.02, 0.5),
     "vent.at": POSITION,

@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # a folder of bytecode here would fail oracle.independence
+from foreign_columns import Columns
 from foreign_fields import HEAT_MOST, Fields
 from foreign_keys import ENDS, KEYS, LAST_STEP, TINY
 
@@ -47,6 +48,8 @@ class Maker:
             return size
         if luck < 0.25:
             return [self.dice.choice((63, 64, 65, 130)), self.dice.randint(1, 8), self.dice.randint(1, 5)]
+        if luck < 0.4:
+            return [self.dice.randint(1, 7), self.dice.choice((17, 33, 40, 70)), self.dice.randint(1, 3)]
         return [self.dice.randint(1, 12) for _ in range(3)]
 
     def at(self, key, around=0):
@@ -112,11 +115,19 @@ class Maker:
         flow = {"law": law, "fall": self.some("flow.fall", "factor", "wall_factor", "minimum", given=0.5)}
         if self.gives("flow.fall.hang", 0.25):
             flow["fall"]["hang"] = self.draw("flow.fall.hang")
-        flow[law] = self.paper() if law == "paper" else {
-            "kappa": self.draw("flow.viscous.kappa"), **self.some("flow.viscous", "yield", "stiffness", given=0.5)}
+        flow[law] = self.paper() if law == "paper" else self.viscous()
         if self.gives("flow.thermal", 0.3):
             flow["thermal"] = {"reference": self.draw("flow.thermal.reference"), "doubling": self.draw("flow.thermal.doubling")}
         return flow
+
+    def viscous(self):
+        viscous = {"kappa": self.draw("flow.viscous.kappa"), **self.some("flow.viscous", "yield", "stiffness", given=0.5)}
+        if self.wanted != "flow.viscous.substeps" and self.gives("flow.viscous.substeps_max", 0.4):
+            viscous["substeps"] = "auto"
+            viscous.update(self.some("flow.viscous", "substeps_max", given=0.8))
+        else:
+            viscous.update(self.some("flow.viscous", "substeps", given=0.6))
+        return viscous
 
     def paper(self):
         paper = self.some("flow.paper", "neighbours", "energy")
@@ -187,7 +198,8 @@ def write_scene(seed, folder):
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "scene.toml").write_text("".join(f"{key} = {toml(value)}\n" for key, value in scene.items()))
     if "start" in scene:
-        Fields(scene, maker.dice).write(folder / "fields")
+        columns = scene["flow"]["law"] == "viscous" and maker.chance(0.5)
+        (Columns if columns else Fields)(scene, maker.dice).write(folder / "fields")
     return scene
 
 

@@ -24,6 +24,7 @@ from foreign_scenes import write_scene
 
 LEDGERS = ("mass", "energy", "heat")
 MANY_CELLS = 1000
+MANY_SUBSTEPS = 20
 MOST_DEAD = 0.2  # share of the scenes in which nothing flows and nothing melts
 LEAST_PAST_2_31 = 5  # scenes that cross step 2^31
 
@@ -96,14 +97,23 @@ def events(scene, steps, digests, report, start, end):
         "law: paper": report["law"] == "paper", "law: viscous": report["law"] == "viscous",
         "crosses step 2^31": first < 2**31 < first + steps, "crosses a multiple of 2^16": first % 2**16 + steps > 2**16,
         "63 cells and more along x": side > 62,
+        "counts its sub-steps": scene["flow"].get("viscous", {}).get("substeps") == "auto",
+        "many sub-steps": most_substeps(scene) > MANY_SUBSTEPS,
         **{f"{name} 65535 at the start": max(field(start, name)) == 65535 for name in ("amount", "energy", "heat")},
         **{f"feature: {name}": True for name in report["features"]}}
+
+
+def most_substeps(scene):
+    viscous = scene["flow"].get("viscous", {})
+    substeps = viscous.get("substeps", 1)
+    return viscous.get("substeps_max", 1024) if substeps == "auto" else substeps
 
 
 def run_scene(voxmelt, oracle, names, seed, folder):
     """(rows of KEYS with the values used, what happened). Raises Differs."""
     scene = write_scene(seed, folder)
-    lengths = (1, 7, 20) if math.prod(scene["grid"]["size"]) <= MANY_CELLS else (1, 7)
+    few = math.prod(scene["grid"]["size"]) <= MANY_CELLS and most_substeps(scene) <= MANY_SUBSTEPS
+    lengths = (1, 7, 20) if few else (1, 7)
     start, end = folder / "start", folder / "end"
     output(voxmelt, "export", folder / "scene.toml", "--steps", 0, "--out", start, "--quiet")
     for steps in lengths:

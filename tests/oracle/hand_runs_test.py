@@ -3,8 +3,9 @@
 
   hand_runs_test.py VOXMELT ORACLE
 
-Nothing conducts here (weights of 0). With kappa = 0.05 mobility_parameter is 11651. So raw is 43, 728, 1124 and 2913
-at depths of 62, 256, 318 and 512. D(0) = 0, D(1) = 32768 and D(6) = 24576.
+Nothing conducts here (weights of 0). With kappa = 0.05 mobility_parameter is 47721859. Then raw is 11110, 186414,
+288546 and 745654 for M = 1000, 4096, 5096 and 8192, and no limit cuts it. With kappa = 1 mobility_parameter is
+954437177. D(0) = 0, D(1) = 32768, D(6) = 24576 and D(13) = 45056.
 """
 import json
 import struct
@@ -17,7 +18,14 @@ FIELDS = {"solid": "B", "liquid": "B", "inert": "B", "amount": "H", "energy": "H
 VISCOUS = 'flow = { law = "viscous", viscous = { kappa = 0.05 } }\nheat = { gamma = 1e-9 }\n'
 # The mobility doubles from each entry of the table to the next.
 THERMAL = VISCOUS.replace(" } }\nheat", " }, thermal = { reference = 0.03125, doubling = 0.03125 } }\nheat")
+# The entry at heat 0 is 1: the mobility is 2^15 times as large at the reference.
+DEEP = 'flow = { law = "viscous", viscous = { kappa = 71, substeps = "auto" }, ' \
+       'thermal = { reference = 1, doubling = 0.0667 } }\nheat = { gamma = 1e-9 }\n'
 AIR, HIGH, LOW, FLAT = ("air", 0, 0), ("inert", 3840, 0), ("inert", 240, 0), ("inert", 2048, 0)
+
+
+def viscous(kappa, more=""):
+    return VISCOUS.replace("0.05", f"{kappa}, {more}" if more else str(kappa))
 
 
 def liquid(amount, heat):
@@ -30,12 +38,24 @@ def column(*cells, air=0):
 
 # The table at the mean heat of 2047 is that of entry 0: this is what the flank of the last case gets per cell.
 def thermal_flank(parameters):
-    raw = (2913 * parameters["flow"]["mobility_table"][0]) >> 15
-    w = (raw * 8192 + 4 * 32768) >> 18  # D(1, 0, 4) = 32768
+    raw = (745654 * parameters["flow"]["mobility_table"][0]) >> 15
+    w = (raw * 8192 + 1024 * 32768) >> 26  # D(1, 0, 4) = 32768
     return [(4096 - w, 2047), (2 * w, 2048), (4096 - w, 2048), (0, 0)]
 
 
-# Name, size, cells (x fastest, then y), scene, first step, expected amounts and heats of the cells with matter.
+def counted_when_deep(parameters):
+    raw = (16 * 67765039559 * parameters["flow"]["mobility_table"][0]) >> 15
+    n = -(-raw // (256 * 201))
+    return 64 * n, 262144 * n, 0, 0
+
+
+# The giver is in front on the left and the taker behind on the right, both on beds of 128; beside them are air over a
+# bed of 383, and an inert cell.
+DIAGONAL = [2, 2, 2], [("inert", 4095, 0), ("inert", 0, 0), AIR, liquid(2122, 7000),
+                       ("inert", 0, 0), FLAT, liquid(4096, 30000), FLAT]
+
+# Name, size, cells (x fastest, then y), scene, first step, expected amounts and heats of the cells that are not inert,
+# and for some the counters.
 CASES = [
     # down_1 = 2048: (4096 x 2000 + 2048 x 3000) / 6144 = 2333.3; then down_0 = 2048: (2048 x 1000 + 2048 x 2333) / 4096.
     ("a deficit moves down, from the top on", *column((2048, 1000), (4096, 2000), (4096, 3000)), VISCOUS, 0,
@@ -57,39 +77,77 @@ CASES = [
     # e_29 = 61441 - 30 ONE = -61439, M = 65537. Only cell 0 is of another heat than what comes down.
     ("a deficit of AMAX - ONE keeps the order",
      *column((2048, 1000), *[(2048, 2000)] * 28, (2049, 2000), (4096, 2000)), VISCOUS, 0,
-     [(4096, 1500)] + [(4096, 2000)] * 15 + [(1, 2000)] + [(0, 0)] * 14),
+     [(4096, 1500)] + [(4096, 2000)] * 15 + [(1, 2000)] + [(0, 0)] * 14, (17, 65537, 17, 65537)),
     # e_29 = -61440: (2048 x 1000 + 63488 x 2000) / 65536 = 1968.75.
     ("one less mixes the run", *column((2048, 1000), *[(2048, 2000)] * 29, (4096, 2000)), VISCOUS, 0,
      [(4096, 1968)] * 16 + [(0, 0)] * 15),
     # over = 4096 comes to lie in the upper cell: (8192 x 1000 + 4096 x 4000) / 12288 = 2000.
     ("a run under a ceiling is mixed", [1, 2, 1], [liquid(8192, 1000), liquid(4096, 4000)], VISCOUS, 0,
      [(4096, 2000), (8192, 2000)]),
-    # Beds 368 and 143: t = 23 - 8 = 15. drive = 5941 x 256 >> 9 = 2970, c = 728 + 43, and 771 x 2970 >> 18 = 8.
+    # Beds 368 and 143: t = 23 - 8 = 15. drive = 5941 x 256 >> 9 = 2970, c = 186414 + 11110, and 197524 x 2970 >> 26 = 8.
     ("a slope slows the flow along x", [2, 3, 1], [HIGH, LOW, liquid(4096, 7), liquid(1000, 9), AIR, AIR], VISCOUS, 0,
      [(4088, 7), (1008, 8), (0, 0), (0, 0)]),
-    # R = 32768: (771 x 2970 + 4 R) >> 18 = 9. The heat: (9000 + 63 + 504) / 1009 = 9.5.
+    # R = 32768: (197524 x 2970 + 1024 R) >> 26 = 9. The heat: (9000 + 63 + 504) / 1009 = 9.5.
     ("a flow is dithered", [2, 3, 1], [HIGH, LOW, liquid(4096, 7), liquid(1000, 9), AIR, AIR], VISCOUS, 1,
      [(4087, 7), (1009, 9), (0, 0), (0, 0)]),
-    # Beds 368 and 0: t = 16. Heads 624 and 318, drive = 5461 x 256 >> 9 = 2730, (728 + 1124) x 2730 >> 18 = 19.
+    # Beds 368 and 0: t = 16. Heads 624 and 318, drive = 5461 x 256 >> 9 = 2730, (186414 + 288546) x 2730 >> 26 = 19.
     ("a slope of more than 1 is cut", [2, 2, 1],
      [HIGH, liquid(4096, 9), liquid(4096, 7), liquid(1000, 9)], VISCOUS, 0,
      [(4096, 9), (4077, 7), (1019, 8)]),
-    # +z to the air on a flat bed: t = 7, drive = 11848 x 256 >> 9 = 5924, R = 40960: (728 x 5924 + 4 R) >> 18 = 17.
-    # +x+z: t = 15, drive = 2331 x 362 >> 9 = 1648, R = 57344: (771 x 1648 + 16 R) >> 20 = 2.
+    # +z to the air on a flat bed: t = 7, drive = 11848 x 256 >> 9 = 5924, R = 40960: (186414 x 5924 + 1024 R) >> 26 = 17.
+    # +x+z: t = 15, drive = 2331 x 362 >> 9 = 1648, R = 57344: (197524 x 1648 + 4096 R) >> 28 = 2.
     ("a slope slows the flow along a diagonal", [2, 2, 2],
      [HIGH, FLAT, liquid(4096, 7), FLAT, FLAT, LOW, AIR, liquid(1000, 9)], VISCOUS, 6,
      [(4077, 7), (17, 7), (1002, 9)]),
-    # Head 880, and 2913 x 8192 >> 18 = 91: both cells beside it lie over air, so t = 0. Then both flows fall.
+    # Head 880, and 745654 x 8192 >> 26 = 91: both cells beside it lie over air, so t = 0. Then both flows fall.
     ("a flank above air shows no bed", [2, 3, 1], [HIGH, AIR, liquid(4096, 7), AIR, liquid(4096, 7), AIR], VISCOUS, 0,
      [(91, 7), (4005, 7), (91, 7), (4005, 7), (0, 0)]),
-    # t = 15 at both heights. Into the run: (2730 + 43) x 2970 >> 18 = 31. Above it: (2913 + 43) x 2970 >> 18 = 33,
-    # which then falls: (1031 x 8 + 33 x 7) / 1064 = 7.97.
+    # t = 15 at both heights: (745654 + 11110) x 2970 >> 26 = 33, into the run: (9000 + 231) / 1033 = 8.9. What comes
+    # above it then falls: (1033 x 8 + 33 x 7) / 1066 = 7.97.
     ("a cell above a run shows its bed", [2, 3, 1],
      [HIGH, LOW, liquid(4096, 7), liquid(1000, 9), liquid(4096, 7), AIR], VISCOUS, 0,
-     [(4065, 7), (1064, 7), (4063, 7), (0, 0)]),
+     [(4063, 7), (1066, 7), (4063, 7), (0, 0)]),
     # The falling half mixes with the other: (2047 + 2048) / 2, and half a cell by D(1) = 32768.
     ("the mobility goes by the mean heat without dither", [2, 2, 1],
      [liquid(4096, 2047), AIR, liquid(4096, 2048), AIR], THERMAL, 1, thermal_flank),
+    # kappa 1: limits 3276 and 6553. Run to run m = 256 (3276 + 6553), above the right run exposed = 2^21 and 256 x 6553:
+    # both are cut to 512 x 3276, and 1677312 x 8192 >> 26 = 204. At the top 2^21 x 8192 >> 26 = 256, which falls.
+    ("a pair has the limit of its giver", [2, 4, 1],
+     [liquid(4096, 7), liquid(4096, 7), liquid(4096, 7), AIR, liquid(4096, 7), AIR, AIR, AIR], viscous(1), 0,
+     [(3892, 7), (4300, 7), (3892, 7), (460, 7), (3840, 7), (0, 0), (0, 0), (0, 0)], (4, 16384, 4, 16384)),
+    # Limit 4369; m = 256 x 4369 + 888889 and m = 512 x 4369: w = 245 below and 273 above. There the room is 96, and
+    # 96 x 13107 >> 16 = 19. Of the 4019 above then 1851 fall.
+    ("a cell takes at most a fifth of its room", [2, 2, 1],
+     [liquid(4096, 7), liquid(2000, 7), liquid(4096, 7), liquid(4000, 7)], viscous(1), 0,
+     [(3851, 7), (4096, 7), (4077, 7), (2168, 7)], (3, 10192, 2, 8192)),
+    # raw = 3728270 of the giver > 2 x 256 x 6553, so n = 3. The flow goes along +x-z (axis 3), whose R begins with
+    # k + 2 and D(1, 3, 4) = 16384: R = 49152, 5461, 27306, and B = 32768, 0, 49152. The air beside both has head 383.
+    # c = 1576297, 1560160, 1545600, drive = 3968, 3840, 3776 and f = 24, 22, 22 by (c drive + 4096 R) >> 28.
+    ("three sub-steps, as counted", *DIAGONAL, viscous(1, 'substeps = "auto"'), 1,
+     [(0, 0), (2190, 7713), (4028, 30000)], (6, 18654, 0, 0)),
+    ("three sub-steps, as given", *DIAGONAL, viscous(1, "substeps = 3, substeps_max = 1"), 1,
+     [(0, 0), (2190, 7713), (4028, 30000)], (6, 18654, 0, 0)),
+    # raw = 3726450 <= 2 x 256 x 13107, so n = 2. R = 22528, 55296, and B = 45056, 12288.
+    # c = 2031916, 1848114, drive = 5696, 5056 and f = 172, 140.
+    ("two sub-steps, as counted", [2, 1, 1], [liquid(4095, 20000), liquid(1234, 8000)],
+     viscous(1, 'substeps = "auto"'), 13, [(3783, 20000), (1546, 10421)], (4, 10658, 0, 0)),
+    # raw = 1864135 > 256 x 6553 in the first of two, as three would be needed. R = 16384, 49152, and B = 32768, 0.
+    # c = 1677568 + 11719, 1644670, drive = 7552, 6784 and f = 190, 167.
+    ("two sub-steps at most", [2, 1, 1], [liquid(4096, 20000), liquid(325, 9000)],
+     viscous(1, 'substeps = "auto", substeps_max = 2'), 1, [(3739, 20000), (682, 14757)], (4, 8842, 1, 4096)),
+    # What the vent fills in this step would need three sub-steps, but n = 1: 2^21 x 8192 >> 26 = 256.
+    ("sub-steps are counted before the vents", [2, 1, 1], [AIR, AIR],
+     viscous(1, 'substeps = "auto"') + "vent = [{ at = [0.5, 0.5, 0.5], radius = 0.5, rate = 1 }]\n", 0,
+     [(3840, 0), (256, 0)], (1, 4096, 1, 4096)),
+    # raw = 1677722 and the limit is 13107 / 4 / 8 = 409, so n = 17. Then pace = 2807168 and raw = 98690.
+    ("sub-steps under a ceiling", [1, 2, 1], [liquid(8192, 1000), liquid(4096, 4000)],
+     VISCOUS.replace("0.05", '0.05, substeps = "auto"'), 0, [(4096, 2000), (8192, 2000)], (34, 208896, 0, 0)),
+    # mobility_parameter is 960 and raw 16 times that. The limit is 13107 / 1648 / 8 = 0, so 1 counts, and n = 60. Then
+    # pace = 16 and raw = 256, which is not above the limit.
+    ("a limit is at least 1", [1, 103, 1], [liquid(65535, 7)] * 103, viscous("1.0058e-6", 'substeps = "auto"'), 0,
+     [(65535, 7)] * 103, (6180, 405006300, 0, 0)),
+    # kappa 71: mobility_parameter is 67765039559, and raw 16 times that before the table. The limit is 201.
+    ("the deepest and the stiffest", [1, 64, 1], [liquid(4096, 0)] * 64, DEEP, 0, [(4096, 0)] * 64, counted_when_deep),
 ]
 
 
@@ -118,30 +176,37 @@ def write_scene(folder, size, cells, rules, first):
 
 
 def after_one_step(voxmelt, oracle, folder, scene):
-    """The parameters, and (amount, heat) of all cells by the oracle and by the program."""
+    """The parameters, (amount, heat) of all cells by the oracle and by the program, and the oracle's counters."""
     start, judged, mine = folder / "start", folder / "judged", folder / "mine"
     export = [voxmelt, "export", scene, "--quiet", "--implementation", "reference"]
     subprocess.run([*export, "--steps", "0", "--out", start], check=True)
     subprocess.run([*export, "--steps", "1", "--out", mine], check=True)
-    subprocess.run([oracle, start, "--steps", "1", "--fields", judged], check=True, stdout=subprocess.DEVNULL)
+    lines = subprocess.run([oracle, start, "--steps", "1", "--ledger", "--fields", judged], check=True,
+                           capture_output=True, text=True).stdout.splitlines()
+    counters = next(tuple(int(n) for n in line.split()[1:]) for line in lines if line.startswith("counters"))
     states = {name: list(zip(read_field(where / "amount.npy"), read_field(where / "heat.npy")))
               for name, where in (("oracle", judged), ("voxmelt", mine))}
-    return json.loads((start / "parameters.json").read_text()), states
+    return json.loads((start / "parameters.json").read_text()), states, counters
 
 
 def main():
     voxmelt, oracle = sys.argv[1:]
     wrong = 0
-    for name, size, cells, rules, first, expected in CASES:
+    for name, size, cells, rules, first, expected, *counted in CASES:
         with tempfile.TemporaryDirectory() as folder:
             scene = write_scene(Path(folder), size, cells, rules, first)
-            parameters, states = after_one_step(voxmelt, oracle, Path(folder), scene)
+            parameters, states, counters = after_one_step(voxmelt, oracle, Path(folder), scene)
         by_hand = expected(parameters) if callable(expected) else expected
         for program, state in states.items():
             found = [pair for pair, cell in zip(state, cells) if cell[0] != "inert"]
             if found != by_hand:
                 wrong += 1
                 print(f"{name}:\n  {program} {found}\n  by hand {by_hand}")
+        for by_hand in counted:
+            by_hand = by_hand(parameters) if callable(by_hand) else by_hand
+            if counters != by_hand:
+                wrong += 1
+                print(f"{name}: the counters of the oracle are {counters}, by hand {by_hand}")
     if wrong:
         sys.exit(1)
     print(f"{len(CASES)} states are as by hand")

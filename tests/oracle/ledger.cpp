@@ -35,8 +35,8 @@ std::string decimal(Sum value) {
   return digits;
 }
 
-std::string line(const char* name, std::initializer_list<Sum> numbers) {
-  std::string text = std::string("ledger ") + name;
+std::string line(const std::string& name, std::initializer_list<Sum> numbers) {
+  std::string text = name;
   for (const Sum number : numbers) text += " " + decimal(number);
   return text + "\n";
 }
@@ -61,11 +61,15 @@ std::string ledger_lines(const Ledgers& ledgers) {
   const MassLedger& m = ledgers.mass;
   const EnergyLedger& e = ledgers.energy;
   const HeatLedger& h = ledgers.heat;
-  return line("mass", {m.start, m.added, m.removed, m.held}) +
-         line("energy", {e.start, e.melted, e.added, e.removed, e.reheated, e.accelerated, e.dissipated,
-                         e.capped, e.held}) +
-         line("heat", {h.start, h.conducted, h.convected, h.radiated, h.warmed, h.cooled, h.added, h.removed,
-                       h.rounded, h.held});
+  return line("ledger mass", {m.start, m.added, m.removed, m.held}) +
+         line("ledger energy", {e.start, e.melted, e.added, e.removed, e.reheated, e.accelerated,
+                                e.dissipated, e.capped, e.held}) +
+         line("ledger heat", {h.start, h.conducted, h.convected, h.radiated, h.warmed, h.cooled, h.added,
+                              h.removed, h.rounded, h.held});
+}
+
+std::string counters_line(const Counters& counters) {
+  return line("counters", {counters.cells, counters.mass, counters.limited_cells, counters.limited_mass});
 }
 
 Sum mass_held(const State& state) { return held_by(state).mass; }

@@ -35,9 +35,15 @@ struct Ledgers {
   HeatLedger heat;
 };
 
+// Section 10: over all settles, the cells in runs and their mass, and those of them that a limit holds back.
+struct Counters {
+  Sum cells = 0, mass = 0, limited_cells = 0, limited_mass = 0;
+};
+
 void open_ledgers(State& state);   // sets start
 void close_ledgers(State& state);  // sets held
 std::string ledger_lines(const Ledgers& ledgers);
+std::string counters_line(const Counters& counters);
 Sum mass_held(const State& state);
 
 }  // namespace oracle

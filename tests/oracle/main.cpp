@@ -15,6 +15,8 @@ namespace oracle {
 void run_step(State& state) {
   const Heat& rules = state.parameters.heat;
   state.offset = dither(state.step);
+  state.mixture_offset = state.offset;
+  if (!state.parameters.paper_law) state.substeps = substeps_of(state);
   if (rules.enabled && rules.radiation && state.step % rules.visibility_every == 0) find_irradiance(state);
   source(state);
   heat(state);
@@ -23,8 +25,12 @@ void run_step(State& state) {
     gravity(state);
     spread_paper(state);
   } else {
-    settle(state);
-    spread_viscous(state);
+    for (state.substep = 0; state.substep < state.substeps; ++state.substep) {
+      state.mixture_offset = (state.offset + dither(state.substep)) % 65536;
+      settle(state);
+      spread_viscous(state);
+    }
+    state.mixture_offset = state.offset;
     gravity(state);
   }
   forget_empty_cells(state);
@@ -98,7 +104,7 @@ void run(const Options& options) {
   if (options.every == 0 || options.steps > 0) print_line(state, options.steps);
   check_all(state, "at the end");
   close_ledgers(state);
-  if (options.ledger) std::cout << ledger_lines(state.ledgers) << std::flush;
+  if (options.ledger) std::cout << ledger_lines(state.ledgers) << counters_line(state.counters) << std::flush;
   if (!options.fields.empty()) {
     std::filesystem::create_directories(options.fields);
     write_fields(state, options.fields);

@@ -193,9 +193,11 @@ Parameters read_parameters(const std::string& path) {
     p.paper = read_paper(member(flow, "paper"));
   } else {
     const Json& viscous = member(flow, "viscous");
-    p.viscous.mobility = integer(viscous, "mobility", 0, (Int{1} << 24) - 1);
+    p.viscous.mobility = integer(viscous, "mobility", 0, (Int{1} << 36) - 1);
     p.viscous.yield = integer(viscous, "yield", 0, (Int{1} << 24) - 1);
     p.viscous.stiffness = integer(viscous, "stiffness", 1, 8);
+    p.viscous.substeps = integer(viscous, "substeps", 0, 1024);
+    p.viscous.substeps_max = integer(viscous, "substeps_max", 1, 1024);
   }
   p.thermal_viscosity = yes(flow, "thermal_viscosity");
   if (p.thermal_viscosity) {

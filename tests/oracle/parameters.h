@@ -67,6 +67,8 @@ struct PaperFlow {
 
 struct ViscousFlow {
   Int mobility = 0, yield = 0, stiffness = 1;
+  Int substeps = 1;  // 0: as many as the state needs, at most substeps_max
+  Int substeps_max = 1;
 };
 
 struct Parameters {

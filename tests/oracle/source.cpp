@@ -20,7 +20,7 @@ void fill(State& state, const Region& vent, Int i) {
   }
   if (state.parameters.heat.enabled) {
     const Int products = before * cell.heat + f * vent.temperature;
-    cell.heat = mixed(products, cell.amount, state.offset);
+    cell.heat = mixed(products, cell.amount, state.mixture_offset);
     state.ledgers.heat.added += f * vent.temperature;
     state.ledgers.heat.rounded += cell.amount * cell.heat - products;
   }

@@ -118,7 +118,7 @@ void move_exchanged(State& state) {
     cell.amount = kept + exchange.taken;
     if (state.parameters.heat.enabled && exchange.taken > 0) {
       const Int products = kept * cell.heat + exchange.heat_taken;
-      cell.heat = mixed(products, cell.amount, state.offset);
+      cell.heat = mixed(products, cell.amount, state.mixture_offset);
       state.ledgers.heat.rounded += cell.amount * cell.heat - products;
     }
     exchange = Exchange{};

@@ -121,7 +121,7 @@ void mix_heat(State& state, Cell& receiver, const Cell& giver, Int f) {
   if (!state.parameters.heat.enabled) return;
   const Int products = receiver.amount * receiver.heat + f * giver.heat;
   const Int amount = receiver.amount + f;
-  receiver.heat = mixed(products, amount, state.offset);
+  receiver.heat = mixed(products, amount, state.mixture_offset);
   state.ledgers.heat.rounded += amount * receiver.heat - products;
 }
 

@@ -32,9 +32,11 @@ struct Exchange {
 struct Run {
   Int member = 0;  // 1: the cell is in a run
   std::optional<Int> bed;
+  std::optional<Int> limit;  // in 1/65536
+  bool limited = false;      // raw is above it
   Int head = 0, dead = 0;
-  Int mobility = 0;  // between runs
-  Int exposed = 0;   // towards cells outside runs
+  Int mobility = 0;  // between runs, in 1/2^24
+  Int exposed = 0;   // towards cells outside runs, in 1/2^24
 };
 
 struct Place {
@@ -43,8 +45,10 @@ struct Place {
 
 struct State {
   Int nx = 0, ny = 0, nz = 0;
-  Int step = 0;    // s: the steps done, and the number of the step that runs
-  Int offset = 0;  // D(s)
+  Int step = 0;                   // s: the steps done, and the number of the step that runs
+  Int offset = 0;                 // D(s)
+  Int mixture_offset = 0;         // B
+  Int substep = 0, substeps = 1;  // k and n of section 3, under the viscous law
   Parameters parameters;
   std::vector<Cell> cells;
   std::vector<Int> irradiance;  // section 5, kept between its steps
@@ -52,6 +56,7 @@ struct State {
   std::vector<Run> runs;
   std::vector<Exchange> exchanges;
   Ledgers ledgers;
+  Counters counters;
 
   // All cells of matter, and some that have lost theirs; the others are empty or inert.
   std::vector<Int> list;
@@ -112,16 +117,18 @@ struct Column {
 std::vector<Column> columns_with_liquid(const State& state);
 
 // The phases of section 3
-void find_irradiance(State& state);  // section 5
-void source(State& state);           // section 4
-void heat(State& state);             // section 6
-void melt(State& state);             // section 7
-void gravity(State& state);          // section 8
-void spread_paper(State& state);     // section 9
-void settle(State& state);           // section 10
-void spread_viscous(State& state);   // section 11
-void move_exchanged(State& state);   // sections 9 and 11: A' and h'
-void run_step(State& state);         // section 3
+void find_irradiance(State& state);                     // section 5
+void source(State& state);                              // section 4
+void heat(State& state);                                // section 6
+void melt(State& state);                                // section 7
+void gravity(State& state);                             // section 8
+void spread_paper(State& state);                        // section 9
+Int substeps_of(const State& state);                    // sections 3 and 10
+Run shown_by(const State& state, Int x, Int y, Int z);  // section 10: by a cell that is not blocked
+void settle(State& state);                              // section 10
+void spread_viscous(State& state);                      // section 11
+void move_exchanged(State& state);                      // sections 9 and 11: A' and h'
+void run_step(State& state);                            // section 3
 
 std::uint64_t digest(const State& state);  // section 13
 

@@ -1,0 +1,238 @@
+// docs/automaton.md section 10: excess under the viscous law, and the number of sub-steps.
+#include "state.h"
+
+#include <string>
+#include <vector>
+
+namespace oracle {
+namespace {
+
+// The height of the surface below the cell (x, y, z), in 1/256 cell.
+Int bed_of(const State& state, Int x, Int y, Int z) {
+  Int b = FLAT;
+  if (y > 0) {
+    const Cell& below = state.cells[state.index(x, y - 1, z)];
+    if (below.inert == 1) b = below.amount;
+  }
+  return 256 * y + ((b - FLAT) >> 4);
+}
+
+// The number of cells of the run that starts at y0.
+Int run_length(const State& state, Int x, Int y0, Int z) {
+  Int n = 0;
+  Int mass = 0;
+  for (;;) {
+    const Int last = state.cells[state.index(x, y0 + n, z)].amount;
+    mass += last;
+    ++n;
+    if (state.blocked(x, y0 + n, z)) return n;
+    const Int next = state.cells[state.index(x, y0 + n, z)].amount;
+    if (mass <= n * ONE && !(last >= ONE / 2 && next > 0)) return n;
+  }
+}
+
+// A run before it settles.
+struct Unsettled {
+  std::vector<Int> cells;  // their indices, upwards
+  Int bed = 0;
+  Int M = 0;
+  Int over = 0;
+  Sum products = 0;  // sum of a h
+
+  Int mean_heat() const { return static_cast<Int>(products / M); }
+};
+
+Unsettled find_run(const State& state, Int x, Int y0, Int z) {
+  Unsettled run;
+  run.bed = bed_of(state, x, y0, z);
+  const Int n = run_length(state, x, y0, z);
+  for (Int k = 0; k < n; ++k) {
+    const Int i = state.index(x, y0 + k, z);
+    run.cells.push_back(i);
+    run.M += state.cells[i].amount;
+    run.products += state.cells[i].amount * state.cells[i].heat;
+  }
+  run.over = larger(0, run.M - n * ONE);
+  return run;
+}
+
+// Calls action(run) for every run, in each column upwards; the action may settle it.
+template <typename Action>
+void for_each_run(const State& state, Action action) {
+  for (const Column& column : columns_with_liquid(state)) {
+    for (Int y = column.low; y <= column.high; ++y) {
+      const Int i = state.index(column.x, y, column.z);
+      if (state.blocked(i) || state.cells[i].amount == 0) continue;
+      if (!state.blocked(column.x, y - 1, column.z)) continue;
+      const Unsettled run = find_run(state, column.x, y, column.z);
+      action(run);
+      y += static_cast<Int>(run.cells.size()) - 1;
+    }
+  }
+}
+
+// `raw` in 1/2^24. The product takes 64 bits without a sign.
+Int raw_mobility(const Parameters& parameters, const Unsettled& run, Int pace) {
+  const Int M = smaller(run.M, 262144);
+  const Int raw = static_cast<Int>((Sum{pace} * (M * M >> 8) + (Sum{1} << 23)) >> 24);
+  if (!parameters.thermal_viscosity) return raw;
+  return (raw * parameters.mobility_table[run.mean_heat() >> 11]) >> 15;
+}
+
+// `limit` in 1/65536.
+Int limit_of(const Parameters& parameters, const Unsettled& run) {
+  const Int limit = 13107 / ((run.M >> 12) + 1);
+  return larger(1, run.over > 0 ? limit / parameters.viscous.stiffness : limit);
+}
+
+// What the cells of a run show, when a step has n sub-steps.
+Run shown_by_run(const Parameters& parameters, const Unsettled& run, Int n) {
+  const ViscousFlow& viscous = parameters.viscous;
+  const Int raw = raw_mobility(parameters, run, (viscous.mobility + n / 2) / n);
+  const Int limit = limit_of(parameters, run);
+  const Int depth = larger(1, run.M >> 4);
+  Run shown;
+  shown.member = 1;
+  shown.bed = run.bed;
+  shown.head = run.bed + (run.M >> 4) + (viscous.stiffness - 1) * (run.over >> 4);
+  shown.limit = limit;
+  shown.limited = raw > 256 * limit;
+  shown.mobility = smaller(raw, 256 * limit);
+  shown.exposed = smaller(raw, Int{1} << 21);
+  shown.dead = larger(1, (viscous.yield + depth / 2) / depth);
+  return shown;
+}
+
+// The flows through the inner faces of a run: face k lies above cell k.
+struct FaceFlows {
+  bool keep_order = false;
+  std::vector<Int> up, down;
+};
+
+// The flows that settle a run, and whether they are to be used.
+FaceFlows face_flows(const State& state, const Unsettled& run) {
+  FaceFlows flows;
+  flows.keep_order = run.over == 0;
+  Int P = 0;
+  for (Int k = 0; k + 1 < static_cast<Int>(run.cells.size()); ++k) {
+    P += state.cells[run.cells[k]].amount;
+    const Int excess = P - (k + 1) * ONE;
+    if (excess < -(AMAX - ONE) || excess > AMAX - ONE) flows.keep_order = false;
+    flows.up.push_back(larger(0, excess));
+    flows.down.push_back(larger(0, smaller((k + 1) * ONE, run.M) - P));
+  }
+  return flows;
+}
+
+// What docs/proofs.md promises: no giver lacks what it gives, and no receiver holds more than AMAX.
+void move_through_face(State& state, Int from, Int to, Int f) {
+  if (f == 0) return;
+  Cell& giver = state.cells[from];
+  Cell& receiver = state.cells[to];
+  if (f > giver.amount || f > AMAX - receiver.amount)
+    throw Violation("step " + std::to_string(state.step) + ": a flow of " + std::to_string(f) +
+                    " inside a run, from cell " + std::to_string(from) + " to cell " + std::to_string(to));
+  mix_heat(state, receiver, giver, f);
+  giver.amount -= f;
+  receiver.amount += f;
+}
+
+void move_through_faces(State& state, const std::vector<Int>& cells, const FaceFlows& flows) {
+  const Int faces = static_cast<Int>(flows.up.size());
+  for (Int k = 0; k < faces; ++k) move_through_face(state, cells[k], cells[k + 1], flows.up[k]);
+  for (Int k = faces - 1; k >= 0; --k) move_through_face(state, cells[k + 1], cells[k], flows.down[k]);
+}
+
+// All cells of a run get one heat.
+void mix_all(State& state, const Unsettled& run) {
+  if (!state.parameters.heat.enabled) return;
+  const Int h = mixed(static_cast<Int>(run.products), run.M, state.mixture_offset);
+  for (const Int i : run.cells) state.cells[i].heat = h;
+  state.ledgers.heat.rounded += Sum{run.M} * h - run.products;
+}
+
+// The amounts of a run once it has settled, upwards.
+std::vector<Int> settled_amounts(const Unsettled& run) {
+  const Int n = static_cast<Int>(run.cells.size());
+  std::vector<Int> amounts;
+  for (Int k = 0; k < n; ++k)
+    amounts.push_back(clamp(run.M - k * ONE, 0, ONE) +
+                      clamp(run.over - (AMAX - ONE) * (n - 1 - k), 0, AMAX - ONE));
+  return amounts;
+}
+
+void count(Counters& counters, const Run& shown, Int cells, Int M) {
+  counters.cells += cells;
+  counters.mass += M;
+  if (!shown.limited) return;
+  counters.limited_cells += cells;
+  counters.limited_mass += M;
+}
+
+void settle_run(State& state, const Unsettled& run) {
+  const Run shown = shown_by_run(state.parameters, run, state.substeps);
+  const FaceFlows flows = face_flows(state, run);
+  if (flows.keep_order)
+    move_through_faces(state, run.cells, flows);
+  else
+    mix_all(state, run);
+  const std::vector<Int> amounts = settled_amounts(run);
+  Int held = 0;
+  for (Int k = 0; k < static_cast<Int>(run.cells.size()); ++k) {
+    Cell& cell = state.cells[run.cells[k]];
+    if (flows.keep_order && cell.amount != amounts[k])
+      throw Violation("step " + std::to_string(state.step) + ": cell " + std::to_string(run.cells[k]) +
+                      " of a run in order holds " + std::to_string(cell.amount) + ", not " +
+                      std::to_string(amounts[k]));
+    cell.amount = amounts[k];
+    state.touch(run.cells[k]);
+    if (amounts[k] == 0) continue;
+    state.runs[run.cells[k]] = shown;
+    ++held;
+  }
+  count(state.counters, shown, held, run.M);
+}
+
+}  // namespace
+
+Int substeps_of(const State& state) {
+  const ViscousFlow& viscous = state.parameters.viscous;
+  if (viscous.substeps > 0) return viscous.substeps;
+  Int most = 1;
+  for_each_run(state, [&](const Unsettled& run) {
+    const Int raw = raw_mobility(state.parameters, run, viscous.mobility);
+    const Int unit = 256 * limit_of(state.parameters, run);
+    most = larger(most, (raw + unit - 1) / unit);
+  });
+  return smaller(most, viscous.substeps_max);
+}
+
+void settle(State& state) {
+  for (const Int i : state.list) state.runs[i] = Run{};
+  for_each_run(state, [&](const Unsettled& run) { settle_run(state, run); });
+  finish_phase(state, "after excess");
+}
+
+// Outside runs `exposed` and `dead` are not used: only a cell in a run gives.
+Run shown_by(const State& state, Int x, Int y, Int z) {
+  const Run& own = state.runs[state.index(x, y, z)];
+  if (own.member == 1) return own;
+  Run shown;
+  if (state.blocked(x, y - 1, z)) {
+    shown.head = bed_of(state, x, y, z);
+    shown.bed = shown.head;
+    return shown;
+  }
+  const Run& below = state.runs[state.index(x, y - 1, z)];
+  if (below.member == 1) {
+    shown.head = below.head;
+    shown.bed = below.bed;
+    shown.limit = below.limit;
+    shown.mobility = below.mobility;
+    return shown;
+  }
+  shown.head = 256 * (y - 2);
+  return shown;
+}
+
+}  // namespace oracle

@@ -1,0 +1,84 @@
+// docs/automaton.md section 11: spread under the viscous law.
+#include "state.h"
+
+#include <vector>
+
+namespace oracle {
+namespace {
+
+// slope[t]: floor((numerator + floor(q / 2)) / q).
+constexpr Int slope(Int t, bool diagonal) {
+  const Int root = 65536 + 256 * t * t + t * t * t * t;
+  const Int q = diagonal ? root * root : 256 + 2 * t * t;
+  const Int numerator = Int{1} << (diagonal ? 46 : 22);
+  return (numerator + q / 2) / q;
+}
+
+// The same as the page lists it, from t = 0 on: first for an axis, then for a diagonal.
+constexpr Int SLOPES[2][17] = {{16384, 16257, 15888, 15308, 14564, 13707, 12788, 11848, 10923, 10034, 9198,
+                                8422, 7710, 7061, 6473, 5941, 5461},
+                               {16384, 16256, 15876, 15254, 14407, 13365, 12168, 10864, 9511, 8165, 6880,
+                                5696, 4641, 3730, 2962, 2331, 1820}};
+constexpr bool slopes_are_as_listed() {
+  for (Int t = 0; t <= 16; ++t)
+    if (slope(t, false) != SLOPES[0][t] || slope(t, true) != SLOPES[1][t]) return false;
+  return true;
+}
+static_assert(slopes_are_as_listed());
+
+// t; `giver` and `taker` are what the cells of the pair show.
+Int tilt(const Run& giver, const Run& taker) {
+  if (!taker.bed.has_value()) return 0;
+  const Int difference = (*giver.bed >> 4) - (*taker.bed >> 4);
+  return smaller(16, larger(difference, -difference));
+}
+
+// R of an axis in sub-step k of n.
+Int rounding(Int s, Int axis, Int k, Int n) {
+  return (dither(s, axis, 4) + 65536 * ((k + axis * n / 4) % n)) / n;
+}
+
+// What flows from the run cell i in a direction: the pair is computed once, by its giver.
+void give(State& state, Int i, Place at, const Direction& direction, Int R) {
+  if (!is_open(state, at, direction)) return;
+  const Run& giver = state.runs[i];
+  const Int x = at.x + direction.dx, z = at.z + direction.dz;
+  const Int j = state.index(x, at.y, z);
+  const Run taker = shown_by(state, x, at.y, z);
+  const Int threshold = direction.diagonal ? (11 * giver.dead) >> 3 : giver.dead;
+  const Int whole_drop = giver.head - taker.head;
+  if (whole_drop <= 0 || whole_drop <= threshold) return;
+
+  const Int drop = smaller(whole_drop, direction.diagonal ? 362 : 256);
+  const Int drive = (slope(tilt(giver, taker), direction.diagonal) * drop) >> 9;
+  const Int amount = state.cells[i].amount;
+  Int m = (taker.member == 1 ? giver.mobility : giver.exposed) + taker.mobility;
+  if (taker.limit.has_value()) m = smaller(m, 512 * *giver.limit);
+  const Int c = smaller((Int{1} << 24) - 1, (m * amount) >> 12);
+  const Int w = direction.diagonal ? (c * drive + (R << 12)) >> 28 : (c * drive + (R << 10)) >> 26;
+  const Int room = larger(0, (taker.member == 1 ? AMAX : ONE) - state.cells[j].amount);
+  const Int fifth = scaled(smaller(amount, room), 13107);
+  const Int f = smaller(w, direction.diagonal ? fifth >> 2 : fifth);
+  if (f == 0) return;
+  state.touch(j);
+  state.exchanges[i].given += f;
+  state.exchanges[j].taken += f;
+  state.exchanges[j].heat_taken += f * state.cells[i].heat;
+}
+
+}  // namespace
+
+void spread_viscous(State& state) {
+  const std::vector<Int> before = state.list;  // the list grows as cells take
+  Int R[4] = {};
+  for (Int axis = 0; axis < 4; ++axis) R[axis] = rounding(state.step, axis, state.substep, state.substeps);
+  for (const Int i : before) {
+    if (state.runs[i].member == 0) continue;
+    const Place at = state.place(i);
+    for (const Direction& direction : DIRECTIONS) give(state, i, at, direction, R[direction.axis]);
+  }
+  move_exchanged(state);
+  finish_phase(state, "after spread");
+}
+
+}  // namespace oracle
