@@ -62,6 +62,7 @@ bool same(const Parameters& parameters, const Volume& start, const std::vector<W
     state::Ledger books;
   };
   std::vector<Other> others;
+  others.reserve(ways.size());
   for (const Way& way : ways) others.push_back({ViscousDriver(parameters, start.grid, way), start, books});
 
   for (std::uint32_t step = 0; step < steps; ++step) {
