@@ -42,6 +42,9 @@ finish(change=lambda text: re.sub(r"(ledger heat .*) (\S+) ", lambda m: f"{m[1]}
     "what a state holds": ("oracle", r"""
 finish(change=lambda text: re.sub(r"(ledger energy .*) (\S+)\n", lambda m: f"{m[1]} {int(m[2]) + 1}\n", text))
 """, "ledger of energy"),
+    "a counter": ("oracle", r"""
+finish(change=lambda text: re.sub(r"(counters .*) (\S+)\n", lambda m: f"{m[1]} {int(m[2]) + 1}\n", text))
+""", "counters"),
     "a violated bound": ("oracle", "finish(code=1)", "ended with 1"),
     "one implementation, a parameter": ("voxmelt", """
 if mine: words += ["--set", "material.melting_point=0.9", "--set", "material.latent_heat=0"]

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Oracle, reference and every instruction set agree on random foreign scenes: digests of every step, and all ledgers.
+"""Oracle, reference and every instruction set agree on random foreign scenes: digests of every step, all ledgers,
+and the counters of section 10.
 
   foreign_scenes_test.py VOXMELT ORACLE FIRST LAST             the scenes of these seeds
   foreign_scenes_test.py VOXMELT ORACLE FIRST LAST --covering  also: every range was used at both ends, and more
@@ -23,6 +24,7 @@ from foreign_keys import ENDS, uses
 from foreign_scenes import write_scene
 
 LEDGERS = ("mass", "energy", "heat")
+COUNTERS = ("cells", "mass", "limited_cells", "limited_mass")  # in the order of the oracle's line
 MANY_CELLS = 1000
 MANY_SUBSTEPS = 20
 MOST_DEAD = 0.2  # share of the scenes in which nothing flows and nothing melts
@@ -46,10 +48,12 @@ def implementations(voxmelt):
 
 
 def of_oracle(oracle, start, steps, fields):
-    """Its digest lines, and for each ledger (start, terms..., what the state holds)."""
+    """Its digest lines; for each ledger (start, terms..., what the state holds); the counters."""
     lines = output(oracle, start, "--steps", steps, "--every", 1, "--ledger", "--fields", fields)
     digests = [line for line in lines if line.startswith("step")]
-    return digests, {line.split()[1]: [int(n) for n in line.split()[2:]] for line in lines if line.startswith("ledger")}
+    ledgers = {line.split()[1]: [int(n) for n in line.split()[2:]] for line in lines if line.startswith("ledger")}
+    counters = next([int(n) for n in line.split()[1:]] for line in lines if line.startswith("counters"))
+    return digests, ledgers, counters
 
 
 def of_voxmelt(voxmelt, folder, steps, implementation, threads):
@@ -97,6 +101,7 @@ def events(scene, steps, digests, report, start, end):
         "law: paper": report["law"] == "paper", "law: viscous": report["law"] == "viscous",
         "crosses step 2^31": first < 2**31 < first + steps, "crosses a multiple of 2^16": first % 2**16 + steps > 2**16,
         "63 cells and more along x": side > 62,
+        "a limit withholds flow": int(report["limit"]["limited_cells"]) > 0,
         "counts its sub-steps": scene["flow"].get("viscous", {}).get("substeps") == "auto",
         "many sub-steps": most_substeps(scene) > MANY_SUBSTEPS,
         **{f"{name} 65535 at the start": max(field(start, name)) == 65535 for name in ("amount", "energy", "heat")},
@@ -117,12 +122,13 @@ def run_scene(voxmelt, oracle, names, seed, folder):
     start, end = folder / "start", folder / "end"
     output(voxmelt, "export", folder / "scene.toml", "--steps", 0, "--out", start, "--quiet")
     for steps in lengths:
-        judge, judged = of_oracle(oracle, start, steps, end)
+        judge, judged, counters = of_oracle(oracle, start, steps, end)
         for name in names:
             mine, ledgers, report = of_voxmelt(voxmelt, folder, steps, name, 1 + seed % 3)
             compare(f"{name}, {steps} steps, digests", mine, judge)
             for ledger in LEDGERS:
                 compare(f"{name}, {steps} steps, ledger of {ledger} {list(report[ledger])}", ledgers[ledger], judged[ledger])
+            compare(f"{name}, {steps} steps, counters {COUNTERS}", [int(report["limit"][key]) for key in COUNTERS], counters)
     return list(uses(scene)), events(scene, steps, judge, report, start, end)
 
 

@@ -176,14 +176,19 @@ def write_scene(folder, size, cells, rules, first):
 
 
 def after_one_step(voxmelt, oracle, folder, scene):
-    """The parameters, (amount, heat) of all cells by the oracle and by the program, and the oracle's counters."""
+    """The parameters, (amount, heat) of all cells by the oracle and by the program, and their counters."""
     start, judged, mine = folder / "start", folder / "judged", folder / "mine"
     export = [voxmelt, "export", scene, "--quiet", "--implementation", "reference"]
     subprocess.run([*export, "--steps", "0", "--out", start], check=True)
     subprocess.run([*export, "--steps", "1", "--out", mine], check=True)
     lines = subprocess.run([oracle, start, "--steps", "1", "--ledger", "--fields", judged], check=True,
                            capture_output=True, text=True).stdout.splitlines()
-    counters = next(tuple(int(n) for n in line.split()[1:]) for line in lines if line.startswith("counters"))
+    report = folder / "report.json"
+    subprocess.run([voxmelt, "digest", scene, "--steps", "1", "--quiet", "--implementation", "reference", "--report", report],
+                   check=True, stdout=subprocess.DEVNULL)
+    limit = json.loads(report.read_text())["limit"]
+    counters = {"oracle": next(tuple(int(n) for n in line.split()[1:]) for line in lines if line.startswith("counters")),
+                "voxmelt": tuple(int(limit[key]) for key in ("cells", "mass", "limited_cells", "limited_mass"))}
     states = {name: list(zip(read_field(where / "amount.npy"), read_field(where / "heat.npy")))
               for name, where in (("oracle", judged), ("voxmelt", mine))}
     return json.loads((start / "parameters.json").read_text()), states, counters
@@ -204,9 +209,10 @@ def main():
                 print(f"{name}:\n  {program} {found}\n  by hand {by_hand}")
         for by_hand in counted:
             by_hand = by_hand(parameters) if callable(by_hand) else by_hand
-            if counters != by_hand:
-                wrong += 1
-                print(f"{name}: the counters of the oracle are {counters}, by hand {by_hand}")
+            for program, found in counters.items():
+                if found != by_hand:
+                    wrong += 1
+                    print(f"{name}: the counters of {program} are {found}, by hand {by_hand}")
     if wrong:
         sys.exit(1)
     print(f"{len(CASES)} states are as by hand")
