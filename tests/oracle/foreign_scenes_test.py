@@ -25,7 +25,7 @@ from foreign_scenes import write_scene
 
 LEDGERS = ("mass", "energy", "heat")
 COUNTERS = ("cells", "mass", "limited_cells", "limited_mass")  # in the order of the oracle's line
-MANY_CELLS = 1000
+MOST_WORK = 1000000  # cells x sub-steps x steps of a run of more than one step
 MANY_SUBSTEPS = 20
 MOST_DEAD = 0.2  # share of the scenes in which nothing flows and nothing melts
 LEAST_PAST_2_31 = 5  # scenes that cross step 2^31
@@ -117,8 +117,8 @@ def most_substeps(scene):
 def run_scene(voxmelt, oracle, names, seed, folder):
     """(rows of KEYS with the values used, what happened). Raises Differs."""
     scene = write_scene(seed, folder)
-    few = math.prod(scene["grid"]["size"]) <= MANY_CELLS and most_substeps(scene) <= MANY_SUBSTEPS
-    lengths = (1, 7, 20) if few else (1, 7)
+    work = math.prod(scene["grid"]["size"]) * most_substeps(scene)
+    lengths = [1, *(steps for steps in (7, 20) if steps * work <= MOST_WORK)]
     start, end = folder / "start", folder / "end"
     output(voxmelt, "export", folder / "scene.toml", "--steps", 0, "--out", start, "--quiet")
     for steps in lengths:
