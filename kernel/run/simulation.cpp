@@ -79,7 +79,7 @@ void Simulation::begin_step() {
     uploaded_ = true;
   }
   substep_ = 0;
-  substeps_ = count_substeps();
+  if (host_ != nullptr) substeps_ = count_substeps();  // a device counts its own
   const rule::Heat& heat = parameters_.heat;
   if (!heat.is_visibility_step(step_number())) return;
   const Stopwatch watch(seconds_.visibility);
@@ -89,7 +89,6 @@ void Simulation::begin_step() {
 
 int Simulation::count_substeps() const {
   if (parameters_.flow.law == rule::Law::paper) return 1;
-  if (parameters_.flow.viscous.counts_substeps()) fetch();
   return scalar::count_substeps(parameters_, volume_);
 }
 
@@ -107,7 +106,7 @@ void Simulation::run_phase(step::Phase phase) {
 void Simulation::step() {
   begin_step();
   if (device_ != nullptr) {
-    device_->run_step(step_number(), substeps_, irradiance());
+    device_->run_step(step_number(), irradiance());
     behind_ = true;
   } else {
     for (const step::Phase phase : phases()) run_phase(phase);

@@ -49,7 +49,7 @@ TEST(ViscousStages, SettleIsTheReferencesInLayers) {
       world.step([&](Phase phase, const state::Volume& before) {
         if (phase != Phase::excess) return;
         ASSERT_EQ(worlds::difference(world.simulation.volume(),
-                                     run_stages(design, stages, step, nullptr, before, run)),
+                                     run_stages(design, stages, world.moment, nullptr, before, run)),
                   "")
             << "seed " << seed << ", step " << step;
       });

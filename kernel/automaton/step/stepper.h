@@ -40,10 +40,11 @@ class DeviceStepper : public Stepper {
   // Copies a state and its books to the device, in place of what it held.
   virtual void upload(const state::Volume& volume, const state::Ledger& ledger) = 0;
 
-  // Runs all phases of step number `step`, with so many sub-steps. `irradiance` lies in the host's memory and
+  // Runs all phases of step number `step`. Where the scene does not say how many sub-steps it has, the device
+  // counts them in its own state (docs/automaton.md, section 10). `irradiance` lies in the host's memory and
   // is null when the scene has no radiation; its values change only at steps divisible by
   // heat.visibility_every.
-  virtual void run_step(std::uint32_t step, int substeps, const Irradiance* irradiance) = 0;
+  virtual void run_step(std::uint32_t step, const Irradiance* irradiance) = 0;
 
   // Copies `solid` and `inert` into the volume, which has the grid's size. Visibility needs no more.
   virtual void download_masks(state::Volume& volume) = 0;

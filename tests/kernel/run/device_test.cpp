@@ -13,6 +13,7 @@
 
 #include "kernel/automaton/state/digest.h"
 #include "kernel/engine/scalar/reference.h"
+#include "kernel/engine/scalar/substeps.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
 #include "tests/kernel/worlds.h"
@@ -29,7 +30,7 @@ struct Traffic {
 class HiddenReference final : public step::DeviceStepper {
  public:
   HiddenReference(const Parameters& parameters, Grid grid)
-      : law_(parameters.flow.law), reference_(parameters, grid) {
+      : parameters_(parameters), reference_(parameters, grid) {
     traffic = {};
   }
 
@@ -39,10 +40,12 @@ class HiddenReference final : public step::DeviceStepper {
     volume_ = volume;
     ledger_ = ledger;
   }
-  void run_step(std::uint32_t step, int substeps, const step::Irradiance* irradiance) override {
+  void run_step(std::uint32_t step, const step::Irradiance* irradiance) override {
     ++traffic.steps;
+    const rule::Law law = parameters_.flow.law;
+    const int substeps = law == rule::Law::viscous ? scalar::count_substeps(parameters_, volume_) : 1;
     step::Moment moment(step, 0, substeps);
-    for (const step::Phase phase : step::phase_order(law_, substeps)) {
+    for (const step::Phase phase : step::phase_order(law, substeps)) {
       reference_.run(phase, moment, irradiance, volume_, ledger_);
       if (phase == step::Phase::spread) ++moment.substep;
     }
@@ -61,7 +64,7 @@ class HiddenReference final : public step::DeviceStepper {
   static inline Traffic traffic;
 
  private:
-  rule::Law law_;
+  Parameters parameters_;
   scalar::Reference reference_;
   Volume volume_;
   state::Ledger ledger_;
