@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The root of a function that grows from below 0 at `low`.
+// The root of an increasing function that is below 0 at `low`.
 template <class Function>
 double bisect(double low, double high, const Function& function) {
   for (int i = 0; i < 200; ++i) {

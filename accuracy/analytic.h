@@ -40,12 +40,12 @@ struct Dam {  // of constant area, in a channel; `area` lies on the one side of 
 };
 Dam dam_of_depth(double kappa, double depth, double front);  // on Huppert's profile, `depth` at x = 0
 
-// The same flow from any start, by finite volumes: depths at the middles of cells along a channel with
-// closed ends, `parts_per_cell` of them to a cell. For starts that have no formula.
+// The same flow from any start, by finite volumes, for starts that have no formula. It gives depths at the
+// middles of cells along a channel with closed ends, `parts_per_cell` of them to a cell.
 std::vector<double> lubrication_flow(double kappa, std::vector<double> depth, double time,
                                      int parts_per_cell);
 
-// Front of what a constant flux feeds at the origin: 0.715 (kappa flux^3 / 3)^(1/8) t^(1/2).
+// Front of a current that a constant flux feeds at the origin: 0.715 (kappa flux^3 / 3)^(1/8) t^(1/2).
 double flux_front(double kappa, double flux, double time);
 
 // Velocity per h^2 of a film that runs down a plane: Nusselt's film, its depth measured along gravity. A film

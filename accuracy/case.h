@@ -19,18 +19,18 @@ struct Conditions {
   std::vector<std::string> sets;  // --set, applied to the scene of every run after the case's own
   std::filesystem::path scenes;   // folder with the cases' scenes
   bool baseline = true;           // also time the plain baseline
-  int threads_always = 0;         // more than 0: so many, on small grids too
+  int threads_always = 0;         // more than 0: this number of threads, on small grids too
 };
 
 struct Speed {
   double cells_per_second = 0;                        // cells of the grid x steps, over seconds of the steps
   std::optional<double> baseline_cells_per_second{};  // of the paper's program on the same start
-  int state_bits = 0;                                 // of a cell, as the run's law needs them
+  int state_bits = 0;                                 // per cell, as the run's law needs them
 };
 
 enum class Measure { relative, absolute };
 
-// One number beside its exact value. The gate is a bar on |error|; without one the row only reports.
+// One number beside its exact value. The gate is an upper bound of |error|. Without one the row only reports.
 struct Row {
   std::string setting{}, quantity{};
   double value = 0, exact = 0;
@@ -41,7 +41,7 @@ struct Row {
 
   // value / exact - 1, or value - exact.
   double error() const { return measure == Measure::relative ? value / exact - 1 : value - exact; }
-  bool passed() const { return !gate || std::abs(error()) <= *gate; }  // false for what is not a number
+  bool passed() const { return !gate || std::abs(error()) <= *gate; }  // false for a NaN
 };
 
 struct Point {

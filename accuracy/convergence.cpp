@@ -1,4 +1,4 @@
-// A whole scene on finer grids and with shorter steps: it should tend to something.
+// A whole scene on finer grids and with shorter steps: its results should converge.
 #include "accuracy/convergence.h"
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ Spread spread_of(const Trial& trial, int finer) {
   return {m.volume / (finer * finer * finer), m.rms_radius / finer};
 }
 
-// Each ball beside the next, finer one; `gate` is of the radii of the last two.
+// Compares each ball with the next, finer one. `gate` holds for the radii of the last two.
 Outcome compare(const Conditions& conditions, const std::vector<Ball>& balls, const std::string& title,
                 std::optional<double> gate) {
   Outcome outcome;
@@ -130,7 +130,7 @@ Outcome measure_melted_ball(const Conditions& conditions) {
                  conditions.quick ? std::nullopt : std::optional(0.02));
 }
 
-// Conduction wants steps that are shorter by the square.
+// Conduction needs steps that are shorter by the square.
 Outcome measure_convergence_in_grid(const Conditions& conditions) {
   std::vector<Ball> balls;
   for (const int n : conditions.quick ? std::vector{1, 2} : std::vector{1, 2, 4})

@@ -20,7 +20,7 @@
 namespace voxmelt::accuracy {
 namespace {
 
-// The middle row of a channel: side walls bar diagonals, and are not felt there.
+// The middle row of a channel. The side walls bar diagonals, and have no effect there.
 std::vector<double> middle_row(const Columns& columns) {
   const auto first = columns.depth.begin() + static_cast<std::ptrdiff_t>(columns.nz / 2) * columns.nx;
   return {first, first + columns.nx};
@@ -105,10 +105,10 @@ Outcome measure_dam_length(const Conditions& conditions) {
   return outcome;
 }
 
-// Dams 16 high and 32 long, looked at after equal kappa x steps: viscosity alone makes the difference.
+// Dams 16 high and 32 long, compared after equal kappa x steps. Only their viscosity differs.
 Outcome measure_dam_viscosity(const Conditions& conditions) {
   constexpr int kHigh = 16, kLong = 32, kChannel = 112, kWide = 17, kParts = 8;
-  constexpr double kLater = 4;  // kappa x steps, when the far end of the dam is felt at the wall
+  constexpr double kLater = 4;  // kappa x steps, when the far end of the dam has an effect at the wall
   Outcome outcome;
   Chart chart{.title = "Dams after kappa x steps = 4",
               .x_label = "distance from the wall, cells",

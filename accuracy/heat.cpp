@@ -21,8 +21,8 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-// A column of `cells` under air of temperature `wall` (0..1). The air exchanges twice what two cells do:
-// it is a wall at the upper face of the topmost cell, half a cell from its centre.
+// A column of `cells` under air of temperature `wall` (0..1). The air exchanges twice what two cells do. So
+// it acts as a wall at the upper face of the topmost cell, half a cell from its centre.
 Strings column(int cells, double gamma, double wall) {
   return {fmt::format("grid.size=[1,{},1]", cells + 1), fmt::format("heat.gamma={}", gamma),
           fmt::format("heat.air.exchange={}", 2 * gamma / std::numbers::pi),

@@ -32,7 +32,7 @@ double height(const state::Volume& v, const Shaft& s, int bottom) {
 struct Vessels {
   Shaft left, right;
   int bottom;
-  double level;       // of both in the end
+  double level;       // where both end
   double level_gate;  // of each height, absolute
 };
 
@@ -83,7 +83,7 @@ Outcome measure_tubes(const Conditions& conditions) {
 }
 
 // Two shafts of 3 x 3 above a tunnel 3 high, one filled 21 high and the other 3: level, both stand at 12. The
-// closed tunnel may be compressed, which lowers both by up to a tenth.
+// liquid in the closed tunnel may be compressed, which lowers both by up to a tenth.
 Outcome measure_u_tube(const Conditions& conditions) {
   Trial trial(conditions, "flow", {"grid.size=[11,30,5]", "flow.viscous.kappa=0.1"}, [](state::Volume& v) {
     for_each_cell(v.grid, [&](int x, int y, int z) {

@@ -21,8 +21,8 @@ namespace {
 
 using Direction = std::array<double, 3>;
 
-constexpr std::uint32_t kSteps = 16;  // a whole period of the least bits of a 1/16 unit
-constexpr double kStrength = 1000;    // units of heat per step that a face gets which looks at the source
+constexpr std::uint32_t kSteps = 16;  // a whole period of the lowest bits, in 1/16 unit
+constexpr double kStrength = 1000;    // units of heat per step of a face that is turned to the source
 
 Direction unit(Direction d) {
   const double length = std::hypot(d[0], d[1], d[2]);
@@ -40,7 +40,7 @@ struct Source {
 };
 Source far_source(Direction centre, Direction towards, double distance) {
   const Direction d = unit(towards);
-  // To a sixteenth of a cell, as the automaton keeps it: the exact answer is for this very place.
+  // Rounds to a sixteenth of a cell, as the automaton does, so that the exact answer is for the same place.
   const auto place = [&](std::size_t a) { return std::round(16 * (centre[a] + distance * d[a])) / 16; };
   return {{place(0), place(1), place(2)}, std::round(kStrength / kHottest * distance * distance)};
 }
@@ -106,8 +106,8 @@ Outcome measure_lit_plane(const Conditions& conditions) {
   return outcome;
 }
 
-// A ball of radius 20, the source 50 radii away: three directions by name, and the 20 corners of a
-// dodecahedron.
+// A ball of radius 20, the source 50 radii away: three directions by name, and the 20 corners of
+// a dodecahedron.
 Outcome measure_lit_ball(const Conditions& conditions) {
   constexpr int kSide = 48;
   constexpr double kRadius = 20, kDistance = 50 * kRadius;
@@ -157,7 +157,7 @@ Outcome measure_lit_ball(const Conditions& conditions) {
   return outcome;
 }
 
-// A wall 12 cells high on a floor, the source to its left: where does its shadow end?
+// A wall 12 cells high is on a floor, with the source to its left. Where does its shadow end?
 Outcome measure_shadow_edge(const Conditions& conditions) {
   constexpr int kWide = 96, kDeep = 9, kFloor = 2, kWallEnd = 24, kWallTop = kFloor + 12;
   Outcome outcome;

@@ -1,4 +1,4 @@
-// What must rest rests, what falls falls whole, and nothing is squeezed in the open.
+// What must rest rests. What falls falls whole. Nothing is compressed in the open.
 #include "accuracy/rest.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@
 namespace voxmelt::accuracy {
 namespace {
 
-// Cells, in all, by which amounts change in the next `steps`.
+// The sum of all changes of amounts in the next `steps`, in cells.
 double motion(Trial& trial, std::uint32_t steps) {
   const auto before = trial.volume().amount;
   trial.run_to(trial.steps() + steps);

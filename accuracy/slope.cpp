@@ -102,7 +102,7 @@ Outcome measure_stairs(const Conditions& conditions) {
   const std::vector<double> depths =
       conditions.quick ? std::vector<double>{0.5} : std::vector<double>{0.5, 1, 1.6};
   for (const double depth : depths) {
-    // Until the liquid has found its depth on each step, and the end of the film has not come.
+    // It runs until the liquid has found its depth on each step, and before the end of the film comes.
     Film film{.slope = 0.1, .depth = depth, .bed = Bed::stairs, .length = 180, .width = 9};
     film.lead = static_cast<std::uint32_t>(5000 / (depth * depth));
     film.counted = film.lead / 4;

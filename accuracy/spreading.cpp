@@ -20,7 +20,7 @@
 namespace voxmelt::accuracy {
 namespace {
 
-// A drop that starts on Huppert's profile, and when it started from a point.
+// A drop that starts on Huppert's profile, with its age: the time since it was a point.
 struct Start {
   double kappa, depth, front;
 
@@ -140,7 +140,7 @@ Outcome measure_huppert(const Conditions& conditions) {
   return outcome;
 }
 
-// Films from depth 2 to 1/2, and on to 0.3, where the dead zone of one unit of head is felt.
+// Films from depth 2 to 1/2, and on to 0.3, where the dead zone of one unit of head has an effect.
 Outcome measure_thin_film(const Conditions& conditions) {
   const Start start{0.1, 2, conditions.quick ? 16. : 20.};
   Trial trial = start.trial(conditions, 2 / 0.35);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kCellsPerThread = 50'000;
 
-// One step, or as many as take a twentieth of a second.
+// Runs one step, or as many as take a twentieth of a second.
 std::optional<double> baseline_speed(const rule::Parameters& parameters, const state::Volume& start) {
   measure::Workload workload;
   workload.parameters = parameters;
@@ -49,7 +49,7 @@ Trial::Trial(const Conditions& conditions, const std::string& scene_name, std::v
   }
   warnings_ = std::move(scene.warnings);
   if (conditions.baseline) baseline_ = baseline_speed(scene.parameters, scene.initial);
-  // Threads cost small grids more than they bring.
+  // On small grids threads cost more time than they save.
   const auto cells = static_cast<std::int64_t>(scene.initial.grid.cells());
   step::Tuning tuning;
   tuning.threads = conditions.threads_always;

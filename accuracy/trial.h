@@ -30,7 +30,7 @@ class Trial {
   const run::Simulation& simulation() const { return *simulation_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  // A run whose ledgers do not balance says nothing: then speed() throws std::runtime_error.
+  // A run whose ledgers do not balance proves nothing. Then speed() throws std::runtime_error.
   enum class Books { must_balance, are_asked_for };
   Speed speed(Books books = Books::must_balance) const;
 

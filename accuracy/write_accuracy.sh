@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Writes docs/accuracy.md from a full run of `voxmelt accuracy`, and leaves its page in out/accuracy.
 #   accuracy/write_accuracy.sh [VOXMELT] [further options of voxmelt accuracy]
-# A missed gate is no reason not to write: the page says so.
+# It writes even if a gate is missed, because the page says so.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,4 +1,5 @@
-// voxmelt bench: how fast, how near to the machine's limits, how many times the paper's program.
+// voxmelt bench: how fast it is, how near to the machine's limits, and how many times as fast as the
+// paper's program.
 #include <fmt/format.h>
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The subcommands: each adds itself to the program; `run` of the chosen one gives the exit code.
+// The subcommands. Each adds itself to the program, and `run` of the chosen one gives the exit code.
 #pragma once
 
 #include <CLI/CLI.hpp>

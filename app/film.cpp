@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kSheetFrames = 12;
 constexpr int kFramesPerSecond = 12;
 
-// Half the size, each pixel the mean of four.
+// Halves the size: each pixel is the mean of four.
 render::Image halved(const render::Image& image) {
   render::Image half(image.width / 2, image.height / 2);
   for (int y = 0; y < half.height; ++y)
@@ -89,7 +89,7 @@ std::string Film::finish() {
   style.columns = shown > 6 ? 4 : 3;
   render::write_png(folder_ / "contact_sheet.png", render::contact_sheet(frames, labels, style));
 
-  // In ffmpeg's pattern a percent sign of the folder's name is doubled; its message need not name the folder.
+  // In ffmpeg's pattern a percent sign of the folder's name is doubled. Its message need not name the folder.
   std::string pattern;
   for (const char c : (folder_ / "frames").string())
     pattern += c == '%' ? std::string("%%") : std::string(1, c);

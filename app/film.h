@@ -13,7 +13,7 @@
 
 namespace voxmelt::app {
 
-// "640x480" into the camera; throws UsageError.
+// Sets the camera's size from "640x480"; throws UsageError.
 void set_size(scene::Camera& camera, const std::string& size);
 
 class Film {

@@ -1,4 +1,4 @@
-// Ctrl-C and friends end a command in good order, instead of leaving a partial folder behind.
+// Ctrl-C and similar signals end a command cleanly, so that no partial folder is left behind.
 #pragma once
 
 namespace voxmelt::app {

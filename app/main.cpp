@@ -33,7 +33,7 @@ constexpr const char* kIntroduction =
     "A scene is a TOML file; docs/scenes.md explains its keys. Exit codes: 0 done, 1 a check failed,\n"
     "2 bad usage or input, 3 out of memory or disk.";
 
-// CLI11 would only say that a subcommand is required.
+// The message of CLI11 would say only that a subcommand is required.
 void check_subcommand(const CLI::App& program, const char* given) {
   if (given[0] == '-') return;
   std::string known;
@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
       return program.exit(error) == 0 ? app::kDone : app::kBadInput;
     }
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error message, not a sudden end
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error message, not a crash
     const int code = chosen();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       return fail(std::string("standard output: error: cannot write: ") + std::strerror(errno),

@@ -38,11 +38,11 @@ void add_common(CLI::App& command, Common& common);
 // A path, or the name of a scene that came with the program.
 scene::Scene load_scene(const Common& common);
 const step::Implementation& find_implementation(const Common& common);  // throws UsageError
-// Takes the scene's initial state away: a large one need not be held twice.
+// Moves the scene's initial state away, because a large one need not be held twice.
 run::Simulation make_simulation(scene::Scene& scene, const Common& common);
 int thread_count(const Common& common);
 
-// Fails at once where --report could not be written later; `out` is the output folder, empty for none.
+// Fails at once if --report could not be written later. `out` is the output folder, empty for none.
 void check_report_place(const Common& common, const std::string& out);
 void write_report(const Common& common, const std::string& text);  // if --report was given
 

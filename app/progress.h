@@ -1,4 +1,4 @@
-// The progress line of a long run: steps/s, liquid share, time left. Only where somebody watches.
+// The progress line of a long run: steps/s, liquid share, time left. It is shown only on a terminal.
 #pragma once
 
 #include <chrono>

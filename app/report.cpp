@@ -26,7 +26,7 @@ json integer(Sum value) {
   return state::to_string(value);
 }
 
-// `held`: what the state holds, by name.
+// `held` is what the state holds, by name.
 template <template <class> class Terms>
 json ledger_json(const state::LedgerOf<Terms>& ledger,
                  std::initializer_list<std::pair<const char*, Sum>> held, Sum drift) {

@@ -1,4 +1,4 @@
-// report.json: what was run, what it left, and whether the books balance. Enough to repeat the run.
+// report.json: what was run, what it left, and whether the books balance. It suffices to repeat the run.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct RunSeconds {
 std::string report_json(const scene::Scene& scene, const Common& common, const run::Simulation& simulation,
                         const RunSeconds& seconds);
 
-// "mass +1, heat -3": what does not balance; empty when all ledgers do.
+// What does not balance, as in "mass +1, heat -3"; empty when all ledgers balance.
 std::string drift_text(const state::Drift& drift);
 
 }  // namespace voxmelt::app

@@ -1,5 +1,5 @@
-// Files that came with the program. They lie beside it: bin/voxmelt and share/voxmelt/, wherever both were
-// moved together. A build folder has links to the source tree in the same places.
+// Files that came with the program. They are beside it: bin/voxmelt and share/voxmelt/ may be moved together.
+// A build folder has links to the source tree in the same places.
 #pragma once
 
 #include <filesystem>

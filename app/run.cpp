@@ -38,7 +38,7 @@ int run_scene(const RunOptions& options) {
   check_report_place(common, place_wanted);
   io::OutputFolder out(place_wanted);
 
-  catch_interrupts();  // end the run early; what was made until then is kept
+  catch_interrupts();  // they end the run early; what was made until then is kept
 
   run::Simulation simulation = make_simulation(scene, common);
   Film film(scene, out.partial(), thread_count(common));

@@ -58,7 +58,7 @@ void split_sets(VerifyCommand& command) {
   command.common.sets = std::move(scene);
 }
 
-// One word for a shell, whatever is in it.
+// Quotes a text as one word for a shell.
 std::string shell_word(std::string text) {
   if (text.starts_with('-')) text = "./" + text;
   const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
@@ -87,7 +87,7 @@ std::string again(const VerifyCommand& command, const std::string& scene,
   return text;
 }
 
-// A replay is called scene.toml: then its folder names it.
+// A replay is called scene.toml, so its folder names it.
 std::string name_of(const scene::Scene& scene) {
   const std::string folder = fs::absolute(scene.file).parent_path().filename().string();
   return scene.name == "scene" && !folder.empty() ? folder : scene.name;
@@ -97,7 +97,7 @@ fs::path replay_place(const VerifyCommand& command, const scene::Scene& scene) {
   return command.out.empty() ? fs::path("out") / ("verify_" + name_of(scene)) : fs::path(command.out);
 }
 
-// A replay extends its scene: it must not take that scene's place.
+// A replay extends its scene, so it must not take that scene's place.
 void check_replay_place(const VerifyCommand& command, const scene::Scene& scene) {
   const fs::path within =
       fs::absolute(scene.file)
@@ -109,8 +109,8 @@ void check_replay_place(const VerifyCommand& command, const scene::Scene& scene)
   if (!command.out.empty()) const io::OutputFolder can_be_written(command.out);
 }
 
-// The software runs alone to the step from which to verify; with radiation to the last step of visibility
-// before.
+// The software runs alone to the step from which to verify. With radiation it stops at the last step of
+// visibility before.
 run::Simulation run_ahead(scene::Scene& scene, const VerifyCommand& command) {
   const std::uint64_t asked = std::uint64_t{scene.first_step} + command.from;
   if (asked + command.steps > 0xFFFFFFFFu)
@@ -144,7 +144,7 @@ void write_replay(const VerifyCommand& command, const scene::Scene& scene,
              place.string(), typed);
 }
 
-// A difference that was found must not be hidden by a disk that is full.
+// A full disk must not hide a difference that was found.
 template <class Write>
 bool try_writing(Write&& write) {
   try {

@@ -51,7 +51,7 @@ void add(const Benchmark& one) {
   benchmark::RegisterBenchmark(one.name.c_str(), [one](benchmark::State& state) { time_it(state, one); })
       ->UseManualTime()
       ->Unit(benchmark::kMillisecond)
-      ->Iterations(9);  // of a step each; a fresh simulation is made for each, unseen by the clock
+      ->Iterations(9);  // one step each; a fresh simulation is made for each, outside of the clock
 }
 
 void register_workloads(

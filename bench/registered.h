@@ -21,7 +21,7 @@ struct Benchmark {
 std::string coordinates(const measure::Workload& workload, const measure::Candidate& candidate);
 void add(const Benchmark& benchmark);
 
-// visit(workload, candidate) for all that this processor supports, on one thread and on two.
+// Calls visit(workload, candidate) for all that this processor supports, on one thread and on two.
 void register_workloads(
     const std::function<void(const measure::Workload&, const measure::Candidate&)>& visit);
 

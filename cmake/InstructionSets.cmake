@@ -11,7 +11,7 @@ endfunction()
 
 voxmelt_instruction_set(sse42 x86-64 -march=x86-64-v2)
 voxmelt_instruction_set(avx2 x86-64 -march=x86-64-v3)
-# g++ 12 takes the undefined registers of its own immintrin.h for an error of ours.
+# g++ 12 warns of undefined registers in its own immintrin.h.
 voxmelt_instruction_set(avx512 x86-64
   -march=x86-64-v4 -Wno-uninitialized $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 voxmelt_instruction_set(neon aarch64)

@@ -1,5 +1,5 @@
-# Third-party libraries, all from Debian 12's packages (cmake/install-dependencies.sh installs them).
-# Their headers are taken as system headers: our warnings are for our code.
+# Third-party libraries, all from Debian 12's packages (cmake/install-dependencies.sh installs them). Their headers
+# are system headers, because our warnings are for our code.
 find_package(PkgConfig REQUIRED)
 find_package(PNG REQUIRED)
 find_package(fmt REQUIRED)
@@ -21,6 +21,6 @@ target_include_directories(voxmelt_tinyobj SYSTEM INTERFACE ${TINYOBJ_INCLUDE})
 pkg_check_modules(SYSTEMC REQUIRED systemc)
 add_library(voxmelt_systemc INTERFACE)
 target_include_directories(voxmelt_systemc SYSTEM INTERFACE ${SYSTEMC_INCLUDE_DIRS})
-# Only where it is used: else a program without a simulation would have to define sc_main.
+# It is linked only where it is used. Otherwise a program without a simulation would have to define sc_main.
 target_link_libraries(voxmelt_systemc INTERFACE -Wl,--push-state,--as-needed ${SYSTEMC_LINK_LIBRARIES} -Wl,--pop-state)
 target_compile_definitions(voxmelt_systemc INTERFACE SC_CPLUSPLUS=201703L)

@@ -6,7 +6,7 @@ target_compile_options(voxmelt_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
   set(VOXMELT_AARCH64 ON)
-  # There compilers fuse multiply-adds unasked: other bits than on x86-64.
+  # There compilers fuse multiply-adds by default, which gives other bits than on x86-64.
   target_compile_options(voxmelt_options INTERFACE -ffp-contract=off)
 endif()
 if(VOXMELT_SANITIZE)

@@ -49,7 +49,7 @@ int checked_threads(int threads) {
 
 template <class Number>
 Number checked(const char* name, Number value, Number lowest, Number highest) {
-  if (value >= lowest && value <= highest) return value;  // a NaN is not
+  if (value >= lowest && value <= highest) return value;  // false for a NaN
   throw InputError("Picture: error: " + std::string(name) + " = " + std::to_string(value) + " is outside " +
                    std::to_string(lowest) + ".." + std::to_string(highest));
 }
@@ -87,7 +87,7 @@ class Simulation::Parts {
     simulation.begin_at(scene.first_step);
   }
 
-  // One kind of source changes, the others stay.
+  // Replaces one kind of source; the others stay.
   template <class Change>
   void change_sources(const Change& change) {
     const rule::Parameters& now = simulation.parameters();

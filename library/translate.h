@@ -17,7 +17,7 @@ template <class Error>
   throw OutputError(error.what());
 }
 
-// What `work` returns; what it throws is thrown as one of the public errors.
+// Returns what `work` returns. What it throws is thrown as one of the public errors.
 template <class Work>
 decltype(auto) translated(const Work& work) {
   try {

@@ -1,4 +1,4 @@
-// What is written about the cases: a JSON file, a table of comma-separated values, a page, and a summary.
+// The reports on the cases: a JSON file, a table of comma-separated values, a page, and a summary.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ struct Report {
 
   bool passed() const;
   int gates() const;   // rows that have a gate
-  int missed() const;  // and do not pass it
+  int missed() const;  // rows that do not pass their gate
 };
 
 // "heat_kernel/6 neighbours, gamma 0.3" is the full name of a row: case and setting.

@@ -1,5 +1,6 @@
 // The paper's algorithm as a competent graphics programmer writes it without special effort: real fields, a
-// byte per flag, whole-grid loops, one thread. It is frozen: every speed ratio of this project is to it.
+// byte per flag, whole-grid loops, one thread. It is frozen, because every speed ratio of this project is
+// to it.
 //
 // It runs the paper's law (docs/automaton.md, sections 6 to 9) in real numbers: 1 is a full cell, and the top
 // of the range of temperatures. The bounds that only integers need are left out, and so are vents and drains.

@@ -1,4 +1,4 @@
-// Building the fields and looking into them: what is not timed.
+// Builds the fields and reads them. None of this is timed.
 #include "bench/baseline/fields.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 namespace voxmelt::baseline {
 namespace {
 
-// The only place that knows how the kernel's fields are laid out: visit(x, y, z, slot), x fastest.
+// Calls visit(x, y, z, slot), x fastest. This is the only place that knows the layout of the kernel's fields.
 template <class Visit>
 void for_each_slot(const state::Grid& grid, Visit&& visit) {
   const state::Layout layout(grid);

@@ -23,7 +23,8 @@ struct Fields {
   explicit Fields(const state::Volume& volume);
   ~Fields();
 
-  // Always inlined: no copy compiled for one instruction set can be linked in place of another's.
+  // These are always inlined, so that no copy compiled for one instruction set can be linked in place
+  // of another's.
   [[gnu::always_inline]] std::size_t at(int x, int y, int z) const {
     return static_cast<std::size_t>(z + 1) * slice + static_cast<std::size_t>(y + 1) * row +
            static_cast<std::size_t>(x + 1);

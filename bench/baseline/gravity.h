@@ -1,5 +1,5 @@
-// Gravity (Eqs. 2-6): every column from its bottom up, so that liquid in free air falls whole, a cell per
-// step.
+// Gravity (Eqs. 2-6): every column from its bottom up, so that liquid in free air falls whole, a cell
+// per step.
 #pragma once
 
 #include <algorithm>

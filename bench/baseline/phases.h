@@ -1,4 +1,4 @@
-// All phases: included by the files that compile them, each with its own options.
+// All phases. The files that compile them include this one, each with its own options.
 #pragma once
 
 #include "bench/baseline/excess.h"

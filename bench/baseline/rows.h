@@ -1,4 +1,4 @@
-// What the native variant adds: is there anything in a row along x?
+// Only the native variant asks this: is there anything in a row along x?
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,8 @@ template <class Real>
   return row_has(f, f.liquid, first) || row_has(f, f.solid, first);
 }
 
-// Is the row marked, or one that touches it in the same layer, or (`all_around`) any of the eight?
+// Is the row marked, or a row that touches it in the same layer, or (`all_around`) any of the eight
+// around it?
 template <class Real>
 [[gnu::always_inline]] inline bool marked_near(const Fields<Real>& f, std::size_t first, bool all_around) {
   const std::uint8_t* mark = f.row_marks.data() + first / f.row;

@@ -27,7 +27,7 @@ template <class Real>
   return {1, -1, z, -z, 1 + z, 1 - z, -1 + z, -1 - z};
 }
 
-// More than 1 where a temperature makes the liquid thin.
+// It is more than 1 where the temperature makes the liquid thin.
 template <class Real>
 [[gnu::always_inline]] inline Real mobility(const Numbers<Real>& n, Real temperature) {
   if (!n.thermal_viscosity) return 1;
@@ -64,8 +64,8 @@ void Baseline<Real, variant>::find_patterns(std::uint32_t step) {
         if (n.support && f.air(i - f.row)) continue;
         if (f.energy[i] <= n.threshold && n.slump <= 0) continue;
 
-        // A direction is available if it is open and its cell stands lower, by what would flow and by a
-        // margin.
+        // A direction is available if it is open and its cell stands lower, by what would flow and by
+        // a margin.
         const Real margin = f.energy[i] > n.threshold ? n.margin : n.slump;
         const Real flow = f.amount[i] * n.share * mobility(n, f.temperature[i]);
         unsigned available = 0;

@@ -15,7 +15,7 @@ struct LaneLoops {
   void (*update)(std::uint16_t* at, std::size_t lanes) = nullptr;
 };
 
-// Compiled for an architecture of xsimd (lane_loops_for.h).
+// The loops, compiled for an architecture of xsimd (lane_loops_for.h).
 template <class Arch>
 LaneLoops loops_for();
 

@@ -15,7 +15,7 @@ struct Loops {
   using V = typename L::V;
   static constexpr int kChains = 12;  // more than the latency of a multiply times multiplies a cycle
 
-  // Twelve variables and no array: an array would be kept in memory.
+  // There are twelve variables and no array, because an array would be kept in memory.
   struct Chains {
     V a = L::set(65521), b = L::set(65420), c = L::set(65319), d = L::set(65218), e = L::set(65117),
       f = L::set(65016), g = L::set(64915), h = L::set(64814), i = L::set(64713), j = L::set(64612),
@@ -29,7 +29,7 @@ struct Loops {
     return rounds * kChains * static_cast<std::uint64_t>(L::kCount);
   }
 
-  // The register itself, so that nothing is moved about or put off.
+  // The register itself is named, so that the compiler adds no move and delays nothing.
 #if defined(__aarch64__)
   VOXMELT_LANES void pin(V& v) { asm volatile("" : "+w"(v.data)); }
 #else

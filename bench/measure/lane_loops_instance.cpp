@@ -1,4 +1,4 @@
-// Compiled once for each instruction set.
+// This file is compiled once for each instruction set.
 #include "bench/measure/lane_loops_for.h"
 #include "kernel/engine/cpu/own_lanes.h"
 

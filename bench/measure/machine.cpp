@@ -19,15 +19,15 @@
 namespace voxmelt::measure {
 namespace {
 
-constexpr double kTrialSeconds = 0.001;  // shorter than a turn of the scheduler
+constexpr double kTrialSeconds = 0.001;  // shorter than a time slice of the scheduler
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// All threads start together; the work of all is over when the last one is done. Returns the best rate.
-// `piece(thread)` does one piece of work and says how much that was.
+// All threads start together, and a trial ends when the last one is done. Returns the best rate.
+// `piece(thread)` does one piece of work and returns how much that was.
 double best_rate(int threads, const Rounds& trials, const std::function<double(int)>& piece) {
   double best = 0;
   const RoundClock clock(trials);
@@ -141,7 +141,7 @@ LaneRates Machine::measure(cpu::InstructionSet set, int threads) const {
   return {rate(loop.multiply), rate(loop.add)};
 }
 
-// With more threads no bound is lower than with fewer: the others may rest.
+// With more threads no bound is lower than with fewer, since the others may rest.
 Bandwidth Machine::bandwidth(std::size_t footprint, int threads) {
   const std::pair key{rounded(footprint), threads};
   if (!bandwidths_.contains(key)) bandwidths_[key] = measure(key.first, threads);

@@ -1,6 +1,6 @@
 // What this machine can do, measured in the same run as everything that is compared with it.
 //
-// Rates are the best of many short trials, as times are minima: a roof that a busy machine had lowered would
+// Rates are the best of many short trials, as times are minima. A roof that a busy machine lowered would
 // flatter us.
 #pragma once
 
@@ -25,7 +25,7 @@ double load_average();  // of the last minute: threads of the whole system that 
 // Bytes per second, read and written bytes both counted.
 struct Bandwidth {
   double copy = 0;    // memcpy from one half of the footprint to the other
-  double update = 0;  // every number read, changed and written back in place: no line is fetched in vain
+  double update = 0;  // every number read, changed and written in place: no cache line is fetched in vain
   double best() const { return copy > update ? copy : update; }
 };
 
@@ -43,13 +43,13 @@ class Machine {
   Bandwidth bandwidth(std::size_t footprint, int threads);
   LaneRates lane_rates(cpu::InstructionSet set, int threads);
 
-  // Measures again what has been measured, and keeps the better: others may have been at work then.
+  // Measures everything again and keeps the better rate, because the machine may have been busy before.
   void refresh_rates();
   void refresh_all();
 
   static std::size_t rounded(std::size_t footprint);
 
-  // All that has been measured until now.
+  // All that has been measured so far.
   const std::map<std::pair<std::size_t, int>, Bandwidth>& bandwidths() const { return bandwidths_; }
   const std::map<std::pair<cpu::InstructionSet, int>, LaneRates>& rates() const { return rates_; }
 

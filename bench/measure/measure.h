@@ -1,5 +1,5 @@
-// Times workloads, and the paper's program on the same state in the same minutes. Nothing is timed whose
-// result is not checked.
+// Times workloads, and the paper's program on the same state in the same minutes. The result of everything
+// that is timed is checked.
 //
 // A time is a minimum: every timed step is repeated from the same state, and each of its phases counts with
 // the shortest time that any round needed. Whatever else the machine does only adds to a time.

@@ -92,8 +92,8 @@ std::string axes(const Scale& scale) {
 
 std::string roofs(const Findings& findings, const Scale& scale) {
   std::string svg;
-  // Slopes: how fast bytes come, in the smallest footprint measured on one thread (caches) and in the
-  // largest.
+  // Slopes are bandwidths on one thread: that of the smallest footprint measured (caches) and that of
+  // the largest.
   const std::pair<std::size_t, int>* ends[2] = {nullptr, nullptr};
   for (const auto& [key, found] : findings.machine.bandwidths()) {
     if (key.second != 1) continue;
@@ -115,7 +115,7 @@ std::string roofs(const Findings& findings, const Scale& scale) {
                          scale.y(at * rate), slope * 180 / std::acos(-1.0)) +
                  std::string(kHalo));
   }
-  // Level lines: how fast operations are done.
+  // Level lines are rates of operations.
   const auto level = [&](double rate, const std::string& what, std::string_view dashes) {
     if (rate <= 0) return;
     svg += line(kLeft, scale.y(rate), kRight, scale.y(rate), "#333", 1.5, dashes);
@@ -153,7 +153,7 @@ std::string roofline_svg(const Findings& findings) {
     key_text += text(kKey, key_y, "start", 12, "#222",
                      fmt::format("{}  {} {}", i + 1, name_of(one->subject), one->workload));
     key_y += 17;
-    // Beside marks that are there already, as near to its own place as can be.
+    // The mark is placed beside those that are there already, as near to its own place as possible.
     const double x = scale.x(std::clamp(one->work.operations() / one->work.bytes, kFewestOps, kMostOps));
     const double y = scale.y(rate(*one));
     double best = x;

@@ -9,7 +9,7 @@
 
 namespace voxmelt::measure {
 
-// `version`: of the program that was measured.
+// `version` is that of the program that was measured.
 std::string bench_json(const Findings& findings, const std::string& version);
 
 // Tables in Markdown, each after a line "<!-- table: NAME -->".

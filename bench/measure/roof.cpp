@@ -100,7 +100,8 @@ Work paper_spread_work(const rule::Parameters& p) {
   return with_bytes(c, true, p.heat.enabled);
 }
 
-// Every pair counts for one of its two cells: 4 pairs a cell. Heads belong to runs and cost a cell nothing.
+// Every pair counts for one of its two cells, which makes 4 pairs per cell. Heads belong to runs and cost a
+// cell nothing.
 Work viscous_spread_work(const rule::Parameters& p) {
   Counting c;
   const double pairs = 4;
@@ -185,7 +186,7 @@ Work work_of(Subject subject, const rule::Parameters& parameters) {
 }
 
 Roof roof_of(const Work& work, const LaneRates& rates, const Bandwidth& bandwidth) {
-  // Multiplies have their own limit, and share the one of all operations.
+  // Multiplies have a limit of their own, besides that of all operations.
   return {std::min(rates.multiply / work.multiplies, rates.add / work.operations()),
           bandwidth.best() / work.bytes};
 }

@@ -1,8 +1,8 @@
-// How fast the automaton could be at most on this machine: what its definition needs for a cell, set against
-// what the machine was measured to do.
+// How fast the automaton could be at most on this machine: what its definition needs for a cell, and what the
+// machine was measured to do.
 //
-// Counted from docs/automaton.md, not from our instructions. An upper bound: operations that a clever
-// implementation might avoid are counted only where the definition asks for their results.
+// It is counted from docs/automaton.md, not from our instructions. It is an upper bound: operations that a
+// clever implementation might avoid are counted only where the definition asks for their results.
 #pragma once
 
 #include <string>
@@ -32,7 +32,7 @@ struct Work {
   double operations() const { return multiplies + others; }
 };
 
-// Per cell in which everything happens: it gives, takes, and where heat.enabled mixes.
+// Counts for a cell in which everything happens: it gives, takes and, with heat.enabled, mixes.
 Work work_of(Subject subject, const rule::Parameters& parameters);
 
 struct Roof {

@@ -1,4 +1,4 @@
-// How long a measurement is repeated: long enough for one round that nothing else disturbed.
+// How long a measurement is repeated: long enough for one undisturbed round.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// All that `voxmelt bench` measures, and what comes out of it.
+// All that `voxmelt bench` measures, and its results.
 #pragma once
 
 #include <cstddef>
@@ -48,8 +48,8 @@ struct TableRow {
   double frames_per_second = 0;  // of a step with all its phases, and the update
 };
 
-// How many times faster several threads are than one. Neither number has a bound that a measurement could
-// not pass: docs/decisions/performance-minima.md.
+// How many times faster several threads are than one. A measurement may exceed any bound of either number:
+// see docs/decisions/performance-minima.md.
 struct Scaling {
   std::string workload, implementation;
   int threads = 2;
@@ -60,7 +60,7 @@ struct Scaling {
 std::vector<Scaling> scaling_of(const std::vector<Case>& cases);
 
 double seconds_of(Subject subject, const Seconds& step);  // flow or heat
-// How many times as long the baseline takes. Nothing where it did not run.
+// How many times as long the baseline takes; nothing where it did not run.
 std::optional<double> ratio_to(const std::optional<Seconds>& baseline, const Seconds& ours, Subject subject);
 
 struct Findings {
@@ -91,7 +91,7 @@ class Suite {
   void run_scene(const Workload& workload, const scene::Scene& scene);
   void run_dense();  // everything that is no scene
 
-  // Measures the machine once more. Tables and report have the better of its rates, for all cases alike.
+  // Measures the machine once more. Tables and report use the better of its rates, for all cases alike.
   Findings take();
 
  private:

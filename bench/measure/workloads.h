@@ -17,7 +17,7 @@ struct Workload {
   state::Volume start;
   bool times_flow = true, times_heat = false;
   bool at_rest = false;  // nothing in it can move: no roof
-  // Steps before the timed ones: a fresh stepper does not know yet what sleeps.
+  // Steps before the timed ones, because a fresh stepper does not know yet what sleeps.
   int lead_steps = 2;
   int steps = 8;  // timed
   // The implementation whose digest the results must have.
@@ -39,8 +39,8 @@ Workload scene_at(const scene::Scene& scene, std::uint32_t step, int threads);
 rule::Parameters later(rule::Parameters parameters, std::uint32_t steps);
 
 // An n-cubed volume in which every cell is liquid and holds between half a cell and one and a half, at
-// random: columns fall and are pushed up, cells give and take. Timed in its second step, before it settles:
-// in the fifth hardly a cell gives, and nothing would be timed but asking.
+// random: columns fall and are pushed up, cells give and take. It is timed in its second step, before it
+// settles. In the fifth hardly a cell gives, and only the tests of cells would be timed.
 Workload dense_paper(int n, bool heat);
 
 // A closed pool: every cell liquid and full, the columns under different pressure, so that every cell flows.

@@ -1,6 +1,6 @@
-// A memory of one column that turns columns round: what comes bottom first leaves top first, a column later.
-// One address serves both ports: the old word is read, then the new one written in its place, and the address
-// turns back after every column. So one memory does what would else take two that swap (ping-pong).
+// A memory of one column that reverses columns: what comes bottom first leaves top first, a column later. One
+// address serves both ports: the old word is read, then the new one is written in its place. The address
+// changes direction after every column. So one memory does the work of two that swap (ping-pong).
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class ColumnReverser {
     std::copy(in, in + lanes_, slot);
     if (++done_ == depth_) {
       done_ = 0;
-      upwards_ = !upwards_;  // and the address stays: the last word written is the first one to be read
+      upwards_ = !upwards_;  // the address stays: the last word written is the first one to be read
     } else {
       address_ = upwards_ ? address_ + 1 : address_ - 1;
     }
@@ -42,12 +42,13 @@ class ColumnReverser {
     return {std::move(name), static_cast<std::int64_t>(depth_), static_cast<std::int64_t>(lanes_), bits};
   }
 
-  // For planted faults. At the begin of a column: the token that the n-th exchange will give.
+  // For planted faults, at the begin of a column: the token that the n-th exchange will give.
   const Word* will_give(std::int64_t n) const {
     const std::size_t from = static_cast<std::size_t>(n);
     return &words_[(upwards_ ? address_ + from : address_ - from) * lanes_];
   }
-  // At the begin of a column: the address did not turn back, so the column leaves as it came.
+  // For planted faults, at the begin of a column: the address does not change direction, so the column leaves
+  // as it came.
   void miss_turn() {
     upwards_ = !upwards_;
     address_ = upwards_ ? 0 : depth_ - 1;

@@ -14,7 +14,7 @@
 
 namespace voxmelt::hwmodel {
 
-// Sees what enters and leaves a channel; ordinals count the tokens of a pass from 0.
+// Sees what enters and leaves a channel. Ordinals count the tokens of a pass from 0.
 template <class Word>
 class FifoWatcher {
  public:
@@ -23,8 +23,8 @@ class FifoWatcher {
   virtual void left(int channel, std::int64_t ordinal, const Word* lanes) = 0;
 };
 
-// Spoils what is stored. `last`: the token stored before `now`; `waiting`: how many tokens are in front of
-// it.
+// Corrupts what is stored. `last` is the token stored before `now`; `waiting` is how many tokens are in front
+// of it.
 template <class Word>
 class FifoFault {
  public:

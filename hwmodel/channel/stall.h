@@ -8,14 +8,14 @@ namespace voxmelt::hwmodel {
 class StallInjector {
  public:
   StallInjector() = default;
-  // Seed 0: never stalls. Two channels, or two passes, have different streams; a pass has always the same.
+  // Seed 0 never stalls. Two channels, or two passes, have different streams. A pass always has the same one.
   StallInjector(std::uint64_t seed, std::uint64_t channel, std::uint64_t pass)
       : state_(seed == 0 ? 0 : mix(mix(seed * 0x9E3779B97F4A7C15u + channel + 1) + pass) | 1) {}
 
   struct Stall {
     bool put = false, get = false;
   };
-  // Of the next cycle: each side stalls one time in four.
+  // Draws the stalls of the next cycle: each side stalls one time in four.
   Stall next() {
     if (state_ == 0) return {};
     state_ ^= state_ << 13;  // xorshift64

@@ -1,6 +1,6 @@
-// A line buffer: a delay of whole tokens (P lanes each) with taps. Behind every tap stands a register or the
-// read port of a memory; what is written through a tap travels on, as if each stretch between two taps were
-// a memory of its own (one read, one write a cycle) whose word is updated on the way.
+// A line buffer: a delay of whole tokens (P lanes each) with taps. Behind every tap there is a register or
+// the read port of a memory. What is written through a tap travels on. Each stretch between two taps acts as
+// a memory of its own (one read, one write per cycle), whose word is updated on the way.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Numbers of a declared width, as hardware has them: what does not fit is a broken invariant, never a silent
-// wrap-around.
+// Numbers of a declared width, as in hardware. A value that does not fit is a broken invariant, and never
+// wraps silently.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ class ApplyFaults : public Planted {
       gift = {};
       return strike_word(stage, stage.line_, to);
     }
-    // All that may ever come must have room above the wrong flow, in the southern sums too.
+    // All that may still come must have room above the wrong flow, in the southern sums too.
     const std::int64_t whole = giver.axis[0].amount;
     if (armed(stage, Fault::apply_diagonal_whole) && diagonal && gift.amount < whole &&
         whole < 3 * (kOne >> 2) && to.amount + whole + 5 * kOne <= kAmountMax) {

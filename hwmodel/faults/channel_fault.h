@@ -1,5 +1,5 @@
-// A fault of a channel: of the one behind the stage in the middle of the first time step in which it may
-// strike. It strikes the first token in which it makes a difference.
+// A fault of the channel behind the middle stage of the first time step in which it may strike. It strikes
+// the first token in which it makes a difference.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,22 @@ namespace voxmelt::hwmodel {
 
 class ChannelFault final : public FifoFault<Cell> {
  public:
-  // Both must outlive it. Does nothing where the plan's fault is none of a channel.
+  // Both must outlive it. It does nothing if the plan's fault is not a channel's.
   ChannelFault(FaultPlan& plan, Pipeline& pipeline) : plan_(plan), pipeline_(pipeline) {}
   ~ChannelFault() override { take_out(); }
   ChannelFault(const ChannelFault&) = delete;
   ChannelFault& operator=(const ChannelFault&) = delete;
 
-  // Before a pass of `steps` time steps from number `first`.
+  // Must be called before a pass of `steps` time steps from number `first`.
   void begin_pass(std::uint32_t first, int steps);
 
   Effect stores(std::int64_t ordinal, Cell* now, Cell* last, int waiting) override;
 
  private:
   void take_out();
-  // Rotates the lanes of the token; they are not all the same.
+  // Rotates the lanes of the token, unless all are the same.
   Effect swap_lanes(std::int64_t ordinal, Cell* now);
-  // The first lane in which two tokens differ; the number of lanes: none.
+  // The first lane in which two tokens differ; the number of lanes if none does.
   int first_difference(const Cell* one, const Cell* other) const;
   void strike(std::int64_t ordinal, int lane);
 

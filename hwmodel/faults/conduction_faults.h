@@ -1,6 +1,6 @@
-// Faults of the passes of conduction. They strike in the last pass (conduction, edges or corners), where the
-// cell in the plane before is sure to be wrong at the end of the phase: it is no liquid that convects, no
-// cell at air that is exchanged with, and far from the hottest where there is radiation.
+// Faults of the passes of conduction. They strike in the last pass (conduction, edges or corners), and only
+// where the cell in the plane before is sure to be wrong at the end of the phase. So the cell is no liquid
+// that convects, exchanges no heat with air, and with radiation is far from the hottest.
 #pragma once
 
 #include <cstddef>
@@ -39,8 +39,8 @@ class ConductionFaults : public Planted {
            (pass.kind() != StageKind::conduction && armed(pass, Fault::distant_wrong_axis));
   }
 
-  // In the word that leaves the plane memory: the lowest bit of the amount that is 0 (a cell's energy may not
-  // exceed its amount, which therefore must not shrink).
+  // Sets the lowest bit that is 0 of the amount in the word that leaves the plane memory. A cell's energy may
+  // not exceed its amount, so the amount must not shrink.
   template <const auto& kPairs>
   void flip_bit(Pass<kPairs>& pass) {
     for (int lane = 0; lane < pass.lanes(); ++lane) {
@@ -51,8 +51,8 @@ class ConductionFaults : public Planted {
     }
   }
 
-  // Lets the fault strike the part of a flux that goes to the cell in the plane before. It may only do so
-  // where that cell is the first one in the stream that the end of the phase shows wrong: where no later pair
+  // Lets the fault strike the part of a flux that goes to the cell in the plane before. It may do so only
+  // where that cell is the first one in the stream that is wrong at the end of the phase. Then no later pair
   // carries the error to a cell before it, and the exchange does not hide it.
   template <const auto& kPairs>
   void misbehave(Pass<kPairs>& pass) {

@@ -14,7 +14,7 @@ class ExchangeFaults : public Planted {
   using Planted::Planted;
   using Faulty = Exchange<ExchangeFaults>;
 
-  // `irradiance`: of the whole token; null without radiation.
+  // `irradiance` holds the whole token's; it is null without radiation.
   void exchanged(const Faulty& stage, const Cell& in, const UInt<16>* irradiance, std::int64_t ambient,
                  int lane, Cell& out) {
     const auto received_by = [&](int at) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -11,9 +12,8 @@ constexpr std::array kFaults{
     FaultInfo{vent_rate, "vent-rate", "source", "a vent adds one unit more than its rate"},
     FaultInfo{drain_energy, "drain-energy", "source",
               "a drain leaves one unit of energy above the amount that is left"},
-    // Of the faults of conduction: they strike in the last pass (conduction, edges or corners), where the
-    // cell behind is sure to be wrong at the end of the phase: it is no liquid that convects, no cell at air
-    // that is exchanged with, and far from the hottest where there is radiation.
+    // The faults of conduction strike in the last pass (conduction, edges or corners), and only where the
+    // cell behind is sure to be wrong at the end of the phase. See conduction_faults.h.
     FaultInfo{conduction_sign, "conduction-sign", "conduction",
               "a flux arrives at the cell behind with the wrong sign"},
     FaultInfo{conduction_dither, "conduction-dither", "conduction",
@@ -61,6 +61,15 @@ constexpr std::array kFaults{
     FaultInfo{fifo_never_ready, "fifo-never-ready", "channel",
               "a channel is never ready again: everything hangs"},
 };
+
+// A fault that the table lacks would never be tested.
+constexpr bool has_all_in_order() {
+  auto expected = static_cast<std::size_t>(none);
+  for (const FaultInfo& one : kFaults)
+    if (static_cast<std::size_t>(one.fault) != ++expected) return false;
+  return ++expected == static_cast<std::size_t>(end);
+}
+static_assert(has_all_in_order(), "a row for each fault, in the order of the enumerators");
 
 }  // namespace
 

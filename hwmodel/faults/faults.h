@@ -54,6 +54,7 @@ enum class Fault : std::uint8_t {
   fifo_stale,
   fifo_swap_lanes,
   fifo_never_ready,
+  end,  // no fault, but the end of the list
 };
 
 struct FaultInfo {

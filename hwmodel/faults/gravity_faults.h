@@ -40,7 +40,7 @@ class GravityFaults : public Planted {
     strike_word(stage, stage.line_, low);
   }
 
-  // The pair reaches over the columns' ends.
+  // The pair joins the end of one column to the start of the next.
   void column_ended(Faulty& stage, Falling& low, Falling& high, bool blocked_above) {
     if (!armed(stage, Fault::gravity_column_wrap)) return;
     Falling wrong_low = low, wrong_high = high;

@@ -1,4 +1,4 @@
-// Does a wrong heat inside the phase leave the phase wrong for certain?
+// Is a heat that is wrong inside the phase sure to be wrong at its end?
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace voxmelt::hwmodel {
 
-// Behind conduction and convection comes the exchange. Radiation adds at most 4096 to a solid and cuts at the
-// top; air can make two heats equal.
+// The exchange follows conduction and convection. Radiation adds at most 4096 to a solid and saturates. Air
+// can make two heats equal.
 inline bool survives_exchange(const rule::Heat& heat, const HeatWord& word, std::int64_t right,
                               std::int64_t wrong) {
   if (heat.air && word.exposed > 0) return false;

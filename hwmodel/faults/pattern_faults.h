@@ -39,7 +39,8 @@ class PatternFaults : public Planted {
  private:
   static std::int64_t lowest_bit(std::int64_t bits) { return bits & -bits; }
 
-  // Of the cell that is `further` along x from the one that leaves, in the block of the latter.
+  // The random byte of the cell that is `further` along x from the one that leaves, in the block of
+  // the latter.
   static std::int64_t random_byte(const Faulty& stage, int lane, int further) {
     const int x = stage.leaving().x + lane;
     return speck_byte(speck_block(stage.keys_, stage.step(), stage.block_index(x)), x + further);

@@ -1,5 +1,5 @@
 // What the fault policies of all stages share: is their fault armed, and where did it strike? Such a policy
-// stands in a stage in the place of NoFaults and is called at the points named there.
+// takes the place of NoFaults in a stage, and is called at the points named there.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class Planted {
   }
 
  private:
-  // Where a word stands in the stream, in cells.
+  // The position of a word in the stream, in cells.
   template <class Word>
   static std::int64_t position_of(const Stage& stage, TapLine<Word>& line, const Word& word) {
     std::size_t delay = 0;

@@ -46,7 +46,7 @@ StageMaker planted_stages(FaultPlan& plan) {
         return std::make_unique<Settle<SettleFaults>>(design, SettleFaults(plan, design));
       case viscous_spread:
         return std::make_unique<ViscousSpread<ViscousSpreadFaults>>(design, ViscousSpreadFaults(plan));
-      default:  // what has no faults
+      default:  // stages without faults
         return make_stage(kind, design);
     }
   };

@@ -1,5 +1,5 @@
-// Watches every token of the pipeline: behind each stage it must be what the reference has there, and what
-// leaves a channel must be what entered it. The first difference stops the pass.
+// Watches every token of the pipeline. Behind each stage it must equal the reference's, and what leaves a
+// channel must be what entered it. The first difference stops the pass.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class Checker final : public FifoWatcher<Cell> {
  public:
   explicit Checker(Pipeline& pipeline);
 
-  // `expected`: of each cascaded step; an empty one is not compared.
+  // `expected` has an entry per cascaded step; an empty one is not compared.
   void begin_pass(std::uint32_t first_step, const std::vector<std::vector<Expected>>& expected);
 
   void entered(int channel, std::int64_t ordinal, const Cell* lanes) override;

@@ -22,13 +22,14 @@ struct Expected {
 
 class Expectation {
  public:
-  // `fast` is the software kernel that is held against the reference on the way; `stages`: of a time step.
+  // `fast` is the software kernel that is compared with the reference on the way. `stages` are those of a
+  // time step.
   Expectation(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
               const step::Implementation& fast, const step::Tuning& tuning, std::vector<StageKind> stages);
 
-  // Runs one step. `keep`: also returns what is expected behind every stage, in the order of the stages of
-  // one time step. A difference between the two software kernels, or a phase without a stage that changes
-  // something, is returned as a mismatch.
+  // Runs one step. With `keep` it also returns what is expected behind every stage, in the order of the
+  // stages of one time step. A difference between the two software kernels, or a phase without a stage that
+  // changes something, is returned as a mismatch.
   struct Step {
     std::vector<Expected> stages;
     std::unique_ptr<Mismatch> mismatch;

@@ -39,7 +39,7 @@ const char* name_of(Mismatch::Kind kind);
 // The lines that a person reads.
 std::string text_of(const Mismatch& mismatch);
 
-// The cells around one: three lines per height, from above to below; state and amount of each.
+// The cells around one, with state and amount: three lines per height, from above to below.
 std::vector<std::string> neighbourhood(const state::Volume& volume, int x, int y, int z);
 
 struct Difference {

@@ -10,7 +10,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// As a TOML basic string.
+// Quotes a text as a TOML basic string.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {

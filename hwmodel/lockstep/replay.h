@@ -9,8 +9,9 @@
 
 namespace voxmelt::hwmodel {
 
-// Fills `folder` with the fields and scene.toml, which extends `scene`. `sets`: overrides of the scene that
-// were in force, as comments for the reader and as part of `command`, which goes into the file's head.
+// Fills `folder` with the fields and scene.toml, which extends `scene`. `sets` are the overrides of the
+// scene in force. They become comments for the reader, and are a part of `command`, which goes into the
+// file's head.
 void write_replay(const std::filesystem::path& folder, const std::filesystem::path& scene,
                   const state::Volume& volume, std::uint32_t step, const std::string& command);
 

@@ -94,7 +94,7 @@ std::int64_t channel_bits(const VerifyReport& report, int lanes) {
   return bits;
 }
 
-// Of the whole machine.
+// Totals of the whole machine.
 Units units_of(const VerifyReport& report, int lanes) {
   Units sum;
   for (const StageReport& stage : report.stages) {
@@ -117,7 +117,7 @@ Traffic traffic_of(const VerifyReport& report, const Design& design, int lanes) 
   return bits;
 }
 
-// Below the table: the whole machine, its bounds, what it reached.
+// The text below the table: the whole machine, its bounds, and what it reached.
 std::string summary(const VerifyReport& report, const Design& design, const Configuration& configuration) {
   const Shape& shape = design.shape;
   const Units units = units_of(report, configuration.lanes);

@@ -1,4 +1,4 @@
-// What `voxmelt verify` tells: a table for a person, JSON for programs.
+// What `voxmelt verify` reports: a table for people, JSON for programs.
 #pragma once
 
 #include <nlohmann/json.hpp>

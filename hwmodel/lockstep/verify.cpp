@@ -17,7 +17,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// Steps of a pass: none reaches beyond a step of visibility, where irradiance changes.
+// The number of steps of a pass. No pass reaches beyond a step of visibility, where irradiance changes.
 int steps_of_pass(const Design& design, const Configuration& configuration, std::uint32_t step,
                   std::uint32_t left) {
   std::uint32_t steps = std::min(left, static_cast<std::uint32_t>(configuration.cascade));
@@ -26,7 +26,7 @@ int steps_of_pass(const Design& design, const Configuration& configuration, std:
   return static_cast<int>(steps);
 }
 
-// Where everything waits: the first empty channel behind a full one, and the cell that should enter it.
+// Finds where everything waits: the first empty channel behind a full one, and the cell that should enter it.
 Mismatch hang_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_t cycle) {
   Mismatch m{.kind = Mismatch::Kind::hang, .step = first_step, .cycle = cycle};
   std::string full, empty;

@@ -20,7 +20,7 @@ struct VerifyOptions {
   Configuration configuration;
   Fault fault = Fault::none;
   std::uint32_t fault_step = 0;  // the first step in which it may strike
-  std::function<void()> poll;    // called now and then; may throw, which ends everything
+  std::function<void()> poll;    // called now and then; what it throws ends everything
 };
 
 struct VerifyReport {
@@ -35,8 +35,8 @@ struct VerifyReport {
   std::vector<StageReport> stages;
   std::vector<ChannelReport> channels;
   std::uint64_t digest = 0;  // of the model's last state
-  // The state from which the mismatch can be replayed, and its step number: a step of visibility, or the
-  // first.
+  // The state from which the mismatch can be replayed, and its step number: a step of visibility, or
+  // the first.
   std::optional<state::Volume> replay;
   std::uint32_t replay_step = 0;
   std::uint32_t pass_end = 0;  // the step after the last one of the last pass
@@ -45,8 +45,8 @@ struct VerifyReport {
   bool found_where_planted() const;
 };
 
-// What a run comes to. A difference is a difference, whether it was planted or not; a fault that changed
-// nothing is no proof of anything; one that was struck and not found shows a blind checker.
+// The verdict of a run. Any difference counts, whether it was planted or not. A fault that changed nothing
+// proves nothing. A fault that struck and was not found shows that the checker is blind.
 enum class Verdict { good, failed, never_struck };
 inline Verdict verdict_of(const VerifyReport& report, bool planted) {
   if (report.mismatch != nullptr) return Verdict::failed;
@@ -55,7 +55,7 @@ inline Verdict verdict_of(const VerifyReport& report, bool planted) {
 }
 
 // Verifies from `start`, the state before step number `first_step`. With radiation that must be a step of
-// visibility. Takes care that something is compared: else throws std::logic_error.
+// visibility. Throws std::logic_error if nothing was compared.
 VerifyReport verify(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
                     const step::Implementation& fast, const step::Tuning& tuning,
                     const VerifyOptions& options);

@@ -14,7 +14,7 @@ struct Preset {
   Configuration configuration;
 };
 
-// Reads `file`; `overrides` are "hw.key=value", checked like the file. An empty path: the defaults.
+// Reads `file`; `overrides` are "hw.key=value", checked like the file. An empty path means the defaults.
 // Throws scene::InputError with its place.
 Preset load_preset(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 

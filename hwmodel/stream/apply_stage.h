@@ -1,6 +1,6 @@
-// What the patterns say flows (paper's law). All that a cell gives depends on itself alone, and is computed
-// twice: when the cell comes, for its southern neighbours, and when it comes out of the plane memory, for all
-// others. Between, it waits as it came, with the sums of what has arrived from the south beside it.
+// What the patterns say flows (paper's law). All that a cell gives depends on itself alone. It is computed
+// twice: when the cell comes, for its southern neighbours, and when it leaves the plane memory, for all
+// others. In between the cell waits as it came, beside the sums of what has arrived from the south.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Flowing {
   Arrivals in;  // in the plane memory: from the south
 
   // Registers, and in lane P - 1 the memories beside the plane memory.
-  std::array<PaperFlow::Gift, 4> axis;  // what it gives; only with a table not all the same
+  std::array<PaperFlow::Gift, 4> axis;  // what it gives; all the same unless there is a table
   PaperFlow::Gift diagonal;
   UInt<16> left_amount, left_energy;  // what it keeps
   UInt<2> footing;
@@ -62,7 +62,8 @@ class Apply final : public Stage {
     const int flow = flow_.flow_bits(), diagonal = flow_.eight() ? 2 * (flow - 2) : 0;
     const int south_sums = 2 * south_bits_ + (hot_ ? bits_for(southern_arrivals() * kHeatMax) : 0);
     const int waiting = cell + directions + south_sums;
-    // What it keeps with what has arrived in one number each; the energy that arrives still apart.
+    // The sums of what it keeps and what has arrived, one number each. The energy that arrives is
+    // still apart.
     const int before_east = cell + (hot_ ? 32 : 0) + (flow_.eight() ? 2 : 1) + 2 * flow +
                             (printed_ ? diagonal : (one_ground ? 0 : 2) + arrival_bits_);
     return window_buffers(shape(), {waiting + diagonal, waiting, before_east, cell});
@@ -96,7 +97,7 @@ class Apply final : public Stage {
       west = now + lane;
       south_west = south + lane;
     }
-    // Cells that nothing more can reach: in the memory that follows they are plain cells again.
+    // Nothing more can reach these cells: in the memory that follows they are plain cells again.
     for (int lane = 0; south != nullptr && lane + 1 < lanes(); ++lane) finish(south[lane]);
     if (out == nullptr) return;
     Flowing* left = line_.tap(line_.delay());
@@ -195,12 +196,12 @@ class Apply final : public Stage {
     if (hot_) to.in.content = to.in.content + gift.amount * giver.heat;
   }
 
-  // Reading `text`: what the cell gains of the energy that has come, by the friction where it stands.
+  // Reading `text`: how much of the energy that has come the cell gains, by the friction of its ground.
   std::int64_t rubbed_at_end(const Flowing& word, std::int64_t footing) const {
     return scale(word.in.energy, alpha_[static_cast<std::size_t>(footing)], dither_);
   }
 
-  // A cell to which all has come.
+  // Finishes a cell that has got all that it will get.
   void finish(Flowing& word) {
     if (word.blocked()) return;
     wire(word.in.energy, arrival_bits_);

@@ -1,5 +1,5 @@
-// The pipeline's own arithmetic, written from docs/automaton.md and apart from kernel/automaton/rule: if they
-// shared code, their agreement would prove nothing.
+// The pipeline's own arithmetic, written from docs/automaton.md alone. If it shared code with
+// kernel/automaton/rule, their agreement would prove nothing.
 #pragma once
 
 #include <algorithm>

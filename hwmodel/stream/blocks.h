@@ -130,7 +130,7 @@ class StepBlock {
 
   const Stage& running() const { return *running_; }  // the last one that was evaluated
 
-  // One cycle; the number of stages that moved.
+  // Runs one cycle. Returns the number of stages that moved.
   int cycle() {
     int moved = 0;
     for (const auto& stage : stages_) {

@@ -36,7 +36,8 @@ struct Cell {
   bool air() const { return state == State::air; }
   bool liquid() const { return state == State::liquid; }
 
-  // After a phase: what is not blocked is liquid where it holds something, else empty and cold.
+  // For the end of a phase: a cell that is not blocked becomes liquid if it holds something, and otherwise
+  // empty and cold.
   void settle_state() {
     if (blocked()) return;
     state = amount > 0 ? State::liquid : State::air;

@@ -31,7 +31,7 @@ std::vector<BufferCost> heat_buffers(const Design& design, std::span<const HeatP
       costs.push_back({name, words, shape.lanes, bits});
       continue;
     }
-    // Behind the last row only the lane beside the next block still has partners, and needs temperatures.
+    // Behind the last row, only the lane beside the next block still has partners and needs temperatures.
     if (shape.lanes > 1) costs.push_back({name, words, shape.lanes - 1, bits - 16});
     costs.push_back({name, words, 1, bits});
   }

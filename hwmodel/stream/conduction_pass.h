@@ -1,6 +1,6 @@
-// One pass of conduction (Eq. 1): all pairs of one neighbour distance. When a cell comes, the fluxes of those
-// pairs are computed whose smallest box of cells it closes, so that each pair is computed once, and both
-// partners are updated where they stand in the line.
+// One pass of conduction (Eq. 1): all pairs of one neighbour distance. The cell that comes completes the
+// smallest box of cells around some pairs; their fluxes are computed then. So each pair is computed once, and
+// both partners are updated where they are in the line.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ inline std::int64_t corner_delay(const Shape& shape, unsigned corner) {
          (corner & kSouth ? shape.plane() : 0);
 }
 
-// Where the line has taps, ascending; the last one is where words leave.
+// The taps of the line, ascending. Words leave at the last one.
 std::vector<std::int64_t> tap_delays(const Shape& shape, std::span<const HeatPair> pairs);
 // The memories between them.
 std::vector<BufferCost> heat_buffers(const Design& design, std::span<const HeatPair> pairs, int exposed_bits);
@@ -91,7 +91,7 @@ class ConductionPass : public Stage {
       out[lane] = give_cell(oldest[lane], exposed_axes(oldest[lane]));
   }
 
-  virtual void watch() {}  // what else a pass has to see in the window
+  virtual void watch() {}  // for what else a pass must see in the window
   virtual std::int64_t exposed_axes(const HeatWord& word) const { return word.exposed; }
 
   // Calls visit(p, q) for the pairs of one axis that the token that comes closes.

@@ -1,5 +1,5 @@
-// Conduction through faces; and what else the six face neighbours tell: the exposed axes of each cell, for
-// the exchange with air, and whether one of its four sides is blocked, for gravity.
+// Conduction through faces. The six face neighbours also tell the exposed axes of each cell, for the exchange
+// with air, and whether one of its four sides is blocked, for gravity.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,4 @@
-// Convection: warmer liquid below gives heat to colder liquid above. The cell above comes right after.
+// Convection: warmer liquid below gives heat to colder liquid above. The cell above comes directly after it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Gravity, both laws, and the paper's excess: one sweep up each column, a pair of cells a cycle. The lower
-// cell of the pair is finished by it and leaves. The loop from one cycle to the next runs through the upper
+// cell of the pair is then complete and leaves. The loop from one cycle to the next runs through the upper
 // cell: two comparisons, a product, and with heat a division (docs/automaton.md, section 8).
 #pragma once
 
@@ -22,7 +22,7 @@ struct Falling {
 template <class Faults>
 class Gravity final : public Stage {
  public:
-  // Hanging drops depend on what is above the upper cell: only then one token of look-ahead.
+  // Hanging drops depend on what is above the upper cell. Only they need one token of look-ahead.
   explicit Gravity(const Design& design, Faults faults = {})
       : Stage(StageKind::gravity, design, design.parameters.flow.fall.hang > 0 ? 2 : 1),
         faults_(faults),
@@ -98,14 +98,14 @@ class Gravity final : public Stage {
     faults_.fell(*this, low);
   }
 
-  // What the upper cell lets go.
+  // What the upper cell gives.
   std::int64_t released(const Falling& low, const Falling& high, bool beside_wall, bool blocked_above) const {
     if (high.amount < fall_.hang && low.amount == 0 && (beside_wall || blocked_above)) return 0;
     const std::int64_t part = scale(high.amount, beside_wall ? fall_.wall_factor : fall_.factor);
     return std::min<std::int64_t>(high.amount, UInt<17>(part + fall_.minimum));
   }
 
-  // The piling of what does not fit.
+  // What does not fit is piled up.
   void push_up(Falling& low, Falling& high) {
     const std::int64_t flow = std::min(low.amount - kOne, kAmountMax - high.amount);
     if (flow == 0) return;

@@ -1,7 +1,7 @@
-// The word that conduction and convection keep of a cell: what it was when it came, and its heat so far.
-// A pass is synchronous, so every flux is computed from the temperatures of its begin; the heat takes the
-// fluxes one by one and stays in 16 bits after each: what any subset of the neighbours takes or gives is no
-// more than the whole bound of docs/proofs.md, "Heat: 0 <= h <= 65535".
+// The word that conduction and convection keep of a cell: what it was when it came, and its heat so far. A
+// pass is synchronous, so every flux is computed from the temperatures at its begin. The heat takes the
+// fluxes one by one and stays within 16 bits after each. The reason is that what any subset of the neighbours
+// takes or gives is within the bound of docs/proofs.md, "Heat: 0 <= h <= 65535".
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ inline int heat_word_bits(const Design& design, int exposed) {
   return design.cell_bits() + 16 + (design.parameters.heat.air ? exposed : 0) +
          (design.walls_in_conduction() ? 1 : 0);
 }
-// Of a cell that leaves conduction or convection, side-bands included.
+// Bits of a cell that leaves conduction or convection, side bands included.
 inline int heated_cell_bits(const Design& design) {
   return design.cell_bits() + (design.parameters.heat.air ? 2 : 0) + (design.walls_in_conduction() ? 1 : 0);
 }

@@ -1,5 +1,5 @@
-// Each stage without faults. Its template is compiled in a file of its own: in one with all of them the
-// compiler would inline less.
+// Makes each stage without faults. Each template is compiled in a file of its own: if one file held all of
+// them, the compiler would inline less.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // What a cell gives under the paper's law, from its own facts alone (docs/automaton.md, section 9): shares,
-// caps and bounds. Used by the pattern stage (who may get it) and the apply stage (who gets it).
+// caps and bounds. The pattern stage uses it to find who may get it, and the apply stage to find who gets it.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class PaperFlow {
   int flow_bits() const { return bits_for(cap_); }
   int arrival_bits() const { return bits_for(eight_ ? 5 * cap_ : 4 * cap_); }  // a sum of all that may come
 
-  // Without a table: what a content of `whole` gives to each axis direction. One multiplier.
+  // Without a table: what a content of `whole` gives to each axis direction. It takes one multiplier.
   std::int64_t share(std::int64_t heat) const {
     if (!thermal_) return law_.share;
     const std::int64_t most = eight_ ? 13107 : 16384;
@@ -56,7 +56,7 @@ class PaperFlow {
     return law_.table[static_cast<std::size_t>(pattern)][static_cast<std::size_t>(way)];
   }
 
-  // To every direction of a pattern; nothing to the others.
+  // The gift to every direction of a pattern; nothing goes to the others.
   std::array<Gift, 8> gifts(std::int64_t amount, std::int64_t energy, std::int64_t heat,
                             std::int64_t pattern) const {
     std::array<Gift, 8> gifts{};

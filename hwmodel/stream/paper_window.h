@@ -1,6 +1,7 @@
-// The window {cell that comes, west, south, south-west} over which both stages of the paper's spread scatter.
-// A cell trades with its southern neighbours when it comes, and with those of its own row only when it comes
-// out of the plane memory: what is known early would have to be kept (a partial sum is as wide as a cell).
+// The window {cell that comes, west, south, south-west} over which both stages of the paper's spread
+// scatter. A cell exchanges with its southern neighbours when it comes, and with those of its own row only
+// when it leaves the plane memory. What is known earlier would have to be kept, and a partial sum is as wide
+// as a cell.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 namespace voxmelt::hwmodel {
 
-// Bits of a word on its way. Only lane P - 1 waits for its eastern neighbours, a column of blocks long: when
-// it has come for the south-eastern one, and out of the plane memory for the eastern and north-eastern ones.
+// Bits of a word on its way. Only lane P - 1 waits for its eastern neighbours, for a column of blocks: after
+// it came, for the south-eastern one; after it left the plane memory, for the eastern and north-eastern ones.
 struct WindowBits {
   int before_south_east, plane, before_east, finished;
 };

@@ -1,6 +1,6 @@
 // Which directions each cell gives to (paper's law): those of its neighbours that are open and stand low
 // enough, each with one chance in two. A giver's facts are two numbers, the least amounts of a neighbour that
-// gets nothing; behind the plane memory they are computed once more, which is cheaper than to keep them.
+// gets nothing. Behind the plane memory they are computed once more, which is cheaper than keeping them.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ class Pattern final : public Stage {
         column_(static_cast<std::size_t>(design.shape.column())),
         line_(design.shape.lanes, static_cast<std::size_t>(lag())) {}
 
-  // Directions decided: to the south; in the east memory also to the north and west.
+  // The directions decided: to the south; in the east memory also to the north and west.
   int output_bits() const override { return design().cell_bits() + law_.neighbours; }
   std::vector<BufferCost> buffers() const override {
     const int cell = design().cell_bits(), limit = bits_for(flow_.limit());

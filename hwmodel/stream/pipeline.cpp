@@ -8,10 +8,10 @@
 #include "hwmodel/stream/blocks.h"
 #include "hwmodel/stream/process.h"
 
-// libsystemc's own main asks for this; ours never calls it.
+// libsystemc's own main needs this symbol. Ours never calls it.
 int sc_main(int, char**) { return 1; }
 
-// SystemC keeps pools of its own for ever: no leak of ours. (Asked for by the address sanitizer only.)
+// SystemC never frees its pools, which is no leak of ours. (Only the address sanitizer calls this.)
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libsystemc"; }
 
@@ -177,7 +177,7 @@ PassEnd Pipeline::run_pass(std::uint32_t first, int steps, const state::Field<st
   return {shared.last_cycle + 1, shared.complete, shared.hangs};
 }
 
-// Asked from within a pass only, where the context is entered.
+// It is called only within a pass, where the context is entered.
 std::int64_t Pipeline::cycle() const { return machine_->shared.cycle(); }
 const Design& Pipeline::design() const { return machine_->design; }
 const Configuration& Pipeline::configuration() const { return machine_->configuration; }

@@ -46,7 +46,7 @@ struct StageReport {
   Units units;
 };
 
-// What a pass of the pipeline ended with.
+// How a pass of the pipeline ended.
 struct PassEnd {
   std::int64_t cycles = 0;
   bool complete = false;  // else it was stopped by the watcher, or it hangs
@@ -55,18 +55,19 @@ struct PassEnd {
 
 class Pipeline {
  public:
-  // `make`: makes its stages; they may have planted faults.
+  // `make` makes its stages, which may have planted faults.
   Pipeline(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration,
            const StageMaker& make = make_stage);
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  // Sees every token of the main stream; `stop` from within ends the pass after the present cycle.
+  // The watcher sees every token of the main stream. If it calls `stop`, the pass ends after the
+  // present cycle.
   void watch(FifoWatcher<Cell>* watcher);
   void stop();
   std::vector<CellFifo*> channels_behind_stages(int cascade);  // of one time step, for faults to be planted
-  void poll(std::function<void()> poll);  // called now and then during a pass; may throw, which ends the pass
+  void poll(std::function<void()> poll);  // called now and then during a pass; what it throws ends the pass
 
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {

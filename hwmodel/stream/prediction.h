@@ -7,8 +7,9 @@
 
 namespace voxmelt::hwmodel {
 
-// N tokens pass, each `interval` cycles after the one before it; every channel holds a token for one cycle,
-// and every stage until it has moved `lag` times: at the pace of its input while that lasts, then at its own.
+// N tokens pass, each `interval` cycles after the one before it. Every channel holds a token for one cycle.
+// Every stage holds it until the stage has moved `lag` times: at the pace of its input while that lasts, then
+// at its own.
 //
 //   cycles = interval (N - 1) + sum of waits + channels + 1
 //   wait   = interval lag                          where lag < N

@@ -1,5 +1,5 @@
 // What the pipeline needs of SystemC: a simulation context of its own, channels that commit in the update
-// phase, blocks with one process each. Included by pipeline.cpp only.
+// phase, blocks with one process each. Only pipeline.cpp includes this file.
 #pragma once
 
 #include <algorithm>
@@ -86,7 +86,7 @@ class Block final : public sc_core::sc_module {
     if (shared_.ended()) return sc_core::sc_pause();
     try {
       cycle_();
-    } catch (...) {  // SystemC would only keep its text
+    } catch (...) {  // SystemC would keep only its text
       shared_.error = std::current_exception();
       shared_.end();
     }

@@ -40,7 +40,7 @@ struct SpreadWord {
     const int open = kDoneBits + 16 + (hot ? 16 + 32 : 0) + (walls ? 1 : 0) + head_bits;
     return std::max(blocked, open);
   }
-  // Once all pairs of a cell are done: ground, amount, heat, wall.
+  // What is kept once all pairs of a cell are done: ground, amount, heat, wall.
   static int done_bits(bool hot, bool walls) { return kDoneBits + (hot ? 16 : 0) + (walls ? 1 : 0); }
 
  private:

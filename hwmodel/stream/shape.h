@@ -40,7 +40,7 @@ inline Place place_of(const Shape& shape, std::int64_t ordinal) {
           static_cast<int>(column / shape.blocks()), ordinal};
 }
 
-// Position of a cell in the stream: the smaller leaves a stage first.
+// Position of a cell in the stream. The cell with the smaller position leaves a stage first.
 inline std::int64_t stream_order(const Shape& shape, int x, int y, int z) {
   return ((static_cast<std::int64_t>(z) * shape.blocks() + x / shape.lanes) * shape.grid.y + y) *
              shape.lanes +

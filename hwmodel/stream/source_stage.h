@@ -1,4 +1,4 @@
-// Vents and drains. All that are open act on a cell one after another while it passes.
+// Vents and drains. All open ones act on a cell, one after another, while it passes.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,8 @@ class Source final : public Stage {
     open_.reserve(design.parameters.vents.size() + design.parameters.drains.size());
   }
 
-  // A square of the distance along x for each; of a vent: energy, two products and the dither of the mixture.
+  // Each has a square of the distance along x. A vent also has energy, two products and the dither of
+  // the mixture.
   Units units() const override {
     const int vents = static_cast<int>(design().parameters.vents.size());
     const int drains = static_cast<int>(design().parameters.drains.size());
@@ -64,7 +65,7 @@ class Source final : public Stage {
     }
   }
 
-  // Of the distance along one axis, in sixteenths of a cell, from a cell's centre.
+  // The square of the distance along one axis, in sixteenths of a cell, from a cell's centre.
   static std::int64_t square(int cell, std::int64_t at) {
     const SInt<26> distance = 16 * std::int64_t{cell} + 8 - at;
     return distance * distance;

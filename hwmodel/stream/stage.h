@@ -1,5 +1,5 @@
-// A stage of the pipeline: takes one token a cycle, gives one a cycle, `lag` tokens later. It moves only when
-// its input has a token and its output has room (ready/valid), so that any stall is harmless.
+// A stage of the pipeline takes one token per cycle and gives one per cycle, `lag` tokens later. It moves
+// only when its input has a token and its output has room (ready/valid). So any stall is harmless.
 #pragma once
 
 #include <cstdint>
@@ -31,22 +31,22 @@ struct Design {
     const rule::Fall& fall = parameters.flow.fall;
     return fall.hang > 0 || fall.wall_factor != fall.factor;
   }
-  // The paper law means the sides before melt, which conduction has in its window. Without heat nothing
-  // melts, and a stage of its own finds them.
+  // The paper law uses the sides before melt, which conduction has in its window. Without heat nothing melts,
+  // and a separate stage finds them.
   bool walls_in_conduction() const { return paper() && hot() && needs_walls(); }
   // Bits of a cell between two stages without side-bands.
   int cell_bits() const { return 2 + 16 + (paper() ? 16 : 0) + (hot() ? 16 : 0); }
 };
 
-// Every cycle of a stage is exactly one of these. `fill_drain`: before its first token, after its last one,
-// and while it gives without taking; `bypassed`: handing on a token in a pass that has no time step for the
-// stage.
+// Every cycle of a stage is exactly one of these. `fill_drain`: before its first token, after its last
+// one, and while it gives without taking; `bypassed`: handing on a token in a pass that has no time step
+// for the stage.
 struct StageCycles {
   std::int64_t busy = 0, starved = 0, blocked = 0, fill_drain = 0, bypassed = 0;
   std::int64_t total() const { return busy + starved + blocked + fill_drain + bypassed; }
 };
 
-// Arithmetic units as the stage is written: what a synthesis would have to find.
+// Arithmetic units of the stage as it is written. A synthesis should find the same.
 struct Units {
   int multipliers = 0, dividers = 0;  // per lane
   int random_blocks = 0;              // per 8 lanes
@@ -85,8 +85,8 @@ class Stage {
   virtual Units units() const { return {}; }
 
  protected:
-  // One move. `in`: the token that comes, null after the last one (then the border comes). `out`: the token
-  // that leaves, to be filled; null while the stage fills.
+  // One move. `in` is the token that comes; it is null after the last one, and then the border comes. `out`
+  // is the token that leaves, to be filled; it is null while the stage fills.
   virtual void advance(const Cell* in, Cell* out) = 0;
   virtual void begin_step() {}                      // step() has changed; memories hold an old pass
   virtual bool side_input_ready() { return true; }  // of a stage with a second input

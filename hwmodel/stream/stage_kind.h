@@ -1,7 +1,6 @@
 // What the blocks of the pipeline are, and to which phase of a step each belongs. Their names are for people.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,8 +10,8 @@
 
 namespace voxmelt::hwmodel {
 
-// In the order of the stream. Reader, writer and feed are no stages of a time step, but are reported like
-// them.
+// In the order of the stream. Reader, writer and feed are no stages of a time step, but are reported
+// like them.
 enum class StageKind : std::uint8_t {
   reader,
   source,
@@ -32,43 +31,54 @@ enum class StageKind : std::uint8_t {
   writer,
 };
 
-constexpr std::string_view name_of(StageKind kind) {
-  constexpr std::array<std::string_view, 16> kNames{
-      "reader", "source",  "conduction", "edges", "corners", "convection", "exchange", "melt",
-      "walls",  "gravity", "pattern",    "apply", "settle",  "spread",     "feed",     "writer"};
-  return kNames[static_cast<std::size_t>(kind)];
+struct StageKindInfo {
+  std::string_view name;
+  std::optional<step::Phase> phase;  // none for reader, feed and writer
+};
+
+// A value that is no enumerator has no name.
+constexpr StageKindInfo info_of(StageKind kind) {
+  using enum StageKind;
+  using step::Phase;
+  switch (kind) {
+    case reader:
+      return {"reader", {}};
+    case source:
+      return {"source", Phase::source};
+    case conduction:
+      return {"conduction", Phase::heat};
+    case edges:
+      return {"edges", Phase::heat};
+    case corners:
+      return {"corners", Phase::heat};
+    case convection:
+      return {"convection", Phase::heat};
+    case exchange:
+      return {"exchange", Phase::heat};
+    case melt:
+      return {"melt", Phase::melt};
+    case walls:
+      return {"walls", Phase::gravity};
+    case gravity:
+      return {"gravity", Phase::gravity};
+    case pattern:
+      return {"pattern", Phase::spread};
+    case apply:
+      return {"apply", Phase::spread};
+    case settle:
+      return {"settle", Phase::excess};
+    case viscous_spread:
+      return {"spread", Phase::spread};
+    case feed:
+      return {"feed", {}};
+    case writer:
+      return {"writer", {}};
+  }
+  return {};
 }
 
-// None for reader, feed and writer.
-constexpr std::optional<step::Phase> phase_of(StageKind kind) {
-  using enum StageKind;
-  switch (kind) {
-    case source:
-      return step::Phase::source;
-    case conduction:
-    case edges:
-    case corners:
-    case convection:
-    case exchange:
-      return step::Phase::heat;
-    case melt:
-      return step::Phase::melt;
-    case walls:
-    case gravity:
-      return step::Phase::gravity;
-    case pattern:
-    case apply:
-    case viscous_spread:
-      return step::Phase::spread;
-    case settle:
-      return step::Phase::excess;
-    case reader:
-    case feed:
-    case writer:
-      break;
-  }
-  return std::nullopt;
-}
+constexpr std::string_view name_of(StageKind kind) { return info_of(kind).name; }
+constexpr std::optional<step::Phase> phase_of(StageKind kind) { return info_of(kind).phase; }
 
 constexpr std::string_view name_of(step::Phase phase) {
   return step::kPhaseNames[static_cast<std::size_t>(phase)];

@@ -14,7 +14,7 @@ using StageMaker = std::function<std::unique_ptr<Stage>(StageKind, const Design&
 
 std::vector<StageKind> stages_of_step(const Design& design);
 
-// A stage as it should be. Throws std::logic_error for a kind that is no stage of a time step.
+// Makes a stage without faults. Throws std::logic_error for a kind that is no stage of a time step.
 std::unique_ptr<Stage> make_stage(StageKind kind, const Design& design);
 
 Stages make_step(const Design& design, const StageMaker& make = make_stage);

@@ -1,5 +1,6 @@
 // Finds the cells that stand beside a wall: one of their four sides is blocked, the border included. Gravity
-// needs it, and has no window of its own across columns. Only without heat: else conduction finds them.
+// needs it, and has no window of its own across columns. The stage exists only without heat; with heat,
+// conduction finds them.
 #include <algorithm>
 #include <cstddef>
 #include <memory>

@@ -1,6 +1,7 @@
 /// @file
 /// The exact books of mass, energy and heat (docs/automaton.md, section 12). Every term is summed where a
-/// rule applies it, none is found by subtraction: what a state holds must be start + all terms, to the unit.
+/// rule applies it. None is found by subtraction. So the books check the rules: what a state holds must be
+/// start + all terms, to the unit.
 #pragma once
 
 #include <string>

@@ -15,7 +15,7 @@ using Position = std::array<double, 3>;
 /// For an `until`: never.
 inline constexpr std::uint32_t kNever = 0xFFFFFFFFu;
 
-/// Where a heat source is at a step, and how strong.
+/// Where a heat source is at a step, and how strong it is.
 struct Keyframe {
   std::uint32_t step = 0;  ///< number of the step
   Position at{};           ///< position
@@ -24,8 +24,8 @@ struct Keyframe {
   double power = 0;
 };
 
-/// A point source of heat. Between two keyframes position and power change linearly in the step; before the
-/// first and after the last they stay.
+/// A point source of heat. Between two keyframes, position and power change linearly in the step. Before the
+/// first and after the last they are constant.
 struct HeatSource {
   std::vector<Keyframe> keyframes;  ///< at least one, steps ascending
 

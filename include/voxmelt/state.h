@@ -1,7 +1,7 @@
 /// @file
 /// The state of a volume, to be read in place: views of three masks and three fields, without a copy.
 ///
-/// x is fastest, y points up (gravity acts along -y), z is outermost. Rows are contiguous; between rows and
+/// x is fastest, y points up (gravity acts along -y), z is outermost. Rows are contiguous. Between rows and
 /// slices lies padding, so a whole field is not one span. docs/automaton.md, section 1, defines all values.
 #pragma once
 
@@ -51,7 +51,7 @@ class FieldView {
   std::size_t row_, slice_;
 };
 
-/// One bit per cell, 64 cells a word along x. Coordinates are not checked: 0 <= x < grid.x, and so on.
+/// One bit per cell, 64 cells to a word along x. Coordinates are not checked: 0 <= x < grid.x, and so on.
 class MaskView {
  public:
   /// The words of all rows follow each other, rows along y first; each row begins a new word.
@@ -95,10 +95,10 @@ struct State {
   /// UQ4.12: 4096 is a full cell, 65535 the most. In an inert cell it is no mass but the height of the bed:
   /// the surface lies (amount - 2048) / 4096 cells above the cell's upper face.
   FieldView amount;
-  /// UQ4.12, at most the amount: the potential to expand, of liquid. 0 everywhere under the viscous law.
+  /// UQ4.12, at most the amount: the potential of liquid to expand. It is 0 everywhere under the viscous law.
   FieldView energy;
-  /// Heat content, 0..65535 for 0..1 of the scene's range of temperatures; a temperature with latent heat
-  /// included (section 6). 0 where there is neither solid nor liquid, and in scenes without [heat].
+  /// Heat content: 0..65535 for 0..1 of the scene's range of temperatures, latent heat included (section 6).
+  /// It is 0 where there is neither solid nor liquid, and in scenes without [heat].
   FieldView heat;
 };
 

@@ -6,8 +6,8 @@
 ///     cello.step(500);
 ///     cello.draw("cello.png");
 ///
-/// These headers need the standard library of C++20 only. With CMake: find_package(voxmelt), and link
-/// voxmelt::voxmelt.
+/// These headers need the standard library of C++20 only. With CMake: find_package(voxmelt), and
+/// link voxmelt::voxmelt.
 #pragma once
 
 #include <cstdint>
@@ -42,13 +42,13 @@ std::vector<Implementation> implementations();
 struct Options {
   /// "path.to.key=value" each, as with --set: they are applied in order and checked like the file.
   std::vector<std::string> overrides;
-  /// A name out of implementations(), or "auto" for the fastest that this processor supports.
+  /// A name from implementations(), or "auto" for the fastest one that this processor supports.
   std::string implementation = "auto";
-  /// 1..1024; 0 for as many as the machine has. No result depends on it.
+  /// 1..1024, or 0 for as many as the machine has. No result depends on it.
   int threads = 0;
 };
 
-/// A picture of a state; what is not said is taken from the scene.
+/// A picture of a state. What is not set here is taken from the scene.
 struct Picture {
   std::optional<int> width;         ///< pixels, 16..8192
   std::optional<int> height;        ///< pixels, 16..8192
@@ -65,8 +65,9 @@ enum class Format {
 
 /// A scene that melts and flows, step by step.
 ///
-/// One thread at a time may use a simulation, several simulations may run at a time. A moved-from simulation
-/// can only be assigned to or ended. After a ResourceError of step() the state is that of no step.
+/// Only one thread at a time may use a simulation. Several simulations may run at a time. A moved-from
+/// simulation can only be assigned to or destroyed. If step() throws ResourceError, the state is in the
+/// middle of a step, and of no use.
 class Simulation {
  public:
   /// Reads a scene file (docs/scenes.md) and builds its first state.
@@ -81,18 +82,18 @@ class Simulation {
   const std::string& title() const;
   /// What is odd about the scene but no error, one line each: leaks of a mesh, fields without effect.
   const std::vector<std::string>& warnings() const;
-  /// Steps that the scene asks for, when nobody asks otherwise.
+  /// Number of steps that the scene suggests, for callers with no number of their own.
   std::uint32_t scene_steps() const;
-  /// Name of the implementation that computes.
+  /// Name of the implementation in use.
   const std::string& implementation() const;
-  /// Threads that compute: at most as many as the machine has.
+  /// Number of threads in use: at most as many as the machine has.
   int threads() const;
 
   /// Runs whole steps (docs/automaton.md, section 3).
   /// @throws InputError where step numbers would exceed 2^32 - 1
   /// @throws ResourceError when memory runs out
   void step(std::uint32_t count = 1);
-  /// Steps run until now.
+  /// Steps run so far.
   std::uint32_t steps_done() const;
   /// The automaton's number of the next step: steps_done(), plus the scene's `start.step`.
   std::uint32_t step_number() const;
@@ -103,7 +104,7 @@ class Simulation {
   State state() const;
   /// 64 bits that stand for the whole state (docs/automaton.md, section 13): equal digests, equal bits.
   std::uint64_t digest() const;
-  /// The books until now. Takes a pass over the state.
+  /// The books up to now. This takes a pass over the state.
   Ledgers ledgers() const;
 
   /// The sources, vents and drains, as rounded to the automaton's units.
@@ -111,10 +112,9 @@ class Simulation {
   std::vector<Vent> vents() const;    ///< @copydoc heat_sources
   std::vector<Drain> drains() const;  ///< @copydoc heat_sources
 
-  /// Other heat sources. They count from the next step on whose number is divisible by the scene's
-  /// `heat.visibility_every`: the automaton casts shadows at those only (section 5).
-  /// @throws InputError for numbers out of their range, and in a scene without [heat]; nothing is changed
-  /// then
+  /// Other heat sources. They take effect at the next step whose number is divisible by the scene's
+  /// `heat.visibility_every`: the automaton computes shadows only at those steps (section 5).
+  /// @throws InputError for numbers out of their range, and in a scene without [heat]; then nothing changes
   void set_heat_sources(const std::vector<HeatSource>& sources);
   /// Other vents, from the next step on.
   /// @throws InputError for numbers out of their range; nothing is changed then

@@ -58,7 +58,7 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
   make_irradiance();
 }
 
-// Kept once it is there: sources that have been taken away shine until the next step of visibility.
+// It is kept once it is there: sources that have been removed shine until the next step of visibility.
 void Simulation::make_irradiance() {
   if (parameters_.heat.radiates() && irradiance_.empty()) irradiance_ = step::Irradiance(volume_.grid);
 }

@@ -30,15 +30,15 @@ class Simulation {
   // Runs one whole step.
   void step();
 
-  // Runs one phase of the present step; used where implementations are compared phase by phase. A device
-  // stepper has no phases: std::logic_error.
+  // Runs one phase of the present step, where implementations are compared phase by phase. With a device
+  // stepper it throws std::logic_error: a device has no phases.
   void begin_step();
   void run_phase(step::Phase phase);
   void end_step() { ++steps_done_; }
 
-  // Other point sources, vents and drains, between two steps. Vents and drains count from the next step on,
-  // point sources from the next step of visibility on (docs/automaton.md, section 5): as if the scene had
-  // said so from the start. The caller has checked their ranges; sources need a scene with heat.
+  // Other point sources, vents and drains, between two steps. Vents and drains take effect at the next step,
+  // point sources at the next step of visibility (docs/automaton.md, section 5), as if the scene had them
+  // from the start. The caller has checked their ranges; sources need a scene with heat.
   struct Sources {
     std::vector<rule::PointSource> points;
     std::vector<rule::Vent> vents;
@@ -52,10 +52,10 @@ class Simulation {
   const state::Volume& volume() const { return fetch(), volume_; }
   const state::Ledger& ledger() const { return fetch(), ledger_; }
   const rule::Parameters& parameters() const { return parameters_; }
-  int threads() const { return threads_; }  // really used, for whatever the implementation divides among them
+  int threads() const { return threads_; }  // in use, where the implementation divides work among them
   state::Drift drift() const { return state::drift(ledger(), volume()); }
 
-  // For tests that plant a leak: what the next step begins with.
+  // The volume that the next step begins with, for tests that plant a leak.
   state::Volume& mutable_volume() { return touch(), volume_; }
   state::Ledger& mutable_ledger() { return touch(), ledger_; }
 

@@ -50,7 +50,7 @@ void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid,
   terrain.textured = true;
 }
 
-// Turned, scaled, then set down: the centre of its bounding box's bottom comes to `at`.
+// The mesh is turned, scaled, then set down: the centre of its bounding box's bottom comes to `at`.
 void read_mesh_entry(Reader& reader, Entry& entry) {
   const std::filesystem::path file = reader.file("file");
   entry.mesh_file = file.filename().string();

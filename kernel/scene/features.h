@@ -8,7 +8,7 @@
 
 namespace voxmelt::scene {
 
-// Every name there is, in the order in which features_of lists them.
+// All names, in the order in which features_of lists them.
 const std::vector<std::string>& feature_names();
 
 std::vector<std::string> features_of(const rule::Parameters& parameters);

@@ -86,7 +86,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   scene.light = read_light(root);
   scene.look = read_look(root);
 
-  // The fields of an export replace the shapes; the terrain still says how the ground is drawn.
+  // The fields of an export replace the shapes. The terrain still determines how the ground is drawn.
   Contents contents = read_contents(root, grid, scene.warnings);
   std::optional<Reader> start = root.table("start");
   std::filesystem::path fields;
@@ -101,7 +101,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
 
   scene.initial =
       start ? read_fields(fields, grid, start->place("fields")) : voxelise(contents, grid, scene.warnings);
-  // What the scene does not model is not there. Fields that a user made are not dropped without a word.
+  // Fields that the scene does not model are dropped, with a warning.
   const std::vector<std::string> dropped = drop_unused(scene.initial, scene.parameters);
   if (start) scene.warnings.insert(scene.warnings.end(), dropped.begin(), dropped.end());
   scene.initial_digest = state::digest(scene.initial);

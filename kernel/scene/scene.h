@@ -18,7 +18,7 @@ struct Scene {
   std::string name;  // file name without folder and suffix
   std::filesystem::path file;
   std::string title;           // one line for `voxmelt list scenes`
-  std::uint32_t steps = 1000;  // of `voxmelt run` when not asked otherwise
+  std::uint32_t steps = 1000;  // that `voxmelt run` does by default
   std::uint32_t frame_every = 100;
   std::uint32_t first_step = 0;       // the automaton's number of the first step
   std::vector<std::string> features;  // named extras and features that this scene asks for

@@ -1,4 +1,4 @@
-// Shapes as a scene file writes them (docs: README, "Scene"). Lengths in cells, y up, angles in degrees.
+// Reads shapes of scene files (docs/scenes.md). Lengths are in cells, y is up, and angles are in degrees.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace voxmelt::scene {
 // The names that read_shape understands.
 const std::vector<std::string>& shape_names();
 
-// Reads the keys of the shape `name` and of its placement (at, rotate, scale, mirror). Leaves finish() to the
-// caller. Throws InputError.
+// Reads the keys of the shape `name` and of its placement (at, rotate, scale, mirror). The caller must call
+// finish(). Throws InputError.
 ShapePtr read_shape(Reader& reader, const std::string& name);
 
 }  // namespace voxmelt::scene

@@ -46,7 +46,7 @@ std::filesystem::path heat_file(const std::filesystem::path& folder) {
   return !std::filesystem::exists(file) && std::filesystem::exists(old) ? old : file;
 }
 
-// The first promise that a cell breaks, or nothing.
+// The first invariant that a cell breaks, or nothing.
 const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
   const state::Slot cell = volume.at(x, y, z);
   const bool solid = volume.solid.test(x, y, z), liquid = volume.liquid.test(x, y, z),

@@ -11,13 +11,13 @@
 
 namespace voxmelt::scene {
 
-// Reads solid, liquid, inert (u8, 0 or 1), amount, energy, heat (u16) from FOLDER/<field>.npy and
-// checks what every volume promises (kernel/automaton/state/volume.h). Throws InputError naming `place`, the
-// file and the first bad cell.
+// Reads solid, liquid, inert (u8, 0 or 1), amount, energy, heat (u16) from FOLDER/<field>.npy and checks the
+// invariants of a volume (kernel/automaton/state/volume.h). Throws InputError naming `place`, the file and
+// the first bad cell.
 state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid, const Place& place);
 
-// Clears the fields that the scene does not model: energy under the viscous law, heat without [heat]. One
-// line for each field that held something.
+// Clears the fields that the scene does not model: energy under the viscous law, heat without [heat]. Returns
+// one line for each field that held something.
 std::vector<std::string> drop_unused(state::Volume& volume, const rule::Parameters& parameters);
 
 }  // namespace voxmelt::scene

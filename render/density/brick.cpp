@@ -5,7 +5,7 @@
 namespace voxmelt::render {
 
 BrickFlags widened(const state::Grid& bricks, BrickFlags flags) {
-  // Axis by axis: lines of `count` bricks, `stride` apart.
+  // It goes axis by axis, over lines of `count` bricks, `stride` apart.
   const auto widen = [&](std::size_t stride, int count) {
     const std::size_t line = stride * static_cast<std::size_t>(count);
     for (std::size_t first = 0; first < flags.size(); first += line)

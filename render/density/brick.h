@@ -39,7 +39,7 @@ void for_rows(const state::Grid& grid, const CellBox& box, const Visit& visit) {
 // A byte per brick, every bit a flag of its own.
 using BrickFlags = std::vector<std::uint8_t>;
 
-// Every flag also in the neighbouring bricks, those over edges and corners among them.
+// Sets every flag also in the neighbouring bricks, including those over edges and corners.
 BrickFlags widened(const state::Grid& bricks, BrickFlags flags);
 
 }  // namespace voxmelt::render

@@ -34,7 +34,7 @@ void BrickFilter::filter_row(int by, int bz, const BrickFlags& flags) {
   }
 }
 
-// Whether a brick and all of its neighbours have the same value everywhere: then it stays as it is.
+// Do a brick and all of its neighbours have the same value everywhere? Then filtering does not change it.
 bool BrickFilter::has_one_value(int channel, const state::Grid& brick) const {
   const state::Grid& bricks = cells_.bricks;
   const std::int32_t value = cells_.uniform(channel, bricks.index(brick.x, brick.y, brick.z));
@@ -87,7 +87,8 @@ void BrickFilter::mix_intensity(const state::Grid& first, int bricks) {
     }
   });
 
-  // Many bricks need one of the two filters only; where both are needed the weaker is on the stronger's way.
+  // Many bricks need only one of the two filters. Where both are needed, the weaker one is an intermediate
+  // result of the stronger.
   const bool both = least < kWhole && most > 0 && liquid_passes_ != solid_passes_;
   const int alone = most > 0 ? liquid_passes_ : solid_passes_;
   const int passes = both ? std::max(liquid_passes_, solid_passes_) : alone;

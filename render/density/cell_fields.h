@@ -7,7 +7,7 @@
 // would sink into the floor and the rim of a puddle would curl. Next to dry ground the filling ends a little
 // below the ground, so that the surface closes where the ground hides it.
 //
-// Puddles are shifted up or down by a fraction of a cell to take their terraces out (levels.h).
+// Puddles are shifted up or down by a fraction of a cell to remove their terraces (levels.h).
 #pragma once
 
 #include <array>
@@ -61,7 +61,7 @@ class CellFields : public ChannelValues {
   std::vector<float> ground;   // [z][x]: height of the ground in cells, 0 where there is none
   std::vector<float> wetness;  // [z][x]: 0 dry ground .. 1 covered by at least a thin film
 
-  // Takes over another state of the same size; returns in which bricks which channels changed.
+  // Takes over another state of the same size. Returns which channels changed in which bricks.
   BrickFlags update(const state::Volume& volume, int smooth, const scene::Terrain& terrain,
                     cpu::Workers& workers);
 
@@ -78,7 +78,8 @@ class CellFields : public ChannelValues {
   std::vector<std::uint8_t> written_;  // [z][y]: in which channels a row may hold anything but 0
 };
 
-// Of a volume that stands for itself. `smooth`: how much the terraces of puddles are smoothed, 0: not at all.
+// The fields of a volume without a field before it. `smooth`: how much the terraces of puddles are smoothed,
+// 0: not at all.
 CellFields cell_fields(const state::Volume& volume, int smooth = 0, const scene::Terrain& terrain = {});
 
 }  // namespace voxmelt::render

@@ -98,8 +98,8 @@ class Finder {
   Levels& levels_;
 };
 
-// Distances of largest |dx|, |dz|: a column that is not wet is one farther than the nearest of the eight
-// around.
+// Distances of largest |dx|, |dz|: a column that is not wet is one farther than the nearest of the
+// eight around.
 void find_distances(Columns& columns) {
   for (std::size_t c = 0; c < columns.wet.size(); ++c)
     columns.distance[c] = columns.wet[c] > 0 ? 0 : kGroundReach + 1;

@@ -1,7 +1,7 @@
 // What stands on each column of the grid, and how far its surface is moved to be drawn smooth.
 //
 // The ground is the inert cells that reach up from y = 0, no higher than the terrain where that is known.
-// Every other inert cell is part of an obstacle: a thing of its own, drawn like a solid.
+// Every other inert cell is part of an obstacle, which is drawn like a solid.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct Columns {
   std::vector<std::int32_t> top;     // the first cell above ground and obstacles
   std::vector<std::int32_t> offset;  // of the true ground from the top face of its cell
   std::vector<std::int32_t> wet;     // 0..kOne: covered by matter or an obstacle
-  std::vector<std::int32_t> shift;   // of the puddle, to take out its terraces
+  std::vector<std::int32_t> shift;   // by which the puddle moves, to smooth its terraces
   std::vector<std::uint8_t>
       distance;                // to the nearest wet column, 0..kGroundReach, kGroundReach + 1: farther
   std::vector<float> ground;   // height of the ground in cells, 0 where there is none

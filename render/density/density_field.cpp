@@ -42,7 +42,7 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
   const int liquid_passes = std::clamp(look.smooth, 0, kMaxPasses);
   const int solid_passes = std::clamp(look.smooth_solid, 0, kMaxPasses);
   const bool other_grid = !(volume.grid == grid());
-  if (other_grid) {  // all begins as the field of an empty volume
+  if (other_grid) {  // everything starts again as the field of an empty volume
     cells_ = CellFields(volume.grid);
     filtered_ = ChannelValues(volume.grid.cells());
     ranges_.assign(bricks().cells(), BrickRange{});

@@ -3,9 +3,9 @@
 // The surface is where the filtered intensity is half of kFull. For a column of full cells with a part-filled
 // cell on top this lies within a tenth of a cell of the column's height, so smooth amounts look smooth.
 //
-// Liquid is filtered more than solid (look.smooth, look.smooth_solid). Which of the two holds is decided by
-// the share of liquid in the matter around, itself filtered, so the one passes into the other without a seam;
-// a solid under a film of less than half a cell counts as solid. Obstacles are filtered like solids.
+// Liquid is filtered more than solid (look.smooth, look.smooth_solid). The filtered share of liquid in the
+// matter around decides which of the two holds. So the one passes into the other without a seam. A solid
+// under a film of less than half a cell counts as solid. Obstacles are filtered like solids.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +49,7 @@ class DensityField {
   const std::vector<BrickRange>& ranges() const { return ranges_; }
   const CellFields& cells() const { return cells_; }  // before filtering
   bool has_obstacles() const { return !cells_.obstacle.empty(); }
-  // Of all that stops light, and of solid and liquid without the obstacles.
+  // The pyramid of all that stops light, and that of solid and liquid without the obstacles.
   const Pyramid& pyramid() const { return pyramid_; }
   const Pyramid& matter_pyramid() const { return has_obstacles() ? matter_pyramid_ : pyramid_; }
   int liquid_passes() const { return liquid_passes_; }

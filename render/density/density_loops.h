@@ -1,6 +1,6 @@
-// The loops as they are written once, over groups of eight cells in the vectors that gcc and clang know for
-// any processor. Everything is a template over the instruction set, so that no function of one can be linked
-// in place of another's.
+// The loops, written once over groups of eight cells, in the vector types that gcc and clang have for any
+// processor. Everything is a template over the instruction set, so that the linker cannot take a function of
+// one for another's.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace voxmelt::render {
 
-// What of an instruction set's code must not be shared with others.
+// For code of an instruction set that must not be shared with others.
 template <class Arch>
 struct DensityLoops {
   static constexpr int kGroup = 8;
@@ -31,7 +31,8 @@ struct DensityLoops {
   [[gnu::always_inline]] static void store(const V& from, T* to) {
     std::memcpy(to, &from, sizeof(V));
   }
-  // Element by element: g++ 12 makes one instruction of it, of a conversion of the vector five.
+  // The conversion is element by element: g++ 12 makes one instruction of it, but five of a conversion of
+  // the vector.
   template <class To>
   [[gnu::always_inline]] static void load_as(To& to, const std::uint16_t* p) {
     to = To{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]};
@@ -47,7 +48,7 @@ struct DensityLoops {
       for (int lane = 0; lane < count; ++lane) to[lane] = cells[lane];
   }
 
-  // Rows of `sums` begin every `wide` numbers: there is a group more than needed, for the sums along x.
+  // Rows of `sums` begin every `wide` numbers. There is one group more than needed, for the sums along x.
   static void low_pass(Block<const std::uint16_t> from, Block<std::uint16_t> to, int x, int y, int z,
                        std::uint32_t* sums) {
     const int groups = (x + 2 + kGroup - 1) / kGroup, wide = (groups + 1) * kGroup;
@@ -87,8 +88,8 @@ struct DensityLoops {
     }
   }
 
-  // Directly above a solid with a film of half a cell the liquid's share is about 0.35, with one of two cells
-  // 0.9.
+  // Directly above a solid, the liquid's share is about 0.35 with a film of half a cell, and 0.9 with one of
+  // two cells.
   static void weights(const std::uint16_t* liquid, const std::uint16_t* solid, const std::uint16_t* obstacle,
                       int count, std::uint16_t* weights) {
     constexpr float kFrom = 0.4f, kTo = 0.8f;

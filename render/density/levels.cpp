@@ -15,8 +15,8 @@ using rule::kOne;
 constexpr std::int32_t kMostShift = kOne / 4;
 constexpr std::int32_t kFraction = 16;  // heights are kept to this part of a unit between passes
 
-// Stands for a column without a puddle: farther below any other than a cliff, and yet no difference
-// overflows.
+// Stands for a column without a puddle. It is farther below any other level than a cliff, and yet no
+// difference overflows.
 constexpr std::int32_t kAbyss = -(1 << 29);
 
 // Share of a difference between neighbours that is smoothed: all up to one cell, nothing from two.

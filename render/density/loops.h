@@ -23,7 +23,8 @@ struct ShownRow {
 
 inline constexpr int kLanes = 8;  // cells that a loop takes at once
 
-// Cells beyond those that are asked for are read only where it is said: another thread may be writing them.
+// Cells beyond those that are asked for are read only where a comment says so, because another thread may be
+// writing them.
 struct Loops {
   // One pass of the 3x3x3 binomial filter, rounded to nearest: x * y * z cells of `to` from two more along
   // each axis of `from`, which may be `to`. Rows of `to` are written up to the next multiple of kLanes, those
@@ -49,7 +50,7 @@ struct Loops {
   void (*shrink)(const ShownRow* from, int rows, int count, const float* emission, Blend* to);
 };
 
-// Compiled for an architecture of xsimd (density_loops.h).
+// The loops, compiled for an architecture of xsimd (density_loops.h).
 template <class Arch>
 Loops loops_for();
 

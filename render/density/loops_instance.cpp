@@ -1,4 +1,4 @@
-// Compiled once for each instruction set that has vectors of its own for eight cells.
+// This file is compiled once for each instruction set that has vectors of its own for eight cells.
 #include "kernel/engine/cpu/own_lanes.h"
 #include "render/density/density_loops.h"
 

@@ -38,7 +38,7 @@ void LowPass::load(const Values<std::uint16_t>& from, const state::Grid& first, 
   }
 }
 
-// With what lies outside the grid.
+// Also fills in what lies outside the grid.
 void LowPass::copy(const Values<std::uint16_t>& from) {
   const int inside = std::clamp(origin_.x, 0, grid_.x - 1), end = std::min(origin_.x + x_, grid_.x);
   const int before = inside - origin_.x, after = origin_.x + x_ - end;
@@ -54,8 +54,8 @@ void LowPass::copy(const Values<std::uint16_t>& from) {
     }
 }
 
-// In place after the first: reading runs ahead of writing. Cell i of a result is centred on cell i + 1
-// before.
+// Passes after the first work in place, because reading runs ahead of writing. Cell i of a result is centred
+// on cell i + 1 of its source.
 void LowPass::advance(int passes) {
   for (; done_ < passes; ++done_) {
     x_ -= 2;

@@ -22,7 +22,7 @@ class LowPass {
   explicit LowPass(const state::Grid& grid);
 
   // Takes the bricks first, first + 1 .. (`bricks` of them, along x) and as much around them as `passes` ask.
-  // `from` must stay as it is meanwhile.
+  // `from` must not change meanwhile.
   void load(const Values<std::uint16_t>& from, const state::Grid& first, int bricks, int passes);
   // Carries on to `passes` passes in all, at most as many as asked for.
   void advance(int passes);
@@ -41,7 +41,7 @@ class LowPass {
   std::unique_ptr<std::uint32_t[]> sums_;
 };
 
-// All of a grid.
+// Filters a whole grid.
 Values<std::uint16_t> low_pass(const state::Grid& grid, int passes, const Values<std::uint16_t>& from);
 
 }  // namespace voxmelt::render

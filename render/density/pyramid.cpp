@@ -24,7 +24,7 @@ void add(Blend& sum, const Blend& part, float weight) {
 
 state::Grid half(const state::Grid& grid) { return {(grid.x + 1) / 2, (grid.y + 1) / 2, (grid.z + 1) / 2}; }
 
-// What is empty already takes no memory.
+// Equal values are not written, so that empty cells take no memory.
 void put(Blend& to, const Blend& value) {
   using Bits = std::array<std::uint64_t, sizeof(Blend) / 8>;
   if (std::bit_cast<Bits>(to) != std::bit_cast<Bits>(value)) to = value;

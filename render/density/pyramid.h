@@ -22,7 +22,8 @@ struct Blend {
   friend bool operator==(const Blend&, const Blend&) = default;
 };
 
-// Stored with a border of one empty cell on every side, so that sampling needs no case for the edge.
+// A level is stored with a border of one empty cell on every side, so that sampling needs no case for
+// the edge.
 struct PyramidLevel {
   PyramidLevel() = default;
   explicit PyramidLevel(const state::Grid& size)
@@ -52,7 +53,7 @@ class Pyramid {
   // Obstacles count where there are any and `obstacles` says so.
   void refresh(const state::Grid& grid, const state::Grid& brick, const ChannelValues& filtered,
                bool obstacles, const std::array<float, 257>& emission);
-  // The levels above, when all bricks have been taken over.
+  // Computes the levels above, when all bricks have been taken over.
   void refresh_top();
 
   // Trilinear in space (position in cells of the grid) and linear between levels, 1 <= level <= kLevels.

@@ -1,4 +1,4 @@
-// Writes one slice of cell fields anew beside the old one, and takes over what differs.
+// Computes one slice of cell fields anew beside the old one, and copies what differs.
 #pragma once
 
 #include <cstddef>

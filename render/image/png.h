@@ -20,7 +20,7 @@ class ImageError : public std::runtime_error {
   bool out_of_space_;
 };
 
-// Writes beside the target and renames: a reader never sees half a file. Throws ImageError.
+// Writes beside the target and renames, so a reader never sees half a file. Throws ImageError.
 void write_png(const std::filesystem::path& file, const Image& image);
 
 // Reads any PNG as 8-bit RGB. Throws ImageError.

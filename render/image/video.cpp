@@ -15,8 +15,8 @@
 namespace voxmelt::render {
 namespace {
 
-// Runs a program found on PATH, with its output thrown away. Returns its exit status, or -errno when it could
-// not be started.
+// Runs a program found on PATH and discards its output. Returns its exit status, or -errno when it could not
+// be started.
 int run_quietly(const std::vector<std::string>& arguments) {
   std::vector<char*> argv;
   argv.reserve(arguments.size() + 1);
@@ -48,7 +48,7 @@ std::optional<std::string> write_video(const std::filesystem::path& file, const 
   int status = 0;
   for (const std::vector<std::string>& codec :
        {std::vector<std::string>{"libx264", "-crf", "18"}, std::vector<std::string>{"mpeg4", "-q:v", "3"}}) {
-    // H.264 in yuv420p needs even sides: odd ones lose a pixel.
+    // H.264 in yuv420p needs even sides, so odd ones lose a pixel.
     std::vector<std::string> arguments{"ffmpeg",
                                        "-y",
                                        "-loglevel",

@@ -20,7 +20,7 @@ namespace voxmelt::render {
 namespace {
 
 // Light that arrives at a point. It varies slowly, so the samples of one pixel share it where they meet the
-// same smooth piece of surface; each pixel starts afresh, so the order of pixels does not matter.
+// same smooth piece of surface. Each pixel starts anew, so the order of pixels does not matter.
 struct Arriving {
   bool known = false;
   Vec point, normal;
@@ -105,7 +105,7 @@ class Painter {
     gather(arriving, ray, where.hit.point, where.hit.normal, false);
     Incoming in = incoming(ray, sample.normal, arriving);
     if (!where.side) in.open *= ground_.openness(where.hit.point.x, where.hit.point.z);
-    // Matter has its own light in its emission; only its surroundings are lit by it.
+    // Matter has its own light in its emission. That light falls only on its surroundings.
     if (look_.glow) in.glow = arriving.ambient.glow;
     return tone_mapped(reflected(material, in, ambient_, vec(look_.ground)));
   }
@@ -128,7 +128,7 @@ Image draw(const DensityField& field, const scene::Camera& camera, const scene::
   Image image(camera.width, camera.height);
   const Painter painter(field, camera, light, look, terrain, settings);
 
-  // Rows are handed out one by one; each depends on nothing but the scene.
+  // Rows are handed out one by one. Each depends on nothing but the scene.
   std::atomic<int> next{0};
   const auto work = [&] {
     for (int y = next++; y < image.height; y = next++) painter.paint_row(image, y);

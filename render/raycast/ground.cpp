@@ -84,7 +84,7 @@ Vec Ground::normal(float x, float z) const {
   if (uneven_)
     n = {spline(height_, x - kReach, z) - spline(height_, x + kReach, z), 2 * kReach,
          spline(height_, x, z - kReach) - spline(height_, x, z + kReach)};
-  // Round the slab's edges a little, so that they catch the light.
+  // The slab's edges are rounded a little, so that they catch the light.
   const auto tilt = [](float near, float far) {
     return std::max(0.0f, 1 - far / kBevel) - std::max(0.0f, 1 - near / kBevel);
   };
@@ -105,7 +105,7 @@ std::optional<GroundHit> Ground::find(const Ray& ray) const {
   if (from_side && above(span.from) < 0)
     return GroundHit{{span.from, ray.at(span.from), span.entry_normal}, true};
 
-  // Steps shrink with the height above the ground; then false position closes in on the crossing.
+  // Steps shrink with the height above the ground. Then false position finds the crossing.
   float before = span.from;
   for (float t = span.from; before < span.to;) {
     const float height = above(t);

@@ -23,8 +23,8 @@ Blend blend_at(const DensityField& field, const Sampler& sampler, Vec point) {
   return sum;
 }
 
-// 0 matter .. 1 obstacle, by the unfiltered cells, so that neither bleeds into the other. Taken a little
-// outside the surface, where a film outweighs what it covers.
+// 0 matter .. 1 obstacle, from the unfiltered cells, so that neither bleeds into the other. It is taken a
+// little outside the surface, where a film outweighs what it covers.
 float obstacle_share(const DensityField& field, const Sampler& sampler, Vec point, Vec normal) {
   if (!field.has_obstacles()) return 0;
   const CellFields& cells = field.cells();

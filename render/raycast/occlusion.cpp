@@ -46,8 +46,8 @@ float Occlusion::cone(Vec point, Vec direction, float start, float spread, float
     const float step = 0.5f * width;
     const Vec p = ray.at(t);
     const float matter = pyramid_.sample(p.x, p.y, p.z, std::log2(width)).matter;
-    // By path length, so that a thin wall casts the same shadow through a narrow and a wide cone. The least
-    // shares are the blurred fringe of the very surface that is lit.
+    // Absorption goes by path length, so that a thin wall casts the same shadow through a narrow and a wide
+    // cone. The least shares are ignored: they are the blurred fringe of the surface that is lit.
     light *= std::exp(-kExtinction * std::max(0.0f, matter - 0.04f) * step);
     t += step;
   }

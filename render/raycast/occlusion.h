@@ -1,5 +1,5 @@
 // Soft shadows, ambient occlusion and light thrown by glowing liquid: cones through the coarse averages of
-// the matter. No random numbers, so no grain.
+// the matter. There are no random numbers, so there is no grain.
 #pragma once
 
 #include "render/density/pyramid.h"

@@ -38,7 +38,7 @@ class Sampler {
   float linear(Vec point) const { return linear(intensity_, point); }
 
   // Cubic B-spline: the surface itself. Its second derivatives are continuous, so neither the shape nor the
-  // highlights show the cells. Never outside the range of the 4x4x4 cells around the point.
+  // highlights show the cells. The result is never outside the range of the 4x4x4 cells around the point.
   float cubic(const Values<std::uint16_t>& cells, Vec point) const;
   float cubic(Vec point) const { return cubic(intensity_, point); }
   FieldSample cubic_with_gradient(Vec point) const;

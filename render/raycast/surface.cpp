@@ -47,7 +47,8 @@ std::optional<Hit> Surface::find(const Ray& ray, float limit) const {
   const float end = std::min(span.to, limit);
   if (span.from > end) return std::nullopt;
 
-  // The samples lie at fixed distances from where the ray enters the grid; the first and last that matter.
+  // The samples lie at fixed distances from where the ray enters the grid. These are the first and the last
+  // that matter.
   int first = 0;
   float last = end;
   if (skip_empty_) {

@@ -21,7 +21,7 @@ TEST(Analytic, StefanLambda) {
   EXPECT_NEAR(stefan_lambda(10), 1.256972, 1e-6);
 }
 
-// Without a cold solid the two problems are one; a cold solid slows the front.
+// Without a cold solid the two problems are one. A cold solid slows the front.
 TEST(Analytic, TwoPhaseStefanLambda) {
   for (const double stefan : {0.05, 0.5, 2.0}) {
     EXPECT_NEAR(stefan_lambda(stefan, 0), stefan_lambda(stefan), 1e-9);

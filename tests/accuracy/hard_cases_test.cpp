@@ -1,5 +1,5 @@
-// Hard cases of the physics, each with its number. Others stand where their rule is tested: the list is in
-// docs/verification.md.
+// Hard cases of the physics, each with its number. Others stand where their rule is tested: the list is
+// in docs/verification.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ TEST(HardCase, StefanNumbersOfAHundredthAndOfTen) {
   }
 }
 
-// A cell melts at exactly the melting point, and one unit below it does not; so with latent heat.
+// A cell melts at exactly the melting point, and one unit below it does not. The same holds with latent heat.
 TEST(HardCase, MeltsAtExactlyTheMeltingPoint) {
   for (const int latent : {0, 20000}) {
     Parameters p = paper_showcase();
@@ -96,7 +96,7 @@ TEST(HardCase, TheLargestAmountFalls) {
   }
 }
 
-// All solid, all empty, and the one beside the other: nothing happens, in any implementation.
+// A volume is all solid, all empty, or half and half. Nothing happens, in any implementation.
 TEST(HardCase, SolidAndEmptyBlocksStayAsTheyAre) {
   for (const auto& implementation : run::implementations().all()) {
     if (!implementation.supported) continue;

@@ -1,4 +1,4 @@
-// What is measured, on volumes whose numbers are known.
+// Measurements of volumes whose numbers are known.
 #include "accuracy/measure.h"
 
 #include <gtest/gtest.h>

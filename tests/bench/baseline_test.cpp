@@ -53,9 +53,9 @@ TEST(Baseline, ConservesItsAmount) {
   expect_sound(twice.fields(), start, 1e-9);
 }
 
-// Rounding can turn a decision (lower by the margin? warm enough?) where both sides are equal but for
-// rounding, and from there on two runs go different ways. So float is held against double one step at a time,
-// both from the same state: then every cell agrees to rounding but the few whose decision stood on the edge.
+// Rounding can change a decision (lower by the margin? warm enough?) where both sides are nearly equal. From
+// there on two runs diverge. So float is compared with double one step at a time, both from the same state.
+// Then every cell agrees to rounding, but for the few whose decision was close.
 TEST(Baseline, FloatStepsLikeDouble) {
   const MeltingDrop drop = melting_drop();
   Baseline<float> single(drop.volume, drop.parameters);
@@ -84,7 +84,7 @@ TEST(Baseline, FloatStepsLikeDouble) {
   RecordProperty("turned", static_cast<int>(turned));
 }
 
-// Left to themselves the two may differ cell by cell, but not in what is seen.
+// In long runs the two may differ cell by cell, but not in what is seen.
 TEST(Baseline, FloatMakesTheSamePileAsDouble) {
   const MeltingDrop drop = melting_drop();
   Baseline<float> single(drop.volume, drop.parameters);

@@ -1,4 +1,5 @@
-// The benchmark itself: it refuses wrong results, its workloads do what they say, its arithmetic is right.
+// Tests of the benchmark: it refuses wrong results, its workloads do what they say, and its arithmetic
+// is right.
 #include "bench/measure/measure.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@
 namespace voxmelt::measure {
 namespace {
 
-// The reference, but for one fault in one cell.
+// The reference with one fault in one cell.
 enum class Fault { amount, leak };
 template <Fault fault>
 class Faulty : public step::HostStepper {

@@ -1,9 +1,9 @@
 // AVX-512 without such a processor, for house.avx512: those intrinsics that kernel/engine/cpu/lanes_avx512.h
 // and xsimd call for it, as plain loops over 64-byte vectors of g++.
 //
-// Comes before everything else (-include) where g++ compiles for AVX2: xsimd then believes in AVX-512, and
-// every name below stands for one of ours. An intrinsic that is missing here stays g++'s own, and using it is
-// an error ("target specific option mismatch"): add it.
+// It comes before everything else (-include) where g++ compiles for AVX2. xsimd then takes the AVX-512 path,
+// and every name below stands for one of ours. An intrinsic that is missing here stays g++'s own, and using
+// it is an error ("target specific option mismatch"): add it.
 #pragma once
 #pragma GCC system_header
 #ifdef __AVX512F__
@@ -31,8 +31,8 @@ typedef std::uint32_t U32 __attribute__((vector_size(64)));
 typedef std::int32_t I32 __attribute__((vector_size(64)));
 typedef std::uint64_t U64 __attribute__((vector_size(64)));
 
-// V, below, is one of these. kBlock: lanes in 128 bits, beyond which most instructions that move lanes do not
-// look.
+// V, below, is one of these. kBlock: lanes in 128 bits, beyond which most instructions that move lanes do
+// not look.
 template <class V>
 constexpr int kLanes = sizeof(V) / sizeof(V{}[0]);
 template <class V>
@@ -46,7 +46,7 @@ inline __m512i lanes(const F& f) {
   return (__m512i)v;
 }
 
-// Memory. What must be aligned faults if it is not, as on the processor.
+// Memory. An access that must be aligned faults if it is not, as on the processor.
 inline __m512i loadu(const void* at) {
   __m512i v;
   std::memcpy(&v, at, sizeof v);

@@ -6,6 +6,7 @@
 
 - Links and paths exist, in README, docs, scenes and examples, and the paths that include/ names.
 - A line has at most 100 columns, but in tables, code and generated pages.
+- The separator row of a table has a line of its own: a rewrap that runs a table together is noticed.
 - README has at most 90 lines, and no sentence of more than 30 words. Its C++ programs are files of examples/. A decision has at most 40 lines and stands in the index.
 - The scripts that the README names parse.
 """
@@ -16,6 +17,7 @@ import tempfile
 from pathlib import Path
 
 TOPS = "kernel|render|hwmodel|library|include|examples|app|bench|accuracy|tests|scenes|docs|cmake"
+SEPARATOR = re.compile(r"\|(?:\s*:?---*:?\s*\|)+")
 COLUMNS, README_LINES, SENTENCE_WORDS, DECISION_LINES = 100, 90, 30, 40
 
 
@@ -26,14 +28,19 @@ def pages(root):
     return found
 
 
-def prose(text):
-    """Lines that are neither code nor a table; an empty line where something was left out."""
+def outside_code(text):
+    """All lines; an empty line where there is code."""
     fenced = False
     for line in text.splitlines():
         if line.startswith("```"):
             fenced = not fenced
-        skipped = fenced or line.startswith(("```", "|", "#", "!", "    "))
-        yield "" if skipped else line
+        yield "" if fenced or line.startswith(("```", "    ")) else line
+
+
+def prose(text):
+    """Lines that are neither code nor a table; an empty line where something was left out."""
+    for line in outside_code(text):
+        yield "" if line.startswith(("|", "#", "!")) else line
 
 
 def sentences(text):
@@ -55,6 +62,9 @@ def offences(root):
         if not text.startswith("<!-- Written by"):
             found += [f"{name}:{number}: {len(line)} columns, more than {COLUMNS}"
                       for number, line in enumerate(prose(text), 1) if len(line) > COLUMNS]
+        found += [f"{name}:{number}: the separator row of a table shares its line with other text"
+                  for number, line in enumerate(outside_code(text), 1)
+                  if SEPARATOR.search(line) and not SEPARATOR.fullmatch(line)]
     for header in sorted((root / "include").rglob("*.h")):
         for path in re.findall(rf"\b((?:docs|examples|scenes)/[\w./-]+\.\w+)", header.read_text()):
             if not (root / path).exists():
@@ -91,7 +101,7 @@ def self_test():
     fine = {
         "README.md": "# House\n\nSee [docs](docs/a.md), `docs/a.md`.\n\n```\n" + "x" * 120 + "\n```\n\n```cpp\nint a;\n```\n",
         "examples/a.cpp": "int a;\n",
-        "docs/a.md": "| " + "x" * 120 + " |\n",
+        "docs/a.md": "| " + "x" * 120 + " | n |\n|---|--:|\n\n```\nbox |---| box\n```\n",
         "docs/performance.md": "<!-- Written by a script -->\n" + "x " * 60 + "\n",
         "docs/decisions/README.md": "- [one](one.md)\n- [long](long.md)\n",
         "docs/decisions/one.md": "# One\n",
@@ -104,6 +114,7 @@ def self_test():
         "docs/deep/b.md": ("[gone](gone.md)\n", ["docs/deep/b.md: link to gone.md"]),
         "docs/c.md": ("`kernel/gone.h`\n", ["docs/c.md: names kernel/gone.h"]),
         "docs/d.md": ("y" * 101 + "\n", ["docs/d.md:1: 101 columns"]),
+        "docs/e.md": ("# Table\n\n| field | meaning | |---|--:| | `a` | b |\n", ["docs/e.md:3: the separator row"]),
         "examples/README.md": ("[gone](gone.cpp)\n", ["examples/README.md: link to gone.cpp"]),
         "include/b.h": ("/// See docs/gone.md.\n", ["include/b.h: names docs/gone.md"]),
         "docs/decisions/lost.md": ("# Lost\n", ["leaves out lost.md"]),

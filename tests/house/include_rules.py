@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds the house's include rules (README, "The house"): who may include whom, and how long a file may be.
+"""Holds the house's include rules (README, "The house"): which folder may include which, and how long a file may be.
 
   include_rules.py ROOT          check a tree
   include_rules.py --self-test   check that the checker catches planted offences

@@ -1,4 +1,4 @@
-// What the pipeline is built of: channels, their stalls, line buffers, column memories, wires.
+// The parts of the pipeline: channels, their stalls, line buffers, column memories, wires.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -33,7 +33,7 @@ TEST(Channel, HoldsAsManyTokensAsItIsDeep) {
   }
 }
 
-// Else the order in which blocks are evaluated would matter.
+// Otherwise the order in which blocks are evaluated would matter.
 TEST(Channel, NothingShowsBeforeTheCycleEnds) {
   Fifo<int> fifo = channel(1);
   *fifo.put() = 7;
@@ -88,7 +88,7 @@ TEST(Channel, TokensAreNumberedFromTheBeginOfAPass) {
   EXPECT_EQ(seen.out, seen.in);
 }
 
-// Of 100 000 cycles: how many refuse to put, to get, both; as a fraction.
+// The fractions of 100 000 cycles that refuse to put, to get, and both.
 struct Refusals {
   double put = 0, get = 0, both = 0;
   std::vector<bool> puts;

@@ -1,4 +1,4 @@
-// The checker itself: what it compares, and what it says where software, widths or channels are at fault.
+// Tests of the checker: what it compares, and what it says where software, widths or channels are at fault.
 #include "hwmodel/lockstep/checker.h"
 
 #include <algorithm>
@@ -123,7 +123,7 @@ TEST(Checker, EverySecondStepAndTheLastAreCompared) {
   EXPECT_GE(polls, 5) << "once a step at least";
 }
 
-// Without stalls a token is at a stage when all before it have waited: what the lags say.
+// Without stalls, a token is at a stage when all stages before it have waited for their lags.
 TEST(Checker, AMismatchHasItsLaneItsCycleAndTheStateBefore) {
   const Start start = warm_start();
   const Configuration c{4, 3, 2, 0};
@@ -156,7 +156,7 @@ TEST(Checker, AMismatchHasItsLaneItsCycleAndTheStateBefore) {
   EXPECT_EQ(m.neighbourhood, neighbourhood(before.volume(), m.x, m.y, m.z));
 }
 
-// The lines around a mismatch are of the state that its stage was given.
+// The lines around a mismatch show the state that its stage was given.
 TEST(Checker, TheCellsAroundAMismatchAreThoseBeforeItsStage) {
   const Start start = warm_start();
   const VerifyReport report = lockstep(start, {4, 1, 2, 0}, 1, Fault::gravity_one_more, start.step);
@@ -240,7 +240,7 @@ TEST(Checker, TheFailingStageIsNotTheFirst) {
   EXPECT_EQ(report.mismatch->phase, step::Phase::heat);
 }
 
-// What leaves a channel changed, in any field or side-band, is seen where it leaves.
+// A token that leaves a channel changed, in any field or side band, is noticed where it leaves.
 TEST(Checker, AChannelThatChangesAnythingIsNamed) {
   const Start start = warm_start();
   const std::vector<std::pair<std::string, void (*)(Cell&)>> changes{

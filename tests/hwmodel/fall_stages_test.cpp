@@ -1,6 +1,6 @@
-// Gravity under the viscous law, alone: the side bands that settle and spread will bring are set by a stage
-// of the test, from its own few lines of docs/automaton.md, section 10. The result is held against the
-// reference.
+// Gravity under the viscous law, alone: the side bands that settle and spread will bring are set by a
+// stage of the test, from its own few lines of docs/automaton.md, section 10. The result is compared with
+// the reference.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,7 +19,7 @@ std::size_t index_of(state::Grid g, int x, int y, int z) {
          static_cast<std::size_t>(x);
 }
 
-// Of the volume before the excess phase: the cells of runs that will hold something after it.
+// For the volume before the excess phase: the cells of runs that will hold something after it.
 Marks cells_in_runs(const state::Volume& v) {
   Marks marks(static_cast<std::size_t>(v.grid.cells()));
   for (int z = 0; z < v.grid.z; ++z)

@@ -7,7 +7,8 @@
 
 namespace voxmelt::hwmodel {
 
-// Stands behind a phase: a cell that leaves it brings no side-bands, but what conduction tells gravity.
+// It is placed behind a phase. A cell that leaves the phase brings no side bands, except what conduction
+// tells gravity.
 class NoSideBands final : public Stage {
  public:
   NoSideBands(const Design& design, StageKind before) : Stage(before, design, 0) {}

@@ -89,8 +89,8 @@ TEST(Lockstep, TeachingScenes) {
   EXPECT_GE(scenes, 11);
 }
 
-// Every showcase scene in the middle of its melt, a cube of 24 cells of it; one row of the full product each
-// time.
+// Every showcase scene in the middle of its melt, a cube of 24 cells of it; one row of the full product
+// each time.
 TEST(Lockstep, CropsOfTheShowcase) {
   const std::vector<Configuration> rows = covering_array();
   std::size_t row = 0;
@@ -128,7 +128,7 @@ TEST(Lockstep, CyclesOfStagesSumUnderStalls) {
   }
 }
 
-// Nothing stalls: a stage waits for its first token and for the end, and for nothing else. A channel that
+// Nothing stalls, so a stage waits for its first token and for the end, and for nothing else. A channel that
 // holds one token only is full every second cycle.
 TEST(Lockstep, WithoutStallsNoStageWaits) {
   for (const int depth : {1, 2, 4}) {
@@ -157,7 +157,7 @@ TEST(Lockstep, IrradianceStaysInStepAcrossBypasses) {
   }
 }
 
-// Grids thinner than the stencil: long after the last token has come, none has left, and it is no hang.
+// Grids are thinner than the stencil. Long after the last token has come, none has left. That is no hang.
 TEST(Lockstep, ALongFillIsNoHang) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
     for (const state::Grid grid : {state::Grid{50, 30, 1}, state::Grid{3, 1500, 1}})

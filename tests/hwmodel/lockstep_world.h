@@ -15,7 +15,7 @@
 
 namespace voxmelt::hwmodel {
 
-// A state in the middle of its melt, and where its step numbers stand.
+// A state in the middle of its melt, with the number of its next step.
 struct Start {
   std::string name;
   rule::Parameters parameters;

@@ -1,4 +1,4 @@
-// Our own main: libsystemc exports one that would run no test at all and look green.
+// Our own main, because libsystemc exports one that would run no test at all and look green.
 #include <gtest/gtest.h>
 
 int main(int argc, char** argv) {

@@ -1,5 +1,5 @@
-// What the memories of a stage hold is what docs/hardware.md says: bits per cell of a plane, and how many
-// cells.
+// What the memories of a stage hold is what docs/hardware.md says: bits per cell of a plane, and how
+// many cells.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -23,7 +23,7 @@ void PrintTo(const Memory& memory, std::ostream* out) {
   *out << memory.plane << " (" << memory.beside << ")";
 }
 
-// Of every stage that has any; also sees that what a stage delays is what its memories hold.
+// Checks every stage that has memories, and that what a stage delays is what its memories hold.
 std::map<StageKind, Memory> memories_of(const std::string& scene_name) {
   constexpr int kLanes = 4;
   const scene::Scene scene =

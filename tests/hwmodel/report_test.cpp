@@ -1,4 +1,4 @@
-// What the checker says: lines, JSON and the table are of the numbers that they name.
+// What the checker says: lines, JSON and the table have the numbers that they name.
 #include "hwmodel/lockstep/report.h"
 
 #include <gtest/gtest.h>
@@ -113,7 +113,7 @@ TEST(Report, JsonOfAMismatchAndOfAPlantedFault) {
   report.strike = FaultPlan::Strike{"apply", 41, 6, 5, 3};  // one cell off
   const auto json = json_of(report, design_of(rule::Law::paper), kMachine);
   EXPECT_EQ(json["mismatches"], 1);
-  for (const char* half : {"digest", "predicted_cycles"})  // of half a pass
+  for (const char* half : {"digest", "predicted_cycles"})  // numbers of half a pass
     EXPECT_TRUE(json[half].is_null()) << half;
   EXPECT_EQ(table_of(report, design_of(rule::Law::paper), kMachine), "");
   const auto mismatch = nlohmann::ordered_json::parse(R"({

@@ -1,4 +1,5 @@
-// The four sides of a cell, from a volume: what the side-band `beside_wall` is held against, or filled with.
+// The four sides of a cell, from a volume. The side band `beside_wall` is compared with them, or filled
+// from them.
 #pragma once
 
 #include "hwmodel/stream/cell.h"

@@ -1,6 +1,6 @@
-// Which cells stand beside a wall: the bit that conduction (or, without heat, the stage `walls`) writes is
-// the state's at the begin of the step, on every size of grid and number of lanes, and reaches gravity's
-// input.
+// Which cells stand beside a wall: the bit that conduction (or, without heat, the stage `walls`) writes
+// is the state's at the begin of the step, on every size of grid and number of lanes, and reaches
+// gravity's input.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// Holds the bit of every cell that passes against a volume.
+// Compares the bit of every cell that passes with a volume.
 class Probe final : public Stage {
  public:
   explicit Probe(const Design& design) : Stage(StageKind::melt, design, 0) {}
@@ -131,7 +131,7 @@ TEST(SidesStages, FromHeatToGravityIsTheReferences) {
     expect_phases(rule::Law::paper, step::Phase::heat, step::Phase::gravity, make_stages, 300, 3, seed);
 }
 
-// Who needs none gets none: no bit in the words, none in the channels.
+// A scene that needs no sides gets none: no bit in the words, none in the channels.
 TEST(SidesStages, OnlyWhereFallingDependsOnThem) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
     for (const bool hot : {false, true})

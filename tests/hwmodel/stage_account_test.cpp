@@ -1,4 +1,4 @@
-// What every stage does, whatever its rule: it loses nothing under stalls, and every cycle of it is counted.
+// Every stage, whatever its rule, loses nothing under stalls, and accounts for each of its cycles.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

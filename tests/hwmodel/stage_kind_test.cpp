@@ -1,6 +1,9 @@
 // The kinds of stages: their names and phases are those of docs/hardware.md, and only stages of a time step
 // can be made.
 
+#include <cstddef>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -35,6 +38,15 @@ Design design_with_everything() {
   design.parameters.heat.enabled = design.parameters.heat.air = true;
   design.parameters.heat.air_temperature.resize(4);
   return design;
+}
+
+// Every value that has a name is a kind, and stands above.
+TEST(StageKinds, AreAllKnownHere) {
+  using Value = std::underlying_type_t<StageKind>;
+  std::size_t named = 0;
+  for (int value = 0; value <= std::numeric_limits<Value>::max(); ++value)
+    named += name_of(static_cast<StageKind>(value)).empty() ? 0 : 1;
+  EXPECT_EQ(named, std::size(kKnown));
 }
 
 TEST(StageKinds, NamesAndPhasesAreThePages) {

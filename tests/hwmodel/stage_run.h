@@ -1,5 +1,5 @@
-// Runs stages of the pipeline over a volume, with real channels between them but without SystemC: the bench
-// on which single stages are held against the reference's phases.
+// Runs stages of the pipeline over a volume, with real channels between them but without SystemC. Tests use
+// it to compare single stages with the reference's phases.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -82,8 +82,8 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, std:
   return result;
 }
 
-// Holds `make`'s stages, which are to do the phases first..last whole, against the reference: on `worlds`
-// random hostile worlds of one law, `steps` steps each. The other phases are the reference's.
+// Compares `make`'s stages, which must do the phases first..last whole, with the reference. There are
+// `worlds` random hostile worlds of one law, with `steps` steps each. The other phases are the reference's.
 template <class Make>  // void(const Design&, const StageMaker&, Stages&)
 void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& make, int worlds, int steps,
                    std::uint64_t first_seed = 0) {

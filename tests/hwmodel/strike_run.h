@@ -31,8 +31,8 @@ inline std::string name_of(const FaultPlan::Strike& strike) {
   return std::to_string(strike.x) + ", " + std::to_string(strike.y) + ", " + std::to_string(strike.z);
 }
 
-// Every world is run until the fault strikes, for up to `steps` steps; at least `wanted` worlds must be
-// struck.
+// Every world is run until the fault strikes, for up to `steps` steps; at least `wanted` worlds must
+// be struck.
 template <class Make>  // void(const Design&, const StageMaker&, Stages&)
 void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, int worlds, int steps,
                     int wanted) {

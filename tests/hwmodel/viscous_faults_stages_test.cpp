@@ -76,7 +76,7 @@ void expect_found(Fault fault, Phase last, const std::string& stage) {
   EXPECT_GT(hot, 20);
 }
 
-// What a damaged settling hands on has no number that the stage behind it cannot hold.
+// A damaged settling gives no number that the stage behind it cannot hold.
 TEST(ViscousFaults, DamageKeepsItsWidths) {
   int strikes = 0;
   for (const Fault fault : {Fault::settle_run_broken, Fault::settle_sum_carry, Fault::settle_reversal})

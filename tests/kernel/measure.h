@@ -84,7 +84,8 @@ inline int moving_steps(run::Simulation& s, int n) {
   return moving;
 }
 
-// A ball of liquid that lies on the floor in the middle of the grid; the paper's law gets it fully energetic.
+// A ball of liquid that lies on the floor in the middle of the grid. Under the paper's law it has
+// full energy.
 inline void put_ball(Volume& v, double radius, bool energetic, int floor = 0) {
   const double cx = (v.grid.x - 1) / 2.0, cy = floor + radius - 0.5, cz = (v.grid.z - 1) / 2.0;
   for_each(whole(v.grid), [&](int x, int y, int z) {
@@ -100,8 +101,8 @@ inline void put_disc(Volume& v, double radius, double depth, std::int32_t energy
   });
 }
 
-// Two shafts of 3 x 3, joined by a tunnel 3 high: one filled 21 high, the other 3. Level, both would stand
-// at 12.
+// Two shafts of 3 x 3, joined by a tunnel 3 high: one filled 21 high, the other 3. At one level, both would
+// be 12 high.
 inline Volume u_tube() {
   Volume v(Grid{11, 30, 5});
   fill_inert(v, whole(v.grid));

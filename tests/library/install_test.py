@@ -15,7 +15,7 @@ from pathlib import Path
 
 root, build = (Path(argument).resolve() for argument in sys.argv[1:3])
 APPROVED = json.loads((root / "tests/app/digests.json").read_text())
-# Nothing of the tree may help: neither a folder `scenes` nor a variable.
+# Nothing of the tree may help, neither a folder `scenes` nor a variable.
 ELSEWHERE = {key: value for key, value in os.environ.items() if key != "VOXMELT_SCENES"}
 
 

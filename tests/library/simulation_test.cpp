@@ -1,4 +1,4 @@
-// The public face: what it gives is what the rooms inside give, and its errors are its own.
+// The public face gives what the rooms inside give, and its errors are its own.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -213,7 +213,7 @@ TEST_F(Library, ErrorsAreItsOwn) {
   EXPECT_EQ(simulation.steps_done(), 1u);
 }
 
-// What runs out cannot be made to run out on every machine.
+// No test can use up memory or disk on every machine, so errors are translated directly.
 TEST(Errors, OfTheRoomsInsideBecomePublicOnes) {
   const auto thrown = [](const auto& error) { return [&] { library::translated([&] { throw error; }); }; };
   EXPECT_EQ(message_of<InputError>(thrown(scene::InputError("a"))), "a");

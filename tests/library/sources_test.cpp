@@ -20,8 +20,8 @@ Options by(const std::string& implementation) {
   return options;
 }
 
-// Until step 5 as the file says; then a vent pours, far away; before step 9 the lamp moves, which counts
-// from step 12 on; at 13 a drain takes the vent's place.
+// Until step 5 all is as the file says. Then a vent pours, far away. Before step 9 the lamp moves, which
+// takes effect at step 12. At 13 a drain takes the vent's place.
 const std::vector<std::string> kSaid = {
     "heat_source=[{keyframes=[{step=8, at=[20, 11, 10], power=4}, {step=12, at=[1, 11, 10.5], power=9}]}]",
     "vent=[{at=[55, 8, 10], radius=2.5, rate=0.125, temperature=0.75, energy=0.5, from=5, until=13}]",
@@ -100,7 +100,7 @@ TEST_F(Sources, WhatIsReadBackIsWhatWasSetRounded) {
   simulation.set_vents({vent});
   EXPECT_EQ(simulation.vents()[0].at[0], 1.0);
 
-  // Set back what was read: nothing changes.
+  // Setting what was read changes nothing.
   Simulation untouched(file, options);
   Simulation same(file, options);
   for (int step = 0; step < 20; ++step) {

@@ -4,7 +4,7 @@
 namespace oracle {
 namespace {
 
-// What cell q, at `at`, is ready to let fall into p: both with the amounts of the moment.
+// What cell q, at `at`, is ready to let fall into p. Both have the amounts of the moment.
 Int ready_to_fall(const State& state, const Cell& p, const Cell& q, Place at) {
   const Fall& fall = state.parameters.fall;
   const bool wall = state.beside_wall(at);

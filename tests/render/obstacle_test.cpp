@@ -118,7 +118,7 @@ TEST(Obstacle, IsDrawnWithoutMatter) {
 }
 
 TEST(Obstacle, LeavesTheGroundFlatAndDry) {
-  // Without the wall in the heights, the ground of the picture stays flat under it.
+  // The heights leave out the wall, so the ground of the picture is flat under it.
   const DensityField field = field_of(walled());
   for (const float height : field.ground()) EXPECT_EQ(height, test::kFloor);
   for (const float wet : field.wetness()) EXPECT_EQ(wet, 0);
@@ -174,7 +174,8 @@ TEST(Obstacle, SurfaceRisesWithTheLayerOnIt) {
   }
 }
 
-// Filtered like a solid: a thin beam stays as it is under a film, however much the liquid is smoothed.
+// An obstacle is filtered like a solid: a thin beam stays as it is under a film, however much the liquid
+// is smoothed.
 TEST(Obstacle, ThinBeamSurvivesUnderAFilm) {
   const auto top_with = [](int smooth) {
     state::Volume volume(kGrid);
@@ -210,8 +211,8 @@ TEST(Obstacle, ColoursEndWithinACell) {
   pour_left_of_wall(volume, 6);
   const DensityField field = field_of(volume);
   const float level = test::kFloor + 6;
-  // On the wall a cell above the liquid's edge, and on the liquid two cells from the wall (the edge is
-  // curved).
+  // One point is on the wall a cell above the liquid's edge. One is on the liquid two cells from the wall
+  // (the edge is curved).
   EXPECT_GT(material_below(field, {-20, level + 2, 20.3f}, {1, 0, 0}).obstacle, 0.99f);
   EXPECT_LT(material_below(field, {kWallLeft - 1.5f, 60, 20.3f}).obstacle, 0.01f);
   // On the cut at the front, a cell to either side.
@@ -264,7 +265,7 @@ TEST(Obstacle, UpdatesLikeAFreshField) {
     const scene::Camera camera = test::small_camera(kGrid);
     EXPECT_TRUE(draw(kept, camera, {}, look, terrain) == draw(fresh, camera, {}, look, terrain));
   }
-  // Obstacles that appear for the first time, and those that go.
+  // Obstacles appear for the first time, or go.
   for (const state::Volume& next : {test::floor_volume(kGrid), walled()}) {
     kept.update(next, look, terrain);
     EXPECT_TRUE(kept.intensity() == field_of(next).intensity());

@@ -1,4 +1,4 @@
-// The field that is drawn, written plainly: whole grids, one cell after the other, everything anew. What
+// The field that is drawn, written plainly: it computes whole grids anew, one cell after the other. What
 // render/density keeps up to date in pieces must be the same, bit for bit.
 #pragma once
 

@@ -59,7 +59,8 @@ TEST(Smooth, LiquidGetsItsOwnPasses) {
     EXPECT_TRUE(field_of(volume, liquid, 1).intensity() == render::low_pass(grid, liquid, cells)) << liquid;
 }
 
-// A rod as thin as a peg melts away under the liquid's filter; under the solid's it stays, film or not.
+// A rod as thin as a peg disappears under the liquid's filter. Under the solid's filter it stays, with or
+// without a film.
 TEST(Smooth, ThinSolidSurvivesUnderAFilm) {
   const state::Grid grid{40, 40, 40};
   for (const double amount : {0.0, 0.2, 0.45}) {
@@ -142,7 +143,7 @@ TEST(Levels, TerracesGo) {
   }
 }
 
-// The whole way: a terraced puddle is drawn as the slope it stands for.
+// From volume to picture: a terraced puddle is drawn as the slope it stands for.
 TEST(Smooth, TerracesOfAPuddleDoNotShow) {
   const state::Grid grid{48, 24, 24};
   state::Volume volume = test::floor_volume(grid);

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-// Rule functions are always inlined: no weak copy of the definition, compiled for one instruction set, can be
-// linked in place of another's.
+// Rule functions are always inlined. Otherwise the linker might take the copy that was compiled for one
+// instruction set in place of another's.
 #define VOXMELT_RULE [[gnu::always_inline]] inline constexpr
 
 namespace voxmelt::rule {
@@ -18,13 +18,13 @@ inline constexpr std::int32_t kAmountMax = 65535;
 inline constexpr std::int32_t kTemperatureMax = 65535;
 inline constexpr std::int32_t kBedHalf = 2048;  // amount of an inert cell whose top is its own upper face
 
-// floor((a x fraction + dither) / 65536); a may be negative: the shift rounds towards minus infinity.
+// floor((a x fraction + dither) / 65536). a may be negative: the shift rounds towards minus infinity.
 VOXMELT_RULE std::int32_t scaled(std::int32_t a, std::int32_t fraction, std::int32_t dither = 0) {
   return static_cast<std::int32_t>((static_cast<std::int64_t>(a) * fraction + dither) >> 16);
 }
 
-// The dither of a step: its low 16 bits in reverse order, shifted by `part` of `parts` of the period, so that
-// any run of steps samples 0..65535 evenly and no state is needed.
+// The dither of a step: its low 16 bits in reverse order, shifted by `part` of `parts` of the period. Any run
+// of steps then samples 0..65535 evenly, and no state is needed.
 VOXMELT_RULE std::int32_t dither(std::uint32_t step, int part = 0, int parts = 1) {
   std::uint32_t r = step & 0xFFFFu;
   r = ((r & 0x5555u) << 1) | ((r >> 1) & 0x5555u);

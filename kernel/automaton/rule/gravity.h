@@ -9,7 +9,7 @@
 
 namespace voxmelt::rule {
 
-// What a cell with amount a is ready to give downwards; dust below `minimum` goes whole.
+// What a cell with amount a is ready to give downwards. An amount below `minimum` falls whole.
 VOXMELT_RULE std::int32_t released(std::int32_t a, std::uint32_t factor, std::int32_t minimum) {
   const auto part = static_cast<std::int32_t>((static_cast<std::uint64_t>(a) * factor) >> 16);
   return std::min(a, part + minimum);

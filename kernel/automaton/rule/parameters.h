@@ -1,6 +1,6 @@
-// Everything that the rules of a scene depend on besides its state: integers only, resolved once from the
-// scene file. `voxmelt export` writes exactly these as parameters.json (docs/automaton.md, "Parameters").
-// The functions say what follows from the parameters alone.
+// Everything that the rules of a scene depend on besides its state. All numbers are integers, resolved once
+// from the scene file. `voxmelt export` writes exactly these as parameters.json (docs/automaton.md,
+// "Parameters"). The functions give what follows from the parameters alone.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct Position {
   std::int64_t x = 0, y = 0, z = 0;
 };
 
-// A point source between two keyframes moves, and changes its power, linearly in the step.
+// Between two keyframes, the position and the power of a point source change linearly in the step.
 struct SourceKey {
   std::uint32_t step = 0;
   Position at;
@@ -34,7 +34,7 @@ struct PointSource {
 
 struct Heat {
   bool enabled = false;
-  int neighbours = 6;               // of Eq. 1: 6, 18 or 26
+  int neighbours = 6;               // in Eq. 1: 6, 18 or 26
   std::uint16_t weight_face = 0;    // floor(65536 gamma / (pi l^2)), l = 1
   std::uint16_t weight_edge = 0;    // l^2 = 2
   std::uint16_t weight_corner = 0;  // l^2 = 3
@@ -82,11 +82,11 @@ struct Drain {
   std::uint32_t from = 0, until = 0xFFFFFFFFu;
 };
 
-// Vertical motion, both laws: a cell gives min(A, (A x factor >> 16) + minimum); factor 65536 gives all.
+// Vertical motion, both laws: a cell gives min(A, (A x factor >> 16) + minimum). A factor of 65536 gives all.
 struct Fall {
   std::uint32_t factor = 65536;       // free air
   std::uint32_t wall_factor = 65536;  // extra `adhesion`: a side or diagonal-free neighbour is solid
-  Amount minimum = 32;                // dust moves whole
+  Amount minimum = 32;                // a smaller amount moves whole
   Amount hang = 0;                    // extra `drip`: an overhanging film below this amount waits; 0 is off
 
   // Does what a cell gives depend on what stands beside it?

@@ -1,7 +1,7 @@
 // Random bits as a function of (seed, step, cell): the block cipher Speck64/128 cut to 10 rounds.
 //
-// One 64-bit block serves 8 cells along x, one byte (8 directions) each. 32-bit additions, rotations by 8 and
-// 3, and exclusive-or: cheap in SIMD and in logic.
+// One 64-bit block serves 8 cells along x, one byte (8 directions) each. It takes 32-bit additions, rotations
+// by 8 and 3, and exclusive-or, which are cheap in SIMD and in logic.
 #pragma once
 
 #include <array>

@@ -31,8 +31,8 @@ VOXMELT_RULE std::int32_t vented_energy(std::int32_t added, std::int32_t energy)
   return (added * energy) >> 12;
 }
 
-// a + floor((b - a) i / n), where 0 <= i < n < 2^32. The difference is parted into a multiple of n and a rest
-// below n: then no product exceeds 64 bits, whatever a and b are.
+// a + floor((b - a) i / n), where 0 <= i < n < 2^32. The difference is divided into a quotient and a
+// remainder by n. Then no product exceeds 64 bits, whatever a and b are.
 VOXMELT_RULE std::int64_t between(std::int64_t a, std::int64_t b, std::int64_t i, std::int64_t n) {
   const std::int64_t difference = b - a;
   const std::int64_t whole = difference / n - (difference % n < 0 ? 1 : 0);

@@ -23,15 +23,15 @@ VOXMELT_RULE std::int32_t shared(std::int32_t a, std::int32_t share, std::int32_
   return diagonal ? f >> 2 : f;
 }
 
-// How much lower than its giver a neighbour must stand: an energetic cell spreads down to `margin`, a starved
-// one yields only over steps above `slump`. Negative: the cell does not spread at all.
+// How much less than its giver a neighbour must hold. A cell with energy spreads down to `margin`; a starved
+// one yields only where the difference exceeds `slump`. Negative: the cell does not spread at all.
 VOXMELT_RULE std::int32_t spread_margin(std::int32_t energy, const PaperLaw& law) {
   if (energy > law.threshold) return law.margin;
   return law.slump > 0 ? std::int32_t{law.slump} : -1;
 }
 
-// May a giver with amount a and axis flow f give to a neighbour with amount b?
-// A diagonal's margin is 9/8: then piles at rest are as long along the axes as along the diagonals.
+// May a giver with amount a and axis flow f give to a neighbour with amount b? On a diagonal the margin is
+// 9/8 as large. Then piles at rest are as long along the axes as along the diagonals.
 VOXMELT_RULE bool receives(std::int32_t a, std::int32_t f, std::int32_t b, std::int32_t margin, bool diagonal,
                            const PaperLaw& law) {
   if (b >= receiver_limit(law.neighbours)) return false;

@@ -1,6 +1,6 @@
 // Exact books of mass, energy and heat (docs/automaton.md, "Ledgers").
 //
-// Every term (ledger_terms.h) is summed where a rule applies it; none is found by subtraction. A ledger
+// Every term (ledger_terms.h) is summed where a rule applies it. None is found by subtraction. A ledger
 // balances when start + all terms = what the state holds, to the unit.
 #pragma once
 

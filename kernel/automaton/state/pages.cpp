@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kPage = 4096;
 
-// Large pages spare the processor most of its address translation (a third off a dense 256-cubed step), but
-// are taken whole: fields beyond these sizes belong to scenes that are mostly empty.
+// Large pages spare the processor most of its address translation, which is a third of a dense 256-cubed
+// step. But they are taken whole, and fields beyond these sizes belong to scenes that are mostly empty.
 constexpr std::size_t kLeastLarge = std::size_t{2} << 20, kMostLarge = std::size_t{320} << 20;
 
 bool all_zero(const std::byte* bytes, std::size_t size) {
@@ -24,11 +24,11 @@ std::byte* reserve(std::size_t bytes) {
   void* address =
       ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (address == MAP_FAILED) throw std::bad_alloc();
-  if (bytes >= kLeastLarge && bytes <= kMostLarge) ::madvise(address, bytes, MADV_HUGEPAGE);  // a wish only
+  if (bytes >= kLeastLarge && bytes <= kMostLarge) ::madvise(address, bytes, MADV_HUGEPAGE);  // a hint
   return static_cast<std::byte*>(address);
 }
 
-// Pages of `to` are only written where they differ, so that empty ones are never taken.
+// Pages of `to` are written only where they differ. So empty pages never take memory.
 void copy(const std::byte* from, std::byte* to, std::size_t bytes, bool to_is_zero) {
   for (std::size_t at = 0; at < bytes; at += kPage) {
     const std::size_t size = std::min(kPage, bytes - at);

@@ -4,8 +4,8 @@
 //   inert   never melts and never moves; its amount is the bed offset (kBedHalf: flat), no mass
 //   liquid  exactly the cells that are neither and hold amount > 0
 //
-// A cell with neither solid nor liquid has energy 0 and heat 0; an empty cell has amount 0 too.
-// What a scene does not use (energy, heat), and what is empty, takes no memory.
+// A cell with neither solid nor liquid has energy 0 and heat 0. An empty cell has amount 0 too. What a scene
+// does not use (energy, heat) takes no memory, nor does what is empty.
 #pragma once
 
 #include <cstdint>

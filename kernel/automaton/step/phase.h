@@ -1,4 +1,4 @@
-// The phases of a step and their order: said here, once.
+// The phases of a step and their order. This is the only place that lists them.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // What every implementation of the automaton offers. There are two kinds. A host stepper computes in the run
-// loop's memory, one phase at a time, so that any two can be compared after each of them. A device stepper (a
-// GPU, an FPGA, another process) runs whole steps in memory of its own, and gives the state back when asked.
+// loop's memory, one phase at a time. So any two can be compared after each phase. A device stepper (a GPU,
+// an FPGA, another process) runs whole steps in memory of its own, and gives the state back when asked.
 #pragma once
 
 #include <cstdint>
@@ -22,36 +22,36 @@ class Stepper {
  public:
   virtual ~Stepper() = default;
 
-  // From the next step on, point sources, vents and drains are those of `parameters`; all else in it is as it
-  // was when the stepper was created, but for `heat.radiation`, which may become true.
+  // From the next step on, point sources, vents and drains are those of `parameters`. All else in it is as it
+  // was when the stepper was created, but `heat.radiation` may become true.
   virtual void change_sources(const rule::Parameters& parameters) = 0;
 };
 
 class HostStepper : public Stepper {
  public:
-  // Runs one phase of step number `step` on `volume` and books it in `ledger`. Between two steps, nobody else
-  // changes the volume. `irradiance`: null when the scene has no radiation.
+  // Runs one phase of step number `step` on `volume` and books it in `ledger`. Between two steps, nothing
+  // else changes the volume. `irradiance` is null when the scene has no radiation.
   virtual void run(Phase phase, std::uint32_t step, const Irradiance* irradiance, state::Volume& volume,
                    state::Ledger& ledger) = 0;
 };
 
 class DeviceStepper : public Stepper {
  public:
-  // Takes over a state and its books, in place of what the device held.
+  // Copies a state and its books to the device, in place of what it held.
   virtual void upload(const state::Volume& volume, const state::Ledger& ledger) = 0;
 
   // Runs all phases of step number `step`. `irradiance` lies in the host's memory and is null when the scene
   // has no radiation; its values change only at steps divisible by heat.visibility_every.
   virtual void run_step(std::uint32_t step, const Irradiance* irradiance) = 0;
 
-  // Copies `solid` and `inert` into the volume, which has the grid's size: all that visibility asks for.
+  // Copies `solid` and `inert` into the volume, which has the grid's size. Visibility needs no more.
   virtual void download_masks(state::Volume& volume) = 0;
 
   // Copies the whole state and the books, every term booked until now.
   virtual void download(state::Volume& volume, state::Ledger& ledger) = 0;
 };
 
-// How an implementation works; no result depends on it.
+// How an implementation works. No result depends on it.
 struct Tuning {
   int threads = 1;
   bool sleep = true;   // skip what provably stays as it is
@@ -66,7 +66,7 @@ struct Implementation {
   bool supported = true;  // by this processor
 };
 
-// A registry is filled by who links the implementations (kernel/run), never by their headers.
+// The code that links the implementations (kernel/run) fills a registry, never their headers.
 class Registry {
  public:
   void add(Implementation implementation) { implementations_.push_back(std::move(implementation)); }

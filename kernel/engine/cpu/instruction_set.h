@@ -1,4 +1,4 @@
-// Which instruction sets there are, and how to get from one to the code that was compiled for it.
+// Which instruction sets there are, and how to call the code that was compiled for one of them.
 #pragma once
 
 #include <cstddef>

@@ -27,13 +27,13 @@ using Architectures = std::tuple<xsimd::sse4_2, xsimd::avx2, xsimd::avx512bw>;
 struct InstructionSetRow {
   InstructionSet set;
   std::string_view name, description;
-  // Whether this processor has everything that the compiler may use, and the operating system keeps its
-  // registers.
+  // Does this processor have everything that the compiler may use, and does the operating system save
+  // its registers?
   bool (*supported)();
 };
 
 #if defined(__aarch64__)
-inline bool has_neon() { return true; }  // every such processor
+inline bool has_neon() { return true; }  // every 64-bit ARM processor has it
 
 inline constexpr std::array kInstructionSets{
     InstructionSetRow{InstructionSet::neon, "neon", "8 lanes of 16 bits", has_neon},

@@ -1,10 +1,10 @@
-// 16-bit lanes: the one place where instruction sets differ. xsimd gives the types and the plain operations;
-// what xsimd 8.1 lacks or breaks for 16 bits (multiply-high, masks from and to bit words, widening) is added
-// by one specialisation of Lanes per instruction set, in lanes_*.h.
+// 16-bit lanes: the one place where instruction sets differ. xsimd gives the types and the plain operations.
+// xsimd 8.1 lacks or breaks some for 16 bits: multiply-high, masks from and to bit words, widening. One
+// specialisation of Lanes per instruction set adds these, in lanes_*.h.
 //
 // A word of 64 mask bits serves kParts vectors of kCount lanes; `part` counts them along x; lane i is bit i.
-// Nothing here allocates, throws, or is emitted out of line: no object offers code of one instruction set to
-// another.
+// Nothing here allocates, throws, or is emitted out of line. So the linker cannot take code of one
+// instruction set for another.
 #pragma once
 
 #include <cstdint>
@@ -58,7 +58,7 @@ struct Lanes;
 template <class Arch>
 struct LanesOf {
   using V = xsimd::batch<std::uint16_t, Arch>;       // unsigned 16-bit lanes
-  using M = xsimd::batch_bool<std::uint16_t, Arch>;  // one truth value a lane
+  using M = xsimd::batch_bool<std::uint16_t, Arch>;  // one truth value per lane
   using W = xsimd::batch<std::int32_t, Arch>;
   using F = xsimd::batch<float, Arch>;
   struct Wide {  // the lanes as 32-bit numbers, in two halves, in the order in which unpacking leaves them
@@ -71,8 +71,8 @@ struct LanesOf {
   static constexpr int kParts = 64 / kCount;
   static constexpr int kTwins = kParts / 2;  // pairs of vectors in a word
 
-  // Whether the word has a bit among the lanes of the part. Most words of a scene are empty but for one or
-  // two parts: to ask is cheaper than to compute.
+  // Does the word have a bit among the lanes of the part? Most words of a scene are empty but for one or two
+  // parts, so asking is cheaper than computing.
   VOXMELT_LANES bool in_part(std::uint64_t word, int part) {
     return (word >> (part * kCount) & ~std::uint64_t{0} >> (64 - kCount)) != 0;
   }
@@ -96,8 +96,8 @@ struct LanesOf {
   VOXMELT_LANES Wide sum(Wide a, Wide b) { return {a.low + b.low, a.high + b.high}; }
 
   // Quotient (below 65536 in the lanes that matter) and remainder of unsigned 32-bit by 16-bit numbers, d >
-  // 0. Exact: rounding the operands and the quotient to 24 bits leaves it less than 1/64 from the truth, so
-  // that its whole part is at most one off, which the remainder shows.
+  // 0. The result is exact. Rounding the operands and the quotient to 24 bits leaves an error below 1/64. So
+  // the whole part is at most one off, and the remainder shows it.
   VOXMELT_LANES Divided divide(Wide n, V d) {
     const Wide divisor = widen(d);
     const Half l = divide(n.low, divisor.low), h = divide(n.high, divisor.high);
@@ -129,7 +129,8 @@ struct LanesOf {
       high_ = high_ + (pairs >> 16);
     }
     VOXMELT_MEMBER std::uint64_t total() const {
-      // Pairs are summed modulo 2^32: less the upper lanes, the lower ones are left. Both: below 2^32.
+      // Pairs are summed modulo 2^32. Subtracting the upper lanes leaves the lower ones. Both sums are
+      // below 2^32.
       const auto sums =
           xsimd::bitwise_cast<xsimd::batch<std::uint64_t, Arch>>(pairs_ - (high_ << 16) + high_);
       alignas(64) std::uint64_t two[W::size / 2];
@@ -160,7 +161,7 @@ struct LanesOf {
   }
 };
 
-// f(0) .. f(n - 1) with constants for arguments, as straight code.
+// Calls f(0) .. f(n - 1) with constants for arguments, as unrolled code.
 #define VOXMELT_LAMBDA __attribute__((always_inline))
 template <int n, class F>
 VOXMELT_LANES void unrolled(const F& f) {
@@ -170,7 +171,7 @@ VOXMELT_LANES void unrolled(const F& f) {
   (std::make_integer_sequence<int, n>{});
 }
 
-// The same address, as one number in one register: where addresses are added up from parts that many cells
+// Makes the compiler hold an address in one register. Where addresses are sums of parts that many cells
 // share, GCC 12 keeps the parts in memory and adds them up again for every cell.
 template <class T>
 VOXMELT_LANES T* settled(T* address) {
@@ -178,7 +179,7 @@ VOXMELT_LANES T* settled(T* address) {
   return address;
 }
 
-// 64 bits moved along x: bit x of the result is bit x + 1, or x - 1, of the row.
+// A word of the row shifted along x: bit x of the result is bit x + 1, or x - 1, of the row.
 VOXMELT_LANES std::uint64_t from_right(std::uint64_t word, std::uint64_t next) {
   return word >> 1 | next << 63;
 }

@@ -21,7 +21,7 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
     return V(_mm256_slli_epi16(a, n));
   }
 
-  // a < b where b is more than a by something.
+  // a < b where the saturated difference b - a is not 0.
   VOXMELT_LANES M less(V a, V b) {
     const __m256i none = _mm256_cmpeq_epi16(_mm256_subs_epu16(b, a), _mm256_setzero_si256());
     return M(_mm256_xor_si256(none, _mm256_set1_epi16(-1)));
@@ -68,7 +68,7 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
   VOXMELT_LANES Bytes none() { return _mm256_setzero_si256(); }
   VOXMELT_LANES Bytes bytes(int value) { return _mm256_set1_epi8(static_cast<char>(value)); }
   using Where = __m256i;
-  // What b is more than a by; packing keeps what is not 0 (from 32768 on it counts as negative).
+  // By how much b exceeds a. Packing keeps what is not 0 (from 32768 on it counts as negative).
   VOXMELT_LANES Where not_less(V a0, V b0, V a1, V b1) {
     return _mm256_cmpeq_epi8(_mm256_packs_epi16(_mm256_subs_epu16(b0, a0), _mm256_subs_epu16(b1, a1)),
                              none());
@@ -140,7 +140,7 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
   }
   VOXMELT_LANES V lookup(const Table& table, V index) {
     const __m256i at = shift_right<11>(index), last = _mm256_cmpgt_epi16(at, _mm256_set1_epi16(15));
-    // The upper byte of a lane finds entry 0, which is cut off, or pushed out.
+    // The upper byte of a lane looks up entry 0, which is masked or shifted out.
     const __m256i low = _mm256_blendv_epi8(_mm256_shuffle_epi8(table.low[0], at),
                                            _mm256_shuffle_epi8(table.low[1], at), last);
     const __m256i high = _mm256_blendv_epi8(_mm256_shuffle_epi8(table.high[0], at),

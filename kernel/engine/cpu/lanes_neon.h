@@ -1,4 +1,4 @@
-// Lanes<neon64>: 8 lanes, a mask is a vector of ones and zeros. Runs on every 64-bit ARM processor.
+// Lanes<neon64>: 8 lanes; a mask is a vector of ones and zeros. It runs on every 64-bit ARM processor.
 #pragma once
 
 #include <arm_neon.h>

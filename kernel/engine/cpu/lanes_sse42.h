@@ -1,4 +1,4 @@
-// Lanes<sse4_2>: 8 lanes, a mask is a vector of ones and zeros. Runs on every x86-64-v2 processor.
+// Lanes<sse4_2>: 8 lanes; a mask is a vector of ones and zeros. It runs on every x86-64-v2 processor.
 #pragma once
 
 #include <nmmintrin.h>
@@ -21,7 +21,7 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
     return V(_mm_slli_epi16(a, n));
   }
 
-  // a < b where b is more than a by something.
+  // a < b where the saturated difference b - a is not 0.
   VOXMELT_LANES M less(V a, V b) {
     const __m128i none = _mm_cmpeq_epi16(_mm_subs_epu16(b, a), _mm_setzero_si128());
     return M(_mm_xor_si128(none, _mm_set1_epi16(-1)));
@@ -62,7 +62,7 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
   VOXMELT_LANES Bytes none() { return _mm_setzero_si128(); }
   VOXMELT_LANES Bytes bytes(int value) { return _mm_set1_epi8(static_cast<char>(value)); }
   using Where = __m128i;
-  // What b is more than a by; packing keeps what is not 0 (from 32768 on it counts as negative).
+  // By how much b exceeds a. Packing keeps what is not 0 (from 32768 on it counts as negative).
   VOXMELT_LANES Where not_less(V a0, V b0, V a1, V b1) {
     return _mm_cmpeq_epi8(_mm_packs_epi16(_mm_subs_epu16(b0, a0), _mm_subs_epu16(b1, a1)), none());
   }
@@ -127,7 +127,7 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
   }
   VOXMELT_LANES V lookup(const Table& table, V index) {
     const __m128i at = shift_right<11>(index), last = _mm_cmpgt_epi16(at, _mm_set1_epi16(15));
-    // The upper byte of a lane finds entry 0, which is cut off, or pushed out.
+    // The upper byte of a lane looks up entry 0, which is masked or shifted out.
     const __m128i low =
         _mm_blendv_epi8(_mm_shuffle_epi8(table.low[0], at), _mm_shuffle_epi8(table.low[1], at), last);
     const __m128i high =

@@ -1,5 +1,5 @@
-// The lanes of the instruction set that this object is compiled for. For sources that
-// cmake/InstructionSets.cmake compiles once for each: they instantiate templates, and share nothing else.
+// The lanes of the instruction set that this object is compiled for. Sources that cmake/InstructionSets.cmake
+// compiles once for each set include this file. They instantiate templates, and share nothing else.
 #pragma once
 
 #include "kernel/engine/cpu/instruction_set.h"

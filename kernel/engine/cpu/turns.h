@@ -1,5 +1,5 @@
-// The order in which tasks that come again and again are run: what took longest the last time begins first,
-// so that threads end together. Nothing that tasks compute may depend on it.
+// The order in which repeated tasks run. The task that took longest the last time begins first, so that all
+// threads end at about the same time. No task's result may depend on the order.
 #pragma once
 
 #include <chrono>
@@ -10,11 +10,11 @@ namespace voxmelt::cpu {
 
 class Turns {
  public:
-  // Sorts the tasks 0 .. count - 1, the dearest last; with a new count all are alike.
+  // Sorts the tasks 0 .. count - 1, the longest last. With a new count all are alike.
   void sort(int count);
   int at(int turn) const { return order_[static_cast<std::size_t>(turn)]; }
 
-  // Runs one, and remembers how long it took. Several threads may do so at once, each for another task.
+  // Runs one task, and remembers how long it took. Several threads may do so at once, each for another task.
   template <class Task>
   void time(int task, const Task& run) {
     const auto begin = std::chrono::steady_clock::now();

@@ -20,7 +20,7 @@ namespace voxmelt::cpu {
 
 #if defined(VOXMELT_PLAIN_THREADS)
 
-// For the thread sanitizer, which does not understand TBB's own synchronisation: plain threads for each call.
+// The thread sanitizer does not understand TBB's own synchronisation. So it gets plain threads for each call.
 struct Workers::Arena {
   template <class Work>
   void run(int threads, const Work& work) {
@@ -62,7 +62,7 @@ int Workers::most() {
 Workers::~Workers() = default;
 
 void Workers::spread(int count, Call call, const void* context) {
-  // The last first: who relies on what an earlier task left is seen on any machine.
+  // The last task runs first. So a task that relies on what an earlier one left fails on any machine.
   std::atomic<int> left{count};
   std::atomic_flag failed;
   std::exception_ptr thrown;

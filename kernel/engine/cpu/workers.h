@@ -1,4 +1,4 @@
-// Runs independent tasks on a fixed number of threads. Nothing that they compute may depend on who runs what.
+// Runs independent tasks on a fixed number of threads. No result may depend on which thread runs which task.
 #pragma once
 
 #include <memory>
@@ -16,11 +16,11 @@ class Workers {
 
   int threads() const { return threads_; }
 
-  // Threads that run at a time at most, however many are asked for: the machine's.
+  // The machine's number of threads: no more run at a time, however many are asked for.
   static int most();
 
-  // task(0) .. task(count - 1), in any order (the last one begins first); returns when all are done. What a
-  // task throws (memory may run out) is thrown from here, and tasks that were not begun are left out.
+  // Runs task(0) .. task(count - 1) in any order (the last one begins first), and returns when all are done.
+  // What a task throws (memory may run out) is thrown from here. Tasks that have not begun are then skipped.
   template <class Task>
   void run(int count, const Task& task) {
     if (threads_ == 1 || count <= 1) {
@@ -31,7 +31,7 @@ class Workers {
         count, [](const void* context, int i) { (*static_cast<const Task*>(context))(i); }, &task);
   }
 
-  // The same for tasks that come again, the dearest first.
+  // The same for tasks that are repeated; the longest begins first.
   template <class Task>
   void run(int count, Turns& turns, const Task& task) {
     if (threads_ == 1 || count <= 1) return run(count, task);

@@ -1,5 +1,5 @@
-// Slices cut into chunks, one task each. In-place sweeps whose cells look at the slices beside them need what
-// the neighbouring chunk had before it was changed: that is saved for the two slices at every cut, first.
+// Slices cut into chunks, one task each. An in-place sweep whose cells read the slices beside them needs what
+// the neighbouring chunk held before it changed. So the two slices at every cut are saved first.
 #pragma once
 
 #include <algorithm>

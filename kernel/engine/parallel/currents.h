@@ -40,7 +40,7 @@ class SliceCurrents {
   }
   simd::Currents& currents() { return currents_; }
 
-  // False: nothing is exchanged, no kernel need look.
+  // False: nothing is exchanged, and no kernel need look.
   bool written() const { return written_; }
   void set_written(bool written) { written_ = written; }
 

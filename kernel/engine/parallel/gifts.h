@@ -12,7 +12,7 @@ namespace voxmelt::parallel {
 
 class SliceGifts {
  public:
-  // For `rows` rows. `flows`: arrays that differ: 1, 2 (axes, diagonals) or 4 (by direction).
+  // For `rows` rows. `flows` is the number of arrays that differ: 1, 2 (axes, diagonals) or 4 (by direction).
   SliceGifts(const simd::View& view, int rows, int flows)
       : patterns_(array_cells(view, rows)),
         giving_(sizeof(simd::TileRow) * count(rows) * static_cast<std::size_t>(view.words + 4)),
@@ -34,7 +34,7 @@ class SliceGifts {
 
   simd::Gifts& gifts() { return gifts_; }
   const simd::Gifts& gifts() const { return gifts_; }
-  bool empty() const {  // nobody gives
+  bool empty() const {  // no cell gives
     const int tiles = gifts_.rows;
     return std::all_of(gifts_.giving_tiles, gifts_.giving_tiles + tiles,
                        [](simd::TileRow row) { return row == 0; });

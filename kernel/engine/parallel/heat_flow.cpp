@@ -60,7 +60,7 @@ void HeatFlow::heat(const Job& job, bool new_irradiance, Tiles& changed, simd::B
     convect(job);
     end_pass(job, false);
   }
-  // Cell by cell: where nothing else has changed, only what is restless may.
+  // Each cell acts alone here: where nothing else has changed, only a restless tile may change.
   if (job.kernels.exchange) {
     sweep(job, [&](int z, Worker& worker, const Neighbours&) { exchange(job, z, worker); });
     end_pass(job, false);
@@ -87,7 +87,7 @@ void HeatFlow::wake(const Job& job, bool new_irradiance) {
   });
 }
 
-// What a pass has moved; its neighbours are awake for the passes that follow.
+// Notes what a pass has changed. Its neighbours are awake for the passes that follow.
 void HeatFlow::end_pass(const Job& job, bool wake_neighbours) {
   job.workers.run(chunks_.count(), [&](int chunk) {
     const TileRow all = all_words(job.view);
@@ -100,7 +100,7 @@ void HeatFlow::end_pass(const Job& job, bool wake_neighbours) {
   moved_.clear();
 }
 
-// The slices beside a cut, before either is changed: the rows that somebody awake may read.
+// Saves the slices beside a cut before either is changed: the rows that a tile that is awake may read.
 void HeatFlow::save_cuts(const Job& job) {
   job.workers.run(chunks_.cuts(), [&](int i) {
     Worker& worker = cut_[static_cast<std::size_t>(i)];
@@ -120,7 +120,7 @@ void HeatFlow::save_cuts(const Job& job) {
   });
 }
 
-// visit(z, worker, neighbours) for the slices with something awake, ascending within a chunk.
+// Calls visit(z, worker, neighbours) for the slices with something awake, ascending within a chunk.
 template <class Visit>
 void HeatFlow::sweep(const Job& job, const Visit& visit) {
   save_cuts(job);
@@ -143,7 +143,7 @@ void HeatFlow::sweep(const Job& job, const Visit& visit) {
   });
 }
 
-// One kernel on slice z: kernel(found).
+// Runs one kernel on slice z: kernel(found).
 template <class Call>
 void HeatFlow::call(int z, Worker& worker, const Call& kernel) {
   std::fill(worker.moved.begin(), worker.moved.end(), TileRow{0});

@@ -1,9 +1,9 @@
 // Phases heat and melt over all slices.
 //
-// A tile is awake for heat where it, or a tile beside it, has changed since its last heat (its heat, its
-// amounts, its masks), or where another dither might move heat; each pass wakes the neighbours of what it
-// changes. A tile is awake for melt where it has changed since its last melt. Bodies of one temperature
-// sleep.
+// A tile is awake for heat if it, or a tile beside it, has changed since its last heat (its heat, its
+// amounts, its masks). It is also awake if another dither might move heat. Each pass wakes the neighbours
+// of what it changes. A tile is awake for melt if it has changed since its last melt. Bodies of one
+// temperature sleep.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class HeatFlow {
 
   void note(const Tiles& changed);  // by other phases
 
-  // Both add to `changed` the tiles that they change.
+  // Both functions add to `changed` the tiles that they change.
   void heat(const Job& job, bool new_irradiance, Tiles& changed, simd::Books& books);
   void melt(const Job& job, Tiles& changed, simd::Books& books);
 

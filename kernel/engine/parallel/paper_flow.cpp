@@ -8,7 +8,7 @@
 namespace voxmelt::parallel {
 namespace {
 
-// Asks for what a tile row will need: slices lie too far apart for the processor to guess.
+// Prefetches what a tile row will need: slices are too far apart for the hardware prefetcher.
 void prefetch(const simd::View& view, int z, int r, TileRow tiles) {
   for (; tiles != 0; tiles &= tiles - 1) {
     const int w = std::countr_zero(tiles);
@@ -66,8 +66,8 @@ void PaperFlow::fall(const Job& job, const Tiles& dirty, int z, Worker& worker) 
   TileRow follow = 0;  // tiles whose last row was moved: the row above may follow
   for (int r = 0; r < job.view.tile_rows(); ++r) {
     TileRow work = job.sleep ? dirty.near(z, r, all) : all;
-    // What hangs in the row above may hang from the row above that: with tiles of one row, beyond the next
-    // tile.
+    // What hangs in the row above may hang from the row above that. With tiles of one row, that is beyond the
+    // next tile.
     if (job.view.tile_shift == 0 && r + 2 < job.view.tile_rows()) work |= dirty.slice(z)[r + 2];
     if ((work | follow) != 0)
       job.kernels.gravity(job.view, job.step, z, r, work, follow, fallen_.edit(z), worker.books);
@@ -89,7 +89,7 @@ void PaperFlow::find_patterns(const Sweep& sweep, int z, int r, const std::uint6
     *restless = job.kernels.pattern(job.view, job.step, z, r, work, below, gifts.gifts());
 }
 
-// The two slices at a cut must show their gifts before either side changes them.
+// The gifts of the two slices at a cut must be known before either side changes them.
 void PaperFlow::run_cut(const Sweep& sweep, int cut) {
   Worker& worker = cut_[static_cast<std::size_t>(cut)];
   for (int k = 0; k < 2; ++k) {

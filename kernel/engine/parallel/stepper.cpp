@@ -22,7 +22,7 @@ simd::View shape_of(state::Grid grid, int tile_shift) {
   return view;
 }
 
-// Does falling in this scene see another state of its sides than of all else?
+// Does falling in this scene see its sides as they were earlier than all else?
 bool keeps_sides(const rule::Parameters& p) {
   return p.flow.law == rule::Law::paper && p.heat.enabled && p.flow.fall.sees_sides();
 }
@@ -54,7 +54,7 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
   else
     viscous_.emplace(grid, view, chunks);
   dirty_ = dirty_next_ = changed_ = melted_ = freed_ = Tiles(view.nz, view.tile_rows());
-  dirty_.fill(all_words(view));  // nothing is known about the first state
+  dirty_.fill(all_words(view));  // nothing is known of the first state
   if (heat_) heat_->note(dirty_);
   if (viscous_) viscous_->note(dirty_);
 }
@@ -74,7 +74,7 @@ simd::View Stepper::view_of(state::Volume& volume) {
   return view;
 }
 
-// Vents and drains say themselves what they change, and each step of visibility wakes all.
+// Vents and drains report what they change, and each step of visibility wakes all.
 void Stepper::change_sources(const rule::Parameters& parameters) {
   parameters_ = parameters;
   kernels_ = simd::kernels(set_, parameters);  // others, where there was no radiation
@@ -113,7 +113,7 @@ void Stepper::run(step::Phase phase, std::uint32_t number, const step::Irradianc
 void Stepper::source(const Job& job, simd::Books& books) {
   if (parameters_.vents.empty() && parameters_.drains.empty()) return;
   changed_.clear();
-  for (int z = 0; z < job.view.nz; ++z) changed_.edit(z);  // all slices: the sources say which
+  for (int z = 0; z < job.view.nz; ++z) changed_.edit(z);  // all slices, since the sources say which tiles
   simd::run_sources(job.view, job.step, changed_.edit(0), changed_.stride(), books);
   for (int z = 0; z < job.view.nz; ++z) changed_.tidy(z);
   dirty_.add(changed_);
@@ -125,7 +125,7 @@ void Stepper::heat(const Job& job, simd::Books& books) {
   if (!heat_) return;
   changed_.clear();
   heat_->heat(job, parameters_.heat.is_visibility_step(job.step.number), changed_, books);
-  // The flow of the paper's law asks for heat only where it mixes, unless its shares depend on it.
+  // The flow of the paper's law reads heat only where it mixes, unless its shares depend on it.
   if (parameters_.flow.thermal_viscosity) dirty_.add(changed_);
   if (viscous_) viscous_->note(changed_);
 }
@@ -141,7 +141,7 @@ void Stepper::melt(const Job& job, simd::Books& books) {
   if (viscous_) viscous_->note(changed_);
 }
 
-// What has melted is no side any more; the next gravity must look at what it held.
+// What has melted is no side any more. The next gravity must look at what it supported.
 void Stepper::open_sides(const simd::View& view) {
   if (!sides_) return;
   refresh(view, melted_, *sides_);

@@ -1,6 +1,6 @@
-// The SIMD kernels of one instruction set over all slices, with threads, and with everything asleep that
-// provably stays as it is. Gives the bits of the reference whatever the instruction set, threads, tiles and
-// sleeping.
+// Runs the SIMD kernels of one instruction set over all slices, with threads. Every tile that provably
+// stays as it is sleeps. The bits are those of the reference, whatever the instruction set, threads, tiles
+// and sleeping.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,7 @@ class Stepper final : public step::HostStepper {
   std::optional<HeatFlow> heat_;
   std::optional<PaperFlow> paper_;
   std::optional<ViscousFlow> viscous_;
-  Tiles dirty_, dirty_next_;  // paper law: changed since the last gravity; scratch
+  Tiles dirty_, dirty_next_;  // paper law: changed since the last gravity; working memory
   Tiles changed_;             // by a phase
   Tiles melted_;              // solids there have melted, and are sides still
   Tiles freed_;               // their sides have gone since the last gravity began

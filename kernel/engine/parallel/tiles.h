@@ -1,5 +1,5 @@
 // Sets of tiles: one bit per mask word of x, [slice][tile row], with an empty slice and row at every side.
-// What sleeps is told by sets; slices in which nothing is awake cost one look.
+// Such sets say what sleeps. A slice in which nothing is awake costs one test.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class Tiles {
   int rows() const { return rows_; }
   std::ptrdiff_t stride() const { return rows_ + 2; }  // from a slice to the next
   const TileRow* slice(int z) const { return bits_.data() + index(z); }
-  // For writing; slices that stay empty should be tidied.
+  // Gives a slice for writing. A slice that stays empty should be tidied.
   TileRow* edit(int z) {
     touched_[count(z)] = 1;
     return bits_.data() + index(z);

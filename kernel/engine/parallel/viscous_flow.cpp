@@ -85,7 +85,7 @@ void ViscousFlow::exchange(const Job& job, int z, Worker& worker, SliceCurrents&
 
 void ViscousFlow::spread(const Job& job, simd::Books& books) {
   std::swap(taken_, for_exchange_);
-  // The slice before a cut exchanges with the one behind it before either is changed.
+  // The slice before a cut exchanges with the one after it before either is changed.
   job.workers.run(chunks_.cuts(), cut_turns_, [&](int i) {
     Worker& worker = cut_[static_cast<std::size_t>(i)];
     exchange(job, chunks_.cut(i) - 1, worker, worker.ring[0]);

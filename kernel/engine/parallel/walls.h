@@ -1,7 +1,7 @@
-// Solid or inert, or beyond the grid, in one bit a cell: the plane that kernels ask what blocks. One word and
-// one row wider than the grid at every side, where everything is blocked. Scenes in which the paper's law
-// asks for the sides of a falling cell, and solids melt, keep a second one: the sides as they were before
-// melt.
+// One bit per cell: solid, inert or beyond the grid. Kernels read this plane to know what blocks. It is
+// one word and one row wider than the grid at every side, where everything is blocked. A scene keeps a
+// second one, the sides as they were before melt, if solids melt and the paper's law reads the sides of a
+// falling cell.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class Walls {
   Walls() = default;
   explicit Walls(const simd::View& view);
 
-  // Row y of slice z anew, after solids there have melted.
+  // Computes row y of slice z anew, after solids there have melted.
   void refresh(const simd::View& view, int y, int z) {
     std::uint64_t* walls = row(view, y, z);
     const std::size_t masks = view.word(0, y, z);

@@ -12,7 +12,7 @@ ActiveRows::ActiveRows(const state::Volume& volume) : rows_(volume.grid.y), slic
     return static_cast<std::size_t>(z) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(y);
   };
 
-  // Where each row itself holds matter.
+  // Finds where each row itself holds matter.
   std::vector<Interval> own(index(0, slices_), Interval{g.x, 0});
   for (int z = 0; z < slices_; ++z)
     for (int y = 0; y < rows_; ++y) {
@@ -27,7 +27,7 @@ ActiveRows::ActiveRows(const state::Volume& volume) : rows_(volume.grid.y), slic
       }
     }
 
-  // Widened by one cell in x, y and z.
+  // Widens the intervals by one cell in x, y and z.
   intervals_.assign(own.size(), Interval{g.x, 0});
   for (int z = 0; z < slices_; ++z)
     for (int y = 0; y < rows_; ++y) {

@@ -35,8 +35,9 @@ class Cells {
   state::Grid g_;
 };
 
-// For each row (y, z) the interval of x that holds matter, here or in one of the eight rows around it, one
-// cell wider on each side. A cell outside it and all its neighbours are without matter: no rule changes it.
+// For each row (y, z), the interval of x in which it or one of the eight rows around it holds matter, one
+// cell wider on each side. A cell outside the interval has no matter, nor have its neighbours. So no rule
+// changes it.
 class ActiveRows {
  public:
   explicit ActiveRows(const state::Volume& volume);
@@ -67,8 +68,8 @@ class ActiveRows {
   std::vector<Interval> intervals_;
 };
 
-// Re-establishes the invariants of state::Volume after amounts changed: the liquid mask, and no energy or
-// heat where nothing is.
+// Restores the invariants of state::Volume after amounts changed: the liquid mask, and no energy or heat in
+// an empty cell.
 void settle_masks(const ActiveRows& rows, state::Volume& volume);
 
 }  // namespace voxmelt::scalar

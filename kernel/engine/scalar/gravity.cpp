@@ -11,7 +11,7 @@
 namespace voxmelt::scalar {
 namespace {
 
-// side(x, y, z): does that cell count as a blocked side?
+// side(x, y, z) says whether that cell counts as a blocked side.
 template <class Side>
 rule::FallSurroundings surroundings(const Cells& cells, const Side& side, int x, int y, int z,
                                     bool empty_below) {
@@ -61,7 +61,7 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
         const std::int32_t lower = volume.amount[low], upper = volume.amount[high];
         if (lower + upper == 0 || cells.blocked(x, y, z) || cells.blocked(x, y + 1, z)) continue;
 
-        // Down: only into free space, so a cell filled by falling never exceeds 1.
+        // Down: liquid falls only into free space. So a cell filled by falling never exceeds 1.
         if (upper > 0 && lower < rule::kOne && (paper || !in_run_[high])) {
           const std::int32_t ready = rule::released(upper, parameters_.flow.fall,
                                                     surroundings(cells, side, x, y + 1, z, lower == 0));

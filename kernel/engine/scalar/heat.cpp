@@ -13,7 +13,7 @@
 namespace voxmelt::scalar {
 namespace {
 
-// One pass over a set of axes; returns the change of the sum of amount x heat.
+// Makes one pass over a set of axes. Returns the change of the sum of amount x heat.
 std::int64_t conduct(std::span<const rule::Offset> axes, std::int32_t weight, std::uint32_t step,
                      const rule::Material& material, const ActiveRows& rows, state::Volume& volume,
                      state::Field<std::uint16_t>& next) {

@@ -1,5 +1,5 @@
 // The reference implementation: plain loops over kernel/automaton/rule, one file per phase. Everything else
-// is held against it.
+// is compared with it.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ class Reference final : public step::HostStepper {
   state::BitPlane melted_;              // paper law: by the last `melt`, until `gravity` has run
   state::Field<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
   state::Field<std::int32_t> head_, mobility_, exposed_,
-      dead_;     // viscous law: of each cell, see rule::Column
+      dead_;     // viscous law: for each cell, see rule::Column
   Volume next_;  // the result of a phase while it is computed
 };
 

@@ -89,7 +89,7 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
     return {f, printed ? rule::scaled(e, alpha(x, y, z)) : e};
   };
 
-  // The cells outside the active rows do not change: start from a copy.
+  // The cells outside the active rows do not change, so this starts from a copy.
   next_.amount = volume.amount;
   next_.energy = volume.energy;
   next_.heat = volume.heat;

@@ -1,5 +1,5 @@
 // Phase `spread` of the paper's law, second half (Eqs. 11-20): every cell gathers what its neighbours give.
-// Row by row of one slice, in place: what a neighbour gives, and its heat, are read from the gifts.
+// It works row by row on one slice, in place. What a neighbour gives, and its heat, are read from the gifts.
 #pragma once
 
 #include <cstddef>
@@ -64,8 +64,8 @@ class Apply {
 
  private:
   static constexpr int kBatch = 64;
-  // Where a vector begins in the state and in the gifts, and above 2^32 its word in the planes; from the
-  // first row of the tile row.
+  // Where a vector begins in the state and in the gifts, counted from the first row of the tile row. The
+  // upper 32 bits hold its word in the planes.
   using Item = std::uint64_t;
   static Item item(std::uint32_t at, std::uint32_t mask) { return Item{mask} << 32 | at; }
   static std::size_t at(Item item) { return item & 0xFFFFFFFF; }
@@ -74,7 +74,7 @@ class Apply {
     int y;
     std::uint32_t at, mask;
   };
-  // Who gives something, of the rows in the three slices at the height of the present one.
+  // The cells that give something, in the present row of three slices.
   struct Givers {
     const std::uint64_t *below, *own, *above;
     [[gnu::always_inline]] void climb(const View& v) {
@@ -95,7 +95,7 @@ class Apply {
     givers_ = {below_.givers + below_.word(v_, 0, below_.row(y)), own_.givers + own_.word(v_, 0, own_.row(y)),
                above_.givers + above_.word(v_, 0, above_.row(y))};
   }
-  // Words in or beside which somebody gives.
+  // Words in or beside which a cell gives.
   [[gnu::always_inline]] TileRow beside_giving(int y) const {
     const TileRow giving =
         below_.giving[below_.row(y)] | own_.giving[own_.row(y)] | above_.giving[above_.row(y)];
@@ -187,7 +187,7 @@ class Apply {
       const M fed = L::less(L::zero(), in);
       V mixed = heat;
       if (L::to_bits(fed) != 0) {
-        // Heats of gifts are 32768 less, to be signed: put back 32768 times what came in.
+        // Heats of gifts are stored less 32768, to be signed. So 32768 times what came in is added back.
         const auto biased = L::unpack(L::template shift_left<15>(in), L::template shift_right<1>(in));
         const auto all = L::sum(L::sum(content, biased), L::product(kept, heat));
         mixed = L::select(fed, mix_.mean(all, now, fed), heat);
@@ -197,7 +197,7 @@ class Apply {
     set_liquid(item, L::to_bits(dry) ^ kAll);
   }
 
-  // Of the cells of an item; what is not blocked and holds something is liquid.
+  // The new liquid mask of an item's cells: a cell that is not blocked and holds something is liquid.
   [[gnu::always_inline]] void set_liquid(Item item, std::uint64_t wet) const {
     const std::size_t word = word_ + mask(item);
     const int shift = static_cast<int>(at(item) % 64);
@@ -215,7 +215,7 @@ class Apply {
     return L::load_any(gifts.energy[kFeatures.general ? d : d / 4 * 4] + at);
   }
 
-  // (alpha e + D) >> 16; the printed reading has paid at the giver's.
+  // (alpha e + D) >> 16. Under the printed reading the giver has paid already.
   [[gnu::always_inline]] V friction(V e, Item item) const {
     if constexpr (kFeatures.general)
       if (law_.reading == rule::EnergyReading::printed) return e;
@@ -239,13 +239,13 @@ class Apply {
   const V dither_, undithered_;
   const int z_;
   const Gifts &below_, &own_, &above_;
-  std::size_t cell_ = 0, word_ = 0;                       // of the first cell of the tile row, in the state
-  std::size_t below_at_ = 0, own_at_ = 0, above_at_ = 0;  // in the gifts
+  std::size_t cell_ = 0, word_ = 0;                       // the tile row's first cell, in the state
+  std::size_t below_at_ = 0, own_at_ = 0, above_at_ = 0;  // in the gifts, likewise
   bool bottom_ = false;                                   // it is the lowest tile row
   Givers givers_{};
   Books& books_;
   Mix<Arch> mix_;
-  // With eight neighbours at most 5 ONE is given or taken; with four, 8 ONE.
+  // With eight neighbours, a cell gives or takes at most 5 ONE; with four, 8 ONE.
   std::conditional_t<kFeatures.eight, typename L::SmallSums, typename L::Sums> dissipated_, capped_;
   Item items_[kBatch];
 };

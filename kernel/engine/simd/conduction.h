@@ -1,6 +1,7 @@
 // Phase `heat`: conduction through faces (Eq. 1), one slice in place. The flux through a face is computed
-// once: a cell computes those to x + 1, y + 1 and z + 1 and takes the others from the lane, the row and the
-// slice before it. So no old heats need be kept: what a cell still has to read has not been written yet.
+// once: a cell computes those to x + 1, y + 1 and z + 1, and takes the others from the lane, the row and
+// the slice before it. So no old heats need be kept, because what a cell still has to read has not been
+// written yet.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +34,7 @@ class FaceConduction {
         along_z_(step.parameters->heat.weight_face, part_dither(step, 2, 3)),
         books_(6 * step.parameters->heat.weight_face) {}
 
-  // `full` works on the tile rows that are matter throughout.
+  // `full` works on tile rows that are matter throughout.
   [[gnu::always_inline]] std::int64_t run(const TileRow* carried, const TileRow* tiles,
                                           FullConduction<Arch, kLatent>& full, const HeatTiles& found) {
     for (int r = 0; r < v_.tile_rows(); ++r) {
@@ -99,7 +100,7 @@ class FaceConduction {
             v_.word(0, 0, 1)};
   }
 
-  // from_below, from_back: words whose flux is carried.
+  // from_below and from_back are the words whose flux is carried.
   [[gnu::always_inline]] void row(int y, TileRow work, TileRow from_below, TileRow from_back, Found& found) {
     const Row row = row_at(y);
     for (TileRow left = work; left != 0; left &= left - 1) {
@@ -123,7 +124,7 @@ class FaceConduction {
     }
   }
 
-  // Flux into a word from what this sweep did not visit: computed, not carried.
+  // Flux into a word from words that this sweep did not visit. It is computed, not carried.
   [[gnu::always_inline]] void enter_x(int w, int y, std::uint64_t own) {
     const std::uint64_t pair = own & matter(v_, w - 1, y, z_) >> 63;
     const std::uint16_t* last = heat_ + v_.cell(w, y, z_) - L::kCount;
@@ -152,7 +153,7 @@ class FaceConduction {
     }
   }
 
-  // No matter: nothing flows on. A flux that was carried here is 0.
+  // A word without matter passes nothing on. A flux that was carried here is 0.
   [[gnu::always_inline]] void nothing(int w, int y, bool from_below, bool from_back) {
     before_ = L::zero();
     for (int at = 0; at < 64; at += L::kCount) {
@@ -181,7 +182,7 @@ class FaceConduction {
     V any = L::zero(), hottest = L::zero();
     for (int part = 0; part < L::kParts; ++part) {
       const std::size_t at = static_cast<std::size_t>(part * L::kCount);
-      if (!L::in_part(own, part)) {  // the fluxes into it, that lie there, are 0: so is what flows on
+      if (!L::in_part(own, part)) {  // the stored fluxes into it are 0, and so is what flows on
         before_ = L::zero();
         continue;
       }
@@ -205,8 +206,8 @@ class FaceConduction {
     return {any, hottest};
   }
 
-  // Whether any pair of this word is of two temperatures. Neighbours may have changed in this pass: then they
-  // are told to have, and wake this tile in any case.
+  // Does any pair of this word have two temperatures? A neighbour that changed in this pass is reported as
+  // changed, and wakes this tile in any case.
   [[gnu::always_inline]] bool differs(int w, int y, std::uint64_t own) const {
     const std::uint16_t* here = heat_ + v_.cell(w, y, z_);
     const std::size_t in_slice = v_.cell(w, y, 0), row = v_.row;

@@ -9,7 +9,7 @@
 
 namespace voxmelt::simd {
 
-// Of the cells of vector `part` of mask word `word`; `floor`: they are the lowest of the grid.
+// The alpha of the cells of vector `part` of mask word `word`. `floor`: they are the lowest of the grid.
 template <class Arch>
 VOXMELT_LANES typename cpu::Lanes<Arch>::V contact_alpha(const View& view, const rule::PaperLaw& law,
                                                          bool floor, std::size_t word, int part) {

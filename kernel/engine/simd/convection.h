@@ -86,7 +86,7 @@ class Convection {
     const std::uint64_t paired = pairs | (y > 0 ? own & v_.liquid[v_.word(w, y - 1, z_)] : 0);
     for (int part = 0; part < L::kParts; ++part) {
       const int at = part * L::kCount;
-      if (!L::in_part(paired, part)) continue;  // what rises into it, and lies there, is 0
+      if (!L::in_part(paired, part)) continue;  // the stored heat that rises into it is 0
       const V old = L::load(here + at), step = hotter(old, L::load(upper + at), pairs, part);
       const V out = flux_.falling(step), gain = L::load(rising + at) - out, now = old + gain;
       L::store(rising + at, out);

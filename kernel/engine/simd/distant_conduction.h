@@ -1,6 +1,6 @@
 // Phase `heat`: conduction to neighbours over edges or corners (Eq. 1 with 18 or 26 neighbours), one slice.
 // Every cell gathers from both sides of each axis; the heats are read from slices of before the pass. Words
-// in the midst of matter need no masks.
+// that are surrounded by matter need no masks.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace voxmelt::simd {
 struct Axis {
   int dx, dy, dz;
 };
-// Templates, that each instruction set has its own copy.
+// These are templates, so that each instruction set has its own copy.
 template <class Arch>
 struct EdgeAxes {
   static constexpr int kCount = 6;
@@ -81,8 +81,8 @@ class DistantConduction {
     V any, hottest;  // any: not 0 where heat changed
   };
 
-  // Those of the words whose cells, and all around them in the rows and slices beside tile row r, are matter;
-  // beyond the grid only along x.
+  // Those of the words whose cells are matter, and all cells around them in the rows and slices beside tile
+  // row r. Only along x may a neighbour be beyond the grid.
   [[gnu::always_inline]] TileRow amid_matter(int r, TileRow words) const {
     if (z_ == 0 || z_ + 1 == v_.nz) return 0;
     const int begin = v_.tile_begin(r) > 0 ? v_.tile_begin(r) - 1 : 0,
@@ -99,7 +99,8 @@ class DistantConduction {
     return words & all & (all << 1 | 1) & (all >> 1 | TileRow{1} << (v_.words - 1));
   }
 
-  // Cells of the word whose neighbour at this offset is matter as they are, and its heats.
+  // Cells of the word that are matter and whose neighbour at this offset is matter too; the heats of
+  // that neighbour.
   [[gnu::always_inline]] Neighbour neighbour(int w, int y, std::uint64_t own, int dx, int dy, int dz) const {
     std::uint64_t there = matter(v_, w, y + dy, z_ + dz);
     if (dx > 0) there = cpu::from_right(there, matter(v_, w + 1, y + dy, z_ + dz));
@@ -109,7 +110,7 @@ class DistantConduction {
     return {slice + v_.cell(w, row, 0) + dx, own & there};
   }
 
-  // Where there is no pair, a neighbour as warm as the cell: nothing flows.
+  // Where there is no pair, the neighbour counts as being as warm as the cell. So nothing flows.
   [[gnu::always_inline]] Sum word(int w, int y, std::uint64_t own) {
     Neighbour to[Axes::kCount], from[Axes::kCount];
     find_neighbours(w, y, own, to, from);
@@ -127,7 +128,7 @@ class DistantConduction {
     return L::select(L::from_bits(neighbour.pairs, part), there, heat);
   }
 
-  // Amid matter: every neighbour is there, but for those beyond the grid along x.
+  // For words amid matter: every neighbour is there, but for those beyond the grid along x.
   [[gnu::always_inline]] Sum full_word(int w, int y) {
     const std::uint16_t* slices[3];
     for (int i = 0; i < 3; ++i) slices[i] = slices_[i] + v_.cell(w, y, 0);
@@ -161,7 +162,7 @@ class DistantConduction {
     return fluxes_[0].value(out) - fluxes_[0].value(in);
   }
 
-  // gain(part, temperatures): what the cells of a vector gain.
+  // gain(part, temperatures) is what the cells of a vector gain.
   template <class Gain>
   [[gnu::always_inline]] Sum add_up(int w, int y, std::uint64_t own, const Gain& gain) {
     const std::size_t cell = v_.cell(w, y, z_);
@@ -180,7 +181,7 @@ class DistantConduction {
     return sum;
   }
 
-  // Whether any pair of this word was of two temperatures.
+  // Did any pair of this word have two temperatures?
   [[gnu::always_inline]] bool differs(int w, int y, std::uint64_t own) const {
     Neighbour to[Axes::kCount], from[Axes::kCount];
     find_neighbours(w, y, own, to, from);

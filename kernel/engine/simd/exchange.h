@@ -63,7 +63,7 @@ class Exchange {
 
   struct Near {  // words of a row
     const std::uint64_t *walls, *liquid;
-    // A word beyond the grid along x is no air, and none of the liquid's.
+    // A word beyond the grid along x is neither air nor liquid.
     [[gnu::always_inline]] std::uint64_t air(int w) const {
       const std::uint64_t open = ~walls[w];
       return open != 0 ? open & ~liquid[w] : 0;
@@ -79,7 +79,7 @@ class Exchange {
     if constexpr (kFeatures.air) {
       const std::size_t line = v_.word(0, 1, 0), slice = v_.word(0, 0, 1);
       const std::uint64_t* liquid = v_.liquid + row.mask;
-      // Beyond the grid all is wall, and what is read as liquid does not matter.
+      // Beyond the grid all is wall. What is read as liquid there does not matter.
       row.own = {v_.walls_at(y, z_), liquid};
       row.up = {v_.walls_at(y + 1, z_), y + 1 < v_.ny ? liquid + line : liquid};
       row.down = {v_.walls_at(y - 1, z_), y > 0 ? liquid - line : liquid};
@@ -128,7 +128,7 @@ class Exchange {
     return {L::nonzero(any), L::nonzero(left), L::nonzero(any) && melting_.reached(hottest)};
   }
 
-  // (4096 I + D) >> 16, cut at the top. `left`: not 0 where a cell is not at rest.
+  // (4096 I + D) >> 16, cut at the top. `left`: it is not 0 where a cell is not at rest.
   [[gnu::always_inline]] V radiate(V heat, V amount, V irradiance, V& left) {
     const V room = L::set(0xFFFF) - heat;
     const V low = L::template shift_left<12>(irradiance), high = L::template shift_right<4>(irradiance);
@@ -138,7 +138,8 @@ class Exchange {
     return heat + gain;
   }
 
-  // floor((air - T) rate + D) / 65536): for air < T the rounding turns over, |difference| rate by 65535 - D.
+  // floor((air - T) rate + D) / 65536): for air < T the rounding is reversed: |difference| rate is rounded
+  // with 65535 - D.
   [[gnu::always_inline]] V blow(V heat, V amount, const Exposed& bare, V air, int part, V& left) {
     const V own = plateau_(heat), warmer = L::sub_saturated(air, own), colder = L::sub_saturated(own, air);
     const V rate = L::select(L::from_bits(bare.three, part), rate_[2],

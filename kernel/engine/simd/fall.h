@@ -75,7 +75,7 @@ class FallOutside {
   struct Around {
     std::uint64_t wall, overhang;
   };
-  // Of the cells of word w in row y: a side is blocked; something to hang from.
+  // For the cells of word w in row y: is a side blocked, and is there something to hang from?
   [[gnu::always_inline]] Around surroundings(int w, int y) const {
     const std::uint64_t own = v_.blocked(w, y, z_);
     const std::uint64_t wall = cpu::from_right(own, v_.blocked(w + 1, y, z_)) |

@@ -1,4 +1,4 @@
-// What a scene uses, as far as it changes the inner loops: a kernel is compiled for each combination, and a
+// What a scene uses, as far as it changes the inner loops. A kernel is compiled for each combination, and a
 // scene runs the one that has what it needs and nothing else.
 #pragma once
 
@@ -6,7 +6,7 @@ namespace voxmelt::simd {
 
 struct GravityFeatures {
   bool hot;     // heat travels with liquid
-  bool guided;  // walls hold, drops hang, or falling changes energy by beta or by the printed reading
+  bool guided;  // walls hold, drops hang, or falling changes energy (beta, printed reading)
 };
 
 struct SpreadFeatures {
@@ -14,7 +14,7 @@ struct SpreadFeatures {
   bool eight;    // neighbours, else four
   bool thermal;  // shares by heat
   bool general;  // shares by pattern, the printed reading, or no `downhill`
-  bool support;  // of `pattern`: who stands on nothing gives nothing
+  bool support;  // for `pattern`: a cell that stands on nothing gives nothing
 };
 
 struct HeatFeatures {
@@ -28,8 +28,8 @@ struct ViscousFeatures {
   bool guided;  // walls hold, or drops hang
 };
 
-// What this build can do: everything, but where the price of a feature is measured (bench/feature_cost.py):
-// CMake option VOXMELT_WITHOUT. A scene that uses what is left out runs wrongly there.
+// What this build can do. It is everything, unless the CMake option VOXMELT_WITHOUT leaves features out to
+// measure their price (bench/feature_cost.py). A scene that uses what is left out runs wrongly there.
 #ifndef VOXMELT_WITHOUT
 #define VOXMELT_WITHOUT
 #endif

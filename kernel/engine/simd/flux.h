@@ -24,7 +24,7 @@ VOXMELT_LANES std::uint32_t part_dither(const Step& step, int part, int parts) {
          0xFFFFu;
 }
 
-// Temperature of heat content: with latent heat it rests at the melting point while that is paid.
+// The temperature of a heat content. It stays at the melting point while the latent heat is paid.
 template <class Arch, bool kLatent>
 class Plateau {
   using L = cpu::Lanes<Arch>;
@@ -59,12 +59,13 @@ class Flux {
   [[gnu::always_inline]] V between(V first, V second) const {
     return L::sub_if(L::less(second, first), flux(second - first), weight_);
   }
-  // Of pairs only, else 0.
+  // Only pairs count; other lanes are 0.
   [[gnu::always_inline]] V between(V first, V second, M pair) const {
     return L::sub_if(L::less(second, first) & pair, flux(L::keep(pair, second - first)), weight_);
   }
 
-  // Sums of fluxes of one weight: of differences modulo 65536, and how many of these were negative.
+  // Sums of fluxes of one weight: the sum of the differences modulo 65536, and how many of them
+  // were negative.
   struct Total {
     V fluxes = L::zero(), negative = L::zero();
   };
@@ -77,11 +78,12 @@ class Flux {
     return total.fluxes - L::low(total.negative, weight_);
   }
 
-  // Of a difference that is not negative.
+  // The flux of a difference that is not negative.
   [[gnu::always_inline]] V falling(V difference) const { return flux(difference); }
 
  private:
-  // Of the difference modulo 65536: too much by the weight where the true one is negative.
+  // The flux of the difference modulo 65536. It is too large by the weight where the true difference
+  // is negative.
   [[gnu::always_inline]] V flux(V difference) const {
     return L::carry(L::high(difference, weight_), L::low(difference, weight_), most_);
   }

@@ -1,5 +1,6 @@
-// Conduction through faces (see conduction.h) where a tile row is matter throughout, and what lies above and
-// in front of it: no masks, rows in one go. Apart from the rest, whose registers it would take.
+// Conduction through faces (see conduction.h) for a tile row that is matter throughout, as is what lies above
+// and in front of it. It needs no masks, and takes several rows at once. It is apart from the rest, so that
+// each has enough registers.
 #pragma once
 
 #include <algorithm>
@@ -30,15 +31,15 @@ class FullConduction {
                along(step, 2)},
         books_(6 * step.parameters->heat.weight_face) {}
 
-  // Rows from y on whose words of `work`, all side by side, are cells of pairs, but for
-  // the last word's last cell along x.
+  // How many rows from y on have only cells of pairs in the words of `work`, which are side by side. The last
+  // cell of the last word along x may be an exception.
   [[gnu::always_inline]] int rows(int y, int end, TileRow work) const {
     const TileRow first = work & -work;
     if ((work & (work + first)) != 0 || z_ + 1 == v_.nz) return 0;
     if (matter(v_, __builtin_ctzll(work), y, z_) != ~std::uint64_t{0}) return 0;
     const int most = std::min({end - y, v_.ny - 1 - y, kMostRows}), words = v_.words;
     const std::size_t begin = v_.word(0, y, z_), plane = v_.word(0, 0, 1);
-    // Most often all of a tile row, whose masks are one piece of memory.
+    // Most often it is all of a tile row, whose masks are contiguous in memory.
     if (__builtin_popcountll(work) == words && all_matter(begin, (most + 1) * words) &&
         all_matter(begin + plane, most * words))
       return most;
@@ -57,8 +58,8 @@ class FullConduction {
     V hottest;        // their hottest cells
   };
 
-  // Needs the flux along y into row y, along z into all of them. Word by word, that the fluxes along y stay
-  // in registers; before[k]: flux along x into row y + k, then out of it.
+  // Needs the flux along y into row y, and along z into all rows. It goes word by word, so that the fluxes
+  // along y stay in registers. before[k] is the flux along x into row y + k, and then out of it.
   [[gnu::noinline]] Sums run(int y, int rows, TileRow words) {
     int w = __builtin_ctzll(words);
     V before[kMostRows];
@@ -87,7 +88,7 @@ class FullConduction {
     return {step.parameters->heat.weight_face, part_dither(step, axis, 3)};
   }
 
-  // So many words from one on.
+  // That many words, from a given one on.
   [[gnu::always_inline]] bool all_matter(std::size_t word, int words) const {
     const std::uint64_t *solid = v_.solid + word, *liquid = v_.liquid + word;
     constexpr int kAtOnce = 64 / L::kParts / 4;  // words of a vector
@@ -113,7 +114,7 @@ class FullConduction {
                                   L::from_bits(pair << (L::kCount - 1), 0));
   }
 
-  // kLast: ends[k] says which cells of row y + k are of a pair along x, else all are.
+  // kLast: ends[k] says which cells of row y + k belong to a pair along x; otherwise all do.
   template <bool kLast>
   [[gnu::always_inline]] void full_word(const Rules& rules, int y, int rows, int w, const std::uint64_t* ends,
                                         V* before_rows, Sums& sums) {

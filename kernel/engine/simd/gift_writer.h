@@ -28,12 +28,12 @@ class GiftWriter {
     if constexpr (kFeatures.thermal) shares_ = share_table(*step.parameters);
   }
 
-  // What cells give of what they hold. Thermal viscosity: the share times the table.
+  // What cells give of what they hold. With thermal viscosity, it is the share times the table.
   [[gnu::always_inline]] V share(std::size_t at) const {
     if constexpr (!kFeatures.thermal) return share_;
     return L::lookup(shares_, L::load(heat_ + at));
   }
-  // The amount along an axis, but with shares by pattern: there it is not known yet, and 0.
+  // The amount along an axis. With shares by pattern it is not known yet, and is 0.
   [[gnu::always_inline]] V flow(V amount, V share) const {
     if constexpr (kFeatures.general)
       if (law_.use_table) return L::zero();
@@ -82,13 +82,13 @@ class GiftWriter {
     if constexpr (kFeatures.hot) L::store(gifts_.heat + at, L::load(heat_ + at) ^ L::set(0x8000));
   }
 
-  // Shares by heat, cut at what all neighbours together can take.
+  // Shares by heat, limited to what all neighbours together can take.
   [[gnu::always_inline]] static typename L::Table share_table(const rule::Parameters& parameters) {
     alignas(64) std::uint16_t shares[32];
     const V sh = L::set(parameters.flow.paper.share);  // below 2^15
     for (std::size_t i = 0; i < 32; i += L::kCount) {
       const V mobility = L::load_any(parameters.flow.mobility_table.data() + i);
-      // The product >> 15 may need 17 bits, which the cut takes.
+      // The product >> 15 may need 17 bits; the limit brings it back to 16.
       const V high = L::high(sh, mobility), low = L::template shift_right<15>(L::low(sh, mobility));
       L::store(shares + i, L::min(L::add_saturated(L::add_saturated(high, high), low),
                                   L::set(rule::largest_share(kDirections))));

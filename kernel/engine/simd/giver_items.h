@@ -13,7 +13,7 @@ class GiverItems {
   using Twin = typename L::Twin;
 
  public:
-  static constexpr int kCells = 2 * L::kCount;  // of an item
+  static constexpr int kCells = 2 * L::kCount;  // in an item
   static constexpr int kMost = 64;              // items of a batch
 
   struct Item {
@@ -23,7 +23,7 @@ class GiverItems {
     Twin givers;              // cells that may give
   };
 
-  // `below`: see Kernels::pattern.
+  // For `below`, see Kernels::pattern.
   [[gnu::always_inline]] GiverItems(int z, const std::uint64_t* below, const Gifts& gifts)
       : z_(z), first_below_(below), gifts_(gifts) {}
 
@@ -39,7 +39,7 @@ class GiverItems {
   }
   [[gnu::always_inline]] bool more() const { return y_ < end_; }
 
-  // The next batch, from row to row: returns how many items it has.
+  // Fills the next batch, from row to row. Returns how many items it has.
   [[gnu::always_inline]] int collect(const View& view, const Openness<Arch, kDirections>& openness) {
     int count = 0;
     while (count + L::kTwins <= kMost) {
@@ -71,7 +71,7 @@ class GiverItems {
                                      int count) {
     std::uint64_t givers = liquid_[w];
     if (givers == 0) return count;
-    // With support only cells that stand on something give; what is below the grid is a wall.
+    // With `support`, only cells that stand on something give. Below the grid all is wall.
     if (kSupport) givers &= walls_[w - (view.words + 2)] | below_[w];
     const std::uint64_t walls = openness.beside_walls(w, walls_);
     for (int twin = 0; twin < L::kTwins; ++twin) {

@@ -114,7 +114,7 @@ class Gravity {
   struct Around {
     std::uint64_t wall, overhang;
   };
-  // Of the cells q of word w in row y: a side was blocked before melt; something to hang from.
+  // For the cells q of word w in row y: was a side blocked before melt, and is there something to hang from?
   [[gnu::always_inline]] Around surroundings(int w, int y) const {
     const std::uint64_t* row = v_.sides_at(y, z_);
     const std::uint64_t wall = cpu::from_right(row[w], row[w + 1]) | cpu::from_left(row[w], row[w - 1]) |
@@ -140,7 +140,7 @@ class Gravity {
     return factor > 0xFFFF ? a : L::high(a, L::set(static_cast<int>(factor)));
   }
 
-  // Returns whether anything moved.
+  // Returns true if anything moved.
   [[gnu::always_inline]] bool vectors(const Fields& low, const Fields& high, std::uint64_t walls,
                                       Around around, int part, Wet& wet) {
     const V one = L::set(4096);
@@ -182,7 +182,7 @@ class Gravity {
     const V lower = L::load(low.energy), upper = L::load(high.energy);
     V lost = L::min(upper, down), gained = lost;
     if constexpr (kFeatures.guided) {
-      const V room = new_lower - lower;  // of a receiver; where nothing falls, nothing is lost either
+      const V room = new_lower - lower;  // a receiver's; where nothing falls, nothing is lost either
       const std::uint32_t beta = law_.beta;
       V accelerated = L::high(lost, L::set(static_cast<int>(beta & 0xFFFF)));
       for (std::uint32_t whole = beta >> 16; whole > 0; --whole) accelerated = accelerated + lost;
@@ -193,7 +193,7 @@ class Gravity {
     }
     const V climbs = L::min(lower, up);
     const V uncapped = upper - lost + climbs;
-    const V capped = L::min(uncapped, new_upper);  // who does not give holds no more before nor after
+    const V capped = L::min(uncapped, new_upper);  // a cell that does not give holds no more before nor after
     capped_.add(uncapped - capped);
     L::store(low.energy, lower + gained - climbs);
     L::store(high.energy, capped);

@@ -1,5 +1,5 @@
-// What a pass of heat sums up beside the heats: the ledger's amount x gain, exact, and whether something may
-// melt.
+// What a pass of heat finds besides the heats: the ledger's exact sum of amount x gain, and whether something
+// may melt.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 namespace voxmelt::simd {
 
 // Gains of a pass that moves heat in pairs. What one cell gains another loses, so the gains of a pass add up
-// to 0, and each amount may be counted from a full cell: full cells need not be booked at all.
+// to 0. Then each amount may be counted from a full cell, and full cells need not be booked at all.
 template <class Arch>
 class PairBooks {
   using L = cpu::Lanes<Arch>;
@@ -21,10 +21,10 @@ class PairBooks {
   // most_gain: no gain is more than this, up or down.
   [[gnu::always_inline]] explicit PairBooks(int most_gain) : fits_(most_gain <= 0x7FFF) {}
 
-  // Not 0 where cells must be booked.
+  // It is not 0 where cells must be booked.
   [[gnu::always_inline]] static V beside_full(V amount) { return amount ^ L::set(kFull); }
 
-  // A vector of cells, whose heats are those after they gained.
+  // Books a vector of cells; their heats are those after the gain.
   [[gnu::always_inline]] void add(V amount, V now, V gain) {
     if (L::nonzero(beside_full(amount))) book(amount, now, gain);
   }
@@ -35,7 +35,7 @@ class PairBooks {
       book(L::load(amounts + part * L::kCount), L::load(heats + part * L::kCount), gains[part]);
   }
 
-  // To be called for every row: lanes overflow after 32,768 vectors, a row has at most 512.
+  // It must be called for every row: lanes overflow after 32,768 vectors, and a row has at most 512.
   [[gnu::always_inline]] void end_row() {
     if ((++rows_ & 31) == 0) flush();
   }
@@ -48,8 +48,8 @@ class PairBooks {
   static constexpr int kFull = 4096;
 
   [[gnu::always_inline]] void book(V amount, V now, V gain) {
-    // An amount from a full cell fits 16 signed bits up to here; a gain if its sign is that of old and now,
-    // or theirs differ as it says.
+    // Up to here, an amount counted from a full cell fits 16 signed bits. A gain fits if its sign agrees with
+    // the order of old and new heat.
     V odd = L::sub_saturated(amount, L::set(0x7FFF + kFull));
     if (!fits_) {
       const V old = now - gain;
@@ -115,7 +115,7 @@ class GainBooks {
   unsigned rows_ = 0;
 };
 
-// From where on matter melts.
+// The heat from which on matter melts.
 template <class Arch>
 class MeltingHeat {
   using L = cpu::Lanes<Arch>;
@@ -124,7 +124,7 @@ class MeltingHeat {
  public:
   [[gnu::always_inline]] explicit MeltingHeat(const rule::Material& material)
       : least_(material.melting_point + material.latent_heat), below_(L::set(least_ > 0 ? least_ - 1 : 0)) {}
-  // Whether any lane has got there; of several vectors, that of their maximum.
+  // Has any lane reached it? For several vectors, their maximum tells.
   [[gnu::always_inline]] bool reached(V heats) const {
     return least_ == 0 || L::nonzero(L::sub_saturated(heats, below_));
   }

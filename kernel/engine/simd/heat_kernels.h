@@ -61,7 +61,7 @@ void choose_latent_kernels(const rule::Heat& heat, Kernels& kernels) {
     kernels.exchange = exchange_slice<Arch, HeatFeatures{kLatent, false, true}>;
 }
 
-// Sets what phases `heat` and `melt` need; leaves them null without heat.
+// Sets the kernels of phases `heat` and `melt`; leaves them null without heat.
 template <class Arch>
 void choose_heat_kernels(const rule::Parameters& parameters, Kernels& kernels) {
   if (!kBuilt.heat || !parameters.heat.enabled) return;

@@ -2,7 +2,7 @@
 //
 // Work is chosen by tiles: a tile is 64 cells along x (one mask word), 2^kTileShift rows along y, one slice.
 // A TileRow is one bit per word of x (grids are at most 4096 wide), [tile row]. A kernel may do more than it
-// is asked, never less; what it changes it reports.
+// is asked, never less. It reports what it changes.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ using TileRow = std::uint64_t;
 // The memory of a state::Volume. Rows begin at multiples of 64 cells.
 struct View {
   std::uint16_t *amount = nullptr, *energy = nullptr, *heat = nullptr;
-  const std::uint64_t* walls = nullptr;  // of (0, 0, 0), in a plane one word and one row wider at every side
+  const std::uint64_t* walls = nullptr;  // at (0, 0, 0) of a plane one word and one row wider at every side
   const std::uint64_t* sides = nullptr;  // the same before this step's melt, for the paper law's gravity
   std::uint64_t *solid = nullptr, *liquid = nullptr, *inert = nullptr;
   int nx = 0, ny = 0, nz = 0;
@@ -53,7 +53,7 @@ struct View {
   }
 };
 
-// Asks for the 64 cells of a word: for processors whose own guesses end at a page.
+// Prefetches the 64 cells of a word, for processors whose hardware prefetcher stops at a page.
 [[gnu::always_inline]] inline void prefetch_word(const std::uint16_t* cells) {
   __builtin_prefetch(cells);
   __builtin_prefetch(cells + 32);
@@ -68,16 +68,15 @@ struct Step {
   const std::uint16_t* irradiance = nullptr;  // null without radiation
 };
 
-// Terms of the ledgers, summed over what a kernel did. Of conducted and convected only the sum over a whole
-// pass means something: see PairBooks.
+// Terms of the ledgers, summed over what a kernel did. For conducted and convected, only the sum over a whole
+// pass has a meaning: see PairBooks.
 using Books = state::LedgerTerms<std::int64_t>;
 
 // What the cells of some rows of one slice give in the paper law's spread: written by `pattern`, read by
 // `apply`. Arrays begin with row `first_row`, the first of a tile.
 struct Gifts {
   int first_row = 0, rows = 0;
-  std::uint8_t* pattern =
-      nullptr;  // [row][x]: directions given to, a bit each; 0 in words of which nobody gives
+  std::uint8_t* pattern = nullptr;  // [row][x]: directions given to, a bit each; 0 in words that give nothing
   std::uint64_t* givers = nullptr;  // [row][1 + words + 1]: cells whose pattern is not 0
   TileRow* giving = nullptr;        // [row]: words with givers
   TileRow* giving_tiles = nullptr;  // [tile row]: of all its rows
@@ -157,7 +156,7 @@ struct Kernels {
   TileRow (*apply)(const View&, const Step&, int z, int r, const Gifts& below, const Gifts& own,
                    const Gifts& above, Books&) = nullptr;
 
-  // Heat, in this order; null where a scene has no such rule. All in place.
+  // Heat, in this order; null where a scene has no such rule. All work in place.
 
   // Conduction through faces, slices ascending. Needs old.below and old.above; the slice itself holds its old
   // heats. `carried`: the tiles of the call for z - 1, which left its flux in HeatFlux; null: there was none.

@@ -1,4 +1,4 @@
-// Compiled once for each instruction set.
+// This file is compiled once for each instruction set.
 #include "kernel/engine/cpu/own_lanes.h"
 #include "kernel/engine/simd/choose_kernels.h"
 

@@ -58,7 +58,7 @@ class Melt {
     return fresh != 0 || stirred;
   }
 
-  // E = A in fresh liquid, part of what is missing in other.
+  // Fresh liquid gets E = A. Other liquid gets a part of what it lacks.
   [[gnu::always_inline]] bool energise(std::size_t cell, std::uint64_t fresh, std::uint64_t again) {
     V any = L::zero();
     for (int part = 0; part < L::kParts; ++part) {

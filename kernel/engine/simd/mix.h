@@ -1,5 +1,5 @@
-// Heat travels with liquid: the mean of the heats of what comes together (docs/automaton.md, section 2),
-// exact.
+// Heat travels with liquid: the exact mean of the heats of what comes together (docs/automaton.md,
+// section 2).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class Mix {
  public:
   [[gnu::always_inline]] explicit Mix(std::uint32_t dither) : dither_(L::set(static_cast<int>(dither))) {}
 
-  // The mean of (a0, h0) and (a1, h1) where a1 > 0; other lanes are not defined and not booked.
+  // The mean of (a0, h0) and (a1, h1) where a1 > 0; other lanes are undefined and not booked.
   [[gnu::always_inline]] V two(V a0, V h0, V a1, V h1) {
     // With one part, or two of one heat, the mean is that heat and nothing is rounded.
     const V differs = L::keep(L::less(L::zero(), L::min(a0, a1)), h0 ^ h1);

@@ -28,7 +28,7 @@ class Openness {
         east_(directions((view.nx - 1) % kCells, kEast)) {}
 
   // Cells of word w of a row, whose walls begin at `row`, with a wall beside them or across a diagonal. The
-  // border in x is left out: every row has that.
+  // border in x is left out, since every row has it.
   [[gnu::always_inline]] std::uint64_t beside_walls(int w, const std::uint64_t* row) const {
     const std::uint64_t *own = row + w, *front = own + slice_, *back = own - slice_;
     std::uint64_t here = own[0] | front[0] | back[0];
@@ -38,14 +38,14 @@ class Openness {
     return here | cpu::from_left(here, left) | cpu::from_right(here, right);
   }
 
-  // Without directions that leave the grid along x, of the cells from `lane` on.
+  // Removes directions that leave the grid along x, for the cells from `lane` on.
   [[gnu::always_inline]] Bytes inside(int lane, Bytes available) const {
     if (lane == 0) available = L::without(available, west_);
     if (lane == last_lane_) available = L::without(available, east_);
     return available;
   }
 
-  // Without directions whose neighbour is blocked or, across a diagonal, behind two blocked ones.
+  // Removes directions whose neighbour is blocked or, across a diagonal, behind two blocked cells.
   [[gnu::always_inline]] Bytes past_walls(int lane, const std::uint64_t* row, Bytes available) const {
     const std::uint64_t *own = row + lane / 64, *front = own + slice_, *back = own - slice_;
     Bytes closed = L::none();

@@ -1,8 +1,8 @@
 // Phase `spread` of the paper's law, first half (Eqs. 7-10): which directions each cell gives to, and what.
 //
-// The work of a tile row is cut into items of two vectors each (a pattern is a byte, and so are dice), and
-// goes through three stages by the batch, so that no stage waits for, or guesses, what another finds: items
-// with a liquid cell; those with a direction that may receive; dice for two at a time.
+// The work of a tile row is cut into items of two vectors each (a pattern is a byte, and so are dice). A
+// batch of items goes through three stages: items with a liquid cell; those with a direction that may
+// receive; dice for two at a time. So no stage waits for another's result, and no branch depends on it.
 #pragma once
 
 #include <cstddef>
@@ -51,8 +51,8 @@ class Pattern {
   }
 
  private:
-  // Patterns of words that give nothing are 0. (Rows beyond a last, shorter tile row stay as they are:
-  // unread.)
+  // Patterns of words that give nothing are 0. (Rows beyond a last, shorter tile row stay as they are,
+  // because nothing reads them.)
   [[gnu::always_inline]] void clear(int r) {
     if (gifts_.tiles(v_, r) == 0) return;
     const std::size_t first = gifts_.row(v_.tile_begin(r)), rows = static_cast<std::size_t>(gifts_.rows);
@@ -81,8 +81,8 @@ class Pattern {
     for (int i = 0; i < size; i += 2) throw_dice(items_[found[i]], items_[found[i + 1]]);
   }
 
-  // The directions to which the cells of an item may give: open, and low enough; into its pattern. Without
-  // `general`: writes the gifts, too. Returns whether there is any.
+  // Writes into an item's pattern the directions to which its cells may give: open, and low enough. Without
+  // `general` it writes the gifts, too. Returns true if there is any direction.
   [[gnu::always_inline]] bool find_available(const Item& item) const {
     const std::size_t at = item.at;
     const int lane = static_cast<int>(item.lane);
@@ -92,7 +92,7 @@ class Pattern {
     available = openness_.inside(lane, available);
     if (item.walls) available = openness_.past_walls(lane, v_.walls_at(y_of(item), z_), available);
     const bool any = L::nonzero_bytes(available) != 0;
-    // Writing what nobody asks for costs less than a wrong guess; with heat, more.
+    // Writing what is not needed costs less than a mispredicted branch; with heat it costs more.
     if (kFeatures.hot && !any) return false;
     L::store_bytes(gifts_.pattern + at, available);
     if constexpr (!kFeatures.general) {
@@ -119,7 +119,7 @@ class Pattern {
     const Bytes kept = L::both(L::load_bytes(pattern), dice);
     L::store_bytes(pattern, kept);
     const Twin any = L::nonzero_bytes(kept);
-    // A bit each: those of the cells from `lane` on begin at byte lane / 8 of the row.
+    // One bit per cell: the bits of the cells from `lane` on begin at byte lane / 8 of the row.
     auto* row = reinterpret_cast<std::uint8_t*>(gifts_.givers + gifts_.word(v_, 0, item.row));
     __builtin_memcpy(row + item.lane / 8, &any, sizeof(Twin));
     const TileRow gives = TileRow{any != 0} << word_of(item);
@@ -137,7 +137,7 @@ class Pattern {
   }
 
   static constexpr Twin kEvery = static_cast<Twin>(~Twin{0});
-  // No part refers to another, nor to v_: what is pointed to, g++ 12 keeps in memory.
+  // No part refers to another, nor to v_, because g++ 12 keeps in memory what is pointed to.
   const View v_;
   const Step& step_;
   const int z_;

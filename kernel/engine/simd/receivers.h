@@ -35,13 +35,13 @@ class Receivers {
         slumps_(kBuilt.slump && law.slump != 0) {
     const std::size_t base = view.cell(0, gifts.first_row, z);
     energy_ = view.energy + base;
-    // Rows beyond the grid are masked: any address will do.
+    // Rows beyond the grid are masked, so any address will do.
     own_ = view.amount + base;
     front_ = z + 1 < view.nz ? own_ + view.slice : own_;
     back_ = z > 0 ? own_ - view.slice : own_;
   }
 
-  // Two neighbouring vectors: what they offer, and the directions that take it.
+  // For two neighbouring vectors: what they offer, and the directions that take it.
   [[gnu::always_inline]] Bytes find(std::size_t at, const Writer& writer, Offer& low, Offer& high) const {
     Margins low_margins = margins_, high_margins = margins_;
     if (slumps_) {

@@ -1,4 +1,5 @@
-// Phase `source`: vents add liquid, drains take it. Few cells: plain code for every instruction set.
+// Phase `source`: vents add liquid, drains take it. There are few such cells, so plain code serves every
+// instruction set.
 #pragma once
 
 #include <cstddef>

@@ -35,7 +35,7 @@ struct Field {
   std::string bytes;
 };
 
-// Each field in turn, so that only one copy lives at a time.
+// Each field is written in turn, so that only one copy exists at a time.
 void for_each_field(const state::Volume& v, const std::function<void(const Field&)>& visit) {
   visit({"solid", "|u1", "UInt8", unpacked(v.solid, v.grid)});
   visit({"liquid", "|u1", "UInt8", unpacked(v.liquid, v.grid)});

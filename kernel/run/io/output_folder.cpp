@@ -82,7 +82,7 @@ OutputFolder::~OutputFolder() {
   if (committed_) return;
   std::error_code ignored;
   fs::remove_all(partial_, ignored);
-  // Folders made for nothing go too; fs::remove leaves those that are not empty.
+  // Folders that were made in vain are removed too; fs::remove leaves those that are not empty.
   for (fs::path folder = partial_; !first_new_.empty() && folder != first_new_;) {
     folder = folder.parent_path();
     fs::remove(folder, ignored);

@@ -7,7 +7,7 @@
 
 namespace voxmelt::io {
 
-// Cannot be written (exit code 2) or the disk is full (exit code 3).
+// Output cannot be written (exit code 2), or the disk is full (exit code 3).
 class OutputError : public std::runtime_error {
  public:
   OutputError(const std::string& message, bool out_of_space)

@@ -83,7 +83,7 @@ ShapePtr make_csg(Operation operation, std::vector<ShapePtr> shapes) {
   return make_shape(bounds, [parts = std::move(parts), sign](Point p) {
     double farthest = parts.front().shape->distance(p);
     for (std::size_t i = 1; i < parts.size(); ++i) {
-      // Far from what is taken away, its box is bound enough.
+      // Far from what is taken away, its box is a sufficient bound.
       if (sign < 0 && -parts[i].bounds.distance(p) < farthest) continue;
       farthest = std::max(farthest, sign * parts[i].shape->distance(p));
     }

@@ -20,7 +20,7 @@ struct Elevation {
 // Throws InputError naming `place` and file:line: missing, truncated, malformed, sizes outside 2..8192.
 Elevation read_esri_ascii(const std::filesystem::path& file, const Place& place);
 
-// `passes` of the 3 x 3 binomial filter: takes the terraces out of elevations in whole metres.
+// Applies `passes` of the 3 x 3 binomial filter, which smooth the terraces of elevations in whole metres.
 void smooth(Elevation& elevation, int passes);
 
 // Elevation above the file's lowest at the centres of nx x nz columns (west to +x, north to -z), by a cubic

@@ -75,7 +75,7 @@ class LineCheck {
   long long number_ = 0, vertices_ = 0, faces_ = 0;
 };
 
-// Only what shapes need: materials, normals and texture coordinates can be wrong without harm.
+// Only what shapes need is checked: materials, normals and texture coordinates can be wrong without harm.
 std::string only_vertices_and_faces(const std::string& text) {
   std::istringstream lines(text);
   std::string line, word, result;

@@ -27,14 +27,14 @@ inline constexpr double kLargestMeshCoordinate = 16384;
 
 struct MeshCoverage {
   Coverage coverage;
-  // Columns along y of the window: all, and those where rays along x, y and z disagreed, or one crossed the
-  // mesh an odd number of times: it leaks.
+  // Columns along y of the window: their number, and the number of those where the mesh leaks. It leaks where
+  // rays along x, y and z disagree, or where one crosses the mesh an odd number of times.
   std::int64_t columns = 0, disagreeing = 0;
 };
 
-// Inside is where the parity of crossings along at least two of three axes says so. A closed mesh never
-// disagrees: vertices are snapped to 1/1024 cell, crossings are decided in integers with one owner for each
-// shared edge.
+// A sample is inside if the parity of crossings along at least two of three axes says so. With a closed mesh
+// the axes never disagree. The reason is that vertices are snapped to 1/1024 cell, and crossings are decided
+// in integers with one owner for each shared edge.
 MeshCoverage cover(const Mesh& mesh, state::Grid grid);
 
 }  // namespace voxmelt::scene

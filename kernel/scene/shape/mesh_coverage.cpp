@@ -31,7 +31,7 @@ std::vector<bool> touched_cells(const Mesh& mesh, const Window& window) {
                 c = mesh.vertices[triangle[2]];
     const Point u = b - a, v = c - a;
     const Point normal{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-    const double reach = 0.9 * length(normal);  // half the diagonal of a cell, and some
+    const double reach = 0.9 * length(normal);  // a little more than half the diagonal of a cell
     const auto range = [](double p, double q, double r, int low, int size) {
       const double from = std::floor(std::min({p, q, r}) - 0.01),
                    to = std::floor(std::max({p, q, r}) + 0.01) + 1;
@@ -90,7 +90,7 @@ MeshCoverage cover(const Mesh& mesh, state::Grid grid) {
       along_z(vertices, mesh, window, 2);
   const std::vector<bool> touched = touched_cells(mesh, window);
 
-  // A cell that the surface does not touch is wholly inside or outside: one sample tells.
+  // A cell that the surface does not touch is wholly inside or outside, so one sample tells.
   for (int z = 0; z < window.size.z; ++z)
     for (int x = 0; x < window.size.x; ++x) {
       bool disagree = false;

@@ -23,8 +23,8 @@ std::int64_t edge(Point2i a, Point2i b, Point2i p) {
   return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u);
 }
 
-// A point exactly on an edge belongs to one of the two triangles that share it: edges are seen in opposite
-// directions.
+// A point exactly on an edge belongs to one of the two triangles that share it, because they run through the
+// edge in opposite directions.
 bool owns(Point2i a, Point2i b) { return b.v > a.v || (b.v == a.v && b.u < a.u); }
 
 }  // namespace
@@ -37,7 +37,7 @@ MeshRays::MeshRays(const std::vector<FixedPoint>& vertices, const Mesh& mesh, co
     low_[i] = low[i] * kMeshUnit + kSampleOffset[i];
     count_[i] = size[i] * kSamplesPerAxis;
   }
-  // Count, then place: one compact list for all rays.
+  // Crossings are counted first and placed then, so that all rays share one compact list.
   start_.resize(static_cast<std::size_t>(count_[u_axis_]) * static_cast<std::size_t>(count_[v_axis_]) + 1);
   rasterise(vertices, mesh, [&](std::size_t ray, std::int32_t) { ++start_[ray + 1]; });
   std::uint64_t total = 0;

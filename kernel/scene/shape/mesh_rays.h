@@ -14,7 +14,7 @@ inline constexpr std::int64_t kMeshUnit = 32768;
 inline constexpr std::int64_t kMeshSnap = 32;
 inline constexpr std::int64_t kSampleSpacing = kMeshUnit / kSamplesPerAxis;
 
-// Samples stand beside the snapped vertices, differently on each axis, so that a crossing is never a tie.
+// Samples are offset from the snapped vertices, differently on each axis. So a crossing is never a tie.
 inline constexpr std::array<std::int64_t, 3> kSampleOffset{kSampleSpacing / 2 + 1, kSampleSpacing / 2 + 5,
                                                            kSampleSpacing / 2 + 11};
 
@@ -28,8 +28,8 @@ class MeshRays {
   MeshRays(const std::vector<FixedPoint>& vertices, const Mesh& mesh, const Window& window, int axis);
 
   // Four samples along the axis from sample `first` (multiple of 4) on the ray (u, v), all counted from the
-  // window's low corner: bit i is set where sample first + i is inside, kOdd where the ray crosses the mesh
-  // an odd number of times: it leaks there.
+  // window's low corner: bit i is set where sample first + i is inside. kOdd is set where the ray crosses the
+  // mesh an odd number of times, so that the mesh leaks there.
   unsigned inside(int u, int v, int first) const;
 
  private:

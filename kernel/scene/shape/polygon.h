@@ -34,8 +34,8 @@ class Polygon {
   Point2 low_, high_;
 };
 
-// A closed Catmull-Rom curve through the points, 8 pieces to a side; a point given twice in a row is a
-// corner.
+// A closed Catmull-Rom curve through the points, 8 pieces to a side; a point given twice in a row is
+// a corner.
 std::vector<Point2> smooth_outline(const std::vector<Point2>& points);
 
 // Turned about the y axis: x of the polygon is the radius (>= 0), y the height.

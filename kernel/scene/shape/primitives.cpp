@@ -16,7 +16,7 @@ double piece_distance(const TubePoint& a, const TubePoint& b, Point p) {
   if (squared == 0) return length(p - a.at) - std::max(a.radius, b.radius);
   const double t = std::clamp(dot(p - a.at, along) / squared, 0.0, 1.0);
   const double taper = (b.radius - a.radius) / std::sqrt(squared);
-  // A taper steepens the field; dividing restores slope 1.
+  // A taper steepens the field. Dividing restores slope 1.
   return (length(p - a.at - along * t) - a.radius - t * (b.radius - a.radius)) / std::sqrt(1 + taper * taper);
 }
 

@@ -1,6 +1,5 @@
-// A shape is a field of signed distances. Voxelisation skips whole blocks by it, so it must never promise
-// more than is true: |distance(p)| is at most the distance from p to the surface (a field of slope at most
-// 1).
+// A shape is a field of signed distances. Voxelisation uses it to skip whole blocks, so it must never be too
+// large: |distance(p)| is at most the distance from p to the surface (a field of slope at most 1).
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The ground that a scene stands on, as heights: the voxels and the renderer both take it from here.
+// The ground that a scene stands on, as heights. Both the voxels and the renderer take it from here.
 #pragma once
 
 #include <vector>

@@ -100,7 +100,7 @@ class Voxeliser {
     return static_cast<rule::Amount>(std::clamp<long>(offset, 0, rule::kOne - 1));
   }
 
-  // True where the coverage has grown.
+  // It returns true where the coverage has grown.
   static bool raise(std::uint8_t& coverage, int samples, bool cut) {
     if (cut) {
       coverage = static_cast<std::uint8_t>(std::max(0, coverage - samples));
@@ -138,7 +138,7 @@ class Voxeliser {
       volume_.heat[cell] = solid_temperature_[cell];
     }
     const bool liquid = !inert && !solid && amount > 0;
-    // Memory is only touched where something changes.
+    // Memory is written only where something changes.
     if (!liquid && volume_.energy[cell] != 0) volume_.energy[cell] = 0;
     if (!liquid && !solid && volume_.heat[cell] != 0) volume_.heat[cell] = 0;
     if (inert) volume_.inert.set(x, y, z, true);

@@ -60,7 +60,8 @@ bool is_bare_word(const std::string& text) {
   });
 }
 
-// The TOML parser recurses once per part of a dotted key: a line of a hundred thousand would end the program.
+// The TOML parser recurses once per part of a dotted key: a key of a hundred thousand parts would crash
+// the program.
 void check_line_lengths(const std::string& text, const std::string& name) {
   std::size_t line = 1, begin = 0;
   while (begin < text.size()) {

@@ -1,4 +1,4 @@
-// A TOML document as plain values that remember where they were written, so that every later complaint names
+// A TOML document as plain values. They remember where they were written, so that every later message names
 // its place.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What goes wrong while a scene is read, by kind. The program turns each kind into an exit code.
+// The errors of reading a scene, by kind. The program turns each kind into an exit code.
 #pragma once
 
 #include <stdexcept>

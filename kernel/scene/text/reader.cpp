@@ -58,7 +58,7 @@ const Value* Reader::find(std::string_view key) {
 const Value* Reader::find_or_fail(std::string_view key, bool required) {
   const Value* value = find(key);
   if (value || !required) return value;
-  // A misspelt key explains a missing one better than its absence does.
+  // If a key is missing, a misspelt one is the better message.
   for (std::size_t i = 0; i < table_->keys.size(); ++i) {
     const std::string& present = table_->keys[i];
     if (std::find(asked_.begin(), asked_.end(), present) == asked_.end() && edit_distance(present, key) <= 2)
@@ -78,7 +78,7 @@ void Reader::fail_unknown(std::size_t index) const {
 }
 
 void Reader::finish() const {
-  // In the order of the file, not of the keys.
+  // The order is that of the file, not of the keys.
   std::optional<std::size_t> first;
   for (std::size_t i = 0; i < table_->keys.size(); ++i) {
     if (std::find(asked_.begin(), asked_.end(), table_->keys[i]) != asked_.end()) continue;

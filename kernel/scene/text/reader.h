@@ -1,6 +1,6 @@
-// Strict access to one table of a document: every read checks type and range and remembers the key, so that
-// finish() can refuse whatever no read has asked for. Paths in messages are those of --set:
-// heat_source.0.power.
+// Strict access to one table of a document. Every read checks type and range, and remembers the
+// key. So finish() can refuse every key that no read has asked for. Paths in messages are those of
+// --set: heat_source.0.power.
 #pragma once
 
 #include <array>
@@ -22,12 +22,14 @@ class Reader {
   Reader(const Value& table, std::string path);
 
   bool has(std::string_view key);
-  Value::Kind kind(std::string_view key) const { return table_->find(key)->kind; }  // of a key that is there
+  Value::Kind kind(std::string_view key) const { return table_->find(key)->kind; }  // the key must be there
   std::string name(std::string_view key) const;                                     // full path of a key
   const Place& place() const { return table_->place; }
-  const Place& place(std::string_view key) const;  // of its value; of the table where the key is missing
+  // The place of its value, or of the table where the key is missing.
+  const Place& place(std::string_view key) const;
 
-  // Each: the value of `key`; without the key the fallback, or InputError where there is none.
+  // Each gives the value of `key`. Without the key it gives the fallback, or throws InputError if there
+  // is none.
   double number(std::string_view key, const Range& range, std::optional<double> fallback = {});
   std::int64_t integer(std::string_view key, std::int64_t lowest, std::int64_t highest,
                        std::optional<std::int64_t> fallback = {});

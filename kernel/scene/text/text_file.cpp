@@ -21,7 +21,7 @@ std::string read_text_file(const std::filesystem::path& file, std::size_t limit,
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail(errno != 0 ? std::strerror(errno) : "unknown reason");
 
-  // In pieces, so that a device without end stops at the limit.
+  // The file is read in pieces, so that reading an endless device stops at the limit.
   std::string text;
   char piece[65536];
   while (stream.read(piece, sizeof piece) || stream.gcount() > 0) {

@@ -1,4 +1,4 @@
-// Reading a whole file with an upper size, and failing in one clear line.
+// Reads a whole file up to a limit of its size. A failure is one clear line.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace voxmelt::scene {
 
-// The bytes of `file`. Throws InputError "<where>: error: ..." when it is missing, a folder or larger than
-// `limit`.
+// The bytes of `file`. Throws InputError "<where>: error: ..." when it is missing, a folder or larger
+// than `limit`.
 std::string read_text_file(const std::filesystem::path& file, std::size_t limit, const std::string& where);
 
 }  // namespace voxmelt::scene

@@ -1,4 +1,4 @@
-// From the units of a scene file to those of the automaton. Ranges are checked by the readers before.
+// From the units of a scene file to those of the automaton. The readers have checked the ranges before.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline constexpr double kLargestCoordinate = 65536;  // of sources, vents and sh
 inline constexpr double kFullTurn = 360;             // degrees
 
 inline Range coordinate() { return within(kLargestCoordinate); }
-inline Range fraction() { return at_most(1); }  // of a temperature range, an amount or a colour
+inline Range fraction() { return at_most(1); }  // for a temperature range, an amount or a colour
 
 inline rule::Temperature to_temperature(double t) {
   return static_cast<rule::Temperature>(std::lround(t * rule::kTemperatureMax));

@@ -1,5 +1,5 @@
-// A device stepper: the run loop with a state that lies in memory of the stepper's own. The device here is
-// the reference behind a wall: it hides its state, and counts what is asked of it.
+// A device stepper: the run loop with a state in the stepper's own memory. The device here is the reference
+// behind a wall: it hides its state, and counts what is asked of it.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -84,7 +84,7 @@ TEST(Simulation, TheSeedChangesThePaperLawOnly) {
   }
 }
 
-// Notes what it is asked to do.
+// Records what it is asked to do.
 class Recorder final : public step::HostStepper {
  public:
   void change_sources(const Parameters&) override {}

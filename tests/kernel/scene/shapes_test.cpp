@@ -1,4 +1,4 @@
-// Volumes of voxelised shapes against the analytic ones: coverage by 64 samples a cell is that exact.
+// Volumes of voxelised shapes against the analytic ones, within the tolerance of 64 samples per cell.
 #include <numbers>
 #include <string>
 #include <utility>
@@ -73,7 +73,7 @@ const Case kCases[] = {
 INSTANTIATE_TEST_SUITE_P(All, Shapes, testing::ValuesIn(kCases),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-// Skipping blocks must not change a single sample: the same shape, sampled one by one.
+// Skipping blocks must not change a single sample. So the same shape is sampled one by one.
 TEST(Coverage, SkippedBlocksAreThoseThatSamplesWouldFill) {
   std::vector<ShapePtr> parts;
   parts.push_back(

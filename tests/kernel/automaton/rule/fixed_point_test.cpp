@@ -52,8 +52,8 @@ TEST(Dither, PartsAreEvenlySpaced) {
       for (int k = 0; k < n; ++k) ASSERT_EQ(dither(s, k, n), (dither(s) + 65536 * k / n) % 65536);
 }
 
-// Any 2^m steps from a multiple of 2^m on hit each interval of 65536 / 2^m exactly once; 65536 hit every
-// value.
+// Any 2^m steps from a multiple of 2^m on hit each interval of 65536 / 2^m exactly once; 65536 hit
+// every value.
 TEST(Dither, CoversEvenly) {
   for (const int n : {1, 3, 4, 6})
     for (int k = 0; k < n; ++k)

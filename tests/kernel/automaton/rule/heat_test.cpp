@@ -22,7 +22,7 @@ std::int32_t gain(std::int32_t own, std::int32_t other, std::int32_t weight, std
   return sum;
 }
 
-// Of all steps, those where the dithers cover the circular interval [-r, r) best: one of them at its begin.
+// The steps where the dithers cover the circular interval [-r, r) best: one dither is at its begin.
 std::uint32_t worst_step(std::int32_t r, int k, int axes) {
   return static_cast<std::uint32_t>(
       dither(static_cast<std::uint32_t>((2 * 65536 - r - 65536 * k / axes) % 65536)));
@@ -82,7 +82,7 @@ TEST(Conduction, HoldsForEverySmallerWeight) {
 }
 
 TEST(Conduction, OneMoreBreaksIt) {
-  // At both ends of the range: what 16 bits would wrap.
+  // Values at both ends of the range, where 16 bits could wrap.
   bool below_zero = false, above_full = false;
   for (std::int32_t u = 1; u <= 65535; ++u)
     for (int k = 0; k < 3; ++k) {

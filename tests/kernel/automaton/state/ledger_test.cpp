@@ -76,7 +76,7 @@ TEST(Ledger, ExpectsTheStartAndEveryTermWithItsSign) {
   EXPECT_EQ(l.heat.expected(), 511109091);
 }
 
-// Values that tell every term from the others, and that 64 bits hold.
+// The values distinguish every term from the others, and fit 64 bits.
 LedgerTerms<std::int64_t> some_books() {
   LedgerTerms<std::int64_t> books;
   books.mass = {1, -2};

@@ -1,4 +1,4 @@
-// Comparing and copying states: every other comparison of states stands on these.
+// Comparing and copying states. Every other comparison of states relies on these.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -42,8 +42,8 @@ struct Operations {
   void (*row)(RowOperation, int s, int r, const std::uint16_t* a, std::uint16_t* out);
   void (*shift)(bool left, int by, const std::uint16_t* a, std::uint16_t* out);
   void (*lookup)(const std::uint16_t* table, const std::uint16_t* index, std::uint16_t* out);
-  // 64 lanes from a word, and the word from the lanes; asks `nonzero` of them, too: another word if that is
-  // wrong.
+  // 64 lanes from a word, and the word from the lanes. It checks `nonzero` too, and gives another word if
+  // that is wrong.
   std::uint64_t (*bits)(std::uint64_t word, std::uint16_t* lanes);
   // n / d, n given by halves. `size` is a multiple of 64, here and below.
   void (*divide)(std::size_t size, const std::uint16_t* low, const std::uint16_t* high,
@@ -57,12 +57,12 @@ struct Operations {
                 std::uint16_t* out);
   std::uint64_t (*total)(std::size_t size, const std::uint16_t* a);
   std::uint64_t (*small_total)(std::size_t size, const std::uint16_t* a);  // of lanes below 32,768
-  // The mean heat of two; returns what was rounded, in lanes with a1 > 0.
+  // The mean heat of two parts. Returns what was rounded, in lanes with a1 > 0.
   std::int64_t (*mix)(std::size_t size, int dither, const std::uint16_t* a0, const std::uint16_t* h0,
                       const std::uint16_t* a1, const std::uint16_t* h1, std::uint16_t* out);
-  // Of two neighbouring vectors: bit d of byte i set unless a[d] < b[d] in that lane, kept where `keep` has a
-  // bit. Also by way of bits, bit i for lane i; returns the lanes with a byte that is not 0, or its
-  // complement if the two ways differ.
+  // For two neighbouring vectors, bit d of byte i is set unless a[d] < b[d] in that lane, and kept where
+  // `keep` has a bit. The same is done by bits, with bit i for lane i. Returns the lanes with a byte that is
+  // not 0, or the complement if the two ways differ.
   std::uint64_t (*bytes)(const std::uint16_t (*a)[64], const std::uint16_t (*b)[64], std::uint64_t keep,
                          std::uint8_t* bytes);
   // 64 bytes as lanes, lanes that have a bit (all ones), how many of their lowest four are set.
@@ -73,7 +73,7 @@ struct Operations {
                std::uint8_t* bytes);
 };
 
-// Compiled for an architecture of xsimd (lane_loops.h).
+// The operations, compiled for an architecture of xsimd (lane_loops.h).
 template <class Arch>
 Operations operations_for();
 

@@ -1,4 +1,4 @@
-// Every task runs once, and what it wrote is there when the run ends, whoever ran it.
+// Every task runs once, and what it wrote is there when the run ends, whichever thread ran it.
 #include "kernel/engine/cpu/workers.h"
 
 #include <gtest/gtest.h>
@@ -101,7 +101,7 @@ TEST(Workers, ManyShortLivesAndSeveralAtOnce) {
   EXPECT_EQ(sum, 4 * 500 * 6);
 }
 
-// Tasks that come again: the dearest first, each once, a new number of them all alike.
+// Repeated tasks run with the longest first, each once. After a change of their number all are alike.
 TEST(Turns, TheDearestFirst) {
   Turns turns;
   turns.sort(4);
@@ -133,7 +133,7 @@ TEST(Turns, WorkersFollowThem) {
       began.push_back(task);
     });
     ASSERT_EQ(std::set<int>(began.begin(), began.end()).size(), 6U);
-    // Another thread may have taken its task later, and written it down sooner.
+    // Another thread may have taken its task later and recorded it sooner.
     EXPECT_TRUE(began[0] == round % 6 || began[1] == round % 6) << began[0] << ", " << began[1];
   }
 }

@@ -1,5 +1,5 @@
-// What rests costs nothing: of a flat pool the paper law's kernels are not even called. (That sleepers have
-// the right bits is asked elsewhere; here, that there are any.)
+// What rests costs nothing: for a flat pool the paper law's kernels are not even called. (Other tests check
+// that sleeping tiles have the right bits. This one checks that tiles sleep.)
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -84,7 +84,7 @@ TEST_P(Asleep, FlatPoolsCallNoKernel) {
       EXPECT_GT(called[0], 0) << "nothing is known about the first state";
       EXPECT_EQ(called[2], 0) << neighbours << " neighbours, " << width << " wide";
       EXPECT_EQ(called[3], 0);
-      // One cell too full: it wakes what is near, and that alone.
+      // One cell is too full. It wakes what is near, and nothing else.
       put(pool, width / 2, 10, 3, 3 * kOne, kOne);
       EXPECT_GT(calls_of_steps(GetParam().set, p, pool, 4)[2], 0);
     }

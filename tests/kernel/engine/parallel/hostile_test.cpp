@@ -48,7 +48,7 @@ TEST_P(Hostile, SameBitsAfterEveryPhase) {
   }
 }
 
-// More of everything than a kernel takes at once.
+// There is more of everything than a kernel takes at once.
 TEST_P(Hostile, SameBitsOnWideGrids) {
   const auto& [law, name] = GetParam();
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
@@ -66,7 +66,7 @@ TEST_P(Hostile, SameBitsOnWideGrids) {
   }
 }
 
-// Books of a tile row so tall that a sum over it, in 32 bits, would turn over: everything is pushed up.
+// The tile row is so tall that a sum over it would overflow 32 bits: everything is pushed up.
 TEST(Hostile, BooksOfTallTiles) {
   Parameters parameters = paper_showcase();
   parameters.heat.enabled = true;

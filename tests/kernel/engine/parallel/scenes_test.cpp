@@ -1,6 +1,6 @@
 // Every committed scene, every implementation, threads, tile sizes, asleep and awake: the digests of the
-// reference, step by step. Twice: from the scene's start, and from the middle of its melt, where everything
-// moves.
+// reference, step by step. Twice: from the scene's start, and from the middle of its melt, where
+// everything moves.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
-// Calm worlds, in which nearly everything sleeps and little things wake it: a vent or a drain that opens,
-// heat that arrives, light that moves, a wall that melts, what falls or is pushed up beyond the tiles awake.
-// The bits of the reference after every phase, with the smallest tiles.
+// Calm worlds, in which nearly everything sleeps and small causes wake it: a vent or a drain that opens, heat
+// that arrives, light that moves, a wall that melts, liquid that falls or is pushed up beyond the tiles that
+// are awake. The bits must be the reference's after every phase, with the smallest tiles.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What wakes a sleeper beyond the tiles that changed, one cause at a time, in worlds where nothing else
-// moves: the bits of the reference after every phase, with the smallest tiles.
+// What wakes a sleeping tile beyond the tiles that changed: one cause at a time, in worlds where nothing else
+// moves. The bits must be the reference's after every phase, with the smallest tiles.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -129,7 +129,7 @@ TEST(Sleep, ShaftsMoveWhole) {
   }
 }
 
-// What falls bares a solid two tiles above where it lands: that one warms.
+// Liquid that falls exposes a solid two tiles above where it lands. That solid warms.
 TEST(Sleep, WhatAFallBaresWarms) {
   const Grid grid{3, 4, 3};
   Parameters p = paper_showcase();
@@ -147,8 +147,8 @@ TEST(Sleep, WhatAFallBaresWarms) {
   ASSERT_TRUE(same_asleep(p, start, 12));
 }
 
-// The wall that a drop clings to melts: the drop falls, and the one on its other side may spread where it
-// was.
+// The wall that a drop clings to melts: the drop falls, and the one on its other side may spread where
+// it was.
 TEST(Sleep, WhatAFallBaresIsSpreadTo) {
   Parameters p = with_drops(rule::Law::paper);
   p.flow.paper.neighbours = 4;

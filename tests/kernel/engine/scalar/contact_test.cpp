@@ -10,8 +10,8 @@ namespace {
 
 using namespace worlds;
 
-// One blocked cell does not bar a diagonal: it is reached in the very first step, not by way of the other
-// side.
+// One blocked cell does not bar a diagonal: it is reached in the very first step, not by way of the
+// other side.
 TEST(Contact, ADiagonalPassesOneBlockedCell) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
     int reached = 0;

@@ -34,7 +34,7 @@ TEST(FullBox, StaysAsItIs) {
     }
 }
 
-// One cell less: it is over-filled everywhere, in motion for ever, and never loses a unit.
+// With one cell less it is over-filled everywhere, moves for ever, and never loses a unit.
 TEST(FullBox, WithALittleRoomNeverLosesAUnit) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
     for (std::uint64_t seed = 0; seed < 3; ++seed) {

@@ -1,4 +1,4 @@
-// States and parameters that a scene may have but none would ask for: every bound at once.
+// States and parameters that a scene may have, though no one would write it: every bound at once.
 #pragma once
 
 #include <algorithm>

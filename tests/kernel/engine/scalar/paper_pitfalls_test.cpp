@@ -111,8 +111,8 @@ TEST(Pitfall, CheckerboardInAHotPool) {
   }
 }
 
-// In this form of the law it is `downhill` (lower by the flow itself) that lets a pool rest, with and without
-// a margin; read literally it moves for ever.
+// In this form of the law `downhill` (lower by the flow itself) lets a pool rest, with and without a margin.
+// Read literally, the pool moves for ever.
 TEST(Pitfall, HotPoolNeverQuiet) {
   for (const double depth : {0.5, 1.5}) {
     for (const int margin : {0, 256}) {

@@ -73,7 +73,7 @@ TEST(HeatWithFlow, IsCarriedExactly) {
     const state::Sum end = state::holdings(s.volume()).heat;
     EXPECT_EQ(end - start, s.ledger().heat.rounded);
     EXPECT_LT(std::abs(static_cast<double>(end - start)), 1e-4 * static_cast<double>(start));
-    // It did spread, mixed, and made no new extreme.
+    // The liquid has spread and mixed, and made no new extreme.
     int warm = 0;
     for_each(whole(v.grid), [&](int x, int y, int z) {
       const state::Slot i = v.at(x, y, z);

@@ -106,7 +106,7 @@ class HeatDriver {
     };
     if (kernels_.conduct_faces)
       pass([&](int z, bool first, OldHeat old, const HeatTiles& found) {
-        if (!first) old.below = heats(z - 1);  // it must do without what was saved
+        if (!first) old.below = heats(z - 1);  // it must not need what was saved
         old.own = nullptr;
         kernels_.conduct_faces(v_, step, z, old, first ? nullptr : work.slice(z - 1), work.slice(z), flux,
                                found, books);

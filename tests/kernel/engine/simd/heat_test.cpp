@@ -255,7 +255,8 @@ TEST_P(Heat, SleepChangesNothingInDenseMatter) {
   EXPECT_GT(slept / kCases, 0.2) << "of the tiles should sleep";
 }
 
-// Conduction in tiles chosen at random, each row's side by side: right whatever the tiles beside them hold.
+// Conduction in tiles chosen at random, each row's side by side. It is right whatever the tiles beside
+// them hold.
 TEST_P(Heat, AnyTilesOfDenseMatter) {
   Random random(16);
   for (int i = 0; i < 60; ++i) {
@@ -337,7 +338,7 @@ TEST_P(Heat, EveryDifference) {
   }
 }
 
-// A slice so large that a sum over it, in 32 bits, would turn over: every cell loses, and none is full.
+// The slice is so large that a sum over it would overflow 32 bits: every cell loses, and none is full.
 TEST_P(Heat, BooksOfManyCells) {
   const Grid grid{4096, 520, 2};
   Volume start(grid);

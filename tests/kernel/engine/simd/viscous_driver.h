@@ -1,5 +1,5 @@
-// Drives the viscous law's kernels over a volume without threads: the least that a stepper must do, with the
-// slices cut in two chunks that run in the wrong order, and sleeping by exactly what the kernels promise.
+// Drives the viscous law's kernels over a volume without threads, as the simplest stepper would. The slices
+// are cut in two chunks that run in the wrong order. Tiles sleep by exactly what the kernels promise.
 #pragma once
 
 #include <algorithm>
@@ -175,7 +175,7 @@ class ViscousDriver {
     note(changed);
   }
 
-  // Phases that are not ours: what they change is found by comparing.
+  // Runs the other phases. What they change is found by comparison.
   void others(step::Phase phase, std::uint32_t number, state::Volume& volume, state::Ledger& ledger) {
     const state::Volume before = volume;
     rest_.run(phase, number, nullptr, volume, ledger);

@@ -1,0 +1,72 @@
+"""Start fields full of hostile values, for foreign_scenes.py."""
+import struct
+
+ONE, AMOUNT_MOST, HEAT_MOST = 4096, 65535, 65535  # docs/automaton.md, section 1
+KINDS = ("air", "solid", "liquid", "inert")
+
+
+class Fields:
+    """A random start that keeps the invariants of docs/automaton.md, section 1."""
+
+    NAMES = {"solid": "B", "liquid": "B", "inert": "B", "amount": "H", "energy": "H", "heat": "H"}
+
+    def __init__(self, scene, dice):
+        self.size, self.dice = scene["grid"]["size"], dice
+        self.fields = {name: [] for name in self.NAMES}
+        material = scene["material"]
+        melting_point = round(material.get("melting_point", 0.5) * HEAT_MOST)
+        melts = melting_point + round(material.get("latent_heat", 0) * HEAT_MOST)
+        near = [h + d for h in (melting_point, melts) for d in (-1, 0, 1)]
+        self.heats = [0, 1, HEAT_MOST - 1, HEAT_MOST, *(h for h in near if 0 <= h <= HEAT_MOST)]
+        self.amounts = [1, 2, ONE // 2, ONE - 1, ONE, ONE + 1, 2 * ONE, 8 * ONE, 11 * ONE, AMOUNT_MOST - 1, AMOUNT_MOST]
+        self.most = dice.choice((ONE, ONE, 2 * ONE, AMOUNT_MOST))
+        self.hostile = dice.choice((0.05, 0.3, 0.8))
+        self.weights = [dice.random() for _ in range(4)]
+        self.layered, self.blocked = dice.random() < 0.5, dice.random() < 0.4
+        self.fill()
+
+    def one_of(self, values, low, high):
+        return self.dice.choice(values) if self.dice.random() < self.hostile else self.dice.randint(low, high)
+
+    def block(self):
+        spans = [sorted(self.dice.randint(0, side) for _ in range(2)) for side in self.size]
+        return spans, self.dice.choice(KINDS)
+
+    def kind(self, x, y, z, blocks):
+        """Noise, often above a floor, often with blocks of one kind in it."""
+        if self.layered and y == 0 and self.dice.random() < 0.9:
+            return "inert"
+        for spans, kind in blocks:
+            if all(low <= c < high for c, (low, high) in zip((x, y, z), spans)):
+                return kind
+        return self.dice.choices(KINDS, self.weights)[0]
+
+    def fill(self):
+        blocks = [self.block() for _ in range(6 if self.blocked else 0)]
+        nx, ny, nz = self.size
+        for z in range(nz):
+            for y in range(ny):
+                for x in range(nx):
+                    self.add(self.kind(x, y, z, blocks))
+
+    def add(self, kind):
+        amount = energy = heat = 0
+        if kind == "inert":  # a bed offset
+            amount = self.dice.choice((0, 2048, 4095, self.dice.randint(0, 4095)))
+        if kind in ("solid", "liquid"):
+            amount, heat = self.one_of(self.amounts, 1, self.most), self.one_of(self.heats, 0, HEAT_MOST)
+        if kind == "liquid":
+            energy = self.dice.choice((0, 1, amount - 1, amount, self.dice.randint(0, amount)))
+        cell = {"amount": amount, "energy": min(energy, amount), "heat": heat}
+        for name, values in self.fields.items():
+            values.append(cell.get(name, int(name == kind)))
+
+    def write(self, folder):
+        folder.mkdir()
+        for name, code in self.NAMES.items():
+            header = (f"{{'descr': '{'|u1' if code == 'B' else '<u2'}', 'fortran_order': False, "
+                      f"'shape': {tuple(reversed(self.size))}, }}")
+            header += " " * (-(len(header) + 11) % 64) + "\n"
+            values = self.fields[name]
+            (folder / f"{name}.npy").write_bytes(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
+                                                 + struct.pack(f"<{len(values)}{code}", *values))

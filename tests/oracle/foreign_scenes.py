@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+"""Random scenes that are like no committed one: one seed makes a scene file and, for most, start fields.
+
+  foreign_scenes.py SEED FOLDER     writes FOLDER/scene.toml and FOLDER/fields/*.npy
+
+A new key needs a row of KEYS in foreign_keys.py, and a place in the function of its table here.
+"""
+import math
+import random
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True  # a folder of bytecode here would fail oracle.independence
+from foreign_fields import HEAT_MOST, Fields
+from foreign_keys import ENDS, KEYS, LAST_STEP, TINY
+
+
+class Maker:
+    """Makes the tables of a scene, each key by its row. The seed also chooses one end of one key, which this scene has."""
+
+    def __init__(self, seed):
+        self.dice = random.Random(seed)
+        self.wild = self.dice.choice((0.02, 0.06, 0.15))
+        self.wanted, self.end = ENDS[37 * seed % len(ENDS)]  # 37: neighbouring seeds take different keys
+        self.size = self.make_size()
+        self.first = 0
+
+    def gives(self, table, probability):
+        """Whether the scene has this table or key."""
+        return f"{self.wanted}.".startswith(f"{table}.") or self.chance(probability)
+
+    def chance(self, probability):
+        return self.dice.random() < probability
+
+    def draw(self, key):
+        return self.end if key == self.wanted else KEYS[key].draw(self.dice, self.wild)
+
+    def some(self, table, *keys, given=0.7):
+        """Some of these keys; the program fills in the defaults of the others."""
+        return {key: self.draw(f"{table}.{key}") for key in keys if self.gives(f"{table}.{key}", given)}
+
+    def make_size(self):
+        luck = self.dice.random()
+        if self.wanted == "grid.size" or luck < 0.03:  # as long as can be, or flat, along one axis
+            size = [self.dice.choice((1, 2)) for _ in range(3)]
+            size[self.dice.randrange(3)] = self.draw("grid.size") if luck < 0.03 else self.end
+            return size
+        if luck < 0.25:
+            return [self.dice.choice((63, 64, 65, 130)), self.dice.randint(1, 8), self.dice.randint(1, 5)]
+        return [self.dice.randint(1, 12) for _ in range(3)]
+
+    def at(self, key, around=0):
+        """A position in the grid, or up to `around` cells beside it; sometimes one of the whole range."""
+        if key == self.wanted or self.chance(self.wild / 2):
+            return [self.draw(key) for _ in range(3)]
+        rounding = self.dice.choice((1, 2, 16, 1000))  # cells' corners and centres; sixteenths; neither
+        return [round(self.dice.uniform(-around, side + around) * rounding) / rounding for side in self.size]
+
+    def step(self, key):
+        """A step: often one that this run reaches."""
+        if key == self.wanted or self.chance(0.3):
+            return self.draw(key)
+        return min(LAST_STEP, self.first + self.dice.randint(1, 21))
+
+    def material(self):
+        material = self.some("material", "melting_point", "latent_heat", given=0.8)
+        room = 1 - material.get("melting_point", 0.5)
+        if material.get("latent_heat", 0) == 1:
+            material["melting_point"] = TINY
+        elif material.get("latent_heat", 0) > room:  # together at most 1
+            material["latent_heat"] = max(0, math.floor(room * HEAT_MOST) - 1) / HEAT_MOST
+        return material
+
+    def heat(self):
+        heat = self.some("heat", "neighbours", "gamma", "convection", "visibility_every")
+        if self.gives("heat.air", 0.5):
+            heat["air"] = {"exchange": self.draw("heat.air.exchange"), "bottom": self.draw("heat.air.bottom"),
+                           **self.some("heat.air", "top")}
+        return heat
+
+    def source(self):
+        source = self.some("heat_source", "kind", given=0.3)
+        if self.gives("heat_source.keyframes", 0.5):
+            frame = "heat_source.keyframes"
+            steps = sorted({self.step(f"{frame}.step") for _ in range(self.dice.randint(1, 4))})
+            return {**source, "keyframes": [{"step": step, "at": self.at(f"{frame}.at", 6),
+                                             "power": self.draw(f"{frame}.power")} for step in steps]}
+        return {**source, "at": self.at("heat_source.at", 6), "power": self.draw("heat_source.power")}
+
+    def region(self, table):
+        region = {"at": self.at(f"{table}.at"), "radius": self.draw(f"{table}.radius"), "rate": self.draw(f"{table}.rate")}
+        if self.gives(f"{table}.from", 0.3):
+            region["from"] = self.step(f"{table}.from")
+        if self.gives(f"{table}.until", 0.3):
+            region["until"] = max(region.get("from", 0) + 1, self.step(f"{table}.until"))
+        if table == "vent":
+            region.update(self.some("vent", "temperature", "energy"))
+        return region
+
+    def table(self):
+        """Row p gives only in the directions of pattern p, and at most 1 together."""
+        rows = []
+        for pattern in range(16):
+            inside = [d for d in range(4) if pattern >> d & 1]
+            weights = {d: self.dice.choice((0, 1, self.dice.random())) for d in inside}
+            most = self.dice.choice((0, 1, self.dice.random())) / max(sum(weights.values()), TINY)
+            rows.append([math.floor(weights.get(d, 0) * most * 65536) / 65536 for d in range(4)])
+        return rows
+
+    def flow(self):
+        law = next((law for law in ("paper", "viscous") if self.gives(f"flow.{law}", 0)), self.draw("flow.law"))
+        flow = {"law": law, "fall": self.some("flow.fall", "factor", "wall_factor", "minimum", given=0.5)}
+        if self.gives("flow.fall.hang", 0.25):
+            flow["fall"]["hang"] = self.draw("flow.fall.hang")
+        flow[law] = self.paper() if law == "paper" else {
+            "kappa": self.draw("flow.viscous.kappa"), **self.some("flow.viscous", "yield", "stiffness", given=0.5)}
+        if self.gives("flow.thermal", 0.3):
+            flow["thermal"] = {"reference": self.draw("flow.thermal.reference"), "doubling": self.draw("flow.thermal.doubling")}
+        return flow
+
+    def paper(self):
+        paper = self.some("flow.paper", "neighbours", "energy")
+        asked = next((n for n in (4, 8) if self.gives(f"flow.paper.share ({n} neighbours)", 0)), None)
+        if asked or self.gives("flow.paper.table", 0):
+            paper["neighbours"] = asked or 4
+        paper.update(self.some("flow.paper", "threshold", "downhill", "margin", "support", "slump", "beta", "alpha_liquid",
+                               "alpha_solid", "alpha_floor", "reheat", given=0.4))
+        neighbours = paper.get("neighbours", 8)
+        if neighbours == 4 and not asked and self.gives("flow.paper.table", 0.4):
+            paper["table"] = self.table()
+        elif asked or self.chance(0.7):
+            paper["share"] = self.draw(f"flow.paper.share ({neighbours} neighbours)")
+        return paper
+
+    def shape(self, kind):
+        if kind == "inert" and self.chance(0.4):
+            return {"shape": "floor", "thickness": self.dice.randint(1, max(1, self.size[1] // 2))}
+        shape = {"shape": "box", "size": [round(self.dice.uniform(0.3, side), 2) for side in self.size]}
+        if self.chance(0.5):
+            shape = {"shape": "sphere", "radius": round(self.dice.uniform(0.6, max(2, min(self.size))), 2)}
+        shape["at"] = [round(self.dice.uniform(0, side), 2) for side in self.size]
+        if kind in ("solid", "liquid"):
+            shape.update(self.some(kind, "temperature", given=0.9))
+        if kind == "liquid":
+            shape.update(self.some(kind, "amount"))
+            if self.gives("liquid.energy", 0.4):
+                shape["energy"] = self.draw("liquid.energy")
+                shape["amount"] = max(shape.get("amount", 1), shape["energy"])
+        return shape
+
+    def scene(self):
+        scene = {"title": "foreign", "grid": {"size": self.size}, "run": self.some("run", "seed"), "material": self.material()}
+        by_shapes = self.gives("solid", 0) or self.gives("liquid", 0.1)
+        if not by_shapes:
+            scene["start"] = {"fields": "fields", **self.some("start", "step", given=0.8)}
+            self.first = scene["start"].get("step", 0)
+        sources = self.gives("heat_source", 0.5)
+        if sources or self.gives("heat", 0.7):
+            scene["heat"] = self.heat()
+            if sources:
+                scene["heat_source"] = [self.source() for _ in range(self.dice.randint(1, 3))]
+        for table in ("vent", "drain"):
+            if self.gives(table, 0.4):
+                scene[table] = [self.region(table) for _ in range(self.dice.randint(1, 3))]
+        scene["flow"] = self.flow()
+        if by_shapes:
+            for kind in ("solid", "liquid", "inert"):
+                scene[kind] = [self.shape(kind) for _ in range(self.dice.randint(1, 3))]
+        return scene
+
+
+def toml(value):
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {toml(entry)}" for key, entry in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f'"{value}"' if isinstance(value, str) else repr(value)
+
+
+def write_scene(seed, folder):
+    """The scene of this seed: written to the folder, and returned."""
+    maker = Maker(seed)
+    scene = maker.scene()
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "scene.toml").write_text("".join(f"{key} = {toml(value)}\n" for key, value in scene.items()))
+    if "start" in scene:
+        Fields(scene, maker.dice).write(folder / "fields")
+    return scene
+
+
+if __name__ == "__main__":
+    write_scene(int(sys.argv[1]), sys.argv[2])
