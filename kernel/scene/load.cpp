@@ -87,7 +87,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   scene.look = read_look(root);
 
   // The fields of an export replace the shapes. The terrain still determines how the ground is drawn.
-  Contents contents = read_contents(root, grid, scene.warnings);
+  Contents contents = read_contents(root, grid, scene.parameters.material, scene.warnings);
   std::optional<Reader> start = root.table("start");
   std::filesystem::path fields;
   if (start) {
@@ -103,6 +103,8 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
       start ? read_fields(fields, grid, start->place("fields")) : voxelise(contents, grid, scene.warnings);
   // Fields that the scene does not model are dropped, with a warning.
   const std::vector<std::string> dropped = drop_unused(scene.initial, scene.parameters);
+  scene.parameters.heat.walls = scene.parameters.heat.enabled && has_walls(scene.initial);
+  scene.features = features_of(scene.parameters);
   if (start) scene.warnings.insert(scene.warnings.end(), dropped.begin(), dropped.end());
   scene.initial_digest = state::digest(scene.initial);
   scene.terrain = std::move(contents.terrain);

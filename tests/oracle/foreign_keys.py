@@ -53,6 +53,7 @@ KEYS = {
     "heat.gamma": Key(TINY, 0.5236, 0.02, 0.5, math.pi / 65536),
     "heat.convection": Key(0, 0.5, 0.01, 0.4, 1 / 65536),
     "heat.visibility_every": Key(1, 1024, 1, 4, 2, 1023),
+    "heat.rays_per_face": Choice(1, 4, 16),
     "heat.air.exchange": Key(TINY, 0.57735, 0.01, 0.5, 1 / 65536),
     "heat.air.bottom": TEMPERATURE,
     "heat.air.top": TEMPERATURE,
@@ -102,6 +103,7 @@ KEYS = {
     "solid.temperature": TEMPERATURE,
     "liquid.temperature": TEMPERATURE,
     "liquid.amount": Key(TINY, 15, 0.2, 3.0, 1 / 4096, 1, 4097 / 4096),
+    "inert.temperature": TEMPERATURE,
     "liquid.energy": Key(0, 15, 0.1, 1.0, 1 / 4096),
 }
 ENDS = [(name, end) for name, key in KEYS.items() for end in key.ends]
