@@ -77,7 +77,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   const state::Grid grid = read_grid(root);
   read_run(root, scene);
   scene.parameters.material = read_material(root);
-  scene.parameters.heat = read_heat(root, grid.y);
+  scene.parameters.heat = read_heat(root, grid.y, scene.warnings);
   scene.parameters.vents = read_vents(root);
   scene.parameters.drains = read_drains(root);
   scene.parameters.flow = read_flow(root);

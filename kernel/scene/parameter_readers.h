@@ -2,6 +2,7 @@
 // All throw InputError.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "kernel/automaton/rule/parameters.h"
@@ -9,8 +10,9 @@
 
 namespace voxmelt::scene {
 
-rule::Material read_material(Reader& root);                      // [material]
-rule::Heat read_heat(Reader& root, int ny);                      // [heat], [heat.air] and [[heat_source]]
+rule::Material read_material(Reader& root);  // [material]
+// [heat], [heat.air] and [[heat_source]]
+rule::Heat read_heat(Reader& root, int ny, std::vector<std::string>& warnings);
 std::vector<rule::PointSource> read_heat_sources(Reader& root);  // [[heat_source]] alone
 std::vector<rule::Vent> read_vents(Reader& root);                // [[vent]]
 std::vector<rule::Drain> read_drains(Reader& root);              // [[drain]]

@@ -1,5 +1,6 @@
 // Defaults, units, --set and extends of the scene loader.
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -53,6 +54,23 @@ TEST(Load, WhatASceneDoesNotModelIsNotThere) {
   EXPECT_EQ(holds(heat), std::pair(true, true));
   EXPECT_EQ(holds(""), std::pair(true, false)) << "no heat without [heat]";
   EXPECT_EQ(holds(heat + viscous), std::pair(false, true)) << "no energy under the viscous law";
+}
+
+// A checkerboard's difference is multiplied by 1 - 12 gamma / pi: -0.910 at gamma 0.5, -0.5 at pi / 8.
+TEST(Load, AGammaThatLetsHeatSwingIsWarnedOf) {
+  const SceneFolder folder;
+  const auto scene = [&](const char* gamma, const char* neighbours) {
+    return folder.load_text(kLeast + "[heat]\ngamma = " + gamma + "\nneighbours = " + neighbours + "\n");
+  };
+  EXPECT_EQ(scene("0.5", "6").warnings,
+            std::vector<std::string>{"heat.gamma = 0.5 is above 0.3927: hot and cold cells that alternate "
+                                     "change places in each step and keep 91 % of their difference"});
+  EXPECT_EQ(scene("0.3928", "18").warnings.size(), 1u);
+  for (const auto& [gamma, neighbours] : {std::pair("0.3926", "6"), {"0.3926", "18"}, {"0.5236", "26"}})
+    EXPECT_TRUE(scene(gamma, neighbours).warnings.empty()) << gamma;
+  const rule::Heat off = scene("0", "26").parameters.heat;
+  EXPECT_EQ(off.weight_face + off.weight_edge + off.weight_corner, 0);
+  EXPECT_TRUE(scene("0", "26").warnings.empty());
 }
 
 // The defaults are written twice: where parameters are declared, and where a table is read.
