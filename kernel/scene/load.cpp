@@ -80,8 +80,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   scene.parameters.heat = read_heat(root, grid.y, scene.warnings);
   scene.parameters.vents = read_vents(root);
   scene.parameters.drains = read_drains(root);
-  scene.parameters.flow = read_flow(root);
-  scene.features = features_of(scene.parameters);
+  scene.parameters.flow = read_flow(root, scene.warnings);
   scene.camera = read_camera(root, grid);
   scene.light = read_light(root);
   scene.look = read_look(root);
@@ -103,9 +102,9 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
       start ? read_fields(fields, grid, start->place("fields")) : voxelise(contents, grid, scene.warnings);
   // Fields that the scene does not model are dropped, with a warning.
   const std::vector<std::string> dropped = drop_unused(scene.initial, scene.parameters);
+  if (start) scene.warnings.insert(scene.warnings.end(), dropped.begin(), dropped.end());
   scene.parameters.heat.walls = scene.parameters.heat.enabled && has_walls(scene.initial);
   scene.features = features_of(scene.parameters);
-  if (start) scene.warnings.insert(scene.warnings.end(), dropped.begin(), dropped.end());
   scene.initial_digest = state::digest(scene.initial);
   scene.terrain = std::move(contents.terrain);
   return scene;
