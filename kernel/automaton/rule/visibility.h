@@ -26,8 +26,8 @@ VOXMELT_RULE std::uint64_t square_root(std::uint64_t a) {
   return root;
 }
 
-// What the faces of a cell receive from a source: power x (sum of |delta_a| over them) / |delta|^3, which is
-// the inverse square times the cosine of each face; no nearer than one cell.
+// What the faces of a cell receive from a source: power x (sum of |delta| along their axes) / |delta|^3,
+// which is the inverse square times the cosine of each face; no nearer than one cell.
 //   facing            that sum, taken for every ray that sees the source
 //   rays              of a face: 1, 4 or 16
 //   distance_squared  |delta|^2 from the cell's centre, below 2^52

@@ -121,9 +121,9 @@ const std::vector<Case>& cases() {
       {kGrid + "[[liquid]]\nshape = \"sphere\"\nradius = 1\namount = 16\n",
        "scene.toml:6:10: error: liquid.0.amount = 16 exceeds 15"},
       {kGrid + "[[inert]]\nshape = \"floor\"\nthickness = 9\n",
+       "scene.toml:5:13: error: inert.0.thickness = 9 is outside 1..8"},
       {kGrid + "[material]\nlatent_heat = 0.25\n[[inert]]\nshape = \"floor\"\ntemperature = 0.76\n",
        "scene.toml:7:15: error: inert.0.temperature = 0.76 exceeds 0.749996: latent heat takes the rest"},
-       "scene.toml:5:13: error: inert.0.thickness = 9 is outside 1..8"},
       // Files.
       {kGrid + "[[solid]]\nshape = \"mesh\"\nfile = \"none.obj\"\nheight = 4\n",
        "scene.toml:5:8: error: cannot read none.obj: No such file or directory"},
