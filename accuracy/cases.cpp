@@ -25,10 +25,9 @@ const std::vector<Case>& all_cases() {
        "of 60,000 units, and its variance triples.",
        measure_heat_kernel},
       {"slab", "Heat", "A slab between a wall and an insulator warms as Fourier's series says",
-       "A column of 64 cells. Its upper face is held at a temperature, its lower one passes no heat.",
-       measure_slab},
+       "A column of 64 cells under an isothermal wall. Its lower face passes no heat.", measure_slab},
       {"stefan", "Heat", "One-phase Stefan problem: the melting front moves as the square root of time",
-       "A column of 64 cells at its melting point, under a wall of fixed temperature. The front is the "
+       "A column of 64 cells at its melting point, under an isothermal wall. The front is the "
        "latent "
        "heat taken up, and should be at 48 cells in the end. St is the wall's excess over the latent heat.",
        measure_stefan},
@@ -36,9 +35,8 @@ const std::vector<Case>& all_cases() {
        "As above, with a solid below its melting point, long enough that its far end stays cold.",
        measure_stefan_two_phase},
       {"checkerboard", "Heat", "A checkerboard of heat at the largest gamma decays, or the scene is refused",
-       "Past von Neumann's bound, 0.39 for 6 neighbours, a hot cell and its cold neighbour may swap for "
-       "ever. "
-       "A scene that is refused or warned of counts as 0.",
+       "Above gamma 0.39, with 6 neighbours, hot and cold cells change places in each step and keep more "
+       "than half of their difference. A scene that is refused or warned of counts as 0.",
        measure_checkerboard},
       {"lit_plane", "Light", "A plane under a far source takes up the cosine of the angle",
        "A plane of 65 x 65 cells, the source 2,000 cells away. The middle 21 x 21 columns are measured.",

@@ -82,6 +82,7 @@ double heat_second_moment(const state::Volume& volume) {
 double melted_cells(const state::Volume& volume, double melting_point, double latent_heat) {
   double sum = 0;
   for_each_cell(volume.grid, [&](int x, int y, int z) {
+    if (volume.inert.test(x, y, z)) return;
     sum += std::clamp((volume.heat[volume.at(x, y, z)] - melting_point) / latent_heat, 0.0, 1.0);
   });
   return sum;

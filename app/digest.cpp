@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/report.h"
+#include "app/watch.h"
 #include "kernel/automaton/state/digest.h"
 
 namespace voxmelt::app {
@@ -40,6 +41,9 @@ int run_digest(const DigestOptions& options) {
     if (done == options.steps || (options.every > 0 && done % options.every == 0)) print_line(simulation);
   }
   if (options.steps == 0 && options.every == 0) print_line(simulation);
+  Watch watch;
+  watch.look(simulation.volume(), simulation.steps_done());
+  warn(scene, options.common, watch.warnings(simulation));
   write_report(options.common, report_json(scene, options.common, simulation, {}));
   const std::string drift = drift_text(simulation.drift());
   if (drift.empty()) return kDone;

@@ -32,6 +32,11 @@ fs::path find_scene(const std::string& given) {
       given));
 }
 
+void say(const Common& common, const std::vector<std::string>& warnings) {
+  if (common.quiet) return;
+  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
+}
+
 }  // namespace
 
 void add_scene(CLI::App& command, Common& common) {
@@ -67,9 +72,13 @@ scene::Scene load_scene(const Common& common) {
   std::vector<std::string> sets = common.sets;
   if (common.seed) sets.push_back(fmt::format("run.seed={}", *common.seed));
   scene::Scene scene = scene::load(find_scene(common.scene), sets);
-  if (!common.quiet)
-    for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
+  say(common, scene.warnings);
   return scene;
+}
+
+void warn(scene::Scene& scene, const Common& common, const std::vector<std::string>& warnings) {
+  say(common, warnings);
+  scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
 }
 
 const step::Implementation& find_implementation(const Common& common) {

@@ -37,6 +37,8 @@ void add_common(CLI::App& command, Common& common);
 
 // A path, or the name of a scene that came with the program.
 scene::Scene load_scene(const Common& common);
+// Adds warnings to those of the scene, which the report lists, and says them.
+void warn(scene::Scene& scene, const Common& common, const std::vector<std::string>& warnings);
 const step::Implementation& find_implementation(const Common& common);  // throws UsageError
 // Moves the scene's initial state away, because a large one need not be held twice.
 run::Simulation make_simulation(scene::Scene& scene, const Common& common);

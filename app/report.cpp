@@ -84,6 +84,7 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"law", simulation.parameters().flow.law == rule::Law::paper ? "paper" : "viscous"},
       {"features", scene.features},
       {"warnings", scene.warnings},
+      {"irradiance_capped", simulation.irradiance_capped()},
       {"grid", {volume.grid.x, volume.grid.y, volume.grid.z}},
       {"mass", ledger_json(ledger.mass, {{"solid", held.solid}, {"liquid", held.liquid}}, drift.mass)},
       {"energy", ledger_json(ledger.energy, {{"held", held.energy}}, drift.energy)},

@@ -15,6 +15,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/report.h"
+#include "app/watch.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
@@ -42,17 +43,24 @@ int run_scene(const RunOptions& options) {
 
   run::Simulation simulation = make_simulation(scene, common);
   Film film(scene, out.partial(), thread_count(common));
-  film.add_frame(simulation.volume(), 0);
+  Watch watch;
+  const auto show = [&](std::uint32_t step) {
+    film.add_frame(simulation.volume(), step);
+    watch.look(simulation.volume(), step);
+  };
+  show(0);
   {
     Progress progress(steps, common.quiet);
     while (simulation.steps_done() < steps && !interrupted()) {
       simulation.step();
       const std::uint32_t done = simulation.steps_done();
-      if (every > 0 && (done % every == 0 || done == steps)) film.add_frame(simulation.volume(), done);
+      if (every > 0 && (done % every == 0 || done == steps)) show(done);
       progress.show(done, simulation.volume());
     }
   }
   const std::string video_note = film.finish();
+  watch.look(simulation.volume(), simulation.steps_done());
+  warn(scene, common, watch.warnings(simulation));
 
   const double total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string report =

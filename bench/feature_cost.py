@@ -26,6 +26,7 @@ STEPS = {"lesson_spread": 60, "lesson_conduction": 60, "lesson_oven": 200, "less
 FEATURES = {
     "heat": ("heat as a whole", ["lesson_spread", "lesson_tubes"]),
     "latent": ("latent heat", ["lesson_conduction", "lesson_oven"]),
+    "walls": ("isothermal walls", ["lesson_conduction", "lesson_oven"]),
     "radiation": ("radiation received", ["lesson_conduction", "lesson_oven"]),
     "air": ("exchange with air", ["lesson_conduction", "bunny_small"]),
     "convection": ("convection in liquid", ["lesson_conduction", "bunny_small"]),

@@ -21,6 +21,7 @@ class ConductionFaults : public Planted {
     if (pass.came().z == 0) return;
     if (pass.kind() == StageKind::conduction && armed(pass, Fault::buffer_bit)) flip_bit(pass);
     if (is_last(pass) && any_armed(pass)) misbehave(pass);
+    if (is_last(pass) && armed(pass, Fault::wall_drifts)) drift(pass);
   }
 
  private:
@@ -73,6 +74,25 @@ class ConductionFaults : public Planted {
           continue;
         p.heat = wrong;
         return strike(pass, x, y, came.z - 1);
+      }
+  }
+
+  // Lets a wall take its part of a flux. It is wrong from then on, and nothing else is.
+  template <const auto& kPairs>
+  void drift(Pass<kPairs>& pass) {
+    const Place& came = pass.came();
+    for (int lane = 0; lane < pass.lanes(); ++lane)
+      for (std::size_t part = 0; part < kPairs.size(); ++part) {
+        const HeatPair pair = kPairs[part];
+        const int x = came.x + lane - ((pair.p & kWest) != 0), y = came.y - ((pair.p & kBelow) != 0);
+        if (pair.q != kHere || x < 0 || y < 0) continue;
+        HeatWord& p = pass.word(pair.p, lane);
+        const HeatWord& q = pass.word(kHere, lane);
+        const std::int64_t flow = p.wall() && q.matter() ? pass.flux(p, q, pass.dither_[part]) : 0;
+        const std::int64_t wrong = p.heat + flow;
+        if (flow == 0 || wrong <= 0 || wrong > kHeatMax) continue;
+        p.heat = wrong;
+        return strike(pass, x, y, came.z - ((pair.p & kSouth) != 0));
       }
   }
 

@@ -22,6 +22,8 @@ constexpr std::array kFaults{
               "the plane memory is read one row too late for the flux to the cell behind"},
     FaultInfo{distant_wrong_axis, "distant-wrong-axis", "edges",
               "a flux between edge or corner neighbours takes the cell at the wrong height"},
+    FaultInfo{wall_drifts, "wall-drifts", "conduction",
+              "an isothermal wall loses the heat that it gives (in the last pass of conduction)"},
     FaultInfo{convection_downwards, "convection-downwards", "convection",
               "heat rises into the warmer cell (from one that is not at air which exchanges)"},
     FaultInfo{irradiance_lane, "irradiance-lane", "exchange",

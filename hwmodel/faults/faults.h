@@ -22,6 +22,7 @@ enum class Fault : std::uint8_t {
   conduction_dither,
   conduction_stale_row,
   distant_wrong_axis,
+  wall_drifts,
   convection_downwards,
   irradiance_lane,
   air_axis_missed,

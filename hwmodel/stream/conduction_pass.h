@@ -1,6 +1,6 @@
 // One pass of conduction (Eq. 1): all pairs of one neighbour distance. The cell that comes completes the
 // smallest box of cells around some pairs; their fluxes are computed then. So each pair is computed once, and
-// both partners are updated where they are in the line.
+// both partners are updated where they are in the line. An isothermal wall is a partner that stays as it is.
 #pragma once
 
 #include <array>
@@ -119,7 +119,7 @@ class ConductionPass : public Stage {
 
   // What flows from q to p.
   std::int64_t flux(const HeatWord& p, const HeatWord& q, std::int64_t dither) const {
-    if (!p.matter() || !q.matter()) return 0;
+    if (!p.conducts() || !q.conducts()) return 0;
     return scale(std::int64_t{q.temperature} - p.temperature, weight_, dither);
   }
 
@@ -129,8 +129,8 @@ class ConductionPass : public Stage {
       return [this, dither](HeatWord& p, HeatWord& q) {
         const std::int64_t flow = flux(p, q, dither);
         if (flow == 0) return;
-        p.heat = p.heat + flow;
-        q.heat = q.heat - flow;
+        if (p.matter()) p.heat = p.heat + flow;
+        if (q.matter()) q.heat = q.heat - flow;
       };
     };
     (each_pair(part<kPart>, exchange(dither_[kPart])), ...);

@@ -21,6 +21,8 @@ struct HeatWord {
 
   bool blocked() const { return state == State::solid || state == State::inert; }
   bool matter() const { return state == State::solid || state == State::liquid; }
+  bool wall() const { return state == State::inert && heat > 0; }  // it keeps its temperature
+  bool conducts() const { return matter() || wall(); }
   bool air() const { return state == State::air; }
   bool liquid() const { return state == State::liquid; }
 };

@@ -98,7 +98,7 @@ struct State {
   /// UQ4.12, at most the amount: the potential of liquid to expand. It is 0 everywhere under the viscous law.
   FieldView energy;
   /// Heat content: 0..65535 for 0..1 of the scene's range of temperatures, latent heat included (section 6).
-  /// It is 0 where there is neither solid nor liquid, and in scenes without [heat].
+  /// It is 0 in air, in inert cells that are no isothermal wall, and in scenes without [heat].
   FieldView heat;
 };
 

@@ -84,7 +84,7 @@ void Simulation::begin_step() {
   if (!heat.is_visibility_step(step_number())) return;
   const Stopwatch watch(seconds_.visibility);
   if (behind_) device_->download_masks(volume_);
-  provider_->irradiance(volume_, heat, step_number(), irradiance_);
+  irradiance_capped_ += provider_->irradiance(volume_, heat, step_number(), irradiance_);
 }
 
 int Simulation::count_substeps() const {

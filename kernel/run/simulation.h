@@ -52,6 +52,7 @@ class Simulation {
   std::uint32_t steps_done() const { return steps_done_; }
   std::uint32_t step_number() const { return first_step_ + steps_done_; }
   const step::Irradiance* irradiance() const { return irradiance_.empty() ? nullptr : &irradiance_; }
+  std::int64_t irradiance_capped() const { return irradiance_capped_; }  // times that a cell was cut
   const state::Volume& volume() const { return fetch(), volume_; }
   const state::Ledger& ledger() const { return fetch(), ledger_; }
   const rule::Parameters& parameters() const { return parameters_; }
@@ -87,6 +88,7 @@ class Simulation {
   mutable bool behind_ = false;  // the device has run on: volume_ and ledger_ are old
   bool uploaded_ = false;        // the device has a state of ours
   step::Irradiance irradiance_;  // empty without radiation
+  std::int64_t irradiance_capped_ = 0;
   int threads_;
   std::uint32_t first_step_ = 0, steps_done_ = 0;
   int substeps_ = 1, substep_ = 0;  // substep_: that of the next phase

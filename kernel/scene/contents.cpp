@@ -23,6 +23,19 @@ void raise(Terrain& terrain, const std::vector<double>& height) {
     terrain.height[i] = std::max(terrain.height[i], static_cast<float>(height[i]));
 }
 
+// The heat content at which a wall has the temperature that is asked for; 0 where none is.
+rule::Temperature read_wall(Reader& reader, const rule::Material& material) {
+  if (!reader.has("temperature")) return 0;
+  const double asked = reader.number("temperature", fraction());
+  const rule::Temperature temperature = std::max<rule::Temperature>(1, to_temperature(asked));
+  if (temperature <= material.melting_point) return temperature;
+  const int heat = temperature + material.latent_heat;
+  if (heat > rule::kTemperatureMax)
+    reader.fail("temperature", fmt::format(" = {} exceeds {:.6g}: latent heat takes the rest of the range",
+                                           asked, 1 - material.latent_heat / double{rule::kTemperatureMax}));
+  return static_cast<rule::Temperature>(heat);
+}
+
 void read_floor(Reader& reader, Terrain& terrain, state::Grid grid) {
   const auto thickness = static_cast<double>(reader.integer("thickness", 1, grid.y, 1));
   raise(terrain, std::vector<double>(terrain.height.size(), thickness));
@@ -77,8 +90,12 @@ void read_mesh_entry(Reader& reader, Entry& entry) {
   entry.mesh = std::move(mesh);
 }
 
-void read_state(Reader& reader, Entry& entry) {
-  if (entry.role == Role::inert || entry.cut) return;
+void read_state(Reader& reader, const rule::Material& material, Entry& entry) {
+  if (entry.cut) return;
+  if (entry.role == Role::inert) {
+    entry.wall = read_wall(reader, material);
+    return;
+  }
   entry.temperature = reader.number("temperature", fraction(), 0.0);
   if (entry.role != Role::liquid) return;
   entry.amount = reader.number("amount", above(0).at_most(kLargestAmount), 1.0);
@@ -87,7 +104,8 @@ void read_state(Reader& reader, Entry& entry) {
 
 }  // namespace
 
-Contents read_contents(Reader& root, state::Grid grid, std::vector<std::string>& warnings) {
+Contents read_contents(Reader& root, state::Grid grid, const rule::Material& material,
+                       std::vector<std::string>& warnings) {
   Contents contents;
   contents.terrain.x = grid.x;
   contents.terrain.z = grid.z;
@@ -104,6 +122,7 @@ Contents read_contents(Reader& root, state::Grid grid, std::vector<std::string>&
       const std::string shape = names[reader.choice("shape", names)];
       if (shape == "floor" || shape == "heightfield") {
         if (role != Role::inert) reader.fail("shape", fmt::format(" = \"{}\" is for [[inert]] only", shape));
+        if (const rule::Temperature wall = read_wall(reader, material); wall > 0) contents.ground_wall = wall;
         if (shape == "floor") read_floor(reader, contents.terrain, grid);
         if (shape == "heightfield") read_heightfield(reader, contents.terrain, grid, warnings);
       } else {
@@ -111,7 +130,7 @@ Contents read_contents(Reader& root, state::Grid grid, std::vector<std::string>&
         entry.role = role;
         entry.name = fmt::format("{}.{}", list, i);
         entry.cut = reader.flag("cut", false);
-        read_state(reader, entry);
+        read_state(reader, material, entry);
         if (shape == "mesh")
           read_mesh_entry(reader, entry);
         else

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/automaton/rule/parameters.h"
 #include "kernel/automaton/state/grid.h"
 #include "kernel/scene/shape/voxelise.h"
 #include "kernel/scene/text/reader.h"
@@ -11,6 +12,7 @@
 namespace voxmelt::scene {
 
 // Throws InputError. `warnings` grows by what is odd but usable.
-Contents read_contents(Reader& root, state::Grid grid, std::vector<std::string>& warnings);
+Contents read_contents(Reader& root, state::Grid grid, const rule::Material& material,
+                       std::vector<std::string>& warnings);
 
 }  // namespace voxmelt::scene

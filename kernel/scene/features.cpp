@@ -13,6 +13,7 @@ bool paper(P p) { return p.flow.law == rule::Law::paper; }
 
 constexpr Feature kFeatures[] = {
     {"heat", [](P p) { return p.heat.enabled; }},
+    {"walls", [](P p) { return p.heat.walls; }},
     {"radiation", [](P p) { return p.heat.radiation; }},
     {"air", [](P p) { return p.heat.air; }},
     {"convection", [](P p) { return p.heat.convection > 0; }},

@@ -15,6 +15,8 @@ namespace voxmelt::scene {
 namespace {
 
 constexpr double kLargestKappa = 71;  // mobility fits 36 bits
+constexpr std::uint64_t kLargestMobility = (std::uint64_t{1} << 36) - 1;
+constexpr double kLargestEntry = 2;  // of the table of mobilities: 65535 / 32768
 constexpr int kMostSubsteps = 1024;
 constexpr double kLargestYield = 255;  // x 65536 fits 24 bits
 
@@ -100,23 +102,48 @@ rule::ViscousLaw read_viscous(Reader& reader) {
   return law;
 }
 
-// Mobility doubles every `doubling` of temperature and is 1 at `reference`.
-void read_thermal(Reader& reader, rule::Flow& flow) {
+// Doubles what the table multiplies, unless that exceeds its range. Twice the paper's largest share is cut by
+// the rule itself, so that law never wants more.
+bool double_mobility(rule::Flow& flow) {
+  if (flow.law == rule::Law::viscous) {
+    if (flow.viscous.mobility > kLargestMobility / 2) return false;
+    flow.viscous.mobility *= 2;
+    return true;
+  }
+  if (flow.paper.share > rule::largest_share(flow.paper.neighbours) / 2) return false;
+  flow.paper.share = static_cast<std::uint16_t>(2 * flow.paper.share);
+  return true;
+}
+
+// Mobility doubles every `doubling` of temperature and is 1 at `reference`. An entry of the table is at most
+// twice its unit. Where the hottest liquid wants more, the unit stands for 2, 4, ... times that mobility.
+void read_thermal(Reader& reader, rule::Flow& flow, std::vector<std::string>& warnings) {
   const double reference = reader.number("reference", fraction());
   const double doubling = reader.number("doubling", at_least(0.001).at_most(1));
   flow.thermal_viscosity = true;
-  for (std::size_t i = 0; i < flow.mobility_table.size(); ++i) {
-    const double temperature =
-        (static_cast<double>(i) + 0.5) / static_cast<double>(flow.mobility_table.size());
-    const double mobility = 32768 * std::exp2((temperature - reference) / doubling);
-    flow.mobility_table[i] = static_cast<std::uint16_t>(std::lround(std::min(65535.0, mobility)));
-  }
+  const auto entries = flow.mobility_table.size();
+  const auto factor = [&](std::size_t i) {
+    return std::exp2(((static_cast<double>(i) + 0.5) / static_cast<double>(entries) - reference) / doubling);
+  };
+  const double wanted = factor(entries - 1);
+  double unit = 1;
+  while (wanted > kLargestEntry * unit && double_mobility(flow)) unit *= 2;
+  if (flow.law == rule::Law::viscous && wanted > kLargestEntry * unit)
+    warnings.push_back(
+        fmt::format("flow.thermal: the mobility wants to be {:.3g} times that at the reference, and stops at "
+                    "{:.3g} times, "
+                    "from temperature {:.3g} on; kappa times this factor is at most {}",
+                    wanted, kLargestEntry * unit, reference + doubling * std::log2(kLargestEntry * unit),
+                    kLargestEntry * kLargestKappa));
+  for (std::size_t i = 0; i < entries; ++i)
+    flow.mobility_table[i] =
+        static_cast<std::uint16_t>(std::lround(std::min(65535.0, 32768 * factor(i) / unit)));
   reader.finish();
 }
 
 }  // namespace
 
-rule::Flow read_flow(Reader& root) {
+rule::Flow read_flow(Reader& root, std::vector<std::string>& warnings) {
   rule::Flow flow;
   std::optional<Reader> reader = root.table("flow");
   if (!reader) return flow;
@@ -132,7 +159,7 @@ rule::Flow read_flow(Reader& root) {
   if (own && law == 0) flow.paper = read_paper(*own);
   if (own && law == 1) flow.viscous = read_viscous(*own);
   if (!own && law == 1) reader->fail("viscous", " is missing: the law needs its kappa");
-  if (std::optional<Reader> thermal = reader->table("thermal")) read_thermal(*thermal, flow);
+  if (std::optional<Reader> thermal = reader->table("thermal")) read_thermal(*thermal, flow, warnings);
   reader->finish();
   return flow;
 }

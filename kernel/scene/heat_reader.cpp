@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "kernel/scene/parameter_readers.h"
@@ -13,7 +14,10 @@
 namespace voxmelt::scene {
 namespace {
 
-constexpr double kLargestGamma = 0.5236;   // pi / 6: weight_face <= 10922, and conduction cannot overshoot
+constexpr double kLargestGamma = 0.5236;  // pi / 6: weight_face <= 10922, and conduction cannot overshoot
+// pi / 8: up to here a checkerboard of heat loses at least half of its swing in each step. With 26 neighbours
+// the corners damp it, and no wave that changes its sign keeps more than a fifth.
+constexpr double kCalmGamma = 0.3927;
 constexpr double kLargestPower = 4194303;  // x 2^28 fits 50 bits
 constexpr double kLargestExchange =
     0.57735;  // 1 / sqrt 3: a corner exposed on three axes stays within the air
@@ -26,14 +30,18 @@ std::uint16_t weight(double gamma, double squared_distance) {
   return static_cast<std::uint16_t>(std::floor(65536 * gamma / (std::numbers::pi * squared_distance)));
 }
 
-void read_conduction(Reader& reader, rule::Heat& heat) {
+void read_conduction(Reader& reader, rule::Heat& heat, std::vector<std::string>& warnings) {
   const std::int64_t asked = reader.integer("neighbours", 6, 26, 6);
   if (asked != 6 && asked != 18 && asked != 26)
     reader.fail("neighbours", fmt::format(" = {} is not one of 6, 18, 26", asked));
   heat.neighbours = static_cast<int>(asked);
-  const Range range =
-      above(0).at_most(kLargestGamma).because(fmt::format("the bound for {} neighbours", asked));
+  const Range range = at_most(kLargestGamma).because(fmt::format("the bound for {} neighbours", asked));
   const double gamma = reader.number("gamma", range, 0.15);
+  if (gamma > kCalmGamma && asked < 26)
+    warnings.push_back(fmt::format(
+        "heat.gamma = {} is above {}: hot and cold cells that alternate change places in each step "
+        "and keep {:.0f} % of their difference",
+        gamma, kCalmGamma, 100 * (12 * gamma / std::numbers::pi - 1)));
   heat.weight_face = weight(gamma, 1);
   if (asked >= 18) heat.weight_edge = weight(gamma, 2);
   if (asked == 26) heat.weight_corner = weight(gamma, 3);
@@ -89,7 +97,7 @@ std::vector<rule::PointSource> read_heat_sources(Reader& root) {
   return sources;
 }
 
-rule::Heat read_heat(Reader& root, int ny) {
+rule::Heat read_heat(Reader& root, int ny, std::vector<std::string>& warnings) {
   rule::Heat heat;
   std::optional<Reader> reader = root.table("heat");
   if (!reader) {
@@ -99,7 +107,7 @@ rule::Heat read_heat(Reader& root, int ny) {
     return heat;
   }
   heat.enabled = true;
-  read_conduction(*reader, heat);
+  read_conduction(*reader, heat, warnings);
   heat.convection = static_cast<std::uint16_t>(
       std::min<long>(32767, std::lround(reader->number("convection", at_most(0.5), 0.0) * 65536)));
   heat.visibility_every = static_cast<std::uint32_t>(reader->integer("visibility_every", 1, 1024, 8));

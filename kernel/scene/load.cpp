@@ -77,17 +77,16 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   const state::Grid grid = read_grid(root);
   read_run(root, scene);
   scene.parameters.material = read_material(root);
-  scene.parameters.heat = read_heat(root, grid.y);
+  scene.parameters.heat = read_heat(root, grid.y, scene.warnings);
   scene.parameters.vents = read_vents(root);
   scene.parameters.drains = read_drains(root);
-  scene.parameters.flow = read_flow(root);
-  scene.features = features_of(scene.parameters);
+  scene.parameters.flow = read_flow(root, scene.warnings);
   scene.camera = read_camera(root, grid);
   scene.light = read_light(root);
   scene.look = read_look(root);
 
   // The fields of an export replace the shapes. The terrain still determines how the ground is drawn.
-  Contents contents = read_contents(root, grid, scene.warnings);
+  Contents contents = read_contents(root, grid, scene.parameters.material, scene.warnings);
   std::optional<Reader> start = root.table("start");
   std::filesystem::path fields;
   if (start) {
@@ -104,6 +103,8 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   // Fields that the scene does not model are dropped, with a warning.
   const std::vector<std::string> dropped = drop_unused(scene.initial, scene.parameters);
   if (start) scene.warnings.insert(scene.warnings.end(), dropped.begin(), dropped.end());
+  scene.parameters.heat.walls = scene.parameters.heat.enabled && has_walls(scene.initial);
+  scene.features = features_of(scene.parameters);
   scene.initial_digest = state::digest(scene.initial);
   scene.terrain = std::move(contents.terrain);
   return scene;

@@ -1,7 +1,8 @@
 // Each table of a scene file that becomes rule parameters: checked, then rounded to the automaton's integers.
-// All throw InputError.
+// All throw InputError. `warnings` grows by what is odd but usable.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "kernel/automaton/rule/parameters.h"
@@ -9,11 +10,13 @@
 
 namespace voxmelt::scene {
 
-rule::Material read_material(Reader& root);                      // [material]
-rule::Heat read_heat(Reader& root, int ny);                      // [heat], [heat.air] and [[heat_source]]
+rule::Material read_material(Reader& root);  // [material]
+// [heat], [heat.air] and [[heat_source]]
+rule::Heat read_heat(Reader& root, int ny, std::vector<std::string>& warnings);
 std::vector<rule::PointSource> read_heat_sources(Reader& root);  // [[heat_source]] alone
 std::vector<rule::Vent> read_vents(Reader& root);                // [[vent]]
 std::vector<rule::Drain> read_drains(Reader& root);              // [[drain]]
-rule::Flow read_flow(Reader& root);                              // [flow] and its tables
+// [flow] and its tables
+rule::Flow read_flow(Reader& root, std::vector<std::string>& warnings);
 
 }  // namespace voxmelt::scene

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -60,7 +62,7 @@ const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
   if (solid && volume.energy[cell] != 0) return "no energy in solids";
   if (volume.energy[cell] > amount) return "energy not more than the amount";
   if (!solid && !liquid && volume.energy[cell] != 0) return "no energy without solid or liquid";
-  if (!solid && !liquid && volume.heat[cell] != 0) return "no heat without solid or liquid";
+  if (amount == 0 && volume.heat[cell] != 0) return "no heat without an amount";
   return nullptr;
 }
 
@@ -81,6 +83,18 @@ state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid,
           fail_at(place,
                   fmt::format("{}: cell ({}, {}, {}) breaks a rule: {}", folder.string(), x, y, z, promise));
   return volume;
+}
+
+bool has_walls(const state::Volume& volume) {
+  for (int z = 0; z < volume.grid.z; ++z)
+    for (int y = 0; y < volume.grid.y; ++y) {
+      const auto inert = volume.inert.row(y, z);
+      const std::uint16_t* heat = volume.heat.row(y, z);
+      for (std::size_t w = 0; w < inert.size(); ++w)
+        for (std::uint64_t left = inert[w]; left != 0; left &= left - 1)
+          if (heat[64 * w + static_cast<std::size_t>(std::countr_zero(left))] > 0) return true;
+    }
+  return false;
 }
 
 std::vector<std::string> drop_unused(state::Volume& volume, const rule::Parameters& parameters) {

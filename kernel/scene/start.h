@@ -16,6 +16,9 @@ namespace voxmelt::scene {
 // the first bad cell.
 state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid, const Place& place);
 
+// Is any inert cell an isothermal wall?
+bool has_walls(const state::Volume& volume);
+
 // Clears the fields that the scene does not model: energy under the viscous law, heat without [heat]. Returns
 // one line for each field that held something.
 std::vector<std::string> drop_unused(state::Volume& volume, const rule::Parameters& parameters);

@@ -45,6 +45,33 @@ TEST(HardCase, StefanNumbersOfAHundredthAndOfTen) {
   }
 }
 
+// Hot and cold cells alternate. In a step their difference is multiplied by 1 - 12 gamma / pi with 6 and 18
+// neighbours (edges join cells of one colour), and by 1 - 16 gamma / (3 pi) besides with 26. So it is halved
+// at gamma pi / 8, it stays at pi / 6, and corners leave a ninth of it there.
+TEST(HardCase, ACheckerboardOfHeatIsDamped) {
+  struct {
+    int neighbours, face;  // 65536 gamma / pi
+    double factor;
+  } const cases[] = {{6, 8191, -0.5},       {18, 8191, -0.5}, {26, 8191, -1 / 6.0}, {6, 10922, -1},
+                     {26, 10922, -1 / 9.0}, {6, 5461, 0},     {18, 5461, 0}};
+  for (const auto& c : cases) {
+    Parameters p = paper_showcase();
+    p.heat.enabled = true;
+    p.heat.neighbours = c.neighbours;
+    p.heat.weight_face = static_cast<std::uint16_t>(c.face);
+    p.heat.weight_edge = static_cast<std::uint16_t>(c.face / 2);
+    p.heat.weight_corner = static_cast<std::uint16_t>(c.face / 3);
+    p.material.melting_point = 65535;
+    Volume v(Grid{9, 9, 9});
+    for_each(whole(v.grid),
+             [&](int x, int y, int z) { put_solid(v, x, y, z, kOne, (x + y + z) % 2 == 0 ? 60000 : 0); });
+    run::Simulation s = simulate(p, v);
+    s.step();
+    const double swing = s.volume().heat[v.at(4, 4, 4)] - 30000.0;
+    EXPECT_NEAR(swing / 30000, c.factor, 0.001) << c.neighbours << " neighbours, face " << c.face;
+  }
+}
+
 // A cell melts at exactly the melting point, and one unit below it does not. The same holds with latent heat.
 TEST(HardCase, MeltsAtExactlyTheMeltingPoint) {
   for (const int latent : {0, 20000}) {

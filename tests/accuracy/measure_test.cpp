@@ -88,9 +88,11 @@ TEST(Measure, SecondMomentOfHeat) {
   EXPECT_NEAR(heat_second_moment(v), 108, 0.1);
 }
 
-// Melting point 1,000, latent heat 4,000: cold, half, all, more than all.
+// Melting point 1,000, latent heat 4,000: cold, half, all, more than all; a hot wall does not count.
 TEST(Measure, MeltedCells) {
-  Volume v(Grid{1, 4, 1});
+  Volume v(Grid{1, 5, 1});
+  put_inert(v, 0, 4, 0);
+  v.heat[v.at(0, 4, 0)] = 9000;
   const double heat[] = {500, 3000, 5000, 9000};
   for (int y = 0; y < 4; ++y) put_solid(v, 0, y, 0, heat[y]);
   EXPECT_DOUBLE_EQ(melted_cells(v, 1000, 4000), 2.5);

@@ -205,6 +205,52 @@ class Commands(unittest.TestCase):
         for command in commands:
             self.assertIn("--", self.good(command, "--help"))
 
+    def warnings(self, *arguments):
+        """Of a digest: those on stderr, which are those of the report; and the report."""
+        result = voxmelt("digest", *arguments, "--report", "w.json", cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        report = json.loads((self.folder / "w.json").read_text())
+        said = [line[len("warning: "):] for line in result.stderr.splitlines() if line.startswith("warning: ")]
+        self.assertEqual(report["warnings"], said)
+        return said, report
+
+    # A vent brings more than flows away. Its column fills to the top of the grid, and then each cell of it. Under
+    # a lid the same is a conduit under pressure.
+    def test_a_needle_over_a_vent_is_warned_of(self):
+        vent = """[grid]
+size = [9, 16, 9]
+[[vent]]
+at = [4.5, 1.5, 4.5]
+radius = 2
+rate = 1
+[flow]
+law = "viscous"
+[flow.viscous]
+kappa = 20
+"""
+        lid = "[[inert]]\nshape = \"box\"\nsize = [9, 1, 9]\nat = [4.5, 15.5, 4.5]\n"
+        for more, expected in (("", 1), (lid, 0)):
+            scene = write(self.folder, vent + more, "vent.toml")
+            said, _ = self.warnings(scene, "--steps", 120)
+            self.assertEqual(len(said), expected, said)
+        for line in self.warnings(write(self.folder, vent, "vent.toml"), "--steps", 120)[0]:
+            self.assertRegex(line, r"^liquid presses against the top of the grid: cell \(\d, \d+, \d\) held \d+\.\d+ ")
+        self.assertEqual(self.warnings(scene, "--set", "vent.0.rate=0.01", "--steps", 20)[0], [])
+
+    # Power 4000 at 10 cells is 40 ranges per step, 640 times what a cell takes up. The number of cuts is that of the
+    # lit cells and the steps of visibility, whoever computes it.
+    def test_irradiance_that_is_cut_is_counted_and_warned_of(self):
+        counts = set()
+        for more in (["--implementation", "reference"], ["--threads", 2], ["--threads", 1]):
+            said, report = self.warnings(self.scene, "--steps", 1, "--set", "heat_source.0.power=4000", *more)
+            counts.add(report["irradiance_capped"])
+            self.assertEqual(len(said), 1, said)
+            self.assertTrue(said[0].startswith(f"irradiance was cut {report['irradiance_capped']} times"), said)
+        self.assertEqual(len(counts), 1)
+        self.assertGreater(counts.pop(), 10)
+        said, report = self.warnings(self.scene, "--steps", 1, "--set", "heat_source.0.power=1")
+        self.assertEqual((said, report["irradiance_capped"]), ([], 0))
+
     def test_an_interrupted_run_keeps_what_it_made(self):
         process = subprocess.Popen([PROGRAM, "run", self.scene, "--steps", "4000000", "--quiet", "--frame-every", "0"],
                                    cwd=self.folder)

@@ -70,6 +70,7 @@ TEST(HeatFaults, Source) {
 TEST(HeatFaults, Conduction) {
   for (const Fault fault : {Fault::conduction_sign, Fault::conduction_dither, Fault::conduction_stale_row})
     expect_struck({fault, step::Phase::heat, heat_of, {"conduction", "edges", "corners"}});
+  expect_struck({Fault::wall_drifts, step::Phase::heat, heat_of, {"conduction", "edges", "corners"}});
   expect_struck({Fault::distant_wrong_axis, step::Phase::heat, heat_of, {"edges", "corners"}});
 }
 

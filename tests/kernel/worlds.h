@@ -128,7 +128,9 @@ inline std::string broken_invariant(const Volume& v, const Parameters& p) {
     if (liquid != (!solid && !inert && v.amount[i] > 0)) fails("liquid is not what is defined");
     if (v.energy[i] > v.amount[i]) fails("E > A");
     if (v.energy[i] > 0 && (!liquid || p.flow.law == rule::Law::viscous)) fails("energy where none may be");
-    if (v.heat[i] > 0 && ((!solid && !liquid) || !p.heat.enabled)) fails("heat where none may be");
+    if (v.heat[i] > 0 && !(solid || liquid || (inert && p.heat.walls))) fails("heat where none may be");
+    if (v.heat[i] > 0 && v.amount[i] == 0) fails("heat of nothing");
+    if (v.heat[i] > 0 && !p.heat.enabled) fails("heat in a scene without it");
   });
   return broken;
 }

@@ -99,7 +99,7 @@ TEST_F(Library, LedgersAddUpToWhatIsThere) {
   check(books.energy, energy,
         {"melted", "added", "removed", "reheated", "accelerated", "dissipated", "capped"});
   check(books.heat, heat,
-        {"conducted", "convected", "radiated", "warmed", "cooled", "added", "removed", "rounded"});
+        {"conducted", "walls", "convected", "radiated", "warmed", "cooled", "added", "removed", "rounded"});
 
   Ledgers broken = books;
   broken.heat.held += 1;
@@ -116,7 +116,7 @@ TEST_F(Library, TermsHaveTheirSigns) {
   e.melted = 2, e.added = 3, e.removed = 4, e.reheated = 5, e.accelerated = 6, e.dissipated = 7, e.capped = 8;
   state::HeatLedger& h = ledger.heat;
   h.conducted = 2, h.convected = 3, h.radiated = 4, h.warmed = 5, h.cooled = 6, h.added = 7, h.removed = 8;
-  h.rounded = 9;
+  h.rounded = 9, h.walls = 10;
   const Ledgers books = library::to_ledgers(ledger, {.solid = 10, .liquid = 20, .energy = 30, .heat = 40});
   const auto text = [](const Ledger& one) {
     std::string all = to_string(one.start) + " ";
@@ -126,8 +126,9 @@ TEST_F(Library, TermsHaveTheirSigns) {
   EXPECT_EQ(text(books.mass), "1 added 2 removed -3 30");
   EXPECT_EQ(text(books.energy),
             "1 melted 2 added 3 removed -4 reheated 5 accelerated 6 dissipated -7 capped -8 30");
-  EXPECT_EQ(text(books.heat),
-            "1 conducted 2 convected 3 radiated 4 warmed 5 cooled -6 added 7 removed -8 rounded 9 40");
+  EXPECT_EQ(
+      text(books.heat),
+      "1 conducted 2 walls 10 convected 3 radiated 4 warmed 5 cooled -6 added 7 removed -8 rounded 9 40");
 }
 
 TEST_F(Library, OverridesThreadsAndSteps) {

@@ -22,6 +22,7 @@ class Fields:
         self.most = dice.choice((ONE, ONE, 2 * ONE, AMOUNT_MOST))
         self.hostile = dice.choice((0.05, 0.3, 0.8))
         self.weights = [dice.random() for _ in range(4)]
+        self.walls = dice.random() < 0.3  # isothermal ones
         self.layered, self.blocked = dice.random() < 0.5, dice.random() < 0.4
         self.fill()
 
@@ -54,6 +55,7 @@ class Fields:
         energy = heat = 0
         if kind == "inert":  # a bed offset
             amount = self.dice.choice((0, 2047, 2048, 2049, 4095, self.dice.randint(0, 4095)))
+            heat = self.one_of(self.heats, 0, HEAT_MOST) if self.walls and amount else 0
         if kind in ("solid", "liquid"):
             amount, heat = amount or self.one_of(self.amounts, 1, self.most), self.one_of(self.heats, 0, HEAT_MOST)
         if kind == "liquid":

@@ -50,7 +50,7 @@ KEYS = {
     "material.latent_heat": Key(0, 1, 0.0, 0.3, 1 / 65535),
     "start.step": Key(0, LAST_START, 0, 2048, *range(LAST_START - 21, LAST_START, 3), 2**16 - 9, 2**16 - 1, 2**16, 2**24 - 5),
     "heat.neighbours": Choice(6, 18, 26),
-    "heat.gamma": Key(TINY, 0.5236, 0.02, 0.5, math.pi / 65536),
+    "heat.gamma": Key(0, 0.5236, 0.02, 0.5, math.pi / 65536),
     "heat.convection": Key(0, 0.5, 0.01, 0.4, 1 / 65536),
     "heat.visibility_every": Key(1, 1024, 1, 4, 2, 1023),
     "heat.rays_per_face": Choice(1, 4, 16),
@@ -104,6 +104,7 @@ KEYS = {
     "drain.until": Key(1, LAST_STEP, 10, 40, 2**31 - 1, 2**31, LAST_STEP - 1),
     "solid.temperature": TEMPERATURE,
     "liquid.temperature": TEMPERATURE,
+    "inert.temperature": TEMPERATURE,
     "liquid.amount": Key(TINY, 15, 0.2, 3.0, 1 / 4096, 1, 4097 / 4096),
     "liquid.energy": Key(0, 15, 0.1, 1.0, 1 / 4096),
 }

@@ -67,6 +67,8 @@ class Maker:
 
     def material(self):
         material = self.some("material", "melting_point", "latent_heat", given=0.8)
+        if self.wanted == "inert.temperature":
+            material.pop("latent_heat", None)  # with it, a wall is at most as hot as the hottest liquid
         room = 1 - material.get("melting_point", 0.5)
         if material.get("latent_heat", 0) == 1:
             material["melting_point"] = TINY
@@ -143,6 +145,11 @@ class Maker:
             paper["share"] = self.draw(f"flow.paper.share ({neighbours} neighbours)")
         return paper
 
+    def wall(self, latent_heat):
+        """Some inert shapes have a temperature."""
+        most = max(0, math.floor((1 - latent_heat) * HEAT_MOST) - 1) / HEAT_MOST if latent_heat else 1
+        return {key: min(most, value) for key, value in self.some("inert", "temperature", given=0.4).items()}
+
     def shape(self, kind):
         if kind == "inert" and self.chance(0.4):
             return {"shape": "floor", "thickness": self.dice.randint(1, max(1, self.size[1] // 2))}
@@ -161,7 +168,7 @@ class Maker:
 
     def scene(self):
         scene = {"title": "foreign", "grid": {"size": self.size}, "run": self.some("run", "seed"), "material": self.material()}
-        by_shapes = self.gives("solid", 0) or self.gives("liquid", 0.1)
+        by_shapes = self.gives("solid", 0) or self.gives("inert", 0) or self.gives("liquid", 0.1)
         if not by_shapes:
             scene["start"] = {"fields": "fields", **self.some("start", "step", given=0.8)}
             self.first = scene["start"].get("step", 0)
@@ -177,6 +184,8 @@ class Maker:
         if by_shapes:
             for kind in ("solid", "liquid", "inert"):
                 scene[kind] = [self.shape(kind) for _ in range(self.dice.randint(1, 3))]
+            for shape in scene["inert"]:
+                shape.update(self.wall(scene["material"].get("latent_heat", 0)))
         return scene
 
 

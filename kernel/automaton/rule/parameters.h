@@ -39,6 +39,7 @@ struct Heat {
   std::uint16_t weight_edge = 0;    // l^2 = 2
   std::uint16_t weight_corner = 0;  // l^2 = 3
   std::uint16_t convection = 0;     // upward exchange in liquid, 1/65536, at most 32767; 0 is off
+  bool walls = false;               // isothermal walls: inert cells whose heat is not 0
   bool radiation = false;           // point sources present
   std::uint32_t visibility_every = 8;
   int rays_per_face = 1;  // 1, 4 or 16: from the centres of equal squares

@@ -53,6 +53,7 @@ struct EnergyTerms {
 template <class Number>
 struct HeatTerms {
   Number conducted = 0;  // pair flows between cells of different amount change the sum of amount x heat
+  Number walls = 0;      // conducted from isothermal walls, less what was conducted to them
   Number convected = 0;  // the same for convection in liquid
   Number radiated = 0;   // from point sources
   Number warmed = 0;     // gained from air
@@ -63,11 +64,11 @@ struct HeatTerms {
 
   static constexpr auto table() {
     using Row = Term<HeatTerms, Number>;
-    return std::array{
-        Row{"conducted", +1, &HeatTerms::conducted}, Row{"convected", +1, &HeatTerms::convected},
-        Row{"radiated", +1, &HeatTerms::radiated},   Row{"warmed", +1, &HeatTerms::warmed},
-        Row{"cooled", -1, &HeatTerms::cooled},       Row{"added", +1, &HeatTerms::added},
-        Row{"removed", -1, &HeatTerms::removed},     Row{"rounded", +1, &HeatTerms::rounded}};
+    return std::array{Row{"conducted", +1, &HeatTerms::conducted}, Row{"walls", +1, &HeatTerms::walls},
+                      Row{"convected", +1, &HeatTerms::convected}, Row{"radiated", +1, &HeatTerms::radiated},
+                      Row{"warmed", +1, &HeatTerms::warmed},       Row{"cooled", -1, &HeatTerms::cooled},
+                      Row{"added", +1, &HeatTerms::added},         Row{"removed", -1, &HeatTerms::removed},
+                      Row{"rounded", +1, &HeatTerms::rounded}};
   }
   friend bool operator==(const HeatTerms&, const HeatTerms&) = default;
 };

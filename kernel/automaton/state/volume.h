@@ -1,11 +1,13 @@
 // The state of a volume: three bit-packed masks and three 16-bit fields, all [z][y][x], x fastest.
 //
 //   solid   meltable solid; amount is its mass (a full cell holds kOne; a surface cell its covered part)
-//   inert   never melts and never moves; its amount is the bed offset (kBedHalf: flat), no mass
+//   inert   never melts and never moves; its amount is the bed offset (kBedHalf: flat), no mass; with heat
+//           above 0 it is an isothermal wall, which keeps its temperature
 //   liquid  exactly the cells that are neither and hold amount > 0
 //
-// A cell with neither solid nor liquid has energy 0 and heat 0. An empty cell has amount 0 too. What a scene
-// does not use (energy, heat) takes no memory, nor does what is empty.
+// A cell with neither solid nor liquid has energy 0 and, unless it is such a wall, heat 0. An empty cell has
+// amount 0 too. A cell of amount 0 has no heat, so the bed offset of a wall is at least 1. What a scene does
+// not use (energy, heat) takes no memory, nor does what is empty.
 #pragma once
 
 #include <cstdint>

@@ -45,15 +45,15 @@ void HeatFlow::heat(const Job& job, bool new_irradiance, Tiles& changed, simd::B
   wake(job, new_irradiance);
   const bool later = job.kernels.conduct_edges || job.kernels.conduct_corners || job.kernels.convect;
   if (job.kernels.conduct_faces) {
-    conduct_faces(job);
+    with_walls(job, job.kernels.face_walls, [&] { conduct_faces(job); });
     end_pass(job, later);
   }
   if (job.kernels.conduct_edges) {
-    conduct_distant(job, false);
+    with_walls(job, job.kernels.edge_walls, [&] { conduct_distant(job, false); });
     end_pass(job, true);
   }
   if (job.kernels.conduct_corners) {
-    conduct_distant(job, true);
+    with_walls(job, job.kernels.corner_walls, [&] { conduct_distant(job, true); });
     end_pass(job, true);
   }
   if (job.kernels.convect) {
@@ -152,6 +152,32 @@ void HeatFlow::call(int z, Worker& worker, const Call& kernel) {
   restless_.tidy(z);
   moved_.add(z, worker.moved.data());
   for_melt_.add(z, worker.hot.data());
+}
+
+// What walls give depends on the heats before the pass.
+template <class Pass>
+void HeatFlow::with_walls(const Job& job, const simd::WallKernels& walls, const Pass& pass) {
+  if (!walls.find) return pass();
+  if (wall_gains_.empty()) {
+    const state::Grid grid{job.view.nx, job.view.ny, job.view.nz};
+    wall_gains_ = Slice(grid);
+    wall_cells_ = state::BitPlane(grid);
+  }
+  const simd::WallGains gains{wall_gains_.data(), wall_cells_.data()};
+  const auto each_slice = [&](const auto& visit) {
+    job.workers.run(chunks_.count(), [&](int chunk) {
+      for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z)
+        if (awake_.any(z)) visit(z, chunk_[static_cast<std::size_t>(chunk)]);
+    });
+  };
+  each_slice(
+      [&](int z, Worker&) { walls.find(job.view, job.step, z, awake_.slice(z), gains, restless_.edit(z)); });
+  pass();
+  each_slice([&](int z, Worker& worker) {
+    call(z, worker, [&](const simd::HeatTiles& found) {
+      walls.add(job.view, job.step, z, awake_.slice(z), gains, found, worker.books);
+    });
+  });
 }
 
 void HeatFlow::conduct_faces(const Job& job) {

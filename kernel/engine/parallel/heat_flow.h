@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/automaton/state/bit_plane.h"
 #include "kernel/automaton/state/field.h"
 #include "kernel/engine/parallel/chunks.h"
 #include "kernel/engine/parallel/job.h"
@@ -47,6 +48,8 @@ class HeatFlow {
   void sweep(const Job& job, const Visit& visit);
   template <class Call>
   void call(int z, Worker& worker, const Call& kernel);
+  template <class Pass>
+  void with_walls(const Job& job, const simd::WallKernels& walls, const Pass& pass);
   void conduct_faces(const Job& job);
   void conduct_distant(const Job& job, bool corners);
   void convect(const Job& job);
@@ -56,6 +59,8 @@ class HeatFlow {
   cpu::Turns sweep_turns_, melt_turns_;
   Tiles stale_, taken_, awake_, restless_, moved_, for_melt_;
   std::vector<Worker> chunk_, cut_;
+  Slice wall_gains_;            // of the whole grid; empty where a scene has no isothermal walls
+  state::BitPlane wall_cells_;  // that touch one
 };
 
 }  // namespace voxmelt::parallel

@@ -23,6 +23,10 @@ class Cells {
   bool matter(int x, int y, int z) const {
     return !outside(x, y, z) && (v_.solid.test(x, y, z) || v_.liquid.test(x, y, z));
   }
+  // An inert cell of fixed temperature.
+  bool isothermal(int x, int y, int z) const {
+    return !outside(x, y, z) && v_.inert.test(x, y, z) && heat(x, y, z) > 0;
+  }
   bool air(int x, int y, int z) const { return !blocked(x, y, z) && !v_.liquid.test(x, y, z); }
 
   state::Slot at(int x, int y, int z) const { return v_.at(x, y, z); }

@@ -1,5 +1,5 @@
-// Phase `heat`: conduction (Eq. 1) in one pass per neighbour distance, convection in liquid, then radiation
-// received and exchange with air, cell by cell.
+// Phase `heat`: conduction (Eq. 1) among matter and from isothermal walls in one pass per neighbour distance,
+// convection in liquid, then radiation received and exchange with air, cell by cell.
 #include "kernel/automaton/rule/heat.h"
 
 #include <cstddef>
@@ -13,37 +13,38 @@
 namespace voxmelt::scalar {
 namespace {
 
-// Makes one pass over a set of axes. Returns the change of the sum of amount x heat.
-std::int64_t conduct(std::span<const rule::Offset> axes, std::int32_t weight, std::uint32_t step,
-                     const rule::Material& material, const ActiveRows& rows, state::Volume& volume,
-                     state::Field<std::uint16_t>& next) {
+// Makes one pass over a set of axes. Books the changes of the sum of amount x heat.
+void conduct(std::span<const rule::Offset> axes, std::int32_t weight, std::uint32_t step,
+             const rule::Material& material, const ActiveRows& rows, state::Volume& volume,
+             state::Field<std::uint16_t>& next, state::HeatLedger& ledger) {
   const Cells cells(volume);
   const int parts = static_cast<int>(axes.size());
   next = volume.heat;
-  std::int64_t change = 0;
 
   rows.for_each([&](int x, int y, int z) {
     if (!cells.matter(x, y, z)) return;
     const std::int32_t own = rule::temperature_of(cells.heat(x, y, z), material);
-    std::int32_t gain = 0;
+    std::int32_t from_matter = 0, from_walls = 0;
+    // flux(temperature there) is what the cell gains.
+    const auto neighbour = [&](int nx, int ny, int nz, const auto& flux) {
+      const bool wall = cells.isothermal(nx, ny, nz);
+      if (!wall && !cells.matter(nx, ny, nz)) return;
+      (wall ? from_walls : from_matter) += flux(rule::temperature_of(cells.heat(nx, ny, nz), material));
+    };
     for (int part = 0; part < parts; ++part) {
       const rule::Offset d = axes[static_cast<std::size_t>(part)];
       const std::int32_t offset = rule::dither(step, part, parts);
-      if (cells.matter(x + d.dx, y + d.dy, z + d.dz)) {
-        const std::int32_t there = rule::temperature_of(cells.heat(x + d.dx, y + d.dy, z + d.dz), material);
-        gain += rule::conducted(own, there, weight, offset);
-      }
-      if (cells.matter(x - d.dx, y - d.dy, z - d.dz)) {
-        const std::int32_t there = rule::temperature_of(cells.heat(x - d.dx, y - d.dy, z - d.dz), material);
-        gain -= rule::conducted(there, own, weight, offset);
-      }
+      neighbour(x + d.dx, y + d.dy, z + d.dz,
+                [&](std::int32_t there) { return rule::conducted(own, there, weight, offset); });
+      neighbour(x - d.dx, y - d.dy, z - d.dz,
+                [&](std::int32_t there) { return -rule::conducted(there, own, weight, offset); });
     }
     const state::Slot i = cells.at(x, y, z);
-    next[i] = static_cast<std::uint16_t>(volume.heat[i] + gain);
-    change += std::int64_t{gain} * volume.amount[i];
+    next[i] = static_cast<std::uint16_t>(volume.heat[i] + from_matter + from_walls);
+    ledger.conducted += std::int64_t{from_matter} * volume.amount[i];
+    ledger.walls += std::int64_t{from_walls} * volume.amount[i];
   });
   std::swap(volume.heat, next);
-  return change;
 }
 
 std::int64_t convect(std::int32_t weight, std::uint32_t step, const rule::Material& material,
@@ -85,13 +86,13 @@ void Reference::heat(std::uint32_t step, const step::Irradiance* irradiance, Vol
   const ActiveRows rows(volume);
   state::Field<std::uint16_t>& next = next_.heat;
 
-  // Conduction among solid and liquid, nearest neighbours first.
-  state::Sum& conducted = ledger.heat.conducted;
-  conducted += conduct(rule::kFaceAxes, heat.weight_face, step, material, rows, volume, next);
-  if (heat.neighbours >= 18)
-    conducted += conduct(rule::kEdgeAxes, heat.weight_edge, step, material, rows, volume, next);
-  if (heat.neighbours >= 26)
-    conducted += conduct(rule::kCornerAxes, heat.weight_corner, step, material, rows, volume, next);
+  // Conduction, nearest neighbours first.
+  const auto pass = [&](std::span<const rule::Offset> axes, std::int32_t weight) {
+    conduct(axes, weight, step, material, rows, volume, next, ledger.heat);
+  };
+  pass(rule::kFaceAxes, heat.weight_face);
+  if (heat.neighbours >= 18) pass(rule::kEdgeAxes, heat.weight_edge);
+  if (heat.neighbours >= 26) pass(rule::kCornerAxes, heat.weight_corner);
 
   if (heat.convection > 0)
     ledger.heat.convected += convect(heat.convection, step, material, rows, volume, next);

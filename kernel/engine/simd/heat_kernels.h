@@ -6,6 +6,7 @@
 #include "kernel/engine/simd/distant_conduction.h"
 #include "kernel/engine/simd/exchange.h"
 #include "kernel/engine/simd/melt.h"
+#include "kernel/engine/simd/wall_conduction.h"
 
 namespace voxmelt::simd {
 
@@ -24,6 +25,22 @@ void conduct_distant_slice(const View& view, const Step& step, int z, const OldH
                            const TileRow* tiles, const HeatTiles& found, Books& books) {
   books.heat.conducted += DistantConduction<Arch, kLatent, Axes>(view, step, z, old).run(tiles, found);
 }
+
+template <class Arch, bool kLatent, class Axes>
+void find_wall_gains_slice(const View& view, const Step& step, int z, const TileRow* tiles,
+                           const WallGains& gains, TileRow* restless) {
+  WallConduction<Arch, kLatent, Axes>(view, step, z, gains).find(tiles, restless);
+}
+
+template <class Arch, bool kLatent, class Axes>
+void add_wall_gains_slice(const View& view, const Step& step, int z, const TileRow* tiles,
+                          const WallGains& gains, const HeatTiles& found, Books& books) {
+  books.heat.walls += WallConduction<Arch, kLatent, Axes>(view, step, z, gains).add(tiles, found);
+}
+
+template <class Arch, bool kLatent, class Axes>
+constexpr WallKernels kWallKernels{find_wall_gains_slice<Arch, kLatent, Axes>,
+                                   add_wall_gains_slice<Arch, kLatent, Axes>};
 
 template <class Arch, bool kLatent>
 void convect_slice(const View& view, const Step& step, int z, const TileRow* tiles, HeatFlux& flux,
@@ -50,6 +67,11 @@ void choose_latent_kernels(const rule::Heat& heat, Kernels& kernels) {
     kernels.conduct_edges = conduct_distant_slice<Arch, kLatent, EdgeAxes<Arch>>;
   if (kBuilt.corners && heat.neighbours >= 26 && heat.weight_corner > 0)
     kernels.conduct_corners = conduct_distant_slice<Arch, kLatent, CornerAxes<Arch>>;
+  if (kBuilt.walls && heat.walls) {
+    kernels.face_walls = kWallKernels<Arch, kLatent, FaceAxes<Arch>>;
+    kernels.edge_walls = kWallKernels<Arch, kLatent, EdgeAxes<Arch>>;
+    kernels.corner_walls = kWallKernels<Arch, kLatent, CornerAxes<Arch>>;
+  }
   if (kBuilt.convection && heat.convection > 0) kernels.convect = convect_slice<Arch, kLatent>;
   const bool air = kBuilt.air && heat.air && heat.air_exchange > 0;
   const bool radiation = kBuilt.radiation && heat.radiation;

@@ -145,6 +145,22 @@ inline constexpr std::size_t kSettleGroup = 4, kSettleRecord = 1216;
          (kSettleGroup * static_cast<std::size_t>(ny) * sizeof(std::uint64_t) + 63) / 64 * 64;
 }
 
+// What cells take from isothermal walls in a pass of conduction: written by `find`, read by `add`. Laid out
+// like heats and masks.
+struct WallGains {
+  std::uint16_t* gain = nullptr;
+  std::uint64_t* cells = nullptr;  // that touch a wall
+};
+
+// Null where a scene has no walls. `find` is for all slices before the pass, and `add` for all slices after
+// it, with the same tiles.
+struct WallKernels {
+  void (*find)(const View&, const Step&, int z, const TileRow* tiles, const WallGains&,
+               TileRow* restless) = nullptr;
+  void (*add)(const View&, const Step&, int z, const TileRow* tiles, const WallGains&, const HeatTiles&,
+              Books&) = nullptr;
+};
+
 // The paper law works on one tile row r of one slice z; `work` and what it returns are sets of its tiles. The
 // others work on whole slices.
 struct Kernels {
@@ -172,6 +188,8 @@ struct Kernels {
                         const HeatTiles&, Books&) = nullptr;
   void (*conduct_corners)(const View&, const Step&, int z, const OldHeat& old, const TileRow* tiles,
                           const HeatTiles&, Books&) = nullptr;
+  // Around each of these three.
+  WallKernels face_walls, edge_walls, corner_walls;
   // Convection in the columns of slice z; uses HeatFlux::up.
   void (*convect)(const View&, const Step&, int z, const TileRow* tiles, HeatFlux&, const HeatTiles&,
                   Books&) = nullptr;

@@ -15,17 +15,17 @@ class Provider {
   virtual ~Provider() = default;
 
   // Fills one UQ12.4 irradiance per cell; 0 for every cell that is not a lit surface cell. `result` has the
-  // size of the volume.
-  virtual void irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
-                          state::Field<std::uint16_t>& result) = 0;
+  // size of the volume. Returns how often a cell was cut at the largest irradiance, once for each source.
+  virtual std::int64_t irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
+                                  state::Field<std::uint16_t>& result) = 0;
 };
 
 // The exact integer walk through the voxels: the definition.
 class VoxelWalkProvider final : public Provider {
  public:
   explicit VoxelWalkProvider(int threads = 1) : workers_(threads) {}
-  void irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
-                  state::Field<std::uint16_t>& result) override;
+  std::int64_t irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
+                          state::Field<std::uint16_t>& result) override;
 
  private:
   cpu::Workers workers_;

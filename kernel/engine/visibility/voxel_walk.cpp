@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -48,7 +49,7 @@ int seeing(const state::Volume& volume, Cell cell, std::size_t axis, Cell beyond
   return count;
 }
 
-// The sum, over the rays that see the source, of delta along the axis of their face (its magnitude).
+// The sum, over the rays that see the source, of |delta| along the axis of their face.
 std::int64_t facing(const state::Volume& volume, Cell cell, const std::array<std::int64_t, 3>& delta,
                     int side, rule::Position source) {
   std::int64_t sum = 0;
@@ -65,10 +66,11 @@ std::int64_t facing(const state::Volume& volume, Cell cell, const std::array<std
 
 }  // namespace
 
-void VoxelWalkProvider::irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
-                                   state::Field<std::uint16_t>& result) {
+std::int64_t VoxelWalkProvider::irradiance(const state::Volume& volume, const rule::Heat& heat,
+                                           std::uint32_t step, state::Field<std::uint16_t>& result) {
   const state::Grid g = volume.grid;
   result.clear();
+  std::atomic<std::int64_t> cuts = 0;
   const int rays = heat.rays_per_face;
   const int side = rays == 16 ? 4 : rays == 4 ? 2 : 1;
   for (const rule::PointSource& path : heat.sources) {
@@ -86,6 +88,7 @@ void VoxelWalkProvider::irradiance(const state::Volume& volume, const rule::Heat
       std::uint16_t& cell = result[volume.at(x, y, z)];
       const std::uint64_t sum = cell + rule::irradiance(source.power, sum_facing, rays, squared);
       cell = static_cast<std::uint16_t>(std::min<std::uint64_t>(sum, rule::kIrradianceMax));
+      if (sum > rule::kIrradianceMax) cuts.fetch_add(1, std::memory_order_relaxed);
     };
     workers_.run(g.z, [&](int z) {
       for (int y = 0; y < g.y; ++y) {
@@ -96,6 +99,7 @@ void VoxelWalkProvider::irradiance(const state::Volume& volume, const rule::Heat
       }
     });
   }
+  return cuts;
 }
 
 }  // namespace voxmelt::visibility

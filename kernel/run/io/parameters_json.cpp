@@ -30,6 +30,7 @@ json heat_json(const rule::Heat& heat) {
           {"weight_edge", heat.weight_edge},
           {"weight_corner", heat.weight_corner},
           {"convection", heat.convection},
+          {"walls", heat.walls},
           {"radiation", heat.radiation},
           {"visibility_every", heat.visibility_every},
           {"rays_per_face", heat.rays_per_face},

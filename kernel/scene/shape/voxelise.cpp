@@ -53,6 +53,7 @@ class Voxeliser {
         solid_(grid),
         inert_(grid),
         solid_temperature_(grid),
+        inert_wall_(grid),
         touched_(static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(grid.z)) {}
 
   void add(const Entry& entry, const Coverage& coverage) {
@@ -62,13 +63,16 @@ class Voxeliser {
     for_each_cell(coverage, volume_, [&](state::Slot cell, int samples) {
       if (entry.role == Role::solid && raise(solid_[cell], samples, entry.cut))
         solid_temperature_[cell] = to_temperature(entry.temperature);
-      if (entry.role == Role::inert) raise(inert_[cell], samples, entry.cut);
+      if (entry.role == Role::inert && raise(inert_[cell], samples, entry.cut))
+        write(inert_wall_[cell], entry.wall);
       if (entry.role == Role::liquid) pour(entry, cell, samples);
     });
   }
 
-  state::Volume finish(const Terrain& terrain) {
+  state::Volume finish(const Contents& contents) {
     const state::Grid grid = volume_.grid;
+    const Terrain& terrain = contents.terrain;
+    ground_wall_ = contents.ground_wall;
     std::vector<int> ground(terrain.height.size());
     for (std::size_t c = 0; c < ground.size(); ++c)
       ground[c] = static_cast<int>(std::lround(terrain.height[c]));
@@ -81,10 +85,12 @@ class Voxeliser {
         if (y >= highest && !touched_[row_of(y, z)]) continue;
         for (int x = 0; x < grid.x; ++x) decide(x, y, z, y < first[x]);
       }
-      for (int x = 0; x < grid.x; ++x)
-        if (first[x] > 0)
-          volume_.amount[volume_.at(x, first[x] - 1, z)] =
-              bed(double{terrain.height[columns + static_cast<std::size_t>(x)]} - first[x]);
+      for (int x = 0; x < grid.x; ++x) {
+        if (first[x] == 0) continue;
+        const state::Slot top = volume_.at(x, first[x] - 1, z);
+        const double rise = double{terrain.height[columns + static_cast<std::size_t>(x)]} - first[x];
+        volume_.amount[top] = bed(rise, volume_.heat[top] > 0 ? 1 : 0);
+      }
     }
     return std::move(volume_);
   }
@@ -95,9 +101,15 @@ class Voxeliser {
            static_cast<std::size_t>(y);
   }
 
-  static rule::Amount bed(double fraction) {
+  // Isothermal walls have at least 1: no cell without an amount has heat.
+  static rule::Amount bed(double fraction, long least) {
     const long offset = rule::kBedHalf + std::lround(fraction * rule::kOne);
-    return static_cast<rule::Amount>(std::clamp<long>(offset, 0, rule::kOne - 1));
+    return static_cast<rule::Amount>(std::clamp<long>(offset, least, rule::kOne - 1));
+  }
+
+  // Memory is written only where something changes.
+  static void write(rule::Temperature& heat, rule::Temperature value) {
+    if (heat != value) heat = value;
   }
 
   // It returns true where the coverage has grown.
@@ -130,7 +142,7 @@ class Voxeliser {
   void decide(int x, int y, int z, bool ground) {
     const state::Slot cell = volume_.at(x, y, z);
     rule::Amount& amount = volume_.amount[cell];
-    const bool inert = ground || inert_[cell] >= kLeastInert;
+    const bool shaped = inert_[cell] >= kLeastInert, inert = ground || shaped;
     const bool solid = !inert && solid_[cell] >= kLeastSolid;
     if (inert) amount = rule::kBedHalf;
     if (solid) {
@@ -138,17 +150,22 @@ class Voxeliser {
       volume_.heat[cell] = solid_temperature_[cell];
     }
     const bool liquid = !inert && !solid && amount > 0;
-    // Memory is written only where something changes.
     if (!liquid && volume_.energy[cell] != 0) volume_.energy[cell] = 0;
-    if (!liquid && !solid && volume_.heat[cell] != 0) volume_.heat[cell] = 0;
+    if (!liquid && !solid) write(volume_.heat[cell], wall_at(cell, shaped, ground));
     if (inert) volume_.inert.set(x, y, z, true);
     if (solid) volume_.solid.set(x, y, z, true);
     if (liquid) volume_.liquid.set(x, y, z, true);
   }
 
+  rule::Temperature wall_at(state::Slot cell, bool shaped, bool ground) const {
+    if (shaped && inert_wall_[cell] > 0) return inert_wall_[cell];
+    return ground ? ground_wall_ : rule::Temperature{0};
+  }
+
   state::Volume volume_;
   state::Field<std::uint8_t> solid_, inert_;  // samples covered
-  state::Field<rule::Temperature> solid_temperature_;
+  state::Field<rule::Temperature> solid_temperature_, inert_wall_;
+  rule::Temperature ground_wall_ = 0;
   std::vector<bool> touched_;  // rows in which a shape may be
 };
 
@@ -157,7 +174,7 @@ class Voxeliser {
 state::Volume voxelise(const Contents& contents, state::Grid grid, std::vector<std::string>& warnings) {
   Voxeliser voxeliser(grid);
   for (const Entry& entry : contents.entries) voxeliser.add(entry, cover(entry, grid, warnings));
-  return voxeliser.finish(contents.terrain);
+  return voxeliser.finish(contents);
 }
 
 }  // namespace voxmelt::scene

@@ -8,6 +8,7 @@
 #include "kernel/scene/shape/mesh.h"
 #include "kernel/scene/shape/shape.h"
 #include "kernel/scene/shape/terrain.h"
+#include "kernel/scene/text/units.h"
 
 namespace voxmelt::scene {
 
@@ -21,17 +22,19 @@ struct Entry {
   Mesh mesh;         // placed in the grid
   std::string mesh_file;
   double temperature = 0;         // 0..1
+  rule::Temperature wall = 0;     // inert: its heat content as an isothermal wall; 0: it is none
   double amount = 1, energy = 1;  // liquid: of a fully covered cell
 };
 
 struct Contents {
   std::vector<Entry> entries;
-  Terrain terrain;  // floors and height fields; always nx x nz columns
+  rule::Temperature ground_wall = 0;  // the same for all of the terrain
+  Terrain terrain;                    // floors and height fields; always nx x nz columns
 };
 
 // The cells: solid from coverage 1/16 on (amount = coverage), inert from 1/2 on; inert wins over solid, solid
 // over liquid. The top inert cell of a terrain column holds the height's fraction: kBedHalf + (h - round(h))
-// x kOne.
+// x kOne. An inert shape keeps its temperature inside the ground.
 state::Volume voxelise(const Contents& contents, state::Grid grid, std::vector<std::string>& warnings);
 
 }  // namespace voxmelt::scene

@@ -109,8 +109,10 @@ const step::Implementation kRecorder{"recorder", "", create_recorder};
 
 class Counter final : public visibility::Provider {
  public:
-  void irradiance(const Volume& v, const rule::Heat&, std::uint32_t step, step::Irradiance& result) override {
+  std::int64_t irradiance(const Volume& v, const rule::Heat&, std::uint32_t step,
+                          step::Irradiance& result) override {
     result[v.at(0, 0, 0)] = static_cast<std::uint16_t>(1000 + step);
+    return 3;
   }
 };
 
@@ -178,6 +180,7 @@ TEST(Simulation, VisibilityIsKeptBetweenItsSteps) {
   steps(s, 7);
   for (const Recorder::Call& call : Recorder::calls)
     EXPECT_EQ(call.irradiance, static_cast<int>(1000 + call.step / 3 * 3)) << "step " << call.step;
+  EXPECT_EQ(s.irradiance_capped(), 3 * 3) << "three steps of visibility, with three cuts each";
 }
 
 TEST(Melting, AtExactlyTheMeltingPoint) {

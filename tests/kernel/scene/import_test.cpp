@@ -115,6 +115,20 @@ TEST(Heightfield, FlatGroundHasNoOffset) {
   EXPECT_EQ(scene.initial.amount[scene.initial.at(5, 2, 5)], 2048);
 }
 
+// A surface half a cell below its upper face is offset 0, and as a wall 1: no cell of amount 0 holds heat.
+TEST(Heightfield, AWallHasAnOffset) {
+  const SceneFolder folder;
+  folder.write("h.asc", "ncols 2\nnrows 2\n7 7\n7 7\n");
+  for (const int wall : {0, 1}) {
+    std::vector<std::string> sets{"inert.0.base=2.5", "heat.gamma=0.1"};
+    if (wall) sets.emplace_back("inert.0.temperature=0.5");
+    const Scene scene = folder.load_text(kHillScene, sets);
+    const state::Slot top = scene.initial.at(5, 2, 5);
+    EXPECT_EQ(scene.initial.amount[top], wall);
+    EXPECT_EQ(scene.initial.heat[top], wall * 32768);
+  }
+}
+
 TEST(Heightfield, CellsWithoutDataAreLowestAndSaidSo) {
   const SceneFolder folder;
   folder.write("h.asc", "ncols 2\nnrows 2\nNODATA_value -9999\n5 -9999\n5 5\n");
@@ -261,7 +275,7 @@ TEST(Start, BadFieldsAreRefused) {
   EXPECT_EQ(error("energy", "<u2", std::string(16, '\1')),
             place + ": cell (0, 0, 0) breaks a rule: energy not more than the amount");
   EXPECT_EQ(error("heat", "<u2", std::string(16, '\1')),
-            place + ": cell (0, 0, 0) breaks a rule: no heat without solid or liquid");
+            place + ": cell (0, 0, 0) breaks a rule: no heat without an amount");
   folder.write("fields/inert.npy", "junk");
   EXPECT_EQ(folder.error_of(kStartScene), place + "/inert.npy: not an npy file");
 }

@@ -1,5 +1,6 @@
 // Defaults, units, --set and extends of the scene loader.
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -53,6 +54,52 @@ TEST(Load, WhatASceneDoesNotModelIsNotThere) {
   EXPECT_EQ(holds(heat), std::pair(true, true));
   EXPECT_EQ(holds(""), std::pair(true, false)) << "no heat without [heat]";
   EXPECT_EQ(holds(heat + viscous), std::pair(false, true)) << "no energy under the viscous law";
+}
+
+// The mobility wanted at the hottest entry, temperature 63/64, is 2^4.84375 = 28.7 times that at the
+// reference. The table holds it in units of 16 times. At kappa 71 nothing can be doubled, and it stops at 2.
+TEST(Load, HotLiquidIsAsMobileAsItsLawSays) {
+  const SceneFolder folder;
+  const auto flow = [&](double kappa, const char* law = "viscous") {
+    return folder.load_text(
+        kLeast + "[flow]\nlaw = \"" + law + "\"\n[flow.thermal]\nreference = 0.5\n" + "doubling = 0.1\n" +
+        (law == std::string("viscous") ? "[flow.viscous]\nkappa = " + std::to_string(kappa) + "\n"
+                                       : "[flow.paper]\nshare = " + std::to_string(kappa) + "\n"));
+  };
+  const Scene free = flow(1);
+  EXPECT_TRUE(free.warnings.empty());
+  EXPECT_EQ(free.parameters.flow.viscous.mobility, 16 * 233017u);  // 2^20 x 2/9, rounded
+  for (const auto& [entry, factor] : {std::pair(31, 28.71535), {16, 1.114387}, {8, 0.196998}})
+    EXPECT_NEAR(free.parameters.flow.mobility_table[static_cast<std::size_t>(entry)] / 2048.0, factor,
+                0.0003);
+  const Scene cut = flow(71);
+  ASSERT_EQ(cut.warnings.size(), 1u);
+  EXPECT_EQ(cut.warnings[0],
+            "flow.thermal: the mobility wants to be 28.7 times that at the reference, and stops at 2 times, "
+            "from temperature 0.6 on; kappa times this factor is at most 142");
+  EXPECT_EQ(cut.parameters.flow.mobility_table[31], 65535);
+  // A share of 1/32 may grow to 1/8 before it would exceed 1/5; four times as much is what the rule allows.
+  const Scene paper = flow(1 / 32.0, "paper");
+  EXPECT_TRUE(paper.warnings.empty());
+  EXPECT_EQ(paper.parameters.flow.paper.share, 8192);
+  EXPECT_EQ(paper.parameters.flow.mobility_table[16], 9129);  // 32768 x 1.114387 / 4
+}
+
+// A checkerboard's difference is multiplied by 1 - 12 gamma / pi: -0.910 at gamma 0.5, -0.5 at pi / 8.
+TEST(Load, AGammaThatLetsHeatSwingIsWarnedOf) {
+  const SceneFolder folder;
+  const auto scene = [&](const char* gamma, const char* neighbours) {
+    return folder.load_text(kLeast + "[heat]\ngamma = " + gamma + "\nneighbours = " + neighbours + "\n");
+  };
+  EXPECT_EQ(scene("0.5", "6").warnings,
+            std::vector<std::string>{"heat.gamma = 0.5 is above 0.3927: hot and cold cells that alternate "
+                                     "change places in each step and keep 91 % of their difference"});
+  EXPECT_EQ(scene("0.3928", "18").warnings.size(), 1u);
+  for (const auto& [gamma, neighbours] : {std::pair("0.3926", "6"), {"0.3926", "18"}, {"0.5236", "26"}})
+    EXPECT_TRUE(scene(gamma, neighbours).warnings.empty()) << gamma;
+  const rule::Heat off = scene("0", "26").parameters.heat;
+  EXPECT_EQ(off.weight_face + off.weight_edge + off.weight_corner, 0);
+  EXPECT_TRUE(scene("0", "26").warnings.empty());
 }
 
 // The defaults are written twice: where parameters are declared, and where a table is read.

@@ -136,6 +136,60 @@ shape = "floor"
   }
 }
 
+// A wall of temperature T holds the heat at which matter has that temperature: T up to the melting point,
+// 0.5 (32768), T and the latent heat, 0.25 (16384), above it. 0 is a wall of the least heat; no key, no wall.
+TEST(Voxels, AnInertShapeWithATemperatureIsAWall) {
+  const SceneFolder folder;
+  const Scene scene = folder.load_text(R"(
+[grid]
+size = [5, 4, 1]
+[material]
+latent_heat = 0.25
+[heat]
+[[solid]]
+shape = "box"
+size = [1, 1, 1]
+at = [0.5, 3.5, 0.5]
+[[inert]]
+shape = "floor"
+temperature = 0.5
+[[inert]]
+shape = "box"
+size = [1, 2, 1]
+at = [0.5, 1, 0.5]
+temperature = 0.75
+[[inert]]
+shape = "box"
+size = [1, 1, 1]
+at = [1.5, 1.5, 0.5]
+temperature = 0
+[[inert]]
+shape = "box"
+size = [2, 3, 1]
+at = [3, 1.5, 0.5]
+)");
+  const auto heat = [&](int x, int y) { return scene.initial.heat[scene.initial.at(x, y, 0)]; };
+  EXPECT_TRUE(scene.parameters.heat.walls);
+  EXPECT_EQ(heat(0, 0), 49151 + 16384) << "a shape keeps its temperature inside the ground";
+  EXPECT_EQ(heat(0, 1), 49151 + 16384);
+  EXPECT_EQ(heat(1, 0), 32768);
+  EXPECT_EQ(heat(1, 1), 1);
+  EXPECT_EQ(heat(2, 0), 32768) << "a shape without one leaves the ground's";
+  EXPECT_EQ(heat(2, 1), 0);
+  EXPECT_EQ(heat(4, 1), 0);
+  EXPECT_EQ(scene.features, (std::vector<std::string>{"heat", "walls", "latent_heat", "diagonal"}));
+}
+
+// Without [heat] nothing conducts. The state holds no heat then, and no feature is asked for.
+TEST(Voxels, NoWallWithoutHeat) {
+  const SceneFolder folder;
+  const Scene scene = folder.load_text(
+      "[grid]\nsize = [2, 2, 1]\n[[liquid]]\nshape = \"sphere\"\nradius = 1\n"
+      "[[inert]]\nshape = \"floor\"\ntemperature = 0.9\n");
+  EXPECT_FALSE(scene.parameters.heat.walls);
+  EXPECT_EQ(scene.initial.heat[scene.initial.at(0, 0, 0)], 0);
+}
+
 TEST(Voxels, ThinCoverageIsDropped) {
   const SceneFolder folder;
   const auto solid = [&](const char* thickness) {

@@ -66,6 +66,7 @@ TEST(Ledger, ExpectsTheStartAndEveryTermWithItsSign) {
 
   l.heat.start = 500000000;
   l.heat.conducted = 10000000;
+  l.heat.walls = 3000000000;
   l.heat.convected = 1000000;
   l.heat.radiated = 100000;
   l.heat.warmed = 10000;
@@ -73,7 +74,7 @@ TEST(Ledger, ExpectsTheStartAndEveryTermWithItsSign) {
   l.heat.added = 100;
   l.heat.removed = 10;
   l.heat.rounded = 1;
-  EXPECT_EQ(l.heat.expected(), 511109091);
+  EXPECT_EQ(l.heat.expected(), 3511109091);
 }
 
 // The values distinguish every term from the others, and fit 64 bits.
@@ -81,7 +82,7 @@ LedgerTerms<std::int64_t> some_books() {
   LedgerTerms<std::int64_t> books;
   books.mass = {1, -2};
   books.energy = {3, 4, 5, 6, 7, 8, std::int64_t{1} << 62};
-  books.heat = {-10, 11, 12, 13, 14, 15, 16, -17};
+  books.heat = {-10, 18, 11, 12, 13, 14, 15, 16, -17};
   return books;
 }
 
@@ -100,6 +101,7 @@ TEST(Ledger, BooksEveryTermInItsPlace) {
   EXPECT_EQ(l.energy.dissipated, 24);
   EXPECT_EQ(l.energy.capped, Sum{3} << 62) << "more than 64 bits";
   EXPECT_EQ(l.heat.conducted, -30);
+  EXPECT_EQ(l.heat.walls, 54);
   EXPECT_EQ(l.heat.convected, 33);
   EXPECT_EQ(l.heat.radiated, 36);
   EXPECT_EQ(l.heat.warmed, 39);
@@ -116,7 +118,7 @@ TEST(Ledger, TermsOfManyWorkersAddUp) {
   for (int i = 0; i < 2; ++i) sum += books;
   EXPECT_EQ(sum.mass, (MassTerms<std::int64_t>{2, -4}));
   EXPECT_EQ(sum.energy, (EnergyTerms<std::int64_t>{6, 8, 10, 12, 14, 16, 18}));
-  EXPECT_EQ(sum.heat, (HeatTerms<std::int64_t>{-20, 22, 24, 26, 28, 30, 32, -34}));
+  EXPECT_EQ(sum.heat, (HeatTerms<std::int64_t>{-20, 36, 22, 24, 26, 28, 30, 32, -34}));
 }
 
 // A run that uses every term of the ledgers.
@@ -143,6 +145,9 @@ run::Simulation busy(Case which) {
   p.drains = {{{{16 * 9, 16 * 1, 16 * 6}, 40}, 500, 5, 0xFFFFFFFFu}};
   Volume v(Grid{12, 12, 9});
   for_each({2, 2, 2, 10, 8, 7}, [&](int x, int y, int z) { put_solid(v, x, y, z, 4000, 15000 + 100 * x); });
+  p.heat.walls = true;
+  put_inert(v, 6, 1, 4);
+  v.heat[v.at(6, 1, 4)] = 40000;
   return simulate(p, v);
 }
 
@@ -155,8 +160,8 @@ TEST_P(LedgerOfALaw, BalancesAndEveryTermIsUsed) {
     ASSERT_TRUE(s.drift().none()) << "step " << i;
   }
   const HeatLedger& h = s.ledger().heat;
-  for (const Sum term : {s.ledger().mass.added, s.ledger().mass.removed, h.conducted, h.convected, h.radiated,
-                         h.warmed, h.cooled, h.added, h.removed, h.rounded})
+  for (const Sum term : {s.ledger().mass.added, s.ledger().mass.removed, h.conducted, h.walls, h.convected,
+                         h.radiated, h.warmed, h.cooled, h.added, h.removed, h.rounded})
     EXPECT_NE(term, 0);
   const EnergyLedger& e = s.ledger().energy;
   for (const Sum term : {e.melted, e.added, e.removed, e.reheated})

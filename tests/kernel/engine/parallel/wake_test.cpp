@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "tests/kernel/engine/parallel/equal.h"
@@ -214,6 +215,27 @@ TEST(Sleep, HeatGoesOnInTheSameStep) {
       }
     }
     ASSERT_TRUE(same_asleep(p, start, 10)) << edge;
+  }
+}
+
+// A wall ten units warmer gives one unit in about a hundred steps. Until then nothing changes. The wall lies
+// in another word, tile row or slice, over a face, an edge or a corner.
+TEST(Sleep, AWallGivesWhenItsTimeComes) {
+  for (const auto& [dx, dy, dz] : {std::tuple(1, 0, 0), {0, 1, 0}, {0, 0, 1}, {-1, 0, -1}, {1, -1, 1}}) {
+    Parameters p = paper_showcase();
+    p.heat.enabled = p.heat.walls = true;
+    p.heat.neighbours = 26;
+    p.heat.weight_face = p.heat.weight_edge = p.heat.weight_corner = 60;
+    p.material.melting_point = 65535;
+    Volume v(Grid{130, 18, 4});
+    const int x = dx > 0 ? 63 : 64, y = dy > 0 ? 7 : 8, z = 1;
+    put_solid(v, x, y, z, kOne, 29990);
+    put_inert(v, x + dx, y + dy, z + dz);
+    v.heat[v.at(x + dx, y + dy, z + dz)] = 30000;
+    EXPECT_TRUE(same_asleep(p, v, 300)) << dx << dy << dz;
+    run::Simulation s = simulate(p, v);
+    steps(s, 300);
+    EXPECT_GT(s.volume().heat[v.at(x, y, z)], 29990) << "nothing happened: the test would prove nothing";
   }
 }
 

@@ -29,6 +29,7 @@ inline void hostile_heat_parameters(Random& random, Grid g, Parameters& p) {
   p.heat.weight_face = static_cast<std::uint16_t>(bound ? 10922 : random.below(10923));
   p.heat.weight_edge = static_cast<std::uint16_t>(bound ? 5461 : random.below(5462));
   p.heat.weight_corner = static_cast<std::uint16_t>(bound ? 3640 : random.below(3641));
+  p.heat.walls = p.heat.enabled && random.one_in(3);
   p.heat.convection = static_cast<std::uint16_t>(random.any({0, 1, 20000, 32767}));
   p.heat.air = random.one_in(2);
   p.heat.air_exchange = static_cast<std::uint16_t>(random.any({1, 9000, 37837}));
@@ -119,7 +120,12 @@ inline Volume hostile_volume(Random& random, const Parameters& p, Grid g) {
     const std::int32_t a = hostile_amount(random), h = p.heat.enabled ? hostile_heat(random, p) : 0;
     if (kind < air) return;
     if (kind < air + solid) return put_solid(v, x, y, z, random.one_in(4) ? a : random.between(1, kOne), h);
-    if (kind < air + solid + inert) return put_inert(v, x, y, z, random.any({0, 1, 2048, 4095}));
+    if (kind < air + solid + inert) {
+      const bool wall = p.heat.walls && random.one_in(2);
+      put_inert(v, x, y, z, random.any({wall ? 1 : 0, 1, 2048, 4095}));
+      if (wall) v.heat[v.at(x, y, z)] = static_cast<std::uint16_t>(h);
+      return;
+    }
     const bool energy = p.flow.law == rule::Law::paper;
     put(v, x, y, z, a, energy ? random.any({0, 1, a - 1, a, random.below(a + 1)}) : 0, h);
   });

@@ -83,6 +83,8 @@ class HeatDriver {
     for (const std::unique_ptr<Slice>& slice : saved_) std::fill_n(slice->data(), v_.slice, 0xABCD);
     std::fill_n(row_.data(), v_.row, 0x1234);
     std::fill_n(front_.data(), v_.slice, 0x4321);
+    std::fill_n(wall_gains_.data(), wall_gains_.layout().cells(), 0x2345);
+    std::fill_n(wall_cells_.data(), wall_cells_.words().size(), ~std::uint64_t{0});
   }
 
   const View& view() const { return v_; }
@@ -104,17 +106,33 @@ class HeatDriver {
       changed.add(now);
       work.add_around(now);
     };
+    const auto with_walls = [&](const WallKernels& walls, auto&& conduct) {
+      const TileSet asked = work;
+      const WallGains gains{wall_gains_.data(), wall_cells_.data()};
+      for (int z = v_.nz - 1; walls.find && z >= 0; --z)
+        walls.find(v_, step, z, asked.slice(z), gains, restless.slice(z));
+      conduct();
+      if (walls.add)
+        pass([&](int z, bool, const OldHeat&, const HeatTiles& found) {
+          walls.add(v_, step, z, asked.slice(z), gains, found, books);
+        });
+    };
     if (kernels_.conduct_faces)
-      pass([&](int z, bool first, OldHeat old, const HeatTiles& found) {
-        if (!first) old.below = heats(z - 1);  // it must not need what was saved
-        old.own = nullptr;
-        kernels_.conduct_faces(v_, step, z, old, first ? nullptr : work.slice(z - 1), work.slice(z), flux,
-                               found, books);
+      with_walls(kernels_.face_walls, [&] {
+        pass([&](int z, bool first, OldHeat old, const HeatTiles& found) {
+          if (!first) old.below = heats(z - 1);  // it must not need what was saved
+          old.own = nullptr;
+          kernels_.conduct_faces(v_, step, z, old, first ? nullptr : work.slice(z - 1), work.slice(z), flux,
+                                 found, books);
+        });
       });
-    for (const auto kernel : {kernels_.conduct_edges, kernels_.conduct_corners})
+    for (const auto& [kernel, walls] : {std::pair(kernels_.conduct_edges, kernels_.edge_walls),
+                                        std::pair(kernels_.conduct_corners, kernels_.corner_walls)})
       if (kernel)
-        pass([&](int z, bool, const OldHeat& old, const HeatTiles& found) {
-          kernel(v_, step, z, old, work.slice(z), found, books);
+        with_walls(walls, [&, kernel = kernel] {
+          pass([&](int z, bool, const OldHeat& old, const HeatTiles& found) {
+            kernel(v_, step, z, old, work.slice(z), found, books);
+          });
         });
     if (kernels_.convect)
       pass([&](int z, bool, const OldHeat&, const HeatTiles& found) {
@@ -164,6 +182,8 @@ class HeatDriver {
   parallel::Walls walls_{v_};
   const std::vector<int> cuts_;
   std::unique_ptr<Slice> saved_[2] = {slice_buffer(), slice_buffer()};
+  Slice wall_gains_{{v_.nx, v_.ny, v_.nz}};
+  state::BitPlane wall_cells_{{v_.nx, v_.ny, v_.nz}};
   Slice row_{{v_.nx, 1, 1}}, front_{{v_.nx, v_.ny, 1}};
 };
 

@@ -194,9 +194,15 @@ World sleepy_world(Random& random, Grid grid) {
                   std::min(grid.x, x + random.between(1, 40)),
                   std::min(grid.y, y + random.between(1, 5)),
                   std::min(grid.z, z + random.between(1, 3))};
+    if (p.heat.walls && random.one_in(2)) {
+      put_inert(world.volume, x, y, z);
+      world.volume.heat[world.volume.at(x, y, z)] = static_cast<std::uint16_t>(common);
+      continue;
+    }
     const std::int32_t warmest = common + random.any({0, 0, 0, -1, -40}), layer = random.any({0, 0, 1});
     for_each(box, [&](int cx, int cy, int cz) {
       world.volume.solid.set(cx, cy, cz, false);
+      world.volume.inert.set(cx, cy, cz, false);
       const std::int32_t heat = warmest - layer * (cy % 3);
       if (solid)
         put_solid(world.volume, cx, cy, cz, amount, heat);

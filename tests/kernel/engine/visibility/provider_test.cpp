@@ -137,6 +137,26 @@ TEST(Irradiance, OfACubeSeenFromItsFaceEdgeAndCorner) {
   EXPECT_EQ(from({72 + 160, 72, 72}), 160) << "outside the grid";
 }
 
+// A cell is cut at 65535, and each source that is cut counts. 16000 times four is not cut, nor is exactly
+// 65535; five times 16000 is cut once, six times twice. Power 65535 from one cell away is the limit itself.
+TEST(Irradiance, CutsAreCounted) {
+  Volume v(Grid{9, 9, 9});
+  put_solid(v, 4, 4, 4);
+  state::Field<std::uint16_t> result(v.grid);
+  const auto cuts = [&](std::size_t sources, std::uint64_t at_one_cell) {
+    const Position one_cell_away{72 + 16, 72, 72};
+    return VoxelWalkProvider(2).irradiance(
+        v, lit_by(std::vector<Position>(sources, one_cell_away), 256 * at_one_cell), 0, result);
+  };
+  EXPECT_EQ(cuts(4, 16000), 0);
+  EXPECT_EQ(result[v.at(4, 4, 4)], 64000);
+  EXPECT_EQ(cuts(5, 16000), 1);
+  EXPECT_EQ(result[v.at(4, 4, 4)], 65535);
+  EXPECT_EQ(cuts(6, 16000), 2);
+  EXPECT_EQ(cuts(1, 65535), 0);
+  EXPECT_EQ(cuts(1, 65536), 1);
+}
+
 // A flat surface receives the cosine, at every angle (the source 400 cells away); so do its sides' shadows.
 TEST(Irradiance, AFlatSurfaceReceivesTheCosine) {
   Volume v(Grid{33, 9, 33});
