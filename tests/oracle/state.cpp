@@ -39,8 +39,12 @@ State read_state(const std::string& folder) {
   state.exchanges.resize(count);
   state.listed.resize(count);
   check_all(state, "at the start");
-  for (Int i = 0; i < count; ++i)
+  bool walls = false;
+  for (Int i = 0; i < count; ++i) {
     if (state.matter(i)) state.touch(i);
+    walls = walls || state.isothermal_wall(i);
+  }
+  if (walls != state.parameters.heat.walls) throw Violation("heat.walls, but no isothermal wall");
   open_ledgers(state);
   return state;
 }
