@@ -1,18 +1,27 @@
-"""Start fields full of hostile values, for foreign_scenes.py."""
+"""Start fields: write_fields; and Fields, full of hostile values, for foreign_scenes.py."""
 import struct
 
 ONE, AMOUNT_MOST, HEAT_MOST = 4096, 65535, 65535  # docs/automaton.md, section 1
 KINDS = ("air", "solid", "liquid", "inert")
+CODES = {"solid": "B", "liquid": "B", "inert": "B", "amount": "H", "energy": "H", "heat": "H"}
+
+
+def write_fields(folder, size, fields):
+    """NAME.npy for each name of CODES; the values go by the index of the cell."""
+    for name, code in CODES.items():
+        header = (f"{{'descr': '{'|u1' if code == 'B' else '<u2'}', 'fortran_order': False, "
+                  f"'shape': {tuple(reversed(size))}, }}")
+        header += " " * (-(len(header) + 11) % 64) + "\n"
+        (folder / f"{name}.npy").write_bytes(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
+                                             + struct.pack(f"<{len(fields[name])}{code}", *fields[name]))
 
 
 class Fields:
     """A random start that keeps the invariants of docs/automaton.md, section 1."""
 
-    NAMES = {"solid": "B", "liquid": "B", "inert": "B", "amount": "H", "energy": "H", "heat": "H"}
-
     def __init__(self, scene, dice):
         self.size, self.dice = scene["grid"]["size"], dice
-        self.fields = {name: [] for name in self.NAMES}
+        self.fields = {name: [] for name in CODES}
         material = scene["material"]
         melting_point = round(material.get("melting_point", 0.5) * HEAT_MOST)
         melts = melting_point + round(material.get("latent_heat", 0) * HEAT_MOST)
@@ -66,10 +75,4 @@ class Fields:
 
     def write(self, folder):
         folder.mkdir()
-        for name, code in self.NAMES.items():
-            header = (f"{{'descr': '{'|u1' if code == 'B' else '<u2'}', 'fortran_order': False, "
-                      f"'shape': {tuple(reversed(self.size))}, }}")
-            header += " " * (-(len(header) + 11) % 64) + "\n"
-            values = self.fields[name]
-            (folder / f"{name}.npy").write_bytes(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
-                                                 + struct.pack(f"<{len(values)}{code}", *values))
+        write_fields(folder, self.size, self.fields)

@@ -146,9 +146,9 @@ class Maker:
         return paper
 
     def wall(self, latent_heat):
-        """Some inert shapes have a temperature."""
+        """Some inert shapes have a temperature, unless latent heat leaves no room for it."""
         most = max(0, math.floor((1 - latent_heat) * HEAT_MOST) - 1) / HEAT_MOST if latent_heat else 1
-        return {key: min(most, value) for key, value in self.some("inert", "temperature", given=0.4).items()}
+        return {key: min(most, value) for key, value in self.some("inert", "temperature", given=0.4).items() if most > 0}
 
     def shape(self, kind):
         if kind == "inert" and self.chance(0.4):

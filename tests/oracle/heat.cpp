@@ -24,38 +24,50 @@ Int temperature(const State& state, Int i) {
   return larger(melting_point, h - state.parameters.latent_heat);
 }
 
-// Adds the changes to the cells' heat and empties them; returns the sum of A times change.
-Sum apply_changes(State& state, std::vector<Int>& changes, const char* name) {
-  Sum booked = 0;
+// Adds the changes to the cells' heat and empties them.
+void apply_changes(State& state, std::vector<Int>& changes, const char* name) {
   for (const Int i : state.list) {
-    Cell& cell = state.cells[i];
-    cell.heat += changes[i];
-    booked += cell.amount * changes[i];
+    state.cells[i].heat += changes[i];
     changes[i] = 0;
     check_cell(state, i, name);
   }
-  return booked;
+}
+
+// The cell that is `steps` times the axis away from cell i; -1 outside the grid.
+Int neighbour(const State& state, Int i, const Axis& axis, Int steps) {
+  const Place p = state.place(i);
+  const Int x = p.x + steps * axis.dx, y = p.y + steps * axis.dy, z = p.z + steps * axis.dz;
+  return state.inside(x, y, z) ? state.index(x, y, z) : -1;
 }
 
 void conduct(State& state, const std::vector<Axis>& axes, Int weight, std::vector<Int>& changes) {
   const Int n = static_cast<Int>(axes.size());
   std::vector<Int> offsets;
   for (Int k = 0; k < n; ++k) offsets.push_back(dither(state.step, k, n));
+  HeatLedger& ledger = state.ledgers.heat;
   for (const Int i : state.list) {
     if (!state.matter(i)) continue;
-    const Place p = state.place(i);
+    const Int amount = state.cells[i].amount;
     for (Int k = 0; k < n; ++k) {
-      const Axis& axis = axes[k];
-      const Int x = p.x + axis.dx, y = p.y + axis.dy, z = p.z + axis.dz;
-      if (!state.inside(x, y, z)) continue;
-      const Int j = state.index(x, y, z);
-      if (!state.matter(j)) continue;
-      const Int flow = scaled(temperature(state, j) - temperature(state, i), weight, offsets[k]);
-      changes[i] += flow;
-      changes[j] -= flow;
+      // F of the pair p, q = p + axis k
+      const auto flow = [&](Int p, Int q) {
+        return scaled(temperature(state, q) - temperature(state, p), weight, offsets[k]);
+      };
+      const Int ahead = neighbour(state, i, axes[k], 1), behind = neighbour(state, i, axes[k], -1);
+      if (ahead >= 0 && state.matter(ahead)) {
+        const Int F = flow(i, ahead);
+        changes[i] += F;
+        changes[ahead] -= F;
+        ledger.conducted += (amount - state.cells[ahead].amount) * F;
+      }
+      Int from_walls = 0;
+      if (ahead >= 0 && state.isothermal_wall(ahead)) from_walls += flow(i, ahead);
+      if (behind >= 0 && state.isothermal_wall(behind)) from_walls -= flow(behind, i);
+      changes[i] += from_walls;
+      ledger.walls += amount * from_walls;
     }
   }
-  state.ledgers.heat.conducted += apply_changes(state, changes, "after a pass of conduction");
+  apply_changes(state, changes, "after a pass of conduction");
 }
 
 void convect(State& state, std::vector<Int>& changes) {
@@ -69,8 +81,9 @@ void convect(State& state, std::vector<Int>& changes) {
     const Int flow = scaled(difference, state.parameters.heat.convection, state.offset);
     changes[i] -= flow;
     changes[above] += flow;
+    state.ledgers.heat.convected += (state.cells[above].amount - state.cells[i].amount) * flow;
   }
-  state.ledgers.heat.convected += apply_changes(state, changes, "after convection");
+  apply_changes(state, changes, "after convection");
 }
 
 void radiate(State& state) {

@@ -64,8 +64,8 @@ std::string ledger_lines(const Ledgers& ledgers) {
   return line("ledger mass", {m.start, m.added, m.removed, m.held}) +
          line("ledger energy", {e.start, e.melted, e.added, e.removed, e.reheated, e.accelerated,
                                 e.dissipated, e.capped, e.held}) +
-         line("ledger heat", {h.start, h.conducted, h.convected, h.radiated, h.warmed, h.cooled, h.added,
-                              h.removed, h.rounded, h.held});
+         line("ledger heat", {h.start, h.conducted, h.walls, h.convected, h.radiated, h.warmed, h.cooled,
+                              h.added, h.removed, h.rounded, h.held});
 }
 
 std::string counters_line(const Counters& counters) {

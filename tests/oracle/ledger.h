@@ -22,10 +22,11 @@ struct EnergyLedger {
 };
 
 struct HeatLedger {
-  Sum start = 0, conducted = 0, convected = 0, radiated = 0, warmed = 0, cooled = 0;
+  Sum start = 0, conducted = 0, walls = 0, convected = 0, radiated = 0, warmed = 0, cooled = 0;
   Sum added = 0, removed = 0, rounded = 0, held = 0;
   bool balances() const {
-    return start + conducted + convected + radiated + warmed - cooled + added - removed + rounded == held;
+    return start + conducted + walls + convected + radiated + warmed - cooled + added - removed + rounded ==
+           held;
   }
 };
 

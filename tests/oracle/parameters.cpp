@@ -106,6 +106,7 @@ Heat read_heat(const Json& json, Int ny) {
   heat.weight_edge = integer(json, "weight_edge", 0, 5461);
   heat.weight_corner = integer(json, "weight_corner", 0, 3640);
   heat.convection = integer(json, "convection", 0, 32767);
+  heat.walls = yes(json, "walls");
   heat.radiation = yes(json, "radiation");
   if (heat.radiation) {
     heat.visibility_every = integer(json, "visibility_every", 1, 1024);

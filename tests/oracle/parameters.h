@@ -36,6 +36,7 @@ struct Heat {
   Int neighbours = 6;
   Int weight_face = 0, weight_edge = 0, weight_corner = 0;
   Int convection = 0;
+  bool walls = false;  // the first state has an isothermal wall
   bool radiation = false;
   Int visibility_every = 1;
   Int rays_per_face = 1;

@@ -39,8 +39,12 @@ State read_state(const std::string& folder) {
   state.exchanges.resize(count);
   state.listed.resize(count);
   check_all(state, "at the start");
-  for (Int i = 0; i < count; ++i)
+  bool walls = false;
+  for (Int i = 0; i < count; ++i) {
     if (state.matter(i)) state.touch(i);
+    walls = walls || state.isothermal_wall(i);
+  }
+  if (walls != state.parameters.heat.walls) throw Violation("heat.walls, but no isothermal wall");
   open_ledgers(state);
   return state;
 }
@@ -85,14 +89,20 @@ void check_cell(const State& state, Int i, const char* when) {
     wrong = "a solid without amount";
   else if (cell.solid == 1 && cell.energy != 0)
     wrong = "energy in a solid";
-  else if (!matter && (cell.energy != 0 || cell.heat != 0))
-    wrong = "energy or heat without matter";
+  else if (!matter && cell.energy != 0)
+    wrong = "energy without matter";
+  else if (!matter && cell.inert == 0 && cell.heat != 0)
+    wrong = "heat in air";
+  else if (cell.amount == 0 && cell.heat != 0)
+    wrong = "heat without amount";
   else if (cell.solid == 0 && cell.inert == 0 && cell.liquid != (cell.amount > 0 ? 1 : 0))
     wrong = "liquid is not amount > 0";
   else if (!state.parameters.paper_law && cell.energy != 0)
     wrong = "energy under the viscous law";
   else if (!state.parameters.heat.enabled && cell.heat != 0)
     wrong = "heat without heat.enabled";
+  else if (!state.parameters.heat.walls && state.isothermal_wall(i))
+    wrong = "an isothermal wall without heat.walls";
   if (wrong == nullptr) return;
   const Place p = state.place(i);
   throw Violation("step " + std::to_string(state.step) + ", " + when + ": cell (" + std::to_string(p.x) +

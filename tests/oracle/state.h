@@ -68,6 +68,8 @@ struct State {
   bool matter(Int i) const { return cells[i].solid == 1 || cells[i].liquid == 1; }
   bool blocked(Int i) const { return cells[i].solid == 1 || cells[i].inert == 1; }
 
+  bool isothermal_wall(Int i) const { return cells[i].inert == 1 && cells[i].heat > 0; }
+
   // The border is inert (section 1): blocked, never air.
   bool blocked(Int x, Int y, Int z) const { return !inside(x, y, z) || blocked(index(x, y, z)); }
   bool air(Int x, Int y, Int z) const { return !blocked(x, y, z) && cells[index(x, y, z)].liquid == 0; }
