@@ -38,7 +38,9 @@ def column(*cells, air=0):
 
 # The table at the mean heat of 2047 is that of entry 0: this is what the flank of the last case gets per cell.
 def thermal_flank(parameters):
-    raw = (745654 * parameters["flow"]["mobility_table"][0]) >> 15
+    # A run of two full cells: M = 8192, so that min(M, 2^18)^2 >> 8 is 262144.
+    free = (parameters["flow"]["viscous"]["mobility"] * 262144 + (1 << 23)) >> 24
+    raw = (free * parameters["flow"]["mobility_table"][0]) >> 15
     w = (raw * 8192 + 1024 * 32768) >> 26  # D(1, 0, 4) = 32768
     return [(4096 - w, 2047), (2 * w, 2048), (4096 - w, 2048), (0, 0)]
 

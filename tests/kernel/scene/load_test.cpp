@@ -68,7 +68,7 @@ TEST(Load, HotLiquidIsAsMobileAsItsLawSays) {
   };
   const Scene free = flow(1);
   EXPECT_TRUE(free.warnings.empty());
-  EXPECT_EQ(free.parameters.flow.viscous.mobility, 16 * 233017u);  // 2^20 x 2/9, rounded
+  EXPECT_EQ(free.parameters.flow.viscous.mobility, std::uint64_t{16} * 954437177);  // 2^32 x 2/9, rounded
   for (const auto& [entry, factor] : {std::pair(31, 28.71535), {16, 1.114387}, {8, 0.196998}})
     EXPECT_NEAR(free.parameters.flow.mobility_table[static_cast<std::size_t>(entry)] / 2048.0, factor,
                 0.0003);
