@@ -102,11 +102,12 @@ TEST(Lockstep, CropsOfTheShowcase) {
 }
 
 TEST(Lockstep, CyclesOfStagesSumUnderStalls) {
-  const Start start = hostile_start(5, rule::Law::paper, {20, 9, 9});
+  const Start start = hostile_start(3, rule::Law::paper, {20, 9, 9});
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const VerifyReport report = lockstep(start, {4, 2, 3, seed}, 4);
     ASSERT_EQ(report.mismatch, nullptr);
     ASSERT_GT(report.stages.size(), 8u);
+    ASSERT_EQ(report.passes, 2) << "a new irradiance ends a pass early: then the second copy has no feed";
     std::int64_t starved = 0, blocked = 0;
     for (const StageReport& stage : report.stages) {
       EXPECT_EQ(stage.cycles.total(), report.cycles) << name_of(stage.kind);
@@ -123,7 +124,7 @@ TEST(Lockstep, CyclesOfStagesSumUnderStalls) {
     EXPECT_EQ(report.stages.back().cycles.blocked, 0) << "the writer never waits";
     for (const ChannelReport& channel : report.channels) {
       EXPECT_LE(channel.highest, channel.depth);
-      EXPECT_GT(channel.highest, 0);
+      EXPECT_GT(channel.highest, 0) << channel.name;
     }
   }
 }
