@@ -209,7 +209,7 @@ TEST(BadInput, HugeGridsAreRefusedBeforeTheyAreAllocated) {
 TEST(BadInput, DeepNestingIsRefused) {
   const SceneFolder folder;
   std::string part = "{shape='sphere',radius=1}";
-  for (int i = 0; i < 12; ++i) part = "{shape='csg',op='union',mirror='x',parts=[" + part + "]}";
+  for (int i = 0; i < 12; ++i) part.insert(0, "{shape='csg',op='union',mirror='x',parts=[").append("]}");
   const std::string message =
       folder.error_of(kGrid + "[[solid]]\nshape='csg'\nop='union'\nparts=[" + part + "]\n");
   EXPECT_NE(message.find(" = \"csg\" is nested more than 8 deep"), std::string::npos) << message;

@@ -90,7 +90,8 @@ TEST(Coverage, SkippedBlocksAreThoseThatSamplesWouldFill) {
       for (int x = 0; x < grid.x; ++x) {
         int covered = 0;
         for (int i = 0; i < 64; ++i) {
-          const Point sample{x + (i % 4 + 0.5) / 4, y + (i / 4 % 4 + 0.5) / 4, z + (i / 16 + 0.5) / 4};
+          const int sx = i % 4, sy = i / 4 % 4, sz = i / 16;
+          const Point sample{x + (sx + 0.5) / 4, y + (sy + 0.5) / 4, z + (sz + 0.5) / 4};
           covered += shape->distance(sample) <= 0 ? 1 : 0;
         }
         const Window& window = coverage.window;

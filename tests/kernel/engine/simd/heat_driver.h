@@ -107,7 +107,7 @@ class HeatDriver {
       work.add_around(now);
     };
     const auto with_walls = [&](const WallKernels& walls, auto&& conduct) {
-      const TileSet asked = work;
+      const TileSet asked = work;  // NOLINT(performance-unnecessary-copy-initialization): conduct() adds
       const WallGains gains{wall_gains_.data(), wall_cells_.data()};
       for (int z = v_.nz - 1; walls.find && z >= 0; --z)
         walls.find(v_, step, z, asked.slice(z), gains, restless.slice(z));

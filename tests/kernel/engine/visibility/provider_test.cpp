@@ -18,7 +18,7 @@ namespace {
 using namespace worlds;
 using rule::Position;
 
-rule::Heat lit_by(std::vector<Position> sources, std::uint64_t power) {
+rule::Heat lit_by(const std::vector<Position>& sources, std::uint64_t power) {
   rule::Heat heat;
   heat.enabled = heat.radiation = true;
   for (const Position at : sources) heat.sources.push_back({{{0, at, power}}});
