@@ -100,6 +100,7 @@ class SettleFaults : public Planted {
     RecordScan down;
     Outcome outcome;
     std::vector<SettleWord> words;
+    words.reserve(cells.size() + 1);
     for (const Cell& cell : cells) words.push_back(up.next(cell, words.empty(), stage.hot_, stage.dither_));
     words.erase(words.begin());  // of the cell before the first one
     words.push_back(outcome.record = up.next(Cell{}, false, stage.hot_, stage.dither_));

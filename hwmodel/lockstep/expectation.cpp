@@ -106,7 +106,8 @@ Expectation::Snapshot Expectation::heat_up_to(StageKind stage, const state::Volu
   if (stage == StageKind::edges) heat.neighbours = 18;
   auto result = std::make_shared<state::Volume>(before);
   state::Ledger ledger;
-  scalar::Reference(cut, before.grid).run(step::Phase::heat, step_number(), nullptr, *result, ledger);
+  scalar::Reference(cut, before.grid)
+      .run(step::Phase::heat, step::Moment(step_number()), nullptr, *result, ledger);
   return result;
 }
 
@@ -114,7 +115,7 @@ std::shared_ptr<const state::Field<std::uint8_t>> Expectation::patterns(const st
   state::Volume scratch = before;
   state::Ledger ledger;
   scalar::Reference reference(parameters_, before.grid);
-  reference.run(step::Phase::spread, step_number(), nullptr, scratch, ledger);
+  reference.run(step::Phase::spread, step::Moment(step_number()), nullptr, scratch, ledger);
   return std::make_shared<const state::Field<std::uint8_t>>(reference.pattern());
 }
 

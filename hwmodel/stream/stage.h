@@ -99,7 +99,7 @@ class Stage {
   std::int64_t lag_;
   CellFifo* in_ = nullptr;
   CellFifo* out_ = nullptr;
-  step::Moment moment_ = 0;
+  step::Moment moment_{0};
   bool bypass_ = false;
   std::int64_t moves_ = 0;
   Place came_, left_;

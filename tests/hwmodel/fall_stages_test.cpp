@@ -80,7 +80,7 @@ bool same_until_struck(std::uint64_t seed, state::Grid grid, int steps, Fault fa
       simulation.run_phase(phase);
       if (phase != step::Phase::gravity) continue;
       marker.volume = &before;
-      const state::Volume result = run_stages(design, stages, number, nullptr, before, run);
+      const state::Volume result = run_stages(design, stages, step::Moment(number), nullptr, before, run);
       EXPECT_EQ(worlds::broken_invariant(result, design.parameters), "");
       EXPECT_EQ(first_difference(design.shape, simulation.volume(), result),
                 plan.struck() ? name_of(*plan.struck()) : "")

@@ -36,7 +36,8 @@ std::map<std::string, int> strikes(const Planted& planted, int count) {
     StageRun run{random.any({1, 2, 5}), random.one_in(2) ? 0u : 7u, 0};
     each_phase(design.parameters, worlds::hostile_volume(random, design.parameters, grid), planted.phase, 3,
                [&](std::uint32_t step, const auto& before, const auto& after, auto* irradiance) {
-                 const state::Volume result = run_stages(design, stages, step, irradiance, before, run);
+                 const state::Volume result =
+                     run_stages(design, stages, step::Moment(step), irradiance, before, run);
                  const auto found = first_difference(design.shape, after, result);
                  EXPECT_EQ(found.has_value(), plan.struck().has_value()) << "world " << world;
                  if (!found || !plan.struck()) return !found;

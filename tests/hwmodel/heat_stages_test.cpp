@@ -41,7 +41,8 @@ int compare_size(const state::Grid& grid, std::uint64_t seed, step::Phase phase,
   int compared = 0;
   each_phase(design.parameters, worlds::hostile_volume(random, design.parameters, grid), phase, 2,
              [&](std::uint32_t step, const auto& before, const auto& after, auto* irradiance) {
-               const state::Volume result = run_stages(design, stages, step, irradiance, before, run);
+               const state::Volume result =
+                   run_stages(design, stages, step::Moment(step), irradiance, before, run);
                EXPECT_EQ(worlds::difference(after, result), "")
                    << grid.x << " x " << grid.y << " x " << grid.z << ", seed " << seed;
                ++compared;
@@ -83,7 +84,8 @@ TEST(HeatStages, LargeGrid) {
       each_phase(
           design.parameters, worlds::hostile_volume(random, design.parameters, grid), step::Phase::heat, 2,
           [&](std::uint32_t step, const auto& before, const auto& after, auto* irradiance) {
-            EXPECT_EQ(worlds::difference(after, run_stages(design, stages, step, irradiance, before, run)),
+            EXPECT_EQ(worlds::difference(
+                          after, run_stages(design, stages, step::Moment(step), irradiance, before, run)),
                       "");
             return true;
           });

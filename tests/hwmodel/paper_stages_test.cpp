@@ -52,7 +52,7 @@ TEST(PaperStages, EverySizeOfGrid) {
             const bool falls = phase == step::Phase::gravity;
             if (falls || phase == step::Phase::spread) {
               const state::Volume result =
-                  run_stages(design, falls ? falling : spreading, step, nullptr, before, run);
+                  run_stages(design, falls ? falling : spreading, step::Moment(step), nullptr, before, run);
               ASSERT_EQ(worlds::difference(simulation.volume(), result), "")
                   << grid.x << " x " << grid.y << " x " << grid.z << ", " << lanes << " lanes";
               ++runs;
@@ -107,7 +107,7 @@ TEST(PaperStages, WidestSums) {
       StageRun run;
       int full = 0;
       for (std::uint32_t step = 0; step < 3000; ++step) {
-        const state::Volume result = run_stages(design, stages, step, nullptr, volume, run);
+        const state::Volume result = run_stages(design, stages, step::Moment(step), nullptr, volume, run);
         full += result.amount[result.at(1, 0, 1)] == 65535 ? 1 : 0;
       }
       EXPECT_GT(full, 0) << neighbours;

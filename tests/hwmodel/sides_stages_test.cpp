@@ -79,7 +79,7 @@ void run_probes(worlds::Random& random, state::Grid grid, int lanes, bool hot, T
   const step::Irradiance dark(grid);
   StageRun run{random.any({1, 2, 5}), random.one_in(2) ? 0u : 7u, 0};
   for (const std::uint32_t step : {0u, 1u}) {  // in the second pass the memories hold the first
-    const state::Volume result = run_stages(design, stages, step, &dark, start, run);
+    const state::Volume result = run_stages(design, stages, step::Moment(step), &dark, start, run);
     totals.melted += sides_that_melted(start, result);
   }
   for (const Probe* one : probes) {

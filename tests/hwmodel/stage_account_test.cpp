@@ -40,7 +40,7 @@ TEST(StageAccount, NothingIsLostAndCyclesSum) {
           Stages stages;
           for (int i = 0; i < 3; ++i) stages.push_back(std::make_unique<Late>(design, lag));
           StageRun run{depth, seed};
-          const state::Volume result = run_stages(design, stages, 0, nullptr, volume, run);
+          const state::Volume result = run_stages(design, stages, step::Moment(0), nullptr, volume, run);
           ASSERT_EQ(worlds::difference(volume, result), "");
           if (seed == 0) {
             const std::int64_t interval = depth == 1 ? 2 : 1, hops = 4;
@@ -58,7 +58,7 @@ TEST(StageAccount, EveryCycleIsCountedAsWhatItWas) {
   Late stage(design, 1);
   CellFifo in("in", 0, 1, 2, 0), out("out", 1, 1, 1, 0);
   stage.connect(in, out);
-  stage.begin_pass(0, false);
+  stage.begin_pass(step::Moment(0), false);
   const auto cycle = [&](bool comes, bool leaves) {
     stage.cycle();
     if (comes) in.put()[0] = {};

@@ -90,7 +90,7 @@ TEST(ViscousFaults, DamageKeepsItsWidths) {
         stages.push_back(planted_stages(plan)(kind, world.design));
       StageRun run;
       const state::Volume found =
-          run_stages(world.design, stages, 0, nullptr, world.simulation.volume(), run);
+          run_stages(world.design, stages, step::Moment(0), nullptr, world.simulation.volume(), run);
       ASSERT_EQ(worlds::broken_invariant(found, world.design.parameters), "");
       strikes += plan.struck().has_value();
     }

@@ -144,10 +144,13 @@ TEST(ViscousStages, WidestNumbers) {
       make_excess(design, make_stage, settle);
       make_both(design, make_stage, both);
       StageRun run;
-      ASSERT_EQ(worlds::difference(simulation.volume(), run_stages(design, settle, 0, nullptr, full, run)),
+      ASSERT_EQ(worlds::difference(simulation.volume(),
+                                   run_stages(design, settle, step::Moment(0), nullptr, full, run)),
                 "");
       simulation.run_phase(Phase::spread);
-      ASSERT_EQ(worlds::difference(simulation.volume(), run_stages(design, both, 0, nullptr, full, run)), "");
+      ASSERT_EQ(worlds::difference(simulation.volume(),
+                                   run_stages(design, both, step::Moment(0), nullptr, full, run)),
+                "");
     }
 }
 

@@ -8,7 +8,7 @@ namespace voxmelt::hwmodel {
 struct ViscousWorld {
   Design design;
   run::Simulation simulation;
-  step::Moment moment = 0;  // of the last phase
+  step::Moment moment{0};  // of the last phase
 
   ViscousWorld(worlds::Random& random, const state::Grid& grid, int lanes)
       : design{worlds::hostile_parameters(random, rule::Law::viscous, grid), {grid, lanes}},

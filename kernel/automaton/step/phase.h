@@ -30,7 +30,7 @@ inline std::vector<Phase> phase_order(rule::Law law, int substeps = 1) {
 struct Moment {
   std::uint32_t step = 0;
   int substep = 0, substeps = 1;
-  Moment(std::uint32_t number) : step(number) {}
+  explicit Moment(std::uint32_t number) : step(number) {}
   Moment(std::uint32_t number, int of, int all) : step(number), substep(of), substeps(all) {}
 };
 

@@ -46,7 +46,7 @@ struct Settled {
 Settled settle(const Column& cells, int height, std::uint32_t s = 0) {
   Volume v = column_of(cells, height);
   state::Ledger ledger = state::Ledger::open(v);
-  Reference(with_heat(), v.grid).run(Phase::excess, s, nullptr, v, ledger);
+  Reference(with_heat(), v.grid).run(Phase::excess, step::Moment(s), nullptr, v, ledger);
   EXPECT_TRUE(state::drift(ledger, v).none());
   Column after;
   for (int y = 0; y < height; ++y) after.push_back({v.amount[v.at(0, y, 0)], v.heat[v.at(0, y, 0)]});
@@ -168,8 +168,8 @@ TEST(Settle, MobilityGoesByTheMeanWithoutDither) {
       put(v, 0, 1, 0, 4096, 0, warmer ? 2049 : 2048);
       state::Ledger ledger = state::Ledger::open(v);
       Reference reference(p, v.grid);
-      reference.run(Phase::excess, s, nullptr, v, ledger);
-      reference.run(Phase::spread, s, nullptr, v, ledger);
+      reference.run(Phase::excess, step::Moment(s), nullptr, v, ledger);
+      reference.run(Phase::spread, step::Moment(s), nullptr, v, ledger);
       EXPECT_EQ(v.amount[v.at(1, 0, 0)] > 0, warmer) << "step " << s;
     }
 }

@@ -62,7 +62,7 @@ double run_both(const cpu::InstructionSet set, World world, Random& random, bool
       ASSERT_NO_FATAL_FAILURE(expect_reported(view, before, v, changed)) << phase << ", step " << s;
     };
     const Volume at_begin = v;
-    reference.run(Phase::source, s, light, expected, books);
+    reference.run(Phase::source, step::Moment(s), light, expected, books);
     run_sources(view, step, changed.data(), view.tile_rows(), own);
     compare("source", at_begin);
     for_melt.add(changed);
@@ -74,13 +74,13 @@ double run_both(const cpu::InstructionSet set, World world, Random& random, bool
     worked += work.count();
     tiles += work.size();
     restless = TileSet(view, false);
-    reference.run(Phase::heat, s, light, expected, books);
+    reference.run(Phase::heat, step::Moment(s), light, expected, books);
     driver.heat(step, work, changed, restless, for_melt, own);
     compare("heat", at_begin);
 
     TileSet melting(view, !sleeps), melted(view, false);
     melting.add(for_melt);
-    reference.run(Phase::melt, s, light, expected, books);
+    reference.run(Phase::melt, step::Moment(s), light, expected, books);
     driver.melt(step, melting, melted, own);
     changed.add(melted);
     for_melt = melted;
@@ -90,7 +90,7 @@ double run_both(const cpu::InstructionSet set, World world, Random& random, bool
     if (world.flows) {
       state::Ledger unused;
       for (const Phase phase : {Phase::gravity, Phase::spread, Phase::excess})
-        reference.run(phase, s, light, expected, unused);
+        reference.run(phase, step::Moment(s), light, expected, unused);
       const TileSet moved = tiles_between(view, expected, v);
       changed.add(moved);
       for_melt.add(moved);
@@ -278,7 +278,7 @@ TEST_P(Heat, AnyTilesOfDenseMatter) {
     });
     Volume v = expected;
     state::Ledger unused;
-    scalar::Reference(p, grid).run(Phase::heat, 3, nullptr, expected, unused);
+    scalar::Reference(p, grid).run(Phase::heat, step::Moment(3), nullptr, expected, unused);
 
     HeatDriver driver(kernels(GetParam().set, p), v, random.any({0, 1, 3, 12}), {2});
     const View& view = driver.view();

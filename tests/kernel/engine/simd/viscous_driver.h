@@ -191,7 +191,7 @@ class ViscousDriver {
   // Runs the other phases. What they change is found by comparison.
   void others(step::Phase phase, std::uint32_t number, state::Volume& volume, state::Ledger& ledger) {
     const state::Volume before = volume;
-    rest_.run(phase, number, nullptr, volume, ledger);
+    rest_.run(phase, step::Moment(number), nullptr, volume, ledger);
     note(differing(before, volume));
   }
 
