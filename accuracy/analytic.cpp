@@ -120,6 +120,12 @@ double nusselt(double slope) {
   return slope / (stretch * stretch);
 }
 
+// Of open_area h + roofed_area (ceiling + (h - ceiling) / stiffness) = volume.
+double conduit_level(double volume, double open_area, double roofed_area, double ceiling, double stiffness) {
+  const double squeezed = roofed_area / stiffness;
+  return (volume - ceiling * (roofed_area - squeezed)) / (open_area + squeezed);
+}
+
 double ball_intercepts(double radius, double distance) {
   const double sine = radius / distance;
   return 2 * kPi * (1 - std::sqrt(1 - sine * sine));

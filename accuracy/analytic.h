@@ -52,6 +52,10 @@ double flux_front(double kappa, double flux, double time);
 // of depth h carries kappa / 3 x nusselt(slope) x h^3 per width. slope: cells down per cell along.
 double nusselt(double slope);
 
+// Height above the bottom at which shafts stand that a roofed tunnel joins. Under a ceiling, a column that is
+// overfull by o has its head stiffness x o above the ceiling. Of an incompressible liquid it is infinite.
+double conduit_level(double volume, double open_area, double roofed_area, double ceiling, double stiffness);
+
 // Part of a sphere's surface power 1 that a ball takes up: the solid angle over 4 pi, times 4 pi. The source
 // is `distance` from its centre and gives 1 / r^2 to what faces it.
 double ball_intercepts(double radius, double distance);

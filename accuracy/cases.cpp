@@ -82,10 +82,12 @@ const std::vector<Case>& all_cases() {
        "h, whatever its shape.",
        measure_blob},
       {"tubes", "Levels", "Communicating vessels level: the scene lesson_tubes",
-       "600 cells of liquid: 480 of them fill the tunnel, so that both shafts should stand at 6.",
+       "600 cells of liquid. Both shafts should stand at 52/9: under the roof of the tunnel a column that is "
+       "overfull by o has a head 8 o above the ceiling. An incompressible liquid would stand at 6.",
        measure_tubes},
       {"u_tube", "Levels", "A U-tube of 12 cells levels",
-       "Shafts of 3 x 3 cells. A closed tunnel may be compressed, which lowers both by up to a tenth.",
+       "Shafts of 3 x 3 cells over a tunnel of 9 x 3 x 3. Its roofed part is squeezed as in the case "
+       "tubes.",
        measure_u_tube},
       {"rest", "Levels", "What should rest, rests",
        "A closed full box, a checkerboard pool, and a film with a yield stress, which may cost 3 % of "

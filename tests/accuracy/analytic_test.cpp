@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -85,6 +86,15 @@ TEST(Analytic, NusseltIsOfTheDepthAlongGravity) {
     EXPECT_NEAR(nusselt(slope), std::sin(angle) * std::pow(std::cos(angle), 3), 1e-12);
   }
   EXPECT_NEAR(nusselt(0.5), 0.32, 1e-12);
+}
+
+// By hand. 600 cells, shafts of 60 columns, a roof over 60 more at height 4: 60 h + 60 (4 + o) = 600 and
+// h - 4 = 8 o, so h = 52 / 9. 243 cells, 18 columns, 9 roofed at 3: 18 h + 9 (3 + o) = 243, so h = 195 / 17.
+TEST(Analytic, ConduitLevel) {
+  EXPECT_NEAR(conduit_level(600, 60, 60, 4, 8), 52.0 / 9, 1e-12);
+  EXPECT_NEAR(conduit_level(243, 18, 9, 3, 8), 195.0 / 17, 1e-12);
+  EXPECT_NEAR(conduit_level(600, 60, 60, 4, 1), 5, 1e-12);  // as soft as open water: all columns alike
+  EXPECT_NEAR(conduit_level(600, 60, 60, 4, std::numeric_limits<double>::infinity()), 6, 1e-12);
 }
 
 TEST(Analytic, Rest) {
