@@ -42,10 +42,15 @@ const std::vector<Case>& all_cases() {
        "A plane of 65 x 65 cells, the source 2,000 cells away. The middle 21 x 21 columns are measured.",
        measure_lit_plane},
       {"lit_ball", "Light", "A ball takes up what its cross-section cuts out of the light",
-       "A ball of radius 20, the source 50 radii away. What is exact is the solid angle of the ball.",
+       "A ball of radius 20, the source 50 radii away. The cross-section of its cells, which is larger than "
+       "the "
+       "ball's, is counted in pixels. What is left beside it is the light's error.",
        measure_lit_ball},
       {"shadow_edge", "Light", "The shadow of a wall ends where geometry says",
-       "A wall 12 cells high on a floor. The edge is the first cell that gets heat.", measure_shadow_edge},
+       "A wall 12 cells high on a floor. The shadow is as long as the light that the floor lacks. With m x m "
+       "rays "
+       "to a face it may be wrong by 1/(2 m) of a cell, and the gate leaves 0.05 more.",
+       measure_shadow_edge},
       {"huppert", "Spreading", "A drop spreads as t^(1/8): depth 10 to 2",
        "A drop of constant volume on a plane, kappa 0.02, that starts on Huppert's similarity profile with "
        "radius 20. "
@@ -55,9 +60,8 @@ const std::vector<Case>& all_cases() {
        "Kappa 0.1. Below depth 1/2 the film is thinner than the gates ask for, and is only reported.",
        measure_thin_film},
       {"flux_vent", "Spreading", "A vent of constant flux: the radius grows as t^(1/2)",
-       "Five cells of liquid per step from a vent of radius 3, which is felt early: hence 4 %. The radius is "
-       "that of the "
-       "area that is at least 1/256 cell deep.",
+       "Five cells of liquid per step from a vent of radius 3. Huppert's profile of constant flux gives the "
+       "rms radius, which the width of the vent leaves as it is. The wet area is at least 1/256 cell deep.",
        measure_flux_vent},
       {"dam_length", "Spreading", "A dam in a channel spreads as t^(1/5)",
        "A dam that starts on Huppert's profile, from depth 4 to 2, in the middle row of a channel 33 cells "

@@ -61,7 +61,6 @@ TEST(Analytic, SlabStartsColdAndEndsWarm) {
 TEST(Analytic, HuppertConstants) {
   EXPECT_NEAR((Drop{3, 1}.front(1)), 0.89391, 1e-5);
   EXPECT_NEAR((Dam{3, 1}.front(1)), 1.41124, 1e-5);
-  EXPECT_NEAR(flux_front(3, 1, 1), 0.715, 1e-12);
   const Drop drop{0.02, 9000};
   const Dam dam{0.02, 500};
   EXPECT_NEAR(drop.front(256) / drop.front(1), 2, 1e-12);
@@ -77,6 +76,25 @@ TEST(Analytic, HuppertConstants) {
   EXPECT_NEAR(volume, 9000, 1);
   EXPECT_NEAR(area, 500, 0.1);
   EXPECT_NEAR(std::sqrt(second / volume), drop.rms_radius(100), 1e-3);
+}
+
+// Huppert's 0.715 for the front. The other digits are of a second program: it integrates the profile in y
+// instead of log y, for phi^4 / 4 and the flux. The volume is the flux times the time.
+TEST(Analytic, CurrentOfConstantFlux) {
+  const FedCurrent unit{3, 1};
+  EXPECT_NEAR(unit.front(1), 0.715016, 1e-5);
+  EXPECT_NEAR(unit.rms_radius(1) / unit.front(1), 0.635557, 1e-5);
+  const FedCurrent current{0.02, 5};
+  EXPECT_NEAR(current.front(400) / current.front(100), 2, 1e-12);
+  const double end = current.front(100);
+  double volume = 0, second = 0;
+  for (double r = 0.005; r < end; r += 0.01) {
+    volume += 2 * std::numbers::pi * r * current.height(r, 100) * 0.01;
+    second += 2 * std::numbers::pi * r * r * r * current.height(r, 100) * 0.01;
+  }
+  EXPECT_NEAR(volume, 500, 0.2);
+  EXPECT_NEAR(std::sqrt(second / volume), current.rms_radius(100), 1e-3);
+  EXPECT_EQ(current.height(1.001 * end, 100), 0);
 }
 
 // sin(a) cos(a)^3 by trigonometry.
