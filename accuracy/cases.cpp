@@ -19,6 +19,10 @@ const std::vector<Case>& all_cases() {
       {"implementations", "Arithmetic", "Every implementation gives the reference's bits",
        "The same scenes with every instruction set that this processor has, on one thread and on two.",
        measure_implementations},
+      {"limit", "Arithmetic", "What the limit of the mobility cuts is counted",
+       "Three still pools, one of which is shallow enough. The counters of report.json beside a count by "
+       "hand.",
+       measure_limit},
       {"heat_kernel", "Heat", "A Gaussian of heat widens: its second moment grows by 6 D per step",
        "Eq. 1 with 6, 18 and 26 neighbours against the heat kernel. The Gaussian starts with sigma 6 and a "
        "peak "
