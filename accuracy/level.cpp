@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -53,14 +52,13 @@ Outcome follow(Trial& trial, const Vessels& vessels, const std::vector<std::uint
   const double incompressible = vessels.level(volume, std::numeric_limits<double>::infinity());
   Outcome outcome;
   Curve left{.name = "left"}, right{.name = "right"};
-  Curve exact{.name = "level", .points = {{0, level}, {1. * ends.back(), level}}, .exact = true};
+  Curve exact{.name = "level", .points = {{1, level}, {1. * ends.back(), level}}, .exact = true};
   for (const std::uint32_t end : ends) {
-    for (std::uint32_t step = trial.steps(); step <= end; step += std::max(1u, end / 40)) {
+    for (const std::uint32_t step : Trial::samples(trial.steps() + 1, end)) {
       trial.run_to(step);
       left.points.push_back({1. * step, height(trial.volume(), vessels.left, vessels.bottom)});
       right.points.push_back({1. * step, height(trial.volume(), vessels.right, vessels.bottom)});
     }
-    trial.run_to(end);
     const double l = height(trial.volume(), vessels.left, vessels.bottom);
     const double r = height(trial.volume(), vessels.right, vessels.bottom), mean = (l + r) / 2;
     const auto row = [&](const std::string& which, const std::string& quantity, double value, double wanted,
@@ -85,7 +83,8 @@ Outcome follow(Trial& trial, const Vessels& vessels, const std::vector<std::uint
   outcome.charts.push_back({.title = "Heights in the two shafts",
                             .x_label = "step",
                             .y_label = "height, cells",
-                            .curves = {std::move(exact), std::move(left), std::move(right)}});
+                            .curves = {std::move(exact), std::move(left), std::move(right)},
+                            .logarithmic_x = true});
   return outcome;
 }
 
