@@ -78,7 +78,7 @@ Outcome follow(Trial& trial, const Vessels& vessels, const std::vector<std::uint
     row("mean of both", "height, cells, beside an incompressible liquid's", mean, incompressible,
         vessels.incompressible_gate);
     outcome.rows.back().note =
-        fmt::format("what a conduit of stiffness {} takes up under its roof", stiffness);
+        fmt::format("a conduit of stiffness {} takes up the rest under its roof", stiffness);
   }
   outcome.charts.push_back({.title = "Heights in the two shafts",
                             .x_label = "step",

@@ -105,6 +105,7 @@ TEST(Report, TablesHaveOneWidth) {
   EXPECT_NE(text.find("**0 of 1 gates passed.**"), std::string::npos);
   EXPECT_NE(text.find("| cells / steps | 1.100 | 1.000 | +10.0 % | 1 % | **missed** | 1.50 | - |"),
             std::string::npos);
+  EXPECT_NE(text.find("|\n\n- a <setting>, \"quoted\": odd\n"), std::string::npos);
   EXPECT_NE(csv_text(report({row(2, 1, Measure::relative, 0.5)})).find("\"a <setting>, \"\"quoted\"\"\""),
             std::string::npos);
 }
