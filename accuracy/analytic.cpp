@@ -23,6 +23,57 @@ double bisect(double low, double high, const Function& function) {
 // Integral of (1 - s^2)^(1/3) over 0..1.
 double plane_profile_area() { return std::sqrt(kPi) / 2 * std::tgamma(4.0 / 3) / std::tgamma(11.0 / 6); }
 
+// Huppert's profile of a current of constant flux: h ~ phi(y), y = r / front, where
+//   (y phi^3 phi')' + y^2 phi' / 2 = 0,   phi -> (3/2 (1 - y))^(1/3) at the front.
+// With M(y) the integral of s phi over s = y..1, a first integral is y phi^3 phi' = -M - y^2 phi / 2. It is
+// regular from the front inwards in s = -log y, for psi = phi^3:  dpsi/ds = 3 M / phi + 3 y^2 / 2,  dM/ds =
+// y^2 phi.
+struct FedProfile {
+  static constexpr double kStep = 1e-3,
+                          kEnd = 12;  // of s; within exp(-12) of the front there is no volume left
+
+  double front = 0;       // (2 pi M(0))^(-3/8)
+  double rms_radius = 0;  // root of the mean of y^2
+  std::vector<double> phis{0};
+
+  static const FedProfile& get() {
+    static const FedProfile profile;
+    return profile;
+  }
+  double phi(double y) const {
+    if (y >= 1) return 0;
+    const double at = std::min(-std::log(std::max(y, 1e-300)), kEnd - 2 * kStep) / kStep;
+    const auto i = static_cast<std::size_t>(at);
+    return phis[i] + (at - static_cast<double>(i)) * (phis[i + 1] - phis[i]);
+  }
+
+ private:
+  struct Rates {
+    double psi, volume, second;
+  };
+  static Rates rates(double s, double psi, double volume) {
+    const double y2 = std::exp(-2 * s), phi = std::cbrt(psi);
+    return {(psi > 0 ? 3 * volume / phi : 0) + 1.5 * y2, y2 * phi, y2 * y2 * phi};
+  }
+  FedProfile() {
+    double psi = 0, volume = 0, second = 0;
+    for (double s = 0; s < kEnd; s += kStep) {  // Runge and Kutta
+      const Rates a = rates(s, psi, volume);
+      const auto half = [&](const Rates& r) {
+        return rates(s + kStep / 2, psi + kStep / 2 * r.psi, volume + kStep / 2 * r.volume);
+      };
+      const Rates b = half(a), c = half(b),
+                  d = rates(s + kStep, psi + kStep * c.psi, volume + kStep * c.volume);
+      psi += kStep / 6 * (a.psi + 2 * b.psi + 2 * c.psi + d.psi);
+      volume += kStep / 6 * (a.volume + 2 * b.volume + 2 * c.volume + d.volume);
+      second += kStep / 6 * (a.second + 2 * b.second + 2 * c.second + d.second);
+      phis.push_back(std::cbrt(psi));
+    }
+    front = std::pow(2 * kPi * volume, -0.375);
+    rms_radius = std::sqrt(second / volume);
+  }
+};
+
 }  // namespace
 
 double diffusivity(double gamma, int neighbours) {
@@ -111,13 +162,25 @@ std::vector<double> lubrication_flow(double kappa, std::vector<double> depth, do
   return depth;
 }
 
-double flux_front(double kappa, double flux, double time) {
-  return 0.715 * std::pow(kappa * flux * flux * flux / 3, 0.125) * std::sqrt(time);
+double FedCurrent::front(double time) const {
+  return FedProfile::get().front * std::pow(kappa * flux * flux * flux / 3, 0.125) * std::sqrt(time);
+}
+double FedCurrent::rms_radius(double time) const { return FedProfile::get().rms_radius * front(time); }
+double FedCurrent::height(double radius, double time) const {
+  const FedProfile& profile = FedProfile::get();
+  return std::pow(profile.front, 2.0 / 3) * std::pow(3 * flux / kappa, 0.25) *
+         profile.phi(radius / front(time));
 }
 
 double nusselt(double slope) {
   const double stretch = 1 + slope * slope;
   return slope / (stretch * stretch);
+}
+
+// Of open_area h + roofed_area (ceiling + (h - ceiling) / stiffness) = volume.
+double conduit_level(double volume, double open_area, double roofed_area, double ceiling, double stiffness) {
+  const double squeezed = roofed_area / stiffness;
+  return (volume - ceiling * (roofed_area - squeezed)) / (open_area + squeezed);
 }
 
 double ball_intercepts(double radius, double distance) {

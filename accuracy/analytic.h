@@ -45,12 +45,22 @@ Dam dam_of_depth(double kappa, double depth, double front);  // on Huppert's pro
 std::vector<double> lubrication_flow(double kappa, std::vector<double> depth, double time,
                                      int parts_per_cell);
 
-// Front of a current that a constant flux feeds at the origin: 0.715 (kappa flux^3 / 3)^(1/8) t^(1/2).
-double flux_front(double kappa, double flux, double time);
+// A round current that a constant flux feeds at the origin, in cells per step. It has no formula: its profile
+// is integrated.
+struct FedCurrent {
+  double kappa, flux;
+  double front(double time) const;  // 0.715 (kappa flux^3 / 3)^(1/8) t^(1/2)
+  double rms_radius(double time) const;
+  double height(double radius, double time) const;  // without bound towards the origin
+};
 
 // Velocity per h^2 of a film that runs down a plane: Nusselt's film, its depth measured along gravity. A film
 // of depth h carries kappa / 3 x nusselt(slope) x h^3 per width. slope: cells down per cell along.
 double nusselt(double slope);
+
+// Height above the bottom at which shafts stand that a roofed tunnel joins. Under a ceiling, a column that is
+// overfull by o has its head stiffness x o above the ceiling. Of an incompressible liquid it is infinite.
+double conduit_level(double volume, double open_area, double roofed_area, double ceiling, double stiffness);
 
 // Part of a sphere's surface power 1 that a ball takes up: the solid angle over 4 pi, times 4 pi. The source
 // is `distance` from its centre and gives 1 / r^2 to what faces it.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "accuracy/cells.h"
 #include "accuracy/trial.h"
 
 namespace voxmelt::accuracy {
@@ -81,6 +82,50 @@ Outcome measure_implementations(const Conditions& conditions) {
              .speed = trial.speed()});
       }
     }
+  }
+  return outcome;
+}
+
+// Three still pools of 3 x 3 columns, kappa 0.2. The limit cuts 2/9 kappa d^2 at 1/(5 (d + 1)), d + 1 being
+// whole, and at an eighth of that where a roof presses. So it cuts the pool of depth 4 (36 cells) and the one
+// that a roof at 1 squeezes to 5/4 (9 cells of 5/4), but not the one of depth 1/2 (9 cells of 1/2). The first
+// one needs 18 sub-steps: 2/9 x 0.2 x 16 x 25 = 17.8.
+Outcome measure_limit(const Conditions& conditions) {
+  constexpr std::uint32_t kSteps = 10;
+  Outcome outcome;
+  for (const bool choose : {false, true}) {
+    Trial trial(conditions, "flow",
+                {"grid.size=[11,6,3]", "flow.viscous.kappa=0.2",
+                 fmt::format("flow.viscous.substeps={}", choose ? "\"auto\"" : "1")},
+                [](state::Volume& v) {
+                  for_each_cell(v.grid, [&](int x, int y, int z) {
+                    if (x % 4 == 3 || (x > 7 && y > 0)) put_inert(v, x, y, z);
+                  });
+                  for (int z = 0; z < 3; ++z)
+                    for (int x = 0; x < 3; ++x) {
+                      put_column(v, x, z, 0.5);
+                      put_column(v, x + 4, z, 4);
+                      put_liquid(v, x + 8, 0, z, 1.25);
+                    }
+                });
+    trial.run_to(kSteps);
+    const auto& counted = trial.simulation().ledger().limit;
+    const auto row = [&](const char* what, double value, double exact) {
+      outcome.rows.push_back({.setting = choose ? "as many sub-steps as the pools need" : "one sub-step",
+                              .quantity = fmt::format("{}, in {} steps", what, kSteps),
+                              .value = value,
+                              .exact = kSteps * exact,
+                              .measure = Measure::absolute,
+                              .gate = 0,
+                              .speed = trial.speed()});
+    };
+    const int substeps = choose ? 18 : 1;
+    row("cells counted", static_cast<double>(counted.cells), substeps * 54);
+    row("liquid counted, cells", static_cast<double>(counted.mass) / kOne, substeps * (4.5 + 36 + 11.25));
+    row("cells whose mobility the limit cuts", static_cast<double>(counted.limited_cells),
+        choose ? 0 : 36 + 9);
+    row("liquid whose mobility the limit cuts, cells", static_cast<double>(counted.limited_mass) / kOne,
+        choose ? 0 : 36 + 11.25);
   }
   return outcome;
 }

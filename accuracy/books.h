@@ -6,5 +6,6 @@ namespace voxmelt::accuracy {
 
 Outcome measure_books(const Conditions&);
 Outcome measure_implementations(const Conditions&);
+Outcome measure_limit(const Conditions&);
 
 }  // namespace voxmelt::accuracy

@@ -151,7 +151,7 @@ Outcome measure_dam_viscosity(const Conditions& conditions) {
                             .exact = after_4[0],
                             .speed = trial.speed()});
     Curve curve{.name = setting};
-    for (std::size_t x = 0; x < row.size(); ++x)
+    for (std::size_t x = 0; x < row.size() && row[x] > 0; ++x)
       curve.points.push_back({static_cast<double>(x) + 0.5, row[x]});
     chart.curves.push_back(std::move(curve));
   }

@@ -3,17 +3,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "accuracy/analytic.h"
 #include "accuracy/cells.h"
+#include "accuracy/silhouette.h"
 #include "accuracy/trial.h"
 
 namespace voxmelt::accuracy {
@@ -46,11 +50,12 @@ Source far_source(Direction centre, Direction towards, double distance) {
 }
 
 Trial light(const Conditions& conditions, int nx, int ny, int nz, const Source& source,
-            const Trial::Fill& fill) {
+            const Trial::Fill& fill, int rays_per_face = 1) {
   Trial trial(conditions, "light",
               {fmt::format("grid.size=[{},{},{}]", nx, ny, nz),
                fmt::format("heat_source.0.at=[{},{},{}]", source.at[0], source.at[1], source.at[2]),
-               fmt::format("heat_source.0.power={}", source.power)},
+               fmt::format("heat_source.0.power={}", source.power),
+               fmt::format("heat.rays_per_face={}", rays_per_face)},
               fill);
   trial.run_to(kSteps);
   return trial;
@@ -63,6 +68,68 @@ double taken_up(const state::Volume& v, int x0, int x1, int z0, int z1) {
     if (x >= x0 && x < x1 && z >= z0 && z < z1) sum += v.heat[v.at(x, y, z)];
   });
   return sum / (kHottest * kSteps);
+}
+
+// What reaches the upper face of a cell, at the height y: power x cosine / distance^2 at its middle.
+double on_floor(const Source& source, int x, int y, int z) {
+  const double dx = source.at[0] - x - 0.5, dy = source.at[1] - y, dz = source.at[2] - z - 0.5;
+  return source.power * dy / std::pow(dx * dx + dy * dy + dz * dz, 1.5);
+}
+
+std::string rays_text(int rays) { return fmt::format("{} ray{} per face", rays, rays == 1 ? "" : "s"); }
+
+constexpr int kBallSide = 48;
+constexpr double kBallRadius = 20, kBallDistance = 50 * kBallRadius;
+constexpr Direction kBallMiddle{kBallSide / 2.0, kBallSide / 2.0, kBallSide / 2.0};
+
+void put_ball(state::Volume& v) {
+  for_each_cell(v.grid, [&](int x, int y, int z) {
+    if (std::hypot(x + 0.5 - kBallMiddle[0], y + 0.5 - kBallMiddle[1], z + 0.5 - kBallMiddle[2]) <=
+        kBallRadius)
+      put_solid(v, x, y, z);
+  });
+}
+state::Volume cells_of_ball() {
+  state::Volume v(state::Grid{kBallSide, kBallSide, kBallSide});
+  put_ball(v);
+  return v;
+}
+
+struct LitBall {
+  double energy;  // per step and power of the source
+  Speed speed;
+
+  LitBall(const Conditions& conditions, const Source& source, int rays_per_face) {
+    const Trial trial = light(conditions, kBallSide, kBallSide, kBallSide, source, put_ball, rays_per_face);
+    energy = taken_up(trial.volume(), 0, kBallSide, 0, kBallSide) / source.power;
+    speed = trial.speed();
+  }
+};
+
+// Evenly spread over the sphere: equal steps of height, each turned by the golden angle.
+std::vector<Direction> spiral(int count) {
+  std::vector<Direction> directions;
+  directions.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+    directions.push_back(from_angles(std::acos(1 - (2.0 * i + 1) / count) * 180 / std::numbers::pi,
+                                     360 * std::numbers::phi * i));
+  return directions;
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+double worst(const std::vector<double>& ratios) {
+  return *std::max_element(ratios.begin(), ratios.end(),
+                           [](double a, double b) { return std::abs(a - 1) < std::abs(b - 1); });
+}
+Curve sorted_curve(const std::string& name, std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  Curve curve{.name = name};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    curve.points.push_back(
+        {100 * (static_cast<double>(i) + 0.5) / static_cast<double>(values.size()), values[i]});
+  return curve;
 }
 
 std::string text_of(const Direction& d) { return fmt::format("({:g}, {:g}, {:g})", d[0], d[1], d[2]); }
@@ -85,12 +152,9 @@ Outcome measure_lit_plane(const Conditions& conditions) {
       const Trial trial = light(conditions, kSide, kTop + 2, kSide, source, [](state::Volume& v) {
         for_each_cell({kSide, kTop, kSide}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
       });
-      double wanted = 0;  // power x cosine / distance^2 at the middle of each face
+      double wanted = 0;
       for (int z = kRim; z < kSide - kRim; ++z)
-        for (int x = kRim; x < kSide - kRim; ++x) {
-          const double dx = source.at[0] - x - 0.5, dy = source.at[1] - kTop, dz = source.at[2] - z - 0.5;
-          wanted += source.power * dy / std::pow(dx * dx + dy * dy + dz * dz, 1.5);
-        }
+        for (int x = kRim; x < kSide - kRim; ++x) wanted += on_floor(source, x, kTop, z);
       const double ratio = taken_up(trial.volume(), kRim, kSide - kRim, kRim, kSide - kRim) / wanted;
       measured.points.push_back({angle, ratio * std::cos(angle * std::numbers::pi / 180)});
       if (std::abs(ratio - 1) >= std::abs(row.value - 1)) row.value = ratio, row.speed = trial.speed();
@@ -106,91 +170,110 @@ Outcome measure_lit_plane(const Conditions& conditions) {
   return outcome;
 }
 
-// A ball of radius 20, the source 50 radii away: three directions by name, and the 20 corners of
-// a dodecahedron.
+// A ball of radius 20, the source 50 radii away: three directions by name, and 100 on a spiral over the
+// sphere. A ball of cells has the symmetry of the grid, under which no two of the 100 are alike.
 Outcome measure_lit_ball(const Conditions& conditions) {
-  constexpr int kSide = 48;
-  constexpr double kRadius = 20, kDistance = 50 * kRadius;
-  const double g = std::numbers::phi;
-  std::vector<Direction> directions{{0, 1, 0}, {1, 1, 0}, {1, 1, 1}};
-  const std::size_t named = directions.size();
-  for (const double a : {-1., 1.})
-    for (const double b : {-1., 1.}) {
-      for (const double c : {-1., 1.}) directions.push_back({a, b, c});
-      directions.insert(directions.end(), {{0, a / g, b * g}, {a / g, b * g, 0}, {b * g, 0, a / g}});
-    }
+  const double exact = ball_intercepts(kBallRadius, kBallDistance);
+  Conditions without_baseline = conditions;
+  without_baseline.baseline = false;
   Outcome outcome;
-  Row worst{.setting = "worst of 20 directions",
-            .quantity = "energy taken up over exact",
-            .value = 1,
-            .exact = 1,
-            .gate = 0.1};
-  Curve measured{.name = "automaton", .joined = false},
-      one{.name = "exact", .points = {{1, 1}, {20, 1}}, .exact = true};
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    const double m = kSide / 2.0;
-    const Source source = far_source({m, m, m}, directions[i], kDistance);
-    const Trial trial = light(conditions, kSide, kSide, kSide, source, [&](state::Volume& v) {
-      for_each_cell(v.grid, [&](int x, int y, int z) {
-        if (std::hypot(x + 0.5 - m, y + 0.5 - m, z + 0.5 - m) <= kRadius) put_solid(v, x, y, z);
-      });
-    });
-    const double ratio =
-        taken_up(trial.volume(), 0, kSide, 0, kSide) / (source.power * ball_intercepts(kRadius, kDistance));
-    if (i < named) {
-      outcome.rows.push_back({.setting = "from " + text_of(directions[i]),
-                              .quantity = worst.quantity,
-                              .value = ratio,
-                              .exact = 1,
-                              .gate = 0.1,
-                              .speed = trial.speed()});
-    } else {
-      measured.points.push_back({static_cast<double>(i - named + 1), ratio});
-      if (std::abs(ratio - 1) >= std::abs(worst.value - 1)) worst.value = ratio, worst.speed = trial.speed();
-    }
+  const auto row = [&](const std::string& setting, const std::string& over, double value,
+                       std::optional<double> gate, const Speed& speed) {
+    outcome.rows.push_back({.setting = setting,
+                            .quantity = "energy taken up over the cross-section of " + over,
+                            .value = value,
+                            .exact = 1,
+                            .gate = gate,
+                            .speed = speed});
+  };
+  for (const Direction& d : {Direction{0, 1, 0}, Direction{1, 1, 0}, Direction{1, 1, 1}}) {
+    const LitBall lit(conditions, far_source(kBallMiddle, d, kBallDistance), 1);
+    row("1 ray per face, from " + text_of(d), "the ball", lit.energy / exact, 0.1, lit.speed);
   }
-  outcome.rows.push_back(std::move(worst));
-  outcome.charts.push_back({.title = "A ball lit from 20 directions",
-                            .x_label = "direction",
-                            .y_label = "energy taken up over exact",
-                            .curves = {std::move(one), std::move(measured)}});
+
+  std::vector<Source> sources;
+  for (const Direction& d : spiral(100)) sources.push_back(far_source(kBallMiddle, d, kBallDistance));
+  const state::Volume cells = cells_of_ball();
+  std::vector<double> silhouettes;  // over that of the ball
+  silhouettes.reserve(sources.size());
+  for (const Source& source : sources) silhouettes.push_back(solid_angle(cells, source.at) / exact);
+
+  struct Setting {
+    int rays;
+    std::optional<double> of_ball, of_cells, of_mean;  // gates
+  };
+  std::vector<Curve> curves;
+  for (const Setting& setting :
+       {Setting{1, {}, {}, {}}, Setting{4, {}, 0.1, 0.01}, Setting{16, 0.1, 0.1, 0.01}}) {
+    const std::string name = rays_text(setting.rays);
+    std::vector<double> of_ball, of_cells;
+    Speed speed;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      const LitBall lit(i == 0 ? conditions : without_baseline, sources[i], setting.rays);
+      if (i == 0) speed = lit.speed;
+      of_ball.push_back(lit.energy / exact);
+      of_cells.push_back(of_ball.back() / silhouettes[i]);
+    }
+    row(name + ", worst of 100", "the ball", worst(of_ball), setting.of_ball, speed);
+    row(name + ", mean of 100", "the ball", mean(of_ball), {}, speed);
+    row(name + ", worst of 100", "its cells", worst(of_cells), setting.of_cells, speed);
+    row(name + ", mean of 100", "its cells", mean(of_cells), setting.of_mean, speed);
+    curves.push_back(sorted_curve(name, of_ball));
+  }
+  outcome.rows.push_back({.setting = "mean of 100 directions",
+                          .quantity = "cross-section of the cells over that of the ball",
+                          .value = mean(silhouettes),
+                          .exact = 1,
+                          .note = "cells whose centre lies in the ball reach beyond it"});
+  curves.push_back(sorted_curve("cross-section of the cells", silhouettes));
+  curves.push_back({.name = "ball", .points = {{0, 1}, {100, 1}}, .exact = true});
+  outcome.charts.push_back({.title = "A ball lit from 100 directions",
+                            .x_label = "directions in order of the value, %",
+                            .y_label = "energy taken up over the ball's",
+                            .curves = std::move(curves)});
   return outcome;
 }
 
-// A wall 12 cells high is on a floor, with the source to its left. Where does its shadow end?
+// A wall 12 cells high is on a floor, with the source to its left. What the floor behind it lacks of the
+// light of an open floor, in whole cells, is the length of the shadow. Rays stand 1/m of a cell apart, m
+// along each side of a face, so that it may be wrong by 1/(2 m).
 Outcome measure_shadow_edge(const Conditions& conditions) {
-  constexpr int kWide = 96, kDeep = 9, kFloor = 2, kWallEnd = 24, kWallTop = kFloor + 12;
-  Outcome outcome;
-  Curve measured{.name = "automaton", .joined = false}, exact{.name = "exact", .exact = true};
-  for (const double angle : {15., 25., 35., 42., 50., 60., 70.}) {
-    const Source source = far_source({kWallEnd, kWallTop, kDeep / 2.0}, from_angles(180 - angle, 0), -500);
-    const Trial trial = light(conditions, kWide, kWallTop + 2, kDeep, source, [](state::Volume& v) {
-      for_each_cell({kWide, kFloor, kDeep}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
-      for_each_cell({kWallEnd, kWallTop, kDeep}, [&](int x, int y, int z) {
-        if (x >= kWallEnd - 3) put_solid(v, x, y, z);
-      });
+  constexpr int kWide = 96, kDeep = 9, kFloor = 2, kWallEnd = 24, kWallTop = kFloor + 12, kRow = kDeep / 2;
+  const auto fill = [](state::Volume& v) {
+    for_each_cell({kWide, kFloor, kDeep}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
+    for_each_cell({kWallEnd, kWallTop, kDeep}, [&](int x, int y, int z) {
+      if (x >= kWallEnd - 3) put_solid(v, x, y, z);
     });
-    const auto lit = [&](int x) {
-      return trial.volume().heat[trial.volume().at(x, kFloor - 1, kDeep / 2)] > 0;
-    };
-    int edge = kWallEnd;
-    while (edge < kWide && !lit(edge)) ++edge;
-    const double slope = (source.at[1] - kWallTop) / (kWallEnd - source.at[0]);
-    const double wanted = (kWallTop - kFloor) / slope;
-    measured.points.push_back({angle, static_cast<double>(edge - kWallEnd)});
-    exact.points.push_back({angle, wanted});
-    outcome.rows.push_back({.setting = fmt::format("{:g} degrees", angle),
-                            .quantity = "length of the shadow, cells",
-                            .value = static_cast<double>(edge - kWallEnd),
-                            .exact = wanted,
-                            .measure = Measure::absolute,
-                            .note = edge == kWide ? "the floor is dark" : "",
-                            .speed = trial.speed()});
+  };
+  Outcome outcome;
+  Chart chart{.title = "The shadow of a wall 12 cells high",
+              .x_label = "angle of the light from the vertical, degrees",
+              .y_label = "error of its length, cells"};
+  for (const int across : {1, 2, 4}) {
+    const int rays = across * across;
+    Conditions once = conditions;
+    once.baseline = conditions.baseline && rays == 1;
+    const std::string name = rays_text(rays);
+    Curve error{.name = name};
+    for (const double angle : {15., 25., 35., 42., 50., 60., 70.}) {
+      const Source source = far_source({kWallEnd, kWallTop, kDeep / 2.0}, from_angles(180 - angle, 0), -2000);
+      const Trial trial = light(once, kWide, kWallTop + 2, kDeep, source, fill, rays);
+      double length = 0;
+      for (int x = kWallEnd; x < kWide; ++x)
+        length += 1 - taken_up(trial.volume(), x, x + 1, kRow, kRow + 1) / on_floor(source, x, kFloor, kRow);
+      const double wanted = (kWallTop - kFloor) * (kWallEnd - source.at[0]) / (source.at[1] - kWallTop);
+      error.points.push_back({angle, length - wanted});
+      outcome.rows.push_back({.setting = fmt::format("{}, {:g} degrees", name, angle),
+                              .quantity = "length of the shadow, cells",
+                              .value = length,
+                              .exact = wanted,
+                              .measure = Measure::absolute,
+                              .gate = 0.5 / across + 0.05,
+                              .speed = trial.speed()});
+    }
+    chart.curves.push_back(std::move(error));
   }
-  outcome.charts.push_back({.title = "The shadow of a wall 12 cells high",
-                            .x_label = "angle of the light from the vertical, degrees",
-                            .y_label = "length, cells",
-                            .curves = {std::move(exact), std::move(measured)}});
+  outcome.charts.push_back(std::move(chart));
   return outcome;
 }
 

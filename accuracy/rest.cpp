@@ -65,10 +65,11 @@ Outcome measure_rest(const Conditions& conditions) {
   });
   Chart chart{.title = "A checkerboard pool goes flat",
               .x_label = "step",
-              .y_label = "largest difference of neighbours, cells"};
+              .y_label = "largest difference of neighbours, cells",
+              .logarithmic_x = true};
   Curve curve{.name = "kappa 0.02"};
   double rough = 0;
-  for (std::uint32_t step = 0; step <= 1500; step += step < 100 ? 10 : 100) {
+  for (const std::uint32_t step : Trial::samples(1, 1500)) {
     pool.run_to(step);
     const Columns columns(pool.volume());
     rough = 0;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -119,11 +118,10 @@ Outcome measure_blob(const Conditions& conditions) {
   constexpr double kKappa = 0.1, kDepth = 1.6, kRadius = 12;
   constexpr std::uint32_t kSample = 16;
   Outcome outcome;
-  Chart chart{.title = "A blob runs down a plane",
+  Chart chart{.title = "Error of the way of a blob down a plane",
               .x_label = "exact way, cells",
-              .y_label = "way of its centre, cells"};
-  Curve exact{.name = "exact", .exact = true};
-  double longest = 0;
+              .y_label = "error, %",
+              .band = 5};
   for (const double slope : {0.1, 0.25, 0.5})
     for (const double angle : {0., 22.5, 45.}) {
       const double a = angle * std::numbers::pi / 180, sx = slope * std::cos(a), sz = slope * std::sin(a);
@@ -157,9 +155,8 @@ Outcome measure_blob(const Conditions& conditions) {
         const Moments m = moments(columns);
         along = (m.x - start.x) * std::cos(a) + (m.z - start.z) * std::sin(a);
         aside = (m.z - start.z) * std::cos(a) - (m.x - start.x) * std::sin(a);
-        curve.points.push_back({expected, along});
+        curve.points.push_back({expected, 100 * (along / expected - 1)});
       }
-      longest = std::max(longest, expected);
       const std::string setting = fmt::format("slope {:g}, {:g} degrees to the grid", slope, angle);
       outcome.rows.push_back({.setting = setting,
                               .quantity = "way of the centre over exact",
@@ -175,8 +172,6 @@ Outcome measure_blob(const Conditions& conditions) {
                               .speed = trial.speed()});
       if (slope != 0.25 || angle == 0) chart.curves.push_back(std::move(curve));
     }
-  exact.points = {{0, 0}, {longest, longest}};
-  chart.curves.insert(chart.curves.begin(), std::move(exact));
   outcome.charts.push_back(std::move(chart));
   return outcome;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "bench/measure/baseline_run.h"
 
@@ -62,6 +63,13 @@ Trial::Trial(const Conditions& conditions, const std::string& scene_name, std::v
 
 void Trial::run_to(std::uint32_t step) {
   while (simulation_->steps_done() < step) simulation_->step();
+}
+
+std::vector<std::uint32_t> Trial::samples(std::uint32_t from, std::uint32_t end) {
+  std::vector<std::uint32_t> steps;
+  for (std::uint32_t step = from; step < end; step += std::max(1u, step / 10)) steps.push_back(step);
+  steps.push_back(end);
+  return steps;
 }
 
 Speed Trial::speed(Books books) const {

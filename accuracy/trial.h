@@ -30,6 +30,9 @@ class Trial {
   const run::Simulation& simulation() const { return *simulation_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
+  // Steps from `from` to `end` for a curve over a logarithm of time: each one, then a tenth later each.
+  static std::vector<std::uint32_t> samples(std::uint32_t from, std::uint32_t end);
+
   // A run whose ledgers do not balance proves nothing. Then speed() throws std::runtime_error.
   enum class Books { must_balance, are_asked_for };
   Speed speed(Books books = Books::must_balance) const;

@@ -60,7 +60,7 @@ void print_rows(const accuracy::Found& found) {
                !row.gate      ? ""
                : row.passed() ? "passed"
                               : "MISSED",
-               accuracy::speed_text(row.speed.cells_per_second),
+               row.speed.cells_per_second > 0 ? accuracy::speed_text(row.speed.cells_per_second) : "-",
                baseline ? accuracy::speed_text(*baseline) : "-",
                row.quantity + (row.note.empty() ? "" : " (" + row.note + ")"));
   }

@@ -51,7 +51,8 @@ std::string table_row(const Row& row) {
       typeset(number_text(row.value)), typeset(number_text(row.exact)), row.passed() ? "" : "bad",
       typeset(error_text(row)), row.gate ? "± " + gate_text(row) : "", verdict,
       row.speed.cells_per_second > 0 ? speed_text(row.speed.cells_per_second) : "–",
-      baseline ? speed_text(*baseline) : "–", row.speed.state_bits);
+      baseline ? speed_text(*baseline) : "–",
+      row.speed.state_bits > 0 ? std::to_string(row.speed.state_bits) : "–");
 }
 
 std::string pill(const Outcome& outcome) {

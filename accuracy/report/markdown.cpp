@@ -28,6 +28,12 @@ std::string wrapped(const std::string& text) {
   return out + line;
 }
 
+std::string list_item(const std::string& text) {
+  std::string out = "- ";
+  for (const char c : wrapped(text)) out += c == '\n' ? std::string("\n  ") : std::string(1, c);
+  return out + '\n';
+}
+
 std::string table_row(const Row& row) {
   const auto& baseline = row.speed.baseline_cells_per_second;
   return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", bar_free(row.setting),
@@ -65,8 +71,10 @@ std::string markdown_text(const Report& report) {
         "| setting | quantity | value | exact | error | gate | | Mcells/s | baseline |\n"
         "|---|---|---:|---:|---:|---:|---|---:|---:|\n";
     for (const Row& row : found.outcome.rows) out += table_row(row);
+    std::string notes;
     for (const Row& row : found.outcome.rows)
-      if (!row.note.empty()) out += fmt::format("\n- {}\n", wrapped(row.setting + ": " + row.note));
+      if (!row.note.empty()) notes += list_item(row.setting + ": " + row.note);
+    if (!notes.empty()) out += "\n" + notes;
   }
   return out;
 }

@@ -33,7 +33,8 @@ p { margin: 0 0 14px; max-width: 74ch; }
 .pill { font-size: 13px; font-weight: 600; white-space: nowrap; padding: 2px 11px; border-radius: 99px; border: 1px solid; }
 .good { color: var(--good); fill: var(--good); } .bad { color: var(--bad); fill: var(--bad); }
 .rows { overflow-x: auto; }
-table { border-collapse: collapse; width: 100%; font-size: 14px; }
+table { border-collapse: collapse; table-layout: fixed; width: 100%; min-width: 860px; font-size: 14px; }
+th { width: 84px; } th:first-child { width: auto; } th:last-child { width: 46px; }
 th { text-align: left; font-weight: 500; color: var(--soft); border-bottom: 1px solid var(--line); padding: 6px 10px 6px 0; }
 td { border-bottom: 1px solid var(--faint); padding: 5px 10px 5px 0; vertical-align: baseline; }
 tr:last-child td { border-bottom: 0; }

@@ -11,7 +11,7 @@
 namespace voxmelt::accuracy {
 namespace {
 
-constexpr double kWidth = 520, kHeight = 300, kLeft = 58, kRight = 506, kTop = 14, kBottom = 252;
+constexpr double kWidth = 520, kHeight = 300, kLeft = 68, kRight = 506, kTop = 14, kBottom = 252;
 constexpr std::size_t kJoinUpTo = 30;  // with more points, dots alone make the line
 
 std::string text(double x, double y, const char* anchor, const std::string& what, const char* css = "tick") {
@@ -113,9 +113,9 @@ std::string chart_svg(const Chart& chart) {
 std::string overview_svg(const Report& report) {
   constexpr double kRow = 19, kNames = 150, kEnd = 1040, kFurthest = 1000;
   const double middle = kNames + (kEnd - kNames) / 2;
-  // From a thousandth of the gate to a thousand times.
+  // From a thousandth of the gate to a thousand times. An error of 0 is within a gate of 0.
   const auto place = [&](const Row& row) {
-    const double ratio = std::abs(row.error()) / *row.gate;
+    const double error = std::abs(row.error()), ratio = error == 0 ? 0 : error / *row.gate;
     const double decades = std::isfinite(ratio) ? std::log10(std::max(ratio, 1 / kFurthest)) : 3;
     return middle + std::clamp(decades / std::log10(kFurthest), -1.0, 1.0) * (kEnd - 10 - middle);
   };

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -60,7 +61,6 @@ TEST(Analytic, SlabStartsColdAndEndsWarm) {
 TEST(Analytic, HuppertConstants) {
   EXPECT_NEAR((Drop{3, 1}.front(1)), 0.89391, 1e-5);
   EXPECT_NEAR((Dam{3, 1}.front(1)), 1.41124, 1e-5);
-  EXPECT_NEAR(flux_front(3, 1, 1), 0.715, 1e-12);
   const Drop drop{0.02, 9000};
   const Dam dam{0.02, 500};
   EXPECT_NEAR(drop.front(256) / drop.front(1), 2, 1e-12);
@@ -78,6 +78,25 @@ TEST(Analytic, HuppertConstants) {
   EXPECT_NEAR(std::sqrt(second / volume), drop.rms_radius(100), 1e-3);
 }
 
+// Huppert's 0.715 for the front. The other digits are of a second program: it integrates the profile in y
+// instead of log y, for phi^4 / 4 and the flux. The volume is the flux times the time.
+TEST(Analytic, CurrentOfConstantFlux) {
+  const FedCurrent unit{3, 1};
+  EXPECT_NEAR(unit.front(1), 0.715016, 1e-5);
+  EXPECT_NEAR(unit.rms_radius(1) / unit.front(1), 0.635557, 1e-5);
+  const FedCurrent current{0.02, 5};
+  EXPECT_NEAR(current.front(400) / current.front(100), 2, 1e-12);
+  const double end = current.front(100);
+  double volume = 0, second = 0;
+  for (double r = 0.005; r < end; r += 0.01) {
+    volume += 2 * std::numbers::pi * r * current.height(r, 100) * 0.01;
+    second += 2 * std::numbers::pi * r * r * r * current.height(r, 100) * 0.01;
+  }
+  EXPECT_NEAR(volume, 500, 0.2);
+  EXPECT_NEAR(std::sqrt(second / volume), current.rms_radius(100), 1e-3);
+  EXPECT_EQ(current.height(1.001 * end, 100), 0);
+}
+
 // sin(a) cos(a)^3 by trigonometry.
 TEST(Analytic, NusseltIsOfTheDepthAlongGravity) {
   for (const double slope : {0.1, 0.25, 0.5, 1.0}) {
@@ -85,6 +104,15 @@ TEST(Analytic, NusseltIsOfTheDepthAlongGravity) {
     EXPECT_NEAR(nusselt(slope), std::sin(angle) * std::pow(std::cos(angle), 3), 1e-12);
   }
   EXPECT_NEAR(nusselt(0.5), 0.32, 1e-12);
+}
+
+// By hand. 600 cells, shafts of 60 columns, a roof over 60 more at height 4: 60 h + 60 (4 + o) = 600 and
+// h - 4 = 8 o, so h = 52 / 9. 243 cells, 18 columns, 9 roofed at 3: 18 h + 9 (3 + o) = 243, so h = 195 / 17.
+TEST(Analytic, ConduitLevel) {
+  EXPECT_NEAR(conduit_level(600, 60, 60, 4, 8), 52.0 / 9, 1e-12);
+  EXPECT_NEAR(conduit_level(243, 18, 9, 3, 8), 195.0 / 17, 1e-12);
+  EXPECT_NEAR(conduit_level(600, 60, 60, 4, 1), 5, 1e-12);  // as soft as open water: all columns alike
+  EXPECT_NEAR(conduit_level(600, 60, 60, 4, std::numeric_limits<double>::infinity()), 6, 1e-12);
 }
 
 TEST(Analytic, Rest) {

@@ -91,11 +91,21 @@ TEST(Report, PageIsSelfContainedAndDrawsEveryPoint) {
   EXPECT_EQ(count(page, "prefers-color-scheme: dark"), 1);
 }
 
+// The picture of all gates: 0 over a gate of 0 is at its left end, with what passes, and 1 over 0 at its
+// right.
+TEST(Report, ExactErrorsAreWithinExactGates) {
+  const std::string page =
+      html_text(report({row(0, 0, Measure::absolute, 0), row(1, 0, Measure::absolute, 0)}));
+  EXPECT_EQ(count(page, "<circle class=\"good\" cx=\"160.0\""), 1);
+  EXPECT_EQ(count(page, "<circle class=\"bad\" cx=\"1030.0\""), 1);
+}
+
 TEST(Report, TablesHaveOneWidth) {
   const std::string text = markdown_text(report({row(1.1, 1, Measure::relative, 0.01)}));
   EXPECT_NE(text.find("**0 of 1 gates passed.**"), std::string::npos);
   EXPECT_NE(text.find("| cells / steps | 1.100 | 1.000 | +10.0 % | 1 % | **missed** | 1.50 | - |"),
             std::string::npos);
+  EXPECT_NE(text.find("|\n\n- a <setting>, \"quoted\": odd\n"), std::string::npos);
   EXPECT_NE(csv_text(report({row(2, 1, Measure::relative, 0.5)})).find("\"a <setting>, \"\"quoted\"\"\""),
             std::string::npos);
 }

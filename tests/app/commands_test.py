@@ -76,6 +76,19 @@ class Commands(unittest.TestCase):
                              (count["cells"], count["mass"]) if limited else (0, 0), sets)
             self.assertEqual("100 % of the liquid" in said, limited, sets)
 
+    # One column of depth 2, which is cut, behind a wall; beside it columns of depth 1, which are not: 2 of 40 or 39.
+    def test_a_line_says_so_above_a_twentieth(self):
+        for shallow, said in ((38, False), (37, True)):
+            (self.folder / "pools.toml").write_text(
+                f'[grid]\nsize = [{shallow + 2}, 4, 1]\n[flow]\nlaw = "viscous"\nviscous = {{ kappa = 0.2 }}\n'
+                f'[[liquid]]\nshape = "box"\nsize = [{shallow}, 1, 1]\nat = [{shallow / 2}, 0.5, 0.5]\n'
+                f'[[inert]]\nshape = "box"\nsize = [1, 4, 1]\nat = [{shallow + 0.5}, 2, 0.5]\n'
+                f'[[liquid]]\nshape = "box"\nsize = [1, 2, 1]\nat = [{shallow + 1.5}, 1, 0.5]\n')
+            lines = self.good("run", "pools.toml", "--steps", 3, "--frame-every", 0, "--report", "pools.json")
+            count = json.loads((self.folder / "pools.json").read_text())["limit"]
+            self.assertEqual((count["limited_mass"], count["mass"]), (3 * 2 * 4096, 3 * (shallow + 2) * 4096))
+            self.assertEqual("5 % of the liquid flows more slowly" in lines, said, shallow)
+
     def test_the_report_says_how_many_threads_worked(self):
         here = len(os.sched_getaffinity(0))
         for asked, used in ((["--threads", 1], 1), (["--threads", 2], min(2, here)), ([], here)):
