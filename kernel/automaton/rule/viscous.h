@@ -149,6 +149,13 @@ VOXMELT_RULE std::int32_t slope_factor(std::int32_t bed, std::int32_t other, boo
   return factor[static_cast<std::size_t>(std::min(kSteepest, std::max(bed - other, other - bed)))];
 }
 
+// The amount that flows at a drop: between level beds the mean of both cells, since the face lies between the
+// columns. On a slope the two cells lie at different depths of their runs, so the giver's alone counts.
+VOXMELT_RULE std::int32_t flowing_amount(const Column& giver, std::int32_t a, const Column& taker,
+                                         std::int32_t b) {
+  return giver.bed != kNoBed && giver.bed == taker.bed ? (a + b + 1) >> 1 : a;
+}
+
 // The flow from `giver` (amount a) to `taker` (amount b); 0 unless the giver stands higher and in a run.
 VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, const Column& taker,
                                        std::int32_t b, bool diagonal, std::int32_t dither) {
@@ -160,7 +167,8 @@ VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, cons
 
   std::int64_t mobilities = std::int64_t{taker.in_run ? giver.mobility : giver.exposed} + taker.mobility;
   if (taker.limit > 0) mobilities = std::min<std::int64_t>(mobilities, std::int64_t{giver.limit} << 9);
-  const std::int64_t conductance = std::min<std::int64_t>((1 << 24) - 1, (mobilities * a) >> 12);
+  const std::int64_t flowing = flowing_amount(giver, a, taker, b);
+  const std::int64_t conductance = std::min<std::int64_t>((1 << 24) - 1, (mobilities * flowing) >> 12);
   const std::int64_t drive = (slope_factor(giver.bed, taker.bed, diagonal) * drop) >> 9;  // 1/8192 cell
   const std::int64_t product = conductance * drive, offset = dither;
   const auto wanted = static_cast<std::int32_t>(diagonal ? (product + (offset << 12)) >> 28

@@ -274,13 +274,29 @@ TEST(ViscousFlow, BetweenLevelBedsIsAPlainProduct) {
   for (int trial = 0; trial < 20000; ++trial) {
     const auto below = [&](std::uint64_t n) { return static_cast<std::int32_t>(random() % n); };
     const std::int32_t drop = 2 + below(400), mobility = below(8193), a = 1 + below(65535), r = below(65536);
-    const std::int64_t c = std::min<std::int64_t>((1 << 24) - 1, (std::int64_t{512} * mobility * a) >> 12);
+    const std::int64_t c =
+        std::min<std::int64_t>((1 << 24) - 1, (std::int64_t{512} * mobility * ((a + 1) / 2)) >> 12);
     const std::int64_t axis = (c * std::min(drop, 256) + (r << 5)) >> 21;
     const std::int64_t diagonal = (c * std::min(drop, 362) + (r << 7)) >> 23, fifth = a * 13107 >> 16;
     const Column giver = run_on(7, run_at(drop, mobility)), taker = run_on(7, run_at(0, mobility));
     ASSERT_EQ(viscous_flow(giver, a, taker, 0, false, r), std::min(axis, fifth));
     ASSERT_EQ(viscous_flow(giver, a, taker, 0, true, r), std::min(diagonal, fifth >> 2));
   }
+}
+
+// Mobilities of 1/16: a drop of one cell moves 1/16 of the amount that flows. Cells of 3000 and 1001.
+TEST(ViscousFlow, TheMeanOfBothFlowsBetweenLevelBeds) {
+  const Column giver = run_on(24, run_at(kHeadOne, 4096)), level = run_on(24, run_at(0, 4096));
+  EXPECT_EQ(viscous_flow(giver, 3000, level, 1001, false, 0), 125);  // 2001 / 16 = 125.06
+  EXPECT_EQ(viscous_flow(giver, 3000, level, 1001, true, 0), 31);    // a quarter
+  EXPECT_EQ(viscous_flow(giver, 3000, level, 1000, false, 0), 125);  // 2000.5 rounds up
+  Column low = bed_column(24 * kHeadOne / 16);
+  low.head = 0;
+  EXPECT_EQ(viscous_flow(giver, 3000, low, 0, false, 0), 46);  // a dry bed: 1500 / 32 = 46.9
+  // The giver's alone where the beds differ, or where there is none.
+  EXPECT_EQ(viscous_flow(giver, 3000, run_on(23, level), 1001, false, 0), 186);  // 187.5 x 16257 / 16384
+  EXPECT_EQ(viscous_flow(giver, 3000, run_on(kNoBed, level), 1001, false, 0), 187);
+  EXPECT_EQ(viscous_flow(run_on(kNoBed, giver), 3000, run_on(kNoBed, level), 1001, false, 0), 187);
 }
 
 TEST(Bed, IsShownInSixteenths) {
