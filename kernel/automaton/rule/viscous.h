@@ -67,9 +67,11 @@ VOXMELT_RULE std::int32_t bed_head(int y, std::int32_t bed_amount) {
 }
 
 // Dithers of sub-step k of n. A pair's: n sub-steps at a steady flux round as one step does (Hermite's
-// identity). A mixture's: no two are alike, and that of sub-step 0 is the step's.
-VOXMELT_RULE std::int32_t pair_dither(std::uint32_t step, int axis, int k, int n) {
-  return (dither(step, axis, 4) + 65536 * ((k + axis * n / 4) % n)) / n;
+// identity), and the layers of a run, by their height y, round in turn. A mixture's: no two are alike, and
+// that of sub-step 0 is the step's.
+VOXMELT_RULE std::int32_t pair_dither(std::uint32_t step, int axis, int y, int k, int n) {
+  const std::int32_t offset = (dither(step, axis, 4) + dither(static_cast<std::uint32_t>(y))) & 0xFFFF;
+  return (offset + 65536 * ((k + axis * n / 4) % n)) / n;
 }
 VOXMELT_RULE std::int32_t mixing_dither(std::uint32_t step, int k) {
   return (dither(step) + dither(static_cast<std::uint32_t>(k))) & 0xFFFF;

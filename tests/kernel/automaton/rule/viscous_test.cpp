@@ -121,14 +121,30 @@ TEST(PairDither, SubstepsRoundAsOneStep) {
       for (int axis = 0; axis < 4; ++axis)
         for (const std::int64_t x : {0, 1, 40, 65, 20000, 65535, 100000}) {
           std::int64_t sum = 0;
-          for (int k = 0; k < n; ++k) sum += (x + pair_dither(step, axis, k, n)) >> 16;
+          for (int k = 0; k < n; ++k) sum += (x + pair_dither(step, axis, 0, k, n)) >> 16;
           ASSERT_EQ(sum, (n * x + dither(step, axis, 4)) >> 16) << n << " sub-steps";
         }
   // By hand, n = 2, D = 0: 0 and 1/2; the axis 2 begins with its second one.
-  EXPECT_EQ(pair_dither(0, 0, 0, 2), 0);
-  EXPECT_EQ(pair_dither(0, 0, 1, 2), 32768);
-  EXPECT_EQ(pair_dither(0, 2, 0, 2), 49152);  // (1/2 + 1) / 2
-  EXPECT_EQ(pair_dither(0, 2, 1, 2), 16384);
+  EXPECT_EQ(pair_dither(0, 0, 0, 0, 2), 0);
+  EXPECT_EQ(pair_dither(0, 0, 0, 1, 2), 32768);
+  EXPECT_EQ(pair_dither(0, 2, 0, 0, 2), 49152);  // (1/2 + 1) / 2
+  EXPECT_EQ(pair_dither(0, 2, 0, 1, 2), 16384);
+}
+
+// Bits in reverse order: heights 0 to 3 are at 0, 1/2, 1/4 and 3/4. Axis 1 is a quarter ahead.
+TEST(PairDither, LayersRoundInTurn) {
+  for (const auto& [y, axis0, axis1] :
+       {std::array{0, 0, 16384}, {1, 32768, 49152}, {2, 16384, 32768}, {3, 49152, 0}}) {
+    EXPECT_EQ(pair_dither(0, 0, y, 0, 1), axis0);
+    EXPECT_EQ(pair_dither(0, 1, y, 0, 1), axis1);
+  }
+  // Of 16 layers that each give x, 16 x flows at every step, to a unit.
+  for (std::uint32_t step = 0; step < 64; ++step)
+    for (const std::int32_t x : {0, 4096, 20480, 61440, 69632}) {
+      std::int32_t sum = 0;
+      for (int y = 0; y < 16; ++y) sum += (x + pair_dither(step, 0, y, 0, 1)) >> 16;
+      ASSERT_EQ(sum, x / 4096) << step;
+    }
 }
 
 TEST(MixingDither, IsTheStepsInItsFirstSubstep) {
