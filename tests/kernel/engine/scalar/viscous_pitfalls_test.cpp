@@ -60,7 +60,7 @@ TEST(Pool, LevelToOneHeadUnitDoesNotMove) {
       Random random(6);
       fill(v, {0, 0, 0, 12, depth, 11}, kOne);
       for_each({0, depth, 0, 12, depth + 1, 11},
-               [&](int x, int y, int z) { put(v, x, y, z, part + random.below(16)); });
+               [&](int x, int y, int z) { put(v, x, y, z, part + random.below(8)); });
       run::Simulation s = simulate(viscous(100), v);
       steps(s, 300);
       EXPECT_EQ(s.volume().amount, v.amount);
