@@ -1,6 +1,6 @@
 // The viscous law: free-surface heads and lubrication mobility of settled runs of liquid.
 //
-// A run is the contiguous liquid standing on a solid. Heads are in 1/256 cell from the grid's bottom.
+// A run is the contiguous liquid standing on a solid. Heads are in 1/512 cell from the grid's bottom.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace voxmelt::rule {
 
-inline constexpr std::int32_t kHeadOne = 256;
+inline constexpr std::int32_t kHeadOne = 512;
 inline constexpr std::int32_t kRunHalf = kOne / 2;
 inline constexpr std::int32_t kNoBed = -1;  // of a cell in the air
 
@@ -52,7 +52,7 @@ VOXMELT_RULE std::int32_t settles_down(std::int64_t mass, std::int64_t mass_belo
 }
 
 struct Column {           // what a cell shows to its neighbours
-  std::int32_t head;      // 1/256 cell
+  std::int32_t head;      // 1/512 cell
   std::int32_t mobility;  // 1/2^24, towards a cell in a run: limited by the depth
   std::int32_t exposed;   // 1/2^24, towards a cell outside a run: a bare flank, limited per cell only
   std::int32_t dead;      // head differences up to this do not move it (yield stress; at least one unit)
@@ -63,13 +63,15 @@ struct Column {           // what a cell shows to its neighbours
 };
 
 VOXMELT_RULE std::int32_t bed_head(int y, std::int32_t bed_amount) {
-  return y * kHeadOne + ((bed_amount - kBedHalf) >> 4);
+  return y * kHeadOne + ((bed_amount - kBedHalf) >> 3);
 }
 
 // Dithers of sub-step k of n. A pair's: n sub-steps at a steady flux round as one step does (Hermite's
-// identity). A mixture's: no two are alike, and that of sub-step 0 is the step's.
-VOXMELT_RULE std::int32_t pair_dither(std::uint32_t step, int axis, int k, int n) {
-  return (dither(step, axis, 4) + 65536 * ((k + axis * n / 4) % n)) / n;
+// identity), and the layers of a run, by their height y, round in turn. A mixture's: no two are alike, and
+// that of sub-step 0 is the step's.
+VOXMELT_RULE std::int32_t pair_dither(std::uint32_t step, int axis, int y, int k, int n) {
+  const std::int32_t offset = (dither(step, axis, 4) + dither(static_cast<std::uint32_t>(y))) & 0xFFFF;
+  return (offset + 65536 * ((k + axis * n / 4) % n)) / n;
 }
 VOXMELT_RULE std::int32_t mixing_dither(std::uint32_t step, int k) {
   return (dither(step) + dither(static_cast<std::uint32_t>(k))) & 0xFFFF;
@@ -104,12 +106,12 @@ VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t b
   const ViscousLaw& law = flow.viscous;
   const std::int64_t over = std::max<std::int64_t>(0, mass - std::int64_t{n} * kOne);
   const auto depth = static_cast<std::int32_t>(std::max<std::int64_t>(1, mass >> 4));
-  const std::int64_t dead = (static_cast<std::int64_t>(law.yield) + depth / 2) / depth;
+  const std::int64_t dead = (2 * static_cast<std::int64_t>(law.yield) + depth / 2) / depth;
   const std::int64_t mobility = run_mobility(mass, h, flow, substeps);
 
   Column column{};
   column.head =
-      bed + static_cast<std::int32_t>(mass >> 4) + (law.stiffness - 1) * static_cast<std::int32_t>(over >> 4);
+      bed + static_cast<std::int32_t>(mass >> 3) + (law.stiffness - 1) * static_cast<std::int32_t>(over >> 3);
   column.limit = run_limit(mass, over, law);
   const std::int64_t most = std::int64_t{column.limit} << 8;
   column.limited = mobility > most;
@@ -117,12 +119,12 @@ VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t b
   column.exposed = static_cast<std::int32_t>(std::min<std::int64_t>(mobility, 1 << 21));
   column.dead = static_cast<std::int32_t>(std::max<std::int64_t>(1, dead));
   column.in_run = true;
-  column.bed = bed >> 4;
+  column.bed = bed >> 5;
   return column;
 }
 
 // A cell outside a run: on a bed, on top of a run (`below`), or in the air.
-VOXMELT_RULE Column bed_column(std::int32_t bed) { return {bed, 0, 0, 0, false, bed >> 4}; }
+VOXMELT_RULE Column bed_column(std::int32_t bed) { return {bed, 0, 0, 0, false, bed >> 5}; }
 VOXMELT_RULE Column top_column(const Column& below) {
   return {below.head, below.mobility, 0, 0, false, below.bed, below.limit};
 }
@@ -149,6 +151,13 @@ VOXMELT_RULE std::int32_t slope_factor(std::int32_t bed, std::int32_t other, boo
   return factor[static_cast<std::size_t>(std::min(kSteepest, std::max(bed - other, other - bed)))];
 }
 
+// The amount that flows at a drop: between level beds the mean of both cells, since the face lies between the
+// columns. On a slope the two cells lie at different depths of their runs, so the giver's alone counts.
+VOXMELT_RULE std::int32_t flowing_amount(const Column& giver, std::int32_t a, const Column& taker,
+                                         std::int32_t b) {
+  return giver.bed != kNoBed && giver.bed == taker.bed ? (a + b + 1) >> 1 : a;
+}
+
 // The flow from `giver` (amount a) to `taker` (amount b); 0 unless the giver stands higher and in a run.
 VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, const Column& taker,
                                        std::int32_t b, bool diagonal, std::int32_t dither) {
@@ -156,12 +165,13 @@ VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, cons
   const std::int32_t dead = diagonal ? (giver.dead * 11) >> 3 : giver.dead;
   std::int32_t drop = giver.head - taker.head;
   if (drop <= dead) return 0;
-  drop = std::min(drop, diagonal ? 362 : kHeadOne);
+  drop = std::min(drop, diagonal ? 724 : kHeadOne);
 
   std::int64_t mobilities = std::int64_t{taker.in_run ? giver.mobility : giver.exposed} + taker.mobility;
   if (taker.limit > 0) mobilities = std::min<std::int64_t>(mobilities, std::int64_t{giver.limit} << 9);
-  const std::int64_t conductance = std::min<std::int64_t>((1 << 24) - 1, (mobilities * a) >> 12);
-  const std::int64_t drive = (slope_factor(giver.bed, taker.bed, diagonal) * drop) >> 9;  // 1/8192 cell
+  const std::int64_t flowing = flowing_amount(giver, a, taker, b);
+  const std::int64_t conductance = std::min<std::int64_t>((1 << 24) - 1, (mobilities * flowing) >> 12);
+  const std::int64_t drive = (slope_factor(giver.bed, taker.bed, diagonal) * drop) >> 10;  // 1/8192 cell
   const std::int64_t product = conductance * drive, offset = dither;
   const auto wanted = static_cast<std::int32_t>(diagonal ? (product + (offset << 12)) >> 28
                                                          : (product + (offset << 10)) >> 26);

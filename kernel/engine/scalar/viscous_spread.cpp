@@ -56,7 +56,7 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
       if (!in_run_[i] && !in_run_[j]) continue;
       const rule::Column there = column(nx, y, nz);
       const std::int32_t offset =
-          rule::pair_dither(moment.step, kDitherAxis[d], moment.substep, moment.substeps);
+          rule::pair_dither(moment.step, kDitherAxis[d], y, moment.substep, moment.substeps);
       out += rule::viscous_flow(own, volume.amount[i], there, volume.amount[j], diagonal, offset);
       const std::int32_t taken =
           rule::viscous_flow(there, volume.amount[j], own, volume.amount[i], diagonal, offset);

@@ -53,14 +53,14 @@ Flow flow_of(std::uint64_t mobility, std::uint32_t yield = 0, std::uint8_t stiff
 
 TEST(RunColumn, HeadIsTheFreeSurface) {
   const Flow flow = flow_of(std::uint64_t{1} << 32);
-  EXPECT_EQ(run_column(3 * kOne, 3, bed_head(5, kBedHalf), 0, flow).head, 8 * 256);
-  EXPECT_EQ(run_column(15, 1, 0, 0, flow).head, 0);
-  EXPECT_EQ(run_column(16, 1, 0, 0, flow).head, 1);
-  EXPECT_EQ(bed_head(2, kBedHalf + 2048), 2 * 256 + 128);
-  EXPECT_EQ(bed_head(2, 0), 2 * 256 - 128);
+  EXPECT_EQ(run_column(3 * kOne, 3, bed_head(5, kBedHalf), 0, flow).head, 8 * 512);
+  EXPECT_EQ(run_column(7, 1, 0, 0, flow).head, 0);
+  EXPECT_EQ(run_column(8, 1, 0, 0, flow).head, 1);
+  EXPECT_EQ(bed_head(2, kBedHalf + 2048), 2 * 512 + 256);
+  EXPECT_EQ(bed_head(2, 0), 2 * 512 - 256);
   // Over-full by one cell under a ceiling: eight times as high.
-  EXPECT_EQ(run_column(4 * kOne, 3, 0, 0, flow).head, 4 * 256 + 7 * 256);
-  EXPECT_EQ(run_column(4 * kOne, 3, 0, 0, flow_of(1, 0, 1)).head, 4 * 256);
+  EXPECT_EQ(run_column(4 * kOne, 3, 0, 0, flow).head, 4 * 512 + 7 * 512);
+  EXPECT_EQ(run_column(4 * kOne, 3, 0, 0, flow_of(1, 0, 1)).head, 4 * 512);
 }
 
 TEST(RunColumn, MobilityIsQuadraticAndLimited) {
@@ -121,14 +121,30 @@ TEST(PairDither, SubstepsRoundAsOneStep) {
       for (int axis = 0; axis < 4; ++axis)
         for (const std::int64_t x : {0, 1, 40, 65, 20000, 65535, 100000}) {
           std::int64_t sum = 0;
-          for (int k = 0; k < n; ++k) sum += (x + pair_dither(step, axis, k, n)) >> 16;
+          for (int k = 0; k < n; ++k) sum += (x + pair_dither(step, axis, 0, k, n)) >> 16;
           ASSERT_EQ(sum, (n * x + dither(step, axis, 4)) >> 16) << n << " sub-steps";
         }
   // By hand, n = 2, D = 0: 0 and 1/2; the axis 2 begins with its second one.
-  EXPECT_EQ(pair_dither(0, 0, 0, 2), 0);
-  EXPECT_EQ(pair_dither(0, 0, 1, 2), 32768);
-  EXPECT_EQ(pair_dither(0, 2, 0, 2), 49152);  // (1/2 + 1) / 2
-  EXPECT_EQ(pair_dither(0, 2, 1, 2), 16384);
+  EXPECT_EQ(pair_dither(0, 0, 0, 0, 2), 0);
+  EXPECT_EQ(pair_dither(0, 0, 0, 1, 2), 32768);
+  EXPECT_EQ(pair_dither(0, 2, 0, 0, 2), 49152);  // (1/2 + 1) / 2
+  EXPECT_EQ(pair_dither(0, 2, 0, 1, 2), 16384);
+}
+
+// Bits in reverse order: heights 0 to 3 are at 0, 1/2, 1/4 and 3/4. Axis 1 is a quarter ahead.
+TEST(PairDither, LayersRoundInTurn) {
+  for (const auto& [y, axis0, axis1] :
+       {std::array{0, 0, 16384}, {1, 32768, 49152}, {2, 16384, 32768}, {3, 49152, 0}}) {
+    EXPECT_EQ(pair_dither(0, 0, y, 0, 1), axis0);
+    EXPECT_EQ(pair_dither(0, 1, y, 0, 1), axis1);
+  }
+  // Of 16 layers that each give x, 16 x flows at every step, to a unit.
+  for (std::uint32_t step = 0; step < 64; ++step)
+    for (const std::int32_t x : {0, 4096, 20480, 61440, 69632}) {
+      std::int32_t sum = 0;
+      for (int y = 0; y < 16; ++y) sum += (x + pair_dither(step, 0, y, 0, 1)) >> 16;
+      ASSERT_EQ(sum, x / 4096) << step;
+    }
 }
 
 TEST(MixingDither, IsTheStepsInItsFirstSubstep) {
@@ -139,10 +155,10 @@ TEST(MixingDither, IsTheStepsInItsFirstSubstep) {
 
 TEST(RunColumn, YieldMakesADeadZone) {
   const Flow flow = flow_of(19088744, 655);                    // 0.01
-  EXPECT_EQ(run_column(kOne, 1, 0, 0, flow).dead, 3);          // 655 / 256 = 2.56
-  EXPECT_EQ(run_column(kOne / 4, 1, 0, 0, flow).dead, 10);     // 655 / 64 = 10.2
+  EXPECT_EQ(run_column(kOne, 1, 0, 0, flow).dead, 5);          // 1310 / 256 = 5.12
+  EXPECT_EQ(run_column(kOne / 4, 1, 0, 0, flow).dead, 20);     // 1310 / 64 = 20.5
   EXPECT_EQ(run_column(100 * kOne, 100, 0, 0, flow).dead, 1);  // at least one unit
-  EXPECT_EQ(run_column(1, 1, 0, 0, flow).dead, 655);
+  EXPECT_EQ(run_column(1, 1, 0, 0, flow).dead, 1310);
 }
 
 // Mobility in 1/65536.
@@ -154,7 +170,7 @@ TEST(ViscousFlow, StaysWithinGiverAndTaker) {
   for (const std::int32_t mobility : {0, 1, 4096, 8192})
     for (const std::int32_t a : {1, 7, 8, 4096, 65535})
       for (const std::int32_t b : {0, 1, 4088, 4089, 4096, 4097, 65527, 65528, 65535})
-        for (const std::int32_t drop : {0, 1, 2, 256, 362, 363, 1 << 24})
+        for (const std::int32_t drop : {0, 1, 2, 512, 724, 725, 1 << 24})
           for (const bool diagonal : {false, true})
             for (const std::int32_t r : {0, 65535})
               for (const bool in_run : {false, true}) {
@@ -176,7 +192,7 @@ TEST(ViscousFlow, GrowsWithDropAmountAndMobility) {
   for (const bool diagonal : {false, true})
     for (const std::int32_t r : {0, 12345, 65535}) {
       std::int32_t last = 0;
-      for (std::int32_t drop = 0; drop < 400; ++drop) {
+      for (std::int32_t drop = 0; drop < 800; ++drop) {
         const std::int32_t f = viscous_flow(run_at(drop, 3000), 4096, run_at(0, 3000), 4000, diagonal, r);
         ASSERT_GE(f, last);
         last = f;
@@ -184,7 +200,7 @@ TEST(ViscousFlow, GrowsWithDropAmountAndMobility) {
       EXPECT_GT(last, 0);
       last = 0;
       for (std::int32_t m = 0; m <= 8192; m += 64) {
-        const std::int32_t f = viscous_flow(run_at(256, m), 4096, run_at(0, m), 0, diagonal, r);
+        const std::int32_t f = viscous_flow(run_at(kHeadOne, m), 4096, run_at(0, m), 0, diagonal, r);
         ASSERT_GE(f, last);
         last = f;
       }
@@ -193,10 +209,10 @@ TEST(ViscousFlow, GrowsWithDropAmountAndMobility) {
 
 // An axis flow of one cell of drop is the mean mobility times the amount; a diagonal one a quarter of it.
 TEST(ViscousFlow, Value) {
-  EXPECT_EQ(viscous_flow(run_at(256, 4096), 4096, run_at(0, 4096), 4096, false, 0),
+  EXPECT_EQ(viscous_flow(run_at(kHeadOne, 4096), 4096, run_at(0, 4096), 4096, false, 0),
             256);  // 4096 x 4096 / 65536
-  EXPECT_EQ(viscous_flow(run_at(256, 4096), 4096, run_at(0, 4096), 4096, true, 0), 64);
-  EXPECT_EQ(viscous_flow(run_at(256, 4096), 4096, bed_column(0), 0, false, 0),
+  EXPECT_EQ(viscous_flow(run_at(kHeadOne, 4096), 4096, run_at(0, 4096), 4096, true, 0), 64);
+  EXPECT_EQ(viscous_flow(run_at(kHeadOne, 4096), 4096, bed_column(0), 0, false, 0),
             128);  // a dry bed has no mobility
 }
 
@@ -204,14 +220,14 @@ TEST(ViscousFlow, Value) {
 // Beside a run, or above one, at most twice the giver's limit: 200/65536 of 4096 over two. A bare flank has
 // its own bound.
 TEST(ViscousFlow, ADeepGiverHoldsBack) {
-  Column giver = run_at(256, 100);
+  Column giver = run_at(kHeadOne, 100);
   giver.limit = 100;
   giver.exposed = 1000 << 8;
-  EXPECT_EQ(viscous_flow(giver, 4096, run_at(0, 3000), 4096, false, 0), 6);              // 6.25
-  EXPECT_EQ(viscous_flow(giver, 4096, run_at(0, 50), 4096, false, 0), 4);                // 150: 4.69
-  EXPECT_EQ(viscous_flow(giver, 4096, top_column(run_at(0, 3000)), 0, false, 0), 6);     // 6.25
-  EXPECT_EQ(viscous_flow(giver, 4096, bed_column(0), 0, false, 0), 31);                  // 1000: 31.25
-  EXPECT_EQ(viscous_flow(run_at(256, 3000), 4096, run_at(0, 100), 4096, false, 0), 96);  // 3100: 96.9
+  EXPECT_EQ(viscous_flow(giver, 4096, run_at(0, 3000), 4096, false, 0), 6);                   // 6.25
+  EXPECT_EQ(viscous_flow(giver, 4096, run_at(0, 50), 4096, false, 0), 4);                     // 150: 4.69
+  EXPECT_EQ(viscous_flow(giver, 4096, top_column(run_at(0, 3000)), 0, false, 0), 6);          // 6.25
+  EXPECT_EQ(viscous_flow(giver, 4096, bed_column(0), 0, false, 0), 31);                       // 1000: 31.25
+  EXPECT_EQ(viscous_flow(run_at(kHeadOne, 3000), 4096, run_at(0, 100), 4096, false, 0), 96);  // 3100: 96.9
 }
 
 TEST(SlopeFactor, Value) {
@@ -258,8 +274,8 @@ Column run_on(std::int32_t bed, Column column) {
 // Of 256 (a diagonal: 64), that flow between level beds, 2/3 on slope 1/2 (a diagonal: 0.5805) and 1/3 on 1.
 TEST(ViscousFlow, IsLessOnASlope) {
   const auto flow = [](std::int32_t bed, bool diagonal, std::int32_t dither) {
-    return viscous_flow(run_on(24, run_at(256, 4096)), 4096, run_on(bed, run_at(0, 4096)), 4096, diagonal,
-                        dither);
+    return viscous_flow(run_on(24, run_at(kHeadOne, 4096)), 4096, run_on(bed, run_at(0, 4096)), 4096,
+                        diagonal, dither);
   };
   EXPECT_EQ(flow(24, false, 0), 256);
   EXPECT_EQ(flow(16, false, 0), 170);      // 170.66
@@ -273,14 +289,30 @@ TEST(ViscousFlow, BetweenLevelBedsIsAPlainProduct) {
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 20000; ++trial) {
     const auto below = [&](std::uint64_t n) { return static_cast<std::int32_t>(random() % n); };
-    const std::int32_t drop = 2 + below(400), mobility = below(8193), a = 1 + below(65535), r = below(65536);
-    const std::int64_t c = std::min<std::int64_t>((1 << 24) - 1, (std::int64_t{512} * mobility * a) >> 12);
-    const std::int64_t axis = (c * std::min(drop, 256) + (r << 5)) >> 21;
-    const std::int64_t diagonal = (c * std::min(drop, 362) + (r << 7)) >> 23, fifth = a * 13107 >> 16;
+    const std::int32_t drop = 2 + below(800), mobility = below(8193), a = 1 + below(65535), r = below(65536);
+    const std::int64_t c =
+        std::min<std::int64_t>((1 << 24) - 1, (std::int64_t{512} * mobility * ((a + 1) / 2)) >> 12);
+    const std::int64_t axis = (c * std::min(drop, 512) + (r << 6)) >> 22;
+    const std::int64_t diagonal = (c * std::min(drop, 724) + (r << 8)) >> 24, fifth = a * 13107 >> 16;
     const Column giver = run_on(7, run_at(drop, mobility)), taker = run_on(7, run_at(0, mobility));
     ASSERT_EQ(viscous_flow(giver, a, taker, 0, false, r), std::min(axis, fifth));
     ASSERT_EQ(viscous_flow(giver, a, taker, 0, true, r), std::min(diagonal, fifth >> 2));
   }
+}
+
+// Mobilities of 1/16: a drop of one cell moves 1/16 of the amount that flows. Cells of 3000 and 1001.
+TEST(ViscousFlow, TheMeanOfBothFlowsBetweenLevelBeds) {
+  const Column giver = run_on(24, run_at(kHeadOne, 4096)), level = run_on(24, run_at(0, 4096));
+  EXPECT_EQ(viscous_flow(giver, 3000, level, 1001, false, 0), 125);  // 2001 / 16 = 125.06
+  EXPECT_EQ(viscous_flow(giver, 3000, level, 1001, true, 0), 31);    // a quarter
+  EXPECT_EQ(viscous_flow(giver, 3000, level, 1000, false, 0), 125);  // 2000.5 rounds up
+  Column low = bed_column(24 * kHeadOne / 16);
+  low.head = 0;
+  EXPECT_EQ(viscous_flow(giver, 3000, low, 0, false, 0), 46);  // a dry bed: 1500 / 32 = 46.9
+  // The giver's alone where the beds differ, or where there is none.
+  EXPECT_EQ(viscous_flow(giver, 3000, run_on(23, level), 1001, false, 0), 186);  // 187.5 x 16257 / 16384
+  EXPECT_EQ(viscous_flow(giver, 3000, run_on(kNoBed, level), 1001, false, 0), 187);
+  EXPECT_EQ(viscous_flow(run_on(kNoBed, giver), 3000, run_on(kNoBed, level), 1001, false, 0), 187);
 }
 
 TEST(Bed, IsShownInSixteenths) {
@@ -306,7 +338,7 @@ TEST(ViscousFlow, OnlyRunsGive) {
   EXPECT_EQ(top_column(run_at(700, 77)).head, 700);
   EXPECT_EQ(top_column(run_at(700, 77)).mobility, 77 << 8);
   EXPECT_EQ(top_column(run_at(700, 77)).limit, 13107);
-  EXPECT_EQ(air_column(3).head, 256);
+  EXPECT_EQ(air_column(3).head, 512);
 }
 
 }  // namespace
