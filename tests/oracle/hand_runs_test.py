@@ -5,7 +5,7 @@
 
 Nothing conducts here (weights of 0). With kappa = 0.05 mobility_parameter is 47721859. Then raw is 11110, 186414,
 288546 and 745654 for M = 1000, 4096, 5096 and 8192, and no limit cuts it. With kappa = 1 mobility_parameter is
-954437177. D(0) = 0, D(1) = 32768, D(6) = 24576 and D(13) = 45056.
+954437177. D(0) = 0, D(1) = 32768, D(2) = 16384, D(3) = 49152, D(6) = 24576 and D(13) = 45056.
 """
 import json
 import struct
@@ -41,8 +41,10 @@ def thermal_flank(parameters):
     # A run of two full cells: M = 8192, so that min(M, 2^18)^2 >> 8 is 262144.
     free = (parameters["flow"]["viscous"]["mobility"] * 262144 + (1 << 23)) >> 24
     raw = (free * parameters["flow"]["mobility_table"][0]) >> 15
-    w = (raw * 8192 + 1024 * 32768) >> 26  # D(1, 0, 4) = 32768
-    return [(4096 - w, 2047), (2 * w, 2048), (4096 - w, 2048), (0, 0)]
+    # Below a = (4096 + 0 + 1) >> 1 and D = D(1, 0, 4) = 32768. Above the air shows no bed, and D + D(1) wraps to 0.
+    low = ((raw * 2048 >> 12) * 8192 + 1024 * 32768) >> 26
+    high = (raw * 8192) >> 26
+    return [(4096 - low, 2047), (low + high, 2048), (4096 - high, 2048), (0, 0)]
 
 
 def counted_when_deep(parameters):
@@ -51,8 +53,8 @@ def counted_when_deep(parameters):
     return 64 * n, 262144 * n, 0, 0
 
 
-# The giver is in front on the left and the taker behind on the right, both on beds of 128; beside them are air over a
-# bed of 383, and an inert cell.
+# The giver is in front on the left and the taker behind on the right, both on beds of 256; beside them are air over a
+# bed of 767, and an inert cell.
 DIAGONAL = [2, 2, 2], [("inert", 4095, 0), ("inert", 0, 0), AIR, liquid(2122, 7000),
                        ("inert", 0, 0), FLAT, liquid(4096, 30000), FLAT]
 
@@ -86,61 +88,94 @@ CASES = [
     # over = 4096 comes to lie in the upper cell: (8192 x 1000 + 4096 x 4000) / 12288 = 2000.
     ("a run under a ceiling is mixed", [1, 2, 1], [liquid(8192, 1000), liquid(4096, 4000)], VISCOUS, 0,
      [(4096, 2000), (8192, 2000)]),
-    # Beds 368 and 143: t = 23 - 8 = 15. drive = 5941 x 256 >> 9 = 2970, c = 186414 + 11110, and 197524 x 2970 >> 26 = 8.
+    # Beds 736 and 286: t = 23 - 8 = 15, so A_i alone counts. drive = 5941 x 512 >> 10 = 2970, c = 186414 + 11110.
+    # R = D(0) + D(1) = 32768: (197524 x 2970 + 1024 R) >> 26 = 9. The heat: (9000 + 63) / 1009 = 8.98.
     ("a slope slows the flow along x", [2, 3, 1], [HIGH, LOW, liquid(4096, 7), liquid(1000, 9), AIR, AIR], VISCOUS, 0,
-     [(4088, 7), (1008, 8), (0, 0), (0, 0)]),
-    # R = 32768: (197524 x 2970 + 1024 R) >> 26 = 9. The heat: (9000 + 63 + 504) / 1009 = 9.5.
+     [(4087, 7), (1009, 8), (0, 0), (0, 0)]),
+    # R = D(1) + D(1) mod 65536 = 0: 197524 x 2970 >> 26 = 8. The heat: (9000 + 56 + 504) / 1008 = 9.5.
     ("a flow is dithered", [2, 3, 1], [HIGH, LOW, liquid(4096, 7), liquid(1000, 9), AIR, AIR], VISCOUS, 1,
-     [(4087, 7), (1009, 9), (0, 0), (0, 0)]),
-    # Beds 368 and 0: t = 16. Heads 624 and 318, drive = 5461 x 256 >> 9 = 2730, (186414 + 288546) x 2730 >> 26 = 19.
+     [(4088, 7), (1008, 9), (0, 0), (0, 0)]),
+    # Beds 736 and 0: t = 16. Heads 1248 and 637, drive = 5461 x 512 >> 10 = 2730, c = 186414 + 288546, R = D(1):
+    # (474960 x 2730 + 1024 R) >> 26 = 19.
     ("a slope of more than 1 is cut", [2, 2, 1],
      [HIGH, liquid(4096, 9), liquid(4096, 7), liquid(1000, 9)], VISCOUS, 0,
      [(4096, 9), (4077, 7), (1019, 8)]),
-    # +z to the air on a flat bed: t = 7, drive = 11848 x 256 >> 9 = 5924, R = 40960: (186414 x 5924 + 1024 R) >> 26 = 17.
-    # +x+z: t = 15, drive = 2331 x 362 >> 9 = 1648, R = 57344: (197524 x 1648 + 4096 R) >> 28 = 2.
+    # Beds 736, 512 and 286. +z to the air on a flat bed: t = 7, drive = 11848 x 512 >> 10 = 5924,
+    # R = 40960 + D(1) - 65536 = 8192: (186414 x 5924 + 1024 R) >> 26 = 16.
+    # +x+z: t = 15, drive = 2331 x 724 >> 10 = 1648, R = 57344 + D(1) - 65536: (197524 x 1648 + 4096 R) >> 28 = 1.
     ("a slope slows the flow along a diagonal", [2, 2, 2],
      [HIGH, FLAT, liquid(4096, 7), FLAT, FLAT, LOW, AIR, liquid(1000, 9)], VISCOUS, 6,
-     [(4077, 7), (17, 7), (1002, 9)]),
-    # Head 880, and 745654 x 8192 >> 26 = 91: both cells beside it lie over air, so t = 0. Then both flows fall.
+     [(4079, 7), (16, 7), (1001, 9)]),
+    # Head 1760. Both cells beside it lie over air: t = 0, but they show no bed, and A_i alone counts.
+    # 745654 x 8192 / 2^26 = 91.02, and D(1) and D(2) add 0.5 and 0.25. Then both flows fall.
     ("a flank above air shows no bed", [2, 3, 1], [HIGH, AIR, liquid(4096, 7), AIR, liquid(4096, 7), AIR], VISCOUS, 0,
      [(91, 7), (4005, 7), (91, 7), (4005, 7), (0, 0)]),
-    # t = 15 at both heights: (745654 + 11110) x 2970 >> 26 = 33, into the run: (9000 + 231) / 1033 = 8.9. What comes
-    # above it then falls: (1033 x 8 + 33 x 7) / 1066 = 7.97.
+    # t = 15 at both heights: (745654 + 11110) x 2970 / 2^26 = 33.49, and D(1) and D(2) add 0.5 and 0.25. Into the run:
+    # (9000 + 231) / 1033 = 8.9. What comes above it then falls: (1033 x 8 + 33 x 7) / 1066 = 7.97.
     ("a cell above a run shows its bed", [2, 3, 1],
      [HIGH, LOW, liquid(4096, 7), liquid(1000, 9), liquid(4096, 7), AIR], VISCOUS, 0,
      [(4063, 7), (1066, 7), (4063, 7), (0, 0)]),
-    # The falling half mixes with the other: (2047 + 2048) / 2, and half a cell by D(1) = 32768.
+    # 65 of heat 2048 fall on 33 of heat 2047: the mean is 2047.66, and D(1) adds 0.5.
     ("the mobility goes by the mean heat without dither", [2, 2, 1],
      [liquid(4096, 2047), AIR, liquid(4096, 2048), AIR], THERMAL, 1, thermal_flank),
+    # Beds 543, 512 and 511: t = 16 - 16 = 0 on the left, and 16 - 15 = 1 on the right. m = 256 x 13107 + 713614 for both,
+    # and R = D(1). On the left a = 5888 >> 1 = 2944, c = 2924598 and drive = 4096: w = 179.003. On the right A_i counts:
+    # c = 4068012, drive = 16257 x 288 >> 10 = 4572, and w = 277.6.
+    ("between level beds both amounts count", [3, 2, 1],
+     [("inert", 2303, 0), FLAT, ("inert", 2047, 0), liquid(1792, 7), liquid(4095, 7), liquid(1792, 7)], viscous(1), 0,
+     [(1971, 7), (3639, 7), (2069, 7)]),
+    # The limit of the middle is 13107 / 5 = 2621, and m = 512 x 2621. The drops are 3 and 2: c drive / 2^26 is 0.960 and
+    # 0.640, in the highest layer 0.957 and 0.639. D(2) + D(y) adds 0.25, 0.75 and 0.5 from below, and wraps to 0 on top.
+    ("the layers of a pool round in turn", [3, 4, 1],
+     [liquid(4096, 7)] * 9 + [liquid(4072, 7), liquid(4096, 7), liquid(4080, 7)], viscous(1), 2,
+     [(4097, 7), (4095, 7), (4096, 7), (4097, 7), (4094, 7), (4097, 7),
+      (4097, 7), (4094, 7), (4097, 7), (4072, 7), (4096, 7), (4080, 7)]),
+    # The parameter is 12900, and depth 256: dead = (25800 + 128) / 256 = 101. The drop on the left is 101, which rests.
+    # On the right it is 102: m = 186414 + 119538, a = 7377 >> 1 = 3688, c = 275476, drive = 1632, and w = 6.7.
+    ("a yield is a drop in 1/512 cell", [3, 1, 1], [liquid(3288, 7), liquid(4096, 7), liquid(3280, 7)],
+     viscous(0.05, "yield = 0.19684"), 0, [(3288, 7), (4090, 7), (3286, 7)]),
+    # over = 100, so the head is 524 + 7 (100 >> 3) = 608, and drop = 96. The limit is 13107 / 2 / 8 = 819, and
+    # m = 195627 + 186414 is below 512 x 819. a = 8293 >> 1 = 4146, c = 386704, drive = 1536, and w = 8.85.
+    ("a run under a ceiling is stiff", [2, 1, 1], [liquid(4196, 7), liquid(4096, 7)], VISCOUS, 0,
+     [(4188, 7), (4104, 7)]),
     # kappa 1: limits 3276 and 6553. Run to run m = 256 (3276 + 6553), above the right run exposed = 2^21 and 256 x 6553:
-    # both are cut to 512 x 3276, and 1677312 x 8192 >> 26 = 204. At the top 2^21 x 8192 >> 26 = 256, which falls.
+    # both are cut to 512 x 3276. Between the runs a = 4096, and 1677312 x 8192 >> 26 = 204. Above the right run a = 2048,
+    # and (838656 x 8192 + 1024 D(1)) >> 26 = 102. At the top no bed shows: (2^21 x 8192 + 1024 D(2)) >> 26 = 256, which
+    # falls on the 102.
     ("a pair has the limit of its giver", [2, 4, 1],
      [liquid(4096, 7), liquid(4096, 7), liquid(4096, 7), AIR, liquid(4096, 7), AIR, AIR, AIR], viscous(1), 0,
-     [(3892, 7), (4300, 7), (3892, 7), (460, 7), (3840, 7), (0, 0), (0, 0), (0, 0)], (4, 16384, 4, 16384)),
-    # Limit 4369; m = 256 x 4369 + 888889 and m = 512 x 4369: w = 245 below and 273 above. There the room is 96, and
-    # 96 x 13107 >> 16 = 19. Of the 4019 above then 1851 fall.
+     [(3892, 7), (4300, 7), (3994, 7), (358, 7), (3840, 7), (0, 0), (0, 0), (0, 0)], (4, 16384, 4, 16384)),
+    # Limit 4369; m = 256 x 4369 + 888889 and m = 512 x 4369; a = 6097 >> 1 = 3048 and 8097 >> 1 = 4048: w = 182 below and
+    # 270 above. There the room is 96, and 96 x 13107 >> 16 = 19. Of the 4019 above then 1914 fall.
     ("a cell takes at most a fifth of its room", [2, 2, 1],
      [liquid(4096, 7), liquid(2000, 7), liquid(4096, 7), liquid(4000, 7)], viscous(1), 0,
-     [(3851, 7), (4096, 7), (4077, 7), (2168, 7)], (3, 10192, 2, 8192)),
+     [(3914, 7), (4096, 7), (4077, 7), (2105, 7)], (3, 10192, 2, 8192)),
+    # drop = 537 - 250, drive = 4592. Below m = 256 x 6553 + 888889, a = 3048, c = 1909804, and w = 130. Above it is
+    # m = 2^21 + 888889, a = 1100, c = 801915, and w = 55, but 200 x 13107 >> 16 = 39. Of the 2039 above then 1966 fall.
+    ("a cell gives at most a fifth of its own", [2, 2, 1],
+     [liquid(4096, 7), liquid(2000, 7), liquid(200, 7), liquid(2000, 7)], viscous(1), 0,
+     [(3966, 7), (4096, 7), (161, 7), (73, 7)]),
     # raw = 3728270 of the giver > 2 x 256 x 6553, so n = 3. The flow goes along +x-z (axis 3), whose R begins with
-    # k + 2 and D(1, 3, 4) = 16384: R = 49152, 5461, 27306, and B = 32768, 0, 49152. The air beside both has head 383.
-    # c = 1576297, 1560160, 1545600, drive = 3968, 3840, 3776 and f = 24, 22, 22 by (c drive + 4096 R) >> 28.
+    # u + 2, and D = D(1, 3, 4) + D(1) = 49152: R = 60074, 16384, 38229, and B = 32768, 0, 49152. The air beside both has
+    # head 767, the giver at most 768. a = 3109, c = 1196461, 1192502, 1188818, drive = 3952, 3872, 3808 and f = 18, 17, 17
+    # by (c drive + 4096 R) >> 28.
     ("three sub-steps, as counted", *DIAGONAL, viscous(1, 'substeps = "auto"'), 1,
-     [(0, 0), (2190, 7713), (4028, 30000)], (6, 18654, 0, 0)),
+     [(0, 0), (2174, 7549), (4044, 30000)], (6, 18654, 0, 0)),
     ("three sub-steps, as given", *DIAGONAL, viscous(1, "substeps = 3, substeps_max = 1"), 1,
-     [(0, 0), (2190, 7713), (4028, 30000)], (6, 18654, 0, 0)),
+     [(0, 0), (2174, 7549), (4044, 30000)], (6, 18654, 0, 0)),
     # raw = 3726450 <= 2 x 256 x 13107, so n = 2. R = 22528, 55296, and B = 45056, 12288.
-    # c = 2031916, 1848114, drive = 5696, 5056 and f = 172, 140.
+    # m = 2032413, 1963975 and a = 5330 >> 1 = 2665: c = 1322358, 1277830, drive = 5712, 5264 and f = 112, 101.
     ("two sub-steps, as counted", [2, 1, 1], [liquid(4095, 20000), liquid(1234, 8000)],
-     viscous(1, 'substeps = "auto"'), 13, [(3783, 20000), (1546, 10421)], (4, 10658, 0, 0)),
+     viscous(1, 'substeps = "auto"'), 13, [(3882, 20000), (1447, 9767)], (4, 10658, 0, 0)),
     # raw = 1864135 > 256 x 6553 in the first of two, as three would be needed. R = 16384, 49152, and B = 32768, 0.
-    # c = 1677568 + 11719, 1644670, drive = 7552, 6784 and f = 190, 167.
+    # m = 1677568 + 11719, 1772430 + 20252 and a = 4422 >> 1 = 2211: c = 911868, 967680, drive = 7552, 7136 and
+    # f = 102, 103.
     ("two sub-steps at most", [2, 1, 1], [liquid(4096, 20000), liquid(325, 9000)],
-     viscous(1, 'substeps = "auto", substeps_max = 2'), 1, [(3739, 20000), (682, 14757)], (4, 8842, 1, 4096)),
-    # What the vent fills in this step would need three sub-steps, but n = 1: 2^21 x 8192 >> 26 = 256.
+     viscous(1, 'substeps = "auto", substeps_max = 2'), 1, [(3891, 20000), (530, 13255)], (4, 8842, 1, 4096)),
+    # What the vent fills in this step would need three sub-steps, but n = 1: a = 2048, c = 2^20, 2^20 x 8192 >> 26 = 128.
     ("sub-steps are counted before the vents", [2, 1, 1], [AIR, AIR],
      viscous(1, 'substeps = "auto"') + "vent = [{ at = [0.5, 0.5, 0.5], radius = 0.5, rate = 1 }]\n", 0,
-     [(3840, 0), (256, 0)], (1, 4096, 1, 4096)),
+     [(3968, 0), (128, 0)], (1, 4096, 1, 4096)),
     # raw = 1677722 and the limit is 13107 / 4 / 8 = 409, so n = 17. Then pace = 2807168 and raw = 98690.
     ("sub-steps under a ceiling", [1, 2, 1], [liquid(8192, 1000), liquid(4096, 4000)],
      VISCOUS.replace("0.05", '0.05, substeps = "auto"'), 0, [(4096, 2000), (8192, 2000)], (34, 208896, 0, 0)),

@@ -7,14 +7,14 @@
 namespace oracle {
 namespace {
 
-// The height of the surface below the cell (x, y, z), in 1/256 cell.
+// The height of the surface below the cell (x, y, z), in 1/512 cell.
 Int bed_of(const State& state, Int x, Int y, Int z) {
   Int b = FLAT;
   if (y > 0) {
     const Cell& below = state.cells[state.index(x, y - 1, z)];
     if (below.inert == 1) b = below.amount;
   }
-  return 256 * y + ((b - FLAT) >> 4);
+  return 512 * y + ((b - FLAT) >> 3);
 }
 
 // The number of cells of the run that starts at y0.
@@ -94,12 +94,12 @@ Run shown_by_run(const Parameters& parameters, const Unsettled& run, Int n) {
   Run shown;
   shown.member = 1;
   shown.bed = run.bed;
-  shown.head = run.bed + (run.M >> 4) + (viscous.stiffness - 1) * (run.over >> 4);
+  shown.head = run.bed + (run.M >> 3) + (viscous.stiffness - 1) * (run.over >> 3);
   shown.limit = limit;
   shown.limited = raw > 256 * limit;
   shown.mobility = smaller(raw, 256 * limit);
   shown.exposed = smaller(raw, Int{1} << 21);
-  shown.dead = larger(1, (viscous.yield + depth / 2) / depth);
+  shown.dead = larger(1, (2 * viscous.yield + depth / 2) / depth);
   return shown;
 }
 
@@ -231,7 +231,7 @@ Run shown_by(const State& state, Int x, Int y, Int z) {
     shown.mobility = below.mobility;
     return shown;
   }
-  shown.head = 256 * (y - 2);
+  shown.head = 512 * (y - 2);
   return shown;
 }
 

@@ -29,17 +29,25 @@ static_assert(slopes_are_as_listed());
 // t; `giver` and `taker` are what the cells of the pair show.
 Int tilt(const Run& giver, const Run& taker) {
   if (!taker.bed.has_value()) return 0;
-  const Int difference = (*giver.bed >> 4) - (*taker.bed >> 4);
+  const Int difference = (*giver.bed >> 5) - (*taker.bed >> 5);
   return smaller(16, larger(difference, -difference));
 }
 
-// R of an axis in sub-step k of n.
-Int rounding(Int s, Int axis, Int k, Int n) {
-  return (dither(s, axis, 4) + 65536 * ((k + axis * n / 4) % n)) / n;
+// R of an axis between cells at height y.
+Int rounding(const State& state, Int axis, Int y) {
+  const Int D = (dither(state.step, axis, 4) + dither(y)) % 65536;
+  const Int u = state.substep, K = state.substeps;
+  return (D + 65536 * ((u + axis * K / 4) % K)) / K;
+}
+
+// a: what the pair holds at its face.
+Int amount_between(const Run& taker, Int t, Int A_i, Int A_j) {
+  const bool level = taker.bed.has_value() && t == 0;
+  return level ? (A_i + A_j + 1) >> 1 : A_i;
 }
 
 // What flows from the run cell i in a direction: the pair is computed once, by its giver.
-void give(State& state, Int i, Place at, const Direction& direction, Int R) {
+void give(State& state, Int i, Place at, const Direction& direction) {
   if (!is_open(state, at, direction)) return;
   const Run& giver = state.runs[i];
   const Int x = at.x + direction.dx, z = at.z + direction.dz;
@@ -49,15 +57,17 @@ void give(State& state, Int i, Place at, const Direction& direction, Int R) {
   const Int whole_drop = giver.head - taker.head;
   if (whole_drop <= 0 || whole_drop <= threshold) return;
 
-  const Int drop = smaller(whole_drop, direction.diagonal ? 362 : 256);
-  const Int drive = (slope(tilt(giver, taker), direction.diagonal) * drop) >> 9;
-  const Int amount = state.cells[i].amount;
+  const Int drop = smaller(whole_drop, direction.diagonal ? 724 : 512);
+  const Int t = tilt(giver, taker);
+  const Int drive = (slope(t, direction.diagonal) * drop) >> 10;
+  const Int A_i = state.cells[i].amount, A_j = state.cells[j].amount;
   Int m = (taker.member == 1 ? giver.mobility : giver.exposed) + taker.mobility;
   if (taker.limit.has_value()) m = smaller(m, 512 * *giver.limit);
-  const Int c = smaller((Int{1} << 24) - 1, (m * amount) >> 12);
+  const Int c = smaller((Int{1} << 24) - 1, (m * amount_between(taker, t, A_i, A_j)) >> 12);
+  const Int R = rounding(state, direction.axis, at.y);
   const Int w = direction.diagonal ? (c * drive + (R << 12)) >> 28 : (c * drive + (R << 10)) >> 26;
-  const Int room = larger(0, (taker.member == 1 ? AMAX : ONE) - state.cells[j].amount);
-  const Int fifth = scaled(smaller(amount, room), 13107);
+  const Int room = larger(0, (taker.member == 1 ? AMAX : ONE) - A_j);
+  const Int fifth = scaled(smaller(A_i, room), 13107);
   const Int f = smaller(w, direction.diagonal ? fifth >> 2 : fifth);
   if (f == 0) return;
   state.touch(j);
@@ -70,12 +80,10 @@ void give(State& state, Int i, Place at, const Direction& direction, Int R) {
 
 void spread_viscous(State& state) {
   const std::vector<Int> before = state.list;  // the list grows as cells take
-  Int R[4] = {};
-  for (Int axis = 0; axis < 4; ++axis) R[axis] = rounding(state.step, axis, state.substep, state.substeps);
   for (const Int i : before) {
     if (state.runs[i].member == 0) continue;
     const Place at = state.place(i);
-    for (const Direction& direction : DIRECTIONS) give(state, i, at, direction, R[direction.axis]);
+    for (const Direction& direction : DIRECTIONS) give(state, i, at, direction);
   }
   move_exchanged(state);
   finish_phase(state, "after spread");
