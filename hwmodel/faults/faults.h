@@ -50,7 +50,9 @@ enum class Fault : std::uint8_t {
   viscous_dead_zone,
   viscous_dither,
   viscous_slope,
+  viscous_mean,
   viscous_substep,
+  viscous_layer,
   viscous_flow_lost,
   // buffers and channels
   buffer_bit,

@@ -1,5 +1,5 @@
-// Flows inside the dead zone, with the dither of the next axis or sub-step, as on a level bed, or lost on
-// their way.
+// Flows inside the dead zone, with the dither of the next axis, sub-step or layer, as on a level bed, by the
+// giver's amount alone, or lost on their way.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,18 @@ class ViscousSpreadFaults : public Planted {
     if (!rests && armed(stage, Fault::viscous_dither))
       wrong = stage.wanted(from, to, axis, stage.dither_of_axis((axis + 1) % 4));
     if (!rests && armed(stage, Fault::viscous_substep))
-      wrong = stage.wanted(from, to, axis, stage.pair_dither(axis, stage.moment().substep + 1));
+      wrong = stage.wanted(from, to, axis, dither(stage, axis, 0, 1));
+    if (!rests && armed(stage, Fault::viscous_layer))
+      wrong = stage.wanted(from, to, axis, dither(stage, axis, 1, 0));
     if (!rests && armed(stage, Fault::viscous_slope)) {
       SeenCell level = from;
       level.bed = to.bed;
       wrong = stage.wanted(level, to, axis, stage.dither_of_axis(axis));
+    }
+    if (!rests && armed(stage, Fault::viscous_mean) && from.bed == to.bed) {
+      SeenCell without_bed = to;  // the factor of the slope is that of a level bed, too
+      without_bed.bed = kNoBed;
+      wrong = stage.wanted(from, without_bed, axis, stage.dither_of_axis(axis));
     }
     if (wrong == amount) return;
     amount = wrong;
@@ -38,6 +45,13 @@ class ViscousSpreadFaults : public Planted {
     to.word->present = to.word->present - amount;
     if (stage.hot_) to.word->content = to.word->content - amount * from.word->heat;
     strike_word(stage, stage.line_, *to.word);
+  }
+
+ private:
+  // Of so many layers up, and so many sub-steps later.
+  static std::int64_t dither(const Faulty& stage, int axis, int up, int later) {
+    const std::int64_t layer = dither_of(static_cast<std::uint32_t>(stage.came().y + up));
+    return stage.pair_dither(axis, layer, stage.moment().substep + later);
   }
 };
 

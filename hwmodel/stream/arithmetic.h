@@ -37,6 +37,20 @@ inline UInt<16> dither_of(std::uint32_t step, int part = 0, int parts = 1) {
   return UInt<16>::truncated(reversed + 65536 * part / parts);
 }
 
+// Quotients by n, which the host knows: 1 / n is rounded up, and so is too large by less than n / 2^36. For
+// numbers of 26 bits and n up to 2^10 that is too little to reach the next quotient.
+class Reciprocal {
+ public:
+  explicit Reciprocal(std::int64_t n) : value_(((std::int64_t{1} << kShift) + n - 1) / n) {}
+  std::int64_t times(std::int64_t number) const {
+    return UInt<53>(UInt<26>(number) * std::int64_t{value_}) >> kShift;
+  }
+
+ private:
+  static constexpr int kShift = 36;
+  UInt<37> value_;
+};
+
 // Heat of a mixture: one divider. `content` is the sum of amount x heat of its parts.
 inline UInt<16> mix(std::int64_t content, std::int64_t amount, std::int64_t dither) {
   return (content + ((amount * dither) >> 16)) / amount;

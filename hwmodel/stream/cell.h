@@ -25,7 +25,7 @@ struct Cell {
   UInt<8> pattern;       // pattern -> apply: directions that the cell gives to
   UInt<1> beside_wall;   // conduction, walls or viscous spread -> gravity: one of the four sides is blocked
   UInt<1> in_run;        // settle -> viscous spread -> gravity
-  // settle -> viscous spread, of cells in a run. Head in 1/256 cell (the used width depends on the grid's
+  // settle -> viscous spread, of cells in a run. Head in 1/512 cell (the used width depends on the grid's
   // height), mobility in 1/2^24 before it is limited, its limit in 1/65536; head differences up to `dead`
   // do not move the cell.
   SInt<30> head;

@@ -84,15 +84,15 @@ class RunReader {
       return;
     }
     if (word.runs()) {
-      if (below_ == Below::blocked) head_ = word.head, pace_ = next_, run_bed_ = bed(y) >> 4;
+      if (below_ == Below::blocked) head_ = word.head, pace_ = next_, run_bed_ = bed_head(y, bed_) >> 5;
       below_ = Below::run;
       seen.head = head_, seen.pace = pace_, seen.bed = run_bed_;
       return;
     }
     seen.pace = {};
-    seen.head = 256 * (y - 2);
+    seen.head = 512 * (y - 2);
     seen.bed = kNoBed;
-    if (below_ == Below::blocked) seen.head = bed(y), seen.bed = bed(y) >> 4;
+    if (below_ == Below::blocked) seen.head = bed_head(y, bed_), seen.bed = seen.head >> 5;
     if (below_ == Below::run) {
       seen.head = head_, seen.bed = run_bed_;
       seen.pace.mobility = pace_.mobility, seen.pace.limit = pace_.limit;
@@ -103,11 +103,8 @@ class RunReader {
  private:
   enum class Below : std::uint8_t { blocked, run, outside };
 
-  // Of the blocked cell below, 1/256 cell.
-  std::int64_t bed(int y) const { return 256 * y + ((std::int64_t{bed_} - kFlatBed) >> 4); }
-
   Below below_ = Below::blocked;
-  UInt<16> bed_ = kFlatBed;
+  UInt<16> bed_ = kFlatBed;  // of the blocked cell below
   SInt<30> head_;
   SInt<18> run_bed_;
   RunPace pace_, next_;

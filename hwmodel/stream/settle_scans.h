@@ -183,7 +183,7 @@ class ShowScan {
   void settle(const SettleWord& word, int y, const rule::Flow& flow, std::int64_t pace,
               const RunWidths& widths, Cell& cell) {
     if (word.kind == SettleKind::first) {
-      show_ = shown(word.sum, word.last, bed(y), word.mobility, flow, pace, widths);
+      show_ = shown(word.sum, word.last, bed_head(y, bed_), word.mobility, flow, pace, widths);
       level_ = word.sum;
       // x 61439 is two shifts and two subtractions
       spare_ = std::min(over_of(word.sum, word.last) - kOverMax * word.last, kOverMax);
@@ -194,8 +194,6 @@ class ShowScan {
     level_ = std::max<std::int64_t>(0, level_ - kOne);
     spare_ = std::min(spare_ + kOverMax, kOverMax);
   }
-
-  std::int64_t bed(int y) const { return 256 * y + ((std::int64_t{bed_} - kFlatBed) >> 4); }
 
   UInt<16> bed_ = kFlatBed;  // of the blocked cell below
   RunShow show_;

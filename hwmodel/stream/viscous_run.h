@@ -10,6 +10,11 @@
 
 namespace voxmelt::hwmodel {
 
+// Head of a bed below height y, in 1/512 cell. `amount`: of the inert cell there, else kFlatBed.
+inline std::int64_t bed_head(std::int64_t y, std::int64_t amount) {
+  return 512 * y + ((amount - kFlatBed) >> 3);
+}
+
 inline constexpr std::int64_t kOverMax = kAmountMax - kOne;  // a cell under pressure holds this beyond ONE
 
 // Widths that depend on the height of the grid.
@@ -22,9 +27,9 @@ struct RunWidths {
     const std::int64_t height = design.shape.grid.y, stiffness = design.parameters.flow.viscous.stiffness;
     count = bits_for(height - 1);
     sum = bits_for(kAmountMax * height);
-    const std::int64_t highest_bed = 256 * (height - 1) + ((kAmountMax - kFlatBed) >> 4);
+    const std::int64_t highest_bed = bed_head(height - 1, kAmountMax);
     head =
-        1 + bits_for(highest_bed + (kAmountMax * height >> 4) + (stiffness - 1) * (kOverMax * height >> 4));
+        1 + bits_for(highest_bed + (kAmountMax * height >> 3) + (stiffness - 1) * (kOverMax * height >> 3));
   }
 };
 
@@ -65,11 +70,11 @@ inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std:
           15;
 
   RunShow show;
-  show.head = signed_wire(bed + (sum >> 4) + (law.stiffness - 1) * (over >> 4), widths.head);
+  show.head = signed_wire(bed + (sum >> 3) + (law.stiffness - 1) * (over >> 3), widths.head);
   // floor(floor(13107 / cells) / stiffness) is one division by the product, and that three shifts and adds.
   show.limit = std::max<std::int64_t>(1, 13107 / (over > 0 ? cells * law.stiffness : cells));
   show.mobility = std::min<std::int64_t>(raw, (1 << 22) - 1);
-  show.dead = std::max<std::int64_t>(1, (law.yield + (std::int64_t{depth} >> 1)) / depth);
+  show.dead = std::max<std::int64_t>(1, (2 * std::int64_t{law.yield} + (std::int64_t{depth} >> 1)) / depth);
   return show;
 }
 

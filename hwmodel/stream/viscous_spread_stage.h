@@ -44,7 +44,7 @@ class ViscousSpread final : public Stage {
     return costs;
   }
 
-  // Per pair: (g + mobility) A, slope x drop (the slope's factor is read from 17 words) and c drive; with
+  // Per pair: (g + mobility) a, slope x drop (the slope's factor is read from 17 words) and c drive; with
   // heat f h, and per cell A h and the mixture's rounding.
   Units units() const override { return {13 + (hot_ ? 4 + 2 : 0), hot_ ? 1 : 0, 0}; }
 
@@ -52,12 +52,17 @@ class ViscousSpread final : public Stage {
   void begin_step() override {
     const int k = moment().substep;
     dither_ = UInt<16>::truncated(dither_of(step()) + dither_of(static_cast<std::uint32_t>(k)));
-    for (int axis = 0; axis < 4; ++axis) axis_dither_[static_cast<std::size_t>(axis)] = pair_dither(axis, k);
+    substep_ = Reciprocal(moment().substeps);
+    for (int axis = 0; axis < 4; ++axis)
+      step_dither_[static_cast<std::size_t>(axis)] = dither_of(step(), axis, 4);
   }
 
   void advance(const Cell* in, Cell* out) override {
     line_.shift();
     if (came().y == 0) floor_.shift();
+    const UInt<16> layer = dither_of(static_cast<std::uint32_t>(came().y));
+    for (int axis = 0; axis < 4; ++axis)
+      axis_dither_[static_cast<std::size_t>(axis)] = pair_dither(axis, layer, moment().substep);
     const auto column = static_cast<std::size_t>(shape().column());
     const auto plane = static_cast<std::size_t>(shape().plane());
     const auto blocks = static_cast<std::size_t>(shape().blocks());
@@ -154,10 +159,11 @@ class ViscousSpread final : public Stage {
     a.head > b.head ? flow(a, b, axis) : flow(b, a, axis);
   }
 
-  // Of sub-step k; the host divides.
-  std::int64_t pair_dither(int axis, int k) const {
+  // Of sub-step k, in the layer with this dither; the lanes of a token share it.
+  UInt<16> pair_dither(int axis, std::int64_t layer, int k) const {
     const int n = moment().substeps;
-    return (dither_of(step(), axis, 4) + 65536 * ((k + axis * n / 4) % n)) / n;
+    const UInt<16> offset = UInt<16>::truncated(step_dither_[static_cast<std::size_t>(axis)] + layer);
+    return substep_.times(offset + 65536 * std::int64_t{(k + axis * n / 4) % n});
   }
   static bool is_diagonal(int axis) { return axis >= 2; }
   std::int64_t dither_of_axis(int axis) const { return axis_dither_[static_cast<std::size_t>(axis)]; }
@@ -187,17 +193,23 @@ class ViscousSpread final : public Stage {
     return ((std::int64_t{1} << (diagonal ? 46 : 22)) + divisor / 2) / divisor;
   }
 
+  // The face lies between the columns; on a slope the giver's amount alone counts.
+  static UInt<16> flowing(const SeenCell& from, const SeenCell& to) {
+    if (from.bed == kNoBed || from.bed != to.bed) return from.word->amount;
+    return (from.word->amount + to.word->amount + 1) >> 1;
+  }
+
   static std::int64_t wanted(const SeenCell& from, const SeenCell& to, int axis, std::int64_t dither) {
     const bool diagonal = is_diagonal(axis);
     const std::int64_t drop = from.head - to.head;
     const SpreadWord& giver = *from.word;
     const SpreadWord& taker = *to.word;
-    const UInt<9> capped = std::min<std::int64_t>(drop, diagonal ? 362 : 256);
+    const UInt<10> capped = std::min<std::int64_t>(drop, diagonal ? 724 : 512);
     std::int64_t mobility = (taker.runs() ? from.pace.limited() : from.pace.exposed()) + to.pace.limited();
     if (to.pace.limit > 0) mobility = std::min<std::int64_t>(mobility, from.pace.limit << 9);
-    const UInt<39> conducted = UInt<23>(mobility) * giver.amount;
+    const UInt<39> conducted = UInt<23>(mobility) * flowing(from, to);
     const UInt<24> conductance = std::min<std::int64_t>((1 << 24) - 1, conducted >> 12);
-    const UInt<14> drive = (slope_factor(from, to, diagonal) * std::int64_t{capped}) >> 9;
+    const UInt<14> drive = (slope_factor(from, to, diagonal) * std::int64_t{capped}) >> 10;
     const UInt<38> product = std::int64_t{conductance} * drive;
     const std::int64_t flows = diagonal ? (product + (dither << 12)) >> 28 : (product + (dither << 10)) >> 26;
     const std::int64_t room = std::max<std::int64_t>(0, (taker.runs() ? kAmountMax : kOne) - taker.amount);
@@ -238,7 +250,8 @@ class ViscousSpread final : public Stage {
   bool hot_, walls_;
   int head_bits_;
   UInt<16> dither_;
-  std::array<UInt<16>, 4> axis_dither_;
+  Reciprocal substep_{1};                              // the part of a step that one takes
+  std::array<UInt<16>, 4> step_dither_, axis_dither_;  // of the step; of the token's pairs
   TapLine<SpreadWord> line_;
   TapLine<RunPace> floor_;  // of runs on the grid's floor; moves once per column
   std::vector<Tap> now_, south_;

@@ -63,7 +63,7 @@ TEST(MemoryCost, OfTheViscousLawWithHeat) {
   EXPECT_EQ(memories_of("cello_viscous"),
             (std::map<StageKind, Memory>{{StageKind::conduction, {50, 50}},
                                          {StageKind::settle, {0, 115}},
-                                         {StageKind::viscous_spread, {106, 172}}}));
+                                         {StageKind::viscous_spread, {107, 173}}}));
 }
 
 TEST(MemoryCost, OfTheAirOneTemperaturePerHeight) {
@@ -99,7 +99,7 @@ TEST(MemoryCost, ChannelsAreAsWideAsWhatTheyCarry) {
   EXPECT_EQ(widths_of("lesson_gravity").at(StageKind::walls), 34 + 1);
   const std::map<StageKind, int> viscous = widths_of("cello_viscous");
   EXPECT_EQ(viscous.at(StageKind::reader), 34) << "state, amount, heat";
-  EXPECT_EQ(viscous.at(StageKind::settle), 34 + 1 + 23 + 22 + 14 + 25)
+  EXPECT_EQ(viscous.at(StageKind::settle), 34 + 1 + 24 + 22 + 14 + 25)
       << "in a run; head, mobility, limit, dead";
   EXPECT_EQ(viscous.at(StageKind::gravity), 34);
 }

@@ -104,7 +104,9 @@ TEST(ViscousFaults, Reversal) { expect_found(Fault::settle_reversal, Phase::exce
 TEST(ViscousFaults, DeadZone) { expect_found(Fault::viscous_dead_zone, Phase::spread, "spread"); }
 TEST(ViscousFaults, Dither) { expect_found(Fault::viscous_dither, Phase::spread, "spread"); }
 TEST(ViscousFaults, Slope) { expect_found(Fault::viscous_slope, Phase::spread, "spread"); }
+TEST(ViscousFaults, Mean) { expect_found(Fault::viscous_mean, Phase::spread, "spread"); }
 TEST(ViscousFaults, Substep) { expect_found(Fault::viscous_substep, Phase::spread, "spread"); }
+TEST(ViscousFaults, Layer) { expect_found(Fault::viscous_layer, Phase::spread, "spread"); }
 TEST(ViscousFaults, FlowLost) { expect_found(Fault::viscous_flow_lost, Phase::spread, "spread"); }
 
 }  // namespace
