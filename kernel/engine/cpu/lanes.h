@@ -24,6 +24,7 @@ namespace voxmelt::cpu {
 //   M from_bits(uint64_t word, int part), uint64_t to_bits(M)
 //   bool nonzero(V)                     any lane is not 0
 //   Twin filled(V a, V b)               lanes that are not 0; those of a come first
+//   V mean(V a, V b)                    (a + b + 1) >> 1
 //   V keep(M, V)                        the lane, or 0
 //   V add_if(M, V a, V b)               a + b where M, else a
 //   V sub_if(M, V a, V b)               a - b where M, else a

@@ -38,6 +38,7 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
     return static_cast<std::uint32_t>(_mm_movemask_epi8(bytes));
   }
   VOXMELT_LANES bool nonzero(V v) { return _mm256_testz_si256(v, v) == 0; }
+  VOXMELT_LANES V mean(V a, V b) { return V(_mm256_avg_epu16(a, b)); }
   VOXMELT_LANES V keep(M m, V v) { return V(_mm256_and_si256(m, v)); }
   VOXMELT_LANES V add_if(M m, V a, V b) { return a + keep(m, b); }
   VOXMELT_LANES V sub_if(M m, V a, V b) { return a - keep(m, b); }

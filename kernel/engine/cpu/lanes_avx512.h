@@ -27,6 +27,7 @@ struct Lanes<xsimd::avx512bw> : LanesOf<xsimd::avx512bw> {
   }
   VOXMELT_LANES std::uint64_t to_bits(M m) { return bits(m); }
   VOXMELT_LANES bool nonzero(V v) { return _mm512_test_epi64_mask(v, v) != 0; }
+  VOXMELT_LANES V mean(V a, V b) { return V(_mm512_avg_epu16(a, b)); }
   VOXMELT_LANES V keep(M m, V v) { return V(_mm512_maskz_mov_epi16(bits(m), v)); }
   VOXMELT_LANES V add_if(M m, V a, V b) { return V(_mm512_mask_add_epi16(a, bits(m), a, b)); }
   VOXMELT_LANES V sub_if(M m, V a, V b) { return V(_mm512_mask_sub_epi16(a, bits(m), a, b)); }

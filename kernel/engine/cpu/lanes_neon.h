@@ -30,6 +30,7 @@ struct Lanes<xsimd::neon64> : LanesOf<xsimd::neon64> {
   }
   VOXMELT_LANES std::uint64_t to_bits(M m) { return vaddvq_u16(vandq_u16(m, bit_of_lane())); }
   VOXMELT_LANES bool nonzero(V v) { return vmaxvq_u32(vreinterpretq_u32_u16(v)) != 0; }
+  VOXMELT_LANES V mean(V a, V b) { return V(vrhaddq_u16(a, b)); }
   VOXMELT_LANES V keep(M m, V v) { return V(vandq_u16(m, v)); }
   VOXMELT_LANES V add_if(M m, V a, V b) { return a + keep(m, b); }
   VOXMELT_LANES V sub_if(M m, V a, V b) { return a - keep(m, b); }

@@ -35,6 +35,7 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
     return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(m, _mm_setzero_si128())));
   }
   VOXMELT_LANES bool nonzero(V v) { return _mm_testz_si128(v, v) == 0; }
+  VOXMELT_LANES V mean(V a, V b) { return V(_mm_avg_epu16(a, b)); }
   VOXMELT_LANES V keep(M m, V v) { return V(_mm_and_si128(m, v)); }
   VOXMELT_LANES V add_if(M m, V a, V b) { return a + keep(m, b); }
   VOXMELT_LANES V sub_if(M m, V a, V b) { return a - keep(m, b); }

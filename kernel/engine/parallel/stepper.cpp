@@ -88,8 +88,10 @@ simd::Step step_of(const rule::Parameters& parameters, step::Phase phase, step::
   if (parameters.flow.law == rule::Law::paper) return step;
   const auto k = static_cast<std::uint32_t>(moment.substep), n = static_cast<std::uint32_t>(moment.substeps);
   step.substeps = n;
-  for (std::uint32_t axis = 0; axis < 4; ++axis)
-    step.pair_dither[axis] = (((dither + 16384 * axis) & 0xFFFF) + 65536 * ((k + axis * n / 4) % n)) / n;
+  for (std::uint32_t axis = 0; axis < 4; ++axis) {
+    step.pair_dither[axis] = (dither + 16384 * axis) & 0xFFFF;
+    step.turn[axis] = 65536 * ((k + axis * n / 4) % n);
+  }
   if (phase == step::Phase::excess || phase == step::Phase::spread)
     step.dither = (dither + static_cast<std::uint32_t>(rule::dither(k))) & 0xFFFF;
   return step;

@@ -66,7 +66,8 @@ struct Step {
   std::uint32_t dither = 0;                   // D(s); in sub-steps, of mixtures
   const std::uint32_t* keys = nullptr;        // of the random function
   const std::uint16_t* irradiance = nullptr;  // null without radiation
-  std::uint32_t pair_dither[4] = {};          // viscous law: R of the axes
+  std::uint32_t pair_dither[4] = {};          // viscous law: D(s, axis, 4)
+  std::uint32_t turn[4] = {};                 // of the axes in this sub-step, times 65536
   std::uint32_t substeps = 1;                 // of the step
 };
 
@@ -117,7 +118,7 @@ struct HeatFlux {
 // Viscous law: what a cell shows to its neighbours, written by `settle` for all cells of the columns that it
 // is given, not changed by others. Fields and masks are laid out as in View; all zero is a grid of air.
 struct Runs {
-  std::uint16_t* head = nullptr;      // 512 + head above the cell's own bottom, 1/256 cell, cut at 65535
+  std::uint16_t* head = nullptr;      // 1024 + head above the cell's own bottom, 1/512 cell, cut at 65535
   std::uint16_t* mobility = nullptr;  // 1/65536, not limited yet, but cut above every limit
   std::uint16_t* fine = nullptr;      // its 256ths, in the upper byte
   std::uint16_t* limit = nullptr;     // 1/65536, not 0 where mobility is shown

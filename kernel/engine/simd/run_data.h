@@ -27,7 +27,7 @@ static_assert(sizeof(EndedRuns) == kSettleRecord);
 struct alignas(64) SettledRuns {
   std::uint16_t pivot[64];  // 1 + its height
   std::uint16_t at[64], above[64];
-  std::uint16_t head_low[64], head_high[64];  // 512 + head above the grid's bottom
+  std::uint16_t head_low[64], head_high[64];  // 1024 + head above the grid's bottom
   std::uint16_t mobility[64], dead[64];
   std::uint16_t heat[64];  // of runs that do not keep their order
   std::uint64_t ordered;
@@ -152,14 +152,14 @@ class RunData {
     const int stiffness = flow_.viscous.stiffness, yield = static_cast<int>(flow_.viscous.yield);
     alignas(64) Lanes32 mobility;
     for (int i = begin; i < end; ++i) {
-      const int head = 512 + 256 * runs.first[i] + ((runs.bed[i] - 2048) >> 4) + (mass[i] >> 4) +
-                       (stiffness - 1) * (over[i] >> 4);
+      const int head = 1024 + 512 * runs.first[i] + ((runs.bed[i] - 2048) >> 3) + (mass[i] >> 3) +
+                       (stiffness - 1) * (over[i] >> 3);
       now.head_low[i] = static_cast<std::uint16_t>(head & 0xFFFF);
       now.head_high[i] = static_cast<std::uint16_t>(head >> 16);
       now.shown_bed[i] = static_cast<std::uint16_t>(16 * runs.first[i] + (runs.bed[i] >> 8) - 7);
 
       // depth < 2^24. The float quotient of whole numbers is less than one off wherever it is below 131072.
-      const int depth = mass[i] < 16 ? 1 : mass[i] >> 4, sum = yield + depth / 2;
+      const int depth = mass[i] < 16 ? 1 : mass[i] >> 4, sum = 2 * yield + depth / 2;
       int dead = static_cast<int>(static_cast<float>(sum) / static_cast<float>(depth));
       const int rest = sum - dead * depth;
       dead += rest < 0 ? -1 : rest >= depth ? 1 : 0;

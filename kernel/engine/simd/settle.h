@@ -278,7 +278,7 @@ class Settle {
 
     const V old = L::load(v_.amount + at), amount = L::select(takes, value, old);
     Wide head = L::unpack(L::load(settled.head_low + lane), L::load(settled.head_high + lane));
-    head = {head.low - W(256 * y), head.high - W(256 * y)};
+    head = {head.low - W(512 * y), head.high - W(512 * y)};
     const V cut = L::keep(in_run, L::narrow(head));
     const V old_head = L::load(r_.head + at), new_head = L::select(in_run, cut, old_head);
     const V old_mobility = L::load(r_.mobility + at), old_dead = L::load(r_.dead + at),

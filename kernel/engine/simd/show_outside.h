@@ -45,12 +45,12 @@ class ShowOutside {
         const std::size_t at = v_.cell(w, y, z_) + static_cast<std::size_t>(part * L::kCount);
         const M which = L::from_bits(work, part), stands = L::from_bits(on_bed, part);
         const V amount = bed_below<Arch>(v_, w, y, z_, part);
-        V head = L::keep(stands, L::set(384) + L::template shift_right<4>(amount));
+        V head = L::keep(stands, L::set(768) + L::template shift_right<3>(amount));
         V bed = L::keep(stands, L::set(16 * y - 7) + L::template shift_right<8>(amount));
         V mobility = L::zero(), fine = L::zero(), limit = L::zero();
         if (on_run != 0) {
           const M tops = L::from_bits(on_run, part);
-          const V below = L::load(r_.head + at - v_.row) - L::set(256);
+          const V below = L::load(r_.head + at - v_.row) - L::set(512);
           head = L::select(tops, below, head);
           bed = L::select(tops, L::load(r_.bed + at - v_.row), bed);
           mobility = L::keep(tops, L::load(r_.mobility + at - v_.row));

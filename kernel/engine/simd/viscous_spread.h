@@ -31,20 +31,21 @@ class ExchangePairs {
  public:
   [[gnu::always_inline]] ExchangePairs(const View& view, const Step& step, int z, const Runs& runs,
                                        Currents& currents)
-      : v_(view), r_(runs), z_(z), c_(currents), slope_{L::table(kSlope.axis), L::table(kSlope.diagonal)} {
+      : v_(view),
+        r_(runs),
+        step_(step),
+        z_(z),
+        c_(currents),
+        slope_{L::table(kSlope.axis), L::table(kSlope.diagonal)} {
     const auto front = z + 1 < view.nz ? static_cast<std::ptrdiff_t>(view.slice) : 0;  // else masked
     const std::ptrdiff_t steps[4] = {1, front, front + 1, front - 1};
-    for (int axis = 0; axis < 4; ++axis) {
-      step_[axis] = steps[axis];
-      const std::uint32_t offset = step.pair_dither[axis] << (axis < 2 ? 2 : 4);
-      whole_[axis] = static_cast<int>(offset >> 16);
-      rest_[axis] = 0xFFFF - static_cast<int>(offset & 0xFFFF);
-    }
+    for (int axis = 0; axis < 4; ++axis) to_other_[axis] = steps[axis];
   }
 
   // Returns the restless words of row y.
   [[gnu::always_inline]] TileRow row(int y, TileRow work) {
     if ((work | c_.giving[y]) == 0) return 0;
+    set_dither(y);
     TileRow restless = 0, giving = 0;
     if (v_.words < 64) work &= (TileRow{1} << v_.words) - 1;
     TileRow deep = deep_words(y, z_) | deep_words(y, z_ + 1);
@@ -73,6 +74,21 @@ class ExchangePairs {
   }
 
  private:
+  // R of the axes in row y. D(y) reverses the order of the bits of y.
+  [[gnu::always_inline]] void set_dither(int y) {
+    auto own = static_cast<std::uint32_t>(y);
+    own = (own & 0x5555) << 1 | (own >> 1 & 0x5555);
+    own = (own & 0x3333) << 2 | (own >> 2 & 0x3333);
+    own = (own & 0x0F0F) << 4 | (own >> 4 & 0x0F0F);
+    own = (own & 0x00FF) << 8 | (own >> 8 & 0x00FF);
+    for (int axis = 0; axis < 4; ++axis) {
+      const std::uint32_t layer = (step_.pair_dither[axis] + own) & 0xFFFF;
+      const std::uint32_t offset = (layer + step_.turn[axis]) / step_.substeps << (axis < 2 ? 2 : 4);
+      whole_[axis] = static_cast<int>(offset >> 16);
+      rest_[axis] = 0xFFFF - static_cast<int>(offset & 0xFFFF);
+    }
+  }
+
   struct Masks {
     std::uint64_t in_run, there[4];  // this cell, the other one of a pair
     std::uint64_t pair[4], any;      // open, and one of them is in a run
@@ -135,7 +151,7 @@ class ExchangePairs {
   template <bool kDiagonal>
   [[gnu::always_inline]] V pair(const Cell& own, std::ptrdiff_t at, int axis, int part, const Masks& m,
                                 bool deep, bool& may_flow) const {
-    const std::ptrdiff_t there = at + step_[axis];
+    const std::ptrdiff_t there = at + to_other_[axis];
     const V head = L::load_any(r_.head + there);
     V down = L::sub_saturated(own.head, head), up = L::sub_saturated(head, own.head);
     if (deep) {
@@ -155,7 +171,10 @@ class ExchangePairs {
     const V amount = L::load_any(v_.amount + there);
     const V giver = L::select(gives, own.amount, amount), taker = L::select(gives, amount, own.amount);
     const Mobility both = mobilities(own, there, gives, here_runs, there_runs);
-    const Conductance c = conductance(both, giver);
+    // Between level beds the mean flows. (A giver shows a bed.)
+    const V bed = L::load_any(r_.bed + there);
+    const V flowing = L::select(L::equal(own.bed, bed), L::mean(own.amount, amount), giver);
+    const Conductance c = conductance(both, flowing);
     const M runs = L::from_bits(m.in_run & m.there[axis], part);
     const V room = L::sub_saturated(L::select(runs, L::set(0xFFFF), L::set(4096)), taker);
     V most = L::high(L::min(giver, room), L::set(13107));
@@ -164,8 +183,7 @@ class ExchangePairs {
 
     // (c drive + (R << 10)) >> 26 as (c drive >> 8, and R << 2) >> 18: the fine bits of c only carry.
     // Likewise for diagonals. In 32 bits a lane, of which the lower half is not kept.
-    const V drive = driven<kDiagonal>(L::min(drop, L::set(kDiagonal ? 362 : 256)), gate, own.bed,
-                                      L::load_any(r_.bed + there));
+    const V drive = driven<kDiagonal>(L::min(drop, L::set(kDiagonal ? 724 : 512)), gate, own.bed, bed);
     const V fine = L::high(c.fine, drive), low = L::low(c.coarse, drive) + fine;
     const V high = L::add_if(L::less(low, fine), L::high(c.coarse, drive), L::set(1));
     constexpr int kShift = kDiagonal ? 4 : 2;
@@ -219,8 +237,8 @@ class ExchangePairs {
     const V between = L::sub_saturated(bed, other) | L::sub_saturated(other, bed);
     const M none = L::equal(L::min(bed, other), L::zero());
     const V steps = L::keep(gate, L::select(none, L::zero(), L::min(between, L::set(16))));
-    if (!L::nonzero(steps)) return L::template shift_left<5>(drop);
-    return L::high(L::template shift_left<7>(drop),
+    if (!L::nonzero(steps)) return L::template shift_left<4>(drop);
+    return L::high(L::template shift_left<6>(drop),
                    L::lookup(slope_[kDiagonal], L::template shift_left<11>(steps)));
   }
 
@@ -254,9 +272,10 @@ class ExchangePairs {
   static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
   const View v_;
   const Runs r_;
+  const Step& step_;
   const int z_;
   Currents& c_;
-  std::ptrdiff_t step_[4];  // to the other cell of a pair
+  std::ptrdiff_t to_other_[4];  // to the other cell of a pair
   int whole_[4],
       rest_[4];  // of the dither in 1/65536 of what a shift keeps: its whole part, 65535 less the rest
   const typename L::Table slope_[2];  // of axes, of diagonals

@@ -68,6 +68,8 @@ struct LaneLoops {
         return each(in, out, [=](V a) { return L::sub_saturated(a, s); });
       case RowOperation::sub_saturated_from:
         return each(in, out, [=](V a) { return L::sub_saturated(s, a); });
+      case RowOperation::mean:
+        return each(in, out, [=](V a) { return L::mean(a, s); });
       case RowOperation::select:
         return each(in, out, [=](V a) { return L::select(L::less(a, s), b, a); });
       case RowOperation::keep:

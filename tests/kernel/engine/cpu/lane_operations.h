@@ -27,6 +27,7 @@ enum class RowOperation {
   add_saturated,
   sub_saturated,
   sub_saturated_from,
+  mean,    // (a + s + 1) >> 1
   select,  // a < s ? r : a
   keep,    // a < s ? a : 0
   add_if,  // a < s ? a + r : a

@@ -108,6 +108,10 @@ TEST_P(Rows, MinimaMaximaAndSaturation) {
   expect_all(RowOperation::sub_saturated_from, 0, [](int a, int s, int) { return std::max(s - a, 0); });
 }
 
+TEST_P(Rows, MeansAreRoundedUp) {
+  expect_all(RowOperation::mean, 0, [](int a, int s, int) { return (a + s + 1) / 2; });
+}
+
 TEST_P(Rows, MasksChooseLanes) {
   expect_all(RowOperation::keep, 0, 255, [](int a, int s, int) { return a < s ? a : 0; });
   for (const int r : {0, 1, 4096, 32768, 65535}) {

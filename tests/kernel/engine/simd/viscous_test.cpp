@@ -194,13 +194,13 @@ TEST(ViscousKernels, AreTheReferenceInLayers) {
 TEST(ViscousKernels, AreTheReferenceWhereHeadsAreCut) {
   Random random(6);
   for (const bool by_word : {false, true}) {
-    const Grid grid{66, 257, 3};
+    const Grid grid{66, 129, 3};
     const Parameters p = worlds::viscous(0.01, random.any({0, 10}));
     Volume start(grid);
     for (int z = 0; z < grid.z; ++z)
       for (int x = 0; x < grid.x; ++x) {
-        int depth = by_word ? random.between(253 * 4096 + 2048, 253 * 4096 + 4000)
-                            : random.between(253 * 4096, 255 * 4096);
+        int depth = by_word ? random.between(125 * 4096 + 2048, 125 * 4096 + 4000)
+                            : random.between(125 * 4096, 127 * 4096);
         if (by_word && x >= 64) depth += 4096;
         for (int y = 0; y < grid.y; ++y) worlds::put(start, x, y, z, std::clamp(depth - 4096 * y, 0, 4096));
       }
@@ -227,7 +227,7 @@ TEST(ViscousKernels, MaySleepInCalmScenes) {
   for (int round = 0; round < 4; ++round) {
     const Grid grid{150, 16, 8};
     // (Drawn one by one: the same scenes whatever the compiler.)
-    const double yield = random.any({0.5, 2.0}), kappa = random.any({0.02, 0.3, 2.0});
+    const double yield = random.any({0.5, 2.0}), kappa = random.any({0.1, 0.3, 2.0});
     Parameters p = worlds::viscous(kappa, yield);
     p.flow.fall.factor = static_cast<std::uint32_t>(random.any({30000, 65536}));
     p.heat.enabled = round % 2 == 1;
