@@ -45,7 +45,6 @@ class ExchangePairs {
   // Returns the restless words of row y.
   [[gnu::always_inline]] TileRow row(int y, TileRow work) {
     if ((work | c_.giving[y]) == 0) return 0;
-    set_dither(y);
     TileRow restless = 0, giving = 0;
     if (v_.words < 64) work &= (TileRow{1} << v_.words) - 1;
     TileRow deep = deep_words(y, z_) | deep_words(y, z_ + 1);
@@ -55,6 +54,7 @@ class ExchangePairs {
       const TileRow bit = work & -work;
       Masks masks;
       if (!find_pairs(w, y, masks)) continue;
+      if (dithered_ != y) set_dither(y);
       bool flows = false, may_flow = false;
       const bool gave = (c_.giving[y] & bit) != 0;
       for (int part = 0; part < L::kParts; ++part)
@@ -76,6 +76,7 @@ class ExchangePairs {
  private:
   // R of the axes in row y. D(y) reverses the order of the bits of y.
   [[gnu::always_inline]] void set_dither(int y) {
+    dithered_ = y;
     auto own = static_cast<std::uint32_t>(y);
     own = (own & 0x5555) << 1 | (own >> 1 & 0x5555);
     own = (own & 0x3333) << 2 | (own >> 2 & 0x3333);
@@ -276,6 +277,7 @@ class ExchangePairs {
   const int z_;
   Currents& c_;
   std::ptrdiff_t to_other_[4];  // to the other cell of a pair
+  int dithered_ = -1;           // the row of these
   int whole_[4],
       rest_[4];  // of the dither in 1/65536 of what a shift keeps: its whole part, 65535 less the rest
   const typename L::Table slope_[2];  // of axes, of diagonals
