@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""One step of small viscous states, as docs/automaton.md gives them by hand: the program and the oracle find the same.
+"""One step of small viscous states, as docs/automaton.md gives them by hand: every implementation and the oracle find the same.
 
   hand_runs_test.py VOXMELT ORACLE
 
@@ -73,6 +73,10 @@ CASES = [
     # up_1 = 6144: (100 x 9000 + 6144 x 2000) / 6244 = 2112.1; up_2 = 2148 of that; down_0 = 2048: (1000 + 2000) / 2.
     ("up and down in one run", *column((2048, 1000), (12288, 2000), (100, 9000), air=3), VISCOUS, 0,
      [(4096, 1500), (4096, 2000), (4096, 2112), (2148, 2112), (0, 0), (0, 0)]),
+    # up_0 = 1024 comes first: (2048 x 1000 + 1024 x 1001) / 3072 = 1000.3; then down_1 = 1024: (3072 x 1000 + 1024 x 1003)
+    # / 4096 = 1000.75. The other way round it would be 1001.
+    ("up before down into one cell", *column((5120, 1001), (2048, 1000), (4096, 1003)), VISCOUS, 0,
+     [(4096, 1001), (4096, 1000), (3072, 1003)]),
     # e_0 = e_1 = 61439: (4096 x 20000 + 61439 x 40000) / 65535 = 38749.98.
     ("an excess of AMAX - ONE keeps the order", *column((65535, 40000), (4096, 20000), air=15), VISCOUS, 0,
      [(4096, 40000)] + [(4096, 38749)] * 15 + [(4095, 38749)]),
@@ -212,44 +216,62 @@ def write_scene(folder, size, cells, rules, first):
     return scene
 
 
-def after_one_step(voxmelt, oracle, folder, scene):
-    """The parameters, (amount, heat) of all cells by the oracle and by the program, and their counters."""
-    start, judged, mine = folder / "start", folder / "judged", folder / "mine"
-    export = [voxmelt, "export", scene, "--quiet", "--implementation", "reference"]
-    subprocess.run([*export, "--steps", "0", "--out", start], check=True)
-    subprocess.run([*export, "--steps", "1", "--out", mine], check=True)
-    lines = subprocess.run([oracle, start, "--steps", "1", "--ledger", "--fields", judged], check=True,
+def implementations(voxmelt):
+    lines = subprocess.run([voxmelt, "list", "implementations"], check=True, capture_output=True, text=True).stdout.splitlines()
+    return [line.split()[0] for line in lines if "not on this processor" not in line]
+
+
+def amounts_and_heats(folder):
+    return list(zip(read_field(folder / "amount.npy"), read_field(folder / "heat.npy")))
+
+
+def by_oracle(oracle, folder):
+    """(amount, heat) of all cells after a step, and the counters."""
+    lines = subprocess.run([oracle, folder / "start", "--steps", "1", "--ledger", "--fields", folder / "judged"], check=True,
                            capture_output=True, text=True).stdout.splitlines()
-    report = folder / "report.json"
-    subprocess.run([voxmelt, "digest", scene, "--steps", "1", "--quiet", "--implementation", "reference", "--report", report],
-                   check=True, stdout=subprocess.DEVNULL)
+    counters = next(tuple(int(n) for n in line.split()[1:]) for line in lines if line.startswith("counters"))
+    return amounts_and_heats(folder / "judged"), counters
+
+
+def by_voxmelt(voxmelt, implementation, folder, scene):
+    """The same of this implementation."""
+    one_step = [scene, "--steps", "1", "--quiet", "--implementation", implementation]
+    fields, report = folder / implementation, folder / f"{implementation}.json"
+    subprocess.run([voxmelt, "export", *one_step, "--out", fields], check=True)
+    subprocess.run([voxmelt, "digest", *one_step, "--report", report], check=True, stdout=subprocess.DEVNULL)
     limit = json.loads(report.read_text())["limit"]
-    counters = {"oracle": next(tuple(int(n) for n in line.split()[1:]) for line in lines if line.startswith("counters")),
-                "voxmelt": tuple(int(limit[key]) for key in ("cells", "mass", "limited_cells", "limited_mass"))}
-    states = {name: list(zip(read_field(where / "amount.npy"), read_field(where / "heat.npy")))
-              for name, where in (("oracle", judged), ("voxmelt", mine))}
-    return json.loads((start / "parameters.json").read_text()), states, counters
+    counters = tuple(int(limit[key]) for key in ("cells", "mass", "limited_cells", "limited_mass"))
+    return amounts_and_heats(fields), counters
+
+
+def after_one_step(voxmelt, oracle, names, folder, scene):
+    """The parameters, and what the oracle and the implementations of these names find."""
+    subprocess.run([voxmelt, "export", scene, "--quiet", "--steps", "0", "--out", folder / "start"], check=True)
+    found = {name: by_voxmelt(voxmelt, name, folder, scene) for name in names}
+    found["oracle"] = by_oracle(oracle, folder)
+    return json.loads((folder / "start" / "parameters.json").read_text()), found
 
 
 def main():
     voxmelt, oracle = sys.argv[1:]
+    names = implementations(voxmelt)
     wrong = 0
     for name, size, cells, rules, first, expected, *counted in CASES:
         with tempfile.TemporaryDirectory() as folder:
             scene = write_scene(Path(folder), size, cells, rules, first)
-            parameters, states, counters = after_one_step(voxmelt, oracle, Path(folder), scene)
+            parameters, found = after_one_step(voxmelt, oracle, names, Path(folder), scene)
         by_hand = expected(parameters) if callable(expected) else expected
-        for program, state in states.items():
-            found = [pair for pair, cell in zip(state, cells) if cell[0] != "inert"]
-            if found != by_hand:
+        for program, (state, _) in found.items():
+            not_inert = [pair for pair, cell in zip(state, cells) if cell[0] != "inert"]
+            if not_inert != by_hand:
                 wrong += 1
-                print(f"{name}:\n  {program} {found}\n  by hand {by_hand}")
+                print(f"{name}:\n  {program} {not_inert}\n  by hand {by_hand}")
         for by_hand in counted:
             by_hand = by_hand(parameters) if callable(by_hand) else by_hand
-            for program, found in counters.items():
-                if found != by_hand:
+            for program, (_, counters) in found.items():
+                if counters != by_hand:
                     wrong += 1
-                    print(f"{name}: the counters of {program} are {found}, by hand {by_hand}")
+                    print(f"{name}: the counters of {program} are {counters}, by hand {by_hand}")
     if wrong:
         sys.exit(1)
     print(f"{len(CASES)} states are as by hand")

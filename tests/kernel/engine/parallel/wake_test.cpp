@@ -327,5 +327,19 @@ TEST(Sleep, GroundThatMeltsIsShownNoMore) {
   }
 }
 
+// A dam breaks behind a wall, so that steps need fewer sub-steps. Beside it a pool sleeps, and shows what is
+// right for as many sub-steps as before. Then a vent makes a part of it give across words.
+TEST(Sleep, SleepersShowWhatFitsTheSubsteps) {
+  Parameters p = viscous(0.3);
+  p.flow.viscous.substeps = 0;
+  Volume start({194, 6, 1});
+  fill(start, {0, 0, 0, 3, 6, 1}, kOne);
+  for (int y = 0; y < 6; ++y) put_inert(start, 60, y, 0);
+  fill(start, {61, 0, 0, 194, 1, 1}, kOne);
+  p.vents = {{.region = {{16 * 127 + 8, 8, 8}, 1}, .rate = 4096, .energy = 0, .from = 40}};
+  for (const int threads : {1, 2})
+    ASSERT_TRUE(same_steps(p, start, fast_implementations().back(), sleepy(threads, 0), 50));
+}
+
 }  // namespace
 }  // namespace voxmelt::parallel

@@ -88,6 +88,13 @@ TEST(Settle, FlowsUpBelowAndDownAboveInOneRun) {
             (Column{{4096, 1000}, {4096, 1500}, {4096, 5000}, {2048, 7000}}));
 }
 
+// 1024 at 1001 up to 2048 at 1000: 1000.33. Then 1024 at 1003 down to these 3072 at 1000: 1000.75. The other
+// way round it would be 1001.
+TEST(Settle, UpComesBeforeDownIntoOneCell) {
+  EXPECT_EQ(settle({{5120, 1001}, {2048, 1000}, {4096, 1003}}, 3).cells,
+            (Column{{4096, 1001}, {4096, 1000}, {3072, 1003}}));
+}
+
 TEST(Settle, ATopThatEmptiesLeavesTheRun) {
   EXPECT_EQ(settle({{2048, 1000}, {1024, 4000}}, 3).cells, (Column{{3072, 2000}, {0, 0}, {0, 0}}));
 }
