@@ -105,6 +105,10 @@ const std::vector<Case>& all_cases() {
        "In free air liquid falls one cell per step. Of the basin, a film may stay.", measure_fall},
       {"filling", "Levels", "No cell in the open is squeezed",
        "A ball drops and a vent pours. A cell may hold a quarter more than one.", measure_filling},
+      {"layers", "Levels", "Layers keep their heat when a column settles",
+       "Cells that hold too little or too much become full ones. Each should have the heat of the parts of "
+       "the column that it takes. Each part is 0.014 of the range hotter than the one below.",
+       measure_layers},
       {"melted_ball", "Convergence", "A melted ball of 32, 64 and 128 cells spreads alike",
        "A ball of liquid falls apart under its weight. Physical time and viscosity are fixed, steps are as "
        "many times "

@@ -169,4 +169,38 @@ Outcome measure_filling(const Conditions& conditions) {
   return outcome;
 }
 
+// A column of cells that hold too little or too much becomes full cells. By right each takes the parts of the
+// column between its own ends, with their heat. What passes through a cell mixes with it, which costs about
+// the difference of one cell's heat from the next one's, 0.014 of the range.
+Outcome measure_layers(const Conditions& conditions) {
+  constexpr int kCells = 32, kGivenOne = 4096;
+  const auto amount = [](int k) { return 3700 + 397 * k % 800; };
+  const auto heat = [](int k) { return 36000. + 900 * k; };
+  Trial column(conditions, "column", {R"(flow.law="viscous")", "flow.viscous.kappa=0.02", "heat.gamma=0"},
+               [&](state::Volume& v) {
+                 for (int y = 0; y < kCells; ++y) {
+                   put_liquid(v, 0, y, 0, amount(y) / kOne);
+                   v.heat[v.at(0, y, 0)] = to_units(heat(y));
+                 }
+               });
+  column.run_to(1);
+  double wrong = 0;
+  int bottom = 0, part = 0, taken = 0;  // the part that is being laid down, and what of it is
+  while (part < kCells) {
+    int held = 0;
+    double sum = 0;
+    while (held < kGivenOne && part < kCells) {
+      const int gets = std::min(kGivenOne - held, amount(part) - taken);
+      held += gets, taken += gets, sum += gets * heat(part);
+      if (taken == amount(part)) ++part, taken = 0;
+    }
+    wrong = std::max(wrong, std::abs(column.volume().heat[column.volume().at(0, bottom++, 0)] - sum / held));
+  }
+  Outcome outcome;
+  outcome.rows.push_back(absolute("32 cells of 0.9 to 1.1 settle",
+                                  "largest difference of heat, part of the range", wrong / kHottest, 0, 0.02,
+                                  column));
+  return outcome;
+}
+
 }  // namespace voxmelt::accuracy

@@ -142,6 +142,7 @@ class ViscousDriver {
   void settle(const View& view, const Step& step, const state::Volume& volume, Books& books) {
     if (step.substeps != substeps_) std::fill(for_settle_.begin(), for_settle_.end(), ~TileRow{0});
     substeps_ = step.substeps;
+    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): the kernels write it through `view`
     const state::Volume before = volume;
     const Tiles work = take(for_settle_, view, false, false);
     count(work);
