@@ -34,6 +34,7 @@ PURPOSES = {
     "hwmodel/presets": "hardware configurations",
     "hwmodel/lockstep": "holds the model against the software, bit for bit",
     "render": "the pictures",
+    "render/rule": "the picture in integers",
     "render/density": "amounts to a filtered field",
     "render/raycast": "rays through its bricks",
     "render/image": "camera, PNG, film",

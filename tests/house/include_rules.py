@@ -13,6 +13,7 @@ from pathlib import Path
 
 RULE, STATE, STEP = "kernel/automaton/rule", "kernel/automaton/state", "kernel/automaton/step"
 PARAMETERS = f"{RULE}/parameters.h"  # numbers that describe a scene; no rule
+PICTURE = "render/rule"
 CPU, VISIBILITY = "kernel/engine/cpu", "kernel/engine/visibility"
 
 # Folder -> folders, or single headers, of ours that it may include (besides itself).
@@ -30,9 +31,10 @@ ALLOWED = {
     VISIBILITY: [RULE, STATE, CPU],
     "kernel/run": [STATE, STEP, CPU, "kernel/engine/scalar", "kernel/engine/parallel", VISIBILITY],
     "kernel/run/io": [PARAMETERS, STATE],
+    PICTURE: [f"{RULE}/fixed_point.h"],
     "render/image": [f"{STATE}/grid.h", "kernel/scene/look.h"],
     "render/density": [RULE, STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU],
-    "render/raycast": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", "render/image", "render/density"],
+    "render/raycast": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density"],
     # The model computes with its own arithmetic: of the kernel it sees data only.
     "hwmodel/channel": [],
     "hwmodel/stream": ["hwmodel/channel", PARAMETERS, STATE, f"{STEP}/phase.h"],
@@ -72,7 +74,7 @@ RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 TOPS = ("kernel", "render", "hwmodel", "app", "bench", "accuracy", "include", "library", "examples")
-STANDARD_ONLY = (RULE, "include/voxmelt")
+STANDARD_ONLY = (RULE, PICTURE, "include/voxmelt")
 
 
 def offence_of(folder, kind, target, used):

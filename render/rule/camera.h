@@ -1,0 +1,89 @@
+// From a camera in numbers of a scene file to the ray of a pixel (docs/picture.md, sections 3 and 4).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "render/rule/angle.h"
+#include "render/rule/fixed_point.h"
+#include "render/rule/ray.h"
+
+namespace voxmelt::picture {
+
+struct Camera {
+  Vector target;                            // in kCell, within 2^16 cells
+  std::int64_t distance = 0;                // in 2^-12 cells, up to 2^18 cells
+  std::int64_t azimuth = 0, elevation = 0;  // in kDegree
+  std::int64_t half_field = 0;              // half of the vertical field of view, in kDegree
+  std::int64_t width = 0, height = 0;       // of the picture, in pixels
+};
+
+inline constexpr std::int64_t kPixel = 16;     // picture coordinates to a pixel
+inline constexpr std::int64_t kNearUnit = 16;  // distances of the near plane to a cell
+
+// What all rays of a picture share.
+struct View {
+  Vector eye;                   // in kCell
+  Vector forward, right, up;    // of length kUnit
+  Vector wide, high;            // right and up times the tangent of half the field of view, in kUnit
+  std::int64_t near = 0;        // depth of the plane on which the rays start, in kNearUnit
+  Vector near_wide, near_high;  // on that plane, a picture coordinate further; 2^30 is a cell
+  std::int64_t half_width = 0, half_height = 0;  // of the picture, in picture coordinates
+};
+
+// The depth of the nearest corner of the grid, a little less, and 0 where it lies behind the eye. The grid
+// counts with half a cell around it.
+VOXMELT_RULE std::int64_t near_depth(Vector eye, Vector forward, Vector cells) {
+  std::int64_t near = std::int64_t{1} << 40;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector point{(corner & 1) != 0 ? cells.x * kCell + kCell / 2 : -kCell / 2,
+                       (corner & 2) != 0 ? cells.y * kCell + kCell / 2 : -kCell / 2,
+                       (corner & 4) != 0 ? cells.z * kCell + kCell / 2 : -kCell / 2};
+    near = std::min(near, dot((point - eye) >> 16, forward) >> kUnitBits);
+  }
+  return std::max<std::int64_t>(0, near - 3);
+}
+
+VOXMELT_RULE View view_of(const Camera& camera, Vector cells) {
+  const SineCosine azimuth = sine_cosine(camera.azimuth), elevation = sine_cosine(camera.elevation),
+                   half_field = sine_cosine(camera.half_field);
+  const auto times = [](std::int64_t a, std::int64_t b) { return rounded(a * b, kUnitBits); };
+  const Vector back{times(azimuth.sine, elevation.cosine), elevation.sine,
+                    times(azimuth.cosine, elevation.cosine)};
+  View view;
+  view.forward = Vector{} - back;
+  view.right = {azimuth.cosine, 0, -azimuth.sine};
+  view.up = {-times(azimuth.sine, elevation.sine), elevation.cosine, -times(azimuth.cosine, elevation.sine)};
+  view.eye = camera.target + ((back * camera.distance) >> 22);
+
+  const std::int64_t tangent = half_field.sine * kUnit / half_field.cosine;
+  view.wide = (view.right * tangent) >> kUnitBits;
+  view.high = (view.up * tangent) >> kUnitBits;
+  view.half_width = camera.width * (kPixel / 2);
+  view.half_height = camera.height * (kPixel / 2);
+
+  view.near = near_depth(view.eye, view.forward, cells);
+  const auto on_plane = [&](std::int64_t a) { return floor_divided(a * view.near, view.half_height * 16); };
+  view.near_wide = {on_plane(view.wide.x), on_plane(view.wide.y), on_plane(view.wide.z)};
+  view.near_high = {on_plane(view.high.x), on_plane(view.high.y), on_plane(view.high.z)};
+  return view;
+}
+
+// The ray through a place of the picture: `across` and `down` from its upper left corner, in 1 / kPixel of a
+// pixel. The middle of pixel (i, j) is (kPixel i + kPixel / 2, kPixel j + kPixel / 2).
+VOXMELT_RULE Ray ray_through(const View& view, std::int64_t across, std::int64_t down, int spacing) {
+  const std::int64_t u = across - view.half_width, v = view.half_height - down;
+  const Vector direction = view.forward * view.half_height + view.wide * u + view.high * v;
+  const Vector start =
+      view.eye + ((view.forward * view.near) >> 14) + ((view.near_wide * u + view.near_high * v) >> 10);
+  return {start, step_along(direction, spacing)};
+}
+
+// The depth of a position in a depth picture: 32nds of a cell from the plane on which the rays start.
+inline constexpr std::int64_t kNoDepth = 65535;  // of a ray that meets nothing
+VOXMELT_RULE std::int64_t depth_in_picture(const View& view, Vector position) {
+  const std::int64_t depth = dot((position - view.eye) >> 8, view.forward) >> kUnitBits;  // 2^12 is a cell
+  return std::clamp<std::int64_t>((depth - view.near * 256) >> 7, 0, kNoDepth - 1);
+}
+
+}  // namespace voxmelt::picture
