@@ -44,6 +44,7 @@ class DensityField {
   const Values<std::uint16_t>& solid() const { return filtered_.solid; }
   const Values<std::uint16_t>& liquid() const { return filtered_.liquid; }
   const Values<std::uint16_t>& heat() const { return filtered_.heat; }
+  const Values<std::uint16_t>& obstacle() const { return filtered_.obstacle; }  // empty where there is none
   const std::vector<float>& ground() const { return cells_.ground; }
   const std::vector<float>& wetness() const { return cells_.wetness; }
   const std::vector<BrickRange>& ranges() const { return ranges_; }

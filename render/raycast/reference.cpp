@@ -1,5 +1,6 @@
 #include "render/raycast/reference.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +19,7 @@ picture::Camera camera_in_integers(const scene::Camera& camera) {
   return {{position(camera.target[0]), position(camera.target[1]), position(camera.target[2])},
           fixed(camera.distance, 12),
           fixed(camera.azimuth, 16),
-          fixed(camera.elevation, 16),
+          fixed(std::clamp(camera.elevation, -89.0, 89.0), 16),
           fixed(camera.field_of_view, 15),
           camera.width,
           camera.height};

@@ -12,13 +12,13 @@ namespace voxmelt::picture {
 
 struct Camera {
   Vector target;                            // in kCell, within 2^16 cells
-  std::int64_t distance = 0;                // in 2^-12 cells, up to 2^18 cells
+  std::int64_t distance = 0;                // in 2^-12 cells, up to 2^18 cells; 0: so that the grid fits
   std::int64_t azimuth = 0, elevation = 0;  // in kDegree
   std::int64_t half_field = 0;              // half of the vertical field of view, in kDegree
   std::int64_t width = 0, height = 0;       // of the picture, in pixels
 };
 
-inline constexpr std::int64_t kPixel = 16;     // picture coordinates to a pixel
+inline constexpr std::int64_t kPixel = 32;     // picture coordinates to a pixel
 inline constexpr std::int64_t kNearUnit = 16;  // distances of the near plane to a cell
 
 // What all rays of a picture share.
@@ -44,6 +44,24 @@ VOXMELT_RULE std::int64_t near_depth(Vector eye, Vector forward, Vector cells) {
   return std::max<std::int64_t>(0, near - 3);
 }
 
+// The distance at which every corner of the grid is inside the picture, with a little air around it.
+VOXMELT_RULE std::int64_t fitted_distance(const Camera& camera, Vector cells, const View& view, std::int64_t tangent) {
+  std::int64_t distance = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector point{(corner & 1) != 0 ? cells.x * kCell : 0, (corner & 2) != 0 ? cells.y * kCell : 0,
+                       (corner & 4) != 0 ? cells.z * kCell : 0};
+    const Vector from_target = (point - camera.target) >> 8;
+    const auto along = [&](Vector axis) { return dot(from_target, axis) >> kUnitBits; };
+    const auto reach = [&](std::int64_t aside) {  // 1055 / 1024 is the air; tangents are of half the picture
+      return floor_divided(std::min(magnitude(aside) * 1055, std::int64_t{1} << 42) << 20, tangent);
+    };
+    const std::int64_t depth = -along(view.forward);
+    distance = std::max({distance, depth + reach(floor_divided(along(view.right) * camera.height, camera.width)),
+                         depth + reach(along(view.up))});
+  }
+  return std::clamp<std::int64_t>(distance, 1, std::int64_t{1} << 30);
+}
+
 VOXMELT_RULE View view_of(const Camera& camera, Vector cells) {
   const SineCosine azimuth = sine_cosine(camera.azimuth), elevation = sine_cosine(camera.elevation),
                    half_field = sine_cosine(camera.half_field);
@@ -54,9 +72,11 @@ VOXMELT_RULE View view_of(const Camera& camera, Vector cells) {
   view.forward = Vector{} - back;
   view.right = {azimuth.cosine, 0, -azimuth.sine};
   view.up = {-times(azimuth.sine, elevation.sine), elevation.cosine, -times(azimuth.cosine, elevation.sine)};
-  view.eye = camera.target + ((back * camera.distance) >> 22);
-
   const std::int64_t tangent = half_field.sine * kUnit / half_field.cosine;
+  const std::int64_t distance =
+      camera.distance > 0 ? camera.distance : fitted_distance(camera, cells, view, tangent);
+  view.eye = camera.target + ((back * distance) >> 22);
+
   view.wide = (view.right * tangent) >> kUnitBits;
   view.high = (view.up * tangent) >> kUnitBits;
   view.half_width = camera.width * (kPixel / 2);

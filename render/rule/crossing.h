@@ -17,29 +17,38 @@ VOXMELT_RULE std::int32_t false_position(std::int32_t outside, std::int32_t insi
   return -outside * kParts / (inside - outside);
 }
 
-// Between a position outside of the matter and one inside: bisections, and then a straight line.
+// How far along a ray: in kPlaces of a step.
+inline constexpr std::int64_t kPlaces = (std::int64_t{1} << kBisections) * kParts;
+
+struct Crossing {
+  bool found = false;
+  std::int64_t sample = 0;  // the first that lies in matter
+  std::int64_t place = 0;   // of the crossing, in 1 / kPlaces of a step from the start
+  Vector position;
+};
+
+// Between sample k - 1, which is air, and sample k, which is matter: bisections, and then a straight line.
 template <class Levels>
-VOXMELT_RULE Vector crossing_between(const Levels& levels, Vector outside, Vector inside) {
+VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std::int64_t k) {
+  Vector outside = ray.at(k - 1), inside = ray.at(k);
   std::int32_t low = sample(levels, outside), high = sample(levels, inside);
+  std::int64_t part = 0;
   for (int i = 0; i < kBisections; ++i) {
     const Vector middle = outside + ((inside - outside) >> 1);
     const std::int32_t level = sample(levels, middle);
+    part *= 2;
     if (level < 0) {
       outside = middle;
       low = level;
+      ++part;
     } else {
       inside = middle;
       high = level;
     }
   }
-  return outside + (((inside - outside) * false_position(low, high)) >> 8);
+  const std::int32_t last = false_position(low, high);
+  return {true, k, (k - 1) * kPlaces + part * kParts + last, outside + (((inside - outside) * last) >> 8)};
 }
-
-struct Crossing {
-  bool found = false;
-  std::int64_t sample = 0;  // the first that lies in matter
-  Vector position;
-};
 
 // A ray that starts in matter meets it at its start.
 template <class Levels>
@@ -47,7 +56,7 @@ VOXMELT_RULE Crossing first_crossing(const Levels& levels, Vector cells, const R
   const Samples in = samples_in(ray, field_low(), field_high(cells));
   for (std::int64_t k = in.first; k <= in.last; ++k) {
     if (sample(levels, ray.at(k)) < 0) continue;
-    return {true, k, k == 0 ? ray.start : crossing_between(levels, ray.at(k - 1), ray.at(k))};
+    return k == 0 ? Crossing{true, 0, 0, ray.start} : crossing_before(levels, ray, k);
   }
   return {};
 }

@@ -11,6 +11,7 @@
 namespace voxmelt::picture {
 
 inline constexpr int kNormalBits = 14;  // fraction bits of a normal
+inline constexpr std::int32_t kLength = 1 << kNormalBits;
 
 // floor(sqrt(a)), a < 2^40.
 VOXMELT_RULE std::int64_t square_root(std::int64_t a) {

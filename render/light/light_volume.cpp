@@ -1,0 +1,141 @@
+#include "render/light/light_volume.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace voxmelt::render {
+namespace {
+
+using picture::Vector;
+
+// A volume as slices along an axis, from the side where the light comes in.
+class Slices {
+ public:
+  Slices(const LightPlane& plane, int axis, bool from_high)
+      : size_{plane.count.x, plane.count.y, plane.count.z},
+        stride_{1, plane.count.x, plane.count.x * plane.count.y},
+        axis_(axis),
+        u_(axis == 0 ? 1 : 0),
+        v_(axis == 2 ? 1 : 2),
+        from_high_(from_high) {}
+
+  std::int64_t count() const { return size_[axis_]; }
+  std::int64_t u() const { return size_[u_]; }
+  std::int64_t v() const { return size_[v_]; }
+  std::size_t at(std::int64_t slice, std::int64_t iu, std::int64_t iv) const {
+    const std::int64_t along = from_high_ ? count() - 1 - slice : slice;
+    return static_cast<std::size_t>(along * stride_[axis_] + iu * stride_[u_] + iv * stride_[v_]);
+  }
+
+ private:
+  std::int64_t size_[3], stride_[3];
+  int axis_, u_, v_;
+  bool from_high_;
+};
+
+// One slice of bytes. Beyond its sides there is `outside`.
+class Slice {
+ public:
+  Slice(std::int64_t u, std::int64_t v, std::int32_t outside)
+      : u_(u), v_(v), outside_(outside), cells_(static_cast<std::size_t>(u * v), outside) {}
+  std::int32_t operator()(std::int64_t iu, std::int64_t iv) const {
+    return iu < 0 || iv < 0 || iu >= u_ || iv >= v_ ? outside_ : cells_[static_cast<std::size_t>(iv * u_ + iu)];
+  }
+  std::int32_t& set(std::int64_t iu, std::int64_t iv) { return cells_[static_cast<std::size_t>(iv * u_ + iu)]; }
+
+ private:
+  std::int64_t u_, v_;
+  std::int32_t outside_;
+  std::vector<std::int32_t> cells_;
+};
+
+// Calls leave(cell) for what leaves each cell of a slice and arrive(cell, value) for what arrives in the next one, after
+// both axes were filtered: first along u, then along v.
+template <class FilterU, class FilterV, class Leave, class Arrive>
+void sweep(const Slices& slices, std::int32_t outside, const FilterU& filter_u, const FilterV& filter_v,
+           const Leave& leave, const Arrive& arrive) {
+  Slice left(slices.u(), slices.v(), outside), along(slices.u(), slices.v(), outside);
+  for (std::int64_t s = 0; s < slices.count(); ++s) {
+    for (std::int64_t v = 0; v < slices.v(); ++v)
+      for (std::int64_t u = 0; u < slices.u(); ++u)
+        along.set(u, v) = filter_u([&](std::int64_t d) { return left(u + d, v); });
+    for (std::int64_t v = 0; v < slices.v(); ++v)
+      for (std::int64_t u = 0; u < slices.u(); ++u)
+        arrive(slices.at(s, u, v), filter_v([&](std::int64_t d) { return along(u, v + d); }));
+    for (std::int64_t v = 0; v < slices.v(); ++v)
+      for (std::int64_t u = 0; u < slices.u(); ++u) left.set(u, v) = leave(slices.at(s, u, v));
+  }
+}
+
+constexpr auto kSpread = [](const auto& at) { return picture::spread({at(-2), at(-1), at(0), at(1), at(2)}); };
+
+std::vector<std::int32_t> losses(const LightPlane& density) {
+  std::vector<std::int32_t> of;
+  of.reserve(density.cells.size());
+  for (const std::uint8_t cell : density.cells) of.push_back(picture::loss_of(cell));
+  return of;
+}
+
+// Along the axis of the direction's largest component; y comes before x, and x before z.
+void sweep_lamp(const LightMatter& matter, const std::vector<std::int32_t>& loss, Vector to_light,
+                std::vector<LightBytes>& cells) {
+  const std::int64_t component[3] = {to_light.x, to_light.y, to_light.z};
+  int axis = 1;
+  for (const int other : {0, 2})
+    if (picture::magnitude(component[other]) > picture::magnitude(component[axis])) axis = other;
+  const Slices slices(matter.density, axis, component[axis] > 0);
+  const auto taps = [&](int other) {
+    return picture::taps_of(static_cast<std::int32_t>(
+        picture::floor_divided(component[other] * picture::kLength, picture::magnitude(component[axis]))));
+  };
+  const picture::Taps u = taps(axis == 0 ? 1 : 0), v = taps(axis == 2 ? 1 : 2);
+  const auto filter = [](const picture::Taps& t) {
+    return [t](const auto& at) { return picture::tapped(at(t.cell - 1), at(t.cell), at(t.cell + 1), t); };
+  };
+  sweep(
+      slices, 255, filter(u), filter(v),
+      [&](std::size_t i) { return picture::passed(cells[i].lamp, loss[i]); },
+      [&](std::size_t i, std::int32_t value) { cells[i].lamp = static_cast<std::uint8_t>(value); });
+}
+
+void sweep_side(const LightMatter& matter, const std::vector<std::int32_t>& loss, std::size_t side,
+                std::vector<LightBytes>& cells) {
+  const Slices slices(matter.density, static_cast<int>(side / 2), side % 2 == 0);
+  sweep(
+      slices, 255, kSpread, kSpread,
+      [&](std::size_t i) { return picture::passed(cells[i].open[side], loss[i]); },
+      [&](std::size_t i, std::int32_t value) {
+        cells[i].open[side] = static_cast<std::uint8_t>(picture::opened(value));
+      });
+  if (matter.emission.cells.empty()) return;
+  sweep(
+      slices, 0, kSpread, kSpread,
+      [&](std::size_t i) {
+        return picture::glowing(cells[i].glow[side], loss[i], matter.emission.cells[i]);
+      },
+      [&](std::size_t i, std::int32_t value) {
+        cells[i].glow[side] = static_cast<std::uint8_t>(picture::faded(value));
+      });
+}
+
+}  // namespace
+
+LightVolume::LightVolume(const LightMatter& matter, Vector to_light, int shift)
+    : count_(matter.density.count), shift_(shift), cells_(matter.density.cells.size()) {
+  const std::vector<std::int32_t> loss = losses(matter.density);
+  sweep_lamp(matter, loss, to_light, cells_);
+  for (std::size_t side = 0; side < picture::kSides; ++side) sweep_side(matter, loss, side, cells_);
+}
+
+picture::Light LightVolume::operator()(std::int64_t x, std::int64_t y, std::int64_t z) const {
+  const LightBytes& cell = cells_[static_cast<std::size_t>((z * count_.y + y) * count_.x + x)];
+  picture::Light of;
+  of.lamp = cell.lamp;
+  for (std::size_t side = 0; side < picture::kSides; ++side) {
+    of.open[side] = cell.open[side];
+    of.glow[side] = cell.glow[side];
+  }
+  return of;
+}
+
+}  // namespace voxmelt::render

@@ -1,0 +1,61 @@
+// The light that arrives in every cell of the grid of light (docs/picture-light.md, sections 4 and 5), by plain
+// loops over render/rule.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "render/rule/light_grid.h"
+
+namespace voxmelt::render {
+
+// A byte per cell of light, x fastest.
+struct LightPlane {
+  picture::Vector count;
+  std::vector<std::uint8_t> cells;
+
+  LightPlane() = default;
+  LightPlane(picture::Vector size, std::uint8_t fill)
+      : count(size), cells(static_cast<std::size_t>(size.x * size.y * size.z), fill) {}
+  std::size_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    return static_cast<std::size_t>((z * count.y + y) * count.x + x);
+  }
+};
+
+// What stops and what sends light.
+struct LightMatter {
+  LightPlane density, emission;  // emission is empty where nothing glows
+};
+
+// Bytes as the ray caster reads them: two words of 64 bits.
+struct LightBytes {
+  std::uint8_t lamp = 255;
+  std::array<std::uint8_t, picture::kSides> open{255, 255, 255, 255, 255, 255};
+  std::uint8_t none = 0;
+  std::array<std::uint8_t, picture::kSides> glow{};
+  std::array<std::uint8_t, 2> nothing{};
+
+  friend bool operator==(const LightBytes&, const LightBytes&) = default;
+};
+static_assert(sizeof(LightBytes) == 16);
+
+class LightVolume {
+ public:
+  LightVolume() = default;
+  // `to_light` has the length 2^14.
+  LightVolume(const LightMatter& matter, picture::Vector to_light, int shift);
+
+  picture::Light operator()(std::int64_t x, std::int64_t y, std::int64_t z) const;
+  picture::Vector count() const { return count_; }
+  int shift() const { return shift_; }
+  const std::vector<LightBytes>& cells() const { return cells_; }
+
+ private:
+  picture::Vector count_;
+  int shift_ = 1;
+  std::vector<LightBytes> cells_;
+};
+
+}  // namespace voxmelt::render

@@ -1,0 +1,48 @@
+#include "render/raycast/picture_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/light/light_matter.h"
+
+namespace voxmelt::render {
+namespace {
+
+std::int64_t fixed(double value, int bits) {
+  return static_cast<std::int64_t>(std::floor(std::ldexp(value, bits) + 0.5));
+}
+
+std::int32_t light(double value) { return static_cast<std::int32_t>(fixed(value, picture::kLightBits)); }
+
+picture::Color color(const scene::Vec3& of) { return {light(of[0]), light(of[1]), light(of[2])}; }
+
+}  // namespace
+
+picture::Look look_in_integers(const scene::Look& look) {
+  picture::Look of;
+  of.solid = color(look.solid);
+  of.liquid = color(look.liquid);
+  of.ground = color(look.ground);
+  of.background = color(look.background);
+  of.shininess = static_cast<std::int32_t>(std::max<std::int64_t>(fixed(look.shininess, 0), 1));
+  of.specular = light(look.specular);
+  of.metallic = light(look.metallic);
+  of.glow = look.glow;
+  of.glow_cold = static_cast<std::int32_t>(fixed(look.glow_cold, 16));
+  of.glow_hot = static_cast<std::int32_t>(fixed(look.glow_hot, 16));
+  return of;
+}
+
+picture::Lamp lamp_in_integers(const scene::Light& light) {
+  const auto& d = light.direction;
+  return {{fixed(d[0], 24), fixed(d[1], 24), fixed(d[2], 24)}, render::light(light.ambient)};
+}
+
+PictureScene::PictureScene(const DensityField& field, const scene::Look& scene_look, const scene::Light& scene_light)
+    : look(look_in_integers(scene_look)),
+      paint(picture::paint_of(look, lamp_in_integers(scene_light))),
+      levels(field),
+      matter(field, look),
+      light(light_matter(field, {}, look), paint.to_light, picture::light_shift(levels.cells())) {}
+
+}  // namespace voxmelt::render

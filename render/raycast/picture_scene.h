@@ -1,0 +1,29 @@
+// All that a picture in integers is drawn from, but for the camera.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel/scene/look.h"
+#include "render/density/density_field.h"
+#include "render/light/light_volume.h"
+#include "render/raycast/levels.h"
+#include "render/raycast/matter_cells.h"
+#include "render/rule/shade.h"
+
+namespace voxmelt::render {
+
+picture::Look look_in_integers(const scene::Look& look);
+picture::Lamp lamp_in_integers(const scene::Light& light);
+
+struct PictureScene {
+  PictureScene(const DensityField& field, const scene::Look& look, const scene::Light& light);
+
+  picture::Look look;
+  picture::Paint paint;
+  Levels levels;
+  MatterCells matter;
+  LightVolume light;
+};
+
+}  // namespace voxmelt::render

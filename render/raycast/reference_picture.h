@@ -1,0 +1,14 @@
+// The picture by plain loops over render/rule (docs/picture.md): what faster programs are held against.
+#pragma once
+
+#include "render/image/image.h"
+#include "render/raycast/picture_scene.h"
+#include "render/rule/camera.h"
+
+namespace voxmelt::render {
+
+enum class Setting { fast, normal, best };
+
+Image reference_picture(const PictureScene& scene, const picture::Camera& camera, Setting setting);
+
+}  // namespace voxmelt::render

@@ -1,0 +1,124 @@
+// Light as small volumes: what of the lamp, of the surroundings and of glowing liquid arrives where
+// (docs/picture-light.md, sections 4 and 5).
+//
+// The grid of light is coarser than the grid of cells. Its values are bytes, swept slice by slice.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "render/rule/fixed_point.h"
+#include "render/rule/normal.h"
+#include "render/rule/sample.h"
+
+namespace voxmelt::picture {
+
+// A cell of light is 2^shift cells wide.
+VOXMELT_RULE int light_shift(Vector cells) {
+  int shift = 1;
+  while (cells.x * cells.y * cells.z > std::int64_t{1} << (19 + 3 * shift)) ++shift;
+  return shift;
+}
+VOXMELT_RULE Vector light_cells(Vector cells) {
+  const int shift = light_shift(cells);
+  const auto count = [&](std::int64_t n) { return (n + (std::int64_t{1} << shift) - 1) >> shift; };
+  return {count(cells.x), count(cells.y), count(cells.z)};
+}
+
+// How much light is lost in a cell of light, 0 .. 256, by its density 0 .. 255. The least densities count as
+// nothing: they are the blurred fringe of the surface that is lit.
+VOXMELT_RULE std::int32_t loss_of(std::int32_t density) { return std::clamp((density - 12) * 3 / 2, 0, 256); }
+
+// What leaves a cell of what arrived there.
+VOXMELT_RULE std::int32_t passed(std::int32_t arrived, std::int32_t loss) {
+  return (arrived * (256 - loss) + 128) >> 8;
+}
+
+// One axis of a sweep along the lamp's direction. The slice before is read `cell` further, between three
+// cells, by a quadratic B-spline. So shadows get softer with the distance from what casts them.
+struct Taps {
+  std::int32_t cell = 0;                  // of the middle one
+  std::array<std::int32_t, 3> weight{};  // of 256
+};
+
+// The direction's component along the axis, over that along which is swept, at most 1, in 2^14.
+VOXMELT_RULE Taps taps_of(std::int32_t slope) {
+  const std::int32_t cell = (slope + kLength / 2) >> kNormalBits;
+  const std::int32_t f = slope - cell * kLength;  // -1/2 .. 1/2
+  const auto weight = [](std::int32_t g) { return (g * g) >> 21; };  // 256 g^2 / 2
+  const std::int32_t below = weight(kLength / 2 - f), above = weight(kLength / 2 + f);
+  return {cell, {below, 256 - below - above, above}};
+}
+VOXMELT_RULE std::int32_t tapped(std::int32_t below, std::int32_t here, std::int32_t above, const Taps& taps) {
+  return (below * taps.weight[0] + here * taps.weight[1] + above * taps.weight[2] + 128) >> 8;
+}
+
+// One axis of a sweep along an axis of the grid: a wide cone.
+VOXMELT_RULE std::int32_t spread(const std::array<std::int32_t, 5>& from) {
+  return (from[0] + 2 * (from[1] + from[2] + from[3]) + from[4] + 4) >> 3;
+}
+
+// What is far away hides less, and glow from far away lights less.
+VOXMELT_RULE std::int32_t opened(std::int32_t open) { return open + ((255 - open + 7) >> 3); }
+VOXMELT_RULE std::int32_t faded(std::int32_t glow) { return glow - ((glow + 8) >> 4); }
+
+// What leaves a cell of light that glows.
+VOXMELT_RULE std::int32_t glowing(std::int32_t arrived, std::int32_t loss, std::int32_t emission) {
+  return std::min(passed(arrived, loss) + emission, 255);
+}
+
+// The six directions from which light comes: from +x, -x, +y, -y, +z, -z.
+inline constexpr int kSides = 6;
+
+struct Light {
+  std::int32_t lamp = 255;
+  std::array<std::int32_t, kSides> open{255, 255, 255, 255, 255, 255};
+  std::array<std::int32_t, kSides> glow{};
+};
+
+VOXMELT_RULE Light between(const Light& a, const Light& b, std::int32_t weight) {
+  Light of;
+  of.lamp = blended(a.lamp, b.lamp, weight);
+  for (std::size_t side = 0; side < kSides; ++side) {
+    of.open[side] = blended(a.open[side], b.open[side], weight);
+    of.glow[side] = blended(a.glow[side], b.glow[side], weight);
+  }
+  return of;
+}
+
+// The light at a position: between eight cells of light, of which those beyond the grid repeat the nearest.
+// lights(x, y, z) gives the light of a cell of light.
+template <class Lights>
+VOXMELT_RULE Light light_at(const Lights& lights, Vector count, int shift, Vector position) {
+  const Vector p = position >> shift;
+  const Place x = place_of(p.x), y = place_of(p.y), z = place_of(p.z);
+  const auto at = [&](std::int64_t cx, std::int64_t cy, std::int64_t cz) -> Light {
+    return lights(std::clamp<std::int64_t>(cx, 0, count.x - 1), std::clamp<std::int64_t>(cy, 0, count.y - 1),
+                  std::clamp<std::int64_t>(cz, 0, count.z - 1));
+  };
+  const auto along_x = [&](std::int64_t cy, std::int64_t cz) {
+    return between(at(x.cell, cy, cz), at(x.cell + 1, cy, cz), x.weight);
+  };
+  const auto along_y = [&](std::int64_t cz) {
+    return between(along_x(y.cell, cz), along_x(y.cell + 1, cz), y.weight);
+  };
+  return between(along_y(z.cell), along_y(z.cell + 1), z.weight);
+}
+
+// Where the light of a surface is read: one cell of light in front of it.
+VOXMELT_RULE Vector before_surface(Vector position, Vector normal, int shift) {
+  return position + normal * (std::int64_t{1} << (kPositionBits - kNormalBits + shift));
+}
+
+// Six values as seen along a unit vector: each axis counts by the square of the component.
+VOXMELT_RULE std::int32_t seen_along(const std::array<std::int32_t, kSides>& sides, Vector direction) {
+  const auto part = [&](std::int64_t component, std::size_t axis) {
+    const std::int64_t weight = (component * component) >> kNormalBits;
+    return weight * sides[2 * axis + (component < 0 ? 1 : 0)];
+  };
+  const std::int64_t sum = part(direction.x, 0) + part(direction.y, 1) + part(direction.z, 2);
+  return static_cast<std::int32_t>(std::min<std::int64_t>(sum >> kNormalBits, 255));
+}
+
+}  // namespace voxmelt::picture

@@ -1,0 +1,82 @@
+// The look of a picture in integers, and what its shading needs of it (docs/picture-light.md, section 1).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "render/rule/fixed_point.h"
+#include "render/rule/normal.h"
+
+namespace voxmelt::picture {
+
+using Color = std::array<std::int32_t, 3>;  // red, green, blue: linear light, kLight is 1
+
+inline constexpr int kLightBits = 12;
+inline constexpr std::int32_t kLight = 1 << kLightBits;
+
+// What a scene file says, times kLight to the nearest integer.
+struct Look {
+  Color solid{}, liquid{}, ground{}, background{};
+  std::int32_t shininess = 1;  // itself, 1 or more
+  std::int32_t specular = 0, metallic = 0;
+  bool glow = false;
+  std::int32_t glow_cold = 0, glow_hot = 0;  // temperatures, 65536 is the scene's range
+};
+
+struct Lamp {
+  Vector direction;  // towards the light, of any length but 0, components within 2^40
+  std::int32_t ambient = 0;
+};
+
+// a b / 2^12 to the nearest integer.
+VOXMELT_RULE std::int32_t times(std::int32_t a, std::int32_t b) {
+  return static_cast<std::int32_t>(rounded(std::int64_t{a} * b, kLightBits));
+}
+VOXMELT_RULE Color times(Color a, std::int32_t b) { return {times(a[0], b), times(a[1], b), times(a[2], b)}; }
+
+// From a (share 0) to b (share kLight).
+VOXMELT_RULE std::int32_t mixed(std::int32_t a, std::int32_t b, std::int32_t share) {
+  return a + times(b - a, share);
+}
+VOXMELT_RULE Color mixed(Color a, Color b, std::int32_t share) {
+  return {mixed(a[0], b[0], share), mixed(a[1], b[1], share), mixed(a[2], b[2], share)};
+}
+
+// 0 below `low`, kLight above `high`, and 3 t^2 - 2 t^3 between.
+VOXMELT_RULE std::int32_t smooth_step(std::int32_t low, std::int32_t high, std::int32_t at) {
+  const std::int64_t t =
+      std::clamp<std::int64_t>(floor_divided(std::int64_t{at - low} * kLight, high - low), 0, kLight);
+  return static_cast<std::int32_t>((t * t * (3 * kLight - 2 * t)) >> (2 * kLightBits));
+}
+
+// A vector of any length but 0, brought to kLength.
+VOXMELT_RULE Vector unit_of(Vector a) {
+  const int bits = bits_of(largest(a));
+  return unit(bits > 15 ? a >> (bits - 15) : a);
+}
+
+// How matter reflects. Metals mirror their surroundings and have next to no colour of their own.
+struct Material {
+  Color diffuse{};        // share of the arriving light that is scattered
+  Color mirror{};         // share of the mirrored light, seen from ahead
+  Color highlight{};      // of the lamp
+  std::int32_t gloss = 0;  // how much more is mirrored at grazing angles
+};
+
+inline constexpr Color kLampColor{4342, 4096, 3768};
+inline constexpr Color kSkyColor{3850, 4096, 4424};
+
+VOXMELT_RULE Material material_of(Color color, std::int32_t specular, std::int32_t metallic, Color lamp) {
+  Material of;
+  of.diffuse = times(color, kLight - times(metallic, 3482));  // 0.85 of a metal's is lost
+  const std::int32_t dull = times(specular, 328);             // 0.08
+  of.mirror = mixed(Color{dull, dull, dull}, color, metallic);
+  const Color tint = mixed(Color{kLight, kLight, kLight}, color, metallic);
+  for (std::size_t c = 0; c < 3; ++c) of.highlight[c] = times(times(tint[c], lamp[c]), specular);
+  of.gloss = times(mixed(times(specular, 4915), kLight, metallic), 2867);  // 1.2 and 0.7
+  return of;
+}
+
+}  // namespace voxmelt::picture

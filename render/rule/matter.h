@@ -1,0 +1,56 @@
+// What the matter of a cell is made of, as bytes (docs/picture-light.md, section 3).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "render/rule/fixed_point.h"
+#include "render/rule/look.h"
+#include "render/rule/sample.h"
+
+namespace voxmelt::picture {
+
+struct Matter {
+  std::int32_t liquid = 0;    // share of the liquid in the matter, 0 .. 255
+  std::int32_t heat = 0;      // of glowing liquid, 0 .. 255
+  std::int32_t obstacle = 0;  // share of obstacles in all, 0 .. 255
+};
+
+// From the filtered intensities of a cell. Nothing has no shares.
+VOXMELT_RULE Matter matter_of(std::int32_t solid, std::int32_t liquid, std::int32_t heat, std::int32_t obstacle,
+                              const Look& look) {
+  Matter of;
+  const std::int32_t matter = solid + liquid, all = matter + obstacle;
+  if (matter > 0) of.liquid = liquid * 255 / matter;
+  if (all > 0) of.obstacle = obstacle * 255 / all;
+  if (look.glow && liquid > 0) {
+    const std::int32_t temperature = std::min(heat * 256 / liquid, 256) * 256;
+    const std::int32_t range = std::max(look.glow_hot - look.glow_cold, 1);
+    of.heat = static_cast<std::int32_t>(
+        std::clamp<std::int64_t>(std::int64_t{temperature - look.glow_cold} * 255 / range, 0, 255));
+  }
+  return of;
+}
+
+// The light that a cell sends out, 0 .. 253, by its filtered liquid and its heat.
+VOXMELT_RULE std::int32_t emission_of(std::int32_t liquid, std::int32_t heat) {
+  return (liquid * ((heat * heat) >> 8)) >> 16;
+}
+
+// Bytes between eight cells, like levels.
+template <class Cells>
+VOXMELT_RULE Matter matter_at(const Cells& cells, Vector position) {
+  const Place x = place_of(position.x), y = place_of(position.y), z = place_of(position.z);
+  const auto both = [](Matter a, Matter b, std::int32_t w) {
+    return Matter{blended(a.liquid, b.liquid, w), blended(a.heat, b.heat, w), blended(a.obstacle, b.obstacle, w)};
+  };
+  const auto along_x = [&](std::int64_t cy, std::int64_t cz) {
+    return both(cells(x.cell, cy, cz), cells(x.cell + 1, cy, cz), x.weight);
+  };
+  const auto along_y = [&](std::int64_t cz) {
+    return both(along_x(y.cell, cz), along_x(y.cell + 1, cz), y.weight);
+  };
+  return both(along_y(z.cell), along_y(z.cell + 1), z.weight);
+}
+
+}  // namespace voxmelt::picture

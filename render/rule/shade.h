@@ -1,0 +1,159 @@
+// The colour of a surface (docs/picture-light.md, section 6).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "render/rule/light_grid.h"
+#include "render/rule/look.h"
+#include "render/rule/matter.h"
+#include "render/rule/tables.h"
+
+namespace voxmelt::picture {
+
+// What the shading of a whole picture shares.
+struct Paint {
+  Vector to_light;                     // of kLength
+  Vector to_strip;                     // a second light, opposite of the lamp
+  Color lamp{};                        // its light
+  Color from_below{}, from_above{};    // ambient light
+  Material solid, liquid, obstacle;
+  bool glow = false;
+  std::int32_t lamp_low = 0, lamp_high = 0, strip_low = 0;  // where the mirrored lights begin and end, in kLight
+  Highlight highlight{}, dull_highlight{};                  // of matter, and of obstacles
+  Surroundings surroundings{};
+  Glow glow_colors{};
+};
+
+inline constexpr std::int32_t kStripHigh = 3973;      // 0.97
+inline constexpr Color kGlowLight{4096, 1311, 246};   // that glowing liquid throws on what is around it
+inline constexpr Color kMirroredLamp{9830, 9626, 9216}, kMirroredStrip{2867, 3072, 3482};
+
+VOXMELT_RULE Paint paint_of(const Look& look, const Lamp& lamp) {
+  Paint of;
+  of.to_light = unit_of(lamp.direction);
+  of.to_strip = unit_of({-of.to_light.x, 5734, -of.to_light.z});
+  of.lamp = times(kLampColor, times(4915, kLight - lamp.ambient));
+  of.from_below = times(times(look.ground, 3686), lamp.ambient);
+  of.from_above = times(kSkyColor, lamp.ambient);
+  of.solid = material_of(look.solid, times(look.specular, 2867), look.metallic, of.lamp);
+  of.liquid = material_of(look.liquid, look.specular, look.metallic, of.lamp);
+  of.obstacle = material_of(mixed(look.ground, Color{kLight, kLight, kLight}, 492), 123, 0, of.lamp);
+  of.glow = look.glow;
+  if (look.glow) {  // molten rock is dull, and the table says its colour
+    of.solid = material_of(look.solid, times(look.specular, 2867), 0, of.lamp);
+    of.liquid = material_of(Color{}, times(look.specular, 492), 0, of.lamp);
+  }
+  const std::int32_t blur = blur_of(look.shininess);
+  of.lamp_low = 3523 - times(1229, blur);
+  of.lamp_high = 3809 + times(287, blur);
+  of.strip_low = 3277 - times(1229, blur);
+  of.highlight = highlight_of(look.shininess);
+  of.dull_highlight = highlight_of(12);
+  of.surroundings = surroundings_of(look);
+  of.glow_colors = glow_table();
+  return of;
+}
+
+VOXMELT_RULE std::int32_t cosine(Vector a, Vector b) {
+  return static_cast<std::int32_t>(dot(a, b) >> kNormalBits);
+}
+
+// Lamp and ambient light that reach a surface, before its own colour; kLight is 1.
+VOXMELT_RULE Color arriving(const Paint& paint, Vector normal, const Light& light, bool lit_by_glow) {
+  constexpr std::int32_t kWrap = 2458, kPressed = 14247;  // 0.15 and 1 / 1.15: light bleeds a little around
+  const std::int32_t lamp = light.lamp + (light.lamp >> 7);
+  const std::int32_t facing = cosine(normal, paint.to_light);
+  const std::int32_t lit = (((std::max(facing + kWrap, 0) * kPressed) >> kNormalBits) * lamp) >> 8;
+  const std::int32_t seen = seen_along(light.open, normal), open = seen + (seen >> 7);
+  const std::int32_t glow = lit_by_glow ? seen_along(light.glow, normal) : 0;
+  const auto up = static_cast<std::int32_t>(normal.y) + kLength;  // 0 .. 2
+  Color sum{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::int32_t ambient =
+        paint.from_below[c] + (((paint.from_above[c] - paint.from_below[c]) * up) >> (kNormalBits + 1));
+    sum[c] = ((ambient * open) >> 8) + ((paint.lamp[c] * lit) >> kNormalBits) + ((kGlowLight[c] * glow) >> 7);
+  }
+  return sum;
+}
+
+// What is mirrored from a direction: sky or ground, the lamp and the strip.
+VOXMELT_RULE Color mirrored(const Paint& paint, Vector direction) {
+  const auto height = static_cast<std::int32_t>(std::clamp<std::int64_t>(direction.y + kLength, 0, 2 * kLength));
+  const std::uint32_t packed = paint.surroundings[static_cast<std::size_t>(height >> 4)];
+  const Color around{static_cast<std::int32_t>(packed & 2047) << 1, static_cast<std::int32_t>((packed >> 11) & 2047) << 1,
+                     static_cast<std::int32_t>(packed >> 22) << 2};
+  const auto step = [&](Vector light, std::int32_t low, std::int32_t high) {
+    return smooth_step(low, high, cosine(direction, light) >> 2);
+  };
+  const std::int32_t lamp = step(paint.to_light, paint.lamp_low, paint.lamp_high);
+  const std::int32_t strip = step(paint.to_strip, paint.strip_low, kStripHigh);
+  Color sum{};
+  for (std::size_t c = 0; c < 3; ++c)
+    sum[c] = around[c] + ((kMirroredLamp[c] * lamp) >> kLightBits) + ((kMirroredStrip[c] * strip) >> kLightBits);
+  return sum;
+}
+
+VOXMELT_RULE Material mixed(const Material& a, const Material& b, std::int32_t share) {
+  return {mixed(a.diffuse, b.diffuse, share), mixed(a.mirror, b.mirror, share),
+          mixed(a.highlight, b.highlight, share), mixed(a.gloss, b.gloss, share)};
+}
+
+// Light from the matter's surface towards the eye. `to_eye` has kLength. Obstacles count from a share of 148
+// to 204, so that a film hides them and no blur shows.
+VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye, const Light& light, Matter matter) {
+  const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);  // 255 is kLight - 1
+  const std::int32_t obstacle = std::clamp((matter.obstacle - 148) * 73, 0, kLight);
+  Material material = mixed(paint.solid, paint.liquid, liquid);
+  Color emission{};
+  if (paint.glow) {
+    const auto heat = static_cast<std::size_t>(matter.heat);
+    for (std::size_t c = 0; c < 3; ++c) {
+      material.diffuse[c] += (paint.glow_colors.crust[heat][c] * liquid) >> kLightBits;
+      emission[c] = (((paint.glow_colors.light[heat][c] * liquid) >> kLightBits) * (kLight - obstacle)) >> kLightBits;
+    }
+  }
+  material = mixed(material, paint.obstacle, obstacle);
+
+  const Color arrives = arriving(paint, normal, light, paint.glow && obstacle > 0);
+  const std::int32_t lamp = light.lamp + (light.lamp >> 7);
+  const std::int32_t facing = cosine(normal, paint.to_light);
+  const Vector halfway = unit_of(paint.to_light + to_eye);
+  const std::int32_t shine = std::clamp(cosine(normal, halfway), 0, kLength);
+  std::int32_t peak = highlight_at(paint.highlight, shine);
+  if (obstacle > 0) peak = mixed(peak, highlight_at(paint.dull_highlight, shine), obstacle);
+  peak = (((peak * smooth_step(0, 1024, facing >> 2)) >> kLightBits) * lamp) >> 8;
+
+  const std::int32_t eye = std::clamp(cosine(normal, to_eye), 0, kLength);
+  const std::int32_t away = kLength - eye;
+  const std::int32_t away2 = (away * away) >> kNormalBits, away4 = (away2 * away2) >> kNormalBits;
+  const std::int32_t graze = (away4 * away) >> kNormalBits;
+  const std::int32_t more = (graze * material.gloss) >> kNormalBits;
+  const std::int64_t twice = 2 * dot(normal, to_eye) >> kNormalBits;
+  const Vector reflected = ((normal * twice) >> kNormalBits) - to_eye;
+  const Color around = mirrored(paint, reflected);
+  const std::int32_t open = seen_along(light.open, normal), free = seen_along(light.open, reflected);
+  // The mirrored light is at most 85 % hidden.
+  const std::int32_t seen = 614 + (((free + (free >> 7)) * (open + (open >> 7)) * 3482) >> 16);
+
+  Color sum{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::int32_t fresnel = material.mirror[c] + (((kLight - material.mirror[c]) * more) >> kLightBits);
+    const std::int32_t mirror = (((around[c] * seen) >> kLightBits) * fresnel) >> kLightBits;
+    const std::int32_t own = (emission[c] * (2540 + ((1556 * eye) >> kNormalBits))) >> kLightBits;
+    sum[c] = ((arrives[c] * material.diffuse[c]) >> kLightBits) + ((material.highlight[c] * peak) >> kLightBits) +
+             mirror + own;
+  }
+  return sum;
+}
+
+// Light from the ground, which is dull.
+VOXMELT_RULE Color ground_color(const Paint& paint, Vector normal, const Light& light, Color color) {
+  const Color arrives = arriving(paint, normal, light, paint.glow);
+  Color sum{};
+  for (std::size_t c = 0; c < 3; ++c) sum[c] = (arrives[c] * color[c]) >> kLightBits;
+  return sum;
+}
+
+}  // namespace voxmelt::picture

@@ -1,0 +1,88 @@
+// The tables of a picture: highlight, surroundings, glow (docs/picture-light.md, section 2).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "render/rule/look.h"
+
+namespace voxmelt::picture {
+
+// x^exponent, x in 2^15; rounded at every product, from the exponent's highest bit down.
+VOXMELT_RULE std::int32_t power(std::int32_t x, std::int32_t exponent) {
+  std::int64_t result = std::int64_t{1} << 15;
+  for (int bit = bits_of(exponent) - 1; bit >= 0; --bit) {
+    result = rounded(result * result, 15);
+    if (((exponent >> bit) & 1) != 0) result = rounded(result * x, 15);
+  }
+  return static_cast<std::int32_t>(result);
+}
+
+// The highlight by the cosine between normal and halfway vector: entry i is at i / 1024, kLight at most.
+using Highlight = std::array<std::uint16_t, 1026>;
+VOXMELT_RULE Highlight highlight_of(std::int32_t exponent) {
+  Highlight table{};
+  for (std::int32_t i = 0; i <= 1024; ++i)
+    table[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(power(32 * i, exponent) >> 3);
+  table[1025] = table[1024];
+  return table;
+}
+
+// Between two entries, for a cosine 0 .. kLength.
+VOXMELT_RULE std::int32_t highlight_at(const Highlight& table, std::int32_t cosine) {
+  const auto i = static_cast<std::size_t>(cosine >> 4);
+  return table[i] + (((table[i + 1] - table[i]) * (cosine & 15)) >> 4);
+}
+
+// What a mirror would see of a photographer's studio: sky and ground by height. The blur goes from 0 (sharp)
+// to kLight (dull). Red and green have 11 bits and blue 10, and all ones is 1.
+using Surroundings = std::array<std::uint32_t, 2049>;
+
+VOXMELT_RULE std::int32_t blur_of(std::int32_t shininess) {
+  return std::clamp(6 * kLight / (shininess + 6), 205, kLight);
+}
+
+VOXMELT_RULE Surroundings surroundings_of(const Look& look) {
+  constexpr Color kHorizon{3768, 3850, 3973}, kZenith{901, 1065, 1352};
+  const std::int32_t blur = blur_of(look.shininess);
+  Surroundings table{};
+  for (std::int32_t i = 0; i <= 2048; ++i) {
+    const std::int32_t height = 4 * (i - 1024);  // in kLight
+    const Color sky =
+        mixed(kHorizon, kZenith, smooth_step(-times(819, blur), 3072 + times(1229, blur), height));
+    const Color below = mixed(times(look.ground, 3072), times(look.ground, 1024), smooth_step(0, 2867, -height));
+    const std::int32_t edge = times(1229, blur);
+    const Color seen = mixed(below, sky, smooth_step(-246 - edge, 246 + edge, height));
+    const auto part = [](std::int32_t value, std::int32_t most) {
+      return static_cast<std::uint32_t>(std::clamp((value * most + kLight / 2) >> kLightBits, 0, most));
+    };
+    table[static_cast<std::size_t>(i)] =
+        part(seen[0], 2047) | part(seen[1], 2047) << 11 | part(seen[2], 1023) << 22;
+  }
+  return table;
+}
+
+// Light and crust of glowing liquid by its heat, 0 .. 255.
+struct Glow {
+  std::array<Color, 256> light, crust;
+};
+
+VOXMELT_RULE Glow glow_table() {
+  constexpr Color kCold{139, 119, 115}, kHot{164, 57, 33};
+  Glow table{};
+  for (std::int32_t i = 0; i < 256; ++i) {
+    const std::int64_t h = (std::int64_t{i} * 65536 + 127) / 255;  // the heat in 2^16
+    const auto product = [](std::int64_t a, std::int64_t b) { return rounded(a * b, 16); };
+    const std::int64_t root = square_root(h << 16), fourth = square_root(root << 16);
+    const std::int64_t h2 = product(h, h), h4 = product(h2, h2), h8 = product(h4, h4);
+    const auto scaled = [](std::int64_t a, std::int64_t by) { return static_cast<std::int32_t>(rounded(a * by, 16)); };
+    const auto at = static_cast<std::size_t>(i);
+    table.light[at] = {scaled(product(product(h, root), fourth), 9421), scaled(product(h4, root), 4710),
+                       scaled(h8, 819)};
+    table.crust[at] = mixed(kCold, kHot, static_cast<std::int32_t>(h >> 4));
+  }
+  return table;
+}
+
+}  // namespace voxmelt::picture
