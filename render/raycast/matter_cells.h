@@ -4,18 +4,20 @@
 #include <cstdint>
 
 #include "render/density/density_field.h"
+#include "render/raycast/levels.h"
 #include "render/rule/matter.h"
 
 namespace voxmelt::render {
 
 class MatterCells {
  public:
-  MatterCells(const DensityField& field, const picture::Look& look) : field_(field), look_(look) {}
+  MatterCells(const DensityField& field, const Levels& levels, const picture::Look& look)
+      : field_(field), levels_(levels), look_(look) {}
 
-  // Of any cell; nothing outside the grid.
+  // Of any cell; nothing where the level is that of air.
   picture::Matter operator()(std::int64_t x, std::int64_t y, std::int64_t z) const {
     const state::Grid& grid = field_.grid();
-    if (x < 0 || y < 0 || z < 0 || x >= grid.x || y >= grid.y || z >= grid.z) return {};
+    if (levels_(x, y, z) == picture::kAir) return {};
     const std::size_t i = grid.index(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z));
     return picture::matter_of(field_.solid()[i], field_.liquid()[i], field_.heat()[i],
                               field_.has_obstacles() ? field_.obstacle()[i] : 0, look_);
@@ -23,6 +25,7 @@ class MatterCells {
 
  private:
   const DensityField& field_;
+  const Levels& levels_;
   const picture::Look& look_;
 };
 

@@ -42,7 +42,7 @@ PictureScene::PictureScene(const DensityField& field, const scene::Look& scene_l
     : look(look_in_integers(scene_look)),
       paint(picture::paint_of(look, lamp_in_integers(scene_light))),
       levels(field),
-      matter(field, look),
+      matter(field, levels, look),
       light(light_matter(field, {}, look), paint.to_light, picture::light_shift(levels.cells())) {}
 
 }  // namespace voxmelt::render

@@ -2,12 +2,11 @@
 #pragma once
 
 #include "render/image/image.h"
+#include "render/packet/draw_picture.h"
 #include "render/raycast/picture_scene.h"
 #include "render/rule/camera.h"
 
 namespace voxmelt::render {
-
-enum class Setting { fast, normal, best };
 
 Image reference_picture(const PictureScene& scene, const picture::Camera& camera, Setting setting);
 

@@ -17,13 +17,12 @@ VOXMELT_RULE std::int32_t false_position(std::int32_t outside, std::int32_t insi
   return -outside * kParts / (inside - outside);
 }
 
-// How far along a ray: in kPlaces of a step.
-inline constexpr std::int64_t kPlaces = (std::int64_t{1} << kBisections) * kParts;
+inline constexpr std::int32_t kPlaces = (1 << kBisections) * kParts;  // of a step
 
 struct Crossing {
   bool found = false;
   std::int64_t sample = 0;  // the first that lies in matter
-  std::int64_t place = 0;   // of the crossing, in 1 / kPlaces of a step from the start
+  std::int32_t part = 0;    // of the step to that sample, 0 .. kPlaces
   Vector position;
 };
 
@@ -32,7 +31,7 @@ template <class Levels>
 VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std::int64_t k) {
   Vector outside = ray.at(k - 1), inside = ray.at(k);
   std::int32_t low = sample(levels, outside), high = sample(levels, inside);
-  std::int64_t part = 0;
+  std::int32_t part = 0;
   for (int i = 0; i < kBisections; ++i) {
     const Vector middle = outside + ((inside - outside) >> 1);
     const std::int32_t level = sample(levels, middle);
@@ -47,7 +46,7 @@ VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std:
     }
   }
   const std::int32_t last = false_position(low, high);
-  return {true, k, (k - 1) * kPlaces + part * kParts + last, outside + (((inside - outside) * last) >> 8)};
+  return {true, k, part * kParts + last, outside + (((inside - outside) * last) >> 8)};
 }
 
 // A ray that starts in matter meets it at its start.
@@ -56,7 +55,7 @@ VOXMELT_RULE Crossing first_crossing(const Levels& levels, Vector cells, const R
   const Samples in = samples_in(ray, field_low(), field_high(cells));
   for (std::int64_t k = in.first; k <= in.last; ++k) {
     if (sample(levels, ray.at(k)) < 0) continue;
-    return k == 0 ? Crossing{true, 0, 0, ray.start} : crossing_before(levels, ray, k);
+    return k == 0 ? Crossing{true, 0, kPlaces, ray.start} : crossing_before(levels, ray, k);
   }
   return {};
 }

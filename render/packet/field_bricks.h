@@ -1,0 +1,68 @@
+// The field as the ray caster reads it: bricks of levels and of matter, and what of it is empty
+// (docs/picture.md, section 10).
+//
+// The lattice holds the cells -2 .. n + 1 of each axis: lattice place = cell + 2. Brick b covers samples whose lower
+// cell lies in the places 8 b .. 8 b + 7, and so it holds 9 places along each axis. A sample then reads one brick
+// alone. Bricks in which there is nothing but air share one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/engine/cpu/workers.h"
+#include "render/density/density_field.h"
+#include "render/rule/look.h"
+#include "render/rule/sample.h"
+
+namespace voxmelt::render {
+
+inline constexpr int kLatticeBorder = 2;              // places before cell 0
+inline constexpr int kBrickPlaces = kBrickSide + 1;   // along an axis of a brick
+inline constexpr int kBrickVolume = kBrickPlaces * kBrickPlaces * kBrickPlaces;
+inline constexpr int kBlockSide = 4;                  // of the blocks by which rays skip
+
+class FieldBricks {
+ public:
+  // Takes over a field. `changed`: bricks of the field (DensityField::bricks) that were filtered again since
+  // the last call, or null for all. Another grid or look asks for all.
+  void update(const DensityField& field, const picture::Look& look, const std::vector<std::uint32_t>* changed,
+              cpu::Workers& workers);
+
+  picture::Vector cells() const { return cells_; }
+  const state::Grid& bricks() const { return bricks_; }
+  const state::Grid& blocks() const { return blocks_; }
+
+  // Of each brick: which one holds its places. 0 is the brick of air.
+  const std::int32_t* slots() const { return slots_.data(); }
+  // [slot][z][y][x]; matter as liquid + 256 heat + 65536 obstacle.
+  const std::int16_t* levels() const { return levels_.data(); }
+  const std::uint32_t* matter() const { return matter_.data(); }
+  // Of each block of 4 x 4 x 4 lower cells: in the low byte 0 if one of its places is matter, or else how many blocks
+  // away the nearest such block is, kFarthest at most; in the high byte a bound of the slope (see slope_bound).
+  const std::uint16_t* skip() const { return skip_.data(); }
+  static constexpr int kFarthest = 16;
+  // The level changes by no more than 256 times this from a position to another one cell away (the largest
+  // component of the way), within a block, but for the roundings of samples.
+  static int slope_bound(int along_x, int along_y, int along_z) {
+    return std::min((along_x + along_y + along_z + 255) / 256, 255);
+  }
+  std::size_t bytes() const;
+
+ private:
+  void resize(const state::Grid& grid);
+  void fill(const DensityField& field, const picture::Look& look, std::size_t brick);
+  void find_distances();
+
+  picture::Vector cells_;
+  state::Grid grid_{0, 0, 0}, bricks_{0, 0, 0}, blocks_{0, 0, 0};
+  std::vector<std::int32_t> slots_;
+  std::vector<std::int32_t> free_;
+  std::vector<std::int16_t> levels_;
+  std::vector<std::uint32_t> matter_;
+  std::vector<std::uint16_t> skip_;
+  std::vector<std::uint8_t> occupied_;  // of blocks
+};
+
+}  // namespace voxmelt::render

@@ -1,0 +1,168 @@
+// The field as a packet sees it: samples, the march to the surface, the crossing and the normal.
+//
+// Positions are in the lattice: place_of(position) plus the border, so that cell and weight are plain bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "render/packet/rays.h"
+#include "render/rule/crossing.h"
+#include "render/rule/sample.h"
+
+namespace voxmelt::render {
+
+template <class Arch>
+struct FieldPacket : Packet<Arch> {
+  using P = Packet<Arch>;
+  using typename P::F;
+  using typename P::L;
+  using typename P::Triple;
+  using typename P::V;
+  using Row = typename Rays<Arch>::Row;
+
+  static constexpr std::int32_t kBias =
+      static_cast<std::int32_t>(picture::kToPlace + 2 * picture::kCell);  // kLatticeBorder
+  static constexpr std::int32_t kSlice = 81, kRow = 9, kVolume = 729;     // of a brick's places
+
+  // Index of the lowest of the eight places around a lattice position.
+  VOXMELT_WORDS V corner(const FieldData& field, Triple q) {
+    const V brick = ((q.z >> 23) * field.bricks_y + (q.y >> 23)) * field.bricks_x + (q.x >> 23);
+    const V slot = L::template gather<4>(field.slots, brick);
+    return slot * kVolume + ((q.z >> 20) & 7) * kSlice + ((q.y >> 20) & 7) * kRow + ((q.x >> 20) & 7);
+  }
+  // (256 - w) and w as a pair of 16 bits.
+  VOXMELT_WORDS V weights(V q) {
+    const V w = (q >> 12) & 255;
+    return (256 - w) | (w << 16);
+  }
+  VOXMELT_WORDS V blended(V pair, V weight) { return (L::pair_products(pair, weight) + 128) >> 8; }
+  VOXMELT_WORDS V pair(V below, V above) { return (below & 0xFFFF) | (above << 16); }
+
+  VOXMELT_WORDS V sample(const FieldData& field, Triple q) {
+    const V at = corner(field, q);
+    const V wx = weights(q.x), wy = weights(q.y), wz = weights(q.z);
+    const auto along_x = [&](std::int32_t offset) {
+      return blended(L::template gather<2>(field.levels + offset, at), wx);
+    };
+    const V back = blended(pair(along_x(0), along_x(kRow)), wy);
+    const V front = blended(pair(along_x(kSlice), along_x(kSlice + kRow)), wy);
+    return blended(pair(back, front), wz);
+  }
+
+  struct Hits {
+    V found;   // mask
+    V sample;  // the first in matter
+    Triple at;  // its lattice position
+  };
+
+  // The first sample in matter of every ray.
+  VOXMELT_WORDS Hits march(const PictureData& data, const Row& row) {
+    const FieldData& field = data.field;
+    const auto range = Rays<Arch>::in_box(row, picture::field_low(), picture::field_high(field.cells));
+    V k = range.first, active = range.first <= range.last;
+    Triple q = Rays<Arch>::at(row, k, kBias);
+    q = P::select(active, q, Triple{});
+    Hits hits{V{}, V{}, Triple{}};
+    const F rise_unit = L::set_float(1.0f / static_cast<float>(256 >> data.spacing));
+    const V forward_x = row.step.x >= 0, forward_y = row.step.y >= 0, forward_z = row.step.z >= 0;
+    while (L::any(active)) {
+      const Triple block = q >> 22;
+      const V index = (block.z * field.blocks_y + block.y) * field.blocks_x + block.x;
+      const V record = L::template gather<2>(field.skip, index) & 0xFFFF;
+      const V distance = record & 255, occupied = active & (distance == 0);
+      V advance = L::set(1);
+      if (data.skip) {
+        // Samples until the ray leaves the block, or the empty cube around it.
+        const V reach = L::max(distance, L::set(1));
+        const auto axis = [&](V place, V at_block, V forward, F inverse) {
+          const V bound = (at_block + (forward ? reach : 1 - reach)) << 22;
+          const F way = L::to_float(forward ? bound - place : place - bound);
+          return way * inverse;
+        };
+        const F leave = L::min(L::min(axis(q.x, block.x, forward_x, row.inverse_x),
+                                      axis(q.y, block.y, forward_y, row.inverse_y)),
+                               axis(q.z, block.z, forward_z, row.inverse_z));
+        constexpr float kLess = 1 - 1.0f / (1 << 18);
+        advance = L::to_int(L::min(leave * kLess, L::set_float(1e8f))) + 1;
+      }
+      if (L::any(occupied)) {
+        const V level = sample(field, q);
+        const V matter = occupied & (level >= 0);
+        hits.found = hits.found | matter;
+        hits.sample = matter ? k : hits.sample;
+        hits.at = P::select(matter, q, hits.at);
+        active = active & ~matter;
+        if (data.skip) {
+          // The level rises no faster than the block's slope allows. Weights and blends are rounded.
+          const V slope = record >> 8;
+          const F steps = L::to_float(-level - 4 - slope) / L::to_float(L::max(slope, L::set(1))) * rise_unit;
+          const V safe = L::to_int(L::max(steps * (1 - 1.0f / (1 << 18)), L::set_float(0))) + 1;
+          advance = occupied ? L::min(advance, safe) : advance;
+        }
+      }
+      k = k + advance;
+      active = active & (k <= range.last);
+      q = P::select(active, q + row.step * advance, q);
+    }
+    return hits;
+  }
+
+  struct Surface {
+    V part;     // of the step to the hit's sample, in picture::kPlaces
+    Triple at;  // lattice position of the crossing
+  };
+
+  VOXMELT_WORDS Surface crossing(const FieldData& field, const Row& row, const Hits& hits) {
+    const V from_start = hits.sample == 0;
+    Triple inside = hits.at, outside = P::select(hits.found & ~from_start, hits.at - row.step, hits.at);
+    V low = sample(field, outside), high = sample(field, inside), part{};
+    for (int i = 0; i < picture::kBisections; ++i) {
+      const Triple middle = outside + ((inside - outside) >> 1);
+      const V level = sample(field, middle), air = level < 0;
+      part = part + part - air;
+      outside = P::select(air, middle, outside);
+      low = air ? level : low;
+      inside = P::select(air, inside, middle);
+      high = air ? high : level;
+    }
+    const V rise = high - low;
+    const V last = L::to_int(L::to_float(-low * picture::kParts) / L::to_float(rise == 0 ? L::set(1) : rise));
+    return {from_start ? L::set(picture::kPlaces) : part * picture::kParts + last,
+            P::select(from_start, hits.at, outside + (((inside - outside) * last) >> 8))};
+  }
+
+  VOXMELT_WORDS Triple normal(const PictureData& data, Triple q) {
+    const FieldData& field = data.field;
+    constexpr std::int32_t kHalf = static_cast<std::int32_t>(picture::kCell / 2);
+    const auto level = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+      return sample(field, Triple{q.x + x, q.y + y, q.z + z});
+    };
+    return P::unit({(level(-kHalf, 0, 0) - level(kHalf, 0, 0)) >> 1, (level(0, -kHalf, 0) - level(0, kHalf, 0)) >> 1,
+                    (level(0, 0, -kHalf) - level(0, 0, kHalf)) >> 1},
+                   data.inverse_root);
+  }
+
+  // Bytes of two words of four, blended lane by lane. Words are split into even and odd bytes.
+  VOXMELT_WORDS V blend_bytes(V a, V b, V w) {
+    constexpr std::int32_t kEven = 0x00FF00FF;
+    const V keep = 256 - w;
+    const V even = (((a & kEven) * keep + (b & kEven) * w + 0x00800080) >> 8) & kEven;
+    const V odd = (((a >> 8) & kEven) * keep + ((b >> 8) & kEven) * w + 0x00800080) & (kEven << 8);
+    return even | odd;
+  }
+  // Liquid, heat and obstacle as bytes of a lane.
+  VOXMELT_WORDS V matter(const FieldData& field, Triple q) {
+    const V at = corner(field, q);
+    const V wx = (q.x >> 12) & 255, wy = (q.y >> 12) & 255, wz = (q.z >> 12) & 255;
+    const auto along_x = [&](std::int32_t offset) {
+      return blend_bytes(L::template gather<4>(field.matter + offset, at),
+                         L::template gather<4>(field.matter + offset + 1, at), wx);
+    };
+    const V back = blend_bytes(along_x(0), along_x(kRow), wy);
+    const V front = blend_bytes(along_x(kSlice), along_x(kSlice + kRow), wy);
+    return blend_bytes(back, front, wz);
+  }
+};
+
+}  // namespace voxmelt::render

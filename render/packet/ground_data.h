@@ -1,0 +1,12 @@
+// The ground as packets of rays read it, as plain data.
+#pragma once
+
+#include <cstdint>
+
+namespace voxmelt::render {
+
+struct GroundData {
+  bool any = false;
+};
+
+}  // namespace voxmelt::render

@@ -1,0 +1,65 @@
+// All that packets of rays read, as plain data.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "render/packet/ground_data.h"
+#include "render/rule/camera.h"
+#include "render/rule/shade.h"
+#include "render/rule/tone.h"
+
+namespace voxmelt::render {
+
+struct FieldData {
+  picture::Vector cells;
+  std::int32_t bricks_x = 0, bricks_y = 0, blocks_x = 0, blocks_y = 0;
+  const std::int32_t* slots = nullptr;   // see field_bricks.h
+  const std::int16_t* levels = nullptr;
+  const std::uint32_t* matter = nullptr;
+  const std::uint16_t* skip = nullptr;
+  bool obstacles = false;
+};
+
+struct LightData {
+  const std::uint8_t* cells = nullptr;  // 16 bytes each, see light_volume.h
+  picture::Vector count;
+  int shift = 1;
+};
+
+struct PictureData {
+  picture::View view;
+  std::int32_t width = 0, height = 0;  // in pixels
+  int spacing = 2;
+  FieldData field;
+  LightData light;
+  GroundData ground;
+  const picture::Paint* paint = nullptr;
+  picture::Color background{};
+  const std::uint32_t* inverse_root = nullptr;  // see normal.h: the root, and 65536 times what the next one is less
+  const picture::Tone* tone = nullptr;
+  const picture::Bytes* bytes = nullptr;
+  bool skip = true;  // leave out samples that cannot matter; the picture is the same
+};
+
+// What packets are asked for: some places of the picture, in picture coordinates.
+struct Places {
+  const std::int32_t *across, *down;
+  std::size_t count;
+};
+
+// Pressed light, red, green and blue, each 0 .. kLight.
+struct PressedLight {
+  std::uint16_t *red, *green, *blue;
+};
+
+struct Packets {
+  void (*draw)(const PictureData& data, Places places, PressedLight to);
+  int lanes;
+};
+
+// Compiled for an architecture (packets_instance.cpp).
+template <class Arch>
+Packets packets_for();
+
+}  // namespace voxmelt::render
