@@ -1,10 +1,8 @@
 // Places of the picture to pressed light, one packet after the other.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "render/packet/shade_packet.h"
 
@@ -41,20 +39,13 @@ struct DrawPacket : Packet<Arch> {
     return color;
   }
 
+  // Places are rounded up to whole packets: see Places.
   static void draw(const PictureData& data, Places places, PressedLight to) {
     for (std::size_t i = 0; i < places.count; i += P::kCount) {
-      const std::size_t count = std::min<std::size_t>(P::kCount, places.count - i);
-      V across{}, down{};
-      for (std::size_t lane = 0; lane < P::kCount; ++lane) {  // the last places fill up the packet
-        across[lane] = places.across[i + std::min(lane, count - 1)];
-        down[lane] = places.down[i + std::min(lane, count - 1)];
-      }
-      const Color of = light(data, across, down);
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        to.red[i + lane] = static_cast<std::uint16_t>(of.c[0][lane]);
-        to.green[i + lane] = static_cast<std::uint16_t>(of.c[1][lane]);
-        to.blue[i + lane] = static_cast<std::uint16_t>(of.c[2][lane]);
-      }
+      const Color of = light(data, L::load(places.across + i), L::load(places.down + i));
+      L::store_halves(of.c[0], to.red + i);
+      L::store_halves(of.c[1], to.green + i);
+      L::store_halves(of.c[2], to.blue + i);
     }
   }
 };

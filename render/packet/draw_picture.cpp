@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <cstdlib>
 #include <thread>
 #include <vector>
 
@@ -17,7 +17,12 @@ constexpr int kTile = 32;  // pixels; work is handed out by tiles
 // Places and their light, for as many samples as a tile can have.
 class Samples {
  public:
-  explicit Samples(std::size_t most) : across_(most), down_(most), red_(most), green_(most), blue_(most) {}
+  explicit Samples(std::size_t most)
+      : across_(most + kMostLanes),
+        down_(most + kMostLanes),
+        red_(most + kMostLanes),
+        green_(most + kMostLanes),
+        blue_(most + kMostLanes) {}
 
   void clear() { count_ = 0; }
   void add(std::int64_t across, std::int64_t down) {
@@ -27,12 +32,13 @@ class Samples {
   void draw(const PictureData& data, const Packets& packets) {
     packets.draw(data, {across_.data(), down_.data(), count_}, {red_.data(), green_.data(), blue_.data()});
   }
-  // The mean of `count` samples, in bytes.
-  Rgb mean(const picture::Bytes& bytes, std::size_t first, std::size_t count) const {
+  // The mean of kCount samples, in bytes.
+  template <std::size_t kCount>
+  Rgb mean(const picture::Bytes& bytes, std::size_t first) const {
     const auto channel = [&](const std::vector<std::uint16_t>& of) {
-      std::size_t sum = count / 2;
-      for (std::size_t i = first; i < first + count; ++i) sum += of[i];
-      return bytes[sum / count];
+      std::size_t sum = kCount / 2;
+      for (std::size_t i = first; i < first + kCount; ++i) sum += of[i];
+      return bytes[sum / kCount];
     };
     return {channel(red_), channel(green_), channel(blue_)};
   }
@@ -59,6 +65,29 @@ void for_tiles(int tiles, int threads, const Work& work) {
 
 struct Tile {
   int x0, y0, x1, y1;
+};
+
+// Which pixels of a tile's row differ from a neighbour, byte by byte.
+class Differing {
+ public:
+  Differing(const Image& image, const Tile& tile, int y, int most) : most_(most) {
+    const int width = tile.x1 - tile.x0;
+    const auto row = [&](int j) { return image.at(tile.x0, j).data(); };
+    const std::uint8_t* here = row(y);
+    if (y > 0) compare(here, row(y - 1), 3 * width);
+    if (y + 1 < image.height) compare(here, row(y + 1), 3 * width);
+    const int left = tile.x0 > 0 ? 0 : 3, right = tile.x1 < image.width ? 3 * width : 3 * (width - 1);
+    compare(here, here - 3, 3 * width, left);
+    compare(here, here + 3, right);
+  }
+  bool operator()(int x) const { return (far_[3 * x] | far_[3 * x + 1] | far_[3 * x + 2]) != 0; }
+
+ private:
+  void compare(const std::uint8_t* a, const std::uint8_t* b, int end, int first = 0) {
+    for (int i = first; i < end; ++i) far_[i] |= std::abs(a[i] - b[i]) > most_ ? 1 : 0;
+  }
+  int most_;
+  std::uint8_t far_[3 * kTile] = {};
 };
 
 }  // namespace
@@ -104,34 +133,31 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& pack
           }
     samples.draw(data, packets);
     for (std::size_t i = 0; i < samples.count(); ++i)
-      image.at(tile.x0 + pixel[i] % kTile, tile.y0 + pixel[i] / kTile) = samples.mean(*data.bytes, i, 1);
+      image.at(tile.x0 + pixel[i] % kTile, tile.y0 + pixel[i] / kTile) = samples.mean<1>(*data.bytes, i);
   });
   if (setting == Setting::fast) return image;
 
-  const auto refine = [&](int difference, const auto& pattern) {
+  const auto refine = [&]<std::size_t kCount>(int difference, const std::array<picture::Sub, kCount>& pattern) {
     const Image before = image;
     for_tiles(tiles, threads, [&](int index, Samples& samples) {
       const Tile tile = tile_at(index);
       std::array<std::uint16_t, kTile * kTile> pixel;
       std::size_t pixels = 0;
       samples.clear();
-      for (int y = tile.y0; y < tile.y1; ++y)
+      for (int y = tile.y0; y < tile.y1; ++y) {
+        const Differing differing(before, tile, y, difference);
         for (int x = tile.x0; x < tile.x1; ++x) {
-          const auto other = [&](int i, int j) {
-            return picture::differ(before.at(x, y), before.at(i, j), difference);
-          };
-          const bool differs = (x > 0 && other(x - 1, y)) || (x + 1 < width && other(x + 1, y)) ||
-                               (y > 0 && other(x, y - 1)) || (y + 1 < height && other(x, y + 1));
-          if (!differs) continue;
+          if (!differing(x - tile.x0)) continue;
           pixel[pixels++] = static_cast<std::uint16_t>((y - tile.y0) * kTile + (x - tile.x0));
           for (const picture::Sub& sub : pattern)
             samples.add(x * picture::kPixel + sub.across, y * picture::kPixel + sub.down);
         }
+      }
       if (pixels == 0) return;
       samples.draw(data, packets);
       for (std::size_t i = 0; i < pixels; ++i)
         image.at(tile.x0 + pixel[i] % kTile, tile.y0 + pixel[i] / kTile) =
-            samples.mean(*data.bytes, i * pattern.size(), pattern.size());
+            samples.mean<kCount>(*data.bytes, i * kCount);
     });
   };
   refine(picture::kDifference, picture::kFour);

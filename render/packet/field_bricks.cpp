@@ -160,6 +160,7 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
       slots_[brick] = 0;
     }
   find_distances();
+  find_box();
 }
 
 void FieldBricks::fill(const DensityField& field, const picture::Look& look, std::size_t brick) {
@@ -213,6 +214,27 @@ void FieldBricks::find_distances() {
   }
   for (std::size_t i = 0; i < distance.size(); ++i)
     skip_[i] = static_cast<std::uint16_t>((skip_[i] & 0xFF00) | distance[i]);
+}
+
+void FieldBricks::find_box() {
+  int low[3] = {blocks_.x, blocks_.y, blocks_.z}, high[3] = {0, 0, 0};
+  for (int z = 0; z < blocks_.z; ++z)
+    for (int y = 0; y < blocks_.y; ++y)
+      for (int x = 0; x < blocks_.x; ++x) {
+        if (occupied_[blocks_.index(x, y, z)] == 0) continue;
+        const int at[3] = {x, y, z};
+        for (int axis = 0; axis < 3; ++axis) {
+          low[axis] = std::min(low[axis], at[axis]);
+          high[axis] = std::max(high[axis], at[axis] + 1);
+        }
+      }
+  const auto corner = [](const int(&block)[3]) {
+    const auto axis = [](int b) {
+      return (std::int64_t{b} * kBlockSide - kLatticeBorder) * picture::kCell - picture::kToPlace;
+    };
+    return picture::Vector{axis(block[0]), axis(block[1]), axis(block[2])};
+  };
+  box_ = {corner(low), corner(high)};
 }
 
 std::size_t FieldBricks::bytes() const {

@@ -48,12 +48,18 @@ class FieldBricks {
   static int slope_bound(int along_x, int along_y, int along_z) {
     return std::min((along_x + along_y + along_z + 255) / 256, 255);
   }
+  // Every sample outside of this box is air: low <= position < high.
+  struct Box {
+    picture::Vector low, high;
+  };
+  const Box& occupied() const { return box_; }
   std::size_t bytes() const;
 
  private:
   void resize(const state::Grid& grid);
   void fill(const DensityField& field, const picture::Look& look, std::size_t brick);
   void find_distances();
+  void find_box();
 
   picture::Vector cells_;
   state::Grid grid_{0, 0, 0}, bricks_{0, 0, 0}, blocks_{0, 0, 0};
@@ -63,6 +69,7 @@ class FieldBricks {
   std::vector<std::uint32_t> matter_;
   std::vector<std::uint16_t> skip_;
   std::vector<std::uint8_t> occupied_;  // of blocks
+  Box box_;
 };
 
 }  // namespace voxmelt::render

@@ -59,11 +59,12 @@ struct FieldPacket : Packet<Arch> {
   // The first sample in matter of every ray.
   VOXMELT_WORDS Hits march(const PictureData& data, const Row& row) {
     const FieldData& field = data.field;
-    const auto range = Rays<Arch>::in_box(row, picture::field_low(), picture::field_high(field.cells));
+    const auto range = Rays<Arch>::in_box(row, field.low, field.high);
     V k = range.first, active = range.first <= range.last;
     Triple q = Rays<Arch>::at(row, k, kBias);
     q = P::select(active, q, Triple{});
-    Hits hits{V{}, V{}, Triple{}};
+    Hits hits;
+    hits.found = hits.sample = hits.at.x = hits.at.y = hits.at.z = V{};
     const F rise_unit = L::set_float(1.0f / static_cast<float>(256 >> data.spacing));
     const V forward_x = row.step.x >= 0, forward_y = row.step.y >= 0, forward_z = row.step.z >= 0;
     while (L::any(active)) {

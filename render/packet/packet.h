@@ -13,7 +13,6 @@ struct Packet {
   using L = cpu::WordLanes<Arch>;
   using V = typename L::V;
   using F = typename L::F;
-  using D = typename L::D;
   static constexpr int kCount = L::kCount;
 
   struct Triple {

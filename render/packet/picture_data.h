@@ -19,6 +19,7 @@ struct FieldData {
   const std::uint32_t* matter = nullptr;
   const std::uint16_t* skip = nullptr;
   bool obstacles = false;
+  picture::Vector low, high;  // outside of this box there is air
 };
 
 struct LightData {
@@ -42,7 +43,9 @@ struct PictureData {
   bool skip = true;  // leave out samples that cannot matter; the picture is the same
 };
 
-// What packets are asked for: some places of the picture, in picture coordinates.
+// What packets are asked for: some places of the picture, in picture coordinates. There is room for kMostLanes more
+// places, which hold any place of the picture; and for as much more light.
+inline constexpr int kMostLanes = 16;
 struct Places {
   const std::int32_t *across, *down;
   std::size_t count;

@@ -25,21 +25,33 @@ struct WordVectors<4> {
   using V [[gnu::vector_size(16)]] = std::int32_t;
   using U [[gnu::vector_size(16)]] = std::uint32_t;
   using F [[gnu::vector_size(16)]] = float;
-  using D [[gnu::vector_size(32)]] = double;
+  using D [[gnu::vector_size(16)]] = double;
+  using Q [[gnu::vector_size(16)]] = std::uint64_t;
+  using HalfV [[gnu::vector_size(8)]] = std::int32_t;
+  using HalfF [[gnu::vector_size(8)]] = float;
+  using H [[gnu::vector_size(8)]] = std::uint16_t;
 };
 template <>
 struct WordVectors<8> {
   using V [[gnu::vector_size(32)]] = std::int32_t;
   using U [[gnu::vector_size(32)]] = std::uint32_t;
   using F [[gnu::vector_size(32)]] = float;
-  using D [[gnu::vector_size(64)]] = double;
+  using D [[gnu::vector_size(32)]] = double;
+  using Q [[gnu::vector_size(32)]] = std::uint64_t;
+  using HalfV [[gnu::vector_size(16)]] = std::int32_t;
+  using HalfF [[gnu::vector_size(16)]] = float;
+  using H [[gnu::vector_size(16)]] = std::uint16_t;
 };
 template <>
 struct WordVectors<16> {
   using V [[gnu::vector_size(64)]] = std::int32_t;
   using U [[gnu::vector_size(64)]] = std::uint32_t;
   using F [[gnu::vector_size(64)]] = float;
-  using D [[gnu::vector_size(128)]] = double;
+  using D [[gnu::vector_size(64)]] = double;
+  using Q [[gnu::vector_size(64)]] = std::uint64_t;
+  using HalfV [[gnu::vector_size(32)]] = std::int32_t;
+  using HalfF [[gnu::vector_size(32)]] = float;
+  using H [[gnu::vector_size(32)]] = std::uint16_t;
 };
 
 template <class Arch>
@@ -57,7 +69,11 @@ struct WordLanes {
   using V = typename WordVectors<kCount>::V;  // masks, too: a lane is 0 or -1
   using U = typename WordVectors<kCount>::U;
   using F = typename WordVectors<kCount>::F;
-  using D = typename WordVectors<kCount>::D;
+  using D = typename WordVectors<kCount>::D;  // doubles of half of the lanes: vectors have the processor's width
+  using Q = typename WordVectors<kCount>::Q;  // 64 bits a lane, as D
+  using HalfV = typename WordVectors<kCount>::HalfV;
+  using HalfF = typename WordVectors<kCount>::HalfF;
+  using H = typename WordVectors<kCount>::H;  // 16 bits a lane
 
   VOXMELT_WORDS V set(std::int32_t value) { return V{} + value; }
   VOXMELT_WORDS F set_float(float value) { return F{} + value; }
@@ -65,6 +81,36 @@ struct WordLanes {
     V of{};
     for (int i = 0; i < kCount; ++i) of[i] = i;
     return of;
+  }
+  VOXMELT_WORDS V load(const std::int32_t* from) {
+    V of;
+    std::memcpy(&of, from, sizeof of);
+    return of;
+  }
+  // By shuffles: through memory, the processor would wait for the stores.
+  template <int kWhich>
+  VOXMELT_WORDS HalfV half(V a) {
+    constexpr int k = kWhich * kCount / 2;
+    if constexpr (kCount == 4)
+      return __builtin_shufflevector(a, a, k, k + 1);
+    else if constexpr (kCount == 8)
+      return __builtin_shufflevector(a, a, k, k + 1, k + 2, k + 3);
+    else
+      return __builtin_shufflevector(a, a, k, k + 1, k + 2, k + 3, k + 4, k + 5, k + 6, k + 7);
+  }
+  template <class Half>
+  VOXMELT_WORDS auto joined(Half low, Half high) {
+    if constexpr (kCount == 4)
+      return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+    else if constexpr (kCount == 8)
+      return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+    else
+      return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  }
+  // Lanes of 16 bits.
+  VOXMELT_WORDS void store_halves(V a, std::uint16_t* to) {
+    const H halves = __builtin_convertvector(a, H);
+    std::memcpy(to, &halves, sizeof halves);
   }
   VOXMELT_WORDS V min(V a, V b) { return a < b ? a : b; }
   VOXMELT_WORDS V max(V a, V b) { return a > b ? a : b; }
