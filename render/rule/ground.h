@@ -57,7 +57,11 @@ VOXMELT_RULE GroundCrossing ground_at(const Heights& heights, Vector cells, cons
   std::int32_t outside = 0, inside = kGroundParts;
   while (inside - outside > 1) {
     const std::int32_t middle = (outside + inside) / 2;
-    (in_ground(heights, cells, part_of_step(from, ray.step, middle)) ? inside : outside) = middle;
+    if (in_ground(heights, cells, part_of_step(from, ray.step, middle))) {
+      inside = middle;
+    } else {
+      outside = middle;
+    }
   }
   return {true, k, inside, part_of_step(from, ray.step, inside),
           face_before(cells, part_of_step(from, ray.step, outside))};
@@ -79,7 +83,7 @@ VOXMELT_RULE GroundCrossing first_ground(const Heights& heights, Vector cells, c
 // The normal of a height field of such falls to a cell, in kHeight, along x and z.
 VOXMELT_RULE Vector slope_normal(std::int64_t fall_x, std::int64_t fall_z) {
   const Vector a{fall_x, kHeight, fall_z};
-  return unit(a >> std::max(0, bits_of(largest(a)) - 15));
+  return unit(a >> std::max(0, bits_of(largest(a)) - 14));
 }
 
 // The slab's upper edges are rounded, over half a cell, so that they catch the light. This is how much the

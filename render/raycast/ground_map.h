@@ -1,0 +1,73 @@
+// The ground of a scene as integers: heights, what is left out of a ray, and the texture of rock
+// (docs/picture-ground.md).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
+#include "render/raycast/ground_tiles.h"
+#include "render/rule/ground.h"
+#include "render/rule/rock.h"
+
+namespace voxmelt::render {
+
+// In 1 / picture::kHeight of a cell, z outermost.
+using ColumnHeights = std::vector<std::int32_t>;
+ColumnHeights ground_heights(const scene::Terrain& terrain);
+
+class GroundMap {
+ public:
+  // A grid without ground.
+  GroundMap() = default;
+  // `cells` is the size of the grid, `passes` those of the field's low-pass filter. Heights outside of the grid
+  // are cut off at it.
+  GroundMap(picture::Vector cells, ColumnHeights heights, int passes, const scene::Vec3& color, bool textured);
+
+  // Lowers columns under matter; `wetness` is 0 .. kHeight, or empty where all is dry. Costs little where it is
+  // that of the call before. Tells whether anything changed.
+  bool lower(const ColumnHeights& wetness);
+
+  // The first crossing: that of picture::first_ground, with samples left out. The steps of the ray are within
+  // 2^-spacing cells.
+  picture::GroundCrossing find(const picture::Ray& ray, int spacing) const;
+
+  struct Paint {
+    picture::Vector color;   // picture::kColor is 1
+    picture::Vector normal;  // with the relief of rock
+  };
+  Paint paint(const picture::GroundCrossing& crossing) const;
+
+  // The parts, for faster programs.
+  bool empty() const { return tiles_.highest() <= 0; }
+  picture::Vector cells() const { return cells_; }
+  const ColumnHeights& drawn() const { return drawn_; }    // that rays meet
+  const ColumnHeights& bare() const { return bare_; }      // before the lowering: for normals
+  const GroundTiles& tiles() const { return tiles_; }
+  const std::vector<picture::Texel>& texels() const { return texels_; }  // none without texture
+  int fineness() const { return fineness_; }
+
+ private:
+  void make_texels();
+  void make_bands();
+  picture::Vector cut(const picture::GroundCrossing& crossing) const;
+  std::size_t column(std::int64_t x, std::int64_t z) const {
+    return static_cast<std::size_t>(z * cells_.x + x);
+  }
+
+  picture::Vector cells_;
+  picture::Vector color_;
+  int passes_ = 0;
+  ColumnHeights softened_;  // filtered, before the pre-filter
+  ColumnHeights bare_, drawn_, wetness_;
+  GroundTiles tiles_;
+  int fineness_ = 0;
+  std::vector<picture::Texel> texels_;
+  std::vector<std::int16_t> bands_;                // from below, quarters of a cell
+  std::array<std::vector<std::int32_t>, 4> bends_;  // of the columns of low_x, high_x, low_z, high_z
+};
+
+}  // namespace voxmelt::render
