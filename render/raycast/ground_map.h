@@ -23,12 +23,13 @@ class GroundMap {
  public:
   // A grid without ground.
   GroundMap() = default;
-  // `cells` is the size of the grid, `passes` those of the field's low-pass filter. Heights outside of the grid
-  // are cut off at it.
-  GroundMap(picture::Vector cells, ColumnHeights heights, int passes, const scene::Vec3& color, bool textured);
+  // `cells` is the size of the grid, `passes` those of the field's low-pass filter. Heights outside of the
+  // grid are cut off at it.
+  GroundMap(picture::Vector cells, ColumnHeights heights, int passes, const scene::Vec3& color,
+            bool textured);
 
-  // Lowers columns under matter; `wetness` is 0 .. kHeight, or empty where all is dry. Costs little where it is
-  // that of the call before. Tells whether anything changed.
+  // Lowers columns under matter; `wetness` is 0 .. kHeight, or empty where all is dry. Costs little where it
+  // is that of the call before. Tells whether anything changed.
   bool lower(const ColumnHeights& wetness);
 
   // The first crossing: that of picture::first_ground, with samples left out. The steps of the ray are within
@@ -44,8 +45,8 @@ class GroundMap {
   // The parts, for faster programs.
   bool empty() const { return tiles_.highest() <= 0; }
   picture::Vector cells() const { return cells_; }
-  const ColumnHeights& drawn() const { return drawn_; }    // that rays meet
-  const ColumnHeights& bare() const { return bare_; }      // before the lowering: for normals
+  const ColumnHeights& drawn() const { return drawn_; }  // that rays meet
+  const ColumnHeights& bare() const { return bare_; }    // before the lowering: for normals
   const GroundTiles& tiles() const { return tiles_; }
   const std::vector<picture::Texel>& texels() const { return texels_; }  // none without texture
   int fineness() const { return fineness_; }
@@ -66,7 +67,7 @@ class GroundMap {
   GroundTiles tiles_;
   int fineness_ = 0;
   std::vector<picture::Texel> texels_;
-  std::vector<std::int16_t> bands_;                // from below, quarters of a cell
+  std::vector<std::int16_t> bands_;                 // from below, quarters of a cell
   std::array<std::vector<std::int32_t>, 4> bends_;  // of the columns of low_x, high_x, low_z, high_z
 };
 

@@ -22,8 +22,8 @@ class GroundTiles {
 
   std::int32_t highest() const { return highest_; }
 
-  // A number n of samples: the n - 1 behind the one at `position`, which is outside of the ground, lie outside
-  // as well. The position is above the grid's floor and between its sides.
+  // As many samples behind `position`, which is outside of the ground but in the box around it, are outside
+  // as well. The steps of the ray are within 2^-spacing cells.
   std::int64_t leap(picture::Vector position, std::int64_t step_up, int spacing) const;
 
   struct Level {

@@ -1,9 +1,11 @@
-// Where a ray first meets the ground, and the ground's normal there (docs/picture-ground.md, sections 3 to 5).
+// Where a ray first meets the ground, and the ground's normal there (docs/picture-ground.md, sections 3 to
+// 5).
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 
+#include "render/rule/crossing.h"
 #include "render/rule/fixed_point.h"
 #include "render/rule/heights.h"
 #include "render/rule/normal.h"
@@ -30,54 +32,66 @@ VOXMELT_RULE Face face_before(Vector cells, Vector outside) {
   return outside.y < 0 ? Face::under : Face::top;
 }
 
-inline constexpr int kGroundPartBits = 8;
-inline constexpr std::int32_t kGroundParts = 1 << kGroundPartBits;  // of a step
+// Places on a ray are in parts of its steps: sample k lies at part k kParts.
+inline constexpr int kPartBits = 8;
+VOXMELT_RULE Vector position_at(const Ray& ray, std::int64_t part) {
+  return ray.start + ((ray.step * part) >> kPartBits);
+}
 
 struct GroundCrossing {
   bool found = false;
-  std::int64_t sample = 0;  // the first that lies in the ground
-  std::int32_t part = 0;    // of the step to that sample, 1 .. kGroundParts: the place is in the ground
+  std::int64_t part = 0;  // the place on the ray, in the ground; the part before it lies outside
   Vector position;
   Face face = Face::none;
-  // In parts of a step from sample 0. A ray that starts in the ground has 0.
-  constexpr std::int64_t distance() const {
-    return std::max<std::int64_t>((sample - 1) * kGroundParts + part, 0);
-  }
 };
 
-VOXMELT_RULE Vector part_of_step(Vector from, Vector step, std::int32_t part) {
-  return from + ((step * part) >> kGroundPartBits);
+// The parts of a ray in the box around the ground. `highest` is that of the columns, before the lowering.
+VOXMELT_RULE Samples ground_parts(Vector cells, std::int32_t highest, const Ray& ray) {
+  const Vector high{cells.x * kCell, std::int64_t{highest} << (kPositionBits - kHeightBits), cells.z * kCell};
+  return samples_in({ray.start * kParts, ray.step}, {}, high * kParts);
 }
 
-// Sample `k` is the first in the ground. Bisections find the least part, if there is one crossing only.
+// `inside` is in the ground and `outside` before it is not. Bisections find neighbours of which that holds.
 template <class Heights>
-VOXMELT_RULE GroundCrossing ground_at(const Heights& heights, Vector cells, const Ray& ray, std::int64_t k) {
-  if (k == 0) return {true, 0, kGroundParts, ray.start, Face::none};
-  const Vector from = ray.at(k - 1);
-  std::int32_t outside = 0, inside = kGroundParts;
+VOXMELT_RULE GroundCrossing ground_between(const Heights& heights, Vector cells, const Ray& ray,
+                                           std::int64_t outside, std::int64_t inside) {
   while (inside - outside > 1) {
-    const std::int32_t middle = (outside + inside) / 2;
-    if (in_ground(heights, cells, part_of_step(from, ray.step, middle))) {
+    const std::int64_t middle = (outside + inside) >> 1;
+    if (in_ground(heights, cells, position_at(ray, middle))) {
       inside = middle;
     } else {
       outside = middle;
     }
   }
-  return {true, k, inside, part_of_step(from, ray.step, inside),
-          face_before(cells, part_of_step(from, ray.step, outside))};
+  const Face face = inside == 0 ? Face::none : face_before(cells, position_at(ray, outside));
+  return {true, inside, position_at(ray, inside), face};
 }
 
-// The samples that can lie in the ground. No height is above the grid.
-VOXMELT_RULE Samples ground_samples(Vector cells, const Ray& ray) {
-  return samples_in(ray, {}, cells * kCell);
+// Three kinds of places are looked at, in their order on the ray: where it enters the box around the ground,
+// each sample, and where it leaves the box. So edges of the slab have no teeth.
+//
+// leap(part) may say how many samples behind a part, which is outside of the ground, are outside as well; 0
+// leaves out none.
+template <class Heights, class Leap>
+VOXMELT_RULE GroundCrossing first_ground(const Heights& heights, Vector cells, std::int32_t highest,
+                                         const Ray& ray, const Leap& leap) {
+  const Samples in = ground_parts(cells, highest, ray);
+  if (in.first > in.last) return {};
+  for (std::int64_t part = in.first;;) {
+    if (in_ground(heights, cells, position_at(ray, part))) {
+      const std::int64_t before = ((part - 1) >> kPartBits) * kParts;
+      return ground_between(heights, cells, ray, part == in.first ? part - 1 : std::max(in.first, before),
+                            part);
+    }
+    if (part == in.last) return {};
+    part = std::min(((part >> kPartBits) + leap(part) + 1) * kParts, in.last);
+  }
 }
 
 template <class Heights>
-VOXMELT_RULE GroundCrossing first_ground(const Heights& heights, Vector cells, const Ray& ray) {
-  const Samples in = ground_samples(cells, ray);
-  for (std::int64_t k = in.first; k <= in.last; ++k)
-    if (in_ground(heights, cells, ray.at(k))) return ground_at(heights, cells, ray, k);
-  return {};
+VOXMELT_RULE GroundCrossing first_ground(const Heights& heights, Vector cells, std::int32_t highest,
+                                         const Ray& ray) {
+  return first_ground(heights, cells, highest, ray, [](std::int64_t) { return std::int64_t{0}; });
 }
 
 // The normal of a height field of such falls to a cell, in kHeight, along x and z.

@@ -21,43 +21,41 @@ VOXMELT_RULE std::int32_t smooth_step(std::int64_t low, std::int64_t high, std::
 }
 
 // A number of a lattice's point, from -2^12 to 2^12 - 1. `kind` tells lattices apart.
-VOXMELT_RULE std::int32_t lattice(std::int64_t u, std::int64_t v, std::uint32_t kind) {
-  std::uint32_t h = static_cast<std::uint32_t>(u) * 0x8DA6B343u ^ static_cast<std::uint32_t>(v) * 0xD8163841u ^
-                    kind * 0xCB1AB31Fu;
+VOXMELT_RULE std::int32_t lattice(Vector point, std::uint32_t kind) {
+  std::uint32_t h = static_cast<std::uint32_t>(point.x) * 0x8DA6B343u ^
+                    static_cast<std::uint32_t>(point.y) * 0xD8163841u ^
+                    static_cast<std::uint32_t>(point.z) * 0xCB1AB31Fu ^ kind * 0x9E3779B1u;
   h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
   h = (h ^ (h >> 12)) * 0x297A2D39u;
   h ^= h >> 15;
   return static_cast<std::int32_t>(h >> (31 - kNoiseBits)) - (1 << kNoiseBits);
 }
 
-// At (u, v), in 2^-20 of a lattice's spacing.
-VOXMELT_RULE std::int32_t noise(std::int64_t u, std::int64_t v, std::uint32_t kind) {
+// At a position in 2^-20 of the lattice's spacing.
+VOXMELT_RULE std::int32_t noise(Vector position, std::uint32_t kind) {
   const auto weight = [](std::int64_t a) {
     return smooth(static_cast<std::int32_t>((a >> (kPositionBits - kWeightBits)) & (kWeights - 1)));
   };
-  const std::int64_t i = u >> kPositionBits, j = v >> kPositionBits;
-  const std::int32_t w = weight(u);
-  return blended(blended(lattice(i, j, kind), lattice(i + 1, j, kind), w),
-                 blended(lattice(i, j + 1, kind), lattice(i + 1, j + 1, kind), w), weight(v));
+  const Vector low = position >> kPositionBits;
+  const std::int32_t wx = weight(position.x), wy = weight(position.y), wz = weight(position.z);
+  const auto along_x = [&](std::int64_t dy, std::int64_t dz) {
+    return blended(lattice(low + Vector{0, dy, dz}, kind), lattice(low + Vector{1, dy, dz}, kind), wx);
+  };
+  return blended(blended(along_x(0, 0), along_x(1, 0), wy), blended(along_x(0, 1), along_x(1, 1), wy), wz);
 }
 
-// Octaves of noise: each is half as strong as the one before it, turned by 45 degrees, which makes it finer by
-// sqrt 2, and moved. Otherwise the lattices would line up. That of the first has a spacing of 2^spacing cells.
-inline constexpr int kFinerBits = 8;  // fraction bits more, for what turning and small spacings need
-inline constexpr std::int64_t kOctaveMoved = 5 * kCell << (kFinerBits - 4);  // 5/16
+// Octaves of noise: each is half as strong and half as wide as the one before it. Its axes are exchanged and
+// moved, or the lattices would line up. That of the first has a spacing of 2^spacing cells.
+inline constexpr Vector kOctaveMoved{17 * kCell / 16, 91 * kCell / 16, 501 * kCell / 16};
 
-VOXMELT_RULE std::int32_t layered_noise(std::int64_t x, std::int64_t z, int spacing, int octaves,
-                                        std::uint32_t kind) {
-  std::int64_t u = x * (std::int64_t{1} << (kFinerBits - spacing)),
-               v = z * (std::int64_t{1} << (kFinerBits - spacing));
+VOXMELT_RULE std::int32_t layered_noise(Vector position, int spacing, int octaves, std::uint32_t kind) {
+  Vector p = position >> spacing;
   std::int32_t sum = 0;
   for (int i = 0; i < octaves; ++i) {
-    sum += noise(u >> kFinerBits, v >> kFinerBits, kind + static_cast<std::uint32_t>(i)) >> i;
-    const std::int64_t turned = u + v + kOctaveMoved;
-    v = v - u + kOctaveMoved;
-    u = turned;
+    sum += noise(p, kind + static_cast<std::uint32_t>(i)) >> i;
+    p = Vector{p.z, p.x, p.y} * 2 + kOctaveMoved;
   }
-  return sum >> 1;
+  return sum * 9 >> 4;
 }
 
 }  // namespace voxmelt::picture

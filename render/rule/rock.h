@@ -17,10 +17,10 @@ namespace voxmelt::picture {
 inline constexpr int kColorBits = 12;
 inline constexpr std::int32_t kColor = 1 << kColorBits;
 
-// Texels lie 2^fineness to a cell. Positions in texels then fit the width of positions in cells.
+// Texels lie 2^fineness to a cell: a quarter of a million of them up to 512 cells a side.
 VOXMELT_RULE int texel_fineness(Vector cells) {
   const std::int64_t side = std::max(cells.x, cells.z);
-  return side <= 256 ? 2 : side <= 512 ? 1 : 0;
+  return side <= 128 ? 2 : side <= 256 ? 1 : 0;
 }
 
 // The rock at a place of the top: its colour, and what its relief adds to the normal, in 1 / kBump.
@@ -32,6 +32,12 @@ inline constexpr int kBumpBits = 8;
 
 // Numbers of noises; each octave takes one more.
 inline constexpr std::uint32_t kPatches = 0, kGrain = 16, kRelief = 32, kBand = 48, kBend = 64;
+
+// Of a position of the top among the columns, 0 .. kHeight from the lowest to the highest.
+VOXMELT_RULE std::int64_t elevation(std::int64_t y, std::int64_t lowest, std::int64_t highest) {
+  const std::int64_t height = y >> (kPositionBits - kHeightBits);
+  return (height - lowest) * kHeight / std::max<std::int64_t>(highest - lowest, 1);
+}
 
 // `elevation` is 0 .. kHeight from the lowest column to the highest, `up` the y of the normal.
 VOXMELT_RULE Vector rock_color(Vector base, std::int64_t elevation, std::int64_t up, std::int64_t patches,
@@ -54,9 +60,10 @@ VOXMELT_RULE std::int64_t texel_middle(std::int64_t i, int fineness) {
   return (2 * i + 1) << (kPositionBits - 1 - fineness);
 }
 
-VOXMELT_RULE std::int32_t relief(std::int64_t i, std::int64_t j, int fineness) {
-  return layered_noise(texel_middle(i, fineness), texel_middle(j, fineness), 2, 6, kRelief);
-}
+inline constexpr int kRockOctaves = 3, kReliefOctaves = 4;
+VOXMELT_RULE std::int32_t patches(Vector place) { return layered_noise(place, 4, kRockOctaves, kPatches); }
+VOXMELT_RULE std::int32_t grain(Vector place) { return layered_noise(place, 1, kRockOctaves, kGrain); }
+VOXMELT_RULE std::int32_t relief(Vector place) { return layered_noise(place, 1, kReliefOctaves, kRelief); }
 
 // The bump along an axis, between the reliefs of the texels before and behind.
 VOXMELT_RULE std::int8_t bump(std::int32_t before, std::int32_t behind, int fineness) {
@@ -77,10 +84,8 @@ VOXMELT_RULE Vector cut_color(Vector base, std::int64_t band) {
 // sides, in 2^-20 cells.
 inline constexpr int kBandFineness = 2;
 VOXMELT_RULE std::int32_t band(std::int64_t i) {
-  return layered_noise(texel_middle(i, kBandFineness), 0, 1, 4, kBand);
+  return layered_noise({0, texel_middle(i, kBandFineness), 0}, 1, 3, kBand);
 }
-VOXMELT_RULE std::int32_t bend(std::int64_t x, std::int64_t z) {
-  return noise(x >> 4, z >> 4, kBend) * 192;
-}
+VOXMELT_RULE std::int32_t bend(Vector place) { return noise(place >> 4, kBend) * 192; }
 
 }  // namespace voxmelt::picture
