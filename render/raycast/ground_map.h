@@ -1,4 +1,4 @@
-// The ground of a scene as integers: heights, what is left out of a ray, and the texture of rock
+// The ground of a scene as integers: heights, and the texture of rock
 // (docs/picture-ground.md).
 #pragma once
 
@@ -9,7 +9,6 @@
 
 #include "kernel/scene/look.h"
 #include "kernel/scene/shape/terrain.h"
-#include "render/raycast/ground_tiles.h"
 #include "render/rule/ground.h"
 #include "render/rule/rock.h"
 
@@ -32,9 +31,8 @@ class GroundMap {
   // is that of the call before. Tells whether anything changed.
   bool lower(const ColumnHeights& wetness);
 
-  // The first crossing: that of picture::first_ground, with samples left out. The steps of the ray are within
-  // 2^-spacing cells.
-  picture::GroundCrossing find(const picture::Ray& ray, int spacing) const;
+  // That of picture::first_ground, with samples left out.
+  picture::GroundCrossing find(const picture::Ray& ray) const;
 
   struct Paint {
     picture::Vector color;   // picture::kColor is 1
@@ -43,15 +41,18 @@ class GroundMap {
   Paint paint(const picture::GroundCrossing& crossing) const;
 
   // The parts, for faster programs.
-  bool empty() const { return tiles_.highest() <= 0; }
+  bool empty() const { return highest_ <= 0; }
   picture::Vector cells() const { return cells_; }
   const ColumnHeights& drawn() const { return drawn_; }  // that rays meet
   const ColumnHeights& bare() const { return bare_; }    // before the lowering: for normals
-  const GroundTiles& tiles() const { return tiles_; }
+  std::int32_t highest() const { return highest_; }      // of the bare columns
+  // No two columns side by side differ by more, along x and z.
+  picture::Vector slopes() const { return slopes_; }
   const std::vector<picture::Texel>& texels() const { return texels_; }  // none without texture
   int fineness() const { return fineness_; }
 
  private:
+  void find_slopes();
   void make_texels();
   void make_bands();
   picture::Vector cut(const picture::GroundCrossing& crossing) const;
@@ -64,7 +65,8 @@ class GroundMap {
   int passes_ = 0;
   ColumnHeights softened_;  // filtered, before the pre-filter
   ColumnHeights bare_, drawn_, wetness_;
-  GroundTiles tiles_;
+  std::int32_t highest_ = 0;
+  picture::Vector slopes_;
   int fineness_ = 0;
   std::vector<picture::Texel> texels_;
   std::vector<std::int16_t> bands_;                 // from below, quarters of a cell

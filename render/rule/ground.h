@@ -13,11 +13,17 @@
 
 namespace voxmelt::picture {
 
+// How far a position lies above the ground of its column, in 1 / kHeight; in the ground it is below 0.
+template <class Heights>
+VOXMELT_RULE std::int64_t above_ground(const Heights& heights, Vector cells, Vector p) {
+  return (p.y >> (kPositionBits - kHeightBits)) - height_at(heights, cells, p.x, p.z);
+}
+
 // The ground is all that lies below the heights, within the grid's sides and above y = 0.
 template <class Heights>
 VOXMELT_RULE bool in_ground(const Heights& heights, Vector cells, Vector p) {
   return p.x >= 0 && p.x < cells.x * kCell && p.z >= 0 && p.z < cells.z * kCell && p.y >= 0 &&
-         (p.y >> (kPositionBits - kHeightBits)) < height_at(heights, cells, p.x, p.z);
+         above_ground(heights, cells, p) < 0;
 }
 
 // Through which a ray enters. A ray that starts in the ground enters through none.
@@ -70,21 +76,22 @@ VOXMELT_RULE GroundCrossing ground_between(const Heights& heights, Vector cells,
 // Three kinds of places are looked at, in their order on the ray: where it enters the box around the ground,
 // each sample, and where it leaves the box. So edges of the slab have no teeth.
 //
-// leap(part) may say how many samples behind a part, which is outside of the ground, are outside as well; 0
-// leaves out none.
+// leap(above) may say how many samples behind a place so far above the ground are outside as well; 0 leaves
+// out none.
 template <class Heights, class Leap>
 VOXMELT_RULE GroundCrossing first_ground(const Heights& heights, Vector cells, std::int32_t highest,
                                          const Ray& ray, const Leap& leap) {
   const Samples in = ground_parts(cells, highest, ray);
   if (in.first > in.last) return {};
   for (std::int64_t part = in.first;;) {
-    if (in_ground(heights, cells, position_at(ray, part))) {
+    const std::int64_t above = above_ground(heights, cells, position_at(ray, part));
+    if (above < 0) {
       const std::int64_t before = ((part - 1) >> kPartBits) * kParts;
       return ground_between(heights, cells, ray, part == in.first ? part - 1 : std::max(in.first, before),
                             part);
     }
     if (part == in.last) return {};
-    part = std::min(((part >> kPartBits) + leap(part) + 1) * kParts, in.last);
+    part = std::min(((part >> kPartBits) + leap(above) + 1) * kParts, in.last);
   }
 }
 
