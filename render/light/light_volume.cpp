@@ -76,7 +76,8 @@ std::vector<std::int32_t> losses(const LightPlane& density) {
   return of;
 }
 
-// Along the axis of the direction's largest component; y comes before x, and x before z.
+// Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of a slice
+// lies between the rays around (u, v) plus the shift; a ray lies between the cells around it less the shift.
 void sweep_lamp(const LightMatter& matter, const std::vector<std::int32_t>& loss, Vector to_light,
                 std::vector<LightBytes>& cells) {
   const std::int64_t component[3] = {to_light.x, to_light.y, to_light.z};
@@ -84,18 +85,42 @@ void sweep_lamp(const LightMatter& matter, const std::vector<std::int32_t>& loss
   for (const int other : {0, 2})
     if (picture::magnitude(component[other]) > picture::magnitude(component[axis])) axis = other;
   const Slices slices(matter.density, axis, component[axis] > 0);
-  const auto taps = [&](int other) {
-    return picture::taps_of(static_cast<std::int32_t>(
-        picture::floor_divided(component[other] * picture::kLength, picture::magnitude(component[axis]))));
+  const auto slope = [&](int other) {
+    return static_cast<std::int32_t>(
+        picture::floor_divided(component[other] * picture::kLength, picture::magnitude(component[axis])));
   };
-  const picture::Taps u = taps(axis == 0 ? 1 : 0), v = taps(axis == 2 ? 1 : 2);
-  const auto filter = [](const picture::Taps& t) {
-    return [t](const auto& at) { return picture::tapped(at(t.cell - 1), at(t.cell), at(t.cell + 1), t); };
-  };
-  sweep(
-      slices, 255, filter(u), filter(v),
-      [&](std::size_t i) { return picture::passed(cells[i].lamp, loss[i]); },
-      [&](std::size_t i, std::int32_t value) { cells[i].lamp = static_cast<std::uint8_t>(value); });
+  const std::int32_t slope_u = slope(axis == 0 ? 1 : 0), slope_v = slope(axis == 2 ? 1 : 2);
+
+  // Rays from `low` on pass through the grid, at the first slice or at the last.
+  const auto low = [&](std::int32_t s) { return std::min<std::int64_t>(picture::shift_at(slices.count(), s).cells, 0) - 1; };
+  const auto more = [&](std::int32_t s) { return picture::magnitude(picture::shift_at(slices.count(), s).cells) + 4; };
+  const std::int64_t low_u = low(slope_u), low_v = low(slope_v);
+  const std::int64_t count_u = slices.u() + more(slope_u), count_v = slices.v() + more(slope_v);
+  Slice rays(count_u, count_v, 255), softened(count_u, count_v, 255);
+  for (std::int64_t s = 0; s < slices.count(); ++s) {
+    const picture::Shift u = picture::shift_at(s, slope_u), v = picture::shift_at(s, slope_v);
+    for (std::int64_t j = 0; j < slices.v(); ++j)
+      for (std::int64_t i = 0; i < slices.u(); ++i) {
+        const std::int64_t a = i + u.cells - low_u, b = j + v.cells - low_v;
+        const auto along = [&](std::int64_t row) { return picture::blended(rays(a, row), rays(a + 1, row), u.part); };
+        cells[slices.at(s, i, j)].lamp = static_cast<std::uint8_t>(picture::blended(along(b), along(b + 1), v.part));
+      }
+    const auto lost = [&](std::int64_t i, std::int64_t j) {
+      return i < 0 || j < 0 || i >= slices.u() || j >= slices.v() ? 0 : loss[slices.at(s, i, j)];
+    };
+    for (std::int64_t b = 0; b < count_v; ++b)
+      for (std::int64_t a = 0; a < count_u; ++a) {
+        const std::int64_t i = a + low_u - u.cells, j = b + low_v - v.cells;
+        const auto along = [&](std::int64_t row) { return picture::blended(lost(i, row), lost(i - 1, row), u.part); };
+        rays.set(a, b) = picture::passed(rays(a, b), picture::blended(along(j), along(j - 1), v.part));
+      }
+    for (std::int64_t b = 0; b < count_v; ++b)
+      for (std::int64_t a = 0; a < count_u; ++a)
+        softened.set(a, b) = picture::softer(rays(a - 1, b), rays(a, b), rays(a + 1, b));
+    for (std::int64_t b = 0; b < count_v; ++b)
+      for (std::int64_t a = 0; a < count_u; ++a)
+        rays.set(a, b) = picture::softer(softened(a, b - 1), softened(a, b), softened(a, b + 1));
+  }
 }
 
 void sweep_side(const LightMatter& matter, const std::vector<std::int32_t>& loss, std::size_t side,

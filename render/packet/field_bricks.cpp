@@ -1,7 +1,8 @@
 #include "render/packet/field_bricks.h"
 
 #include <algorithm>
-#include <atomic>
+#include <array>
+#include <cstdlib>
 
 #include "render/rule/matter.h"
 
@@ -12,12 +13,17 @@ constexpr int kWide = kBrickPlaces + 2;  // with the neighbours that the pre-fil
 constexpr std::size_t kPlaces = kBrickVolume;
 constexpr std::size_t kBeyond = 2;  // a pair of levels is read as 32 bits
 
-// The levels of a brick's places. Tells whether all are air.
-bool brick_levels(const DensityField& field, const state::Grid& first, std::int16_t* to) {
+// The cell of a brick's first place.
+state::Grid first_cell(const state::Grid& brick) {
+  constexpr int kBefore = kLatticeBorder + 1;
+  return {brick.x * kBrickSide - kBefore, brick.y * kBrickSide - kBefore, brick.z * kBrickSide - kBefore};
+}
+
+// The levels of a brick's places.
+void brick_levels(const DensityField& field, const state::Grid& first, std::int16_t* to) {
   const state::Grid& grid = field.grid();
   std::array<std::uint16_t, kWide * kWide * kBrickPlaces> along_x;
   std::array<std::uint16_t, kWide * kBrickPlaces * kBrickPlaces> along_y;
-  std::uint32_t any = 0;
   for (int k = 0; k < kWide; ++k)
     for (int j = 0; j < kWide; ++j) {
       const std::uint16_t* row =
@@ -31,12 +37,9 @@ bool brick_levels(const DensityField& field, const state::Grid& first, std::int1
           cells[static_cast<std::size_t>(i)] = row[std::clamp(first.x + i - 1, 0, grid.x - 1)];
       }
       std::uint16_t* out = along_x.data() + (k * kWide + j) * kBrickPlaces;
-      for (std::size_t i = 0; i < kBrickPlaces; ++i) {
+      for (std::size_t i = 0; i < kBrickPlaces; ++i)
         out[i] = static_cast<std::uint16_t>((43 * cells[i] + 170 * cells[i + 1] + 43 * cells[i + 2] + 128) >> 8);
-        any |= out[i];
-      }
     }
-  if (any == 0) return true;
 
   const auto filtered = [](std::uint16_t a, std::uint16_t b, std::uint16_t c) {
     return static_cast<std::uint16_t>((43u * a + 170u * b + 43u * c + 128u) >> 8);
@@ -62,7 +65,6 @@ bool brick_levels(const DensityField& field, const state::Grid& first, std::int1
         for (int i = 0; i < kRow; ++i)
           if (!inside(first.x + i, grid.x) || !inside(first.y + j, grid.y) || !inside(first.z + k, grid.z))
             to[k * kSlice + j * kRow + i] = picture::kAir;
-  return std::all_of(to, to + kPlaces, [](std::int16_t level) { return level == picture::kAir; });
 }
 
 void brick_matter(const DensityField& field, const picture::Look& look, const state::Grid& first,
@@ -87,7 +89,8 @@ struct BlockRange {
 };
 BlockRange block_range(const std::int16_t* levels, int bx, int by, int bz) {
   constexpr int kRow = kBrickPlaces, kSlice = kBrickPlaces * kBrickPlaces;
-  const std::int16_t* const corner = levels + kBlockSide * (bz * kSlice + by * kRow + bx);
+  const std::int16_t* const corner =
+      levels + kSlice + kRow + 1 + kBlockSide * (bz * kSlice + by * kRow + bx);
   int most = picture::kAir, along_x = 0, along_y = 0, along_z = 0;
   for (int k = 0; k <= kBlockSide; ++k)
     for (int j = 0; j <= kBlockSide; ++j)
@@ -142,46 +145,89 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
   }
   if (bricks.empty()) return;
 
-  // Every brick gets a slot, and gives it back if it is nothing but air.
-  for (const std::uint32_t brick : bricks) {
-    if (slots_[brick] != 0) continue;
-    if (free_.empty()) {
-      free_.push_back(static_cast<std::int32_t>(matter_.size() / kPlaces));
-      levels_.resize(levels_.size() + kPlaces, picture::kAir);
-      matter_.resize(matter_.size() + kPlaces, 0);
+  // What is nothing but air needs no slot.
+  std::vector<std::uint8_t> needed(bricks.size());
+  workers.run(static_cast<int>(bricks.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    needed[at] = anything_near(field, bricks[at]) ? 1 : 0;
+  });
+  for (std::size_t i = 0; i < bricks.size(); ++i) {
+    std::int32_t& slot = slots_[bricks[i]];
+    if (needed[i] == 0) {
+      give_back(slot);
+      clear(bricks[i]);
+    } else if (slot == 0) {
+      slot = take();
     }
-    slots_[brick] = free_.back();
-    free_.pop_back();
   }
-  workers.run(static_cast<int>(bricks.size()), [&](int i) { fill(field, look, bricks[static_cast<std::size_t>(i)]); });
-  for (const std::uint32_t brick : bricks)
-    if (slots_[brick] < 0) {
-      free_.push_back(-slots_[brick]);
-      slots_[brick] = 0;
-    }
+  workers.run(static_cast<int>(bricks.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (needed[at] != 0) fill(field, look, bricks[at]);
+  });
   find_distances();
   find_box();
 }
 
-void FieldBricks::fill(const DensityField& field, const picture::Look& look, std::size_t brick) {
-  const auto x = static_cast<int>(brick % static_cast<std::size_t>(bricks_.x)),
-             y = static_cast<int>(brick / static_cast<std::size_t>(bricks_.x) % static_cast<std::size_t>(bricks_.y)),
-             z = static_cast<int>(brick / static_cast<std::size_t>(bricks_.x) / static_cast<std::size_t>(bricks_.y));
-  const state::Grid first{x * kBrickSide - kLatticeBorder, y * kBrickSide - kLatticeBorder,
-                          z * kBrickSide - kLatticeBorder};
-  std::int16_t* const levels = levels_.data() + static_cast<std::size_t>(slots_[brick]) * kPlaces;
-  const bool air = brick_levels(field, first, levels);
+std::int32_t FieldBricks::take() {
+  if (free_.empty()) {
+    free_.push_back(static_cast<std::int32_t>(matter_.size() / kPlaces));
+    levels_.resize(levels_.size() + kPlaces, picture::kAir);
+    matter_.resize(matter_.size() + kPlaces, 0);
+  }
+  const std::int32_t slot = free_.back();
+  free_.pop_back();
+  return slot;
+}
+
+void FieldBricks::give_back(std::int32_t& slot) {
+  if (slot != 0) free_.push_back(slot);
+  slot = 0;
+}
+
+state::Grid FieldBricks::place_of(std::size_t brick) const {
+  const auto x = static_cast<std::size_t>(bricks_.x), y = static_cast<std::size_t>(bricks_.y);
+  return {static_cast<int>(brick % x), static_cast<int>(brick / x % y), static_cast<int>(brick / x / y)};
+}
+
+// Is there any intensity that the levels of the brick depend on?
+bool FieldBricks::anything_near(const DensityField& field, std::size_t brick) const {
+  const state::Grid first = first_cell(place_of(brick));
+  const auto from = [](int at) { return std::max(at - 1, 0); };
+  const auto end = [](int at, int side) { return std::min(at + kBrickPlaces + 1, side); };
+  for (int z = from(first.z); z < end(first.z, grid_.z); ++z)
+    for (int y = from(first.y); y < end(first.y, grid_.y); ++y) {
+      const std::uint16_t* row = field.intensity().data() + grid_.index(0, y, z);
+      std::uint32_t any = 0;
+      for (int x = from(first.x); x < end(first.x, grid_.x); ++x) any |= row[x];
+      if (any != 0) return true;
+    }
+  return false;
+}
+
+void FieldBricks::clear(std::size_t brick) {
   for (int b = 0; b < 8; ++b) {
-    const int bx = b & 1, by = (b >> 1) & 1, bz = b >> 2;
-    const BlockRange range = air ? BlockRange{picture::kAir, 0} : block_range(levels, bx, by, bz);
-    const std::size_t block = blocks_.index(2 * x + bx, 2 * y + by, 2 * z + bz);
+    const std::size_t block = block_of(brick, b);
+    occupied_[block] = 0;
+    skip_[block] = 0;
+  }
+}
+
+void FieldBricks::fill(const DensityField& field, const picture::Look& look, std::size_t brick) {
+  const state::Grid first = first_cell(place_of(brick));
+  const std::size_t slot = static_cast<std::size_t>(slots_[brick]) * kPlaces;
+  brick_levels(field, first, levels_.data() + slot);
+  for (int b = 0; b < 8; ++b) {
+    const BlockRange range = block_range(levels_.data() + slot, b & 1, (b >> 1) & 1, b >> 2);
+    const std::size_t block = block_of(brick, b);
     occupied_[block] = range.most >= 0 ? 1 : 0;
     skip_[block] = static_cast<std::uint16_t>(range.slope << 8);
   }
-  if (air)
-    slots_[brick] = -slots_[brick];
-  else
-    brick_matter(field, look, first, levels, matter_.data() + static_cast<std::size_t>(slots_[brick]) * kPlaces);
+  brick_matter(field, look, first, levels_.data() + slot, matter_.data() + slot);
+}
+
+std::size_t FieldBricks::block_of(std::size_t brick, int which) const {
+  const state::Grid at = place_of(brick);
+  return blocks_.index(2 * at.x + (which & 1), 2 * at.y + ((which >> 1) & 1), 2 * at.z + (which >> 2));
 }
 
 // The distance in blocks, by largest component: as often as a block is still dark when what is occupied grows by

@@ -2,11 +2,11 @@
 // (docs/picture.md, section 10).
 //
 // The lattice holds the cells -2 .. n + 1 of each axis: lattice place = cell + 2. Brick b covers samples whose lower
-// cell lies in the places 8 b .. 8 b + 7, and so it holds 9 places along each axis. A sample then reads one brick
-// alone. Bricks in which there is nothing but air share one.
+// cell lies in the places 8 b .. 8 b + 7. It holds the 11 places from 8 b - 1 along each axis, so samples and normals
+// read one brick alone. Bricks in which there is nothing but air share one.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,7 +19,7 @@
 namespace voxmelt::render {
 
 inline constexpr int kLatticeBorder = 2;              // places before cell 0
-inline constexpr int kBrickPlaces = kBrickSide + 1;   // along an axis of a brick
+inline constexpr int kBrickPlaces = kBrickSide + 3;   // along an axis of a brick
 inline constexpr int kBrickVolume = kBrickPlaces * kBrickPlaces * kBrickPlaces;
 inline constexpr int kBlockSide = 4;                  // of the blocks by which rays skip
 
@@ -57,6 +57,12 @@ class FieldBricks {
 
  private:
   void resize(const state::Grid& grid);
+  std::int32_t take();
+  void give_back(std::int32_t& slot);
+  state::Grid place_of(std::size_t brick) const;
+  std::size_t block_of(std::size_t brick, int which) const;  // 0 .. 7
+  bool anything_near(const DensityField& field, std::size_t brick) const;
+  void clear(std::size_t brick);
   void fill(const DensityField& field, const picture::Look& look, std::size_t brick);
   void find_distances();
   void find_box();

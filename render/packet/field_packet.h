@@ -23,9 +23,10 @@ struct FieldPacket : Packet<Arch> {
 
   static constexpr std::int32_t kBias =
       static_cast<std::int32_t>(picture::kToPlace + 2 * picture::kCell);  // kLatticeBorder
-  static constexpr std::int32_t kSlice = 81, kRow = 9, kVolume = 729;     // of a brick's places
+  static constexpr std::int32_t kSlice = 121, kRow = 11, kVolume = 1331;  // of a brick's places
+  static constexpr std::int32_t kOne = kSlice + kRow + 1;                 // a place along each axis
 
-  // Index of the lowest of the eight places around a lattice position.
+  // Index of the lowest of the eight places around a lattice position, less one place along each axis.
   VOXMELT_WORDS V corner(const FieldData& field, Triple q) {
     const V brick = ((q.z >> 23) * field.bricks_y + (q.y >> 23)) * field.bricks_x + (q.x >> 23);
     const V slot = L::template gather<4>(field.slots, brick);
@@ -43,7 +44,7 @@ struct FieldPacket : Packet<Arch> {
     const V at = corner(field, q);
     const V wx = weights(q.x), wy = weights(q.y), wz = weights(q.z);
     const auto along_x = [&](std::int32_t offset) {
-      return blended(L::template gather<2>(field.levels + offset, at), wx);
+      return blended(L::template gather<2>(field.levels + kOne + offset, at), wx);
     };
     const V back = blended(pair(along_x(0), along_x(kRow)), wy);
     const V front = blended(pair(along_x(kSlice), along_x(kSlice + kRow)), wy);
@@ -133,15 +134,47 @@ struct FieldPacket : Packet<Arch> {
             P::select(from_start, hits.at, outside + (((inside - outside) * last) >> 8))};
   }
 
+  // Weights of the quadratic B-spline (rule/normal.h): the first two as a pair of 16 bits, and the third.
+  struct Spline {
+    V further;  // cells from the corner's to the middle one
+    V value01, value2, slope01, slope2;
+  };
+  VOXMELT_WORDS Spline spline(V q) {
+    const V middle = q + static_cast<std::int32_t>(picture::kCell / 2);
+    const V u = (middle >> 12) & 255, before = 256 - u;
+    const V low = (before * before) >> 9, high = (u * u) >> 9;
+    return {(middle >> 20) - (q >> 20), pair(low, 256 - low - high), high, pair(-before, before - u), u};
+  }
+  template <int kBits>
+  VOXMELT_WORDS V splined(V first_two, V third, V weight01, V weight2) {
+    return (L::pair_products(first_two, weight01) + L::pair_products(third & 0xFFFF, weight2) + (1 << (kBits - 1))) >>
+           kBits;
+  }
+  template <int kBits>
+  VOXMELT_WORDS V splined(V a, V b, V c, V weight01, V weight2) {
+    return splined<kBits>(pair(a, b), c, weight01, weight2);
+  }
+
   VOXMELT_WORDS Triple normal(const PictureData& data, Triple q) {
-    const FieldData& field = data.field;
-    constexpr std::int32_t kHalf = static_cast<std::int32_t>(picture::kCell / 2);
-    const auto level = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-      return sample(field, Triple{q.x + x, q.y + y, q.z + z});
-    };
-    return P::unit({(level(-kHalf, 0, 0) - level(kHalf, 0, 0)) >> 1, (level(0, -kHalf, 0) - level(0, kHalf, 0)) >> 1,
-                    (level(0, 0, -kHalf) - level(0, 0, kHalf)) >> 1},
-                   data.inverse_root);
+    const Spline x = spline(q.x), y = spline(q.y), z = spline(q.z);
+    const V at = corner(data.field, q) + x.further + y.further * kRow + z.further * kSlice;
+    V slope_x[3], slope_y[3], value[3];
+    for (int k = 0; k < 3; ++k) {
+      V slopes[3], values[3];
+      for (int j = 0; j < 3; ++j) {
+        const std::int16_t* row = data.field.levels + k * kSlice + j * kRow;
+        const V two = L::template gather<2>(row, at), third = L::template gather<2>(row + 2, at);
+        slopes[j] = splined<9>(two, third, x.slope01, x.slope2);
+        values[j] = splined<8>(two, third, x.value01, x.value2);
+      }
+      slope_x[k] = splined<8>(slopes[0], slopes[1], slopes[2], y.value01, y.value2);
+      slope_y[k] = splined<9>(values[0], values[1], values[2], y.slope01, y.slope2);
+      value[k] = splined<8>(values[0], values[1], values[2], y.value01, y.value2);
+    }
+    const Triple slope{splined<8>(slope_x[0], slope_x[1], slope_x[2], z.value01, z.value2),
+                       splined<8>(slope_y[0], slope_y[1], slope_y[2], z.value01, z.value2),
+                       splined<9>(value[0], value[1], value[2], z.slope01, z.slope2)};
+    return P::unit(Triple{} - slope, data.inverse_root);
   }
 
   // Bytes of two words of four, blended lane by lane. Words are split into even and odd bytes.
@@ -157,8 +190,8 @@ struct FieldPacket : Packet<Arch> {
     const V at = corner(field, q);
     const V wx = (q.x >> 12) & 255, wy = (q.y >> 12) & 255, wz = (q.z >> 12) & 255;
     const auto along_x = [&](std::int32_t offset) {
-      return blend_bytes(L::template gather<4>(field.matter + offset, at),
-                         L::template gather<4>(field.matter + offset + 1, at), wx);
+      return blend_bytes(L::template gather<4>(field.matter + kOne + offset, at),
+                         L::template gather<4>(field.matter + kOne + offset + 1, at), wx);
     };
     const V back = blend_bytes(along_x(0), along_x(kRow), wy);
     const V front = blend_bytes(along_x(kSlice), along_x(kSlice + kRow), wy);

@@ -145,7 +145,7 @@ struct Rays : Packet<Arch> {
   }
 
   VOXMELT_WORDS V along(const Doubles& start, V step, V sample, std::int32_t bias) {
-    const auto part = [&](D begin, HalfV k, HalfV by) __attribute__((always_inline)) {
+    const auto part = [&](D begin, HalfV k, HalfV by) {
       const D place = begin + to_double(k) * to_double(by) + static_cast<double>(bias);
       constexpr double kMost = 2147483000;
       const D most = D{} + kMost;

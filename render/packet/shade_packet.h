@@ -51,7 +51,7 @@ struct ShadePacket : Packet<Arch> {
     Color sum;
     for (std::size_t c = 0; c < 3; ++c) {
       const V ambient = paint.from_below[c] + (((paint.from_above[c] - paint.from_below[c]) * up) >> 15);
-      sum.c[c] = ((ambient * open) >> 8) + ((paint.lamp[c] * lit) >> 14) + ((picture::kGlowLight[c] * glow) >> 7);
+      sum.c[c] = ((ambient * open) >> 8) + ((paint.lamp[c] * lit) >> 14) + ((picture::kGlowLight[c] * glow) >> 5);
     }
     return sum;
   }

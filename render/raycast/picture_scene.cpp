@@ -16,6 +16,23 @@ std::int32_t light(double value) { return static_cast<std::int32_t>(fixed(value,
 
 picture::Color color(const scene::Vec3& of) { return {light(of[0]), light(of[1]), light(of[2])}; }
 
+ColumnHeights fixed_heights(const std::vector<float>& from) {
+  ColumnHeights of;
+  of.reserve(from.size());
+  for (const float height : from) of.push_back(static_cast<std::int32_t>(fixed(height, picture::kHeightBits)));
+  return of;
+}
+
+// The heights come from the terrain, or from the field where the terrain does not fit it.
+GroundMap ground_of(const DensityField& field, const scene::Look& look, const scene::Terrain& terrain) {
+  const state::Grid& grid = field.grid();
+  GroundMap map({grid.x, grid.y, grid.z},
+                fits(terrain, grid) ? ground_heights(terrain) : fixed_heights(field.ground()), field.liquid_passes(),
+                look.ground, terrain.textured);
+  map.lower(fixed_heights(field.wetness()));
+  return map;
+}
+
 }  // namespace
 
 picture::Look look_in_integers(const scene::Look& look) {
@@ -38,11 +55,13 @@ picture::Lamp lamp_in_integers(const scene::Light& light) {
   return {{fixed(d[0], 24), fixed(d[1], 24), fixed(d[2], 24)}, render::light(light.ambient)};
 }
 
-PictureScene::PictureScene(const DensityField& field, const scene::Look& scene_look, const scene::Light& scene_light)
+PictureScene::PictureScene(const DensityField& field, const scene::Look& scene_look, const scene::Light& scene_light,
+                           const scene::Terrain& terrain)
     : look(look_in_integers(scene_look)),
       paint(picture::paint_of(look, lamp_in_integers(scene_light))),
       levels(field),
       matter(field, levels, look),
-      light(light_matter(field, {}, look), paint.to_light, picture::light_shift(levels.cells())) {}
+      ground(ground_of(field, scene_look, terrain)),
+      light(light_matter(field, ground.drawn(), look), paint.to_light, picture::light_shift(levels.cells())) {}
 
 }  // namespace voxmelt::render

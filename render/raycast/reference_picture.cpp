@@ -6,6 +6,7 @@
 
 #include "render/rule/antialias.h"
 #include "render/rule/crossing.h"
+#include "render/rule/nearer.h"
 #include "render/rule/normal.h"
 #include "render/rule/tone.h"
 
@@ -25,21 +26,34 @@ class Painter {
   // Through a place of the picture: pressed light.
   Color light(std::int64_t across, std::int64_t down) const {
     const picture::Ray ray = picture::ray_through(view_, across, down, spacing_);
-    const picture::Crossing crossing = picture::first_crossing(scene_.levels, scene_.levels.cells(), ray);
-    if (!crossing.found) return scene_.look.background;
-    const picture::Vector to_eye = picture::unit_of(picture::Vector{} - ray.step);
-    picture::Vector normal = picture::normal_at(scene_.levels, crossing.position);
-    if (crossing.sample == 0) normal = to_eye;
-    const picture::Light light =
-        picture::light_at(scene_.light, scene_.light.count(), scene_.light.shift(),
-                          picture::before_surface(crossing.position, normal, scene_.light.shift()));
-    picture::Matter matter = picture::matter_at(scene_.matter, crossing.position);
-    matter.obstacle =
-        picture::matter_at(scene_.matter, crossing.position + normal * (std::int64_t{1} << 5)).obstacle;
-    return pressed(picture::matter_color(scene_.paint, normal, to_eye, light, matter));
+    const picture::Crossing matter = picture::first_crossing(scene_.levels, scene_.levels.cells(), ray);
+    const picture::GroundCrossing ground = scene_.ground.find(ray);
+    if (picture::ground_first(ground, matter)) return pressed(ground_color(ray, ground));
+    if (matter.found) return pressed(matter_color(ray, matter));
+    return scene_.look.background;
   }
 
  private:
+  Color ground_color(const picture::Ray& ray, const picture::GroundCrossing& crossing) const {
+    const GroundMap::Paint paint = scene_.ground.paint(crossing);
+    const picture::Vector normal = crossing.face == picture::Face::none ? to_eye(ray) : paint.normal;
+    const Color color{static_cast<std::int32_t>(paint.color.x), static_cast<std::int32_t>(paint.color.y),
+                      static_cast<std::int32_t>(paint.color.z)};
+    return picture::ground_color(scene_.paint, normal, light_before(crossing.position, normal), color);
+  }
+  Color matter_color(const picture::Ray& ray, const picture::Crossing& crossing) const {
+    const picture::Vector eye = to_eye(ray);
+    const picture::Vector normal = crossing.sample == 0 ? eye : picture::normal_at(scene_.levels, crossing.position);
+    picture::Matter matter = picture::matter_at(scene_.matter, crossing.position);
+    matter.obstacle =
+        picture::matter_at(scene_.matter, crossing.position + normal * (std::int64_t{1} << 5)).obstacle;
+    return picture::matter_color(scene_.paint, normal, eye, light_before(crossing.position, normal), matter);
+  }
+  picture::Light light_before(picture::Vector position, picture::Vector normal) const {
+    return picture::light_at(scene_.light, scene_.light.count(), scene_.light.shift(),
+                             picture::before_surface(position, normal, scene_.light.shift()));
+  }
+  static picture::Vector to_eye(const picture::Ray& ray) { return picture::unit_of(picture::Vector{} - ray.step); }
   static Color pressed(Color color) {
     for (std::int32_t& c : color)
       c = kTone[static_cast<std::size_t>(std::clamp(c, 0, picture::kBrightest))];

@@ -35,23 +35,21 @@ VOXMELT_RULE std::int32_t passed(std::int32_t arrived, std::int32_t loss) {
   return (arrived * (256 - loss) + 128) >> 8;
 }
 
-// One axis of a sweep along the lamp's direction. The slice before is read `cell` further, between three
-// cells, by a quadratic B-spline. So shadows get softer with the distance from what casts them.
-struct Taps {
-  std::int32_t cell = 0;                  // of the middle one
-  std::array<std::int32_t, 3> weight{};  // of 256
+// A sweep along the lamp's direction follows a lattice of rays through the slices, one ray for each cell of the first
+// one. At slice s a ray lies s slopes further along an axis: so many cells, and a part of one.
+struct Shift {
+  std::int32_t cells = 0, part = 0;  // 0 <= part < 256
 };
 
-// The direction's component along the axis, over that along which is swept, at most 1, in 2^14.
-VOXMELT_RULE Taps taps_of(std::int32_t slope) {
-  const std::int32_t cell = (slope + kLength / 2) >> kNormalBits;
-  const std::int32_t f = slope - cell * kLength;  // -1/2 .. 1/2
-  const auto weight = [](std::int32_t g) { return (g * g) >> 21; };  // 256 g^2 / 2
-  const std::int32_t below = weight(kLength / 2 - f), above = weight(kLength / 2 + f);
-  return {cell, {below, 256 - below - above, above}};
+// `slope`: the direction's component along the axis over that along which is swept, at most 1, in 2^14.
+VOXMELT_RULE Shift shift_at(std::int64_t slice, std::int32_t slope) {
+  const std::int64_t way = (slice * slope) >> (kNormalBits - 8);
+  return {static_cast<std::int32_t>(way >> 8), static_cast<std::int32_t>(way & 255)};
 }
-VOXMELT_RULE std::int32_t tapped(std::int32_t below, std::int32_t here, std::int32_t above, const Taps& taps) {
-  return (below * taps.weight[0] + here * taps.weight[1] + above * taps.weight[2] + 128) >> 8;
+
+// One axis: rays get a little softer from slice to slice, so shadows do with the distance from what casts them.
+VOXMELT_RULE std::int32_t softer(std::int32_t before, std::int32_t here, std::int32_t behind) {
+  return (before + 30 * here + behind + 16) >> 5;
 }
 
 // One axis of a sweep along an axis of the grid: a wide cone.

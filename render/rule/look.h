@@ -45,7 +45,7 @@ VOXMELT_RULE Color mixed(Color a, Color b, std::int32_t share) {
 }
 
 // 0 below `low`, kLight above `high`, and 3 t^2 - 2 t^3 between.
-VOXMELT_RULE std::int32_t smooth_step(std::int32_t low, std::int32_t high, std::int32_t at) {
+VOXMELT_RULE std::int32_t smooth_light(std::int32_t low, std::int32_t high, std::int32_t at) {
   const std::int64_t t =
       std::clamp<std::int64_t>(floor_divided(std::int64_t{at - low} * kLight, high - low), 0, kLight);
   return static_cast<std::int32_t>((t * t * (3 * kLight - 2 * t)) >> (2 * kLightBits));

@@ -48,13 +48,48 @@ VOXMELT_RULE Vector unit(Vector a) {
   return {rounded(a.x * scale, 16), rounded(a.y * scale, 16), rounded(a.z * scale, 16)};
 }
 
-// Out of the matter: the differences of samples half a cell before and behind.
+// Along an axis: the cell in which a position lies, and the weights of it and its neighbours in a quadratic B-spline,
+// whose blur is the same everywhere. Linear interpolation has none at the middle of a cell, which shows as ripples.
+struct Spline {
+  std::int64_t cell = 0;
+  std::array<std::int32_t, 3> value{}, slope{};  // in 256ths; the slope by the way towards larger positions
+};
+
+VOXMELT_RULE Spline spline_of(std::int64_t position) {
+  const std::int64_t shifted = position + kCell / (2 * kWeights);
+  const auto u = static_cast<std::int32_t>((shifted >> (kPositionBits - kWeightBits)) & (kWeights - 1));
+  const std::int32_t before = kWeights - u, behind = u;  // 1/2 - f and 1/2 + f, where f is the way from the middle
+  const std::int32_t low = (before * before) >> 9, high = (behind * behind) >> 9;
+  return {shifted >> kPositionBits, {low, kWeights - low - high, high}, {-before, before - behind, behind}};
+}
+
+// Three numbers with weights, divided by 2^8 or 2^9.
+VOXMELT_RULE std::int32_t splined(const std::array<std::int32_t, 3>& of, const std::array<std::int32_t, 3>& weight,
+                                  int bits) {
+  return (of[0] * weight[0] + of[1] * weight[1] + of[2] * weight[2] + (1 << (bits - 1))) >> bits;
+}
+
+// Out of the matter: against the slope of the spline through 27 levels, along x, then y, then z.
 template <class Levels>
 VOXMELT_RULE Vector normal_at(const Levels& levels, Vector position) {
-  const auto fall = [&](Vector half) -> std::int64_t {
-    return (sample(levels, position - half) - sample(levels, position + half)) >> 1;
-  };
-  return unit({fall({kCell / 2, 0, 0}), fall({0, kCell / 2, 0}), fall({0, 0, kCell / 2})});
+  using Three = std::array<std::int32_t, 3>;
+  const Spline x = spline_of(position.x), y = spline_of(position.y), z = spline_of(position.z);
+  Three slope_x{}, slope_y{}, value{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    Three slopes{}, values{};
+    for (std::size_t j = 0; j < 3; ++j) {
+      Three row{};
+      for (std::size_t i = 0; i < 3; ++i)
+        row[i] = levels(x.cell + static_cast<std::int64_t>(i) - 1, y.cell + static_cast<std::int64_t>(j) - 1,
+                        z.cell + static_cast<std::int64_t>(k) - 1);
+      slopes[j] = splined(row, x.slope, 9);
+      values[j] = splined(row, x.value, 8);
+    }
+    slope_x[k] = splined(slopes, y.value, 8);
+    slope_y[k] = splined(values, y.slope, 9);
+    value[k] = splined(values, y.value, 8);
+  }
+  return unit(Vector{} - Vector{splined(slope_x, z.value, 8), splined(slope_y, z.value, 8), splined(value, z.slope, 9)});
 }
 
 }  // namespace voxmelt::picture

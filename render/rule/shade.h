@@ -27,7 +27,7 @@ struct Paint {
 };
 
 inline constexpr std::int32_t kStripHigh = 3973;      // 0.97
-inline constexpr Color kGlowLight{4096, 1311, 246};   // that glowing liquid throws on what is around it
+inline constexpr Color kGlowLight{6144, 1966, 369};   // that glowing liquid throws on what is around it
 inline constexpr Color kMirroredLamp{9830, 9626, 9216}, kMirroredStrip{2867, 3072, 3482};
 
 VOXMELT_RULE Paint paint_of(const Look& look, const Lamp& lamp) {
@@ -73,7 +73,7 @@ VOXMELT_RULE Color arriving(const Paint& paint, Vector normal, const Light& ligh
   for (std::size_t c = 0; c < 3; ++c) {
     const std::int32_t ambient =
         paint.from_below[c] + (((paint.from_above[c] - paint.from_below[c]) * up) >> (kNormalBits + 1));
-    sum[c] = ((ambient * open) >> 8) + ((paint.lamp[c] * lit) >> kNormalBits) + ((kGlowLight[c] * glow) >> 7);
+    sum[c] = ((ambient * open) >> 8) + ((paint.lamp[c] * lit) >> kNormalBits) + ((kGlowLight[c] * glow) >> 5);
   }
   return sum;
 }
@@ -85,7 +85,7 @@ VOXMELT_RULE Color mirrored(const Paint& paint, Vector direction) {
   const Color around{static_cast<std::int32_t>(packed & 2047) << 1, static_cast<std::int32_t>((packed >> 11) & 2047) << 1,
                      static_cast<std::int32_t>(packed >> 22) << 2};
   const auto step = [&](Vector light, std::int32_t low, std::int32_t high) {
-    return smooth_step(low, high, cosine(direction, light) >> 2);
+    return smooth_light(low, high, cosine(direction, light) >> 2);
   };
   const std::int32_t lamp = step(paint.to_light, paint.lamp_low, paint.lamp_high);
   const std::int32_t strip = step(paint.to_strip, paint.strip_low, kStripHigh);
@@ -123,7 +123,7 @@ VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye
   const std::int32_t shine = std::clamp(cosine(normal, halfway), 0, kLength);
   std::int32_t peak = highlight_at(paint.highlight, shine);
   if (obstacle > 0) peak = mixed(peak, highlight_at(paint.dull_highlight, shine), obstacle);
-  peak = (((peak * smooth_step(0, 1024, facing >> 2)) >> kLightBits) * lamp) >> 8;
+  peak = (((peak * smooth_light(0, 1024, facing >> 2)) >> kLightBits) * lamp) >> 8;
 
   const std::int32_t eye = std::clamp(cosine(normal, to_eye), 0, kLength);
   const std::int32_t away = kLength - eye;

@@ -50,10 +50,10 @@ VOXMELT_RULE Surroundings surroundings_of(const Look& look) {
   for (std::int32_t i = 0; i <= 2048; ++i) {
     const std::int32_t height = 4 * (i - 1024);  // in kLight
     const Color sky =
-        mixed(kHorizon, kZenith, smooth_step(-times(819, blur), 3072 + times(1229, blur), height));
-    const Color below = mixed(times(look.ground, 3072), times(look.ground, 1024), smooth_step(0, 2867, -height));
+        mixed(kHorizon, kZenith, smooth_light(-times(819, blur), 3072 + times(1229, blur), height));
+    const Color below = mixed(times(look.ground, 3072), times(look.ground, 1024), smooth_light(0, 2867, -height));
     const std::int32_t edge = times(1229, blur);
-    const Color seen = mixed(below, sky, smooth_step(-246 - edge, 246 + edge, height));
+    const Color seen = mixed(below, sky, smooth_light(-246 - edge, 246 + edge, height));
     const auto part = [](std::int32_t value, std::int32_t most) {
       return static_cast<std::uint32_t>(std::clamp((value * most + kLight / 2) >> kLightBits, 0, most));
     };

@@ -1,0 +1,76 @@
+// The ground of a scene as integers: heights, and the texture of rock
+// (docs/picture-ground.md).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
+#include "render/rule/ground.h"
+#include "render/rule/rock.h"
+
+namespace voxmelt::render {
+
+// In 1 / picture::kHeight of a cell, z outermost.
+using ColumnHeights = std::vector<std::int32_t>;
+ColumnHeights ground_heights(const scene::Terrain& terrain);
+
+class GroundMap {
+ public:
+  // A grid without ground.
+  GroundMap() = default;
+  // `cells` is the size of the grid, `passes` those of the field's low-pass filter. Heights outside of the
+  // grid are cut off at it.
+  GroundMap(picture::Vector cells, ColumnHeights heights, int passes, const scene::Vec3& color,
+            bool textured);
+
+  // Lowers columns under matter; `wetness` is 0 .. kHeight, or empty where all is dry. Costs little where it
+  // is that of the call before. Tells whether anything changed.
+  bool lower(const ColumnHeights& wetness);
+
+  // That of picture::first_ground, with samples left out.
+  picture::GroundCrossing find(const picture::Ray& ray) const;
+
+  struct Paint {
+    picture::Vector color;   // picture::kColor is 1
+    picture::Vector normal;  // with the relief of rock
+  };
+  Paint paint(const picture::GroundCrossing& crossing) const;
+
+  // The parts, for faster programs.
+  bool empty() const { return highest_ <= 0; }
+  picture::Vector cells() const { return cells_; }
+  const ColumnHeights& drawn() const { return drawn_; }  // that rays meet
+  const ColumnHeights& bare() const { return bare_; }    // before the lowering: for normals
+  std::int32_t highest() const { return highest_; }      // of the bare columns
+  // No two columns side by side differ by more, along x and z.
+  picture::Vector slopes() const { return slopes_; }
+  const std::vector<picture::Texel>& texels() const { return texels_; }  // none without texture
+  int fineness() const { return fineness_; }
+
+ private:
+  void find_slopes();
+  void make_texels();
+  void make_bands();
+  picture::Vector cut(const picture::GroundCrossing& crossing) const;
+  std::size_t column(std::int64_t x, std::int64_t z) const {
+    return static_cast<std::size_t>(z * cells_.x + x);
+  }
+
+  picture::Vector cells_;
+  picture::Vector color_;
+  int passes_ = 0;
+  ColumnHeights softened_;  // filtered, before the pre-filter
+  ColumnHeights bare_, drawn_, wetness_;
+  std::int32_t highest_ = 0;
+  picture::Vector slopes_;
+  int fineness_ = 0;
+  std::vector<picture::Texel> texels_;
+  std::vector<std::int16_t> bands_;                 // from below, quarters of a cell
+  std::array<std::vector<std::int32_t>, 4> bends_;  // of the columns of low_x, high_x, low_z, high_z
+};
+
+}  // namespace voxmelt::render

@@ -1,0 +1,144 @@
+// Where a ray first meets the ground, and the ground's normal there (docs/picture-ground.md, sections 3 to
+// 5).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "render/rule/crossing.h"
+#include "render/rule/fixed_point.h"
+#include "render/rule/heights.h"
+#include "render/rule/normal.h"
+#include "render/rule/ray.h"
+
+namespace voxmelt::picture {
+
+// How far a position lies above the ground of its column, in 1 / kHeight; in the ground it is below 0.
+template <class Heights>
+VOXMELT_RULE std::int64_t above_ground(const Heights& heights, Vector cells, Vector p) {
+  return (p.y >> (kPositionBits - kHeightBits)) - height_at(heights, cells, p.x, p.z);
+}
+
+// The ground is all that lies below the heights, within the grid's sides and above y = 0.
+template <class Heights>
+VOXMELT_RULE bool in_ground(const Heights& heights, Vector cells, Vector p) {
+  return p.x >= 0 && p.x < cells.x * kCell && p.z >= 0 && p.z < cells.z * kCell && p.y >= 0 &&
+         above_ground(heights, cells, p) < 0;
+}
+
+// Through which a ray enters. A ray that starts in the ground enters through none.
+enum class Face : std::uint8_t { none, low_x, high_x, low_z, high_z, under, top };
+
+// The face between a position outside of the ground and one inside that is near.
+VOXMELT_RULE Face face_before(Vector cells, Vector outside) {
+  if (outside.x < 0) return Face::low_x;
+  if (outside.x >= cells.x * kCell) return Face::high_x;
+  if (outside.z < 0) return Face::low_z;
+  if (outside.z >= cells.z * kCell) return Face::high_z;
+  return outside.y < 0 ? Face::under : Face::top;
+}
+
+// Places on a ray are in parts of its steps: sample k lies at part k kParts.
+inline constexpr int kPartBits = 8;
+VOXMELT_RULE Vector position_at(const Ray& ray, std::int64_t part) {
+  return ray.start + ((ray.step * part) >> kPartBits);
+}
+
+struct GroundCrossing {
+  bool found = false;
+  std::int64_t part = 0;  // the place on the ray, in the ground; the part before it lies outside
+  Vector position;
+  Face face = Face::none;
+};
+
+// The parts of a ray in the box around the ground. `highest` is that of the columns, before the lowering.
+VOXMELT_RULE Samples ground_parts(Vector cells, std::int32_t highest, const Ray& ray) {
+  const Vector high{cells.x * kCell, std::int64_t{highest} << (kPositionBits - kHeightBits), cells.z * kCell};
+  return samples_in({ray.start * kParts, ray.step}, {}, high * kParts);
+}
+
+// `inside` is in the ground and `outside` before it is not. Bisections find neighbours of which that holds.
+template <class Heights>
+VOXMELT_RULE GroundCrossing ground_between(const Heights& heights, Vector cells, const Ray& ray,
+                                           std::int64_t outside, std::int64_t inside) {
+  while (inside - outside > 1) {
+    const std::int64_t middle = (outside + inside) >> 1;
+    if (in_ground(heights, cells, position_at(ray, middle))) {
+      inside = middle;
+    } else {
+      outside = middle;
+    }
+  }
+  const Face face = inside == 0 ? Face::none : face_before(cells, position_at(ray, outside));
+  return {true, inside, position_at(ray, inside), face};
+}
+
+// Three kinds of places are looked at, in their order on the ray: where it enters the box around the ground,
+// each sample, and where it leaves the box. So edges of the slab have no teeth.
+//
+// leap(above) may say how many samples behind a place so far above the ground are outside as well; 0 leaves
+// out none.
+template <class Heights, class Leap>
+VOXMELT_RULE GroundCrossing first_ground(const Heights& heights, Vector cells, std::int32_t highest,
+                                         const Ray& ray, const Leap& leap) {
+  const Samples in = ground_parts(cells, highest, ray);
+  if (in.first > in.last) return {};
+  for (std::int64_t part = in.first;;) {
+    const std::int64_t above = above_ground(heights, cells, position_at(ray, part));
+    if (above < 0) {
+      const std::int64_t before = ((part - 1) >> kPartBits) * kParts;
+      return ground_between(heights, cells, ray, part == in.first ? part - 1 : std::max(in.first, before),
+                            part);
+    }
+    if (part == in.last) return {};
+    part = std::min(((part >> kPartBits) + leap(above) + 1) * kParts, in.last);
+  }
+}
+
+template <class Heights>
+VOXMELT_RULE GroundCrossing first_ground(const Heights& heights, Vector cells, std::int32_t highest,
+                                         const Ray& ray) {
+  return first_ground(heights, cells, highest, ray, [](std::int64_t) { return std::int64_t{0}; });
+}
+
+// The normal of a height field of such falls to a cell, in kHeight, along x and z.
+VOXMELT_RULE Vector slope_normal(std::int64_t fall_x, std::int64_t fall_z) {
+  const Vector a{fall_x, kHeight, fall_z};
+  return unit(a >> std::max(0, bits_of(largest(a)) - 14));
+}
+
+// The slab's upper edges are rounded, over half a cell, so that they catch the light. This is how much the
+// fall of the top grows there.
+VOXMELT_RULE std::int64_t rim(std::int64_t position, std::int64_t cells) {
+  const auto near = [](std::int64_t distance) {
+    return std::max<std::int64_t>(0, kCell / 2 - distance) >> (kPositionBits - kHeightBits - 1);
+  };
+  return near(cells * kCell - position) - near(position);
+}
+
+// Out of the ground. `heights` are those before the lowering: a film does not bend the light beside it.
+template <class Heights>
+VOXMELT_RULE Vector ground_normal(const Heights& heights, Vector cells, Vector position, Face face) {
+  const std::int64_t one = std::int64_t{1} << kNormalBits;
+  const std::int64_t x = position.x, z = position.z, half = kCell / 2;
+  const auto height = [&](std::int64_t px, std::int64_t pz) { return height_at(heights, cells, px, pz); };
+  switch (face) {
+    case Face::none:
+      return {};
+    case Face::low_x:
+      return {-one, 0, 0};
+    case Face::high_x:
+      return {one, 0, 0};
+    case Face::low_z:
+      return {0, 0, -one};
+    case Face::high_z:
+      return {0, 0, one};
+    case Face::under:
+      return {0, -one, 0};
+    default:
+      return slope_normal(height(x - half, z) - height(x + half, z) + rim(x, cells.x),
+                          height(x, z - half) - height(x, z + half) + rim(z, cells.z));
+  }
+}
+
+}  // namespace voxmelt::picture

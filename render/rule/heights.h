@@ -1,0 +1,47 @@
+// The ground's heights, from columns to any place (docs/picture-ground.md, sections 1 and 2).
+//
+// A height is in 1 / kHeight of a cell, at the middle of its column. Outside the grid the nearest column
+// repeats itself.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "render/rule/fixed_point.h"
+#include "render/rule/sample.h"
+
+namespace voxmelt::picture {
+
+inline constexpr int kHeightBits = 12;
+inline constexpr std::int32_t kHeight = 1 << kHeightBits;
+
+// One axis of a pass of the low-pass filter.
+VOXMELT_RULE std::int32_t softened(std::int32_t before, std::int32_t here, std::int32_t after) {
+  return (before + 2 * here + after + 2) >> 2;
+}
+
+// A column under matter is lower by half a cell, or its ground would stick out of a thin film. `wetness` is
+// 0 .. kHeight.
+VOXMELT_RULE std::int32_t lowered(std::int32_t height, std::int32_t wetness) {
+  return height - ((wetness + 1) >> 1);
+}
+
+// The bilinear interpolation of a table of columns x rows at two places. at(x, z) gives an entry.
+template <class At>
+VOXMELT_RULE std::int32_t bilinear(const At& at, std::int64_t columns, std::int64_t rows, Place x, Place z) {
+  const auto within = [](std::int64_t i, std::int64_t count) {
+    return std::clamp<std::int64_t>(i, 0, count - 1);
+  };
+  const std::int64_t left = within(x.cell, columns), right = within(x.cell + 1, columns);
+  const std::int64_t back = within(z.cell, rows), front = within(z.cell + 1, rows);
+  return blended(blended(at(left, back), at(right, back), x.weight),
+                 blended(at(left, front), at(right, front), x.weight), z.weight);
+}
+
+// Heights(x, z) gives the height of a column of the grid.
+template <class Heights>
+VOXMELT_RULE std::int32_t height_at(const Heights& heights, Vector cells, std::int64_t x, std::int64_t z) {
+  return bilinear(heights, cells.x, cells.z, place_of(x), place_of(z));
+}
+
+}  // namespace voxmelt::picture

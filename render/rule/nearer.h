@@ -1,0 +1,22 @@
+// Which of matter and ground a ray meets (docs/picture.md, section 9).
+#pragma once
+
+#include <cstdint>
+
+#include "render/rule/crossing.h"
+#include "render/rule/ground.h"
+
+namespace voxmelt::picture {
+
+// Matter that is cut at a side of the grid and the slab's side lie in one plane: there the slab wins, by half a
+// step.
+inline constexpr std::int64_t kSideFirst = kPlaces / 2;
+
+VOXMELT_RULE bool ground_first(const GroundCrossing& ground, const Crossing& matter) {
+  if (!ground.found || !matter.found) return ground.found;
+  const std::int64_t matter_place = (matter.sample - 1) * kPlaces + matter.part;
+  const std::int64_t first = ground.face == Face::top ? 0 : kSideFirst;
+  return ground.part * (kPlaces / kParts) <= matter_place + first;
+}
+
+}  // namespace voxmelt::picture
