@@ -136,9 +136,9 @@ TEST(GroundMap, TheVolcanoHasNoHole) {
     return lava.map.drawn()[static_cast<std::size_t>(z * lava.cells.x + x)];
   };
   const test::DenseGround dense(drawn, lava.cells);
-  for (const picture::View& view : {lava.view(290, 8, 200, 96, 72), lava.view(65, 12, 70, 96, 72)})
-    for (int p = 0; p < 96 * 72; ++p) {
-      const picture::Ray ray = picture::ray_through(view, p % 96 * 16 + 8, p / 96 * 16 + 8, 2);
+  for (const picture::View& view : {lava.view(290, 8, 200, 64, 48), lava.view(65, 12, 70, 64, 48)})
+    for (int p = 0; p < 64 * 48; ++p) {
+      const picture::Ray ray = picture::ray_through(view, p % 64 * 16 + 8, p / 64 * 16 + 8, 2);
       const char* fault = test::fault_of(dense, ray, lava.map.find(ray), 0.02);
       ASSERT_EQ(fault, nullptr) << fault << ", ray " << p;
     }

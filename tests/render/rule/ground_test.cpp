@@ -122,7 +122,8 @@ TEST(Ground, AnEdgeBetweenTwoSamplesIsMet) {
   EXPECT_FALSE(land.met_by({{-kCell * 26 / 100, y, kCell}, {q, -q, 0}}).found);
 }
 
-// A ray that goes in through the top and out through a side within one step.
+// A ray that goes in through the top and out through a side within one step: the worked ray of
+// docs/picture-ground.md, section 9.
 TEST(Ground, WhereARayLeavesIsLookedAt) {
   const Land land{{2, 8, 1}, {8 * kHeight, 4 * kHeight}};
   // Beyond x = 1.5 the ground is 4 cells high. The ray is 0.25 above it, and below it after 25/26 of a step.
@@ -132,7 +133,13 @@ TEST(Ground, WhereARayLeavesIsLookedAt) {
   const GroundCrossing got = land.met_by(ray);
   ASSERT_TRUE(got.found);
   EXPECT_EQ(got.face, Face::top);
-  EXPECT_NEAR(static_cast<double>(got.part), 256 * 25.0 / 26, 2);
+  EXPECT_EQ(got.part, 247);  // 25 / 26 of 256, rounded up
+  EXPECT_EQ(got.position, (Vector{2091081, 4193403, kHalf}));
+  const Samples in = ground_parts(land.cells, land.highest(), ray);
+  EXPECT_EQ(in.first, 0);
+  EXPECT_EQ(in.last, 252);
+  EXPECT_EQ(position_at(ray, 252), (Vector{2096201, 4188078, kHalf}));
+  EXPECT_EQ(place_of(ray.start.x).weight, 65);
 }
 
 TEST(Ground, ARayThatStartsInsideIsThere) {
