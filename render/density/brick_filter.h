@@ -4,11 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "render/density/cell_fields.h"
 #include "render/density/low_pass.h"
 
 namespace voxmelt::render {
+
+// A byte per brick: the channels that must be filtered in it.
+using BrickFlags = std::vector<std::uint8_t>;
 
 class BrickFilter {
  public:

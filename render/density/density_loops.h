@@ -48,51 +48,131 @@ struct DensityLoops {
       for (int lane = 0; lane < count; ++lane) to[lane] = cells[lane];
   }
 
-  // Rows of `sums` begin every `wide` numbers. There is one group more than needed, for the sums along x.
+  // Some cells of a row, and the other lanes 0.
+  [[gnu::always_inline]] static void store_some(const U16& from, std::uint16_t* cells, int count) {
+    if (count >= kGroup)
+      store(from, cells);
+    else
+      std::memcpy(cells, &from, sizeof(std::uint16_t) * static_cast<std::size_t>(count));
+  }
+
+  // What one channel of a brick becomes, row by row.
+  struct Taken {
+    U16 first{}, differs{}, changed{};
+    std::uint8_t y = 0, z = 0;
+    bool begun = false;
+
+    [[gnu::always_inline]] static bool any(const U16& lanes) {
+      std::uint64_t halves[2];
+      std::memcpy(halves, &lanes, sizeof halves);
+      return (halves[0] | halves[1]) != 0;
+    }
+    [[gnu::always_inline]] void take(const U16& fresh, std::uint16_t* kept, int count, int j, int k) {
+      U16 old;
+      load_some(old, kept, count);
+      if (!begun) first = U16{} + fresh[0], begun = true;
+      differs |= fresh ^ first;
+      const U16 change = fresh ^ old;
+      if (!any(change)) return;
+      store_some(fresh, kept, count);
+      changed |= change;
+      y = static_cast<std::uint8_t>(y | 1 << j);
+      z = static_cast<std::uint8_t>(z | 1 << k);
+    }
+    BrickPart part() const {
+      unsigned x = 0;
+      for (int lane = 0; lane < kGroup; ++lane) x |= (changed[lane] != 0 ? 1u : 0u) << lane;
+      return {static_cast<std::uint8_t>(x), y, z};
+    }
+    std::int32_t one(int count) const {
+      for (int lane = 0; lane < count; ++lane)
+        if (differs[lane] != 0) return -1;
+      return first[0];
+    }
+  };
+
+  [[gnu::always_inline]] static U16 lanes_of(std::uint64_t bits) {
+    const U16 own{1, 2, 4, 8, 16, 32, 64, 128};
+    return ((U16{} + static_cast<std::uint16_t>(bits & 0xff)) & own) == own;
+  }
+
+  static MatterFound matter(const MatterBrick& brick) {
+    Taken solid, liquid, heat;
+    for (int k = 0; k < brick.z; ++k)
+      for (int j = 0; j < brick.y; ++j) {
+        const auto row = [&](const auto& block) __attribute__((always_inline)) {
+          return block.cells + static_cast<std::size_t>(k) * block.slice +
+                 static_cast<std::size_t>(j) * block.row;
+        };
+        const std::size_t word =
+            static_cast<std::size_t>(k) * brick.mask_slice + static_cast<std::size_t>(j) * brick.mask_row;
+        const std::uint64_t solids = brick.solid[word] >> brick.shift,
+                            liquids = brick.liquid[word] >> brick.shift;
+        U16 hard{}, soft{}, warm{};
+        if (((solids | liquids) & 0xff) != 0) {
+          U16 amount;
+          load(amount, row(brick.amount));
+          amount = amount > 4096 ? U16{} + 4096 : amount;
+          const U16 value = (amount << 4) - ((amount + 15) >> 4);  // 255 a / 16, rounded down
+          hard = value & lanes_of(solids);
+          soft = value & lanes_of(liquids);
+        }
+        solid.take(hard, row(brick.to_solid), brick.x, j, k);
+        liquid.take(soft, row(brick.to_liquid), brick.x, j, k);
+        if (brick.to_heat.cells == nullptr) continue;
+        if ((liquids & 0xff) != 0) {
+          const std::uint16_t* temperatures = row(brick.heat);
+          U32 wide, temperature;
+          wide = __builtin_convertvector(soft, U32);
+          load_as(temperature, temperatures);
+          warm = __builtin_convertvector(wide * temperature >> 16, U16);
+        }
+        heat.take(warm, row(brick.to_heat), brick.x, j, k);
+      }
+    return {solid.part(),         liquid.part(),         heat.part(),
+            solid.one(brick.x),   liquid.one(brick.x),   heat.one(brick.x)};
+  }
+
+  // (a + 2 b + c) / 4 to nearest, halves upwards. It does not leave 16 bits: the mean of a and c is rounded
+  // down, and the mean of that and b up.
+  [[gnu::always_inline]] static void average(const std::uint16_t* a, const std::uint16_t* b,
+                                             const std::uint16_t* c, int count, std::uint16_t* to) {
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) {
+      const auto outer = static_cast<std::uint16_t>((a[i] & c[i]) + ((a[i] ^ c[i]) >> 1));
+      to[i] = static_cast<std::uint16_t>((outer + b[i] + 1) >> 1);
+    }
+  }
+
+  // Along z into one half of `room`, from there along y into the other half, from there along x.
   static void low_pass(Block<const std::uint16_t> from, Block<std::uint16_t> to, int x, int y, int z,
-                       std::uint32_t* sums) {
-    const int groups = (x + 2 + kGroup - 1) / kGroup, wide = (groups + 1) * kGroup;
-    std::uint32_t* const along_yz = sums + static_cast<std::ptrdiff_t>(wide) * (y + 2);  // one row
+                       std::uint16_t* room) {
+    const int wide = (x + 2 + kLanes - 1) / kLanes * kLanes, own = (x + kLanes - 1) / kLanes * kLanes;
+    const auto step = static_cast<std::size_t>(wide + kLanes);
+    std::uint16_t* const other = room + step * static_cast<std::size_t>(y + 2);
     for (int k = 0; k < z; ++k) {
       for (int j = 0; j < y + 2; ++j) {
         const std::uint16_t* row =
             from.cells + static_cast<std::size_t>(k) * from.slice + static_cast<std::size_t>(j) * from.row;
-        std::uint32_t* sum = sums + static_cast<std::ptrdiff_t>(j) * wide;
-        for (int i = 0; i < groups * kGroup; i += kGroup) {
-          U32 a, b, c;
-          load_as(a, row + i);
-          load_as(b, row + from.slice + i);
-          load_as(c, row + 2 * from.slice + i);
-          store(a + b + b + c, sum + i);
-        }
+        average(row, row + from.slice, row + 2 * from.slice, wide, room + static_cast<std::size_t>(j) * step);
       }
       for (int j = 0; j < y; ++j) {
-        const std::uint32_t* sum = sums + static_cast<std::ptrdiff_t>(j) * wide;
-        for (int i = 0; i < groups * kGroup; i += kGroup) {
-          U32 a, b, c;
-          load(a, sum + i);
-          load(b, sum + wide + i);
-          load(c, sum + 2 * wide + i);
-          store(a + b + b + c, along_yz + i);
-        }
-        std::uint16_t* row =
-            to.cells + static_cast<std::size_t>(k) * to.slice + static_cast<std::size_t>(j) * to.row;
-        for (int i = 0; i < x; i += kGroup) {
-          U32 a, b, c;
-          load(a, along_yz + i);
-          load(b, along_yz + i + 1);
-          load(c, along_yz + i + 2);
-          store(__builtin_convertvector((a + b + b + c + 32) >> 6, U16), row + i);
-        }
+        const std::uint16_t* row = room + static_cast<std::size_t>(j) * step;
+        average(row, row + step, row + 2 * step, wide, other + static_cast<std::size_t>(j) * step);
+      }
+      for (int j = 0; j < y; ++j) {
+        const std::uint16_t* row = other + static_cast<std::size_t>(j) * step;
+        average(row, row + 1, row + 2, own,
+                to.cells + static_cast<std::size_t>(k) * to.slice + static_cast<std::size_t>(j) * to.row);
       }
     }
   }
 
   // Directly above a solid, the liquid's share is about 0.35 with a film of half a cell, and 0.9 with one of
-  // two cells.
+  // two cells. The quotient is below 2^7 and its numerator below 2^23: in single precision, rounded down, it
+  // is exact.
   static void weights(const std::uint16_t* liquid, const std::uint16_t* solid, const std::uint16_t* obstacle,
                       int count, std::uint16_t* weights) {
-    constexpr float kFrom = 0.4f, kTo = 0.8f;
     for (int i = 0; i < count; i += kGroup) {
       U16 cells;
       I32 soft, hard, other;
@@ -102,14 +182,14 @@ struct DensityLoops {
       hard = __builtin_convertvector(cells, I32);
       load_some(cells, obstacle == nullptr ? nullptr : obstacle + i, count - i);
       other = __builtin_convertvector(cells, I32);
-      I32 all = soft + hard + other;
-      all = all < 1 ? I32{} + 1 : all;
-      const F32 share = __builtin_convertvector(soft, F32) / __builtin_convertvector(all, F32);
-      F32 t = (share - kFrom) / (kTo - kFrom);
-      t = t < 0.0f ? F32{} : t;
-      t = t > 1.0f ? F32{} + 1.0f : t;
-      const F32 smooth = t * t * (3 - 2 * t);
-      store(__builtin_convertvector(__builtin_convertvector(256 * smooth, I32), U16), weights + i);
+      const I32 all = (soft + hard + other + 3) >> 2;
+      I32 over = 5 * ((soft + 3) >> 2) - 2 * all;
+      over = over < 0 ? I32{} : over;
+      over = over > 2 * all ? 2 * all : over;
+      const I32 divisor = all < 1 ? I32{} + 1 : all;
+      const I32 t = __builtin_convertvector(
+          __builtin_convertvector(64 * over, F32) / __builtin_convertvector(divisor, F32), I32);
+      store(__builtin_convertvector(t * t * (384 - 2 * t) >> 13, U16), weights + i);
     }
   }
 
@@ -169,6 +249,30 @@ struct DensityLoops {
     sum += 0.125f * __builtin_shufflevector(values, values, 1, 3, 5, 7);
   }
 
+  // How much of a difference between neighbours counts: all up to one cell, nothing from two.
+  [[gnu::always_inline]] static std::int32_t share(std::int32_t difference) {
+    const std::int32_t size = (difference < 0 ? -difference : difference) >> 4;
+    const std::int32_t left = 8192 - size;
+    return left < 0 ? 0 : left > 4096 ? 4096 : left;
+  }
+  // In 32 bits: where a share is not 0 both differences are below 2^17.
+  [[gnu::always_inline]] static std::int32_t bend(std::int32_t before, std::int32_t here, std::int32_t after) {
+    const std::int32_t down = before - here, up = after - here;
+    const std::int32_t one = share(down), two = share(up);
+    return (down + up) * (one < two ? one : two) >> 12;
+  }
+  static void smooth_levels(const LevelRows& from, int count, std::int32_t* to) {
+    const std::int32_t *low = from.low, *mid = from.here, *high = from.high;
+#pragma GCC ivdep
+    for (int x = 0; x < count; ++x) {
+      const std::int32_t here = mid[x];
+      const std::int32_t straight = bend(mid[x - 1], here, mid[x + 1]) + bend(low[x], here, high[x]);
+      const std::int32_t diagonal =
+          bend(low[x - 1], here, high[x + 1]) + bend(high[x - 1], here, low[x + 1]);
+      to[x] = here + ((2 * straight + diagonal) >> 4);
+    }
+  }
+
   static void shrink(const ShownRow* from, int rows, int count, const float* emission, Blend* to) {
     constexpr float kUnit = 1.0f / static_cast<float>(kFull);
     F32x4 matter{}, liquid{}, heat{}, glow{};
@@ -212,7 +316,8 @@ struct DensityLoops {
 template <class Arch>
 Loops loops_for() {
   using Of = DensityLoops<Arch>;
-  return {Of::low_pass, Of::weights, Of::mix, Of::range, Of::shrink};
+  return {Of::matter, Of::low_pass,      Of::weights, Of::mix,
+          Of::range,  Of::smooth_levels, Of::shrink};
 }
 
 }  // namespace voxmelt::render
