@@ -16,6 +16,20 @@ std::uint16_t intensity_of(std::int32_t amount) {
   return static_cast<std::uint16_t>(std::clamp(amount, 0, kOne) * kFull / kOne);
 }
 
+// The value that all cells of the box have, or kMixed.
+std::int32_t one_value(const state::Grid& grid, const CellBox& box, const Values<std::uint16_t>& values) {
+  const std::uint16_t first = values[grid.index(box.low.x, box.low.y, box.low.z)];
+  bool same = true;
+  for_rows(grid, box, [&](std::size_t at, const state::Grid&, int cells) {
+    if (!same) return;
+    unsigned differs = 0;
+    for (int x = 0; x < cells; ++x)
+      differs |= static_cast<unsigned>(values.data()[at + static_cast<std::size_t>(x)] ^ first);
+    same = differs == 0;
+  });
+  return same ? first : CellFields::kMixed;
+}
+
 }  // namespace
 
 void BrickWriter::write_matter(const state::Grid& brick) {
@@ -33,7 +47,7 @@ void BrickWriter::write_matter(const state::Grid& brick) {
     return Block<const std::uint16_t>{values.data() + cell, layout.row(), layout.slice()};
   };
   const std::size_t words = volume_.solid.row_words();
-  MatterBrick from{box.high.x - box.low.x,
+  const MatterBrick from{box.high.x - box.low.x,
                    box.high.y - box.low.y,
                    box.high.z - box.low.z,
                    volume_.solid.row(box.low.y, box.low.z).data() + word,
@@ -45,35 +59,38 @@ void BrickWriter::write_matter(const state::Grid& brick) {
                    field(volume_.heat),
                    kept(fields_.solid),
                    kept(fields_.liquid),
-                   kept(fields_.heat)};
-  if (!heat_) from.to_heat.cells = nullptr;
+                   kept(fields_.heat),
+                   fields_.uniform(kSolid, index) != 0,
+                   fields_.uniform(kLiquid, index) != 0,
+                   fields_.uniform(kHeat, index) != 0,
+                   heat_};
   const MatterFound found = loops().matter(from);
 
   BrickChange& change = fields_.changes_[index];
-  const auto note = [&](Channel channel, const BrickPart& part, std::int32_t one, BrickPart& in) {
+  const auto note = [&](Channel channel, const BrickPart& part, BrickPart& in) {
     if (!part.any()) return;
     change.channels |= flag_of(channel);
-    fields_.uniform_[channel][index] = one;
+    fields_.uniform_[channel][index] = one_value(grid, box, *fields_.all()[channel]);
     in.add(part);
   };
-  note(kSolid, found.solid, found.one_solid, change.matter);
-  note(kLiquid, found.liquid, found.one_liquid, change.matter);
-  if (heat_) note(kHeat, found.heat, found.one_heat, change.heat);
+  note(kSolid, found.solid, change.matter);
+  note(kLiquid, found.liquid, change.matter);
+  note(kHeat, found.heat, change.heat);
 }
 
-bool BrickWriter::take_inert(const state::Grid& brick) {
+std::uint64_t BrickWriter::take_inert(const state::Grid& brick) {
   const CellBox box = cells_of(fields_.grid, brick);
   const auto word = static_cast<std::size_t>(brick.x) / 8;
-  const std::uint64_t mask = std::uint64_t{0xff} << brick.x % 8 * kBrickSide;
-  bool changed = false;
+  std::uint64_t differs = 0;
   for (int z = box.low.z; z < box.high.z; ++z)
     for (int y = box.low.y; y < box.high.y; ++y) {
-      const std::uint64_t differs = (volume_.inert.row(y, z)[word] ^ fields_.inert_.row(y, z)[word]) & mask;
-      if (differs == 0) continue;
-      fields_.inert_.row(y, z)[word] ^= differs;
-      changed = true;
+      const std::uint64_t now = volume_.inert.row(y, z)[word];
+      std::uint64_t& kept = fields_.inert_.row(y, z)[word];
+      if (now == kept) continue;
+      differs |= now ^ kept;
+      kept = now;
     }
-  return changed;
+  return differs;
 }
 
 unsigned BrickWriter::inert_bits(int y, int z) const {
@@ -149,8 +166,11 @@ void BrickWriter::fill_ground(const Plan& plan, int x, int z) {
 }
 
 void BrickWriter::move_puddle(const Plan& plan, int x, int z) {
-  const auto amount_at = [&](int y) {
-    return y < plan.floor ? kOne : (y < plan.end ? matter_amount(volume_, x, y, z) : std::int32_t{0});
+  const std::uint16_t* const amounts = volume_.amount.data() + volume_.at(x, 0, z).offset;
+  const std::size_t step = volume_.amount.layout().row();
+  const auto amount_at = [&](int y) -> std::int32_t {
+    if (y < plan.floor || y >= plan.end) return y < plan.floor ? kOne : 0;
+    return std::min<std::int32_t>(amounts[static_cast<std::size_t>(y) * step], kOne);
   };
   const std::int32_t part = std::abs(plan.shift);
   const int first = plan.shift < 0 ? plan.floor - 1 : plan.floor;
@@ -158,7 +178,7 @@ void BrickWriter::move_puddle(const Plan& plan, int x, int z) {
     std::uint16_t& to = at(intensity_, x, y, z);
     if (y == plan.end && to != 0) return;  // something else rests on the liquid
     const std::int32_t other = plan.shift < 0 ? amount_at(y + 1) : amount_at(y - 1);
-    to = intensity_of((amount_at(y) * (kOne - part) + other * part) / kOne);
+    to = intensity_of((amount_at(y) * (kOne - part) + other * part) >> 12);
   }
 }
 
@@ -167,11 +187,8 @@ void BrickWriter::take_over(int channel, Cells& fresh, std::size_t brick) {
   std::uint16_t* const kept = fields_.all()[c]->data();
   BrickPart part;
   std::array<std::uint16_t, kBrickSide> differs{};
-  std::uint16_t other = 0;
-  const std::uint16_t first = fresh[0];
   for_rows(fields_.grid, box_, [&](std::size_t i, const state::Grid& cell, int cells) {
     const std::uint16_t* row = &at(fresh, cell.x, cell.y, cell.z);
-    for (int x = 0; x < cells; ++x) other = static_cast<std::uint16_t>(other | (row[x] ^ first));
     if (std::memcmp(row, kept + i, sizeof(std::uint16_t) * static_cast<std::size_t>(cells)) == 0) return;
     for (int x = 0; x < cells; ++x) {
       std::uint16_t& old = kept[i + static_cast<std::size_t>(x)];
@@ -185,7 +202,7 @@ void BrickWriter::take_over(int channel, Cells& fresh, std::size_t brick) {
   if (part.y == 0) return;
   for (int x = 0; x < kBrickSide; ++x)
     part.x = static_cast<std::uint8_t>(part.x | (differs[static_cast<std::size_t>(x)] != 0 ? 1 << x : 0));
-  fields_.uniform_[c][brick] = other == 0 ? first : CellFields::kMixed;
+  fields_.uniform_[c][brick] = one_value(fields_.grid, box_, *fields_.all()[c]);
   fields_.changes_[brick].channels |= flag_of(channel);
   fields_.changes_[brick].matter.add(part);
 }

@@ -17,8 +17,9 @@ class BrickWriter {
 
   // The solid, liquid and heat of a brick.
   void write_matter(const state::Grid& brick);
-  // Takes over the inert cells; false: they are what they were.
-  bool take_inert(const state::Grid& brick);
+  // Takes over the inert cells of the word of 64 cells along x that holds the brick, on all of its rows.
+  // Returns in which places along x one has changed.
+  std::uint64_t take_inert(const state::Grid& brick);
   // Then, once its columns are known, obstacles and intensity.
   void write_intensity(const state::Grid& brick);
 

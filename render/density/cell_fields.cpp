@@ -34,7 +34,8 @@ void CellFields::update(const state::Volume& volume, const state::ChangedBricks:
   if (!news.everything && !other_heat && volume.changed.none_since(seen)) return;
 
   const bool all = other_heat || news.everything || volume.changed.all_since(seen);
-  const auto marked = [&](std::size_t brick) { return all || volume.changed.since(seen, brick); };
+  const auto part = wanted.heat ? state::ChangedBricks::kHeat : state::ChangedBricks::kMatter;
+  const auto marked = [&](std::size_t brick) { return all || volume.changed.since(part, seen, brick); };
   if (news.everything) terrain_ = fits(terrain, grid) ? terrain.height : std::vector<float>{};
   wanted_ = wanted;
   const std::size_t slice = static_cast<std::size_t>(bricks.x) * static_cast<std::size_t>(bricks.y);
@@ -43,18 +44,23 @@ void CellFields::update(const state::Volume& volume, const state::ChangedBricks:
   workers.run(bricks.z, [&](int bz) {
     BrickWriter writer(volume, *this, wanted.heat);
     std::size_t brick = static_cast<std::size_t>(bz) * slice;
-    for (int by = 0; by < bricks.y; ++by)
+    for (int by = 0; by < bricks.y; ++by) {
+      int word = -1;  // whose inert cells are known
       for (int bx = 0; bx < bricks.x; ++bx, ++brick) {
         if (!marked(brick)) continue;
+        if (word != bx / 8) {
+          word = bx / 8;
+          const std::uint64_t inert = writer.take_inert({bx, by, bz});
+          for (int i = 0; inert != 0 && i < 8; ++i)
+            if ((inert >> 8 * i & 0xff) != 0) news.look[columns_.brick_at(8 * word + i, bz)] = Columns::kInert;
+        }
         writer.write_matter({bx, by, bz});
         std::uint8_t& look = news.look[columns_.brick_at(bx, bz)];
-        const bool read = by * kBrickSide < columns_.read_to(columns_.brick_at(bx, bz));
-        if (writer.take_inert({bx, by, bz}))
-          look = Columns::kInert;
-        else if (look == Columns::kNothing && read &&
-                 (changes_[brick].matter.any() || !columns_.same_offsets(volume, {bx, by, bz})))
+        if (look == Columns::kNothing && by * kBrickSide < columns_.read_to(columns_.brick_at(bx, bz)) &&
+            (changes_[brick].matter.any() || !columns_.same_offsets(volume, {bx, by, bz})))
           look = Columns::kMatter;
       }
+    }
   });
 
   const std::vector<Extent>& another = columns_.update(volume, wanted.smooth, terrain, news, workers);

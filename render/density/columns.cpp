@@ -37,10 +37,9 @@ class Columns::Finder {
         const std::size_t c = columns_.at(x, z);
         const Stand before = columns_.stands_[c];
         if (inert) set_ground(x, z);
-        find_matter(x, z);
+        find_matter(x, z, found);
         const Stand& now = columns_.stands_[c];
         if (covered(before) != covered(now)) found.wet.add(x, z);
-        find_level(x, z, found);
         read_to = std::max(read_to, std::max(now.bed, now.end) + 1);
       }
     }
@@ -91,33 +90,41 @@ class Columns::Finder {
     stand.obstacle = stand.bed < volume_.grid.y && volume_.inert.test(x, stand.bed, z);
   }
 
-  void find_matter(int x, int z) {
+  // What rests on the bed, and the level of the liquid that rests on ground or obstacle under open air.
+  void find_matter(int x, int z, Found& found) {
     const std::size_t c = columns_.at(x, z);
     Stand& stand = columns_.stands_[c];
+    const int ny = volume_.grid.y;
+    const std::size_t word = static_cast<std::size_t>(x) / 64, words = volume_.liquid.row_words();
+    const std::uint64_t* const liquid = volume_.liquid.row(0, z).data() + word;
+    const std::uint64_t* const solid = volume_.solid.row(0, z).data() + word;
+    const std::uint16_t* const amounts = volume_.amount.data() + volume_.at(x, 0, z).offset;
+    const std::size_t step = volume_.amount.layout().row();
+    const auto is = [&](const std::uint64_t* plane, int y) {
+      return (plane[static_cast<std::size_t>(y) * words] >> x % 64 & 1) != 0;
+    };
+    const auto amount = [&](int y) {
+      return std::min<std::int32_t>(amounts[static_cast<std::size_t>(y) * step], kOne);
+    };
+    const bool wet = stand.bed < ny && is(liquid, stand.bed);
     stand.offset = offset(volume_, x, stand.bed, z);
-    const std::int32_t on_bed = matter_amount(volume_, x, stand.bed, z);
+    const std::int32_t on_bed = wet || (stand.bed < ny && is(solid, stand.bed)) ? amount(stand.bed) : 0;
     stand.film = stand.bed > 0 ? std::min(on_bed, kFilm) * kOne / kFilm : 0;
     columns_.ground_[c] = stand.bed * kOne + stand.offset;
     columns_.wetness_[c] = stand.film;
-    const bool wet = stand.bed < volume_.grid.y && volume_.liquid.test(x, stand.bed, z);
     stand.floor = wet ? stand.bed : stand.top;
-    stand.end = stand.floor;
-    while (stand.end < volume_.grid.y && volume_.liquid.test(x, stand.end, z)) ++stand.end;
-  }
+    std::int32_t depth = 0, level = kNoLevel;
+    int y = stand.floor;
+    for (; y < ny && is(liquid, y); ++y) depth += amount(y);
+    stand.end = y;
 
-  // The level of the liquid that rests on ground or obstacle under open air.
-  void find_level(int x, int z, Found& found) {
     PuddleLevels& levels = columns_.levels_;
     if (levels.level.empty()) return;
-    const std::size_t c = columns_.at(x, z);
-    const Stand& stand = columns_.stands_[c];
-    std::int32_t depth = 0, level = kNoLevel;
-    const int y = stand.end;
-    if (stand.floor > 0 && stand.end > stand.floor && y < volume_.grid.y && !volume_.inert.test(x, y, z) &&
-        matter_amount(volume_, x, y, z) == 0) {
-      for (int i = stand.floor; i < y; ++i) depth += matter_amount(volume_, x, i, z);
-      if (depth != 0) level = stand.floor * kOne + (stand.floor == stand.bed ? stand.offset : 0) + depth;
-    }
+    if (stand.floor == 0 || depth == 0 || y == ny || volume_.inert.test(x, y, z) ||
+        (is(solid, y) && amount(y) != 0))
+      depth = 0;
+    else
+      level = stand.floor * kOne + (stand.floor == stand.bed ? stand.offset : 0) + depth;
     if (levels.level[c] == level && levels.depth[c] == depth) return;
     levels.level[c] = level;
     levels.depth[c] = depth;
@@ -302,11 +309,6 @@ void Columns::find_plans(int bx, int bz) {
 bool fits(const scene::Terrain& terrain, const state::Grid& grid) {
   return terrain.x == grid.x && terrain.z == grid.z &&
          terrain.height.size() == static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.z);
-}
-
-std::int32_t matter_amount(const state::Volume& volume, int x, int y, int z) {
-  if (y >= volume.grid.y || !(volume.solid.test(x, y, z) || volume.liquid.test(x, y, z))) return 0;
-  return std::min<std::int32_t>(volume.amount[volume.at(x, y, z)], kOne);
 }
 
 }  // namespace voxmelt::render

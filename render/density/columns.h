@@ -115,7 +115,4 @@ class Columns {
 // Heights for every column of the grid: only then a terrain says what is ground. All zero: nothing is.
 bool fits(const scene::Terrain& terrain, const state::Grid& grid);
 
-// The amount of matter in a cell, 0..kOne; 0 above the grid.
-std::int32_t matter_amount(const state::Volume& volume, int x, int y, int z);
-
 }  // namespace voxmelt::render

@@ -16,6 +16,7 @@ namespace voxmelt::render {
 template <class Arch>
 struct DensityLoops {
   static constexpr int kGroup = 8;
+  static constexpr int kRows = kBrickSide * kBrickSide;
   using U16 [[gnu::vector_size(16)]] = std::uint16_t;
   using I32 [[gnu::vector_size(32)]] = std::int32_t;
   using U32 [[gnu::vector_size(32)]] = std::uint32_t;
@@ -56,81 +57,103 @@ struct DensityLoops {
       std::memcpy(cells, &from, sizeof(std::uint16_t) * static_cast<std::size_t>(count));
   }
 
-  // What one channel of a brick becomes, row by row.
-  struct Taken {
-    U16 first{}, differs{}, changed{};
-    std::uint8_t y = 0, z = 0;
-    bool begun = false;
-
-    [[gnu::always_inline]] static bool any(const U16& lanes) {
-      std::uint64_t halves[2];
-      std::memcpy(halves, &lanes, sizeof halves);
-      return (halves[0] | halves[1]) != 0;
-    }
-    [[gnu::always_inline]] void take(const U16& fresh, std::uint16_t* kept, int count, int j, int k) {
-      U16 old;
-      load_some(old, kept, count);
-      if (!begun) first = U16{} + fresh[0], begun = true;
-      differs |= fresh ^ first;
-      const U16 change = fresh ^ old;
-      if (!any(change)) return;
-      store_some(fresh, kept, count);
-      changed |= change;
-      y = static_cast<std::uint8_t>(y | 1 << j);
-      z = static_cast<std::uint8_t>(z | 1 << k);
-    }
-    BrickPart part() const {
-      unsigned x = 0;
-      for (int lane = 0; lane < kGroup; ++lane) x |= (changed[lane] != 0 ? 1u : 0u) << lane;
-      return {static_cast<std::uint8_t>(x), y, z};
-    }
-    std::int32_t one(int count) const {
-      for (int lane = 0; lane < count; ++lane)
-        if (differs[lane] != 0) return -1;
-      return first[0];
-    }
-  };
-
   [[gnu::always_inline]] static U16 lanes_of(std::uint64_t bits) {
     const U16 own{1, 2, 4, 8, 16, 32, 64, 128};
     return ((U16{} + static_cast<std::uint16_t>(bits & 0xff)) & own) == own;
   }
 
-  static MatterFound matter(const MatterBrick& brick) {
-    Taken solid, liquid, heat;
+  template <class T>
+  [[gnu::always_inline]] static T* at(const Block<T>& block, int j, int k) {
+    return block.cells + static_cast<std::size_t>(k) * block.slice + static_cast<std::size_t>(j) * block.row;
+  }
+
+  // Most rows are what they were: they are only compared.
+  template <bool kWhole, bool kHeat>
+  static MatterFound matter_of(const MatterBrick& brick) {
+    const int count = kWhole ? kGroup : brick.x;
+    const auto get = [&](U16& to, const std::uint16_t* cells) __attribute__((always_inline)) {
+      if constexpr (kWhole)
+        load(to, cells);
+      else
+        load_some(to, cells, count);
+    };
+    const auto put = [&](const U16& from, std::uint16_t* cells) __attribute__((always_inline)) {
+      if constexpr (kWhole)
+        store(from, cells);
+      else
+        store_some(from, cells, count);
+    };
+    const auto any = [](const U16& lanes) __attribute__((always_inline)) {
+      std::uint64_t halves[2];
+      std::memcpy(halves, &lanes, sizeof halves);
+      return (halves[0] | halves[1]) != 0;
+    };
+    // What is kept lies far apart in memory: it is asked for in time.
+    std::uint64_t solids[kRows], liquids[kRows], any_solid = 0, any_liquid = 0;
     for (int k = 0; k < brick.z; ++k)
       for (int j = 0; j < brick.y; ++j) {
-        const auto row = [&](const auto& block) __attribute__((always_inline)) {
-          return block.cells + static_cast<std::size_t>(k) * block.slice +
-                 static_cast<std::size_t>(j) * block.row;
-        };
         const std::size_t word =
             static_cast<std::size_t>(k) * brick.mask_slice + static_cast<std::size_t>(j) * brick.mask_row;
-        const std::uint64_t solids = brick.solid[word] >> brick.shift,
-                            liquids = brick.liquid[word] >> brick.shift;
-        U16 hard{}, soft{}, warm{};
-        if (((solids | liquids) & 0xff) != 0) {
-          U16 amount;
-          load(amount, row(brick.amount));
-          amount = amount > 4096 ? U16{} + 4096 : amount;
-          const U16 value = (amount << 4) - ((amount + 15) >> 4);  // 255 a / 16, rounded down
-          hard = value & lanes_of(solids);
-          soft = value & lanes_of(liquids);
-        }
-        solid.take(hard, row(brick.to_solid), brick.x, j, k);
-        liquid.take(soft, row(brick.to_liquid), brick.x, j, k);
-        if (brick.to_heat.cells == nullptr) continue;
-        if ((liquids & 0xff) != 0) {
-          const std::uint16_t* temperatures = row(brick.heat);
-          U32 wide, temperature;
-          wide = __builtin_convertvector(soft, U32);
-          load_as(temperature, temperatures);
-          warm = __builtin_convertvector(wide * temperature >> 16, U16);
-        }
-        heat.take(warm, row(brick.to_heat), brick.x, j, k);
+        const int r = k * kBrickSide + j;
+        any_solid |= solids[r] = brick.solid[word] >> brick.shift & 0xff;
+        any_liquid |= liquids[r] = brick.liquid[word] >> brick.shift & 0xff;
+        if ((solids[r] | liquids[r]) != 0) __builtin_prefetch(at(brick.amount, j, k));
+        if (brick.kept_solid) __builtin_prefetch(at(brick.to_solid, j, k));
+        if (brick.kept_liquid) __builtin_prefetch(at(brick.to_liquid, j, k));
+        if (kHeat && liquids[r] != 0) __builtin_prefetch(at(brick.heat, j, k));
+        if (kHeat && brick.kept_heat) __builtin_prefetch(at(brick.to_heat, j, k));
       }
-    return {solid.part(),         liquid.part(),         heat.part(),
-            solid.one(brick.x),   liquid.one(brick.x),   heat.one(brick.x)};
+
+    U16 changed[3]{};
+    unsigned changed_y[3]{}, changed_z[3]{};
+    const auto take = [&](int channel, const U16& fresh, std::uint16_t* kept, int j,
+                          int k) __attribute__((always_inline)) {
+      U16 old;
+      get(old, kept);
+      const U16 change = fresh ^ old;
+      if (!any(change)) return;
+      put(fresh, kept);
+      changed[channel] |= change;
+      changed_y[channel] |= 1u << j;
+      changed_z[channel] |= 1u << k;
+    };
+    const bool hard = any_solid != 0 || brick.kept_solid, soft = any_liquid != 0 || brick.kept_liquid,
+               warm = kHeat && (any_liquid != 0 || brick.kept_heat);
+    for (int k = 0; (hard || soft || warm) && k < brick.z; ++k)
+      for (int j = 0; j < brick.y; ++j) {
+        const int r = k * kBrickSide + j;
+        U16 value{};
+        if ((solids[r] | liquids[r]) != 0) {
+          load(value, at(brick.amount, j, k));
+          value = value > 4096 ? U16{} + 4096 : value;
+          value = (value << 4) - ((value + 15) >> 4);  // 255 a / 16, rounded down
+        }
+        if (hard) take(0, value & lanes_of(solids[r]), at(brick.to_solid, j, k), j, k);
+        const U16 liquid = value & lanes_of(liquids[r]);
+        if (soft) take(1, liquid, at(brick.to_liquid, j, k), j, k);
+        if (!warm) continue;
+        U16 heat{};
+        if (liquids[r] != 0) {
+          U32 wide, temperature;
+          load_as(temperature, at(brick.heat, j, k));
+          wide = __builtin_convertvector(liquid, U32);
+          heat = __builtin_convertvector(wide * temperature >> 16, U16);
+        }
+        take(2, heat, at(brick.to_heat, j, k), j, k);
+      }
+    const auto part = [&](int channel) __attribute__((always_inline)) {
+      unsigned x = 0;
+      for (int lane = 0; lane < kGroup; ++lane) x |= (changed[channel][lane] != 0 ? 1u : 0u) << lane;
+      return BrickPart{static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(changed_y[channel]),
+                       static_cast<std::uint8_t>(changed_z[channel])};
+    };
+    return {part(0), part(1), part(2)};
+  }
+
+  static MatterFound matter(const MatterBrick& brick) {
+    if (brick.with_heat)
+      return brick.x == kGroup ? matter_of<true, true>(brick) : matter_of<false, true>(brick);
+    return brick.x == kGroup ? matter_of<true, false>(brick) : matter_of<false, false>(brick);
   }
 
   // (a + 2 b + c) / 4 to nearest, halves upwards. It does not leave 16 bits: the mean of a and c is rounded

@@ -30,13 +30,14 @@ struct MatterBrick {
   std::size_t mask_row, mask_slice;     // words from a row, a slice to the next
   int shift;                            // of the brick's bits in the word
   Block<const std::uint16_t> amount, heat;
-  Block<std::uint16_t> to_solid, to_liquid, to_heat;  // to_heat.cells: null where heat is not asked for
+  Block<std::uint16_t> to_solid, to_liquid, to_heat;
+  bool kept_solid, kept_liquid, kept_heat;  // false: what is kept is 0 everywhere in the brick
+  bool with_heat;
 };
 
-// Which cells were not what they are, and the one value that each channel has in the brick, or -1.
+// Where cells were not what they are.
 struct MatterFound {
   BrickPart solid, liquid, heat;
-  std::int32_t one_solid, one_liquid, one_heat;
 };
 
 // Three rows of the levels of puddles, from the first column that is asked for. A column is also read before

@@ -21,18 +21,18 @@ void ChangedBricks::follow(const Grid& cells) {
   version_ = 1;
   open_ = false;
   bricks_ = brick_grid(cells);
-  newest_.assign(bricks_.cells(), version_);
+  for (auto& of_part : newest_) of_part.assign(bricks_.cells(), version_);
 }
 
 void ChangedBricks::forget() {
   volume_ = 0;
   open_ = false;
-  newest_.clear();
+  newest_ = {};
 }
 
-void ChangedBricks::mark(std::uint64_t words, int y, int z) {
+void ChangedBricks::mark(Part part, std::uint64_t words, int y, int z) {
   if (volume_ == 0) return;
-  std::uint64_t* const row = newest_.data() + bricks_.index(0, y, z);
+  std::uint64_t* const row = newest_[part].data() + bricks_.index(0, y, z);
   for (; words != 0; words &= words - 1) {
     const int first = std::countr_zero(words) * kWordBricks;
     if (first >= bricks_.x) return;

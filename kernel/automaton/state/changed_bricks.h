@@ -1,11 +1,12 @@
 // Which bricks of 8x8x8 cells of a volume may have changed, for those who keep something computed from it.
 //
-// Every brick has the version at which it was last marked. A reader keeps what it has seen, and asks for the
+// Every brick has the versions at which its matter and its heat were last marked. A reader keeps what it has seen, and asks for the
 // bricks that are newer. So any number of readers can follow one volume, and none clears what another needs.
 // Where nobody tells of changes (a volume made or edited by hand, a copy), everything counts as changed.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -37,6 +38,10 @@ class ChangedBricks {
   ChangedBricks& operator=(ChangedBricks&& other) noexcept { return take(other), *this; }
   ~ChangedBricks() = default;
 
+  // Matter: masks, amounts, energies, and the heat that moves with them. Heat: heats alone, which change nearly
+  // everywhere while something melts.
+  enum Part { kMatter, kHeat };
+
   // For those who change the volume. All begins as not followed.
   void follow(const Grid& cells);  // everything counts as changed; from now on changes are told
   void forget();                   // no longer followed
@@ -45,15 +50,18 @@ class ChangedBricks {
   void end() { open_ = false; }
   void new_version() { ++version_; }  // what is marked from now on is newer than what was
   // The bricks at y and z that hold cells of these words of 64 cells along x, one bit each.
-  void mark(std::uint64_t words, int y, int z);
-  void mark_all() { std::fill(newest_.begin(), newest_.end(), version_); }
+  void mark(Part part, std::uint64_t words, int y, int z);
+  void mark_all() { std::fill(newest_[kMatter].begin(), newest_[kMatter].end(), version_); }
 
   // For readers.
   Seen now() const { return open_ ? Seen{} : Seen{volume_, version_}; }
   bool all_since(const Seen& seen) const { return open_ || volume_ == 0 || seen.volume != volume_; }
   bool none_since(const Seen& seen) const { return !all_since(seen) && seen.version == version_; }
   // Only where `all_since` is false.
-  bool since(const Seen& seen, std::size_t brick) const { return newest_[brick] > seen.version; }
+  bool since(Part part, const Seen& seen, std::size_t brick) const {
+    return newest_[kMatter][brick] > seen.version ||
+           (part == kHeat && newest_[kHeat][brick] > seen.version);
+  }
 
  private:
   void take(ChangedBricks& other) noexcept;
@@ -62,7 +70,7 @@ class ChangedBricks {
   std::uint64_t version_ = 0;
   bool open_ = false;
   Grid bricks_;
-  std::vector<std::uint64_t> newest_;  // [z][y][x]
+  std::array<std::vector<std::uint64_t>, 2> newest_;  // [part][z][y][x]
 };
 
 }  // namespace voxmelt::state

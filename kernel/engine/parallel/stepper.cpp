@@ -55,7 +55,7 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
     paper_.emplace(parameters, view, chunks);
   else
     viscous_.emplace(grid, view, chunks);
-  dirty_ = dirty_next_ = changed_ = untold_ = melted_ = freed_ = Tiles(view.nz, view.tile_rows());
+  dirty_ = dirty_next_ = changed_ = untold_ = untold_heat_ = melted_ = freed_ = Tiles(view.nz, view.tile_rows());
   dirty_.fill(all_words(view));  // nothing is known of the first state
   if (heat_) heat_->note(dirty_);
   if (viscous_) viscous_->note(dirty_);
@@ -144,7 +144,7 @@ void Stepper::heat(const Job& job, simd::Books& books) {
   if (!heat_) return;
   changed_.clear();
   heat_->heat(job, parameters_.heat.is_visibility_step(job.step.number), changed_, books);
-  untold_.add(changed_);
+  untold_heat_.add(changed_);
   // The flow of the paper's law reads heat only where it mixes, unless its shares depend on it.
   if (parameters_.flow.thermal_viscosity) dirty_.add(changed_);
   if (viscous_) viscous_->note(changed_);
@@ -192,20 +192,25 @@ void Stepper::spread(const Job& job, simd::Books& books) {
   if (heat_) heat_->note(dirty_);
 }
 
-// Slices of one brick are told together: a mark for each would cost as much again.
 void Stepper::tell_changes(state::ChangedBricks& changed) {
+  tell(untold_, state::ChangedBricks::kMatter, changed);
+  tell(untold_heat_, state::ChangedBricks::kHeat, changed);
+}
+
+// Slices of one brick are told together: a mark for each would cost as much again.
+void Stepper::tell(Tiles& tiles, state::ChangedBricks::Part part, state::ChangedBricks& changed) const {
   const int side = state::kBrickSide;
-  for (int first = 0; first < untold_.slices(); first += side)
-    for (int r = 0; r < untold_.rows(); ++r) {
+  for (int first = 0; first < tiles.slices(); first += side)
+    for (int r = 0; r < tiles.rows(); ++r) {
       TileRow words = 0;
-      for (int z = first; z < std::min(first + side, untold_.slices()); ++z) words |= untold_.slice(z)[r];
+      for (int z = first; z < std::min(first + side, tiles.slices()); ++z) words |= tiles.slice(z)[r];
       if (words == 0) continue;
       const int begin = r << tuning_.tile_shift;
       const int end = std::min(begin + (1 << tuning_.tile_shift), rows_);
       for (int brick = begin / side; brick <= (end - 1) / side; ++brick)
-        changed.mark(words, brick, first / side);
+        changed.mark(part, words, brick, first / side);
     }
-  untold_.clear();
+  tiles.clear();
 }
 
 void Stepper::settle(const Job& job, simd::Books& books) {

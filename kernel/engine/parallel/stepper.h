@@ -32,6 +32,7 @@ class Stepper final : public step::HostStepper {
   void heat(const Job& job, simd::Books& books);
   void melt(const Job& job, simd::Books& books);
   void gravity(const Job& job, simd::Books& books);
+  void tell(Tiles& tiles, state::ChangedBricks::Part part, state::ChangedBricks& changed) const;
   void open_sides(const simd::View& view);
   void spread(const Job& job, simd::Books& books);
   void settle(const Job& job, simd::Books& books);
@@ -49,7 +50,7 @@ class Stepper final : public step::HostStepper {
   std::optional<ViscousFlow> viscous_;
   Tiles dirty_, dirty_next_;  // paper law: changed since the last gravity; working memory
   Tiles changed_;             // by a phase
-  Tiles untold_;              // by all phases since the last call of tell_changes
+  Tiles untold_, untold_heat_;  // changed since the last call of tell_changes; only their heat
   Tiles melted_;              // solids there have melted, and are sides still
   Tiles freed_;               // their sides have gone since the last gravity began
 };

@@ -15,10 +15,11 @@ namespace {
 
 constexpr Grid kCells{150, 17, 9};  // 19 x 3 x 2 bricks
 
-std::vector<std::size_t> newer(const ChangedBricks& changed, const ChangedBricks::Seen& seen) {
+std::vector<std::size_t> newer(const ChangedBricks& changed, const ChangedBricks::Seen& seen,
+                               ChangedBricks::Part part = ChangedBricks::kMatter) {
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < brick_grid(kCells).cells(); ++i)
-    if (changed.since(seen, i)) result.push_back(i);
+    if (changed.since(part, seen, i)) result.push_back(i);
   return result;
 }
 
@@ -28,14 +29,17 @@ TEST(ChangedBricks, MarksTheBricksOfWords) {
   const auto seen = changed.now();
   EXPECT_TRUE(changed.none_since(seen));
   changed.new_version();
-  changed.mark(std::uint64_t{1} << 2 | std::uint64_t{1} << 40, 1, 1);  // cells 128 to 149, and none
+  changed.mark(ChangedBricks::kMatter, std::uint64_t{1} << 2 | std::uint64_t{1} << 40, 1, 1);  // cells 128 to 149, and none
   EXPECT_FALSE(changed.all_since(seen) || changed.none_since(seen));
   const std::size_t row = 19 * (3 * 1 + 1);
   EXPECT_EQ(newer(changed, seen), (std::vector<std::size_t>{row + 16, row + 17, row + 18}));
   changed.new_version();
-  changed.mark(1, 0, 0);
+  changed.mark(ChangedBricks::kMatter, 1, 0, 0);
   EXPECT_EQ(newer(changed, seen).size(), 11u) << "changes add up";
   EXPECT_TRUE(newer(changed, changed.now()).empty());
+  changed.mark(ChangedBricks::kHeat, 2, 2, 0);
+  EXPECT_EQ(newer(changed, seen).size(), 11u);
+  EXPECT_EQ(newer(changed, seen, ChangedBricks::kHeat).size(), 19u) << "matter takes its heat along";
   changed.new_version();
   changed.mark_all();
   EXPECT_EQ(newer(changed, seen).size(), brick_grid(kCells).cells());

@@ -41,9 +41,11 @@ inline std::string untold(const Volume& before, const state::ChangedBricks::Seen
   for_each(whole(after.grid), [&](int x, int y, int z) {
     const std::size_t brick = bricks.index(x / 8, y / 8, z / 8);
     const state::Slot i = after.at(x, y, z);
-    if (after.changed.since(seen, brick) || !found.empty()) return;
-    for (const auto field : {&Volume::amount, &Volume::energy, &Volume::heat})
+    if (after.changed.since(state::ChangedBricks::kMatter, seen, brick) || !found.empty()) return;
+    for (const auto field : {&Volume::amount, &Volume::energy})
       if ((before.*field)[i] != (after.*field)[i]) found = "a field";
+    if (before.heat[i] != after.heat[i] && !after.changed.since(state::ChangedBricks::kHeat, seen, brick))
+      found = "heat";
     for (const auto mask : {&Volume::solid, &Volume::liquid, &Volume::inert})
       if ((before.*mask).test(x, y, z) != (after.*mask).test(x, y, z)) found = "a mask";
     if (!found.empty())
