@@ -39,6 +39,7 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
     ranges_.assign(bricks().cells(), BrickRange{});
     dirty_.assign(bricks().cells(), 0);
     rows_.assign(static_cast<std::size_t>(bricks().y) * static_cast<std::size_t>(bricks().z), 0);
+    filters_.clear();
     pyramid_ = matter_pyramid_ = Pyramid(volume.grid);
     stale_.assign(bricks().cells(), 0);
     stale_all_ = stale_any_ = false;
@@ -63,14 +64,18 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
   if (cells_.changed().empty() && (!other_filter || other)) return 0;
 
   find_dirty(other_filter && !other);
-  workers_->run(bricks().y * bricks().z, [&](int row) {
-    if (rows_[static_cast<std::size_t>(row)] != 0)
-      BrickFilter(cells_, liquid_passes_, solid_passes_, filtered_)
-          .filter_row(row % bricks().y, row / bricks().y, dirty_);
+  const BrickFilter::Task task{cells_, liquid_passes_, solid_passes_, dirty_, filtered_};
+  const int rows = static_cast<int>(dirty_rows_.size());
+  const int parts = threads == 1 ? 1 : std::clamp(rows, 1, 4 * threads);
+  while (static_cast<int>(filters_.size()) < parts) filters_.emplace_back(grid());
+  workers_->run(parts, [&](int part) {
+    for (int i = rows * part / parts; i < rows * (part + 1) / parts; ++i) {
+      const int row = dirty_rows_[static_cast<std::size_t>(i)];
+      filters_[static_cast<std::size_t>(part)].filter_row(task, row % bricks().y, row / bricks().y);
+    }
   });
-  workers_->run(bricks().y * bricks().z, [&](int row) {
-    if (rows_[static_cast<std::size_t>(row)] == 0) return;
-    const int y = row % bricks().y, z = row / bricks().y;
+  workers_->run(rows, [&](int i) {
+    const int row = dirty_rows_[static_cast<std::size_t>(i)], y = row % bricks().y, z = row / bricks().y;
     for (int x = 0; x < bricks().x; ++x)
       if ((dirty_[bricks().index(x, y, z)] & kRange) != 0) refresh_range({x, y, z});
   });
@@ -106,6 +111,9 @@ void DensityField::find_dirty(bool all) {
     spread(brick, change.matter, wide, flags);
     spread(brick, change.matter, wide + kRangeHalo, kRange);
   }
+  dirty_rows_.clear();
+  for (std::size_t row = 0; row < rows_.size(); ++row)
+    if (rows_[row] != 0) dirty_rows_.push_back(static_cast<int>(row));
 }
 
 void DensityField::refresh_pyramids() const {

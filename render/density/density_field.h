@@ -76,6 +76,8 @@ class DensityField {
   state::ChangedBricks::Seen seen_;
   BrickFlags dirty_;               // channels to filter; kRange: the range to refresh
   std::vector<std::uint8_t> rows_;  // [z][y] of bricks: something in it is dirty
+  std::vector<int> dirty_rows_;
+  std::vector<BrickFilter> filters_;  // one for each part of the rows
   std::vector<std::uint32_t> refreshed_;
   std::vector<BrickRange> ranges_;
 
