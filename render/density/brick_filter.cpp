@@ -61,7 +61,8 @@ void BrickFilter::filter_row(const Task& task, int by, int bz) {
 
 void BrickFilter::filter(const Task& task, int channel, const state::Grid& first, int bricks) {
   const auto c = static_cast<std::size_t>(channel);
-  const int wide = std::max(task.liquid_passes, task.solid_passes);  // so the shares reach as far as the intensity
+  const int wide =
+      std::max(task.liquid_passes, task.solid_passes);  // so the shares reach as far as the intensity
   low_pass_.load(*task.cells.all()[c], first, bricks, wide);
   low_pass_.advance(wide);
   std::uint16_t* const to = task.to.all()[c]->data();

@@ -48,22 +48,22 @@ void BrickWriter::write_matter(const state::Grid& brick) {
   };
   const std::size_t words = volume_.solid.row_words();
   const MatterBrick from{box.high.x - box.low.x,
-                   box.high.y - box.low.y,
-                   box.high.z - box.low.z,
-                   volume_.solid.row(box.low.y, box.low.z).data() + word,
-                   volume_.liquid.row(box.low.y, box.low.z).data() + word,
-                   words,
-                   words * static_cast<std::size_t>(grid.y),
-                   brick.x % 8 * kBrickSide,
-                   field(volume_.amount),
-                   field(volume_.heat),
-                   kept(fields_.solid),
-                   kept(fields_.liquid),
-                   kept(fields_.heat),
-                   fields_.uniform(kSolid, index) != 0,
-                   fields_.uniform(kLiquid, index) != 0,
-                   fields_.uniform(kHeat, index) != 0,
-                   heat_};
+                         box.high.y - box.low.y,
+                         box.high.z - box.low.z,
+                         volume_.solid.row(box.low.y, box.low.z).data() + word,
+                         volume_.liquid.row(box.low.y, box.low.z).data() + word,
+                         words,
+                         words * static_cast<std::size_t>(grid.y),
+                         brick.x % 8 * kBrickSide,
+                         field(volume_.amount),
+                         field(volume_.heat),
+                         kept(fields_.solid),
+                         kept(fields_.liquid),
+                         kept(fields_.heat),
+                         fields_.uniform(kSolid, index) != 0,
+                         fields_.uniform(kLiquid, index) != 0,
+                         fields_.uniform(kHeat, index) != 0,
+                         heat_};
   const MatterFound found = loops().matter(from);
 
   BrickChange& change = fields_.changes_[index];

@@ -52,7 +52,8 @@ void CellFields::update(const state::Volume& volume, const state::ChangedBricks:
           word = bx / 8;
           const std::uint64_t inert = writer.take_inert({bx, by, bz});
           for (int i = 0; inert != 0 && i < 8; ++i)
-            if ((inert >> 8 * i & 0xff) != 0) news.look[columns_.brick_at(8 * word + i, bz)] = Columns::kInert;
+            if ((inert >> 8 * i & 0xff) != 0)
+              news.look[columns_.brick_at(8 * word + i, bz)] = Columns::kInert;
         }
         writer.write_matter({bx, by, bz});
         std::uint8_t& look = news.look[columns_.brick_at(bx, bz)];

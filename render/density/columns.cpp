@@ -11,11 +11,11 @@ namespace {
 
 using rule::kOne;
 
-constexpr std::int32_t kFilm = kOne * 15 / 100;      // a film of this amount counts as fully wet
-constexpr int kLevelPasses = 4;                      // passes along the surface of puddles for one in space
-constexpr int kMostLevelPasses = 12;                 // ... more would flatten domes
-constexpr std::int32_t kSink = kOne * 4 / 10;        // how far the surface sinks into dry ground beside matter
-constexpr std::int32_t kDive = kOne;                 // ... and one cell further out
+constexpr std::int32_t kFilm = kOne * 15 / 100;  // a film of this amount counts as fully wet
+constexpr int kLevelPasses = 4;                  // passes along the surface of puddles for one in space
+constexpr int kMostLevelPasses = 12;             // ... more would flatten domes
+constexpr std::int32_t kSink = kOne * 4 / 10;    // how far the surface sinks into dry ground beside matter
+constexpr std::int32_t kDive = kOne;             // ... and one cell further out
 constexpr std::uint8_t kFarther = kGroundReach + 1;  // than any column that is filled
 
 }  // namespace
@@ -144,9 +144,7 @@ class Columns::Finder {
   Columns& columns_;
 };
 
-std::int32_t Plan::high() const {
-  return std::max(rise != kNoGround ? bed + 1 : 0, puddle() ? end + 1 : 0);
-}
+std::int32_t Plan::high() const { return std::max(rise != kNoGround ? bed + 1 : 0, puddle() ? end + 1 : 0); }
 
 void Extent::add(std::int32_t from, std::int32_t to) {
   if (from >= to) return;
@@ -188,8 +186,8 @@ bool Columns::same_offsets(const state::Volume& volume, const state::Grid& brick
 }
 
 const std::vector<Extent>& Columns::update(const state::Volume& volume, int smooth,
-                                         const scene::Terrain& terrain, const News& news,
-                                         cpu::Workers& workers) {
+                                           const scene::Terrain& terrain, const News& news,
+                                           cpu::Workers& workers) {
   const std::size_t leveled = smooth > 0 ? stands_.size() : 0;
   if (levels_.level.size() != leveled) {
     levels_.level.assign(leveled, kNoLevel);

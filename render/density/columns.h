@@ -67,7 +67,7 @@ class Columns {
 
   // Brings all up to date. Returns for each column of bricks the cells whose plan is another.
   const std::vector<Extent>& update(const state::Volume& volume, int smooth, const scene::Terrain& terrain,
-                                  const News& news, cpu::Workers& workers);
+                                    const News& news, cpu::Workers& workers);
 
   // Does the ground still have the height that it had, as far as the marked brick holds it?
   bool same_offsets(const state::Volume& volume, const state::Grid& brick) const;
@@ -81,7 +81,9 @@ class Columns {
   const Stand& stand(std::size_t column) const { return stands_[column]; }
   const Plan& plan(std::size_t column) const { return plans_[column]; }
   const Extent& planned(std::size_t brick) const { return planned_[brick]; }  // all that its plans write
-  std::int32_t read_to(std::size_t brick) const { return read_to_[brick]; }  // the cells that stands depend on
+  std::int32_t read_to(std::size_t brick) const {
+    return read_to_[brick];
+  }  // the cells that stands depend on
   bool has_obstacles(std::size_t brick) const { return obstacles_[brick] != 0; }
   bool has_obstacles() const;
   const std::vector<std::int32_t>& ground() const { return ground_; }    // [z][x], 1/4096 cell; 0: none

@@ -74,7 +74,7 @@ class DensityField {
   int liquid_passes_ = -1, solid_passes_ = -1;
   bool glow_ = false;
   state::ChangedBricks::Seen seen_;
-  BrickFlags dirty_;               // channels to filter; kRange: the range to refresh
+  BrickFlags dirty_;                // channels to filter; kRange: the range to refresh
   std::vector<std::uint8_t> rows_;  // [z][y] of bricks: something in it is dirty
   std::vector<int> dirty_rows_;
   std::vector<BrickFilter> filters_;  // one for each part of the rows

@@ -71,7 +71,7 @@ struct DensityLoops {
   template <bool kWhole, bool kHeat>
   static MatterFound matter_of(const MatterBrick& brick) {
     const int count = kWhole ? kGroup : brick.x;
-    const auto get = [&](U16& to, const std::uint16_t* cells) __attribute__((always_inline)) {
+    const auto get = [&](U16 & to, const std::uint16_t* cells) __attribute__((always_inline)) {
       if constexpr (kWhole)
         load(to, cells);
       else
@@ -106,8 +106,8 @@ struct DensityLoops {
 
     U16 changed[3]{};
     unsigned changed_y[3]{}, changed_z[3]{};
-    const auto take = [&](int channel, const U16& fresh, std::uint16_t* kept, int j,
-                          int k) __attribute__((always_inline)) {
+    const auto take = [&](int channel, const U16& fresh, std::uint16_t* kept, int j, int k)
+        __attribute__((always_inline)) {
       U16 old;
       get(old, kept);
       const U16 change = fresh ^ old;
@@ -279,7 +279,8 @@ struct DensityLoops {
     return left < 0 ? 0 : left > 4096 ? 4096 : left;
   }
   // In 32 bits: where a share is not 0 both differences are below 2^17.
-  [[gnu::always_inline]] static std::int32_t bend(std::int32_t before, std::int32_t here, std::int32_t after) {
+  [[gnu::always_inline]] static std::int32_t bend(std::int32_t before, std::int32_t here,
+                                                  std::int32_t after) {
     const std::int32_t down = before - here, up = after - here;
     const std::int32_t one = share(down), two = share(up);
     return (down + up) * (one < two ? one : two) >> 12;
@@ -290,8 +291,7 @@ struct DensityLoops {
     for (int x = 0; x < count; ++x) {
       const std::int32_t here = mid[x];
       const std::int32_t straight = bend(mid[x - 1], here, mid[x + 1]) + bend(low[x], here, high[x]);
-      const std::int32_t diagonal =
-          bend(low[x - 1], here, high[x + 1]) + bend(high[x - 1], here, low[x + 1]);
+      const std::int32_t diagonal = bend(low[x - 1], here, high[x + 1]) + bend(high[x - 1], here, low[x + 1]);
       to[x] = here + ((2 * straight + diagonal) >> 4);
     }
   }
@@ -339,8 +339,7 @@ struct DensityLoops {
 template <class Arch>
 Loops loops_for() {
   using Of = DensityLoops<Arch>;
-  return {Of::matter, Of::low_pass,      Of::weights, Of::mix,
-          Of::range,  Of::smooth_levels, Of::shrink};
+  return {Of::matter, Of::low_pass, Of::weights, Of::mix, Of::range, Of::smooth_levels, Of::shrink};
 }
 
 }  // namespace voxmelt::render

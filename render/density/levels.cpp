@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 #include "kernel/automaton/rule/fixed_point.h"
 #include "render/density/loops.h"
@@ -54,7 +53,8 @@ class Sheet {
     int z, first, end;
   };
   std::size_t at(int x, int z) const {
-    return static_cast<std::size_t>(z - box_.low_z + 1) * stride_ + static_cast<std::size_t>(x - box_.low_x + 1);
+    return static_cast<std::size_t>(z - box_.low_z + 1) * stride_ +
+           static_cast<std::size_t>(x - box_.low_x + 1);
   }
 
   ColumnBox box_;
@@ -76,7 +76,8 @@ ColumnBox ColumnBox::widened(int columns, int x, int z) const {
 }
 
 // What lies beyond the wider box is wrong there, and moves in by one column with each pass.
-void find_shifts(const PuddleLevels& levels, int passes, const ColumnBox& box, std::vector<std::int32_t>& shifts) {
+void find_shifts(const PuddleLevels& levels, int passes, const ColumnBox& box,
+                 std::vector<std::int32_t>& shifts) {
   if (box.empty()) return;
   Sheet sheet(levels, box.widened(passes, levels.x, levels.z));
   for (int pass = 0; pass < passes; ++pass) sheet.smooth();
@@ -85,9 +86,8 @@ void find_shifts(const PuddleLevels& levels, int passes, const ColumnBox& box, s
       const auto i =
           static_cast<std::size_t>(z) * static_cast<std::size_t>(levels.x) + static_cast<std::size_t>(x);
       const std::int32_t most = std::min(kMostShift, levels.depth[i] >> 1);
-      shifts[i] = levels.level[i] == kNoLevel
-                      ? 0
-                      : std::clamp(sheet.level(x, z) - levels.level[i], -most, most);
+      shifts[i] =
+          levels.level[i] == kNoLevel ? 0 : std::clamp(sheet.level(x, z) - levels.level[i], -most, most);
     }
 }
 

@@ -32,7 +32,8 @@ struct ColumnBox {
 // How far the level of each column of the box must move: at most a quarter of a cell and a half of the depth.
 // Even slopes stay where they are up to the rim; steps of two cells and more are no terraces and stay too.
 // Other columns of `shifts` stay as they are.
-void find_shifts(const PuddleLevels& levels, int passes, const ColumnBox& box, std::vector<std::int32_t>& shifts);
+void find_shifts(const PuddleLevels& levels, int passes, const ColumnBox& box,
+                 std::vector<std::int32_t>& shifts);
 
 // The same for all columns.
 std::vector<std::int32_t> level_shifts(const PuddleLevels& levels, int passes);

@@ -54,9 +54,10 @@ struct Loops {
   // Takes over what is solid and liquid in a brick. Rows of masks and amounts are read to their end.
   MatterFound (*matter)(const MatterBrick& brick);
 
-  // One pass of the 3x3x3 binomial filter (docs/picture-field.md, section 6): x * y * z cells of `to` from two
-  // more along each axis of `from`, which may be `to`. Rows of `to` are written up to the next multiple of
-  // kLanes, those of `from` read up to 2 kLanes further than x + 2. `room`: 2 (x + 2 + 3 kLanes) (y + 2) cells.
+  // One pass of the 3x3x3 binomial filter (docs/picture-field.md, section 6): x * y * z cells of `to` from
+  // two more along each axis of `from`, which may be `to`. Rows of `to` are written up to the next multiple
+  // of kLanes, those of `from` read up to 2 kLanes further than x + 2. `room`: 2 (x + 2 + 3 kLanes) (y + 2)
+  // cells.
   void (*low_pass)(Block<const std::uint16_t> from, Block<std::uint16_t> to, int x, int y, int z,
                    std::uint16_t* room);
 

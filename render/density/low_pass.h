@@ -1,7 +1,7 @@
 // The low-pass filter of the paper's section 5: separable binomial 1-2-1 along z, y and x, repeated.
 //
-// Cells outside the grid repeat the nearest cell inside; every axis of a pass rounds once, to nearest. What is
-// filtered depends on the cells alone, not on the pieces in which it is done.
+// Cells outside the grid repeat the nearest cell inside; every axis of a pass rounds once, to nearest. What
+// is filtered depends on the cells alone, not on the pieces in which it is done.
 #pragma once
 
 #include <cstdint>

@@ -105,7 +105,7 @@ class Builder {
 
   void find_shifts(int smooth) {
     render::PuddleLevels levels{grid_.x, grid_.z, std::vector<std::int32_t>(columns_, render::kNoLevel),
-                          std::vector<std::int32_t>(columns_, 0)};
+                                std::vector<std::int32_t>(columns_, 0)};
     each_column([&](int x, int z) {
       const std::size_t c = column(x, z);
       const int floor = puddle_floor(x, z);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 namespace voxmelt::test {
 namespace {
@@ -20,7 +19,9 @@ Cells mixed(const Cells& solid, const Cells& liquid, const Cells& filtered_solid
   Cells result(solid.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     const std::int64_t soft = (filtered_liquid[i] + 3) / 4,
-                       all = (std::int64_t{filtered_liquid[i]} + filtered_solid[i] + filtered_obstacle[i] + 3) / 4;
+                       all =
+                           (std::int64_t{filtered_liquid[i]} + filtered_solid[i] + filtered_obstacle[i] + 3) /
+                           4;
     const std::int64_t over = std::clamp<std::int64_t>(5 * soft - 2 * all, 0, 2 * all);
     const std::int64_t t = all == 0 ? 0 : 64 * over / all;
     const auto weight = static_cast<std::uint32_t>(t * t * (384 - 2 * t) / 8192);
@@ -95,8 +96,8 @@ void expect_pyramid(const render::Pyramid& pyramid, const state::Grid& grid, con
 
 // Each axis of a pass anew over the whole grid.
 Cells plain_low_pass(const state::Grid& grid, int passes, const Cells& from) {
-  // Outside, what the passes so far would give: the nearest cell's value of the beginning does not suffice, so
-  // the grid is widened by what the passes reach.
+  // Outside, what the passes so far would give: the nearest cell's value of the beginning does not suffice,
+  // so the grid is widened by what the passes reach.
   const state::Grid side{grid.x + 2 * passes, grid.y + 2 * passes, grid.z + 2 * passes};
   std::vector<std::uint32_t> now(side.cells());
   for (int z = 0; z < side.z; ++z)
@@ -111,10 +112,10 @@ Cells plain_low_pass(const state::Grid& grid, int passes, const Cells& from) {
       for (int z = step.z; z < side.z - step.z; ++z)
         for (int y = step.y; y < side.y - step.y; ++y)
           for (int x = step.x; x < side.x - step.x; ++x)
-            now[side.index(x, y, z)] = (before[side.index(x - step.x, y - step.y, z - step.z)] +
-                                        2 * before[side.index(x, y, z)] +
-                                        before[side.index(x + step.x, y + step.y, z + step.z)] + 2) /
-                                       4;
+            now[side.index(x, y, z)] =
+                (before[side.index(x - step.x, y - step.y, z - step.z)] + 2 * before[side.index(x, y, z)] +
+                 before[side.index(x + step.x, y + step.y, z + step.z)] + 2) /
+                4;
     }
   Cells result(grid.cells());
   for (int z = 0; z < grid.z; ++z)

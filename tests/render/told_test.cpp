@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "tests/kernel/engine/parallel/equal.h"
@@ -113,9 +112,12 @@ state::Volume slope(const state::Grid& grid, Random& random) {
   state::Volume volume(grid);
   worlds::for_each(worlds::whole(grid), [&](int x, int y, int z) {
     const int bed = 1 + (x + z) / 9;
-    if (y < bed || (x == grid.x / 2 && y < bed + 9)) edit(volume, x, y, z, 3, random);
-    else if (x * 2 < grid.x && y < bed + 2) edit(volume, x, y, z, 2, random);
-    else if (x > grid.x - 9 && y > 10) edit(volume, x, y, z, 1, random);
+    if (y < bed || (x == grid.x / 2 && y < bed + 9))
+      edit(volume, x, y, z, 3, random);
+    else if (x * 2 < grid.x && y < bed + 2)
+      edit(volume, x, y, z, 2, random);
+    else if (x > grid.x - 9 && y > 10)
+      edit(volume, x, y, z, 1, random);
   });
   return volume;
 }

@@ -1,8 +1,9 @@
 // Which bricks of 8x8x8 cells of a volume may have changed, for those who keep something computed from it.
 //
-// Every brick has the versions at which its matter and its heat were last marked. A reader keeps what it has seen, and asks for the
-// bricks that are newer. So any number of readers can follow one volume, and none clears what another needs.
-// Where nobody tells of changes (a volume made or edited by hand, a copy), everything counts as changed.
+// Every brick has the versions at which its matter and its heat were last marked. A reader keeps what it has
+// seen, and asks for the bricks that are newer. So any number of readers can follow one volume, and none
+// clears what another needs. Where nobody tells of changes (a volume made or edited by hand, a copy),
+// everything counts as changed.
 #pragma once
 
 #include <algorithm>
@@ -38,8 +39,8 @@ class ChangedBricks {
   ChangedBricks& operator=(ChangedBricks&& other) noexcept { return take(other), *this; }
   ~ChangedBricks() = default;
 
-  // Matter: masks, amounts, energies, and the heat that moves with them. Heat: heats alone, which change nearly
-  // everywhere while something melts.
+  // Matter: masks, amounts, energies, and the heat that moves with them. Heat: heats alone, which change
+  // nearly everywhere while something melts.
   enum Part { kMatter, kHeat };
 
   // For those who change the volume. All begins as not followed.
@@ -59,8 +60,7 @@ class ChangedBricks {
   bool none_since(const Seen& seen) const { return !all_since(seen) && seen.version == version_; }
   // Only where `all_since` is false.
   bool since(Part part, const Seen& seen, std::size_t brick) const {
-    return newest_[kMatter][brick] > seen.version ||
-           (part == kHeat && newest_[kHeat][brick] > seen.version);
+    return newest_[kMatter][brick] > seen.version || (part == kHeat && newest_[kHeat][brick] > seen.version);
   }
 
  private:

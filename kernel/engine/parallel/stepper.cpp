@@ -55,7 +55,8 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
     paper_.emplace(parameters, view, chunks);
   else
     viscous_.emplace(grid, view, chunks);
-  dirty_ = dirty_next_ = changed_ = untold_ = untold_heat_ = melted_ = freed_ = Tiles(view.nz, view.tile_rows());
+  dirty_ = dirty_next_ = changed_ = untold_ = untold_heat_ = melted_ = freed_ =
+      Tiles(view.nz, view.tile_rows());
   dirty_.fill(all_words(view));  // nothing is known of the first state
   if (heat_) heat_->note(dirty_);
   if (viscous_) viscous_->note(dirty_);

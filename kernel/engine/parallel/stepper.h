@@ -43,16 +43,16 @@ class Stepper final : public step::HostStepper {
   simd::Kernels kernels_;
   rule::RoundKeys keys_;
   cpu::Workers workers_;
-  int rows_;  // of the grid
+  int rows_;                            // of the grid
   std::optional<Walls> walls_, sides_;  // sides_: before this step's melt, where gravity asks for them
   std::optional<HeatFlow> heat_;
   std::optional<PaperFlow> paper_;
   std::optional<ViscousFlow> viscous_;
-  Tiles dirty_, dirty_next_;  // paper law: changed since the last gravity; working memory
-  Tiles changed_;             // by a phase
+  Tiles dirty_, dirty_next_;    // paper law: changed since the last gravity; working memory
+  Tiles changed_;               // by a phase
   Tiles untold_, untold_heat_;  // changed since the last call of tell_changes; only their heat
-  Tiles melted_;              // solids there have melted, and are sides still
-  Tiles freed_;               // their sides have gone since the last gravity began
+  Tiles melted_;                // solids there have melted, and are sides still
+  Tiles freed_;                 // their sides have gone since the last gravity began
 };
 
 template <cpu::InstructionSet kSet>

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,8 @@ TEST(ChangedBricks, MarksTheBricksOfWords) {
   const auto seen = changed.now();
   EXPECT_TRUE(changed.none_since(seen));
   changed.new_version();
-  changed.mark(ChangedBricks::kMatter, std::uint64_t{1} << 2 | std::uint64_t{1} << 40, 1, 1);  // cells 128 to 149, and none
+  changed.mark(ChangedBricks::kMatter, std::uint64_t{1} << 2 | std::uint64_t{1} << 40, 1,
+               1);  // cells 128 to 149, and none
   EXPECT_FALSE(changed.all_since(seen) || changed.none_since(seen));
   const std::size_t row = 19 * (3 * 1 + 1);
   EXPECT_EQ(newer(changed, seen), (std::vector<std::size_t>{row + 16, row + 17, row + 18}));
