@@ -57,6 +57,7 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
       ledger_(state::Ledger::open(volume_)),
       threads_(std::min(tuning.threads, cpu::Workers::most())) {
   make_irradiance();
+  volume_.changed.follow(volume_.grid);
 }
 
 // It is kept once it is there: sources that have been removed shine until the next step of visibility.
@@ -79,6 +80,7 @@ void Simulation::begin_step() {
     uploaded_ = true;
   }
   substep_ = 0;
+  volume_.changed.begin();
   if (host_ != nullptr) substeps_ = count_substeps();  // a device counts its own
   const rule::Heat& heat = parameters_.heat;
   if (!heat.is_visibility_step(step_number())) return;
@@ -103,6 +105,18 @@ void Simulation::run_phase(step::Phase phase) {
   if (phase == step::Phase::spread) ++substep_;
 }
 
+// After a change by hand everything counts as changed, and after each download (see there).
+void Simulation::end_step() {
+  ++steps_done_;
+  state::ChangedBricks& changed = volume_.changed;
+  if (!changed.followed()) changed.follow(volume_.grid);
+  if (host_ != nullptr) {
+    changed.new_version();
+    host_->tell_changes(changed);
+  }
+  changed.end();
+}
+
 void Simulation::step() {
   begin_step();
   if (device_ != nullptr) {
@@ -116,6 +130,7 @@ void Simulation::step() {
 
 void Simulation::download() const {
   device_->download(volume_, ledger_);
+  volume_.changed.follow(volume_.grid);
   behind_ = false;
 }
 

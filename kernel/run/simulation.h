@@ -35,7 +35,7 @@ class Simulation {
   void begin_step();
   std::vector<step::Phase> phases() const;  // of the step that has begun, in their order
   void run_phase(step::Phase phase);
-  void end_step() { ++steps_done_; }
+  void end_step();
   int substeps() const { return substeps_; }  // of the step that has begun last
   step::Moment moment() const { return {step_number(), substep_, substeps_}; }  // of the next phase
 
@@ -76,7 +76,7 @@ class Simulation {
     if (behind_) download();
   }
   void download() const;
-  void touch() { fetch(), uploaded_ = false; }
+  void touch() { fetch(), uploaded_ = false, volume_.changed.forget(); }
 
   rule::Parameters parameters_;
   mutable state::Volume volume_;

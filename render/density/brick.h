@@ -1,21 +1,16 @@
-// Bricks of 8x8x8 cells: the unit in which the field is refiltered and in which rays skip empty space.
+// Bricks of 8x8x8 cells: the unit in which the field is kept up to date and in which rays skip empty space.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
-#include <vector>
 
+#include "kernel/automaton/state/changed_bricks.h"
 #include "kernel/automaton/state/grid.h"
 
 namespace voxmelt::render {
 
-inline constexpr int kBrickSide = 8;
-
-// How many bricks a grid needs along each axis; the last ones may reach past the grid.
-inline state::Grid brick_grid(const state::Grid& cells) {
-  const auto bricks = [](int side) { return (side + kBrickSide - 1) / kBrickSide; };
-  return {bricks(cells.x), bricks(cells.y), bricks(cells.z)};
-}
+using state::brick_grid;
+using state::kBrickSide;
 
 // The cells of a brick, or of some bricks side by side, that are inside the grid: from low to high.
 struct CellBox {
@@ -36,10 +31,35 @@ void for_rows(const state::Grid& grid, const CellBox& box, const Visit& visit) {
       visit(grid.index(box.low.x, y, z), state::Grid{box.low.x, y, z}, box.high.x - box.low.x);
 }
 
-// A byte per brick, every bit a flag of its own.
-using BrickFlags = std::vector<std::uint8_t>;
+// Where in a brick something is: the planes across each axis that hold it, a bit each.
+struct BrickPart {
+  std::uint8_t x = 0, y = 0, z = 0;
 
-// Sets every flag also in the neighbouring bricks, including those over edges and corners.
-BrickFlags widened(const state::Grid& bricks, BrickFlags flags);
+  static constexpr BrickPart whole() { return {0xff, 0xff, 0xff}; }
+  bool any() const { return x != 0; }
+  void add(const BrickPart& other) {
+    x = static_cast<std::uint8_t>(x | other.x);
+    y = static_cast<std::uint8_t>(y | other.y);
+    z = static_cast<std::uint8_t>(z | other.z);
+  }
+};
+
+// Does what lies in these planes reach `cells` beyond the brick, towards the brick `side` (-1, 0, 1) of it?
+inline bool reaches(std::uint8_t planes, int side, int cells) {
+  if (side == 0) return true;
+  return side < 0 ? (planes & ((1 << cells) - 1)) != 0 : planes >> (kBrickSide - cells) != 0;
+}
+
+// Calls visit(neighbour) for the brick and its neighbours within `cells` of the part.
+template <class Visit>
+void for_reached(const state::Grid& bricks, const state::Grid& brick, const BrickPart& part, int cells,
+                 const Visit& visit) {
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x)
+        if (reaches(part.x, x, cells) && reaches(part.y, y, cells) && reaches(part.z, z, cells) &&
+            bricks.contains(brick.x + x, brick.y + y, brick.z + z))
+          visit(state::Grid{brick.x + x, brick.y + y, brick.z + z});
+}
 
 }  // namespace voxmelt::render

@@ -10,77 +10,79 @@ namespace {
 
 constexpr std::uint16_t kWhole = 256;  // a weight
 
-}  // namespace
-
-void BrickFilter::filter_row(int by, int bz, const BrickFlags& flags) {
-  for (const int channel : {kSolid, kLiquid, kHeat, kObstacle, kIntensity}) {  // the shares first
-    if (cells_.all()[static_cast<std::size_t>(channel)]->empty()) continue;
-    const auto asked = [&](int bx) {
-      return (flags[cells_.bricks.index(bx, by, bz)] & flag_of(channel)) != 0;
-    };
-    int run = 0;  // bricks to the left of bx that must be filtered
-    for (int bx = 0; bx <= cells_.bricks.x; ++bx) {
-      const state::Grid brick{bx, by, bz};
-      const bool more = bx < cells_.bricks.x && asked(bx);
-      const bool same = more && has_one_value(channel, brick);
-      if (run == kMostBricks || (run > 0 && (!more || same))) {
-        const state::Grid first{bx - run, by, bz};
-        channel == kIntensity ? mix_intensity(first, run) : filter(channel, first, run);
-        run = 0;
-      }
-      if (more && !same) ++run;
-      if (same) fill(channel, brick);
-    }
-  }
-}
-
 // Do a brick and all of its neighbours have the same value everywhere? Then filtering does not change it.
-bool BrickFilter::has_one_value(int channel, const state::Grid& brick) const {
-  const state::Grid& bricks = cells_.bricks;
-  const std::int32_t value = cells_.uniform(channel, bricks.index(brick.x, brick.y, brick.z));
+bool has_one_value(const CellFields& cells, int channel, const state::Grid& brick) {
+  const state::Grid& bricks = cells.bricks;
+  const std::int32_t value = cells.uniform(channel, bricks.index(brick.x, brick.y, brick.z));
   if (value == CellFields::kMixed) return false;
   for (int z = std::max(brick.z - 1, 0); z <= std::min(brick.z + 1, bricks.z - 1); ++z)
     for (int y = std::max(brick.y - 1, 0); y <= std::min(brick.y + 1, bricks.y - 1); ++y)
       for (int x = std::max(brick.x - 1, 0); x <= std::min(brick.x + 1, bricks.x - 1); ++x)
-        if (cells_.uniform(channel, bricks.index(x, y, z)) != value) return false;
+        if (cells.uniform(channel, bricks.index(x, y, z)) != value) return false;
   return true;
 }
 
-void BrickFilter::fill(int channel, const state::Grid& brick) {
-  const auto c = static_cast<std::size_t>(channel);
+void fill(const BrickFilter::Task& task, int channel, const state::Grid& brick) {
+  const CellFields& cells = task.cells;
   const auto value =
-      static_cast<std::uint16_t>(cells_.uniform(channel, cells_.bricks.index(brick.x, brick.y, brick.z)));
-  Values<std::uint16_t>& to = *to_.all()[c];
-  for_rows(cells_.grid, cells_of(cells_.grid, brick), [&](std::size_t i, const state::Grid&, int cells) {
+      static_cast<std::uint16_t>(cells.uniform(channel, cells.bricks.index(brick.x, brick.y, brick.z)));
+  Values<std::uint16_t>& to = *task.to.all()[static_cast<std::size_t>(channel)];
+  for_rows(cells.grid, cells_of(cells.grid, brick), [&](std::size_t i, const state::Grid&, int count) {
     std::uint16_t* row = to.data() + i;
-    for (int x = 0; x < cells; ++x)
+    for (int x = 0; x < count; ++x)
       if (row[x] != value) row[x] = value;  // what is empty already takes no memory
   });
 }
 
-void BrickFilter::filter(int channel, const state::Grid& first, int bricks) {
+}  // namespace
+
+void BrickFilter::filter_row(const Task& task, int by, int bz) {
+  const CellFields& cells = task.cells;
+  for (const int channel : {kSolid, kLiquid, kHeat, kObstacle, kIntensity}) {  // the shares first
+    if (cells.all()[static_cast<std::size_t>(channel)]->empty()) continue;
+    const auto asked = [&](int bx) {
+      return (task.flags[cells.bricks.index(bx, by, bz)] & flag_of(channel)) != 0;
+    };
+    int run = 0;  // bricks to the left of bx that must be filtered
+    for (int bx = 0; bx <= cells.bricks.x; ++bx) {
+      const state::Grid brick{bx, by, bz};
+      const bool more = bx < cells.bricks.x && asked(bx);
+      const bool same = more && has_one_value(cells, channel, brick);
+      if (run == kMostBricks || (run > 0 && (!more || same))) {
+        const state::Grid first{bx - run, by, bz};
+        channel == kIntensity ? mix_intensity(task, first, run) : filter(task, channel, first, run);
+        run = 0;
+      }
+      if (more && !same) ++run;
+      if (same) fill(task, channel, brick);
+    }
+  }
+}
+
+void BrickFilter::filter(const Task& task, int channel, const state::Grid& first, int bricks) {
   const auto c = static_cast<std::size_t>(channel);
-  const int wide = std::max(liquid_passes_, solid_passes_);  // so the shares reach as far as the intensity
-  low_pass_.load(*cells_.all()[c], first, bricks, wide);
+  const int wide =
+      std::max(task.liquid_passes, task.solid_passes);  // so the shares reach as far as the intensity
+  low_pass_.load(*task.cells.all()[c], first, bricks, wide);
   low_pass_.advance(wide);
-  std::uint16_t* const to = to_.all()[c]->data();
-  for_rows(cells_.grid, cells_of(cells_.grid, first, bricks),
+  std::uint16_t* const to = task.to.all()[c]->data();
+  for_rows(task.cells.grid, cells_of(task.cells.grid, first, bricks),
            [&](std::size_t i, const state::Grid& cell, int cells) {
              std::copy_n(low_pass_.at(cell.x, cell.y, cell.z), cells, to + i);
            });
 }
 
-void BrickFilter::mix_intensity(const state::Grid& first, int bricks) {
-  const CellBox box = cells_of(cells_.grid, first, bricks);
+void BrickFilter::mix_intensity(const Task& task, const state::Grid& first, int bricks) {
+  const CellBox box = cells_of(task.cells.grid, first, bricks);
   const auto place = [&](const state::Grid& cell) {  // in weights_ and other_
     return static_cast<std::size_t>((cell.z - box.low.z) * kBrickSide + (cell.y - box.low.y)) * kMostBricks *
            kBrickSide;
   };
   std::uint16_t least = kWhole, most = 0;
-  for_rows(cells_.grid, box, [&](std::size_t i, const state::Grid& cell, int cells) {
+  for_rows(task.cells.grid, box, [&](std::size_t i, const state::Grid& cell, int cells) {
     std::uint16_t* weights = weights_.get() + place(cell);
-    loops().weights(to_.liquid.data() + i, to_.solid.data() + i,
-                    to_.obstacle.empty() ? nullptr : to_.obstacle.data() + i, cells, weights);
+    loops().weights(task.to.liquid.data() + i, task.to.solid.data() + i,
+                    task.to.obstacle.empty() ? nullptr : task.to.obstacle.data() + i, cells, weights);
     for (int x = 0; x < cells; ++x) {
       least = std::min(least, weights[x]);
       most = std::max(most, weights[x]);
@@ -89,23 +91,23 @@ void BrickFilter::mix_intensity(const state::Grid& first, int bricks) {
 
   // Many bricks need only one of the two filters. Where both are needed, the weaker one is an intermediate
   // result of the stronger.
-  const bool both = least < kWhole && most > 0 && liquid_passes_ != solid_passes_;
-  const int alone = most > 0 ? liquid_passes_ : solid_passes_;
-  const int passes = both ? std::max(liquid_passes_, solid_passes_) : alone;
-  low_pass_.load(cells_.intensity, first, bricks, passes);
+  const bool both = least < kWhole && most > 0 && task.liquid_passes != task.solid_passes;
+  const int alone = most > 0 ? task.liquid_passes : task.solid_passes;
+  const int passes = both ? std::max(task.liquid_passes, task.solid_passes) : alone;
+  low_pass_.load(task.cells.intensity, first, bricks, passes);
   if (both) {
-    low_pass_.advance(std::min(liquid_passes_, solid_passes_));
-    for_rows(cells_.grid, box, [&](std::size_t, const state::Grid& cell, int cells) {
+    low_pass_.advance(std::min(task.liquid_passes, task.solid_passes));
+    for_rows(task.cells.grid, box, [&](std::size_t, const state::Grid& cell, int cells) {
       std::copy_n(low_pass_.at(cell.x, cell.y, cell.z), cells, other_.get() + place(cell));
     });
   }
   low_pass_.advance(passes);
-  std::uint16_t* const to = to_.intensity.data();
-  for_rows(cells_.grid, box, [&](std::size_t i, const state::Grid& cell, int cells) {
+  std::uint16_t* const to = task.to.intensity.data();
+  for_rows(task.cells.grid, box, [&](std::size_t i, const state::Grid& cell, int cells) {
     const std::uint16_t *last = low_pass_.at(cell.x, cell.y, cell.z), *other = other_.get() + place(cell);
     if (!both)
       std::copy_n(last, cells, to + i);
-    else if (liquid_passes_ > solid_passes_)
+    else if (task.liquid_passes > task.solid_passes)
       loops().mix(other, last, weights_.get() + place(cell), cells, to + i);
     else
       loops().mix(last, other, weights_.get() + place(cell), cells, to + i);

@@ -2,63 +2,108 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
+#include <cstring>
 
-#include "render/density/slice_writer.h"
+#include "render/density/brick_writer.h"
 
 namespace voxmelt::render {
-namespace {
-
-std::int32_t value_of_all(const state::Grid& grid, const state::Grid& brick,
-                          const Values<std::uint16_t>& values) {
-  const CellBox box = cells_of(grid, brick);
-  const std::uint16_t first = values[grid.index(box.low.x, box.low.y, box.low.z)];
-  unsigned different = 0;
-  for_rows(grid, box, [&](std::size_t at, const state::Grid&, int cells) {
-    for (int x = 0; x < cells; ++x)
-      different |= static_cast<unsigned>(values.data()[at + static_cast<std::size_t>(x)] ^ first);
-  });
-  if (different != 0) return CellFields::kMixed;
-  return first;
-}
-
-}  // namespace
 
 CellFields::CellFields(const state::Grid& size)
-    : ChannelValues(size.cells()), grid(size), bricks(brick_grid(size)) {
+    : ChannelValues(size.cells()),
+      grid(size),
+      bricks(brick_grid(size)),
+      columns_(size),
+      inert_(size),
+      changes_(bricks.cells()) {
   for (auto& of_channel : uniform_) of_channel.assign(bricks.cells(), 0);
-  written_.assign(static_cast<std::size_t>(size.z) * static_cast<std::size_t>(size.y), 0);
 }
 
-BrickFlags CellFields::update(const state::Volume& volume, int smooth, const scene::Terrain& terrain,
-                              cpu::Workers& workers) {
-  Columns columns = find_columns(volume, smooth, terrain, workers);
-  if (columns.obstacles && obstacle.empty()) obstacle = Values<std::uint16_t>(grid.cells());
+bool CellFields::same_terrain(const scene::Terrain& terrain) const {
+  if (!fits(terrain, grid)) return terrain_.empty();
+  return terrain_.size() == terrain.height.size() &&
+         std::memcmp(terrain_.data(), terrain.height.data(), terrain_.size() * sizeof(float)) == 0;
+}
 
-  BrickFlags changed(bricks.cells(), 0);
+void CellFields::update(const state::Volume& volume, const state::ChangedBricks::Seen& seen,
+                        const Wanted& wanted, const scene::Terrain& terrain, cpu::Workers& workers) {
+  for (const std::uint32_t brick : changed_) changes_[brick] = {};
+  changed_.clear();
+  Columns::News news;
+  news.everything = !same_terrain(terrain) || wanted.smooth != wanted_.smooth;
+  const bool other_heat = wanted.heat != wanted_.heat;
+  if (!news.everything && !other_heat && volume.changed.none_since(seen)) return;
+
+  const bool all = other_heat || news.everything || volume.changed.all_since(seen);
+  const auto part = wanted.heat ? state::ChangedBricks::kHeat : state::ChangedBricks::kMatter;
+  const auto marked = [&](std::size_t brick) { return all || volume.changed.since(part, seen, brick); };
+  if (news.everything) terrain_ = fits(terrain, grid) ? terrain.height : std::vector<float>{};
+  wanted_ = wanted;
+  const std::size_t slice = static_cast<std::size_t>(bricks.x) * static_cast<std::size_t>(bricks.y);
+  news.look.assign(static_cast<std::size_t>(bricks.x) * static_cast<std::size_t>(bricks.z), 0);
+
   workers.run(bricks.z, [&](int bz) {
-    SliceWriter slice(volume, columns, *this);
-    for (int z = bz * kBrickSide; z < std::min((bz + 1) * kBrickSide, grid.z); ++z) slice.write(z, changed);
+    BrickWriter writer(volume, *this, wanted.heat);
+    std::size_t brick = static_cast<std::size_t>(bz) * slice;
+    for (int by = 0; by < bricks.y; ++by) {
+      int word = -1;  // whose inert cells are known
+      for (int bx = 0; bx < bricks.x; ++bx, ++brick) {
+        if (!marked(brick)) continue;
+        if (word != bx / 8) {
+          word = bx / 8;
+          const std::uint64_t inert = writer.take_inert({bx, by, bz});
+          for (int i = 0; inert != 0 && i < 8; ++i)
+            if ((inert >> 8 * i & 0xff) != 0)
+              news.look[columns_.brick_at(8 * word + i, bz)] = Columns::kInert;
+        }
+        writer.write_matter({bx, by, bz});
+        std::uint8_t& look = news.look[columns_.brick_at(bx, bz)];
+        if (look == Columns::kNothing && by * kBrickSide < columns_.read_to(columns_.brick_at(bx, bz)) &&
+            (changes_[brick].matter.any() || !columns_.same_offsets(volume, {bx, by, bz})))
+          look = Columns::kMatter;
+      }
+    }
+  });
 
-    const auto values = std::as_const(*this).all();
+  const std::vector<Extent>& another = columns_.update(volume, wanted.smooth, terrain, news, workers);
+  const bool obstacles = columns_.has_obstacles();
+  if (obstacles && obstacle.empty()) obstacle = Values<std::uint16_t>(grid.cells());
+
+  std::vector<std::vector<std::uint32_t>> changed(static_cast<std::size_t>(bricks.z));
+  workers.run(bricks.z, [&](int bz) {
+    BrickWriter writer(volume, *this, wanted.heat);
+    std::size_t brick = static_cast<std::size_t>(bz) * slice;
+    const auto row = static_cast<std::size_t>(bricks.x);
     for (int by = 0; by < bricks.y; ++by)
-      for (int bx = 0; bx < bricks.x; ++bx) {
-        const std::size_t brick = bricks.index(bx, by, bz);
-        for (std::size_t channel = 0; channel < kChannels; ++channel)
-          if ((changed[brick] & flag_of(static_cast<int>(channel))) != 0)
-            uniform_[channel][brick] = value_of_all(grid, {bx, by, bz}, *values[channel]);
+      for (int bx = 0; bx < bricks.x; ++bx, ++brick) {
+        const std::size_t column = columns_.brick_at(bx, bz);
+        const int low = by * kBrickSide, high = low + kBrickSide;
+        // What moves up or down comes from a cell below or above.
+        const Extent& planned = columns_.planned(column);
+        const bool moved = planned.low < high && planned.high > low;
+        const auto beside = [&](std::size_t other, std::uint8_t plane) {
+          constexpr std::uint8_t kMatter = 1 << kSolid | 1 << kLiquid;
+          return (changes_[other].channels & kMatter) != 0 && (changes_[other].matter.y & plane) != 0;
+        };
+        if (changes_[brick].matter.any() || news.everything || news.look[column] == Columns::kInert ||
+            (another[column].low < high && another[column].high > low) ||
+            (moved && by > 0 && beside(brick - row, 0x80)) ||
+            (moved && by + 1 < bricks.y && beside(brick + row, 1)))
+          writer.write_intensity({bx, by, bz});
+        if (changes_[brick].channels != 0)
+          changed[static_cast<std::size_t>(bz)].push_back(static_cast<std::uint32_t>(brick));
       }
   });
-  if (!columns.obstacles) obstacle = {};
-  ground = std::move(columns.ground);
-  wetness = std::move(columns.wetness);
-  return changed;
+  for (const auto& list : changed) changed_.insert(changed_.end(), list.begin(), list.end());
+  if (!obstacles && !obstacle.empty()) {
+    obstacle = {};
+    std::fill(uniform_[kObstacle].begin(), uniform_[kObstacle].end(), 0);
+  }
 }
 
 CellFields cell_fields(const state::Volume& volume, int smooth, const scene::Terrain& terrain) {
   CellFields fields(volume.grid);
   cpu::Workers alone(1);
-  fields.update(volume, smooth, terrain, alone);
+  fields.update(volume, {}, {smooth, true}, terrain, alone);
   return fields;
 }
 

@@ -1,4 +1,4 @@
-// What each cell contributes to the picture, before filtering (paper, section 5).
+// What each cell contributes to the picture, before filtering (docs/picture-field.md, sections 2 to 5).
 //
 // Intensities are the paper's 0..255 with eight fraction bits (u16, kFull = 255 * 256): linear in the
 // amount of a cell, full at kOne and above. Arrays are [z][y][x], x fastest.
@@ -35,7 +35,7 @@ struct ChannelValues {
   Values<std::uint16_t> intensity;  // matter, obstacles and the ground that carries them
   Values<std::uint16_t> solid;      // the solid's part of the intensity
   Values<std::uint16_t> liquid;     // the liquid's part
-  Values<std::uint16_t> heat;       // liquid * temperature, so that thin cells weigh little
+  Values<std::uint16_t> heat;       // liquid * temperature, so that thin cells weigh little; 0 without glow
   Values<std::uint16_t> obstacle;   // the obstacles' part
 
   ChannelValues() = default;
@@ -50,6 +50,13 @@ struct ChannelValues {
   friend bool operator==(const ChannelValues&, const ChannelValues&) = default;
 };
 
+// What an update has changed in a brick: in which channels, and where. Of heat by itself: it changes nearly
+// everywhere, and shifts no surface.
+struct BrickChange {
+  std::uint8_t channels = 0;
+  BrickPart matter, heat;
+};
+
 class CellFields : public ChannelValues {
  public:
   static constexpr std::int32_t kMixed = -1;
@@ -58,28 +65,45 @@ class CellFields : public ChannelValues {
   explicit CellFields(const state::Grid& size);  // an empty volume's
 
   state::Grid grid, bricks;
-  std::vector<float> ground;   // [z][x]: height of the ground in cells, 0 where there is none
-  std::vector<float> wetness;  // [z][x]: 0 dry ground .. 1 covered by at least a thin film
 
-  // Takes over another state of the same size. Returns which channels changed in which bricks.
-  BrickFlags update(const state::Volume& volume, int smooth, const scene::Terrain& terrain,
-                    cpu::Workers& workers);
+  struct Wanted {
+    int smooth = 0;     // how much the terraces of puddles are smoothed, 0: not at all
+    bool heat = false;  // false: it is 0 everywhere
+  };
+  // Takes over another state of the same size, as far as it is not known to be what it was.
+  void update(const state::Volume& volume, const state::ChangedBricks::Seen& seen, const Wanted& wanted,
+              const scene::Terrain& terrain, cpu::Workers& workers);
+
+  // What the last update has changed: the bricks in ascending order, and what in each of them.
+  const std::vector<std::uint32_t>& changed() const { return changed_; }
+  const BrickChange& change(std::uint32_t brick) const { return changes_[brick]; }
+
+  const Columns& columns() const { return columns_; }
 
   // The one value that a channel has in all of a brick, or kMixed.
   std::int32_t uniform(int channel, std::size_t brick) const {
     return uniform_[static_cast<std::size_t>(channel)][brick];
   }
 
-  friend bool operator==(const CellFields&, const CellFields&) = default;
+  friend bool operator==(const CellFields& a, const CellFields& b) {
+    return a.grid == b.grid && static_cast<const ChannelValues&>(a) == b && a.columns_ == b.columns_ &&
+           a.uniform_ == b.uniform_;
+  }
 
  private:
-  friend class SliceWriter;
+  friend class BrickWriter;
+  bool same_terrain(const scene::Terrain& terrain) const;
+
+  Columns columns_;
+  std::vector<float> terrain_;  // heights of the last update
+  Wanted wanted_;
+  state::BitPlane inert_;
   std::array<std::vector<std::int32_t>, kChannels> uniform_;
-  std::vector<std::uint8_t> written_;  // [z][y]: in which channels a row may hold anything but 0
+  std::vector<BrickChange> changes_;
+  std::vector<std::uint32_t> changed_;
 };
 
-// The fields of a volume without a field before it. `smooth`: how much the terraces of puddles are smoothed,
-// 0: not at all.
+// The fields of a volume without a field before it.
 CellFields cell_fields(const state::Volume& volume, int smooth = 0, const scene::Terrain& terrain = {});
 
 }  // namespace voxmelt::render

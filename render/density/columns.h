@@ -1,4 +1,5 @@
-// What stands on each column of the grid, and how far its surface is moved to be drawn smooth.
+// What stands on each column of the grid, and how it is drawn: how far the ground is filled, and by how much
+// the puddle on it is moved.
 //
 // The ground is the inert cells that reach up from y = 0, no higher than the terrain where that is known.
 // Every other inert cell is part of an obstacle, which is drawn like a solid.
@@ -11,42 +12,109 @@
 #include "kernel/automaton/state/volume.h"
 #include "kernel/engine/cpu/workers.h"
 #include "kernel/scene/shape/terrain.h"
+#include "render/density/brick.h"
+#include "render/density/levels.h"
 
 namespace voxmelt::render {
 
 inline constexpr int kGroundReach = 2;  // columns around matter whose ground is filled
 
-// Columns are [z][x]; heights below one cell in rule::kOne.
-struct Columns {
-  int x = 0, z = 0;
-  std::vector<std::int32_t> bed;     // cells of ground, counted up from y = 0
-  std::vector<std::int32_t> top;     // the first cell above ground and obstacles
-  std::vector<std::int32_t> offset;  // of the true ground from the top face of its cell
-  std::vector<std::int32_t> wet;     // 0..kOne: covered by matter or an obstacle
-  std::vector<std::int32_t> shift;   // by which the puddle moves, to smooth its terraces
-  std::vector<std::uint8_t>
-      distance;                // to the nearest wet column, 0..kGroundReach, kGroundReach + 1: farther
-  std::vector<float> ground;   // height of the ground in cells, 0 where there is none
-  std::vector<float> wetness;  // 0 dry ground .. 1 covered by at least a thin film
-  bool obstacles = false;      // whether there are any
+// Heights below one cell in rule::kOne.
+struct Stand {
+  std::int32_t bed = 0;     // cells of ground, counted up from y = 0
+  std::int32_t top = 0;     // the first cell above ground and obstacles
+  std::int32_t floor = 0;   // the cell in which the puddle begins: on the bed, or else on the obstacle
+  std::int32_t end = 0;     // the first cell from there on that is not liquid
+  std::int32_t offset = 0;  // of the true ground from the top face of its cell
+  std::int32_t film = 0;    // 0 dry ground .. kOne: covered by at least a thin film
+  bool obstacle = false;    // one stands on the bed itself
+  friend bool operator==(const Stand&, const Stand&) = default;
+};
 
-  std::size_t at(int cx, int cz) const {
-    return static_cast<std::size_t>(cz) * static_cast<std::size_t>(x) + static_cast<std::size_t>(cx);
+// What is written into the cells of a column beyond its matter and obstacles.
+struct Plan {
+  static constexpr std::int32_t kNoGround = INT32_MIN;
+
+  std::int32_t bed = 0, rise = kNoGround;  // the ground is filled up to the bed and so much more
+  std::int32_t floor = 0, end = 0;         // of the puddle, which is moved; floor = end: there is none
+  std::int32_t shift = 0;                  // by so much
+  friend bool operator==(const Plan&, const Plan&) = default;
+
+  bool puddle() const { return floor < end; }
+  // The cells from low to high - 1 are all that this writes.
+  std::int32_t low() const { return rise != kNoGround ? 0 : puddle() ? floor - 1 : INT32_MAX; }
+  std::int32_t high() const;
+};
+
+// Cells of a column of bricks: from low to high.
+struct Extent {
+  std::int32_t low = INT32_MAX, high = INT32_MIN;
+  bool empty() const { return low >= high; }
+  void add(std::int32_t from, std::int32_t to);
+};
+
+class Columns {
+ public:
+  Columns() = default;
+  explicit Columns(const state::Grid& grid);  // of an empty volume
+
+  // What the next update has to look at. `brick` is one of the columns of bricks, [z][x].
+  enum Look : std::uint8_t { kNothing, kMatter, kInert };  // kInert: inert cells too
+  struct News {
+    std::vector<std::uint8_t> look;  // per column of bricks
+    bool everything = false;         // other terrain, or other smoothing
+  };
+
+  // Brings all up to date. Returns for each column of bricks the cells whose plan is another.
+  const std::vector<Extent>& update(const state::Volume& volume, int smooth, const scene::Terrain& terrain,
+                                    const News& news, cpu::Workers& workers);
+
+  // Does the ground still have the height that it had, as far as the marked brick holds it?
+  bool same_offsets(const state::Volume& volume, const state::Grid& brick) const;
+
+  std::size_t at(int x, int z) const {
+    return static_cast<std::size_t>(z) * static_cast<std::size_t>(grid_.x) + static_cast<std::size_t>(x);
   }
+  std::size_t brick_at(int bx, int bz) const {
+    return static_cast<std::size_t>(bz) * static_cast<std::size_t>(bricks_.x) + static_cast<std::size_t>(bx);
+  }
+  const Stand& stand(std::size_t column) const { return stands_[column]; }
+  const Plan& plan(std::size_t column) const { return plans_[column]; }
+  const Extent& planned(std::size_t brick) const { return planned_[brick]; }  // all that its plans write
+  std::int32_t read_to(std::size_t brick) const {
+    return read_to_[brick];
+  }  // the cells that stands depend on
+  bool has_obstacles(std::size_t brick) const { return obstacles_[brick] != 0; }
+  bool has_obstacles() const;
+  const std::vector<std::int32_t>& ground() const { return ground_; }    // [z][x], 1/4096 cell; 0: none
+  const std::vector<std::int32_t>& wetness() const { return wetness_; }  // [z][x], 0..4096
+
+  friend bool operator==(const Columns& a, const Columns& b) {
+    return a.stands_ == b.stands_ && a.plans_ == b.plans_;
+  }
+
+ private:
+  class Finder;
+  struct Found {
+    ColumnBox levels = ColumnBox::none(), wet = ColumnBox::none();
+  };
+
+  void find_distances(const ColumnBox& box);
+  void find_plans(int bx, int bz);
+
+  state::Grid grid_, bricks_;
+  std::vector<Stand> stands_;
+  PuddleLevels levels_;  // empty where puddles are not smoothed
+  std::vector<std::int32_t> shifts_;
+  std::vector<std::uint8_t> distances_;  // to the nearest wet column, up to kGroundReach + 1: farther
+  std::vector<Plan> plans_;
+  std::vector<std::int32_t> ground_, wetness_;
+  std::vector<Extent> planned_, another_;
+  std::vector<std::int32_t> read_to_;
+  std::vector<std::uint8_t> obstacles_;
 };
 
 // Heights for every column of the grid: only then a terrain says what is ground. All zero: nothing is.
 bool fits(const scene::Terrain& terrain, const state::Grid& grid);
-
-// `smooth`: how much the terraces of puddles are smoothed, 0: not at all. A terrain that does not fit counts
-// as none.
-Columns find_columns(const state::Volume& volume, int smooth, const scene::Terrain& terrain,
-                     cpu::Workers& workers);
-
-// The amount of matter in a cell, 0..kOne; 0 above the grid.
-std::int32_t matter_amount(const state::Volume& volume, int x, int y, int z);
-
-// The cell in which the puddle of a column begins: on the bed, or else on the highest obstacle.
-int puddle_floor(const state::Volume& volume, const Columns& columns, int x, int z);
 
 }  // namespace voxmelt::render

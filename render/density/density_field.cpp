@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <utility>
 
-#include "render/density/brick_filter.h"
 #include "render/density/loops.h"
 
 namespace voxmelt::render {
@@ -14,6 +12,7 @@ namespace {
 static_assert(scene::kMostSmooth == kMaxPasses);
 constexpr int kRangeHalo = 2;
 static_assert(kMaxPasses + kRangeHalo <= kBrickSide, "a change must not reach past the neighbouring bricks");
+constexpr std::uint8_t kRange = 1 << kChannels;  // a flag beside those of the channels
 
 // Light emitted at 257 temperatures: nothing below glow_cold, the square of the way to glow_hot above.
 std::array<float, 257> emission_table(double cold, double hot) {
@@ -26,14 +25,6 @@ std::array<float, 257> emission_table(double cold, double hot) {
   return table;
 }
 
-// The intensity is filtered by shares of other channels.
-BrickFlags with_intensity(BrickFlags flags) {
-  const std::uint8_t shares = flag_of(kSolid) | flag_of(kLiquid) | flag_of(kObstacle);
-  for (std::uint8_t& flag : flags)
-    if ((flag & shares) != 0) flag |= flag_of(kIntensity);
-  return flags;
-}
-
 }  // namespace
 
 int DensityField::update(const state::Volume& volume, const scene::Look& look, const scene::Terrain& terrain,
@@ -41,56 +32,106 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
   if (!workers_ || workers_->threads() != threads) workers_ = std::make_unique<cpu::Workers>(threads);
   const int liquid_passes = std::clamp(look.smooth, 0, kMaxPasses);
   const int solid_passes = std::clamp(look.smooth_solid, 0, kMaxPasses);
-  const bool other_grid = !(volume.grid == grid());
-  if (other_grid) {  // everything starts again as the field of an empty volume
+  const bool other = !(volume.grid == grid()) || look.glow != glow_;
+  if (other) {  // everything starts again as the field of an empty volume
     cells_ = CellFields(volume.grid);
     filtered_ = ChannelValues(volume.grid.cells());
     ranges_.assign(bricks().cells(), BrickRange{});
+    dirty_.assign(bricks().cells(), 0);
+    rows_.assign(static_cast<std::size_t>(bricks().y) * static_cast<std::size_t>(bricks().z), 0);
+    filters_.clear();
     pyramid_ = matter_pyramid_ = Pyramid(volume.grid);
+    stale_.assign(bricks().cells(), 0);
+    stale_all_ = stale_any_ = false;
+    glow_ = look.glow;
+    seen_ = {};
   }
   const bool other_filter = liquid_passes != liquid_passes_ || solid_passes != solid_passes_;
   liquid_passes_ = liquid_passes;
   solid_passes_ = solid_passes;
-
-  const bool had_obstacles = has_obstacles();
-  BrickFlags changed = cells_.update(volume, liquid_passes, terrain, *workers_);
-  if (has_obstacles() != !filtered_.obstacle.empty())
-    filtered_.obstacle = Values<std::uint16_t>(cells_.obstacle.size());
-  if (other_filter && !other_grid) std::fill(changed.begin(), changed.end(), kAllChannels);
-
-  // The filter carries a change into the neighbouring bricks, their ranges no farther.
-  const BrickFlags dirty = widened(bricks(), with_intensity(std::move(changed)));
-  workers_->run(bricks().y * bricks().z, [&](int row) {
-    BrickFilter(cells_, liquid_passes_, solid_passes_, filtered_)
-        .filter_row(row % bricks().y, row / bricks().y, dirty);
-  });
-  workers_->run(bricks().y * bricks().z, [&](int row) {
-    const int y = row % bricks().y, z = row / bricks().y;
-    for (int x = 0; x < bricks().x; ++x)
-      if ((dirty[bricks().index(x, y, z)] & flag_of(kIntensity)) != 0) refresh_range({x, y, z});
-  });
-
-  const bool other_glow = look.glow_cold != glow_cold_ || look.glow_hot != glow_hot_;
+  if (look.glow_cold != glow_cold_ || look.glow_hot != glow_hot_) stale_all_ = stale_any_ = true;
   glow_cold_ = look.glow_cold;
   glow_hot_ = look.glow_hot;
-  refresh_pyramids(dirty, !other_grid && (other_glow || has_obstacles() != had_obstacles));
-  return static_cast<int>(
-      std::count_if(dirty.begin(), dirty.end(), [](std::uint8_t flag) { return flag != 0; }));
+
+  const bool had_obstacles = has_obstacles();
+  cells_.update(volume, seen_, {liquid_passes, look.glow}, terrain, *workers_);
+  seen_ = volume.changed.now();
+  if (has_obstacles() != had_obstacles) {
+    filtered_.obstacle = Values<std::uint16_t>(cells_.obstacle.size());
+    stale_all_ = stale_any_ = true;
+  }
+  refreshed_.clear();
+  if (cells_.changed().empty() && (!other_filter || other)) return 0;
+
+  find_dirty(other_filter && !other);
+  const BrickFilter::Task task{cells_, liquid_passes_, solid_passes_, dirty_, filtered_};
+  const int rows = static_cast<int>(dirty_rows_.size());
+  const int parts = threads == 1 ? 1 : std::clamp(rows, 1, 4 * threads);
+  while (static_cast<int>(filters_.size()) < parts) filters_.emplace_back(grid());
+  workers_->run(parts, [&](int part) {
+    for (int i = rows * part / parts; i < rows * (part + 1) / parts; ++i) {
+      const int row = dirty_rows_[static_cast<std::size_t>(i)];
+      filters_[static_cast<std::size_t>(part)].filter_row(task, row % bricks().y, row / bricks().y);
+    }
+  });
+  workers_->run(rows, [&](int i) {
+    const int row = dirty_rows_[static_cast<std::size_t>(i)], y = row % bricks().y, z = row / bricks().y;
+    for (int x = 0; x < bricks().x; ++x)
+      if ((dirty_[bricks().index(x, y, z)] & kRange) != 0) refresh_range({x, y, z});
+  });
+  for (std::size_t brick = 0; brick < dirty_.size(); ++brick) {
+    const std::uint8_t channels = dirty_[brick] & kAllChannels;
+    if (channels != 0) refreshed_.push_back(static_cast<std::uint32_t>(brick));
+    stale_[brick] |= channels;
+  }
+  stale_any_ = true;
+  return static_cast<int>(refreshed_.size());
 }
 
-void DensityField::refresh_pyramids(const BrickFlags& changed, bool all) {
+// What an update must filter: everything that the filter reaches from what has changed.
+void DensityField::find_dirty(bool all) {
+  std::fill(dirty_.begin(), dirty_.end(), all ? kAllChannels | kRange : 0);
+  std::fill(rows_.begin(), rows_.end(), all ? 1 : 0);
+  const auto spread = [&](const state::Grid& brick, const BrickPart& part, int reach, std::uint8_t flags) {
+    for_reached(bricks(), brick, part, reach, [&](const state::Grid& near) {
+      dirty_[bricks().index(near.x, near.y, near.z)] |= flags;
+      rows_[static_cast<std::size_t>(near.z) * static_cast<std::size_t>(bricks().y) +
+            static_cast<std::size_t>(near.y)] = 1;
+    });
+  };
+  const int wide = std::max(liquid_passes_, solid_passes_);
+  for (const std::uint32_t index : cells_.changed()) {
+    const BrickChange& change = cells_.change(index);
+    const auto i = static_cast<int>(index);
+    const state::Grid brick{i % bricks().x, i / bricks().x % bricks().y, i / bricks().x / bricks().y};
+    if (change.heat.any()) spread(brick, change.heat, wide, flag_of(kHeat));
+    if (!change.matter.any()) continue;
+    // The intensity is filtered by shares of other channels.
+    const auto flags = static_cast<std::uint8_t>((change.channels & ~flag_of(kHeat)) | flag_of(kIntensity));
+    spread(brick, change.matter, wide, flags);
+    spread(brick, change.matter, wide + kRangeHalo, kRange);
+  }
+  dirty_rows_.clear();
+  for (std::size_t row = 0; row < rows_.size(); ++row)
+    if (rows_[row] != 0) dirty_rows_.push_back(static_cast<int>(row));
+}
+
+void DensityField::refresh_pyramids() const {
+  if (!stale_any_) return;
   const std::uint8_t shown = kAllChannels & ~flag_of(kIntensity);
   const auto emission = emission_table(glow_cold_, glow_hot_);
   workers_->run(bricks().y * bricks().z, [&](int row) {
     const int y = row % bricks().y, z = row / bricks().y;
     for (int x = 0; x < bricks().x; ++x) {
-      if (!all && (changed[bricks().index(x, y, z)] & shown) == 0) continue;
+      if (!stale_all_ && (stale_[bricks().index(x, y, z)] & shown) == 0) continue;
       pyramid_.refresh(grid(), {x, y, z}, filtered_, true, emission);
       if (has_obstacles()) matter_pyramid_.refresh(grid(), {x, y, z}, filtered_, false, emission);
     }
   });
   pyramid_.refresh_top();
   if (has_obstacles()) matter_pyramid_.refresh_top();
+  std::fill(stale_.begin(), stale_.end(), 0);
+  stale_any_ = stale_all_ = false;
 }
 
 void DensityField::refresh_range(const state::Grid& brick) {

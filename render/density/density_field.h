@@ -1,4 +1,5 @@
-// The scalar field that is drawn: filtered intensity and what goes with it, kept up to date brick by brick.
+// The scalar field that is drawn: filtered intensity and what goes with it, kept up to date brick by brick
+// (docs/picture-field.md).
 //
 // The surface is where the filtered intensity is half of kFull. For a column of full cells with a part-filled
 // cell on top this lies within a tenth of a cell of the column's height, so smooth amounts look smooth.
@@ -17,6 +18,7 @@
 #include "kernel/scene/look.h"
 #include "kernel/scene/shape/terrain.h"
 #include "render/density/brick.h"
+#include "render/density/brick_filter.h"
 #include "render/density/cell_fields.h"
 #include "render/density/pyramid.h"
 
@@ -31,40 +33,59 @@ struct BrickRange {
 
 class DensityField {
  public:
-  // Takes over a new state. Only bricks in which something changed, and their neighbours, are filtered again;
-  // the result is the same, bit for bit, as that of a fresh field, on any number of threads. Returns the
-  // number of bricks filtered. Inert cells above the terrain are obstacles; where it does not fit the volume,
-  // those above any gap are.
+  // Takes over a new state. Only bricks in which something changed, and what the filter reaches from there,
+  // are filtered again; the result is the same, bit for bit, as that of a fresh field, on any number of
+  // threads. A volume that is told its changes (Volume::changed) is read only where it has changed; any other
+  // volume, size, look or terrain is read anew. Returns the number of bricks filtered. Inert cells above the
+  // terrain are obstacles; where it does not fit the volume, those above any gap are.
   int update(const state::Volume& volume, const scene::Look& look, const scene::Terrain& terrain = {},
              int threads = 1);
+
+  // The bricks that the last update has filtered, ascending: elsewhere nothing below has changed.
+  const std::vector<std::uint32_t>& refreshed() const { return refreshed_; }
 
   const state::Grid& grid() const { return cells_.grid; }
   const state::Grid& bricks() const { return cells_.bricks; }
   const Values<std::uint16_t>& intensity() const { return filtered_.intensity; }
   const Values<std::uint16_t>& solid() const { return filtered_.solid; }
   const Values<std::uint16_t>& liquid() const { return filtered_.liquid; }
-  const Values<std::uint16_t>& heat() const { return filtered_.heat; }
-  const Values<std::uint16_t>& obstacle() const { return filtered_.obstacle; }  // empty where there is none
-  const std::vector<float>& ground() const { return cells_.ground; }
-  const std::vector<float>& wetness() const { return cells_.wetness; }
+  const Values<std::uint16_t>& heat() const { return filtered_.heat; }  // 0 where the look does not glow
+  const Values<std::uint16_t>& obstacle() const { return filtered_.obstacle; }  // empty: there is none
+  const std::vector<std::int32_t>& ground() const { return cells_.columns().ground(); }    // 1/4096 cell
+  const std::vector<std::int32_t>& wetness() const { return cells_.columns().wetness(); }  // 0..4096
   const std::vector<BrickRange>& ranges() const { return ranges_; }
   const CellFields& cells() const { return cells_; }  // before filtering
   bool has_obstacles() const { return !cells_.obstacle.empty(); }
-  // The pyramid of all that stops light, and that of solid and liquid without the obstacles.
-  const Pyramid& pyramid() const { return pyramid_; }
-  const Pyramid& matter_pyramid() const { return has_obstacles() ? matter_pyramid_ : pyramid_; }
+  // The pyramid of all that stops light, and that of solid and liquid without the obstacles. The first call
+  // after an update computes both, and must not meet another call.
+  const Pyramid& pyramid() const { return refresh_pyramids(), pyramid_; }
+  const Pyramid& matter_pyramid() const {
+    return refresh_pyramids(), has_obstacles() ? matter_pyramid_ : pyramid_;
+  }
   int liquid_passes() const { return liquid_passes_; }
 
  private:
+  void find_dirty(bool all);
   void refresh_range(const state::Grid& brick);
-  void refresh_pyramids(const BrickFlags& bricks, bool all);
+  void refresh_pyramids() const;
 
   CellFields cells_;
   ChannelValues filtered_;
   int liquid_passes_ = -1, solid_passes_ = -1;
+  bool glow_ = false;
+  state::ChangedBricks::Seen seen_;
+  BrickFlags dirty_;                // channels to filter; kRange: the range to refresh
+  std::vector<std::uint8_t> rows_;  // [z][y] of bricks: something in it is dirty
+  std::vector<int> dirty_rows_;
+  std::vector<BrickFilter> filters_;  // one for each part of the rows
+  std::vector<std::uint32_t> refreshed_;
   std::vector<BrickRange> ranges_;
+
+  // The pyramids wait until somebody asks for them.
   double glow_cold_ = 0, glow_hot_ = 0;
-  Pyramid pyramid_, matter_pyramid_;
+  mutable bool stale_any_ = false, stale_all_ = false;
+  mutable BrickFlags stale_;
+  mutable Pyramid pyramid_, matter_pyramid_;
   std::unique_ptr<cpu::Workers> workers_;
 };
 

@@ -16,6 +16,7 @@ namespace voxmelt::render {
 template <class Arch>
 struct DensityLoops {
   static constexpr int kGroup = 8;
+  static constexpr int kRows = kBrickSide * kBrickSide;
   using U16 [[gnu::vector_size(16)]] = std::uint16_t;
   using I32 [[gnu::vector_size(32)]] = std::int32_t;
   using U32 [[gnu::vector_size(32)]] = std::uint32_t;
@@ -48,51 +49,153 @@ struct DensityLoops {
       for (int lane = 0; lane < count; ++lane) to[lane] = cells[lane];
   }
 
-  // Rows of `sums` begin every `wide` numbers. There is one group more than needed, for the sums along x.
+  // Some cells of a row, and the other lanes 0.
+  [[gnu::always_inline]] static void store_some(const U16& from, std::uint16_t* cells, int count) {
+    if (count >= kGroup)
+      store(from, cells);
+    else
+      std::memcpy(cells, &from, sizeof(std::uint16_t) * static_cast<std::size_t>(count));
+  }
+
+  [[gnu::always_inline]] static U16 lanes_of(std::uint64_t bits) {
+    const U16 own{1, 2, 4, 8, 16, 32, 64, 128};
+    return ((U16{} + static_cast<std::uint16_t>(bits & 0xff)) & own) == own;
+  }
+
+  template <class T>
+  [[gnu::always_inline]] static T* at(const Block<T>& block, int j, int k) {
+    return block.cells + static_cast<std::size_t>(k) * block.slice + static_cast<std::size_t>(j) * block.row;
+  }
+
+  // Most rows are what they were: they are only compared.
+  template <bool kWhole, bool kHeat>
+  static MatterFound matter_of(const MatterBrick& brick) {
+    const int count = kWhole ? kGroup : brick.x;
+    const auto get = [&](U16 & to, const std::uint16_t* cells) __attribute__((always_inline)) {
+      if constexpr (kWhole)
+        load(to, cells);
+      else
+        load_some(to, cells, count);
+    };
+    const auto put = [&](const U16& from, std::uint16_t* cells) __attribute__((always_inline)) {
+      if constexpr (kWhole)
+        store(from, cells);
+      else
+        store_some(from, cells, count);
+    };
+    const auto any = [](const U16& lanes) __attribute__((always_inline)) {
+      std::uint64_t halves[2];
+      std::memcpy(halves, &lanes, sizeof halves);
+      return (halves[0] | halves[1]) != 0;
+    };
+    // What is kept lies far apart in memory: it is asked for in time.
+    std::uint64_t solids[kRows], liquids[kRows], any_solid = 0, any_liquid = 0;
+    for (int k = 0; k < brick.z; ++k)
+      for (int j = 0; j < brick.y; ++j) {
+        const std::size_t word =
+            static_cast<std::size_t>(k) * brick.mask_slice + static_cast<std::size_t>(j) * brick.mask_row;
+        const int r = k * kBrickSide + j;
+        any_solid |= solids[r] = brick.solid[word] >> brick.shift & 0xff;
+        any_liquid |= liquids[r] = brick.liquid[word] >> brick.shift & 0xff;
+        if ((solids[r] | liquids[r]) != 0) __builtin_prefetch(at(brick.amount, j, k));
+        if (brick.kept_solid) __builtin_prefetch(at(brick.to_solid, j, k));
+        if (brick.kept_liquid) __builtin_prefetch(at(brick.to_liquid, j, k));
+        if (kHeat && liquids[r] != 0) __builtin_prefetch(at(brick.heat, j, k));
+        if (kHeat && brick.kept_heat) __builtin_prefetch(at(brick.to_heat, j, k));
+      }
+
+    U16 changed[3]{};
+    unsigned changed_y[3]{}, changed_z[3]{};
+    const auto take = [&](int channel, const U16& fresh, std::uint16_t* kept, int j, int k)
+        __attribute__((always_inline)) {
+      U16 old;
+      get(old, kept);
+      const U16 change = fresh ^ old;
+      if (!any(change)) return;
+      put(fresh, kept);
+      changed[channel] |= change;
+      changed_y[channel] |= 1u << j;
+      changed_z[channel] |= 1u << k;
+    };
+    const bool hard = any_solid != 0 || brick.kept_solid, soft = any_liquid != 0 || brick.kept_liquid,
+               warm = kHeat && (any_liquid != 0 || brick.kept_heat);
+    for (int k = 0; (hard || soft || warm) && k < brick.z; ++k)
+      for (int j = 0; j < brick.y; ++j) {
+        const int r = k * kBrickSide + j;
+        U16 value{};
+        if ((solids[r] | liquids[r]) != 0) {
+          load(value, at(brick.amount, j, k));
+          value = value > 4096 ? U16{} + 4096 : value;
+          value = (value << 4) - ((value + 15) >> 4);  // 255 a / 16, rounded down
+        }
+        if (hard) take(0, value & lanes_of(solids[r]), at(brick.to_solid, j, k), j, k);
+        const U16 liquid = value & lanes_of(liquids[r]);
+        if (soft) take(1, liquid, at(brick.to_liquid, j, k), j, k);
+        if (!warm) continue;
+        U16 heat{};
+        if (liquids[r] != 0) {
+          U32 wide, temperature;
+          load_as(temperature, at(brick.heat, j, k));
+          wide = __builtin_convertvector(liquid, U32);
+          heat = __builtin_convertvector(wide * temperature >> 16, U16);
+        }
+        take(2, heat, at(brick.to_heat, j, k), j, k);
+      }
+    const auto part = [&](int channel) __attribute__((always_inline)) {
+      unsigned x = 0;
+      for (int lane = 0; lane < kGroup; ++lane) x |= (changed[channel][lane] != 0 ? 1u : 0u) << lane;
+      return BrickPart{static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(changed_y[channel]),
+                       static_cast<std::uint8_t>(changed_z[channel])};
+    };
+    return {part(0), part(1), part(2)};
+  }
+
+  static MatterFound matter(const MatterBrick& brick) {
+    if (brick.with_heat)
+      return brick.x == kGroup ? matter_of<true, true>(brick) : matter_of<false, true>(brick);
+    return brick.x == kGroup ? matter_of<true, false>(brick) : matter_of<false, false>(brick);
+  }
+
+  // (a + 2 b + c) / 4 to nearest, halves upwards. It does not leave 16 bits: the mean of a and c is rounded
+  // down, and the mean of that and b up.
+  [[gnu::always_inline]] static void average(const std::uint16_t* a, const std::uint16_t* b,
+                                             const std::uint16_t* c, int count, std::uint16_t* to) {
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) {
+      const auto outer = static_cast<std::uint16_t>((a[i] & c[i]) + ((a[i] ^ c[i]) >> 1));
+      to[i] = static_cast<std::uint16_t>((outer + b[i] + 1) >> 1);
+    }
+  }
+
+  // Along z into one half of `room`, from there along y into the other half, from there along x.
   static void low_pass(Block<const std::uint16_t> from, Block<std::uint16_t> to, int x, int y, int z,
-                       std::uint32_t* sums) {
-    const int groups = (x + 2 + kGroup - 1) / kGroup, wide = (groups + 1) * kGroup;
-    std::uint32_t* const along_yz = sums + static_cast<std::ptrdiff_t>(wide) * (y + 2);  // one row
+                       std::uint16_t* room) {
+    const int wide = (x + 2 + kLanes - 1) / kLanes * kLanes, own = (x + kLanes - 1) / kLanes * kLanes;
+    const auto step = static_cast<std::size_t>(wide + kLanes);
+    std::uint16_t* const other = room + step * static_cast<std::size_t>(y + 2);
     for (int k = 0; k < z; ++k) {
       for (int j = 0; j < y + 2; ++j) {
         const std::uint16_t* row =
             from.cells + static_cast<std::size_t>(k) * from.slice + static_cast<std::size_t>(j) * from.row;
-        std::uint32_t* sum = sums + static_cast<std::ptrdiff_t>(j) * wide;
-        for (int i = 0; i < groups * kGroup; i += kGroup) {
-          U32 a, b, c;
-          load_as(a, row + i);
-          load_as(b, row + from.slice + i);
-          load_as(c, row + 2 * from.slice + i);
-          store(a + b + b + c, sum + i);
-        }
+        average(row, row + from.slice, row + 2 * from.slice, wide, room + static_cast<std::size_t>(j) * step);
       }
       for (int j = 0; j < y; ++j) {
-        const std::uint32_t* sum = sums + static_cast<std::ptrdiff_t>(j) * wide;
-        for (int i = 0; i < groups * kGroup; i += kGroup) {
-          U32 a, b, c;
-          load(a, sum + i);
-          load(b, sum + wide + i);
-          load(c, sum + 2 * wide + i);
-          store(a + b + b + c, along_yz + i);
-        }
-        std::uint16_t* row =
-            to.cells + static_cast<std::size_t>(k) * to.slice + static_cast<std::size_t>(j) * to.row;
-        for (int i = 0; i < x; i += kGroup) {
-          U32 a, b, c;
-          load(a, along_yz + i);
-          load(b, along_yz + i + 1);
-          load(c, along_yz + i + 2);
-          store(__builtin_convertvector((a + b + b + c + 32) >> 6, U16), row + i);
-        }
+        const std::uint16_t* row = room + static_cast<std::size_t>(j) * step;
+        average(row, row + step, row + 2 * step, wide, other + static_cast<std::size_t>(j) * step);
+      }
+      for (int j = 0; j < y; ++j) {
+        const std::uint16_t* row = other + static_cast<std::size_t>(j) * step;
+        average(row, row + 1, row + 2, own,
+                to.cells + static_cast<std::size_t>(k) * to.slice + static_cast<std::size_t>(j) * to.row);
       }
     }
   }
 
   // Directly above a solid, the liquid's share is about 0.35 with a film of half a cell, and 0.9 with one of
-  // two cells.
+  // two cells. The quotient is below 2^7 and its numerator below 2^23: in single precision, rounded down, it
+  // is exact.
   static void weights(const std::uint16_t* liquid, const std::uint16_t* solid, const std::uint16_t* obstacle,
                       int count, std::uint16_t* weights) {
-    constexpr float kFrom = 0.4f, kTo = 0.8f;
     for (int i = 0; i < count; i += kGroup) {
       U16 cells;
       I32 soft, hard, other;
@@ -102,14 +205,14 @@ struct DensityLoops {
       hard = __builtin_convertvector(cells, I32);
       load_some(cells, obstacle == nullptr ? nullptr : obstacle + i, count - i);
       other = __builtin_convertvector(cells, I32);
-      I32 all = soft + hard + other;
-      all = all < 1 ? I32{} + 1 : all;
-      const F32 share = __builtin_convertvector(soft, F32) / __builtin_convertvector(all, F32);
-      F32 t = (share - kFrom) / (kTo - kFrom);
-      t = t < 0.0f ? F32{} : t;
-      t = t > 1.0f ? F32{} + 1.0f : t;
-      const F32 smooth = t * t * (3 - 2 * t);
-      store(__builtin_convertvector(__builtin_convertvector(256 * smooth, I32), U16), weights + i);
+      const I32 all = (soft + hard + other + 3) >> 2;
+      I32 over = 5 * ((soft + 3) >> 2) - 2 * all;
+      over = over < 0 ? I32{} : over;
+      over = over > 2 * all ? 2 * all : over;
+      const I32 divisor = all < 1 ? I32{} + 1 : all;
+      const I32 t = __builtin_convertvector(
+          __builtin_convertvector(64 * over, F32) / __builtin_convertvector(divisor, F32), I32);
+      store(__builtin_convertvector(t * t * (384 - 2 * t) >> 13, U16), weights + i);
     }
   }
 
@@ -169,6 +272,30 @@ struct DensityLoops {
     sum += 0.125f * __builtin_shufflevector(values, values, 1, 3, 5, 7);
   }
 
+  // How much of a difference between neighbours counts: all up to one cell, nothing from two.
+  [[gnu::always_inline]] static std::int32_t share(std::int32_t difference) {
+    const std::int32_t size = (difference < 0 ? -difference : difference) >> 4;
+    const std::int32_t left = 8192 - size;
+    return left < 0 ? 0 : left > 4096 ? 4096 : left;
+  }
+  // In 32 bits: where a share is not 0 both differences are below 2^17.
+  [[gnu::always_inline]] static std::int32_t bend(std::int32_t before, std::int32_t here,
+                                                  std::int32_t after) {
+    const std::int32_t down = before - here, up = after - here;
+    const std::int32_t one = share(down), two = share(up);
+    return (down + up) * (one < two ? one : two) >> 12;
+  }
+  static void smooth_levels(const LevelRows& from, int count, std::int32_t* to) {
+    const std::int32_t *low = from.low, *mid = from.here, *high = from.high;
+#pragma GCC ivdep
+    for (int x = 0; x < count; ++x) {
+      const std::int32_t here = mid[x];
+      const std::int32_t straight = bend(mid[x - 1], here, mid[x + 1]) + bend(low[x], here, high[x]);
+      const std::int32_t diagonal = bend(low[x - 1], here, high[x + 1]) + bend(high[x - 1], here, low[x + 1]);
+      to[x] = here + ((2 * straight + diagonal) >> 4);
+    }
+  }
+
   static void shrink(const ShownRow* from, int rows, int count, const float* emission, Blend* to) {
     constexpr float kUnit = 1.0f / static_cast<float>(kFull);
     F32x4 matter{}, liquid{}, heat{}, glow{};
@@ -212,7 +339,7 @@ struct DensityLoops {
 template <class Arch>
 Loops loops_for() {
   using Of = DensityLoops<Arch>;
-  return {Of::low_pass, Of::weights, Of::mix, Of::range, Of::shrink};
+  return {Of::matter, Of::low_pass, Of::weights, Of::mix, Of::range, Of::smooth_levels, Of::shrink};
 }
 
 }  // namespace voxmelt::render

@@ -2,49 +2,33 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
-#include <vector>
 
 #include "kernel/automaton/rule/fixed_point.h"
+#include "render/density/loops.h"
 
 namespace voxmelt::render {
 namespace {
 
-using rule::kOne;
-
-constexpr std::int32_t kMostShift = kOne / 4;
-constexpr std::int32_t kFraction = 16;  // heights are kept to this part of a unit between passes
+constexpr std::int32_t kMostShift = rule::kOne / 4;
+constexpr int kFractionBits = 4;  // heights are kept to this part of a unit between passes
 
 // Stands for a column without a puddle. It is farther below any other level than a cliff, and yet no
 // difference overflows.
 constexpr std::int32_t kAbyss = -(1 << 29);
 
-// Share of a difference between neighbours that is smoothed: all up to one cell, nothing from two.
-std::int32_t share(std::int32_t difference) {
-  return std::clamp(2 * kOne - std::abs(difference) / kFraction, 0, kOne);
-}
-
-// Second difference across a column, 0 where one of the two neighbours holds no puddle. In 32 bits: where a
-// share is not 0 both differences are below 2^17.
-std::int32_t bend(std::int32_t before, std::int32_t here, std::int32_t after) {
-  const std::int32_t down = before - here, up = after - here;
-  return (down + up) * std::min(share(down), share(up)) / kOne;
-}
-
-// The levels with a border of columns without puddle, and where in each row the puddles are.
+// The levels of a box with a border of columns without puddle, and where in each row the puddles are.
 class Sheet {
  public:
-  explicit Sheet(const Levels& levels)
-      : columns_(levels.x), rows_(levels.z), stride_(static_cast<std::size_t>(levels.x) + 2) {
-    now_.assign(stride_ * (static_cast<std::size_t>(rows_) + 2), kAbyss);
-    for (int z = 0; z < rows_; ++z) {
-      int first = columns_, end = 0;
-      for (int x = 0; x < columns_; ++x) {
-        const std::int32_t level =
-            levels.level[static_cast<std::size_t>(z) * static_cast<std::size_t>(columns_) +
-                         static_cast<std::size_t>(x)];
-        if (level == kNoLevel) continue;
-        now_[at(x, z)] = level * kFraction;
+  Sheet(const PuddleLevels& levels, const ColumnBox& box)
+      : box_(box), stride_(static_cast<std::size_t>(box.high_x - box.low_x) + 2) {
+    now_.assign(stride_ * (static_cast<std::size_t>(box.high_z - box.low_z) + 2), kAbyss);
+    for (int z = box.low_z; z < box.high_z; ++z) {
+      int first = box.high_x, end = box.low_x;
+      const std::int32_t* row =
+          levels.level.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(levels.x);
+      for (int x = box.low_x; x < box.high_x; ++x) {
+        if (row[x] == kNoLevel) continue;
+        now_[at(x, z)] = row[x] << kFractionBits;
         first = std::min(first, x);
         end = x + 1;
       }
@@ -53,35 +37,27 @@ class Sheet {
     next_ = now_;
   }
 
-  // The 3x3 binomial filter where all neighbours count.
+  // The 3x3 binomial filter where all neighbours count. An abyss stays one: nothing near it counts.
   void smooth() {
-    for (const Span& span : puddles_) {
-      const std::int32_t* low = now_.data() + at(0, span.z - 1);
-      const std::int32_t* mid = now_.data() + at(0, span.z);
-      const std::int32_t* high = now_.data() + at(0, span.z + 1);
-      std::int32_t* to = next_.data() + at(0, span.z);
-      for (int x = span.first; x < span.end; ++x) {
-        const std::int32_t here = mid[x];
-        const std::int32_t straight = bend(mid[x - 1], here, mid[x + 1]) + bend(low[x], here, high[x]);
-        const std::int32_t diagonal =
-            bend(low[x - 1], here, high[x + 1]) + bend(high[x - 1], here, low[x + 1]);
-        to[x] = here == kAbyss ? kAbyss : here + (2 * straight + diagonal) / 16;
-      }
-    }
+    for (const Span& span : puddles_)
+      loops().smooth_levels({now_.data() + at(span.first, span.z - 1), now_.data() + at(span.first, span.z),
+                             now_.data() + at(span.first, span.z + 1)},
+                            span.end - span.first, next_.data() + at(span.first, span.z));
     now_.swap(next_);
   }
 
-  std::int32_t level(int x, int z) const { return now_[at(x, z)] / kFraction; }
+  std::int32_t level(int x, int z) const { return now_[at(x, z)] >> kFractionBits; }
 
  private:
   struct Span {
     int z, first, end;
   };
   std::size_t at(int x, int z) const {
-    return static_cast<std::size_t>(z + 1) * stride_ + static_cast<std::size_t>(x + 1);
+    return static_cast<std::size_t>(z - box_.low_z + 1) * stride_ +
+           static_cast<std::size_t>(x - box_.low_x + 1);
   }
 
-  int columns_, rows_;
+  ColumnBox box_;
   std::size_t stride_;
   std::vector<std::int32_t> now_, next_;
   std::vector<Span> puddles_;
@@ -89,18 +65,35 @@ class Sheet {
 
 }  // namespace
 
-std::vector<std::int32_t> level_shifts(const Levels& levels, int passes) {
-  Sheet sheet(levels);
+void ColumnBox::add(int x, int z) {
+  low_x = std::min(low_x, x), high_x = std::max(high_x, x + 1);
+  low_z = std::min(low_z, z), high_z = std::max(high_z, z + 1);
+}
+
+ColumnBox ColumnBox::widened(int columns, int x, int z) const {
+  return {std::max(low_x - columns, 0), std::max(low_z - columns, 0), std::min(high_x + columns, x),
+          std::min(high_z + columns, z)};
+}
+
+// What lies beyond the wider box is wrong there, and moves in by one column with each pass.
+void find_shifts(const PuddleLevels& levels, int passes, const ColumnBox& box,
+                 std::vector<std::int32_t>& shifts) {
+  if (box.empty()) return;
+  Sheet sheet(levels, box.widened(passes, levels.x, levels.z));
   for (int pass = 0; pass < passes; ++pass) sheet.smooth();
-  std::vector<std::int32_t> shifts(levels.level.size(), 0);
-  for (int z = 0; z < levels.z; ++z)
-    for (int x = 0; x < levels.x; ++x) {
+  for (int z = box.low_z; z < box.high_z; ++z)
+    for (int x = box.low_x; x < box.high_x; ++x) {
       const auto i =
           static_cast<std::size_t>(z) * static_cast<std::size_t>(levels.x) + static_cast<std::size_t>(x);
-      if (levels.level[i] == kNoLevel) continue;
-      const std::int32_t most = std::min(kMostShift, levels.depth[i] / 2);
-      shifts[i] = std::clamp(sheet.level(x, z) - levels.level[i], -most, most);
+      const std::int32_t most = std::min(kMostShift, levels.depth[i] >> 1);
+      shifts[i] =
+          levels.level[i] == kNoLevel ? 0 : std::clamp(sheet.level(x, z) - levels.level[i], -most, most);
     }
+}
+
+std::vector<std::int32_t> level_shifts(const PuddleLevels& levels, int passes) {
+  std::vector<std::int32_t> shifts(levels.level.size(), 0);
+  find_shifts(levels, passes, {0, 0, levels.x, levels.z}, shifts);
   return shifts;
 }
 

@@ -13,14 +13,29 @@ namespace voxmelt::render {
 inline constexpr std::int32_t kNoLevel = INT32_MIN;  // no puddle in this column
 
 // Columns, [z][x]; heights in kOne.
-struct Levels {
+struct PuddleLevels {
   int x = 0, z = 0;
   std::vector<std::int32_t> level;  // height of the surface or kNoLevel
   std::vector<std::int32_t> depth;  // of the liquid
 };
 
-// How far each column's level must move: at most a quarter of a cell and a half of the depth. Even slopes
-// stay where they are up to the rim; steps of two cells and more are no terraces and stay too.
-std::vector<std::int32_t> level_shifts(const Levels& levels, int passes);
+// Some columns: from low to high.
+struct ColumnBox {
+  int low_x, low_z, high_x, high_z;
+
+  static ColumnBox none() { return {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN}; }
+  bool empty() const { return low_x >= high_x; }
+  void add(int x, int z);
+  ColumnBox widened(int columns, int x, int z) const;  // within x * z columns
+};
+
+// How far the level of each column of the box must move: at most a quarter of a cell and a half of the depth.
+// Even slopes stay where they are up to the rim; steps of two cells and more are no terraces and stay too.
+// Other columns of `shifts` stay as they are.
+void find_shifts(const PuddleLevels& levels, int passes, const ColumnBox& box,
+                 std::vector<std::int32_t>& shifts);
+
+// The same for all columns.
+std::vector<std::int32_t> level_shifts(const PuddleLevels& levels, int passes);
 
 }  // namespace voxmelt::render

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "render/density/brick.h"
+
 namespace voxmelt::render {
 
 struct Blend;
@@ -21,16 +23,43 @@ struct ShownRow {
   const std::uint16_t *solid, *liquid, *heat, *obstacle;  // no obstacles: null
 };
 
-inline constexpr int kLanes = 8;  // cells that a loop takes at once
+// One brick of a volume, of x * y * z cells, and what is kept of it.
+struct MatterBrick {
+  int x, y, z;
+  const std::uint64_t *solid, *liquid;  // the words that hold the brick's first row
+  std::size_t mask_row, mask_slice;     // words from a row, a slice to the next
+  int shift;                            // of the brick's bits in the word
+  Block<const std::uint16_t> amount, heat;
+  Block<std::uint16_t> to_solid, to_liquid, to_heat;
+  bool kept_solid, kept_liquid, kept_heat;  // false: what is kept is 0 everywhere in the brick
+  bool with_heat;
+};
+
+// Where cells were not what they are.
+struct MatterFound {
+  BrickPart solid, liquid, heat;
+};
+
+// Three rows of the levels of puddles, from the first column that is asked for. A column is also read before
+// and after those.
+struct LevelRows {
+  const std::int32_t *low, *here, *high;
+};
+
+inline constexpr int kLanes = 16;  // cells that a loop takes at once
 
 // Cells beyond those that are asked for are read only where a comment says so, because another thread may be
 // writing them.
 struct Loops {
-  // One pass of the 3x3x3 binomial filter, rounded to nearest: x * y * z cells of `to` from two more along
-  // each axis of `from`, which may be `to`. Rows of `to` are written up to the next multiple of kLanes, those
-  // of `from` read up to kLanes further than x + 2. `sums`: room for (x + 2 + 2 kLanes) (y + 3) numbers.
+  // Takes over what is solid and liquid in a brick. Rows of masks and amounts are read to their end.
+  MatterFound (*matter)(const MatterBrick& brick);
+
+  // One pass of the 3x3x3 binomial filter (docs/picture-field.md, section 6): x * y * z cells of `to` from
+  // two more along each axis of `from`, which may be `to`. Rows of `to` are written up to the next multiple
+  // of kLanes, those of `from` read up to 2 kLanes further than x + 2. `room`: 2 (x + 2 + 3 kLanes) (y + 2)
+  // cells.
   void (*low_pass)(Block<const std::uint16_t> from, Block<std::uint16_t> to, int x, int y, int z,
-                   std::uint32_t* sums);
+                   std::uint16_t* room);
 
   // How much of the liquid's filter each cell gets, 0..256, from the liquid and what is solid around it (no
   // obstacles: null). Whole groups are written.
@@ -41,9 +70,12 @@ struct Loops {
   void (*mix)(const std::uint16_t* solid, const std::uint16_t* liquid, const std::uint16_t* weights,
               int count, std::uint16_t* to);
 
-  // The smallest and the largest of x * y * z cells, x at most 2 kLanes.
+  // The smallest and the largest of x * y * z cells, x at most 16.
   void (*range)(Block<const std::uint16_t> from, int x, int y, int z, std::uint16_t* low,
                 std::uint16_t* high);
+
+  // One pass along the levels of puddles (docs/picture-field.md, section 4).
+  void (*smooth_levels)(const LevelRows& from, int count, std::int32_t* to);
 
   // Four cells of the pyramid's first level from `rows` (at most 4) rows of cells, of which `count` along x
   // are inside the grid. `emission`: see Pyramid::refresh.

@@ -18,8 +18,8 @@ std::size_t whole_groups(int cells) {
 
 LowPass::LowPass(const state::Grid& grid)
     : grid_(grid),
-      block_(std::make_unique_for_overwrite<std::uint16_t[]>(kMostRow * kMostSide * kMostSide + 2 * kLanes)),
-      sums_(std::make_unique_for_overwrite<std::uint32_t[]>((kMostRow + kLanes) * (kMostSide + 1))) {}
+      block_(std::make_unique_for_overwrite<std::uint16_t[]>(kMostRow * kMostSide * kMostSide + 4 * kLanes)),
+      room_(std::make_unique_for_overwrite<std::uint16_t[]>(2 * (kMostRow + 3 * kLanes) * kMostSide)) {}
 
 void LowPass::load(const Values<std::uint16_t>& from, const state::Grid& first, int bricks, int passes) {
   const CellBox box = cells_of(grid_, first, bricks);
@@ -66,7 +66,7 @@ void LowPass::advance(int passes) {
     const std::size_t row = whole_groups(x_);
     const Block<std::uint16_t> to{block_.get(), copied ? here_.row : row,
                                   copied ? here_.slice : row * static_cast<std::size_t>(y_)};
-    loops().low_pass(here_, to, x_, y_, z_, sums_.get());
+    loops().low_pass(here_, to, x_, y_, z_, room_.get());
     here_ = {to.cells, to.row, to.slice};
   }
 }

@@ -1,7 +1,7 @@
-// The low-pass filter of the paper's section 5: separable binomial 1-2-1 along x, y and z, repeated.
+// The low-pass filter of the paper's section 5: separable binomial 1-2-1 along z, y and x, repeated.
 //
-// Cells outside the grid repeat the nearest cell inside; every pass rounds once, to nearest. What is filtered
-// depends on the cells alone, not on the pieces in which it is done.
+// Cells outside the grid repeat the nearest cell inside; every axis of a pass rounds once, to nearest. What
+// is filtered depends on the cells alone, not on the pieces in which it is done.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ class LowPass {
   int done_ = 0;                       // passes
   Block<const std::uint16_t> here_{};  // in the grid's own values or in block_
   std::unique_ptr<std::uint16_t[]> block_;
-  std::unique_ptr<std::uint32_t[]> sums_;
+  std::unique_ptr<std::uint16_t[]> room_;
 };
 
 // Filters a whole grid.

@@ -15,7 +15,7 @@ class Values {
 
  public:
   using value_type = T;
-  static constexpr std::size_t kBeyond = 16;
+  static constexpr std::size_t kBeyond = 48;
 
   Values() = default;
   explicit Values(std::size_t size) : size_(size), pages_((size + kBeyond) * sizeof(T)) {}

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "render/raycast/box.h"
 
@@ -12,17 +14,25 @@ namespace {
 constexpr float kLowered = 0.5f;  // under wet columns, in cells
 constexpr float kBevel = 0.6f;    // width of the slab's rounded edge, in cells
 
+// From 1/4096 cell.
+std::vector<float> cells_of(const std::vector<std::int32_t>& heights) {
+  std::vector<float> cells;
+  cells.reserve(heights.size());
+  for (const std::int32_t height : heights) cells.push_back(static_cast<float>(height) / 4096);
+  return cells;
+}
+
 }  // namespace
 
 Ground::Ground(const scene::Terrain& terrain, const DensityField& field) {
-  height_ = fits(terrain, field.grid()) ? terrain.height : field.ground();
+  height_ = fits(terrain, field.grid()) ? terrain.height : cells_of(field.ground());
   if (std::all_of(height_.begin(), height_.end(), [](float h) { return h <= 0; })) return;
   size_x_ = field.grid().x;
   size_z_ = field.grid().z;
   textured_ = terrain.textured;
   height_ = blurred(height_, field.liquid_passes());
   drawn_ = height_;
-  const Heights wetness = blurred(field.wetness(), field.liquid_passes());
+  const Heights wetness = blurred(cells_of(field.wetness()), field.liquid_passes());
   for (std::size_t i = 0; i < drawn_.size(); ++i) drawn_[i] -= kLowered * wetness[i];
   surrounding_ = blurred(height_, 24);
   const auto [low, high] = std::minmax_element(height_.begin(), height_.end());

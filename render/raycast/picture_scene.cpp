@@ -16,20 +16,13 @@ std::int32_t light(double value) { return static_cast<std::int32_t>(fixed(value,
 
 picture::Color color(const scene::Vec3& of) { return {light(of[0]), light(of[1]), light(of[2])}; }
 
-ColumnHeights fixed_heights(const std::vector<float>& from) {
-  ColumnHeights of;
-  of.reserve(from.size());
-  for (const float height : from) of.push_back(static_cast<std::int32_t>(fixed(height, picture::kHeightBits)));
-  return of;
-}
-
 // The heights come from the terrain, or from the field where the terrain does not fit it.
 GroundMap ground_of(const DensityField& field, const scene::Look& look, const scene::Terrain& terrain) {
   const state::Grid& grid = field.grid();
   GroundMap map({grid.x, grid.y, grid.z},
-                fits(terrain, grid) ? ground_heights(terrain) : fixed_heights(field.ground()), field.liquid_passes(),
+                fits(terrain, grid) ? ground_heights(terrain) : field.ground(), field.liquid_passes(),
                 look.ground, terrain.textured);
-  map.lower(fixed_heights(field.wetness()));
+  map.lower(field.wetness());
   return map;
 }
 

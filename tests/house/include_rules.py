@@ -41,7 +41,7 @@ ALLOWED = {
     "hwmodel/faults": ["hwmodel/channel", "hwmodel/stream"],
     "hwmodel/presets": ["hwmodel/stream", "kernel/scene/text"],
     "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
-    "bench": ["bench/measure", "hwmodel/stream", STATE, "kernel/scene", "kernel/run"],
+    "bench": ["bench/measure", "hwmodel/stream", STATE, "kernel/scene", "kernel/run", "render/density"],
     "bench/baseline": [PARAMETERS, STATE],
     "bench/measure": ["bench/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
                       "kernel/run", "render/density"],

@@ -80,8 +80,8 @@ TEST(Obstacle, IsWhatIsInertAboveTheTerrain) {
         ASSERT_EQ(on_floor.obstacle[i], y < test::kFloor ? 0 : full) << x << " " << y << " " << z;
         ASSERT_EQ(floating.obstacle[i], full) << x << " " << y << " " << z;
       }
-  for (const float height : on_floor.ground) EXPECT_EQ(height, test::kFloor);
-  for (const float height : floating.ground) EXPECT_EQ(height, 0);
+  for (const std::int32_t height : on_floor.columns().ground()) EXPECT_EQ(height, test::kFloor * rule::kOne);
+  for (const std::int32_t height : floating.columns().ground()) EXPECT_EQ(height, 0);
   for (const std::uint16_t solid : on_floor.solid) ASSERT_EQ(solid, 0);
 }
 
@@ -120,8 +120,8 @@ TEST(Obstacle, IsDrawnWithoutMatter) {
 TEST(Obstacle, LeavesTheGroundFlatAndDry) {
   // The heights leave out the wall, so the ground of the picture is flat under it.
   const DensityField field = field_of(walled());
-  for (const float height : field.ground()) EXPECT_EQ(height, test::kFloor);
-  for (const float wet : field.wetness()) EXPECT_EQ(wet, 0);
+  for (const std::int32_t height : field.ground()) EXPECT_EQ(height, test::kFloor * rule::kOne);
+  for (const std::int32_t wet : field.wetness()) EXPECT_EQ(wet, 0);
 }
 
 TEST(Obstacle, CastsAndReceivesShadow) {

@@ -38,8 +38,8 @@ class Builder {
   PlainCells build(int smooth) {
     for (Cells* of : {&to_.intensity, &to_.solid, &to_.liquid, &to_.heat, &to_.obstacle})
       of->assign(grid_.cells(), 0);
-    to_.ground.assign(columns_, 0.0f);
-    to_.wetness.assign(columns_, 0.0f);
+    to_.ground.assign(columns_, 0);
+    to_.wetness.assign(columns_, 0);
     for (int z = 0; z < grid_.z; ++z)
       for (int y = 0; y < grid_.y; ++y)
         for (int x = 0; x < grid_.x; ++x) put_matter(x, y, z);
@@ -72,8 +72,8 @@ class Builder {
     if (volume_.solid.test(x, y, z)) to_.solid[i] = value;
     if (!volume_.liquid.test(x, y, z)) return;
     to_.liquid[i] = value;
-    to_.heat[i] = static_cast<std::uint16_t>(static_cast<std::uint32_t>(value) *
-                                             volume_.heat[volume_.at(x, y, z)] / rule::kTemperatureMax);
+    to_.heat[i] =
+        static_cast<std::uint16_t>(std::uint64_t{value} * volume_.heat[volume_.at(x, y, z)] / 65536);
   }
 
   void find_ground(int x, int z) {
@@ -92,9 +92,9 @@ class Builder {
     if (bed == 0) return;
     offset_[c] = std::clamp<std::int32_t>(volume_.amount[volume_.at(x, bed - 1, z)] - rule::kBedHalf,
                                           -kOne / 2, kOne / 2);
-    to_.ground[c] = static_cast<float>(bed) + static_cast<float>(offset_[c]) / static_cast<float>(kOne);
+    to_.ground[c] = bed * kOne + offset_[c];
     wet_[c] = std::min(amount(x, bed, z), kFilm) * kOne / kFilm;
-    to_.wetness[c] = static_cast<float>(wet_[c]) / static_cast<float>(kOne);
+    to_.wetness[c] = wet_[c];
     if (inert(x, bed, z)) wet_[c] = kOne;
   }
 
@@ -104,8 +104,8 @@ class Builder {
   }
 
   void find_shifts(int smooth) {
-    render::Levels levels{grid_.x, grid_.z, std::vector<std::int32_t>(columns_, render::kNoLevel),
-                          std::vector<std::int32_t>(columns_, 0)};
+    render::PuddleLevels levels{grid_.x, grid_.z, std::vector<std::int32_t>(columns_, render::kNoLevel),
+                                std::vector<std::int32_t>(columns_, 0)};
     each_column([&](int x, int z) {
       const std::size_t c = column(x, z);
       const int floor = puddle_floor(x, z);

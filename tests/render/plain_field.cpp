@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
-
-#include "render/image/vector.h"
 
 namespace voxmelt::test {
 namespace {
@@ -21,12 +18,13 @@ Cells mixed(const Cells& solid, const Cells& liquid, const Cells& filtered_solid
             const Cells& filtered_liquid, const Cells& filtered_obstacle) {
   Cells result(solid.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
-    const std::uint32_t soft = filtered_liquid[i],
-                        hard = std::uint32_t{filtered_solid[i]} + filtered_obstacle[i];
-    std::uint32_t weight = 0;
-    if (soft != 0)
-      weight = static_cast<std::uint32_t>(
-          256 * render::smooth_step(0.4f, 0.8f, static_cast<float>(soft) / static_cast<float>(soft + hard)));
+    const std::int64_t soft = (filtered_liquid[i] + 3) / 4,
+                       all =
+                           (std::int64_t{filtered_liquid[i]} + filtered_solid[i] + filtered_obstacle[i] + 3) /
+                           4;
+    const std::int64_t over = std::clamp<std::int64_t>(5 * soft - 2 * all, 0, 2 * all);
+    const std::int64_t t = all == 0 ? 0 : 64 * over / all;
+    const auto weight = static_cast<std::uint32_t>(t * t * (384 - 2 * t) / 8192);
     result[i] = static_cast<std::uint16_t>((solid[i] * (256 - weight) + liquid[i] * weight + 128) >> 8);
   }
   return result;
@@ -96,9 +94,11 @@ void expect_pyramid(const render::Pyramid& pyramid, const state::Grid& grid, con
 
 }  // namespace
 
-// The grid widened by what the passes reach, with the nearest cells' values, loses one cell a pass.
+// Each axis of a pass anew over the whole grid.
 Cells plain_low_pass(const state::Grid& grid, int passes, const Cells& from) {
-  state::Grid side{grid.x + 2 * passes, grid.y + 2 * passes, grid.z + 2 * passes};
+  // Outside, what the passes so far would give: the nearest cell's value of the beginning does not suffice,
+  // so the grid is widened by what the passes reach.
+  const state::Grid side{grid.x + 2 * passes, grid.y + 2 * passes, grid.z + 2 * passes};
   std::vector<std::uint32_t> now(side.cells());
   for (int z = 0; z < side.z; ++z)
     for (int y = 0; y < side.y; ++y)
@@ -106,29 +106,30 @@ Cells plain_low_pass(const state::Grid& grid, int passes, const Cells& from) {
         now[side.index(x, y, z)] =
             from[grid.index(std::clamp(x - passes, 0, grid.x - 1), std::clamp(y - passes, 0, grid.y - 1),
                             std::clamp(z - passes, 0, grid.z - 1))];
-  for (int pass = 0; pass < passes; ++pass) {
-    const state::Grid next{side.x - 2, side.y - 2, side.z - 2};
-    std::vector<std::uint32_t> sums(next.cells());
-    for (int z = 0; z < next.z; ++z)
-      for (int y = 0; y < next.y; ++y)
-        for (int x = 0; x < next.x; ++x) {
-          std::uint32_t sum = 32;
-          for (int k = 0; k < 27; ++k) {
-            const int dx = k % 3, dy = k / 3 % 3, dz = k / 9;
-            const std::uint32_t weight = (dx == 1 ? 2u : 1u) * (dy == 1 ? 2u : 1u) * (dz == 1 ? 2u : 1u);
-            sum += weight * now[side.index(x + dx, y + dy, z + dz)];
-          }
-          sums[next.index(x, y, z)] = sum >> 6;
-        }
-    now = std::move(sums);
-    side = next;
-  }
-  return Cells(now.begin(), now.end());
+  for (int pass = 0; pass < passes; ++pass)
+    for (const state::Grid& step : {state::Grid{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}) {
+      const std::vector<std::uint32_t> before = now;
+      for (int z = step.z; z < side.z - step.z; ++z)
+        for (int y = step.y; y < side.y - step.y; ++y)
+          for (int x = step.x; x < side.x - step.x; ++x)
+            now[side.index(x, y, z)] =
+                (before[side.index(x - step.x, y - step.y, z - step.z)] + 2 * before[side.index(x, y, z)] +
+                 before[side.index(x + step.x, y + step.y, z + step.z)] + 2) /
+                4;
+    }
+  Cells result(grid.cells());
+  for (int z = 0; z < grid.z; ++z)
+    for (int y = 0; y < grid.y; ++y)
+      for (int x = 0; x < grid.x; ++x)
+        result[grid.index(x, y, z)] =
+            static_cast<std::uint16_t>(now[side.index(x + passes, y + passes, z + passes)]);
+  return result;
 }
 
 void expect_plain(const render::DensityField& field, const state::Volume& volume, const scene::Look& look,
                   const scene::Terrain& terrain) {
-  const PlainCells cells = plain_cells(volume, look.smooth, terrain);
+  PlainCells cells = plain_cells(volume, look.smooth, terrain);
+  if (!look.glow) std::fill(cells.heat.begin(), cells.heat.end(), 0);
   const state::Grid& grid = volume.grid;
   ASSERT_EQ(field.grid(), grid);
   EXPECT_TRUE(same(field.cells().intensity, cells.intensity));
@@ -155,6 +156,7 @@ void expect_plain(const render::DensityField& field, const state::Volume& volume
   EXPECT_TRUE(same(field.solid(), filtered.solid));
   EXPECT_TRUE(same(field.liquid(), filtered.liquid));
   EXPECT_TRUE(same(field.heat(), filtered.heat));
+  EXPECT_TRUE(!obstacles || same(field.obstacle(), filtered.obstacle));
   expect_ranges(field, filtered.intensity);
   expect_pyramid(field.pyramid(), grid, filtered, look, true);
   expect_pyramid(field.matter_pyramid(), grid, filtered, look, false);

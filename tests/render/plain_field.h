@@ -16,9 +16,9 @@ using Cells = std::vector<std::uint16_t>;
 
 struct PlainCells {
   Cells intensity, solid, liquid, heat, obstacle;
-  std::vector<float> ground, wetness;
+  std::vector<std::int32_t> ground, wetness;
 };
-std::vector<std::int32_t> plain_level_shifts(const render::Levels& levels, int passes);
+std::vector<std::int32_t> plain_level_shifts(const render::PuddleLevels& levels, int passes);
 PlainCells plain_cells(const state::Volume& volume, int smooth, const scene::Terrain& terrain);
 
 Cells plain_low_pass(const state::Grid& grid, int passes, const Cells& from);

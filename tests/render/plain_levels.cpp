@@ -12,11 +12,15 @@ namespace voxmelt::test {
 namespace {
 
 using render::kNoLevel;
-using render::Levels;
+using render::PuddleLevels;
 using rule::kOne;
 
 constexpr std::int32_t kMostShift = kOne / 4;
 constexpr std::int32_t kFraction = 16;  // heights are kept to this part of a unit between passes
+
+std::int64_t floor_of(std::int64_t number, std::int64_t divisor) {
+  return number >= 0 ? number / divisor : -((-number + divisor - 1) / divisor);
+}
 
 // Share of a difference between neighbours that is smoothed: all up to one cell, nothing from two.
 std::int32_t share(std::int32_t difference) {
@@ -27,12 +31,12 @@ std::int32_t share(std::int32_t difference) {
 std::int64_t bend(std::int32_t before, std::int32_t here, std::int32_t after) {
   if (before == kNoLevel || after == kNoLevel) return 0;
   const std::int32_t down = before - here, up = after - here;
-  return (std::int64_t{down} + up) * std::min(share(down), share(up)) / kOne;
+  return floor_of((std::int64_t{down} + up) * std::min(share(down), share(up)), kOne);
 }
 
 }  // namespace
 
-std::vector<std::int32_t> plain_level_shifts(const Levels& levels, int passes) {
+std::vector<std::int32_t> plain_level_shifts(const PuddleLevels& levels, int passes) {
   std::vector<std::int32_t> now = levels.level;
   for (std::int32_t& level : now)
     if (level != kNoLevel) level *= kFraction;
@@ -53,7 +57,7 @@ std::vector<std::int32_t> plain_level_shifts(const Levels& levels, int passes) {
             bend(at(x - 1, z), here, at(x + 1, z)) + bend(at(x, z - 1), here, at(x, z + 1));
         const std::int64_t diagonal =
             bend(at(x - 1, z - 1), here, at(x + 1, z + 1)) + bend(at(x - 1, z + 1), here, at(x + 1, z - 1));
-        next[index(x, z)] = here + static_cast<std::int32_t>((2 * straight + diagonal) / 16);
+        next[index(x, z)] = here + static_cast<std::int32_t>(floor_of(2 * straight + diagonal, 16));
       }
     now.swap(next);
   }

@@ -65,6 +65,7 @@ scene::Look look(int liquid, int solid) {
   scene::Look look;
   look.smooth = liquid;
   look.smooth_solid = solid;
+  look.glow = solid % 2 == 1;
   look.glow_cold = 0.3;
   look.glow_hot = 0.8;
   return look;
@@ -123,6 +124,7 @@ TEST(Plain, KeptFields) {
         }
       if (round % 13 == 12) now = look(random.below(7), random.below(7));
       if (round % 13 == 6) now.glow_hot = 0.5 + 0.1 * random.below(4);
+      if (round % 6 == 5) now.glow = !now.glow;
       for (int change = random.below(4); change > 0; --change)
         put(volume, random.below(grid.x), random.below(grid.y), random.below(grid.z), random.below(4),
             random);

@@ -102,8 +102,8 @@ TEST(Smooth, SurfaceRisesWithTheLayerOnASolid) {
 }
 
 // Level 6 + x / period; each terrace of so many columns is up to `wave` too high and too low.
-render::Levels terraced_slope(int side, double wave, int period = 4) {
-  render::Levels levels{side, side, {}, {}};
+render::PuddleLevels terraced_slope(int side, double wave, int period = 4) {
+  render::PuddleLevels levels{side, side, {}, {}};
   for (int z = 0; z < side; ++z)
     for (int x = 0; x < side; ++x) {
       const double height = 6 + 1.0 * x / period + wave * std::sin(2 * std::numbers::pi * x / period + 0.5);
@@ -119,7 +119,7 @@ TEST(Levels, EvenSlopesStay) {
 }
 
 TEST(Levels, ShiftsAreSmallAndDrySpotsAndCliffsStay) {
-  render::Levels levels = terraced_slope(24, 0);
+  render::PuddleLevels levels = terraced_slope(24, 0);
   const auto at = [](int x, int z) { return static_cast<std::size_t>(z * 24 + x); };
   levels.level[at(5, 5)] = render::kNoLevel;
   levels.level[at(12, 12)] += 3 * rule::kOne;  // falling liquid: no puddle
@@ -135,7 +135,7 @@ TEST(Levels, ShiftsAreSmallAndDrySpotsAndCliffsStay) {
 }
 
 TEST(Levels, TerracesGo) {
-  const render::Levels levels = terraced_slope(40, 0.12), even = terraced_slope(40, 0);
+  const render::PuddleLevels levels = terraced_slope(40, 0.12), even = terraced_slope(40, 0);
   const auto shifts = render::level_shifts(levels, 12);
   for (int x = 6; x < 34; ++x) {
     const auto i = static_cast<std::size_t>(20 * 40 + x);
@@ -147,7 +147,7 @@ TEST(Levels, TerracesGo) {
 TEST(Smooth, TerracesOfAPuddleDoNotShow) {
   const state::Grid grid{48, 24, 24};
   state::Volume volume = test::floor_volume(grid);
-  const render::Levels levels = terraced_slope(48, 0.12, 8);
+  const render::PuddleLevels levels = terraced_slope(48, 0.12, 8);
   for (int z = 0; z < grid.z; ++z)
     for (int x = 0; x < grid.x; ++x)
       test::pour(volume, x, z, static_cast<double>(levels.depth[static_cast<std::size_t>(x)]) / rule::kOne);

@@ -8,11 +8,14 @@
 // A cell with neither solid nor liquid has energy 0 and, unless it is such a wall, heat 0. An empty cell has
 // amount 0 too. A cell of amount 0 has no heat, so the bed offset of a wall is at least 1. What a scene does
 // not use (energy, heat) takes no memory, nor does what is empty.
+//
+// What is known of its changes is no part of the state: volumes that differ in it alone are equal.
 #pragma once
 
 #include <cstdint>
 
 #include "kernel/automaton/state/bit_plane.h"
+#include "kernel/automaton/state/changed_bricks.h"
 #include "kernel/automaton/state/field.h"
 #include "kernel/automaton/state/grid.h"
 
@@ -29,7 +32,12 @@ struct Volume {
   BitPlane solid, liquid, inert;
   Field<std::uint16_t> amount, energy, heat;
 
-  friend bool operator==(const Volume&, const Volume&) = default;
+  ChangedBricks changed;
+
+  friend bool operator==(const Volume& a, const Volume& b) {
+    return a.grid == b.grid && a.solid == b.solid && a.liquid == b.liquid && a.inert == b.inert &&
+           a.amount == b.amount && a.energy == b.energy && a.heat == b.heat;
+  }
 };
 
 }  // namespace voxmelt::state

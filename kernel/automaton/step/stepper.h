@@ -33,6 +33,9 @@ class HostStepper : public Stepper {
   // `irradiance` is null when the scene has no radiation.
   virtual void run(Phase phase, Moment moment, const Irradiance* irradiance, state::Volume& volume,
                    state::Ledger& ledger) = 0;
+
+  // Marks the bricks in which its phases may have changed the volume since the last call.
+  virtual void tell_changes(state::ChangedBricks& changed) { changed.mark_all(); }
 };
 
 class DeviceStepper : public Stepper {

@@ -1,5 +1,6 @@
 #include "kernel/engine/parallel/stepper.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -45,7 +46,8 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
       tuning_(tuning),
       kernels_(simd::kernels(set, parameters)),
       keys_(rule::round_keys(parameters.seed)),
-      workers_(tuning.threads) {
+      workers_(tuning.threads),
+      rows_(grid.y) {
   const simd::View view = shape_of(grid, tuning.tile_shift);
   const int chunks = chunks_for(tuning);
   if (parameters.heat.enabled) heat_.emplace(grid, view, chunks);
@@ -53,7 +55,8 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
     paper_.emplace(parameters, view, chunks);
   else
     viscous_.emplace(grid, view, chunks);
-  dirty_ = dirty_next_ = changed_ = melted_ = freed_ = Tiles(view.nz, view.tile_rows());
+  dirty_ = dirty_next_ = changed_ = untold_ = untold_heat_ = melted_ = freed_ =
+      Tiles(view.nz, view.tile_rows());
   dirty_.fill(all_words(view));  // nothing is known of the first state
   if (heat_) heat_->note(dirty_);
   if (viscous_) viscous_->note(dirty_);
@@ -132,6 +135,7 @@ void Stepper::source(const Job& job, simd::Books& books) {
   for (int z = 0; z < job.view.nz; ++z) changed_.edit(z);  // all slices, since the sources say which tiles
   simd::run_sources(job.view, job.step, changed_.edit(0), changed_.stride(), books);
   for (int z = 0; z < job.view.nz; ++z) changed_.tidy(z);
+  untold_.add(changed_);
   dirty_.add(changed_);
   if (heat_) heat_->note(changed_);
   if (viscous_) viscous_->note(changed_);
@@ -141,6 +145,7 @@ void Stepper::heat(const Job& job, simd::Books& books) {
   if (!heat_) return;
   changed_.clear();
   heat_->heat(job, parameters_.heat.is_visibility_step(job.step.number), changed_, books);
+  untold_heat_.add(changed_);
   // The flow of the paper's law reads heat only where it mixes, unless its shares depend on it.
   if (parameters_.flow.thermal_viscosity) dirty_.add(changed_);
   if (viscous_) viscous_->note(changed_);
@@ -151,6 +156,7 @@ void Stepper::melt(const Job& job, simd::Books& books) {
   changed_.clear();
   open_sides(job.view);
   heat_->melt(job, changed_, books);
+  untold_.add(changed_);
   refresh(job.view, changed_, *walls_);
   if (sides_) melted_.add(changed_);
   dirty_.add(changed_);
@@ -168,7 +174,9 @@ void Stepper::open_sides(const simd::View& view) {
 void Stepper::gravity(const Job& job, simd::Books& books) {
   if (viscous_) {
     viscous_->fall(job, books);
-    if (heat_) heat_->note(viscous_->take_changed());
+    const Tiles& changed = viscous_->take_changed();
+    untold_.add(changed);
+    if (heat_) heat_->note(changed);
     return;
   }
   if (sides_) dirty_.add(freed_);
@@ -181,7 +189,29 @@ void Stepper::spread(const Job& job, simd::Books& books) {
   if (viscous_) return viscous_->spread(job, books);
   paper_->spread(job, dirty_, dirty_next_, books);
   std::swap(dirty_, dirty_next_);
+  untold_.add(dirty_);
   if (heat_) heat_->note(dirty_);
+}
+
+void Stepper::tell_changes(state::ChangedBricks& changed) {
+  tell(untold_, state::ChangedBricks::kMatter, changed);
+  tell(untold_heat_, state::ChangedBricks::kHeat, changed);
+}
+
+// Slices of one brick are told together: a mark for each would cost as much again.
+void Stepper::tell(Tiles& tiles, state::ChangedBricks::Part part, state::ChangedBricks& changed) const {
+  const int side = state::kBrickSide;
+  for (int first = 0; first < tiles.slices(); first += side)
+    for (int r = 0; r < tiles.rows(); ++r) {
+      TileRow words = 0;
+      for (int z = first; z < std::min(first + side, tiles.slices()); ++z) words |= tiles.slice(z)[r];
+      if (words == 0) continue;
+      const int begin = r << tuning_.tile_shift;
+      const int end = std::min(begin + (1 << tuning_.tile_shift), rows_);
+      for (int brick = begin / side; brick <= (end - 1) / side; ++brick)
+        changed.mark(part, words, brick, first / side);
+    }
+  tiles.clear();
 }
 
 void Stepper::settle(const Job& job, simd::Books& books) {

@@ -24,6 +24,7 @@ class Stepper final : public step::HostStepper {
   void run(step::Phase phase, step::Moment moment, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override;
   void change_sources(const rule::Parameters& parameters) override;
+  void tell_changes(state::ChangedBricks& changed) override;
 
  private:
   simd::View view_of(state::Volume& volume);
@@ -31,6 +32,7 @@ class Stepper final : public step::HostStepper {
   void heat(const Job& job, simd::Books& books);
   void melt(const Job& job, simd::Books& books);
   void gravity(const Job& job, simd::Books& books);
+  void tell(Tiles& tiles, state::ChangedBricks::Part part, state::ChangedBricks& changed) const;
   void open_sides(const simd::View& view);
   void spread(const Job& job, simd::Books& books);
   void settle(const Job& job, simd::Books& books);
@@ -41,14 +43,16 @@ class Stepper final : public step::HostStepper {
   simd::Kernels kernels_;
   rule::RoundKeys keys_;
   cpu::Workers workers_;
+  int rows_;                            // of the grid
   std::optional<Walls> walls_, sides_;  // sides_: before this step's melt, where gravity asks for them
   std::optional<HeatFlow> heat_;
   std::optional<PaperFlow> paper_;
   std::optional<ViscousFlow> viscous_;
-  Tiles dirty_, dirty_next_;  // paper law: changed since the last gravity; working memory
-  Tiles changed_;             // by a phase
-  Tiles melted_;              // solids there have melted, and are sides still
-  Tiles freed_;               // their sides have gone since the last gravity began
+  Tiles dirty_, dirty_next_;    // paper law: changed since the last gravity; working memory
+  Tiles changed_;               // by a phase
+  Tiles untold_, untold_heat_;  // changed since the last call of tell_changes; only their heat
+  Tiles melted_;                // solids there have melted, and are sides still
+  Tiles freed_;                 // their sides have gone since the last gravity began
 };
 
 template <cpu::InstructionSet kSet>

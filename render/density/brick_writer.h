@@ -1,0 +1,49 @@
+// Computes what the cells of one brick contribute, and takes over what differs from what is kept.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "render/density/cell_fields.h"
+#include "render/density/columns.h"
+
+namespace voxmelt::render {
+
+class BrickWriter {
+ public:
+  BrickWriter(const state::Volume& volume, CellFields& fields, bool heat)
+      : volume_(volume), fields_(fields), heat_(heat) {}
+
+  // The solid, liquid and heat of a brick.
+  void write_matter(const state::Grid& brick);
+  // Takes over the inert cells of the word of 64 cells along x that holds the brick, on all of its rows.
+  // Returns in which places along x one has changed.
+  std::uint64_t take_inert(const state::Grid& brick);
+  // Then, once its columns are known, obstacles and intensity.
+  void write_intensity(const state::Grid& brick);
+
+ private:
+  static constexpr std::size_t kCells = kBrickSide * kBrickSide * kBrickSide;
+  using Cells = std::array<std::uint16_t, kCells>;
+
+  std::uint16_t& at(Cells& cells, int x, int y, int z) const {
+    return cells[static_cast<std::size_t>(((z - box_.low.z) * kBrickSide + y - box_.low.y) * kBrickSide + x -
+                                          box_.low.x)];
+  }
+  unsigned inert_bits(int y, int z) const;
+  bool put_obstacles(const state::Grid& brick);
+  void put_matter();
+  void put_plan(const Plan& plan, int x, int z);
+  void fill_ground(const Plan& plan, int x, int z);
+  void move_puddle(const Plan& plan, int x, int z);
+  void take_over(int channel, Cells& fresh, std::size_t brick);
+
+  const state::Volume& volume_;
+  CellFields& fields_;
+  bool heat_;
+  CellBox box_{};
+  Cells intensity_{}, obstacle_{};
+};
+
+}  // namespace voxmelt::render
