@@ -36,6 +36,8 @@ PURPOSES = {
     "render": "the pictures",
     "render/rule": "the picture in integers",
     "render/density": "amounts to a filtered field",
+    "render/light": "what light arrives where",
+    "render/packet": "the picture in packets of rays",
     "render/raycast": "rays through its bricks",
     "render/image": "camera, PNG, film",
     "kernel/run": "the run loop",

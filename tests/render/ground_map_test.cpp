@@ -182,6 +182,28 @@ TEST(GroundMap, TexelsAreSeenWhereTheyLie) {
   }
 }
 
+// On level rock: the relief one texel before and behind, along each axis.
+TEST(GroundMap, BumpsOfLevelRock) {
+  const GroundMap map({16, 8, 16}, ColumnHeights(256, 2 * kHeight), 0, kColor, true);
+  const auto relief = [](std::int64_t i, std::int64_t j) {
+    return picture::relief({picture::texel_middle(i, 2), 2 * kCell, picture::texel_middle(j, 2)});
+  };
+  for (const std::int64_t i : {0, 5, 63})
+    for (const std::int64_t j : {0, 17, 63}) {
+      const picture::Texel& texel = map.texels()[static_cast<std::size_t>(j * 64 + i)];
+      EXPECT_EQ(texel.bump_x, picture::bump(relief(i - 1, j), relief(i + 1, j), 2)) << i << ' ' << j;
+      EXPECT_EQ(texel.bump_z, picture::bump(relief(i, j - 1), relief(i, j + 1), 2)) << i << ' ' << j;
+    }
+}
+
+// Beside a puddle the ground is lower, but its light is that of the dry ground.
+TEST(GroundMap, APuddleDoesNotBendTheLightBesideIt) {
+  GroundMap map({16, 8, 16}, ColumnHeights(256, 2 * kHeight), 2, kColor, false);
+  map.lower(one_column(256, 8 * 16 + 8, kHeight));
+  EXPECT_LT(map.drawn()[8 * 16 + 9], map.bare()[8 * 16 + 9]);
+  EXPECT_EQ(map.paint({true, 1, {9 * kCell, kCell, 8 * kCell}, Face::top}).normal, (Vector{0, 1 << 14, 0}));
+}
+
 // Rock is neither plain nor wild: each colour lies about the look's, and bumps are a few degrees.
 TEST(GroundMap, TexelsAreNearTheLooksColor) {
   const Lava lava;
