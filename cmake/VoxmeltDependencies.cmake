@@ -2,7 +2,6 @@
 # are system headers, because our warnings are for our code.
 find_package(PkgConfig REQUIRED)
 find_package(PNG REQUIRED)
-find_package(ZLIB REQUIRED)
 find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
@@ -17,6 +16,10 @@ target_include_directories(voxmelt_toml SYSTEM INTERFACE ${TOMLPLUSPLUS_INCLUDE}
 find_path(TINYOBJ_INCLUDE tiny_obj_loader.h REQUIRED)
 add_library(voxmelt_tinyobj INTERFACE)
 target_include_directories(voxmelt_tinyobj SYSTEM INTERFACE ${TINYOBJ_INCLUDE})
+
+# libdeflate has no CMake package: who uses it links `deflate`.
+find_path(DEFLATE_INCLUDE libdeflate.h REQUIRED)
+find_library(DEFLATE_LIBRARY deflate REQUIRED)
 
 # SystemC as Debian builds it: C++17, also for us (else sc_api_version_... does not link).
 pkg_check_modules(SYSTEMC REQUIRED systemc)

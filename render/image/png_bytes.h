@@ -1,4 +1,4 @@
-// The bytes of a PNG file. Fast rather than smallest: a fifth of libpng's time, a sixth more bytes.
+// The bytes of a PNG file, made fast: in a third of libpng's time or less, with at most a tenth more bytes.
 #pragma once
 
 #include <string>

@@ -65,7 +65,7 @@ THIRD_PARTY = {
     "toml++/": ["kernel/scene/text"],
     "tiny_obj_loader": ["kernel/scene/shape"],
     "png.h": ["render/image"],
-    "zlib.h": ["render/image"],
+    "libdeflate": ["render/image"],
     "CLI/": ["app"],
     "benchmark/": ["bench"],
     "nlohmann/": ["accuracy/report", "kernel/run/io", "hwmodel/lockstep", "bench/measure", "app"],
