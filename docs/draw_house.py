@@ -38,6 +38,7 @@ PURPOSES = {
     "render/density": "amounts to a filtered field",
     "render/raycast": "rays through its bricks",
     "render/image": "camera, PNG, film",
+    "render/frames": "files beside the steps",
     "kernel/run": "the run loop",
     "kernel/run/io": "exports and output folders",
     "kernel/scene": "what a file says",
