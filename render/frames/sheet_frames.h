@@ -23,7 +23,7 @@ class SheetFrames {
   // Keeps the frame if the plan shows it. Any thread may call it.
   void offer(std::size_t frame, const Image& image);
 
-  // A frame per label. `read` gives one that the plan did not show.
+  // All frames were offered, one per label. `read` gives one that the plan did not show.
   Image sheet(const std::vector<std::string>& labels, const std::function<Image(std::size_t)>& read) const;
 
  private:

@@ -82,7 +82,7 @@ class WorkLine {
     for (;;) {
       item_came_.wait(lock, [&] { return closed_ || !waiting_.empty(); });
       if (waiting_.empty()) return;
-      {
+      {  // the item's memory goes before somebody hears that it is done
         Waiting next = std::move(waiting_.front());
         waiting_.pop_front();
         ++busy_;
@@ -94,7 +94,6 @@ class WorkLine {
         } catch (...) {
           error = std::current_exception();
         }
-        next.item = Item();  // its memory goes before somebody is told that it is done
         lock.lock();
         if (error) fail(next.turn, error);
       }

@@ -80,8 +80,9 @@ std::string file_bytes(const Format& format, bool colors, const ReadRow& read_ro
     std::uint8_t* const to = filtered.data() + static_cast<std::size_t>(y) * (bytes + 1);
     const int left = differences(begin, row.data(), bytes, to + 1);
     const int up = differences(begin, above.data() + format.pixel, bytes, by_above.data());
-    to[0] = up < left ? 2 : 1;
-    if (up < left) std::copy(by_above.begin(), by_above.end(), to + 1);
+    const bool take_up = up < left;
+    to[0] = take_up ? 2 : 1;
+    if (take_up) std::copy(by_above.begin(), by_above.end(), to + 1);
   }
   append_chunk(file, "IDAT", packed(filtered));
   append_chunk(file, "IEND", {});

@@ -90,6 +90,15 @@ TEST_F(FrameFiles, AnInterruptedRunHasTheSheetOfAShorterOne) {
     EXPECT_TRUE(made(60, count, 2) == made(count, count, 1)) << count;
 }
 
+TEST_F(FrameFiles, OneThreadDoesAllInTurn) {
+  Frames frames(fresh(), {2, kBytes, 1});
+  frames.add(frame(0), "");
+  EXPECT_TRUE(fs::exists(folder_ / "frames/frame_00000.png"));
+  std::size_t threads = 0;
+  for (const auto& entry : fs::directory_iterator("/proc/self/task")) threads += entry.is_directory();
+  EXPECT_EQ(threads, 1U);
+}
+
 // Worked by hand: k (n - 1) / 11, rounded down.
 TEST(SheetFrames, AreChosenEvenly) {
   using List = std::vector<std::size_t>;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -102,6 +103,11 @@ TEST_F(Video, AFilmThatIsNotFinishedIsNoFilm) {
     EXPECT_FALSE(nothing_is_left()) << "the test would prove nothing";
   }
   EXPECT_TRUE(nothing_is_left());
+
+  const FakeFfmpeg stubborn("cat > \"$film\"; exec sleep 60");
+  const auto begin = std::chrono::steady_clock::now();
+  { VideoWriter(folder_ / "film.mp4", 10).add(frame(300, 200)); }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
 TEST_F(Video, TheRealFfmpegTakesOddSizes) {
