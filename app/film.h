@@ -1,44 +1,53 @@
-// The frames of a run, and what is made of them.
+// The pictures of a run, and what is made of them.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
+#include "app/report.h"
 #include "kernel/scene/scene.h"
 #include "render/density/density_field.h"
-#include "render/image/image.h"
+#include "render/frames/frames.h"
+#include "render/frames/work_line.h"
 
 namespace voxmelt::app {
 
 // Sets the camera's size from "640x480"; throws UsageError.
 void set_size(scene::Camera& camera, const std::string& size);
 
+// Frames are drawn, written and joined to a film beside the steps that follow, unless there is one thread
+// only.
 class Film {
  public:
-  // Frames go to folder/frames/frame_00000.png, ...
-  Film(const scene::Scene& scene, std::filesystem::path folder, int threads);
+  // `planned` frames, into `folder`.
+  Film(const scene::Scene& scene, const std::filesystem::path& folder, std::size_t planned, int threads);
 
+  // Takes over the state and returns. It waits for the last frame's drawing, because that reads the field.
   void add_frame(const state::Volume& volume, std::uint32_t step);
+
+  // Throws what stopped a frame. A run that looks often ends soon.
+  void check();
 
   // Writes contact_sheet.png and film.mp4; returns why there is no film, or nothing.
   std::string finish();
 
-  std::size_t frame_count() const { return labels_.size(); }
-  double update_seconds() const { return update_seconds_; }
-  double render_seconds() const { return render_seconds_; }
+  std::size_t frame_count() const { return frames_.count(); }
+  RunSeconds seconds() const;  // after finish(); without the total
 
  private:
-  std::filesystem::path frame_file(std::size_t frame) const;
+  struct Shot {
+    std::uint32_t step = 0;
+  };
+  void draw(const Shot& shot);
 
   const scene::Scene& scene_;
-  std::filesystem::path folder_;
   int threads_;
   render::DensityField field_;
-  std::vector<std::string> labels_;
-  double update_seconds_ = 0, render_seconds_ = 0;
+  render::Frames frames_;
+  RunSeconds seconds_;
+  render::WorkLine<Shot> drawing_;  // last: its thread uses all of the above
 };
 
 }  // namespace voxmelt::app

@@ -12,6 +12,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/report.h"
+#include "app/surface_pictures.h"
 #include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
 #include "render/raycast/draw.h"
@@ -23,6 +24,7 @@ struct RenderOptions {
   Common common;
   std::uint32_t steps = 0;
   std::string out = "picture.png", size, setting = "normal";
+  std::string depth, normals;  // files; empty for none
   std::optional<double> azimuth, elevation;
   int turntable = 0;
 };
@@ -37,11 +39,31 @@ CLI::Validator finite_within(double low, double high) {
           fmt::format("NUMBER in [{} - {}]", low, high)};
 }
 
+// Depth and normals, as far as they are wanted; returns what to print about them.
+std::string write_surface(const RenderOptions& options, const render::DensityField& field,
+                          const scene::Camera& camera) {
+  if (options.depth.empty() && options.normals.empty()) return {};
+  const SurfacePictures pictures = surface_pictures(field, camera);
+  std::string text;
+  if (!options.depth.empty()) {
+    render::write_png(options.depth, pictures.depth);
+    text += fmt::format("written: {}  in 1/32 cells from {} cells before the eye\n", options.depth,
+                        pictures.near);
+  }
+  if (!options.normals.empty()) {
+    render::write_png(options.normals, pictures.normals);
+    text += fmt::format("written: {}\n", options.normals);
+  }
+  return text;
+}
+
 int run_render(const RenderOptions& options) {
   scene::Scene scene = load_scene(options.common);
   if (!options.size.empty()) set_size(scene.camera, options.size);
   if (options.azimuth) scene.camera.azimuth = *options.azimuth;
   if (options.elevation) scene.camera.elevation = *options.elevation;
+  if (options.turntable > 0 && !(options.depth.empty() && options.normals.empty()))
+    throw UsageError("--turntable: error: --depth and --normals are of one picture");
   check_report_place(options.common, options.turntable > 0 ? options.out : "");
   catch_interrupts();
 
@@ -65,8 +87,9 @@ int run_render(const RenderOptions& options) {
 
   if (options.turntable == 0) {
     render::write_png(options.out, picture());
+    const std::string near = write_surface(options, field, scene.camera);
     write_report(options.common, report_json(scene, options.common, simulation, {}));
-    if (!options.common.quiet) fmt::print("written: {}\n", options.out);
+    if (!options.common.quiet) fmt::print("written: {}\n{}", options.out, near);
     return kDone;
   }
   io::OutputFolder out(options.out);
@@ -92,6 +115,8 @@ void add_render(CLI::App& program, Chosen& chosen) {
   command->add_option("--out", options->out, "file to write (folder with --turntable)")
       ->capture_default_str();
   command->add_option("--size", options->size, "size in pixels, e.g. 1280x960");
+  command->add_option("--depth", options->depth, "also write how far the surface is (PNG, 16 bits)");
+  command->add_option("--normals", options->normals, "also write where the surface faces (PNG, 3 x 16 bits)");
   command->add_option("--setting", options->setting, "samples per pixel: fast 1, normal 4, best 16")
       ->check(CLI::IsMember({"fast", "normal", "best"}))
       ->capture_default_str();

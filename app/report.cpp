@@ -52,6 +52,8 @@ json seconds_json(const run::Simulation::Seconds& steps, const RunSeconds& run) 
   result["visibility"] = steps.visibility;
   result["update"] = run.update;
   result["render"] = run.render;
+  result["encode"] = run.encode;
+  result["wait"] = run.wait;
   result["total"] = run.total;
   return result;
 }

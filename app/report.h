@@ -7,8 +7,12 @@
 
 namespace voxmelt::app {
 
+// Wall-clock seconds. Steps, drawing and encoding overlap, so their sum may exceed the total.
 struct RunSeconds {
-  double update = 0, render = 0, total = 0;
+  double update = 0, render = 0;
+  double encode = 0;  // of pictures to PNG, summed over threads
+  double wait = 0;    // that the steps stood still until pictures were done, the end of the run included
+  double total = 0;
 };
 
 // JSON text; integers too large for JSON readers are written as strings.

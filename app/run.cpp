@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -28,6 +29,12 @@ struct RunOptions {
   std::string size;
 };
 
+// The first frame, every so many steps another, and the last one.
+std::size_t frame_count(std::uint32_t steps, std::uint32_t every) {
+  if (every == 0) return 1;
+  return std::size_t{1} + steps / every + (steps % every != 0 ? 1 : 0);
+}
+
 int run_scene(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const Common& common = options.common;
@@ -42,7 +49,7 @@ int run_scene(const RunOptions& options) {
   catch_interrupts();  // they end the run early; what was made until then is kept
 
   run::Simulation simulation = make_simulation(scene, common);
-  Film film(scene, out.partial(), thread_count(common));
+  Film film(scene, out.partial(), frame_count(steps, every), thread_count(common));
   Watch watch;
   const auto show = [&](std::uint32_t step) {
     film.add_frame(simulation.volume(), step);
@@ -53,6 +60,7 @@ int run_scene(const RunOptions& options) {
     Progress progress(steps, common.quiet);
     while (simulation.steps_done() < steps && !interrupted()) {
       simulation.step();
+      film.check();
       const std::uint32_t done = simulation.steps_done();
       if (every > 0 && (done % every == 0 || done == steps)) show(done);
       progress.show(done, simulation.volume());
@@ -62,9 +70,9 @@ int run_scene(const RunOptions& options) {
   watch.look(simulation.volume(), simulation.steps_done());
   warn(scene, common, watch.warnings(simulation));
 
-  const double total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string report =
-      report_json(scene, common, simulation, {film.update_seconds(), film.render_seconds(), total});
+  RunSeconds seconds = film.seconds();
+  seconds.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string report = report_json(scene, common, simulation, seconds);
   io::write_file(out.partial() / "report.json", report);
   write_report(common, report);
   out.commit();

@@ -17,6 +17,10 @@ find_path(TINYOBJ_INCLUDE tiny_obj_loader.h REQUIRED)
 add_library(voxmelt_tinyobj INTERFACE)
 target_include_directories(voxmelt_tinyobj SYSTEM INTERFACE ${TINYOBJ_INCLUDE})
 
+# libdeflate has no CMake package: who uses it links `deflate`.
+find_path(DEFLATE_INCLUDE libdeflate.h REQUIRED)
+find_library(DEFLATE_LIBRARY deflate REQUIRED)
+
 # SystemC as Debian builds it: C++17, also for us (else sc_api_version_... does not link).
 pkg_check_modules(SYSTEMC REQUIRED systemc)
 add_library(voxmelt_systemc INTERFACE)

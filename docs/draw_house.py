@@ -40,6 +40,7 @@ PURPOSES = {
     "render/packet": "the picture in packets of rays",
     "render/raycast": "rays through its bricks",
     "render/image": "camera, PNG, film",
+    "render/frames": "files beside the steps",
     "kernel/run": "the run loop",
     "kernel/run/io": "exports and output folders",
     "kernel/scene": "what a file says",

@@ -1,4 +1,4 @@
-// An 8-bit sRGB picture: rows from the top, three bytes a pixel (red, green, blue).
+// Pictures: rows from the top. Image is of colours in 8-bit sRGB, Image16 of numbers.
 #pragma once
 
 #include <array>
@@ -30,5 +30,19 @@ struct Image {
   }
 };
 static_assert(sizeof(Rgb) == 3, "rows are handed to writers as bytes");
+
+// One number a pixel (a depth), or three (a vector).
+struct Image16 {
+  Image16() = default;
+  Image16(int w, int h, int c) : width(w), height(h), channels(c) {
+    numbers.assign(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c),
+                   0);
+  }
+
+  int width = 0, height = 0, channels = 1;
+  std::vector<std::uint16_t> numbers;
+
+  friend bool operator==(const Image16&, const Image16&) = default;
+};
 
 }  // namespace voxmelt::render

@@ -10,6 +10,8 @@
 #include <string>
 #include <system_error>
 
+#include "render/image/png_bytes.h"
+
 namespace voxmelt::render {
 namespace {
 
@@ -27,9 +29,8 @@ using File = std::unique_ptr<std::FILE, Close>;
                    code == ENOSPC || code == EDQUOT);
 }
 
-}  // namespace
-
-void write_png(const std::filesystem::path& file, const Image& image) {
+// Writes beside the target and renames.
+void write_beside(const std::filesystem::path& file, const std::string& bytes) {
   std::error_code unknown;
   if (std::filesystem::is_symlink(file, unknown) ||
       (std::filesystem::exists(file, unknown) && !std::filesystem::is_regular_file(file, unknown)))
@@ -39,43 +40,67 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   File stream(std::fopen(beside.c_str(), "wb"));
   if (!stream) fail_errno(file, "cannot be written", errno);
 
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  header.width = static_cast<png_uint_32>(image.width);
-  header.height = static_cast<png_uint_32>(image.height);
-  header.format = PNG_FORMAT_RGB;
-  errno = 0;
-  const bool encoded =
-      png_image_write_to_stdio(&header, stream.get(), 0, image.pixels.data(), 0, nullptr) != 0;
-  const int code = errno;
-  const bool flushed = std::fclose(stream.release()) == 0;
-  if (!encoded || !flushed) {
-    const int reason = encoded ? errno : code;
-    const std::string what = header.message[0] != '\0' ? header.message : "cannot be written";
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    if (reason != 0) fail_errno(file, what, reason);
-    fail(file, what);
+  int code = std::fwrite(bytes.data(), 1, bytes.size(), stream.get()) == bytes.size() ? 0 : errno;
+  if (std::fclose(stream.release()) != 0 && code == 0) code = errno;
+  std::error_code renamed;
+  if (code == 0) std::filesystem::rename(beside, file, renamed);
+  if (code == 0 && !renamed) return;
+  std::error_code ignored;
+  std::filesystem::remove(beside, ignored);
+  if (code != 0) fail_errno(file, "cannot be written", code);
+  fail(file, "cannot be renamed from " + beside.string() + ": " + renamed.message());
+}
+
+// A PNG file, opened: its size is known.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : file_(file), stream_(std::fopen(file.c_str(), "rb")) {
+    if (!stream_) fail_errno(file, "cannot be read", errno);
+    header_.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_stdio(&header_, stream_.get())) fail(file, header_.message);
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader() { png_image_free(&header_); }
+
+  int width() const { return static_cast<int>(header_.width); }
+  int height() const { return static_cast<int>(header_.height); }
+  png_uint_32 format() const { return header_.format; }
+
+  void read(png_uint_32 format, void* pixels) {
+    header_.format = format;
+    if (!png_image_finish_read(&header_, nullptr, pixels, 0, nullptr)) fail(file_, header_.message);
   }
 
-  std::error_code renamed;
-  std::filesystem::rename(beside, file, renamed);
-  if (renamed) fail(file, "cannot be renamed from " + beside.string() + ": " + renamed.message());
+ private:
+  const std::filesystem::path& file_;
+  File stream_;
+  png_image header_{};
+};
+
+}  // namespace
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+  write_beside(file, png_bytes(image));
+}
+
+void write_png(const std::filesystem::path& file, const Image16& image) {
+  write_beside(file, png_bytes(image));
 }
 
 Image read_png(const std::filesystem::path& file) {
-  File stream(std::fopen(file.c_str(), "rb"));
-  if (!stream) fail_errno(file, "cannot be read", errno);
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_stdio(&header, stream.get())) fail(file, header.message);
-  header.format = PNG_FORMAT_RGB;
-  Image image(static_cast<int>(header.width), static_cast<int>(header.height));
-  if (!png_image_finish_read(&header, nullptr, image.pixels.data(), 0, nullptr)) {
-    const std::string what = header.message;
-    png_image_free(&header);
-    fail(file, what);
-  }
+  Reader reader(file);
+  Image image(reader.width(), reader.height());
+  reader.read(PNG_FORMAT_RGB, image.pixels.data());
+  return image;
+}
+
+Image16 read_png16(const std::filesystem::path& file) {
+  Reader reader(file);
+  if ((reader.format() & PNG_FORMAT_FLAG_LINEAR) == 0) fail(file, "has no 16-bit numbers");
+  const bool colors = (reader.format() & PNG_FORMAT_FLAG_COLOR) != 0;
+  Image16 image(reader.width(), reader.height(), colors ? 3 : 1);
+  reader.read(colors ? PNG_FORMAT_LINEAR_RGB : PNG_FORMAT_LINEAR_Y, image.numbers.data());
   return image;
 }
 

@@ -22,8 +22,12 @@ class ImageError : public std::runtime_error {
 
 // Writes beside the target and renames, so a reader never sees half a file. Throws ImageError.
 void write_png(const std::filesystem::path& file, const Image& image);
+void write_png(const std::filesystem::path& file, const Image16& image);
 
 // Reads any PNG as 8-bit RGB. Throws ImageError.
 Image read_png(const std::filesystem::path& file);
+
+// Reads a PNG of 16-bit numbers, grey or RGB, as they are stored. Throws ImageError.
+Image16 read_png16(const std::filesystem::path& file);
 
 }  // namespace voxmelt::render

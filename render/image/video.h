@@ -1,17 +1,45 @@
 // MP4 files, made by the `ffmpeg` program where it is installed.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
 
+#include "render/image/image.h"
+
 namespace voxmelt::render {
 
-// Joins numbered pictures ("frames/frame_%05d.png", counted from `first`) to an H.264 film, or to an MPEG-4
-// one where H.264 is missing. Written beside and renamed. Returns nothing when the film is there and the
-// reason when it is not: a missing film is worth a message, not the end of a run.
-std::optional<std::string> write_video(const std::filesystem::path& file, const std::string& frame_pattern,
-                                       int first, int frames_per_second);
+// Hands frames to ffmpeg as they come. It makes an H.264 film, or an MPEG-4 one where H.264 is missing. A
+// missing film is worth a message, not the end of a run. So nothing here throws, and frames after a problem
+// are ignored.
+class VideoWriter {
+ public:
+  VideoWriter(std::filesystem::path file, int frames_per_second);
+  VideoWriter(const VideoWriter&) = delete;
+  VideoWriter& operator=(const VideoWriter&) = delete;
+  ~VideoWriter();  // without finish() there is no film, and nothing is left
+
+  // Frames have one size. Odd ones lose a row or column, because yuv420p wants even sides.
+  void add(const Image& frame);
+
+  // No more frames come. ffmpeg may need a while to end.
+  void close();
+
+  // Renames the film into its place. Returns the reason if there is none: the file's name and "no film: ...".
+  std::optional<std::string> finish();
+
+ private:
+  void start(int width, int height);
+
+  std::filesystem::path file_, beside_;
+  int frames_per_second_;
+  int to_ffmpeg_ = -1;  // a socket
+  pid_t ffmpeg_ = 0;
+  bool begun_ = false;
+  std::string problem_;
+};
 
 // Is there an `ffmpeg` on the PATH?
 bool ffmpeg_found();

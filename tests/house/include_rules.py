@@ -33,6 +33,7 @@ ALLOWED = {
     "kernel/run/io": [PARAMETERS, STATE],
     PICTURE: [f"{RULE}/fixed_point.h"],
     "render/image": [f"{STATE}/grid.h", "kernel/scene/look.h"],
+    "render/frames": ["render/image"],
     "render/density": [RULE, STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU],
     "render/raycast": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density"],
     # The model computes with its own arithmetic: of the kernel it sees data only.
@@ -54,7 +55,7 @@ ALLOWED = {
                 "render/density", "render/image", "render/raycast"],
     "examples": ["include/voxmelt"],
     "app": [CPU, "accuracy", "accuracy/report", "bench/measure", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
-            "kernel/run/io", "render/density", "render/image", "render/raycast"],
+            "kernel/run/io", "render/density", "render/image", "render/frames", "render/raycast", f"{PICTURE}/camera.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.
 THIRD_PARTY = {
@@ -64,6 +65,7 @@ THIRD_PARTY = {
     "toml++/": ["kernel/scene/text"],
     "tiny_obj_loader": ["kernel/scene/shape"],
     "png.h": ["render/image"],
+    "libdeflate": ["render/image"],
     "CLI/": ["app"],
     "benchmark/": ["bench"],
     "nlohmann/": ["accuracy/report", "kernel/run/io", "hwmodel/lockstep", "bench/measure", "app"],

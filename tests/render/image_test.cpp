@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -16,13 +17,14 @@
 #include "render/image/contact_sheet.h"
 #include "render/image/label.h"
 #include "render/image/png.h"
-#include "render/image/video.h"
+#include "render/image/png_bytes.h"
 
 namespace voxmelt {
 namespace {
 
 namespace fs = std::filesystem;
 using render::Image;
+using render::Image16;
 
 class Files : public testing::Test {
  protected:
@@ -68,23 +70,52 @@ TEST_F(Files, PngErrorsNameFileAndReason) {
   EXPECT_THROW(render::read_png(folder_ / "none.png"), render::ImageError);
 }
 
-TEST_F(Files, VideoOrReason) {
-  for (int i = 0; i < 4; ++i)
-    render::write_png(folder_ / ("frame_0000" + std::to_string(i) + ".png"), random_image(33, 32));
-  const auto problem =
-      render::write_video(folder_ / "film.mp4", (folder_ / "frame_%05d.png").string(), 0, 10);
-  if (problem) {
-    EXPECT_NE(problem->find("film.mp4"), std::string::npos) << *problem;
-    GTEST_SKIP() << *problem;
-  }
-  EXPECT_GT(fs::file_size(folder_ / "film.mp4"), 0u);
+// A smooth picture and a random one choose different filters.
+TEST_F(Files, Png16RoundTrip) {
+  std::mt19937 random(5);
+  for (const int channels : {1, 3})
+    for (const auto& [width, height] : {std::pair{1, 1}, {9, 4}, {33, 20}}) {
+      Image16 smooth(width, height, channels), rough(width, height, channels);
+      for (std::size_t i = 0; i < rough.numbers.size(); ++i) {
+        smooth.numbers[i] = static_cast<std::uint16_t>(65535 - 7 * i);
+        rough.numbers[i] = static_cast<std::uint16_t>(random());
+      }
+      for (const Image16& image : {smooth, rough}) {
+        render::write_png(folder_ / "a.png", image);
+        EXPECT_TRUE(render::read_png16(folder_ / "a.png") == image);
+      }
+    }
+  render::write_png(folder_ / "colors.png", random_image(4, 4));
+  EXPECT_THROW(render::read_png16(folder_ / "colors.png"), render::ImageError);
 }
 
-TEST_F(Files, VideoOfNothingIsAMessage) {
-  const auto problem = render::write_video(folder_ / "film.mp4", (folder_ / "none_%05d.png").string(), 0, 10);
-  ASSERT_TRUE(problem.has_value());
-  EXPECT_FALSE(fs::exists(folder_ / "film.mp4"));
-  EXPECT_FALSE(fs::exists(folder_ / "film.mp4.part"));
+// Signature, IHDR with its checksum as other programs write them, sRGB; the checksum of IEND is in every PNG
+// file.
+TEST(Png, BytesOfAPictureAreAPngFile) {
+  const std::string bytes = render::png_bytes(Image(1, 1));
+  const std::string head("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08\2\0\0\0\x90wS\xde", 33);
+  const std::string srgb("\0\0\0\1sRGB\0\xae\xce\x1c\xe9", 13);
+  const std::string end(
+      "\0\0\0\0IEND\xae"
+      "B`\x82",
+      12);
+  EXPECT_EQ(bytes.substr(0, 33), head);
+  EXPECT_EQ(bytes.substr(33, 13), srgb);
+  EXPECT_EQ(bytes.substr(bytes.size() - 12), end);
+}
+
+// Each row repeats the one above it, or each pixel the one on its left: all differences are 0, but those of a
+// side.
+TEST(Png, TheBetterFilterIsTaken) {
+  Image columns = random_image(300, 300), rows = columns;
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 300; ++x) {
+      columns.at(x, y) = columns.at(x, 0);
+      rows.at(x, y) = rows.at(0, y);
+    }
+  EXPECT_LT(render::png_bytes(columns).size(), 3000U);
+  EXPECT_LT(render::png_bytes(rows).size(), 3500U);
+  EXPECT_GT(render::png_bytes(random_image(300, 300)).size(), 270000U);
 }
 
 TEST(ContactSheet, PlacesFramesInReadingOrder) {

@@ -1,0 +1,17 @@
+// Pictures of numbers: how far the surface is, and where it faces (docs/output.md).
+#pragma once
+
+#include "kernel/scene/look.h"
+#include "render/density/density_field.h"
+#include "render/image/image.h"
+
+namespace voxmelt::app {
+
+struct SurfacePictures {
+  render::Image16 depth, normals;
+  double near = 0;  // cells from the eye to the plane from which depth counts
+};
+
+SurfacePictures surface_pictures(const render::DensityField& field, scene::Camera camera);
+
+}  // namespace voxmelt::app

@@ -1,0 +1,76 @@
+#include "render/frames/frames.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+#include "render/image/png.h"
+
+namespace voxmelt::render {
+namespace {
+
+constexpr int kFramesPerSecond = 12;
+
+// So many frames wait for an encoder, wait for the film, and are in work.
+constexpr std::size_t kMostAhead = 4, kBytesAhead = std::size_t{64} << 20;
+std::size_t ahead(const Frames::Plan& plan) {
+  return std::clamp<std::size_t>(kBytesAhead / std::max<std::size_t>(plan.frame_bytes, 1), 1, kMostAhead);
+}
+
+int encoders(const Frames::Plan& plan) {
+  return plan.threads > 1 ? std::min(plan.threads, static_cast<int>(ahead(plan))) : 0;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Frames::Frames(std::filesystem::path folder, const Plan& plan)
+    : folder_(std::move(folder)),
+      sheet_(plan.count),
+      video_(folder_ / "film.mp4", kFramesPerSecond),
+      film_(plan.threads > 1 ? 1 : 0, ahead(plan), [this](Frame& frame) { video_.add(*frame.image); }),
+      files_(encoders(plan), ahead(plan), [this](Frame& frame) { write_file(frame); }) {
+  std::filesystem::create_directories(folder_ / "frames");
+}
+
+std::filesystem::path Frames::file_of(std::size_t frame) const {
+  char name[32];
+  std::snprintf(name, sizeof name, "frame_%05zu.png", frame);
+  return folder_ / "frames" / name;
+}
+
+void Frames::add(Image image, std::string label) {
+  const Frame frame{labels_.size(), std::make_shared<const Image>(std::move(image))};
+  files_.put(frame);
+  film_.put(frame);
+  labels_.push_back(std::move(label));
+}
+
+void Frames::write_file(const Frame& frame) {
+  const auto begin = std::chrono::steady_clock::now();
+  write_png(file_of(frame.number), *frame.image);
+  sheet_.offer(frame.number, *frame.image);
+  const double seconds = seconds_since(begin);
+  const std::lock_guard lock(mutex_);
+  encode_seconds_ += seconds;
+}
+
+std::string Frames::finish() {
+  files_.wait();
+  film_.wait();
+  video_.close();  // so that ffmpeg ends beside the sheet
+  const auto begin = std::chrono::steady_clock::now();
+  write_png(folder_ / "contact_sheet.png",
+            sheet_.sheet(labels_, [this](std::size_t frame) { return read_png(file_of(frame)); }));
+  encode_seconds_ += seconds_since(begin);
+
+  // The message need not name the folder.
+  const std::string problem = video_.finish().value_or("");
+  return problem.substr(std::min(problem.size(), problem.find("no film")));
+}
+
+}  // namespace voxmelt::render
