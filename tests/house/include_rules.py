@@ -35,7 +35,10 @@ ALLOWED = {
     "render/image": [f"{STATE}/grid.h", "kernel/scene/look.h"],
     "render/frames": ["render/image"],
     "render/density": [RULE, STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU],
-    "render/raycast": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density"],
+    "render/light": [PICTURE, "render/density"],
+    "render/packet": [PICTURE, CPU, "render/image", "render/density"],
+    "render/raycast": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density", "render/light",
+                       "render/packet"],
     # The model computes with its own arithmetic: of the kernel it sees data only.
     "hwmodel/channel": [],
     "hwmodel/stream": ["hwmodel/channel", PARAMETERS, STATE, f"{STEP}/phase.h"],
