@@ -61,12 +61,12 @@ TEST(Camera, AStraightView) {
   EXPECT_EQ(view.near, 16 * 99 + 8 - 3);  // the grid and half a cell, less 3 sixteenths
 
   // The middle of the picture: the ray starts on the plane and goes a quarter of a cell at a time.
-  const Ray middle = ray_through(view, 64, 32, 2);
+  const Ray middle = ray_through(view, 128, 64, 2);
   EXPECT_EQ(middle.start, (Vector{32 * kCell, 32 * kCell, 164 * kCell - view.near * kCell / 16}));
   EXPECT_EQ(middle.step, (Vector{0, 0, -kCell / 4}));
 
   // A quarter of the height above the middle, and as far to the left of it: half of the depth to the side.
-  const Ray corner = ray_through(view, 48, 16, 2);
+  const Ray corner = ray_through(view, 96, 32, 2);
   EXPECT_NEAR(static_cast<double>(corner.step.x), -static_cast<double>(kCell) / 8, 2);
   EXPECT_NEAR(static_cast<double>(corner.step.y), static_cast<double>(kCell) / 8, 2);
   EXPECT_EQ(corner.step.z, -kCell / 4);
@@ -86,6 +86,18 @@ TEST(Camera, DepthByHand) {
   EXPECT_EQ(depth_in_picture(view, {0, 0, -10000 * kCell}), kNoDepth - 1);  // as far as it goes
 }
 
+// Seen from the front with half a field of 45 degrees, a cube of 64 cells reaches 32 cells from the middle. Its front is
+// 32 cells before its middle, and the air is 1055/1024: 32 + 32 x 1055/1024 cells, give or take a 4096th.
+TEST(Camera, TheDistanceThatFitsByHand) {
+  Camera camera{{32 * kCell, 32 * kCell, 32 * kCell}, 0, 0, 0, 45 * kDegree, 64, 64};
+  const auto distance = [&] { return view_of(camera, {64, 64, 64}).eye.z / (kCell / 4096) - 32 * 4096; };
+  EXPECT_NEAR(static_cast<double>(distance()), (32 + 32 * 1055.0 / 1024) * 4096, 2);
+  camera.width = 128;  // wider: the height decides as before
+  EXPECT_NEAR(static_cast<double>(distance()), (32 + 32 * 1055.0 / 1024) * 4096, 2);
+  camera.width = 32;  // half as wide: twice as far behind the front
+  EXPECT_NEAR(static_cast<double>(distance()), (32 + 64 * 1055.0 / 1024) * 4096, 2);
+}
+
 // The compiler refuses a constant whose computation overflows: these are the ends of all ranges.
 struct Extreme {
   Samples samples;
@@ -102,9 +114,9 @@ constexpr Extreme extreme(std::int64_t sign, std::int64_t width, std::int64_t he
 }
 
 TEST(Camera, NothingOverflowsAtTheEndsOfTheRanges) {
-  constexpr Extreme kExtremes[] = {extreme(1, 16384, 16, 0),  extreme(1, 16384, 16, 16 * 16384),
-                                   extreme(-1, 16384, 16, 0), extreme(-1, 16384, 16, 16 * 16384),
-                                   extreme(1, 1, 1, 16),      extreme(-1, 16, 16384, 0)};
+  constexpr Extreme kExtremes[] = {extreme(1, 16384, 16, 0),  extreme(1, 16384, 16, 32 * 16384),
+                                   extreme(-1, 16384, 16, 0), extreme(-1, 16384, 16, 32 * 16384),
+                                   extreme(1, 1, 1, 32),      extreme(-1, 16, 16384, 0)};
   for (const Extreme& one : kExtremes) {
     EXPECT_GE(one.samples.first, 0);
     EXPECT_LE(one.depth, kNoDepth - 1);
@@ -123,7 +135,7 @@ TEST(Camera, RaysAreThoseOfADoubleCamera) {
     camera.target = {static_cast<std::int64_t>(within(-20, 80) * static_cast<double>(kCell)),
                      static_cast<std::int64_t>(within(-20, 80) * static_cast<double>(kCell)),
                      static_cast<std::int64_t>(within(-20, 80) * static_cast<double>(kCell))};
-    camera.distance = static_cast<std::int64_t>(within(0, 2000) * 4096);
+    camera.distance = static_cast<std::int64_t>(within(0.01, 2000) * 4096);
     camera.azimuth = static_cast<std::int64_t>(within(-400, 400) * static_cast<double>(kDegree));
     camera.elevation = static_cast<std::int64_t>(within(-89, 89) * static_cast<double>(kDegree));
     camera.half_field = static_cast<std::int64_t>(within(0.5, 75) * static_cast<double>(kDegree));
@@ -143,11 +155,11 @@ TEST(Camera, RaysAreThoseOfADoubleCamera) {
     const Triple eye = along(cells_of(camera.target), forward, -static_cast<double>(camera.distance) / 4096);
     ASSERT_LT(distance(cells_of(view.eye), eye), 2e-5) << i;  // 2000 cells at 12 in 2^30
 
-    const double across = std::floor(within(0, 16 * static_cast<double>(camera.width))),
-                 down = std::floor(within(0, 16 * static_cast<double>(camera.height)));
-    const double scale = std::tan(radians(camera.half_field)) / (8 * static_cast<double>(camera.height));
-    Triple direction = along(forward, right, (across - 8 * static_cast<double>(camera.width)) * scale);
-    direction = along(direction, up, (8 * static_cast<double>(camera.height) - down) * scale);
+    const double across = std::floor(within(0, 32 * static_cast<double>(camera.width))),
+                 down = std::floor(within(0, 32 * static_cast<double>(camera.height)));
+    const double scale = std::tan(radians(camera.half_field)) / (16 * static_cast<double>(camera.height));
+    Triple direction = along(forward, right, (across - 16 * static_cast<double>(camera.width)) * scale);
+    direction = along(direction, up, (16 * static_cast<double>(camera.height) - down) * scale);
 
     const Ray ray = ray_through(view, static_cast<std::int64_t>(across), static_cast<std::int64_t>(down), 2);
     const double near = static_cast<double>(view.near) / 16;

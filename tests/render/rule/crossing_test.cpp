@@ -45,15 +45,19 @@ TEST(Crossing, FalsePositionIsThatOfFloats) {
 // (-43.25 rounded down after a half is added). Then f = 44 x 256 / 57 = 197 of an eighth of a cell.
 TEST(Crossing, BetweenTwoCellsByHand) {
   const test::CubeOfLevels levels(2, [](int x, int, int) { return x == 0 ? -100 : 350; });
-  const Vector a{kCell / 2, kCell / 2, kCell / 2}, b{3 * kCell / 2, kCell / 2, kCell / 2};
-  EXPECT_EQ(crossing_between(levels, a, b), (Vector{655360 + 100864, kCell / 2, kCell / 2}));
+  const Ray ray{{kCell / 2, kCell / 2, kCell / 2}, {kCell, 0, 0}};
+  const Crossing got = crossing_before(levels, ray, 1);
+  EXPECT_EQ(got.position, (Vector{655360 + 100864, kCell / 2, kCell / 2}));
+  EXPECT_EQ(got.part, 1 * 256 + 197);  // inside, inside, outside: the second of eight
 }
 
 // Levels of -100, 0, 0 and 100: 0 is matter, so the middles 2, 5/4 and 13/8 end as inside, outside, inside.
 TEST(Crossing, LevelZeroIsMatter) {
   const test::CubeOfLevels levels(4, [](int x, int, int) { return x == 0 ? -100 : x == 3 ? 100 : 0; });
-  const Vector a{kCell / 2, kCell / 2, kCell / 2}, b{7 * kCell / 2, kCell / 2, kCell / 2};
-  EXPECT_EQ(crossing_between(levels, a, b), (Vector{13 * kCell / 8, kCell / 2, kCell / 2}));
+  const Ray ray{{kCell / 2, kCell / 2, kCell / 2}, {3 * kCell, 0, 0}};
+  const Crossing got = crossing_before(levels, ray, 1);
+  EXPECT_EQ(got.position, (Vector{13 * kCell / 8, kCell / 2, kCell / 2}));
+  EXPECT_EQ(got.part, 2 * 256 + 256);  // inside, outside, inside, and all of that eighth
 }
 
 // A full grid is met on its side, from each direction, wherever the samples happen to lie.
@@ -72,12 +76,12 @@ TEST(Crossing, FullGridIsMetOnItsSide) {
   }
 }
 
-// The worked ray of docs/picture.md, section 9: every number by hand.
+// The worked ray of docs/picture.md, section 11: every number by hand.
 TEST(Crossing, TheWorkedRay) {
   const test::CubeOfLevels full(64, [](int, int, int) { return kHalfIntensity; });
   const Camera camera{{32 * kCell, 32 * kCell, 64 * kCell}, 100 << 12, 0, 0, 45 * kDegree, 8, 4};
   const View view = view_of(camera, full.cells());
-  const Ray ray = ray_through(view, 64, 32, 2);
+  const Ray ray = ray_through(view, 128, 64, 2);
   EXPECT_EQ(view.near, 1589);
   EXPECT_EQ(ray.start.z, 67829760);
   EXPECT_EQ(ray.step, (Vector{0, 0, -262144}));
