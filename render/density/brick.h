@@ -44,22 +44,24 @@ struct BrickPart {
   }
 };
 
-// Does what lies in these planes reach `cells` beyond the brick, towards the brick `side` (-1, 0, 1) of it?
-inline bool reaches(std::uint8_t planes, int side, int cells) {
-  if (side == 0) return true;
-  return side < 0 ? (planes & ((1 << cells) - 1)) != 0 : planes >> (kBrickSide - cells) != 0;
+// The planes of the brick `side` (-1, 0, 1) of one that lie within `cells` of these planes in that one.
+inline std::uint8_t reached(std::uint8_t planes, int side, int cells) {
+  unsigned wide = unsigned{planes} << kBrickSide;
+  for (int i = 0; i < cells; ++i) wide |= wide << 1 | wide >> 1;
+  return static_cast<std::uint8_t>(wide >> (side + 1) * kBrickSide);
 }
 
-// Calls visit(neighbour) for the brick and its neighbours within `cells` of the part.
+// Calls visit(neighbour, the part of it) for the brick and its neighbours within `cells` of the part.
 template <class Visit>
 void for_reached(const state::Grid& bricks, const state::Grid& brick, const BrickPart& part, int cells,
                  const Visit& visit) {
   for (int z = -1; z <= 1; ++z)
     for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x)
-        if (reaches(part.x, x, cells) && reaches(part.y, y, cells) && reaches(part.z, z, cells) &&
-            bricks.contains(brick.x + x, brick.y + y, brick.z + z))
-          visit(state::Grid{brick.x + x, brick.y + y, brick.z + z});
+      for (int x = -1; x <= 1; ++x) {
+        const BrickPart to{reached(part.x, x, cells), reached(part.y, y, cells), reached(part.z, z, cells)};
+        if (to.x != 0 && to.y != 0 && to.z != 0 && bricks.contains(brick.x + x, brick.y + y, brick.z + z))
+          visit(state::Grid{brick.x + x, brick.y + y, brick.z + z}, to);
+      }
 }
 
 }  // namespace voxmelt::render
