@@ -100,20 +100,21 @@ std::vector<step::Phase> Simulation::phases() const {
 
 void Simulation::run_phase(step::Phase phase) {
   if (host_ == nullptr) throw std::logic_error("a device stepper runs whole steps only, not one phase");
+  volume_.changed.begin();
   const Stopwatch watch(seconds_.phase[static_cast<std::size_t>(phase)]);
   host_->run(phase, moment(), irradiance(), volume_, ledger_);
   if (phase == step::Phase::spread) ++substep_;
 }
 
-// After a change by hand everything counts as changed, and after each download (see there).
-void Simulation::end_step() {
-  ++steps_done_;
+// Told when somebody asks for the volume: until then everything counts as changed. So it does after a change
+// by hand, and after a download.
+void Simulation::tell_changes() const {
+  if (!untold_) return;
+  untold_ = false;
   state::ChangedBricks& changed = volume_.changed;
   if (!changed.followed()) changed.follow(volume_.grid);
-  if (host_ != nullptr) {
-    changed.new_version();
-    host_->tell_changes(changed);
-  }
+  changed.new_version();
+  if (host_ != nullptr) host_->tell_changes(changed);
   changed.end();
 }
 

@@ -35,7 +35,7 @@ class Simulation {
   void begin_step();
   std::vector<step::Phase> phases() const;  // of the step that has begun, in their order
   void run_phase(step::Phase phase);
-  void end_step();
+  void end_step() { ++steps_done_, untold_ = true; }
   int substeps() const { return substeps_; }  // of the step that has begun last
   step::Moment moment() const { return {step_number(), substep_, substeps_}; }  // of the next phase
 
@@ -53,7 +53,7 @@ class Simulation {
   std::uint32_t step_number() const { return first_step_ + steps_done_; }
   const step::Irradiance* irradiance() const { return irradiance_.empty() ? nullptr : &irradiance_; }
   std::int64_t irradiance_capped() const { return irradiance_capped_; }  // times that a cell was cut
-  const state::Volume& volume() const { return fetch(), volume_; }
+  const state::Volume& volume() const { return fetch(), tell_changes(), volume_; }
   const state::Ledger& ledger() const { return fetch(), ledger_; }
   const rule::Parameters& parameters() const { return parameters_; }
   int threads() const { return threads_; }  // in use, where the implementation divides work among them
@@ -76,6 +76,7 @@ class Simulation {
     if (behind_) download();
   }
   void download() const;
+  void tell_changes() const;
   void touch() { fetch(), uploaded_ = false, volume_.changed.forget(); }
 
   rule::Parameters parameters_;
@@ -87,6 +88,7 @@ class Simulation {
   mutable state::Ledger ledger_;
   mutable bool behind_ = false;  // the device has run on: volume_ and ledger_ are old
   bool uploaded_ = false;        // the device has a state of ours
+  mutable bool untold_ = false;  // steps have ended, and volume_.changed does not know of them yet
   step::Irradiance irradiance_;  // empty without radiation
   std::int64_t irradiance_capped_ = 0;
   int threads_;

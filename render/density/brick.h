@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "kernel/automaton/state/changed_bricks.h"
@@ -44,22 +46,29 @@ struct BrickPart {
   }
 };
 
-// Does what lies in these planes reach `cells` beyond the brick, towards the brick `side` (-1, 0, 1) of it?
-inline bool reaches(std::uint8_t planes, int side, int cells) {
-  if (side == 0) return true;
-  return side < 0 ? (planes & ((1 << cells) - 1)) != 0 : planes >> (kBrickSide - cells) != 0;
+// The planes of the brick `side` (-1, 0, 1) of one that lie within `cells` of these planes in that one.
+inline std::uint8_t reached(std::uint8_t planes, int side, int cells) {
+  unsigned wide = unsigned{planes} << kBrickSide;
+  for (int i = 0; i < cells; ++i) wide |= wide << 1 | wide >> 1;
+  return static_cast<std::uint8_t>(wide >> (side + 1) * kBrickSide);
 }
 
-// Calls visit(neighbour) for the brick and its neighbours within `cells` of the part.
+// Calls visit(neighbour, the part of it) for the brick and its neighbours within `cells` of the part.
 template <class Visit>
 void for_reached(const state::Grid& bricks, const state::Grid& brick, const BrickPart& part, int cells,
                  const Visit& visit) {
-  for (int z = -1; z <= 1; ++z)
-    for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x)
-        if (reaches(part.x, x, cells) && reaches(part.y, y, cells) && reaches(part.z, z, cells) &&
-            bricks.contains(brick.x + x, brick.y + y, brick.z + z))
-          visit(state::Grid{brick.x + x, brick.y + y, brick.z + z});
+  std::array<BrickPart, 3> to;  // by side: -1, 0, 1
+  for (int side = -1; side <= 1; ++side)
+    to[static_cast<std::size_t>(side + 1)] = {reached(part.x, side, cells), reached(part.y, side, cells),
+                                              reached(part.z, side, cells)};
+  for (std::size_t z = 0; z < 3; ++z)
+    for (std::size_t y = 0; y < 3 && to[z].z != 0; ++y)
+      for (std::size_t x = 0; x < 3 && to[y].y != 0; ++x) {
+        const state::Grid near{brick.x + static_cast<int>(x) - 1, brick.y + static_cast<int>(y) - 1,
+                               brick.z + static_cast<int>(z) - 1};
+        if (to[x].x != 0 && bricks.contains(near.x, near.y, near.z))
+          visit(near, BrickPart{to[x].x, to[y].y, to[z].z});
+      }
 }
 
 }  // namespace voxmelt::render

@@ -1,6 +1,7 @@
 #include "render/density/brick_filter.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 
 #include "render/density/loops.h"
@@ -20,6 +21,16 @@ bool has_one_value(const CellFields& cells, int channel, const state::Grid& bric
       for (int x = std::max(brick.x - 1, 0); x <= std::min(brick.x + 1, bricks.x - 1); ++x)
         if (cells.uniform(channel, bricks.index(x, y, z)) != value) return false;
   return true;
+}
+
+// The planes of the box of a row of bricks in which something is dirty.
+CellBox trimmed(const CellBox& box, const BrickPart& part) {
+  CellBox to = box;
+  to.low.y += std::countr_zero(part.y);
+  to.low.z += std::countr_zero(part.z);
+  to.high.y = std::min(box.high.y, box.low.y + static_cast<int>(std::bit_width(part.y)));
+  to.high.z = std::min(box.high.z, box.low.z + static_cast<int>(std::bit_width(part.z)));
+  return to;
 }
 
 void fill(const BrickFilter::Task& task, int channel, const state::Grid& brick) {
@@ -44,36 +55,40 @@ void BrickFilter::filter_row(const Task& task, int by, int bz) {
       return (task.flags[cells.bricks.index(bx, by, bz)] & flag_of(channel)) != 0;
     };
     int run = 0;  // bricks to the left of bx that must be filtered
+    BrickPart part;
     for (int bx = 0; bx <= cells.bricks.x; ++bx) {
       const state::Grid brick{bx, by, bz};
       const bool more = bx < cells.bricks.x && asked(bx);
       const bool same = more && has_one_value(cells, channel, brick);
       if (run == kMostBricks || (run > 0 && (!more || same))) {
-        const state::Grid first{bx - run, by, bz};
-        channel == kIntensity ? mix_intensity(task, first, run) : filter(task, channel, first, run);
+        const CellBox box = trimmed(cells_of(cells.grid, {bx - run, by, bz}, run), part);
+        channel == kIntensity ? mix_intensity(task, box) : filter(task, channel, box);
         run = 0;
+        part = {};
       }
-      if (more && !same) ++run;
+      if (more && !same) {
+        ++run;
+        const DirtyPart& dirty = task.parts[cells.bricks.index(bx, by, bz)];
+        part.add(channel == kHeat ? dirty.heat : dirty.matter);
+      }
       if (same) fill(task, channel, brick);
     }
   }
 }
 
-void BrickFilter::filter(const Task& task, int channel, const state::Grid& first, int bricks) {
+void BrickFilter::filter(const Task& task, int channel, const CellBox& box) {
   const auto c = static_cast<std::size_t>(channel);
   const int wide =
       std::max(task.liquid_passes, task.solid_passes);  // so the shares reach as far as the intensity
-  low_pass_.load(*task.cells.all()[c], first, bricks, wide);
+  low_pass_.load(*task.cells.all()[c], box, wide);
   low_pass_.advance(wide);
   std::uint16_t* const to = task.to.all()[c]->data();
-  for_rows(task.cells.grid, cells_of(task.cells.grid, first, bricks),
-           [&](std::size_t i, const state::Grid& cell, int cells) {
-             std::copy_n(low_pass_.at(cell.x, cell.y, cell.z), cells, to + i);
-           });
+  for_rows(task.cells.grid, box, [&](std::size_t i, const state::Grid& cell, int cells) {
+    std::copy_n(low_pass_.at(cell.x, cell.y, cell.z), cells, to + i);
+  });
 }
 
-void BrickFilter::mix_intensity(const Task& task, const state::Grid& first, int bricks) {
-  const CellBox box = cells_of(task.cells.grid, first, bricks);
+void BrickFilter::mix_intensity(const Task& task, const CellBox& box) {
   const auto place = [&](const state::Grid& cell) {  // in weights_ and other_
     return static_cast<std::size_t>((cell.z - box.low.z) * kBrickSide + (cell.y - box.low.y)) * kMostBricks *
            kBrickSide;
@@ -94,7 +109,7 @@ void BrickFilter::mix_intensity(const Task& task, const state::Grid& first, int 
   const bool both = least < kWhole && most > 0 && task.liquid_passes != task.solid_passes;
   const int alone = most > 0 ? task.liquid_passes : task.solid_passes;
   const int passes = both ? std::max(task.liquid_passes, task.solid_passes) : alone;
-  low_pass_.load(task.cells.intensity, first, bricks, passes);
+  low_pass_.load(task.cells.intensity, box, passes);
   if (both) {
     low_pass_.advance(std::min(task.liquid_passes, task.solid_passes));
     for_rows(task.cells.grid, box, [&](std::size_t, const state::Grid& cell, int cells) {

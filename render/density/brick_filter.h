@@ -14,6 +14,11 @@ namespace voxmelt::render {
 // A byte per brick: the channels that must be filtered in it.
 using BrickFlags = std::vector<std::uint8_t>;
 
+// Where in a brick they must be filtered; along x always everywhere.
+struct DirtyPart {
+  BrickPart matter, heat;
+};
+
 // Its memory is taken once and used again, for task after task.
 class BrickFilter {
  public:
@@ -21,6 +26,7 @@ class BrickFilter {
     const CellFields& cells;
     int liquid_passes, solid_passes;
     const BrickFlags& flags;
+    const std::vector<DirtyPart>& parts;
     ChannelValues& to;
   };
 
@@ -30,8 +36,8 @@ class BrickFilter {
   void filter_row(const Task& task, int by, int bz);
 
  private:
-  void filter(const Task& task, int channel, const state::Grid& first, int bricks);
-  void mix_intensity(const Task& task, const state::Grid& first, int bricks);
+  void filter(const Task& task, int channel, const CellBox& box);
+  void mix_intensity(const Task& task, const CellBox& box);
 
   LowPass low_pass_;
   static constexpr std::size_t kMostCells = kMostBricks * kBrickSide * kBrickSide * kBrickSide;

@@ -38,6 +38,7 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
     filtered_ = ChannelValues(volume.grid.cells());
     ranges_.assign(bricks().cells(), BrickRange{});
     dirty_.assign(bricks().cells(), 0);
+    parts_.assign(bricks().cells(), {});
     rows_.assign(static_cast<std::size_t>(bricks().y) * static_cast<std::size_t>(bricks().z), 0);
     filters_.clear();
     pyramid_ = matter_pyramid_ = Pyramid(volume.grid);
@@ -64,7 +65,7 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
   if (cells_.changed().empty() && (!other_filter || other)) return 0;
 
   find_dirty(other_filter && !other);
-  const BrickFilter::Task task{cells_, liquid_passes_, solid_passes_, dirty_, filtered_};
+  const BrickFilter::Task task{cells_, liquid_passes_, solid_passes_, dirty_, parts_, filtered_};
   const int rows = static_cast<int>(dirty_rows_.size());
   const int parts = threads == 1 ? 1 : std::clamp(rows, 1, 4 * threads);
   while (static_cast<int>(filters_.size()) < parts) filters_.emplace_back(grid());
@@ -91,10 +92,17 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
 // What an update must filter: everything that the filter reaches from what has changed.
 void DensityField::find_dirty(bool all) {
   std::fill(dirty_.begin(), dirty_.end(), all ? kAllChannels | kRange : 0);
+  std::fill(parts_.begin(), parts_.end(),
+            all ? DirtyPart{BrickPart::whole(), BrickPart::whole()} : DirtyPart{});
   std::fill(rows_.begin(), rows_.end(), all ? 1 : 0);
   const auto spread = [&](const state::Grid& brick, const BrickPart& part, int reach, std::uint8_t flags) {
-    for_reached(bricks(), brick, part, reach, [&](const state::Grid& near) {
-      dirty_[bricks().index(near.x, near.y, near.z)] |= flags;
+    for_reached(bricks(), brick, part, reach, [&](const state::Grid& near, const BrickPart& of) {
+      const std::size_t at = bricks().index(near.x, near.y, near.z);
+      dirty_[at] |= flags;
+      if ((flags & flag_of(kHeat)) != 0)
+        parts_[at].heat.add(of);
+      else if (flags != kRange)
+        parts_[at].matter.add(of);
       rows_[static_cast<std::size_t>(near.z) * static_cast<std::size_t>(bricks().y) +
             static_cast<std::size_t>(near.y)] = 1;
     });

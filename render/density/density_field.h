@@ -75,6 +75,7 @@ class DensityField {
   bool glow_ = false;
   state::ChangedBricks::Seen seen_;
   BrickFlags dirty_;                // channels to filter; kRange: the range to refresh
+  std::vector<DirtyPart> parts_;    // where in a brick
   std::vector<std::uint8_t> rows_;  // [z][y] of bricks: something in it is dirty
   std::vector<int> dirty_rows_;
   std::vector<BrickFilter> filters_;  // one for each part of the rows

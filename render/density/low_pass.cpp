@@ -21,8 +21,7 @@ LowPass::LowPass(const state::Grid& grid)
       block_(std::make_unique_for_overwrite<std::uint16_t[]>(kMostRow * kMostSide * kMostSide + 4 * kLanes)),
       room_(std::make_unique_for_overwrite<std::uint16_t[]>(2 * (kMostRow + 3 * kLanes) * kMostSide)) {}
 
-void LowPass::load(const Values<std::uint16_t>& from, const state::Grid& first, int bricks, int passes) {
-  const CellBox box = cells_of(grid_, first, bricks);
+void LowPass::load(const Values<std::uint16_t>& from, const CellBox& box, int passes) {
   origin_ = {box.low.x - passes, box.low.y - passes, box.low.z - passes};
   x_ = box.high.x - box.low.x + 2 * passes;
   y_ = box.high.y - box.low.y + 2 * passes;
@@ -84,7 +83,7 @@ Values<std::uint16_t> low_pass(const state::Grid& grid, int passes, const Values
     for (int y = 0; y < bricks.y; ++y)
       for (int x = 0; x < bricks.x; x += kMostBricks) {
         const int count = std::min(kMostBricks, bricks.x - x);
-        filter.load(from, {x, y, z}, count, passes);
+        filter.load(from, cells_of(grid, {x, y, z}, count), passes);
         filter.advance(passes);
         for_rows(grid, cells_of(grid, {x, y, z}, count),
                  [&](std::size_t i, const state::Grid& cell, int cells) {

@@ -21,9 +21,9 @@ class LowPass {
  public:
   explicit LowPass(const state::Grid& grid);
 
-  // Takes the bricks first, first + 1 .. (`bricks` of them, along x) and as much around them as `passes` ask.
-  // `from` must not change meanwhile.
-  void load(const Values<std::uint16_t>& from, const state::Grid& first, int bricks, int passes);
+  // Takes the cells of a box, at most kMostBricks bricks along x and one along y and z, and as much around
+  // them as `passes` ask. `from` must not change meanwhile.
+  void load(const Values<std::uint16_t>& from, const CellBox& box, int passes);
   // Carries on to `passes` passes in all, at most as many as asked for.
   void advance(int passes);
   // What the passes made so far gave, at cell (x, y, z) of the grid and rightward, within the bricks.

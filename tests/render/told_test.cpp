@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -155,6 +156,32 @@ TEST(Told, AfterEditsThatAreTold) {
       }
     }
   }
+}
+
+// A puddle that is moved up or down carries a change into the brick below or above; one that rises into the
+// next brick is a deeper one in all of its cells.
+TEST(Told, PuddlesCrossBricks) {
+  const state::Grid grid{16, 24, 16};
+  for (const int smooth : {0, 2})
+    for (const int bed : {1000, 2048, 3000})
+      for (const auto& [depth, y, amount] : {std::array{12, 8, 100}, {12, 7, 100}, {6, 8, 900}, {6, 7, 0}}) {
+        state::Volume volume = test::floor_volume(grid);
+        worlds::for_each(worlds::whole(grid), [&](int x, int v, int z) {
+          if (v == test::kFloor - 1) volume.amount[volume.at(x, v, z)] = static_cast<std::uint16_t>(bed);
+        });
+        for (int x = 2; x < 9; ++x) test::pour(volume, x, 7, depth);
+        volume.changed.follow(grid);
+        scene::Look look;
+        look.smooth = smooth;
+        DensityField field;
+        field.update(volume, look);
+        volume.changed.new_version();
+        worlds::put(volume, 5, y, 7, amount);
+        volume.changed.mark(ChangedBricks::kMatter, 1, y / 8, 0);
+        field.update(volume, look);
+        test::expect_plain(field, volume, look);
+        if (testing::Test::HasFailure()) FAIL() << smooth << " " << bed << " " << depth << " " << y;
+      }
 }
 
 TEST(Told, WhatIsNotToldIsNotSeen) {
