@@ -64,9 +64,12 @@ GroundMap::GroundMap(Vector cells, ColumnHeights heights, int passes, const scen
 bool GroundMap::lower(const ColumnHeights& wetness) {
   if (empty() || wetness == wetness_) return false;
   wetness_ = wetness;
-  ColumnHeights low = softened(wetness_, cells_, passes_);
-  for (std::size_t i = 0; i < low.size(); ++i) low[i] = picture::lowered(softened_[i], low[i]);
-  drawn_ = low.empty() ? bare_ : filtered(low, cells_, picture::prefiltered);
+  drawn_ = bare_;
+  if (!wetness_.empty()) {
+    ColumnHeights low = softened(wetness_, cells_, passes_);
+    for (std::size_t i = 0; i < low.size(); ++i) low[i] = picture::lowered(softened_[i], low[i]);
+    drawn_ = filtered(low, cells_, picture::prefiltered);
+  }
   find_slopes();
   return true;
 }
