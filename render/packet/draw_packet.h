@@ -3,8 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
+#include "render/packet/ground_packet.h"
 #include "render/packet/shade_packet.h"
+#include "render/rule/nearer.h"
 
 namespace voxmelt::render {
 
@@ -15,28 +18,103 @@ struct DrawPacket : Packet<Arch> {
   using typename P::Triple;
   using typename P::V;
   using Field = FieldPacket<Arch>;
+  using Ground = GroundPacket<Arch>;
   using Shade = ShadePacket<Arch>;
   using Color = typename Shade::Color;
 
-  [[gnu::always_inline]] static inline Color light(const PictureData& data, V across, V down) {
-    const auto row = Rays<Arch>::through(data, across, down);
-    const auto hits = Field::march(data, row);
-    Color color{{L::set(data.background[0]), L::set(data.background[1]), L::set(data.background[2])}};
+  // What a packet meets, of which `matter` and `ground` tell: no lane has both.
+  struct Met {
+    V matter, ground;
+    V from_start;  // the eye is in it
+    V face;        // of the ground
+    Triple position;
+  };
+
+  [[gnu::always_inline]] static inline Met met(const PictureData& data, const typename Rays<Arch>::Row& row) {
+    Met of{V{}, V{}, V{}, V{}, Triple{V{}, V{}, V{}}};
+    typename Ground::Hits ground{V{}, V{}, V{}};
+    const Triple start = Rays<Arch>::wrapped_start(row);
+    if (data.ground.any) ground = Ground::march(data, row, start);
+    // Matter behind the ground does not count.
+    const V most = ground.found ? (ground.inside >> picture::kPartBits) + 1 : L::set(INT32_MAX);
+    const auto hits = Field::march(data, row, most);
+    Triple outside{V{}, V{}, V{}};
+    if (L::any(ground.found)) {
+      Ground::bisect(data.ground, row, start, ground);
+      of.ground = ground.found;
+      of.position = Rays<Arch>::at_part(row, start, ground.inside);
+      outside = Rays<Arch>::at_part(row, start, ground.before);
+      of.face = Ground::face_of(data.ground, ground.found, ground.inside, outside);
+      of.from_start = ground.inside == 0;
+    }
     if (L::any(hits.found)) {
       const auto surface = Field::crossing(data.field, row, hits);
-      const Triple to_eye = P::unit_of(Triple{} - row.step, data.inverse_root);
-      const Triple normal = P::select(hits.sample == 0, to_eye, Field::normal(data, surface.at));
-      const Triple position = surface.at + Triple{L::set(-Field::kBias), L::set(-Field::kBias), L::set(-Field::kBias)};
-      const auto arriving = LightPacket<Arch>::at(data.light, data.paint->glow,
-                                                  LightPacket<Arch>::before(position, normal, data.light.shift));
-      const V matter = Field::matter(data.field, surface.at);
-      const V outside = data.field.obstacles ? Field::matter(data.field, surface.at + (normal << 5)) : V{};
-      color = Shade::select(
-          hits.found,
-          Shade::pressed(*data.tone, Shade::matter_color(data, normal, to_eye, arriving, matter, (outside >> 16) & 255)),
-          color);
+      // rule/nearer.h, in places from the sample before matter.
+      const V samples = L::clamp((ground.inside >> picture::kPartBits) - (hits.sample - 1), -4, 4);
+      const V place = samples * picture::kPlaces +
+                      (ground.inside & (picture::kParts - 1)) * (picture::kPlaces / picture::kParts);
+      const V first = of.face == static_cast<std::int32_t>(picture::Face::top)
+                          ? V{}
+                          : L::set(static_cast<std::int32_t>(picture::kSideFirst));
+      of.ground = of.ground & (~hits.found | (place <= surface.part + first));
+      of.matter = hits.found & ~of.ground;
+      constexpr std::int32_t kBack = -Field::kBias;
+      of.position = P::select(of.matter, surface.at + Triple{L::set(kBack), L::set(kBack), L::set(kBack)}, of.position);
+      of.from_start = of.matter ? hits.sample == 0 : of.from_start;
     }
-    return color;
+    return of;
+  }
+
+  // Positions of lanes that meet nothing are 0, and their normals any unit vectors.
+  struct Surface {
+    Met met;
+    V found;
+    Triple to_eye, position, lattice, normal;
+    typename Ground::Painted paint;
+  };
+
+  // Tells whether there is any.
+  [[gnu::always_inline]] static inline bool surface(const PictureData& data, V across, V down, Surface& of) {
+    const auto row = Rays<Arch>::through(data, across, down);
+    of.met = met(data, row);
+    of.found = of.met.matter | of.met.ground;
+    if (!L::any(of.found)) return false;
+    of.to_eye = P::unit_of(Triple{} - row.step, data.inverse_root);
+    of.position = P::select(of.found, of.met.position, Triple{});
+    of.normal = of.to_eye;
+    if (L::any(of.met.ground)) {
+      of.paint = Ground::painted(data, of.met.ground, of.met.face, of.position, of.to_eye);
+      of.normal = P::select(of.met.ground, of.paint.normal, of.normal);
+    }
+    if (L::any(of.met.matter)) {
+      constexpr std::int32_t kBias = Field::kBias;
+      of.lattice =
+          P::select(of.met.matter, of.position + Triple{L::set(kBias), L::set(kBias), L::set(kBias)}, Triple{});
+      of.normal = P::select(of.met.matter & ~of.met.from_start, Field::normal(data, of.lattice), of.normal);
+    }
+    return true;
+  }
+
+  [[gnu::always_inline]] static inline Color light(const PictureData& data, V across, V down) {
+    Color color{{L::set(data.background[0]), L::set(data.background[1]), L::set(data.background[2])}};
+    Surface of;
+    if (!surface(data, across, down, of)) return color;
+    const auto arriving = LightPacket<Arch>::at(data.light, data.paint->glow,
+                                                LightPacket<Arch>::before(of.position, of.normal, data.light.shift));
+    Color lit = color;
+    if (L::any(of.met.ground)) {
+      const Color own{{of.paint.color[0], of.paint.color[1], of.paint.color[2]}};
+      lit = Shade::select(of.met.ground, Shade::ground_color(*data.paint, of.normal, arriving, own), lit);
+    }
+    if (L::any(of.met.matter)) {
+      const V matter = Field::matter(data.field, of.lattice);
+      const Triple out = P::select(of.met.matter, of.lattice + (of.normal << 5), Triple{});
+      const V outside = data.field.obstacles ? Field::matter(data.field, out) : V{};
+      lit = Shade::select(
+          of.met.matter,
+          Shade::matter_color(data, of.normal, of.to_eye, arriving, matter, (outside >> 16) & 255), lit);
+    }
+    return Shade::select(of.found, Shade::pressed(*data.tone, lit), color);
   }
 
   // Places are rounded up to whole packets: see Places.
@@ -48,11 +126,29 @@ struct DrawPacket : Packet<Arch> {
       L::store_halves(of.c[2], to.blue + i);
     }
   }
+
+  static void find(const PictureData& data, Places places, FoundSurface to) {
+    const auto store = [](V of, std::int32_t* at) { std::memcpy(at, &of, sizeof of); };
+    for (std::size_t i = 0; i < places.count; i += P::kCount) {
+      Surface of;
+      if (!surface(data, L::load(places.across + i), L::load(places.down + i), of)) {
+        store(V{}, to.found + i);
+        continue;
+      }
+      store(of.found, to.found + i);
+      const V position[3] = {of.position.x, of.position.y, of.position.z};
+      const V normal[3] = {of.normal.x, of.normal.y, of.normal.z};
+      for (std::size_t j = 0; j < 3; ++j) {
+        store(position[j], to.position[j] + i);
+        store(normal[j], to.normal[j] + i);
+      }
+    }
+  }
 };
 
 template <class Arch>
 Packets packets_for() {
-  return {&DrawPacket<Arch>::draw, Packet<Arch>::kCount};
+  return {&DrawPacket<Arch>::draw, &DrawPacket<Arch>::find, Packet<Arch>::kCount};
 }
 
 }  // namespace voxmelt::render

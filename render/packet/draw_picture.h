@@ -1,6 +1,10 @@
 // The picture by packets of rays (docs/picture.md).
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "kernel/engine/cpu/instruction_set.h"
 #include "render/image/image.h"
 #include "render/packet/picture_data.h"
@@ -15,6 +19,23 @@ const Packets& best_packets();
 // One sample a pixel; four where a pixel differs from a neighbour; sixteen where it still does.
 enum class Setting { fast, normal, best };
 
+// The samples of rays are 2^-spacing cells apart.
+constexpr int spacing_of(Setting setting) { return setting == Setting::best ? 3 : 2; }
+
+// Do all rays' numbers fit the lanes? Otherwise plain_packets() draw the picture, whichever are asked for.
+bool fits_lanes(const PictureData& data);
+
 Image draw_picture(const PictureData& data, Setting setting, const Packets& packets, int threads);
+
+// What the middle of each pixel shows, row by row from the top: its depth (picture::depth_in_picture, kNoDepth where
+// there is nothing) and unit normal (2^14 is 1).
+struct SurfacePicture {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> depth;
+  std::vector<std::array<std::int16_t, 3>> normal;
+
+  friend bool operator==(const SurfacePicture&, const SurfacePicture&) = default;
+};
+SurfacePicture draw_surface(const PictureData& data, const Packets& packets, int threads);
 
 }  // namespace voxmelt::render

@@ -57,10 +57,11 @@ struct FieldPacket : Packet<Arch> {
     Triple at;  // its lattice position
   };
 
-  // The first sample in matter of every ray.
-  VOXMELT_WORDS Hits march(const PictureData& data, const Row& row) {
+  // The first sample in matter of every ray, up to `most`.
+  VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, V most) {
     const FieldData& field = data.field;
-    const auto range = Rays<Arch>::in_box(row, field.low, field.high);
+    auto range = Rays<Arch>::in_box(row, field.low, field.high);
+    range.last = L::min(range.last, most);
     V k = range.first, active = range.first <= range.last;
     Triple q = Rays<Arch>::at(row, k, kBias);
     q = P::select(active, q, Triple{});

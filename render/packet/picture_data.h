@@ -56,8 +56,15 @@ struct PressedLight {
   std::uint16_t *red, *green, *blue;
 };
 
+// Where rays meet something: masks, positions in 2^-20 cells, and unit normals in 2^-14.
+struct FoundSurface {
+  std::int32_t* found;
+  std::int32_t *position[3], *normal[3];
+};
+
 struct Packets {
   void (*draw)(const PictureData& data, Places places, PressedLight to);
+  void (*find)(const PictureData& data, Places places, FoundSurface to);
   int lanes;
 };
 

@@ -9,6 +9,7 @@
 
 #include "render/packet/packet.h"
 #include "render/packet/picture_data.h"
+#include "render/rule/ground.h"
 
 namespace voxmelt::render {
 
@@ -64,6 +65,47 @@ struct Rays : Packet<Arch> {
     return {L::to_int(L::min(first, L::set_float(1.5e9f))), L::to_int(L::min(last, L::set_float(1e9f)))};
   }
 
+  // The parts of rays in the box low <= position < high, exactly (picture::ground_parts), where PictureData::fits. A
+  // quotient of whole numbers below 2^47 by one below 2^19 does not reach a whole number by its rounding.
+  VOXMELT_WORDS Samples parts_in(const Row& row, picture::Vector low, picture::Vector high) {
+    const auto half = [&]<int kWhich>(D x, D y, D z) {
+      D first = D{}, last = D{} + kMostParts;
+      const auto clip = [&](D start, HalfV step, std::int64_t from, std::int64_t to) {
+        const D by = to_double(step), before = (static_cast<double>(from) - start) * picture::kParts,
+                behind = (static_cast<double>(to) - start) * picture::kParts - 1.0;
+        const auto back = by < 0.0;
+        const D size = by == 0.0 ? D{} + 1e-30 : positive(by);
+        first = larger(first, (back ? -behind : before) / size);
+        const D end = (back ? -before : behind) / size;
+        last = end < last ? end : last;
+      };
+      clip(x, L::template half<kWhich>(row.step.x), low.x, high.x);
+      clip(y, L::template half<kWhich>(row.step.y), low.y, high.y);
+      clip(z, L::template half<kWhich>(row.step.z), low.z, high.z);
+      const D most = D{} + kMostParts;
+      first = first < most ? first : most;
+      return Ends{__builtin_convertvector(-floor_of(-first), HalfV),
+                  __builtin_convertvector(floor_of(larger(last, D{} - 1.0)), HalfV)};
+    };
+    const Ends below = half.template operator()<0>(row.start.x.low, row.start.y.low, row.start.z.low);
+    const Ends above = half.template operator()<1>(row.start.x.high, row.start.y.high, row.start.z.high);
+    return {L::joined(below.first, above.first), L::joined(below.last, above.last)};
+  }
+
+  // The low 32 bits of the starts.
+  VOXMELT_WORDS Triple wrapped_start(const Row& row) {
+    return {wrapped(row.start.x), wrapped(row.start.y), wrapped(row.start.z)};
+  }
+  // picture::position_at near the grid. Elsewhere it wraps.
+  VOXMELT_WORDS Triple at_part(const Row& row, Triple start, V part) {
+    const V whole = part >> picture::kPartBits, rest = part & (picture::kParts - 1);
+    const auto axis = [&](V from, V step) {
+      return L::as_signed(L::as_unsigned(from) + L::as_unsigned(step) * L::as_unsigned(whole) +
+                          L::as_unsigned((step * rest) >> picture::kPartBits));
+    };
+    return {axis(start.x, row.step.x), axis(start.y, row.step.y), axis(start.z, row.step.z)};
+  }
+
   // The position of a sample near the grid, plus `bias`. Lanes without samples may be anywhere.
   VOXMELT_WORDS Triple at(const Row& row, V sample, std::int32_t bias) {
     return {along(row.start.x, row.step.x, sample, bias), along(row.start.y, row.step.y, sample, bias),
@@ -71,6 +113,19 @@ struct Rays : Packet<Arch> {
   }
 
  private:
+  static constexpr double kMostParts = 1 << 30;
+  struct Ends {
+    HalfV first, last;
+  };
+  VOXMELT_WORDS V wrapped(const Doubles& a) {
+    const auto part = [](D of) {
+      typename L::Q bits;
+      of = of + 6755399441055744.0;  // 1.5 2^52
+      std::memcpy(&bits, &of, sizeof bits);
+      return __builtin_convertvector(bits, HalfV);
+    };
+    return L::joined(part(a.low), part(a.high));
+  }
   struct Half {
     HalfV step_x, step_y, step_z;
     D start_x, start_y, start_z;

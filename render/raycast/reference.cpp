@@ -11,20 +11,6 @@
 
 namespace voxmelt::render {
 
-picture::Camera camera_in_integers(const scene::Camera& camera) {
-  const auto fixed = [](double value, int bits) {
-    return static_cast<std::int64_t>(std::floor(std::ldexp(value, bits) + 0.5));
-  };
-  const auto position = [&](double value) { return fixed(value, picture::kPositionBits); };
-  return {{position(camera.target[0]), position(camera.target[1]), position(camera.target[2])},
-          fixed(camera.distance, 12),
-          fixed(camera.azimuth, 16),
-          fixed(std::clamp(camera.elevation, -89.0, 89.0), 16),
-          fixed(camera.field_of_view, 15),
-          camera.width,
-          camera.height};
-}
-
 std::vector<SurfacePixel> surface_picture(const Levels& levels, const picture::Camera& camera, int spacing) {
   const picture::View view = picture::view_of(camera, levels.cells());
   std::vector<SurfacePixel> picture;

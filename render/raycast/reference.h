@@ -4,14 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/scene/look.h"
+#include "render/packet/scene_in_integers.h"
 #include "render/raycast/levels.h"
 #include "render/rule/camera.h"
 
 namespace voxmelt::render {
-
-// A scene's camera in integers. Its distance must be given.
-picture::Camera camera_in_integers(const scene::Camera& camera);
 
 struct SurfacePixel {
   std::uint16_t depth = picture::kNoDepth;  // 32nds of a cell from the near plane

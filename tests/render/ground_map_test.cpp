@@ -1,5 +1,5 @@
 // The ground of a scene: filters by hand, samples left out, the pictures that had holes, the texture.
-#include "render/raycast/ground_map.h"
+#include "render/ground/ground_map.h"
 
 #include <gtest/gtest.h>
 

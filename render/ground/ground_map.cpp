@@ -1,4 +1,4 @@
-#include "render/raycast/ground_map.h"
+#include "render/ground/ground_map.h"
 
 #include <algorithm>
 #include <cmath>

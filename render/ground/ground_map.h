@@ -50,6 +50,10 @@ class GroundMap {
   picture::Vector slopes() const { return slopes_; }
   const std::vector<picture::Texel>& texels() const { return texels_; }  // none without texture
   int fineness() const { return fineness_; }
+  const picture::Vector& color() const { return color_; }
+  // The noise of bands, and how far they are bent on low_x, high_x, low_z and high_z; none without texture.
+  const std::vector<std::int16_t>& bands() const { return bands_; }
+  const std::array<std::vector<std::int32_t>, 4>& bends() const { return bends_; }
 
  private:
   void find_slopes();

@@ -1,0 +1,225 @@
+// The ground as a packet sees it: the first crossing, its face, the normal and the paint (rule/ground.h, rule/rock.h).
+//
+// Places on rays are in parts of steps. PictureData::fits makes sure that they and the ranges below are exact.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "render/packet/rays.h"
+#include "render/rule/ground.h"
+#include "render/rule/rock.h"
+
+namespace voxmelt::render {
+
+template <class Arch>
+struct GroundPacket : Packet<Arch> {
+  using P = Packet<Arch>;
+  using typename P::F;
+  using typename P::L;
+  using typename P::Triple;
+  using typename P::V;
+  using Row = typename Rays<Arch>::Row;
+
+  static constexpr picture::Vector kLow{};
+
+  struct Hits {
+    V found;   // mask
+    V inside;  // the part in the ground
+    V before;  // a part outside of it, before: bounds of the crossing
+  };
+
+  struct Place {
+    V cell, weight;
+  };
+  // Of a position in 2^-kShift of the table's spacing, by picture::place_of.
+  VOXMELT_WORDS Place place(V position, int fineness) {
+    const V shifted = position + static_cast<std::int32_t>(picture::kToPlace >> fineness);
+    return {shifted >> (20 - fineness), (shifted >> (12 - fineness)) & 255};
+  }
+  VOXMELT_WORDS V blended(V below, V above, V weight) { return ((below << 8) + (above - below) * weight + 128) >> 8; }
+
+  VOXMELT_WORDS V height(const GroundData& ground, const std::int32_t* heights, V x, V z) {
+    const Place px = place(x, 0), pz = place(z, 0);
+    const V at = pz.cell * ground.row + px.cell;
+    const V back = blended(L::template gather<4>(heights, at), L::template gather<4>(heights + 1, at), px.weight);
+    const V front = blended(L::template gather<4>(heights + ground.row, at),
+                            L::template gather<4>(heights + ground.row + 1, at), px.weight);
+    return blended(back, front, pz.weight);
+  }
+  VOXMELT_WORDS V above(const GroundData& ground, Triple p) {
+    return (p.y >> (picture::kPositionBits - picture::kHeightBits)) - height(ground, ground.drawn, p.x, p.z);
+  }
+
+  // The place at or before which the ground is entered, to a sample.
+  VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, Triple start) {
+    const GroundData& ground = data.ground;
+    const std::int64_t top = std::int64_t{ground.highest} << (picture::kPositionBits - picture::kHeightBits);
+    const auto range = Rays<Arch>::parts_in(
+        row, kLow, {ground.cells.x * picture::kCell, top, ground.cells.z * picture::kCell});
+    V part = range.first, active = range.first <= range.last;
+    Hits hits{V{}, V{}, V{}};
+    if (!L::any(active)) return hits;
+    part = active ? part : V{};
+
+    // See GroundMap::find; all floats are rounded so that less is left out.
+    constexpr float kMore = 1.0f / (1 << 20);
+    const F aside = L::to_float(P::magnitude(row.step.x)) * static_cast<float>(ground.slopes.x) +
+                    L::to_float(P::magnitude(row.step.z)) * static_cast<float>(ground.slopes.z);
+    const F fall = L::to_float(row.step.y) * static_cast<float>(-picture::kHeight);
+    const F nearer = aside + fall + (aside + L::max(fall, -fall)) * kMore;
+    const F per_sample = nearer > 0.0f ? (1 - kMore * 4) / nearer : L::set_float(1.0f);
+    const float margin = static_cast<float>(ground.slopes.x + ground.slopes.z) * 8193.0f + (9 << 20);
+    for (;;) {
+      const Triple p = Rays<Arch>::at_part(row, start, part);
+      const V over = active ? above(ground, P::select(active, p, Triple{})) : V{};
+      const V hit = active & (over < 0);
+      hits.found = hits.found | hit;
+      hits.inside = hit ? part : hits.inside;
+      active = active & ~hit & (part < range.last);
+      if (!L::any(active)) break;
+      V next = (part >> picture::kPartBits) + 1;
+      if (data.skip) {
+        const F gap = L::to_float(over) * static_cast<float>(1 << picture::kPositionBits) - margin;
+        const F leap = gap > 0.0f ? (nearer > 0.0f ? gap * per_sample : L::set_float(1e6f)) : L::set_float(0);
+        next = next + L::to_int(L::min(leap, L::set_float(1e6f)));
+      }
+      part = active ? L::min(L::min(next, (range.last >> picture::kPartBits) + 1) << picture::kPartBits, range.last)
+                    : part;
+    }
+    const V sample = (hits.inside - 1) & -picture::kParts;
+    hits.before = hits.inside == range.first ? hits.inside - 1 : L::max(range.first, sample);
+    return hits;
+  }
+
+  // Between neighbouring parts.
+  VOXMELT_WORDS void bisect(const GroundData& ground, const Row& row, Triple start, Hits& hits) {
+    for (;;) {
+      const V open = hits.found & (hits.inside - hits.before > 1);
+      if (!L::any(open)) return;
+      const V middle = (hits.inside + hits.before) >> 1;
+      const Triple p = P::select(open, Rays<Arch>::at_part(row, start, middle), Triple{});
+      const V in = above(ground, p) < 0;
+      hits.inside = (open & in) ? middle : hits.inside;
+      hits.before = (open & ~in) ? middle : hits.before;
+    }
+  }
+
+  // The numbers of picture::Face.
+  VOXMELT_WORDS V face_of(const GroundData& ground, V found, V inside, Triple outside) {
+    const auto face = [](picture::Face of) { return L::set(static_cast<std::int32_t>(of)); };
+    const auto end = [](std::int64_t cells) { return static_cast<std::int32_t>(cells * picture::kCell - 1); };
+    using picture::Face;
+    V of = outside.y < static_cast<std::int32_t>(kLow.y) ? face(Face::under) : face(Face::top);
+    of = outside.z > end(ground.cells.z) ? face(Face::high_z) : of;
+    of = outside.z < 0 ? face(Face::low_z) : of;
+    of = outside.x > end(ground.cells.x) ? face(Face::high_x) : of;
+    of = outside.x < 0 ? face(Face::low_x) : of;
+    return found & (inside != 0) ? of : V{};
+  }
+
+  struct Painted {
+    Triple normal;
+    V color[3];
+  };
+
+  // At places of the ground, whose lanes `found` are; the others are anything.
+  VOXMELT_WORDS Painted painted(const PictureData& data, V found, V face, Triple position, Triple to_eye) {
+    const GroundData& ground = data.ground;
+    const auto is = [&](picture::Face of) { return face == static_cast<std::int32_t>(of); };
+    using picture::Face;
+    const V top = found & is(Face::top);
+    Painted of;
+    of.normal = to_eye;
+    if (L::any(top)) {
+      of = painted_top(data, P::select(top, position, Triple{}));
+      if (!L::any(found & ~top)) return of;
+      of.normal = P::select(top, of.normal, to_eye);
+    }
+
+    constexpr std::int32_t kOne = picture::kLength;
+    const V x = is(Face::high_x) & kOne, low_x = is(Face::low_x) & kOne, z = is(Face::high_z) & kOne,
+            low_z = is(Face::low_z) & kOne, under = is(Face::under) & kOne;
+    const V side = (x | low_x | z | low_z) != 0;
+    of.normal = P::select(side | (under != 0), Triple{x - low_x, -under, z - low_z}, of.normal);
+    V band{};
+    if (ground.bands != nullptr && L::any(side)) {
+      const Triple p = P::select(side, position, Triple{});
+      const auto along_x = static_cast<std::int32_t>(ground.cells.x - 1),
+                 along_z = static_cast<std::int32_t>(ground.cells.z - 1);
+      V bend = entry(ground.bends[0], along_z, p.z, 0);
+      bend = x != 0 ? entry(ground.bends[1], along_z, p.z, 0) : bend;
+      bend = low_z != 0 ? entry(ground.bends[2], along_x, p.x, 0) : bend;
+      bend = z != 0 ? entry(ground.bends[3], along_x, p.x, 0) : bend;
+      band = side ? entry(ground.bands, ground.band_count - 1, p.y + bend, picture::kBandFineness) : V{};
+    }
+    const V share = 2540 + ((41 * band) >> 8);
+    for (std::size_t c = 0; c < 3; ++c) of.color[c] = top ? of.color[c] : (ground.color[c] * share) >> 12;
+    return of;
+  }
+
+ private:
+  VOXMELT_WORDS V entry(const std::int32_t* table, std::int32_t last, V position, int fineness) {
+    const Place at = place(position, fineness);
+    return blended(L::template gather<4>(table, L::clamp(at.cell, 0, last)),
+                   L::template gather<4>(table, L::clamp(at.cell + 1, 0, last)), at.weight);
+  }
+
+  VOXMELT_WORDS V rim(V position, std::int64_t cells) {
+    constexpr auto kHalf = static_cast<std::int32_t>(picture::kCell / 2);
+    const auto near = [](V distance) { return L::max(kHalf - distance, V{}) >> 7; };
+    return near(static_cast<std::int32_t>(cells * picture::kCell) - position) - near(position);
+  }
+
+  VOXMELT_WORDS Triple top_normal(const PictureData& data, Triple p) {
+    const GroundData& ground = data.ground;
+    V fall_x = rim(p.x, ground.cells.x), fall_z = rim(p.z, ground.cells.z);
+    if (!ground.flat) {
+      constexpr auto kHalf = static_cast<std::int32_t>(picture::kCell / 2);
+      const auto at = [&](V x, V z) { return height(ground, ground.bare, x, z); };
+      fall_x = fall_x + at(p.x - kHalf, p.z) - at(p.x + kHalf, p.z);
+      fall_z = fall_z + at(p.x, p.z - kHalf) - at(p.x, p.z + kHalf);
+    }
+    const Triple a{fall_x, L::set(picture::kHeight), fall_z};
+    // Falls take 24 bits at most.
+    V more = L::max(L::bits_of(P::largest(a)) - 14, V{});
+    Triple b = a;
+    for (; L::any(more > 0); more = more - 1) b = P::select(more > 0, b >> 1, b);
+    return P::unit(b, data.inverse_root);
+  }
+
+  VOXMELT_WORDS Painted painted_top(const PictureData& data, Triple p) {
+    const GroundData& ground = data.ground;
+    Painted of;
+    of.normal = top_normal(data, p);
+    for (std::size_t c = 0; c < 3; ++c) of.color[c] = L::set(ground.color[c]);
+    if (ground.texels == nullptr) return of;
+
+    const auto columns = static_cast<std::int32_t>(ground.cells.x << ground.fineness),
+               rows = static_cast<std::int32_t>(ground.cells.z << ground.fineness);
+    const Place x = place(p.x, ground.fineness), z = place(p.z, ground.fineness);
+    const V left = L::clamp(x.cell, 0, columns - 1), right = L::clamp(x.cell + 1, 0, columns - 1);
+    const V back = L::clamp(z.cell, 0, rows - 1) * columns, front = L::clamp(z.cell + 1, 0, rows - 1) * columns;
+    const V at[4] = {back + left, back + right, front + left, front + right};
+    V first[4], second[4];
+    for (int i = 0; i < 4; ++i) {
+      first[i] = L::template gather<8>(ground.texels, at[i]);
+      second[i] = L::template gather<8>(ground.texels + 1, at[i]);
+    }
+    const auto between = [&](const V(&of_four)[4], const auto& part) {
+      return blended(blended(part(of_four[0]), part(of_four[1]), x.weight),
+                     blended(part(of_four[2]), part(of_four[3]), x.weight), z.weight);
+    };
+    const auto low = [](V word) { return word & 0xFFFF; };
+    of.color[0] = between(first, low);
+    of.color[1] = between(first, [](V word) { return (word >> 16) & 0xFFFF; });
+    of.color[2] = between(second, low);
+    // Bumps are 2^-8, and normals 2^-14.
+    const V bump_x = between(second, [](V word) { return ((word << 8) >> 24) << 6; });
+    const V bump_z = between(second, [](V word) { return (word >> 24) << 6; });
+    of.normal = P::unit({of.normal.x + bump_x, of.normal.y, of.normal.z + bump_z}, data.inverse_root);
+    return of;
+  }
+};
+
+}  // namespace voxmelt::render

@@ -1,0 +1,57 @@
+#include "render/packet/picture.h"
+
+#include <algorithm>
+
+#include "kernel/engine/cpu/workers.h"
+#include "render/light/light_matter.h"
+#include "render/packet/scene_in_integers.h"
+#include "render/packet/tables.h"
+
+namespace voxmelt::render {
+
+void Picture::update(const DensityField& field, const scene::Look& look, const scene::Light& light,
+                     const scene::Terrain& terrain, const std::vector<std::uint32_t>* changed, int threads) {
+  if (changed != nullptr && changed->empty()) return;
+  if (changed == nullptr) {
+    look_ = look_in_integers(look);
+    paint_ = picture::paint_of(look_, lamp_in_integers(light));
+    ground_ = ground_in_integers(field, look, terrain);
+    columns_.update(ground_);
+  }
+  if (ground_.lower(field.wetness())) columns_.lower(ground_);
+  cpu::Workers workers(std::min(threads, cpu::Workers::most()));
+  bricks_.update(field, look_, changed, workers);
+  obstacles_ = field.has_obstacles();
+  const picture::Vector cells = bricks_.cells();
+  light_ = LightVolume(light_matter(field, ground_.drawn(), look_), paint_.to_light, picture::light_shift(cells));
+}
+
+PictureData Picture::data(const picture::Camera& camera, Setting setting) const {
+  PictureData of;
+  of.view = picture::view_of(camera, bricks_.cells());
+  of.width = static_cast<std::int32_t>(camera.width);
+  of.height = static_cast<std::int32_t>(camera.height);
+  of.spacing = spacing_of(setting);
+  of.field = {bricks_.cells(),   bricks_.bricks().x, bricks_.bricks().y,     bricks_.blocks().x,
+              bricks_.blocks().y, bricks_.slots(),    bricks_.levels(),       bricks_.matter(),
+              bricks_.skip(),     obstacles_,         bricks_.occupied().low, bricks_.occupied().high};
+  of.light = {reinterpret_cast<const std::uint8_t*>(light_.cells().data()), light_.count(), light_.shift()};
+  of.ground = columns_.data(ground_);
+  of.paint = &paint_;
+  of.background = look_.background;
+  of.inverse_root = inverse_roots();
+  of.tone = &tone_table();
+  of.bytes = &byte_table();
+  return of;
+}
+
+Image Picture::draw(const scene::Camera& camera, Setting setting, int threads, const Packets& packets) const {
+  return draw_picture(data(camera_in_integers(camera), setting), setting, packets, threads);
+}
+
+SurfacePicture Picture::surface(const scene::Camera& camera, Setting setting, int threads,
+                                const Packets& packets) const {
+  return draw_surface(data(camera_in_integers(camera), setting), packets, threads);
+}
+
+}  // namespace voxmelt::render

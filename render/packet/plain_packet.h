@@ -1,0 +1,10 @@
+// Packets of one ray, by render/rule in 64 bits: for cameras whose numbers do not fit the lanes.
+#pragma once
+
+#include "render/packet/picture_data.h"
+
+namespace voxmelt::render {
+
+const Packets& plain_packets();
+
+}  // namespace voxmelt::render

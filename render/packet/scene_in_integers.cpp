@@ -1,0 +1,61 @@
+#include "render/packet/scene_in_integers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace voxmelt::render {
+namespace {
+
+std::int64_t fixed(double value, int bits) {
+  return static_cast<std::int64_t>(std::floor(std::ldexp(value, bits) + 0.5));
+}
+
+std::int32_t light(double value) { return static_cast<std::int32_t>(fixed(value, picture::kLightBits)); }
+
+picture::Color color(const scene::Vec3& of) { return {light(of[0]), light(of[1]), light(of[2])}; }
+
+}  // namespace
+
+picture::Look look_in_integers(const scene::Look& look) {
+  picture::Look of;
+  of.solid = color(look.solid);
+  of.liquid = color(look.liquid);
+  of.ground = color(look.ground);
+  of.background = color(look.background);
+  of.shininess = static_cast<std::int32_t>(std::max<std::int64_t>(fixed(look.shininess, 0), 1));
+  of.specular = light(look.specular);
+  of.metallic = light(look.metallic);
+  of.glow = look.glow;
+  of.glow_cold = static_cast<std::int32_t>(fixed(look.glow_cold, 16));
+  of.glow_hot = static_cast<std::int32_t>(fixed(look.glow_hot, 16));
+  return of;
+}
+
+picture::Lamp lamp_in_integers(const scene::Light& light) {
+  const auto& d = light.direction;
+  return {{fixed(d[0], 24), fixed(d[1], 24), fixed(d[2], 24)}, render::light(light.ambient)};
+}
+
+picture::Camera camera_in_integers(const scene::Camera& camera) {
+  const auto position = [](double value) { return fixed(value, picture::kPositionBits); };
+  return {{position(camera.target[0]), position(camera.target[1]), position(camera.target[2])},
+          fixed(camera.distance, 12),
+          fixed(camera.azimuth, 16),
+          fixed(std::clamp(camera.elevation, -89.0, 89.0), 16),
+          fixed(camera.field_of_view, 15),
+          camera.width,
+          camera.height};
+}
+
+GroundMap ground_in_integers(const DensityField& field, const scene::Look& look, const scene::Terrain& terrain) {
+  const state::Grid& grid = field.grid();
+  return {{grid.x, grid.y, grid.z},
+          fits(terrain, grid) ? ground_heights(terrain) : field.ground(),
+          field.liquid_passes(),
+          look.ground,
+          terrain.textured};
+}
+
+}  // namespace voxmelt::render
