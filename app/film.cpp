@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "app/options.h"
-#include "render/raycast/draw.h"
 
 namespace voxmelt::app {
 namespace {
@@ -47,17 +46,14 @@ void Film::add_frame(const state::Volume& volume, std::uint32_t step) {
   seconds_.wait += seconds_since(waiting);
 
   const auto begin = std::chrono::steady_clock::now();
-  field_.update(volume, scene_.look, scene_.terrain, threads_);
+  picture_.update(volume, scene_.look, scene_.light, scene_.terrain, threads_);
   seconds_.update += seconds_since(begin);
   drawing_.put({step});
 }
 
 void Film::draw(const Shot& shot) {
   const auto begin = std::chrono::steady_clock::now();
-  render::DrawSettings settings;
-  settings.threads = threads_;
-  render::Image image =
-      render::draw(field_, scene_.camera, scene_.light, scene_.look, scene_.terrain, settings);
+  render::Image image = picture_.draw(scene_.camera, render::Setting::normal, threads_);
   seconds_.render += seconds_since(begin);
   frames_.add(std::move(image), fmt::format("step {}", shot.step));
 }

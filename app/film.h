@@ -8,9 +8,9 @@
 
 #include "app/report.h"
 #include "kernel/scene/scene.h"
-#include "render/density/density_field.h"
 #include "render/frames/frames.h"
 #include "render/frames/work_line.h"
+#include "render/packet/picture.h"
 
 namespace voxmelt::app {
 
@@ -24,7 +24,7 @@ class Film {
   // `planned` frames, into `folder`.
   Film(const scene::Scene& scene, const std::filesystem::path& folder, std::size_t planned, int threads);
 
-  // Takes over the state and returns. It waits for the last frame's drawing, because that reads the field.
+  // Takes over the state and returns. It waits for the last frame's drawing, because that reads the picture.
   void add_frame(const state::Volume& volume, std::uint32_t step);
 
   // Throws what stopped a frame. A run that looks often ends soon.
@@ -44,7 +44,7 @@ class Film {
 
   const scene::Scene& scene_;
   int threads_;
-  render::DensityField field_;
+  render::Picture picture_;
   render::Frames frames_;
   RunSeconds seconds_;
   render::WorkLine<Shot> drawing_;  // last: its thread uses all of the above

@@ -15,7 +15,7 @@
 #include "app/surface_pictures.h"
 #include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
-#include "render/raycast/draw.h"
+#include "render/packet/picture.h"
 
 namespace voxmelt::app {
 namespace {
@@ -40,10 +40,10 @@ CLI::Validator finite_within(double low, double high) {
 }
 
 // Depth and normals, as far as they are wanted; returns what to print about them.
-std::string write_surface(const RenderOptions& options, const render::DensityField& field,
-                          const scene::Camera& camera) {
+std::string write_surface(const RenderOptions& options, const render::Picture& picture,
+                          const scene::Camera& camera, render::Setting setting) {
   if (options.depth.empty() && options.normals.empty()) return {};
-  const SurfacePictures pictures = surface_pictures(field, camera);
+  const SurfacePictures pictures = surface_pictures(picture, camera, setting, thread_count(options.common));
   std::string text;
   if (!options.depth.empty()) {
     render::write_png(options.depth, pictures.depth);
@@ -76,18 +76,19 @@ int run_render(const RenderOptions& options) {
       progress.show(simulation.steps_done(), simulation.volume());
     }
   }
-  render::DrawSettings settings;
-  settings.threads = thread_count(options.common);
-  settings.antialias = options.setting == "fast" ? 1 : options.setting == "best" ? 4 : 2;
-  render::DensityField field;
-  field.update(simulation.volume(), scene.look, scene.terrain, settings.threads);
-  const auto picture = [&] {
-    return render::draw(field, scene.camera, scene.light, scene.look, scene.terrain, settings);
-  };
+  const int threads = thread_count(options.common);
+  const render::Setting setting = options.setting == "fast"   ? render::Setting::fast
+                                  : options.setting == "best" ? render::Setting::best
+                                                              : render::Setting::normal;
+  render::Picture picture;
+  picture.update(simulation.volume(), scene.look, scene.light, scene.terrain, threads);
+  const auto draw = [&] { return picture.draw(scene.camera, setting, threads); };
+  if (picture.camera_inside(scene.camera))
+    warn(scene, options.common, {"the camera stands in matter or in the ground, and sees nothing else"});
 
   if (options.turntable == 0) {
-    render::write_png(options.out, picture());
-    const std::string near = write_surface(options, field, scene.camera);
+    render::write_png(options.out, draw());
+    const std::string near = write_surface(options, picture, scene.camera, setting);
     write_report(options.common, report_json(scene, options.common, simulation, {}));
     if (!options.common.quiet) fmt::print("written: {}\n{}", options.out, near);
     return kDone;
@@ -95,7 +96,7 @@ int run_render(const RenderOptions& options) {
   io::OutputFolder out(options.out);
   for (int k = 0; k < options.turntable; ++k) {
     stop_if_interrupted();
-    render::write_png(out.partial() / fmt::format("view_{:03d}.png", k), picture());
+    render::write_png(out.partial() / fmt::format("view_{:03d}.png", k), draw());
     scene.camera.azimuth += 360.0 / options.turntable;
   }
   write_report(options.common, report_json(scene, options.common, simulation, {}));
@@ -117,7 +118,7 @@ void add_render(CLI::App& program, Chosen& chosen) {
   command->add_option("--size", options->size, "size in pixels, e.g. 1280x960");
   command->add_option("--depth", options->depth, "also write how far the surface is (PNG, 16 bits)");
   command->add_option("--normals", options->normals, "also write where the surface faces (PNG, 3 x 16 bits)");
-  command->add_option("--setting", options->setting, "samples per pixel: fast 1, normal 4, best 16")
+  command->add_option("--setting", options->setting, "samples per pixel: fast 1, normal 1 or 4, best 1, 4 or 16")
       ->check(CLI::IsMember({"fast", "normal", "best"}))
       ->capture_default_str();
   command->add_option("--azimuth", options->azimuth, "degrees around the vertical, instead of the scene's")

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "kernel/scene/look.h"
-#include "render/density/density_field.h"
 #include "render/image/image.h"
+#include "render/packet/picture.h"
 
 namespace voxmelt::app {
 
@@ -12,6 +12,7 @@ struct SurfacePictures {
   double near = 0;  // cells from the eye to the plane from which depth counts
 };
 
-SurfacePictures surface_pictures(const render::DensityField& field, scene::Camera camera);
+SurfacePictures surface_pictures(const render::Picture& picture, const scene::Camera& camera, render::Setting setting,
+                                 int threads);
 
 }  // namespace voxmelt::app

@@ -16,9 +16,8 @@
 #include "library/ledgers.h"
 #include "library/sources.h"
 #include "library/translate.h"
-#include "render/density/density_field.h"
 #include "render/image/png.h"
-#include "render/raycast/draw.h"
+#include "render/packet/picture.h"
 #include "voxmelt/voxmelt.h"
 
 namespace voxmelt {
@@ -52,6 +51,17 @@ Number checked(const char* name, Number value, Number lowest, Number highest) {
   if (value >= lowest && value <= highest) return value;  // false for a NaN
   throw InputError("Picture: error: " + std::string(name) + " = " + std::to_string(value) + " is outside " +
                    std::to_string(lowest) + ".." + std::to_string(highest));
+}
+
+render::Setting setting_of(Quality quality) {
+  switch (quality) {
+    case Quality::fast:
+      return render::Setting::fast;
+    case Quality::best:
+      return render::Setting::best;
+    default:
+      return render::Setting::normal;
+  }
 }
 
 scene::Camera camera_of(scene::Camera camera, const Picture& picture) {
@@ -100,7 +110,7 @@ class Simulation::Parts {
   int threads;
   scene::Scene scene;  // its initial state has moved into the simulation
   run::Simulation simulation;
-  render::DensityField field;  // of the last picture: the next one updates what has changed
+  render::Picture picture;  // the last one: the next one updates what has changed
 };
 
 Simulation::Simulation(const std::filesystem::path& scene, const Options& options)
@@ -201,13 +211,9 @@ void Simulation::export_state(const std::filesystem::path& folder, Format format
 void Simulation::draw(const std::filesystem::path& file, const Picture& picture) {
   const scene::Scene& scene = parts_->scene;
   const scene::Camera camera = camera_of(scene.camera, picture);
-  render::DrawSettings settings;
-  settings.antialias = checked("samples", picture.samples, 1, 8);
-  settings.threads = parts_->threads;
   translated([&] {
-    parts_->field.update(parts_->simulation.volume(), scene.look, scene.terrain, settings.threads);
-    render::write_png(file,
-                      render::draw(parts_->field, camera, scene.light, scene.look, scene.terrain, settings));
+    parts_->picture.update(parts_->simulation.volume(), scene.look, scene.light, scene.terrain, parts_->threads);
+    render::write_png(file, parts_->picture.draw(camera, setting_of(picture.quality), parts_->threads));
   });
 }
 

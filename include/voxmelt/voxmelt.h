@@ -48,13 +48,20 @@ struct Options {
   int threads = 0;
 };
 
+/// How carefully a picture is drawn.
+enum class Quality {
+  fast,    ///< one sample per pixel
+  normal,  ///< four where a pixel differs from a neighbour
+  best,    ///< sixteen where it still does, along shorter steps
+};
+
 /// A picture of a state. What is not set here is taken from the scene.
 struct Picture {
   std::optional<int> width;         ///< pixels, 16..8192
   std::optional<int> height;        ///< pixels, 16..8192
   std::optional<double> azimuth;    ///< degrees around the vertical, -360..360; 0 from the front
   std::optional<double> elevation;  ///< degrees above the horizon, -89..89
-  int samples = 2;                  ///< per pixel along each axis, 1..8
+  Quality quality = Quality::normal;
 };
 
 /// Formats of an exported state.

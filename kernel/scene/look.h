@@ -19,6 +19,8 @@ struct Camera {
 struct Light {
   Vec3 direction{-0.5, 0.8, 0.6};  // towards the light
   double ambient = 0.35;
+
+  friend bool operator==(const Light&, const Light&) = default;
 };
 
 inline constexpr int kMostSmooth = 6;  // passes that the renderer can do
@@ -34,6 +36,8 @@ struct Look {
   bool glow = false;    // colour and light of the liquid by its temperature (lava)
   double glow_cold = 0.3, glow_hot = 0.95;  // temperatures at the ends of the glow ramp, 0..1
   int smooth = 3, smooth_solid = 1;  // low-pass of liquid and of solid: passes of the 3x3x3 binomial filter
+
+  friend bool operator==(const Look&, const Look&) = default;
 };
 
 }  // namespace voxmelt::scene

@@ -9,6 +9,18 @@
 
 namespace voxmelt::render {
 
+void Picture::update(const state::Volume& volume, const scene::Look& look, const scene::Light& light,
+                     const scene::Terrain& terrain, int threads) {
+  const bool same = terrain_ && *terrain_ == terrain && scene_look_ == look && scene_light_ == light &&
+                    field_.grid() == volume.grid;
+  field_.update(volume, look, terrain, threads);
+  update(field_, look, light, terrain, same ? &field_.refreshed() : nullptr, threads);
+  if (same) return;
+  terrain_ = terrain;
+  scene_look_ = look;
+  scene_light_ = light;
+}
+
 void Picture::update(const DensityField& field, const scene::Look& look, const scene::Light& light,
                      const scene::Terrain& terrain, const std::vector<std::uint32_t>* changed, int threads) {
   if (changed != nullptr && changed->empty()) return;
@@ -52,6 +64,14 @@ Image Picture::draw(const scene::Camera& camera, Setting setting, int threads, c
 SurfacePicture Picture::surface(const scene::Camera& camera, Setting setting, int threads,
                                 const Packets& packets) const {
   return draw_surface(data(camera_in_integers(camera), setting), packets, threads);
+}
+
+bool Picture::camera_inside(const scene::Camera& camera) const {
+  scene::Camera middle = camera;
+  middle.width = middle.height = 1;
+  const picture::Camera integers = camera_in_integers(middle);
+  if (picture::view_of(integers, bricks_.cells()).near > 0) return false;
+  return surface(middle, Setting::fast, 1).depth[0] == 0;
 }
 
 }  // namespace voxmelt::render

@@ -1,9 +1,12 @@
-// A scene as it is drawn: all that pictures of it read, kept up to date, and the pictures.
+// A scene as it is drawn: all that pictures of it read, kept up to date, and the pictures (docs/picture.md).
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <memory>
+#include <optional>
 
+#include "kernel/automaton/state/volume.h"
+#include "kernel/engine/cpu/workers.h"
 #include "kernel/scene/look.h"
 #include "kernel/scene/shape/terrain.h"
 #include "render/density/density_field.h"
@@ -19,8 +22,12 @@ namespace voxmelt::render {
 
 class Picture {
  public:
-  // Takes over a field. `changed`: bricks of the field that were filtered again since the last call, or null for all.
-  // Another grid, look, lamp or terrain asks for all.
+  // Takes over a state. What did not change since the last call is kept; the pictures are those of a fresh
+  // object, on any number of threads. A terrain of another size than the volume's is none.
+  void update(const state::Volume& volume, const scene::Look& look, const scene::Light& light,
+              const scene::Terrain& terrain, int threads);
+  // The same from a field that is kept elsewhere. `changed`: bricks of the field that were filtered again since the
+  // last call, or null for all.
   void update(const DensityField& field, const scene::Look& look, const scene::Light& light,
               const scene::Terrain& terrain, const std::vector<std::uint32_t>* changed, int threads);
 
@@ -29,10 +36,17 @@ class Picture {
   SurfacePicture surface(const scene::Camera& camera, Setting setting, int threads,
                          const Packets& packets = best_packets()) const;
 
-  // What the two above draw from. Points into this object.
+  // Whether the camera stands in matter or in the ground: then it sees nothing but what it stands in.
+  bool camera_inside(const scene::Camera& camera) const;
+
+  // What the pictures are drawn from. Points into this object.
   PictureData data(const picture::Camera& camera, Setting setting) const;
 
  private:
+  DensityField field_;
+  scene::Look scene_look_;
+  scene::Light scene_light_;
+  std::optional<scene::Terrain> terrain_;  // of the last update
   picture::Look look_;
   picture::Paint paint_;
   FieldBricks bricks_;

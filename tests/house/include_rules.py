@@ -36,9 +36,11 @@ ALLOWED = {
     "render/frames": ["render/image"],
     "render/density": [RULE, STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU],
     "render/light": [PICTURE, "render/density"],
-    "render/packet": [PICTURE, CPU, "render/image", "render/density"],
+    "render/ground": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE],
+    "render/packet": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", STATE, CPU, PICTURE, "render/image", "render/density",
+                      "render/light", "render/ground"],
     "render/raycast": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density", "render/light",
-                       "render/packet"],
+                       "render/ground", "render/packet"],
     # The model computes with its own arithmetic: of the kernel it sees data only.
     "hwmodel/channel": [],
     "hwmodel/stream": ["hwmodel/channel", PARAMETERS, STATE, f"{STEP}/phase.h"],
@@ -55,10 +57,10 @@ ALLOWED = {
     # What strangers include: the standard library only.
     "include/voxmelt": [],
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
-                "render/density", "render/image", "render/raycast"],
+                "render/image", "render/packet"],
     "examples": ["include/voxmelt"],
     "app": [CPU, "accuracy", "accuracy/report", "bench/measure", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
-            "kernel/run/io", "render/density", "render/image", "render/frames", "render/raycast", f"{PICTURE}/camera.h"],
+            "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.
 THIRD_PARTY = {

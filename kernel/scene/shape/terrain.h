@@ -10,6 +10,8 @@ struct Terrain {
   int x = 0, z = 0;
   std::vector<float> height;
   bool textured = false;  // a height field (drawn with elevation shading) or a flat floor
+
+  friend bool operator==(const Terrain&, const Terrain&) = default;
 };
 
 }  // namespace voxmelt::scene
