@@ -48,7 +48,7 @@ struct Packet {
   }
   // Components of up to 15 + n bits.
   VOXMELT_WORDS Triple unit_of(Triple a, const std::uint32_t* roots) {
-    const V more = L::max(L::bits_of(largest(a)) - 15, V{});
+    const V bits = L::bits_of(largest(a)), more = bits > 15 ? bits - 14 : V{};
     Triple b = a;
     // At most a few different counts occur; shifts by one each are the same on every processor.
     for (V left = more; L::any(left > 0); left = left - 1) b = select(left > 0, b >> 1, b);
