@@ -280,7 +280,10 @@ void FieldBricks::find_box() {
     };
     return picture::Vector{axis(block[0]), axis(block[1]), axis(block[2])};
   };
-  box_ = {corner(low), corner(high)};
+  // No further than the grid, or a sample behind the box might lie behind the lattice.
+  const picture::Vector l = corner(low), h = corner(high), from = picture::field_low(), to = picture::field_high(cells_);
+  box_ = {{std::max(l.x, from.x), std::max(l.y, from.y), std::max(l.z, from.z)},
+          {std::min(h.x, to.x), std::min(h.y, to.y), std::min(h.z, to.z)}};
 }
 
 std::size_t FieldBricks::bytes() const {
