@@ -113,10 +113,11 @@ const Packets& best_packets() {
   return packets_of(best);
 }
 
-// Places on rays are parts of 2^30 at most, and sums in doubles stay below 2^52.
+// Rays come to the grid within 2^20 samples, so that their ranges in floats reach no more than three samples too far.
+// Places on them are parts of 2^30 at most. Sums in doubles stay below 2^52.
 bool fits_lanes(const PictureData& data) {
   const picture::View& view = data.view;
-  const std::int64_t most_samples = std::int64_t{1} << (30 - picture::kPartBits);
+  const std::int64_t most_samples = std::int64_t{1} << 20;
   const std::int64_t most_way = most_samples << (picture::kPositionBits - data.spacing - 1);
   const std::int64_t far = picture::largest(data.field.cells) * picture::kCell;
   const auto axis = [&](std::int64_t eye, std::int64_t forward, std::int64_t wide, std::int64_t high,

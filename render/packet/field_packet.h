@@ -180,11 +180,12 @@ struct FieldPacket : Packet<Arch> {
 
   // Bytes of two words of four, blended lane by lane. Words are split into even and odd bytes.
   VOXMELT_WORDS V blend_bytes(V a, V b, V w) {
-    constexpr std::int32_t kEven = 0x00FF00FF;
-    const V keep = 256 - w;
-    const V even = (((a & kEven) * keep + (b & kEven) * w + 0x00800080) >> 8) & kEven;
-    const V odd = (((a >> 8) & kEven) * keep + ((b >> 8) & kEven) * w + 0x00800080) & (kEven << 8);
-    return even | odd;
+    constexpr std::uint32_t kEven = 0x00FF00FF;
+    using U = typename L::U;
+    const U by = L::as_unsigned(w), keep = 256 - by, first = L::as_unsigned(a), second = L::as_unsigned(b);
+    const U even = (((first & kEven) * keep + (second & kEven) * by + 0x00800080) >> 8) & kEven;
+    const U odd = (((first >> 8) & kEven) * keep + ((second >> 8) & kEven) * by + 0x00800080) & (kEven << 8);
+    return L::as_signed(even | odd);
   }
   // Liquid, heat and obstacle as bytes of a lane.
   VOXMELT_WORDS V matter(const FieldData& field, Triple q) {
