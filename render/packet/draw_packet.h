@@ -67,10 +67,10 @@ struct DrawPacket : Packet<Arch> {
 
   // Positions of lanes that meet nothing are 0, and their normals any unit vectors.
   struct Surface {
-    Met met;
-    V found;
-    Triple to_eye, position, lattice, normal;
-    typename Ground::Painted paint;
+    Met met{};
+    V found{};
+    Triple to_eye{}, position{}, lattice{}, normal{};
+    typename Ground::Painted paint{};
   };
 
   // Tells whether there is any.

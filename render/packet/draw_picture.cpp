@@ -11,6 +11,7 @@
 
 #include "kernel/engine/cpu/workers.h"
 #include "render/packet/plain_packet.h"
+#include "render/packet/visible_area.h"
 #include "render/rule/ground.h"
 
 namespace voxmelt::render {
@@ -69,6 +70,36 @@ void for_tiles(int tiles, int threads, const Work& work) {
 
 struct Tile {
   int x0, y0, x1, y1;
+};
+
+// Which tiles may show matter or ground.
+class Areas {
+ public:
+  explicit Areas(const PictureData& data)
+      : data_(data),
+        matter_(data.view, data.field.low, data.field.high),
+        ground_(data.view, ground_low(),
+                {data.ground.cells.x * picture::kCell,
+                 std::int64_t{data.ground.highest} << (picture::kPositionBits - picture::kHeightBits),
+                 data.ground.cells.z * picture::kCell}) {}
+
+  // What is to be drawn in a tile; tells whether there is anything.
+  bool in(const Tile& tile, PictureData& data) const {
+    data = data_;
+    if (!data.skip) return true;
+    const auto seen = [&](const VisibleArea& area) {
+      return area.overlaps(tile.x0 * picture::kPixel, tile.y0 * picture::kPixel, tile.x1 * picture::kPixel,
+                           tile.y1 * picture::kPixel);
+    };
+    if (!seen(matter_)) data.field.high = data.field.low = {};
+    if (!seen(ground_)) data.ground.any = false;
+    return data.ground.any || data.field.low.x < data.field.high.x;
+  }
+
+ private:
+  static picture::Vector ground_low() { return {}; }
+  const PictureData& data_;
+  VisibleArea matter_, ground_;
 };
 
 // Which pixels of a tile's row differ from a neighbour, byte by byte.
@@ -174,12 +205,16 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
     const int x = tile % across * kTile, y = tile / across * kTile;
     return Tile{x, y, std::min(x + kTile, width), std::min(y + kTile, height)};
   };
-  Image image(width, height);
+  const auto byte = [&](std::size_t c) { return (*data.bytes)[static_cast<std::size_t>(data.background[c])]; };
+  Image image(width, height, {byte(0), byte(1), byte(2)});
+  const Areas areas(data);
 
   // Packets are small squares, whose rays run together.
   const int side = packets.lanes >= 16 ? 4 : packets.lanes >= 4 ? 2 : 1, wide = packets.lanes / side;
   for_tiles(tiles, threads, [&](int index, Samples& samples) {
     const Tile tile = tile_at(index);
+    PictureData of_tile;
+    if (!areas.in(tile, of_tile)) return;
     std::array<std::uint16_t, kTile * kTile> pixel;
     samples.clear();
     for (int y = tile.y0; y < tile.y1; y += side)
@@ -189,7 +224,7 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
             pixel[samples.count()] = static_cast<std::uint16_t>((j - tile.y0) * kTile + (i - tile.x0));
             samples.add(i * picture::kPixel + picture::kMiddle[0].across, j * picture::kPixel + picture::kMiddle[0].down);
           }
-    samples.draw(data, packets);
+    samples.draw(of_tile, packets);
     for (std::size_t i = 0; i < samples.count(); ++i)
       image.at(tile.x0 + pixel[i] % kTile, tile.y0 + pixel[i] / kTile) = samples.mean<1>(*data.bytes, i);
   });
@@ -211,8 +246,9 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
             samples.add(x * picture::kPixel + sub.across, y * picture::kPixel + sub.down);
         }
       }
-      if (pixels == 0) return;
-      samples.draw(data, packets);
+      PictureData of_tile;
+      if (pixels == 0 || !areas.in(tile, of_tile)) return;
+      samples.draw(of_tile, packets);
       for (std::size_t i = 0; i < pixels; ++i)
         image.at(tile.x0 + pixel[i] % kTile, tile.y0 + pixel[i] / kTile) =
             samples.mean<kCount>(*data.bytes, i * kCount);
