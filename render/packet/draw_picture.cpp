@@ -130,8 +130,9 @@ class Differing {
 const Packets& packets_of(cpu::InstructionSet wanted) {
   static const auto all = [] {
     std::array<Packets, cpu::kInstructionSets.size()> of{};
-    cpu::for_each_instruction_set(
-        [&]<cpu::InstructionSet set>() { of[static_cast<std::size_t>(set)] = packets_for<cpu::ArchOf<set>>(); });
+    cpu::for_each_instruction_set([&]<cpu::InstructionSet set>() {
+      of[static_cast<std::size_t>(set)] = packets_for<cpu::ArchOf<set>>();
+    });
     return of;
   }();
   return all[static_cast<std::size_t>(wanted)];
@@ -144,8 +145,8 @@ const Packets& best_packets() {
   return packets_of(best);
 }
 
-// Rays come to the grid within 2^20 samples, so that their ranges in floats reach no more than three samples too far.
-// Places on them are parts of 2^30 at most. Sums in doubles stay below 2^52.
+// Rays come to the grid within 2^20 samples, so that their ranges in floats reach no more than three samples
+// too far. Places on them are parts of 2^30 at most. Sums in doubles stay below 2^52.
 bool fits_lanes(const PictureData& data) {
   const picture::View& view = data.view;
   const std::int64_t most_samples = std::int64_t{1} << 20;
@@ -184,14 +185,16 @@ SurfacePicture draw_surface(const PictureData& data, const Packets& wanted, int 
       places[1][i] = static_cast<std::int32_t>(y * picture::kPixel + picture::kMiddle[0].down);
     }
     packets.find(data, {places[0].data(), places[1].data(), count},
-                 {found.data(), {numbers[0].data(), numbers[1].data(), numbers[2].data()},
+                 {found.data(),
+                  {numbers[0].data(), numbers[1].data(), numbers[2].data()},
                   {numbers[3].data(), numbers[4].data(), numbers[5].data()}});
     for (std::size_t i = 0; i < count; ++i) {
       if (found[i] == 0) continue;
       const std::size_t at = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x0) + i;
       picture.depth[at] = static_cast<std::uint16_t>(
           picture::depth_in_picture(data.view, {numbers[0][i], numbers[1][i], numbers[2][i]}));
-      for (std::size_t c = 0; c < 3; ++c) picture.normal[at][c] = static_cast<std::int16_t>(numbers[3 + c][i]);
+      for (std::size_t c = 0; c < 3; ++c)
+        picture.normal[at][c] = static_cast<std::int16_t>(numbers[3 + c][i]);
     }
   });
   return picture;
@@ -205,7 +208,9 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
     const int x = tile % across * kTile, y = tile / across * kTile;
     return Tile{x, y, std::min(x + kTile, width), std::min(y + kTile, height)};
   };
-  const auto byte = [&](std::size_t c) { return (*data.bytes)[static_cast<std::size_t>(data.background[c])]; };
+  const auto byte = [&](std::size_t c) {
+    return (*data.bytes)[static_cast<std::size_t>(data.background[c])];
+  };
   Image image(width, height, {byte(0), byte(1), byte(2)});
   const Areas areas(data);
 
@@ -222,7 +227,8 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
         for (int j = y; j < std::min(y + side, tile.y1); ++j)
           for (int i = x; i < std::min(x + wide, tile.x1); ++i) {
             pixel[samples.count()] = static_cast<std::uint16_t>((j - tile.y0) * kTile + (i - tile.x0));
-            samples.add(i * picture::kPixel + picture::kMiddle[0].across, j * picture::kPixel + picture::kMiddle[0].down);
+            samples.add(i * picture::kPixel + picture::kMiddle[0].across,
+                        j * picture::kPixel + picture::kMiddle[0].down);
           }
     samples.draw(of_tile, packets);
     for (std::size_t i = 0; i < samples.count(); ++i)
@@ -230,7 +236,8 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
   });
   if (setting == Setting::fast) return image;
 
-  const auto refine = [&]<std::size_t kCount>(int difference, const std::array<picture::Sub, kCount>& pattern) {
+  const auto refine = [&]<std::size_t kCount>(int difference,
+                                              const std::array<picture::Sub, kCount>& pattern) {
     const Image before = image;
     for_tiles(tiles, threads, [&](int index, Samples& samples) {
       const Tile tile = tile_at(index);

@@ -3,7 +3,6 @@
 // Positions are in the lattice: place_of(position) plus the border, so that cell and weight are plain bits.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "render/packet/rays.h"
@@ -52,8 +51,8 @@ struct FieldPacket : Packet<Arch> {
   }
 
   struct Hits {
-    V found;   // mask
-    V sample;  // the first in matter
+    V found;    // mask
+    V sample;   // the first in matter
     Triple at;  // its lattice position
   };
 
@@ -148,7 +147,8 @@ struct FieldPacket : Packet<Arch> {
   }
   template <int kBits>
   VOXMELT_WORDS V splined(V first_two, V third, V weight01, V weight2) {
-    return (L::pair_products(first_two, weight01) + L::pair_products(third & 0xFFFF, weight2) + (1 << (kBits - 1))) >>
+    return (L::pair_products(first_two, weight01) + L::pair_products(third & 0xFFFF, weight2) +
+            (1 << (kBits - 1))) >>
            kBits;
   }
   template <int kBits>

@@ -19,8 +19,8 @@ namespace voxmelt::render {
 
 class Picture {
  public:
-  // Takes over a field. `changed`: bricks of the field that were filtered again since the last call, or null for all.
-  // Another grid, look, lamp or terrain asks for all.
+  // Takes over a field. `changed`: bricks of the field that were filtered again since the last call, or null
+  // for all. Another grid, look, lamp or terrain asks for all.
   void update(const DensityField& field, const scene::Look& look, const scene::Light& light,
               const scene::Terrain& terrain, const std::vector<std::uint32_t>* changed, int threads);
 

@@ -19,7 +19,8 @@ picture::Color color(const scene::Vec3& of) { return {light(of[0]), light(of[1])
 ColumnHeights fixed_heights(const std::vector<float>& from) {
   ColumnHeights of;
   of.reserve(from.size());
-  for (const float height : from) of.push_back(static_cast<std::int32_t>(fixed(height, picture::kHeightBits)));
+  for (const float height : from)
+    of.push_back(static_cast<std::int32_t>(fixed(height, picture::kHeightBits)));
   return of;
 }
 
@@ -56,7 +57,8 @@ picture::Camera camera_in_integers(const scene::Camera& camera) {
           camera.height};
 }
 
-GroundMap ground_in_integers(const DensityField& field, const scene::Look& look, const scene::Terrain& terrain) {
+GroundMap ground_in_integers(const DensityField& field, const scene::Look& look,
+                             const scene::Terrain& terrain) {
   const state::Grid& grid = field.grid();
   return {{grid.x, grid.y, grid.z},
           fits(terrain, grid) ? ground_heights(terrain) : fixed_heights(field.ground()),

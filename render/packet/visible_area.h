@@ -1,6 +1,8 @@
 // Where in a picture a box may be seen, as a rectangle.
 #pragma once
 
+#include <cstdint>
+
 #include "render/rule/camera.h"
 
 namespace voxmelt::render {

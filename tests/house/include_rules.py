@@ -34,7 +34,12 @@ ALLOWED = {
     PICTURE: [f"{RULE}/fixed_point.h"],
     "render/image": [f"{STATE}/grid.h", "kernel/scene/look.h"],
     "render/density": [RULE, STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU],
-    "render/raycast": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density"],
+    "render/ground": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE],
+    "render/light": [PICTURE, "render/density"],
+    "render/packet": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU, PICTURE, "render/image",
+                      "render/density", "render/ground", "render/light"],
+    "render/raycast": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density",
+                       "render/ground", "render/light", "render/packet"],
     # The model computes with its own arithmetic: of the kernel it sees data only.
     "hwmodel/channel": [],
     "hwmodel/stream": ["hwmodel/channel", PARAMETERS, STATE, f"{STEP}/phase.h"],

@@ -75,7 +75,8 @@ Hostile random_scene(Random& random) {
   const int share = large && random.one_in(2) ? 0 : kShares[static_cast<std::size_t>(random.whole(0, 4))];
   if (random.one_in(3))
     for (int i = 0; i < grid.x * grid.z; ++i)
-      of.volume.inert.set(random.whole(0, grid.x - 1), random.whole(0, grid.y - 1), random.whole(0, grid.z - 1), true);
+      of.volume.inert.set(random.whole(0, grid.x - 1), random.whole(0, grid.y - 1),
+                          random.whole(0, grid.z - 1), true);
   fill_somehow(of.volume, random, share);
   if (!random.one_in(3)) of.terrain = random_terrain(grid, random);
   of.look.smooth = random.whole(0, 3);
@@ -89,14 +90,19 @@ Hostile random_scene(Random& random) {
 }
 
 scene::Camera random_camera(state::Grid grid, Random& random) {
-  constexpr std::array<std::array<int, 2>, 6> kSizes{{{1, 1}, {17, 33}, {31, 19}, {40, 4}, {3, 70}, {36, 34}}};
+  constexpr std::array<std::array<int, 2>, 6> kSizes{
+      {{1, 1}, {17, 33}, {31, 19}, {40, 4}, {3, 70}, {36, 34}}};
   scene::Camera camera;
   const double side = std::max({grid.x, grid.y, grid.z});
   camera.target = {grid.x * random.real(0, 1), grid.y * random.real(0, 1), grid.z * random.real(0, 1)};
-  if (random.one_in(3)) camera.target = {std::floor(camera.target[0]), std::floor(camera.target[1]), std::floor(camera.target[2])};
+  if (random.one_in(3))
+    camera.target = {std::floor(camera.target[0]), std::floor(camera.target[1]),
+                     std::floor(camera.target[2])};
   camera.azimuth = random.one_in(3) ? 90 * random.whole(0, 3) : random.real(-180, 180);
   camera.elevation = random.one_in(3) ? 45 * random.whole(-2, 2) : random.real(-90, 90);
-  camera.distance = random.one_in(4) ? 0 : random.one_in(3) ? random.real(0.1, side) : random.real(side, 6 * side);
+  camera.distance = random.one_in(4)   ? 0
+                    : random.one_in(3) ? random.real(0.1, side)
+                                       : random.real(side, 6 * side);
   camera.field_of_view = random.one_in(4) ? random.real(1, 150) : random.real(15, 60);
   const auto size = kSizes[static_cast<std::size_t>(random.whole(0, 5))];
   camera.width = size[0];
@@ -117,7 +123,8 @@ std::vector<NamedPackets> all_packets() {
 
 std::size_t different(const render::Image& a, const render::Image& b) {
   std::size_t count = a.pixels.size() == b.pixels.size() ? 0 : 1;
-  for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i) count += a.pixels[i] != b.pixels[i];
+  for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i)
+    count += a.pixels[i] != b.pixels[i];
   return count;
 }
 
@@ -138,7 +145,8 @@ TEST(PictureOfPackets, EqualsTheReferenceInHostileScenes) {
       const render::Setting setting = kSettings[(seed + static_cast<std::uint32_t>(view)) % 3];
       const picture::Camera integers = render::camera_in_integers(camera);
       const render::Image reference = render::reference_picture(scene, integers, setting);
-      const std::size_t background = different(reference, render::Image(camera.width, camera.height, reference.at(0, 0)));
+      const std::size_t background =
+          different(reference, render::Image(camera.width, camera.height, reference.at(0, 0)));
       colored += background > 0 ? 1 : 0;
       render::PictureData data = picture.data(integers, setting);
       const render::SurfacePicture surface = render::draw_surface(data, render::plain_packets(), 1);
@@ -148,7 +156,8 @@ TEST(PictureOfPackets, EqualsTheReferenceInHostileScenes) {
           const int threads = 1 + static_cast<int>((seed + static_cast<std::uint32_t>(view)) % 8);
           ASSERT_EQ(different(reference, render::draw_picture(data, setting, *set.packets, threads)), 0u)
               << set.name << ", seed " << seed << ", view " << view << ", skip " << skip;
-          ASSERT_EQ(surface, render::draw_surface(data, *set.packets, threads)) << set.name << ", seed " << seed;
+          ASSERT_EQ(surface, render::draw_surface(data, *set.packets, threads))
+              << set.name << ", seed " << seed;
         }
     }
   }
@@ -169,14 +178,16 @@ TEST(PictureOfPackets, TakesOverChangedBricks) {
   picture.update(field, look, light, terrain, nullptr, 2);
   Random random(7);
   for (int round = 0; round < 6; ++round) {
-    const auto before = std::array{field.intensity(), field.solid(), field.liquid(), field.heat(), field.obstacle()};
+    const auto before =
+        std::array{field.intensity(), field.solid(), field.liquid(), field.heat(), field.obstacle()};
     if (round == 3)
       volume = test::floor_volume(grid);  // bricks become empty
     else
       test::ball(volume, random.real(3, 37), random.real(5, 27), random.real(3, 30), random.real(1, 5));
     if (round == 4) test::pour(volume, 20, 12, 2.5);
     field.update(volume, look, terrain);
-    const auto after = std::array{field.intensity(), field.solid(), field.liquid(), field.heat(), field.obstacle()};
+    const auto after =
+        std::array{field.intensity(), field.solid(), field.liquid(), field.heat(), field.obstacle()};
     std::vector<std::uint32_t> changed;
     const state::Grid bricks = field.bricks();
     for (std::uint32_t brick = 0; brick < bricks.cells(); ++brick) {
@@ -197,8 +208,10 @@ TEST(PictureOfPackets, TakesOverChangedBricks) {
     for (int view = 0; view < 3; ++view) {
       const scene::Camera camera = random_camera(grid, random);
       const render::Image image = fresh.draw(camera, render::Setting::normal, 1);
-      EXPECT_EQ(different(image, picture.draw(camera, render::Setting::normal, 1)), 0u) << round << ", " << view;
-      EXPECT_EQ(fresh.surface(camera, render::Setting::fast, 1), picture.surface(camera, render::Setting::fast, 2));
+      EXPECT_EQ(different(image, picture.draw(camera, render::Setting::normal, 1)), 0u)
+          << round << ", " << view;
+      EXPECT_EQ(fresh.surface(camera, render::Setting::fast, 1),
+                picture.surface(camera, render::Setting::fast, 2));
     }
   }
 }
@@ -219,12 +232,15 @@ TEST(PictureOfPackets, DrawsExoticCameras) {
   scene::Camera camera = test::small_camera(grid, 1024, 1);
   camera.distance = 100000;
   camera.field_of_view = 120;
-  const auto fits = [&] { return render::fits_lanes(picture.data(render::camera_in_integers(camera), render::Setting::fast)); };
+  const auto fits = [&] {
+    return render::fits_lanes(picture.data(render::camera_in_integers(camera), render::Setting::fast));
+  };
   const auto expect_same = [&] {
     const render::Image reference =
         render::reference_picture(scene, render::camera_in_integers(camera), render::Setting::fast);
     for (const NamedPackets& set : all_packets())
-      EXPECT_EQ(different(reference, picture.draw(camera, render::Setting::fast, 1, *set.packets)), 0u) << set.name;
+      EXPECT_EQ(different(reference, picture.draw(camera, render::Setting::fast, 1, *set.packets)), 0u)
+          << set.name;
   };
   EXPECT_FALSE(fits());
   expect_same();

@@ -1,5 +1,5 @@
-// 32-bit lanes, in the vector types that g++ and clang have for any processor. Only gathers and a few products differ
-// between instruction sets.
+// 32-bit lanes, in the vector types that g++ and clang have for any processor. Only gathers and a few
+// products differ between instruction sets.
 //
 // Everything is a template over the architecture and always inlined. So the linker cannot take code of one
 // instruction set for another's.
@@ -69,7 +69,8 @@ struct WordLanes {
   using V = typename WordVectors<kCount>::V;  // masks, too: a lane is 0 or -1
   using U = typename WordVectors<kCount>::U;
   using F = typename WordVectors<kCount>::F;
-  using D = typename WordVectors<kCount>::D;  // doubles of half of the lanes: vectors have the processor's width
+  using D =
+      typename WordVectors<kCount>::D;  // doubles of half of the lanes: vectors have the processor's width
   using Q = typename WordVectors<kCount>::Q;  // 64 bits a lane, as D
   using HalfV = typename WordVectors<kCount>::HalfV;
   using HalfF = typename WordVectors<kCount>::HalfF;
