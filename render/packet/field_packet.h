@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "render/packet/field_bricks.h"
 #include "render/packet/rays.h"
 #include "render/rule/crossing.h"
 #include "render/rule/sample.h"
@@ -53,6 +54,7 @@ struct FieldPacket : Packet<Arch> {
   struct Hits {
     V found;    // mask
     V sample;   // the first in matter
+    V level;    // there
     Triple at;  // its lattice position
   };
 
@@ -65,8 +67,8 @@ struct FieldPacket : Packet<Arch> {
     Triple q = Rays<Arch>::at(row, k, kBias);
     q = P::select(active, q, Triple{});
     Hits hits;
-    hits.found = hits.sample = hits.at.x = hits.at.y = hits.at.z = V{};
-    const F rise_unit = L::set_float(1.0f / static_cast<float>(256 >> data.spacing));
+    hits.found = hits.sample = hits.level = hits.at.x = hits.at.y = hits.at.z = V{};
+    const F rise_unit = L::set_float(1.0f / static_cast<float>(FieldBricks::kSlopeUnit >> data.spacing));
     const V forward_x = row.step.x >= 0, forward_y = row.step.y >= 0, forward_z = row.step.z >= 0;
     while (L::any(active)) {
       const Triple block = q >> 22;
@@ -93,12 +95,13 @@ struct FieldPacket : Packet<Arch> {
         const V matter = occupied & (level >= 0);
         hits.found = hits.found | matter;
         hits.sample = matter ? k : hits.sample;
+        hits.level = matter ? level : hits.level;
         hits.at = P::select(matter, q, hits.at);
         active = active & ~matter;
         if (data.skip) {
           // The level rises no faster than the block's slope allows. Weights and blends are rounded.
           const V slope = record >> 8;
-          const F steps = L::to_float(-level - 4 - slope) / L::to_float(L::max(slope, L::set(1))) * rise_unit;
+          const F steps = L::to_float(-level - 4 - 3 * slope) / L::to_float(L::max(slope, L::set(1))) * rise_unit;
           const V safe = L::to_int(L::max(steps * (1 - 1.0f / (1 << 18)), L::set_float(0))) + 1;
           advance = occupied ? L::min(advance, safe) : advance;
         }
@@ -118,7 +121,7 @@ struct FieldPacket : Packet<Arch> {
   VOXMELT_WORDS Surface crossing(const FieldData& field, const Row& row, const Hits& hits) {
     const V from_start = hits.sample == 0;
     Triple inside = hits.at, outside = P::select(hits.found & ~from_start, hits.at - row.step, hits.at);
-    V low = sample(field, outside), high = sample(field, inside), part{};
+    V low = sample(field, outside), high = hits.level, part{};
     for (int i = 0; i < picture::kBisections; ++i) {
       const Triple middle = outside + ((inside - outside) >> 1);
       const V level = sample(field, middle), air = level < 0;
