@@ -43,10 +43,12 @@ class FieldBricks {
   // away the nearest such block is, kFarthest at most; in the high byte a bound of the slope (see slope_bound).
   const std::uint16_t* skip() const { return skip_.data(); }
   static constexpr int kFarthest = 16;
-  // The level changes by no more than 256 times this from a position to another one cell away (the largest
+  // The level changes by no more than kSlopeUnit times this from a position to another one cell away (the largest
   // component of the way), within a block, but for the roundings of samples.
+  // Neighbours differ by 65280 at most, at a side of the grid. So a byte suffices, even in a corner of it.
+  static constexpr int kSlopeUnit = 768;
   static int slope_bound(int along_x, int along_y, int along_z) {
-    return std::min((along_x + along_y + along_z + 255) / 256, 255);
+    return (along_x + along_y + along_z + kSlopeUnit - 1) / kSlopeUnit;
   }
   // Every sample outside of this box is air: low <= position < high.
   struct Box {

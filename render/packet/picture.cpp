@@ -35,7 +35,8 @@ void Picture::update(const DensityField& field, const scene::Look& look, const s
   bricks_.update(field, look_, changed, workers);
   obstacles_ = field.has_obstacles();
   const picture::Vector cells = bricks_.cells();
-  light_ = LightVolume(light_matter(field, ground_.drawn(), look_), paint_.to_light, picture::light_shift(cells));
+  light_ =
+      LightVolume(light_matter(field, ground_.drawn(), look_), paint_.to_light, picture::light_shift(cells));
 }
 
 PictureData Picture::data(const picture::Camera& camera, Setting setting) const {
@@ -44,7 +45,7 @@ PictureData Picture::data(const picture::Camera& camera, Setting setting) const 
   of.width = static_cast<std::int32_t>(camera.width);
   of.height = static_cast<std::int32_t>(camera.height);
   of.spacing = spacing_of(setting);
-  of.field = {bricks_.cells(),   bricks_.bricks().x, bricks_.bricks().y,     bricks_.blocks().x,
+  of.field = {bricks_.cells(),    bricks_.bricks().x, bricks_.bricks().y,     bricks_.blocks().x,
               bricks_.blocks().y, bricks_.slots(),    bricks_.levels(),       bricks_.matter(),
               bricks_.skip(),     obstacles_,         bricks_.occupied().low, bricks_.occupied().high};
   of.light = {reinterpret_cast<const std::uint8_t*>(light_.cells().data()), light_.count(), light_.shift()};
