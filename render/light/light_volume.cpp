@@ -43,7 +43,7 @@ bool LightVolume::update(const LightMatter& matter, Vector to_light, int shift, 
     const auto rows = static_cast<std::size_t>(y_) * static_cast<std::size_t>(z_);
     sweep.open.assign(rows, 0);
     sweep.glow.assign(rows, 0);
-    if (task == kSides) return sweep_lamp(sweep, loops);
+    if (task == kSides) return sweep_lamp(sweep, other_lamp, loops);
     const auto side = static_cast<std::size_t>(task);
     sweep_side(side, open_[side], nullptr, sweep.open, sweep.turned_open, sweep, loops);
     if (glows) sweep_side(side, glow_[side], &emission_, sweep.glow, sweep.turned_glow, sweep, loops);
@@ -165,7 +165,7 @@ void LightVolume::turn_back(Plane& plane, const Bytes& slices, Bytes& changed, c
 
 // Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of a slice
 // lies between the rays around (u, v) plus the shift; a ray lies between the cells around it less the shift.
-void LightVolume::sweep_lamp(Sweep& sweep, const LightLoops& loops) {
+void LightVolume::sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& loops) {
   const std::int64_t component[3] = {to_light_.x, to_light_.y, to_light_.z};
   int axis = 1;
   for (const int other : {0, 2})
@@ -189,7 +189,8 @@ void LightVolume::sweep_lamp(Sweep& sweep, const LightLoops& loops) {
   sweep.room.resize(std::max(sweep.room.size(), sweep.rays.size()));
   sweep.losses.resize(static_cast<std::size_t>(way.v + 2) * ray_row);
   sweep.rows.assign(static_cast<std::size_t>(way.v), 0);
-  sweep.turned_open.assign(static_cast<std::size_t>(z_), 0);
+  // What the turned plane held may be of a lamp long ago.
+  sweep.turned_open.assign(static_cast<std::size_t>(z_), other_lamp ? 1 : 0);
   std::uint8_t* const light = (way.turned ? lamp_.turned : lamp_.natural).data();
   const std::uint8_t* const density = (way.turned ? density_.turned : density_.natural).data();
   Span dark;

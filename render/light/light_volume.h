@@ -68,7 +68,7 @@ class LightVolume {
   Way way(int axis, bool from_high) const;
   void sweep_side(std::size_t side, Plane& plane, const Plane* emission, Bytes& changed, Bytes& turned_changed,
                   Sweep& sweep, const LightLoops& loops) const;
-  void sweep_lamp(Sweep& sweep, const LightLoops& loops);
+  void sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& loops);
   void turn_back(Plane& plane, const Bytes& slices, Bytes& changed, const LightLoops& loops) const;
   void interleave(cpu::Workers& workers, const LightLoops& loops);
 
