@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kernel/engine/cpu/workers.h"
+#include "render/brick/brick_loops.h"
 #include "render/density/density_field.h"
 #include "render/rule/look.h"
 #include "render/rule/sample.h"
@@ -28,7 +29,7 @@ class FieldBricks {
   // Takes over a field. `changed`: bricks of the field (DensityField::bricks) that were filtered again since
   // the last call, or null for all. Another grid or look asks for all.
   void update(const DensityField& field, const picture::Look& look, const std::vector<std::uint32_t>* changed,
-              cpu::Workers& workers);
+              cpu::Workers& workers, const BrickLoops& loops = brick_loops());
 
   picture::Vector cells() const { return cells_; }
   const state::Grid& bricks() const { return bricks_; }
@@ -61,9 +62,9 @@ class FieldBricks {
   void give_back(std::int32_t& slot);
   state::Grid place_of(std::size_t brick) const;
   std::size_t block_of(std::size_t brick, int which) const;  // 0 .. 7
-  bool anything_near(const DensityField& field, std::size_t brick) const;
-  void clear(std::size_t brick);
-  void fill(const DensityField& field, const picture::Look& look, std::size_t brick);
+  bool anything_near(const DensityField& field, std::size_t brick, const BrickLoops& loops) const;
+  bool clear(std::size_t brick);
+  bool fill(const DensityField& field, const MatterSource& matter, std::size_t brick, const BrickLoops& loops);
   void find_distances();
   void find_box();
 
