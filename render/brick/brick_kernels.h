@@ -1,6 +1,5 @@
-// The loops that fill bricks, written once: plain loops over rows of 16 numbers of 16 bits, which compilers turn into
-// vectors. Everything is a template over the instruction set, so that the linker cannot take a function of one for
-// another's.
+// The loops that fill bricks, written once, in the vector types that g++ and clang have for any processor. Everything
+// is a template over the instruction set, so that the linker cannot take a function of one for another's.
 #pragma once
 
 #include <cstddef>
@@ -14,201 +13,221 @@ namespace voxmelt::render {
 template <class Arch>
 struct BrickKernels {
   using Word = std::uint16_t;
+  using Words [[gnu::vector_size(32)]] = std::uint16_t;  // two rows of eight cells
+  using Row [[gnu::vector_size(16)]] = std::uint16_t;
   using Int [[gnu::vector_size(32)]] = std::int32_t;
   using Float [[gnu::vector_size(32)]] = float;
-  static constexpr int kSide = kPlacesOfBrick, kWide = BrickSource::kWide;
-  static constexpr std::size_t kRow = BrickPlaces::kRow, kSlice = kRow * kSide;
+  static constexpr int kCells = kCellsOfBrick, kWide = BrickSource::kWide, kSide = kPlacesOfBrick;
+  static constexpr Word kToLevel = 32640;
 
-  [[gnu::always_inline]] static Word word(int value) { return static_cast<Word>(value); }
   [[gnu::always_inline]] static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-  static bool inner(const BrickSource& source) { return source.x >= 1 && source.x + kSide < source.cells_x; }
-
-  static bool any(const Word* intensity, const BrickSource& source) {
-    const bool whole = inner(source);
-    for (int k = 0; k < kWide; ++k) {
-      std::uint32_t found = 0;
-      for (int j = 0; j < kWide; ++j) {
-        const Word* row = intensity + source.slices[at(k)] + source.rows[at(j)];
-        if (whole) {
-          Word sum = 0;
-          for (int i = 0; i < kWide; ++i) sum = word(sum | row[source.x - 1 + i]);
-          found |= sum;
-        } else {
-          for (int i = source.x - 1; i < source.x - 1 + kWide; ++i)
-            if (i >= 0 && i < source.cells_x) found |= row[i];
-        }
-      }
-      if (found != 0) return true;
-    }
-    return false;
+  template <class V, class T>
+  [[gnu::always_inline]] static void load(V& to, const T* from) {
+    std::memcpy(&to, from, sizeof(V));
+  }
+  [[gnu::always_inline]] static bool any(const Row& row) {
+    std::uint64_t halves[2];
+    std::memcpy(halves, &row, sizeof halves);
+    return (halves[0] | halves[1]) != 0;
   }
 
   // (43 a + 170 b + 43 c + 128) >> 8 of the two bytes of each number: neither sum leaves 16 bits.
-  [[gnu::always_inline]] static void filter(const Word* a, const Word* b, const Word* c, Word* to) {
-#pragma GCC ivdep
-    for (std::size_t i = 0; i < kRow; ++i) {
-      const Word high = word(43 * word((a[i] >> 8) + (c[i] >> 8)) + 170 * (b[i] >> 8));
-      const Word low = word(43 * word((a[i] & 255) + (c[i] & 255)) + 170 * (b[i] & 255) + 128);
-      to[i] = word(high + (low >> 8));
-    }
+  template <class V>
+  [[gnu::always_inline]] static void filter(const V& a, const V& b, const V& c, V& to) {
+    const V high = 43 * ((a >> 8) + (c >> 8)) + 170 * (b >> 8);
+    const V low = 43 * ((a & 255) + (c & 255)) + 170 * (b & 255) + 128;
+    to = high + (low >> 8);
   }
 
-  static void places(const Word* intensity, const BrickSource& source, BrickPlaces& to) {
-    alignas(32) Word along_x[kWide][kWide][kRow], along_y[kWide][kSide][kRow];
-    const bool whole = inner(source);
+  // Two rows at a time: along x, then y, then z.
+  static void filter_all(const Word* intensity, const BrickSource& source, Word (&to)[kCells][kCells][kCells]) {
+    alignas(32) Word along_x[kWide][kWide][kCells], along_y[kWide][kCells][kCells];
+    const bool whole = source.x >= 1 && source.x + kCells < source.cells_x;
     for (int k = 0; k < kWide; ++k) {
-      for (int j = 0; j < kWide; ++j) {
-        const Word* row = intensity + source.slices[at(k)] + source.rows[at(j)];
-        Word copy[kRow + 2] = {};
-        if (whole) {
-          row += source.x - 1;
-        } else {
+      Word copies[2][kWide];
+      for (int j = 0; j < kWide; j += 2) {
+        const Word* rows[2];
+        for (int r = 0; r < 2; ++r) {
+          rows[r] = intensity + source.slices[at(k)] + source.rows[at(j + r)];
+          if (whole) {
+            rows[r] += source.x - 1;
+            continue;
+          }
           for (int i = 0; i < kWide; ++i) {
             const int x = source.x - 1 + i;
-            copy[i] = row[x < 0 ? 0 : x >= source.cells_x ? source.cells_x - 1 : x];
+            copies[r][i] = rows[r][x < 0 ? 0 : x >= source.cells_x ? source.cells_x - 1 : x];
           }
-          row = copy;
+          rows[r] = copies[r];
         }
-        filter(row, row + 1, row + 2, along_x[k][j]);
+        Words of[3], filtered;
+        for (int i = 0; i < 3; ++i) {
+          Row first, second;
+          load(first, rows[0] + i);
+          load(second, rows[1] + i);
+          of[i] = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+        }
+        filter(of[0], of[1], of[2], filtered);
+        std::memcpy(along_x[k][j], &filtered, sizeof filtered);
       }
-      for (int j = 0; j < kSide; ++j) filter(along_x[k][j], along_x[k][j + 1], along_x[k][j + 2], along_y[k][j]);
+      for (int j = 0; j < kCells; j += 2) filter_rows(along_x[k][j], kCells, along_y[k][j]);
     }
-    alignas(32) Word inside[kRow];
-    for (int i = 0; i < static_cast<int>(kRow); ++i) inside[i] = i >= source.low[0] && i < source.high[0] ? 0xFFFF : 0;
-    Word* row = to.cells.data();
-    for (int k = 0; k < kSide; ++k)
-      for (int j = 0; j < kSide; ++j, row += kRow) {
-        if (k < source.low[2] || k >= source.high[2] || j < source.low[1] || j >= source.high[1]) {
-          std::memset(row, 0, kRow * sizeof(Word));
-          continue;
-        }
-        filter(along_y[k][j], along_y[k + 1][j], along_y[k + 2][j], row);
-        for (std::size_t i = 0; i < kRow; ++i) row[i] &= inside[i];
+    for (int k = 0; k < kCells; ++k)
+      for (int j = 0; j < kCells; j += 2) filter_rows(along_y[k][j], kCells * kCells, to[k][j]);
+  }
+  [[gnu::always_inline]] static void filter_rows(const Word* from, int step, Word* to) {
+    Words a, b, c, filtered;
+    load(a, from);
+    load(b, from + step);
+    load(c, from + 2 * step);
+    filter(a, b, c, filtered);
+    std::memcpy(to, &filtered, sizeof filtered);
+  }
+
+  [[gnu::always_inline]] static void wide(const Row& row, Int& to) { to = __builtin_convertvector(row, Int); }
+  // The numerators have 24 bits and the quotients 9. A quotient by less than 2^17 is never rounded up to a whole
+  // number.
+  [[gnu::always_inline]] static void quotient(const Int& numerator, const Int& divisor, Int& to) {
+    const Int one = divisor < 1 ? Int{} + 1 : divisor;
+    to = __builtin_convertvector(__builtin_convertvector(numerator, Float) / __builtin_convertvector(one, Float), Int);
+  }
+
+  static void cells(const Word* intensity, const MatterSource& matter, const BrickSource& source, BrickCells& to) {
+    alignas(32) Word filtered[kCells][kCells][kCells];
+    filter_all(intensity, source, filtered);
+    Row inside;
+    for (int i = 0; i < kCells; ++i) inside[i] = i < source.count_x ? 0xFFFF : 0;
+    for (int k = 0; k < kCells; ++k)
+      for (int j = 0; j < kCells; ++j) {
+        const int r = (k * kCells + j) * kCells;
+        const bool in = k < source.count_z && j < source.count_y;
+        Row level;
+        load(level, filtered[k][j]);
+        level = in ? level & inside : Row{};
+        const Row less = level - kToLevel;
+        std::memcpy(to.levels.data() + r, &less, sizeof less);
+        Int words{};
+        if (in) words_of(matter, source.slices[at(k + 1)] + source.rows[at(j + 1)] + at(source.x), level, words);
+        std::memcpy(to.matter.data() + r, &words, sizeof words);
       }
+  }
+
+  // Where there is no intensity there is no matter, so what lies beyond a row's end does not count.
+  [[gnu::always_inline]] static void words_of(const MatterSource& matter, std::size_t cell, const Row& level, Int& words) {
+    Row soft, other{};
+    load(soft, matter.liquid + cell);
+    if (matter.obstacle != nullptr) load(other, matter.obstacle + cell);
+    const Row shares = level == 0 ? Row{} : soft | other;
+    if (!any(shares)) return;
+    Row hard;
+    load(hard, matter.solid + cell);
+    Int liquid, solid;
+    wide(soft, liquid);
+    wide(hard, solid);
+    const Int all = liquid + solid;
+    quotient(255 * liquid, all, words);
+    if (matter.obstacle != nullptr) {  // the divisor may have 18 bits: a quotient that was rounded up is mended
+      Int obstacle, share;
+      wide(other, obstacle);
+      quotient(255 * obstacle, all + obstacle, share);
+      share += share * (all + obstacle) > 255 * obstacle;
+      words |= share << 16;
+    }
+    if (matter.heat != nullptr) {
+      Row warm;
+      load(warm, matter.heat + cell);
+      Int heat, step;
+      wide(warm, heat);
+      quotient(heat * 256, liquid, step);
+      step = step > 256 ? Int{} + 256 : step;
+      for (int i = 0; i < kCells; ++i) heat[i] = matter.heats[step[i]] << 8;
+      words |= liquid == 0 ? Int{} : heat;
+    }
+    Int shown;
+    wide(level, shown);
+    words = shown == 0 ? Int{} : words;
+  }
+
+  // A row goes to the places 3 to 10 of one brick, and its end to the places 0 to 2 of the next one.
+  template <class T>
+  [[gnu::always_inline]] static void scatter_rows(const T* from, T* to, T* next) {
+    if (to != nullptr) std::memcpy(to + 3, from, kCells * sizeof(T));
+    if (next != nullptr) std::memcpy(next, from + kCells - 3, 3 * sizeof(T));
+  }
+  template <class T>
+  [[gnu::always_inline]] static void scatter_all(const T* from, const std::array<T*, 8>& to) {
+    for (int which = 0; which < 4; ++which) {
+      T *const here = to[at(2 * which)], *const next = to[at(2 * which + 1)];
+      if (here == nullptr && next == nullptr) continue;
+      const int first_y = (which & 1) != 0 ? kCells - 3 : 0, first_z = (which & 2) != 0 ? kCells - 3 : 0;
+      const int place_y = (which & 1) != 0 ? 0 : 3, place_z = (which & 2) != 0 ? 0 : 3;
+      for (int k = first_z; k < kCells; ++k)
+        for (int j = first_y; j < kCells; ++j) {
+          const int row = ((k - first_z + place_z) * kSide + j - first_y + place_y) * kSide;
+          scatter_rows(from + (k * kCells + j) * kCells, here == nullptr ? here : here + row,
+                       next == nullptr ? next : next + row);
+        }
+    }
+  }
+  static void scatter(const BrickCells& from, const BrickTargets& to) {
+    scatter_all(from.levels.data(), to.levels);
+    scatter_all(from.matter.data(), to.matter);
   }
 
   struct Lanes {
-    alignas(32) Word most[kRow], x[kRow], y[kRow], z[kRow];
+    Words most, x, y, z;
   };
-  [[gnu::always_inline]] static Word larger(Word a, Word b) { return a > b ? a : b; }
-  [[gnu::always_inline]] static Word apart(Word a, Word b) { return a > b ? word(a - b) : word(b - a); }
+  [[gnu::always_inline]] static void take(Words& most, const Words& of) { most = of > most ? of : most; }
+  [[gnu::always_inline]] static void apart(const Words& a, const Words& b, Words& to) {
+    to = (a > b ? a : b) - (a > b ? b : a);
+  }
 
-  // A block has the places 1 to 5, or 5 to 9.
-  static void ranges(const BrickPlaces& places, BlockRanges& to) {
-    for (int half_z = 0; half_z < 2; ++half_z)
-      for (int half_y = 0; half_y < 2; ++half_y) {
-        Lanes of{};
-        for (int k = 0; k < 5; ++k)
-          for (int j = 0; j < 5; ++j) {
-            const Word* row = places.cells.data() + at(1 + 4 * half_z + k) * kSlice + at(1 + 4 * half_y + j) * kRow;
-            const Word keep_y = j < 4 ? 0xFFFF : 0, keep_z = k < 4 ? 0xFFFF : 0;
-#pragma GCC ivdep
-            for (std::size_t i = 0; i < kRow; ++i) {
-              of.most[i] = larger(of.most[i], row[i]);
-              of.y[i] = larger(of.y[i], word(apart(row[i + kRow], row[i]) & keep_y));
-              of.z[i] = larger(of.z[i], word(apart(row[i + kSlice], row[i]) & keep_z));
-            }
-#pragma GCC ivdep
-            for (std::size_t i = 0; i < kRow - 1; ++i) of.x[i] = larger(of.x[i], apart(row[i + 1], row[i]));
+  // A block has the places 1 to 5, or 5 to 9. Lane 0 is that of place 1.
+  static void ranges(const std::int16_t* levels, BlockRanges& to) {
+    Lanes of[4] = {};
+    for (int k = 0; k < 9; ++k)
+      for (int j = 0; j < 9; ++j) {
+        const std::int16_t* row = levels + ((k + 1) * kSide + j + 1) * kSide + 1;
+        Words here, x, y, z;
+        load(here, row);
+        load(x, row + 1);
+        load(y, row + kSide);
+        load(z, row + kSide * kSide);
+        here += kToLevel;
+        apart(x + kToLevel, here, x);
+        apart(y + kToLevel, here, y);
+        apart(z + kToLevel, here, z);
+        for (int half_z = k < 4 ? 0 : 1; half_z >= (k > 4 ? 1 : 0); --half_z)
+          for (int half_y = j < 4 ? 0 : 1; half_y >= (j > 4 ? 1 : 0); --half_y) {
+            Lanes& block = of[2 * half_z + half_y];
+            take(block.most, here);
+            take(block.x, x);
+            if (j < 4 * half_y + 4) take(block.y, y);
+            if (k < 4 * half_z + 4) take(block.z, z);
           }
-        for (int half_x = 0; half_x < 2; ++half_x) {
-          const int block = half_x + 2 * half_y + 4 * half_z, first = 1 + 4 * half_x;
-          const auto largest = [&](const Word* lanes, int count) {
-            Word most = 0;
-            for (int i = first; i < first + count; ++i) most = larger(most, lanes[i]);
-            return most;
-          };
-          to.most[at(block)] = largest(of.most, 5);
-          to.along_x[at(block)] = largest(of.x, 4);
-          to.along_y[at(block)] = largest(of.y, 5);
-          to.along_z[at(block)] = largest(of.z, 5);
-        }
       }
-  }
-
-  static void levels(const BrickPlaces& places, std::int16_t* to) {
-    const Word* row = places.cells.data();
-    for (int r = 0; r < kSide * kSide; ++r, row += kRow, to += kSide) {
-      std::int16_t levels[kRow];
-      for (std::size_t i = 0; i < kRow; ++i) levels[i] = static_cast<std::int16_t>(row[i] - 32640);
-      std::memcpy(to, levels, kSide * sizeof(std::int16_t));
-    }
-  }
-
-  // The numerators have 24 bits and the quotients 8. A quotient by less than 2^17 is never rounded up to a whole
-  // number; that of the obstacles, by less than 2^18, is mended.
-  template <bool kObstacles, bool kHeat>
-  [[gnu::always_inline]] static void words(const Word* solid, const Word* liquid, const Word* heat, const Word* obstacle,
-                                           const Word* place, const std::uint8_t* heats, std::uint32_t* to) {
-    constexpr int kGroup = 8;
-    std::int32_t of[kGroup], step[kGroup];
-    for (int i = 0; i < kGroup; ++i) {
-      const std::int32_t soft = liquid[i], all = solid[i] + soft;
-      of[i] = static_cast<std::int32_t>(static_cast<float>(255 * soft) / static_cast<float>(all < 1 ? 1 : all));
-      if constexpr (kObstacles) {
-        const std::int32_t sum = all + obstacle[i], divisor = sum < 1 ? 1 : sum, numerator = 255 * obstacle[i];
-        std::int32_t share = static_cast<std::int32_t>(static_cast<float>(numerator) / static_cast<float>(divisor));
-        share -= share * divisor > numerator ? 1 : 0;
-        of[i] |= share << 16;
-      }
-    }
-    if constexpr (kHeat) {
-      for (int i = 0; i < kGroup; ++i) {
-        const float quotient = static_cast<float>(heat[i] * 256) / static_cast<float>(liquid[i] < 1 ? 1 : liquid[i]);
-        step[i] = static_cast<std::int32_t>(quotient < 256.0f ? quotient : 256.0f);
-      }
-      for (int i = 0; i < kGroup; ++i) of[i] |= liquid[i] == 0 ? 0 : heats[step[i]] << 8;
-    }
-    for (int i = 0; i < kGroup; ++i) to[i] = place[i] == 0 ? 0u : static_cast<std::uint32_t>(of[i]);
-  }
-
-  template <bool kObstacles, bool kHeat>
-  static void matter_of(const MatterSource& matter, const BrickSource& source, const BrickPlaces& places,
-                        std::uint32_t* to) {
-    const bool whole = source.low[0] == 0 && source.high[0] == kSide;
-    const Word* place = places.cells.data();
-    for (int k = 0; k < kSide; ++k)
-      for (int j = 0; j < kSide; ++j, place += kRow, to += kSide) {
-        const std::ptrdiff_t cell = static_cast<std::ptrdiff_t>(source.slices[at(k + 1)] + source.rows[at(j + 1)]) + source.x;
-        const auto get = [&](const Word* from, Word* row) __attribute__((always_inline)) {
-          if (whole) {
-            std::memcpy(row, from + cell, kRow * sizeof(Word));
-          } else {
-            for (int i = 0; i < static_cast<int>(kRow); ++i)
-              row[i] = i >= source.low[0] && i < source.high[0] ? from[cell + i] : Word{0};
-          }
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      alignas(32) Word lanes[4][16];
+      std::memcpy(lanes, &of[quarter], sizeof lanes);
+      for (int half_x = 0; half_x < 2; ++half_x) {
+        const auto largest = [&](const Word* from, int count) {
+          Word most = 0;
+          for (int i = 4 * half_x; i < 4 * half_x + count; ++i) most = from[i] > most ? from[i] : most;
+          return most;
         };
-        Word solid[kRow], liquid[kRow], heat[kRow], obstacle[kRow];
-        get(matter.liquid, liquid);
-        if constexpr (kObstacles) get(matter.obstacle, obstacle);
-        Word any = 0;
-        for (int i = 0; i < kSide; ++i) any = word(any | liquid[i]);
-        if constexpr (kObstacles)
-          for (int i = 0; i < kSide; ++i) any = word(any | obstacle[i]);
-        if (any == 0) {
-          std::memset(to, 0, kSide * sizeof(std::uint32_t));
-          continue;
-        }
-        get(matter.solid, solid);
-        if constexpr (kHeat) get(matter.heat, heat);
-        for (const int i : {0, kSide - 8})
-          words<kObstacles, kHeat>(solid + i, liquid + i, heat + i, obstacle + i, place + i, matter.heats, to + i);
+        const std::size_t block = at(2 * quarter + half_x);
+        to.most[block] = static_cast<std::int16_t>(largest(lanes[0], 5) - kToLevel);
+        to.along_x[block] = largest(lanes[1], 4);
+        to.along_y[block] = largest(lanes[2], 5);
+        to.along_z[block] = largest(lanes[3], 5);
       }
-  }
-  static void matter(const MatterSource& matter, const BrickSource& source, const BrickPlaces& places, std::uint32_t* to) {
-    const bool obstacles = matter.obstacle != nullptr, heat = matter.heat != nullptr;
-    if (obstacles && heat) return matter_of<true, true>(matter, source, places, to);
-    if (obstacles) return matter_of<true, false>(matter, source, places, to);
-    if (heat) return matter_of<false, true>(matter, source, places, to);
-    matter_of<false, false>(matter, source, places, to);
+    }
   }
 };
 
 template <class Arch>
 BrickLoops brick_loops_for() {
   using Of = BrickKernels<Arch>;
-  return {Of::any, Of::places, Of::ranges, Of::levels, Of::matter};
+  return {Of::cells, Of::scatter, Of::ranges};
 }
 
 }  // namespace voxmelt::render

@@ -9,26 +9,15 @@
 namespace voxmelt::render {
 
 inline constexpr int kPlacesOfBrick = 11;  // along an axis
+inline constexpr int kCellsOfBrick = 8;
 
-// Where a brick lies in the field: of its places and one more at each end. Cells outside the grid repeat the nearest
+// A brick of 8 x 8 x 8 cells of the field, and where the cells around it lie. Cells outside the grid repeat the nearest
 // inside.
 struct BrickSource {
-  static constexpr int kWide = kPlacesOfBrick + 2;
+  static constexpr int kWide = kCellsOfBrick + 2;
   std::array<std::size_t, kWide> rows, slices;  // offsets of cells; a row has at least 16 readable cells beyond
-  int x, cells_x;                               // of the first place; of the grid
-  std::array<int, 3> low, high;                 // places inside the grid: low <= place < high
-};
-
-// The filtered intensities of a brick's places, before they become levels; a row has 16.
-struct BrickPlaces {
-  static constexpr std::size_t kRow = 16;
-  alignas(32) std::array<std::uint16_t, kPlacesOfBrick * kPlacesOfBrick * kRow> cells;
-};
-
-// Of the eight blocks of a brick, x fastest: the largest filtered intensity, and by how much those of neighbours
-// differ at most, along each axis.
-struct BlockRanges {
-  std::array<std::uint16_t, 8> most, along_x, along_y, along_z;
+  int x, cells_x;                               // the first cell; the grid's
+  int count_x, count_y, count_z;                // cells inside the grid
 };
 
 struct MatterSource {
@@ -36,15 +25,31 @@ struct MatterSource {
   const std::uint8_t* heats;                              // by the temperature, 0 .. 256
 };
 
+// Levels and words (liquid + 256 heat + 65536 obstacle) of such a brick; air outside the grid.
+struct BrickCells {
+  static constexpr std::size_t kCells = kCellsOfBrick * kCellsOfBrick * kCellsOfBrick;
+  alignas(32) std::array<std::int16_t, kCells> levels;
+  alignas(32) std::array<std::uint32_t, kCells> matter;
+};
+
+// Where to: the eight bricks of 11 x 11 x 11 places that hold these cells, x fastest; null where there is none.
+struct BrickTargets {
+  std::array<std::int16_t*, 8> levels;
+  std::array<std::uint32_t*, 8> matter;
+};
+
+// Of the eight blocks of such a brick, x fastest: the largest level, and by how much those of neighbours differ at most,
+// along each axis.
+struct BlockRanges {
+  std::array<std::int16_t, 8> most;
+  std::array<std::uint16_t, 8> along_x, along_y, along_z;
+};
+
 struct BrickLoops {
-  // Is there any intensity that the places depend on?
-  bool (*any)(const std::uint16_t* intensity, const BrickSource& source);
-  void (*places)(const std::uint16_t* intensity, const BrickSource& source, BrickPlaces& to);
-  void (*ranges)(const BrickPlaces& places, BlockRanges& to);
-  // 11 x 11 x 11 levels.
-  void (*levels)(const BrickPlaces& places, std::int16_t* to);
-  // 11 x 11 x 11 words of liquid + 256 heat + 65536 obstacle, 0 where there is no intensity.
-  void (*matter)(const MatterSource& matter, const BrickSource& source, const BrickPlaces& places, std::uint32_t* to);
+  void (*cells)(const std::uint16_t* intensity, const MatterSource& matter, const BrickSource& source, BrickCells& to);
+  void (*scatter)(const BrickCells& from, const BrickTargets& to);
+  // Levels are read up to 16 beyond the last.
+  void (*ranges)(const std::int16_t* levels, BlockRanges& to);
 };
 
 // The loops, compiled for an architecture of xsimd (brick_kernels.h).

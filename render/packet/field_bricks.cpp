@@ -11,17 +11,12 @@ namespace voxmelt::render {
 namespace {
 
 constexpr std::size_t kPlaces = kBrickVolume;
-constexpr std::size_t kBeyond = 2;  // a pair of levels is read as 32 bits
+constexpr std::size_t kBeyond = 16;  // levels are read in pairs, and in rows of 16
 static_assert(kPlacesOfBrick == kBrickPlaces);
 
-// The cell of a brick's first place.
-state::Grid first_cell(const state::Grid& brick) {
-  constexpr int kBefore = kLatticeBorder + 1;
-  return {brick.x * kBrickSide - kBefore, brick.y * kBrickSide - kBefore, brick.z * kBrickSide - kBefore};
-}
-
+// A brick of the field.
 BrickSource source_of(const state::Grid& grid, const state::Grid& brick) {
-  const state::Grid first = first_cell(brick);
+  const state::Grid first{brick.x * kBrickSide, brick.y * kBrickSide, brick.z * kBrickSide};
   BrickSource of;
   for (int i = 0; i < BrickSource::kWide; ++i) {
     of.rows[static_cast<std::size_t>(i)] = grid.index(0, std::clamp(first.y + i - 1, 0, grid.y - 1), 0);
@@ -29,11 +24,23 @@ BrickSource source_of(const state::Grid& grid, const state::Grid& brick) {
   }
   of.x = first.x;
   of.cells_x = grid.x;
-  const auto low = [](int at) { return std::max(-at, 0); };
-  const auto high = [](int at, int side) { return std::clamp(side - at, 0, kBrickPlaces); };
-  of.low = {low(first.x), low(first.y), low(first.z)};
-  of.high = {high(first.x, grid.x), high(first.y, grid.y), high(first.z, grid.z)};
+  of.count_x = std::min(kBrickSide, grid.x - first.x);
+  of.count_y = std::min(kBrickSide, grid.y - first.y);
+  of.count_z = std::min(kBrickSide, grid.z - first.z);
   return of;
+}
+
+// Calls visit(b) for the bricks that hold a part of brick `a`, or of which it holds one: those from `low` to `high` of it.
+template <class Visit>
+void for_near(const state::Grid& bricks, const state::Grid& a, int low, int high, const Visit& visit) {
+  for (int z = std::max(a.z + low, 0); z <= std::min(a.z + high, bricks.z - 1); ++z)
+    for (int y = std::max(a.y + low, 0); y <= std::min(a.y + high, bricks.y - 1); ++y)
+      for (int x = std::max(a.x + low, 0); x <= std::min(a.x + high, bricks.x - 1); ++x) visit(state::Grid{x, y, z});
+}
+
+state::Grid place_in(const state::Grid& bricks, std::size_t brick) {
+  const auto x = static_cast<std::size_t>(bricks.x), y = static_cast<std::size_t>(bricks.y);
+  return {static_cast<int>(brick % x), static_cast<int>(brick / x % y), static_cast<int>(brick / x / y)};
 }
 
 // The glow's heat by temperature, in 256 steps.
@@ -66,49 +73,55 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
   const bool all = changed == nullptr || grid_.x != field.grid().x || grid_.y != field.grid().y ||
                    grid_.z != field.grid().z;
   if (all) resize(field.grid());
-  std::vector<std::uint32_t> bricks;
-  if (all) {
-    for (std::size_t brick = 0; brick < slots_.size(); ++brick) bricks.push_back(static_cast<std::uint32_t>(brick));
-  } else {
-    // A brick of the field reaches, with the pre-filter, into those of the lattice around it.
-    std::vector<std::uint8_t> touched(slots_.size(), 0);
-    const state::Grid& of = field.bricks();
-    for (const std::uint32_t brick : *changed) {
-      const int x = static_cast<int>(brick % static_cast<std::uint32_t>(of.x)),
-                y = static_cast<int>(brick / static_cast<std::uint32_t>(of.x) % static_cast<std::uint32_t>(of.y)),
-                z = static_cast<int>(brick / static_cast<std::uint32_t>(of.x) / static_cast<std::uint32_t>(of.y));
-      for (int k = std::max(z - 1, 0); k <= std::min(z + 1, bricks_.z - 1); ++k)
-        for (int j = std::max(y - 1, 0); j <= std::min(y + 1, bricks_.y - 1); ++j)
-          for (int i = std::max(x - 1, 0); i <= std::min(x + 1, bricks_.x - 1); ++i) touched[bricks_.index(i, j, k)] = 1;
-    }
-    for (std::size_t brick = 0; brick < touched.size(); ++brick)
-      if (touched[brick] != 0) bricks.push_back(static_cast<std::uint32_t>(brick));
+  // With the pre-filter, a brick of the field changes levels in those around it.
+  const state::Grid& of = field.bricks();
+  std::vector<std::uint8_t> stale(of.cells(), all ? 1 : 0), touched(slots_.size(), all ? 1 : 0);
+  if (!all) {
+    if (changed->empty()) return;
+    for (const std::uint32_t brick : *changed)
+      for_near(of, place_in(of, brick), -1, 1, [&](const state::Grid& b) { stale[of.index(b.x, b.y, b.z)] = 1; });
+    for (std::size_t brick = 0; brick < stale.size(); ++brick)
+      if (stale[brick] != 0)
+        for_near(bricks_, place_in(of, brick), 0, 1, [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
   }
-  if (bricks.empty()) return;
 
-  // What is nothing but air needs no slot.
-  std::vector<std::uint8_t> needed(bricks.size()), moved(bricks.size());
-  workers.run(static_cast<int>(bricks.size()), [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    needed[at] = anything_near(field, bricks[at], loops) ? 1 : 0;
-  });
-  for (std::size_t i = 0; i < bricks.size(); ++i) {
-    std::int32_t& slot = slots_[bricks[i]];
-    if (needed[i] == 0) {
-      if (slot != 0) moved[i] = clear(bricks[i]) ? 1 : 0;
+  // What is nothing but air needs no slot. A new one is filled whole.
+  std::vector<std::size_t> bricks;
+  bool moved = all;
+  for (std::size_t brick = 0; brick < touched.size(); ++brick) {
+    if (touched[brick] == 0) continue;
+    const state::Grid at = place_in(bricks_, brick);
+    std::int32_t& slot = slots_[brick];
+    if (!anything_near(field, at)) {
+      if (slot == 0) continue;
+      moved = clear(brick) || moved;
       give_back(slot);
-    } else if (slot == 0) {
-      slot = take();
+      continue;
     }
+    if (slot == 0) {
+      slot = take();
+      std::fill_n(levels_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces), kPlaces, picture::kAir);
+      std::fill_n(matter_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces), kPlaces, 0);
+      for_near(of, at, -1, 0, [&](const state::Grid& b) { stale[of.index(b.x, b.y, b.z)] = 1; });
+    }
+    bricks.push_back(brick);
   }
+  std::vector<std::size_t> sources;
+  for (std::size_t brick = 0; brick < stale.size(); ++brick)
+    if (stale[brick] != 0) sources.push_back(brick);
+
   const auto heats = look.glow ? heats_of(look) : std::array<std::uint8_t, 257>{};
   const MatterSource matter{field.solid().data(), field.liquid().data(), look.glow ? field.heat().data() : nullptr,
                             field.has_obstacles() ? field.obstacle().data() : nullptr, heats.data()};
-  workers.run(static_cast<int>(bricks.size()), [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (needed[at] != 0) moved[at] = fill(field, matter, bricks[at], loops) ? 1 : 0;
+  workers.run(static_cast<int>(sources.size()), [&](int i) {
+    fill(field, matter, sources[static_cast<std::size_t>(i)], loops);
   });
-  if (!all && std::find(moved.begin(), moved.end(), 1) == moved.end()) return;
+  std::vector<std::uint8_t> others(bricks.size());
+  workers.run(static_cast<int>(bricks.size()), [&](int i) {
+    const auto brick = static_cast<std::size_t>(i);
+    others[brick] = find_ranges(bricks[brick], loops) ? 1 : 0;
+  });
+  if (!moved && std::find(others.begin(), others.end(), 1) == others.end()) return;
   find_distances();
   find_box();
 }
@@ -129,22 +142,23 @@ void FieldBricks::give_back(std::int32_t& slot) {
   slot = 0;
 }
 
-state::Grid FieldBricks::place_of(std::size_t brick) const {
-  const auto x = static_cast<std::size_t>(bricks_.x), y = static_cast<std::size_t>(bricks_.y);
-  return {static_cast<int>(brick % x), static_cast<int>(brick / x % y), static_cast<int>(brick / x / y)};
-}
-
 // Is there any intensity that the levels of the brick depend on? They lie in two bricks of the field along each axis,
-// and in the next one's first plane, which the range of the one before covers.
-bool FieldBricks::anything_near(const DensityField& field, std::size_t brick, const BrickLoops& loops) const {
-  const state::Grid at = place_of(brick);
+// and in the next one's first plane. The range of a brick covers two cells around it: where it is 0, there is nothing.
+bool FieldBricks::anything_near(const DensityField& field, const state::Grid& brick) const {
   const state::Grid& of = field.bricks();
-  std::uint16_t high = 0;
-  for (int z = at.z - 1; z <= at.z; ++z)
-    for (int y = at.y - 1; y <= at.y; ++y)
-      for (int x = at.x - 1; x <= at.x; ++x)
-        if (of.contains(x, y, z)) high = std::max(high, field.ranges()[of.index(x, y, z)].high);
-  return high != 0 && loops.any(field.intensity().data(), source_of(grid_, at));
+  bool maybe = false;
+  for_near(of, brick, -1, 0, [&](const state::Grid& b) { maybe = maybe || field.ranges()[of.index(b.x, b.y, b.z)].high != 0; });
+  if (!maybe) return false;
+  const auto from = [](int b) { return std::max(b * kBrickSide - kLatticeBorder - 2, 0); };
+  const auto end = [](int b, int side) { return std::min(b * kBrickSide + kBrickSide + 1, side); };
+  for (int z = end(brick.z, grid_.z) - 1; z >= from(brick.z); --z)
+    for (int y = from(brick.y); y < end(brick.y, grid_.y); ++y) {
+      const std::uint16_t* row = field.intensity().data() + grid_.index(0, y, z);
+      std::uint16_t any = 0;
+      for (int x = from(brick.x); x < end(brick.x, grid_.x); ++x) any = static_cast<std::uint16_t>(any | row[x]);
+      if (any != 0) return true;
+    }
+  return false;
 }
 
 // Tells whether any of its blocks was occupied.
@@ -159,21 +173,40 @@ bool FieldBricks::clear(std::size_t brick) {
   return moved;
 }
 
+// The cells of a brick of the field, in all the bricks of the lattice that hold some of them.
+void FieldBricks::fill(const DensityField& field, const MatterSource& matter, std::size_t brick, const BrickLoops& loops) {
+  const state::Grid at = place_in(field.bricks(), brick);
+  BrickTargets to{};
+  bool any = false;
+  for (int b = 0; b < 8; ++b) {
+    const state::Grid next{at.x + (b & 1), at.y + ((b >> 1) & 1), at.z + (b >> 2)};
+    if (!bricks_.contains(next.x, next.y, next.z)) continue;
+    const auto slot = static_cast<std::size_t>(slots_[bricks_.index(next.x, next.y, next.z)]);
+    if (slot == 0) continue;
+    any = true;
+    to.levels[static_cast<std::size_t>(b)] = levels_.data() + slot * kPlaces;
+    to.matter[static_cast<std::size_t>(b)] = matter_.data() + slot * kPlaces;
+  }
+  if (!any) return;
+  BrickCells cells;
+  if (field.ranges()[brick].high == 0) {
+    cells.levels.fill(picture::kAir);
+    cells.matter.fill(0);
+  } else {
+    loops.cells(field.intensity().data(), matter, source_of(grid_, at), cells);
+  }
+  loops.scatter(cells, to);
+}
+
 // Tells whether other blocks are occupied now.
-bool FieldBricks::fill(const DensityField& field, const MatterSource& matter, std::size_t brick, const BrickLoops& loops) {
-  const BrickSource source = source_of(grid_, place_of(brick));
-  const std::size_t slot = static_cast<std::size_t>(slots_[brick]) * kPlaces;
-  BrickPlaces places;
-  loops.places(field.intensity().data(), source, places);
-  loops.levels(places, levels_.data() + slot);
-  loops.matter(matter, source, places, matter_.data() + slot);
+bool FieldBricks::find_ranges(std::size_t brick, const BrickLoops& loops) {
   BlockRanges ranges;
-  loops.ranges(places, ranges);
+  loops.ranges(levels_.data() + static_cast<std::size_t>(slots_[brick]) * kPlaces, ranges);
   bool moved = false;
   for (int b = 0; b < 8; ++b) {
     const auto i = static_cast<std::size_t>(b);
     const std::size_t block = block_of(brick, b);
-    const std::uint8_t occupied = ranges.most[i] >= -picture::kAir ? 1 : 0;
+    const std::uint8_t occupied = ranges.most[i] >= 0 ? 1 : 0;
     moved = moved || occupied != occupied_[block];
     occupied_[block] = occupied;
     const int slope = slope_bound(ranges.along_x[i], ranges.along_y[i], ranges.along_z[i]);
@@ -183,7 +216,7 @@ bool FieldBricks::fill(const DensityField& field, const MatterSource& matter, st
 }
 
 std::size_t FieldBricks::block_of(std::size_t brick, int which) const {
-  const state::Grid at = place_of(brick);
+  const state::Grid at = place_in(bricks_, brick);
   return blocks_.index(2 * at.x + (which & 1), 2 * at.y + ((which >> 1) & 1), 2 * at.z + (which >> 2));
 }
 

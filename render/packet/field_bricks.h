@@ -60,11 +60,11 @@ class FieldBricks {
   void resize(const state::Grid& grid);
   std::int32_t take();
   void give_back(std::int32_t& slot);
-  state::Grid place_of(std::size_t brick) const;
   std::size_t block_of(std::size_t brick, int which) const;  // 0 .. 7
-  bool anything_near(const DensityField& field, std::size_t brick, const BrickLoops& loops) const;
+  bool anything_near(const DensityField& field, const state::Grid& brick) const;
   bool clear(std::size_t brick);
-  bool fill(const DensityField& field, const MatterSource& matter, std::size_t brick, const BrickLoops& loops);
+  void fill(const DensityField& field, const MatterSource& matter, std::size_t brick, const BrickLoops& loops);
+  bool find_ranges(std::size_t brick, const BrickLoops& loops);
   void find_distances();
   void find_box();
 
