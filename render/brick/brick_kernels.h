@@ -168,6 +168,25 @@ struct BrickKernels {
         }
     }
   }
+  template <class T>
+  [[gnu::always_inline]] static bool same_rows(const T* cells, const T* target) {
+    constexpr int kWords = kCells * sizeof(T) / sizeof(std::uint64_t);
+    for (int k = 0; k < kCells; ++k) {
+      std::uint64_t other = 0;
+      for (int j = 0; j < kCells; ++j) {
+        std::uint64_t a[kWords], b[kWords];
+        std::memcpy(a, cells + (k * kCells + j) * kCells, sizeof a);
+        std::memcpy(b, target + ((k + 3) * kSide + j + 3) * kSide + 3, sizeof b);
+        for (int i = 0; i < kWords; ++i) other |= a[i] ^ b[i];
+      }
+      if (other != 0) return false;
+    }
+    return true;
+  }
+  static bool same(const BrickCells& cells, const BrickTargets& targets) {
+    return same_rows(cells.levels.data(), targets.levels[0]) && same_rows(cells.matter.data(), targets.matter[0]);
+  }
+
   static void scatter(const BrickCells& from, const BrickTargets& to) {
     scatter_all(from.levels.data(), to.levels);
     scatter_all(from.matter.data(), to.matter);
@@ -227,7 +246,7 @@ struct BrickKernels {
 template <class Arch>
 BrickLoops brick_loops_for() {
   using Of = BrickKernels<Arch>;
-  return {Of::cells, Of::scatter, Of::ranges};
+  return {Of::cells, Of::same, Of::scatter, Of::ranges};
 }
 
 }  // namespace voxmelt::render

@@ -47,6 +47,8 @@ struct BlockRanges {
 
 struct BrickLoops {
   void (*cells)(const std::uint16_t* intensity, const MatterSource& matter, const BrickSource& source, BrickCells& to);
+  // Does the first target hold the same levels, and the same matter?
+  bool (*same)(const BrickCells& cells, const BrickTargets& targets);
   void (*scatter)(const BrickCells& from, const BrickTargets& to);
   // Levels are read up to 16 beyond the last.
   void (*ranges)(const std::int16_t* levels, BlockRanges& to);

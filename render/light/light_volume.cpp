@@ -185,16 +185,37 @@ void LightVolume::sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& lo
   const int low_u = low(slope_u), low_v = low(slope_v);
   const int count_u = way.u + more(slope_u), count_v = way.v + more(slope_v);
   const std::size_t ray_row = static_cast<std::size_t>(light_row(count_u) + 3 * kLightLanes);
-  sweep.rays.assign(static_cast<std::size_t>(count_v + 2) * ray_row, 255);
-  sweep.room.resize(std::max(sweep.room.size(), sweep.rays.size()));
+  const std::size_t size = static_cast<std::size_t>(count_v + 2) * ray_row;
+  sweep.room.resize(size);
   sweep.losses.resize(static_cast<std::size_t>(way.v + 2) * ray_row);
   sweep.rows.assign(static_cast<std::size_t>(way.v), 0);
   // What the turned plane held may be of a lamp long ago.
   sweep.turned_open.assign(static_cast<std::size_t>(z_), other_lamp ? 1 : 0);
   std::uint8_t* const light = (way.turned ? lamp_.turned : lamp_.natural).data();
   const std::uint8_t* const density = (way.turned ? density_.turned : density_.natural).data();
+  // Every so often the rays are kept. So an update begins near the first slice in which something changed.
+  int begin = 0;
+  if (other_lamp) {
+    sweep.kept.clear();
+  } else {
+    const auto& dirty = dirty_[static_cast<std::size_t>(axis)];
+    while (begin < way.slices && !dirty[static_cast<std::size_t>(way.at(begin))].any()) ++begin;
+    begin = std::min(begin / kKeptEvery, static_cast<int>(sweep.kept.size()) - 1) * kKeptEvery;
+  }
   Span dark;
-  for (int s = 0; s < way.slices; ++s) {
+  if (other_lamp) {
+    sweep.rays.assign(size, 255);
+  } else {
+    const Kept& kept = sweep.kept[static_cast<std::size_t>(begin / kKeptEvery)];
+    sweep.rays = kept.rays;
+    dark = kept.dark;
+  }
+  for (int s = begin; s < way.slices; ++s) {
+    if (s % kKeptEvery == 0) {
+      const auto at = static_cast<std::size_t>(s / kKeptEvery);
+      if (sweep.kept.size() <= at) sweep.kept.resize(at + 1);
+      if (s != begin || other_lamp) sweep.kept[at] = {sweep.rays, dark};
+    }
     const picture::Shift u = picture::shift_at(s, slope_u), v = picture::shift_at(s, slope_v);
     const int at_u = u.cells - low_u, at_v = v.cells - low_v;
     dark.add({at_v, at_v + way.v + 1});

@@ -54,9 +54,16 @@ class LightVolume {
     int at(int slice) const { return from_high ? slices - 1 - slice : slice; }
     std::size_t byte(int slice) const { return static_cast<std::size_t>(at(slice)) * slice_step; }
   };
+  // The lamp's rays before a slice, and the rows of them that may be darker than 255.
+  struct Kept {
+    std::vector<std::uint16_t> rays;
+    Span dark;
+  };
+  static constexpr int kKeptEvery = 8;  // slices
   // What a sweep needs, and tells: one for each side, and one for the lamp.
   struct Sweep {
     std::vector<std::uint16_t> room, rays, losses;
+    std::vector<Kept> kept;
     Bytes rows;           // of a slice: changed
     Bytes open, glow;     // rows [z][y] that changed
     Bytes turned_open, turned_glow;  // slices z of turned planes with a change

@@ -11,6 +11,7 @@ namespace voxmelt::render {
 namespace {
 
 constexpr std::size_t kPlaces = kBrickVolume;
+constexpr std::uint8_t kWhole = 2;  // of what is stale: also where it is what it was
 constexpr std::size_t kBeyond = 16;  // levels are read in pairs, and in rows of 16
 static_assert(kPlacesOfBrick == kBrickPlaces);
 
@@ -75,7 +76,7 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
   if (all) resize(field.grid());
   // With the pre-filter, a brick of the field changes levels in those around it.
   const state::Grid& of = field.bricks();
-  std::vector<std::uint8_t> stale(of.cells(), all ? 1 : 0), touched(slots_.size(), all ? 1 : 0);
+  std::vector<std::uint8_t> stale(of.cells(), all ? kWhole : 0), touched(slots_.size(), all ? 1 : 0);
   if (!all) {
     if (changed->empty()) return;
     for (const std::uint32_t brick : *changed)
@@ -102,7 +103,7 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
       slot = take();
       std::fill_n(levels_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces), kPlaces, picture::kAir);
       std::fill_n(matter_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces), kPlaces, 0);
-      for_near(of, at, -1, 0, [&](const state::Grid& b) { stale[of.index(b.x, b.y, b.z)] = 1; });
+      for_near(of, at, -1, 0, [&](const state::Grid& b) { stale[of.index(b.x, b.y, b.z)] = kWhole; });
     }
     bricks.push_back(brick);
   }
@@ -113,13 +114,19 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
   const auto heats = look.glow ? heats_of(look) : std::array<std::uint8_t, 257>{};
   const MatterSource matter{field.solid().data(), field.liquid().data(), look.glow ? field.heat().data() : nullptr,
                             field.has_obstacles() ? field.obstacle().data() : nullptr, heats.data()};
+  std::fill(touched.begin(), touched.end(), 0);
+  std::vector<std::uint8_t> filled(sources.size());
   workers.run(static_cast<int>(sources.size()), [&](int i) {
-    fill(field, matter, sources[static_cast<std::size_t>(i)], loops);
+    const auto at = static_cast<std::size_t>(i);
+    filled[at] = fill(field, matter, sources[at], stale[sources[at]] == kWhole, loops) ? 1 : 0;
   });
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    if (filled[i] != 0)
+      for_near(bricks_, place_in(of, sources[i]), 0, 1, [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
   std::vector<std::uint8_t> others(bricks.size());
   workers.run(static_cast<int>(bricks.size()), [&](int i) {
-    const auto brick = static_cast<std::size_t>(i);
-    others[brick] = find_ranges(bricks[brick], loops) ? 1 : 0;
+    const auto at = static_cast<std::size_t>(i);
+    others[at] = touched[bricks[at]] != 0 && find_ranges(bricks[at], loops) ? 1 : 0;
   });
   if (!moved && std::find(others.begin(), others.end(), 1) == others.end()) return;
   find_distances();
@@ -154,8 +161,19 @@ bool FieldBricks::anything_near(const DensityField& field, const state::Grid& br
   for (int z = end(brick.z, grid_.z) - 1; z >= from(brick.z); --z)
     for (int y = from(brick.y); y < end(brick.y, grid_.y); ++y) {
       const std::uint16_t* row = field.intensity().data() + grid_.index(0, y, z);
-      std::uint16_t any = 0;
-      for (int x = from(brick.x); x < end(brick.x, grid_.x); ++x) any = static_cast<std::uint16_t>(any | row[x]);
+      // A row has 13 cells, or fewer at the ends of the grid. Groups of four may overlap.
+      const int first = from(brick.x), last = end(brick.x, grid_.x) - 4;
+      std::uint64_t any = 0, group;
+      for (int x = first; x < last; x += 4) {
+        std::memcpy(&group, row + x, sizeof group);
+        any |= group;
+      }
+      if (last >= first) {
+        std::memcpy(&group, row + last, sizeof group);
+        any |= group;
+      } else {
+        for (int x = first; x < last + 4; ++x) any |= row[x];
+      }
       if (any != 0) return true;
     }
   return false;
@@ -173,8 +191,10 @@ bool FieldBricks::clear(std::size_t brick) {
   return moved;
 }
 
-// The cells of a brick of the field, in all the bricks of the lattice that hold some of them.
-void FieldBricks::fill(const DensityField& field, const MatterSource& matter, std::size_t brick, const BrickLoops& loops) {
+// The cells of a brick of the field, in all the bricks of the lattice that hold some of them. Tells whether any may
+// have changed. `whole`: some of those bricks are new.
+bool FieldBricks::fill(const DensityField& field, const MatterSource& matter, std::size_t brick, bool whole,
+                       const BrickLoops& loops) {
   const state::Grid at = place_in(field.bricks(), brick);
   BrickTargets to{};
   bool any = false;
@@ -187,7 +207,7 @@ void FieldBricks::fill(const DensityField& field, const MatterSource& matter, st
     to.levels[static_cast<std::size_t>(b)] = levels_.data() + slot * kPlaces;
     to.matter[static_cast<std::size_t>(b)] = matter_.data() + slot * kPlaces;
   }
-  if (!any) return;
+  if (!any) return false;
   BrickCells cells;
   if (field.ranges()[brick].high == 0) {
     cells.levels.fill(picture::kAir);
@@ -195,7 +215,10 @@ void FieldBricks::fill(const DensityField& field, const MatterSource& matter, st
   } else {
     loops.cells(field.intensity().data(), matter, source_of(grid_, at), cells);
   }
+  // The first brick of the lattice holds all of the cells, and the others hold the same.
+  if (!whole && to.levels[0] != nullptr && loops.same(cells, to)) return false;
   loops.scatter(cells, to);
+  return true;
 }
 
 // Tells whether other blocks are occupied now.

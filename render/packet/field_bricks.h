@@ -63,7 +63,7 @@ class FieldBricks {
   std::size_t block_of(std::size_t brick, int which) const;  // 0 .. 7
   bool anything_near(const DensityField& field, const state::Grid& brick) const;
   bool clear(std::size_t brick);
-  void fill(const DensityField& field, const MatterSource& matter, std::size_t brick, const BrickLoops& loops);
+  bool fill(const DensityField& field, const MatterSource& matter, std::size_t brick, bool whole, const BrickLoops& loops);
   bool find_ranges(std::size_t brick, const BrickLoops& loops);
   void find_distances();
   void find_box();
