@@ -1,10 +1,10 @@
-// The parts of a picture that are kept up to date behind the field, on one thread: after three steps at mid-melt, and
-// when nothing changed. Light: what stops it, and the sweeps. Bricks: levels, matter, distances.
+// The parts of a picture that are kept up to date behind the field, on one thread: after three steps at
+// mid-melt, and when nothing changed. Light: what stops it, and the sweeps. Bricks: levels, matter,
+// distances.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <ctime>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -35,9 +35,10 @@ struct Prepared {
     while (simulation.steps_done() < kMidMelt) simulation.step();
     field.update(simulation.volume(), scene.look, scene.terrain);
     const state::Grid& grid = field.grid();
-    ground = render::GroundMap({grid.x, grid.y, grid.z},
-                               render::fits(scene.terrain, grid) ? render::ground_heights(scene.terrain) : field.ground(),
-                               field.liquid_passes(), scene.look.ground, false);
+    ground = render::GroundMap(
+        {grid.x, grid.y, grid.z},
+        render::fits(scene.terrain, grid) ? render::ground_heights(scene.terrain) : field.ground(),
+        field.liquid_passes(), scene.look.ground, false);
     ground.lower(field.wetness());
   }
   void step(std::uint32_t steps) {
@@ -81,7 +82,8 @@ void refresh(benchmark::State& state, const char* scene, std::uint32_t steps) {
     part(sweeps, [&] {
       if (!lit) return;
       const picture::Vector cells{prepared.field.grid().x, prepared.field.grid().y, prepared.field.grid().z};
-      prepared.light.update(prepared.sources.matter(), prepared.to_light, picture::light_shift(cells), prepared.workers);
+      prepared.light.update(prepared.sources.matter(), prepared.to_light, picture::light_shift(cells),
+                            prepared.workers);
     });
     part(bricks, [&] { prepared.bricks.update(prepared.field, prepared.look, refreshed, prepared.workers); });
   };

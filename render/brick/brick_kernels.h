@@ -1,7 +1,9 @@
-// The loops that fill bricks, written once, in the vector types that g++ and clang have for any processor. Everything
-// is a template over the instruction set, so that the linker cannot take a function of one for another's.
+// The loops that fill bricks, written once, in the vector types that g++ and clang have for any processor.
+// Everything is a template over the instruction set, so that the linker cannot take a function of one for
+// another's.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -40,7 +42,8 @@ struct BrickKernels {
   }
 
   // Two rows at a time: along x, then y, then z.
-  static void filter_all(const Word* intensity, const BrickSource& source, Word (&to)[kCells][kCells][kCells]) {
+  static void filter_all(const Word* intensity, const BrickSource& source,
+                         Word (&to)[kCells][kCells][kCells]) {
     alignas(32) Word along_x[kWide][kWide][kCells], along_y[kWide][kCells][kCells];
     const bool whole = source.x >= 1 && source.x + kCells < source.cells_x;
     for (int k = 0; k < kWide; ++k) {
@@ -64,7 +67,8 @@ struct BrickKernels {
           Row first, second;
           load(first, rows[0] + i);
           load(second, rows[1] + i);
-          of[i] = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+          of[i] =
+              __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
         }
         filter(of[0], of[1], of[2], filtered);
         std::memcpy(along_x[k][j], &filtered, sizeof filtered);
@@ -84,14 +88,16 @@ struct BrickKernels {
   }
 
   [[gnu::always_inline]] static void wide(const Row& row, Int& to) { to = __builtin_convertvector(row, Int); }
-  // The numerators have 24 bits and the quotients 9. A quotient by less than 2^17 is never rounded up to a whole
-  // number.
+  // The numerators have 24 bits and the quotients 9. A quotient by less than 2^17 is never rounded up to a
+  // whole number.
   [[gnu::always_inline]] static void quotient(const Int& numerator, const Int& divisor, Int& to) {
     const Int one = divisor < 1 ? Int{} + 1 : divisor;
-    to = __builtin_convertvector(__builtin_convertvector(numerator, Float) / __builtin_convertvector(one, Float), Int);
+    to = __builtin_convertvector(
+        __builtin_convertvector(numerator, Float) / __builtin_convertvector(one, Float), Int);
   }
 
-  static void cells(const Word* intensity, const MatterSource& matter, const BrickSource& source, BrickCells& to) {
+  static void cells(const Word* intensity, const MatterSource& matter, const BrickSource& source,
+                    BrickCells& to) {
     alignas(32) Word filtered[kCells][kCells][kCells];
     filter_all(intensity, source, filtered);
     Row inside;
@@ -106,13 +112,15 @@ struct BrickKernels {
         const Row less = level - kToLevel;
         std::memcpy(to.levels.data() + r, &less, sizeof less);
         Int words{};
-        if (in) words_of(matter, source.slices[at(k + 1)] + source.rows[at(j + 1)] + at(source.x), level, words);
+        if (in)
+          words_of(matter, source.slices[at(k + 1)] + source.rows[at(j + 1)] + at(source.x), level, words);
         std::memcpy(to.matter.data() + r, &words, sizeof words);
       }
   }
 
   // Where there is no intensity there is no matter, so what lies beyond a row's end does not count.
-  [[gnu::always_inline]] static void words_of(const MatterSource& matter, std::size_t cell, const Row& level, Int& words) {
+  [[gnu::always_inline]] static void words_of(const MatterSource& matter, std::size_t cell, const Row& level,
+                                              Int& words) {
     Row soft, other{};
     load(soft, matter.liquid + cell);
     if (matter.obstacle != nullptr) load(other, matter.obstacle + cell);
@@ -125,7 +133,8 @@ struct BrickKernels {
     wide(hard, solid);
     const Int all = liquid + solid;
     quotient(255 * liquid, all, words);
-    if (matter.obstacle != nullptr) {  // the divisor may have 18 bits: a quotient that was rounded up is mended
+    if (matter.obstacle !=
+        nullptr) {  // the divisor may have 18 bits: a quotient that was rounded up is mended
       Int obstacle, share;
       wide(other, obstacle);
       quotient(255 * obstacle, all + obstacle, share);
@@ -184,7 +193,8 @@ struct BrickKernels {
     return true;
   }
   static bool same(const BrickCells& cells, const BrickTargets& targets) {
-    return same_rows(cells.levels.data(), targets.levels[0]) && same_rows(cells.matter.data(), targets.matter[0]);
+    return same_rows(cells.levels.data(), targets.levels[0]) &&
+           same_rows(cells.matter.data(), targets.matter[0]);
   }
 
   static void scatter(const BrickCells& from, const BrickTargets& to) {

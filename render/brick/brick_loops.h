@@ -1,5 +1,5 @@
-// The inner loops that fill bricks of levels and of matter (docs/picture.md, sections 6 and 12). They are compiled
-// once for each instruction set and chosen at run time; the bits are the same.
+// The inner loops that fill bricks of levels and of matter (docs/picture.md, sections 6 and 12). They are
+// compiled once for each instruction set and chosen at run time; the bits are the same.
 #pragma once
 
 #include <array>
@@ -11,13 +11,14 @@ namespace voxmelt::render {
 inline constexpr int kPlacesOfBrick = 11;  // along an axis
 inline constexpr int kCellsOfBrick = 8;
 
-// A brick of 8 x 8 x 8 cells of the field, and where the cells around it lie. Cells outside the grid repeat the nearest
-// inside.
+// A brick of 8 x 8 x 8 cells of the field, and where the cells around it lie. Cells outside the grid repeat
+// the nearest inside.
 struct BrickSource {
   static constexpr int kWide = kCellsOfBrick + 2;
-  std::array<std::size_t, kWide> rows, slices;  // offsets of cells; a row has at least 16 readable cells beyond
-  int x, cells_x;                               // the first cell; the grid's
-  int count_x, count_y, count_z;                // cells inside the grid
+  std::array<std::size_t, kWide> rows,
+      slices;                     // offsets of cells; a row has at least 16 readable cells beyond
+  int x, cells_x;                 // the first cell; the grid's
+  int count_x, count_y, count_z;  // cells inside the grid
 };
 
 struct MatterSource {
@@ -32,21 +33,23 @@ struct BrickCells {
   alignas(32) std::array<std::uint32_t, kCells> matter;
 };
 
-// Where to: the eight bricks of 11 x 11 x 11 places that hold these cells, x fastest; null where there is none.
+// Where to: the eight bricks of 11 x 11 x 11 places that hold these cells, x fastest; null where there is
+// none.
 struct BrickTargets {
   std::array<std::int16_t*, 8> levels;
   std::array<std::uint32_t*, 8> matter;
 };
 
-// Of the eight blocks of such a brick, x fastest: the largest level, and by how much those of neighbours differ at most,
-// along each axis.
+// Of the eight blocks of such a brick, x fastest: the largest level, and by how much those of neighbours
+// differ at most, along each axis.
 struct BlockRanges {
   std::array<std::int16_t, 8> most;
   std::array<std::uint16_t, 8> along_x, along_y, along_z;
 };
 
 struct BrickLoops {
-  void (*cells)(const std::uint16_t* intensity, const MatterSource& matter, const BrickSource& source, BrickCells& to);
+  void (*cells)(const std::uint16_t* intensity, const MatterSource& matter, const BrickSource& source,
+                BrickCells& to);
   // Does the first target hold the same levels, and the same matter?
   bool (*same)(const BrickCells& cells, const BrickTargets& targets);
   void (*scatter)(const BrickCells& from, const BrickTargets& to);

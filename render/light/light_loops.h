@@ -1,8 +1,8 @@
 // The inner loops of the light (docs/picture-light.md, sections 4 and 5). They are compiled once for each
 // instruction set and chosen at run time; the bits are the same.
 //
-// Rows of bytes begin at multiples of kLightLanes bytes from each other, and may be read and written up to the
-// next one.
+// Rows of bytes begin at multiples of kLightLanes bytes from each other, and may be read and written up to
+// the next one.
 #pragma once
 
 #include <array>
@@ -20,23 +20,23 @@ inline constexpr int light_row(std::int64_t cells) {
 
 // Some cells of the field that make up whole cells of light, but for those at the end of the grid.
 struct LightBlock {
-  int x, y, z;                              // cells, at most kMost each
-  std::size_t row, slice;                   // cells from one to the next
+  int x, y, z;             // cells, at most kMost each
+  std::size_t row, slice;  // cells from one to the next
   const std::uint16_t *intensity, *liquid, *heat;
-  const std::uint16_t* emission;            // by the temperature, 0 .. 256
+  const std::uint16_t* emission;  // by the temperature, 0 .. 256
   int shift;
-  std::size_t to_row, to_slice;             // bytes
+  std::size_t to_row, to_slice;  // bytes
   static constexpr int kMost = 128;
 };
 
 // One slice of a sweep from a side, from that before it. Rows `low` to `high` - 1 are computed.
 struct SideSlice {
   int u, v, low, high;
-  std::size_t row, row_step;                             // bytes: of a row; from one to the next
-  const std::uint8_t *before, *density, *emission;       // of the slice before; openness: no emission
+  std::size_t row, row_step;                        // bytes: of a row; from one to the next
+  const std::uint8_t *before, *density, *emission;  // of the slice before; openness: no emission
   std::uint8_t* to;
-  std::uint8_t* changed;                                 // of each row: 1 if it is not what it was
-  std::uint16_t* room;                                   // (v + 5) (row + kLightLanes)
+  std::uint8_t* changed;  // of each row: 1 if it is not what it was
+  std::uint16_t* room;    // (v + 5) (row + kLightLanes)
 };
 
 // One slice of the lamp's sweep.
@@ -49,7 +49,7 @@ struct LampSlice {
   int part_u, part_v;
   // Rays: `rays` is that of (-1, -1), before the lattice; the window's first one is (at_u, at_v).
   std::uint16_t* rays;
-  std::uint16_t* room;  // as large as the rays
+  std::uint16_t* room;    // as large as the rays
   std::uint16_t* losses;  // (v + 2) rows of ray_row
   std::size_t ray_row;
   int count_u, count_v, at_u, at_v;

@@ -54,7 +54,8 @@ bool LightSources::update(const DensityField& field, const std::vector<std::int3
 void LightSources::find_blocks(const DensityField& field, const std::vector<std::uint32_t>* refreshed) {
   list_.clear();
   if (refreshed == nullptr) {
-    for (std::size_t block = 0; block < blocks_.cells(); ++block) list_.push_back(static_cast<std::uint32_t>(block));
+    for (std::size_t block = 0; block < blocks_.cells(); ++block)
+      list_.push_back(static_cast<std::uint32_t>(block));
     return;
   }
   const int finer = std::max(shift_ - 3, 0);
@@ -62,10 +63,12 @@ void LightSources::find_blocks(const DensityField& field, const std::vector<std:
     list_ = *refreshed;
     return;
   }
-  const auto x = static_cast<std::uint32_t>(field.bricks().x), y = static_cast<std::uint32_t>(field.bricks().y);
+  const auto x = static_cast<std::uint32_t>(field.bricks().x),
+             y = static_cast<std::uint32_t>(field.bricks().y);
   for (const std::uint32_t brick : *refreshed) {
-    const std::size_t block = blocks_.index(static_cast<int>(brick % x) >> finer, static_cast<int>(brick / x % y) >> finer,
-                                            static_cast<int>(brick / x / y) >> finer);
+    const std::size_t block =
+        blocks_.index(static_cast<int>(brick % x) >> finer, static_cast<int>(brick / x % y) >> finer,
+                      static_cast<int>(brick / x / y) >> finer);
     if (listed_[block] == 0) list_.push_back(static_cast<std::uint32_t>(block));
     listed_[block] = 1;
   }
@@ -131,7 +134,8 @@ bool LightSources::refresh_ground(const std::vector<std::int32_t>& ground) {
   bool changed = false;
   const auto x = static_cast<std::size_t>(grid_.x);
   for (std::int64_t lz = 0; lz < matter_.density.count.z; ++lz) {
-    const auto end = std::min<std::size_t>(static_cast<std::size_t>((lz + 1) << shift_), static_cast<std::size_t>(grid_.z));
+    const auto end = std::min<std::size_t>(static_cast<std::size_t>((lz + 1) << shift_),
+                                           static_cast<std::size_t>(grid_.z));
     std::int64_t done = -1;  // the last column of light that was refreshed
     for (std::size_t z = static_cast<std::size_t>(lz << shift_); z < end; ++z) {
       if (std::memcmp(ground_.data() + z * x, fresh.data() + z * x, x * sizeof(std::int32_t)) == 0) continue;

@@ -15,9 +15,9 @@ namespace voxmelt::render {
 
 class LightSources {
  public:
-  // Takes over a field and its ground: the height of each column in 1/4096 cells, [z][x]; empty where there is none.
-  // `refreshed`: bricks of the field that were filtered again since the last call, or null for all. Another
-  // grid or look is read anew. Tells whether any byte has changed.
+  // Takes over a field and its ground: the height of each column in 1/4096 cells, [z][x]; empty where there
+  // is none. `refreshed`: bricks of the field that were filtered again since the last call, or null for all.
+  // Another grid or look is read anew. Tells whether any byte has changed.
   bool update(const DensityField& field, const std::vector<std::int32_t>& ground, const picture::Look& look,
               const std::vector<std::uint32_t>* refreshed, const LightLoops& loops = light_loops());
 
@@ -35,7 +35,7 @@ class LightSources {
   state::Grid grid_{0, 0, 0}, blocks_{0, 0, 0};  // blocks: bricks, or cells of light if those are larger
   int shift_ = 1;
   bool glow_ = false;
-  Emission emission_of_{};                 // (heat heat) >> 8, by temperature
+  Emission emission_of_{};  // (heat heat) >> 8, by temperature
   LightMatter matter_;
   std::vector<std::uint8_t> own_, earth_;  // the two parts of the density
   std::vector<std::int32_t> ground_;

@@ -3,6 +3,7 @@
 // another's.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -36,7 +37,9 @@ struct LightSweeps {
   [[gnu::always_inline]] static Word spread(Word a, Word b, Word c, Word d, Word e) {
     return word(word(a + e + 2 * word(b + c + d) + 4) >> 3);
   }
-  [[gnu::always_inline]] static Word softer(Word a, Word b, Word c) { return word(word(a + 30 * b + c + 16) >> 5); }
+  [[gnu::always_inline]] static Word softer(Word a, Word b, Word c) {
+    return word(word(a + 30 * b + c + 16) >> 5);
+  }
   // Of numbers of at most 255.
   [[gnu::always_inline]] static Word blended(Word a, Word b, Word weight) {
     return word(word(a * word(256 - weight) + b * weight + 128) >> 8);
@@ -50,9 +53,11 @@ struct LightSweeps {
     return word(word(half + 64) >> 7);
   }
 
-  // Sums over the cells of each cell of light, shifted. take(index, count, sums): adds up to eight cells of a row.
+  // Sums over the cells of each cell of light, shifted. take(index, count, sums): adds up to eight cells of a
+  // row.
   template <class Take>
-  [[gnu::always_inline]] static void each_cell(const LightBlock& block, int shift, Byte* to, const Take& take) {
+  [[gnu::always_inline]] static void each_cell(const LightBlock& block, int shift, Byte* to,
+                                               const Take& take) {
     const int side = 1 << block.shift;
     const auto end = [](int at, int most) { return at < most ? at : most; };
     for (int z = 0; z < block.z; z += side)
@@ -88,40 +93,44 @@ struct LightSweeps {
   }
 
   static void density(const LightBlock& block, Byte* to) {
-    each_cell(block, 3 * block.shift + 8, to, [&](std::size_t at, int count, std::uint32_t (&sums)[kGroup])
-                  __attribute__((always_inline)) {
-      Word cells[kGroup];
-      load_some(block.intensity + at, count, cells);
-      for (int i = 0; i < kGroup; ++i) sums[i] += cells[i];
-    });
+    each_cell(
+        block, 3 * block.shift + 8,
+        to, [&](std::size_t at, int count, std::uint32_t(&sums)[kGroup]) __attribute__((always_inline)) {
+          Word cells[kGroup];
+          load_some(block.intensity + at, count, cells);
+          for (int i = 0; i < kGroup; ++i) sums[i] += cells[i];
+        });
   }
 
-  // The temperature in 256 steps: the quotient, below 2^8 and of a numerator below 2^24, is never rounded up to a
-  // whole number in single precision.
+  // The temperature in 256 steps: the quotient, below 2^8 and of a numerator below 2^24, is never rounded up
+  // to a whole number in single precision.
   static void emission(const LightBlock& block, Byte* to) {
-    each_cell(block, 3 * block.shift, to, [&](std::size_t at, int count, std::uint32_t (&sums)[kGroup])
-                  __attribute__((always_inline)) {
-      Word cells[kGroup];
-      load_some(block.liquid + at, count, cells);
-      std::uint64_t any[2];
-      std::memcpy(any, cells, sizeof any);
-      if ((any[0] | any[1]) == 0) return;
-      Eight eight;
-      std::memcpy(&eight, cells, sizeof eight);
-      const Int liquid = __builtin_convertvector(eight, Int);
-      load_some(block.heat + at, count, cells);
-      std::memcpy(&eight, cells, sizeof eight);
-      const Int warm = __builtin_convertvector(eight, Int) * 256, divisor = liquid < 1 ? Int{} + 1 : liquid;
-      const Float quotient = __builtin_convertvector(warm, Float) / __builtin_convertvector(divisor, Float);
-      Int step = __builtin_convertvector(quotient, Int);
-      step = step > 256 ? Int{} + 256 : step;
-      Int sent;
-      for (int i = 0; i < kGroup; ++i) sent[i] = block.emission[step[i]];
-      Int sum;
-      std::memcpy(&sum, sums, sizeof sum);
-      sum += (liquid * sent) >> 16;
-      std::memcpy(sums, &sum, sizeof sum);
-    });
+    each_cell(
+        block, 3 * block.shift,
+        to, [&](std::size_t at, int count, std::uint32_t(&sums)[kGroup]) __attribute__((always_inline)) {
+          Word cells[kGroup];
+          load_some(block.liquid + at, count, cells);
+          std::uint64_t any[2];
+          std::memcpy(any, cells, sizeof any);
+          if ((any[0] | any[1]) == 0) return;
+          Eight eight;
+          std::memcpy(&eight, cells, sizeof eight);
+          const Int liquid = __builtin_convertvector(eight, Int);
+          load_some(block.heat + at, count, cells);
+          std::memcpy(&eight, cells, sizeof eight);
+          const Int warm = __builtin_convertvector(eight, Int) * 256,
+                    divisor = liquid < 1 ? Int{} + 1 : liquid;
+          const Float quotient =
+              __builtin_convertvector(warm, Float) / __builtin_convertvector(divisor, Float);
+          Int step = __builtin_convertvector(quotient, Int);
+          step = step > 256 ? Int{} + 256 : step;
+          Int sent;
+          for (int i = 0; i < kGroup; ++i) sent[i] = block.emission[step[i]];
+          Int sum;
+          std::memcpy(&sum, sums, sizeof sum);
+          sum += (liquid * sent) >> 16;
+          std::memcpy(sums, &sum, sizeof sum);
+        });
   }
 
   template <class V, class T>
@@ -134,10 +143,11 @@ struct LightSweeps {
   }
   // Element by element, which g++ 12 makes one instruction of.
   [[gnu::always_inline]] static void load_bytes(Words& to, const Byte* p) {
-    to = Words{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11], p[12], p[13], p[14], p[15]};
+    to = Words{p[0], p[1], p[2],  p[3],  p[4],  p[5],  p[6],  p[7],
+               p[8], p[9], p[10], p[11], p[12], p[13], p[14], p[15]};
   }
-  [[gnu::always_inline]] static void spread_of(const Words& a, const Words& b, const Words& c, const Words& d, const Words& e,
-                                               Words& to) {
+  [[gnu::always_inline]] static void spread_of(const Words& a, const Words& b, const Words& c, const Words& d,
+                                               const Words& e, Words& to) {
     const Words inner = b + c + d;
     to = (a + e + inner + inner + 4) >> 3;
   }
@@ -193,7 +203,7 @@ struct LightSweeps {
         for (int i = 0; i < count; ++i) to[i] = kOutside;
     }
     for (int v = slice.low; v < slice.high; ++v) {
-      const Word *const first = row(v - 2);
+      const Word* const first = row(v - 2);
       Byte* const to = slice.to + static_cast<std::size_t>(v) * slice.row_step;
       Bytes other{};
       for (int i = 0; i < count; i += kLightLanes) {
@@ -281,7 +291,8 @@ struct LightSweeps {
       const Word* from = ray(slice.room, 0, b);
       Word* const to = ray(slice.rays, 0, b);
 #pragma GCC ivdep
-      for (int i = 0; i < wide; ++i) to[i] = softer(from[i - slice.ray_row], from[i], from[i + slice.ray_row]);
+      for (int i = 0; i < wide; ++i)
+        to[i] = softer(from[i - slice.ray_row], from[i], from[i + slice.ray_row]);
       for (int i = slice.count_u; i < wide + 1; ++i) to[i] = 255;
     }
   }
@@ -290,14 +301,16 @@ struct LightSweeps {
   [[gnu::always_inline]] static void shuffle_all(Bytes (&rows)[2 * kStep]) {
     Bytes next[2 * kStep];
     for (int i = 0; i < kStep; ++i) {
-      next[2 * i] = __builtin_shufflevector(rows[i], rows[i + kStep], 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
-      next[2 * i + 1] =
-          __builtin_shufflevector(rows[i], rows[i + kStep], 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
+      next[2 * i] = __builtin_shufflevector(rows[i], rows[i + kStep], 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5,
+                                            21, 6, 22, 7, 23);
+      next[2 * i + 1] = __builtin_shufflevector(rows[i], rows[i + kStep], 8, 24, 9, 25, 10, 26, 11, 27, 12,
+                                                28, 13, 29, 14, 30, 15, 31);
     }
     for (int i = 0; i < 2 * kStep; ++i) rows[i] = next[i];
   }
 
-  static void transpose(const Byte* from, std::size_t from_row, int x, int y, Byte* to, std::size_t to_row, Byte* changed) {
+  static void transpose(const Byte* from, std::size_t from_row, int x, int y, Byte* to, std::size_t to_row,
+                        Byte* changed) {
     for (int j = 0; j < y; j += kLightLanes)
       for (int i = 0; i < x; i += kLightLanes) {
         Bytes block[16];

@@ -31,7 +31,8 @@ LightVolume::LightVolume(const LightMatter& matter, Vector to_light, int shift) 
 bool LightVolume::update(const LightMatter& matter, Vector to_light, int shift, cpu::Workers& workers,
                          const LightLoops& loops) {
   const bool glows = !matter.emission.cells.empty();
-  const bool other = !(matter.density.count == count_) || shift != shift_ || glows != !emission_.natural.empty();
+  const bool other =
+      !(matter.density.count == count_) || shift != shift_ || glows != !emission_.natural.empty();
   if (other) resize(matter, shift);
   const bool other_lamp = other || !(to_light == to_light_);
   to_light_ = to_light;
@@ -76,7 +77,8 @@ void LightVolume::resize(const LightMatter& matter, int shift) {
   dirty_ = {std::vector<Span>(slices(x_)), std::vector<Span>(slices(y_)), std::vector<Span>(slices(z_))};
 }
 
-// An empty volume's light is what the planes begin with, so a fresh volume needs no more than what differs from it.
+// An empty volume's light is what the planes begin with, so a fresh volume needs no more than what differs
+// from it.
 bool LightVolume::take_over(const LightMatter& matter, const LightLoops& loops) {
   for (auto& spans : dirty_) std::fill(spans.begin(), spans.end(), Span{});
   const bool density = take_over(matter.density, density_, loops);
@@ -91,7 +93,8 @@ bool LightVolume::take_over(const LightPlane& from, Plane& to, const LightLoops&
   for (int z = 0; z < z_; ++z) {
     bool here = false;
     for (int y = 0; y < y_; ++y) {
-      const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(y_) + static_cast<std::size_t>(y);
+      const auto row =
+          static_cast<std::size_t>(z) * static_cast<std::size_t>(y_) + static_cast<std::size_t>(y);
       std::uint8_t* const own = to.natural.data() + row * row_;
       const std::uint8_t* const fresh = from.cells.data() + row * x;
       if (std::memcmp(own, fresh, x) == 0) continue;
@@ -103,8 +106,8 @@ bool LightVolume::take_over(const LightPlane& from, Plane& to, const LightLoops&
     if (!here) continue;
     any = true;
     std::fill(changed.begin(), changed.end(), 0);
-    loops.transpose(to.natural.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(y_) * row_, row_, y_, x_,
-                    to.turned.data() + static_cast<std::size_t>(z) * turned_row_,
+    loops.transpose(to.natural.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(y_) * row_,
+                    row_, y_, x_, to.turned.data() + static_cast<std::size_t>(z) * turned_row_,
                     turned_row_ * static_cast<std::size_t>(z_), changed.data());
     for (std::size_t i = 0; i < x; ++i)
       if (changed[i] != 0) dirty_[0][i].add(z);
@@ -119,7 +122,8 @@ LightVolume::Way LightVolume::way(int axis, bool from_high) const {
   return {false, z_, x_, y_, row_, row_ * y, row_, from_high};
 }
 
-// What a slice gets depends on the one before it alone. So rows are computed that lie near rows which changed there.
+// What a slice gets depends on the one before it alone. So rows are computed that lie near rows which changed
+// there.
 void LightVolume::sweep_side(std::size_t side, Plane& plane, const Plane* emission, Bytes& changed,
                              Bytes& turned_changed, Sweep& sweep, const LightLoops& loops) const {
   const int axis = static_cast<int>(side / 2);
@@ -139,7 +143,8 @@ void LightVolume::sweep_side(std::size_t side, Plane& plane, const Plane* emissi
     const std::size_t before = way.byte(s - 1);
     const Span rows{std::max(last.low - kReach, 0), std::min(last.high + kReach, way.v)};
     loops.side({way.u, way.v, rows.low, rows.high, way.row, way.row_step, light + before, density + before,
-                sent == nullptr ? nullptr : sent + before, light + way.byte(s), sweep.rows.data(), sweep.room.data()});
+                sent == nullptr ? nullptr : sent + before, light + way.byte(s), sweep.rows.data(),
+                sweep.room.data()});
     last = {};
     for (int v = rows.low; v < rows.high; ++v) {
       if (sweep.rows[static_cast<std::size_t>(v)] == 0) continue;
@@ -147,15 +152,18 @@ void LightVolume::sweep_side(std::size_t side, Plane& plane, const Plane* emissi
       if (way.turned)
         turned_changed[static_cast<std::size_t>(v)] = 1;
       else if (axis == 1)
-        changed[static_cast<std::size_t>(v) * static_cast<std::size_t>(y_) + static_cast<std::size_t>(way.at(s))] = 1;
+        changed[static_cast<std::size_t>(v) * static_cast<std::size_t>(y_) +
+                static_cast<std::size_t>(way.at(s))] = 1;
       else
-        changed[static_cast<std::size_t>(way.at(s)) * static_cast<std::size_t>(y_) + static_cast<std::size_t>(v)] = 1;
+        changed[static_cast<std::size_t>(way.at(s)) * static_cast<std::size_t>(y_) +
+                static_cast<std::size_t>(v)] = 1;
     }
   }
   if (way.turned) turn_back(plane, turned_changed, changed, loops);
 }
 
-void LightVolume::turn_back(Plane& plane, const Bytes& slices, Bytes& changed, const LightLoops& loops) const {
+void LightVolume::turn_back(Plane& plane, const Bytes& slices, Bytes& changed,
+                            const LightLoops& loops) const {
   const auto y = static_cast<std::size_t>(y_), z = static_cast<std::size_t>(z_);
   for (std::size_t k = 0; k < z; ++k)
     if (slices[k] != 0)
@@ -163,8 +171,9 @@ void LightVolume::turn_back(Plane& plane, const Bytes& slices, Bytes& changed, c
                       plane.natural.data() + k * y * row_, row_, changed.data() + k * y);
 }
 
-// Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of a slice
-// lies between the rays around (u, v) plus the shift; a ray lies between the cells around it less the shift.
+// Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of
+// a slice lies between the rays around (u, v) plus the shift; a ray lies between the cells around it less the
+// shift.
 void LightVolume::sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& loops) {
   const std::int64_t component[3] = {to_light_.x, to_light_.y, to_light_.z};
   int axis = 1;
@@ -220,17 +229,19 @@ void LightVolume::sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& lo
     const int at_u = u.cells - low_u, at_v = v.cells - low_v;
     dark.add({at_v, at_v + way.v + 1});
     dark = {std::max(dark.low - 1, 0), std::min(dark.high + 1, count_v)};
-    loops.lamp({way.u, way.v, way.row, way.row_step, density + way.byte(s), light + way.byte(s), sweep.rows.data(),
-                u.part, v.part, sweep.rays.data(), sweep.room.data(), sweep.losses.data(), ray_row, count_u, count_v,
-                at_u, at_v, dark.low, dark.high});
+    loops.lamp({way.u, way.v, way.row, way.row_step, density + way.byte(s), light + way.byte(s),
+                sweep.rows.data(), u.part, v.part, sweep.rays.data(), sweep.room.data(), sweep.losses.data(),
+                ray_row, count_u, count_v, at_u, at_v, dark.low, dark.high});
     for (int i = 0; i < way.v; ++i) {
       if (sweep.rows[static_cast<std::size_t>(i)] == 0) continue;
       if (way.turned)
         sweep.turned_open[static_cast<std::size_t>(i)] = 1;
       else if (axis == 1)
-        sweep.open[static_cast<std::size_t>(i) * static_cast<std::size_t>(y_) + static_cast<std::size_t>(way.at(s))] = 1;
+        sweep.open[static_cast<std::size_t>(i) * static_cast<std::size_t>(y_) +
+                   static_cast<std::size_t>(way.at(s))] = 1;
       else
-        sweep.open[static_cast<std::size_t>(way.at(s)) * static_cast<std::size_t>(y_) + static_cast<std::size_t>(i)] = 1;
+        sweep.open[static_cast<std::size_t>(way.at(s)) * static_cast<std::size_t>(y_) +
+                   static_cast<std::size_t>(i)] = 1;
     }
   }
   if (way.turned) turn_back(lamp_, sweep.turned_open, sweep.open, loops);
@@ -240,7 +251,8 @@ void LightVolume::sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& lo
 void LightVolume::interleave(cpu::Workers& workers, const LightLoops& loops) {
   const auto rows = static_cast<std::size_t>(y_);
   workers.run(z_, [&](int z) {
-    for (std::size_t row = static_cast<std::size_t>(z) * rows; row < (static_cast<std::size_t>(z) + 1) * rows; ++row) {
+    for (std::size_t row = static_cast<std::size_t>(z) * rows; row < (static_cast<std::size_t>(z) + 1) * rows;
+         ++row) {
       std::uint8_t open = 0, glow = 0;
       for (const Sweep& sweep : sweeps_) {
         open = static_cast<std::uint8_t>(open | sweep.open[row]);
@@ -250,11 +262,13 @@ void LightVolume::interleave(cpu::Workers& workers, const LightLoops& loops) {
       auto* const to = reinterpret_cast<std::uint8_t*>(cells_.data() + row * static_cast<std::size_t>(x_));
       const std::uint8_t* const none = nothing_.data();
       if (open != 0)
-        loops.interleave({of(lamp_), of(open_[0]), of(open_[1]), of(open_[2]), of(open_[3]), of(open_[4]), of(open_[5]),
-                          none}, x_, to);
+        loops.interleave({of(lamp_), of(open_[0]), of(open_[1]), of(open_[2]), of(open_[3]), of(open_[4]),
+                          of(open_[5]), none},
+                         x_, to);
       if (glow != 0)
-        loops.interleave({of(glow_[0]), of(glow_[1]), of(glow_[2]), of(glow_[3]), of(glow_[4]), of(glow_[5]), none,
-                          none}, x_, to + 8);
+        loops.interleave(
+            {of(glow_[0]), of(glow_[1]), of(glow_[2]), of(glow_[3]), of(glow_[4]), of(glow_[5]), none, none},
+            x_, to + 8);
     }
   });
 }

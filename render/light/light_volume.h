@@ -1,6 +1,7 @@
 // The light that arrives in every cell of the grid of light (docs/picture-light.md, sections 4 and 5).
 //
-// Each sweep keeps what it gave, as planes of bytes. An update goes only through rows that a change can reach.
+// Each sweep keeps what it gave, as planes of bytes. An update goes only through rows that a change can
+// reach.
 #pragma once
 
 #include <array>
@@ -21,8 +22,8 @@ class LightVolume {
   // `to_light` has the length 2^14.
   LightVolume(const LightMatter& matter, picture::Vector to_light, int shift);
 
-  // Takes over what stops and sends light. Only what has changed since the last call is computed again; the bytes are
-  // those of a fresh volume, for any number of threads. Tells whether any byte may have changed.
+  // Takes over what stops and sends light. Only what has changed since the last call is computed again; the
+  // bytes are those of a fresh volume, for any number of threads. Tells whether any byte may have changed.
   bool update(const LightMatter& matter, picture::Vector to_light, int shift, cpu::Workers& workers,
               const LightLoops& loops = light_loops());
 
@@ -48,8 +49,9 @@ class LightVolume {
   // How a sweep goes through a plane.
   struct Way {
     bool turned;
-    int slices, u, v;                     // v: rows of a slice
-    std::size_t row, slice_step, row_step;  // bytes: length of a row, from a slice to the next, from a row to the next
+    int slices, u, v;  // v: rows of a slice
+    std::size_t row, slice_step,
+        row_step;  // bytes: length of a row, from a slice to the next, from a row to the next
     bool from_high;
     int at(int slice) const { return from_high ? slices - 1 - slice : slice; }
     std::size_t byte(int slice) const { return static_cast<std::size_t>(at(slice)) * slice_step; }
@@ -64,8 +66,8 @@ class LightVolume {
   struct Sweep {
     std::vector<std::uint16_t> room, rays, losses;
     std::vector<Kept> kept;
-    Bytes rows;           // of a slice: changed
-    Bytes open, glow;     // rows [z][y] that changed
+    Bytes rows;                      // of a slice: changed
+    Bytes open, glow;                // rows [z][y] that changed
     Bytes turned_open, turned_glow;  // slices z of turned planes with a change
   };
 
@@ -73,20 +75,21 @@ class LightVolume {
   bool take_over(const LightMatter& matter, const LightLoops& loops);
   bool take_over(const LightPlane& from, Plane& to, const LightLoops& loops);
   Way way(int axis, bool from_high) const;
-  void sweep_side(std::size_t side, Plane& plane, const Plane* emission, Bytes& changed, Bytes& turned_changed,
-                  Sweep& sweep, const LightLoops& loops) const;
+  void sweep_side(std::size_t side, Plane& plane, const Plane* emission, Bytes& changed,
+                  Bytes& turned_changed, Sweep& sweep, const LightLoops& loops) const;
   void sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& loops);
   void turn_back(Plane& plane, const Bytes& slices, Bytes& changed, const LightLoops& loops) const;
   void interleave(cpu::Workers& workers, const LightLoops& loops);
 
   picture::Vector count_, to_light_;
   int shift_ = 1;
-  int x_ = 0, y_ = 0, z_ = 0;      // cells of light
+  int x_ = 0, y_ = 0, z_ = 0;  // cells of light
   std::size_t row_ = 0, turned_row_ = 0;
   std::vector<LightBytes> cells_;
   Plane density_, emission_, lamp_;
   std::array<Plane, kSides> open_, glow_;
-  std::array<std::vector<Span>, 3> dirty_;  // of each axis and slice: rows in which density or emission changed
+  std::array<std::vector<Span>, 3>
+      dirty_;  // of each axis and slice: rows in which density or emission changed
   std::array<Sweep, kSides + 1> sweeps_;
   Bytes nothing_;
 };

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <utility>
 
 namespace voxmelt::render {
 namespace {
@@ -67,9 +66,10 @@ class Bits {
 
 }  // namespace
 
-// As often as a block is still dark when what is occupied grows by one block in every direction. The counts are kept
-// digit by digit.
-std::vector<std::uint8_t> block_distances(const std::vector<std::uint8_t>& occupied, const state::Grid& blocks, int most) {
+// As often as a block is still dark when what is occupied grows by one block in every direction. The counts
+// are kept digit by digit.
+std::vector<std::uint8_t> block_distances(const std::vector<std::uint8_t>& occupied,
+                                          const state::Grid& blocks, int most) {
   Bits grown(blocks);
   const auto x = static_cast<std::size_t>(blocks.x);
   for (std::size_t r = 0; r < grown.rows(); ++r)
@@ -101,7 +101,8 @@ std::vector<std::uint8_t> block_distances(const std::vector<std::uint8_t>& occup
       std::uint64_t bytes = 0;
       for (std::size_t digit = 0; digit < kDigits; ++digit) {
         std::uint64_t one;
-        std::memcpy(&one, kBytesOfBits[digits[digit][r * row_words + i / 64] >> i % 64 & 255].data(), sizeof one);
+        std::memcpy(&one, kBytesOfBits[digits[digit][r * row_words + i / 64] >> i % 64 & 255].data(),
+                    sizeof one);
         bytes |= one << digit;
       }
       std::memcpy(distances.data() + r * x + i, &bytes, std::min<std::size_t>(8, x - i));

@@ -9,6 +9,7 @@
 namespace voxmelt::render {
 
 // `occupied`: 1 or 0 for each block, x fastest. No distance is more than `most`, which is below 32.
-std::vector<std::uint8_t> block_distances(const std::vector<std::uint8_t>& occupied, const state::Grid& blocks, int most);
+std::vector<std::uint8_t> block_distances(const std::vector<std::uint8_t>& occupied,
+                                          const state::Grid& blocks, int most);
 
 }  // namespace voxmelt::render

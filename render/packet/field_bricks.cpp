@@ -11,7 +11,7 @@ namespace voxmelt::render {
 namespace {
 
 constexpr std::size_t kPlaces = kBrickVolume;
-constexpr std::uint8_t kWhole = 2;  // of what is stale: also where it is what it was
+constexpr std::uint8_t kWhole = 2;   // of what is stale: also where it is what it was
 constexpr std::size_t kBeyond = 16;  // levels are read in pairs, and in rows of 16
 static_assert(kPlacesOfBrick == kBrickPlaces);
 
@@ -31,12 +31,14 @@ BrickSource source_of(const state::Grid& grid, const state::Grid& brick) {
   return of;
 }
 
-// Calls visit(b) for the bricks that hold a part of brick `a`, or of which it holds one: those from `low` to `high` of it.
+// Calls visit(b) for the bricks that hold a part of brick `a`, or of which it holds one: those from `low` to
+// `high` of it.
 template <class Visit>
 void for_near(const state::Grid& bricks, const state::Grid& a, int low, int high, const Visit& visit) {
   for (int z = std::max(a.z + low, 0); z <= std::min(a.z + high, bricks.z - 1); ++z)
     for (int y = std::max(a.y + low, 0); y <= std::min(a.y + high, bricks.y - 1); ++y)
-      for (int x = std::max(a.x + low, 0); x <= std::min(a.x + high, bricks.x - 1); ++x) visit(state::Grid{x, y, z});
+      for (int x = std::max(a.x + low, 0); x <= std::min(a.x + high, bricks.x - 1); ++x)
+        visit(state::Grid{x, y, z});
 }
 
 state::Grid place_in(const state::Grid& bricks, std::size_t brick) {
@@ -80,10 +82,12 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
   if (!all) {
     if (changed->empty()) return;
     for (const std::uint32_t brick : *changed)
-      for_near(of, place_in(of, brick), -1, 1, [&](const state::Grid& b) { stale[of.index(b.x, b.y, b.z)] = 1; });
+      for_near(of, place_in(of, brick), -1, 1,
+               [&](const state::Grid& b) { stale[of.index(b.x, b.y, b.z)] = 1; });
     for (std::size_t brick = 0; brick < stale.size(); ++brick)
       if (stale[brick] != 0)
-        for_near(bricks_, place_in(of, brick), 0, 1, [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
+        for_near(bricks_, place_in(of, brick), 0, 1,
+                 [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
   }
 
   // What is nothing but air needs no slot. A new one is filled whole.
@@ -101,8 +105,10 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
     }
     if (slot == 0) {
       slot = take();
-      std::fill_n(levels_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces), kPlaces, picture::kAir);
-      std::fill_n(matter_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces), kPlaces, 0);
+      std::fill_n(levels_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces),
+                  kPlaces, picture::kAir);
+      std::fill_n(matter_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces),
+                  kPlaces, 0);
       for_near(of, at, -1, 0, [&](const state::Grid& b) { stale[of.index(b.x, b.y, b.z)] = kWhole; });
     }
     bricks.push_back(brick);
@@ -112,7 +118,8 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
     if (stale[brick] != 0) sources.push_back(brick);
 
   const auto heats = look.glow ? heats_of(look) : std::array<std::uint8_t, 257>{};
-  const MatterSource matter{field.solid().data(), field.liquid().data(), look.glow ? field.heat().data() : nullptr,
+  const MatterSource matter{field.solid().data(), field.liquid().data(),
+                            look.glow ? field.heat().data() : nullptr,
                             field.has_obstacles() ? field.obstacle().data() : nullptr, heats.data()};
   std::fill(touched.begin(), touched.end(), 0);
   std::vector<std::uint8_t> filled(sources.size());
@@ -122,7 +129,8 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
   });
   for (std::size_t i = 0; i < sources.size(); ++i)
     if (filled[i] != 0)
-      for_near(bricks_, place_in(of, sources[i]), 0, 1, [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
+      for_near(bricks_, place_in(of, sources[i]), 0, 1,
+               [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
   std::vector<std::uint8_t> others(bricks.size());
   workers.run(static_cast<int>(bricks.size()), [&](int i) {
     const auto at = static_cast<std::size_t>(i);
@@ -149,12 +157,14 @@ void FieldBricks::give_back(std::int32_t& slot) {
   slot = 0;
 }
 
-// Is there any intensity that the levels of the brick depend on? They lie in two bricks of the field along each axis,
-// and in the next one's first plane. The range of a brick covers two cells around it: where it is 0, there is nothing.
+// Is there any intensity that the levels of the brick depend on? They lie in two bricks of the field along
+// each axis, and in the next one's first plane. The range of a brick covers two cells around it: where it is
+// 0, there is nothing.
 bool FieldBricks::anything_near(const DensityField& field, const state::Grid& brick) const {
   const state::Grid& of = field.bricks();
   bool maybe = false;
-  for_near(of, brick, -1, 0, [&](const state::Grid& b) { maybe = maybe || field.ranges()[of.index(b.x, b.y, b.z)].high != 0; });
+  for_near(of, brick, -1, 0,
+           [&](const state::Grid& b) { maybe = maybe || field.ranges()[of.index(b.x, b.y, b.z)].high != 0; });
   if (!maybe) return false;
   const auto from = [](int b) { return std::max(b * kBrickSide - kLatticeBorder - 2, 0); };
   const auto end = [](int b, int side) { return std::min(b * kBrickSide + kBrickSide + 1, side); };
@@ -191,8 +201,8 @@ bool FieldBricks::clear(std::size_t brick) {
   return moved;
 }
 
-// The cells of a brick of the field, in all the bricks of the lattice that hold some of them. Tells whether any may
-// have changed. `whole`: some of those bricks are new.
+// The cells of a brick of the field, in all the bricks of the lattice that hold some of them. Tells whether
+// any may have changed. `whole`: some of those bricks are new.
 bool FieldBricks::fill(const DensityField& field, const MatterSource& matter, std::size_t brick, bool whole,
                        const BrickLoops& loops) {
   const state::Grid at = place_in(field.bricks(), brick);

@@ -1,8 +1,6 @@
 // The ground as packets of rays read it, as plain data.
 #pragma once
 
-#include <cstdint>
-
 namespace voxmelt::render {
 
 struct GroundData {

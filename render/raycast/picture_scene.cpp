@@ -1,5 +1,6 @@
 #include "render/raycast/picture_scene.h"
 
+#include <cstdint>
 #include <algorithm>
 #include <cmath>
 

@@ -1,8 +1,8 @@
 #include "render/raycast/reference_picture.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "render/rule/antialias.h"
 #include "render/rule/crossing.h"

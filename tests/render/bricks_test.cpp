@@ -1,4 +1,5 @@
-// The bricks of every instruction set, told and untold, against the plain levels and the plain matter of cells.
+// The bricks of every instruction set, told and untold, against the plain levels and the plain matter of
+// cells.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +50,8 @@ bool anything(const render::DensityField& field, const Grid& brick) {
   bool any = false;
   for_all({13, 13, 13}, [&](const Grid& i) {
     const Grid c{8 * brick.x - 4 + i.x, 8 * brick.y - 4 + i.y, 8 * brick.z - 4 + i.z};
-    if (field.grid().contains(c.x, c.y, c.z) && field.intensity()[field.grid().index(c.x, c.y, c.z)] != 0) any = true;
+    if (field.grid().contains(c.x, c.y, c.z) && field.intensity()[field.grid().index(c.x, c.y, c.z)] != 0)
+      any = true;
   });
   return any;
 }
@@ -64,9 +66,10 @@ void expect_plain(const FieldBricks& bricks, const render::DensityField& field, 
     EXPECT_EQ(slot != 0, anything(field, brick));
     for_all({kBrickPlaces, kBrickPlaces, kBrickPlaces}, [&](const Grid& i) {
       const Grid place{8 * brick.x - 1 + i.x, 8 * brick.y - 1 + i.y, 8 * brick.z - 1 + i.z};
-      const std::size_t at =
-          static_cast<std::size_t>(slot) * render::kBrickVolume + static_cast<std::size_t>((i.z * kBrickPlaces + i.y) * kBrickPlaces + i.x);
-      ASSERT_EQ(bricks.levels()[at], level(place)) << "place " << place.x << ", " << place.y << ", " << place.z;
+      const std::size_t at = static_cast<std::size_t>(slot) * render::kBrickVolume +
+                             static_cast<std::size_t>((i.z * kBrickPlaces + i.y) * kBrickPlaces + i.x);
+      ASSERT_EQ(bricks.levels()[at], level(place))
+          << "place " << place.x << ", " << place.y << ", " << place.z;
       const picture::Matter of = matter(place.x - 2, place.y - 2, place.z - 2);
       ASSERT_EQ(bricks.matter()[at], static_cast<std::uint32_t>(of.liquid | of.heat << 8 | of.obstacle << 16))
           << "place " << place.x << ", " << place.y << ", " << place.z;
@@ -81,7 +84,9 @@ void expect_plain(const FieldBricks& bricks, const render::DensityField& field, 
     for_all({5, 5, 5}, [&](const Grid& i) {
       const Grid at{4 * block.x + i.x, 4 * block.y + i.y, 4 * block.z + i.z};
       most = std::max<int>(most, level(at));
-      const auto steep = [&](int axis, const Grid& next) { slopes[axis] = std::max<int>(slopes[axis], std::abs(level(next) - level(at))); };
+      const auto steep = [&](int axis, const Grid& next) {
+        slopes[axis] = std::max<int>(slopes[axis], std::abs(level(next) - level(at)));
+      };
       if (i.x < 4) steep(0, {at.x + 1, at.y, at.z});
       if (i.y < 4) steep(1, {at.x, at.y + 1, at.z});
       if (i.z < 4) steep(2, {at.x, at.y, at.z + 1});
@@ -97,10 +102,13 @@ void expect_plain(const FieldBricks& bricks, const render::DensityField& field, 
   for_all(bricks.blocks(), [&](const Grid& block) {
     int distance = FieldBricks::kFarthest;
     for (const Grid& of : occupied)
-      distance = std::min(distance, std::max({std::abs(of.x - block.x), std::abs(of.y - block.y), std::abs(of.z - block.z)}));
+      distance = std::min(
+          distance, std::max({std::abs(of.x - block.x), std::abs(of.y - block.y), std::abs(of.z - block.z)}));
     ASSERT_EQ(bricks.skip()[bricks.blocks().index(block.x, block.y, block.z)] & 255, distance);
   });
-  const auto corner = [](int block) { return (std::int64_t{4 * block} - 2) * (1 << 20) + (1 << 19) - (1 << 11); };
+  const auto corner = [](int block) {
+    return (std::int64_t{4 * block} - 2) * (1 << 20) + (1 << 19) - (1 << 11);
+  };
   EXPECT_EQ(bricks.occupied().low.x, corner(low.x));
   EXPECT_EQ(bricks.occupied().low.z, corner(low.z));
   EXPECT_EQ(bricks.occupied().high.y, corner(high.y));
@@ -111,7 +119,9 @@ void edit(state::Volume& volume, const Grid& at, int kind, Random& random) {
   volume.solid.set(at.x, at.y, at.z, kind == 1);
   volume.liquid.set(at.x, at.y, at.z, kind == 2);
   volume.inert.set(at.x, at.y, at.z, kind == 3);
-  volume.amount[i] = static_cast<std::uint16_t>(kind == 0 ? 0 : random.one_in(2) ? 4096 : 1 + random.below(6000));
+  volume.amount[i] = static_cast<std::uint16_t>(kind == 0          ? 0
+                                                : random.one_in(2) ? 4096
+                                                                   : 1 + random.below(6000));
   volume.heat[i] = static_cast<std::uint16_t>(kind == 1 || kind == 2 ? random.below(65536) : 0);
   volume.changed.mark(state::ChangedBricks::kMatter, std::uint64_t{1} << at.x / 64, at.y / 8, at.z / 8);
 }
@@ -120,7 +130,9 @@ TEST(Bricks, ToldAndUntold) {
   for (const auto& [name, loops] : all_loops())
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
       Random random(seed * 19 + 3);
-      const auto side = [&] { return random.one_in(4) ? random.any({1, 5, 6, 8, 13, 14, 16}) : random.between(1, 40); };
+      const auto side = [&] {
+        return random.one_in(4) ? random.any({1, 5, 6, 8, 13, 14, 16}) : random.between(1, 40);
+      };
       const Grid grid{side(), side(), side()};
       state::Volume volume(grid);
       volume.changed.follow(grid);
@@ -145,8 +157,8 @@ TEST(Bricks, ToldAndUntold) {
         if (random.one_in(3)) {  // a lump, or a hole
           const int kind = random.below(4), size = random.between(1, 12);
           for_all(grid, [&](const Grid& at) {
-            if (at.x >= first.x && at.x < first.x + size && at.y >= first.y && at.y < first.y + size && at.z >= first.z &&
-                at.z < first.z + size)
+            if (at.x >= first.x && at.x < first.x + size && at.y >= first.y && at.y < first.y + size &&
+                at.z >= first.z && at.z < first.z + size)
               edit(volume, at, kind, random);
           });
         } else {
@@ -167,7 +179,8 @@ TEST(Bricks, DistancesOfLongRows) {
         int distance = 16;
         for_all(blocks, [&](const Grid& b) {
           if (occupied[blocks.index(b.x, b.y, b.z)] != 0)
-            distance = std::min(distance, std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)}));
+            distance =
+                std::min(distance, std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)}));
         });
         ASSERT_EQ(found[blocks.index(a.x, a.y, a.z)], distance) << a.x << ", " << a.y << ", " << a.z;
       });

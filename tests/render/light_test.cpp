@@ -42,7 +42,8 @@ std::uint8_t any_byte(Random& random) {
 void change(render::LightPlane& plane, Random& random, int most) {
   const auto side = [&](std::int64_t count) {
     const int low = random.below(static_cast<int>(count));
-    return std::pair<std::int64_t, std::int64_t>{low, std::min<std::int64_t>(count, low + random.between(1, most))};
+    return std::pair<std::int64_t, std::int64_t>{
+        low, std::min<std::int64_t>(count, low + random.between(1, most))};
   };
   const auto x = side(plane.count.x), y = side(plane.count.y), z = side(plane.count.z);
   const bool noise = random.one_in(2);
@@ -82,8 +83,8 @@ void expect_plain(const render::LightVolume& light, const render::LightMatter& m
     if (light.cells()[i] == plain[i]) continue;
     const auto& is = light.cells()[i];
     FAIL() << "cell " << i << ": lamp " << int{plain[i].lamp} << ", is " << int{is.lamp} << "; from +x "
-           << int{plain[i].open[0]} << ", is " << int{is.open[0]} << "; glow from +x " << int{plain[i].glow[0]}
-           << ", is " << int{is.glow[0]};
+           << int{plain[i].open[0]} << ", is " << int{is.open[0]} << "; glow from +x "
+           << int{plain[i].glow[0]} << ", is " << int{is.glow[0]};
   }
 }
 
@@ -135,10 +136,12 @@ TEST(Light, SourcesToldAndUntold) {
   for (const auto& [name, loops] : all_loops())
     for (std::uint64_t seed = 0; seed < 24; ++seed) {
       Random random(seed * 31 + 9);
-      // The last ones are so large that a cell of light is 4, 8 and 16 cells wide, or would be: long and thin.
-      const state::Grid grid = seed == 20   ? state::Grid{3000, 60, 31}
-                               : seed == 21 ? state::Grid{9, 1, 1}
-                                            : state::Grid{random.between(1, 50), random.between(1, 40), random.between(1, 45)};
+      // The last ones are so large that a cell of light is 4, 8 and 16 cells wide, or would be: long and
+      // thin.
+      const state::Grid grid =
+          seed == 20   ? state::Grid{3000, 60, 31}
+          : seed == 21 ? state::Grid{9, 1, 1}
+                       : state::Grid{random.between(1, 50), random.between(1, 40), random.between(1, 45)};
       if (seed == 20 && name != "sse4.2") continue;
       state::Volume volume(grid);
       volume.changed.follow(grid);
@@ -157,16 +160,21 @@ TEST(Light, SourcesToldAndUntold) {
       for (int round = 0; round < 6; ++round) {
         field.update(volume, field_look);
         const render::LightMatter before = sources.matter();
-        const bool changed = sources.update(field, ground, look, round == 0 ? nullptr : &field.refreshed(), loops);
+        const bool changed =
+            sources.update(field, ground, look, round == 0 ? nullptr : &field.refreshed(), loops);
         const render::LightMatter plain = test::plain_light_matter(field, ground, look);
-        ASSERT_EQ(sources.matter().density.cells, plain.density.cells) << name << ", seed " << seed << ", round " << round;
-        ASSERT_EQ(sources.matter().emission.cells, plain.emission.cells) << name << ", seed " << seed << ", round " << round;
+        ASSERT_EQ(sources.matter().density.cells, plain.density.cells)
+            << name << ", seed " << seed << ", round " << round;
+        ASSERT_EQ(sources.matter().emission.cells, plain.emission.cells)
+            << name << ", seed " << seed << ", round " << round;
         if (round > 0) {
-          EXPECT_EQ(changed, before.density.cells != plain.density.cells || before.emission.cells != plain.emission.cells);
+          EXPECT_EQ(changed, before.density.cells != plain.density.cells ||
+                                 before.emission.cells != plain.emission.cells);
         }
         volume.changed.new_version();
         for (int edits = random.below(40); edits > 0; --edits) {
-          const int x = random.below(grid.x), y = random.below(grid.y), z = random.below(grid.z), kind = random.below(4);
+          const int x = random.below(grid.x), y = random.below(grid.y), z = random.below(grid.z),
+                    kind = random.below(4);
           const state::Slot at = volume.at(x, y, z);
           volume.solid.set(x, y, z, kind == 1);
           volume.liquid.set(x, y, z, kind >= 2);

@@ -46,9 +46,12 @@ class Slice {
   Slice(std::int64_t u, std::int64_t v, std::int32_t outside)
       : u_(u), v_(v), outside_(outside), cells_(static_cast<std::size_t>(u * v), outside) {}
   std::int32_t operator()(std::int64_t iu, std::int64_t iv) const {
-    return iu < 0 || iv < 0 || iu >= u_ || iv >= v_ ? outside_ : cells_[static_cast<std::size_t>(iv * u_ + iu)];
+    return iu < 0 || iv < 0 || iu >= u_ || iv >= v_ ? outside_
+                                                    : cells_[static_cast<std::size_t>(iv * u_ + iu)];
   }
-  std::int32_t& set(std::int64_t iu, std::int64_t iv) { return cells_[static_cast<std::size_t>(iv * u_ + iu)]; }
+  std::int32_t& set(std::int64_t iu, std::int64_t iv) {
+    return cells_[static_cast<std::size_t>(iv * u_ + iu)];
+  }
 
  private:
   std::int64_t u_, v_;
@@ -56,8 +59,8 @@ class Slice {
   std::vector<std::int32_t> cells_;
 };
 
-// Calls leave(cell) for what leaves each cell of a slice and arrive(cell, value) for what arrives in the next one, after
-// both axes were filtered: first along u, then along v.
+// Calls leave(cell) for what leaves each cell of a slice and arrive(cell, value) for what arrives in the next
+// one, after both axes were filtered: first along u, then along v.
 template <class FilterU, class FilterV, class Leave, class Arrive>
 void sweep(const Slices& slices, std::int32_t outside, const FilterU& filter_u, const FilterV& filter_v,
            const Leave& leave, const Arrive& arrive) {
@@ -74,7 +77,9 @@ void sweep(const Slices& slices, std::int32_t outside, const FilterU& filter_u, 
   }
 }
 
-constexpr auto kSpread = [](const auto& at) { return picture::spread({at(-2), at(-1), at(0), at(1), at(2)}); };
+constexpr auto kSpread = [](const auto& at) {
+  return picture::spread({at(-2), at(-1), at(0), at(1), at(2)});
+};
 
 std::vector<std::int32_t> losses(const LightPlane& density) {
   std::vector<std::int32_t> of;
@@ -83,8 +88,9 @@ std::vector<std::int32_t> losses(const LightPlane& density) {
   return of;
 }
 
-// Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of a slice
-// lies between the rays around (u, v) plus the shift; a ray lies between the cells around it less the shift.
+// Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of
+// a slice lies between the rays around (u, v) plus the shift; a ray lies between the cells around it less the
+// shift.
 void sweep_lamp(const LightMatter& matter, const std::vector<std::int32_t>& loss, Vector to_light,
                 std::vector<LightBytes>& cells) {
   const std::int64_t component[3] = {to_light.x, to_light.y, to_light.z};
@@ -99,8 +105,12 @@ void sweep_lamp(const LightMatter& matter, const std::vector<std::int32_t>& loss
   const std::int32_t slope_u = slope(axis == 0 ? 1 : 0), slope_v = slope(axis == 2 ? 1 : 2);
 
   // Rays from `low` on pass through the grid, at the first slice or at the last.
-  const auto low = [&](std::int32_t s) { return std::min<std::int64_t>(picture::shift_at(slices.count(), s).cells, 0) - 1; };
-  const auto more = [&](std::int32_t s) { return picture::magnitude(picture::shift_at(slices.count(), s).cells) + 4; };
+  const auto low = [&](std::int32_t s) {
+    return std::min<std::int64_t>(picture::shift_at(slices.count(), s).cells, 0) - 1;
+  };
+  const auto more = [&](std::int32_t s) {
+    return picture::magnitude(picture::shift_at(slices.count(), s).cells) + 4;
+  };
   const std::int64_t low_u = low(slope_u), low_v = low(slope_v);
   const std::int64_t count_u = slices.u() + more(slope_u), count_v = slices.v() + more(slope_v);
   Slice rays(count_u, count_v, 255), softened(count_u, count_v, 255);
@@ -109,8 +119,11 @@ void sweep_lamp(const LightMatter& matter, const std::vector<std::int32_t>& loss
     for (std::int64_t j = 0; j < slices.v(); ++j)
       for (std::int64_t i = 0; i < slices.u(); ++i) {
         const std::int64_t a = i + u.cells - low_u, b = j + v.cells - low_v;
-        const auto along = [&](std::int64_t row) { return picture::blended(rays(a, row), rays(a + 1, row), u.part); };
-        cells[slices.at(s, i, j)].lamp = static_cast<std::uint8_t>(picture::blended(along(b), along(b + 1), v.part));
+        const auto along = [&](std::int64_t row) {
+          return picture::blended(rays(a, row), rays(a + 1, row), u.part);
+        };
+        cells[slices.at(s, i, j)].lamp =
+            static_cast<std::uint8_t>(picture::blended(along(b), along(b + 1), v.part));
       }
     const auto lost = [&](std::int64_t i, std::int64_t j) {
       return i < 0 || j < 0 || i >= slices.u() || j >= slices.v() ? 0 : loss[slices.at(s, i, j)];
@@ -118,7 +131,9 @@ void sweep_lamp(const LightMatter& matter, const std::vector<std::int32_t>& loss
     for (std::int64_t b = 0; b < count_v; ++b)
       for (std::int64_t a = 0; a < count_u; ++a) {
         const std::int64_t i = a + low_u - u.cells, j = b + low_v - v.cells;
-        const auto along = [&](std::int64_t row) { return picture::blended(lost(i, row), lost(i - 1, row), u.part); };
+        const auto along = [&](std::int64_t row) {
+          return picture::blended(lost(i, row), lost(i - 1, row), u.part);
+        };
         rays.set(a, b) = picture::passed(rays(a, b), picture::blended(along(j), along(j - 1), v.part));
       }
     for (std::int64_t b = 0; b < count_v; ++b)
@@ -142,9 +157,7 @@ void sweep_side(const LightMatter& matter, const std::vector<std::int32_t>& loss
   if (matter.emission.cells.empty()) return;
   sweep(
       slices, 0, kSpread, kSpread,
-      [&](std::size_t i) {
-        return picture::glowing(cells[i].glow[side], loss[i], matter.emission.cells[i]);
-      },
+      [&](std::size_t i) { return picture::glowing(cells[i].glow[side], loss[i], matter.emission.cells[i]); },
       [&](std::size_t i, std::int32_t value) {
         cells[i].glow[side] = static_cast<std::uint8_t>(picture::faded(value));
       });
@@ -164,7 +177,7 @@ void for_cells(const state::Grid& grid, int shift, picture::Vector at, const Vis
 }  // namespace
 
 LightMatter plain_light_matter(const DensityField& field, const std::vector<std::int32_t>& ground,
-                         const picture::Look& look) {
+                               const picture::Look& look) {
   const state::Grid& grid = field.grid();
   const picture::Vector cells{grid.x, grid.y, grid.z}, count = picture::light_cells(cells);
   const int shift = picture::light_shift(cells);
@@ -190,8 +203,8 @@ LightMatter plain_light_matter(const DensityField& field, const std::vector<std:
                 picture::matter_of(field.solid()[i], field.liquid()[i], field.heat()[i], 0, look).heat);
         });
         const std::size_t i = of.density.index(x, y, z);
-        of.density.cells[i] = static_cast<std::uint8_t>(
-            std::max(matter >> (3 * shift + 8), (earth * 255) >> (3 * shift + 12)));
+        of.density.cells[i] =
+            static_cast<std::uint8_t>(std::max(matter >> (3 * shift + 8), (earth * 255) >> (3 * shift + 12)));
         if (look.glow) of.emission.cells[i] = static_cast<std::uint8_t>(light >> (3 * shift));
       }
   return of;
