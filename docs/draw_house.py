@@ -37,6 +37,7 @@ PURPOSES = {
     "render/rule": "the picture in integers",
     "render/density": "amounts to a filtered field",
     "render/light": "what light arrives where",
+    "render/brick": "what bricks of places hold",
     "render/packet": "the picture in packets of rays",
     "render/raycast": "rays through its bricks",
     "render/image": "camera, PNG, film",

@@ -73,7 +73,16 @@ struct BrickKernels {
         filter(of[0], of[1], of[2], filtered);
         std::memcpy(along_x[k][j], &filtered, sizeof filtered);
       }
-      for (int j = 0; j < kCells; j += 2) filter_rows(along_x[k][j], kCells, along_y[k][j]);
+      // The rows between two pairs come from those: memory would be read before it is written.
+      Words low, high, between, filtered;
+      load(low, along_x[k][0]);
+      for (int j = 0; j < kCells; j += 2) {
+        load(high, along_x[k][j + 2]);
+        between = __builtin_shufflevector(low, high, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23);
+        filter(low, between, high, filtered);
+        std::memcpy(along_y[k][j], &filtered, sizeof filtered);
+        low = high;
+      }
     }
     for (int k = 0; k < kCells; ++k)
       for (int j = 0; j < kCells; j += 2) filter_rows(along_y[k][j], kCells * kCells, to[k][j]);
@@ -96,10 +105,11 @@ struct BrickKernels {
         __builtin_convertvector(numerator, Float) / __builtin_convertvector(one, Float), Int);
   }
 
-  static void cells(const Word* intensity, const MatterSource& matter, const BrickSource& source,
+  static bool cells(const Word* intensity, const MatterSource& matter, const BrickSource& source,
                     BrickCells& to) {
     alignas(32) Word filtered[kCells][kCells][kCells];
     filter_all(intensity, source, filtered);
+    Int found{};
     Row inside;
     for (int i = 0; i < kCells; ++i) inside[i] = i < source.count_x ? 0xFFFF : 0;
     for (int k = 0; k < kCells; ++k)
@@ -115,7 +125,11 @@ struct BrickKernels {
         if (in)
           words_of(matter, source.slices[at(k + 1)] + source.rows[at(j + 1)] + at(source.x), level, words);
         std::memcpy(to.matter.data() + r, &words, sizeof words);
+        found |= words;
       }
+    std::uint64_t parts[4];
+    std::memcpy(parts, &found, sizeof parts);
+    return (parts[0] | parts[1] | parts[2] | parts[3]) != 0;
   }
 
   // Where there is no intensity there is no matter, so what lies beyond a row's end does not count.
@@ -197,9 +211,9 @@ struct BrickKernels {
            same_rows(cells.matter.data(), targets.matter[0]);
   }
 
-  static void scatter(const BrickCells& from, const BrickTargets& to) {
+  static void scatter(const BrickCells& from, const BrickTargets& to, bool with_matter) {
     scatter_all(from.levels.data(), to.levels);
-    scatter_all(from.matter.data(), to.matter);
+    if (with_matter) scatter_all(from.matter.data(), to.matter);
   }
 
   struct Lanes {

@@ -48,11 +48,12 @@ struct BlockRanges {
 };
 
 struct BrickLoops {
-  void (*cells)(const std::uint16_t* intensity, const MatterSource& matter, const BrickSource& source,
+  // Tells whether any word of matter is not 0.
+  bool (*cells)(const std::uint16_t* intensity, const MatterSource& matter, const BrickSource& source,
                 BrickCells& to);
   // Does the first target hold the same levels, and the same matter?
   bool (*same)(const BrickCells& cells, const BrickTargets& targets);
-  void (*scatter)(const BrickCells& from, const BrickTargets& to);
+  void (*scatter)(const BrickCells& from, const BrickTargets& to, bool with_matter);
   // Levels are read up to 16 beyond the last.
   void (*ranges)(const std::int16_t* levels, BlockRanges& to);
 };

@@ -75,7 +75,10 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
                          const BrickLoops& loops) {
   const bool all = changed == nullptr || grid_.x != field.grid().x || grid_.y != field.grid().y ||
                    grid_.z != field.grid().z;
-  if (all) resize(field.grid());
+  if (all) {
+    resize(field.grid());
+    mixed_.assign(field.bricks().cells(), 0);
+  }
   // With the pre-filter, a brick of the field changes levels in those around it.
   const state::Grid& of = field.bricks();
   std::vector<std::uint8_t> stale(of.cells(), all ? kWhole : 0), touched(slots_.size(), all ? 1 : 0);
@@ -217,17 +220,23 @@ bool FieldBricks::fill(const DensityField& field, const MatterSource& matter, st
     to.levels[static_cast<std::size_t>(b)] = levels_.data() + slot * kPlaces;
     to.matter[static_cast<std::size_t>(b)] = matter_.data() + slot * kPlaces;
   }
-  if (!any) return false;
+  if (!any) {
+    mixed_[brick] = 0;
+    return false;
+  }
   BrickCells cells;
+  const bool had_matter = mixed_[brick] != 0;
+  bool has_matter = false;
   if (field.ranges()[brick].high == 0) {
     cells.levels.fill(picture::kAir);
     cells.matter.fill(0);
   } else {
-    loops.cells(field.intensity().data(), matter, source_of(grid_, at), cells);
+    has_matter = loops.cells(field.intensity().data(), matter, source_of(grid_, at), cells);
   }
+  mixed_[brick] = has_matter ? 1 : 0;
   // The first brick of the lattice holds all of the cells, and the others hold the same.
   if (!whole && to.levels[0] != nullptr && loops.same(cells, to)) return false;
-  loops.scatter(cells, to);
+  loops.scatter(cells, to, has_matter || had_matter);
   return true;
 }
 

@@ -78,6 +78,7 @@ class FieldBricks {
   std::vector<std::uint32_t> matter_;
   std::vector<std::uint16_t> skip_;
   std::vector<std::uint8_t> occupied_;  // of blocks
+  std::vector<std::uint8_t> mixed_;     // of bricks of the field: some word of matter is not 0
   Box box_;
 };
 
