@@ -38,6 +38,7 @@ PURPOSES = {
     "render/density": "amounts to a filtered field",
     "render/ground": "the ground's heights and rock",
     "render/light": "volumes of light",
+    "render/brick": "what bricks of places hold",
     "render/packet": "rays in packets, and pictures by them",
     "render/raycast": "rays through its bricks",
     "render/image": "camera, PNG, film",

@@ -1,5 +1,6 @@
 #include "render/raycast/reference_picture.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
