@@ -78,7 +78,8 @@ struct BrickKernels {
       load(low, along_x[k][0]);
       for (int j = 0; j < kCells; j += 2) {
         load(high, along_x[k][j + 2]);
-        between = __builtin_shufflevector(low, high, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23);
+        between =
+            __builtin_shufflevector(low, high, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23);
         filter(low, between, high, filtered);
         std::memcpy(along_y[k][j], &filtered, sizeof filtered);
         low = high;
