@@ -14,6 +14,7 @@
 #include "kernel/engine/cpu/workers.h"
 #include "render/brick/brick_loops.h"
 #include "render/density/density_field.h"
+#include "render/packet/picture_data.h"
 #include "render/rule/look.h"
 #include "render/rule/sample.h"
 
@@ -45,10 +46,9 @@ class FieldBricks {
   // slope_bound).
   const std::uint16_t* skip() const { return skip_.data(); }
   static constexpr int kFarthest = 16;
-  // The level changes by no more than kSlopeUnit times this from a position to another one cell away (the largest
-  // component of the way), within a block, but for the roundings of samples.
-  // Neighbours differ by 65280 at most, at a side of the grid. So a byte suffices, even in a corner of it.
-  static constexpr int kSlopeUnit = 768;
+  // The level changes by no more than kSlopeUnit times this from a position to another one cell away (the
+  // largest component of the way), within a block, but for the roundings of samples. Neighbours differ by
+  // 65280 at most, at a side of the grid. So a byte suffices, even in a corner of it.
   static int slope_bound(int along_x, int along_y, int along_z) {
     return (along_x + along_y + along_z + kSlopeUnit - 1) / kSlopeUnit;
   }

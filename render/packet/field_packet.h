@@ -5,7 +5,6 @@
 
 #include <cstdint>
 
-#include "render/packet/field_bricks.h"
 #include "render/packet/rays.h"
 #include "render/rule/crossing.h"
 #include "render/rule/sample.h"
@@ -68,7 +67,7 @@ struct FieldPacket : Packet<Arch> {
     q = P::select(active, q, Triple{});
     Hits hits;
     hits.found = hits.sample = hits.level = hits.at.x = hits.at.y = hits.at.z = V{};
-    const F rise_unit = L::set_float(1.0f / static_cast<float>(FieldBricks::kSlopeUnit >> data.spacing));
+    const F rise_unit = L::set_float(1.0f / static_cast<float>(kSlopeUnit >> data.spacing));
     const V forward_x = row.step.x >= 0, forward_y = row.step.y >= 0, forward_z = row.step.z >= 0;
     while (L::any(active)) {
       const Triple block = q >> 22;
@@ -101,7 +100,8 @@ struct FieldPacket : Packet<Arch> {
         if (data.skip) {
           // The level rises no faster than the block's slope allows. Weights and blends are rounded.
           const V slope = record >> 8;
-          const F steps = L::to_float(-level - 4 - 3 * slope) / L::to_float(L::max(slope, L::set(1))) * rise_unit;
+          const F steps =
+              L::to_float(-level - 4 - 3 * slope) / L::to_float(L::max(slope, L::set(1))) * rise_unit;
           const V safe = L::to_int(L::max(steps * (1 - 1.0f / (1 << 18)), L::set_float(0))) + 1;
           advance = occupied ? L::min(advance, safe) : advance;
         }

@@ -11,6 +11,8 @@
 
 namespace voxmelt::render {
 
+inline constexpr int kSlopeUnit = 768;  // of the slopes in FieldData::skip, see field_bricks.h
+
 struct FieldData {
   picture::Vector cells;
   std::int32_t bricks_x = 0, bricks_y = 0, blocks_x = 0, blocks_y = 0;

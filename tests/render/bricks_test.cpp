@@ -92,7 +92,8 @@ void expect_plain(const FieldBricks& bricks, const render::DensityField& field, 
       if (i.z < 4) steep(2, {at.x, at.y, at.z + 1});
     });
     const std::uint16_t skip = bricks.skip()[bricks.blocks().index(block.x, block.y, block.z)];
-    ASSERT_EQ(skip >> 8, std::min((slopes[0] + slopes[1] + slopes[2] + 255) / 256, 255))
+    constexpr int kUnit = render::FieldBricks::kSlopeUnit;
+    ASSERT_EQ(skip >> 8, (slopes[0] + slopes[1] + slopes[2] + kUnit - 1) / kUnit)
         << "block " << block.x << ", " << block.y << ", " << block.z;
     if (most < 0) return;
     occupied.push_back(block);
