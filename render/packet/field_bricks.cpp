@@ -130,7 +130,7 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
     for (std::size_t brick = 0; brick < slots_.size(); ++brick)
       bricks.push_back(static_cast<std::uint32_t>(brick));
   } else {
-    // A brick of the field reaches, with the pre-filter, into the next ones of the lattice.
+    // A brick of the lattice depends, with the pre-filter, on 4 cells before its own 8 and on one behind.
     std::vector<std::uint8_t> touched(slots_.size(), 0);
     const state::Grid& of = field.bricks();
     for (const std::uint32_t brick : *changed) {
@@ -139,9 +139,10 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
                                      static_cast<std::uint32_t>(of.y)),
                 z = static_cast<int>(brick / static_cast<std::uint32_t>(of.x) /
                                      static_cast<std::uint32_t>(of.y));
-      for (int k = z; k <= std::min(z + 1, bricks_.z - 1); ++k)
-        for (int j = y; j <= std::min(y + 1, bricks_.y - 1); ++j)
-          for (int i = x; i <= std::min(x + 1, bricks_.x - 1); ++i) touched[bricks_.index(i, j, k)] = 1;
+      for (int k = std::max(z - 1, 0); k <= std::min(z + 1, bricks_.z - 1); ++k)
+        for (int j = std::max(y - 1, 0); j <= std::min(y + 1, bricks_.y - 1); ++j)
+          for (int i = std::max(x - 1, 0); i <= std::min(x + 1, bricks_.x - 1); ++i)
+            touched[bricks_.index(i, j, k)] = 1;
     }
     for (std::size_t brick = 0; brick < touched.size(); ++brick)
       if (touched[brick] != 0) bricks.push_back(static_cast<std::uint32_t>(brick));
