@@ -1,4 +1,4 @@
-// judge FILE draws the picture; judge --field FILE writes the filtered channels and the drawn heights.
+// picture_judge --picture FILE draws the picture; --field FILE writes filtered channels and drawn heights.
 #include <cstdio>
 #include "picture.h"
 
@@ -8,10 +8,11 @@ static void put_bytes(Int value, int count) {
 
 int main(int count, char** words) {
   try {
-    const bool field_only = count == 3 && std::string(words[1]) == "--field";
-    if (count != 2 && !field_only) throw std::runtime_error("usage: judge [--field] FILE");
-    const Input in = read_input(words[count - 1]);
-    if (field_only) {
+    const std::string wish = count == 3 ? words[1] : "";
+    if (wish != "--picture" && wish != "--field")
+      throw std::runtime_error("usage: picture_judge --picture FILE, or --field FILE");
+    const Input in = read_input(words[2]);
+    if (wish == "--field") {
       const std::vector<Column> columns = make_columns(in);
       const Field field = make_field(in, columns);
       const Ground ground(in, columns);
@@ -28,7 +29,7 @@ int main(int count, char** words) {
     }
     return 0;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "judge: %s\n", error.what());
+    std::fprintf(stderr, "picture_judge: %s\n", error.what());
     return 1;
   }
 }
