@@ -280,7 +280,12 @@ void FieldBricks::find_box() {
     };
     return picture::Vector{axis(block[0]), axis(block[1]), axis(block[2])};
   };
-  box_ = {corner(low), corner(high)};
+  // Rays are followed up to a cell beyond the box, and must not leave the lattice.
+  const picture::Vector from = picture::field_low(), to = picture::field_high(cells_);
+  const auto larger = [](picture::Vector a, picture::Vector b) {
+    return picture::Vector{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+  };
+  box_ = {larger(corner(low), from), picture::Vector{} - larger(picture::Vector{} - corner(high), picture::Vector{} - to)};
 }
 
 std::size_t FieldBricks::bytes() const {

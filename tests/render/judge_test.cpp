@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -115,6 +116,7 @@ TEST(Judge, AgreesOnHostilePictures) {
   std::uint64_t full = 0;
   for (std::uint64_t seed = first; seed < last; ++seed) {
     const HostilePicture picture = test::hostile_picture(seed, kMostCells);
+    if (one != nullptr) std::cout << description(picture) << std::endl;
     full += expect_all_agree(picture, file) ? 1 : 0;
     if (HasFailure())
       FAIL() << "VOXMELT_PICTURE_SEED=" << seed << ": " << description(picture) << "\nthe judge read "
