@@ -15,8 +15,13 @@ using worlds::Random;
 
 double fraction(Random& random) { return static_cast<double>(random.bits() >> 11) * 0x1p-53; }
 double between(Random& random, double low, double high) { return low + (high - low) * fraction(random); }
+// Just below half of a unit of light: the sum with 1/2 rounds to 1 in doubles.
+constexpr double kBelowHalf = 0x1.fffffffffffffp-2 * 0x1p-12;
+
 // From 0 to 1, often an end.
-double edged(Random& random) { return random.one_in(3) ? random.any({0.0, 1.0}) : fraction(random); }
+double edged(Random& random) {
+  return random.one_in(3) ? random.any({0.0, 0.0, 1.0, 1.0, kBelowHalf}) : fraction(random);
+}
 
 // Sizes beside those of bricks, blocks and words; thin ones, and a single cell.
 state::Grid hostile_grid(Random& random, int most) {
