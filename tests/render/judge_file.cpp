@@ -1,11 +1,14 @@
 #include "tests/render/judge_file.h"
 
+#include <unistd.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <initializer_list>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -58,6 +61,12 @@ std::vector<std::uint8_t> judged(const char* option, const std::filesystem::path
 }
 
 }  // namespace
+
+std::filesystem::path judge_file_name(const std::string& name) {
+  std::ostringstream file;
+  file << "voxmelt_" << name << '_' << getpid() << ".picture";
+  return std::filesystem::temp_directory_path() / file.str();
+}
 
 void write_judge_file(const std::filesystem::path& file, const state::Volume& volume, const scene::Look& look,
                       const scene::Light& light, const scene::Terrain& terrain, const scene::Camera& camera,

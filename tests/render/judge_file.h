@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "kernel/automaton/state/volume.h"
@@ -12,6 +13,9 @@
 #include "render/packet/draw_picture.h"
 
 namespace voxmelt::test {
+
+// In the folder for such files, with the number of this process.
+std::filesystem::path judge_file_name(const std::string& name);
 
 void write_judge_file(const std::filesystem::path& file, const state::Volume& volume, const scene::Look& look,
                       const scene::Light& light, const scene::Terrain& terrain, const scene::Camera& camera,

@@ -2,7 +2,6 @@
 // The judge (tests/picture_judge) was written from docs/picture.md alone, so it sees bugs of render/rule that
 // all others share. See one picture again: VOXMELT_PICTURE_SEED=N render_judge_test.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -20,11 +19,13 @@
 #include "render/raycast/reference_picture.h"
 #include "tests/render/hostile_picture.h"
 #include "tests/render/judge_file.h"
+#include "tests/render/picture_pairs.h"
 
 namespace voxmelt {
 namespace {
 
 using render::Image;
+using test::difference;
 using test::HostilePicture;
 
 #ifdef VOXMELT_SLOW
@@ -35,29 +36,6 @@ constexpr std::uint64_t kPictures = 30;
 constexpr int kMostCells = 12000;
 #endif
 constexpr int kMostThreads = 8;
-
-std::filesystem::path file_of(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) /
-         ("voxmelt_" + name + "_" + std::to_string(getpid()) + ".picture");
-}
-
-// Where two pictures differ first, and how often; empty where they do not.
-std::string difference(const Image& expected, const Image& found) {
-  if (expected.width != found.width || expected.height != found.height) return "another size";
-  std::size_t pixels = 0;
-  std::string first;
-  for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
-    if (expected.pixels[i] == found.pixels[i]) continue;
-    ++pixels;
-    for (std::size_t c = 0; c < 3 && first.empty(); ++c)
-      if (expected.pixels[i][c] != found.pixels[i][c])
-        first = "pixel " + std::to_string(i % static_cast<std::size_t>(expected.width)) + ", " +
-                std::to_string(i / static_cast<std::size_t>(expected.width)) + ", channel " +
-                std::to_string(c) + ": " + std::to_string(expected.pixels[i][c]) + " expected, " +
-                std::to_string(found.pixels[i][c]) + " found";
-  }
-  return first.empty() ? first : first + "; " + std::to_string(pixels) + " pixels differ";
-}
 
 // As the judge writes it.
 std::vector<std::uint8_t> field_bytes(const render::DensityField& field, const render::PictureScene& scene) {
@@ -112,7 +90,7 @@ TEST(Judge, AgreesOnHostilePictures) {
   const char* one = std::getenv("VOXMELT_PICTURE_SEED");
   const std::uint64_t first = one == nullptr ? 0 : std::strtoull(one, nullptr, 10);
   const std::uint64_t last = one == nullptr ? kPictures : first + 1;
-  const std::filesystem::path file = file_of("hostile");
+  const std::filesystem::path file = test::judge_file_name("hostile");
   std::uint64_t full = 0;
   for (std::uint64_t seed = first; seed < last; ++seed) {
     const HostilePicture picture = test::hostile_picture(seed, kMostCells);
