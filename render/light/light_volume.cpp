@@ -1,90 +1,185 @@
 #include "render/light/light_volume.h"
 
 #include <algorithm>
-#include <utility>
+#include <cstring>
 
 namespace voxmelt::render {
 namespace {
 
 using picture::Vector;
 
-// A volume as slices along an axis, from the side where the light comes in.
-class Slices {
- public:
-  Slices(const LightPlane& plane, int axis, bool from_high)
-      : size_{plane.count.x, plane.count.y, plane.count.z},
-        stride_{1, plane.count.x, plane.count.x * plane.count.y},
-        axis_(axis),
-        u_(axis == 0 ? 1 : 0),
-        v_(axis == 2 ? 1 : 2),
-        from_high_(from_high) {}
+constexpr int kReach = 2;  // of the spread, in rows
 
-  std::int64_t count() const { return size_[axis_]; }
-  std::int64_t u() const { return size_[u_]; }
-  std::int64_t v() const { return size_[v_]; }
-  std::size_t at(std::int64_t slice, std::int64_t iu, std::int64_t iv) const {
-    const std::int64_t along = from_high_ ? count() - 1 - slice : slice;
-    return static_cast<std::size_t>(along * stride_[axis_] + iu * stride_[u_] + iv * stride_[v_]);
+}  // namespace
+
+void LightVolume::Span::add(int v) { add(Span{v, v + 1}); }
+void LightVolume::Span::add(const Span& other) {
+  if (!other.any()) return;
+  if (!any()) {
+    *this = other;
+    return;
   }
-
- private:
-  std::int64_t size_[3], stride_[3];
-  int axis_, u_, v_;
-  bool from_high_;
-};
-
-// One slice of bytes. Beyond its sides there is `outside`.
-class Slice {
- public:
-  Slice(std::int64_t u, std::int64_t v, std::int32_t outside)
-      : u_(u), v_(v), outside_(outside), cells_(static_cast<std::size_t>(u * v), outside) {}
-  std::int32_t operator()(std::int64_t iu, std::int64_t iv) const {
-    return iu < 0 || iv < 0 || iu >= u_ || iv >= v_ ? outside_ : cells_[static_cast<std::size_t>(iv * u_ + iu)];
-  }
-  std::int32_t& set(std::int64_t iu, std::int64_t iv) { return cells_[static_cast<std::size_t>(iv * u_ + iu)]; }
-
- private:
-  std::int64_t u_, v_;
-  std::int32_t outside_;
-  std::vector<std::int32_t> cells_;
-};
-
-// Calls leave(cell) for what leaves each cell of a slice and arrive(cell, value) for what arrives in the next one, after
-// both axes were filtered: first along u, then along v.
-template <class FilterU, class FilterV, class Leave, class Arrive>
-void sweep(const Slices& slices, std::int32_t outside, const FilterU& filter_u, const FilterV& filter_v,
-           const Leave& leave, const Arrive& arrive) {
-  Slice left(slices.u(), slices.v(), outside), along(slices.u(), slices.v(), outside);
-  for (std::int64_t s = 0; s < slices.count(); ++s) {
-    for (std::int64_t v = 0; v < slices.v(); ++v)
-      for (std::int64_t u = 0; u < slices.u(); ++u)
-        along.set(u, v) = filter_u([&](std::int64_t d) { return left(u + d, v); });
-    for (std::int64_t v = 0; v < slices.v(); ++v)
-      for (std::int64_t u = 0; u < slices.u(); ++u)
-        arrive(slices.at(s, u, v), filter_v([&](std::int64_t d) { return along(u, v + d); }));
-    for (std::int64_t v = 0; v < slices.v(); ++v)
-      for (std::int64_t u = 0; u < slices.u(); ++u) left.set(u, v) = leave(slices.at(s, u, v));
-  }
+  low = std::min(low, other.low);
+  high = std::max(high, other.high);
 }
 
-constexpr auto kSpread = [](const auto& at) { return picture::spread({at(-2), at(-1), at(0), at(1), at(2)}); };
-
-std::vector<std::int32_t> losses(const LightPlane& density) {
-  std::vector<std::int32_t> of;
-  of.reserve(density.cells.size());
-  for (const std::uint8_t cell : density.cells) of.push_back(picture::loss_of(cell));
-  return of;
+LightVolume::LightVolume(const LightMatter& matter, Vector to_light, int shift) {
+  cpu::Workers alone(1);
+  update(matter, to_light, shift, alone);
 }
 
-// Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of a slice
-// lies between the rays around (u, v) plus the shift; a ray lies between the cells around it less the shift.
-void sweep_lamp(const LightMatter& matter, const std::vector<std::int32_t>& loss, Vector to_light,
-                std::vector<LightBytes>& cells) {
-  const std::int64_t component[3] = {to_light.x, to_light.y, to_light.z};
+bool LightVolume::update(const LightMatter& matter, Vector to_light, int shift, cpu::Workers& workers,
+                         const LightLoops& loops) {
+  const bool glows = !matter.emission.cells.empty();
+  const bool other =
+      !(matter.density.count == count_) || shift != shift_ || glows != !emission_.natural.empty();
+  if (other) resize(matter, shift);
+  const bool other_lamp = other || !(to_light == to_light_);
+  to_light_ = to_light;
+  const bool changed = take_over(matter, loops);
+  if (!changed && !other_lamp) return false;
+
+  workers.run(static_cast<int>(kSides) + 1, [&](int task) {
+    Sweep& sweep = sweeps_[static_cast<std::size_t>(task)];
+    const auto rows = static_cast<std::size_t>(y_) * static_cast<std::size_t>(z_);
+    sweep.open.assign(rows, 0);
+    sweep.glow.assign(rows, 0);
+    if (task == kSides) return sweep_lamp(sweep, other_lamp, loops);
+    const auto side = static_cast<std::size_t>(task);
+    sweep_side(side, open_[side], nullptr, sweep.open, sweep.turned_open, sweep, loops);
+    if (glows) sweep_side(side, glow_[side], &emission_, sweep.glow, sweep.turned_glow, sweep, loops);
+  });
+  interleave(workers, loops);
+  return true;
+}
+
+void LightVolume::resize(const LightMatter& matter, int shift) {
+  count_ = matter.density.count;
+  shift_ = shift;
+  x_ = static_cast<int>(count_.x);
+  y_ = static_cast<int>(count_.y);
+  z_ = static_cast<int>(count_.z);
+  row_ = static_cast<std::size_t>(light_row(x_));
+  turned_row_ = static_cast<std::size_t>(light_row(y_));
+  const auto slices = [](int n) { return static_cast<std::size_t>(n); };
+  const std::size_t natural = row_ * slices(y_) * slices(z_), turned = turned_row_ * slices(x_) * slices(z_);
+  const bool glows = !matter.emission.cells.empty();
+  density_ = {Bytes(natural, 0), Bytes(turned, 0)};
+  emission_ = glows ? density_ : Plane{};
+  lamp_ = {Bytes(natural, 255), Bytes(turned, 255)};
+  for (std::size_t side = 0; side < kSides; ++side) {
+    const bool turns = side < 2;
+    open_[side] = {Bytes(natural, 255), Bytes(turns ? turned : 0, 255)};
+    glow_[side] = {Bytes(glows ? natural : 0, 0), Bytes(glows && turns ? turned : 0, 0)};
+  }
+  cells_.assign(slices(x_) * slices(y_) * slices(z_), LightBytes{});
+  nothing_.assign(row_, 0);
+  dirty_ = {std::vector<Span>(slices(x_)), std::vector<Span>(slices(y_)), std::vector<Span>(slices(z_))};
+}
+
+// An empty volume's light is what the planes begin with, so a fresh volume needs no more than what differs
+// from it.
+bool LightVolume::take_over(const LightMatter& matter, const LightLoops& loops) {
+  for (auto& spans : dirty_) std::fill(spans.begin(), spans.end(), Span{});
+  const bool density = take_over(matter.density, density_, loops);
+  const bool emission = !matter.emission.cells.empty() && take_over(matter.emission, emission_, loops);
+  return density || emission;
+}
+
+bool LightVolume::take_over(const LightPlane& from, Plane& to, const LightLoops& loops) {
+  bool any = false;
+  const auto x = static_cast<std::size_t>(x_);
+  Bytes changed(x);
+  for (int z = 0; z < z_; ++z) {
+    bool here = false;
+    for (int y = 0; y < y_; ++y) {
+      const auto row =
+          static_cast<std::size_t>(z) * static_cast<std::size_t>(y_) + static_cast<std::size_t>(y);
+      std::uint8_t* const own = to.natural.data() + row * row_;
+      const std::uint8_t* const fresh = from.cells.data() + row * x;
+      if (std::memcmp(own, fresh, x) == 0) continue;
+      std::memcpy(own, fresh, x);
+      dirty_[1][static_cast<std::size_t>(y)].add(z);
+      dirty_[2][static_cast<std::size_t>(z)].add(y);
+      here = true;
+    }
+    if (!here) continue;
+    any = true;
+    std::fill(changed.begin(), changed.end(), 0);
+    loops.transpose(to.natural.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(y_) * row_,
+                    row_, y_, x_, to.turned.data() + static_cast<std::size_t>(z) * turned_row_,
+                    turned_row_ * static_cast<std::size_t>(z_), changed.data());
+    for (std::size_t i = 0; i < x; ++i)
+      if (changed[i] != 0) dirty_[0][i].add(z);
+  }
+  return any;
+}
+
+LightVolume::Way LightVolume::way(int axis, bool from_high) const {
+  const auto y = static_cast<std::size_t>(y_), z = static_cast<std::size_t>(z_);
+  if (axis == 0) return {true, x_, y_, z_, turned_row_, turned_row_ * z, turned_row_, from_high};
+  if (axis == 1) return {false, y_, x_, z_, row_, row_, row_ * y, from_high};
+  return {false, z_, x_, y_, row_, row_ * y, row_, from_high};
+}
+
+// What a slice gets depends on the one before it alone. So rows are computed that lie near rows which changed
+// there.
+void LightVolume::sweep_side(std::size_t side, Plane& plane, const Plane* emission, Bytes& changed,
+                             Bytes& turned_changed, Sweep& sweep, const LightLoops& loops) const {
+  const int axis = static_cast<int>(side / 2);
+  const Way way = this->way(axis, side % 2 == 0);
+  const auto& dirty = dirty_[static_cast<std::size_t>(axis)];
+  std::uint8_t* const light = (way.turned ? plane.turned : plane.natural).data();
+  const std::uint8_t* const density = (way.turned ? density_.turned : density_.natural).data();
+  const std::uint8_t* const sent =
+      emission == nullptr ? nullptr : (way.turned ? emission->turned : emission->natural).data();
+  sweep.rows.assign(static_cast<std::size_t>(way.v), 0);
+  sweep.room.resize(static_cast<std::size_t>(way.v + 5) * (way.row + kLightLanes));
+  turned_changed.assign(static_cast<std::size_t>(z_), 0);
+  Span last;
+  for (int s = 1; s < way.slices; ++s) {
+    last.add(dirty[static_cast<std::size_t>(way.at(s - 1))]);
+    if (!last.any()) continue;
+    const std::size_t before = way.byte(s - 1);
+    const Span rows{std::max(last.low - kReach, 0), std::min(last.high + kReach, way.v)};
+    loops.side({way.u, way.v, rows.low, rows.high, way.row, way.row_step, light + before, density + before,
+                sent == nullptr ? nullptr : sent + before, light + way.byte(s), sweep.rows.data(),
+                sweep.room.data()});
+    last = {};
+    for (int v = rows.low; v < rows.high; ++v) {
+      if (sweep.rows[static_cast<std::size_t>(v)] == 0) continue;
+      last.add(v);
+      if (way.turned)
+        turned_changed[static_cast<std::size_t>(v)] = 1;
+      else if (axis == 1)
+        changed[static_cast<std::size_t>(v) * static_cast<std::size_t>(y_) +
+                static_cast<std::size_t>(way.at(s))] = 1;
+      else
+        changed[static_cast<std::size_t>(way.at(s)) * static_cast<std::size_t>(y_) +
+                static_cast<std::size_t>(v)] = 1;
+    }
+  }
+  if (way.turned) turn_back(plane, turned_changed, changed, loops);
+}
+
+void LightVolume::turn_back(Plane& plane, const Bytes& slices, Bytes& changed,
+                            const LightLoops& loops) const {
+  const auto y = static_cast<std::size_t>(y_), z = static_cast<std::size_t>(z_);
+  for (std::size_t k = 0; k < z; ++k)
+    if (slices[k] != 0)
+      loops.transpose(plane.turned.data() + k * turned_row_, turned_row_ * z, x_, y_,
+                      plane.natural.data() + k * y * row_, row_, changed.data() + k * y);
+}
+
+// Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of
+// a slice lies between the rays around (u, v) plus the shift; a ray lies between the cells around it less the
+// shift.
+void LightVolume::sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& loops) {
+  const std::int64_t component[3] = {to_light_.x, to_light_.y, to_light_.z};
   int axis = 1;
   for (const int other : {0, 2})
     if (picture::magnitude(component[other]) > picture::magnitude(component[axis])) axis = other;
-  const Slices slices(matter.density, axis, component[axis] > 0);
+  const Way way = this->way(axis, component[axis] > 0);
   const auto slope = [&](int other) {
     return static_cast<std::int32_t>(
         picture::floor_divided(component[other] * picture::kLength, picture::magnitude(component[axis])));
@@ -92,64 +187,90 @@ void sweep_lamp(const LightMatter& matter, const std::vector<std::int32_t>& loss
   const std::int32_t slope_u = slope(axis == 0 ? 1 : 0), slope_v = slope(axis == 2 ? 1 : 2);
 
   // Rays from `low` on pass through the grid, at the first slice or at the last.
-  const auto low = [&](std::int32_t s) { return std::min<std::int64_t>(picture::shift_at(slices.count(), s).cells, 0) - 1; };
-  const auto more = [&](std::int32_t s) { return picture::magnitude(picture::shift_at(slices.count(), s).cells) + 4; };
-  const std::int64_t low_u = low(slope_u), low_v = low(slope_v);
-  const std::int64_t count_u = slices.u() + more(slope_u), count_v = slices.v() + more(slope_v);
-  Slice rays(count_u, count_v, 255), softened(count_u, count_v, 255);
-  for (std::int64_t s = 0; s < slices.count(); ++s) {
-    const picture::Shift u = picture::shift_at(s, slope_u), v = picture::shift_at(s, slope_v);
-    for (std::int64_t j = 0; j < slices.v(); ++j)
-      for (std::int64_t i = 0; i < slices.u(); ++i) {
-        const std::int64_t a = i + u.cells - low_u, b = j + v.cells - low_v;
-        const auto along = [&](std::int64_t row) { return picture::blended(rays(a, row), rays(a + 1, row), u.part); };
-        cells[slices.at(s, i, j)].lamp = static_cast<std::uint8_t>(picture::blended(along(b), along(b + 1), v.part));
-      }
-    const auto lost = [&](std::int64_t i, std::int64_t j) {
-      return i < 0 || j < 0 || i >= slices.u() || j >= slices.v() ? 0 : loss[slices.at(s, i, j)];
-    };
-    for (std::int64_t b = 0; b < count_v; ++b)
-      for (std::int64_t a = 0; a < count_u; ++a) {
-        const std::int64_t i = a + low_u - u.cells, j = b + low_v - v.cells;
-        const auto along = [&](std::int64_t row) { return picture::blended(lost(i, row), lost(i - 1, row), u.part); };
-        rays.set(a, b) = picture::passed(rays(a, b), picture::blended(along(j), along(j - 1), v.part));
-      }
-    for (std::int64_t b = 0; b < count_v; ++b)
-      for (std::int64_t a = 0; a < count_u; ++a)
-        softened.set(a, b) = picture::softer(rays(a - 1, b), rays(a, b), rays(a + 1, b));
-    for (std::int64_t b = 0; b < count_v; ++b)
-      for (std::int64_t a = 0; a < count_u; ++a)
-        rays.set(a, b) = picture::softer(softened(a, b - 1), softened(a, b), softened(a, b + 1));
+  const auto low = [&](std::int32_t s) { return std::min(picture::shift_at(way.slices, s).cells, 0) - 1; };
+  const auto more = [&](std::int32_t s) {
+    return static_cast<int>(picture::magnitude(picture::shift_at(way.slices, s).cells)) + 4;
+  };
+  const int low_u = low(slope_u), low_v = low(slope_v);
+  const int count_u = way.u + more(slope_u), count_v = way.v + more(slope_v);
+  const std::size_t ray_row = static_cast<std::size_t>(light_row(count_u) + 3 * kLightLanes);
+  const std::size_t size = static_cast<std::size_t>(count_v + 2) * ray_row;
+  sweep.room.resize(size);
+  sweep.losses.resize(static_cast<std::size_t>(way.v + 2) * ray_row);
+  sweep.rows.assign(static_cast<std::size_t>(way.v), 0);
+  // What the turned plane held may be of a lamp long ago.
+  sweep.turned_open.assign(static_cast<std::size_t>(z_), other_lamp ? 1 : 0);
+  std::uint8_t* const light = (way.turned ? lamp_.turned : lamp_.natural).data();
+  const std::uint8_t* const density = (way.turned ? density_.turned : density_.natural).data();
+  // Every so often the rays are kept. So an update begins near the first slice in which something changed.
+  int begin = 0;
+  if (other_lamp) {
+    sweep.kept.clear();
+  } else {
+    const auto& dirty = dirty_[static_cast<std::size_t>(axis)];
+    while (begin < way.slices && !dirty[static_cast<std::size_t>(way.at(begin))].any()) ++begin;
+    begin = std::min(begin / kKeptEvery, static_cast<int>(sweep.kept.size()) - 1) * kKeptEvery;
   }
+  Span dark;
+  if (other_lamp) {
+    sweep.rays.assign(size, 255);
+  } else {
+    const Kept& kept = sweep.kept[static_cast<std::size_t>(begin / kKeptEvery)];
+    sweep.rays = kept.rays;
+    dark = kept.dark;
+  }
+  for (int s = begin; s < way.slices; ++s) {
+    if (s % kKeptEvery == 0) {
+      const auto at = static_cast<std::size_t>(s / kKeptEvery);
+      if (sweep.kept.size() <= at) sweep.kept.resize(at + 1);
+      if (s != begin || other_lamp) sweep.kept[at] = {sweep.rays, dark};
+    }
+    const picture::Shift u = picture::shift_at(s, slope_u), v = picture::shift_at(s, slope_v);
+    const int at_u = u.cells - low_u, at_v = v.cells - low_v;
+    dark.add({at_v, at_v + way.v + 1});
+    dark = {std::max(dark.low - 1, 0), std::min(dark.high + 1, count_v)};
+    loops.lamp({way.u, way.v, way.row, way.row_step, density + way.byte(s), light + way.byte(s),
+                sweep.rows.data(), u.part, v.part, sweep.rays.data(), sweep.room.data(), sweep.losses.data(),
+                ray_row, count_u, count_v, at_u, at_v, dark.low, dark.high});
+    for (int i = 0; i < way.v; ++i) {
+      if (sweep.rows[static_cast<std::size_t>(i)] == 0) continue;
+      if (way.turned)
+        sweep.turned_open[static_cast<std::size_t>(i)] = 1;
+      else if (axis == 1)
+        sweep.open[static_cast<std::size_t>(i) * static_cast<std::size_t>(y_) +
+                   static_cast<std::size_t>(way.at(s))] = 1;
+      else
+        sweep.open[static_cast<std::size_t>(way.at(s)) * static_cast<std::size_t>(y_) +
+                   static_cast<std::size_t>(i)] = 1;
+    }
+  }
+  if (way.turned) turn_back(lamp_, sweep.turned_open, sweep.open, loops);
 }
 
-void sweep_side(const LightMatter& matter, const std::vector<std::int32_t>& loss, std::size_t side,
-                std::vector<LightBytes>& cells) {
-  const Slices slices(matter.density, static_cast<int>(side / 2), side % 2 == 0);
-  sweep(
-      slices, 255, kSpread, kSpread,
-      [&](std::size_t i) { return picture::passed(cells[i].open[side], loss[i]); },
-      [&](std::size_t i, std::int32_t value) {
-        cells[i].open[side] = static_cast<std::uint8_t>(picture::opened(value));
-      });
-  if (matter.emission.cells.empty()) return;
-  sweep(
-      slices, 0, kSpread, kSpread,
-      [&](std::size_t i) {
-        return picture::glowing(cells[i].glow[side], loss[i], matter.emission.cells[i]);
-      },
-      [&](std::size_t i, std::int32_t value) {
-        cells[i].glow[side] = static_cast<std::uint8_t>(picture::faded(value));
-      });
-}
-
-}  // namespace
-
-LightVolume::LightVolume(const LightMatter& matter, Vector to_light, int shift)
-    : count_(matter.density.count), shift_(shift), cells_(matter.density.cells.size()) {
-  const std::vector<std::int32_t> loss = losses(matter.density);
-  sweep_lamp(matter, loss, to_light, cells_);
-  for (std::size_t side = 0; side < picture::kSides; ++side) sweep_side(matter, loss, side, cells_);
+// The rows that some sweep has changed.
+void LightVolume::interleave(cpu::Workers& workers, const LightLoops& loops) {
+  const auto rows = static_cast<std::size_t>(y_);
+  workers.run(z_, [&](int z) {
+    for (std::size_t row = static_cast<std::size_t>(z) * rows; row < (static_cast<std::size_t>(z) + 1) * rows;
+         ++row) {
+      std::uint8_t open = 0, glow = 0;
+      for (const Sweep& sweep : sweeps_) {
+        open = static_cast<std::uint8_t>(open | sweep.open[row]);
+        glow = static_cast<std::uint8_t>(glow | sweep.glow[row]);
+      }
+      const auto of = [&](const Plane& plane) { return plane.natural.data() + row * row_; };
+      auto* const to = reinterpret_cast<std::uint8_t*>(cells_.data() + row * static_cast<std::size_t>(x_));
+      const std::uint8_t* const none = nothing_.data();
+      if (open != 0)
+        loops.interleave({of(lamp_), of(open_[0]), of(open_[1]), of(open_[2]), of(open_[3]), of(open_[4]),
+                          of(open_[5]), none},
+                         x_, to);
+      if (glow != 0)
+        loops.interleave(
+            {of(glow_[0]), of(glow_[1]), of(glow_[2]), of(glow_[3]), of(glow_[4]), of(glow_[5]), none, none},
+            x_, to + 8);
+    }
+  });
 }
 
 picture::Light LightVolume::operator()(std::int64_t x, std::int64_t y, std::int64_t z) const {

@@ -1,5 +1,7 @@
-// The light that arrives in every cell of the grid of light (docs/picture-light.md, sections 4 and 5), by plain
-// loops over render/rule.
+// The light that arrives in every cell of the grid of light (docs/picture-light.md, sections 4 and 5).
+//
+// Each sweep keeps what it gave, as planes of bytes. An update goes only through rows that a change can
+// reach.
 #pragma once
 
 #include <array>
@@ -7,39 +9,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/engine/cpu/workers.h"
+#include "render/light/light_bytes.h"
+#include "render/light/light_loops.h"
 #include "render/rule/light_grid.h"
 
 namespace voxmelt::render {
-
-// A byte per cell of light, x fastest.
-struct LightPlane {
-  picture::Vector count;
-  std::vector<std::uint8_t> cells;
-
-  LightPlane() = default;
-  LightPlane(picture::Vector size, std::uint8_t fill)
-      : count(size), cells(static_cast<std::size_t>(size.x * size.y * size.z), fill) {}
-  std::size_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {
-    return static_cast<std::size_t>((z * count.y + y) * count.x + x);
-  }
-};
-
-// What stops and what sends light.
-struct LightMatter {
-  LightPlane density, emission;  // emission is empty where nothing glows
-};
-
-// Bytes as the ray caster reads them: two words of 64 bits.
-struct LightBytes {
-  std::uint8_t lamp = 255;
-  std::array<std::uint8_t, picture::kSides> open{255, 255, 255, 255, 255, 255};
-  std::uint8_t none = 0;
-  std::array<std::uint8_t, picture::kSides> glow{};
-  std::array<std::uint8_t, 2> nothing{};
-
-  friend bool operator==(const LightBytes&, const LightBytes&) = default;
-};
-static_assert(sizeof(LightBytes) == 16);
 
 class LightVolume {
  public:
@@ -47,15 +22,76 @@ class LightVolume {
   // `to_light` has the length 2^14.
   LightVolume(const LightMatter& matter, picture::Vector to_light, int shift);
 
+  // Takes over what stops and sends light. Only what has changed since the last call is computed again; the
+  // bytes are those of a fresh volume, for any number of threads. Tells whether any byte may have changed.
+  bool update(const LightMatter& matter, picture::Vector to_light, int shift, cpu::Workers& workers,
+              const LightLoops& loops = light_loops());
+
   picture::Light operator()(std::int64_t x, std::int64_t y, std::int64_t z) const;
   picture::Vector count() const { return count_; }
   int shift() const { return shift_; }
   const std::vector<LightBytes>& cells() const { return cells_; }
 
  private:
-  picture::Vector count_;
+  static constexpr std::size_t kSides = picture::kSides;
+  using Bytes = std::vector<std::uint8_t>;
+  // Rows low <= v < high of a slice.
+  struct Span {
+    int low = 0, high = 0;
+    bool any() const { return low < high; }
+    void add(int v);
+    void add(const Span& other);
+  };
+  // Rows along x in natural order, [z][y]; or turned, rows along y, [x][z].
+  struct Plane {
+    Bytes natural, turned;
+  };
+  // How a sweep goes through a plane.
+  struct Way {
+    bool turned;
+    int slices, u, v;  // v: rows of a slice
+    std::size_t row, slice_step,
+        row_step;  // bytes: length of a row, from a slice to the next, from a row to the next
+    bool from_high;
+    int at(int slice) const { return from_high ? slices - 1 - slice : slice; }
+    std::size_t byte(int slice) const { return static_cast<std::size_t>(at(slice)) * slice_step; }
+  };
+  // The lamp's rays before a slice, and the rows of them that may be darker than 255.
+  struct Kept {
+    std::vector<std::uint16_t> rays;
+    Span dark;
+  };
+  static constexpr int kKeptEvery = 8;  // slices
+  // What a sweep needs, and tells: one for each side, and one for the lamp.
+  struct Sweep {
+    std::vector<std::uint16_t> room, rays, losses;
+    std::vector<Kept> kept;
+    Bytes rows;                      // of a slice: changed
+    Bytes open, glow;                // rows [z][y] that changed
+    Bytes turned_open, turned_glow;  // slices z of turned planes with a change
+  };
+
+  void resize(const LightMatter& matter, int shift);
+  bool take_over(const LightMatter& matter, const LightLoops& loops);
+  bool take_over(const LightPlane& from, Plane& to, const LightLoops& loops);
+  Way way(int axis, bool from_high) const;
+  void sweep_side(std::size_t side, Plane& plane, const Plane* emission, Bytes& changed,
+                  Bytes& turned_changed, Sweep& sweep, const LightLoops& loops) const;
+  void sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& loops);
+  void turn_back(Plane& plane, const Bytes& slices, Bytes& changed, const LightLoops& loops) const;
+  void interleave(cpu::Workers& workers, const LightLoops& loops);
+
+  picture::Vector count_, to_light_;
   int shift_ = 1;
+  int x_ = 0, y_ = 0, z_ = 0;  // cells of light
+  std::size_t row_ = 0, turned_row_ = 0;
   std::vector<LightBytes> cells_;
+  Plane density_, emission_, lamp_;
+  std::array<Plane, kSides> open_, glow_;
+  std::array<std::vector<Span>, 3>
+      dirty_;  // of each axis and slice: rows in which density or emission changed
+  std::array<Sweep, kSides + 1> sweeps_;
+  Bytes nothing_;
 };
 
 }  // namespace voxmelt::render

@@ -59,7 +59,8 @@ struct DrawPacket : Packet<Arch> {
       of.ground = of.ground & (~hits.found | (place <= surface.part + first));
       of.matter = hits.found & ~of.ground;
       constexpr std::int32_t kBack = -Field::kBias;
-      of.position = P::select(of.matter, surface.at + Triple{L::set(kBack), L::set(kBack), L::set(kBack)}, of.position);
+      of.position =
+          P::select(of.matter, surface.at + Triple{L::set(kBack), L::set(kBack), L::set(kBack)}, of.position);
       of.from_start = of.matter ? hits.sample == 0 : of.from_start;
     }
     return of;
@@ -67,10 +68,10 @@ struct DrawPacket : Packet<Arch> {
 
   // Positions of lanes that meet nothing are 0, and their normals any unit vectors.
   struct Surface {
-    Met met;
-    V found;
-    Triple to_eye, position, lattice, normal;
-    typename Ground::Painted paint;
+    Met met{};
+    V found{};
+    Triple to_eye{}, position{}, lattice{}, normal{};
+    typename Ground::Painted paint{};
   };
 
   // Tells whether there is any.
@@ -88,8 +89,8 @@ struct DrawPacket : Packet<Arch> {
     }
     if (L::any(of.met.matter)) {
       constexpr std::int32_t kBias = Field::kBias;
-      of.lattice =
-          P::select(of.met.matter, of.position + Triple{L::set(kBias), L::set(kBias), L::set(kBias)}, Triple{});
+      of.lattice = P::select(of.met.matter, of.position + Triple{L::set(kBias), L::set(kBias), L::set(kBias)},
+                             Triple{});
       of.normal = P::select(of.met.matter & ~of.met.from_start, Field::normal(data, of.lattice), of.normal);
     }
     return true;
@@ -99,8 +100,8 @@ struct DrawPacket : Packet<Arch> {
     Color color{{L::set(data.background[0]), L::set(data.background[1]), L::set(data.background[2])}};
     Surface of;
     if (!surface(data, across, down, of)) return color;
-    const auto arriving = LightPacket<Arch>::at(data.light, data.paint->glow,
-                                                LightPacket<Arch>::before(of.position, of.normal, data.light.shift));
+    const auto arriving = LightPacket<Arch>::at(
+        data.light, data.paint->glow, LightPacket<Arch>::before(of.position, of.normal, data.light.shift));
     Color lit = color;
     if (L::any(of.met.ground)) {
       const Color own{{of.paint.color[0], of.paint.color[1], of.paint.color[2]}};

@@ -11,6 +11,7 @@
 
 #include "kernel/engine/cpu/workers.h"
 #include "render/packet/plain_packet.h"
+#include "render/packet/visible_area.h"
 #include "render/rule/ground.h"
 
 namespace voxmelt::render {
@@ -71,6 +72,36 @@ struct Tile {
   int x0, y0, x1, y1;
 };
 
+// Which tiles may show matter or ground.
+class Areas {
+ public:
+  explicit Areas(const PictureData& data)
+      : data_(data),
+        matter_(data.view, data.field.low, data.field.high),
+        ground_(data.view, ground_low(),
+                {data.ground.cells.x * picture::kCell,
+                 std::int64_t{data.ground.highest} << (picture::kPositionBits - picture::kHeightBits),
+                 data.ground.cells.z * picture::kCell}) {}
+
+  // What is to be drawn in a tile; tells whether there is anything.
+  bool in(const Tile& tile, PictureData& data) const {
+    data = data_;
+    if (!data.skip) return true;
+    const auto seen = [&](const VisibleArea& area) {
+      return area.overlaps(tile.x0 * picture::kPixel, tile.y0 * picture::kPixel, tile.x1 * picture::kPixel,
+                           tile.y1 * picture::kPixel);
+    };
+    if (!seen(matter_)) data.field.high = data.field.low = {};
+    if (!seen(ground_)) data.ground.any = false;
+    return data.ground.any || data.field.low.x < data.field.high.x;
+  }
+
+ private:
+  static picture::Vector ground_low() { return {}; }
+  const PictureData& data_;
+  VisibleArea matter_, ground_;
+};
+
 // Which pixels of a tile's row differ from a neighbour, byte by byte.
 class Differing {
  public:
@@ -99,8 +130,9 @@ class Differing {
 const Packets& packets_of(cpu::InstructionSet wanted) {
   static const auto all = [] {
     std::array<Packets, cpu::kInstructionSets.size()> of{};
-    cpu::for_each_instruction_set(
-        [&]<cpu::InstructionSet set>() { of[static_cast<std::size_t>(set)] = packets_for<cpu::ArchOf<set>>(); });
+    cpu::for_each_instruction_set([&]<cpu::InstructionSet set>() {
+      of[static_cast<std::size_t>(set)] = packets_for<cpu::ArchOf<set>>();
+    });
     return of;
   }();
   return all[static_cast<std::size_t>(wanted)];
@@ -113,10 +145,11 @@ const Packets& best_packets() {
   return packets_of(best);
 }
 
-// Places on rays are parts of 2^30 at most, and sums in doubles stay below 2^52.
+// Rays come to the grid within 2^20 samples, so that their ranges in floats reach no more than three samples
+// too far. Places on them are parts of 2^30 at most. Sums in doubles stay below 2^52.
 bool fits_lanes(const PictureData& data) {
   const picture::View& view = data.view;
-  const std::int64_t most_samples = std::int64_t{1} << (30 - picture::kPartBits);
+  const std::int64_t most_samples = std::int64_t{1} << 20;
   const std::int64_t most_way = most_samples << (picture::kPositionBits - data.spacing - 1);
   const std::int64_t far = picture::largest(data.field.cells) * picture::kCell;
   const auto axis = [&](std::int64_t eye, std::int64_t forward, std::int64_t wide, std::int64_t high,
@@ -152,14 +185,16 @@ SurfacePicture draw_surface(const PictureData& data, const Packets& wanted, int 
       places[1][i] = static_cast<std::int32_t>(y * picture::kPixel + picture::kMiddle[0].down);
     }
     packets.find(data, {places[0].data(), places[1].data(), count},
-                 {found.data(), {numbers[0].data(), numbers[1].data(), numbers[2].data()},
+                 {found.data(),
+                  {numbers[0].data(), numbers[1].data(), numbers[2].data()},
                   {numbers[3].data(), numbers[4].data(), numbers[5].data()}});
     for (std::size_t i = 0; i < count; ++i) {
       if (found[i] == 0) continue;
       const std::size_t at = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x0) + i;
       picture.depth[at] = static_cast<std::uint16_t>(
           picture::depth_in_picture(data.view, {numbers[0][i], numbers[1][i], numbers[2][i]}));
-      for (std::size_t c = 0; c < 3; ++c) picture.normal[at][c] = static_cast<std::int16_t>(numbers[3 + c][i]);
+      for (std::size_t c = 0; c < 3; ++c)
+        picture.normal[at][c] = static_cast<std::int16_t>(numbers[3 + c][i]);
     }
   });
   return picture;
@@ -173,12 +208,18 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
     const int x = tile % across * kTile, y = tile / across * kTile;
     return Tile{x, y, std::min(x + kTile, width), std::min(y + kTile, height)};
   };
-  Image image(width, height);
+  const auto byte = [&](std::size_t c) {
+    return (*data.bytes)[static_cast<std::size_t>(data.background[c])];
+  };
+  Image image(width, height, {byte(0), byte(1), byte(2)});
+  const Areas areas(data);
 
   // Packets are small squares, whose rays run together.
   const int side = packets.lanes >= 16 ? 4 : packets.lanes >= 4 ? 2 : 1, wide = packets.lanes / side;
   for_tiles(tiles, threads, [&](int index, Samples& samples) {
     const Tile tile = tile_at(index);
+    PictureData of_tile;
+    if (!areas.in(tile, of_tile)) return;
     std::array<std::uint16_t, kTile * kTile> pixel;
     samples.clear();
     for (int y = tile.y0; y < tile.y1; y += side)
@@ -186,15 +227,17 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
         for (int j = y; j < std::min(y + side, tile.y1); ++j)
           for (int i = x; i < std::min(x + wide, tile.x1); ++i) {
             pixel[samples.count()] = static_cast<std::uint16_t>((j - tile.y0) * kTile + (i - tile.x0));
-            samples.add(i * picture::kPixel + picture::kMiddle[0].across, j * picture::kPixel + picture::kMiddle[0].down);
+            samples.add(i * picture::kPixel + picture::kMiddle[0].across,
+                        j * picture::kPixel + picture::kMiddle[0].down);
           }
-    samples.draw(data, packets);
+    samples.draw(of_tile, packets);
     for (std::size_t i = 0; i < samples.count(); ++i)
       image.at(tile.x0 + pixel[i] % kTile, tile.y0 + pixel[i] / kTile) = samples.mean<1>(*data.bytes, i);
   });
   if (setting == Setting::fast) return image;
 
-  const auto refine = [&]<std::size_t kCount>(int difference, const std::array<picture::Sub, kCount>& pattern) {
+  const auto refine = [&]<std::size_t kCount>(int difference,
+                                              const std::array<picture::Sub, kCount>& pattern) {
     const Image before = image;
     for_tiles(tiles, threads, [&](int index, Samples& samples) {
       const Tile tile = tile_at(index);
@@ -210,8 +253,9 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
             samples.add(x * picture::kPixel + sub.across, y * picture::kPixel + sub.down);
         }
       }
-      if (pixels == 0) return;
-      samples.draw(data, packets);
+      PictureData of_tile;
+      if (pixels == 0 || !areas.in(tile, of_tile)) return;
+      samples.draw(of_tile, packets);
       for (std::size_t i = 0; i < pixels; ++i)
         image.at(tile.x0 + pixel[i] % kTile, tile.y0 + pixel[i] / kTile) =
             samples.mean<kCount>(*data.bytes, i * kCount);

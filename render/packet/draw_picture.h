@@ -27,8 +27,8 @@ bool fits_lanes(const PictureData& data);
 
 Image draw_picture(const PictureData& data, Setting setting, const Packets& packets, int threads);
 
-// What the middle of each pixel shows, row by row from the top: its depth (picture::depth_in_picture, kNoDepth where
-// there is nothing) and unit normal (2^14 is 1).
+// What the middle of each pixel shows, row by row from the top: its depth (picture::depth_in_picture,
+// kNoDepth where there is nothing) and unit normal (2^14 is 1).
 struct SurfacePicture {
   int width = 0, height = 0;
   std::vector<std::uint16_t> depth;

@@ -2,106 +2,56 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cstring>
 
+#include "render/packet/block_distances.h"
 #include "render/rule/matter.h"
 
 namespace voxmelt::render {
 namespace {
 
-constexpr int kWide = kBrickPlaces + 2;  // with the neighbours that the pre-filter reads
 constexpr std::size_t kPlaces = kBrickVolume;
-constexpr std::size_t kBeyond = 2;  // a pair of levels is read as 32 bits
+constexpr std::uint8_t kWhole = 2;   // of what is stale: also where it is what it was
+constexpr std::size_t kBeyond = 16;  // levels are read in pairs, and in rows of 16
+static_assert(kPlacesOfBrick == kBrickPlaces);
 
-// The cell of a brick's first place.
-state::Grid first_cell(const state::Grid& brick) {
-  constexpr int kBefore = kLatticeBorder + 1;
-  return {brick.x * kBrickSide - kBefore, brick.y * kBrickSide - kBefore, brick.z * kBrickSide - kBefore};
-}
-
-// The levels of a brick's places.
-void brick_levels(const DensityField& field, const state::Grid& first, std::int16_t* to) {
-  const state::Grid& grid = field.grid();
-  std::array<std::uint16_t, kWide * kWide * kBrickPlaces> along_x;
-  std::array<std::uint16_t, kWide * kBrickPlaces * kBrickPlaces> along_y;
-  for (int k = 0; k < kWide; ++k)
-    for (int j = 0; j < kWide; ++j) {
-      const std::uint16_t* row =
-          field.intensity().data() +
-          grid.index(0, std::clamp(first.y + j - 1, 0, grid.y - 1), std::clamp(first.z + k - 1, 0, grid.z - 1));
-      std::array<std::uint32_t, kWide> cells;
-      if (first.x >= 1 && first.x + kBrickPlaces < grid.x) {
-        for (int i = 0; i < kWide; ++i) cells[static_cast<std::size_t>(i)] = row[first.x - 1 + i];
-      } else {
-        for (int i = 0; i < kWide; ++i)
-          cells[static_cast<std::size_t>(i)] = row[std::clamp(first.x + i - 1, 0, grid.x - 1)];
-      }
-      std::uint16_t* out = along_x.data() + (k * kWide + j) * kBrickPlaces;
-      for (std::size_t i = 0; i < kBrickPlaces; ++i)
-        out[i] = static_cast<std::uint16_t>((43 * cells[i] + 170 * cells[i + 1] + 43 * cells[i + 2] + 128) >> 8);
-    }
-
-  const auto filtered = [](std::uint16_t a, std::uint16_t b, std::uint16_t c) {
-    return static_cast<std::uint16_t>((43u * a + 170u * b + 43u * c + 128u) >> 8);
-  };
-  constexpr int kRow = kBrickPlaces, kSlice = kBrickPlaces * kBrickPlaces;
-  for (int k = 0; k < kWide; ++k) {
-    const std::uint16_t* from = along_x.data() + k * kWide * kRow;
-    std::uint16_t* out = along_y.data() + k * kSlice;
-    for (int i = 0; i < kSlice; ++i) out[i] = filtered(from[i], from[i + kRow], from[i + 2 * kRow]);
+// A brick of the field.
+BrickSource source_of(const state::Grid& grid, const state::Grid& brick) {
+  const state::Grid first{brick.x * kBrickSide, brick.y * kBrickSide, brick.z * kBrickSide};
+  BrickSource of;
+  for (int i = 0; i < BrickSource::kWide; ++i) {
+    of.rows[static_cast<std::size_t>(i)] = grid.index(0, std::clamp(first.y + i - 1, 0, grid.y - 1), 0);
+    of.slices[static_cast<std::size_t>(i)] = grid.index(0, 0, std::clamp(first.z + i - 1, 0, grid.z - 1));
   }
-  for (int i = 0; i < kSlice * kBrickPlaces; ++i)
-    to[i] = static_cast<std::int16_t>(
-        filtered(along_y[static_cast<std::size_t>(i)], along_y[static_cast<std::size_t>(i + kSlice)],
-                 along_y[static_cast<std::size_t>(i + 2 * kSlice)]) +
-        picture::kAir);
-
-  // Outside the grid there is air.
-  const auto inside = [](int place, int side) { return place >= 0 && place < side; };
-  if (first.x < 0 || first.y < 0 || first.z < 0 || first.x + kRow > grid.x || first.y + kRow > grid.y ||
-      first.z + kRow > grid.z)
-    for (int k = 0; k < kRow; ++k)
-      for (int j = 0; j < kRow; ++j)
-        for (int i = 0; i < kRow; ++i)
-          if (!inside(first.x + i, grid.x) || !inside(first.y + j, grid.y) || !inside(first.z + k, grid.z))
-            to[k * kSlice + j * kRow + i] = picture::kAir;
+  of.x = first.x;
+  of.cells_x = grid.x;
+  of.count_x = std::min(kBrickSide, grid.x - first.x);
+  of.count_y = std::min(kBrickSide, grid.y - first.y);
+  of.count_z = std::min(kBrickSide, grid.z - first.z);
+  return of;
 }
 
-void brick_matter(const DensityField& field, const picture::Look& look, const state::Grid& first,
-                  const std::int16_t* levels, std::uint32_t* to) {
-  const state::Grid& grid = field.grid();
-  const std::uint16_t* obstacles = field.has_obstacles() ? field.obstacle().data() : nullptr;
-  for (int k = 0; k < kBrickPlaces; ++k)
-    for (int j = 0; j < kBrickPlaces; ++j)
-      for (int i = 0; i < kBrickPlaces; ++i, ++levels, ++to) {
-        *to = 0;
-        if (*levels == picture::kAir) continue;  // so inside the grid
-        const std::size_t c = grid.index(first.x + i, first.y + j, first.z + k);
-        const picture::Matter of = picture::matter_of(field.solid()[c], field.liquid()[c], field.heat()[c],
-                                                      obstacles != nullptr ? obstacles[c] : 0, look);
-        *to = static_cast<std::uint32_t>(of.liquid | of.heat << 8 | of.obstacle << 16);
-      }
+// Calls visit(b) for the bricks that hold a part of brick `a`, or of which it holds one: those from `low` to
+// `high` of it.
+template <class Visit>
+void for_near(const state::Grid& bricks, const state::Grid& a, int low, int high, const Visit& visit) {
+  for (int z = std::max(a.z + low, 0); z <= std::min(a.z + high, bricks.z - 1); ++z)
+    for (int y = std::max(a.y + low, 0); y <= std::min(a.y + high, bricks.y - 1); ++y)
+      for (int x = std::max(a.x + low, 0); x <= std::min(a.x + high, bricks.x - 1); ++x)
+        visit(state::Grid{x, y, z});
 }
 
-// Of a block of a brick: its largest level, and its slope's bound.
-struct BlockRange {
-  int most, slope;
-};
-BlockRange block_range(const std::int16_t* levels, int bx, int by, int bz) {
-  constexpr int kRow = kBrickPlaces, kSlice = kBrickPlaces * kBrickPlaces;
-  const std::int16_t* const corner =
-      levels + kSlice + kRow + 1 + kBlockSide * (bz * kSlice + by * kRow + bx);
-  int most = picture::kAir, along_x = 0, along_y = 0, along_z = 0;
-  for (int k = 0; k <= kBlockSide; ++k)
-    for (int j = 0; j <= kBlockSide; ++j)
-      for (int i = 0; i <= kBlockSide; ++i) {
-        const std::int16_t* at = corner + k * kSlice + j * kRow + i;
-        most = std::max<int>(most, *at);
-        if (i < kBlockSide) along_x = std::max(along_x, std::abs(at[1] - *at));
-        if (j < kBlockSide) along_y = std::max(along_y, std::abs(at[kRow] - *at));
-        if (k < kBlockSide) along_z = std::max(along_z, std::abs(at[kSlice] - *at));
-      }
-  return {most, FieldBricks::slope_bound(along_x, along_y, along_z)};
+state::Grid place_in(const state::Grid& bricks, std::size_t brick) {
+  const auto x = static_cast<std::size_t>(bricks.x), y = static_cast<std::size_t>(bricks.y);
+  return {static_cast<int>(brick % x), static_cast<int>(brick / x % y), static_cast<int>(brick / x / y)};
+}
+
+// The glow's heat by temperature, in 256 steps.
+std::array<std::uint8_t, 257> heats_of(const picture::Look& look) {
+  std::array<std::uint8_t, 257> of;
+  for (std::size_t i = 0; i < of.size(); ++i)
+    of[i] = static_cast<std::uint8_t>(picture::matter_of(0, 256, static_cast<std::int32_t>(i), 0, look).heat);
+  return of;
 }
 
 }  // namespace
@@ -121,49 +71,75 @@ void FieldBricks::resize(const state::Grid& grid) {
 }
 
 void FieldBricks::update(const DensityField& field, const picture::Look& look,
-                         const std::vector<std::uint32_t>* changed, cpu::Workers& workers) {
+                         const std::vector<std::uint32_t>* changed, cpu::Workers& workers,
+                         const BrickLoops& loops) {
   const bool all = changed == nullptr || grid_.x != field.grid().x || grid_.y != field.grid().y ||
                    grid_.z != field.grid().z;
-  if (all) resize(field.grid());
-  std::vector<std::uint32_t> bricks;
   if (all) {
-    for (std::size_t brick = 0; brick < slots_.size(); ++brick) bricks.push_back(static_cast<std::uint32_t>(brick));
-  } else {
-    // A brick of the field reaches, with the pre-filter, into the next ones of the lattice.
-    std::vector<std::uint8_t> touched(slots_.size(), 0);
-    const state::Grid& of = field.bricks();
-    for (const std::uint32_t brick : *changed) {
-      const int x = static_cast<int>(brick % static_cast<std::uint32_t>(of.x)),
-                y = static_cast<int>(brick / static_cast<std::uint32_t>(of.x) % static_cast<std::uint32_t>(of.y)),
-                z = static_cast<int>(brick / static_cast<std::uint32_t>(of.x) / static_cast<std::uint32_t>(of.y));
-      for (int k = z; k <= std::min(z + 1, bricks_.z - 1); ++k)
-        for (int j = y; j <= std::min(y + 1, bricks_.y - 1); ++j)
-          for (int i = x; i <= std::min(x + 1, bricks_.x - 1); ++i) touched[bricks_.index(i, j, k)] = 1;
-    }
-    for (std::size_t brick = 0; brick < touched.size(); ++brick)
-      if (touched[brick] != 0) bricks.push_back(static_cast<std::uint32_t>(brick));
+    resize(field.grid());
+    mixed_.assign(field.bricks().cells(), 0);
   }
-  if (bricks.empty()) return;
+  // With the pre-filter, a brick of the field changes levels in those around it.
+  const state::Grid& of = field.bricks();
+  std::vector<std::uint8_t> stale(of.cells(), all ? kWhole : 0), touched(slots_.size(), all ? 1 : 0);
+  if (!all) {
+    if (changed->empty()) return;
+    for (const std::uint32_t brick : *changed)
+      for_near(of, place_in(of, brick), -1, 1,
+               [&](const state::Grid& b) { stale[of.index(b.x, b.y, b.z)] = 1; });
+    for (std::size_t brick = 0; brick < stale.size(); ++brick)
+      if (stale[brick] != 0)
+        for_near(bricks_, place_in(of, brick), 0, 1,
+                 [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
+  }
 
-  // What is nothing but air needs no slot.
-  std::vector<std::uint8_t> needed(bricks.size());
-  workers.run(static_cast<int>(bricks.size()), [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    needed[at] = anything_near(field, bricks[at]) ? 1 : 0;
-  });
-  for (std::size_t i = 0; i < bricks.size(); ++i) {
-    std::int32_t& slot = slots_[bricks[i]];
-    if (needed[i] == 0) {
+  // What is nothing but air needs no slot. A new one is filled whole.
+  std::vector<std::size_t> bricks;
+  bool moved = all;
+  for (std::size_t brick = 0; brick < touched.size(); ++brick) {
+    if (touched[brick] == 0) continue;
+    const state::Grid at = place_in(bricks_, brick);
+    std::int32_t& slot = slots_[brick];
+    if (!anything_near(field, at)) {
+      if (slot == 0) continue;
+      moved = clear(brick) || moved;
       give_back(slot);
-      clear(bricks[i]);
-    } else if (slot == 0) {
-      slot = take();
+      continue;
     }
+    if (slot == 0) {
+      slot = take();
+      std::fill_n(levels_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces),
+                  kPlaces, picture::kAir);
+      std::fill_n(matter_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces),
+                  kPlaces, 0);
+      for_near(of, at, -1, 0, [&](const state::Grid& b) { stale[of.index(b.x, b.y, b.z)] = kWhole; });
+    }
+    bricks.push_back(brick);
   }
+  std::vector<std::size_t> sources;
+  for (std::size_t brick = 0; brick < stale.size(); ++brick)
+    if (stale[brick] != 0) sources.push_back(brick);
+
+  const auto heats = look.glow ? heats_of(look) : std::array<std::uint8_t, 257>{};
+  const MatterSource matter{field.solid().data(), field.liquid().data(),
+                            look.glow ? field.heat().data() : nullptr,
+                            field.has_obstacles() ? field.obstacle().data() : nullptr, heats.data()};
+  std::fill(touched.begin(), touched.end(), 0);
+  std::vector<std::uint8_t> filled(sources.size());
+  workers.run(static_cast<int>(sources.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    filled[at] = fill(field, matter, sources[at], stale[sources[at]] == kWhole, loops) ? 1 : 0;
+  });
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    if (filled[i] != 0)
+      for_near(bricks_, place_in(of, sources[i]), 0, 1,
+               [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
+  std::vector<std::uint8_t> others(bricks.size());
   workers.run(static_cast<int>(bricks.size()), [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    if (needed[at] != 0) fill(field, look, bricks[at]);
+    others[at] = touched[bricks[at]] != 0 && find_ranges(bricks[at], loops) ? 1 : 0;
   });
+  if (!moved && std::find(others.begin(), others.end(), 1) == others.end()) return;
   find_distances();
   find_box();
 }
@@ -184,88 +160,120 @@ void FieldBricks::give_back(std::int32_t& slot) {
   slot = 0;
 }
 
-state::Grid FieldBricks::place_of(std::size_t brick) const {
-  const auto x = static_cast<std::size_t>(bricks_.x), y = static_cast<std::size_t>(bricks_.y);
-  return {static_cast<int>(brick % x), static_cast<int>(brick / x % y), static_cast<int>(brick / x / y)};
-}
-
-// Is there any intensity that the levels of the brick depend on?
-bool FieldBricks::anything_near(const DensityField& field, std::size_t brick) const {
-  const state::Grid first = first_cell(place_of(brick));
-  const auto from = [](int at) { return std::max(at - 1, 0); };
-  const auto end = [](int at, int side) { return std::min(at + kBrickPlaces + 1, side); };
-  for (int z = from(first.z); z < end(first.z, grid_.z); ++z)
-    for (int y = from(first.y); y < end(first.y, grid_.y); ++y) {
+// Is there any intensity that the levels of the brick depend on? They lie in two bricks of the field along
+// each axis, and in the next one's first plane. The range of a brick covers two cells around it: where it is
+// 0, there is nothing.
+bool FieldBricks::anything_near(const DensityField& field, const state::Grid& brick) const {
+  const state::Grid& of = field.bricks();
+  bool maybe = false;
+  for_near(of, brick, -1, 0,
+           [&](const state::Grid& b) { maybe = maybe || field.ranges()[of.index(b.x, b.y, b.z)].high != 0; });
+  if (!maybe) return false;
+  const auto from = [](int b) { return std::max(b * kBrickSide - kLatticeBorder - 2, 0); };
+  const auto end = [](int b, int side) { return std::min(b * kBrickSide + kBrickSide + 1, side); };
+  for (int z = end(brick.z, grid_.z) - 1; z >= from(brick.z); --z)
+    for (int y = from(brick.y); y < end(brick.y, grid_.y); ++y) {
       const std::uint16_t* row = field.intensity().data() + grid_.index(0, y, z);
-      std::uint32_t any = 0;
-      for (int x = from(first.x); x < end(first.x, grid_.x); ++x) any |= row[x];
+      // A row has 13 cells, or fewer at the ends of the grid. Groups of four may overlap.
+      const int first = from(brick.x), last = end(brick.x, grid_.x) - 4;
+      std::uint64_t any = 0, group;
+      for (int x = first; x < last; x += 4) {
+        std::memcpy(&group, row + x, sizeof group);
+        any |= group;
+      }
+      if (last >= first) {
+        std::memcpy(&group, row + last, sizeof group);
+        any |= group;
+      } else {
+        for (int x = first; x < last + 4; ++x) any |= row[x];
+      }
       if (any != 0) return true;
     }
   return false;
 }
 
-void FieldBricks::clear(std::size_t brick) {
+// Tells whether any of its blocks was occupied.
+bool FieldBricks::clear(std::size_t brick) {
+  bool moved = false;
   for (int b = 0; b < 8; ++b) {
     const std::size_t block = block_of(brick, b);
+    moved = moved || occupied_[block] != 0;
     occupied_[block] = 0;
-    skip_[block] = 0;
+    skip_[block] &= 0xFF;
   }
+  return moved;
 }
 
-void FieldBricks::fill(const DensityField& field, const picture::Look& look, std::size_t brick) {
-  const state::Grid first = first_cell(place_of(brick));
-  const std::size_t slot = static_cast<std::size_t>(slots_[brick]) * kPlaces;
-  brick_levels(field, first, levels_.data() + slot);
+// The cells of a brick of the field, in all the bricks of the lattice that hold some of them. Tells whether
+// any may have changed. `whole`: some of those bricks are new.
+bool FieldBricks::fill(const DensityField& field, const MatterSource& matter, std::size_t brick, bool whole,
+                       const BrickLoops& loops) {
+  const state::Grid at = place_in(field.bricks(), brick);
+  BrickTargets to{};
+  bool any = false;
   for (int b = 0; b < 8; ++b) {
-    const BlockRange range = block_range(levels_.data() + slot, b & 1, (b >> 1) & 1, b >> 2);
-    const std::size_t block = block_of(brick, b);
-    occupied_[block] = range.most >= 0 ? 1 : 0;
-    skip_[block] = static_cast<std::uint16_t>(range.slope << 8);
+    const state::Grid next{at.x + (b & 1), at.y + ((b >> 1) & 1), at.z + (b >> 2)};
+    if (!bricks_.contains(next.x, next.y, next.z)) continue;
+    const auto slot = static_cast<std::size_t>(slots_[bricks_.index(next.x, next.y, next.z)]);
+    if (slot == 0) continue;
+    any = true;
+    to.levels[static_cast<std::size_t>(b)] = levels_.data() + slot * kPlaces;
+    to.matter[static_cast<std::size_t>(b)] = matter_.data() + slot * kPlaces;
   }
-  brick_matter(field, look, first, levels_.data() + slot, matter_.data() + slot);
+  if (!any) {
+    mixed_[brick] = 0;
+    return false;
+  }
+  BrickCells cells;
+  const bool had_matter = mixed_[brick] != 0;
+  bool has_matter = false;
+  if (field.ranges()[brick].high == 0) {
+    cells.levels.fill(picture::kAir);
+    cells.matter.fill(0);
+  } else {
+    has_matter = loops.cells(field.intensity().data(), matter, source_of(grid_, at), cells);
+  }
+  mixed_[brick] = has_matter ? 1 : 0;
+  // The first brick of the lattice holds all of the cells, and the others hold the same.
+  if (!whole && to.levels[0] != nullptr && loops.same(cells, to)) return false;
+  loops.scatter(cells, to, has_matter || had_matter);
+  return true;
+}
+
+// Tells whether other blocks are occupied now.
+bool FieldBricks::find_ranges(std::size_t brick, const BrickLoops& loops) {
+  BlockRanges ranges;
+  loops.ranges(levels_.data() + static_cast<std::size_t>(slots_[brick]) * kPlaces, ranges);
+  bool moved = false;
+  for (int b = 0; b < 8; ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    const std::size_t block = block_of(brick, b);
+    const std::uint8_t occupied = ranges.most[i] >= 0 ? 1 : 0;
+    moved = moved || occupied != occupied_[block];
+    occupied_[block] = occupied;
+    const int slope = slope_bound(ranges.along_x[i], ranges.along_y[i], ranges.along_z[i]);
+    skip_[block] = static_cast<std::uint16_t>((skip_[block] & 0xFF) | slope << 8);
+  }
+  return moved;
 }
 
 std::size_t FieldBricks::block_of(std::size_t brick, int which) const {
-  const state::Grid at = place_of(brick);
+  const state::Grid at = place_in(bricks_, brick);
   return blocks_.index(2 * at.x + (which & 1), 2 * at.y + ((which >> 1) & 1), 2 * at.z + (which >> 2));
 }
 
-// The distance in blocks, by largest component: as often as a block is still dark when what is occupied grows by
-// one block in every direction.
 void FieldBricks::find_distances() {
-  const auto x = static_cast<std::size_t>(blocks_.x), row = x, slice = x * static_cast<std::size_t>(blocks_.y);
-  std::vector<std::uint8_t> grown = occupied_, next(grown.size()), distance(grown.size());
-  const auto widen = [&](std::size_t stride, int side) {
-    for (std::size_t i = 0; i < grown.size(); i += stride * static_cast<std::size_t>(side)) {
-      const std::uint8_t* from = grown.data() + i;
-      std::uint8_t* to = next.data() + i;
-      if (side == 1) {
-        std::copy_n(from, stride, to);
-        continue;
-      }
-      const std::size_t count = stride * static_cast<std::size_t>(side);
-      for (std::size_t j = 0; j < stride; ++j) to[j] = from[j] | from[j + stride];
-      for (std::size_t j = stride; j < count - stride; ++j)
-        to[j] = from[j - stride] | from[j] | from[j + stride];
-      for (std::size_t j = count - stride; j < count; ++j) to[j] = from[j - stride] | from[j];
-    }
-    grown.swap(next);
-  };
-  for (int d = 0; d < kFarthest; ++d) {
-    for (std::size_t i = 0; i < grown.size(); ++i) distance[i] = static_cast<std::uint8_t>(distance[i] + (grown[i] ^ 1));
-    if (d + 1 == kFarthest) break;
-    widen(1, blocks_.x);
-    widen(row, blocks_.y);
-    widen(slice, blocks_.z);
-  }
-  for (std::size_t i = 0; i < distance.size(); ++i)
-    skip_[i] = static_cast<std::uint16_t>((skip_[i] & 0xFF00) | distance[i]);
+  const std::vector<std::uint8_t> distances = block_distances(occupied_, blocks_, kFarthest);
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    skip_[i] = static_cast<std::uint16_t>((skip_[i] & 0xFF00) | distances[i]);
 }
 
 void FieldBricks::find_box() {
   int low[3] = {blocks_.x, blocks_.y, blocks_.z}, high[3] = {0, 0, 0};
+  const auto row = static_cast<std::size_t>(blocks_.x);
   for (int z = 0; z < blocks_.z; ++z)
-    for (int y = 0; y < blocks_.y; ++y)
+    for (int y = 0; y < blocks_.y; ++y) {
+      if (std::memchr(occupied_.data() + blocks_.index(0, y, z), 1, row) == nullptr) continue;
       for (int x = 0; x < blocks_.x; ++x) {
         if (occupied_[blocks_.index(x, y, z)] == 0) continue;
         const int at[3] = {x, y, z};
@@ -274,6 +282,7 @@ void FieldBricks::find_box() {
           high[axis] = std::max(high[axis], at[axis] + 1);
         }
       }
+    }
   const auto corner = [](const int(&block)[3]) {
     const auto axis = [](int b) {
       return (std::int64_t{b} * kBlockSide - kLatticeBorder) * picture::kCell - picture::kToPlace;

@@ -1,9 +1,9 @@
 // The field as the ray caster reads it: bricks of levels and of matter, and what of it is empty
 // (docs/picture.md, section 10).
 //
-// The lattice holds the cells -2 .. n + 1 of each axis: lattice place = cell + 2. Brick b covers samples whose lower
-// cell lies in the places 8 b .. 8 b + 7. It holds the 11 places from 8 b - 1 along each axis, so samples and normals
-// read one brick alone. Bricks in which there is nothing but air share one.
+// The lattice holds the cells -2 .. n + 1 of each axis: lattice place = cell + 2. Brick b covers samples
+// whose lower cell lies in the places 8 b .. 8 b + 7. It holds the 11 places from 8 b - 1 along each axis, so
+// samples and normals read one brick alone. Bricks in which there is nothing but air share one.
 #pragma once
 
 #include <algorithm>
@@ -12,23 +12,25 @@
 #include <vector>
 
 #include "kernel/engine/cpu/workers.h"
+#include "render/brick/brick_loops.h"
 #include "render/density/density_field.h"
+#include "render/packet/picture_data.h"
 #include "render/rule/look.h"
 #include "render/rule/sample.h"
 
 namespace voxmelt::render {
 
-inline constexpr int kLatticeBorder = 2;              // places before cell 0
-inline constexpr int kBrickPlaces = kBrickSide + 3;   // along an axis of a brick
+inline constexpr int kLatticeBorder = 2;             // places before cell 0
+inline constexpr int kBrickPlaces = kBrickSide + 3;  // along an axis of a brick
 inline constexpr int kBrickVolume = kBrickPlaces * kBrickPlaces * kBrickPlaces;
-inline constexpr int kBlockSide = 4;                  // of the blocks by which rays skip
+inline constexpr int kBlockSide = 4;  // of the blocks by which rays skip
 
 class FieldBricks {
  public:
   // Takes over a field. `changed`: bricks of the field (DensityField::bricks) that were filtered again since
   // the last call, or null for all. Another grid or look asks for all.
   void update(const DensityField& field, const picture::Look& look, const std::vector<std::uint32_t>* changed,
-              cpu::Workers& workers);
+              cpu::Workers& workers, const BrickLoops& loops = brick_loops());
 
   picture::Vector cells() const { return cells_; }
   const state::Grid& bricks() const { return bricks_; }
@@ -39,14 +41,16 @@ class FieldBricks {
   // [slot][z][y][x]; matter as liquid + 256 heat + 65536 obstacle.
   const std::int16_t* levels() const { return levels_.data(); }
   const std::uint32_t* matter() const { return matter_.data(); }
-  // Of each block of 4 x 4 x 4 lower cells: in the low byte 0 if one of its places is matter, or else how many blocks
-  // away the nearest such block is, kFarthest at most; in the high byte a bound of the slope (see slope_bound).
+  // Of each block of 4 x 4 x 4 lower cells: in the low byte 0 if one of its places is matter, or else how
+  // many blocks away the nearest such block is, kFarthest at most; in the high byte a bound of the slope (see
+  // slope_bound).
   const std::uint16_t* skip() const { return skip_.data(); }
   static constexpr int kFarthest = 16;
-  // The level changes by no more than 256 times this from a position to another one cell away (the largest
-  // component of the way), within a block, but for the roundings of samples.
+  // The level changes by no more than kSlopeUnit times this from a position to another one cell away (the
+  // largest component of the way), within a block, but for the roundings of samples. Neighbours differ by
+  // 65280 at most, at a side of the grid. So a byte suffices, even in a corner of it.
   static int slope_bound(int along_x, int along_y, int along_z) {
-    return std::min((along_x + along_y + along_z + 255) / 256, 255);
+    return (along_x + along_y + along_z + kSlopeUnit - 1) / kSlopeUnit;
   }
   // Every sample outside of this box is air: low <= position < high.
   struct Box {
@@ -59,11 +63,12 @@ class FieldBricks {
   void resize(const state::Grid& grid);
   std::int32_t take();
   void give_back(std::int32_t& slot);
-  state::Grid place_of(std::size_t brick) const;
   std::size_t block_of(std::size_t brick, int which) const;  // 0 .. 7
-  bool anything_near(const DensityField& field, std::size_t brick) const;
-  void clear(std::size_t brick);
-  void fill(const DensityField& field, const picture::Look& look, std::size_t brick);
+  bool anything_near(const DensityField& field, const state::Grid& brick) const;
+  bool clear(std::size_t brick);
+  bool fill(const DensityField& field, const MatterSource& matter, std::size_t brick, bool whole,
+            const BrickLoops& loops);
+  bool find_ranges(std::size_t brick, const BrickLoops& loops);
   void find_distances();
   void find_box();
 
@@ -75,6 +80,7 @@ class FieldBricks {
   std::vector<std::uint32_t> matter_;
   std::vector<std::uint16_t> skip_;
   std::vector<std::uint8_t> occupied_;  // of blocks
+  std::vector<std::uint8_t> mixed_;     // of bricks of the field: some word of matter is not 0
   Box box_;
 };
 

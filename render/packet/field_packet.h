@@ -3,7 +3,6 @@
 // Positions are in the lattice: place_of(position) plus the border, so that cell and weight are plain bits.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "render/packet/rays.h"
@@ -52,8 +51,9 @@ struct FieldPacket : Packet<Arch> {
   }
 
   struct Hits {
-    V found;   // mask
-    V sample;  // the first in matter
+    V found;    // mask
+    V sample;   // the first in matter
+    V level;    // there
     Triple at;  // its lattice position
   };
 
@@ -66,8 +66,8 @@ struct FieldPacket : Packet<Arch> {
     Triple q = Rays<Arch>::at(row, k, kBias);
     q = P::select(active, q, Triple{});
     Hits hits;
-    hits.found = hits.sample = hits.at.x = hits.at.y = hits.at.z = V{};
-    const F rise_unit = L::set_float(1.0f / static_cast<float>(256 >> data.spacing));
+    hits.found = hits.sample = hits.level = hits.at.x = hits.at.y = hits.at.z = V{};
+    const F rise_unit = L::set_float(1.0f / static_cast<float>(kSlopeUnit >> data.spacing));
     const V forward_x = row.step.x >= 0, forward_y = row.step.y >= 0, forward_z = row.step.z >= 0;
     while (L::any(active)) {
       const Triple block = q >> 22;
@@ -94,12 +94,14 @@ struct FieldPacket : Packet<Arch> {
         const V matter = occupied & (level >= 0);
         hits.found = hits.found | matter;
         hits.sample = matter ? k : hits.sample;
+        hits.level = matter ? level : hits.level;
         hits.at = P::select(matter, q, hits.at);
         active = active & ~matter;
         if (data.skip) {
           // The level rises no faster than the block's slope allows. Weights and blends are rounded.
           const V slope = record >> 8;
-          const F steps = L::to_float(-level - 4 - slope) / L::to_float(L::max(slope, L::set(1))) * rise_unit;
+          const F steps =
+              L::to_float(-level - 4 - 3 * slope) / L::to_float(L::max(slope, L::set(1))) * rise_unit;
           const V safe = L::to_int(L::max(steps * (1 - 1.0f / (1 << 18)), L::set_float(0))) + 1;
           advance = occupied ? L::min(advance, safe) : advance;
         }
@@ -119,7 +121,7 @@ struct FieldPacket : Packet<Arch> {
   VOXMELT_WORDS Surface crossing(const FieldData& field, const Row& row, const Hits& hits) {
     const V from_start = hits.sample == 0;
     Triple inside = hits.at, outside = P::select(hits.found & ~from_start, hits.at - row.step, hits.at);
-    V low = sample(field, outside), high = sample(field, inside), part{};
+    V low = sample(field, outside), high = hits.level, part{};
     for (int i = 0; i < picture::kBisections; ++i) {
       const Triple middle = outside + ((inside - outside) >> 1);
       const V level = sample(field, middle), air = level < 0;
@@ -148,7 +150,8 @@ struct FieldPacket : Packet<Arch> {
   }
   template <int kBits>
   VOXMELT_WORDS V splined(V first_two, V third, V weight01, V weight2) {
-    return (L::pair_products(first_two, weight01) + L::pair_products(third & 0xFFFF, weight2) + (1 << (kBits - 1))) >>
+    return (L::pair_products(first_two, weight01) + L::pair_products(third & 0xFFFF, weight2) +
+            (1 << (kBits - 1))) >>
            kBits;
   }
   template <int kBits>
@@ -180,11 +183,12 @@ struct FieldPacket : Packet<Arch> {
 
   // Bytes of two words of four, blended lane by lane. Words are split into even and odd bytes.
   VOXMELT_WORDS V blend_bytes(V a, V b, V w) {
-    constexpr std::int32_t kEven = 0x00FF00FF;
-    const V keep = 256 - w;
-    const V even = (((a & kEven) * keep + (b & kEven) * w + 0x00800080) >> 8) & kEven;
-    const V odd = (((a >> 8) & kEven) * keep + ((b >> 8) & kEven) * w + 0x00800080) & (kEven << 8);
-    return even | odd;
+    constexpr std::uint32_t kEven = 0x00FF00FF;
+    using U = typename L::U;
+    const U by = L::as_unsigned(w), keep = 256 - by, first = L::as_unsigned(a), second = L::as_unsigned(b);
+    const U even = (((first & kEven) * keep + (second & kEven) * by + 0x00800080) >> 8) & kEven;
+    const U odd = (((first >> 8) & kEven) * keep + ((second >> 8) & kEven) * by + 0x00800080) & (kEven << 8);
+    return L::as_signed(even | odd);
   }
   // Liquid, heat and obstacle as bytes of a lane.
   VOXMELT_WORDS V matter(const FieldData& field, Triple q) {

@@ -28,7 +28,8 @@ void GroundColumns::update(const GroundMap& map) {
   shape_.color[2] = static_cast<std::int32_t>(map.color().z);
   shape_.fineness = map.fineness();
   bare_ = around(map.bare());
-  shape_.flat = std::all_of(bare_.begin(), bare_.end(), [&](std::int32_t height) { return height == bare_[0]; });
+  shape_.flat =
+      std::all_of(bare_.begin(), bare_.end(), [&](std::int32_t height) { return height == bare_[0]; });
   texels_.clear();
   for (const picture::Texel& texel : map.texels()) {
     texels_.push_back(texel.red | std::uint32_t{texel.green} << 16);

@@ -1,6 +1,8 @@
-// The ground as a packet sees it: the first crossing, its face, the normal and the paint (rule/ground.h, rule/rock.h).
+// The ground as a packet sees it: the first crossing, its face, the normal and the paint (rule/ground.h,
+// rule/rock.h).
 //
-// Places on rays are in parts of steps. PictureData::fits makes sure that they and the ranges below are exact.
+// Places on rays are in parts of steps. PictureData::fits makes sure that they and the ranges below are
+// exact.
 #pragma once
 
 #include <cstddef>
@@ -37,12 +39,15 @@ struct GroundPacket : Packet<Arch> {
     const V shifted = position + static_cast<std::int32_t>(picture::kToPlace >> fineness);
     return {shifted >> (20 - fineness), (shifted >> (12 - fineness)) & 255};
   }
-  VOXMELT_WORDS V blended(V below, V above, V weight) { return ((below << 8) + (above - below) * weight + 128) >> 8; }
+  VOXMELT_WORDS V blended(V below, V above, V weight) {
+    return ((below << 8) + (above - below) * weight + 128) >> 8;
+  }
 
   VOXMELT_WORDS V height(const GroundData& ground, const std::int32_t* heights, V x, V z) {
     const Place px = place(x, 0), pz = place(z, 0);
     const V at = pz.cell * ground.row + px.cell;
-    const V back = blended(L::template gather<4>(heights, at), L::template gather<4>(heights + 1, at), px.weight);
+    const V back =
+        blended(L::template gather<4>(heights, at), L::template gather<4>(heights + 1, at), px.weight);
     const V front = blended(L::template gather<4>(heights + ground.row, at),
                             L::template gather<4>(heights + ground.row + 1, at), px.weight);
     return blended(back, front, pz.weight);
@@ -84,7 +89,8 @@ struct GroundPacket : Packet<Arch> {
         const F leap = gap > 0.0f ? (nearer > 0.0f ? gap * per_sample : L::set_float(1e6f)) : L::set_float(0);
         next = next + L::to_int(L::min(leap, L::set_float(1e6f)));
       }
-      part = active ? L::min(L::min(next, (range.last >> picture::kPartBits) + 1) << picture::kPartBits, range.last)
+      part = active ? L::min(L::min(next, (range.last >> picture::kPartBits) + 1) << picture::kPartBits,
+                             range.last)
                     : part;
     }
     const V sample = (hits.inside - 1) & -picture::kParts;
@@ -199,7 +205,8 @@ struct GroundPacket : Packet<Arch> {
                rows = static_cast<std::int32_t>(ground.cells.z << ground.fineness);
     const Place x = place(p.x, ground.fineness), z = place(p.z, ground.fineness);
     const V left = L::clamp(x.cell, 0, columns - 1), right = L::clamp(x.cell + 1, 0, columns - 1);
-    const V back = L::clamp(z.cell, 0, rows - 1) * columns, front = L::clamp(z.cell + 1, 0, rows - 1) * columns;
+    const V back = L::clamp(z.cell, 0, rows - 1) * columns,
+            front = L::clamp(z.cell + 1, 0, rows - 1) * columns;
     const V at[4] = {back + left, back + right, front + left, front + right};
     V first[4], second[4];
     for (int i = 0; i < 4; ++i) {

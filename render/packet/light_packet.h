@@ -1,8 +1,6 @@
 // The light that arrives at the surfaces of a packet (rule/light_grid.h).
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
 
 #include "render/packet/field_packet.h"
@@ -34,18 +32,21 @@ struct LightPacket : Packet<Arch> {
     };
     const Axis x = axis(position.x, light.count.x), y = axis(position.y, light.count.y),
                z = axis(position.z, light.count.z);
-    const auto wide = static_cast<std::int32_t>(light.count.x), high = static_cast<std::int32_t>(light.count.y);
+    const auto wide = static_cast<std::int32_t>(light.count.x),
+               high = static_cast<std::int32_t>(light.count.y);
     const V rows[4] = {(z.below * high + y.below) * wide, (z.below * high + y.above) * wide,
                        (z.above * high + y.below) * wide, (z.above * high + y.above) * wide};
     const auto word = [&](int which) {
       V along[4];
       for (int i = 0; i < 4; ++i) {
         const std::uint8_t* from = light.cells + 4 * which;
-        along[i] = FieldPacket<Arch>::blend_bytes(L::template gather<8>(from, 2 * (rows[i] + x.below)),
-                                                  L::template gather<8>(from, 2 * (rows[i] + x.above)), x.weight);
+        along[i] =
+            FieldPacket<Arch>::blend_bytes(L::template gather<8>(from, 2 * (rows[i] + x.below)),
+                                           L::template gather<8>(from, 2 * (rows[i] + x.above)), x.weight);
       }
       return FieldPacket<Arch>::blend_bytes(FieldPacket<Arch>::blend_bytes(along[0], along[1], y.weight),
-                                            FieldPacket<Arch>::blend_bytes(along[2], along[3], y.weight), z.weight);
+                                            FieldPacket<Arch>::blend_bytes(along[2], along[3], y.weight),
+                                            z.weight);
     };
     Light of{word(0), word(1), V{}, V{}};
     if (glow) {
@@ -69,16 +70,17 @@ struct LightPacket : Packet<Arch> {
     const auto part = [](V component, V plus, V minus) {
       return ((component * component) >> 14) * (component < 0 ? minus : plus);
     };
-    return L::min((part(d.x, plus_x, minus_x) + part(d.y, plus_y, minus_y) + part(d.z, plus_z, minus_z)) >> 14,
-                  L::set(255));
+    return L::min(
+        (part(d.x, plus_x, minus_x) + part(d.y, plus_y, minus_y) + part(d.z, plus_z, minus_z)) >> 14,
+        L::set(255));
   }
   VOXMELT_WORDS V open(const Light& of, Triple d) {
     return along(byte(of.lamp_open, 1), byte(of.lamp_open, 2), byte(of.lamp_open, 3), byte(of.open, 0),
                  byte(of.open, 1), byte(of.open, 2), d);
   }
   VOXMELT_WORDS V glow(const Light& of, Triple d) {
-    return along(byte(of.glow, 0), byte(of.glow, 1), byte(of.glow, 2), byte(of.glow, 3), byte(of.more_glow, 0),
-                 byte(of.more_glow, 1), d);
+    return along(byte(of.glow, 0), byte(of.glow, 1), byte(of.glow, 2), byte(of.glow, 3),
+                 byte(of.more_glow, 0), byte(of.more_glow, 1), d);
   }
 };
 

@@ -1,7 +1,6 @@
 // What the parts of a packet share: vectors of three components, and arithmetic of render/rule, lane by lane.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "kernel/engine/cpu/word_lanes.h"
@@ -15,22 +14,38 @@ struct Packet {
   using F = typename L::F;
   static constexpr int kCount = L::kCount;
 
+  // Sums and products wrap.
+  VOXMELT_WORDS V plus(V a, V b) { return L::as_signed(L::as_unsigned(a) + L::as_unsigned(b)); }
+  VOXMELT_WORDS V times(V a, V b) { return L::as_signed(L::as_unsigned(a) * L::as_unsigned(b)); }
   struct Triple {
     V x, y, z;
-    [[gnu::always_inline]] friend Triple operator+(Triple a, Triple b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    [[gnu::always_inline]] friend Triple operator-(Triple a, Triple b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    [[gnu::always_inline]] friend Triple operator*(Triple a, V s) { return {a.x * s, a.y * s, a.z * s}; }
-    [[gnu::always_inline]] friend Triple operator>>(Triple a, int n) { return {a.x >> n, a.y >> n, a.z >> n}; }
-    [[gnu::always_inline]] friend Triple operator<<(Triple a, int n) { return {a.x << n, a.y << n, a.z << n}; }
+    [[gnu::always_inline]] friend Triple operator+(Triple a, Triple b) {
+      return {plus(a.x, b.x), plus(a.y, b.y), plus(a.z, b.z)};
+    }
+    [[gnu::always_inline]] friend Triple operator-(Triple a, Triple b) {
+      return {plus(a.x, -b.x), plus(a.y, -b.y), plus(a.z, -b.z)};
+    }
+    [[gnu::always_inline]] friend Triple operator*(Triple a, V s) {
+      return {times(a.x, s), times(a.y, s), times(a.z, s)};
+    }
+    [[gnu::always_inline]] friend Triple operator>>(Triple a, int n) {
+      return {a.x >> n, a.y >> n, a.z >> n};
+    }
+    [[gnu::always_inline]] friend Triple operator<<(Triple a, int n) {
+      return {a.x << n, a.y << n, a.z << n};
+    }
   };
   VOXMELT_WORDS Triple select(V mask, Triple a, Triple b) {
     return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
   }
-  VOXMELT_WORDS V dot(Triple a, Triple b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  VOXMELT_WORDS V dot(Triple a, Triple b) {
+    return plus(plus(times(a.x, b.x), times(a.y, b.y)), times(a.z, b.z));
+  }
   VOXMELT_WORDS V magnitude(V a) { return L::max(a, -a); }
   VOXMELT_WORDS V largest(Triple a) { return L::max(L::max(magnitude(a.x), magnitude(a.y)), magnitude(a.z)); }
 
-  // See rule/normal.h: components within 2^15, brought to the length 2^14. `roots`: PictureData::inverse_root.
+  // See rule/normal.h: components within 2^15, brought to the length 2^14. `roots`:
+  // PictureData::inverse_root.
   VOXMELT_WORDS Triple unit(Triple a, const std::uint32_t* roots) {
     const V most = largest(a), nothing = most == 0;
     a = a * L::power_of_two(nothing ? V{} : 15 - L::bits_of(most));

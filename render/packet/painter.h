@@ -51,7 +51,8 @@ class Painter {
   // The surface there.
   Seen seen(std::int64_t across, std::int64_t down) const {
     const Met met(scene_, view_, across, down, spacing_);
-    if (met.on_ground) return {true, met.ground.position, ground_normal(met, scene_.ground.paint(met.ground))};
+    if (met.on_ground)
+      return {true, met.ground.position, ground_normal(met, scene_.ground.paint(met.ground))};
     if (met.matter.found) return {true, met.matter.position, matter_normal(met)};
     return {};
   }
@@ -81,7 +82,8 @@ class Painter {
   picture::Color ground_color(const Met& met) const {
     const GroundMap::Paint paint = scene_.ground.paint(met.ground);
     const picture::Vector normal = ground_normal(met, paint);
-    const picture::Color color{static_cast<std::int32_t>(paint.color.x), static_cast<std::int32_t>(paint.color.y),
+    const picture::Color color{static_cast<std::int32_t>(paint.color.x),
+                               static_cast<std::int32_t>(paint.color.y),
                                static_cast<std::int32_t>(paint.color.z)};
     return picture::ground_color(scene_.paint, normal, light_before(met.ground.position, normal), color);
   }

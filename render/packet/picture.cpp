@@ -31,11 +31,12 @@ void Picture::update(const DensityField& field, const scene::Look& look, const s
     columns_.update(ground_);
   }
   if (ground_.lower(field.wetness())) columns_.lower(ground_);
-  cpu::Workers workers(std::min(threads, cpu::Workers::most()));
-  bricks_.update(field, look_, changed, workers);
+  const int wanted = std::min(threads, cpu::Workers::most());
+  if (workers_ == nullptr || workers_->threads() != wanted) workers_ = std::make_unique<cpu::Workers>(wanted);
+  bricks_.update(field, look_, changed, *workers_);
   obstacles_ = field.has_obstacles();
-  const picture::Vector cells = bricks_.cells();
-  light_ = LightVolume(light_matter(field, ground_.drawn(), look_), paint_.to_light, picture::light_shift(cells));
+  sources_.update(field, ground_.drawn(), look_, changed);
+  light_.update(sources_.matter(), paint_.to_light, picture::light_shift(bricks_.cells()), *workers_);
 }
 
 PictureData Picture::data(const picture::Camera& camera, Setting setting) const {
@@ -44,7 +45,7 @@ PictureData Picture::data(const picture::Camera& camera, Setting setting) const 
   of.width = static_cast<std::int32_t>(camera.width);
   of.height = static_cast<std::int32_t>(camera.height);
   of.spacing = spacing_of(setting);
-  of.field = {bricks_.cells(),   bricks_.bricks().x, bricks_.bricks().y,     bricks_.blocks().x,
+  of.field = {bricks_.cells(),    bricks_.bricks().x, bricks_.bricks().y,     bricks_.blocks().x,
               bricks_.blocks().y, bricks_.slots(),    bricks_.levels(),       bricks_.matter(),
               bricks_.skip(),     obstacles_,         bricks_.occupied().low, bricks_.occupied().high};
   of.light = {reinterpret_cast<const std::uint8_t*>(light_.cells().data()), light_.count(), light_.shift()};

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "kernel/automaton/state/volume.h"
 #include "kernel/engine/cpu/workers.h"
@@ -12,6 +13,7 @@
 #include "render/density/density_field.h"
 #include "render/ground/ground_map.h"
 #include "render/image/image.h"
+#include "render/light/light_matter.h"
 #include "render/light/light_volume.h"
 #include "render/packet/draw_picture.h"
 #include "render/packet/field_bricks.h"
@@ -52,8 +54,10 @@ class Picture {
   FieldBricks bricks_;
   GroundMap ground_;
   GroundColumns columns_;
+  LightSources sources_;
   LightVolume light_;
   bool obstacles_ = false;
+  std::unique_ptr<cpu::Workers> workers_;
 };
 
 }  // namespace voxmelt::render

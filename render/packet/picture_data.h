@@ -11,10 +11,12 @@
 
 namespace voxmelt::render {
 
+inline constexpr int kSlopeUnit = 768;  // of the slopes in FieldData::skip, see field_bricks.h
+
 struct FieldData {
   picture::Vector cells;
   std::int32_t bricks_x = 0, bricks_y = 0, blocks_x = 0, blocks_y = 0;
-  const std::int32_t* slots = nullptr;   // see field_bricks.h
+  const std::int32_t* slots = nullptr;  // see field_bricks.h
   const std::int16_t* levels = nullptr;
   const std::uint32_t* matter = nullptr;
   const std::uint16_t* skip = nullptr;
@@ -37,14 +39,15 @@ struct PictureData {
   GroundData ground;
   const picture::Paint* paint = nullptr;
   picture::Color background{};
-  const std::uint32_t* inverse_root = nullptr;  // see normal.h: the root, and 65536 times what the next one is less
+  const std::uint32_t* inverse_root =
+      nullptr;  // see normal.h: the root, and 65536 times what the next one is less
   const picture::Tone* tone = nullptr;
   const picture::Bytes* bytes = nullptr;
   bool skip = true;  // leave out samples that cannot matter; the picture is the same
 };
 
-// What packets are asked for: some places of the picture, in picture coordinates. There is room for kMostLanes more
-// places, which hold any place of the picture; and for as much more light.
+// What packets are asked for: some places of the picture, in picture coordinates. There is room for
+// kMostLanes more places, which hold any place of the picture; and for as much more light.
 inline constexpr int kMostLanes = 16;
 struct Places {
   const std::int32_t *across, *down;

@@ -20,11 +20,15 @@ class BrickCells {
  protected:
   // Index of a cell's place, or -1 far outside of the grid.
   std::int64_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {
-    const picture::Vector place = picture::Vector{x, y, z} + picture::Vector{kLatticeBorder, kLatticeBorder, kLatticeBorder};
-    if (x < -1 || y < -1 || z < -1 || x > field_.cells.x || y > field_.cells.y || z > field_.cells.z) return -1;
-    const std::int64_t brick = ((place.z >> 3) * field_.bricks_y + (place.y >> 3)) * field_.bricks_x + (place.x >> 3);
+    const picture::Vector place =
+        picture::Vector{x, y, z} + picture::Vector{kLatticeBorder, kLatticeBorder, kLatticeBorder};
+    if (x < -1 || y < -1 || z < -1 || x > field_.cells.x || y > field_.cells.y || z > field_.cells.z)
+      return -1;
+    const std::int64_t brick =
+        ((place.z >> 3) * field_.bricks_y + (place.y >> 3)) * field_.bricks_x + (place.x >> 3);
     const auto within = [](std::int64_t at) { return (at & 7) + 1; };
-    return ((std::int64_t{field_.slots[brick]} * kBrickPlaces + within(place.z)) * kBrickPlaces + within(place.y)) *
+    return ((std::int64_t{field_.slots[brick]} * kBrickPlaces + within(place.z)) * kBrickPlaces +
+            within(place.y)) *
                kBrickPlaces +
            within(place.x);
   }
@@ -73,8 +77,16 @@ void with_painter(const PictureData& data, const Visit& visit) {
   const MatterOfCells matter(data.field);
   const LightCells light{data.light};
   const PaintedScene<LevelCells, MatterOfCells, LightCells> scene{
-      levels,     data.field.cells, matter,          data.ground.map != nullptr ? *data.ground.map : kNone,
-      light,      data.light.count, data.light.shift, *data.paint, data.background, *data.tone};
+      levels,
+      data.field.cells,
+      matter,
+      data.ground.map != nullptr ? *data.ground.map : kNone,
+      light,
+      data.light.count,
+      data.light.shift,
+      *data.paint,
+      data.background,
+      *data.tone};
   visit(Painter(scene, data.view, data.spacing));
 }
 
@@ -96,7 +108,8 @@ void find(const PictureData& data, Places places, FoundSurface to) {
       to.found[i] = seen.found ? -1 : 0;
       const std::int64_t numbers[6] = {seen.position.x, seen.position.y, seen.position.z,
                                        seen.normal.x,   seen.normal.y,   seen.normal.z};
-      for (std::size_t j = 0; j < 6; ++j) (j < 3 ? to.position[j] : to.normal[j - 3])[i] = static_cast<std::int32_t>(numbers[j]);
+      for (std::size_t j = 0; j < 6; ++j)
+        (j < 3 ? to.position[j] : to.normal[j - 3])[i] = static_cast<std::int32_t>(numbers[j]);
     }
   });
 }

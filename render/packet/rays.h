@@ -3,7 +3,6 @@
 // Directions and starts are whole numbers below 2^53, so doubles hold them exactly.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -66,8 +65,9 @@ struct Rays : Packet<Arch> {
     return {L::to_int(L::min(first, L::set_float(1.5e9f))), L::to_int(L::min(last, L::set_float(1e9f)))};
   }
 
-  // The parts of rays in the box low <= position < high, exactly (picture::ground_parts), where PictureData::fits. A
-  // quotient of whole numbers below 2^47 by one below 2^19 does not reach a whole number by its rounding.
+  // The parts of rays in the box low <= position < high, exactly (picture::ground_parts), where
+  // PictureData::fits. A quotient of whole numbers below 2^47 by one below 2^19 does not reach a whole number
+  // by its rounding.
   VOXMELT_WORDS Samples parts_in(const Row& row, picture::Vector low, picture::Vector high) {
     const auto half = [&]<int kWhich>(D x, D y, D z) {
       D first = D{}, last = D{} + kMostParts;
@@ -187,7 +187,8 @@ struct Rays : Packet<Arch> {
   struct Span {
     F first, last;
   };
-  VOXMELT_WORDS void clip(Span& span, const Doubles& start, V step, F inverse, std::int64_t from, std::int64_t to) {
+  VOXMELT_WORDS void clip(Span& span, const Doubles& start, V step, F inverse, std::int64_t from,
+                          std::int64_t to) {
     const F begin = to_floats(start);
     const F before = static_cast<float>(from) - begin, behind = static_cast<float>(to) - begin;
     const V back = step < 0, still = step == 0;

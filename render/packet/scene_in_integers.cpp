@@ -53,7 +53,8 @@ picture::Camera camera_in_integers(const scene::Camera& camera) {
           camera.height};
 }
 
-GroundMap ground_in_integers(const DensityField& field, const scene::Look& look, const scene::Terrain& terrain) {
+GroundMap ground_in_integers(const DensityField& field, const scene::Look& look,
+                             const scene::Terrain& terrain) {
   const state::Grid& grid = field.grid();
   return {{grid.x, grid.y, grid.z},
           fits(terrain, grid) ? ground_heights(terrain) : field.ground(),

@@ -51,7 +51,8 @@ struct ShadePacket : Packet<Arch> {
     Color sum;
     for (std::size_t c = 0; c < 3; ++c) {
       const V ambient = paint.from_below[c] + (((paint.from_above[c] - paint.from_below[c]) * up) >> 15);
-      sum.c[c] = ((ambient * open) >> 8) + ((paint.lamp[c] * lit) >> 14) + ((picture::kGlowLight[c] * glow) >> 5);
+      sum.c[c] =
+          ((ambient * open) >> 8) + ((paint.lamp[c] * lit) >> 14) + ((picture::kGlowLight[c] * glow) >> 5);
     }
     return sum;
   }
@@ -59,13 +60,15 @@ struct ShadePacket : Packet<Arch> {
   VOXMELT_WORDS Color mirrored(const picture::Paint& paint, Triple direction) {
     const V height = L::clamp(direction.y + picture::kLength, 0, 2 * picture::kLength);
     const V packed = L::template gather<4>(paint.surroundings.data(), height >> 4);
-    const V lamp = smooth_step(paint.lamp_low, paint.lamp_high, cosine(direction, constant(paint.to_light)) >> 2);
+    const V lamp =
+        smooth_step(paint.lamp_low, paint.lamp_high, cosine(direction, constant(paint.to_light)) >> 2);
     const V strip =
         smooth_step(paint.strip_low, picture::kStripHigh, cosine(direction, constant(paint.to_strip)) >> 2);
     const V around[3] = {(packed & 2047) << 1, ((packed >> 11) & 2047) << 1, ((packed >> 22) & 1023) << 2};
     Color sum;
     for (std::size_t c = 0; c < 3; ++c)
-      sum.c[c] = around[c] + ((picture::kMirroredLamp[c] * lamp) >> 12) + ((picture::kMirroredStrip[c] * strip) >> 12);
+      sum.c[c] = around[c] + ((picture::kMirroredLamp[c] * lamp) >> 12) +
+                 ((picture::kMirroredStrip[c] * strip) >> 12);
     return sum;
   }
 
@@ -100,8 +103,8 @@ struct ShadePacket : Packet<Arch> {
   }
 
   // `matter`: liquid, heat and obstacle as bytes of a lane.
-  VOXMELT_WORDS Color matter_color(const PictureData& data, Triple normal, Triple to_eye, const Light& light, V matter,
-                                   V obstacle_byte) {
+  VOXMELT_WORDS Color matter_color(const PictureData& data, Triple normal, Triple to_eye, const Light& light,
+                                   V matter, V obstacle_byte) {
     const picture::Paint& paint = *data.paint;
     const V liquid_byte = matter & 255, liquid = (liquid_byte << 4) + (liquid_byte >> 4);
     const V obstacle = L::clamp((obstacle_byte - 148) * 73, 0, picture::kLight);
@@ -120,7 +123,8 @@ struct ShadePacket : Packet<Arch> {
     if (obstacles) mix_in(material, paint.obstacle, obstacle);
 
     Color arrives = arriving(paint, normal, light, false);
-    if (paint.glow && obstacles) arrives = select(obstacle > 0, arriving(paint, normal, light, true), arrives);
+    if (paint.glow && obstacles)
+      arrives = select(obstacle > 0, arriving(paint, normal, light, true), arrives);
     const V lamp = whole(Lights::lamp(light));
     const V facing = cosine(normal, constant(paint.to_light));
     const Triple halfway = P::unit_of(constant(paint.to_light) + to_eye, data.inverse_root);
@@ -135,19 +139,22 @@ struct ShadePacket : Packet<Arch> {
     const V twice = (2 * P::dot(normal, to_eye)) >> 14;
     const Triple reflected = ((normal * twice) >> 14) - to_eye;
     const Color around = mirrored(paint, reflected);
-    const V seen = 614 + ((whole(Lights::open(light, reflected)) * whole(Lights::open(light, normal)) * 3482) >> 16);
+    const V seen =
+        614 + ((whole(Lights::open(light, reflected)) * whole(Lights::open(light, normal)) * 3482) >> 16);
 
     Color sum;
     for (std::size_t c = 0; c < 3; ++c) {
       const V fresnel = material.mirror.c[c] + (((picture::kLight - material.mirror.c[c]) * more) >> 12);
       const V mirror = (((around.c[c] * seen) >> 12) * fresnel) >> 12;
-      sum.c[c] = ((arrives.c[c] * material.diffuse.c[c]) >> 12) + ((material.highlight.c[c] * peak) >> 12) + mirror;
+      sum.c[c] =
+          ((arrives.c[c] * material.diffuse.c[c]) >> 12) + ((material.highlight.c[c] * peak) >> 12) + mirror;
       if (paint.glow) sum.c[c] = sum.c[c] + ((emission.c[c] * (2540 + ((1556 * eye) >> 14))) >> 12);
     }
     return sum;
   }
 
-  VOXMELT_WORDS Color ground_color(const picture::Paint& paint, Triple normal, const Light& light, const Color& color) {
+  VOXMELT_WORDS Color ground_color(const picture::Paint& paint, Triple normal, const Light& light,
+                                   const Color& color) {
     const Color arrives = arriving(paint, normal, light, paint.glow);
     Color sum;
     for (std::size_t c = 0; c < 3; ++c) sum.c[c] = (arrives.c[c] * color.c[c]) >> 12;

@@ -1,14 +1,11 @@
 // All that a picture in integers is drawn from, but for the camera.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "kernel/scene/look.h"
 #include "kernel/scene/shape/terrain.h"
 #include "render/density/density_field.h"
-#include "render/light/light_volume.h"
 #include "render/ground/ground_map.h"
+#include "render/light/light_volume.h"
 #include "render/raycast/levels.h"
 #include "render/raycast/matter_cells.h"
 #include "render/rule/shade.h"

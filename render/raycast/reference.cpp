@@ -1,7 +1,5 @@
 #include "render/raycast/reference.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "render/raycast/reference_picture.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "render/packet/painter.h"
 #include "render/packet/tables.h"
@@ -22,8 +22,8 @@ Rgb bytes(const Color& light) {
 
 Image reference_picture(const PictureScene& scene, const picture::Camera& camera, Setting setting) {
   const PaintedScene<Levels, MatterCells, LightVolume> painted{
-      scene.levels,        scene.levels.cells(), scene.matter,          scene.ground, scene.light,
-      scene.light.count(), scene.light.shift(),  scene.paint, scene.look.background, tone_table()};
+      scene.levels,        scene.levels.cells(), scene.matter, scene.ground,          scene.light,
+      scene.light.count(), scene.light.shift(),  scene.paint,  scene.look.background, tone_table()};
   const Painter painter(painted, picture::view_of(camera, scene.levels.cells()), spacing_of(setting));
   Image image(static_cast<int>(camera.width), static_cast<int>(camera.height));
   const auto draw = [&](Image& to, int x, int y, const auto& pattern) {

@@ -1,5 +1,5 @@
-// 32-bit lanes, in the vector types that g++ and clang have for any processor. Only gathers and a few products differ
-// between instruction sets.
+// 32-bit lanes, in the vector types that g++ and clang have for any processor. Only gathers and a few
+// products differ between instruction sets.
 //
 // Everything is a template over the architecture and always inlined. So the linker cannot take code of one
 // instruction set for another's.
@@ -69,7 +69,8 @@ struct WordLanes {
   using V = typename WordVectors<kCount>::V;  // masks, too: a lane is 0 or -1
   using U = typename WordVectors<kCount>::U;
   using F = typename WordVectors<kCount>::F;
-  using D = typename WordVectors<kCount>::D;  // doubles of half of the lanes: vectors have the processor's width
+  using D =
+      typename WordVectors<kCount>::D;  // doubles of half of the lanes: vectors have the processor's width
   using Q = typename WordVectors<kCount>::Q;  // 64 bits a lane, as D
   using HalfV = typename WordVectors<kCount>::HalfV;
   using HalfF = typename WordVectors<kCount>::HalfF;
@@ -147,6 +148,25 @@ struct WordLanes {
     return sum != 0;
   }
 
+#if defined(__AVX2__)
+  // By plain loads: several processors are slower at the instruction that gathers.
+  template <int kScale>
+  VOXMELT_WORDS V gather_eight(const void* from, __m256i index) {
+    const auto at = [&](std::int64_t i) {
+      std::int32_t one;
+      std::memcpy(&one, static_cast<const char*>(from) + i * kScale, sizeof one);
+      return one;
+    };
+    const auto two = [&](std::int64_t i) {
+      return _mm_insert_epi32(_mm_cvtsi32_si128(at(static_cast<std::int32_t>(i))), at(i >> 32), 1);
+    };
+    const auto four = [&](__m128i i) {
+      return _mm_unpacklo_epi64(two(_mm_cvtsi128_si64(i)), two(_mm_extract_epi64(i, 1)));
+    };
+    return (V)_mm256_set_m128i(four(_mm256_extracti128_si256(index, 1)), four(_mm256_castsi256_si128(index)));
+  }
+#endif
+
   // The 32 bits at `from` + kScale index bytes.
   template <int kScale>
   VOXMELT_WORDS V gather(const void* from, V index) {
@@ -154,8 +174,7 @@ struct WordLanes {
     if constexpr (kCount == 16) return (V)_mm512_i32gather_epi32((__m512i)index, from, kScale);
 #endif
 #if defined(__AVX2__)
-    if constexpr (kCount == 8)
-      return (V)_mm256_i32gather_epi32(static_cast<const int*>(from), (__m256i)index, kScale);
+    if constexpr (kCount == 8) return gather_eight<kScale>(from, (__m256i)index);
 #endif
     V of{};
     for (int i = 0; i < kCount; ++i) {
