@@ -11,7 +11,11 @@ using picture::Face;
 using picture::kHeight;
 using picture::Vector;
 
-std::int64_t fixed(double value, int one) { return static_cast<std::int64_t>(std::floor(value * one + 0.5)); }
+// To nearest, halves upwards; `one` is a power of 2. A sum with 1/2 could round.
+std::int64_t fixed(double value, int one) {
+  const double exact = value * one, below = std::floor(exact);
+  return static_cast<std::int64_t>(below) + (exact - below >= 0.5 ? 1 : 0);
+}
 
 // One filter of three columns along x, then z. Ends repeat themselves.
 template <class Filter>

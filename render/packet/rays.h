@@ -49,7 +49,8 @@ struct Rays : Packet<Arch> {
     return row;
   }
 
-  // Which samples may lie in a box, and a little around it.
+  // Which samples may lie in a box, and a little around it: up to four samples, a cell at most. Floats err by less
+  // than 2^-21 of the way, which has 2^22 samples at most (fits_lanes).
   struct Samples {
     V first, last;
   };
@@ -58,7 +59,7 @@ struct Rays : Packet<Arch> {
     clip(span, row.start.x, row.step.x, row.inverse_x, low.x, high.x);
     clip(span, row.start.y, row.step.y, row.inverse_y, low.y, high.y);
     clip(span, row.start.z, row.step.z, row.inverse_z, low.z, high.z);
-    constexpr float kMore = 1.0f / (1 << 20);
+    constexpr float kMore = 1.0f / (1 << 21);
     const F first = L::max(span.first - span.first * kMore - 1.0f, L::set_float(0));
     const F last = span.last + span.last * kMore + 1.0f;
     return {L::to_int(L::min(first, L::set_float(1.5e9f))), L::to_int(L::min(last, L::set_float(1e9f)))};

@@ -8,8 +8,10 @@
 namespace voxmelt::render {
 namespace {
 
+// To nearest, halves upwards. A sum with 1/2 could round.
 std::int64_t fixed(double value, int bits) {
-  return static_cast<std::int64_t>(std::floor(std::ldexp(value, bits) + 0.5));
+  const double exact = std::ldexp(value, bits), below = std::floor(exact);
+  return static_cast<std::int64_t>(below) + (exact - below >= 0.5 ? 1 : 0);
 }
 
 std::int32_t light(double value) { return static_cast<std::int32_t>(fixed(value, picture::kLightBits)); }
@@ -58,7 +60,7 @@ GroundMap ground_in_integers(const DensityField& field, const scene::Look& look,
           fits(terrain, grid) ? ground_heights(terrain) : field.ground(),
           field.liquid_passes(),
           look.ground,
-          terrain.textured};
+          terrain.textured && fits(terrain, grid)};
 }
 
 }  // namespace voxmelt::render

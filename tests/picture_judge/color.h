@@ -1,0 +1,91 @@
+// What matter is made of and the colours of surfaces: picture-light.md sections 3 and 6.
+#pragma once
+#include "light.h"
+
+// Section 3: three bytes of each cell.
+class MatterBytes {
+ public:
+  MatterBytes(const Input& in, const Look& look, const Field& field, const Levels& the_levels)
+      : levels(the_levels) {
+    for (Int z = 0; z < in.nz; ++z)
+      for (Int y = 0; y < in.ny; ++y)
+        for (Int x = 0; x < in.nx; ++x) {
+          const Int i = in.cell(x, y, z);
+          const bool air = levels.at(x, y, z) == -32640;
+          const Int S = field.solid[i], L = field.liquid[i], O = field.obstacle[i];
+          liquid.push_back(air || S + L == 0 ? 0 : 255 * L / (S + L));
+          heat.push_back(air ? 0 : heat_byte(look, L, field.heat[i]));
+          obstacle.push_back(air || S + L + O == 0 ? 0 : 255 * O / (S + L + O));
+        }
+  }
+  Int read(const Ints& bytes, Vec p) const {
+    return blended_eight(p, [&](Int x, Int y, Int z) {
+      return levels.inside(x, y, z) ? bytes[(z * levels.ny + y) * levels.nx + x] : Int{0};
+    });
+  }
+  Ints liquid, heat, obstacle;
+
+ private:
+  const Levels& levels;
+};
+
+inline Int cosine(Vec a, Vec b) { return dot(a, b) >> 14; }
+
+// Section 6, arriving light.
+inline Vec arriving_light(const Look& look, const LightBytes& light, Vec n, bool with_glow) {
+  const Int facing = cosine(n, look.to_light);
+  const Int lit = (((std::max<Int>(facing + 2458, 0) * 14247) >> 14) * whole(light.lamp)) >> 8;
+  const Vec ambient =
+      look.from_below + (((look.from_above - look.from_below) * (n.y + power_of_two(14))) >> 15);
+  Vec arriving = ((ambient * whole(seen(light.open, n))) >> 8) + ((look.lamp * lit) >> 14);
+  if (with_glow) arriving = arriving + ((Vec{6144, 1966, 369} * seen(light.glow, n)) >> 5);
+  return arriving;
+}
+
+inline Vec product(Vec a, Vec b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+inline Vec ground_color(const Look& look, const LightGrid& grid, Vec p, Vec normal, Vec color) {
+  const Vec arriving = arriving_light(look, grid.at_surface(p, normal), normal, look.glows);
+  return product(arriving, color) >> 12;
+}
+
+inline Vec matter_color(const Look& look, const LightGrid& grid, const MatterBytes& bytes, Vec p, Vec n,
+                        Vec e) {
+  const Int liquid = bytes.read(bytes.liquid, p), heat = bytes.read(bytes.heat, p);
+  const Int obstacle = bytes.read(bytes.obstacle, p + (n << 5));
+  const Int l = 16 * liquid + (liquid >> 4), w = clamped(73 * (obstacle - 148), 0, 4096);
+  const Int one = power_of_two(14);
+
+  Material material = mixed(look.solid, look.liquid, l);
+  Vec emission;
+  if (look.glows) {
+    material.diffuse = material.diffuse + ((look.glow_crust[heat] * l) >> 12);
+    emission = (((look.glow_light[heat] * l) >> 12) * (4096 - w)) >> 12;
+  }
+  material = mixed(material, look.obstacle, w);
+
+  const LightBytes light = grid.at_surface(p, n);
+  const Vec arriving = arriving_light(look, light, n, look.glows && w > 0);
+  const Int facing = cosine(n, look.to_light);
+
+  const Vec half = unit_of(look.to_light + e);
+  const Int shine = clamped(cosine(n, half), 0, one);
+  Int peak = mixed(Look::highlight_of(look.highlights, shine),
+                   Look::highlight_of(look.obstacle_highlights, shine), w);
+  peak = (((peak * smooth(0, 1024, facing >> 2)) >> 12) * whole(light.lamp)) >> 8;
+
+  const Int eye = clamped(cosine(n, e), 0, one), a = one - eye, a2 = (a * a) >> 14;
+  const Int graze = (((a2 * a2) >> 14) * a) >> 14, more = (graze * material.gloss) >> 14;
+  const Vec r = ((n * ((2 * dot(n, e)) >> 14)) >> 14) - e;
+  const Int free = 614 + ((whole(seen(light.open, r)) * whole(seen(light.open, n)) * 3482) >> 16);
+
+  const Vec lamp_seen =
+      Vec{9830, 9626, 9216} * smooth(look.lamp_low, look.lamp_high, cosine(r, look.to_light) >> 2);
+  const Vec strip_seen = Vec{2867, 3072, 3482} * smooth(look.strip_low, 3973, cosine(r, look.to_strip) >> 2);
+  const Vec around = look.surroundings[clamped(r.y + one, 0, power_of_two(15)) >> 4] + (lamp_seen >> 12) +
+                     (strip_seen >> 12);
+  const Vec fresnel = material.mirror + (((Vec{4096, 4096, 4096} - material.mirror) * more) >> 12);
+
+  return (product(arriving, material.diffuse) >> 12) + ((material.highlight * peak) >> 12) +
+         (product((around * free) >> 12, fresnel) >> 12) + ((emission * (2540 + ((1556 * eye) >> 14))) >> 12);
+}

@@ -1,0 +1,35 @@
+// picture_judge --picture FILE draws the picture; --field FILE writes filtered channels and drawn heights.
+#include <cstdio>
+#include "picture.h"
+
+static void put_bytes(Int value, int count) {
+  for (int i = 0; i < count; ++i) std::putchar(static_cast<int>((value >> (8 * i)) & 255));
+}
+
+int main(int count, char** words) {
+  try {
+    const std::string wish = count == 3 ? words[1] : "";
+    if (wish != "--picture" && wish != "--field")
+      throw std::runtime_error("usage: picture_judge --picture FILE, or --field FILE");
+    const Input in = read_input(words[2]);
+    if (wish == "--field") {
+      const std::vector<Column> columns = make_columns(in);
+      const Field field = make_field(in, columns);
+      const Ground ground(in, columns);
+      for (const Ints* channel :
+           {&field.intensity, &field.solid, &field.liquid, &field.heat, &field.obstacle})
+        for (const Int value : *channel) put_bytes(value, 2);
+      for (const Int height : ground.drawn) put_bytes(height, 4);
+    } else {
+      if (in.setting != "fast" && in.setting != "normal" && in.setting != "best")
+        throw std::runtime_error("unknown setting");
+      const Scene scene(in);
+      for (const Vec& pixel : draw_picture(scene))
+        for (int channel = 0; channel < 3; ++channel) put_bytes(pixel.at(channel), 1);
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "picture_judge: %s\n", error.what());
+    return 1;
+  }
+}

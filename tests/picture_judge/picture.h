@@ -1,0 +1,99 @@
+// What a ray meets, samples, settings and bytes: picture.md sections 9 and 10.
+#pragma once
+#include "bytes.h"
+#include "color.h"
+#include "rock.h"
+
+struct Scene {
+  explicit Scene(const Input& input)
+      : in(input),
+        columns(make_columns(in)),
+        field(make_field(in, columns)),
+        ground(in, columns),
+        look(in),
+        levels(in, field),
+        bytes(in, look, field, levels),
+        rock(in, ground, look.ground),
+        grid(in, look, field, ground),
+        view(make_view(in)) {}
+  const Input& in;
+  std::vector<Column> columns;
+  Field field;
+  Ground ground;
+  Look look;
+  Levels levels;
+  MatterBytes bytes;
+  Rock rock;
+  LightGrid grid;
+  View view;
+  Press press;
+};
+
+// A sample: the pressed light of the ray through the place (X, Y).
+inline Vec sample_of(const Scene& scene, Int X, Int Y, Int m) {
+  const Ray ray = make_ray(scene.view, X, Y, m);
+  const MatterHit matter = meet_matter(scene.levels, ray);
+  const GroundHit ground = meet_ground(scene.ground, ray);
+  bool ground_drawn = ground.met;
+  if (ground.met && matter.met) {
+    const Int bias = ground.face == Face::top ? 0 : 1024;
+    ground_drawn = 8 * ground.part <= matter.place + bias;
+  }
+  if (ground_drawn) {
+    const GroundLook look = scene.rock.look_of(ground);
+    const Vec normal = ground.face == Face::inside ? to_eye_of(ray) : look.normal;
+    return scene.press(ground_color(scene.look, scene.grid, ground.crossing, normal, look.color));
+  }
+  if (matter.met) {
+    const Vec e = to_eye_of(ray);
+    const Vec normal = matter.at_start ? e : matter_normal(scene.levels, matter.crossing);
+    return scene.press(matter_color(scene.look, scene.grid, scene.bytes, matter.crossing, normal, e));
+  }
+  return scene.look.background;
+}
+
+struct Place {
+  Int x, y;
+};  // in a pixel, in 32nds
+
+inline std::vector<Place> places_of(int samples) {
+  if (samples == 1) return {{16, 16}};
+  if (samples == 4) return {{12, 4}, {28, 12}, {4, 20}, {20, 28}};
+  std::vector<Place> places;
+  for (Int a = 0; a < 4; ++a)
+    for (Int b = 0; b < 4; ++b) places.push_back({2 * (4 * a + b) + 1, 2 * (4 * b + a) + 1});
+  return places;
+}
+
+inline Vec pixel_of(const Scene& scene, Int i, Int j, int samples, Int m) {
+  Vec sum;
+  for (const Place& place : places_of(samples))
+    sum = sum + sample_of(scene, 32 * i + place.x, 32 * j + place.y, m);
+  const Int half = samples / 2;
+  const Vec light = (sum + Vec{half, half, half}) / samples;
+  return {byte_of_light(light.x), byte_of_light(light.y), byte_of_light(light.z)};
+}
+
+inline std::vector<Vec> draw_picture(const Scene& scene) {
+  const Int W = scene.in.width, H = scene.in.height;
+  const std::string& setting = scene.in.setting;
+  const Int m = setting == "best" ? 3 : 2;
+  std::vector<Vec> picture;
+  for (Int j = 0; j < H; ++j)
+    for (Int i = 0; i < W; ++i) picture.push_back(pixel_of(scene, i, j, 1, m));
+  const auto redraw = [&](Int d, int samples) {
+    const std::vector<Vec> before = picture;
+    const auto differs = [&](Int i, Int j, Int i2, Int j2) {
+      if (i2 < 0 || i2 >= W || j2 < 0 || j2 >= H) return false;
+      return largest_magnitude(before[j * W + i] - before[j2 * W + i2]) > d;
+    };
+    for (Int j = 0; j < H; ++j)
+      for (Int i = 0; i < W; ++i)
+        if (differs(i, j, i - 1, j) || differs(i, j, i + 1, j) || differs(i, j, i, j - 1) ||
+            differs(i, j, i, j + 1))
+          picture[j * W + i] = pixel_of(scene, i, j, samples, m);
+  };
+  if (setting == "normal" || setting == "best") redraw(8, 4);
+  if (setting == "best") redraw(3, 16);
+  return picture;
+}

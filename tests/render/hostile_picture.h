@@ -1,0 +1,30 @@
+// Random pictures at the edges of what docs/picture.md allows: matter, look, lamp, ground, camera and
+// setting.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "kernel/automaton/state/volume.h"
+#include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
+#include "render/packet/draw_picture.h"
+
+namespace voxmelt::test {
+
+struct HostilePicture {
+  state::Volume volume;
+  scene::Look look;
+  scene::Light light;
+  scene::Terrain terrain;  // does not always fit the volume: then it counts as none
+  scene::Camera camera;
+  render::Setting setting = render::Setting::fast;
+};
+
+// The same on every machine. `most` bounds the number of cells.
+HostilePicture hostile_picture(std::uint64_t seed, int most);
+
+// What it is made of, in words.
+std::string description(const HostilePicture& picture);
+
+}  // namespace voxmelt::test

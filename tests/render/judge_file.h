@@ -1,0 +1,31 @@
+// Pictures as files for the judge (tests/picture_judge), and what the judge makes of them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kernel/automaton/state/volume.h"
+#include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
+#include "render/image/image.h"
+#include "render/packet/draw_picture.h"
+
+namespace voxmelt::test {
+
+// In the folder for such files, with the number of this process.
+std::filesystem::path judge_file_name(const std::string& name);
+
+void write_judge_file(const std::filesystem::path& file, const state::Volume& volume, const scene::Look& look,
+                      const scene::Light& light, const scene::Terrain& terrain, const scene::Camera& camera,
+                      render::Setting setting);
+
+// Throws std::runtime_error where the judge fails.
+render::Image judged_picture(const std::filesystem::path& file, int width, int height);
+
+// Filtered intensity, solid, liquid, heat and obstacle of each cell, two bytes each; drawn heights, four
+// bytes.
+std::vector<std::uint8_t> judged_field(const std::filesystem::path& file);
+
+}  // namespace voxmelt::test

@@ -1,0 +1,108 @@
+// The reference, every instruction set and the judge draw the same bytes: random hostile pictures by seed.
+// The judge (tests/picture_judge) was written from docs/picture.md alone, so it sees bugs of render/rule that
+// all others share. See one picture again: VOXMELT_PICTURE_SEED=N render_judge_test.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "kernel/engine/cpu/instruction_set.h"
+#include "render/density/density_field.h"
+#include "render/packet/picture.h"
+#include "render/packet/scene_in_integers.h"
+#include "render/raycast/reference_picture.h"
+#include "tests/render/hostile_picture.h"
+#include "tests/render/judge_file.h"
+#include "tests/render/picture_pairs.h"
+
+namespace voxmelt {
+namespace {
+
+using render::Image;
+using test::difference;
+using test::HostilePicture;
+
+#ifdef VOXMELT_SLOW
+constexpr std::uint64_t kPictures = 500;
+constexpr int kMostCells = 60000;
+#else
+constexpr std::uint64_t kPictures = 30;
+constexpr int kMostCells = 12000;
+#endif
+constexpr int kMostThreads = 8;
+
+// As the judge writes it.
+std::vector<std::uint8_t> field_bytes(const render::DensityField& field, const render::PictureScene& scene) {
+  std::vector<std::uint8_t> bytes;
+  for (const auto* channel :
+       {&field.intensity(), &field.solid(), &field.liquid(), &field.heat(), &field.obstacle()})
+    for (std::size_t i = 0; i < field.grid().cells(); ++i) {
+      const unsigned value = channel->empty() ? 0 : (*channel)[i];
+      bytes.push_back(static_cast<std::uint8_t>(value & 255));
+      bytes.push_back(static_cast<std::uint8_t>(value >> 8));
+    }
+  for (const std::int32_t height : scene.ground.drawn())
+    for (int shift = 0; shift < 32; shift += 8)
+      bytes.push_back(static_cast<std::uint8_t>(height >> shift & 255));
+  return bytes;
+}
+
+// Every instruction set and number of threads, and no samples left out.
+void expect_packets_draw(const Image& expected, const HostilePicture& of) {
+  render::Picture picture;
+  picture.update(of.volume, of.look, of.light, of.terrain, 2);
+  cpu::for_each_instruction_set([&]<cpu::InstructionSet kSet>() {
+    if (!cpu::supported(kSet)) return;
+    const render::Packets& packets = render::packets_of(kSet);
+    for (int threads = 1; threads <= kMostThreads; ++threads)
+      EXPECT_EQ(difference(expected, picture.draw(of.camera, of.setting, threads, packets)), "")
+          << cpu::name_of(kSet) << ", " << threads << " threads";
+    render::PictureData data = picture.data(render::camera_in_integers(of.camera), of.setting);
+    data.skip = false;
+    EXPECT_EQ(difference(expected, render::draw_picture(data, of.setting, packets, 2)), "")
+        << cpu::name_of(kSet) << ", no sample left out";
+  });
+}
+
+// Tells whether the picture has more than one colour.
+bool expect_all_agree(const HostilePicture& of, const std::filesystem::path& file) {
+  test::write_judge_file(file, of.volume, of.look, of.light, of.terrain, of.camera, of.setting);
+  render::DensityField field;
+  field.update(of.volume, of.look, of.terrain, 1);
+  const render::PictureScene scene(field, of.look, of.light, of.terrain);
+  EXPECT_EQ(test::judged_field(file), field_bytes(field, scene)) << "the field";
+
+  const Image judged = test::judged_picture(file, of.camera.width, of.camera.height);
+  const Image reference = reference_picture(scene, render::camera_in_integers(of.camera), of.setting);
+  EXPECT_EQ(difference(judged, reference), "") << "the reference";
+  expect_packets_draw(judged, of);
+  return std::any_of(judged.pixels.begin(), judged.pixels.end(),
+                     [&](const render::Rgb& pixel) { return pixel != judged.pixels[0]; });
+}
+
+TEST(Judge, AgreesOnHostilePictures) {
+  const char* one = std::getenv("VOXMELT_PICTURE_SEED");
+  const std::uint64_t first = one == nullptr ? 0 : std::strtoull(one, nullptr, 10);
+  const std::uint64_t last = one == nullptr ? kPictures : first + 1;
+  const std::filesystem::path file = test::judge_file_name("hostile");
+  std::uint64_t full = 0;
+  for (std::uint64_t seed = first; seed < last; ++seed) {
+    const HostilePicture picture = test::hostile_picture(seed, kMostCells);
+    if (one != nullptr) std::cout << description(picture) << std::endl;
+    full += expect_all_agree(picture, file) ? 1 : 0;
+    if (HasFailure())
+      FAIL() << "VOXMELT_PICTURE_SEED=" << seed << ": " << description(picture) << "\nthe judge read "
+             << file;
+  }
+  EXPECT_GT(full, (last - first) / 3) << "too many pictures of one colour";
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace voxmelt
