@@ -118,7 +118,7 @@ void add_render(CLI::App& program, Chosen& chosen) {
   command->add_option("--size", options->size, "size in pixels, e.g. 1280x960");
   command->add_option("--depth", options->depth, "also write how far the surface is (PNG, 16 bits)");
   command->add_option("--normals", options->normals, "also write where the surface faces (PNG, 3 x 16 bits)");
-  command->add_option("--setting", options->setting, "samples per pixel: fast 1, normal 1 or 4, best 1, 4 or 16")
+  command->add_option("--setting", options->setting, "samples per pixel: fast 1, normal 1 or 8, best 1 or 32")
       ->check(CLI::IsMember({"fast", "normal", "best"}))
       ->capture_default_str();
   command->add_option("--azimuth", options->azimuth, "degrees around the vertical, instead of the scene's")

@@ -51,8 +51,8 @@ struct Options {
 /// How carefully a picture is drawn.
 enum class Quality {
   fast,    ///< one sample per pixel
-  normal,  ///< four where a pixel differs from a neighbour
-  best,    ///< sixteen where it still does, along shorter steps
+  normal,  ///< eight where a pixel differs from a neighbour
+  best,    ///< thirty-two where it differs, along shorter steps
 };
 
 /// A picture of a state. What is not set here is taken from the scene.

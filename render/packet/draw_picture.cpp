@@ -60,7 +60,7 @@ template <class Work>
 void for_tiles(int tiles, int threads, const Work& work) {
   std::atomic<int> next{0};
   const auto some = [&] {
-    Samples samples(kTile * kTile * picture::kSixteen.size());
+    Samples samples(kTile * kTile * picture::kThirtyTwo.size());
     for (int tile = next++; tile < tiles; tile = next++) work(tile, samples);
   };
   std::vector<std::jthread> helpers;
@@ -261,8 +261,10 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
             samples.mean<kCount>(*data.bytes, i * kCount);
     });
   };
-  refine(picture::kDifference, picture::kFour);
-  if (setting == Setting::best) refine(picture::kFineDifference, picture::kSixteen);
+  if (setting == Setting::best)
+    refine(picture::kFineDifference, picture::kThirtyTwo);
+  else
+    refine(picture::kDifference, picture::kEight);
   return image;
 }
 

@@ -16,7 +16,7 @@ namespace voxmelt::render {
 const Packets& packets_of(cpu::InstructionSet set);
 const Packets& best_packets();
 
-// One sample a pixel; four where a pixel differs from a neighbour; sixteen where it still does.
+// One sample a pixel; eight, or thirty-two, where a pixel differs from a neighbour.
 enum class Setting { fast, normal, best };
 
 // The samples of rays are 2^-spacing cells apart.

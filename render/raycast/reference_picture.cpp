@@ -54,8 +54,10 @@ Image reference_picture(const PictureScene& scene, const picture::Camera& camera
         if (differs) draw(image, x, y, pattern);
       }
   };
-  refine(picture::kDifference, picture::kFour);
-  if (setting == Setting::best) refine(picture::kFineDifference, picture::kSixteen);
+  if (setting == Setting::best)
+    refine(picture::kFineDifference, picture::kThirtyTwo);
+  else
+    refine(picture::kDifference, picture::kEight);
   return image;
 }
 

@@ -13,21 +13,26 @@ namespace voxmelt::picture {
 struct Sub {
   std::int32_t across, down;
 };
-inline constexpr std::array<Sub, 1> kMiddle{{{16, 16}}};
-// No two share a row or a column.
-inline constexpr std::array<Sub, 4> kFour{{{12, 4}, {28, 12}, {4, 20}, {20, 28}}};
-inline constexpr std::array<Sub, 16> kSixteen = [] {
-  std::array<Sub, 16> of{};
-  for (std::int32_t i = 0; i < 16; ++i) {
-    const std::int32_t a = i / 4, b = i % 4;
-    of[static_cast<std::size_t>(i)] = {2 * (4 * a + b) + 1, 2 * (4 * b + a) + 1};
-  }
-  return of;
-}();
+inline constexpr std::array<Sub, 1> kMiddle{{{32, 32}}};
 
-// Bytes by which a pixel differs from one beside, above or below it: then it is drawn with kFour, and for
-// the best picture those that still differ with kSixteen.
-inline constexpr int kDifference = 8, kFineDifference = 3;
+// Places of which no two share a row or a column: that of column i lies in row rows[i]. They come from a search
+// (docs/picture-error.md): over edges of any direction they err least.
+template <std::size_t kCount>
+constexpr std::array<Sub, kCount> rooks(const std::array<std::int32_t, kCount>& rows) {
+  constexpr std::int32_t kApart = 64 / static_cast<std::int32_t>(kCount);
+  std::array<Sub, kCount> of{};
+  for (std::size_t i = 0; i < kCount; ++i)
+    of[i] = {kApart * static_cast<std::int32_t>(i) + kApart / 2, kApart * rows[i] + kApart / 2};
+  return of;
+}
+inline constexpr auto kEight = rooks<8>({3, 6, 0, 5, 2, 7, 1, 4});
+inline constexpr auto kThirtyTwo =
+    rooks<32>({2,  15, 24, 28, 12, 4,  20, 16, 7,  22, 31, 1, 8,  14, 27, 11,
+               19, 25, 30, 5,  21, 10, 3,  26, 17, 0,  13, 6, 23, 9,  29, 18});
+
+// Bytes by which a pixel differs from one beside, above or below it: then it is drawn with kEight, or for the
+// best picture with kThirtyTwo.
+inline constexpr int kDifference = 16, kFineDifference = 8;
 
 VOXMELT_RULE bool differ(const std::array<std::uint8_t, 3>& a, const std::array<std::uint8_t, 3>& b, int most) {
   bool found = false;

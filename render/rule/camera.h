@@ -18,7 +18,7 @@ struct Camera {
   std::int64_t width = 0, height = 0;       // of the picture, in pixels
 };
 
-inline constexpr std::int64_t kPixel = 32;     // picture coordinates to a pixel
+inline constexpr std::int64_t kPixel = 64;     // picture coordinates to a pixel
 inline constexpr std::int64_t kNearUnit = 16;  // distances of the near plane to a cell
 
 // What all rays of a picture share.

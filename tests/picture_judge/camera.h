@@ -64,15 +64,15 @@ inline View make_view(const Input& in) {
     least = std::min(least, dot((place - view.eye) >> 16, view.forward) >> 30);
   }
   view.near = std::max<Int>(0, least - 3);
-  view.near_wide = (view.wide * view.near) / (256 * H);
-  view.near_high = (view.high * view.near) / (256 * H);
+  view.near_wide = (view.wide * view.near) / (512 * H);
+  view.near_high = (view.high * view.near) / (512 * H);
   return view;
 }
 
 // Section 4: the ray of the place (X, Y), in 32nds of a pixel, with a step of 2^-m cells.
 inline Ray make_ray(const View& view, Int X, Int Y, Int m) {
-  const Int u = X - 16 * view.width, v = 16 * view.height - Y;
-  const Vec direction = view.forward * (16 * view.height) + view.wide * u + view.high * v;
+  const Int u = X - 32 * view.width, v = 32 * view.height - Y;
+  const Vec direction = view.forward * (32 * view.height) + view.wide * u + view.high * v;
   Ray ray;
   ray.start =
       view.eye + ((view.forward * view.near) >> 14) + ((view.near_wide * u + view.near_high * v) >> 10);

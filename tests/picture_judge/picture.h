@@ -54,21 +54,24 @@ inline Vec sample_of(const Scene& scene, Int X, Int Y, Int m) {
 
 struct Place {
   Int x, y;
-};  // in a pixel, in 32nds
+};  // in a pixel, in 64ths
 
 inline std::vector<Place> places_of(int samples) {
-  if (samples == 1) return {{16, 16}};
-  if (samples == 4) return {{12, 4}, {28, 12}, {4, 20}, {20, 28}};
+  if (samples == 1) return {{32, 32}};
+  const std::vector<Int> rows_of_8{3, 6, 0, 5, 2, 7, 1, 4};
+  const std::vector<Int> rows_of_32{2,  15, 24, 28, 12, 4,  20, 16, 7,  22, 31, 1, 8,  14, 27, 11,
+                                    19, 25, 30, 5,  21, 10, 3,  26, 17, 0,  13, 6, 23, 9,  29, 18};
+  const std::vector<Int>& rows = samples == 8 ? rows_of_8 : rows_of_32;
+  const Int unit = 64 / samples;
   std::vector<Place> places;
-  for (Int a = 0; a < 4; ++a)
-    for (Int b = 0; b < 4; ++b) places.push_back({2 * (4 * a + b) + 1, 2 * (4 * b + a) + 1});
+  for (Int i = 0; i < samples; ++i) places.push_back({unit * i + unit / 2, unit * rows[i] + unit / 2});
   return places;
 }
 
 inline Vec pixel_of(const Scene& scene, Int i, Int j, int samples, Int m) {
   Vec sum;
   for (const Place& place : places_of(samples))
-    sum = sum + sample_of(scene, 32 * i + place.x, 32 * j + place.y, m);
+    sum = sum + sample_of(scene, 64 * i + place.x, 64 * j + place.y, m);
   const Int half = samples / 2;
   const Vec light = (sum + Vec{half, half, half}) / samples;
   return {byte_of_light(light.x), byte_of_light(light.y), byte_of_light(light.z)};
@@ -93,7 +96,7 @@ inline std::vector<Vec> draw_picture(const Scene& scene) {
             differs(i, j, i, j + 1))
           picture[j * W + i] = pixel_of(scene, i, j, samples, m);
   };
-  if (setting == "normal" || setting == "best") redraw(8, 4);
-  if (setting == "best") redraw(3, 16);
+  if (setting == "normal") redraw(16, 8);
+  if (setting == "best") redraw(8, 32);
   return picture;
 }

@@ -81,7 +81,7 @@ TEST(Crossing, TheWorkedRay) {
   const test::CubeOfLevels full(64, [](int, int, int) { return kHalfIntensity; });
   const Camera camera{{32 * kCell, 32 * kCell, 64 * kCell}, 100 << 12, 0, 0, 45 * kDegree, 8, 4};
   const View view = view_of(camera, full.cells());
-  const Ray ray = ray_through(view, 128, 64, 2);
+  const Ray ray = ray_through(view, 256, 128, 2);
   EXPECT_EQ(view.near, 1589);
   EXPECT_EQ(ray.start.z, 67829760);
   EXPECT_EQ(ray.step, (Vector{0, 0, -262144}));

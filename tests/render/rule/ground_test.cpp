@@ -233,7 +233,8 @@ TEST(Ground, IsThatOfADenseMarchInDouble) {
                         9};
     const View view = view_of(camera, land.cells);
     for (int p = 0; p < 12 * 9; ++p, ++rays) {
-      const Ray ray = ray_through(view, p % 12 * 16 + 8, p / 12 * 16 + 8, 1 + static_cast<int>(i % 3));
+      const Ray ray = ray_through(view, p % 12 * kPixel + kPixel / 2, p / 12 * kPixel + kPixel / 2,
+                                  1 + static_cast<int>(i % 3));
       const GroundCrossing got = land.met_by(ray);
       met += got.found;
       const char* fault = test::fault_of(dense, ray, got, 0.02);

@@ -166,12 +166,12 @@ TEST(Antialias, PlacesLieApartAndInTheMiddle) {
           EXPECT_NE(one.down, other.down);
         }
     }
-    EXPECT_EQ(across, 16 * static_cast<std::int32_t>(pattern.size()));
-    EXPECT_EQ(down, 16 * static_cast<std::int32_t>(pattern.size()));
+    EXPECT_EQ(across, 32 * static_cast<std::int32_t>(pattern.size()));
+    EXPECT_EQ(down, 32 * static_cast<std::int32_t>(pattern.size()));
   };
   check(kMiddle);
-  check(kFour);
-  check(kSixteen);
+  check(kEight);
+  check(kThirtyTwo);
   EXPECT_FALSE(differ({0, 10, 255}, {8, 2, 247}, 8));
   EXPECT_TRUE(differ({0, 10, 255}, {0, 10, 246}, 8));
 }
