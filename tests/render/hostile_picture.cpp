@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <sstream>
-#include <vector>
 
 #include "tests/kernel/worlds.h"
 

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <string>
 #include <vector>
 
 #include "kernel/engine/cpu/instruction_set.h"
