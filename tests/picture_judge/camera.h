@@ -1,5 +1,9 @@
 // The view of a camera and the ray of a place: picture.md sections 3 and 4.
 #pragma once
+
+#include <algorithm>
+#include <cstdint>
+
 #include "input.h"
 
 struct View {

@@ -1,5 +1,8 @@
 // What matter is made of and the colours of surfaces: picture-light.md sections 3 and 6.
 #pragma once
+
+#include <algorithm>
+
 #include "light.h"
 
 // Section 3: three bytes of each cell.

@@ -1,5 +1,10 @@
 // Columns, their beds and their puddles: picture-field.md sections 2 to 4.
 #pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 #include "input.h"
 
 const Int ONE = 4096;

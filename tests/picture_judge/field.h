@@ -1,5 +1,10 @@
 // The filtered channels: picture-field.md sections 2 and 5 to 7.
 #pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 #include "columns.h"
 
 struct Field {

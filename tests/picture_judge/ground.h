@@ -1,5 +1,10 @@
 // The ground's heights, where a ray meets it and its normal: picture-ground.md sections 1 to 5.
 #pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 #include "rays.h"
 
 class Ground {

@@ -1,10 +1,15 @@
 // The file that describes a state, a look, a light, a terrain and a camera.
 #pragma once
+#include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 #include "numbers.h"
 
 struct ColorNumbers {

@@ -1,5 +1,8 @@
 // The grid of light and its sweeps: picture-light.md sections 4 and 5.
 #pragma once
+
+#include <algorithm>
+
 #include "ground.h"
 #include "look.h"
 

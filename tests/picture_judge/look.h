@@ -1,5 +1,11 @@
 // The look in integers and its tables: picture-light.md sections 1 and 2.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
 #include "input.h"
 
 // Light counts in 4096ths.
@@ -60,7 +66,7 @@ class Look {
   }
   // Section 1: a power of 2 brings the largest magnitude to 1/2 or more, and below 1.
   static Vec direction_to_lamp(double x, double y, double z) {
-    const double largest = std::max({std::fabs(x), std::fabs(y), std::fabs(z)});
+    const double largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
     if (!(largest > 0)) throw std::runtime_error("the lamp has no direction");
     int power = 0;
     while (std::ldexp(largest, power) >= 1) --power;

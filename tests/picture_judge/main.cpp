@@ -1,9 +1,13 @@
 // picture_judge --picture FILE draws the picture; --field FILE writes filtered channels and drawn heights.
-#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 #include "picture.h"
 
 static void put_bytes(Int value, int count) {
-  for (int i = 0; i < count; ++i) std::putchar(static_cast<int>((value >> (8 * i)) & 255));
+  for (int i = 0; i < count; ++i) std::cout.put(static_cast<char>((value >> (8 * i)) & 255));
 }
 
 int main(int count, char** words) {
@@ -27,9 +31,9 @@ int main(int count, char** words) {
       for (const Vec& pixel : draw_picture(scene))
         for (int channel = 0; channel < 3; ++channel) put_bytes(pixel.at(channel), 1);
     }
-    return 0;
+    return std::cout.flush() ? 0 : 1;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "picture_judge: %s\n", error.what());
+    std::cerr << "picture_judge: " << error.what() << "\n";
     return 1;
   }
 }

@@ -1,7 +1,6 @@
 // Integers, vectors, roots and angles: picture.md sections 1, 2 and 8 (unit).
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>

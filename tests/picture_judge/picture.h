@@ -1,5 +1,9 @@
 // What a ray meets, samples, settings and bytes: picture.md sections 9 and 10.
 #pragma once
+
+#include <string>
+#include <vector>
+
 #include "bytes.h"
 #include "color.h"
 #include "rock.h"

@@ -1,5 +1,8 @@
 // Levels, samples, the crossing of matter and its normal: picture.md sections 5 to 8.
 #pragma once
+
+#include <algorithm>
+
 #include "camera.h"
 #include "field.h"
 

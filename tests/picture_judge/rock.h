@@ -1,5 +1,9 @@
 // Noise, the texture of rock and the ground's colour: picture-ground.md sections 6 to 8.
 #pragma once
+
+#include <algorithm>
+#include <cstdint>
+
 #include "ground.h"
 
 // Section 6.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <sstream>
-#include <vector>
 
 #include "tests/kernel/worlds.h"
 
@@ -70,7 +69,7 @@ void fill_lumps(state::Volume& volume, Random& random) {
 
 // Ground with obstacles, films and puddles on it, and solids that hang.
 void fill_land(state::Volume& volume, const scene::Terrain& terrain, Random& random) {
-  const int film = random.any({2, 3, 8}), rough = random.any({1, 2, 5});
+  const int film = random.any({2, 3, 8}), rough = random.any({1, 2, 5}), walls = random.any({6, 40});
   const double slope = between(random, 0, 0.6);
   for (int z = 0; z < volume.grid.z; ++z)
     for (int x = 0; x < volume.grid.x; ++x) {
@@ -79,7 +78,7 @@ void fill_land(state::Volume& volume, const scene::Terrain& terrain, Random& ran
       const double height = given ? terrain.height[column] : 1 + slope * x + random.below(rough);
       const int bed = std::clamp(static_cast<int>(std::lround(height)), 0, volume.grid.y);
       const int liquid = random.one_in(film) ? 0 : random.between(1, 2 + x % 3);
-      const bool wall = random.one_in(40);
+      const bool wall = random.one_in(walls);
       for (int y = 0; y < volume.grid.y; ++y) {
         const bool hangs = y > bed + 3 && (x / 4 + y / 3 + z / 4) % 5 == 0;
         put(volume, x, y, z,
@@ -191,7 +190,7 @@ scene::Camera hostile_camera(Random& random, const state::Volume& volume) {
     int width, height;
   };
   const Size pixels = random.any<Size>(
-      {{1, 1}, {17, 33}, {32, 24}, {24, 24}, {40, 30}, {97, 5}, {3, 70}, {64, 1}, {1, 40}, {33, 17}});
+      {{1, 1}, {17, 33}, {96, 72}, {64, 64}, {80, 60}, {97, 5}, {3, 70}, {64, 1}, {1, 40}, {128, 64}});
   camera.width = pixels.width;
   camera.height = pixels.height;
   if (random.one_in(100)) {

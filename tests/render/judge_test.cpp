@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <string>
 #include <vector>
 
 #include "kernel/engine/cpu/instruction_set.h"
@@ -32,7 +31,7 @@ using test::HostilePicture;
 constexpr std::uint64_t kPictures = 500;
 constexpr int kMostCells = 60000;
 #else
-constexpr std::uint64_t kPictures = 30;
+constexpr std::uint64_t kPictures = 80;
 constexpr int kMostCells = 12000;
 #endif
 constexpr int kMostThreads = 8;
