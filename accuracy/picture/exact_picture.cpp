@@ -70,10 +70,10 @@ ExactPicture::Seen ExactPicture::matter(double across, double down) const {
   return {dot(p - eye_, forward_) - near_, p, scene_.field.normal(p)};
 }
 
-render::Rgb ExactPicture::pixel(int x, int y, std::span<const picture::Sub> samples) const {
+render::Rgb ExactPicture::pixel(int x, int y, std::span<const picture::Sub> samples, double one) const {
   Exact sum;
   for (const picture::Sub& sub : samples)
-    sum = sum + light(x + static_cast<double>(sub.across) / picture::kPixel, y + static_cast<double>(sub.down) / picture::kPixel);
+    sum = sum + light(x + sub.across / one, y + sub.down / one);
   return bytes_of(sum * (1.0 / static_cast<double>(samples.size())));
 }
 

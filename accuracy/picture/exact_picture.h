@@ -42,8 +42,8 @@ class ExactPicture {
   };
   Seen matter(double across, double down) const;  // as if there were no ground
 
-  // The mean of some samples, in bytes; their places are in 1 / picture::kPixel.
-  render::Rgb pixel(int x, int y, std::span<const picture::Sub> samples) const;
+  // The mean of some samples, in bytes. Their places count in 1 / `one` of a pixel.
+  render::Rgb pixel(int x, int y, std::span<const picture::Sub> samples, double one = picture::kPixel) const;
   // With 64 samples a pixel.
   render::Image draw(cpu::Workers& workers) const;
 

@@ -21,6 +21,7 @@
 #include "accuracy/picture/compare.h"
 #include "accuracy/picture/exact_picture.h"
 #include "accuracy/picture/integer_pixels.h"
+#include "accuracy/picture/patterns.h"
 #include "accuracy/picture/sampling.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
@@ -104,6 +105,7 @@ struct Drawing {
   std::string name;
   int spacing;  // of the integers; negative: drawn without roundings and steps
   Sampling sampling;
+  double one = picture::kPixel;  // units of its places to a pixel
 };
 
 std::vector<Drawing> drawings(bool causes) {
@@ -115,17 +117,23 @@ std::vector<Drawing> drawings(bool causes) {
     of.push_back({"best " + step(spacing), spacing, best_sampling()});
   }
   if (!causes) return of;
+  // Without roundings and steps: what the samples' number and places cost.
   of.push_back({"fast exact", -1, fast_sampling()});
   of.push_back({"normal exact", -1, normal_sampling()});
   of.push_back({"best exact", -1, best_sampling()});
-  for (const int spacing : {1, 2, 3, 4, 6}) of.push_back({"64 samples " + step(spacing), spacing, lattice_sampling()});
-  for (const int most : {1, 2, 3, 4, 5, 6})
-    of.push_back({"normal>" + std::to_string(most) + " 1/4", 2, normal_sampling(most)});
-  for (const int fine : {0, 1, 2}) of.push_back({"best>8>" + std::to_string(fine) + " 1/8", 3, best_sampling(8, fine)});
-  for (const int fine : {0, 1, 2, 3})
-    of.push_back({"best>3>" + std::to_string(fine) + " 1/8", 3, best_sampling(3, fine)});
-  for (const int most : {2, 3, 4, 8})
-    of.push_back({"16 where >" + std::to_string(most) + " 1/8", 3, {picture::kMiddle, {{most, picture::kSixteen}}}});
+  // As many samples as the converged picture: what roundings and steps cost.
+  for (const int spacing : {1, 2, 3, 6}) of.push_back({"64 samples " + step(spacing), spacing, lattice_sampling()});
+  for (const int most : {2, 4, 16, 32})
+    of.push_back({"four where >" + std::to_string(most), -1, normal_sampling(most)});
+  for (const int fine : {1, 8, 16}) of.push_back({"four, 16 where >" + std::to_string(fine), -1, best_sampling(8, fine)});
+  const auto rooks = [&](int count, Places places) {
+    for (const int most : {3, 8, 16})
+      of.push_back({std::to_string(count) + " rooks where >" + std::to_string(most), -1,
+                    {kRookMiddle, {{most, places}}}, kRookPixel});
+  };
+  rooks(8, kRooks8);
+  rooks(16, kRooks16);
+  rooks(32, kRooks32);
   return of;
 }
 
@@ -159,7 +167,7 @@ void measure(const MidMelt& which, const Options& options, std::map<std::string,
       const Sampled drawn = sampled(
           options.size, options.size, drawing.sampling,
           [&](int x, int y, Places places) {
-            return drawing.spacing < 0 ? picture.pixel(x, y, places) : integers.pixel(x, y, places);
+            return drawing.spacing < 0 ? picture.pixel(x, y, places, drawing.one) : integers.pixel(x, y, places);
           },
           workers);
       const double error = psnr(drawn.image, converged);
