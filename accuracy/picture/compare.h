@@ -30,7 +30,8 @@ inline render::Image difference_picture(const render::Image& a, const render::Im
   render::Image of(a.width, a.height);
   for (std::size_t i = 0; i < of.pixels.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
-      of.pixels[i][c] = static_cast<std::uint8_t>(std::clamp(128 + 8 * (a.pixels[i][c] - b.pixels[i][c]), 0, 255));
+      of.pixels[i][c] =
+          static_cast<std::uint8_t>(std::clamp(128 + 8 * (a.pixels[i][c] - b.pixels[i][c]), 0, 255));
   return of;
 }
 

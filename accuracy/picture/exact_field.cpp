@@ -44,7 +44,8 @@ ExactField::ExactField(const render::PictureScene& scene) {
       for (int x = 0; x < cells_[0]; ++x) {
         levels_[at(x, y, z)] = static_cast<float>(scene.levels(x, y, z));
         const picture::Matter matter = scene.matter(x, y, z);
-        matter_[at(x, y, z)] = {static_cast<std::uint8_t>(matter.liquid), static_cast<std::uint8_t>(matter.heat),
+        matter_[at(x, y, z)] = {static_cast<std::uint8_t>(matter.liquid),
+                                static_cast<std::uint8_t>(matter.heat),
                                 static_cast<std::uint8_t>(matter.obstacle)};
         obstacles_ |= matter.obstacle > 0;
       }
@@ -70,8 +71,8 @@ void ExactField::find_distances() {
     far(i) = static_cast<std::uint8_t>(std::min<int>(far(i), far(from) + 1));
   };
   each([&](std::ptrdiff_t i) {
-    for (const std::ptrdiff_t corner : {std::ptrdiff_t{0}, std::ptrdiff_t{1}, row, row + 1, slice, slice + 1,
-                                        slice + row, slice + row + 1})
+    for (const std::ptrdiff_t corner :
+         {std::ptrdiff_t{0}, std::ptrdiff_t{1}, row, row + 1, slice, slice + 1, slice + row, slice + row + 1})
       if (levels_[static_cast<std::size_t>(i + corner)] >= 0) far(i) = 0;
   });
   each([&](std::ptrdiff_t i) {
@@ -99,8 +100,10 @@ Cubic ExactField::levels_between(const std::array<int, 3>& cell, Exact from, Exa
   // Both ends along x, for each of the four rows.
   const double ax = from.x - 0.5 - cell[0], ay = from.y - 0.5 - cell[1], az = from.z - 0.5 - cell[2];
   const double bx = to.x - 0.5 - cell[0], by = to.y - 0.5 - cell[1], bz = to.z - 0.5 - cell[2];
-  const std::array<double, 4> a{along_x(0, ax), along_x(row, ax), along_x(slice, ax), along_x(slice + row, ax)};
-  const std::array<double, 4> b{along_x(0, bx), along_x(row, bx), along_x(slice, bx), along_x(slice + row, bx)};
+  const std::array<double, 4> a{along_x(0, ax), along_x(row, ax), along_x(slice, ax),
+                                along_x(slice + row, ax)};
+  const std::array<double, 4> b{along_x(0, bx), along_x(row, bx), along_x(slice, bx),
+                                along_x(slice + row, bx)};
   const auto rest = [](const std::array<double, 4>& of, double y, double z) {
     return blend(blend(of[0], of[1], y), blend(of[2], of[3], y), z);
   };
@@ -143,7 +146,8 @@ Exact ExactField::normal(Exact p) const {
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i) {
         const double level = levels_[at(cx.cell + i - 1, cy.cell + j - 1, cz.cell + k - 1)];
-        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j), c = static_cast<std::size_t>(k);
+        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j),
+                   c = static_cast<std::size_t>(k);
         slope = slope + Exact{x.slope[a] * y.value[b] * z.value[c], x.value[a] * y.slope[b] * z.value[c],
                               x.value[a] * y.value[b] * z.slope[c]} *
                             level;
@@ -157,7 +161,8 @@ ExactField::Matter ExactField::matter(Exact p) const {
   std::array<double, 3> sum{};
   for (int corner = 0; corner < 8; ++corner) {
     const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
-    const double weight = (i != 0 ? x.part : 1 - x.part) * (j != 0 ? y.part : 1 - y.part) * (k != 0 ? z.part : 1 - z.part);
+    const double weight =
+        (i != 0 ? x.part : 1 - x.part) * (j != 0 ? y.part : 1 - y.part) * (k != 0 ? z.part : 1 - z.part);
     const auto& bytes = matter_[at(x.cell + i, y.cell + j, z.cell + k)];
     for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * bytes[c];
   }

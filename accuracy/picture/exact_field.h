@@ -37,7 +37,8 @@ class ExactField {
   static constexpr int kBorder = 2;
   // Of cells -2 .. n + 1.
   std::size_t at(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z + kBorder) * side_[1] + static_cast<std::size_t>(y + kBorder)) * side_[0] +
+    return (static_cast<std::size_t>(z + kBorder) * side_[1] + static_cast<std::size_t>(y + kBorder)) *
+               side_[0] +
            static_cast<std::size_t>(x + kBorder);
   }
   void find_distances();

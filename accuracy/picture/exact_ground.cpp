@@ -57,7 +57,8 @@ ExactGround::ExactGround(const render::PictureScene& scene) : texels_(scene.grou
     for (int x = -1; x < cells_[0]; ++x) {
       double& highest = block_highest_[static_cast<std::size_t>((z + 1) / kBlock) * blocks_x_ +
                                        static_cast<std::size_t>((x + 1) / kBlock)];
-      highest = std::max({highest, drawn_[at(x, z)], drawn_[at(x + 1, z)], drawn_[at(x, z + 1)], drawn_[at(x + 1, z + 1)]});
+      highest = std::max(
+          {highest, drawn_[at(x, z)], drawn_[at(x + 1, z)], drawn_[at(x, z + 1)], drawn_[at(x + 1, z + 1)]});
     }
 
   if (texels_.empty()) return;
@@ -99,8 +100,9 @@ Cubic ExactGround::depths_between(const std::array<int, 2>& cell, Exact from, Ex
 
 ExactGround::Crossing ExactGround::first_crossing(const ExactRay& ray) const {
   if (highest_ <= 0) return {};
-  const Span span = span_in<3>({ray.start.x, ray.start.y, ray.start.z}, {ray.along.x, ray.along.y, ray.along.z},
-                               {0, 0, 0}, {static_cast<double>(cells_[0]), highest_, static_cast<double>(cells_[2])});
+  const Span span =
+      span_in<3>({ray.start.x, ray.start.y, ray.start.z}, {ray.along.x, ray.along.y, ray.along.z}, {0, 0, 0},
+                 {static_cast<double>(cells_[0]), highest_, static_cast<double>(cells_[2])});
   if (span.first > span.last) return {};
   const std::array<double, 2> start{ray.start.x - 0.5, ray.start.z - 0.5}, along{ray.along.x, ray.along.z};
   const std::array<int, 2> low{-1, -1}, high{cells_[0] - 1, cells_[2] - 1};

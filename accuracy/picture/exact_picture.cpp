@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "accuracy/picture/sampling.h"
@@ -9,8 +10,8 @@
 namespace voxmelt::accuracy {
 namespace {
 
-// Matter cut off at a side of the grid and the side of the slab lie in one plane. There the slab shows, by half a
-// step of the best picture.
+// Matter cut off at a side of the grid and the side of the slab lie in one plane. There the slab shows, by
+// half a step of the best picture.
 constexpr double kSideFirst = 1.0 / 16;
 
 }  // namespace
@@ -21,7 +22,8 @@ ExactPicture::ExactPicture(const ExactScene& scene, const picture::Camera& camer
     return static_cast<double>(angle) / picture::kDegree * std::numbers::pi / 180;
   };
   const double azimuth = radians(camera.azimuth), elevation = radians(camera.elevation);
-  const double sa = std::sin(azimuth), ca = std::cos(azimuth), se = std::sin(elevation), ce = std::cos(elevation);
+  const double sa = std::sin(azimuth), ca = std::cos(azimuth), se = std::sin(elevation),
+               ce = std::cos(elevation);
   forward_ = {-sa * ce, -se, -ca * ce};
   right_ = {ca, 0, -sa};
   up_ = {-sa * se, ce, -ca * se};
@@ -29,7 +31,9 @@ ExactPicture::ExactPicture(const ExactScene& scene, const picture::Camera& camer
   eye_ = exact(camera.target, picture::kCell) - forward_ * (static_cast<double>(camera.distance) / 4096);
   double near = 1e30;
   for (int corner = 0; corner < 8; ++corner) {
-    const auto at = [&](int bit, std::int64_t n) { return (corner & bit) != 0 ? static_cast<double>(n) + 0.5 : -0.5; };
+    const auto at = [&](int bit, std::int64_t n) {
+      return (corner & bit) != 0 ? static_cast<double>(n) + 0.5 : -0.5;
+    };
     near = std::min(near, dot(Exact{at(1, cells.x), at(2, cells.y), at(4, cells.z)} - eye_, forward_));
   }
   near_ = std::max(0.0, near);
@@ -72,14 +76,14 @@ ExactPicture::Seen ExactPicture::matter(double across, double down) const {
 
 render::Rgb ExactPicture::pixel(int x, int y, std::span<const picture::Sub> samples, double one) const {
   Exact sum;
-  for (const picture::Sub& sub : samples)
-    sum = sum + light(x + sub.across / one, y + sub.down / one);
+  for (const picture::Sub& sub : samples) sum = sum + light(x + sub.across / one, y + sub.down / one);
   return bytes_of(sum * (1.0 / static_cast<double>(samples.size())));
 }
 
 render::Image ExactPicture::draw(cpu::Workers& workers) const {
-  return sampled(static_cast<int>(width_), static_cast<int>(height_), lattice_sampling(),
-                 [&](int x, int y, Places places) { return pixel(x, y, places); }, workers)
+  return sampled(
+             static_cast<int>(width_), static_cast<int>(height_), lattice_sampling(),
+             [&](int x, int y, Places places) { return pixel(x, y, places); }, workers)
       .image;
 }
 

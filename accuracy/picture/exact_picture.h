@@ -19,8 +19,11 @@ namespace voxmelt::accuracy {
 // All of a scene that no camera changes. It refers to the scene.
 struct ExactScene {
   explicit ExactScene(const render::PictureScene& scene)
-      : field(scene), ground(scene), shade(scene), background(exact({scene.look.background[0], scene.look.background[1],
-                                                                      scene.look.background[2]}, picture::kLight)) {}
+      : field(scene),
+        ground(scene),
+        shade(scene),
+        background(exact({scene.look.background[0], scene.look.background[1], scene.look.background[2]},
+                         picture::kLight)) {}
   ExactField field;
   ExactGround ground;
   ExactShade shade;

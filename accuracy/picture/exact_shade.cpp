@@ -40,8 +40,8 @@ Material material_of(const picture::Material& m) {
   return {color_of(m.diffuse), color_of(m.mirror), color_of(m.highlight), m.gloss / kOne};
 }
 Material mix(const Material& a, const Material& b, double share) {
-  return {mix(a.diffuse, b.diffuse, share), mix(a.mirror, b.mirror, share), mix(a.highlight, b.highlight, share),
-          blend(a.gloss, b.gloss, share)};
+  return {mix(a.diffuse, b.diffuse, share), mix(a.mirror, b.mirror, share),
+          mix(a.highlight, b.highlight, share), blend(a.gloss, b.gloss, share)};
 }
 
 }  // namespace
@@ -55,7 +55,9 @@ ExactShade::Light ExactShade::light_before(Exact p, Exact normal) const {
   };
   const auto axis = [](double at, std::int64_t count) {
     const double floor = std::floor(at - 0.5);
-    const auto within = [&](double i) { return static_cast<std::int64_t>(std::clamp(i, 0.0, static_cast<double>(count - 1))); };
+    const auto within = [&](double i) {
+      return static_cast<std::int64_t>(std::clamp(i, 0.0, static_cast<double>(count - 1)));
+    };
     return Axis{within(floor), within(floor + 1), at - 0.5 - floor};
   };
   const picture::Vector n = light_.count();
@@ -90,7 +92,8 @@ Exact ExactShade::mirrored(Exact r) const {
   };
   const double at = std::clamp(r.y + 1, 0.0, 2.0) * 1024;
   const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(at), 2047);
-  const double lamp = smooth(paint_.lamp_low / kOne, paint_.lamp_high / kOne, dot(r, unit(exact(paint_.to_light, 1))));
+  const double lamp =
+      smooth(paint_.lamp_low / kOne, paint_.lamp_high / kOne, dot(r, unit(exact(paint_.to_light, 1))));
   const double strip =
       smooth(paint_.strip_low / kOne, picture::kStripHigh / kOne, dot(r, unit(exact(paint_.to_strip, 1))));
   return mix(entry(i), entry(i + 1), at - static_cast<double>(i)) + color_of(picture::kMirroredLamp) * lamp +
@@ -98,13 +101,16 @@ Exact ExactShade::mirrored(Exact r) const {
 }
 
 Exact ExactShade::matter_color(Exact p, Exact normal, Exact to_eye, const ExactField::Matter& matter) const {
-  const double liquid = matter.liquid / 255, obstacle = std::clamp((matter.obstacle - 148) * 73 / kOne, 0.0, 1.0);
+  const double liquid = matter.liquid / 255,
+               obstacle = std::clamp((matter.obstacle - 148) * 73 / kOne, 0.0, 1.0);
   Material material = mix(material_of(paint_.solid), material_of(paint_.liquid), liquid);
   Exact emission;
   if (paint_.glow) {
     const auto i = std::min<std::size_t>(static_cast<std::size_t>(matter.heat), 254);
     const double part = matter.heat - static_cast<double>(i);
-    const auto at = [&](const auto& table) { return mix(color_of(table[i]), color_of(table[i + 1]), part) * liquid; };
+    const auto at = [&](const auto& table) {
+      return mix(color_of(table[i]), color_of(table[i + 1]), part) * liquid;
+    };
     material.diffuse = material.diffuse + at(paint_.glow_colors.crust);
     emission = at(paint_.glow_colors.light) * (1 - obstacle);
   }
@@ -121,8 +127,9 @@ Exact ExactShade::matter_color(Exact p, Exact normal, Exact to_eye, const ExactF
   const double free = 614 / kOne + 3482 / kOne * seen(light.open, reflected) * seen(light.open, normal);
   const Exact fresnel = mix(material.mirror, {1, 1, 1}, more);
 
-  return times(arriving(normal, light, paint_.glow && obstacle > 0), material.diffuse) + material.highlight * peak +
-         times(mirrored(reflected) * free, fresnel) + emission * ((2540 + 1556 * eye) / kOne);
+  return times(arriving(normal, light, paint_.glow && obstacle > 0), material.diffuse) +
+         material.highlight * peak + times(mirrored(reflected) * free, fresnel) +
+         emission * ((2540 + 1556 * eye) / kOne);
 }
 
 Exact ExactShade::ground_color(Exact p, Exact normal, Exact color) const {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
 
 #include "render/rule/fixed_point.h"
 
@@ -36,7 +35,8 @@ struct ExactRay {
 
 inline double blend(double a, double b, double weight) { return a + (b - a) * weight; }
 
-// A cubic on 0 .. 1 by its four coefficients of Bernstein. It lies between the least and the greatest of them.
+// A cubic on 0 .. 1 by its four coefficients of Bernstein. It lies between the least and the greatest of
+// them.
 using Cubic = std::array<double, 4>;
 
 // The first place at which the cubic is 0 or more, to 2^-26; or a negative number. Halves are looked at only

@@ -61,7 +61,8 @@ class Walk {
   void leave(const std::array<int, kAxes>& low, const std::array<int, kAxes>& high, double t) {
     t_ = t;
     for (std::size_t a = 0; a < kAxes; ++a)
-      cell_[a] = a == axis_ ? (along_[a] > 0 ? high[a] + 1 : low[a] - 1) : within(floor_at(a), low[a], high[a]);
+      cell_[a] =
+          a == axis_ ? (along_[a] > 0 ? high[a] + 1 : low[a] - 1) : within(floor_at(a), low[a], high[a]);
   }
 
  private:

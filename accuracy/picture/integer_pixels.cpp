@@ -17,14 +17,18 @@ const picture::Bytes kBytes = picture::byte_table();
 
 IntegerPixels::IntegerPixels(const render::PictureScene& scene, const ExactField& field,
                              const picture::Camera& camera, int spacing)
-    : scene_(scene), field_(field), view_(picture::view_of(camera, scene.levels.cells())), spacing_(spacing) {}
+    : scene_(scene),
+      field_(field),
+      view_(picture::view_of(camera, scene.levels.cells())),
+      spacing_(spacing) {}
 
 picture::Crossing IntegerPixels::first_crossing(const picture::Ray& ray) const {
   const picture::Samples in =
       picture::samples_in(ray, picture::field_low(), picture::field_high(scene_.levels.cells()));
   for (std::int64_t k = in.first; k <= in.last;) {
     const picture::Vector p = ray.at(k);
-    const int far = field_.distance(picture::place_of(p.x).cell, picture::place_of(p.y).cell, picture::place_of(p.z).cell);
+    const int far = field_.distance(picture::place_of(p.x).cell, picture::place_of(p.y).cell,
+                                    picture::place_of(p.z).cell);
     if (far > 0) {  // in so many steps less one the ray gets no further than to the last cell of air
       k += std::max(std::int64_t{1}, std::int64_t{far - 1} << spacing_);
       continue;
@@ -50,9 +54,10 @@ picture::Color IntegerPixels::light(std::int64_t across, std::int64_t down) cons
   if (picture::ground_first(ground, matter)) {
     const render::GroundMap::Paint paint = scene_.ground.paint(ground);
     const picture::Vector normal = ground.face == picture::Face::none ? to_eye : paint.normal;
-    color = picture::ground_color(scene_.paint, normal, light_before(ground.position, normal),
-                                  {static_cast<std::int32_t>(paint.color.x), static_cast<std::int32_t>(paint.color.y),
-                                   static_cast<std::int32_t>(paint.color.z)});
+    color = picture::ground_color(
+        scene_.paint, normal, light_before(ground.position, normal),
+        {static_cast<std::int32_t>(paint.color.x), static_cast<std::int32_t>(paint.color.y),
+         static_cast<std::int32_t>(paint.color.z)});
   } else if (matter.found) {
     const picture::Vector normal =
         matter.sample == 0 ? to_eye : picture::normal_at(scene_.levels, matter.position);
@@ -74,7 +79,8 @@ render::Rgb IntegerPixels::pixel(int x, int y, std::span<const picture::Sub> sam
   }
   const auto count = static_cast<std::int32_t>(samples.size());
   render::Rgb bytes{};
-  for (std::size_t c = 0; c < 3; ++c) bytes[c] = kBytes[static_cast<std::size_t>((sum[c] + count / 2) / count)];
+  for (std::size_t c = 0; c < 3; ++c)
+    bytes[c] = kBytes[static_cast<std::size_t>((sum[c] + count / 2) / count)];
   return bytes;
 }
 

@@ -33,7 +33,9 @@ struct Sampling {
   std::vector<Pass> passes;
 };
 inline Sampling fast_sampling() { return {picture::kMiddle, {}}; }
-inline Sampling normal_sampling(int most = picture::kDifference) { return {picture::kMiddle, {{most, picture::kFour}}}; }
+inline Sampling normal_sampling(int most = picture::kDifference) {
+  return {picture::kMiddle, {{most, picture::kFour}}};
+}
 inline Sampling best_sampling(int most = picture::kDifference, int fine = picture::kFineDifference) {
   return {picture::kMiddle, {{most, picture::kFour}, {fine, picture::kSixteen}}};
 }
@@ -71,7 +73,8 @@ Sampled sampled(int width, int height, const Sampling& sampling, const Pixel& pi
     const render::Image before = of.image;
     pass(more.places, [&](int x, int y) { return differs(before, x, y, more.most); });
   }
-  of.samples = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0})) / (width * height);
+  of.samples =
+      static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0})) / (width * height);
   return of;
 }
 

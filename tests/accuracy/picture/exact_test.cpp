@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <random>
 
 #include "accuracy/picture/compare.h"
@@ -94,7 +93,8 @@ TEST(ExactPicture, APlaneOfMatter) {
   EXPECT_NEAR(picture.matter(4, 4).depth, 15.5 * std::sin(slope) + 16.5 * std::cos(slope), 1e-6);
 }
 
-// Light from straight above. Above the plane all of it arrives, so lamp and sky add up: no mirror, no highlight.
+// Light from straight above. Above the plane all of it arrives, so lamp and sky add up: no mirror, no
+// highlight.
 TEST(ExactPicture, ColoursByFormula) {
   scene::Light light;
   light.direction = {0, 1, 0};
@@ -110,9 +110,10 @@ TEST(ExactPicture, ColoursByFormula) {
   look.ground = {0, 0, 0};
   const World empty(state::Volume({32, 24, 32}), look, light);
   const Exact aside = empty.exact.shade.ground_color({16, 12, 16}, tilted, {1, 1, 1});
-  expect_near(aside, {0.636 * 0.65 / 1.15 + 0.47 * 0.75, 0.6 * 0.65 / 1.15 + 0.5 * 0.75,
-                      0.552 * 0.65 / 1.15 + 0.54 * 0.75},
-              2e-3);
+  expect_near(
+      aside,
+      {0.636 * 0.65 / 1.15 + 0.47 * 0.75, 0.6 * 0.65 / 1.15 + 0.5 * 0.75, 0.552 * 0.65 / 1.15 + 0.54 * 0.75},
+      2e-3);
   expect_near(accuracy::pressed({0.5, 0.7, 1.0}), {0.5, 0.7, 0.7 + 0.3 * (1 - std::exp(-1.0))}, 1e-12);
   EXPECT_EQ(accuracy::bytes_of({0, 0.2140411, 1}), (render::Rgb{0, 127, 255}));  // sRGB's 127.5 is 0.21404114
 }
@@ -160,8 +161,8 @@ TEST(ExactPicture, AGroundWithASlope) {
   EXPECT_LT(ground.first_crossing({{-3, 12, 16}, {1, 0.25, 0}}).place, 0);
 }
 
-// Plain trilinear levels every 1/64 cell: no ray meets matter before the exact one says so, and none that says
-// so is empty.
+// Plain trilinear levels every 1/64 cell: no ray meets matter before the exact one says so, and none that
+// says so is empty.
 TEST(ExactPicture, MeetsWhatADenseMarchMeets) {
   const state::Grid grid{40, 36, 44};
   const World world(test::ball_and_puddle(grid), {}, {}, test::floor_terrain(grid));
@@ -232,8 +233,9 @@ TEST(ExactPicture, IsNearTheReference) {
     const picture::Camera camera = render::camera_in_integers(asked);
     const accuracy::ExactPicture picture(world.exact, camera, world.data.levels.cells());
     cpu::Workers workers(1);
-    const auto exact = accuracy::sampled(60, 50, accuracy::fast_sampling(),
-                                         [&](int x, int y, accuracy::Places p) { return picture.pixel(x, y, p); }, workers);
+    const auto exact = accuracy::sampled(
+        60, 50, accuracy::fast_sampling(),
+        [&](int x, int y, accuracy::Places p) { return picture.pixel(x, y, p); }, workers);
     const render::Image reference = render::reference_picture(world.data, camera, render::Setting::fast);
     EXPECT_GT(accuracy::psnr(exact.image, reference), 44);
     std::size_t far = 0;
@@ -252,12 +254,16 @@ TEST(IntegerPixels, AreThoseOfTheReference) {
   cpu::Workers workers(2);
   const auto drawn = [&](int spacing, const accuracy::Sampling& sampling) {
     const accuracy::IntegerPixels integers(world.data, world.exact.field, camera, spacing);
-    return accuracy::sampled(48, 36, sampling, [&](int x, int y, accuracy::Places p) { return integers.pixel(x, y, p); }, workers);
+    return accuracy::sampled(
+        48, 36, sampling, [&](int x, int y, accuracy::Places p) { return integers.pixel(x, y, p); }, workers);
   };
   using render::Setting;
-  EXPECT_EQ(drawn(2, accuracy::fast_sampling()).image, render::reference_picture(world.data, camera, Setting::fast));
-  EXPECT_EQ(drawn(2, accuracy::normal_sampling()).image, render::reference_picture(world.data, camera, Setting::normal));
-  EXPECT_EQ(drawn(3, accuracy::best_sampling()).image, render::reference_picture(world.data, camera, Setting::best));
+  EXPECT_EQ(drawn(2, accuracy::fast_sampling()).image,
+            render::reference_picture(world.data, camera, Setting::fast));
+  EXPECT_EQ(drawn(2, accuracy::normal_sampling()).image,
+            render::reference_picture(world.data, camera, Setting::normal));
+  EXPECT_EQ(drawn(3, accuracy::best_sampling()).image,
+            render::reference_picture(world.data, camera, Setting::best));
   EXPECT_EQ(drawn(2, accuracy::fast_sampling()).samples, 1);
 }
 
