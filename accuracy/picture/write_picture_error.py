@@ -104,7 +104,7 @@ def causes(run):
 
 def plot(main):
     """Mean error against time, or against samples a pixel until times are measured."""
-    timed = bool(main.ms)
+    timed = any(main.ms.values())
     points = []
     for setting in SETTINGS:
         for step in STEPS:
@@ -168,7 +168,7 @@ def main():
         texts = measured(arguments)
     all_views, few = Rows(texts[0]), Rows(texts[1])
     words = {"goals": goals(all_views), "scenes": scenes(all_views), "steps": steps(all_views), "causes": causes(few),
-             "views": str(len(all_views.views)), "few": str(len(few.views))}
+             "views": str(len(all_views.views)), "few": "first view" if few.views == {0} else f"first {len(few.views)} views"}
     page = TEMPLATE.read_text()
     for name, text in words.items():
         page = page.replace("{{" + name + "}}", text)

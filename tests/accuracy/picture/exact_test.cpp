@@ -136,6 +136,31 @@ TEST(ExactPicture, ABall) {
   }
 }
 
+// A quadratic spline is a linear one averaged over a cell. So its slope along an axis is the difference of
+// the levels half a cell on either side, averaged over the square across.
+TEST(ExactPicture, TheNormalIsThatOfAveragedLevels) {
+  const state::Grid grid{24, 24, 24};
+  state::Volume volume(grid);
+  test::ball(volume, 11.3, 12.1, 12.7, 6);
+  const World world(volume, unfiltered(), {});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  constexpr int kMiddles = 40;
+  for (int i = 0; i < 50; ++i) {
+    const Exact p = Exact{11.3, 12.1, 12.7} + accuracy::unit({any(random), any(random), any(random)}) * 6;
+    Exact slope;
+    for (int a = 0; a < kMiddles; ++a)
+      for (int b = 0; b < kMiddles; ++b) {
+        const double u = (a + 0.5) / kMiddles - 0.5, v = (b + 0.5) / kMiddles - 0.5;
+        const auto level = [&](Exact aside) { return world.exact.field.level(p + aside); };
+        slope =
+            slope + Exact{level({0.5, u, v}) - level({-0.5, u, v}), level({u, 0.5, v}) - level({u, -0.5, v}),
+                          level({u, v, 0.5}) - level({u, v, -0.5})};
+      }
+    expect_near(world.exact.field.normal(p), accuracy::unit(slope * -1), 1e-3);
+  }
+}
+
 // Heights 4 + x / 4, which the filters leave as they are away from the sides.
 TEST(ExactPicture, AGroundWithASlope) {
   const state::Grid grid{32, 24, 32};
