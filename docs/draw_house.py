@@ -27,6 +27,7 @@ PURPOSES = {
     "bench/measure": "what `voxmelt bench` times and checks",
     "accuracy": "how well it does physics, against analytic answers",
     "accuracy/report": "the page and the tables",
+    "accuracy/picture": "picture in double",
     "hwmodel": "the hardware: a streaming pipeline in SystemC",
     "hwmodel/channel": "FIFOs, line buffers, wires of a declared width",
     "hwmodel/stream": "one stage per phase, with its own arithmetic",

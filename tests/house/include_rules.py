@@ -56,6 +56,8 @@ ALLOWED = {
     # The judge sees states and scenes, never a rule.
     "accuracy": [STATE, STEP, "kernel/scene", "kernel/run", "bench/measure"],
     "accuracy/report": ["accuracy"],
+    # The converged picture reads the picture's data, and computes with its own arithmetic.
+    "accuracy/picture": ["kernel/scene", CPU, "kernel/run", PICTURE, "render/density", "render/image", "render/raycast"],
     # What strangers include: the standard library only.
     "include/voxmelt": [],
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",

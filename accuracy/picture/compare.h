@@ -1,0 +1,38 @@
+// How far two pictures are from each other.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "render/image/image.h"
+
+namespace voxmelt::accuracy {
+
+inline double square_error(const render::Rgb& a, const render::Rgb& b) {
+  double sum = 0;
+  for (std::size_t c = 0; c < 3; ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
+  return sum;
+}
+
+// The ratio of peak to noise over all bytes, in dB; infinite for equal pictures.
+inline double psnr(const render::Image& a, const render::Image& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += square_error(a.pixels[i], b.pixels[i]);
+  if (sum == 0) return std::numeric_limits<double>::infinity();
+  return 10 * std::log10(255 * 255 * 3 * static_cast<double>(a.pixels.size()) / sum);
+}
+
+// Grey where both are equal; a byte of difference counts eight times.
+inline render::Image difference_picture(const render::Image& a, const render::Image& b) {
+  render::Image of(a.width, a.height);
+  for (std::size_t i = 0; i < of.pixels.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      of.pixels[i][c] =
+          static_cast<std::uint8_t>(std::clamp(128 + 8 * (a.pixels[i][c] - b.pixels[i][c]), 0, 255));
+  return of;
+}
+
+}  // namespace voxmelt::accuracy

@@ -1,0 +1,35 @@
+// Pixels of the picture in integers, by render/rule (docs/picture.md): the same bytes as the reference, which
+// the tests hold it against. It takes any step and any places of samples, and leaves out samples in air.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "accuracy/picture/exact_field.h"
+#include "render/image/image.h"
+#include "render/raycast/picture_scene.h"
+#include "render/rule/antialias.h"
+#include "render/rule/camera.h"
+#include "render/rule/crossing.h"
+
+namespace voxmelt::accuracy {
+
+class IntegerPixels {
+ public:
+  // A step is 2^-spacing cells. `field` says where air is.
+  IntegerPixels(const render::PictureScene& scene, const ExactField& field, const picture::Camera& camera,
+                int spacing);
+
+  render::Rgb pixel(int x, int y, std::span<const picture::Sub> samples) const;
+
+ private:
+  picture::Crossing first_crossing(const picture::Ray& ray) const;
+  picture::Color light(std::int64_t across, std::int64_t down) const;
+
+  const render::PictureScene& scene_;
+  const ExactField& field_;
+  picture::View view_;
+  int spacing_;
+};
+
+}  // namespace voxmelt::accuracy
