@@ -57,7 +57,7 @@ ALLOWED = {
     "accuracy": [STATE, STEP, "kernel/scene", "kernel/run", "bench/measure"],
     "accuracy/report": ["accuracy"],
     # The converged picture reads the picture's data, and computes with its own arithmetic.
-    "accuracy/picture": ["kernel/scene", CPU, "kernel/run", PICTURE, "render/density", "render/image", "render/raycast"],
+    "accuracy/picture": ["kernel/scene", CPU, "kernel/run", PICTURE, "render/density", "render/image", "render/raycast", "render/packet/scene_in_integers.h"],
     # What strangers include: the standard library only.
     "include/voxmelt": [],
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
