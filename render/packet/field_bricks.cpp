@@ -289,12 +289,12 @@ void FieldBricks::find_box() {
     };
     return picture::Vector{axis(block[0]), axis(block[1]), axis(block[2])};
   };
-  // Rays are followed up to a cell beyond the box, and must not leave the lattice.
-  const picture::Vector from = picture::field_low(), to = picture::field_high(cells_);
-  const auto larger = [](picture::Vector a, picture::Vector b) {
-    return picture::Vector{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-  };
-  box_ = {larger(corner(low), from), picture::Vector{} - larger(picture::Vector{} - corner(high), picture::Vector{} - to)};
+  // Outside of the box of samples there is air. The lattice reaches a cell further, and rays' ranges less
+  // than that.
+  const picture::Vector least = picture::field_low(), most = picture::field_high(cells_);
+  box_ = {corner(low), corner(high)};
+  box_.low = {std::max(box_.low.x, least.x), std::max(box_.low.y, least.y), std::max(box_.low.z, least.z)};
+  box_.high = {std::min(box_.high.x, most.x), std::min(box_.high.y, most.y), std::min(box_.high.z, most.z)};
 }
 
 std::size_t FieldBricks::bytes() const {

@@ -6,7 +6,6 @@
 // samples and normals read one brick alone. Bricks in which there is nothing but air share one.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -192,6 +192,7 @@ TEST(PictureOfPackets, TakesOverChangedBricks) {
   const scene::Terrain terrain = test::floor_terrain(grid);
   scene::Look look;
   look.glow = true;
+  look.smooth = look.smooth_solid = 0;  // so that a change stays in its brick
   const scene::Light light;
   render::DensityField field;
   render::Picture picture;
@@ -205,6 +206,17 @@ TEST(PictureOfPackets, TakesOverChangedBricks) {
       volume = test::floor_volume(grid);  // bricks become empty
     else
       test::ball(volume, random.real(3, 37), random.real(5, 27), random.real(3, 30), random.real(1, 5));
+    for (int i = 0; i < 8; ++i) {  // at the upper ends of bricks, which the next bricks hold as well
+      const int x = 8 * random.whole(1, 4) - 2 + (i & 1) * 4,
+                y = 8 * random.whole(1, 2) - 2 + (i >> 1 & 1) * 4,
+                z = 8 * random.whole(1, 3) - 2 + (i >> 2) * 4;
+      for (int cell = 0; cell < 8; ++cell) {
+        const int cx = x + (cell & 1), cy = y + (cell >> 1 & 1), cz = z + (cell >> 2);
+        if (volume.liquid.test(cx, cy, cz)) continue;
+        volume.solid.set(cx, cy, cz, true);
+        volume.amount[volume.at(cx, cy, cz)] = rule::kOne;
+      }
+    }
     if (round == 4) test::pour(volume, 20, 12, 2.5);
     field.update(volume, look, terrain);
     const auto after =
