@@ -38,7 +38,7 @@ PURPOSES = {
     "render/density": "amounts to a filtered field",
     "render/light": "what light arrives where",
     "render/packet": "the picture in packets of rays",
-    "render/raycast": "rays through its bricks",
+    "render/reference": "rays through its bricks",
     "render/image": "camera, PNG, film",
     "render/frames": "files beside the steps",
     "kernel/run": "the run loop",

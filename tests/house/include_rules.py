@@ -39,7 +39,7 @@ ALLOWED = {
     "render/ground": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE],
     "render/packet": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", STATE, CPU, PICTURE, "render/image", "render/density",
                       "render/light", "render/ground"],
-    "render/raycast": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density", "render/light",
+    "render/reference": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density", "render/light",
                        "render/ground", "render/packet"],
     # The model computes with its own arithmetic: of the kernel it sees data only.
     "hwmodel/channel": [],

@@ -81,6 +81,12 @@ TEST(Tables, GlowIsThatOfDouble) {
   EXPECT_EQ(table.crust[255], (Color{164, 57, 33}));
 }
 
+TEST(Tables, GlowNeverDarkensWithHeat) {
+  const Glow table = glow_table();
+  for (std::size_t i = 1; i < 256; ++i)
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_GE(table.light[i][c], table.light[i - 1][c]) << i;
+}
+
 TEST(Tone, PressedLightIsThatOfDouble) {
   const Tone table = tone_table();
   for (std::int32_t i = 0; i <= kBrightest; ++i) {

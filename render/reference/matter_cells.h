@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "render/density/density_field.h"
-#include "render/raycast/levels.h"
+#include "render/reference/levels.h"
 #include "render/rule/matter.h"
 
 namespace voxmelt::render {
