@@ -129,16 +129,16 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
   if (all) {
     for (std::size_t brick = 0; brick < slots_.size(); ++brick) bricks.push_back(static_cast<std::uint32_t>(brick));
   } else {
-    // A brick of the field reaches, with the pre-filter, into the next ones of the lattice.
+    // A brick of the lattice reads, with the pre-filter, the cells 8 b - 4 .. 8 b + 8.
     std::vector<std::uint8_t> touched(slots_.size(), 0);
     const state::Grid& of = field.bricks();
     for (const std::uint32_t brick : *changed) {
       const int x = static_cast<int>(brick % static_cast<std::uint32_t>(of.x)),
                 y = static_cast<int>(brick / static_cast<std::uint32_t>(of.x) % static_cast<std::uint32_t>(of.y)),
                 z = static_cast<int>(brick / static_cast<std::uint32_t>(of.x) / static_cast<std::uint32_t>(of.y));
-      for (int k = z; k <= std::min(z + 1, bricks_.z - 1); ++k)
-        for (int j = y; j <= std::min(y + 1, bricks_.y - 1); ++j)
-          for (int i = x; i <= std::min(x + 1, bricks_.x - 1); ++i) touched[bricks_.index(i, j, k)] = 1;
+      for (int k = std::max(z - 1, 0); k <= std::min(z + 1, bricks_.z - 1); ++k)
+        for (int j = std::max(y - 1, 0); j <= std::min(y + 1, bricks_.y - 1); ++j)
+          for (int i = std::max(x - 1, 0); i <= std::min(x + 1, bricks_.x - 1); ++i) touched[bricks_.index(i, j, k)] = 1;
     }
     for (std::size_t brick = 0; brick < touched.size(); ++brick)
       if (touched[brick] != 0) bricks.push_back(static_cast<std::uint32_t>(brick));

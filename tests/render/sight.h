@@ -46,6 +46,8 @@ class Sight {
   explicit Sight(const render::DensityField& field, const scene::Look& look = {})
       : look_(render::look_in_integers(look)), levels_(field), matter_(field, levels_, look_) {}
 
+  explicit Sight(render::DensityField&&, const scene::Look& = {}) = delete;  // it must live as long
+
   // The first surface along `direction`, by samples a quarter of a cell apart.
   std::optional<Hit> find(Point from, Point direction) const {
     const picture::Ray ray{scaled(from, picture::kPositionBits), picture::step_along(scaled(direction, 30), 2)};

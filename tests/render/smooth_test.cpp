@@ -69,9 +69,13 @@ TEST(Smooth, ThinSolidSurvivesUnderAFilm) {
     if (amount > 0)
       for (int x = 4; x < 36; ++x)
         for (int z = 19; z < 22; ++z) film(volume, x, 22, z, amount);
-    const double kept = Sight(field_of(volume, 6, 1)).height(20.3, 20.5);
-    const double blurred = Sight(field_of(volume, 6, 6)).height(20.3, 20.5);
-    const double sharp = Sight(field_of(volume, 1, 1)).height(20.3, 20.5);
+    const auto rod_height = [&](int liquid, int solid) {
+      const DensityField field = field_of(volume, liquid, solid);
+      return Sight(field).height(20.3, 20.5);
+    };
+    const double kept = rod_height(6, 1);
+    const double blurred = rod_height(6, 6);
+    const double sharp = rod_height(1, 1);
     EXPECT_GT(kept, 21.5) << amount;
     EXPECT_NEAR(kept, sharp, 0.12) << amount;
     EXPECT_LT(blurred, kept - 0.3) << amount;
