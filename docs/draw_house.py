@@ -36,6 +36,7 @@ PURPOSES = {
     "render": "the pictures",
     "render/rule": "the picture in integers",
     "render/density": "amounts to a filtered field",
+    "render/ground": "the ground as a height field",
     "render/light": "what light arrives where",
     "render/packet": "the picture in packets of rays",
     "render/reference": "the picture, in plain loops",

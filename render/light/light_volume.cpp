@@ -1,7 +1,6 @@
 #include "render/light/light_volume.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace voxmelt::render {
 namespace {

@@ -280,7 +280,11 @@ void FieldBricks::find_box() {
     };
     return picture::Vector{axis(block[0]), axis(block[1]), axis(block[2])};
   };
-  box_ = {corner(low), corner(high)};
+  // Rays look at a sample more on either side of the box, which must lie in the lattice.
+  const picture::Vector least = corner(low), most = corner(high), first = picture::field_low(),
+                        end = picture::field_high(cells_);
+  box_ = {{std::max(least.x, first.x), std::max(least.y, first.y), std::max(least.z, first.z)},
+          {std::min(most.x, end.x), std::min(most.y, end.y), std::min(most.z, end.z)}};
 }
 
 std::size_t FieldBricks::bytes() const {

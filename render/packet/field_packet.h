@@ -3,7 +3,6 @@
 // Positions are in the lattice: place_of(position) plus the border, so that cell and weight are plain bits.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "render/packet/rays.h"

@@ -1,8 +1,6 @@
 // The light that arrives at the surfaces of a packet (rule/light_grid.h).
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
 
 #include "render/packet/field_packet.h"

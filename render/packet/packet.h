@@ -1,7 +1,6 @@
 // What the parts of a packet share: vectors of three components, and arithmetic of render/rule, lane by lane.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "kernel/engine/cpu/word_lanes.h"

@@ -3,7 +3,6 @@
 // Directions and starts are whole numbers below 2^53, so doubles hold them exactly.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 

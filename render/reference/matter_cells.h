@@ -1,6 +1,7 @@
 // What the cells of a field are made of, as the picture's shading reads it (docs/picture-light.md, section 3).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "render/density/density_field.h"

@@ -1,9 +1,6 @@
 // All that a picture in integers is drawn from, but for the camera.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "kernel/scene/look.h"
 #include "kernel/scene/shape/terrain.h"
 #include "render/density/density_field.h"

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "render/packet/painter.h"
 #include "render/packet/tables.h"

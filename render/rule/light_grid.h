@@ -4,6 +4,7 @@
 // The grid of light is coarser than the grid of cells. Its values are bytes, swept slice by slice.
 #pragma once
 
+#include <cstddef>
 #include <algorithm>
 #include <array>
 #include <cstdint>

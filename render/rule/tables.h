@@ -1,6 +1,7 @@
 // The tables of a picture: highlight, surroundings, glow (docs/picture-light.md, section 2).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

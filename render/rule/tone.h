@@ -1,7 +1,6 @@
 // From linear light to the bytes of a picture (docs/picture-light.md, section 7).
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

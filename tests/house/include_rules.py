@@ -32,7 +32,7 @@ ALLOWED = {
     "kernel/run": [STATE, STEP, CPU, "kernel/engine/scalar", "kernel/engine/parallel", VISIBILITY],
     "kernel/run/io": [PARAMETERS, STATE],
     PICTURE: [f"{RULE}/fixed_point.h"],
-    "render/image": [f"{STATE}/grid.h", "kernel/scene/look.h"],
+    "render/image": [],
     "render/frames": ["render/image"],
     "render/density": [RULE, STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU],
     "render/light": [PICTURE, "render/density"],

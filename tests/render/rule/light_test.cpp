@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 
 namespace voxmelt::picture {
