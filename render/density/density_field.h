@@ -45,7 +45,7 @@ class DensityField {
   const Values<std::uint16_t>& obstacle() const { return filtered_.obstacle; }  // empty: there is none
   const std::vector<std::int32_t>& ground() const { return cells_.columns().ground(); }    // 1/4096 cell
   const std::vector<std::int32_t>& wetness() const { return cells_.columns().wetness(); }  // 0..4096
-  const CellFields& cells() const { return cells_; }  // before filtering
+  const CellFields& cells() const { return cells_; }                                       // before filtering
   bool has_obstacles() const { return !cells_.obstacle.empty(); }
   int liquid_passes() const { return liquid_passes_; }
 

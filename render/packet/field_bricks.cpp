@@ -27,8 +27,8 @@ void brick_levels(const DensityField& field, const state::Grid& first, std::int1
   for (int k = 0; k < kWide; ++k)
     for (int j = 0; j < kWide; ++j) {
       const std::uint16_t* row =
-          field.intensity().data() +
-          grid.index(0, std::clamp(first.y + j - 1, 0, grid.y - 1), std::clamp(first.z + k - 1, 0, grid.z - 1));
+          field.intensity().data() + grid.index(0, std::clamp(first.y + j - 1, 0, grid.y - 1),
+                                                std::clamp(first.z + k - 1, 0, grid.z - 1));
       std::array<std::uint32_t, kWide> cells;
       if (first.x >= 1 && first.x + kBrickPlaces < grid.x) {
         for (int i = 0; i < kWide; ++i) cells[static_cast<std::size_t>(i)] = row[first.x - 1 + i];
@@ -38,7 +38,8 @@ void brick_levels(const DensityField& field, const state::Grid& first, std::int1
       }
       std::uint16_t* out = along_x.data() + (k * kWide + j) * kBrickPlaces;
       for (std::size_t i = 0; i < kBrickPlaces; ++i)
-        out[i] = static_cast<std::uint16_t>((43 * cells[i] + 170 * cells[i + 1] + 43 * cells[i + 2] + 128) >> 8);
+        out[i] =
+            static_cast<std::uint16_t>((43 * cells[i] + 170 * cells[i + 1] + 43 * cells[i + 2] + 128) >> 8);
     }
 
   const auto filtered = [](std::uint16_t a, std::uint16_t b, std::uint16_t c) {
@@ -51,10 +52,10 @@ void brick_levels(const DensityField& field, const state::Grid& first, std::int1
     for (int i = 0; i < kSlice; ++i) out[i] = filtered(from[i], from[i + kRow], from[i + 2 * kRow]);
   }
   for (int i = 0; i < kSlice * kBrickPlaces; ++i)
-    to[i] = static_cast<std::int16_t>(
-        filtered(along_y[static_cast<std::size_t>(i)], along_y[static_cast<std::size_t>(i + kSlice)],
-                 along_y[static_cast<std::size_t>(i + 2 * kSlice)]) +
-        picture::kAir);
+    to[i] = static_cast<std::int16_t>(filtered(along_y[static_cast<std::size_t>(i)],
+                                               along_y[static_cast<std::size_t>(i + kSlice)],
+                                               along_y[static_cast<std::size_t>(i + 2 * kSlice)]) +
+                                      picture::kAir);
 
   // Outside the grid there is air.
   const auto inside = [](int place, int side) { return place >= 0 && place < side; };
@@ -89,8 +90,7 @@ struct BlockRange {
 };
 BlockRange block_range(const std::int16_t* levels, int bx, int by, int bz) {
   constexpr int kRow = kBrickPlaces, kSlice = kBrickPlaces * kBrickPlaces;
-  const std::int16_t* const corner =
-      levels + kSlice + kRow + 1 + kBlockSide * (bz * kSlice + by * kRow + bx);
+  const std::int16_t* const corner = levels + kSlice + kRow + 1 + kBlockSide * (bz * kSlice + by * kRow + bx);
   int most = picture::kAir, along_x = 0, along_y = 0, along_z = 0;
   for (int k = 0; k <= kBlockSide; ++k)
     for (int j = 0; j <= kBlockSide; ++j)
@@ -127,18 +127,22 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
   if (all) resize(field.grid());
   std::vector<std::uint32_t> bricks;
   if (all) {
-    for (std::size_t brick = 0; brick < slots_.size(); ++brick) bricks.push_back(static_cast<std::uint32_t>(brick));
+    for (std::size_t brick = 0; brick < slots_.size(); ++brick)
+      bricks.push_back(static_cast<std::uint32_t>(brick));
   } else {
     // A brick of the lattice reads, with the pre-filter, the cells 8 b - 4 .. 8 b + 8.
     std::vector<std::uint8_t> touched(slots_.size(), 0);
     const state::Grid& of = field.bricks();
     for (const std::uint32_t brick : *changed) {
       const int x = static_cast<int>(brick % static_cast<std::uint32_t>(of.x)),
-                y = static_cast<int>(brick / static_cast<std::uint32_t>(of.x) % static_cast<std::uint32_t>(of.y)),
-                z = static_cast<int>(brick / static_cast<std::uint32_t>(of.x) / static_cast<std::uint32_t>(of.y));
+                y = static_cast<int>(brick / static_cast<std::uint32_t>(of.x) %
+                                     static_cast<std::uint32_t>(of.y)),
+                z = static_cast<int>(brick / static_cast<std::uint32_t>(of.x) /
+                                     static_cast<std::uint32_t>(of.y));
       for (int k = std::max(z - 1, 0); k <= std::min(z + 1, bricks_.z - 1); ++k)
         for (int j = std::max(y - 1, 0); j <= std::min(y + 1, bricks_.y - 1); ++j)
-          for (int i = std::max(x - 1, 0); i <= std::min(x + 1, bricks_.x - 1); ++i) touched[bricks_.index(i, j, k)] = 1;
+          for (int i = std::max(x - 1, 0); i <= std::min(x + 1, bricks_.x - 1); ++i)
+            touched[bricks_.index(i, j, k)] = 1;
     }
     for (std::size_t brick = 0; brick < touched.size(); ++brick)
       if (touched[brick] != 0) bricks.push_back(static_cast<std::uint32_t>(brick));
@@ -230,10 +234,11 @@ std::size_t FieldBricks::block_of(std::size_t brick, int which) const {
   return blocks_.index(2 * at.x + (which & 1), 2 * at.y + ((which >> 1) & 1), 2 * at.z + (which >> 2));
 }
 
-// The distance in blocks, by largest component: as often as a block is still dark when what is occupied grows by
-// one block in every direction.
+// The distance in blocks, by largest component: as often as a block is still dark when what is occupied grows
+// by one block in every direction.
 void FieldBricks::find_distances() {
-  const auto x = static_cast<std::size_t>(blocks_.x), row = x, slice = x * static_cast<std::size_t>(blocks_.y);
+  const auto x = static_cast<std::size_t>(blocks_.x), row = x,
+             slice = x * static_cast<std::size_t>(blocks_.y);
   std::vector<std::uint8_t> grown = occupied_, next(grown.size()), distance(grown.size());
   const auto widen = [&](std::size_t stride, int side) {
     for (std::size_t i = 0; i < grown.size(); i += stride * static_cast<std::size_t>(side)) {
@@ -252,7 +257,8 @@ void FieldBricks::find_distances() {
     grown.swap(next);
   };
   for (int d = 0; d < kFarthest; ++d) {
-    for (std::size_t i = 0; i < grown.size(); ++i) distance[i] = static_cast<std::uint8_t>(distance[i] + (grown[i] ^ 1));
+    for (std::size_t i = 0; i < grown.size(); ++i)
+      distance[i] = static_cast<std::uint8_t>(distance[i] + (grown[i] ^ 1));
     if (d + 1 == kFarthest) break;
     widen(1, blocks_.x);
     widen(row, blocks_.y);

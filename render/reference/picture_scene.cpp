@@ -14,13 +14,14 @@ GroundMap lowered_ground(const DensityField& field, const scene::Look& look, con
 
 }  // namespace
 
-PictureScene::PictureScene(const DensityField& field, const scene::Look& scene_look, const scene::Light& scene_light,
-                           const scene::Terrain& terrain)
+PictureScene::PictureScene(const DensityField& field, const scene::Look& scene_look,
+                           const scene::Light& scene_light, const scene::Terrain& terrain)
     : look(look_in_integers(scene_look)),
       paint(picture::paint_of(look, lamp_in_integers(scene_light))),
       levels(field),
       matter(field, levels, look),
       ground(lowered_ground(field, scene_look, terrain)),
-      light(light_matter(field, ground.drawn(), look), paint.to_light, picture::light_shift(levels.cells())) {}
+      light(light_matter(field, ground.drawn(), look), paint.to_light, picture::light_shift(levels.cells())) {
+}
 
 }  // namespace voxmelt::render

@@ -33,9 +33,11 @@ SurfacePicture reference_surface(const PictureScene& scene, const picture::Camer
     for (std::int64_t x = 0; x < camera.width; ++x) {
       const Seen seen = painter.seen(x * picture::kPixel + picture::kMiddle[0].across,
                                      y * picture::kPixel + picture::kMiddle[0].down);
-      const std::int64_t depth = seen.found ? picture::depth_in_picture(view, seen.position) : picture::kNoDepth;
+      const std::int64_t depth =
+          seen.found ? picture::depth_in_picture(view, seen.position) : picture::kNoDepth;
       surface.depth.push_back(static_cast<std::uint16_t>(depth));
-      surface.normal.push_back({static_cast<std::int16_t>(seen.normal.x), static_cast<std::int16_t>(seen.normal.y),
+      surface.normal.push_back({static_cast<std::int16_t>(seen.normal.x),
+                                static_cast<std::int16_t>(seen.normal.y),
                                 static_cast<std::int16_t>(seen.normal.z)});
     }
   return surface;

@@ -18,7 +18,7 @@ class CubicSurface {
 
   // Along a unit vector, from within `from` to `to` cells.
   std::optional<Hit> find(Point start, Point direction, double from, double to) const {
-    constexpr double kStep = 0.125;
+    constexpr double kStep = 0.25;
     for (double t = from; t < to; t += kStep) {
       if (value(start + direction * t) < 0) continue;
       double outside = t - kStep, inside = t;
@@ -36,12 +36,14 @@ class CubicSurface {
   // Weights of the four neighbours of a place t behind the second.
   static std::array<double, 4> weights(double t) {
     const double s = 1 - t;
-    return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6, t * t * t / 6};
+    return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6,
+            t * t * t / 6};
   }
   // Intensity less half of a full one; air outside of the grid.
   double value(Point p) const {
     const state::Grid& grid = field_.grid();
-    if (p.x < -2 || p.y < -2 || p.z < -2 || p.x > grid.x + 2 || p.y > grid.y + 2 || p.z > grid.z + 2) return -1;
+    if (p.x < -2 || p.y < -2 || p.z < -2 || p.x > grid.x + 2 || p.y > grid.y + 2 || p.z > grid.z + 2)
+      return -1;
     const int x = below(p.x), y = below(p.y), z = below(p.z);
     const auto wx = weights(p.x - 0.5 - x), wy = weights(p.y - 0.5 - y), wz = weights(p.z - 0.5 - z);
     double sum = 0;
@@ -49,7 +51,8 @@ class CubicSurface {
       for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i) {
           if (!grid.contains(x + i - 1, y + j - 1, z + k - 1)) continue;
-          sum += wx[at(i)] * wy[at(j)] * wz[at(k)] * field_.intensity()[grid.index(x + i - 1, y + j - 1, z + k - 1)];
+          sum += wx[at(i)] * wy[at(j)] * wz[at(k)] *
+                 field_.intensity()[grid.index(x + i - 1, y + j - 1, z + k - 1)];
         }
     return sum - render::kFull / 2.0;
   }

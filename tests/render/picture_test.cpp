@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 
 #include "kernel/engine/cpu/instruction_set.h"

@@ -50,7 +50,8 @@ class Sight {
 
   // The first surface along `direction`, by samples a quarter of a cell apart.
   std::optional<Hit> find(Point from, Point direction) const {
-    const picture::Ray ray{scaled(from, picture::kPositionBits), picture::step_along(scaled(direction, 30), 2)};
+    const picture::Ray ray{scaled(from, picture::kPositionBits),
+                           picture::step_along(scaled(direction, 30), 2)};
     const picture::Crossing met = picture::first_crossing(levels_, levels_.cells(), ray);
     if (!met.found) return {};
     return Hit{point_of(met.position, picture::kPositionBits),
@@ -64,8 +65,8 @@ class Sight {
   picture::Matter matter(Point at) const {
     return picture::matter_at(matter_, scaled(at, picture::kPositionBits));
   }
-  // How much of an obstacle shows at a surface, 0 .. 1: it is looked for half a cell before the surface, and counts
-  // from a share of 148 to one of 204 (docs/picture-light.md, section 6).
+  // How much of an obstacle shows at a surface, 0 .. 1: it is looked for half a cell before the surface, and
+  // counts from a share of 148 to one of 204 (docs/picture-light.md, section 6).
   double obstacle(const Hit& hit) const {
     return std::clamp((matter(hit.point + hit.normal * 0.5).obstacle - 148) / 56.0, 0.0, 1.0);
   }
