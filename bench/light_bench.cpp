@@ -17,8 +17,8 @@
 #include "render/light/light_matter.h"
 #include "render/light/light_volume.h"
 #include "render/packet/field_bricks.h"
-#include "render/raycast/ground_map.h"
-#include "render/raycast/picture_scene.h"
+#include "render/reference/ground_map.h"
+#include "render/reference/picture_scene.h"
 
 namespace voxmelt {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "accuracy/picture/exact_vector.h"
-#include "render/raycast/picture_scene.h"
+#include "render/reference/picture_scene.h"
 
 namespace voxmelt::accuracy {
 

@@ -10,7 +10,7 @@
 #include "accuracy/picture/exact_vector.h"
 #include "kernel/engine/cpu/workers.h"
 #include "render/image/image.h"
-#include "render/raycast/picture_scene.h"
+#include "render/reference/picture_scene.h"
 #include "render/rule/antialias.h"
 #include "render/rule/camera.h"
 

@@ -7,7 +7,7 @@
 #include "accuracy/picture/exact_field.h"
 #include "accuracy/picture/exact_vector.h"
 #include "render/image/image.h"
-#include "render/raycast/picture_scene.h"
+#include "render/reference/picture_scene.h"
 
 namespace voxmelt::accuracy {
 

@@ -7,7 +7,7 @@
 
 #include "accuracy/picture/exact_field.h"
 #include "render/image/image.h"
-#include "render/raycast/picture_scene.h"
+#include "render/reference/picture_scene.h"
 #include "render/rule/antialias.h"
 #include "render/rule/camera.h"
 #include "render/rule/crossing.h"

@@ -31,7 +31,7 @@
 #include "render/density/density_field.h"
 #include "render/image/png.h"
 #include "render/packet/scene_in_integers.h"
-#include "render/raycast/picture_scene.h"
+#include "render/reference/picture_scene.h"
 
 namespace voxmelt::accuracy {
 namespace {

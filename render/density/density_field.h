@@ -20,16 +20,8 @@
 #include "render/density/brick.h"
 #include "render/density/brick_filter.h"
 #include "render/density/cell_fields.h"
-#include "render/density/pyramid.h"
 
 namespace voxmelt::render {
-
-// Smallest and largest filtered intensity in a brick and a halo of two cells: all that an interpolation
-// inside the brick can read, cubic included.
-struct BrickRange {
-  std::uint16_t low = 0, high = 0;
-  friend bool operator==(const BrickRange&, const BrickRange&) = default;
-};
 
 class DensityField {
  public:
@@ -53,40 +45,24 @@ class DensityField {
   const Values<std::uint16_t>& obstacle() const { return filtered_.obstacle; }  // empty: there is none
   const std::vector<std::int32_t>& ground() const { return cells_.columns().ground(); }    // 1/4096 cell
   const std::vector<std::int32_t>& wetness() const { return cells_.columns().wetness(); }  // 0..4096
-  const std::vector<BrickRange>& ranges() const { return ranges_; }
-  const CellFields& cells() const { return cells_; }  // before filtering
+  const CellFields& cells() const { return cells_; }                                       // before filtering
   bool has_obstacles() const { return !cells_.obstacle.empty(); }
-  // The pyramid of all that stops light, and that of solid and liquid without the obstacles. The first call
-  // after an update computes both, and must not meet another call.
-  const Pyramid& pyramid() const { return refresh_pyramids(), pyramid_; }
-  const Pyramid& matter_pyramid() const {
-    return refresh_pyramids(), has_obstacles() ? matter_pyramid_ : pyramid_;
-  }
   int liquid_passes() const { return liquid_passes_; }
 
  private:
   void find_dirty(bool all);
-  void refresh_range(const state::Grid& brick);
-  void refresh_pyramids() const;
 
   CellFields cells_;
   ChannelValues filtered_;
   int liquid_passes_ = -1, solid_passes_ = -1;
   bool glow_ = false;
   state::ChangedBricks::Seen seen_;
-  BrickFlags dirty_;                // channels to filter; kRange: the range to refresh
+  BrickFlags dirty_;                // channels to filter
   std::vector<DirtyPart> parts_;    // where in a brick
   std::vector<std::uint8_t> rows_;  // [z][y] of bricks: something in it is dirty
   std::vector<int> dirty_rows_;
   std::vector<BrickFilter> filters_;  // one for each part of the rows
   std::vector<std::uint32_t> refreshed_;
-  std::vector<BrickRange> ranges_;
-
-  // The pyramids wait until somebody asks for them.
-  double glow_cold_ = 0, glow_hot_ = 0;
-  mutable bool stale_any_ = false, stale_all_ = false;
-  mutable BrickFlags stale_;
-  mutable Pyramid pyramid_, matter_pyramid_;
   std::unique_ptr<cpu::Workers> workers_;
 };
 

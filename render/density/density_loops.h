@@ -8,7 +8,6 @@
 #include <cstring>
 
 #include "render/density/loops.h"
-#include "render/density/pyramid.h"
 
 namespace voxmelt::render {
 
@@ -21,7 +20,6 @@ struct DensityLoops {
   using I32 [[gnu::vector_size(32)]] = std::int32_t;
   using U32 [[gnu::vector_size(32)]] = std::uint32_t;
   using F32 [[gnu::vector_size(32)]] = float;
-  using F32x4 [[gnu::vector_size(16)]] = float;
 
   template <class V, class T>
   [[gnu::always_inline]] static void load(V& to, const T* from) {
@@ -231,47 +229,6 @@ struct DensityLoops {
     }
   }
 
-  static void range(Block<const std::uint16_t> from, int x, int y, int z, std::uint16_t* low,
-                    std::uint16_t* high) {
-    const auto each_row = [&](const auto& take) __attribute__((always_inline)) {
-      for (int k = 0; k < z; ++k)
-        for (int j = 0; j < y; ++j)
-          take(from.cells + static_cast<std::size_t>(k) * from.slice +
-               static_cast<std::size_t>(j) * from.row);
-    };
-    const std::uint16_t any = from.cells[0];
-    std::uint16_t lowest = any, highest = any;
-    const auto include = [&](std::uint16_t smallest, std::uint16_t largest) __attribute__((always_inline)) {
-      lowest = smallest < lowest ? smallest : lowest;
-      highest = largest > highest ? largest : highest;
-    };
-    if (x < kGroup) {
-      each_row([&](const std::uint16_t* row) __attribute__((always_inline)) {
-        for (int i = 0; i < x; ++i) include(row[i], row[i]);
-      });
-    } else {  // at most two groups: the first eight cells and the last
-      U16 smallest = U16{} + any, largest = smallest;
-      each_row([&](const std::uint16_t* row) __attribute__((always_inline)) {
-        U16 first, last;
-        load(first, row);
-        load(last, row + x - kGroup);
-        smallest = first < smallest ? first : smallest;
-        largest = first > largest ? first : largest;
-        smallest = last < smallest ? last : smallest;
-        largest = last > largest ? last : largest;
-      });
-      for (int lane = 0; lane < kGroup; ++lane) include(smallest[lane], largest[lane]);
-    }
-    *low = lowest;
-    *high = highest;
-  }
-
-  // The two cells of each pair, one after the other.
-  [[gnu::always_inline]] static void add_pairs(F32x4& sum, const F32& values) {
-    sum += 0.125f * __builtin_shufflevector(values, values, 0, 2, 4, 6);
-    sum += 0.125f * __builtin_shufflevector(values, values, 1, 3, 5, 7);
-  }
-
   // How much of a difference between neighbours counts: all up to one cell, nothing from two.
   [[gnu::always_inline]] static std::int32_t share(std::int32_t difference) {
     const std::int32_t size = (difference < 0 ? -difference : difference) >> 4;
@@ -295,51 +252,12 @@ struct DensityLoops {
       to[x] = here + ((2 * straight + diagonal) >> 4);
     }
   }
-
-  static void shrink(const ShownRow* from, int rows, int count, const float* emission, Blend* to) {
-    constexpr float kUnit = 1.0f / static_cast<float>(kFull);
-    F32x4 matter{}, liquid{}, heat{}, glow{};
-    for (int r = 0; r < rows; ++r) {
-      U16 hard, soft, warm, other;
-      load_some(hard, from[r].solid, count);
-      load_some(soft, from[r].liquid, count);
-      load_some(other, from[r].obstacle, count);
-      std::uint64_t any[2];
-      const U16 all_bits = hard | soft | other;
-      std::memcpy(any, &all_bits, sizeof any);
-      if ((any[0] | any[1]) == 0) continue;  // nor any heat
-      load_some(warm, from[r].heat, count);
-
-      const I32 soft32 = __builtin_convertvector(soft, I32), warm32 = __builtin_convertvector(warm, I32);
-      I32 all = __builtin_convertvector(hard, I32) + __builtin_convertvector(other, I32) + soft32;
-      all = all > kFull ? I32{} + kFull : all;
-      const F32 soft_share = __builtin_convertvector(soft32, F32) * kUnit;
-      add_pairs(matter, __builtin_convertvector(all, F32) * kUnit);
-      add_pairs(liquid, soft_share);
-      add_pairs(heat, __builtin_convertvector(warm32, F32) * kUnit);
-
-      // The temperature heat / liquid in 256 steps: this quotient is never rounded up to a whole number.
-      const I32 divisor = soft32 < 1 ? I32{} + 1 : soft32;
-      const F32 step = __builtin_convertvector(warm32 * 256, F32) / __builtin_convertvector(divisor, F32);
-      I32 whole = __builtin_convertvector(step, I32);
-      whole = whole > 256 ? I32{} + 256 : whole;
-      F32 light;
-      for (int lane = 0; lane < kGroup; ++lane) light[lane] = emission[whole[lane]];
-      add_pairs(glow, soft_share * light);
-    }
-    for (int i = 0; i < kGroup / 2; ++i) {
-      to[i].matter = matter[i];
-      to[i].liquid = liquid[i];
-      to[i].heat = heat[i];
-      to[i].glow = glow[i];
-    }
-  }
 };
 
 template <class Arch>
 Loops loops_for() {
   using Of = DensityLoops<Arch>;
-  return {Of::matter, Of::low_pass, Of::weights, Of::mix, Of::range, Of::smooth_levels, Of::shrink};
+  return {Of::matter, Of::low_pass, Of::weights, Of::mix, Of::smooth_levels};
 }
 
 }  // namespace voxmelt::render

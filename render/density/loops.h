@@ -9,18 +9,11 @@
 
 namespace voxmelt::render {
 
-struct Blend;
-
 // Cells of a block, [z][y][x]: `row` cells from one row to the next, `slice` from one slice to the next.
 template <class T>
 struct Block {
   T* cells;
   std::size_t row, slice;
-};
-
-// Filtered rows of eight cells, of which the first `count` are inside the grid.
-struct ShownRow {
-  const std::uint16_t *solid, *liquid, *heat, *obstacle;  // no obstacles: null
 };
 
 // One brick of a volume, of x * y * z cells, and what is kept of it.
@@ -70,16 +63,8 @@ struct Loops {
   void (*mix)(const std::uint16_t* solid, const std::uint16_t* liquid, const std::uint16_t* weights,
               int count, std::uint16_t* to);
 
-  // The smallest and the largest of x * y * z cells, x at most 16.
-  void (*range)(Block<const std::uint16_t> from, int x, int y, int z, std::uint16_t* low,
-                std::uint16_t* high);
-
   // One pass along the levels of puddles (docs/picture-field.md, section 4).
   void (*smooth_levels)(const LevelRows& from, int count, std::int32_t* to);
-
-  // Four cells of the pyramid's first level from `rows` (at most 4) rows of cells, of which `count` along x
-  // are inside the grid. `emission`: see Pyramid::refresh.
-  void (*shrink)(const ShownRow* from, int rows, int count, const float* emission, Blend* to);
 };
 
 // The loops, compiled for an architecture of xsimd (density_loops.h).

@@ -1,5 +1,6 @@
 #include "render/packet/picture.h"
 
+#include <vector>
 #include <algorithm>
 
 #include "kernel/engine/cpu/workers.h"

@@ -1,8 +1,8 @@
 // A scene as it is drawn: all that pictures of it read, kept up to date, and the pictures (docs/picture.md).
 #pragma once
 
+#include <vector>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 

@@ -193,6 +193,19 @@ class Frames(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("/nowhere/n.png: error: cannot be written: No such file", result.stderr)
 
+    def test_a_camera_inside_something_is_warned_of(self):
+        said = "the camera stands in matter or in the ground, and sees nothing else"
+        inside = ["camera.distance=0.5", "camera.azimuth=0", "camera.elevation=0"]
+        for target, expected in (("[6, 5, 6]", [said]),      # the box of solid
+                                 ("[2, 1, 2]", [said]),      # the floor
+                                 ("[2, 8, 2]", [])):         # the air of the grid
+            sets = [part for key in [*inside, f"camera.target={target}"] for part in ("--set", key)]
+            result = voxmelt("render", self.scene, *sets, "--out", "v.png", "--report", "w.json", cwd=self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            warnings = [line[len("warning: "):] for line in result.stderr.splitlines() if line.startswith("warning: ")]
+            self.assertEqual([line.split(": ")[-1] for line in warnings], expected, target)
+            self.assertEqual(json.loads((self.folder / "w.json").read_text())["warnings"], warnings)
+
 
 if __name__ == "__main__":
     unittest.main(argv=["frames_test"], verbosity=1)

@@ -32,7 +32,7 @@ ALLOWED = {
     "kernel/run": [STATE, STEP, CPU, "kernel/engine/scalar", "kernel/engine/parallel", VISIBILITY],
     "kernel/run/io": [PARAMETERS, STATE],
     PICTURE: [f"{RULE}/fixed_point.h"],
-    "render/image": [f"{STATE}/grid.h", "kernel/scene/look.h"],
+    "render/image": [],
     "render/frames": ["render/image"],
     "render/density": [RULE, STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU],
     "render/light": [PICTURE, CPU, "render/density"],
@@ -40,7 +40,7 @@ ALLOWED = {
     "render/ground": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE],
     "render/packet": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", STATE, CPU, PICTURE, "render/image", "render/density",
                       "render/light", "render/ground", "render/brick"],
-    "render/raycast": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density", "render/light",
+    "render/reference": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density", "render/light",
                        "render/ground", "render/packet"],
     # The model computes with its own arithmetic: of the kernel it sees data only.
     "hwmodel/channel": [],
@@ -49,7 +49,7 @@ ALLOWED = {
     "hwmodel/presets": ["hwmodel/stream", "kernel/scene/text"],
     "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
     "bench": ["bench/measure", "hwmodel/stream", STATE, "kernel/scene", "kernel/run", "render/density", "render/light",
-              "render/packet", "render/raycast"],
+              "render/packet", "render/reference"],
     "bench/baseline": [PARAMETERS, STATE],
     "bench/measure": ["bench/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
                       "kernel/run", "render/density"],
@@ -57,7 +57,7 @@ ALLOWED = {
     "accuracy": [STATE, STEP, "kernel/scene", "kernel/run", "bench/measure"],
     "accuracy/report": ["accuracy"],
     # The converged picture reads the picture's data, and computes with its own arithmetic.
-    "accuracy/picture": ["kernel/scene", CPU, "kernel/run", PICTURE, "render/density", "render/image", "render/raycast", "render/packet/scene_in_integers.h"],
+    "accuracy/picture": ["kernel/scene", CPU, "kernel/run", PICTURE, "render/density", "render/image", "render/reference", "render/packet/scene_in_integers.h"],
     # What strangers include: the standard library only.
     "include/voxmelt": [],
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",

@@ -14,8 +14,8 @@
 #include "kernel/engine/cpu/workers.h"
 #include "render/packet/block_distances.h"
 #include "render/packet/field_bricks.h"
-#include "render/raycast/levels.h"
-#include "render/raycast/matter_cells.h"
+#include "render/reference/levels.h"
+#include "render/reference/matter_cells.h"
 #include "tests/kernel/worlds.h"
 
 namespace voxmelt {

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "kernel/scene/scene.h"
-#include "render/raycast/reference.h"
+#include "render/packet/scene_in_integers.h"
 #include "render/rule/camera.h"
 #include "tests/render/rule/dense_ground.h"
 

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "render/image/camera.h"
 #include "render/image/contact_sheet.h"
 #include "render/image/label.h"
 #include "render/image/png.h"
@@ -141,24 +140,6 @@ TEST(Label, DrawsInsideThePictureOnly) {
   render::draw_label(image, "1", 2, 1, 1, {9, 9, 9});
   EXPECT_EQ(image.at(4, 1), (render::Rgb{9, 9, 9})) << "the tip of the one";
   EXPECT_EQ(render::label_width("AB", 2), 22);
-}
-
-TEST(Camera, FitsTheGridAndLooksAtTheTarget) {
-  const state::Grid grid{64, 32, 48};
-  scene::Camera camera;
-  camera.target = {32, 16, 24};
-  const render::CameraView view(camera, grid);
-  const render::Ray middle = view.ray(320, 240);
-  const render::Vec to_target = normalized(render::vec(camera.target) - middle.origin);
-  EXPECT_GT(dot(middle.direction, to_target), 0.99999f);
-  EXPECT_GT(length(middle.origin - render::vec(camera.target)), 40);
-  EXPECT_GT(view.ray(320, 0).direction.y, view.ray(320, 480).direction.y);
-
-  // Azimuth 0 stands at +z, azimuth 90 at +x.
-  camera.azimuth = 0;
-  EXPECT_GT(render::CameraView(camera, grid).position().z, 48);
-  camera.azimuth = 90;
-  EXPECT_GT(render::CameraView(camera, grid).position().x, 64);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@
 #include "render/density/density_field.h"
 #include "render/packet/picture.h"
 #include "render/packet/scene_in_integers.h"
-#include "render/raycast/reference_picture.h"
+#include "render/reference/reference_picture.h"
 #include "tests/render/hostile_picture.h"
 #include "tests/render/judge_file.h"
 #include "tests/render/picture_pairs.h"

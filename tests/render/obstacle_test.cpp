@@ -4,21 +4,23 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <random>
 
 #include "render/density/density_field.h"
-#include "render/raycast/draw.h"
-#include "render/raycast/material.h"
-#include "render/raycast/occlusion.h"
-#include "render/raycast/surface.h"
+#include "render/packet/picture.h"
+#include "render/reference/picture_scene.h"
+#include "render/rule/light_grid.h"
 #include "tests/render/shapes.h"
+#include "tests/render/sight.h"
 
 namespace voxmelt {
 namespace {
 
 using render::DensityField;
-using render::Surface;
-using render::Vec;
+using test::Hit;
+using test::Point;
+using test::Sight;
 
 const state::Grid kGrid{48, 32, 40};
 constexpr int kWallLeft = 24, kWallRight = 28, kWallTop = 18;
@@ -57,14 +59,10 @@ DensityField field_of(const state::Volume& volume,
   return field;
 }
 
-render::Material material_below(const DensityField& field, Vec from, Vec direction = {0, -1, 0}) {
-  const Surface surface(field, true);
-  const auto hit = surface.find({from, direction}, 1000);
-  if (!hit) {
-    ADD_FAILURE() << "no surface";
-    return {};
-  }
-  return material_at(field, surface.sampler(), hit->point, hit->normal, {});
+Hit hit_of(const Sight& sight, Point from, Point direction = {0, -1, 0}) {
+  const std::optional<Hit> hit = sight.find(from, direction);
+  EXPECT_TRUE(hit.has_value()) << "no surface";
+  return hit.value_or(Hit{});
 }
 
 TEST(Obstacle, IsWhatIsInertAboveTheTerrain) {
@@ -100,21 +98,15 @@ TEST(Obstacle, FollowsTheRoundedHeightOfATerrain) {
 
 TEST(Obstacle, IsDrawnWithoutMatter) {
   const DensityField field = field_of(walled());
-  const Surface dry(field, true);
-  for (float y = 4; y < kWallTop - 2; y += 0.7f) {
-    const auto hit = dry.find({{-20, y, 20.3f}, {1, 0, 0}}, 1000);
-    ASSERT_TRUE(hit.has_value()) << y;
-    EXPECT_NEAR(hit->point.x, kWallLeft, 0.1) << y;
-    EXPECT_LT(hit->normal.x, -0.99f) << y;
+  const Sight sight(field);
+  for (double y = 4; y < kWallTop - 2; y += 0.7) {
+    const Hit hit = hit_of(sight, {-20, y, 20.3}, {1, 0, 0});
+    EXPECT_NEAR(hit.point.x, kWallLeft, 0.1) << y;
+    EXPECT_LT(hit.normal.x, -0.99) << y;
   }
-  const auto top = dry.find({{26, 60, 20.3f}, {0, -1, 0}}, 1000);
-  ASSERT_TRUE(top.has_value());
-  EXPECT_NEAR(top->point.y, kWallTop, 0.1);
-  const render::Material material = material_below(field, {26, 60, 20.3f});
-  const scene::Look look;
-  EXPECT_EQ(material.obstacle, 1);
-  EXPECT_GE(material.color.x, look.ground[0]);
-  EXPECT_LT(material.color.x, look.ground[0] + 0.1);
+  const Hit top = hit_of(sight, {26, 60, 20.3});
+  EXPECT_NEAR(top.point.y, kWallTop, 0.1);
+  EXPECT_EQ(sight.obstacle(top), 1);
 }
 
 TEST(Obstacle, LeavesTheGroundFlatAndDry) {
@@ -124,38 +116,46 @@ TEST(Obstacle, LeavesTheGroundFlatAndDry) {
   for (const std::int32_t wet : field.wetness()) EXPECT_EQ(wet, 0);
 }
 
+// Share of the lamp that reaches a surface.
+double lamp_at(const DensityField& field, Point to_light, Point at, Point normal) {
+  scene::Light light;
+  light.direction = {to_light.x, to_light.y, to_light.z};
+  const render::PictureScene scene(field, {}, light, test::floor_terrain(kGrid));
+  const picture::Vector before =
+      picture::before_surface(test::scaled(at, 20), test::scaled(normal, 14), scene.light.shift());
+  return picture::light_at(scene.light, scene.light.count(), scene.light.shift(), before).lamp / 255.0;
+}
+
 TEST(Obstacle, CastsAndReceivesShadow) {
   state::Volume volume = walled();
   test::ball(volume, 12, 26, 20, 5);
   const DensityField field = field_of(volume);
-  const render::Occlusion occlusion(field.pyramid());
-  const Vec up{0, 1, 0};
-  const Vec from_left = normalized(Vec{-1, 0.7f, 0});
-  EXPECT_LT(occlusion.light_reaching({34, test::kFloor, 8}, up, from_left), 0.1f) << "behind the wall";
-  EXPECT_GT(occlusion.light_reaching({14, test::kFloor, 8}, up, from_left), 0.9f) << "before the wall";
-  const Vec to_ball = normalized(Vec{12, 26, 20} - Vec{kWallLeft, 12, 20});
-  EXPECT_LT(occlusion.light_reaching({kWallLeft, 12, 20}, {-1, 0, 0}, to_ball), 0.1f) << "on the wall";
-  EXPECT_GT(occlusion.light_reaching({kWallLeft, 12, 3}, {-1, 0, 0}, to_ball), 0.9f) << "beside the ball";
+  const Point up{0, 1, 0}, from_left{-1, 0.7, 0};
+  EXPECT_LT(lamp_at(field, from_left, {34, test::kFloor, 8}, up), 0.1) << "behind the wall";
+  EXPECT_GT(lamp_at(field, from_left, {14, test::kFloor, 8}, up), 0.9) << "before the wall";
+  const Point to_ball = Point{12, 26, 20} - Point{kWallLeft, 12, 20};
+  EXPECT_LT(lamp_at(field, to_ball, {kWallLeft, 12, 20}, {-1, 0, 0}), 0.1) << "on the wall";
+  EXPECT_GT(lamp_at(field, to_ball, {kWallLeft, 12, 3}, {-1, 0, 0}), 0.9) << "beside the ball";
 }
 
 TEST(Obstacle, LiquidBesideItIsAttached) {
   state::Volume volume = walled();
   pour_left_of_wall(volume, 6.5);
   const DensityField field = field_of(volume);
-  const Surface surface(field, true);
-  float last = test::kFloor + 6.5f;
-  for (float x = 15; x < kWallLeft + 2; x += 0.1f) {
-    const auto hit = surface.find({{x, 60, 20.2f}, {0, -1, 0}}, 1000);
-    ASSERT_TRUE(hit.has_value()) << x;
-    EXPECT_GT(hit->point.y, last - 0.06f) << x << ": the surface only rises towards the wall";
+  const Sight sight(field);
+  double last = test::kFloor + 6.5;
+  for (double x = 15; x < kWallLeft + 2; x += 0.1) {
+    const double height = sight.height(x, 20.2);
+    EXPECT_GT(height, last - 0.06) << x << ": the surface only rises towards the wall";
     if (x < kWallLeft - 2) {
-      EXPECT_NEAR(hit->point.y, test::kFloor + 6.5, 0.2) << x;
+      EXPECT_NEAR(height, test::kFloor + 6.5, 0.2) << x;
     }
-    last = hit->point.y;
+    last = height;
   }
 }
 
 TEST(Obstacle, SurfaceRisesWithTheLayerOnIt) {
+  double last = 1;
   for (double depth = 0.1; depth < 4; depth += 0.17) {
     state::Volume volume(kGrid);
     block(volume, 0, kGrid.x, 0, 9, 0, kGrid.z);
@@ -167,10 +167,13 @@ TEST(Obstacle, SurfaceRisesWithTheLayerOnIt) {
               static_cast<std::uint16_t>(std::min(1.0, depth - (y - 9)) * rule::kOne);
         }
     const DensityField field = field_of(volume, no_terrain());
-    const auto hit = Surface(field, true).find({{20.3f, 60, 20.2f}, {0, -1, 0}}, 1000);
-    ASSERT_TRUE(hit.has_value());
-    EXPECT_NEAR(hit->point.y, 9 + depth, 0.2) << depth;
-    EXPECT_LT(material_below(field, {20.3f, 60, 20.2f}).obstacle, depth < 0.2 ? 0.6f : 0.1f) << depth;
+    const Sight sight(field);
+    const Hit hit = hit_of(sight, {20.3, 60, 20.2});
+    EXPECT_NEAR(hit.point.y, 9 + depth, 0.2) << depth;
+    // A film of half a cell hides the obstacle; a thinner one lets some of it through.
+    const double shown = sight.obstacle(hit);
+    EXPECT_LE(shown, depth < 0.5 ? last : 0.1) << depth;
+    last = shown;
   }
 }
 
@@ -189,51 +192,47 @@ TEST(Obstacle, ThinBeamSurvivesUnderAFilm) {
     look.smooth = smooth;
     DensityField field;
     field.update(volume, look, no_terrain());
-    const auto hit = Surface(field, true).find({{20.3f, 60, 20.5f}, {0, -1, 0}}, 1000);
-    return hit ? hit->point.y : -1.0f;
+    return Sight(field).height(20.3, 20.5);
   };
-  EXPECT_GT(top_with(6), 16.5f);
+  EXPECT_GT(top_with(6), 16.5);
   EXPECT_NEAR(top_with(6), top_with(1), 0.15);
 }
 
 TEST(Obstacle, StandsOnTheGroundWithoutAGap) {
   const DensityField field = field_of(walled());
-  const Surface surface(field, true);
-  for (float y = 0.3f; y < 4; y += 0.2f) {
-    const auto hit = surface.find({{10, y, 20.3f}, {1, 0, 0}}, 1000);
-    ASSERT_TRUE(hit.has_value()) << y;
-    EXPECT_LT(hit->point.x, kWallLeft + 0.1f) << y;
-  }
+  const Sight sight(field);
+  for (double y = 0.3; y < 4; y += 0.2)
+    EXPECT_LT(hit_of(sight, {10, y, 20.3}, {1, 0, 0}).point.x, kWallLeft + 0.1) << y;
 }
 
 TEST(Obstacle, ColoursEndWithinACell) {
   state::Volume volume = walled();
   pour_left_of_wall(volume, 6);
   const DensityField field = field_of(volume);
-  const float level = test::kFloor + 6;
+  const Sight sight(field);
+  const double level = test::kFloor + 6;
   // One point is on the wall a cell above the liquid's edge. One is on the liquid two cells from the wall
   // (the edge is curved).
-  EXPECT_GT(material_below(field, {-20, level + 2, 20.3f}, {1, 0, 0}).obstacle, 0.99f);
-  EXPECT_LT(material_below(field, {kWallLeft - 1.5f, 60, 20.3f}).obstacle, 0.01f);
-  // On the cut at the front, a cell to either side.
-  const auto at_front = [&](float x) { return material_below(field, {x, level - 3, 90}, {0, 0, -1}); };
-  EXPECT_LT(at_front(kWallLeft - 1).obstacle, 0.01f);
-  EXPECT_GT(at_front(kWallLeft + 1).obstacle, 0.99f);
-  EXPECT_EQ(at_front(kWallLeft - 3).liquid, 1) << "an obstacle is no solid";
+  EXPECT_GT(sight.obstacle(hit_of(sight, {-20, level + 2, 20.3}, {1, 0, 0})), 0.99);
+  EXPECT_LT(sight.obstacle(hit_of(sight, {kWallLeft - 1.5, 60, 20.3})), 0.01);
+  // Inside: on either side of where they meet, and three cells into the liquid.
+  EXPECT_LT(sight.matter({kWallLeft - 1, level - 3, 20.3}).obstacle, 148);
+  EXPECT_GT(sight.matter({kWallLeft + 1.5, level - 3, 20.3}).obstacle, 204);
+  EXPECT_EQ(sight.matter({kWallLeft - 3, level - 3, 20.3}).liquid, 255) << "an obstacle is no solid";
 }
 
+// Outside of the grid there is air: it closes what the grid cuts.
 TEST(Obstacle, CutFacesAreFlatAndClosed) {
   state::Volume volume = walled();
   pour_left_of_wall(volume, 6);
   const DensityField field = field_of(volume);
-  const Surface surface(field, true);
-  for (float x = 2; x < kWallRight - 1; x += 0.23f)
-    for (float y = 0.4f; y < test::kFloor + 5; y += 0.31f) {
-      const Vec aim{x, y, static_cast<float>(kGrid.z)}, eye{30, 25, 120};
-      const auto hit = surface.find({eye, normalized(aim - eye)}, 1000);
-      ASSERT_TRUE(hit.has_value());
-      ASSERT_NEAR(hit->point.z, kGrid.z, 1e-3) << x << " " << y;
-      ASSERT_EQ(hit->normal.z, 1) << x << " " << y;
+  const Sight sight(field);
+  for (double x = 2; x < kWallRight - 1; x += 0.23)
+    for (double y = 2.1; y < test::kFloor + 3; y += 0.31) {
+      const Point aim{x, y, static_cast<double>(kGrid.z)}, eye{30, 25, 120};
+      const Hit hit = hit_of(sight, eye, (aim - eye) * (1 / length(aim - eye)));
+      ASSERT_NEAR(hit.point.z, kGrid.z, 0.015) << x << " " << y;
+      ASSERT_GT(hit.normal.z, 0.9990) << x << " " << y;  // 2.5 degrees
     }
 }
 
@@ -244,6 +243,8 @@ TEST(Obstacle, UpdatesLikeAFreshField) {
   const scene::Look look;
   DensityField kept;
   kept.update(volume, look, terrain);
+  render::Picture kept_picture;
+  kept_picture.update(volume, look, {}, terrain, 1);
   std::mt19937 random(5);
   const auto pick = [&](int from, int to) {
     return from + static_cast<int>(random() % static_cast<unsigned>(to - from));
@@ -260,16 +261,18 @@ TEST(Obstacle, UpdatesLikeAFreshField) {
     DensityField fresh;
     fresh.update(volume, look, terrain);
     EXPECT_TRUE(kept.intensity() == fresh.intensity());
-    EXPECT_EQ(kept.ranges(), fresh.ranges());
     EXPECT_TRUE(kept.cells() == fresh.cells());
     const scene::Camera camera = test::small_camera(kGrid);
-    EXPECT_TRUE(draw(kept, camera, {}, look, terrain) == draw(fresh, camera, {}, look, terrain));
+    kept_picture.update(volume, look, {}, terrain, 1);
+    render::Picture fresh_picture;
+    fresh_picture.update(volume, look, {}, terrain, 1);
+    EXPECT_TRUE(kept_picture.draw(camera, render::Setting::normal, 1) ==
+                fresh_picture.draw(camera, render::Setting::normal, 1));
   }
   // Obstacles appear for the first time, or go.
   for (const state::Volume& next : {test::floor_volume(kGrid), walled()}) {
     kept.update(next, look, terrain);
     EXPECT_TRUE(kept.intensity() == field_of(next).intensity());
-    EXPECT_EQ(kept.ranges(), field_of(next).ranges());
   }
 }
 
@@ -280,7 +283,10 @@ TEST(Obstacle, NoneChangesNothing) {
   EXPECT_TRUE(with.cells() == without.cells());
   const scene::Camera camera = test::small_camera(kGrid);
   const scene::Terrain terrain = test::floor_terrain(kGrid);
-  EXPECT_TRUE(draw(with, camera, {}, {}, terrain) == draw(without, camera, {}, {}, terrain));
+  render::Picture one, other;
+  one.update(with, {}, {}, terrain, nullptr, 1);
+  other.update(without, {}, {}, terrain, nullptr, 1);
+  EXPECT_TRUE(one.draw(camera, render::Setting::normal, 1) == other.draw(camera, render::Setting::normal, 1));
 }
 
 }  // namespace

@@ -1,321 +1,187 @@
-// Pictures by packets of rays against the plain loops of the reference: random hostile scenes and cameras.
-//
-// Planted bugs and the tests that saw them are listed in docs/decisions/picture-packets.md.
+// Pictures: independent of threads and of what is left out, free of specks.
 #include "render/packet/picture.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <random>
-#include <string>
-#include <vector>
+#include <cstdlib>
 
-#include "render/packet/plain_packet.h"
+#include "kernel/engine/cpu/instruction_set.h"
 #include "render/packet/scene_in_integers.h"
-#include "render/raycast/reference_picture.h"
+#include "render/reference/picture_scene.h"
+#include "render/reference/reference_picture.h"
 #include "tests/render/shapes.h"
+#include "tests/render/sight.h"
 
 namespace voxmelt {
 namespace {
 
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
-  double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  bool one_in(int n) { return whole(1, n) == 1; }
+using render::DensityField;
+using render::Image;
+using render::Picture;
+using render::Setting;
 
- private:
-  std::mt19937 engine_;
-};
+const state::Grid kGrid{48, 40, 48};
+constexpr Setting kSettings[] = {Setting::fast, Setting::normal, Setting::best};
 
-struct Hostile {
-  state::Volume volume;
-  scene::Look look;
-  scene::Light light;
-  scene::Terrain terrain;
-};
+Picture picture_of(const state::Volume& volume, const scene::Look& look = {},
+                   const scene::Terrain& terrain = test::floor_terrain(kGrid)) {
+  Picture picture;
+  picture.update(volume, look, {}, terrain, 1);
+  return picture;
+}
 
-void fill_somehow(state::Volume& volume, Random& random, int share) {
-  const state::Grid grid = volume.grid;
-  const int kind = random.whole(0, 2), low = share == 100 ? rule::kOne : 1;
-  for (int z = 0; z < grid.z; ++z)
-    for (int y = 0; y < grid.y; ++y)
-      for (int x = 0; x < grid.x; ++x) {
-        if (random.whole(1, 100) > share || volume.inert.test(x, y, z)) continue;
-        const state::Slot i = volume.at(x, y, z);
-        const bool liquid = kind == 0 || (kind == 2 && random.one_in(2));
-        volume.liquid.set(x, y, z, liquid);
-        volume.solid.set(x, y, z, !liquid);
-        volume.amount[i] = static_cast<std::uint16_t>(random.whole(low, rule::kOne));
-        volume.heat[i] = static_cast<std::uint16_t>(random.whole(0, rule::kTemperatureMax));
+Image drawn(const state::Volume& volume, const scene::Camera& camera, const scene::Look& look = {},
+            const scene::Terrain& terrain = test::floor_terrain(kGrid)) {
+  return picture_of(volume, look, terrain).draw(camera, Setting::normal, 1);
+}
+
+// Of every instruction set that this processor has.
+TEST(Picture, LeavingSamplesOutChangesNothing) {
+  const Picture picture = picture_of(test::ball_and_puddle(kGrid));
+  for (const double azimuth : {0.0, 35.0, 211.0})
+    for (const double elevation : {28.0, -20.0})
+      for (const cpu::InstructionSetRow& row : cpu::kInstructionSets) {
+        if (!row.supported()) continue;
+        scene::Camera camera = test::small_camera(kGrid);
+        camera.azimuth = azimuth;
+        camera.elevation = elevation;
+        const render::Packets& packets = render::packets_of(row.set);
+        const Image skipped = picture.draw(camera, Setting::best, 1, packets);
+        render::PictureData data = picture.data(render::camera_in_integers(camera), Setting::best);
+        data.skip = false;
+        EXPECT_TRUE(skipped == draw_picture(data, Setting::best, packets, 1)) << azimuth << " " << row.name;
       }
 }
 
-// Boxes of full cells with sharp sides, and air between them: rays come to them from afar.
-void put_boxes(state::Volume& volume, Random& random) {
-  const state::Grid grid = volume.grid;
-  for (int box = random.whole(1, 5); box > 0; --box) {
-    const int x0 = random.whole(0, grid.x - 1), y0 = random.whole(0, grid.y - 1),
-              z0 = random.whole(0, grid.z - 1);
-    const int x1 = std::min(x0 + random.whole(2, 6), grid.x), y1 = std::min(y0 + random.whole(2, 6), grid.y),
-              z1 = std::min(z0 + random.whole(2, 6), grid.z);
-    for (int z = z0; z < z1; ++z)
-      for (int y = y0; y < y1; ++y)
-        for (int x = x0; x < x1; ++x) {
-          if (volume.inert.test(x, y, z) || volume.liquid.test(x, y, z)) continue;
-          volume.solid.set(x, y, z, true);
-          volume.amount[volume.at(x, y, z)] = rule::kOne;
-        }
-  }
-}
-
-scene::Terrain random_terrain(state::Grid grid, Random& random) {
-  scene::Terrain terrain{grid.x, grid.z, {}, random.one_in(2)};
-  const double flat = random.whole(0, 2) == 0 ? random.real(0, grid.y) : -1;
-  for (int i = 0; i < grid.x * grid.z; ++i)
-    terrain.height.push_back(static_cast<float>(flat >= 0 ? flat : random.real(0, grid.y)));
-  return terrain;
-}
-
-Hostile random_scene(Random& random) {
-  constexpr std::array<int, 8> kSides{1, 2, 5, 8, 13, 16, 17, 23};
-  const auto side = [&] { return kSides[static_cast<std::size_t>(random.whole(0, 7))]; };
-  const state::Grid grid{side(), side(), side()};
-  Hostile of;
-  const bool large = std::min({grid.x, grid.y, grid.z}) >= 13;
-  of.volume = large && random.one_in(2) ? test::ball_and_puddle(grid) : state::Volume(grid);
-  constexpr std::array<int, 5> kShares{0, 2, 20, 60, 100};
-  const int share = large && random.one_in(2) ? 0 : kShares[static_cast<std::size_t>(random.whole(0, 4))];
-  if (random.one_in(3))
-    for (int i = 0; i < grid.x * grid.z; ++i)
-      of.volume.inert.set(random.whole(0, grid.x - 1), random.whole(0, grid.y - 1),
-                          random.whole(0, grid.z - 1), true);
-  if (random.one_in(2))
-    put_boxes(of.volume, random);
-  else
-    fill_somehow(of.volume, random, share);
-  if (!random.one_in(3)) of.terrain = random_terrain(grid, random);
-  of.look.smooth = random.whole(0, 3);
-  of.look.smooth_solid = random.whole(0, 2);
-  of.look.glow = random.one_in(3);
-  of.look.metallic = random.whole(0, 2) / 2.0;
-  of.look.specular = random.real(0, 1);
-  of.look.shininess = random.whole(1, 200);
-  of.light.direction = {random.real(-1, 1), random.real(0.1, 1), random.real(-1, 1)};
-  return of;
-}
-
-scene::Camera random_camera(state::Grid grid, Random& random) {
-  constexpr std::array<std::array<int, 2>, 6> kSizes{
-      {{1, 1}, {17, 33}, {31, 19}, {40, 4}, {3, 70}, {36, 34}}};
-  scene::Camera camera;
-  const double side = std::max({grid.x, grid.y, grid.z});
-  camera.target = {grid.x * random.real(0, 1), grid.y * random.real(0, 1), grid.z * random.real(0, 1)};
-  if (random.one_in(3))
-    camera.target = {std::floor(camera.target[0]), std::floor(camera.target[1]),
-                     std::floor(camera.target[2])};
-  camera.azimuth = random.one_in(3) ? 90 * random.whole(0, 3) : random.real(-180, 180);
-  camera.elevation = random.one_in(3) ? 45 * random.whole(-2, 2) : random.real(-90, 90);
-  camera.distance = random.one_in(4)   ? 0
-                    : random.one_in(3) ? random.real(0.1, side)
-                                       : random.real(side, 6 * side);
-  camera.field_of_view = random.one_in(4) ? random.real(1, 150) : random.real(15, 60);
-  const auto size = kSizes[static_cast<std::size_t>(random.whole(0, 5))];
-  camera.width = size[0];
-  camera.height = size[1];
-  return camera;
-}
-
-struct NamedPackets {
-  std::string name;
-  const render::Packets* packets;
-};
-std::vector<NamedPackets> all_packets() {
-  std::vector<NamedPackets> of{{"plain", &render::plain_packets()}};
-  for (const cpu::InstructionSetRow& row : cpu::kInstructionSets)
-    if (row.supported()) of.push_back({std::string(cpu::name_of(row.set)), &render::packets_of(row.set)});
-  return of;
-}
-
-std::size_t different(const render::Image& a, const render::Image& b) {
-  std::size_t count = a.pixels.size() == b.pixels.size() ? 0 : 1;
-  for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i)
-    count += a.pixels[i] != b.pixels[i];
-  return count;
-}
-
-constexpr std::array kSettings{render::Setting::fast, render::Setting::normal, render::Setting::best};
-
-TEST(PictureOfPackets, EqualsTheReferenceInHostileScenes) {
-  std::size_t colored = 0;
-  for (std::uint32_t seed = 0; seed < 160; ++seed) {
-    Random random(seed);
-    const Hostile of = random_scene(random);
-    render::DensityField field;
-    field.update(of.volume, of.look, of.terrain);
-    const render::PictureScene scene(field, of.look, of.light, of.terrain);
-    render::Picture picture;
-    picture.update(field, of.look, of.light, of.terrain, nullptr, 1 + static_cast<int>(seed % 3));
-    for (int view = 0; view < 3; ++view) {
-      const scene::Camera camera = random_camera(of.volume.grid, random);
-      const render::Setting setting = kSettings[(seed + static_cast<std::uint32_t>(view)) % 3];
-      const picture::Camera integers = render::camera_in_integers(camera);
-      const render::Image reference = render::reference_picture(scene, integers, setting);
-      const std::size_t background =
-          different(reference, render::Image(camera.width, camera.height, reference.at(0, 0)));
-      colored += background > 0 ? 1 : 0;
-      render::PictureData data = picture.data(integers, setting);
-      const render::SurfacePicture surface = render::draw_surface(data, render::plain_packets(), 1);
-      for (const NamedPackets& set : all_packets())
-        for (const bool skip : {true, false}) {
-          data.skip = skip;
-          const int threads = 1 + static_cast<int>((seed + static_cast<std::uint32_t>(view)) % 8);
-          ASSERT_EQ(different(reference, render::draw_picture(data, setting, *set.packets, threads)), 0u)
-              << set.name << ", seed " << seed << ", view " << view << ", skip " << skip;
-          ASSERT_EQ(surface, render::draw_surface(data, *set.packets, threads))
-              << set.name << ", seed " << seed;
-        }
+TEST(Picture, ThreadsChangeNothing) {
+  const Picture picture = picture_of(test::ball_and_puddle(kGrid));
+  const scene::Camera camera = test::small_camera(kGrid);
+  for (const Setting setting : kSettings) {
+    const Image one = picture.draw(camera, setting, 1);
+    const render::SurfacePicture surface = picture.surface(camera, setting, 1);
+    for (const int threads : {2, 5, 200}) {
+      EXPECT_TRUE(one == picture.draw(camera, setting, threads)) << threads;
+      EXPECT_TRUE(surface == picture.surface(camera, setting, threads)) << threads;
+      Picture other;
+      other.update(test::ball_and_puddle(kGrid), {}, {}, test::floor_terrain(kGrid), threads);
+      EXPECT_TRUE(one == other.draw(camera, setting, 1)) << threads;
     }
   }
-  EXPECT_GT(colored, 120u);  // most pictures show something
 }
 
-// The picture is the same whether some bricks are taken over or all.
-TEST(PictureOfPackets, TakesOverChangedBricks) {
-  const state::Grid grid{40, 30, 33};
-  state::Volume volume = test::ball_and_puddle(grid);
-  const scene::Terrain terrain = test::floor_terrain(grid);
+TEST(Picture, IsThatOfTheReference) {
+  const state::Volume volume = test::ball_and_puddle(kGrid);
+  const Picture picture = picture_of(volume);
+  DensityField field;
+  field.update(volume, {}, test::floor_terrain(kGrid));
+  const render::PictureScene scene(field, {}, {}, test::floor_terrain(kGrid));
+  const scene::Camera camera = test::small_camera(kGrid, 67, 45);
+  for (const Setting setting : kSettings) {
+    const picture::Camera integers = render::camera_in_integers(camera);
+    EXPECT_TRUE(picture.draw(camera, setting, 1) == reference_picture(scene, integers, setting));
+    EXPECT_TRUE(picture.surface(camera, setting, 1) == reference_surface(scene, integers, setting));
+  }
+}
+
+TEST(Picture, EmptyVolumeIsBackground) {
+  const Picture picture = picture_of(state::Volume(kGrid), {}, {});
+  const scene::Camera camera = test::small_camera(kGrid, 16, 12);
+  const Image image = picture.draw(camera, Setting::normal, 1);
+  for (const render::Rgb& pixel : image.pixels) EXPECT_EQ(pixel, image.pixels[0]);
+  EXPECT_GT(image.pixels[0][0], 240);  // the look's background is nearly white
+  for (const std::uint16_t depth : picture.surface(camera, Setting::normal, 1).depth)
+    EXPECT_EQ(depth, picture::kNoDepth);
+}
+
+TEST(Picture, BallIsRoundAndItsNormalsPointOut) {
+  state::Volume volume(kGrid);
+  test::ball(volume, 24, 20, 24, 10);
+  DensityField field;
+  field.update(volume, {});
+  const test::Sight sight(field);
+  const test::Point centre{24, 20, 24};
+  for (int i = 0; i < 200; ++i) {
+    const double up = 1 - 2 * (i + 0.5) / 200, turn = 2.4 * i;
+    const double side = std::sqrt(1 - up * up);
+    const test::Point out{side * std::cos(turn), up, side * std::sin(turn)};
+    const auto hit = sight.find(centre + out * 60, out * -1);
+    ASSERT_TRUE(hit.has_value());
+    EXPECT_NEAR(length(hit->point - centre), 10, 0.25);
+    EXPECT_GT(dot(hit->normal, out), 0.99);
+  }
+}
+
+// A hot sheet from above: every pixel well inside the sheet glows, and neighbours differ little.
+TEST(Picture, HotSheetHasNoSpecks) {
+  state::Volume volume = test::floor_volume(kGrid);
+  for (int z = 8; z < 40; ++z)
+    for (int x = 8; x < 40; ++x)
+      test::pour(volume, x, z, 0.3 + 1.5 * (0.5 + 0.5 * std::sin(x * 0.4) * std::cos(z * 0.5)), 0.85);
   scene::Look look;
   look.glow = true;
-  look.smooth = look.smooth_solid = 0;  // so that a change stays in its brick
-  const scene::Light light;
-  render::DensityField field;
-  render::Picture picture;
-  field.update(volume, look, terrain);
-  picture.update(field, look, light, terrain, nullptr, 2);
-  Random random(7);
-  for (int round = 0; round < 6; ++round) {
-    const auto before =
-        std::array{field.intensity(), field.solid(), field.liquid(), field.heat(), field.obstacle()};
-    if (round == 3)
-      volume = test::floor_volume(grid);  // bricks become empty
-    else
-      test::ball(volume, random.real(3, 37), random.real(5, 27), random.real(3, 30), random.real(1, 5));
-    for (int i = 0; i < 8; ++i) {  // at the upper ends of bricks, which the next bricks hold as well
-      const int x = 8 * random.whole(1, 4) - 2 + (i & 1) * 4,
-                y = 8 * random.whole(1, 2) - 2 + (i >> 1 & 1) * 4,
-                z = 8 * random.whole(1, 3) - 2 + (i >> 2) * 4;
-      for (int cell = 0; cell < 8; ++cell) {
-        const int cx = x + (cell & 1), cy = y + (cell >> 1 & 1), cz = z + (cell >> 2);
-        if (volume.liquid.test(cx, cy, cz)) continue;
-        volume.solid.set(cx, cy, cz, true);
-        volume.amount[volume.at(cx, cy, cz)] = rule::kOne;
-      }
+  scene::Camera camera = test::small_camera(kGrid, 160, 160);
+  camera.target = {24, 2, 24};
+  camera.azimuth = 0;
+  camera.elevation = 80;
+  camera.distance = 44;  // the picture shows about 24 cells: sheet alone
+  const Image image = drawn(volume, camera, look);
+  for (int y = 1; y < image.height; ++y)
+    for (int x = 1; x < image.width; ++x) {
+      const render::Rgb& pixel = image.at(x, y);
+      ASSERT_GT(pixel[0], 200) << x << "," << y;
+      ASSERT_LT(std::abs(pixel[1] - image.at(x - 1, y)[1]), 24) << x << "," << y;
+      ASSERT_LT(std::abs(pixel[1] - image.at(x, y - 1)[1]), 24) << x << "," << y;
     }
-    if (round == 4) test::pour(volume, 20, 12, 2.5);
-    field.update(volume, look, terrain);
-    const auto after =
-        std::array{field.intensity(), field.solid(), field.liquid(), field.heat(), field.obstacle()};
-    std::vector<std::uint32_t> changed;
-    const state::Grid bricks = field.bricks();
-    for (std::uint32_t brick = 0; brick < bricks.cells(); ++brick) {
-      bool differs = false;
-      for (std::size_t i = 0; i < grid.cells(); ++i) {
-        const int x = static_cast<int>(i) % grid.x, y = static_cast<int>(i) / grid.x % grid.y,
-                  z = static_cast<int>(i) / grid.x / grid.y;
-        if (bricks.index(x / 8, y / 8, z / 8) != brick) continue;
-        for (std::size_t c = 0; c < before.size(); ++c)
-          differs |= !before[c].empty() && before[c][grid.index(x, y, z)] != after[c][grid.index(x, y, z)];
-      }
-      if (differs) changed.push_back(brick);
-    }
-    ASSERT_FALSE(changed.empty());
-    picture.update(field, look, light, terrain, &changed, 2);
-    render::Picture fresh;
-    fresh.update(field, look, light, terrain, nullptr, 1);
-    for (int view = 0; view < 3; ++view) {
-      const scene::Camera camera = random_camera(grid, random);
-      const render::Image image = fresh.draw(camera, render::Setting::normal, 1);
-      EXPECT_EQ(different(image, picture.draw(camera, render::Setting::normal, 1)), 0u)
-          << round << ", " << view;
-      EXPECT_EQ(fresh.surface(camera, render::Setting::fast, 1),
-                picture.surface(camera, render::Setting::fast, 2));
-    }
+}
+
+// Even a film far thinner than a cell shows, and it hides the floor completely.
+TEST(Picture, ThinFilmIsVisible) {
+  for (const double height : {0.1, 0.2, 0.4}) {
+    state::Volume volume = test::floor_volume(kGrid);
+    for (int z = 0; z < kGrid.z; ++z)
+      for (int x = 0; x < kGrid.x; ++x) test::pour(volume, x, z, height);
+    scene::Look look;
+    look.liquid = {0.0, 0.0, 0.9};
+    look.specular = 0;
+    scene::Camera camera = test::small_camera(kGrid, 40, 40);
+    camera.target = {24, 2, 24};
+    camera.elevation = 50;
+    camera.distance = 40;
+    const Image image = drawn(volume, camera, look);
+    for (const render::Rgb& pixel : image.pixels) ASSERT_GT(pixel[2], pixel[0] + 40) << height;
   }
 }
 
-// Rays that do not fit the lanes are drawn all the same.
-TEST(PictureOfPackets, DrawsExoticCameras) {
-  const state::Grid grid{23, 17, 20};
-  const state::Volume volume = test::ball_and_puddle(grid);
-  const scene::Terrain terrain = test::floor_terrain(grid);
-  const scene::Look look;
-  const scene::Light light;
-  render::DensityField field;
-  field.update(volume, look, terrain);
-  const render::PictureScene scene(field, look, light, terrain);
-  render::Picture picture;
-  picture.update(field, look, light, terrain, nullptr, 1);
-
-  scene::Camera camera = test::small_camera(grid, 1024, 1);
-  camera.distance = 100000;
-  camera.field_of_view = 120;
-  const auto fits = [&] {
-    return render::fits_lanes(picture.data(render::camera_in_integers(camera), render::Setting::fast));
-  };
-  const auto expect_same = [&] {
-    const render::Image reference =
-        render::reference_picture(scene, render::camera_in_integers(camera), render::Setting::fast);
-    for (const NamedPackets& set : all_packets())
-      EXPECT_EQ(different(reference, picture.draw(camera, render::Setting::fast, 1, *set.packets)), 0u)
-          << set.name;
-  };
-  EXPECT_FALSE(fits());
-  expect_same();
-  camera.distance = 30;  // as wide, but near
-  EXPECT_TRUE(fits());
-  expect_same();
-  camera = test::small_camera(grid, 64, 64);
-  camera.distance = 250000;
-  camera.field_of_view = 1;
-  EXPECT_TRUE(fits());
-  expect_same();
+// The state says where its ground is; a scene's terrain is a refinement of it.
+TEST(Picture, GroundComesFromTheFieldWithoutATerrain) {
+  const state::Volume volume = test::ball_and_puddle(kGrid);
+  const scene::Camera camera = test::small_camera(kGrid);
+  EXPECT_TRUE(drawn(volume, camera, {}, {}) == drawn(volume, camera));
+  EXPECT_FALSE(drawn(volume, camera) == drawn(state::Volume(kGrid), camera, {}, {}));
 }
 
-// By hand: a camera on the axis z looks at a wall that fills the grid's height, with its front at z = 16.
-TEST(PictureOfPackets, DepthAndNormalOfAWall) {
-  const state::Grid grid{16, 16, 16};
-  state::Volume volume(grid);
-  for (int z = 0; z < 16; ++z)
-    for (int y = 0; y < 16; ++y)
-      for (int x = 0; x < 16; ++x) {
-        volume.solid.set(x, y, z, true);
-        volume.amount[volume.at(x, y, z)] = rule::kOne;
-      }
-  scene::Look look;
-  look.smooth = look.smooth_solid = 0;
-  render::DensityField field;
-  field.update(volume, look);
-  render::Picture picture;
-  picture.update(field, look, {}, {}, nullptr, 1);
+// The camera of a scene file, in degrees and cells: the middle of the picture shows its target, and up is up.
+TEST(Picture, CameraLooksAtTheTarget) {
+  state::Volume volume(kGrid);
+  test::ball(volume, 12, 25, 30, 5);
+  const Picture picture = picture_of(volume, {}, {});
   scene::Camera camera;
-  camera.target = {8, 8, 8};
-  camera.azimuth = camera.elevation = 0;
-  camera.distance = 50;
-  camera.field_of_view = 40;
-  camera.width = camera.height = 33;
-  const render::SurfacePicture surface = picture.surface(camera, render::Setting::fast, 1);
-  const std::size_t middle = 16 * 33 + 16;
-  // The rays start 1/2 + 3/16 cells before the wall (picture::near_depth): 22 of 32nds.
-  EXPECT_NEAR(surface.depth[middle], 22, 1);
-  EXPECT_EQ(surface.normal[middle], (std::array<std::int16_t, 3>{0, 0, 16384}));
-  EXPECT_EQ(surface.depth[0], picture::kNoDepth);
-  EXPECT_EQ(surface.normal[0], (std::array<std::int16_t, 3>{0, 0, 0}));
+  camera.target = {12, 25, 30};
+  camera.width = camera.height = 65;
+  for (const double azimuth : {0.0, 90.0, 200.0}) {
+    camera.azimuth = azimuth;
+    const render::SurfacePicture seen = picture.surface(camera, Setting::fast, 1);
+    const auto row = [&](std::size_t y) { return seen.normal[y * 65 + 32]; };
+    // The middle of the ball faces the camera: azimuth 0 stands at +z, azimuth 90 at +x.
+    const double turn = azimuth * 3.14159265 / 180, up = 28 * 3.14159265 / 180;
+    EXPECT_NEAR(row(32)[0] / 16384.0, std::sin(turn) * std::cos(up), 0.06) << azimuth;
+    EXPECT_NEAR(row(32)[1] / 16384.0, std::sin(up), 0.06) << azimuth;
+    EXPECT_NEAR(row(32)[2] / 16384.0, std::cos(turn) * std::cos(up), 0.06) << azimuth;
+    EXPECT_GT(row(30)[1], row(34)[1]) << azimuth;
+  }
 }
 
 }  // namespace

@@ -8,8 +8,6 @@
 namespace voxmelt::test {
 namespace {
 
-using render::Blend;
-
 bool same(const render::Values<std::uint16_t>& a, const Cells& b) {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
 }
@@ -28,68 +26,6 @@ Cells mixed(const Cells& solid, const Cells& liquid, const Cells& filtered_solid
     result[i] = static_cast<std::uint16_t>((solid[i] * (256 - weight) + liquid[i] * weight + 128) >> 8);
   }
   return result;
-}
-
-void expect_ranges(const render::DensityField& field, const Cells& intensity) {
-  constexpr int kHalo = 2;
-  const state::Grid& grid = field.grid();
-  for (int bz = 0; bz < field.bricks().z; ++bz)
-    for (int by = 0; by < field.bricks().y; ++by)
-      for (int bx = 0; bx < field.bricks().x; ++bx) {
-        render::BrickRange range{0xffff, 0};
-        for (int z = 8 * bz - kHalo; z < 8 * (bz + 1) + kHalo; ++z)
-          for (int y = 8 * by - kHalo; y < 8 * (by + 1) + kHalo; ++y)
-            for (int x = 8 * bx - kHalo; x < 8 * (bx + 1) + kHalo; ++x) {
-              if (!grid.contains(x, y, z)) continue;
-              range.low = std::min(range.low, intensity[grid.index(x, y, z)]);
-              range.high = std::max(range.high, intensity[grid.index(x, y, z)]);
-            }
-        ASSERT_EQ(field.ranges()[field.bricks().index(bx, by, bz)], range) << bx << " " << by << " " << bz;
-      }
-}
-
-void add_eighth(Blend& sum, const Blend& part) {
-  sum.matter += 0.125f * part.matter;
-  sum.liquid += 0.125f * part.liquid;
-  sum.heat += 0.125f * part.heat;
-  sum.glow += 0.125f * part.glow;
-}
-
-void expect_pyramid(const render::Pyramid& pyramid, const state::Grid& grid, const PlainCells& filtered,
-                    const scene::Look& look, bool obstacles) {
-  constexpr float kUnit = 1.0f / static_cast<float>(render::kFull);
-  std::vector<Blend> finer(grid.cells());
-  for (std::size_t i = 0; i < finer.size(); ++i) {
-    const int hard = filtered.solid[i] + (obstacles ? filtered.obstacle[i] : 0), soft = filtered.liquid[i];
-    if (hard + soft == 0) continue;
-    finer[i].matter = static_cast<float>(std::min(render::kFull, hard + soft)) * kUnit;
-    finer[i].liquid = static_cast<float>(soft) * kUnit;
-    finer[i].heat = static_cast<float>(filtered.heat[i]) * kUnit;
-    if (soft == 0) continue;
-    const double temperature = std::min(256, filtered.heat[i] * 256 / soft) / 256.0;
-    const double way =
-        std::clamp((temperature - look.glow_cold) / std::max(look.glow_hot - look.glow_cold, 1e-6), 0.0, 1.0);
-    finer[i].glow = finer[i].liquid * static_cast<float>(way * way);
-  }
-  state::Grid side = grid;
-  for (int l = 1; l <= render::Pyramid::kLevels; ++l) {
-    const state::Grid half{(side.x + 1) / 2, (side.y + 1) / 2, (side.z + 1) / 2};
-    std::vector<Blend> coarser(half.cells());
-    for (int z = 0; z < side.z; ++z)
-      for (int y = 0; y < side.y; ++y)
-        for (int x = 0; x < side.x; ++x)
-          add_eighth(coarser[half.index(x / 2, y / 2, z / 2)], finer[side.index(x, y, z)]);
-    const render::PyramidLevel& level = pyramid.level(l);
-    ASSERT_EQ(level.grid, half);
-    for (int z = -1; z <= half.z; ++z)
-      for (int y = -1; y <= half.y; ++y)
-        for (int x = -1; x <= half.x; ++x) {
-          const Blend expected = half.contains(x, y, z) ? coarser[half.index(x, y, z)] : Blend{};
-          ASSERT_EQ(level.cells[level.index(x, y, z)], expected) << l << ": " << x << " " << y << " " << z;
-        }
-    side = half;
-    finer = coarser;
-  }
 }
 
 }  // namespace
@@ -157,9 +93,6 @@ void expect_plain(const render::DensityField& field, const state::Volume& volume
   EXPECT_TRUE(same(field.liquid(), filtered.liquid));
   EXPECT_TRUE(same(field.heat(), filtered.heat));
   EXPECT_TRUE(!obstacles || same(field.obstacle(), filtered.obstacle));
-  expect_ranges(field, filtered.intensity);
-  expect_pyramid(field.pyramid(), grid, filtered, look, true);
-  expect_pyramid(field.matter_pyramid(), grid, filtered, look, false);
 }
 
 }  // namespace voxmelt::test

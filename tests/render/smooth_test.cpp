@@ -11,13 +11,14 @@
 #include "render/density/density_field.h"
 #include "render/density/levels.h"
 #include "render/density/low_pass.h"
-#include "render/raycast/surface.h"
 #include "tests/render/shapes.h"
+#include "tests/render/sight.h"
 
 namespace voxmelt {
 namespace {
 
 using render::DensityField;
+using test::Sight;
 
 DensityField field_of(const state::Volume& volume, int liquid, int solid) {
   scene::Look look;
@@ -26,12 +27,6 @@ DensityField field_of(const state::Volume& volume, int liquid, int solid) {
   DensityField field;
   field.update(volume, look);
   return field;
-}
-
-// Height of the surface seen from above.
-float surface_height(const DensityField& field, float x, float z) {
-  const auto hit = render::Surface(field, true).find({{x, 100, z}, {0, -1, 0}}, 1000);
-  return hit ? hit->point.y : -1.0f;
 }
 
 void film(state::Volume& volume, int x, int y, int z, double amount) {
@@ -74,12 +69,16 @@ TEST(Smooth, ThinSolidSurvivesUnderAFilm) {
     if (amount > 0)
       for (int x = 4; x < 36; ++x)
         for (int z = 19; z < 22; ++z) film(volume, x, 22, z, amount);
-    const float kept = surface_height(field_of(volume, 6, 1), 20.3f, 20.5f);
-    const float blurred = surface_height(field_of(volume, 6, 6), 20.3f, 20.5f);
-    const float sharp = surface_height(field_of(volume, 1, 1), 20.3f, 20.5f);
-    EXPECT_GT(kept, 21.5f) << amount;
+    const auto rod_height = [&](int liquid, int solid) {
+      const DensityField field = field_of(volume, liquid, solid);
+      return Sight(field).height(20.3, 20.5);
+    };
+    const double kept = rod_height(6, 1);
+    const double blurred = rod_height(6, 6);
+    const double sharp = rod_height(1, 1);
+    EXPECT_GT(kept, 21.5) << amount;
     EXPECT_NEAR(kept, sharp, 0.12) << amount;
-    EXPECT_LT(blurred, kept - 0.3f) << amount;
+    EXPECT_LT(blurred, kept - 0.3) << amount;
   }
 }
 
@@ -98,7 +97,8 @@ TEST(Smooth, SurfaceRisesWithTheLayerOnASolid) {
         film(volume, x, y, z, std::min(1.0, depth(x + 0.5) - (y - 8)));
     }
   const DensityField field = field_of(volume, 6, 1);
-  for (float x = 16; x < 64; x += 0.31f) EXPECT_NEAR(surface_height(field, x, 12.1f), 8 + depth(x), 0.2) << x;
+  const Sight sight(field);
+  for (double x = 16; x < 64; x += 0.31) EXPECT_NEAR(sight.height(x, 12.1), 8 + depth(x), 0.2) << x;
 }
 
 // Level 6 + x / period; each terrace of so many columns is up to `wave` too high and too low.
@@ -153,10 +153,10 @@ TEST(Smooth, TerracesOfAPuddleDoNotShow) {
       test::pour(volume, x, z, static_cast<double>(levels.depth[static_cast<std::size_t>(x)]) / rule::kOne);
   const auto worst = [&](int passes) {
     const DensityField field = field_of(volume, passes, 1);
+    const Sight sight(field);
     double most = 0;
-    for (float x = 8; x < 40; x += 0.23f)
-      most =
-          std::max(most, std::abs(surface_height(field, x, 12.1f) - (test::kFloor + 6 + 0.125 * (x - 0.5))));
+    for (double x = 8; x < 40; x += 0.23)
+      most = std::max(most, std::abs(sight.height(x, 12.1) - (test::kFloor + 6 + 0.125 * (x - 0.5))));
     return most;
   };
   EXPECT_GT(worst(0), 0.08);
@@ -174,13 +174,14 @@ TEST(Smooth, PuddlesKeepRimAndHeight) {
     }
   for (const int passes : {1, 3, 6}) {
     const DensityField field = field_of(volume, passes, 1);
-    EXPECT_NEAR(surface_height(field, 32, 32), test::kFloor + 6, 0.2) << passes;
-    for (const float turn : {0.0f, 0.4f, 0.785f}) {
-      const auto height_at = [&](float r) {
-        return surface_height(field, 32 + r * std::cos(turn), 32 + r * std::sin(turn));
+    const Sight sight(field);
+    EXPECT_NEAR(sight.height(32, 32), test::kFloor + 6, 0.2) << passes;
+    for (const double turn : {0.0, 0.4, 0.785}) {
+      const auto height_at = [&](double r) {
+        return sight.height(32 + r * std::cos(turn), 32 + r * std::sin(turn));
       };
-      float rim = 16;
-      while (height_at(rim) > test::kFloor) rim += 0.1f;
+      double rim = 16;
+      while (height_at(rim) > test::kFloor) rim += 0.1;
       EXPECT_NEAR(rim, 24, 0.9) << passes << " passes, direction " << turn;
     }
   }

@@ -11,8 +11,8 @@
 #include "accuracy/picture/exact_picture.h"
 #include "accuracy/picture/integer_pixels.h"
 #include "accuracy/picture/sampling.h"
-#include "render/raycast/reference.h"
-#include "render/raycast/reference_picture.h"
+#include "render/reference/reference_picture.h"
+#include "render/reference/reference_picture.h"
 #include "tests/render/shapes.h"
 
 namespace voxmelt {

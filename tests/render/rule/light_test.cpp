@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 
 namespace voxmelt::picture {
@@ -22,7 +20,7 @@ TEST(LightGrid, CellsOfLightByHand) {
 TEST(LightGrid, LossByHand) {
   EXPECT_EQ(loss_of(0), 0);
   EXPECT_EQ(loss_of(12), 0);
-  EXPECT_EQ(loss_of(13), 1);   // 1.5
+  EXPECT_EQ(loss_of(13), 1);  // 1.5
   EXPECT_EQ(loss_of(112), 150);
   EXPECT_EQ(loss_of(182), 255);
   EXPECT_EQ(loss_of(183), 256);  // 256.5

@@ -62,8 +62,8 @@ TEST(Tables, SurroundingsByHeight) {
   const Surroundings table = surroundings_of(look);
   const auto red = [&](std::size_t i) { return static_cast<double>(table[i] & 2047) / 2047; };
   const auto blue = [&](std::size_t i) { return static_cast<double>(table[i] >> 22) / 1023; };
-  EXPECT_NEAR(red(2048), 901 / 4096.0, 0.001);             // zenith
-  EXPECT_NEAR(red(0), 1000 / 4096.0 / 4, 0.001);           // straight down: a quarter of the ground
+  EXPECT_NEAR(red(2048), 901 / 4096.0, 0.001);    // zenith
+  EXPECT_NEAR(red(0), 1000 / 4096.0 / 4, 0.001);  // straight down: a quarter of the ground
   EXPECT_NEAR(blue(0), 3000 / 4096.0 / 4, 0.001);
   EXPECT_NEAR(blue(1024), (2250 + 3973) / 2 / 4096.0, 0.003);  // the horizon: half of both
 }
@@ -81,6 +81,12 @@ TEST(Tables, GlowIsThatOfDouble) {
   EXPECT_EQ(table.crust[255], (Color{164, 57, 33}));
 }
 
+TEST(Tables, GlowNeverDarkensWithHeat) {
+  const Glow table = glow_table();
+  for (std::size_t i = 1; i < 256; ++i)
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_GE(table.light[i][c], table.light[i - 1][c]) << i;
+}
+
 TEST(Tone, PressedLightIsThatOfDouble) {
   const Tone table = tone_table();
   for (std::int32_t i = 0; i <= kBrightest; ++i) {
@@ -93,7 +99,8 @@ TEST(Tone, BytesAreThoseOfDouble) {
   const Bytes table = byte_table();
   EXPECT_EQ(table[0], 0);
   EXPECT_EQ(table[4096], 255);
-  for (std::int32_t i = 0; i <= 4096; ++i) EXPECT_EQ(table[static_cast<std::size_t>(i)], std::lround(srgb(i / 4096.0))) << i;
+  for (std::int32_t i = 0; i <= 4096; ++i)
+    EXPECT_EQ(table[static_cast<std::size_t>(i)], std::lround(srgb(i / 4096.0))) << i;
 }
 
 // Straight under the lamp, without ambient light: 1.2 of the lamp's colour; half hidden, half of it.
@@ -151,8 +158,9 @@ TEST(Shade, ObstaclesHaveTheirOwnColour) {
   EXPECT_LT(solid[1], 300);
   EXPECT_GT(liquid[1], 3500);
   EXPECT_LT(liquid[0], 300);
-  EXPECT_NEAR(obstacle[2], 4424 * 2294 / 4096, 100);  // 2048 and 0.12 of the way to white, under the sky's blue
-  EXPECT_EQ(color({0, 0, 148}), solid);               // a film's worth of obstacle shows nothing of it
+  EXPECT_NEAR(obstacle[2], 4424 * 2294 / 4096,
+              100);                      // 2048 and 0.12 of the way to white, under the sky's blue
+  EXPECT_EQ(color({0, 0, 148}), solid);  // a film's worth of obstacle shows nothing of it
 }
 
 TEST(Antialias, PlacesLieApartAndInTheMiddle) {

@@ -3,11 +3,12 @@
 
 #include "render/image/image.h"
 #include "render/packet/draw_picture.h"
-#include "render/raycast/picture_scene.h"
+#include "render/reference/picture_scene.h"
 #include "render/rule/camera.h"
 
 namespace voxmelt::render {
 
 Image reference_picture(const PictureScene& scene, const picture::Camera& camera, Setting setting);
+SurfacePicture reference_surface(const PictureScene& scene, const picture::Camera& camera, Setting setting);
 
 }  // namespace voxmelt::render

@@ -1,4 +1,4 @@
-#include "render/raycast/levels.h"
+#include "render/reference/levels.h"
 
 #include <algorithm>
 #include <cstddef>

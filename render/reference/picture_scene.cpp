@@ -1,4 +1,4 @@
-#include "render/raycast/picture_scene.h"
+#include "render/reference/picture_scene.h"
 
 #include "render/light/light_matter.h"
 #include "render/packet/scene_in_integers.h"

@@ -6,8 +6,8 @@
 #include "render/density/density_field.h"
 #include "render/ground/ground_map.h"
 #include "render/light/light_volume.h"
-#include "render/raycast/levels.h"
-#include "render/raycast/matter_cells.h"
+#include "render/reference/levels.h"
+#include "render/reference/matter_cells.h"
 #include "render/rule/shade.h"
 
 namespace voxmelt::render {

@@ -1,4 +1,4 @@
-#include "render/raycast/reference_picture.h"
+#include "render/reference/reference_picture.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -18,13 +18,35 @@ Rgb bytes(const Color& light) {
   return {byte(0), byte(1), byte(2)};
 }
 
+PaintedScene<Levels, MatterCells, LightVolume> painted(const PictureScene& scene) {
+  return {scene.levels,        scene.levels.cells(), scene.matter, scene.ground,          scene.light,
+          scene.light.count(), scene.light.shift(),  scene.paint,  scene.look.background, tone_table()};
+}
+
 }  // namespace
 
+SurfacePicture reference_surface(const PictureScene& scene, const picture::Camera& camera, Setting setting) {
+  const auto parts = painted(scene);
+  const picture::View view = picture::view_of(camera, scene.levels.cells());
+  const Painter painter(parts, view, spacing_of(setting));
+  SurfacePicture surface{static_cast<int>(camera.width), static_cast<int>(camera.height), {}, {}};
+  for (std::int64_t y = 0; y < camera.height; ++y)
+    for (std::int64_t x = 0; x < camera.width; ++x) {
+      const Seen seen = painter.seen(x * picture::kPixel + picture::kMiddle[0].across,
+                                     y * picture::kPixel + picture::kMiddle[0].down);
+      const std::int64_t depth =
+          seen.found ? picture::depth_in_picture(view, seen.position) : picture::kNoDepth;
+      surface.depth.push_back(static_cast<std::uint16_t>(depth));
+      surface.normal.push_back({static_cast<std::int16_t>(seen.normal.x),
+                                static_cast<std::int16_t>(seen.normal.y),
+                                static_cast<std::int16_t>(seen.normal.z)});
+    }
+  return surface;
+}
+
 Image reference_picture(const PictureScene& scene, const picture::Camera& camera, Setting setting) {
-  const PaintedScene<Levels, MatterCells, LightVolume> painted{
-      scene.levels,        scene.levels.cells(), scene.matter, scene.ground,          scene.light,
-      scene.light.count(), scene.light.shift(),  scene.paint,  scene.look.background, tone_table()};
-  const Painter painter(painted, picture::view_of(camera, scene.levels.cells()), spacing_of(setting));
+  const auto parts = painted(scene);
+  const Painter painter(parts, picture::view_of(camera, scene.levels.cells()), spacing_of(setting));
   Image image(static_cast<int>(camera.width), static_cast<int>(camera.height));
   const auto draw = [&](Image& to, int x, int y, const auto& pattern) {
     Color sum{};

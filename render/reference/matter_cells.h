@@ -1,11 +1,12 @@
-// What the cells of a field are made of, as the picture's shading reads it (docs/picture-light.md, section 3).
+// What the cells of a field are made of, as the picture's shading reads it (docs/picture-light.md, section
+// 3).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
 #include "render/density/density_field.h"
-#include "render/raycast/levels.h"
+#include "render/reference/levels.h"
 #include "render/rule/matter.h"
 
 namespace voxmelt::render {

@@ -1,0 +1,101 @@
+// Faults that pictures once had.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <numbers>
+
+#include "render/packet/picture.h"
+#include "tests/render/shapes.h"
+
+namespace voxmelt {
+namespace {
+
+using render::Image;
+
+Image drawn(const state::Volume& volume, const scene::Terrain& terrain, const scene::Camera& camera,
+            const scene::Light& light = {}, const scene::Look& look = {}) {
+  render::Picture picture;
+  picture.update(volume, look, light, terrain, 1);
+  return picture.draw(camera, render::Setting::fast, 1);
+}
+
+// From below, the slab hides a puddle, the puddle's shadow and what is buried: its underside has one colour.
+TEST(Fault, FromBelowTheSlabHidesEverything) {
+  const state::Grid grid{48, 40, 48};
+  state::Volume volume = test::ball_and_puddle(grid);
+  for (int z = 20; z < 28; ++z)  // a solid that stands in the slab
+    for (int x = 20; x < 28; ++x) {
+      volume.inert.set(x, 1, z, false);
+      volume.solid.set(x, 1, z, true);
+      volume.amount[volume.at(x, 1, z)] = rule::kOne;
+    }
+  for (const double elevation : {-89.0, -60.0, -40.0}) {
+    scene::Camera camera;
+    camera.target = {24, 0, 24};
+    camera.azimuth = 20;
+    camera.elevation = elevation;
+    camera.distance = 60;
+    camera.field_of_view = 20;  // the underside fills the picture
+    camera.width = camera.height = 96;
+    const Image image = drawn(volume, test::floor_terrain(grid), camera);
+    render::Rgb low = image.pixels[0], high = low;
+    for (const render::Rgb& pixel : image.pixels)
+      for (std::size_t c = 0; c < 3; ++c) {
+        low[c] = std::min(low[c], pixel[c]);
+        high[c] = std::max(high[c], pixel[c]);
+      }
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_LE(high[c] - low[c], 3) << elevation << " " << c;
+      EXPECT_GT(low[c], 0) << elevation << " " << c;
+    }
+    EXPECT_LT(low[1], 150) << "the underside is dark";
+  }
+}
+
+// Behind a ridge the floor gets lighter and lighter, from the shadow to the open, without arcs.
+TEST(Fault, ShadowOfARidgeIsMonotone) {
+  const state::Grid grid{96, 32, 32};
+  scene::Terrain terrain = test::floor_terrain(grid);
+  constexpr double kRidge = 20;
+  for (const double height : {12.0, 18.0})
+    for (const double rise : {0.3, 0.45}) {
+      state::Volume volume(grid);
+      for (int z = 0; z < grid.z; ++z)
+        for (int x = 0; x < grid.x; ++x) {
+          const double top = std::max(2.0, height - 3 * std::abs(x + 0.5 - kRidge));
+          terrain.height[static_cast<std::size_t>(z * grid.x + x)] = static_cast<float>(top);
+          for (int y = 0; y < std::lround(top); ++y) {
+            volume.inert.set(x, y, z, true);
+            volume.amount[volume.at(x, y, z)] = rule::kBedHalf;
+          }
+        }
+      scene::Light light;
+      light.direction = {-1, rise, 0};
+      scene::Camera camera;
+      camera.target = {48, 2, 16};
+      camera.azimuth = 0;
+      camera.elevation = 89;
+      camera.distance = 100;
+      camera.field_of_view = 30;
+      camera.width = 400;
+      camera.height = 100;
+      const Image image = drawn(volume, terrain, camera, light);
+      const double pixels = 50 / (100 * std::tan(15 * std::numbers::pi / 180));  // to a cell
+      const auto column = [&](double x) { return static_cast<int>(std::lround(200 + (x - 48) * pixels)); };
+      int brightest = 0, worst = 0;
+      const int first = column(kRidge + 8), last = column(92);
+      for (int x = first; x <= last; ++x) {
+        const int here = image.at(x, 50)[1];
+        worst = std::max(worst, brightest - here);
+        brightest = std::max(brightest, here);
+      }
+      EXPECT_LE(worst, 3) << height << " " << rise;
+      EXPECT_GT(brightest - image.at(first, 50)[1], 25) << height << " " << rise;
+    }
+}
+
+}  // namespace
+}  // namespace voxmelt
