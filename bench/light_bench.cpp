@@ -17,7 +17,8 @@
 #include "render/light/light_matter.h"
 #include "render/light/light_volume.h"
 #include "render/packet/field_bricks.h"
-#include "render/reference/ground_map.h"
+#include "render/ground/ground_map.h"
+#include "render/packet/scene_in_integers.h"
 #include "render/reference/picture_scene.h"
 
 namespace voxmelt {

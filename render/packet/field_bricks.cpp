@@ -160,15 +160,8 @@ void FieldBricks::give_back(std::int32_t& slot) {
   slot = 0;
 }
 
-// Is there any intensity that the levels of the brick depend on? They lie in two bricks of the field along
-// each axis, and in the next one's first plane. The range of a brick covers two cells around it: where it is
-// 0, there is nothing.
+// Is there any intensity that the levels of the brick depend on?
 bool FieldBricks::anything_near(const DensityField& field, const state::Grid& brick) const {
-  const state::Grid& of = field.bricks();
-  bool maybe = false;
-  for_near(of, brick, -1, 0,
-           [&](const state::Grid& b) { maybe = maybe || field.ranges()[of.index(b.x, b.y, b.z)].high != 0; });
-  if (!maybe) return false;
   const auto from = [](int b) { return std::max(b * kBrickSide - kLatticeBorder - 2, 0); };
   const auto end = [](int b, int side) { return std::min(b * kBrickSide + kBrickSide + 1, side); };
   for (int z = end(brick.z, grid_.z) - 1; z >= from(brick.z); --z)
@@ -226,13 +219,7 @@ bool FieldBricks::fill(const DensityField& field, const MatterSource& matter, st
   }
   BrickCells cells;
   const bool had_matter = mixed_[brick] != 0;
-  bool has_matter = false;
-  if (field.ranges()[brick].high == 0) {
-    cells.levels.fill(picture::kAir);
-    cells.matter.fill(0);
-  } else {
-    has_matter = loops.cells(field.intensity().data(), matter, source_of(grid_, at), cells);
-  }
+  const bool has_matter = loops.cells(field.intensity().data(), matter, source_of(grid_, at), cells);
   mixed_[brick] = has_matter ? 1 : 0;
   // The first brick of the lattice holds all of the cells, and the others hold the same.
   if (!whole && to.levels[0] != nullptr && loops.same(cells, to)) return false;

@@ -11,7 +11,9 @@
 #include "accuracy/picture/exact_picture.h"
 #include "accuracy/picture/integer_pixels.h"
 #include "accuracy/picture/sampling.h"
+#include "render/packet/scene_in_integers.h"
 #include "render/reference/reference_picture.h"
+#include "render/packet/scene_in_integers.h"
 #include "render/reference/reference_picture.h"
 #include "tests/render/shapes.h"
 
