@@ -12,7 +12,7 @@ struct SurfacePictures {
   double near = 0;  // cells from the eye to the plane from which depth counts
 };
 
-SurfacePictures surface_pictures(const render::Picture& picture, const scene::Camera& camera, render::Setting setting,
-                                 int threads);
+SurfacePictures surface_pictures(const render::Picture& picture, const scene::Camera& camera,
+                                 render::Setting setting, int threads);
 
 }  // namespace voxmelt::app

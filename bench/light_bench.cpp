@@ -14,10 +14,10 @@
 #include "kernel/scene/scene.h"
 #include "render/density/columns.h"
 #include "render/density/density_field.h"
+#include "render/ground/ground_map.h"
 #include "render/light/light_matter.h"
 #include "render/light/light_volume.h"
 #include "render/packet/field_bricks.h"
-#include "render/ground/ground_map.h"
 #include "render/packet/scene_in_integers.h"
 #include "render/reference/picture_scene.h"
 

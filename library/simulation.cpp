@@ -212,7 +212,8 @@ void Simulation::draw(const std::filesystem::path& file, const Picture& picture)
   const scene::Scene& scene = parts_->scene;
   const scene::Camera camera = camera_of(scene.camera, picture);
   translated([&] {
-    parts_->picture.update(parts_->simulation.volume(), scene.look, scene.light, scene.terrain, parts_->threads);
+    parts_->picture.update(parts_->simulation.volume(), scene.look, scene.light, scene.terrain,
+                           parts_->threads);
     render::write_png(file, parts_->picture.draw(camera, setting_of(picture.quality), parts_->threads));
   });
 }

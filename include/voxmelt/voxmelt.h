@@ -61,7 +61,7 @@ struct Picture {
   std::optional<int> height;        ///< pixels, 16..8192
   std::optional<double> azimuth;    ///< degrees around the vertical, -360..360; 0 from the front
   std::optional<double> elevation;  ///< degrees above the horizon, -89..89
-  Quality quality = Quality::normal;
+  Quality quality = Quality::normal;  ///< how carefully it is drawn
 };
 
 /// Formats of an exported state.

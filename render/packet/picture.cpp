@@ -1,7 +1,8 @@
 #include "render/packet/picture.h"
 
-#include <vector>
 #include <algorithm>
+#include <memory>
+#include <vector>
 
 #include "kernel/engine/cpu/workers.h"
 #include "render/light/light_matter.h"

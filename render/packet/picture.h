@@ -1,8 +1,8 @@
 // A scene as it is drawn: all that pictures of it read, kept up to date, and the pictures (docs/picture.md).
 #pragma once
 
-#include <vector>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -28,8 +28,8 @@ class Picture {
   // object, on any number of threads. A terrain of another size than the volume's is none.
   void update(const state::Volume& volume, const scene::Look& look, const scene::Light& light,
               const scene::Terrain& terrain, int threads);
-  // The same from a field that is kept elsewhere. `changed`: bricks of the field that were filtered again since the
-  // last call, or null for all.
+  // The same from a field that is kept elsewhere. `changed`: bricks of the field that were filtered again
+  // since the last call, or null for all.
   void update(const DensityField& field, const scene::Look& look, const scene::Light& light,
               const scene::Terrain& terrain, const std::vector<std::uint32_t>* changed, int threads);
 

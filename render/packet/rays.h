@@ -49,8 +49,8 @@ struct Rays : Packet<Arch> {
     return row;
   }
 
-  // Which samples may lie in a box, and a little around it: up to four samples, a cell at most. Floats err by less
-  // than 2^-21 of the way, which has 2^22 samples at most (fits_lanes).
+  // Which samples may lie in a box, and a little around it: up to four samples, a cell at most. Floats err by
+  // less than 2^-21 of the way, which has 2^22 samples at most (fits_lanes).
   struct Samples {
     V first, last;
   };

@@ -38,7 +38,8 @@ picture::Lamp lamp_in_integers(const scene::Light& light) {
   const auto& d = light.direction;
   int bits = 0;  // any length counts: the largest component is brought to 1/2 .. 1
   std::frexp(std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])}), &bits);
-  return {{fixed(d[0], 24 - bits), fixed(d[1], 24 - bits), fixed(d[2], 24 - bits)}, render::light(light.ambient)};
+  return {{fixed(d[0], 24 - bits), fixed(d[1], 24 - bits), fixed(d[2], 24 - bits)},
+          render::light(light.ambient)};
 }
 
 picture::Camera camera_in_integers(const scene::Camera& camera) {

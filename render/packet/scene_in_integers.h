@@ -14,7 +14,9 @@ picture::Look look_in_integers(const scene::Look& look);
 picture::Lamp lamp_in_integers(const scene::Light& light);
 picture::Camera camera_in_integers(const scene::Camera& camera);
 
-// Before columns are lowered. The heights come from the terrain, or from the field where the terrain does not fit it.
-GroundMap ground_in_integers(const DensityField& field, const scene::Look& look, const scene::Terrain& terrain);
+// Before columns are lowered. The heights come from the terrain, or from the field where the terrain does not
+// fit it.
+GroundMap ground_in_integers(const DensityField& field, const scene::Look& look,
+                             const scene::Terrain& terrain);
 
 }  // namespace voxmelt::render

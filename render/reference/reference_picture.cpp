@@ -1,6 +1,5 @@
 #include "render/reference/reference_picture.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 

@@ -15,8 +15,8 @@ struct Sub {
 };
 inline constexpr std::array<Sub, 1> kMiddle{{{32, 32}}};
 
-// Places of which no two share a row or a column: that of column i lies in row rows[i]. They come from a search
-// (docs/picture-error.md): over edges of any direction they err least.
+// Places of which no two share a row or a column: that of column i lies in row rows[i]. They come from a
+// search (docs/picture-error.md): over edges of any direction they err least.
 template <std::size_t kCount>
 constexpr std::array<Sub, kCount> rooks(const std::array<std::int32_t, kCount>& rows) {
   constexpr std::int32_t kApart = 64 / static_cast<std::int32_t>(kCount);
@@ -26,15 +26,15 @@ constexpr std::array<Sub, kCount> rooks(const std::array<std::int32_t, kCount>& 
   return of;
 }
 inline constexpr auto kEight = rooks<8>({3, 6, 0, 5, 2, 7, 1, 4});
-inline constexpr auto kThirtyTwo =
-    rooks<32>({2,  15, 24, 28, 12, 4,  20, 16, 7,  22, 31, 1, 8,  14, 27, 11,
-               19, 25, 30, 5,  21, 10, 3,  26, 17, 0,  13, 6, 23, 9,  29, 18});
+inline constexpr auto kThirtyTwo = rooks<32>({2,  15, 24, 28, 12, 4,  20, 16, 7,  22, 31, 1, 8,  14, 27, 11,
+                                              19, 25, 30, 5,  21, 10, 3,  26, 17, 0,  13, 6, 23, 9,  29, 18});
 
 // Bytes by which a pixel differs from one beside, above or below it: then it is drawn with kEight, or for the
 // best picture with kThirtyTwo.
 inline constexpr int kDifference = 16, kFineDifference = 8;
 
-VOXMELT_RULE bool differ(const std::array<std::uint8_t, 3>& a, const std::array<std::uint8_t, 3>& b, int most) {
+VOXMELT_RULE bool differ(const std::array<std::uint8_t, 3>& a, const std::array<std::uint8_t, 3>& b,
+                         int most) {
   bool found = false;
   for (std::size_t c = 0; c < 3; ++c) found |= magnitude(a[c] - b[c]) > most;
   return found;

@@ -45,7 +45,8 @@ VOXMELT_RULE std::int64_t near_depth(Vector eye, Vector forward, Vector cells) {
 }
 
 // The distance at which every corner of the grid is inside the picture, with a little air around it.
-VOXMELT_RULE std::int64_t fitted_distance(const Camera& camera, Vector cells, const View& view, std::int64_t tangent) {
+VOXMELT_RULE std::int64_t fitted_distance(const Camera& camera, Vector cells, const View& view,
+                                          std::int64_t tangent) {
   std::int64_t distance = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vector point{(corner & 1) != 0 ? cells.x * kCell : 0, (corner & 2) != 0 ? cells.y * kCell : 0,
@@ -56,8 +57,9 @@ VOXMELT_RULE std::int64_t fitted_distance(const Camera& camera, Vector cells, co
       return floor_divided(std::min(magnitude(aside) * 1055, std::int64_t{1} << 42) << 20, tangent);
     };
     const std::int64_t depth = -along(view.forward);
-    distance = std::max({distance, depth + reach(floor_divided(along(view.right) * camera.height, camera.width)),
-                         depth + reach(along(view.up))});
+    distance =
+        std::max({distance, depth + reach(floor_divided(along(view.right) * camera.height, camera.width)),
+                  depth + reach(along(view.up))});
   }
   return std::clamp<std::int64_t>(distance, 1, std::int64_t{1} << 30);
 }

@@ -4,9 +4,9 @@
 // The grid of light is coarser than the grid of cells. Its values are bytes, swept slice by slice.
 #pragma once
 
-#include <cstddef>
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "render/rule/fixed_point.h"
@@ -36,8 +36,8 @@ VOXMELT_RULE std::int32_t passed(std::int32_t arrived, std::int32_t loss) {
   return (arrived * (256 - loss) + 128) >> 8;
 }
 
-// A sweep along the lamp's direction follows a lattice of rays through the slices, one ray for each cell of the first
-// one. At slice s a ray lies s slopes further along an axis: so many cells, and a part of one.
+// A sweep along the lamp's direction follows a lattice of rays through the slices, one ray for each cell of
+// the first one. At slice s a ray lies s slopes further along an axis: so many cells, and a part of one.
 struct Shift {
   std::int32_t cells = 0, part = 0;  // 0 <= part < 256
 };
@@ -48,7 +48,8 @@ VOXMELT_RULE Shift shift_at(std::int64_t slice, std::int32_t slope) {
   return {static_cast<std::int32_t>(way >> 8), static_cast<std::int32_t>(way & 255)};
 }
 
-// One axis: rays get a little softer from slice to slice, so shadows do with the distance from what casts them.
+// One axis: rays get a little softer from slice to slice, so shadows do with the distance from what casts
+// them.
 VOXMELT_RULE std::int32_t softer(std::int32_t before, std::int32_t here, std::int32_t behind) {
   return (before + 30 * here + behind + 16) >> 5;
 }

@@ -51,8 +51,8 @@ VOXMELT_RULE std::int32_t smooth_light(std::int32_t low, std::int32_t high, std:
   return static_cast<std::int32_t>((t * t * (3 * kLight - 2 * t)) >> (2 * kLightBits));
 }
 
-// A vector of any length, brought to kLength; 0 stays 0. One bit less than `unit` can take is kept, because the shift
-// rounds down and may add one to a magnitude.
+// A vector of any length, brought to kLength; 0 stays 0. One bit less than `unit` can take is kept, because
+// the shift rounds down and may add one to a magnitude.
 VOXMELT_RULE Vector unit_of(Vector a) {
   const int bits = bits_of(largest(a));
   return unit(bits > 15 ? a >> (bits - 14) : a);
@@ -60,9 +60,9 @@ VOXMELT_RULE Vector unit_of(Vector a) {
 
 // How matter reflects. Metals mirror their surroundings and have next to no colour of their own.
 struct Material {
-  Color diffuse{};        // share of the arriving light that is scattered
-  Color mirror{};         // share of the mirrored light, seen from ahead
-  Color highlight{};      // of the lamp
+  Color diffuse{};         // share of the arriving light that is scattered
+  Color mirror{};          // share of the mirrored light, seen from ahead
+  Color highlight{};       // of the lamp
   std::int32_t gloss = 0;  // how much more is mirrored at grazing angles
 };
 

@@ -17,8 +17,8 @@ struct Matter {
 };
 
 // From the filtered intensities of a cell. Nothing has no shares.
-VOXMELT_RULE Matter matter_of(std::int32_t solid, std::int32_t liquid, std::int32_t heat, std::int32_t obstacle,
-                              const Look& look) {
+VOXMELT_RULE Matter matter_of(std::int32_t solid, std::int32_t liquid, std::int32_t heat,
+                              std::int32_t obstacle, const Look& look) {
   Matter of;
   const std::int32_t matter = solid + liquid, all = matter + obstacle;
   if (matter > 0) of.liquid = liquid * 255 / matter;
@@ -42,7 +42,8 @@ template <class Cells>
 VOXMELT_RULE Matter matter_at(const Cells& cells, Vector position) {
   const Place x = place_of(position.x), y = place_of(position.y), z = place_of(position.z);
   const auto both = [](Matter a, Matter b, std::int32_t w) {
-    return Matter{blended(a.liquid, b.liquid, w), blended(a.heat, b.heat, w), blended(a.obstacle, b.obstacle, w)};
+    return Matter{blended(a.liquid, b.liquid, w), blended(a.heat, b.heat, w),
+                  blended(a.obstacle, b.obstacle, w)};
   };
   const auto along_x = [&](std::int64_t cy, std::int64_t cz) {
     return both(cells(x.cell, cy, cz), cells(x.cell + 1, cy, cz), x.weight);

@@ -8,8 +8,8 @@
 
 namespace voxmelt::picture {
 
-// Matter that is cut at a side of the grid and the slab's side lie in one plane: there the slab wins, by half a
-// step.
+// Matter that is cut at a side of the grid and the slab's side lie in one plane: there the slab wins, by half
+// a step.
 inline constexpr std::int64_t kSideFirst = kPlaces / 2;
 
 VOXMELT_RULE bool ground_first(const GroundCrossing& ground, const Crossing& matter) {

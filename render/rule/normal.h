@@ -48,8 +48,9 @@ VOXMELT_RULE Vector unit(Vector a) {
   return {rounded(a.x * scale, 16), rounded(a.y * scale, 16), rounded(a.z * scale, 16)};
 }
 
-// Along an axis: the cell in which a position lies, and the weights of it and its neighbours in a quadratic B-spline,
-// whose blur is the same everywhere. Linear interpolation has none at the middle of a cell, which shows as ripples.
+// Along an axis: the cell in which a position lies, and the weights of it and its neighbours in a quadratic
+// B-spline, whose blur is the same everywhere. Linear interpolation has none at the middle of a cell, which
+// shows as ripples.
 struct Spline {
   std::int64_t cell = 0;
   std::array<std::int32_t, 3> value{}, slope{};  // in 256ths; the slope by the way towards larger positions
@@ -58,14 +59,15 @@ struct Spline {
 VOXMELT_RULE Spline spline_of(std::int64_t position) {
   const std::int64_t shifted = position + kCell / (2 * kWeights);
   const auto u = static_cast<std::int32_t>((shifted >> (kPositionBits - kWeightBits)) & (kWeights - 1));
-  const std::int32_t before = kWeights - u, behind = u;  // 1/2 - f and 1/2 + f, where f is the way from the middle
+  const std::int32_t before = kWeights - u,
+                     behind = u;  // 1/2 - f and 1/2 + f, where f is the way from the middle
   const std::int32_t low = (before * before) >> 9, high = (behind * behind) >> 9;
   return {shifted >> kPositionBits, {low, kWeights - low - high, high}, {-before, before - behind, behind}};
 }
 
 // Three numbers with weights, divided by 2^8 or 2^9.
-VOXMELT_RULE std::int32_t splined(const std::array<std::int32_t, 3>& of, const std::array<std::int32_t, 3>& weight,
-                                  int bits) {
+VOXMELT_RULE std::int32_t splined(const std::array<std::int32_t, 3>& of,
+                                  const std::array<std::int32_t, 3>& weight, int bits) {
   return (of[0] * weight[0] + of[1] * weight[1] + of[2] * weight[2] + (1 << (bits - 1))) >> bits;
 }
 
@@ -89,7 +91,8 @@ VOXMELT_RULE Vector normal_at(const Levels& levels, Vector position) {
     slope_y[k] = splined(values, y.slope, 9);
     value[k] = splined(values, y.value, 8);
   }
-  return unit(Vector{} - Vector{splined(slope_x, z.value, 8), splined(slope_y, z.value, 8), splined(value, z.slope, 9)});
+  return unit(Vector{} -
+              Vector{splined(slope_x, z.value, 8), splined(slope_y, z.value, 8), splined(value, z.slope, 9)});
 }
 
 }  // namespace voxmelt::picture

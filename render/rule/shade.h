@@ -14,20 +14,21 @@ namespace voxmelt::picture {
 
 // What the shading of a whole picture shares.
 struct Paint {
-  Vector to_light;                     // of kLength
-  Vector to_strip;                     // a second light, opposite of the lamp
-  Color lamp{};                        // its light
-  Color from_below{}, from_above{};    // ambient light
+  Vector to_light;                   // of kLength
+  Vector to_strip;                   // a second light, opposite of the lamp
+  Color lamp{};                      // its light
+  Color from_below{}, from_above{};  // ambient light
   Material solid, liquid, obstacle;
   bool glow = false;
-  std::int32_t lamp_low = 0, lamp_high = 0, strip_low = 0;  // where the mirrored lights begin and end, in kLight
-  Highlight highlight{}, dull_highlight{};                  // of matter, and of obstacles
+  std::int32_t lamp_low = 0, lamp_high = 0,
+               strip_low = 0;               // where the mirrored lights begin and end, in kLight
+  Highlight highlight{}, dull_highlight{};  // of matter, and of obstacles
   Surroundings surroundings{};
   Glow glow_colors{};
 };
 
-inline constexpr std::int32_t kStripHigh = 3973;      // 0.97
-inline constexpr Color kGlowLight{6144, 1966, 369};   // that glowing liquid throws on what is around it
+inline constexpr std::int32_t kStripHigh = 3973;     // 0.97
+inline constexpr Color kGlowLight{6144, 1966, 369};  // that glowing liquid throws on what is around it
 inline constexpr Color kMirroredLamp{9830, 9626, 9216}, kMirroredStrip{2867, 3072, 3482};
 
 VOXMELT_RULE Paint paint_of(const Look& look, const Lamp& lamp) {
@@ -80,9 +81,11 @@ VOXMELT_RULE Color arriving(const Paint& paint, Vector normal, const Light& ligh
 
 // What is mirrored from a direction: sky or ground, the lamp and the strip.
 VOXMELT_RULE Color mirrored(const Paint& paint, Vector direction) {
-  const auto height = static_cast<std::int32_t>(std::clamp<std::int64_t>(direction.y + kLength, 0, 2 * kLength));
+  const auto height =
+      static_cast<std::int32_t>(std::clamp<std::int64_t>(direction.y + kLength, 0, 2 * kLength));
   const std::uint32_t packed = paint.surroundings[static_cast<std::size_t>(height >> 4)];
-  const Color around{static_cast<std::int32_t>(packed & 2047) << 1, static_cast<std::int32_t>((packed >> 11) & 2047) << 1,
+  const Color around{static_cast<std::int32_t>(packed & 2047) << 1,
+                     static_cast<std::int32_t>((packed >> 11) & 2047) << 1,
                      static_cast<std::int32_t>(packed >> 22) << 2};
   const auto step = [&](Vector light, std::int32_t low, std::int32_t high) {
     return smooth_light(low, high, cosine(direction, light) >> 2);
@@ -91,7 +94,8 @@ VOXMELT_RULE Color mirrored(const Paint& paint, Vector direction) {
   const std::int32_t strip = step(paint.to_strip, paint.strip_low, kStripHigh);
   Color sum{};
   for (std::size_t c = 0; c < 3; ++c)
-    sum[c] = around[c] + ((kMirroredLamp[c] * lamp) >> kLightBits) + ((kMirroredStrip[c] * strip) >> kLightBits);
+    sum[c] =
+        around[c] + ((kMirroredLamp[c] * lamp) >> kLightBits) + ((kMirroredStrip[c] * strip) >> kLightBits);
   return sum;
 }
 
@@ -102,7 +106,8 @@ VOXMELT_RULE Material mixed(const Material& a, const Material& b, std::int32_t s
 
 // Light from the matter's surface towards the eye. `to_eye` has kLength. Obstacles count from a share of 148
 // to 204, so that a film hides them and no blur shows.
-VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye, const Light& light, Matter matter) {
+VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
+                                Matter matter) {
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);  // 255 is kLight - 1
   const std::int32_t obstacle = std::clamp((matter.obstacle - 148) * 73, 0, kLight);
   Material material = mixed(paint.solid, paint.liquid, liquid);
@@ -111,7 +116,8 @@ VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye
     const auto heat = static_cast<std::size_t>(matter.heat);
     for (std::size_t c = 0; c < 3; ++c) {
       material.diffuse[c] += (paint.glow_colors.crust[heat][c] * liquid) >> kLightBits;
-      emission[c] = (((paint.glow_colors.light[heat][c] * liquid) >> kLightBits) * (kLight - obstacle)) >> kLightBits;
+      emission[c] =
+          (((paint.glow_colors.light[heat][c] * liquid) >> kLightBits) * (kLight - obstacle)) >> kLightBits;
     }
   }
   material = mixed(material, paint.obstacle, obstacle);
@@ -142,8 +148,8 @@ VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye
     const std::int32_t fresnel = material.mirror[c] + (((kLight - material.mirror[c]) * more) >> kLightBits);
     const std::int32_t mirror = (((around[c] * seen) >> kLightBits) * fresnel) >> kLightBits;
     const std::int32_t own = (emission[c] * (2540 + ((1556 * eye) >> kNormalBits))) >> kLightBits;
-    sum[c] = ((arrives[c] * material.diffuse[c]) >> kLightBits) + ((material.highlight[c] * peak) >> kLightBits) +
-             mirror + own;
+    sum[c] = ((arrives[c] * material.diffuse[c]) >> kLightBits) +
+             ((material.highlight[c] * peak) >> kLightBits) + mirror + own;
   }
   return sum;
 }

@@ -52,7 +52,8 @@ VOXMELT_RULE Surroundings surroundings_of(const Look& look) {
     const std::int32_t height = 4 * (i - 1024);  // in kLight
     const Color sky =
         mixed(kHorizon, kZenith, smooth_light(-times(819, blur), 3072 + times(1229, blur), height));
-    const Color below = mixed(times(look.ground, 3072), times(look.ground, 1024), smooth_light(0, 2867, -height));
+    const Color below =
+        mixed(times(look.ground, 3072), times(look.ground, 1024), smooth_light(0, 2867, -height));
     const std::int32_t edge = times(1229, blur);
     const Color seen = mixed(below, sky, smooth_light(-246 - edge, 246 + edge, height));
     const auto part = [](std::int32_t value, std::int32_t most) {
@@ -77,7 +78,9 @@ VOXMELT_RULE Glow glow_table() {
     const auto product = [](std::int64_t a, std::int64_t b) { return rounded(a * b, 16); };
     const std::int64_t root = square_root(h << 16), fourth = square_root(root << 16);
     const std::int64_t h2 = product(h, h), h4 = product(h2, h2), h8 = product(h4, h4);
-    const auto scaled = [](std::int64_t a, std::int64_t by) { return static_cast<std::int32_t>(rounded(a * by, 16)); };
+    const auto scaled = [](std::int64_t a, std::int64_t by) {
+      return static_cast<std::int32_t>(rounded(a * by, 16));
+    };
     const auto at = static_cast<std::size_t>(i);
     table.light[at] = {scaled(product(product(h, root), fourth), 9421), scaled(product(h4, root), 4710),
                        scaled(h8, 819)};

@@ -49,7 +49,7 @@ ALLOWED = {
     "hwmodel/presets": ["hwmodel/stream", "kernel/scene/text"],
     "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
     "bench": ["bench/measure", "hwmodel/stream", STATE, "kernel/scene", "kernel/run", "render/density", "render/light",
-              "render/packet", "render/reference"],
+              "render/packet", "render/reference", "render/ground"],
     "bench/baseline": [PARAMETERS, STATE],
     "bench/measure": ["bench/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
                       "kernel/run", "render/density"],

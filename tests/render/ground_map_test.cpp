@@ -139,7 +139,7 @@ TEST(GroundMap, TheVolcanoHasNoHole) {
   for (const picture::View& view : {lava.view(290, 8, 200, 64, 48), lava.view(65, 12, 70, 64, 48)})
     for (int p = 0; p < 64 * 48; ++p) {
       const picture::Ray ray = picture::ray_through(view, p % 64 * picture::kPixel + picture::kPixel / 2,
-                                                   p / 64 * picture::kPixel + picture::kPixel / 2, 2);
+                                                    p / 64 * picture::kPixel + picture::kPixel / 2, 2);
       const char* fault = test::fault_of(dense, ray, lava.map.find(ray), 0.02);
       ASSERT_EQ(fault, nullptr) << fault << ", ray " << p;
     }
@@ -154,7 +154,7 @@ TEST(GroundMap, FromBelowTheUndersideHidesAll) {
   for (int p = 0; p < 64 * 48; ++p) {
     const picture::GroundCrossing got =
         lava.map.find(picture::ray_through(view, p % 64 * picture::kPixel + picture::kPixel / 2,
-                                                   p / 64 * picture::kPixel + picture::kPixel / 2, 2));
+                                           p / 64 * picture::kPixel + picture::kPixel / 2, 2));
     if (!got.found || got.face != Face::under) continue;
     ++met;
     const GroundMap::Paint paint = lava.map.paint(got);

@@ -13,8 +13,6 @@
 #include "accuracy/picture/sampling.h"
 #include "render/packet/scene_in_integers.h"
 #include "render/reference/reference_picture.h"
-#include "render/packet/scene_in_integers.h"
-#include "render/reference/reference_picture.h"
 #include "tests/render/shapes.h"
 
 namespace voxmelt {

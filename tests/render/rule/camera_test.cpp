@@ -86,8 +86,9 @@ TEST(Camera, DepthByHand) {
   EXPECT_EQ(depth_in_picture(view, {0, 0, -10000 * kCell}), kNoDepth - 1);  // as far as it goes
 }
 
-// Seen from the front with half a field of 45 degrees, a cube of 64 cells reaches 32 cells from the middle. Its front is
-// 32 cells before its middle, and the air is 1055/1024: 32 + 32 x 1055/1024 cells, give or take a 4096th.
+// Seen from the front with half a field of 45 degrees, a cube of 64 cells reaches 32 cells from the middle.
+// Its front is 32 cells before its middle, and the air is 1055/1024: 32 + 32 x 1055/1024 cells, give or take
+// a 4096th.
 TEST(Camera, TheDistanceThatFitsByHand) {
   Camera camera{{32 * kCell, 32 * kCell, 32 * kCell}, 0, 0, 0, 45 * kDegree, 64, 64};
   const auto distance = [&] { return view_of(camera, {64, 64, 64}).eye.z / (kCell / 4096) - 32 * 4096; };
