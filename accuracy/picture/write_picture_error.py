@@ -168,7 +168,7 @@ def main():
         texts = measured(arguments)
     all_views, few = Rows(texts[0]), Rows(texts[1])
     words = {"goals": goals(all_views), "scenes": scenes(all_views), "steps": steps(all_views), "causes": causes(few),
-             "views": str(len(all_views.views)), "few": "first view" if few.views == {0} else f"first {len(few.views)} views"}
+             "views": str(len(all_views.views)), "few_views": str(len(few.views)), "few": "first view" if few.views == {0} else f"first {len(few.views)} views"}
     page = TEMPLATE.read_text()
     for name, text in words.items():
         page = page.replace("{{" + name + "}}", text)
