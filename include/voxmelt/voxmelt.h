@@ -57,10 +57,10 @@ enum class Quality {
 
 /// A picture of a state. What is not set here is taken from the scene.
 struct Picture {
-  std::optional<int> width;         ///< pixels, 16..8192
-  std::optional<int> height;        ///< pixels, 16..8192
-  std::optional<double> azimuth;    ///< degrees around the vertical, -360..360; 0 from the front
-  std::optional<double> elevation;  ///< degrees above the horizon, -89..89
+  std::optional<int> width;           ///< pixels, 16..8192
+  std::optional<int> height;          ///< pixels, 16..8192
+  std::optional<double> azimuth;      ///< degrees around the vertical, -360..360; 0 from the front
+  std::optional<double> elevation;    ///< degrees above the horizon, -89..89
   Quality quality = Quality::normal;  ///< how carefully it is drawn
 };
 
