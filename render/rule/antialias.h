@@ -1,4 +1,4 @@
-// Which pixels get more samples, and where these lie (docs/picture.md, section 9).
+// Which pixels get more samples, and where these lie (docs/picture.md, section 10).
 #pragma once
 
 #include <array>
