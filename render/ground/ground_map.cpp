@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "render/ground/watched_ground.h"
+
 namespace voxmelt::render {
 namespace {
 
@@ -152,43 +154,8 @@ void GroundMap::make_bands() {
   }
 }
 
-Vector GroundMap::cut(const picture::GroundCrossing& crossing) const {
-  if (bands_.empty() || crossing.face == Face::under || crossing.face == Face::none)
-    return picture::cut_color(color_, 0);
-  const std::int64_t along = crossing.face == Face::low_x || crossing.face == Face::high_x
-                                 ? crossing.position.z
-                                 : crossing.position.x;
-  const auto& bends = bends_[static_cast<std::size_t>(crossing.face) - static_cast<std::size_t>(Face::low_x)];
-  const auto entry = [](const auto& table, std::int64_t position) {
-    const auto at = [&](std::int64_t i, std::int64_t) {
-      return std::int32_t{table[static_cast<std::size_t>(i)]};
-    };
-    return picture::bilinear(at, static_cast<std::int64_t>(table.size()), 1, picture::place_of(position), {});
-  };
-  const std::int64_t bent = crossing.position.y + entry(bends, along);
-  return picture::cut_color(color_, entry(bands_, bent << picture::kBandFineness));
-}
-
 GroundMap::Paint GroundMap::paint(const picture::GroundCrossing& crossing) const {
-  const auto heights = [&](std::int64_t x, std::int64_t z) { return bare_[column(x, z)]; };
-  const Vector normal = picture::ground_normal(heights, cells_, crossing.position, crossing.face);
-  if (crossing.face != Face::top) return {cut(crossing), normal};
-  if (texels_.empty()) return {color_, normal};
-  const std::int64_t columns = cells_.x << fineness_, rows = cells_.z << fineness_;
-  const picture::Place x = picture::place_of(crossing.position.x << fineness_),
-                       z = picture::place_of(crossing.position.z << fineness_);
-  const auto channel = [&](const auto& of) -> std::int64_t {
-    const auto at = [&](std::int64_t i, std::int64_t j) -> std::int32_t {
-      return of(texels_[static_cast<std::size_t>(j * columns + i)]);
-    };
-    return picture::bilinear(at, columns, rows, x, z);
-  };
-  constexpr std::int32_t kToNormal = 1 << (picture::kNormalBits - picture::kBumpBits);
-  return {{channel([](const picture::Texel& t) { return t.red; }),
-           channel([](const picture::Texel& t) { return t.green; }),
-           channel([](const picture::Texel& t) { return t.blue; })},
-          picture::roughened(normal, channel([](const picture::Texel& t) { return t.bump_x * kToNormal; }),
-                             channel([](const picture::Texel& t) { return t.bump_z * kToNormal; }))};
+  return told_paint(*this, crossing, picture::Silent{});
 }
 
 }  // namespace voxmelt::render

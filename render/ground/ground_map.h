@@ -59,7 +59,6 @@ class GroundMap {
   void find_slopes();
   void make_texels();
   void make_bands();
-  picture::Vector cut(const picture::GroundCrossing& crossing) const;
   std::size_t column(std::int64_t x, std::int64_t z) const {
     return static_cast<std::size_t>(z * cells_.x + x);
   }

@@ -5,13 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "render/ground/ground_map.h"
+#include "render/ground/watched_ground.h"
 #include "render/rule/camera.h"
 #include "render/rule/crossing.h"
 #include "render/rule/nearer.h"
 #include "render/rule/normal.h"
 #include "render/rule/shade.h"
 #include "render/rule/tone.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::render {
 
@@ -35,36 +36,50 @@ struct Seen {
   picture::Vector position, normal;
 };
 
-template <class Scene>
+// The watcher is told every number of a ray.
+template <class Scene, class Watch = picture::Silent>
 class Painter {
  public:
-  Painter(const Scene& scene, const picture::View& view, int spacing)
-      : scene_(scene), view_(view), spacing_(spacing) {}
+  Painter(const Scene& scene, const picture::View& view, int spacing, Watch watch = {})
+      : scene_(scene), view_(view), spacing_(spacing), watch_(watch) {}
 
   // Through a place of the picture: pressed light.
   picture::Color light(std::int64_t across, std::int64_t down) const {
-    const Met met(scene_, view_, across, down, spacing_);
+    const Met met(scene_, view_, across, down, spacing_, watch_);
     if (met.on_ground) return pressed(ground_color(met));
     if (met.matter.found) return pressed(matter_color(met));
+    watch_(Stage::pixel, "background", scene_.background);
     return scene_.background;
   }
   // The surface there.
   Seen seen(std::int64_t across, std::int64_t down) const {
-    const Met met(scene_, view_, across, down, spacing_);
+    const Met met(scene_, view_, across, down, spacing_, watch_);
     if (met.on_ground)
-      return {true, met.ground.position, ground_normal(met, scene_.ground.paint(met.ground))};
+      return {true, met.ground.position, ground_normal(met, paint_ground(scene_.ground, met.ground, watch_))};
     if (met.matter.found) return {true, met.matter.position, matter_normal(met)};
     return {};
   }
 
  private:
+  using Stage = picture::Stage;
+  template <class Cells>
+  auto watched(const Cells& cells, Stage stage) const {
+    return picture::Watched{cells, watch_, stage};
+  }
+
   struct Met {
-    Met(const Scene& scene, const picture::View& view, std::int64_t across, std::int64_t down, int spacing)
-        : ray(picture::ray_through(view, across, down, spacing)),
-          matter(picture::first_crossing(scene.levels, scene.cells, ray)),
-          ground(scene.ground.find(ray)),
-          on_ground(picture::ground_first(ground, matter)) {}
-    picture::Vector to_eye() const { return picture::unit_of(picture::Vector{} - ray.step); }
+    Met(const Scene& scene, const picture::View& view, std::int64_t across, std::int64_t down, int spacing,
+        Watch watch)
+        : ray(picture::ray_through(view, across, down, spacing, watch)),
+          matter(picture::first_crossing(picture::Watched{scene.levels, watch, Stage::sample}, scene.cells,
+                                         ray, watch)),
+          ground(find_ground(scene.ground, ray, watch)),
+          on_ground(picture::ground_first(ground, matter)) {
+      if (!on_ground && !matter.found) return;
+      const picture::Vector position = on_ground ? ground.position : matter.position;
+      watch(Stage::met, "on ground", on_ground ? 1 : 0);
+      watch(Stage::met, "depth", picture::depth_in_picture(view, position));
+    }
 
     picture::Ray ray;
     picture::Crossing matter;
@@ -72,40 +87,55 @@ class Painter {
     bool on_ground;
   };
 
-  static picture::Vector ground_normal(const Met& met, const GroundMap::Paint& paint) {
-    return met.ground.face == picture::Face::none ? met.to_eye() : paint.normal;
+  picture::Vector to_eye(const Met& met) const {
+    const picture::Vector eye = picture::unit_of(picture::Vector{} - met.ray.step, watch_);
+    watch_(Stage::met, "to_eye", eye);
+    return eye;
+  }
+  picture::Vector ground_normal(const Met& met, const GroundMap::Paint& paint) const {
+    return met.ground.face == picture::Face::none ? to_eye(met) : paint.normal;
   }
   picture::Vector matter_normal(const Met& met) const {
-    return met.matter.sample == 0 ? met.to_eye() : picture::normal_at(scene_.levels, met.matter.position);
+    const picture::Vector normal =
+        met.matter.sample == 0
+            ? to_eye(met)
+            : picture::normal_at(watched(scene_.levels, Stage::normal), met.matter.position, watch_);
+    watch_(Stage::normal, "normal", normal);
+    return normal;
   }
 
   picture::Color ground_color(const Met& met) const {
-    const GroundMap::Paint paint = scene_.ground.paint(met.ground);
+    const GroundMap::Paint paint = paint_ground(scene_.ground, met.ground, watch_);
     const picture::Vector normal = ground_normal(met, paint);
     const picture::Color color{static_cast<std::int32_t>(paint.color.x),
                                static_cast<std::int32_t>(paint.color.y),
                                static_cast<std::int32_t>(paint.color.z)};
-    return picture::ground_color(scene_.paint, normal, light_before(met.ground.position, normal), color);
+    return picture::ground_color(scene_.paint, normal, light_before(met.ground.position, normal), color,
+                                 watch_);
   }
   picture::Color matter_color(const Met& met) const {
     const picture::Vector normal = matter_normal(met), position = met.matter.position;
-    picture::Matter matter = picture::matter_at(scene_.matter, position);
-    matter.obstacle = picture::matter_at(scene_.matter, position + normal * (std::int64_t{1} << 5)).obstacle;
-    return picture::matter_color(scene_.paint, normal, met.to_eye(), light_before(position, normal), matter);
+    const auto cells = watched(scene_.matter, Stage::matter);
+    picture::Matter matter = picture::matter_at(cells, position, watch_);
+    matter.obstacle = picture::matter_at(cells, position + normal * (std::int64_t{1} << 5), watch_).obstacle;
+    const picture::Light light = light_before(position, normal);
+    return picture::matter_color(scene_.paint, normal, to_eye(met), light, matter, watch_);
   }
   picture::Light light_before(picture::Vector position, picture::Vector normal) const {
-    return picture::light_at(scene_.light, scene_.light_count, scene_.light_shift,
-                             picture::before_surface(position, normal, scene_.light_shift));
+    return picture::light_at(watched(scene_.light, Stage::light), scene_.light_count, scene_.light_shift,
+                             picture::before_surface(position, normal, scene_.light_shift), watch_);
   }
   picture::Color pressed(picture::Color color) const {
     for (std::int32_t& c : color)
       c = scene_.tone[static_cast<std::size_t>(std::clamp(c, 0, picture::kBrightest))];
+    watch_(Stage::pixel, "pressed", color);
     return color;
   }
 
   const Scene& scene_;
   const picture::View view_;
   const int spacing_;
+  const Watch watch_;
 };
 
 }  // namespace voxmelt::render

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "render/rule/angle.h"
 #include "render/rule/fixed_point.h"
 #include "render/rule/ray.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::picture {
 
@@ -93,12 +95,17 @@ VOXMELT_RULE View view_of(const Camera& camera, Vector cells) {
 
 // The ray through a place of the picture: `across` and `down` from its upper left corner, in 1 / kPixel of a
 // pixel. The middle of pixel (i, j) is (kPixel i + kPixel / 2, kPixel j + kPixel / 2).
-VOXMELT_RULE Ray ray_through(const View& view, std::int64_t across, std::int64_t down, int spacing) {
+template <class Watch = Silent>
+VOXMELT_RULE Ray ray_through(const View& view, std::int64_t across, std::int64_t down, int spacing,
+                             Watch watch = {}) {
   const std::int64_t u = across - view.half_width, v = view.half_height - down;
   const Vector direction = view.forward * view.half_height + view.wide * u + view.high * v;
   const Vector start =
       view.eye + ((view.forward * view.near) >> 14) + ((view.near_wide * u + view.near_high * v) >> 10);
-  return {start, step_along(direction, spacing)};
+  const Vector step = step_along(direction, spacing);
+  watch(Stage::ray, "place", std::array{across, down}), watch(Stage::ray, "direction", direction);
+  watch(Stage::ray, "start", start), watch(Stage::ray, "step", step);
+  return {start, step};
 }
 
 // The depth of a position in a depth picture: 32nds of a cell from the plane on which the rays start.

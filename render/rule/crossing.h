@@ -1,11 +1,13 @@
 // Where a ray first meets matter (docs/picture.md, section 7).
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "render/rule/fixed_point.h"
 #include "render/rule/ray.h"
 #include "render/rule/sample.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::picture {
 
@@ -27,14 +29,17 @@ struct Crossing {
 };
 
 // Between sample k - 1, which is air, and sample k, which is matter: bisections, and then a straight line.
-template <class Levels>
-VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std::int64_t k) {
+template <class Levels, class Watch = Silent>
+VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std::int64_t k,
+                                      Watch watch = {}) {
   Vector outside = ray.at(k - 1), inside = ray.at(k);
-  std::int32_t low = sample(levels, outside), high = sample(levels, inside);
+  watch(Stage::crossing, "samples", std::array{k - 1, k});
+  std::int32_t low = sample(levels, outside, watch), high = sample(levels, inside, watch);
   std::int32_t part = 0;
   for (int i = 0; i < kBisections; ++i) {
     const Vector middle = outside + ((inside - outside) >> 1);
-    const std::int32_t level = sample(levels, middle);
+    watch(Stage::crossing, "middle", i + 1);
+    const std::int32_t level = sample(levels, middle, watch);
     part *= 2;
     if (level < 0) {
       outside = middle;
@@ -46,16 +51,25 @@ VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std:
     }
   }
   const std::int32_t last = false_position(low, high);
+  watch(Stage::crossing, "A", outside), watch(Stage::crossing, "B", inside);
+  watch(Stage::crossing, "a", low), watch(Stage::crossing, "b", high);
+  watch(Stage::crossing, "e", part), watch(Stage::crossing, "f", last);
   return {true, k, part * kParts + last, outside + (((inside - outside) * last) >> 8)};
 }
 
 // A ray that starts in matter meets it at its start.
-template <class Levels>
-VOXMELT_RULE Crossing first_crossing(const Levels& levels, Vector cells, const Ray& ray) {
+template <class Levels, class Watch = Silent>
+VOXMELT_RULE Crossing first_crossing(const Levels& levels, Vector cells, const Ray& ray, Watch watch = {}) {
   const Samples in = samples_in(ray, field_low(), field_high(cells));
+  watch(Stage::ray, "range", std::array{in.first, in.last});
   for (std::int64_t k = in.first; k <= in.last; ++k) {
-    if (sample(levels, ray.at(k)) < 0) continue;
-    return k == 0 ? Crossing{true, 0, kPlaces, ray.start} : crossing_before(levels, ray, k);
+    watch(Stage::sample, "k", k);
+    if (sample(levels, ray.at(k), watch) < 0) continue;
+    const Crossing met =
+        k == 0 ? Crossing{true, 0, kPlaces, ray.start} : crossing_before(levels, ray, k, watch);
+    watch(Stage::crossing, "sample", met.sample), watch(Stage::crossing, "part", met.part);
+    watch(Stage::crossing, "crossing", met.position);
+    return met;
   }
   return {};
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "render/rule/crossing.h"
@@ -10,20 +11,22 @@
 #include "render/rule/heights.h"
 #include "render/rule/normal.h"
 #include "render/rule/ray.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::picture {
 
 // How far a position lies above the ground of its column, in 1 / kHeight; in the ground it is below 0.
-template <class Heights>
-VOXMELT_RULE std::int64_t above_ground(const Heights& heights, Vector cells, Vector p) {
-  return (p.y >> (kPositionBits - kHeightBits)) - height_at(heights, cells, p.x, p.z);
+template <class Heights, class Watch = Silent>
+VOXMELT_RULE std::int64_t above_ground(const Heights& heights, Vector cells, Vector p, Watch watch = {}) {
+  watch(Stage::ground, "position", p);
+  return (p.y >> (kPositionBits - kHeightBits)) - height_at(heights, cells, p.x, p.z, watch);
 }
 
 // The ground is all that lies below the heights, within the grid's sides and above y = 0.
-template <class Heights>
-VOXMELT_RULE bool in_ground(const Heights& heights, Vector cells, Vector p) {
+template <class Heights, class Watch = Silent>
+VOXMELT_RULE bool in_ground(const Heights& heights, Vector cells, Vector p, Watch watch = {}) {
   return p.x >= 0 && p.x < cells.x * kCell && p.z >= 0 && p.z < cells.z * kCell && p.y >= 0 &&
-         above_ground(heights, cells, p) < 0;
+         above_ground(heights, cells, p, watch) < 0;
 }
 
 // Through which a ray enters. A ray that starts in the ground enters through none.
@@ -58,18 +61,22 @@ VOXMELT_RULE Samples ground_parts(Vector cells, std::int32_t highest, const Ray&
 }
 
 // `inside` is in the ground and `outside` before it is not. Bisections find neighbours of which that holds.
-template <class Heights>
+template <class Heights, class Watch = Silent>
 VOXMELT_RULE GroundCrossing ground_between(const Heights& heights, Vector cells, const Ray& ray,
-                                           std::int64_t outside, std::int64_t inside) {
+                                           std::int64_t outside, std::int64_t inside, Watch watch = {}) {
+  watch(Stage::ground, "A", outside), watch(Stage::ground, "B", inside);
   while (inside - outside > 1) {
     const std::int64_t middle = (outside + inside) >> 1;
-    if (in_ground(heights, cells, position_at(ray, middle))) {
+    watch(Stage::ground, "M", middle);
+    if (in_ground(heights, cells, position_at(ray, middle), watch)) {
       inside = middle;
     } else {
       outside = middle;
     }
   }
   const Face face = inside == 0 ? Face::none : face_before(cells, position_at(ray, outside));
+  watch(Stage::ground, "place", inside), watch(Stage::ground, "crossing", position_at(ray, inside));
+  watch(Stage::ground, "face", static_cast<std::int32_t>(face));
   return {true, inside, position_at(ray, inside), face};
 }
 
@@ -78,17 +85,19 @@ VOXMELT_RULE GroundCrossing ground_between(const Heights& heights, Vector cells,
 //
 // leap(above) may say how many samples behind a place so far above the ground are outside as well; 0 leaves
 // out none.
-template <class Heights, class Leap>
+template <class Heights, class Leap, class Watch = Silent>
 VOXMELT_RULE GroundCrossing first_ground(const Heights& heights, Vector cells, std::int32_t highest,
-                                         const Ray& ray, const Leap& leap) {
+                                         const Ray& ray, const Leap& leap, Watch watch = {}) {
   const Samples in = ground_parts(cells, highest, ray);
+  watch(Stage::ground, "range", std::array{in.first, in.last});
   if (in.first > in.last) return {};
   for (std::int64_t part = in.first;;) {
-    const std::int64_t above = above_ground(heights, cells, position_at(ray, part));
+    watch(Stage::ground, "part", part);
+    const std::int64_t above = above_ground(heights, cells, position_at(ray, part), watch);
     if (above < 0) {
       const std::int64_t before = ((part - 1) >> kPartBits) * kParts;
       return ground_between(heights, cells, ray, part == in.first ? part - 1 : std::max(in.first, before),
-                            part);
+                            part, watch);
     }
     if (part == in.last) return {};
     part = std::min(((part >> kPartBits) + leap(above) + 1) * kParts, in.last);
@@ -102,9 +111,11 @@ VOXMELT_RULE GroundCrossing first_ground(const Heights& heights, Vector cells, s
 }
 
 // The normal of a height field of such falls to a cell, in kHeight, along x and z.
-VOXMELT_RULE Vector slope_normal(std::int64_t fall_x, std::int64_t fall_z) {
+template <class Watch = Silent>
+VOXMELT_RULE Vector slope_normal(std::int64_t fall_x, std::int64_t fall_z, Watch watch = {}) {
   const Vector a{fall_x, kHeight, fall_z};
-  return unit(a >> std::max(0, bits_of(largest(a)) - 14));
+  watch(Stage::paint, "fall", a);
+  return unit(a >> std::max(0, bits_of(largest(a)) - 14), watch);
 }
 
 // The slab's upper edges are rounded, over half a cell, so that they catch the light. This is how much the
@@ -117,11 +128,14 @@ VOXMELT_RULE std::int64_t rim(std::int64_t position, std::int64_t cells) {
 }
 
 // Out of the ground. `heights` are those before the lowering: a film does not bend the light beside it.
-template <class Heights>
-VOXMELT_RULE Vector ground_normal(const Heights& heights, Vector cells, Vector position, Face face) {
+template <class Heights, class Watch = Silent>
+VOXMELT_RULE Vector ground_normal(const Heights& heights, Vector cells, Vector position, Face face,
+                                  Watch watch = {}) {
   const std::int64_t one = std::int64_t{1} << kNormalBits;
   const std::int64_t x = position.x, z = position.z, half = kCell / 2;
-  const auto height = [&](std::int64_t px, std::int64_t pz) { return height_at(heights, cells, px, pz); };
+  const auto height = [&](std::int64_t px, std::int64_t pz) {
+    return height_at(heights, cells, px, pz, watch, Stage::paint);
+  };
   switch (face) {
     case Face::none:
       return {};
@@ -136,9 +150,11 @@ VOXMELT_RULE Vector ground_normal(const Heights& heights, Vector cells, Vector p
     case Face::under:
       return {0, -one, 0};
     default:
-      return slope_normal(height(x - half, z) - height(x + half, z) + rim(x, cells.x),
-                          height(x, z - half) - height(x, z + half) + rim(z, cells.z));
+      break;
   }
+  const std::int32_t west = height(x - half, z), east = height(x + half, z);
+  const std::int32_t north = height(x, z - half), south = height(x, z + half);
+  return slope_normal(west - east + rim(x, cells.x), north - south + rim(z, cells.z), watch);
 }
 
 }  // namespace voxmelt::picture

@@ -5,10 +5,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "render/rule/fixed_point.h"
 #include "render/rule/sample.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::picture {
 
@@ -34,14 +36,22 @@ VOXMELT_RULE std::int32_t bilinear(const At& at, std::int64_t columns, std::int6
   };
   const std::int64_t left = within(x.cell, columns), right = within(x.cell + 1, columns);
   const std::int64_t back = within(z.cell, rows), front = within(z.cell + 1, rows);
-  return blended(blended(at(left, back), at(right, back), x.weight),
-                 blended(at(left, front), at(right, front), x.weight), z.weight);
+  const std::int32_t left_back = at(left, back), right_back = at(right, back);
+  const std::int32_t left_front = at(left, front), right_front = at(right, front);
+  return blended(blended(left_back, right_back, x.weight), blended(left_front, right_front, x.weight),
+                 z.weight);
 }
 
 // Heights(x, z) gives the height of a column of the grid.
-template <class Heights>
-VOXMELT_RULE std::int32_t height_at(const Heights& heights, Vector cells, std::int64_t x, std::int64_t z) {
-  return bilinear(heights, cells.x, cells.z, place_of(x), place_of(z));
+template <class Heights, class Watch = Silent>
+VOXMELT_RULE std::int32_t height_at(const Heights& heights, Vector cells, std::int64_t x, std::int64_t z,
+                                    Watch watch = {}, Stage stage = Stage::ground) {
+  const Place along_x = place_of(x), along_z = place_of(z);
+  watch(stage, "cell", std::array{along_x.cell, along_z.cell});
+  watch(stage, "weight", std::array{along_x.weight, along_z.weight});
+  const std::int32_t height = bilinear(heights, cells.x, cells.z, along_x, along_z);
+  watch(stage, "height", height);
+  return height;
 }
 
 }  // namespace voxmelt::picture

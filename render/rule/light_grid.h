@@ -12,6 +12,7 @@
 #include "render/rule/fixed_point.h"
 #include "render/rule/normal.h"
 #include "render/rule/sample.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::picture {
 
@@ -89,21 +90,29 @@ VOXMELT_RULE Light between(const Light& a, const Light& b, std::int32_t weight) 
 
 // The light at a position: between eight cells of light, of which those beyond the grid repeat the nearest.
 // lights(x, y, z) gives the light of a cell of light.
-template <class Lights>
-VOXMELT_RULE Light light_at(const Lights& lights, Vector count, int shift, Vector position) {
+template <class Lights, class Watch = Silent>
+VOXMELT_RULE Light light_at(const Lights& lights, Vector count, int shift, Vector position,
+                            Watch watch = {}) {
   const Vector p = position >> shift;
   const Place x = place_of(p.x), y = place_of(p.y), z = place_of(p.z);
+  tell_place(watch, Stage::light, position, x, y, z);
   const auto at = [&](std::int64_t cx, std::int64_t cy, std::int64_t cz) -> Light {
     return lights(std::clamp<std::int64_t>(cx, 0, count.x - 1), std::clamp<std::int64_t>(cy, 0, count.y - 1),
                   std::clamp<std::int64_t>(cz, 0, count.z - 1));
   };
   const auto along_x = [&](std::int64_t cy, std::int64_t cz) {
-    return between(at(x.cell, cy, cz), at(x.cell + 1, cy, cz), x.weight);
+    const Light below = at(x.cell, cy, cz), above = at(x.cell + 1, cy, cz);
+    return between(below, above, x.weight);
   };
   const auto along_y = [&](std::int64_t cz) {
-    return between(along_x(y.cell, cz), along_x(y.cell + 1, cz), y.weight);
+    const Light below = along_x(y.cell, cz), above = along_x(y.cell + 1, cz);
+    return between(below, above, y.weight);
   };
-  return between(along_y(z.cell), along_y(z.cell + 1), z.weight);
+  const Light below = along_y(z.cell), above = along_y(z.cell + 1);
+  const Light of = between(below, above, z.weight);
+  watch(Stage::light, "lamp", of.lamp), watch(Stage::light, "open", of.open);
+  watch(Stage::light, "glow", of.glow);
+  return of;
 }
 
 // Where the light of a surface is read: one cell of light in front of it.

@@ -8,6 +8,7 @@
 
 #include "render/rule/fixed_point.h"
 #include "render/rule/normal.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::picture {
 
@@ -53,9 +54,10 @@ VOXMELT_RULE std::int32_t smooth_light(std::int32_t low, std::int32_t high, std:
 
 // A vector of any length, brought to kLength; 0 stays 0. One bit less than `unit` can take is kept, because
 // the shift rounds down and may add one to a magnitude.
-VOXMELT_RULE Vector unit_of(Vector a) {
+template <class Watch = Silent>
+VOXMELT_RULE Vector unit_of(Vector a, Watch watch = {}) {
   const int bits = bits_of(largest(a));
-  return unit(bits > 15 ? a >> (bits - 14) : a);
+  return unit(bits > 15 ? a >> (bits - 14) : a, watch);
 }
 
 // How matter reflects. Metals mirror their surroundings and have next to no colour of their own.

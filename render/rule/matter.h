@@ -7,6 +7,7 @@
 #include "render/rule/fixed_point.h"
 #include "render/rule/look.h"
 #include "render/rule/sample.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::picture {
 
@@ -38,20 +39,27 @@ VOXMELT_RULE std::int32_t emission_of(std::int32_t liquid, std::int32_t heat) {
 }
 
 // Bytes between eight cells, like levels.
-template <class Cells>
-VOXMELT_RULE Matter matter_at(const Cells& cells, Vector position) {
+template <class Cells, class Watch = Silent>
+VOXMELT_RULE Matter matter_at(const Cells& cells, Vector position, Watch watch = {}) {
   const Place x = place_of(position.x), y = place_of(position.y), z = place_of(position.z);
+  tell_place(watch, Stage::matter, position, x, y, z);
   const auto both = [](Matter a, Matter b, std::int32_t w) {
     return Matter{blended(a.liquid, b.liquid, w), blended(a.heat, b.heat, w),
                   blended(a.obstacle, b.obstacle, w)};
   };
   const auto along_x = [&](std::int64_t cy, std::int64_t cz) {
-    return both(cells(x.cell, cy, cz), cells(x.cell + 1, cy, cz), x.weight);
+    const Matter below = cells(x.cell, cy, cz), above = cells(x.cell + 1, cy, cz);
+    return both(below, above, x.weight);
   };
   const auto along_y = [&](std::int64_t cz) {
-    return both(along_x(y.cell, cz), along_x(y.cell + 1, cz), y.weight);
+    const Matter below = along_x(y.cell, cz), above = along_x(y.cell + 1, cz);
+    return both(below, above, y.weight);
   };
-  return both(along_y(z.cell), along_y(z.cell + 1), z.weight);
+  const Matter below = along_y(z.cell), above = along_y(z.cell + 1);
+  const Matter of = both(below, above, z.weight);
+  watch(Stage::matter, "liquid", of.liquid), watch(Stage::matter, "heat", of.heat);
+  watch(Stage::matter, "obstacle", of.obstacle);
+  return of;
 }
 
 }  // namespace voxmelt::picture

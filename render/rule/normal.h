@@ -7,6 +7,7 @@
 
 #include "render/rule/fixed_point.h"
 #include "render/rule/sample.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::picture {
 
@@ -33,19 +34,30 @@ inline constexpr auto kInverseRoot = [] {
 }();
 
 // 2^15 / sqrt(m / 2^30), 2^30 <= m < 2^32, by a straight line between two entries.
-VOXMELT_RULE std::int64_t inverse_root(std::int64_t m) {
+template <class Watch = Silent>
+VOXMELT_RULE std::int64_t inverse_root(std::int64_t m, Watch watch = {}) {
   const auto i = static_cast<std::size_t>((m >> 23) - kRootFirst);
-  return kInverseRoot[i] - rounded((kInverseRoot[i] - kInverseRoot[i + 1]) * (m & 0x7FFFFF), 23);
+  const std::int64_t root =
+      kInverseRoot[i] - rounded((kInverseRoot[i] - kInverseRoot[i + 1]) * (m & 0x7FFFFF), 23);
+  watch(Stage::unit, "m", m), watch(Stage::unit, "i", m >> 23);
+  watch(Stage::unit, "R", std::array{kInverseRoot[i], kInverseRoot[i + 1]});
+  watch(Stage::unit, "r", root);
+  return root;
 }
 
 // A vector of components within 2^15, stretched or shrunk to the length 2^14; 0 stays 0.
-VOXMELT_RULE Vector unit(Vector a) {
+template <class Watch = Silent>
+VOXMELT_RULE Vector unit(Vector a, Watch watch = {}) {
+  watch(Stage::unit, "vector", a);
   if (a == Vector{}) return a;
   a = a * (std::int64_t{1} << (15 - bits_of(largest(a))));
   const std::int64_t square = dot(a, a);  // 2^28 <= square < 2^32
   const int more = square < std::int64_t{1} << 30 ? 1 : 0;
-  const std::int64_t scale = inverse_root(square << (2 * more)) << more;
-  return {rounded(a.x * scale, 16), rounded(a.y * scale, 16), rounded(a.z * scale, 16)};
+  watch(Stage::unit, "g", a), watch(Stage::unit, "q", square), watch(Stage::unit, "e", more);
+  const std::int64_t scale = inverse_root(square << (2 * more), watch) << more;
+  const Vector of{rounded(a.x * scale, 16), rounded(a.y * scale, 16), rounded(a.z * scale, 16)};
+  watch(Stage::unit, "unit", of);
+  return of;
 }
 
 // Along an axis: the cell in which a position lies, and the weights of it and its neighbours in a quadratic
@@ -71,11 +83,20 @@ VOXMELT_RULE std::int32_t splined(const std::array<std::int32_t, 3>& of,
   return (of[0] * weight[0] + of[1] * weight[1] + of[2] * weight[2] + (1 << (bits - 1))) >> bits;
 }
 
+template <class Watch>
+VOXMELT_RULE void tell_weights(Watch watch, const char* name, const Spline& of) {
+  watch(Stage::normal, name,
+        std::array{of.value[0], of.value[1], of.value[2], of.slope[0], of.slope[1], of.slope[2]});
+}
+
 // Out of the matter: against the slope of the spline through 27 levels, along x, then y, then z.
-template <class Levels>
-VOXMELT_RULE Vector normal_at(const Levels& levels, Vector position) {
+template <class Levels, class Watch = Silent>
+VOXMELT_RULE Vector normal_at(const Levels& levels, Vector position, Watch watch = {}) {
   using Three = std::array<std::int32_t, 3>;
   const Spline x = spline_of(position.x), y = spline_of(position.y), z = spline_of(position.z);
+  watch(Stage::normal, "position", position), watch(Stage::normal, "cell", Vector{x.cell, y.cell, z.cell});
+  tell_weights(watch, "weights along x", x), tell_weights(watch, "weights along y", y);
+  tell_weights(watch, "weights along z", z);
   Three slope_x{}, slope_y{}, value{};
   for (std::size_t k = 0; k < 3; ++k) {
     Three slopes{}, values{};
@@ -86,13 +107,16 @@ VOXMELT_RULE Vector normal_at(const Levels& levels, Vector position) {
                         z.cell + static_cast<std::int64_t>(k) - 1);
       slopes[j] = splined(row, x.slope, 9);
       values[j] = splined(row, x.value, 8);
+      watch(Stage::normal, "along x", std::array{slopes[j], values[j]});
     }
     slope_x[k] = splined(slopes, y.value, 8);
     slope_y[k] = splined(values, y.slope, 9);
     value[k] = splined(values, y.value, 8);
+    watch(Stage::normal, "along y", std::array{slope_x[k], slope_y[k], value[k]});
   }
-  return unit(Vector{} -
-              Vector{splined(slope_x, z.value, 8), splined(slope_y, z.value, 8), splined(value, z.slope, 9)});
+  const Vector slope{splined(slope_x, z.value, 8), splined(slope_y, z.value, 8), splined(value, z.slope, 9)};
+  watch(Stage::normal, "slope", slope);
+  return unit(Vector{} - slope, watch);
 }
 
 }  // namespace voxmelt::picture

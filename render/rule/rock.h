@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "render/rule/fixed_point.h"
@@ -11,6 +12,7 @@
 #include "render/rule/noise.h"
 #include "render/rule/normal.h"
 #include "render/rule/sample.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::picture {
 
@@ -71,8 +73,10 @@ VOXMELT_RULE std::int8_t bump(std::int32_t before, std::int32_t behind, int fine
 }
 
 // Adds a bump to a normal; in 2^-14.
-VOXMELT_RULE Vector roughened(Vector normal, std::int64_t bump_x, std::int64_t bump_z) {
-  return unit(normal + Vector{bump_x, 0, bump_z});
+template <class Watch = Silent>
+VOXMELT_RULE Vector roughened(Vector normal, std::int64_t bump_x, std::int64_t bump_z, Watch watch = {}) {
+  watch(Stage::paint, "bump", std::array{bump_x, bump_z});
+  return unit(normal + Vector{bump_x, 0, bump_z}, watch);
 }
 
 // The cut sides and the underside are darker. Rock has bands there, `band` being their noise; else it is 0.

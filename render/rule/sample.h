@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "render/rule/fixed_point.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::picture {
 
@@ -36,21 +37,39 @@ VOXMELT_RULE Place place_of(std::int64_t position) {
           static_cast<std::int32_t>((shifted >> (kPositionBits - kWeightBits)) & (kWeights - 1))};
 }
 
+// Says where something between eight cells is looked up.
+template <class Watch>
+VOXMELT_RULE void tell_place(Watch watch, Stage stage, Vector position, Place x, Place y, Place z) {
+  watch(stage, "position", position);
+  watch(stage, "cell", Vector{x.cell, y.cell, z.cell});
+  watch(stage, "weight", Vector{x.weight, y.weight, z.weight});
+}
+
 VOXMELT_RULE std::int32_t blended(std::int32_t below, std::int32_t above, std::int32_t weight) {
   return (below * (kWeights - weight) + above * weight + kWeights / 2) >> kWeightBits;
 }
 
 // levels(x, y, z) gives the level of any cell, kAir outside the grid.
-template <class Levels>
-VOXMELT_RULE std::int32_t sample(const Levels& levels, Vector position) {
+template <class Levels, class Watch = Silent>
+VOXMELT_RULE std::int32_t sample(const Levels& levels, Vector position, Watch watch = {}) {
   const Place x = place_of(position.x), y = place_of(position.y), z = place_of(position.z);
+  tell_place(watch, Stage::sample, position, x, y, z);
   const auto along_x = [&](std::int64_t cy, std::int64_t cz) {
-    return blended(levels(x.cell, cy, cz), levels(x.cell + 1, cy, cz), x.weight);
+    const std::int32_t below = levels(x.cell, cy, cz), above = levels(x.cell + 1, cy, cz);
+    const std::int32_t level = blended(below, above, x.weight);
+    watch(Stage::sample, "along x", level);
+    return level;
   };
   const auto along_y = [&](std::int64_t cz) {
-    return blended(along_x(y.cell, cz), along_x(y.cell + 1, cz), y.weight);
+    const std::int32_t below = along_x(y.cell, cz), above = along_x(y.cell + 1, cz);
+    const std::int32_t level = blended(below, above, y.weight);
+    watch(Stage::sample, "along y", level);
+    return level;
   };
-  return blended(along_y(z.cell), along_y(z.cell + 1), z.weight);
+  const std::int32_t below = along_y(z.cell), above = along_y(z.cell + 1);
+  const std::int32_t level = blended(below, above, z.weight);
+  watch(Stage::sample, "level", level);
+  return level;
 }
 
 // The box outside of which every sample is kAir: low <= position < high.

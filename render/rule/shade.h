@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -9,6 +10,7 @@
 #include "render/rule/look.h"
 #include "render/rule/matter.h"
 #include "render/rule/tables.h"
+#include "render/rule/watch.h"
 
 namespace voxmelt::picture {
 
@@ -62,7 +64,9 @@ VOXMELT_RULE std::int32_t cosine(Vector a, Vector b) {
 }
 
 // Lamp and ambient light that reach a surface, before its own colour; kLight is 1.
-VOXMELT_RULE Color arriving(const Paint& paint, Vector normal, const Light& light, bool lit_by_glow) {
+template <class Watch = Silent>
+VOXMELT_RULE Color arriving(const Paint& paint, Vector normal, const Light& light, bool lit_by_glow,
+                            Watch watch = {}) {
   constexpr std::int32_t kWrap = 2458, kPressed = 14247;  // 0.15 and 1 / 1.15: light bleeds a little around
   const std::int32_t lamp = light.lamp + (light.lamp >> 7);
   const std::int32_t facing = cosine(normal, paint.to_light);
@@ -70,17 +74,23 @@ VOXMELT_RULE Color arriving(const Paint& paint, Vector normal, const Light& ligh
   const std::int32_t seen = seen_along(light.open, normal), open = seen + (seen >> 7);
   const std::int32_t glow = lit_by_glow ? seen_along(light.glow, normal) : 0;
   const auto up = static_cast<std::int32_t>(normal.y) + kLength;  // 0 .. 2
-  Color sum{};
+  watch(Stage::arriving, "lamp", lamp), watch(Stage::arriving, "facing", facing);
+  watch(Stage::arriving, "lit", lit), watch(Stage::arriving, "seen open", seen);
+  watch(Stage::arriving, "seen glow", glow);
+  Color ambient{}, sum{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const std::int32_t ambient =
+    ambient[c] =
         paint.from_below[c] + (((paint.from_above[c] - paint.from_below[c]) * up) >> (kNormalBits + 1));
-    sum[c] = ((ambient * open) >> 8) + ((paint.lamp[c] * lit) >> kNormalBits) + ((kGlowLight[c] * glow) >> 5);
+    sum[c] =
+        ((ambient[c] * open) >> 8) + ((paint.lamp[c] * lit) >> kNormalBits) + ((kGlowLight[c] * glow) >> 5);
   }
+  watch(Stage::arriving, "ambient", ambient), watch(Stage::arriving, "arriving", sum);
   return sum;
 }
 
 // What is mirrored from a direction: sky or ground, the lamp and the strip.
-VOXMELT_RULE Color mirrored(const Paint& paint, Vector direction) {
+template <class Watch = Silent>
+VOXMELT_RULE Color mirrored(const Paint& paint, Vector direction, Watch watch = {}) {
   const auto height =
       static_cast<std::int32_t>(std::clamp<std::int64_t>(direction.y + kLength, 0, 2 * kLength));
   const std::uint32_t packed = paint.surroundings[static_cast<std::size_t>(height >> 4)];
@@ -96,6 +106,9 @@ VOXMELT_RULE Color mirrored(const Paint& paint, Vector direction) {
   for (std::size_t c = 0; c < 3; ++c)
     sum[c] =
         around[c] + ((kMirroredLamp[c] * lamp) >> kLightBits) + ((kMirroredStrip[c] * strip) >> kLightBits);
+  watch(Stage::mirror, "entry", height >> 4), watch(Stage::mirror, "surroundings", around);
+  watch(Stage::mirror, "lamp", lamp), watch(Stage::mirror, "strip", strip);
+  watch(Stage::mirror, "around", sum);
   return sum;
 }
 
@@ -106,8 +119,9 @@ VOXMELT_RULE Material mixed(const Material& a, const Material& b, std::int32_t s
 
 // Light from the matter's surface towards the eye. `to_eye` has kLength. Obstacles count from a share of 148
 // to 204, so that a film hides them and no blur shows.
+template <class Watch = Silent>
 VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
-                                Matter matter) {
+                                Matter matter, Watch watch = {}) {
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);  // 255 is kLight - 1
   const std::int32_t obstacle = std::clamp((matter.obstacle - 148) * 73, 0, kLight);
   Material material = mixed(paint.solid, paint.liquid, liquid);
@@ -121,14 +135,20 @@ VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye
     }
   }
   material = mixed(material, paint.obstacle, obstacle);
+  watch(Stage::material, "l", liquid), watch(Stage::material, "w", obstacle);
+  watch(Stage::material, "diffuse", material.diffuse), watch(Stage::material, "mirror", material.mirror);
+  watch(Stage::material, "highlight", material.highlight), watch(Stage::material, "gloss", material.gloss);
+  watch(Stage::material, "emission", emission);
 
-  const Color arrives = arriving(paint, normal, light, paint.glow && obstacle > 0);
+  const Color arrives = arriving(paint, normal, light, paint.glow && obstacle > 0, watch);
   const std::int32_t lamp = light.lamp + (light.lamp >> 7);
   const std::int32_t facing = cosine(normal, paint.to_light);
-  const Vector halfway = unit_of(paint.to_light + to_eye);
+  const Vector halfway = unit_of(paint.to_light + to_eye, watch);
   const std::int32_t shine = std::clamp(cosine(normal, halfway), 0, kLength);
   std::int32_t peak = highlight_at(paint.highlight, shine);
   if (obstacle > 0) peak = mixed(peak, highlight_at(paint.dull_highlight, shine), obstacle);
+  watch(Stage::mirror, "half", halfway), watch(Stage::mirror, "shine", shine);
+  watch(Stage::mirror, "unlit peak", peak);
   peak = (((peak * smooth_light(0, 1024, facing >> 2)) >> kLightBits) * lamp) >> 8;
 
   const std::int32_t eye = std::clamp(cosine(normal, to_eye), 0, kLength);
@@ -138,27 +158,37 @@ VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye
   const std::int32_t more = (graze * material.gloss) >> kNormalBits;
   const std::int64_t twice = 2 * dot(normal, to_eye) >> kNormalBits;
   const Vector reflected = ((normal * twice) >> kNormalBits) - to_eye;
-  const Color around = mirrored(paint, reflected);
+  watch(Stage::mirror, "peak", peak), watch(Stage::mirror, "eye", eye);
+  watch(Stage::mirror, "a2", away2), watch(Stage::mirror, "a4", away4);
+  watch(Stage::mirror, "graze", graze), watch(Stage::mirror, "more", more);
+  watch(Stage::mirror, "r", reflected);
+  const Color around = mirrored(paint, reflected, watch);
   const std::int32_t open = seen_along(light.open, normal), free = seen_along(light.open, reflected);
   // The mirrored light is at most 85 % hidden.
   const std::int32_t seen = 614 + (((free + (free >> 7)) * (open + (open >> 7)) * 3482) >> 16);
 
-  Color sum{};
+  watch(Stage::mirror, "seen open by r", free), watch(Stage::mirror, "free", seen);
+  Color fresnel{}, mirror{}, own{}, sum{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const std::int32_t fresnel = material.mirror[c] + (((kLight - material.mirror[c]) * more) >> kLightBits);
-    const std::int32_t mirror = (((around[c] * seen) >> kLightBits) * fresnel) >> kLightBits;
-    const std::int32_t own = (emission[c] * (2540 + ((1556 * eye) >> kNormalBits))) >> kLightBits;
+    fresnel[c] = material.mirror[c] + (((kLight - material.mirror[c]) * more) >> kLightBits);
+    mirror[c] = (((around[c] * seen) >> kLightBits) * fresnel[c]) >> kLightBits;
+    own[c] = (emission[c] * (2540 + ((1556 * eye) >> kNormalBits))) >> kLightBits;
     sum[c] = ((arrives[c] * material.diffuse[c]) >> kLightBits) +
-             ((material.highlight[c] * peak) >> kLightBits) + mirror + own;
+             ((material.highlight[c] * peak) >> kLightBits) + mirror[c] + own[c];
   }
+  watch(Stage::colour, "fresnel", fresnel), watch(Stage::colour, "mirrored", mirror);
+  watch(Stage::colour, "own", own), watch(Stage::colour, "colour", sum);
   return sum;
 }
 
 // Light from the ground, which is dull.
-VOXMELT_RULE Color ground_color(const Paint& paint, Vector normal, const Light& light, Color color) {
-  const Color arrives = arriving(paint, normal, light, paint.glow);
+template <class Watch = Silent>
+VOXMELT_RULE Color ground_color(const Paint& paint, Vector normal, const Light& light, Color color,
+                                Watch watch = {}) {
+  const Color arrives = arriving(paint, normal, light, paint.glow, watch);
   Color sum{};
   for (std::size_t c = 0; c < 3; ++c) sum[c] = (arrives[c] * color[c]) >> kLightBits;
+  watch(Stage::colour, "colour", sum);
   return sum;
 }
 

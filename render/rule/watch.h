@@ -1,0 +1,68 @@
+// Where the rule tells its numbers, for whoever wants to see them (render/reference/trace.h).
+//
+// A watcher is called as watcher(stage, name, value) once a number stands. Names are those of the pages. A
+// value is an integer, an array of them, a Vector, or something fetched.
+#pragma once
+
+#include <cstdint>
+
+#include "render/rule/fixed_point.h"
+
+namespace voxmelt::picture {
+
+// In the order of a ray. Each is a section of the pages.
+enum class Stage : std::uint8_t {
+  ray,       // docs/picture.md 4 and 5
+  sample,    // 6; those of a crossing, too
+  crossing,  // 7
+  ground,    // docs/picture-ground.md 2 to 4
+  met,       // docs/picture.md 9
+  unit,      // 8: how a vector is brought to its length
+  normal,    // 8
+  paint,     // docs/picture-ground.md 5 to 8: the ground's normal and colour
+  matter,    // docs/picture-light.md 3
+  light,     // 5
+  arriving,  // 6
+  material,  // 6
+  mirror,    // 6
+  colour,    // 6
+  pixel,     // 7 and 8, and docs/picture.md 10
+};
+
+// Nobody listens.
+struct Silent {
+  template <class Value>
+  [[gnu::always_inline]] constexpr void operator()(Stage, const char*, const Value&) const {}
+};
+
+// What a memory gave for a cell.
+template <class Value>
+struct Fetched {
+  Vector cell;
+  Value value;
+};
+template <class Value>
+Fetched(Vector, Value) -> Fetched<Value>;
+
+// Cells that tell what is read of them.
+template <class Cells, class Watch>
+struct Watched {
+  const Cells& cells;
+  Watch watch;
+  Stage stage;
+
+  [[gnu::always_inline]] constexpr auto operator()(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    const auto value = cells(x, y, z);
+    watch(stage, "fetched", Fetched{Vector{x, y, z}, value});
+    return value;
+  }
+  [[gnu::always_inline]] constexpr auto operator()(std::int64_t x, std::int64_t z) const {
+    const auto value = cells(x, z);
+    watch(stage, "fetched", Fetched{Vector{x, 0, z}, value});
+    return value;
+  }
+};
+template <class Cells, class Watch>
+Watched(const Cells&, Watch, Stage) -> Watched<Cells, Watch>;
+
+}  // namespace voxmelt::picture
