@@ -12,7 +12,9 @@ namespace voxmelt::picture {
 
 // In the order of a ray. Each is a section of the pages.
 enum class Stage : std::uint8_t {
+  pixel,     // docs/picture.md 10, docs/picture-light.md 7 and 8
   ray,       // docs/picture.md 4 and 5
+  brick,     // 12
   sample,    // 6; those of a crossing, too
   crossing,  // 7
   ground,    // docs/picture-ground.md 2 to 4
@@ -26,7 +28,6 @@ enum class Stage : std::uint8_t {
   material,  // 6
   mirror,    // 6
   colour,    // 6
-  pixel,     // 7 and 8, and docs/picture.md 10
 };
 
 // Nobody listens.
