@@ -1,7 +1,9 @@
 // voxmelt render: one picture, or a turntable.
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdint>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +18,7 @@
 #include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
 #include "render/packet/picture.h"
+#include "render/reference/print_trace.h"
 
 namespace voxmelt::app {
 namespace {
@@ -24,7 +27,8 @@ struct RenderOptions {
   Common common;
   std::uint32_t steps = 0;
   std::string out = "picture.png", size, setting = "normal";
-  std::string depth, normals;  // files; empty for none
+  std::string depth, normals;        // files; empty for none
+  std::optional<std::string> trace;  // X,Y
   std::optional<double> azimuth, elevation;
   int turntable = 0;
 };
@@ -37,6 +41,24 @@ CLI::Validator finite_within(double low, double high) {
             return good ? std::string() : fmt::format("{} is not a number from {} to {}", text, low, high);
           },
           fmt::format("NUMBER in [{} - {}]", low, high)};
+}
+
+struct Pixel {
+  int x = 0, y = 0;
+};
+
+// "X,Y", from the upper left corner of the picture.
+Pixel pixel_of(const std::string& text, const scene::Camera& camera) {
+  Pixel at;
+  const char *begin = text.data(), *end = begin + text.size();
+  const auto [comma, bad_x] = std::from_chars(begin, end, at.x);
+  const bool has_comma = bad_x == std::errc() && comma != end && *comma == ',';
+  const auto [behind, bad_y] = std::from_chars(has_comma ? comma + 1 : end, end, at.y);
+  if (!has_comma || bad_y != std::errc() || behind != end || at.x < 0 || at.y < 0 || at.x >= camera.width ||
+      at.y >= camera.height)
+    throw UsageError(fmt::format("--trace {}: error: not a pixel X,Y from 0,0 to {},{}", text,
+                                 camera.width - 1, camera.height - 1));
+  return at;
 }
 
 // Depth and normals, as far as they are wanted; returns what to print about them.
@@ -64,6 +86,7 @@ int run_render(const RenderOptions& options) {
   if (options.elevation) scene.camera.elevation = *options.elevation;
   if (options.turntable > 0 && !(options.depth.empty() && options.normals.empty()))
     throw UsageError("--turntable: error: --depth and --normals are of one picture");
+  const Pixel traced = options.trace ? pixel_of(*options.trace, scene.camera) : Pixel{};
   check_report_place(options.common, options.turntable > 0 ? options.out : "");
   catch_interrupts();
 
@@ -80,6 +103,12 @@ int run_render(const RenderOptions& options) {
   const render::Setting setting = options.setting == "fast"   ? render::Setting::fast
                                   : options.setting == "best" ? render::Setting::best
                                                               : render::Setting::normal;
+  if (options.trace) {
+    render::print_trace(std::cout, simulation.volume(), scene.look, scene.light, scene.terrain, scene.camera,
+                        setting, traced.x, traced.y);
+    write_report(options.common, report_json(scene, options.common, simulation, {}));
+    return kDone;
+  }
   render::Picture picture;
   picture.update(simulation.volume(), scene.look, scene.light, scene.terrain, threads);
   const auto draw = [&] { return picture.draw(scene.camera, setting, threads); };
@@ -113,11 +142,13 @@ void add_render(CLI::App& program, Chosen& chosen) {
       program.add_subcommand("render", "Draw the state after N steps: one picture, or a turntable");
   add_scene(*command, options->common);
   command->add_option("--steps", options->steps, "steps to run first")->capture_default_str();
-  command->add_option("--out", options->out, "file to write (folder with --turntable)")
-      ->capture_default_str();
+  CLI::Option* out = command->add_option("--out", options->out, "file to write (folder with --turntable)")
+                         ->capture_default_str();
   command->add_option("--size", options->size, "size in pixels, e.g. 1280x960");
-  command->add_option("--depth", options->depth, "also write how far the surface is (PNG, 16 bits)");
-  command->add_option("--normals", options->normals, "also write where the surface faces (PNG, 3 x 16 bits)");
+  CLI::Option* depth =
+      command->add_option("--depth", options->depth, "also write how far the surface is (PNG, 16 bits)");
+  CLI::Option* normals = command->add_option("--normals", options->normals,
+                                             "also write where the surface faces (PNG, 3 x 16 bits)");
   command->add_option("--setting", options->setting, "samples per pixel: fast 1, normal 1 or 8, best 1 or 32")
       ->check(CLI::IsMember({"fast", "normal", "best"}))
       ->capture_default_str();
@@ -125,10 +156,14 @@ void add_render(CLI::App& program, Chosen& chosen) {
       ->check(finite_within(-360, 360));
   command->add_option("--elevation", options->elevation, "degrees above the horizon, instead of the scene's")
       ->check(finite_within(-89, 89));
+  CLI::Option* turntable = command
+                               ->add_option("--turntable", options->turntable,
+                                            "this many views around the scene, into the folder --out")
+                               ->check(CLI::Range(1, 3600));
   command
-      ->add_option("--turntable", options->turntable,
-                   "this many views around the scene, into the folder --out")
-      ->check(CLI::Range(1, 3600));
+      ->add_option("--trace", options->trace,
+                   "print all numbers of pixel X,Y, from the upper left, instead of drawing")
+      ->excludes(out, turntable, depth, normals);
   add_common(*command, options->common);
   command->callback([options, &chosen] { chosen = [options] { return run_render(*options); }; });
 }

@@ -40,7 +40,7 @@ ALLOWED = {
     "render/ground": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE],
     "render/packet": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", STATE, CPU, PICTURE, "render/image", "render/density",
                       "render/light", "render/ground", "render/brick"],
-    "render/reference": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image", "render/density", "render/light",
+    "render/reference": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", f"{STATE}/volume.h", PICTURE, "render/image", "render/density", "render/light",
                        "render/ground", "render/packet"],
     # The model computes with its own arithmetic: of the kernel it sees data only.
     "hwmodel/channel": [],
@@ -64,7 +64,7 @@ ALLOWED = {
                 "render/image", "render/packet"],
     "examples": ["include/voxmelt"],
     "app": [CPU, "accuracy", "accuracy/report", "bench/measure", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
-            "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h"],
+            "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.
 THIRD_PARTY = {

@@ -1,0 +1,18 @@
+// The trace of one pixel of a state, as text (docs/picture-trace.md).
+#pragma once
+
+#include <iosfwd>
+
+#include "kernel/automaton/state/volume.h"
+#include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
+#include "render/packet/draw_picture.h"
+
+namespace voxmelt::render {
+
+// Pixel (x, y) from the upper left corner. A terrain of another size than the volume's is none.
+void print_trace(std::ostream& out, const state::Volume& volume, const scene::Look& look,
+                 const scene::Light& light, const scene::Terrain& terrain, const scene::Camera& camera,
+                 Setting setting, int x, int y);
+
+}  // namespace voxmelt::render
