@@ -16,9 +16,9 @@ namespace {
 using picture::Stage;
 using picture::Vector;
 
-constexpr std::array<std::string_view, 16> kStages{
-    "pixel",  "ray",   "brick",  "sample", "crossing", "ground",   "met",    "unit",
-    "normal", "paint", "matter", "light",  "arriving", "material", "mirror", "colour"};
+constexpr std::array<std::string_view, 17> kStages{
+    "picture", "pixel", "ray",    "brick", "sample",   "crossing", "ground", "met",   "unit",
+    "normal",  "paint", "matter", "light", "arriving", "material", "mirror", "colour"};
 static_assert(kStages.size() == static_cast<std::size_t>(Stage::colour) + 1);
 
 // The numbers of a value, one after the other.
@@ -84,6 +84,30 @@ struct Teller {
   }
 };
 
+void tell_material(const Teller& teller, const std::array<const char*, 4>& names,
+                   const picture::Material& of) {
+  teller(Stage::picture, names[0], of.diffuse), teller(Stage::picture, names[1], of.mirror);
+  teller(Stage::picture, names[2], of.highlight), teller(Stage::picture, names[3], of.gloss);
+}
+
+// What all rays share, but for tables.
+void tell_picture(const Teller& teller, const PictureScene& scene, const picture::View& view) {
+  const auto tell = [&](const char* name, const auto& value) { teller(Stage::picture, name, value); };
+  tell("eye", view.eye), tell("forward", view.forward), tell("right", view.right), tell("up", view.up);
+  tell("wide", view.wide), tell("high", view.high), tell("near", view.near);
+  tell("near_wide", view.near_wide), tell("near_high", view.near_high);
+  const picture::Paint& paint = scene.paint;
+  tell("to_light", paint.to_light), tell("to_strip", paint.to_strip), tell("lamp", paint.lamp);
+  tell("from_below", paint.from_below), tell("from_above", paint.from_above);
+  tell_material(teller, {"solid diffuse", "solid mirror", "solid highlight", "solid gloss"}, paint.solid);
+  tell_material(teller, {"liquid diffuse", "liquid mirror", "liquid highlight", "liquid gloss"},
+                paint.liquid);
+  tell_material(teller, {"obstacle diffuse", "obstacle mirror", "obstacle highlight", "obstacle gloss"},
+                paint.obstacle);
+  tell("lamp low", paint.lamp_low), tell("lamp high", paint.lamp_high), tell("strip low", paint.strip_low);
+  tell("cells of light", scene.light.count()), tell("s", scene.light.shift());
+}
+
 }  // namespace
 
 std::string_view name_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
@@ -91,7 +115,9 @@ std::string_view name_of(Stage stage) { return kStages[static_cast<std::size_t>(
 Image reference_picture(const PictureScene& scene, const picture::Camera& camera, Setting setting,
                         Listener& listener) {
   Telling telling{listener, {}};
-  return picture_of(ReferencePixels(scene, camera, setting, Teller{&telling}), camera);
+  const ReferencePixels pixels(scene, camera, setting, Teller{&telling});
+  tell_picture({&telling}, scene, pixels.view());
+  return picture_of(pixels, camera);
 }
 
 Rgb reference_pixel(const PictureScene& scene, const picture::Camera& camera, Setting setting, std::int64_t x,
@@ -99,6 +125,7 @@ Rgb reference_pixel(const PictureScene& scene, const picture::Camera& camera, Se
   Telling telling{listener, {}};
   const ReferencePixels traced(scene, camera, setting, Teller{&telling});
   const ReferencePixels<> silent(scene, camera, setting);
+  tell_picture({&telling}, scene, traced.view());
   const Rgb one = traced.with_one_sample(x, y);
   const auto at = [&](std::int64_t nx, std::int64_t ny) { return silent.with_one_sample(nx, ny); };
   return silent.needs_more_samples(at, x, y) ? traced.with_more_samples(x, y) : one;
@@ -121,7 +148,7 @@ void TraceText::flush() {
   for (const Line& line : lines_) {
     const std::string stage(name_of(stage_));
     out_ << stage << std::string(10 - stage.size(), ' ') << line.name
-         << std::string(line.name.size() < 16 ? 16 - line.name.size() : 0, ' ') << line.numbers << '\n';
+         << std::string(20 - std::min<std::size_t>(line.name.size(), 20), ' ') << line.numbers << '\n';
   }
   lines_.clear();
 }

@@ -12,6 +12,7 @@ namespace voxmelt::picture {
 
 // In the order of a ray. Each is a section of the pages.
 enum class Stage : std::uint8_t {
+  picture,   // what all rays share: docs/picture.md 3, docs/picture-light.md 1
   pixel,     // docs/picture.md 10, docs/picture-light.md 7 and 8
   ray,       // docs/picture.md 4 and 5
   brick,     // 12
