@@ -51,7 +51,7 @@ picture::Vector cut_color(const GroundMap& map, const picture::GroundCrossing& c
     };
     const std::int32_t bend = entry(bends, along);
     band = entry(map.bands(), (crossing.position.y + bend) << picture::kBandFineness);
-    watch(picture::Stage::paint, "bend", bend), watch(picture::Stage::paint, "band", band);
+    watch(picture::Stage::texture, "bend", bend), watch(picture::Stage::texture, "band", band);
   }
   return picture::cut_color(map.color(), band);
 }
@@ -73,7 +73,7 @@ GroundMap::Paint top_paint(const GroundMap& map, picture::Vector position, pictu
                              columns, rows, x, z);
   };
   // The five channels come with the same four texels, so a watcher sees these once.
-  const picture::Watched told{texel, watch, picture::Stage::paint};
+  const picture::Watched told{texel, watch, picture::Stage::texture};
   constexpr std::int32_t kToNormal = 1 << (picture::kNormalBits - picture::kBumpBits);
   const std::int64_t red = channel(told, [](const picture::Texel& t) { return t.red; });
   const std::int64_t green = channel(texel, [](const picture::Texel& t) { return t.green; });

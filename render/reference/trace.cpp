@@ -16,9 +16,9 @@ namespace {
 using picture::Stage;
 using picture::Vector;
 
-constexpr std::array<std::string_view, 17> kStages{
-    "picture", "pixel", "ray",    "brick", "sample",   "crossing", "ground", "met",   "unit",
-    "normal",  "paint", "matter", "light", "arriving", "material", "mirror", "colour"};
+constexpr std::array<std::string_view, 18> kStages{
+    "picture", "pixel", "ray",     "brick",  "sample", "crossing", "ground",   "met",    "unit",
+    "normal",  "paint", "texture", "matter", "light",  "arriving", "material", "mirror", "colour"};
 static_assert(kStages.size() == static_cast<std::size_t>(Stage::colour) + 1);
 
 // The numbers of a value, one after the other.

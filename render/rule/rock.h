@@ -75,7 +75,7 @@ VOXMELT_RULE std::int8_t bump(std::int32_t before, std::int32_t behind, int fine
 // Adds a bump to a normal; in 2^-14.
 template <class Watch = Silent>
 VOXMELT_RULE Vector roughened(Vector normal, std::int64_t bump_x, std::int64_t bump_z, Watch watch = {}) {
-  watch(Stage::paint, "bump", std::array{bump_x, bump_z});
+  watch(Stage::texture, "bump", std::array{bump_x, bump_z});
   return unit(normal + Vector{bump_x, 0, bump_z}, watch);
 }
 

@@ -22,7 +22,8 @@ enum class Stage : std::uint8_t {
   met,       // docs/picture.md 9
   unit,      // 8: how a vector is brought to its length
   normal,    // 8
-  paint,     // docs/picture-ground.md 5 to 8: the ground's normal and colour
+  paint,     // docs/picture-ground.md 5 and 8: the ground's normal and colour
+  texture,   // 7 and 8
   matter,    // docs/picture-light.md 3
   light,     // 5
   arriving,  // 6
