@@ -1,6 +1,7 @@
 // voxmelt render: one picture, or a turntable.
 #include <fmt/format.h>
 
+#include <system_error>
 #include <charconv>
 #include <cstdint>
 #include <iostream>

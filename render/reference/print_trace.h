@@ -1,7 +1,7 @@
 // The trace of one pixel of a state, as text (docs/picture-trace.md).
 #pragma once
 
-#include <iosfwd>
+#include <ostream>
 
 #include "kernel/automaton/state/volume.h"
 #include "kernel/scene/look.h"

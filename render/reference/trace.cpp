@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <ostream>
 #include <type_traits>
 
 #include "render/packet/field_bricks.h"

@@ -193,6 +193,37 @@ class Frames(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("/nowhere/n.png: error: cannot be written: No such file", result.stderr)
 
+    def test_the_trace_ends_with_the_pixel_of_the_picture(self):
+        self.assertEqual(voxmelt("render", self.scene, "--steps", 3, "--out", "p.png", cwd=self.folder).returncode, 0)
+        width, _, _, bytes_of = picture(self.folder / "p.png")
+        refined = 0
+        for x, y in ((0, 0), (63, 47), (32, 20), (30, 28), (40, 30), (20, 25), (35, 12)):
+            result = voxmelt("render", self.scene, "--steps", 3, "--trace", f"{x},{y}", cwd=self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            lines = [line.split() for line in result.stdout.splitlines()]
+            self.assertIn(["pixel", "pixel", str(x), str(y)], lines)
+            at = 3 * (y * width + x)
+            self.assertEqual(lines[-1], ["pixel", "bytes", *map(str, bytes_of[at:at + 3])])
+            refined += ["pixel", "samples", "8"] in lines
+        self.assertGreater(refined, 0)
+        self.assertLess(refined, 7)
+        self.assertFalse((self.folder / "picture.png").exists())
+
+    def test_a_trace_is_of_a_pixel_of_the_picture(self):
+        for place in ("64,0", "0,48", "-1,0", "0,-1", "1", "1,", ",1", "1,2,3", "a,b", "1, 2", "99999999999,1", ""):
+            result = voxmelt("render", self.scene, f"--trace={place}", cwd=self.folder)
+            self.assertEqual((result.returncode, result.stdout), (2, ""), place)
+            self.assertIn("--trace", result.stderr, place)
+        result = voxmelt("render", self.scene, "--trace", "64,0", cwd=self.folder)
+        self.assertEqual(result.stderr, "--trace 64,0: error: not a pixel X,Y from 0,0 to 63,47\n")
+        for other in (["--out", "o.png"], ["--turntable", 2], ["--depth", "d.png"], ["--normals", "n.png"]):
+            result = voxmelt("render", self.scene, "--trace", "1,1", *other, cwd=self.folder)
+            self.assertEqual(result.returncode, 2, other)
+            self.assertIn(str(other[0]), result.stderr)
+        with open("/dev/full", "w") as full:
+            self.assertEqual(subprocess.run([PROGRAM, "render", self.scene, "--trace", "32,20"], cwd=self.folder, stdout=full,
+                                            stderr=subprocess.PIPE).returncode, 3)
+
     def test_a_camera_inside_something_is_warned_of(self):
         said = "the camera stands in matter or in the ground, and sees nothing else"
         inside = ["camera.distance=0.5", "camera.azimuth=0", "camera.elevation=0"]
