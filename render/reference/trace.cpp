@@ -36,7 +36,7 @@ struct Numbers {
     else if constexpr (std::is_same_v<Value, picture::Light>)
       add(value.lamp), add(value.open), add(value.glow);
     else if constexpr (std::is_same_v<Value, picture::Texel>)
-      add(value.red), add(value.green), add(value.blue), add(value.bump_x), add(value.bump_z);
+      add(value.red), add(value.green), add(value.blue), add(int{value.bump_x}), add(int{value.bump_z});
     else
       for (const auto& one : value) add(one);
   }
