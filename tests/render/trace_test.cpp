@@ -28,7 +28,6 @@ namespace voxmelt {
 namespace {
 
 using picture::Stage;
-using picture::Vector;
 using test::HostilePicture;
 
 constexpr std::uint64_t kPictures = 60;
@@ -171,19 +170,17 @@ class Widths : public render::Listener {
 
   // In words; nothing if all is as the table says.
   std::string wrong() const {
-    std::string text;
-    for (const std::string& name : unknown_) text += name + " is not in the table\n";
+    std::ostringstream text;
+    for (const std::string& name : unknown_) text << name << " is not in the table\n";
     for (const auto& [stage, names] : widths_)
       for (const auto& [name, width] : names) {
         const std::int64_t end = std::int64_t{1} << (width.bits - (width.with_sign ? 1 : 0));
         const bool fits = width.high < end && width.low >= (width.with_sign ? -end : 0);
-        if (!width.seen) text += stage + " " + name + " is never told\n";
-        if (width.other_count) text += stage + " " + name + " has another count of numbers\n";
-        if (!fits)
-          text += stage + " " + name + " goes from " + std::to_string(width.low) + " to " +
-                  std::to_string(width.high) + "\n";
+        if (!width.seen) text << stage << ' ' << name << " is never told\n";
+        if (width.other_count) text << stage << ' ' << name << " has another count of numbers\n";
+        if (!fits) text << stage << ' ' << name << " goes from " << width.low << " to " << width.high << '\n';
       }
-    return text;
+    return text.str();
   }
 
  private:
