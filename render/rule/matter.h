@@ -43,7 +43,8 @@ VOXMELT_RULE std::int64_t among_centers(std::int64_t position, std::int64_t cell
   return std::clamp(position, kCell / 2, cells * kCell - kCell / 2);
 }
 
-// Bytes between eight cells, like levels. `cells` is the size of the grid, matter(x, y, z) asks for its cells.
+// Bytes between eight cells, like levels. `cells` is the size of the grid, matter(x, y, z) asks for its
+// cells.
 template <class Cells>
 VOXMELT_RULE Matter matter_at(const Cells& matter, Vector cells, Vector position) {
   const Place x = place_of(among_centers(position.x, cells.x)),

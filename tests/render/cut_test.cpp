@@ -174,11 +174,12 @@ TEST(Face, OfAnObstacleIsAnObstacle) {
   });
 }
 
-// A crust in ambient light, and the glow itself: h^1.75, h^4.5 and h^8 with 2.3, 1.15 and 0.2. The heat counts
-// in 256 steps, and one step is two bytes of red.
+// A crust in ambient light, and the glow itself: h^1.75, h^4.5 and h^8 with 2.3, 1.15 and 0.2. The heat
+// counts in 256 steps, and one step is two bytes of red.
 TEST(Face, OfLavaGlows) {
   constexpr double kHeat = 0.4;
-  constexpr Light kCold{139 / 4096.0, 119 / 4096.0, 115 / 4096.0}, kHot{164 / 4096.0, 57 / 4096.0, 33 / 4096.0};
+  constexpr Light kCold{139 / 4096.0, 119 / 4096.0, 115 / 4096.0},
+      kHot{164 / 4096.0, 57 / 4096.0, 33 / 4096.0};
   const Light glow{2.3 * std::pow(kHeat, 1.75), 1.15 * std::pow(kHeat, 4.5), 0.2 * std::pow(kHeat, 8)};
   for_each_face([&](const Side& side, int inset, scene::Look look) {
     look.glow = true;
