@@ -116,8 +116,11 @@ class Painter {
   picture::Color matter_color(const Met& met) const {
     const picture::Vector normal = matter_normal(met), position = met.matter.position;
     const auto cells = watched(scene_.matter, Stage::matter);
-    picture::Matter matter = picture::matter_at(cells, position, watch_);
-    matter.obstacle = picture::matter_at(cells, position + normal * (std::int64_t{1} << 5), watch_).obstacle;
+    const auto matter_at = [&](picture::Vector p) {
+      return picture::matter_at(cells, scene_.cells, p, watch_);
+    };
+    picture::Matter matter = matter_at(position);
+    matter.obstacle = matter_at(position + normal * (std::int64_t{1} << 5)).obstacle;
     const picture::Light light = light_before(position, normal);
     return picture::matter_color(scene_.paint, normal, to_eye(met), light, matter, watch_);
   }

@@ -383,7 +383,8 @@ class Pixel:
 
     # picture-light.md 3
     def matter(self, position):
-        corners, weights = self.look_up("matter", position)
+        among = [clamp(p, 1 << 19, (n << 20) - (1 << 19)) for p, n in zip(position, self.cells)]
+        corners, weights = self.look_up("matter", among)
 
         def bytes_of(cell):
             if self.at(self.levels, cell, AIR) == AIR:
