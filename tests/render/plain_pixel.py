@@ -102,7 +102,7 @@ class Pixel:
         inside = all(0 <= c < n for c, n in zip(cell, self.cells))
         return table[cell] if inside else beside
 
-    # picture-field.md 2, and picture.md 6
+    # picture-field.md 2 and 6, and picture.md 6
     def make_field(self):
         self.solid, self.liquid = {}, {}
         for cell in product(*map(range, self.cells)):
@@ -110,14 +110,22 @@ class Pixel:
             is_solid = any(map(inside, self.scene["solid"]))
             self.solid[cell] = 65280 if is_solid else 0
             self.liquid[cell] = 65280 if not is_solid and any(map(inside, self.scene["liquid"])) else 0
-        table = self.intensity = {c: self.solid[c] + self.liquid[c] for c in self.solid}
+        self.intensity = {c: self.solid[c] + self.liquid[c] for c in self.solid}
+        for axis in (2, 1, 0):  # of the channels of matter: one pass is the least
+            self.solid, self.liquid = (self.along(of, axis, lambda a, b, c: (a + 2 * b + c + 2) >> 2)
+                                       for of in (self.solid, self.liquid))
+        table = self.intensity
         for axis in range(3):
-            def near(cell, by):
-                moved = list(cell)
-                moved[axis] = clamp(cell[axis] + by, 0, self.cells[axis] - 1)
-                return table[tuple(moved)]
-            table = {c: (43 * near(c, -1) + 170 * table[c] + 43 * near(c, 1) + 128) >> 8 for c in table}
+            table = self.along(table, axis, lambda a, b, c: (43 * a + 170 * b + 43 * c + 128) >> 8)
         self.levels = {c: table[c] - 32640 for c in table}
+
+    def along(self, table, axis, new):
+        """Each cell with its neighbours along an axis; the cells at the ends repeat themselves."""
+        def near(cell, by):
+            moved = list(cell)
+            moved[axis] = clamp(cell[axis] + by, 0, self.cells[axis] - 1)
+            return table[tuple(moved)]
+        return {c: new(near(c, -1), table[c], near(c, 1)) for c in table}
 
     def unit(self, g, of_any_length=False):
         """picture.md 8"""
