@@ -1,13 +1,13 @@
 // voxmelt render: one picture, or a turntable.
 #include <fmt/format.h>
 
-#include <system_error>
 #include <charconv>
 #include <cstdint>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "app/commands.h"
 #include "app/film.h"
