@@ -36,8 +36,7 @@ class Kept {
   explicit Kept(const scene::Scene& scene) : scene_(scene) {}
 
   int update_field(const state::Volume& volume, const Variant& by) {
-    return field_.update(volume, scene_.look, scene_.terrain, by.threads,
-                         render::loops_of(by.drawer.set));
+    return field_.update(volume, scene_.look, scene_.terrain, by.threads, render::loops_of(by.drawer.set));
   }
   void update_picture(const Variant& by) {
     picture_.update(field_, scene_.look, scene_.light, scene_.terrain, fresh_ ? nullptr : &field_.refreshed(),
@@ -84,8 +83,8 @@ struct Expected {
 void check(const Kept& kept, const Expected& expected, std::optional<Pictures>& large, const Variant& by,
            const std::string& workload) {
   const auto fail = [&](const std::string& what) {
-    throw Mismatch(fmt::format("{} on {}, {} threads: {}", cpu::name_of(by.drawer.set), workload, by.threads,
-                               what));
+    throw Mismatch(
+        fmt::format("{} on {}, {} threads: {}", cpu::name_of(by.drawer.set), workload, by.threads, what));
   };
   if (!kept.same_field(expected.fresh)) fail("the updated field is not that of a fresh one");
   Pictures drawn;
