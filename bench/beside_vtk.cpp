@@ -5,17 +5,16 @@
 // Melts a scene to the middle of its melt and writes the field that is drawn: 16 bits a cell, x fastest. It
 // prints a line of JSON with grid, camera and our errors. For every line that comes in, it draws, and prints
 // a line with the least milliseconds so far, on one thread.
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <ios>
 #include <iostream>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "accuracy/picture/compare.h"

@@ -2,8 +2,8 @@
 # Writes docs/performance.md, docs/performance_picture.md, docs/performance_tables.md and
 # docs/gallery/roofline.svg from one run of `voxmelt bench`, in about twenty minutes.
 #   bench/write_performance.sh [VOXMELT] [further options of voxmelt bench]
-# The text of docs/<page>.md comes from bench/<page>_template.md. A line {{name}} becomes the table of
-# that name. What other programs measure comes from the file bench/performance_<name>.md, which
+# The text of a page comes from its template in this folder. A line {{name}} becomes the table of that
+# name. What other programs measure comes from the file bench/performance_<name>.md, which
 # bench/feature_cost.py and bench/compare_vtk.py write. WRITE_TO names another folder than docs.
 set -euo pipefail
 cd "$(dirname "$0")/.."

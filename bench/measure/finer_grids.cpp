@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 
 #include "bench/measure/clocks.h"
 #include "bench/measure/measure.h"

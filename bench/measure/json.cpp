@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 
-#include <vector>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/measure/report.h"
 

@@ -1,8 +1,8 @@
 #include "bench/measure/melt_film.h"
 
-#include <vector>
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "bench/measure/clocks.h"
 #include "bench/measure/drawing.h"

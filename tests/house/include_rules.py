@@ -48,7 +48,7 @@ ALLOWED = {
     "hwmodel/faults": ["hwmodel/channel", "hwmodel/stream"],
     "hwmodel/presets": ["hwmodel/stream", "kernel/scene/text"],
     "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
-    "bench": ["accuracy/picture", "bench/measure", "hwmodel/stream", "kernel/scene", "kernel/run", "render/density", "render/packet",
+    "bench": ["accuracy/picture", "bench/measure", "hwmodel/stream", STATE, "kernel/scene", "kernel/run", "render/density", "render/packet",
               "render/reference"],
     "bench/baseline": [PARAMETERS, STATE],
     "bench/measure": ["bench/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
