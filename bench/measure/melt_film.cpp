@@ -19,6 +19,8 @@ constexpr int kPart = 25;  // frames that are timed together
 struct Round {
   std::vector<double> parts;  // seconds
   double processor_seconds = 0;
+  std::uint32_t steps = 0;  // done
+  int frames = 0;           // drawn
 };
 
 Round film_once(const scene::Scene& scene, int frames, int threads) {
@@ -48,6 +50,8 @@ Round film_once(const scene::Scene& scene, int frames, int threads) {
     drawing.wait();
   }
   round.processor_seconds = now(Clock::process) - processor;
+  round.steps = simulation.steps_done();
+  round.frames = static_cast<int>(ends.size());
   double from = begin;
   for (std::size_t end = kPart; end < ends.size() + kPart; end += kPart) {
     const double at = ends[std::min(end, ends.size()) - 1];
@@ -68,8 +72,6 @@ MeltFilm measure_melt_film(const scene::Scene& scene, int frames, int threads, i
   MeltFilm film;
   film.scene = scene.name;
   film.grid = scene.initial.grid;
-  film.steps = scene.steps;
-  film.frames = frames;
   film.threads = threads;
   film.rounds = rounds;
   std::vector<Least> parts;
@@ -79,6 +81,8 @@ MeltFilm measure_melt_film(const scene::Scene& scene, int frames, int threads, i
     parts.resize(round.parts.size());
     for (std::size_t part = 0; part < parts.size(); ++part) parts[part].add(round.parts[part]);
     processor.add(round.processor_seconds);
+    film.steps = round.steps;
+    film.frames = round.frames;
   }
   for (const Least& part : parts) film.seconds += part.value();
   film.processor_seconds = processor.value();
