@@ -138,6 +138,9 @@ int main(int argc, char** argv) {
   }
   try {
     voxmelt::run(argv[1], argv[2]);
+  } catch (const voxmelt::scene::InputError& error) {
+    std::fprintf(stderr, "beside_vtk: %s\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "beside_vtk: %s\n", error.what());
     return 1;

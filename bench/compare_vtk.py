@@ -15,6 +15,7 @@ Prints a table, and writes it to bench/performance_vtk.md, from where it comes i
 import argparse
 import json
 import math
+import os
 import subprocess
 import sys
 import tempfile
@@ -30,11 +31,16 @@ GOALS = {"fast": 15, "normal": 10}
 ALLOWANCE = {"avx512": 1, "avx2": 1.3, "sse4.2": 2.5}
 
 
+def give_up(why):
+    print(f"compare_vtk.py: error: {why}", file=sys.stderr)
+    sys.exit(2)
+
+
 def need(module, package):
     try:
         return __import__(module)
     except ImportError:
-        sys.exit(f"compare_vtk.py: {sys.executable} has no module {module}; apt-get install {package}")
+        give_up(f"{sys.executable} has no module {module}: apt-get install {package}, and use /usr/bin/python3")
 
 
 class Vtk:
@@ -170,11 +176,9 @@ def main():
     arguments = parser.parse_args()
     vtk, numpy = need("vtk", "python3-vtk9"), need("numpy", "python3-numpy")
     if not Path(arguments.beside).exists():
-        sys.exit("compare_vtk.py: build the target beside_vtk first (cmake --build --preset release --target beside_vtk)")
-    if not vtk.vtkRenderWindow().IsA("vtkEGLRenderWindow"):
-        import os
-        if not os.environ.get("DISPLAY"):
-            sys.exit("compare_vtk.py: VTK wants a display; run it by xvfb-run -a (package xvfb)")
+        give_up(f"there is no {arguments.beside}: cmake --build --preset release --target beside_vtk")
+    if not os.environ.get("DISPLAY"):  # VTK would abort
+        give_up("VTK wants a display: apt-get install xvfb, and run this by xvfb-run -a")
     table = report([compared(name, arguments, vtk, numpy) for name in arguments.scenes])
     version = vtk.vtkVersion().GetVTKVersion()
     text = f"{table}\n\nWritten by `bench/compare_vtk.py` with VTK {version} on {date.today()}.\n"
