@@ -123,7 +123,7 @@ int run_bench(const BenchOptions& options) {
     if (picture) print_drawing(suite.run_drawing(workload, scene));
   }
   if (automaton && options.scenes.empty()) suite.run_dense();
-  if (!finer.empty()) print_finer_grids(suite.run_finer_grids(finer));
+  if (!finer.empty()) print_finer_grids(suite.run_finer_grids(finer, options.from));
   for (const scene::Scene& scene : films) print_film(suite.run_film(scene));
 
   const measure::Findings findings = suite.take();

@@ -52,12 +52,12 @@ std::optional<double> growth_of_normal(const std::vector<FinerGrid>& grids, std:
 
 std::vector<FinerGrid> measure_finer_grids(const std::vector<scene::Scene>& scenes,
                                            const std::vector<Drawer>& drawers, int threads,
-                                           const Rounds& rounds) {
+                                           const Rounds& rounds, std::optional<std::uint32_t> step) {
   std::vector<FinerGrid> result;
   std::vector<render::Picture> pictures;
   std::vector<scene::Camera> cameras;
   for (const scene::Scene& scene : scenes) {
-    const Workload middle = half_melted(scene, threads);
+    const Workload middle = step ? scene_at(scene, *step, threads) : half_melted(scene, threads);
     FinerGrid& grid = result.emplace_back();
     grid.scene = middle.name;
     grid.grid = middle.start.grid;

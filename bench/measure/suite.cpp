@@ -193,9 +193,10 @@ const Drawing& Suite::run_drawing(const Workload& workload, const scene::Scene& 
   return findings_.drawings.back();
 }
 
-const std::vector<FinerGrid>& Suite::run_finer_grids(const std::vector<scene::Scene>& scenes) {
+const std::vector<FinerGrid>& Suite::run_finer_grids(const std::vector<scene::Scene>& scenes,
+                                                     std::optional<std::uint32_t> step) {
   return findings_.finer_grids =
-             measure_finer_grids(scenes, plan_.drawers, plan_.threads.back(), plan_.rounds);
+             measure_finer_grids(scenes, plan_.drawers, plan_.threads.back(), plan_.rounds, step);
 }
 
 const MeltFilm& Suite::run_film(const scene::Scene& scene) {

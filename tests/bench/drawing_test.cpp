@@ -128,6 +128,8 @@ TEST(FinerGrids, AreDrawnHalfMelted) {
   ASSERT_EQ(grids.size(), 2U);
   EXPECT_EQ(grids[0].scene, middle.name);
   EXPECT_GT(grids[1].timings[0].normal, 0);
+  EXPECT_EQ(measure_finer_grids({scene}, {drawer_of(cpu::widest())}, 1, {1, 0}, 7)[0].scene,
+            "scene:drop/step:7");
 }
 
 TEST(MeltFilm, HasAllStepsInAllFrames) {
