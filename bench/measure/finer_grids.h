@@ -1,6 +1,7 @@
 // The same scene on finer and finer grids, drawn at the same size: a picture should cost little more.
 #pragma once
 
+#include <cstdint>
 #include <cstddef>
 #include <optional>
 #include <string>
