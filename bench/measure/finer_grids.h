@@ -1,8 +1,8 @@
 // The same scene on finer and finer grids, drawn at the same size: a picture should cost little more.
 #pragma once
 
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
