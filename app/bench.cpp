@@ -2,76 +2,42 @@
 // paper's program.
 #include <fmt/format.h>
 
-#include <cstddef>
+#include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "app/bench_text.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/options.h"
 #include "app/version.h"
 #include "bench/measure/report.h"
 #include "bench/measure/suite.h"
+#include "kernel/engine/cpu/instruction_set.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
 namespace {
 
-using measure::Case;
-using measure::Subject;
-
 struct BenchOptions {
   Common common;
+  std::vector<std::string> parts{"automaton", "picture"};
   std::vector<std::string> scenes;
   std::optional<std::uint32_t> from;
   std::string out;
   bool quick = false;
+
+  bool wants(const char* part) const { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
 };
 
 void note(const Common& common, const std::string& text) {
   if (!common.quiet) std::cerr << text << '\n';
-}
-
-void print_case(const Case& one) {
-  const auto phase = [&](step::Phase p) {
-    return measure::milliseconds(one.step.phase[static_cast<std::size_t>(p)]);
-  };
-  using enum step::Phase;
-  const std::string phases = one.subject == Subject::flow
-                                 ? fmt::format("{} + {} + {}", phase(gravity), phase(spread), phase(excess))
-                                 : fmt::format("{} + {}", phase(heat), phase(melt));
-  fmt::print("  {:<5} {:<9} {:>7}  {:>8}  {:<22} {:>8.0f} {:>8.0f} {:>8} {:>6} {:>6} {:>8} {:>8} {:>6}\n",
-             measure::name_of(one.subject), one.implementation, one.threads,
-             measure::milliseconds(one.seconds), phases, one.cells_per_second() / 1e6,
-             one.active_per_second() / 1e6, measure::three_digits(1e9 / one.active_per_second()),
-             one.bytes_per_cell, measure::or_dash(one.percent_of_roof()),
-             measure::or_dash(one.ratio_to_baseline), measure::or_dash(one.ratio_to_native), one.rounds);
-}
-
-void print_workload(const measure::Workload& workload, const measure::Result& result,
-                    const std::vector<Case>& cases) {
-  const state::Grid g = workload.start.grid;
-  fmt::print("{}  {} x {} x {}, {:.1f} % liquid", workload.name, g.x, g.y, g.z,
-             100 * static_cast<double>(workload.start.liquid.count()) / static_cast<double>(g.cells()));
-  const auto print_baseline = [&](Subject subject) {
-    const auto ms = [&](const measure::Seconds& step) {
-      return measure::milliseconds(measure::seconds_of(subject, step));
-    };
-    if (result.plain) fmt::print("; {} of the baseline {} ms", measure::name_of(subject), ms(*result.plain));
-    if (result.native) fmt::print(", native {} ms", ms(*result.native));
-  };
-  if (workload.times_flow) print_baseline(Subject::flow);
-  if (workload.times_heat) print_baseline(Subject::heat);
-  fmt::print("; checked against {}\n", workload.judge);
-  for (const Case& one : cases) print_case(one);
-  std::fflush(stdout);
-  stop_if_interrupted();
 }
 
 measure::Plan plan_of(const BenchOptions& options) {
@@ -90,7 +56,39 @@ measure::Plan plan_of(const BenchOptions& options) {
     plan.threads = {all};
   else if (all > 1)
     plan.threads = {1, all};
+  plan.automaton = options.wants("automaton");
+  for (const cpu::InstructionSetRow& row : cpu::kInstructionSets)
+    if (row.supported() &&
+        (options.common.implementation == "auto" || options.common.implementation == row.name))
+      plan.drawers.push_back(measure::drawer_of(row.set));
+  // The automaton's reference draws no pictures.
+  if (plan.drawers.empty()) plan.drawers.push_back(measure::drawer_of(cpu::widest()));
   return plan;
+}
+
+std::vector<scene::Scene> load_scenes(const Common& common, const std::vector<std::string>& names) {
+  std::vector<scene::Scene> scenes;
+  for (const std::string& name : names) {
+    Common one = common;
+    one.scene = name;
+    scenes.push_back(load_scene(one));
+  }
+  return scenes;
+}
+
+// The bunny, and its finer grids beside it.
+std::vector<scene::Scene> finer_scenes(const BenchOptions& options) {
+  std::vector<scene::Scene> scenes = load_scenes(options.common, {"bunny"});
+  const std::filesystem::path large = scenes.front().file.parent_path() / "large";
+  std::vector<std::string> finer{(large / "bunny_256.toml").string()};
+  if (!options.quick) finer.push_back((large / "bunny_512.toml").string());
+  for (scene::Scene& scene : load_scenes(options.common, finer)) scenes.push_back(std::move(scene));
+  return scenes;
+}
+
+std::vector<std::string> film_scenes(bool quick) {
+  return quick ? std::vector<std::string>{"bunny_small"}
+               : std::vector<std::string>{"cello", "goblet", "lava"};
 }
 
 int run_bench(const BenchOptions& options) {
@@ -100,38 +98,43 @@ int run_bench(const BenchOptions& options) {
   if (!options.out.empty()) out.emplace(options.out);
 
   // All scenes are read before anything is timed: bad input ends at once.
-  std::vector<scene::Scene> scenes;
-  for (const std::string& name :
-       options.scenes.empty() ? measure::usual_scenes(options.quick) : options.scenes) {
-    Common common = options.common;
-    common.scene = name;
-    scenes.push_back(load_scene(common));
-  }
+  const auto scenes_of = [&](bool wanted, const std::vector<std::string>& usual) {
+    return wanted ? load_scenes(options.common, options.scenes.empty() ? usual : options.scenes)
+                  : std::vector<scene::Scene>{};
+  };
+  const bool automaton = options.wants("automaton"), picture = options.wants("picture");
+  const auto scenes = scenes_of(automaton || picture, measure::usual_scenes(options.quick));
+  const auto finer = options.wants("grids") && options.scenes.empty() ? finer_scenes(options)
+                                                                      : scenes_of(options.wants("grids"), {});
+  const auto films = scenes_of(options.wants("film"), film_scenes(options.quick));
   catch_interrupts();
 
-  note(options.common, "measuring the machine");
-  fmt::print("{:<25}{:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8}\n", "", "ms per",
-             "gravity+spread+excess", "Mcells/s", "Mcells/s", "ns per", "bytes", "% of", "times", "times");
-  fmt::print("  {:<5} {:<9} {:>7}  {:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8} {:>6}\n", "", "by",
-             "threads", "step", "or heat+melt", "grid", "active", "active", "/cell", "roof", "baseline",
-             "native", "rounds");
+  if (automaton) {
+    note(options.common, "measuring the machine");
+    print_case_heading();
+  }
   measure::Suite suite(plan, print_workload);
   for (const scene::Scene& scene : scenes) {
     const std::uint32_t middle = measure::middle_of(scene.name);
     const std::uint32_t step = options.from.value_or(middle > 0 ? middle : scene.steps / 2);
     note(options.common, fmt::format("melting {} to step {}", scene.name, step));
-    suite.run_scene(measure::scene_at(scene, step, thread_count(options.common)), scene);
+    const measure::Workload workload = measure::scene_at(scene, step, thread_count(options.common));
+    if (automaton) suite.run_scene(workload, scene);
+    if (picture) print_drawing(suite.run_drawing(workload, scene));
   }
-  if (options.scenes.empty()) suite.run_dense();
+  if (automaton && options.scenes.empty()) suite.run_dense();
+  if (!finer.empty()) print_finer_grids(suite.run_finer_grids(finer, options.from));
+  for (const scene::Scene& scene : films) print_film(suite.run_film(scene));
 
   const measure::Findings findings = suite.take();
   const std::string report = measure::bench_json(findings, version_text());
   write_report(options.common, report);
   if (out) {
     io::write_file(out->partial() / "bench.json", report);
-    io::write_file(out->partial() / "performance_tables.md",
-                   measure::short_tables(findings) + measure::full_tables(findings));
-    io::write_file(out->partial() / "roofline.svg", measure::roofline_svg(findings));
+    io::write_file(
+        out->partial() / "performance_tables.md",
+        measure::short_tables(findings) + measure::full_tables(findings) + measure::picture_tables(findings));
+    if (automaton) io::write_file(out->partial() / "roofline.svg", measure::roofline_svg(findings));
     out->commit();
     if (!options.common.quiet)
       fmt::print("tables, plot and report  {}/\n", std::filesystem::proximate(out->place()).string());
@@ -145,6 +148,12 @@ void add_bench(CLI::App& program, Chosen& chosen) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = program.add_subcommand(
       "bench", "Throughput, beside what this machine could do at most and the paper's program");
+  command
+      ->add_option("--parts", options->parts,
+                   "what to measure, with commas between: automaton, picture, grids (pictures of finer and\n"
+                   "finer grids), film (a whole melt) (default: automaton,picture)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"automaton", "picture", "grids", "film"}));
   command->add_flag("--quick", options->quick, "small cases only: less than a minute");
   command
       ->add_option(
@@ -160,7 +169,8 @@ void add_bench(CLI::App& program, Chosen& chosen) {
       "thread and all. Every result is compared with the reference before its time counts. Each phase of\n"
       "each step is timed in up to 40 rounds and counts with its shortest time. Ratios are to the paper's\n"
       "program (plainly written, and compiled for this processor), timed in the same rounds. The roof is\n"
-      "what the definition needs, at the best rates that this run measured on the machine.");
+      "what the definition needs, at the best rates that this run measured on the machine.\n"
+      "Pictures are timed part by part. On one thread their times are processor time.");
   command->callback([options, &chosen] { chosen = [options] { return run_bench(*options); }; });
 }
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Writes docs/performance.md, docs/performance_tables.md and docs/gallery/roofline.svg from one run
-# of `voxmelt bench`, in about ten minutes.
+# Writes docs/performance.md, docs/performance_picture.md, docs/performance_tables.md and
+# docs/gallery/roofline.svg from one run of `voxmelt bench`, in about twenty minutes.
 #   bench/write_performance.sh [VOXMELT] [further options of voxmelt bench]
-# The text comes from bench/performance_template.md and bench/performance_tables_template.md. A line
-# {{name}} becomes the table of that name. What other programs measure comes from the file
-# bench/performance_<name>.md. WRITE_TO names another folder than docs.
+# The text of a page comes from its template in this folder. A line {{name}} becomes the table of that
+# name. What other programs measure comes from the file bench/performance_<name>.md, which
+# bench/feature_cost.py and bench/compare_vtk.py write. WRITE_TO names another folder than docs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,7 +14,7 @@ docs=${WRITE_TO:-docs}
 results=$(mktemp -d)
 trap 'rm -rf "$results"' EXIT
 
-"$voxmelt" bench --out "$results/out" "$@"
+"$voxmelt" bench --out "$results/out" --parts automaton,picture,grids,film "$@"
 
 fill() {  # fill TEMPLATE: the template with its tables
   echo "<!-- Written by bench/write_performance.sh. Do not edit this page, but its template: -->"
@@ -38,10 +38,10 @@ fill() {  # fill TEMPLATE: the template with its tables
     }
     { print }' "$1"
 }
-fill bench/performance_template.md > "$results/performance.md"
-fill bench/performance_tables_template.md > "$results/performance_tables.md"
+pages="performance performance_picture performance_tables"
+for page in $pages; do fill "bench/${page}_template.md" > "$results/$page.md"; done
 
 mkdir -p "$docs/gallery"
 cp "$results/out/roofline.svg" "$docs/gallery/roofline.svg"
-cp "$results/performance.md" "$results/performance_tables.md" "$docs/"
-echo "written: $docs/performance.md, $docs/performance_tables.md, $docs/gallery/roofline.svg"
+for page in $pages; do cp "$results/$page.md" "$docs/"; done
+echo "written: $pages in $docs/, $docs/gallery/roofline.svg"

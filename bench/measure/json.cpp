@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/measure/report.h"
 
@@ -70,10 +71,67 @@ json case_json(const Case& one) {
           {"ratio_to_native_baseline", number(one.ratio_to_native)}};
 }
 
+// Times in milliseconds.
+json drawing_json(const Drawing& one) {
+  json rays, timings = json::array();
+  for (std::size_t i = 0; i < kSettings.size(); ++i) rays[kSettingNames[i]] = one.rays[i];
+  for (const DrawingTiming& timing : one.timings) {
+    json of = {{"instruction_set", cpu::name_of(timing.set)},
+               {"threads", timing.threads},
+               {"field", timing.field * 1e3},
+               {"light_and_bricks", timing.light * 1e3},
+               {"unchanged", timing.unchanged * 1e3}};
+    for (std::size_t i = 0; i < kSettings.size(); ++i) {
+      of[kSettingNames[i]] = timing.draw[i] * 1e3;
+      of[std::string(kSettingNames[i]) + "_nanoseconds_per_ray"] = one.nanoseconds_per_ray(timing, i);
+    }
+    timings.push_back(of);
+  }
+  return {{"workload", one.workload},
+          {"grid", grid_json(one.grid)},
+          {"side", kPictureSide},
+          {"checked_against", "plain painter"},
+          {"rounds", one.rounds},
+          {"bricks_filtered", one.bricks},
+          {"rays", rays},
+          {"png", one.encode * 1e3},
+          {"png_bytes", one.png_bytes},
+          {"timings", timings}};
+}
+
+json grids_json(const std::vector<FinerGrid>& grids) {
+  json all = json::array();
+  for (std::size_t i = 0; i < grids.size(); ++i)
+    for (std::size_t t = 0; t < grids[i].timings.size(); ++t) {
+      const FinerGrid::Timing& timing = grids[i].timings[t];
+      all.push_back({{"workload", grids[i].scene},
+                     {"grid", grid_json(grids[i].grid)},
+                     {"rounds", grids[i].rounds},
+                     {"instruction_set", cpu::name_of(timing.set)},
+                     {"fast", timing.fast * 1e3},
+                     {"normal", timing.normal * 1e3},
+                     {"growth_of_normal", number(growth_of_normal(grids, i, t))}});
+    }
+  return all;
+}
+
+json film_json(const MeltFilm& film) {
+  return {{"scene", film.scene},
+          {"grid", grid_json(film.grid)},
+          {"steps", film.steps},
+          {"frames", film.frames},
+          {"threads", film.threads},
+          {"rounds", film.rounds},
+          {"seconds", film.seconds},
+          {"processor_seconds", film.processor_seconds},
+          {"frames_per_second", film.frames_per_second()}};
+}
+
 }  // namespace
 
 std::string bench_json(const Findings& findings, const std::string& version) {
-  json cases = json::array(), table_1 = json::array(), scaling = json::array();
+  json cases = json::array(), table_1 = json::array(), scaling = json::array(), drawings = json::array(),
+       films = json::array();
   for (const Case& one : findings.cases) cases.push_back(case_json(one));
   for (const TableRow& row : findings.table_1)
     table_1.push_back({{"scene", row.scene},
@@ -89,11 +147,16 @@ std::string bench_json(const Findings& findings, const std::string& version) {
                        {"threads", one.threads},
                        {"speedup", one.speedup},
                        {"efficiency", one.efficiency()}});
+  for (const Drawing& one : findings.drawings) drawings.push_back(drawing_json(one));
+  for (const MeltFilm& one : findings.films) films.push_back(film_json(one));
   const json report = {{"version", version},
                        {"machine", machine_json(findings)},
                        {"cases", cases},
                        {"paper_table_1", table_1},
-                       {"scaling", scaling}};
+                       {"scaling", scaling},
+                       {"pictures", drawings},
+                       {"finer_grids", grids_json(findings.finer_grids)},
+                       {"films", films}};
   return report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

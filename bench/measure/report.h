@@ -13,8 +13,9 @@ namespace voxmelt::measure {
 std::string bench_json(const Findings& findings, const std::string& version);
 
 // Tables in Markdown, each after a line "<!-- table: NAME -->".
-std::string short_tables(const Findings& findings);  // machine, scenes, dense, picture
-std::string full_tables(const Findings& findings);   // memory, rates, flow, heat, scaling, roofs
+std::string short_tables(const Findings& findings);    // machine, scenes, dense, picture
+std::string full_tables(const Findings& findings);     // memory, rates, flow, heat, scaling, roofs
+std::string picture_tables(const Findings& findings);  // drawing, drawings, grids, films
 
 // Roofline plot of the widest instruction set on one thread: operations per byte across, operations per
 // second up.

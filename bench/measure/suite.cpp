@@ -68,6 +68,7 @@ Suite::Suite(Plan plan, Tell tell) : plan_(std::move(plan)), tell_(std::move(tel
   findings_.machine_text = describe_machine();
   findings_.load_before = load_average();
   findings_.machine = Machine({.fewest = 5, .seconds = plan_.quick ? 0.04 : 0.2});
+  if (!plan_.automaton) return;
   for (const int threads : plan_.threads) {
     for (const cpu::InstructionSetRow& row : cpu::kInstructionSets)
       if (row.supported()) findings_.machine.lane_rates(row.set, threads);
@@ -185,6 +186,23 @@ void Suite::run_large(Workload large) {
     if (other.supported && other.name != chosen.back()->name) large.judge = other.name;
   run(large, false);
   plan_.implementations = chosen;
+}
+
+const Drawing& Suite::run_drawing(const Workload& workload, const scene::Scene& scene) {
+  findings_.drawings.push_back(measure_drawing(workload, scene, plan_.drawers, plan_.threads, plan_.rounds));
+  return findings_.drawings.back();
+}
+
+const std::vector<FinerGrid>& Suite::run_finer_grids(const std::vector<scene::Scene>& scenes,
+                                                     std::optional<std::uint32_t> step) {
+  return findings_.finer_grids =
+             measure_finer_grids(scenes, plan_.drawers, plan_.threads.back(), plan_.rounds, step);
+}
+
+const MeltFilm& Suite::run_film(const scene::Scene& scene) {
+  findings_.films.push_back(measure_melt_film(scene, plan_.quick ? kFilmFrames / 30 : kFilmFrames,
+                                              plan_.threads.back(), plan_.quick ? 1 : 3));
+  return findings_.films.back();
 }
 
 Findings Suite::take() {

@@ -8,8 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/measure/drawing.h"
+#include "bench/measure/finer_grids.h"
 #include "bench/measure/machine.h"
 #include "bench/measure/measure.h"
+#include "bench/measure/melt_film.h"
 #include "bench/measure/roof.h"
 
 namespace voxmelt::measure {
@@ -70,12 +73,18 @@ struct Findings {
   std::vector<Case> cases;
   std::vector<TableRow> table_1;
   std::vector<Scaling> scaling;
+  // The picture.
+  std::vector<Drawing> drawings;
+  std::vector<FinerGrid> finer_grids;
+  std::vector<MeltFilm> films;
 };
 
 struct Plan {
   bool quick = false;
   std::vector<const step::Implementation*> implementations;
   std::vector<int> threads{1};  // ascending
+  std::vector<Drawer> drawers;  // of pictures
+  bool automaton = true;        // false: the machine is not measured, because nothing is held against it
   Rounds rounds;
   Rounds picture_rounds() const { return {rounds.fewest, rounds.seconds / 5}; }
 };
@@ -90,6 +99,12 @@ class Suite {
   // Also fills a row of Table 1 where the paper has the scene.
   void run_scene(const Workload& workload, const scene::Scene& scene);
   void run_dense();  // everything that is no scene
+
+  // The picture's parts: each returns what it has found, which is kept too.
+  const Drawing& run_drawing(const Workload& workload, const scene::Scene& scene);
+  const std::vector<FinerGrid>& run_finer_grids(const std::vector<scene::Scene>& scenes,
+                                                std::optional<std::uint32_t> step);
+  const MeltFilm& run_film(const scene::Scene& scene);
 
   // Measures the machine once more. Tables and report use the better of its rates, for all cases alike.
   Findings take();

@@ -1,18 +1,22 @@
 #include "render/brick/brick_loops.h"
 
-#include "kernel/engine/cpu/instruction_set.h"
-
 namespace voxmelt::render {
 
-const BrickLoops& brick_loops() {
+const BrickLoops& brick_loops_of([[maybe_unused]] cpu::InstructionSet widest) {
   using enum cpu::InstructionSet;
 #if defined(__aarch64__)
-  static const BrickLoops chosen = brick_loops_for<cpu::ArchOf<neon>>();
+  static const BrickLoops kNeon = brick_loops_for<cpu::ArchOf<neon>>();
+  return kNeon;
 #else
-  static const BrickLoops chosen =
-      cpu::supported(avx2) ? brick_loops_for<cpu::ArchOf<avx2>>() : brick_loops_for<cpu::ArchOf<sse42>>();
+  if (widest == sse42) {
+    static const BrickLoops kNarrow = brick_loops_for<cpu::ArchOf<sse42>>();
+    return kNarrow;
+  }
+  static const BrickLoops kWide = brick_loops_for<cpu::ArchOf<avx2>>();
+  return kWide;
 #endif
-  return chosen;
 }
+
+const BrickLoops& brick_loops() { return brick_loops_of(cpu::widest()); }
 
 }  // namespace voxmelt::render

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel/engine/cpu/instruction_set.h"
+
 namespace voxmelt::render {
 
 inline constexpr int kPlacesOfBrick = 11;  // along an axis
@@ -62,6 +64,8 @@ struct BrickLoops {
 template <class Arch>
 BrickLoops brick_loops_for();
 
+// Those that a processor runs whose best instruction set is this one.
+const BrickLoops& brick_loops_of(cpu::InstructionSet widest);
 const BrickLoops& brick_loops();  // the best that this processor can run
 
 }  // namespace voxmelt::render

@@ -4,8 +4,6 @@
 #include <bit>
 #include <cstddef>
 
-#include "render/density/loops.h"
-
 namespace voxmelt::render {
 namespace {
 
@@ -80,7 +78,7 @@ void BrickFilter::filter(const Task& task, int channel, const CellBox& box) {
   const auto c = static_cast<std::size_t>(channel);
   const int wide = channel_passes(task.liquid_passes, task.solid_passes);
   low_pass_.load(*task.cells.all()[c], box, wide);
-  low_pass_.advance(wide);
+  low_pass_.advance(wide, task.with);
   std::uint16_t* const to = task.to.all()[c]->data();
   for_rows(task.cells.grid, box, [&](std::size_t i, const state::Grid& cell, int cells) {
     std::copy_n(low_pass_.at(cell.x, cell.y, cell.z), cells, to + i);
@@ -95,8 +93,8 @@ void BrickFilter::mix_intensity(const Task& task, const CellBox& box) {
   std::uint16_t least = kWhole, most = 0;
   for_rows(task.cells.grid, box, [&](std::size_t i, const state::Grid& cell, int cells) {
     std::uint16_t* weights = weights_.get() + place(cell);
-    loops().weights(task.to.liquid.data() + i, task.to.solid.data() + i,
-                    task.to.obstacle.empty() ? nullptr : task.to.obstacle.data() + i, cells, weights);
+    task.with.weights(task.to.liquid.data() + i, task.to.solid.data() + i,
+                      task.to.obstacle.empty() ? nullptr : task.to.obstacle.data() + i, cells, weights);
     for (int x = 0; x < cells; ++x) {
       least = std::min(least, weights[x]);
       most = std::max(most, weights[x]);
@@ -110,21 +108,21 @@ void BrickFilter::mix_intensity(const Task& task, const CellBox& box) {
   const int passes = both ? std::max(task.liquid_passes, task.solid_passes) : alone;
   low_pass_.load(task.cells.intensity, box, passes);
   if (both) {
-    low_pass_.advance(std::min(task.liquid_passes, task.solid_passes));
+    low_pass_.advance(std::min(task.liquid_passes, task.solid_passes), task.with);
     for_rows(task.cells.grid, box, [&](std::size_t, const state::Grid& cell, int cells) {
       std::copy_n(low_pass_.at(cell.x, cell.y, cell.z), cells, other_.get() + place(cell));
     });
   }
-  low_pass_.advance(passes);
+  low_pass_.advance(passes, task.with);
   std::uint16_t* const to = task.to.intensity.data();
   for_rows(task.cells.grid, box, [&](std::size_t i, const state::Grid& cell, int cells) {
     const std::uint16_t *last = low_pass_.at(cell.x, cell.y, cell.z), *other = other_.get() + place(cell);
     if (!both)
       std::copy_n(last, cells, to + i);
     else if (task.liquid_passes > task.solid_passes)
-      loops().mix(other, last, weights_.get() + place(cell), cells, to + i);
+      task.with.mix(other, last, weights_.get() + place(cell), cells, to + i);
     else
-      loops().mix(last, other, weights_.get() + place(cell), cells, to + i);
+      task.with.mix(last, other, weights_.get() + place(cell), cells, to + i);
   });
 }
 

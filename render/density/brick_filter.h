@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/density/cell_fields.h"
+#include "render/density/loops.h"
 #include "render/density/low_pass.h"
 
 namespace voxmelt::render {
@@ -35,6 +36,7 @@ class BrickFilter {
     const BrickFlags& flags;
     const std::vector<DirtyPart>& parts;
     ChannelValues& to;
+    const Loops& with;
   };
 
   explicit BrickFilter(const state::Grid& grid) : low_pass_(grid) {}

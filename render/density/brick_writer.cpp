@@ -64,7 +64,7 @@ void BrickWriter::write_matter(const state::Grid& brick) {
                          fields_.uniform(kLiquid, index) != 0,
                          fields_.uniform(kHeat, index) != 0,
                          heat_};
-  const MatterFound found = loops().matter(from);
+  const MatterFound found = loops_.matter(from);
 
   BrickChange& change = fields_.changes_[index];
   const auto note = [&](Channel channel, const BrickPart& part, BrickPart& in) {

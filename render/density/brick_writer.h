@@ -7,13 +7,14 @@
 
 #include "render/density/cell_fields.h"
 #include "render/density/columns.h"
+#include "render/density/loops.h"
 
 namespace voxmelt::render {
 
 class BrickWriter {
  public:
-  BrickWriter(const state::Volume& volume, CellFields& fields, bool heat)
-      : volume_(volume), fields_(fields), heat_(heat) {}
+  BrickWriter(const state::Volume& volume, CellFields& fields, bool heat, const Loops& with)
+      : volume_(volume), fields_(fields), heat_(heat), loops_(with) {}
 
   // The solid, liquid and heat of a brick.
   void write_matter(const state::Grid& brick);
@@ -42,6 +43,7 @@ class BrickWriter {
   const state::Volume& volume_;
   CellFields& fields_;
   bool heat_;
+  const Loops& loops_;
   CellBox box_{};
   Cells intensity_{}, obstacle_{};
 };

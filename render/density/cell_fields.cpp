@@ -25,7 +25,8 @@ bool CellFields::same_terrain(const scene::Terrain& terrain) const {
 }
 
 void CellFields::update(const state::Volume& volume, const state::ChangedBricks::Seen& seen,
-                        const Wanted& wanted, const scene::Terrain& terrain, cpu::Workers& workers) {
+                        const Wanted& wanted, const scene::Terrain& terrain, cpu::Workers& workers,
+                        const Loops& with) {
   for (const std::uint32_t brick : changed_) changes_[brick] = {};
   changed_.clear();
   Columns::News news;
@@ -42,7 +43,7 @@ void CellFields::update(const state::Volume& volume, const state::ChangedBricks:
   news.look.assign(static_cast<std::size_t>(bricks.x) * static_cast<std::size_t>(bricks.z), 0);
 
   workers.run(bricks.z, [&](int bz) {
-    BrickWriter writer(volume, *this, wanted.heat);
+    BrickWriter writer(volume, *this, wanted.heat, with);
     std::size_t brick = static_cast<std::size_t>(bz) * slice;
     for (int by = 0; by < bricks.y; ++by) {
       int word = -1;  // whose inert cells are known
@@ -64,13 +65,13 @@ void CellFields::update(const state::Volume& volume, const state::ChangedBricks:
     }
   });
 
-  const std::vector<Extent>& another = columns_.update(volume, wanted.smooth, terrain, news, workers);
+  const std::vector<Extent>& another = columns_.update(volume, wanted.smooth, terrain, news, workers, with);
   const bool obstacles = columns_.has_obstacles();
   if (obstacles && obstacle.empty()) obstacle = Values<std::uint16_t>(grid.cells());
 
   std::vector<std::vector<std::uint32_t>> changed(static_cast<std::size_t>(bricks.z));
   workers.run(bricks.z, [&](int bz) {
-    BrickWriter writer(volume, *this, wanted.heat);
+    BrickWriter writer(volume, *this, wanted.heat, with);
     std::size_t brick = static_cast<std::size_t>(bz) * slice;
     const auto row = static_cast<std::size_t>(bricks.x);
     for (int by = 0; by < bricks.y; ++by)

@@ -20,6 +20,7 @@
 #include "kernel/scene/shape/terrain.h"
 #include "render/density/brick.h"
 #include "render/density/columns.h"
+#include "render/density/loops.h"
 #include "render/density/values.h"
 
 namespace voxmelt::render {
@@ -72,7 +73,7 @@ class CellFields : public ChannelValues {
   };
   // Takes over another state of the same size, as far as it is not known to be what it was.
   void update(const state::Volume& volume, const state::ChangedBricks::Seen& seen, const Wanted& wanted,
-              const scene::Terrain& terrain, cpu::Workers& workers);
+              const scene::Terrain& terrain, cpu::Workers& workers, const Loops& with = loops());
 
   // What the last update has changed: the bricks in ascending order, and what in each of them.
   const std::vector<std::uint32_t>& changed() const { return changed_; }

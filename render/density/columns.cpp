@@ -187,7 +187,7 @@ bool Columns::same_offsets(const state::Volume& volume, const state::Grid& brick
 
 const std::vector<Extent>& Columns::update(const state::Volume& volume, int smooth,
                                            const scene::Terrain& terrain, const News& news,
-                                           cpu::Workers& workers) {
+                                           cpu::Workers& workers, const Loops& with) {
   const std::size_t leveled = smooth > 0 ? stands_.size() : 0;
   if (levels_.level.size() != leveled) {
     levels_.level.assign(leveled, kNoLevel);
@@ -218,7 +218,7 @@ const std::vector<Extent>& Columns::update(const state::Volume& volume, int smoo
   if (news.everything) levels = wet = {0, 0, grid_.x, grid_.z};
   if (!levels.empty()) levels = levels.widened(passes, grid_.x, grid_.z);
   if (!wet.empty()) wet = wet.widened(kGroundReach, grid_.x, grid_.z);
-  if (leveled != 0) find_shifts(levels_, passes, levels, shifts_);
+  if (leveled != 0) find_shifts(levels_, passes, levels, shifts_, with);
   find_distances(wet);
 
   const auto near = [](const ColumnBox& box, int bx, int bz) {

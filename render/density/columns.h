@@ -14,6 +14,7 @@
 #include "kernel/scene/shape/terrain.h"
 #include "render/density/brick.h"
 #include "render/density/levels.h"
+#include "render/density/loops.h"
 
 namespace voxmelt::render {
 
@@ -67,7 +68,7 @@ class Columns {
 
   // Brings all up to date. Returns for each column of bricks the cells whose plan is another.
   const std::vector<Extent>& update(const state::Volume& volume, int smooth, const scene::Terrain& terrain,
-                                    const News& news, cpu::Workers& workers);
+                                    const News& news, cpu::Workers& workers, const Loops& with);
 
   // Does the ground still have the height that it had, as far as the marked brick holds it?
   bool same_offsets(const state::Volume& volume, const state::Grid& brick) const;

@@ -9,7 +9,7 @@ static_assert(scene::kMostSmooth == kMaxPasses);
 static_assert(kMaxPasses <= kBrickSide, "a change must not reach past the neighbouring bricks");
 
 int DensityField::update(const state::Volume& volume, const scene::Look& look, const scene::Terrain& terrain,
-                         int threads) {
+                         int threads, const Loops& with) {
   if (!workers_ || workers_->threads() != threads) workers_ = std::make_unique<cpu::Workers>(threads);
   const int liquid_passes = std::clamp(look.smooth, 0, kMaxPasses);
   const int solid_passes = std::clamp(look.smooth_solid, 0, kMaxPasses);
@@ -29,14 +29,14 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
   solid_passes_ = solid_passes;
 
   const bool had_obstacles = has_obstacles();
-  cells_.update(volume, seen_, {liquid_passes, look.glow}, terrain, *workers_);
+  cells_.update(volume, seen_, {liquid_passes, look.glow}, terrain, *workers_, with);
   seen_ = volume.changed.now();
   if (has_obstacles() != had_obstacles) filtered_.obstacle = Values<std::uint16_t>(cells_.obstacle.size());
   refreshed_.clear();
   if (cells_.changed().empty() && (!other_filter || other)) return 0;
 
   find_dirty(other_filter && !other);
-  const BrickFilter::Task task{cells_, liquid_passes_, solid_passes_, dirty_, parts_, filtered_};
+  const BrickFilter::Task task{cells_, liquid_passes_, solid_passes_, dirty_, parts_, filtered_, with};
   const int rows = static_cast<int>(dirty_rows_.size());
   const int parts = threads == 1 ? 1 : std::clamp(rows, 1, 4 * threads);
   while (static_cast<int>(filters_.size()) < parts) filters_.emplace_back(grid());

@@ -20,6 +20,7 @@
 #include "render/density/brick.h"
 #include "render/density/brick_filter.h"
 #include "render/density/cell_fields.h"
+#include "render/density/loops.h"
 
 namespace voxmelt::render {
 
@@ -31,7 +32,7 @@ class DensityField {
   // volume, size, look or terrain is read anew. Returns the number of bricks filtered. Inert cells above the
   // terrain are obstacles; where it does not fit the volume, those above any gap are.
   int update(const state::Volume& volume, const scene::Look& look, const scene::Terrain& terrain = {},
-             int threads = 1);
+             int threads = 1, const Loops& with = loops());
 
   // The bricks that the last update has filtered, ascending: elsewhere nothing below has changed.
   const std::vector<std::uint32_t>& refreshed() const { return refreshed_; }

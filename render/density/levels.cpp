@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "kernel/automaton/rule/fixed_point.h"
-#include "render/density/loops.h"
 
 namespace voxmelt::render {
 namespace {
@@ -38,11 +37,11 @@ class Sheet {
   }
 
   // The 3x3 binomial filter where all neighbours count. An abyss stays one: nothing near it counts.
-  void smooth() {
+  void smooth(const Loops& with) {
     for (const Span& span : puddles_)
-      loops().smooth_levels({now_.data() + at(span.first, span.z - 1), now_.data() + at(span.first, span.z),
-                             now_.data() + at(span.first, span.z + 1)},
-                            span.end - span.first, next_.data() + at(span.first, span.z));
+      with.smooth_levels({now_.data() + at(span.first, span.z - 1), now_.data() + at(span.first, span.z),
+                          now_.data() + at(span.first, span.z + 1)},
+                         span.end - span.first, next_.data() + at(span.first, span.z));
     now_.swap(next_);
   }
 
@@ -77,10 +76,10 @@ ColumnBox ColumnBox::widened(int columns, int x, int z) const {
 
 // What lies beyond the wider box is wrong there, and moves in by one column with each pass.
 void find_shifts(const PuddleLevels& levels, int passes, const ColumnBox& box,
-                 std::vector<std::int32_t>& shifts) {
+                 std::vector<std::int32_t>& shifts, const Loops& with) {
   if (box.empty()) return;
   Sheet sheet(levels, box.widened(passes, levels.x, levels.z));
-  for (int pass = 0; pass < passes; ++pass) sheet.smooth();
+  for (int pass = 0; pass < passes; ++pass) sheet.smooth(with);
   for (int z = box.low_z; z < box.high_z; ++z)
     for (int x = box.low_x; x < box.high_x; ++x) {
       const auto i =

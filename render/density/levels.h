@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/density/loops.h"
+
 namespace voxmelt::render {
 
 inline constexpr std::int32_t kNoLevel = INT32_MIN;  // no puddle in this column
@@ -33,7 +35,7 @@ struct ColumnBox {
 // Even slopes stay where they are up to the rim; steps of two cells and more are no terraces and stay too.
 // Other columns of `shifts` stay as they are.
 void find_shifts(const PuddleLevels& levels, int passes, const ColumnBox& box,
-                 std::vector<std::int32_t>& shifts);
+                 std::vector<std::int32_t>& shifts, const Loops& with = loops());
 
 // The same for all columns.
 std::vector<std::int32_t> level_shifts(const PuddleLevels& levels, int passes);

@@ -1,18 +1,22 @@
 #include "render/density/loops.h"
 
-#include "kernel/engine/cpu/instruction_set.h"
-
 namespace voxmelt::render {
 
-const Loops& loops() {
+const Loops& loops_of([[maybe_unused]] cpu::InstructionSet widest) {
   using enum cpu::InstructionSet;
 #if defined(__aarch64__)
-  static const Loops chosen = loops_for<cpu::ArchOf<neon>>();
+  static const Loops kNeon = loops_for<cpu::ArchOf<neon>>();
+  return kNeon;
 #else
-  static const Loops chosen =
-      cpu::supported(avx2) ? loops_for<cpu::ArchOf<avx2>>() : loops_for<cpu::ArchOf<sse42>>();
+  if (widest == sse42) {
+    static const Loops kNarrow = loops_for<cpu::ArchOf<sse42>>();
+    return kNarrow;
+  }
+  static const Loops kWide = loops_for<cpu::ArchOf<avx2>>();
+  return kWide;
 #endif
-  return chosen;
 }
+
+const Loops& loops() { return loops_of(cpu::widest()); }
 
 }  // namespace voxmelt::render

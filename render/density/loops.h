@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel/engine/cpu/instruction_set.h"
 #include "render/density/brick.h"
 
 namespace voxmelt::render {
@@ -71,6 +72,8 @@ struct Loops {
 template <class Arch>
 Loops loops_for();
 
+// Those that a processor runs whose best instruction set is this one.
+const Loops& loops_of(cpu::InstructionSet widest);
 const Loops& loops();  // the best that this processor can run
 
 }  // namespace voxmelt::render

@@ -55,7 +55,7 @@ void LowPass::copy(const Values<std::uint16_t>& from) {
 
 // Passes after the first work in place, because reading runs ahead of writing. Cell i of a result is centred
 // on cell i + 1 of its source.
-void LowPass::advance(int passes) {
+void LowPass::advance(int passes, const Loops& with) {
   for (; done_ < passes; ++done_) {
     x_ -= 2;
     y_ -= 2;
@@ -65,7 +65,7 @@ void LowPass::advance(int passes) {
     const std::size_t row = whole_groups(x_);
     const Block<std::uint16_t> to{block_.get(), copied ? here_.row : row,
                                   copied ? here_.slice : row * static_cast<std::size_t>(y_)};
-    loops().low_pass(here_, to, x_, y_, z_, room_.get());
+    with.low_pass(here_, to, x_, y_, z_, room_.get());
     here_ = {to.cells, to.row, to.slice};
   }
 }

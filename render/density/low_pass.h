@@ -25,7 +25,7 @@ class LowPass {
   // them as `passes` ask. `from` must not change meanwhile.
   void load(const Values<std::uint16_t>& from, const CellBox& box, int passes);
   // Carries on to `passes` passes in all, at most as many as asked for.
-  void advance(int passes);
+  void advance(int passes, const Loops& with = loops());
   // What the passes made so far gave, at cell (x, y, z) of the grid and rightward, within the bricks.
   const std::uint16_t* at(int x, int y, int z) const;
 

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel/engine/cpu/instruction_set.h"
 #include "render/light/light_bytes.h"
 
 namespace voxmelt::render {
@@ -73,6 +74,8 @@ struct LightLoops {
 template <class Arch>
 LightLoops light_loops_for();
 
+// Those that a processor runs whose best instruction set is this one.
+const LightLoops& light_loops_of(cpu::InstructionSet widest);
 const LightLoops& light_loops();  // the best that this processor can run
 
 }  // namespace voxmelt::render

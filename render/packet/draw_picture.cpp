@@ -138,12 +138,7 @@ const Packets& packets_of(cpu::InstructionSet wanted) {
   return all[static_cast<std::size_t>(wanted)];
 }
 
-const Packets& best_packets() {
-  cpu::InstructionSet best{};
-  for (const cpu::InstructionSetRow& row : cpu::kInstructionSets)
-    if (row.supported()) best = row.set;
-  return packets_of(best);
-}
+const Packets& best_packets() { return packets_of(cpu::widest()); }
 
 // Rays come to the grid within 2^20 samples, so that their ranges in floats reach no more than three samples
 // too far. Places on them are parts of 2^30 at most. Sums in doubles stay below 2^52.

@@ -24,7 +24,8 @@ void Picture::update(const state::Volume& volume, const scene::Look& look, const
 }
 
 void Picture::update(const DensityField& field, const scene::Look& look, const scene::Light& light,
-                     const scene::Terrain& terrain, const std::vector<std::uint32_t>* changed, int threads) {
+                     const scene::Terrain& terrain, const std::vector<std::uint32_t>* changed, int threads,
+                     cpu::InstructionSet set) {
   if (changed != nullptr && changed->empty()) return;
   if (changed == nullptr) {
     look_ = look_in_integers(look);
@@ -35,10 +36,11 @@ void Picture::update(const DensityField& field, const scene::Look& look, const s
   if (ground_.lower(field.wetness())) columns_.lower(ground_);
   const int wanted = std::min(threads, cpu::Workers::most());
   if (workers_ == nullptr || workers_->threads() != wanted) workers_ = std::make_unique<cpu::Workers>(wanted);
-  bricks_.update(field, look_, changed, *workers_);
+  bricks_.update(field, look_, changed, *workers_, brick_loops_of(set));
   obstacles_ = field.has_obstacles();
-  sources_.update(field, ground_.drawn(), look_, changed);
-  light_.update(sources_.matter(), paint_.to_light, picture::light_shift(bricks_.cells()), *workers_);
+  sources_.update(field, ground_.drawn(), look_, changed, light_loops_of(set));
+  light_.update(sources_.matter(), paint_.to_light, picture::light_shift(bricks_.cells()), *workers_,
+                light_loops_of(set));
 }
 
 PictureData Picture::data(const picture::Camera& camera, Setting setting) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/automaton/state/volume.h"
+#include "kernel/engine/cpu/instruction_set.h"
 #include "kernel/engine/cpu/workers.h"
 #include "kernel/scene/look.h"
 #include "kernel/scene/shape/terrain.h"
@@ -29,9 +30,10 @@ class Picture {
   void update(const state::Volume& volume, const scene::Look& look, const scene::Light& light,
               const scene::Terrain& terrain, int threads);
   // The same from a field that is kept elsewhere. `changed`: bricks of the field that were filtered again
-  // since the last call, or null for all.
+  // since the last call, or null for all. `set`: this processor must have it.
   void update(const DensityField& field, const scene::Look& look, const scene::Light& light,
-              const scene::Terrain& terrain, const std::vector<std::uint32_t>* changed, int threads);
+              const scene::Terrain& terrain, const std::vector<std::uint32_t>* changed, int threads,
+              cpu::InstructionSet set = cpu::widest());
 
   Image draw(const scene::Camera& camera, Setting setting, int threads,
              const Packets& packets = best_packets()) const;

@@ -67,14 +67,53 @@ class Bench(unittest.TestCase):
             self.assertEqual(len(line), 17 if line[0] == "flow" else 15, line)
 
         tables = (self.folder / "out/performance_tables.md").read_text()
-        for name in ("machine", "scenes", "dense", "picture", "memory", "rates", "flow", "heat", "scaling", "roofs"):
+        for name in ("machine", "scenes", "dense", "picture", "memory", "rates", "flow", "heat", "scaling", "roofs", "drawing",
+                     "drawings", "grids", "films"):
             self.assertIn(f"<!-- table: {name} -->", tables)
         for block in re.findall(r"(?:^\|.*\n)+", tables, re.M):
             self.assertEqual(len({row.count("|") for row in block.splitlines()}), 1, block)
         svg = xml.parse(self.folder / "out/roofline.svg").getroot()
         self.assertTrue(svg.tag.endswith("svg"))
 
+        # Each picture, part by part.
+        self.assertEqual([one["workload"].split("/")[0] for one in report["pictures"]],
+                         ["scene:bunny_small", "scene:bunny_small_viscous"])
+        for one in report["pictures"]:
+            self.assertEqual(one["checked_against"], "plain painter")
+            self.assertGreater(one["bricks_filtered"], 0)
+            self.assertTrue(0 < one["rays"]["fast"] < one["rays"]["normal"] < one["rays"]["best"])
+            self.assertLessEqual(one["rays"]["fast"], one["side"] ** 2)
+            sets = [timing["instruction_set"] for timing in one["timings"]]
+            self.assertEqual(sets, [name for name in ("sse4.2", "avx2", "avx512", "neon") if name in sets])
+            for timing in one["timings"]:
+                for part in ("field", "light_and_bricks", "fast", "normal", "best"):
+                    self.assertGreater(timing[part], 0)
+                self.assertAlmostEqual(timing["fast_nanoseconds_per_ray"], 1e6 * timing["fast"] / one["rays"]["fast"])
+        pictures = [line.split() for line in text.splitlines() if line.startswith("  picture ")]
+        self.assertEqual(len(pictures), sum(len(one["timings"]) for one in report["pictures"]))
+        for line in pictures:
+            self.assertEqual(len(line), 11, line)
+
         self.pages(self.folder / "out")
+
+    def test_grids_and_films(self):
+        text = self.bench("--quick", "--parts", "grids,film", "--scenes", "bunny_small,bunny_small_viscous", "--report", "report.json")
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual((report["cases"], report["pictures"]), ([], []))
+        grids, films = report["finer_grids"], report["films"]
+        names = [grid["workload"].split("/")[0] for grid in grids]
+        self.assertEqual(set(names), {"scene:bunny_small", "scene:bunny_small_viscous"})
+        for grid in grids:
+            before = [one for one in grids if one["instruction_set"] == grid["instruction_set"] and one != grid]
+            if grid["workload"].startswith("scene:bunny_small/"):
+                self.assertIsNone(grid["growth_of_normal"])
+            else:
+                self.assertAlmostEqual(grid["growth_of_normal"], grid["normal"] / before[0]["normal"])
+        self.assertEqual([film["scene"] for film in films], ["bunny_small", "bunny_small_viscous"])
+        for film in films:
+            self.assertEqual(film["steps"], 1000)
+            self.assertAlmostEqual(film["frames_per_second"], film["frames"] / film["seconds"])
+        self.assertEqual(len([line for line in text.splitlines() if line.startswith("a whole melt")]), 2)
 
     def pages(self, out):
         """The pages of docs come from these files, and the one that people read stays short."""
@@ -87,11 +126,15 @@ class Bench(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         short = (docs / "performance.md").read_text()
         full = (docs / "performance_tables.md").read_text()
+        picture = (docs / "performance_picture.md").read_text()
         for page, heading in ((short, "| scene | million cells |"), (short, "| subject | volume |"),
                               (short, "| scene | program |"), (full, "| footprint | threads |"),
-                              (full, "| Feature | A scene without it |"), (full, "| **in all** |")):
+                              (full, "| Feature | A scene without it |"), (full, "| **in all** |"), (full, "| scene | instruction set | threads | field, ms |"),
+                              (picture, "| scene | instruction set | threads | field, ms |"),
+                              (picture, "| scene | grid | instruction set |"), (picture, "| scene | steps | frames |"),
+                              (picture, "| scene | drawn by | ms | dB |")):
             self.assertIn(heading, page)
-        for page in (short, full):
+        for page in (short, full, picture):
             self.assertTrue(page.startswith("<!-- Written by"))
             self.assertNotIn("{{", page)
         self.assertLessEqual(len(short.splitlines()), 120)
@@ -112,6 +155,7 @@ class Bench(unittest.TestCase):
             (["--threads", "0"], "0"),
             (["--from", "-1"], "-1"),
             (["--report", "no/such/folder.json"], "there is no folder"),
+            (["--parts", "paint"], "paint"),
             (["stray"], "stray"),
         ]:
             result = voxmelt("bench", "--quick", *arguments, cwd=self.folder)

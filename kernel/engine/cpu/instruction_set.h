@@ -16,6 +16,14 @@ constexpr const InstructionSetRow& row_of(InstructionSet set) {
 constexpr std::string_view name_of(InstructionSet set) { return row_of(set).name; }
 inline bool supported(InstructionSet set) { return row_of(set).supported(); }
 
+// The best that this processor has.
+inline InstructionSet widest() {
+  InstructionSet best{};
+  for (const InstructionSetRow& row : kInstructionSets)
+    if (row.supported()) best = row.set;
+  return best;
+}
+
 // The type that templates are compiled for.
 template <InstructionSet kSet>
 using ArchOf = std::tuple_element_t<static_cast<std::size_t>(kSet), Architectures>;
