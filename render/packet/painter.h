@@ -63,7 +63,7 @@ class Painter {
         : ray(picture::ray_through(view, across, down, spacing)),
           matter(picture::first_crossing(scene.levels, scene.cells, ray)),
           ground(scene.ground.find(ray)),
-          on_ground(picture::ground_first(ground, matter)) {}
+          on_ground(picture::ground_first(ground, matter, view.halvings)) {}
     picture::Vector to_eye() const { return picture::unit_of(picture::Vector{} - ray.step); }
 
     picture::Ray ray;

@@ -27,7 +27,7 @@ PaintedScene<Levels, MatterCells, LightVolume> painted(const PictureScene& scene
 SurfacePicture reference_surface(const PictureScene& scene, const picture::Camera& camera, Setting setting) {
   const auto parts = painted(scene);
   const picture::View view = picture::view_of(camera, scene.levels.cells());
-  const Painter painter(parts, view, spacing_of(setting));
+  const Painter painter(parts, view, spacing_of(setting, view));
   SurfacePicture surface{static_cast<int>(camera.width), static_cast<int>(camera.height), {}, {}};
   for (std::int64_t y = 0; y < camera.height; ++y)
     for (std::int64_t x = 0; x < camera.width; ++x) {
@@ -45,7 +45,8 @@ SurfacePicture reference_surface(const PictureScene& scene, const picture::Camer
 
 Image reference_picture(const PictureScene& scene, const picture::Camera& camera, Setting setting) {
   const auto parts = painted(scene);
-  const Painter painter(parts, picture::view_of(camera, scene.levels.cells()), spacing_of(setting));
+  const picture::View view = picture::view_of(camera, scene.levels.cells());
+  const Painter painter(parts, view, spacing_of(setting, view));
   Image image(static_cast<int>(camera.width), static_cast<int>(camera.height));
   const auto draw = [&](Image& to, int x, int y, const auto& pattern) {
     Color sum{};
