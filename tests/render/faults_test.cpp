@@ -1,13 +1,26 @@
-// Faults that pictures once had.
+// Faults that pictures once had, and what holds them:
+//
+// 1  holes in terrain, combs   GroundMap.TheVolcanoHasNoHole, LeavingOutChangesNothing (ground_map_test.cpp);
+//                              Ground.IsThatOfADenseMarchInDouble, of 200 views (rule/ground_test.cpp)
+// 2  seen through the slab     Fault.FromBelowTheSlabHidesEverything;
+//                              GroundMap.FromBelowTheUndersideHidesAll (ground_map_test.cpp)
+// 3  arcs in hills' shadows    Fault.ShadowOfARidgeIsMonotone
+// 4  teeth of rims, bands      Rim.OfARoundPuddle, Rim.OfATongueOnASlope (rims_test.cpp);
+//                              Smooth.TerracesOfAPuddleDoNotShow (smooth_test.cpp)
+// 5  flicker                   Fault.SmallChangesMovePixelsLittle
+// 6  a camera inside           Fault.ACameraInsideIsKnown; that it warns: tests/app/frames_test.py
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <numbers>
+#include <random>
 
 #include "render/packet/picture.h"
+#include "tests/kernel/worlds.h"
 #include "tests/render/shapes.h"
 
 namespace voxmelt {
@@ -95,6 +108,73 @@ TEST(Fault, ShadowOfARidgeIsMonotone) {
       EXPECT_LE(worst, 3) << height << " " << rise;
       EXPECT_GT(brightest - image.at(first, 50)[1], 25) << height << " " << rise;
     }
+}
+
+// Amounts of surface cells change by a few units, there and back: no pixel changes by more than 8 levels. Of
+// the 32 samples of a pixel two may cross a silhouette, whose sides are less than 128 levels apart in a dull
+// look.
+TEST(Fault, SmallChangesMovePixelsLittle) {
+  const state::Grid grid{48, 40, 48};
+  const state::Volume still = test::ball_and_puddle(grid);
+  const scene::Terrain terrain = test::floor_terrain(grid);
+  scene::Look look;
+  look.specular = 0;
+  look.background = {0.5, 0.5, 0.5};
+  const scene::Light light;
+  scene::Camera camera = test::small_camera(grid, 200, 150);
+  render::Picture picture;
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> change(-4, 4);
+  for (const double elevation : {8.0, 28.0, 70.0}) {
+    camera.elevation = elevation;
+    camera.azimuth += 50;
+    picture.update(still, look, light, terrain, 1);
+    const Image before = picture.draw(camera, render::Setting::best, 1);
+    for (int round = 0; round < 6; ++round) {
+      state::Volume moved = still;
+      int changed = 0;
+      worlds::for_each(worlds::whole(grid), [&](int x, int y, int z) {
+        const state::Slot at = still.at(x, y, z);
+        if (still.inert.test(x, y, z) || still.amount[at] == 0) return;
+        moved.amount[at] = static_cast<std::uint16_t>(std::clamp(still.amount[at] + change(random), 1, 4096));
+        changed += moved.amount[at] != still.amount[at] ? 1 : 0;
+      });
+      ASSERT_GT(changed, 1000);
+      picture.update(moved, look, light, terrain, 1);
+      const Image there = picture.draw(camera, render::Setting::best, 1);
+      int most = 0, pixels = 0;
+      for (std::size_t i = 0; i < before.pixels.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+          most = std::max(most, std::abs(before.pixels[i][c] - there.pixels[i][c]));
+          pixels += before.pixels[i][c] != there.pixels[i][c] ? 1 : 0;
+        }
+      EXPECT_LE(most, 8) << elevation << ", round " << round;
+      EXPECT_GT(pixels, 0) << "the change is seen";
+    }
+    picture.update(still, look, light, terrain, 1);
+    EXPECT_TRUE(before == picture.draw(camera, render::Setting::best, 1)) << elevation;
+  }
+}
+
+// The eye is a quarter of a cell from the target, at a height y above the middle of the puddle.
+TEST(Fault, ACameraInsideIsKnown) {
+  const state::Grid grid{48, 40, 48};
+  render::Picture picture;
+  picture.update(test::ball_and_puddle(grid), {}, {}, test::floor_terrain(grid), 1);
+  scene::Camera camera;
+  camera.azimuth = camera.elevation = 0;
+  camera.distance = 0.25;
+  const auto inside = [&](double x, double y) {
+    camera.target = {x, y, 24};
+    return picture.camera_inside(camera);
+  };
+  EXPECT_TRUE(inside(24, 1));    // floor
+  EXPECT_TRUE(inside(24, 3));    // puddle
+  EXPECT_FALSE(inside(24, 7));   // air between the puddle and the ball
+  EXPECT_TRUE(inside(24, 20));   // ball
+  EXPECT_FALSE(inside(24, 35));  // air of the grid
+  EXPECT_FALSE(inside(24, 80));  // above the grid
+  EXPECT_FALSE(inside(80, 1));   // beside the slab
 }
 
 }  // namespace
