@@ -127,9 +127,9 @@ Change change_of(const Image& before, const Image& after) {
   return of;
 }
 
-// Every amount moves by up to a thousandth of a cell, there and back, so that surfaces move by far less than a
-// sample of a pixel is wide. Two of 32 samples may lie on a silhouette, and one of eight. The look is dull: all
-// levels are within 128, so that in the best picture no pixel changes by more than 8.
+// Every amount moves by up to a thousandth of a cell, there and back, so that surfaces move by far less than
+// a sample of a pixel is wide. Two of 32 samples may lie on a silhouette, and one of eight. The look is dull:
+// all levels are within 128, so that in the best picture no pixel changes by more than 8.
 TEST(Fault, SmallChangesMovePixelsLittle) {
   const state::Grid grid{48, 40, 48};
   const state::Volume still = test::ball_and_puddle(grid);
@@ -151,7 +151,8 @@ TEST(Fault, SmallChangesMovePixelsLittle) {
   };
   using render::Setting;
   for (const double elevation : {8.0, 28.0, 70.0}) {
-    const Image best = draw(still, elevation, Setting::best), normal = draw(still, elevation, Setting::normal);
+    const Image best = draw(still, elevation, Setting::best),
+                normal = draw(still, elevation, Setting::normal);
     int seen = 0;
     for (int round = 0; round < 6; ++round) {
       state::Volume moved = still;

@@ -92,8 +92,8 @@ TEST(Rim, OfARoundPuddle) {
     }
 }
 
-// A tongue of lava down a slope, equally wide everywhere: both of its sides are straight. Columns at its sides
-// are covered in part.
+// A tongue of lava down a slope, equally wide everywhere: both of its sides are straight. Columns at its
+// sides are covered in part.
 TEST(Rim, OfATongueOnASlope) {
   for (const double rise : {0.2, 0.55})
     for (const double turn : {0.0, 0.13, 0.46, 0.7}) {

@@ -49,8 +49,8 @@ TEST(Angle, IsThatOfTheMathematicians) {
   }
 }
 
-// With a tangent of 1 and 512 rows a pixel is as high as 2 / 512 of its distance: 15/128 of a cell at 30 cells,
-// and half of that at 15.
+// With a tangent of 1 and 512 rows a pixel is as high as 2 / 512 of its distance: 15/128 of a cell at 30
+// cells, and half of that at 15.
 TEST(Camera, StepsAreHalvedWherePixelsAreSmall) {
   EXPECT_EQ(halvings_of(kUnit, 16 * 30, 512), 0);
   EXPECT_EQ(halvings_of(kUnit, 16 * 30 - 1, 512), 1);

@@ -103,8 +103,8 @@ TEST(Crossing, TheWorkedRay) {
   EXPECT_EQ(depth_in_picture(view, got.position), 22);
 }
 
-// Sample 3 and part 100: matter is at 2 x 2048 + 100 = 4196. The top shows up to there, a side 1024 later or as
-// far in halved steps. Places of the ground are eighths of that.
+// Sample 3 and part 100: matter is at 2 x 2048 + 100 = 4196. The top shows up to there, a side 1024 later or
+// as far in halved steps. Places of the ground are eighths of that.
 TEST(Nearer, SidesWinByTheSameLength) {
   const auto first = [](Face face, std::int64_t part, int halvings) {
     return ground_first({true, part, {}, face}, {true, 3, 100, {}}, halvings);
