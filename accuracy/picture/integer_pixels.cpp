@@ -20,7 +20,7 @@ IntegerPixels::IntegerPixels(const render::PictureScene& scene, const ExactField
     : scene_(scene),
       field_(field),
       view_(picture::view_of(camera, scene.levels.cells())),
-      spacing_(spacing) {}
+      spacing_(spacing + view_.halvings) {}
 
 picture::Crossing IntegerPixels::first_crossing(const picture::Ray& ray) const {
   const picture::Samples in =
@@ -51,7 +51,7 @@ picture::Color IntegerPixels::light(std::int64_t across, std::int64_t down) cons
                              picture::before_surface(position, normal, scene_.light.shift()));
   };
   picture::Color color = scene_.look.background;
-  if (picture::ground_first(ground, matter)) {
+  if (picture::ground_first(ground, matter, view_.halvings)) {
     const render::GroundMap::Paint paint = scene_.ground.paint(ground);
     const picture::Vector normal = ground.face == picture::Face::none ? to_eye : paint.normal;
     color = picture::ground_color(

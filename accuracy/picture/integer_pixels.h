@@ -16,7 +16,8 @@ namespace voxmelt::accuracy {
 
 class IntegerPixels {
  public:
-  // A step is 2^-spacing cells. `field` says where air is.
+  // A step is 2^-spacing cells, or less where the camera is near (picture::halvings_of). `field` says where
+  // air is.
   IntegerPixels(const render::PictureScene& scene, const ExactField& field, const picture::Camera& camera,
                 int spacing);
 

@@ -50,12 +50,12 @@ struct DrawPacket : Packet<Arch> {
     if (L::any(hits.found)) {
       const auto surface = Field::crossing(data.field, row, hits);
       // rule/nearer.h, in places from the sample before matter.
-      const V samples = L::clamp((ground.inside >> picture::kPartBits) - (hits.sample - 1), -4, 4);
+      const V samples = L::clamp((ground.inside >> picture::kPartBits) - (hits.sample - 1), -8, 8);
       const V place = samples * picture::kPlaces +
                       (ground.inside & (picture::kParts - 1)) * (picture::kPlaces / picture::kParts);
       const V first = of.face == static_cast<std::int32_t>(picture::Face::top)
                           ? V{}
-                          : L::set(static_cast<std::int32_t>(picture::kSideFirst));
+                          : L::set(static_cast<std::int32_t>(picture::kSideFirst << data.view.halvings));
       of.ground = of.ground & (~hits.found | (place <= surface.part + first));
       of.matter = hits.found & ~of.ground;
       constexpr std::int32_t kBack = -Field::kBias;

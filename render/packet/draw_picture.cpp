@@ -77,16 +77,17 @@ class Areas {
  public:
   explicit Areas(const PictureData& data)
       : data_(data),
+        known_(data.skip && fits_lanes(data)),
         matter_(data.view, data.field.low, data.field.high),
         ground_(data.view, ground_low(),
                 {data.ground.cells.x * picture::kCell,
                  std::int64_t{data.ground.highest} << (picture::kPositionBits - picture::kHeightBits),
                  data.ground.cells.z * picture::kCell}) {}
 
-  // What is to be drawn in a tile; tells whether there is anything.
+  // What is to be drawn in a tile. Tells whether there is anything.
   bool in(const Tile& tile, PictureData& data) const {
     data = data_;
-    if (!data.skip) return true;
+    if (!known_) return true;
     const auto seen = [&](const VisibleArea& area) {
       return area.overlaps(tile.x0 * picture::kPixel, tile.y0 * picture::kPixel, tile.x1 * picture::kPixel,
                            tile.y1 * picture::kPixel);
@@ -99,6 +100,7 @@ class Areas {
  private:
   static picture::Vector ground_low() { return {}; }
   const PictureData& data_;
+  const bool known_;  // VisibleArea holds for rays of 2^20 samples at most: the error of a step adds up
   VisibleArea matter_, ground_;
 };
 

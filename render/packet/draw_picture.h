@@ -20,7 +20,9 @@ const Packets& best_packets();
 enum class Setting { fast, normal, best };
 
 // The samples of rays are 2^-spacing cells apart.
-constexpr int spacing_of(Setting setting) { return setting == Setting::best ? 3 : 2; }
+constexpr int spacing_of(Setting setting, const picture::View& view) {
+  return (setting == Setting::best ? 3 : 2) + view.halvings;
+}
 
 // Do all rays' numbers fit the lanes? Otherwise plain_packets() draw the picture, whichever are asked for.
 bool fits_lanes(const PictureData& data);

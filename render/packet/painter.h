@@ -74,7 +74,7 @@ class Painter {
           matter(picture::first_crossing(picture::Watched{scene.levels, watch, Stage::sample}, scene.cells,
                                          ray, watch)),
           ground(find_ground(scene.ground, ray, watch)),
-          on_ground(picture::ground_first(ground, matter)) {
+          on_ground(picture::ground_first(ground, matter, view.halvings)) {
       if (!on_ground && !matter.found) return;
       const picture::Vector position = on_ground ? ground.position : matter.position;
       watch(Stage::met, "on ground", on_ground ? 1 : 0);

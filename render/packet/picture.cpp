@@ -48,7 +48,7 @@ PictureData Picture::data(const picture::Camera& camera, Setting setting) const 
   of.view = picture::view_of(camera, bricks_.cells());
   of.width = static_cast<std::int32_t>(camera.width);
   of.height = static_cast<std::int32_t>(camera.height);
-  of.spacing = spacing_of(setting);
+  of.spacing = spacing_of(setting, of.view);
   of.field = {bricks_.cells(),    bricks_.bricks().x, bricks_.bricks().y,     bricks_.blocks().x,
               bricks_.blocks().y, bricks_.slots(),    bricks_.levels(),       bricks_.matter(),
               bricks_.skip(),     obstacles_,         bricks_.occupied().low, bricks_.occupied().high};

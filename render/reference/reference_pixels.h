@@ -26,7 +26,7 @@ class ReferencePixels {
         setting_(setting),
         width_(camera.width),
         height_(camera.height),
-        painter_(parts_, view_, spacing_of(setting), watch),
+        painter_(parts_, view_, spacing_of(setting, view_), watch),
         watch_(watch) {}
   ReferencePixels(const ReferencePixels&) = delete;
   ReferencePixels& operator=(const ReferencePixels&) = delete;

@@ -95,6 +95,7 @@ void tell_picture(const Teller& teller, const PictureScene& scene, const picture
   tell("eye", view.eye), tell("forward", view.forward), tell("right", view.right), tell("up", view.up);
   tell("wide", view.wide), tell("high", view.high), tell("near", view.near);
   tell("near_wide", view.near_wide), tell("near_high", view.near_high);
+  tell("e", view.halvings);
   const picture::Paint& paint = scene.paint;
   tell("to_light", paint.to_light), tell("to_strip", paint.to_strip), tell("lamp", paint.lamp);
   tell("from_below", paint.from_below), tell("from_above", paint.from_above);

@@ -31,6 +31,7 @@ struct View {
   std::int64_t near = 0;        // depth of the plane on which the rays start, in kNearUnit
   Vector near_wide, near_high;  // on that plane, a picture coordinate further; 2^30 is a cell
   std::int64_t half_width = 0, half_height = 0;  // of the picture, in picture coordinates
+  int halvings = 0;                              // of the step of rays; see halvings_of
 };
 
 // The depth of the nearest corner of the grid, a little less, and 0 where it lies behind the eye. The grid
@@ -66,6 +67,13 @@ VOXMELT_RULE std::int64_t fitted_distance(const Camera& camera, Vector cells, co
   return std::clamp<std::int64_t>(distance, 1, std::int64_t{1} << 30);
 }
 
+// How often the step of rays is halved because pixels are small. The height of a pixel on the near plane is
+// tangent near / (2^33 height) cells, and 15/128 of a cell, or half of that, are the limits.
+VOXMELT_RULE int halvings_of(std::int64_t tangent, std::int64_t near, std::int64_t height) {
+  const std::int64_t pixel = tangent * near, limit = height * (std::int64_t{15} << 25);  // below 2^56, 2^50
+  return pixel >= 2 * limit ? 0 : pixel >= limit ? 1 : 2;
+}
+
 VOXMELT_RULE View view_of(const Camera& camera, Vector cells) {
   const SineCosine azimuth = sine_cosine(camera.azimuth), elevation = sine_cosine(camera.elevation),
                    half_field = sine_cosine(camera.half_field);
@@ -87,6 +95,7 @@ VOXMELT_RULE View view_of(const Camera& camera, Vector cells) {
   view.half_height = camera.height * (kPixel / 2);
 
   view.near = near_depth(view.eye, view.forward, cells);
+  view.halvings = halvings_of(tangent, view.near, camera.height);
   const auto on_plane = [&](std::int64_t a) { return floor_divided(a * view.near, view.half_height * 16); };
   view.near_wide = {on_plane(view.wide.x), on_plane(view.wide.y), on_plane(view.wide.z)};
   view.near_high = {on_plane(view.high.x), on_plane(view.high.y), on_plane(view.high.z)};

@@ -9,13 +9,13 @@
 namespace voxmelt::picture {
 
 // Matter that is cut at a side of the grid and the slab's side lie in one plane: there the slab wins, by half
-// a step.
+// a step, or as much where steps are halved.
 inline constexpr std::int64_t kSideFirst = kPlaces / 2;
 
-VOXMELT_RULE bool ground_first(const GroundCrossing& ground, const Crossing& matter) {
+VOXMELT_RULE bool ground_first(const GroundCrossing& ground, const Crossing& matter, int halvings) {
   if (!ground.found || !matter.found) return ground.found;
   const std::int64_t matter_place = (matter.sample - 1) * kPlaces + matter.part;
-  const std::int64_t first = ground.face == Face::top ? 0 : kSideFirst;
+  const std::int64_t first = ground.face == Face::top ? 0 : kSideFirst << halvings;
   return ground.part * (kPlaces / kParts) <= matter_place + first;
 }
 

@@ -8,7 +8,7 @@
 
 struct View {
   Vec forward, eye, wide, high, near_wide, near_high;
-  Int near = 0, width = 0, height = 0;
+  Int near = 0, width = 0, height = 0, halvings = 0;
 };
 
 struct Ray {
@@ -68,6 +68,9 @@ inline View make_view(const Input& in) {
     least = std::min(least, dot((place - view.eye) >> 16, view.forward) >> 30);
   }
   view.near = std::max<Int>(0, least - 3);
+  // Section 10: e.
+  const Int scale = tangent * view.near, limit = 15 * H * power_of_two(25);
+  view.halvings = scale >= 2 * limit ? 0 : scale >= limit ? 1 : 2;
   view.near_wide = (view.wide * view.near) / (512 * H);
   view.near_high = (view.high * view.near) / (512 * H);
   return view;

@@ -40,7 +40,7 @@ inline Vec sample_of(const Scene& scene, Int X, Int Y, Int m) {
   const GroundHit ground = meet_ground(scene.ground, ray);
   bool ground_drawn = ground.met;
   if (ground.met && matter.met) {
-    const Int bias = ground.face == Face::top ? 0 : 1024;
+    const Int bias = ground.face == Face::top ? 0 : 1024 * power_of_two(scene.view.halvings);
     ground_drawn = 8 * ground.part <= matter.place + bias;
   }
   if (ground_drawn) {
@@ -84,7 +84,7 @@ inline Vec pixel_of(const Scene& scene, Int i, Int j, int samples, Int m) {
 inline std::vector<Vec> draw_picture(const Scene& scene) {
   const Int W = scene.in.width, H = scene.in.height;
   const std::string& setting = scene.in.setting;
-  const Int m = setting == "best" ? 3 : 2;
+  const Int m = (setting == "best" ? 3 : 2) + scene.view.halvings;
   std::vector<Vec> picture;
   for (Int j = 0; j < H; ++j)
     for (Int i = 0; i < W; ++i) picture.push_back(pixel_of(scene, i, j, 1, m));

@@ -1,13 +1,26 @@
-// Faults that pictures once had.
+// Faults that pictures once had, and what holds them:
+//
+// 1  holes in terrain, combs   GroundMap.TheVolcanoHasNoHole, LeavingOutChangesNothing (ground_map_test.cpp);
+//                              Ground.IsThatOfADenseMarchInDouble, of 200 views (rule/ground_test.cpp)
+// 2  seen through the slab     Fault.FromBelowTheSlabHidesEverything;
+//                              GroundMap.FromBelowTheUndersideHidesAll (ground_map_test.cpp)
+// 3  arcs in hills' shadows    Fault.ShadowOfARidgeIsMonotone
+// 4  teeth of rims, bands      Rim.OfARoundPuddle, Rim.OfATongueOnASlope (rims_test.cpp);
+//                              Smooth.TerracesOfAPuddleDoNotShow (smooth_test.cpp)
+// 5  flicker                   Fault.SmallChangesMovePixelsLittle
+// 6  a camera inside           Fault.ACameraInsideIsKnown; that it warns: tests/app/frames_test.py
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <numbers>
+#include <random>
 
 #include "render/packet/picture.h"
+#include "tests/kernel/worlds.h"
 #include "tests/render/shapes.h"
 
 namespace voxmelt {
@@ -95,6 +108,90 @@ TEST(Fault, ShadowOfARidgeIsMonotone) {
       EXPECT_LE(worst, 3) << height << " " << rise;
       EXPECT_GT(brightest - image.at(first, 50)[1], 25) << height << " " << rise;
     }
+}
+
+// The largest change of a channel, and how far apart the channels of the picture are.
+struct Change {
+  int most = 0, contrast = 0;
+};
+Change change_of(const Image& before, const Image& after) {
+  Change of;
+  int low = 255, high = 0;
+  for (std::size_t i = 0; i < before.pixels.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      of.most = std::max(of.most, std::abs(before.pixels[i][c] - after.pixels[i][c]));
+      low = std::min<int>(low, before.pixels[i][c]);
+      high = std::max<int>(high, before.pixels[i][c]);
+    }
+  of.contrast = high - low;
+  return of;
+}
+
+// Every amount moves by up to a thousandth of a cell, there and back, so that surfaces move by far less than
+// a sample of a pixel is wide. Two of 32 samples may lie on a silhouette, and one of eight. The look is dull:
+// all levels are within 128, so that in the best picture no pixel changes by more than 8.
+TEST(Fault, SmallChangesMovePixelsLittle) {
+  const state::Grid grid{48, 40, 48};
+  const state::Volume still = test::ball_and_puddle(grid);
+  const scene::Terrain terrain = test::floor_terrain(grid);
+  scene::Look look;
+  look.specular = 0;
+  look.solid = look.liquid = look.ground = look.background = {0.5, 0.5, 0.5};
+  scene::Light light;
+  light.ambient = 0.7;
+  render::Picture picture;
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> shift(-4, 4);
+  const auto draw = [&](const state::Volume& volume, double elevation, render::Setting setting) {
+    scene::Camera camera = test::small_camera(grid, 200, 150);
+    camera.elevation = elevation;
+    camera.azimuth = 5 * elevation;
+    picture.update(volume, look, light, terrain, 1);
+    return picture.draw(camera, setting, 1);
+  };
+  using render::Setting;
+  for (const double elevation : {8.0, 28.0, 70.0}) {
+    const Image best = draw(still, elevation, Setting::best),
+                normal = draw(still, elevation, Setting::normal);
+    int seen = 0;
+    for (int round = 0; round < 6; ++round) {
+      state::Volume moved = still;
+      worlds::for_each(worlds::whole(grid), [&](int x, int y, int z) {
+        const state::Slot at = still.at(x, y, z);
+        if (still.inert.test(x, y, z) || still.amount[at] == 0) return;
+        moved.amount[at] = static_cast<std::uint16_t>(std::clamp(still.amount[at] + shift(random), 1, 4096));
+      });
+      const Change of_best = change_of(best, draw(moved, elevation, Setting::best)),
+                   of_normal = change_of(normal, draw(moved, elevation, Setting::normal));
+      EXPECT_LT(of_best.contrast, 128);
+      EXPECT_LE(of_best.most, 8) << elevation << ", round " << round;
+      EXPECT_LE(of_normal.most, of_normal.contrast / 8 + 1) << elevation << ", round " << round;
+      seen += of_best.most;
+    }
+    EXPECT_GT(seen, 0) << "no change was drawn";
+    EXPECT_TRUE(best == draw(still, elevation, Setting::best)) << elevation;
+  }
+}
+
+// The eye is a quarter of a cell from the target, at a height y above the middle of the puddle.
+TEST(Fault, ACameraInsideIsKnown) {
+  const state::Grid grid{48, 40, 48};
+  render::Picture picture;
+  picture.update(test::ball_and_puddle(grid), {}, {}, test::floor_terrain(grid), 1);
+  scene::Camera camera;
+  camera.azimuth = camera.elevation = 0;
+  camera.distance = 0.25;
+  const auto inside = [&](double x, double y) {
+    camera.target = {x, y, 24};
+    return picture.camera_inside(camera);
+  };
+  EXPECT_TRUE(inside(24, 1));    // floor
+  EXPECT_TRUE(inside(24, 3));    // puddle
+  EXPECT_FALSE(inside(24, 7));   // air between the puddle and the ball
+  EXPECT_TRUE(inside(24, 20));   // ball
+  EXPECT_FALSE(inside(24, 35));  // air of the grid
+  EXPECT_FALSE(inside(24, 80));  // above the grid
+  EXPECT_FALSE(inside(80, 1));   // beside the slab
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <sstream>
 
 #include "tests/kernel/worlds.h"
@@ -196,6 +197,12 @@ scene::Camera hostile_camera(Random& random, const state::Volume& volume) {
   if (random.one_in(100)) {
     camera.width = 8192;
     camera.height = random.any({8, 16});
+  }
+  if (random.one_in(4)) {  // pixels of the sizes at which rays take finer steps (picture::halvings_of)
+    const double near = between(random, 0.5, 1.5) * far, pixel = between(random, 0.03, 0.13);
+    camera.distance = near + far / 4;
+    const double half = std::atan(pixel * camera.height / 2 / near) * 180 / std::numbers::pi;
+    camera.field_of_view = std::clamp(2 * half, 1.0, 150.0);
   }
   return camera;
 }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -21,6 +22,7 @@
 #include "render/packet/picture.h"
 #include "render/packet/scene_in_integers.h"
 #include "render/reference/reference_picture.h"
+#include "render/rule/camera.h"
 #include "tests/render/hostile_picture.h"
 #include "tests/render/judge_file.h"
 #include "tests/render/picture_pairs.h"
@@ -74,8 +76,9 @@ void expect_packets_draw(const Image& expected, const HostilePicture& of) {
   });
 }
 
-// Tells whether the picture has more than one colour.
-bool expect_all_agree(const HostilePicture& of, const std::filesystem::path& file) {
+using Counts = std::array<std::uint64_t, 3>;  // of pictures of more than one colour, by halvings of the step
+
+void expect_all_agree(const HostilePicture& of, const std::filesystem::path& file, Counts& full) {
   test::write_judge_file(file, of.volume, of.look, of.light, of.terrain, of.camera, of.setting);
   render::DensityField field;
   field.update(of.volume, of.look, of.terrain, 1);
@@ -86,8 +89,11 @@ bool expect_all_agree(const HostilePicture& of, const std::filesystem::path& fil
   const Image reference = reference_picture(scene, render::camera_in_integers(of.camera), of.setting);
   EXPECT_EQ(difference(judged, reference), "") << "the reference";
   expect_packets_draw(judged, of);
-  return std::any_of(judged.pixels.begin(), judged.pixels.end(),
-                     [&](const render::Rgb& pixel) { return pixel != judged.pixels[0]; });
+  const auto halvings =
+      picture::view_of(render::camera_in_integers(of.camera), scene.levels.cells()).halvings;
+  if (std::any_of(judged.pixels.begin(), judged.pixels.end(),
+                  [&](const render::Rgb& pixel) { return pixel != judged.pixels[0]; }))
+    ++full[static_cast<std::size_t>(halvings)];
 }
 
 TEST(Judge, AgreesOnHostilePictures) {
@@ -95,16 +101,18 @@ TEST(Judge, AgreesOnHostilePictures) {
   const std::uint64_t first = one == nullptr ? 0 : std::strtoull(one, nullptr, 10);
   const std::uint64_t last = one == nullptr ? kPictures : first + 1;
   const std::filesystem::path file = test::judge_file_name("hostile");
-  std::uint64_t full = 0;
+  Counts full{};
   for (std::uint64_t seed = first; seed < last; ++seed) {
     const HostilePicture picture = test::hostile_picture(seed, kMostCells);
     if (one != nullptr) std::cout << description(picture) << std::endl;
-    full += expect_all_agree(picture, file) ? 1 : 0;
+    expect_all_agree(picture, file, full);
     if (HasFailure())
       FAIL() << "VOXMELT_PICTURE_SEED=" << seed << ": " << description(picture) << "\nthe judge read "
              << file;
   }
-  EXPECT_GT(full, (last - first) / 3) << "too many pictures of one colour";
+  EXPECT_GT(full[0] + full[1] + full[2], (last - first) / 3) << "too many pictures of one colour";
+  for (const std::uint64_t count : full)
+    EXPECT_TRUE(one != nullptr || count > kPictures / 30) << count << " of such a step";
   std::filesystem::remove(file);
 }
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -128,6 +129,12 @@ scene::Camera random_camera(state::Grid grid, Random& random) {
   const auto size = kSizes[static_cast<std::size_t>(random.whole(0, 5))];
   camera.width = size[0];
   camera.height = size[1];
+  if (random.one_in(4)) {  // pixels of the sizes at which rays take finer steps (picture::halvings_of)
+    const double near = random.real(1, 4) * side, pixel = random.real(0.03, 0.13);
+    camera.distance = near + side / 2;
+    const double half = std::atan(pixel * camera.height / 2 / near) * 180 / std::numbers::pi;
+    camera.field_of_view = std::clamp(2 * half, 1.0, 150.0);
+  }
   return camera;
 }
 
@@ -153,6 +160,7 @@ constexpr std::array kSettings{render::Setting::fast, render::Setting::normal, r
 
 TEST(PictureOfPackets, EqualsTheReferenceInHostileScenes) {
   std::size_t colored = 0;
+  std::array<int, 3> halved{};  // pictures by their halvings of the step
   for (std::uint32_t seed = 0; seed < 160; ++seed) {
     Random random(seed);
     const Hostile of = random_scene(random);
@@ -170,6 +178,7 @@ TEST(PictureOfPackets, EqualsTheReferenceInHostileScenes) {
           different(reference, render::Image(camera.width, camera.height, reference.at(0, 0)));
       colored += background > 0 ? 1 : 0;
       render::PictureData data = picture.data(integers, setting);
+      if (background > 0) ++halved[static_cast<std::size_t>(data.view.halvings)];
       const render::SurfacePicture surface = render::draw_surface(data, render::plain_packets(), 1);
       for (const NamedPackets& set : all_packets())
         for (const bool skip : {true, false}) {
@@ -183,6 +192,7 @@ TEST(PictureOfPackets, EqualsTheReferenceInHostileScenes) {
     }
   }
   EXPECT_GT(colored, 120u);  // most pictures show something
+  for (const int count : halved) EXPECT_GT(count, 30);
 }
 
 // The picture is the same whether some bricks are taken over or all.

@@ -173,6 +173,9 @@ class Pixel:
         for name, numbers in (("eye", eye), ("forward", forward), ("right", right), ("up", up), ("wide", wide), ("high", high),
                               ("near", near), ("near_wide", self.near_wide), ("near_high", self.near_high)):
             tell(name, numbers)
+        limit = (15 << 25) * camera["height"]  # picture.md 10
+        self.e = 0 if tangent * near >= 2 * limit else 1 if tangent * near >= limit else 2
+        tell("e", self.e)
 
     # picture-light.md 1 and 2
     def materials(self):
@@ -293,7 +296,7 @@ class Pixel:
                       for e, f, a, b in zip(self.eye, self.forward, self.near_wide, self.near_high)]
         most = max(map(abs, direction))
         b = next(b for b in range(99) if most <= 1 << b)
-        self.step = [rounded(c, b - 20 + 2) for c in direction]
+        self.step = [rounded(c, b - 20 + 2 + self.e) for c in direction]
         self.tell("pixel", "pixel", self.x, self.y)
         for name, numbers in (("place", [across, down]), ("direction", direction), ("start", self.start), ("step", self.step)):
             self.tell("ray", name, numbers)

@@ -49,6 +49,27 @@ TEST(Angle, IsThatOfTheMathematicians) {
   }
 }
 
+// With a tangent of 1 and 512 rows a pixel is as high as 2 / 512 of its distance: 15/128 of a cell at 30
+// cells, and half of that at 15.
+TEST(Camera, StepsAreHalvedWherePixelsAreSmall) {
+  EXPECT_EQ(halvings_of(kUnit, 16 * 30, 512), 0);
+  EXPECT_EQ(halvings_of(kUnit, 16 * 30 - 1, 512), 1);
+  EXPECT_EQ(halvings_of(kUnit, 16 * 15, 512), 1);
+  EXPECT_EQ(halvings_of(kUnit, 16 * 15 - 1, 512), 2);
+  EXPECT_EQ(halvings_of(kUnit, 0, 1), 2);
+  EXPECT_EQ(halvings_of(kUnit - 1, 16 * 30, 512), 1);  // a narrower view, or more rows
+  EXPECT_EQ(halvings_of(kUnit, 16 * 30, 513), 1);
+  EXPECT_EQ(halvings_of(4 * kUnit, 1 << 24, 1 << 20), 0);  // 4 x 2^21 / 2^20 cells; no product wraps
+  // The straight view below, 99.3 cells from its near plane: 30 / 99.3 x 512 is 1694 rows.
+  Camera camera{{32 * kCell, 32 * kCell, 64 * kCell}, 100 << 12, 0, 0, 45 * kDegree, 8, 4};
+  for (const auto& [rows, halvings] : {std::array{1690, 0}, {1700, 1}, {3380, 1}, {3400, 2}}) {
+    camera.height = rows;
+    EXPECT_EQ(view_of(camera, {64, 64, 64}).halvings, halvings) << rows;
+  }
+  camera.distance = 1 << 12;  // the eye is in the grid
+  EXPECT_EQ(view_of(camera, {64, 64, 64}).halvings, 2);
+}
+
 // Looking along -z from 100 cells away with a right angle of view: every number is a short one.
 TEST(Camera, AStraightView) {
   const Camera camera{{32 * kCell, 32 * kCell, 64 * kCell}, 100 << 12, 0, 0, 45 * kDegree, 8, 4};

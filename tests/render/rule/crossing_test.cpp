@@ -11,6 +11,8 @@
 #include "render/rule/angle.h"
 #include "render/rule/camera.h"
 #include "render/rule/fixed_point.h"
+#include "render/rule/ground.h"
+#include "render/rule/nearer.h"
 #include "render/rule/normal.h"
 #include "render/rule/ray.h"
 #include "render/rule/sample.h"
@@ -83,6 +85,7 @@ TEST(Crossing, TheWorkedRay) {
   const View view = view_of(camera, full.cells());
   const Ray ray = ray_through(view, 256, 128, 2);
   EXPECT_EQ(view.near, 1589);
+  EXPECT_EQ(view.halvings, 0);
   EXPECT_EQ(ray.start.z, 67829760);
   EXPECT_EQ(ray.step, (Vector{0, 0, -262144}));
   EXPECT_EQ(samples_in(ray, field_low(), field_high(full.cells())).first, 1);
@@ -98,6 +101,21 @@ TEST(Crossing, TheWorkedRay) {
   EXPECT_EQ(got.position, (Vector{33554432, 33554432, 67108864}));
   EXPECT_EQ(normal_at(full, got.position), (Vector{0, 0, 16384}));
   EXPECT_EQ(depth_in_picture(view, got.position), 22);
+}
+
+// Sample 3 and part 100: matter is at 2 x 2048 + 100 = 4196. The top shows up to there, a side 1024 later or
+// as far in halved steps. Places of the ground are eighths of that.
+TEST(Nearer, SidesWinByTheSameLength) {
+  const auto first = [](Face face, std::int64_t part, int halvings) {
+    return ground_first({true, part, {}, face}, {true, 3, 100, {}}, halvings);
+  };
+  EXPECT_TRUE(first(Face::top, 524, 2));  // 4192
+  EXPECT_FALSE(first(Face::top, 525, 2));
+  const std::int64_t last[] = {652, 780, 1036};  // 5220, 6244 and 8292 in eighths
+  for (int halvings = 0; halvings < 3; ++halvings) {
+    EXPECT_TRUE(first(Face::low_x, last[halvings], halvings));
+    EXPECT_FALSE(first(Face::low_x, last[halvings] + 1, halvings));
+  }
 }
 
 TEST(Crossing, NothingIsMetInAir) {
