@@ -1,6 +1,7 @@
 // Places of the picture to pressed light, one packet after the other.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -42,8 +43,20 @@ struct DrawPacket : Packet<Arch> {
     of.row = Rays<Arch>::through(data, across, down);
     of.start = Rays<Arch>::wrapped_start(of.row);
     of.ground = {V{}, V{}, V{}};
-    if (data.ground.any) of.ground = Ground::march(data, of.row, of.start);
-    of.most = of.ground.found ? (of.ground.inside >> picture::kPartBits) + 1 : L::set(INT32_MAX);
+    if (data.ground.any && data.ground.flat) of.ground = Ground::march(data, of.row, of.start);
+    of.most = last_sample(of);
+  }
+  VOXMELT_WORDS V last_sample(const Approach& of) {
+    return of.ground.found ? (of.ground.inside >> picture::kPartBits) + 1 : L::set(INT32_MAX);
+  }
+  // On hills it takes many looks: two packets at once. Out of line, because flat scenes are faster so.
+  [[gnu::noinline]] static void march_hills(const PictureData& data, Approach* of, std::size_t count) {
+    for (std::size_t i = 0; i < count; i += 2) {
+      Approach &one = of[i], &other = of[std::min(i + 1, count - 1)];
+      Ground::march(data, one, other);
+      one.most = last_sample(one);
+      other.most = last_sample(other);
+    }
   }
 
   [[gnu::always_inline]] static inline Met met(const PictureData& data, const Approach& from) {
@@ -147,6 +160,7 @@ struct DrawPacket : Packet<Arch> {
       std::size_t count = 0;
       for (; count < kBatch && i < places.count; ++count, i += P::kCount)
         approach(data, L::load(places.across + i), L::load(places.down + i), of[count]);
+      if (data.ground.any && !data.ground.flat) march_hills(data, of, count);
       Field::march(data, of, of + count);
       for (std::size_t j = 0; j < count; ++j) store(light(data, of[j]), first + j * P::kCount);
     }
@@ -158,6 +172,7 @@ struct DrawPacket : Packet<Arch> {
       Surface of;
       Approach from;
       approach(data, L::load(places.across + i), L::load(places.down + i), from);
+      if (data.ground.any && !data.ground.flat) march_hills(data, &from, 1);
       from.hits = Field::march(data, from.row, from.most);
       if (!surface(data, from, of)) {
         store(V{}, to.found + i);

@@ -1,6 +1,7 @@
 #include "render/packet/tile_boxes.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "render/packet/visible_area.h"

@@ -2,7 +2,6 @@
 // matter, and tiles beside it look at none.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "render/packet/picture_data.h"
