@@ -36,6 +36,8 @@ class DensityField {
 
   // The bricks that the last update has filtered, ascending: elsewhere nothing below has changed.
   const std::vector<std::uint32_t>& refreshed() const { return refreshed_; }
+  // Where in such a brick something may have changed.
+  const DirtyPart& refreshed_part(std::uint32_t brick) const { return parts_[brick]; }
 
   const state::Grid& grid() const { return cells_.grid; }
   const state::Grid& bricks() const { return cells_.bricks; }

@@ -1,6 +1,7 @@
 // Places of the picture to pressed light, one packet after the other.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -30,14 +31,40 @@ struct DrawPacket : Packet<Arch> {
     Triple position;
   };
 
-  [[gnu::always_inline]] static inline Met met(const PictureData& data, const typename Rays<Arch>::Row& row) {
+  // A packet's rays, and the ground that they meet.
+  struct Approach {
+    typename Rays<Arch>::Row row;
+    Triple start;
+    typename Ground::Hits ground;
+    V most;  // the last sample that counts: matter behind the ground does not
+    typename Field::Hits hits;
+  };
+  VOXMELT_WORDS void approach(const PictureData& data, V across, V down, Approach& of) {
+    of.row = Rays<Arch>::through(data, across, down);
+    of.start = Rays<Arch>::wrapped_start(of.row);
+    of.ground = {V{}, V{}, V{}};
+    if (data.ground.any && data.ground.flat) of.ground = Ground::march(data, of.row, of.start);
+    of.most = last_sample(of);
+  }
+  VOXMELT_WORDS V last_sample(const Approach& of) {
+    return of.ground.found ? (of.ground.inside >> picture::kPartBits) + 1 : L::set(INT32_MAX);
+  }
+  // On hills it takes many looks: two packets at once. Out of line, because flat scenes are faster so.
+  [[gnu::noinline]] static void march_hills(const PictureData& data, Approach* of, std::size_t count) {
+    for (std::size_t i = 0; i < count; i += 2) {
+      Approach &one = of[i], &other = of[std::min(i + 1, count - 1)];
+      Ground::march(data, one, other);
+      one.most = last_sample(one);
+      other.most = last_sample(other);
+    }
+  }
+
+  [[gnu::always_inline]] static inline Met met(const PictureData& data, const Approach& from) {
     Met of{V{}, V{}, V{}, V{}, Triple{V{}, V{}, V{}}};
-    typename Ground::Hits ground{V{}, V{}, V{}};
-    const Triple start = Rays<Arch>::wrapped_start(row);
-    if (data.ground.any) ground = Ground::march(data, row, start);
-    // Matter behind the ground does not count.
-    const V most = ground.found ? (ground.inside >> picture::kPartBits) + 1 : L::set(INT32_MAX);
-    const auto hits = Field::march(data, row, most);
+    const auto& row = from.row;
+    const auto& start = from.start;
+    const auto& hits = from.hits;
+    auto ground = from.ground;
     Triple outside{V{}, V{}, V{}};
     if (L::any(ground.found)) {
       Ground::bisect(data.ground, row, start, ground);
@@ -75,9 +102,10 @@ struct DrawPacket : Packet<Arch> {
   };
 
   // Tells whether there is any.
-  [[gnu::always_inline]] static inline bool surface(const PictureData& data, V across, V down, Surface& of) {
-    const auto row = Rays<Arch>::through(data, across, down);
-    of.met = met(data, row);
+  [[gnu::always_inline]] static inline bool surface(const PictureData& data, const Approach& from,
+                                                    Surface& of) {
+    const auto& row = from.row;
+    of.met = met(data, from);
     of.found = of.met.matter | of.met.ground;
     if (!L::any(of.found)) return false;
     of.to_eye = P::unit_of(Triple{} - row.step, data.inverse_root);
@@ -96,10 +124,10 @@ struct DrawPacket : Packet<Arch> {
     return true;
   }
 
-  [[gnu::always_inline]] static inline Color light(const PictureData& data, V across, V down) {
+  [[gnu::always_inline]] static inline Color light(const PictureData& data, const Approach& from) {
     Color color{{L::set(data.background[0]), L::set(data.background[1]), L::set(data.background[2])}};
     Surface of;
-    if (!surface(data, across, down, of)) return color;
+    if (!surface(data, from, of)) return color;
     const auto arriving = LightPacket<Arch>::at(
         data.light, data.paint->glow, LightPacket<Arch>::before(of.position, of.normal, data.light.shift));
     Color lit = color;
@@ -120,11 +148,21 @@ struct DrawPacket : Packet<Arch> {
 
   // Places are rounded up to whole packets: see Places.
   static void draw(const PictureData& data, Places places, PressedLight to) {
-    for (std::size_t i = 0; i < places.count; i += P::kCount) {
-      const Color of = light(data, L::load(places.across + i), L::load(places.down + i));
+    const auto store = [&](const Color& of, std::size_t i) {
       L::store_halves(of.c[0], to.red + i);
       L::store_halves(of.c[1], to.green + i);
       L::store_halves(of.c[2], to.blue + i);
+    };
+    constexpr std::size_t kBatch = 16;
+    Approach of[kBatch];
+    for (std::size_t i = 0; i < places.count;) {
+      const std::size_t first = i;
+      std::size_t count = 0;
+      for (; count < kBatch && i < places.count; ++count, i += P::kCount)
+        approach(data, L::load(places.across + i), L::load(places.down + i), of[count]);
+      if (data.ground.any && !data.ground.flat) march_hills(data, of, count);
+      Field::march(data, of, of + count);
+      for (std::size_t j = 0; j < count; ++j) store(light(data, of[j]), first + j * P::kCount);
     }
   }
 
@@ -132,7 +170,11 @@ struct DrawPacket : Packet<Arch> {
     const auto store = [](V of, std::int32_t* at) { std::memcpy(at, &of, sizeof of); };
     for (std::size_t i = 0; i < places.count; i += P::kCount) {
       Surface of;
-      if (!surface(data, L::load(places.across + i), L::load(places.down + i), of)) {
+      Approach from;
+      approach(data, L::load(places.across + i), L::load(places.down + i), from);
+      if (data.ground.any && !data.ground.flat) march_hills(data, &from, 1);
+      from.hits = Field::march(data, from.row, from.most);
+      if (!surface(data, from, of)) {
         store(V{}, to.found + i);
         continue;
       }

@@ -11,13 +11,14 @@
 
 #include "kernel/engine/cpu/workers.h"
 #include "render/packet/plain_packet.h"
+#include "render/packet/tile_boxes.h"
 #include "render/packet/visible_area.h"
 #include "render/rule/ground.h"
 
 namespace voxmelt::render {
 namespace {
 
-constexpr int kTile = 32;  // pixels; work is handed out by tiles
+constexpr int kTile = 16;  // pixels; work is handed out by tiles
 
 // Places and their light, for as many samples as a tile can have.
 class Samples {
@@ -78,30 +79,30 @@ class Areas {
   explicit Areas(const PictureData& data)
       : data_(data),
         known_(data.skip && fits_lanes(data)),
-        matter_(data.view, data.field.low, data.field.high),
-        ground_(data.view, ground_low(),
-                {data.ground.cells.x * picture::kCell,
+        projection_(data.view),
+        matter_(data, projection_, kTile),
+        ground_(projection_.of(
+            {}, {data.ground.cells.x * picture::kCell,
                  std::int64_t{data.ground.highest} << (picture::kPositionBits - picture::kHeightBits),
-                 data.ground.cells.z * picture::kCell}) {}
+                 data.ground.cells.z * picture::kCell})) {}
 
   // What is to be drawn in a tile. Tells whether there is anything.
-  bool in(const Tile& tile, PictureData& data) const {
+  bool in(int index, const Tile& tile, PictureData& data) const {
     data = data_;
     if (!known_) return true;
-    const auto seen = [&](const VisibleArea& area) {
-      return area.overlaps(tile.x0 * picture::kPixel, tile.y0 * picture::kPixel, tile.x1 * picture::kPixel,
-                           tile.y1 * picture::kPixel);
-    };
-    if (!seen(matter_)) data.field.high = data.field.low = {};
-    if (!seen(ground_)) data.ground.any = false;
-    return data.ground.any || data.field.low.x < data.field.high.x;
+    const bool matter = matter_.narrow(index, data.field);
+    if (!ground_.overlaps(tile.x0 * picture::kPixel, tile.y0 * picture::kPixel, tile.x1 * picture::kPixel,
+                          tile.y1 * picture::kPixel))
+      data.ground.any = false;
+    return data.ground.any || matter;
   }
 
  private:
-  static picture::Vector ground_low() { return {}; }
   const PictureData& data_;
-  const bool known_;  // VisibleArea holds for rays of 2^20 samples at most: the error of a step adds up
-  VisibleArea matter_, ground_;
+  const bool known_;  // Projection holds for rays of 2^20 samples at most: the error of a step adds up
+  Projection projection_;
+  TileBoxes matter_;
+  VisibleArea ground_;
 };
 
 // Which pixels of a tile's row differ from a neighbour, byte by byte.
@@ -216,7 +217,7 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
   for_tiles(tiles, threads, [&](int index, Samples& samples) {
     const Tile tile = tile_at(index);
     PictureData of_tile;
-    if (!areas.in(tile, of_tile)) return;
+    if (!areas.in(index, tile, of_tile)) return;
     std::array<std::uint16_t, kTile * kTile> pixel;
     samples.clear();
     for (int y = tile.y0; y < tile.y1; y += side)
@@ -251,7 +252,7 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
         }
       }
       PictureData of_tile;
-      if (pixels == 0 || !areas.in(tile, of_tile)) return;
+      if (pixels == 0 || !areas.in(index, tile, of_tile)) return;
       samples.draw(of_tile, packets);
       for (std::size_t i = 0; i < pixels; ++i)
         image.at(tile.x0 + pixel[i] % kTile, tile.y0 + pixel[i] / kTile) =

@@ -11,7 +11,8 @@ namespace voxmelt::render {
 namespace {
 
 constexpr std::size_t kPlaces = kBrickVolume;
-constexpr std::uint8_t kWhole = 2;   // of what is stale: also where it is what it was
+constexpr std::uint8_t kWhole = 2;  // of what is stale: also where it is what it was
+constexpr std::int32_t kAirBlock = INT32_MIN;
 constexpr std::size_t kBeyond = 16;  // levels are read in pairs, and in rows of 16
 static_assert(kPlacesOfBrick == kBrickPlaces);
 
@@ -31,6 +32,16 @@ BrickSource source_of(const state::Grid& grid, const state::Grid& brick) {
   return of;
 }
 
+// The planes of a brick of the field that the next brick of the lattice holds, too.
+constexpr std::uint8_t kLastPlanes = 0xE0;
+
+// Calls visit(b) for the bricks from `a` to the next ones along those axes on which `more` is 1.
+template <class Visit>
+void for_near(const state::Grid& bricks, const state::Grid& a, const state::Grid& more, const Visit& visit) {
+  for (int z = a.z; z <= std::min(a.z + more.z, bricks.z - 1); ++z)
+    for (int y = a.y; y <= std::min(a.y + more.y, bricks.y - 1); ++y)
+      for (int x = a.x; x <= std::min(a.x + more.x, bricks.x - 1); ++x) visit(state::Grid{x, y, z});
+}
 // Calls visit(b) for the bricks that hold a part of brick `a`, or of which it holds one: those from `low` to
 // `high` of it.
 template <class Visit>
@@ -66,7 +77,7 @@ void FieldBricks::resize(const state::Grid& grid) {
   free_.clear();
   levels_.assign(kPlaces + kBeyond, picture::kAir);
   matter_.assign(kPlaces, 0);
-  skip_.assign(blocks_.cells() + kBeyond, kFarthest);
+  records_.assign(blocks_.cells(), kAirBlock | kFarthest);
   occupied_.assign(blocks_.cells(), 0);
 }
 
@@ -79,18 +90,30 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
     resize(field.grid());
     mixed_.assign(field.bricks().cells(), 0);
   }
-  // With the pre-filter, a brick of the field changes levels in those around it.
   const state::Grid& of = field.bricks();
   std::vector<std::uint8_t> stale(of.cells(), all ? kWhole : 0), touched(slots_.size(), all ? 1 : 0);
   if (!all) {
     if (changed->empty()) return;
-    for (const std::uint32_t brick : *changed)
-      for_near(of, place_in(of, brick), -1, 1,
-               [&](const state::Grid& b) { stale[of.index(b.x, b.y, b.z)] = 1; });
-    for (std::size_t brick = 0; brick < stale.size(); ++brick)
-      if (stale[brick] != 0)
-        for_near(bricks_, place_in(of, brick), 0, 1,
-                 [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
+    // With the pre-filter, a cell of the field changes the levels of those around it.
+    std::vector<BrickPart> parts(of.cells());
+    const auto spread = [&](std::uint32_t brick, const BrickPart& part, int reach) {
+      for_reached(of, place_in(of, brick), part, reach, [&](const state::Grid& near, const BrickPart& in) {
+        parts[of.index(near.x, near.y, near.z)].add(in);
+      });
+    };
+    for (const std::uint32_t brick : *changed) {
+      spread(brick, field.refreshed_part(brick).matter, 1);
+      spread(brick, field.refreshed_part(brick).heat, 0);
+    }
+    for (std::size_t brick = 0; brick < stale.size(); ++brick) {
+      const BrickPart& part = parts[brick];
+      if (!part.any()) continue;
+      stale[brick] = 1;
+      const state::Grid at = place_in(of, brick);
+      const auto next = [](std::uint8_t planes) { return (planes & kLastPlanes) != 0 ? 1 : 0; };
+      for_near(bricks_, at, {next(part.x), next(part.y), next(part.z)},
+               [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
+    }
   }
 
   // What is nothing but air needs no slot. A new one is filled whole.
@@ -142,6 +165,7 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
   if (!moved && std::find(others.begin(), others.end(), 1) == others.end()) return;
   find_distances();
   find_box();
+  find_shell();
 }
 
 std::int32_t FieldBricks::take() {
@@ -192,7 +216,7 @@ bool FieldBricks::clear(std::size_t brick) {
     const std::size_t block = block_of(brick, b);
     moved = moved || occupied_[block] != 0;
     occupied_[block] = 0;
-    skip_[block] &= 0xFF;
+    if (records_[block] >= 0) records_[block] = kAirBlock;
   }
   return moved;
 }
@@ -238,8 +262,11 @@ bool FieldBricks::find_ranges(std::size_t brick, const BrickLoops& loops) {
     const std::uint8_t occupied = ranges.most[i] >= 0 ? 1 : 0;
     moved = moved || occupied != occupied_[block];
     occupied_[block] = occupied;
-    const int slope = slope_bound(ranges.along_x[i], ranges.along_y[i], ranges.along_z[i]);
-    skip_[block] = static_cast<std::uint16_t>((skip_[block] & 0xFF) | slope << 8);
+    if (occupied != 0)
+      records_[block] =
+          slots_[brick] << 8 | slope_bound(ranges.along_x[i], ranges.along_y[i], ranges.along_z[i]);
+    else if (records_[block] >= 0)
+      records_[block] = kAirBlock;
   }
   return moved;
 }
@@ -252,7 +279,7 @@ std::size_t FieldBricks::block_of(std::size_t brick, int which) const {
 void FieldBricks::find_distances() {
   const std::vector<std::uint8_t> distances = block_distances(occupied_, blocks_, kFarthest);
   for (std::size_t i = 0; i < distances.size(); ++i)
-    skip_[i] = static_cast<std::uint16_t>((skip_[i] & 0xFF00) | distances[i]);
+    if (records_[i] < 0) records_[i] = kAirBlock | distances[i];
 }
 
 void FieldBricks::find_box() {
@@ -270,22 +297,57 @@ void FieldBricks::find_box() {
         }
       }
     }
-  const auto corner = [](const int(&block)[3]) {
-    const auto axis = [](int b) {
-      return (std::int64_t{b} * kBlockSide - kLatticeBorder) * picture::kCell - picture::kToPlace;
-    };
-    return picture::Vector{axis(block[0]), axis(block[1]), axis(block[2])};
-  };
   // Outside of the box of samples there is air. The lattice reaches a cell further, and rays' ranges less
   // than that.
   const picture::Vector least = picture::field_low(), most = picture::field_high(cells_);
-  box_ = {corner(low), corner(high)};
+  box_ = {low_of_block(low[0], low[1], low[2]), low_of_block(high[0], high[1], high[2])};
   box_.low = {std::max(box_.low.x, least.x), std::max(box_.low.y, least.y), std::max(box_.low.z, least.z)};
   box_.high = {std::min(box_.high.x, most.x), std::min(box_.high.y, most.y), std::min(box_.high.z, most.z)};
 }
 
+// A brick is surrounded if the six beside it are full of occupied blocks.
+void FieldBricks::find_shell() {
+  shell_.clear();
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  const std::size_t row = at(blocks_.x), slice = row * at(blocks_.y);
+  const auto found = [&](std::size_t brick) {  // its eight blocks as bits
+    const state::Grid b = place_in(bricks_, brick);
+    const std::uint8_t* first = occupied_.data() + blocks_.index(2 * b.x, 2 * b.y, 2 * b.z);
+    unsigned bits = 0;
+    for (unsigned i = 0; i < 8; ++i)
+      bits |= unsigned{first[(i & 1) + ((i >> 1) & 1) * row + (i >> 2) * slice]} << i;
+    return bits;
+  };
+  std::vector<std::uint8_t> blocks(bricks_.cells());
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    blocks[i] = slots_[i] == 0 ? 0 : static_cast<std::uint8_t>(found(i));
+  for (int z = 0; z < bricks_.z; ++z)
+    for (int y = 0; y < bricks_.y; ++y)
+      for (int x = 0; x < bricks_.x; ++x) {
+        const std::size_t i = bricks_.index(x, y, z);
+        if (blocks[i] == 0) continue;
+        const auto full = [&](int dx, int dy, int dz) {
+          return bricks_.contains(x + dx, y + dy, z + dz) &&
+                 blocks[bricks_.index(x + dx, y + dy, z + dz)] == 0xFF;
+        };
+        if (full(-1, 0, 0) && full(1, 0, 0) && full(0, -1, 0) && full(0, 1, 0) && full(0, 0, -1) &&
+            full(0, 0, 1))
+          continue;
+        BlockBox box{{INT32_MAX, INT32_MAX, INT32_MAX}, {0, 0, 0}};
+        for (int b = 0; b < 8; ++b) {
+          if ((blocks[i] >> b & 1) == 0) continue;
+          const int block[3] = {2 * x + (b & 1), 2 * y + ((b >> 1) & 1), 2 * z + (b >> 2)};
+          for (int axis = 0; axis < 3; ++axis) {
+            box.low[axis] = std::min(box.low[axis], block[axis]);
+            box.high[axis] = std::max(box.high[axis], block[axis] + 1);
+          }
+        }
+        shell_.push_back(box);
+      }
+}
+
 std::size_t FieldBricks::bytes() const {
-  return slots_.size() * 4 + levels_.size() * 2 + matter_.size() * 4 + skip_.size() * 2;
+  return slots_.size() * 4 + levels_.size() * 2 + matter_.size() * 4 + records_.size() * 4;
 }
 
 }  // namespace voxmelt::render

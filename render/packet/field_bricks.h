@@ -19,10 +19,8 @@
 
 namespace voxmelt::render {
 
-inline constexpr int kLatticeBorder = 2;             // places before cell 0
 inline constexpr int kBrickPlaces = kBrickSide + 3;  // along an axis of a brick
 inline constexpr int kBrickVolume = kBrickPlaces * kBrickPlaces * kBrickPlaces;
-inline constexpr int kBlockSide = 4;  // of the blocks by which rays skip
 
 class FieldBricks {
  public:
@@ -40,10 +38,10 @@ class FieldBricks {
   // [slot][z][y][x]; matter as liquid + 256 heat + 65536 obstacle.
   const std::int16_t* levels() const { return levels_.data(); }
   const std::uint32_t* matter() const { return matter_.data(); }
-  // Of each block of 4 x 4 x 4 lower cells: in the low byte 0 if one of its places is matter, or else how
-  // many blocks away the nearest such block is, kFarthest at most; in the high byte a bound of the slope (see
-  // slope_bound).
-  const std::uint16_t* skip() const { return skip_.data(); }
+  // Of each block of 4 x 4 x 4 lower cells, in one number. If one of its places is matter: a bound of the
+  // slope (see slope_bound) in the low byte, and above it the slot of its brick. Otherwise it is negative,
+  // and the low byte tells how many blocks away the nearest such block is, kFarthest at most.
+  const std::int32_t* records() const { return records_.data(); }
   static constexpr int kFarthest = 16;
   // The level changes by no more than kSlopeUnit times this from a position to another one cell away (the
   // largest component of the way), within a block, but for the roundings of samples. Neighbours differ by
@@ -56,6 +54,8 @@ class FieldBricks {
     picture::Vector low, high;
   };
   const Box& occupied() const { return box_; }
+  // Boxes that hold all of what is occupied, but for what is surrounded by it on all sides.
+  const std::vector<BlockBox>& shell() const { return shell_; }
   std::size_t bytes() const;
 
  private:
@@ -70,6 +70,7 @@ class FieldBricks {
   bool find_ranges(std::size_t brick, const BrickLoops& loops);
   void find_distances();
   void find_box();
+  void find_shell();
 
   picture::Vector cells_;
   state::Grid grid_{0, 0, 0}, bricks_{0, 0, 0}, blocks_{0, 0, 0};
@@ -77,10 +78,11 @@ class FieldBricks {
   std::vector<std::int32_t> free_;
   std::vector<std::int16_t> levels_;
   std::vector<std::uint32_t> matter_;
-  std::vector<std::uint16_t> skip_;
+  std::vector<std::int32_t> records_;
   std::vector<std::uint8_t> occupied_;  // of blocks
   std::vector<std::uint8_t> mixed_;     // of bricks of the field: some word of matter is not 0
   Box box_;
+  std::vector<BlockBox> shell_;
 };
 
 }  // namespace voxmelt::render

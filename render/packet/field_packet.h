@@ -29,7 +29,10 @@ struct FieldPacket : Packet<Arch> {
   VOXMELT_WORDS V corner(const FieldData& field, Triple q) {
     const V brick = ((q.z >> 23) * field.bricks_y + (q.y >> 23)) * field.bricks_x + (q.x >> 23);
     const V slot = L::template gather<4>(field.slots, brick);
-    return slot * kVolume + ((q.z >> 20) & 7) * kSlice + ((q.y >> 20) & 7) * kRow + ((q.x >> 20) & 7);
+    return slot * kVolume + in_brick(q);
+  }
+  VOXMELT_WORDS V in_brick(Triple q) {
+    return ((q.z >> 20) & 7) * kSlice + ((q.y >> 20) & 7) * kRow + ((q.x >> 20) & 7);
   }
   // (256 - w) and w as a pair of 16 bits.
   VOXMELT_WORDS V weights(V q) {
@@ -39,8 +42,8 @@ struct FieldPacket : Packet<Arch> {
   VOXMELT_WORDS V blended(V pair, V weight) { return (L::pair_products(pair, weight) + 128) >> 8; }
   VOXMELT_WORDS V pair(V below, V above) { return (below & 0xFFFF) | (above << 16); }
 
-  VOXMELT_WORDS V sample(const FieldData& field, Triple q) {
-    const V at = corner(field, q);
+  VOXMELT_WORDS V sample(const FieldData& field, Triple q) { return sample_in(field, q, corner(field, q)); }
+  VOXMELT_WORDS V sample_in(const FieldData& field, Triple q, V at) {
     const V wx = weights(q.x), wy = weights(q.y), wz = weights(q.z);
     const auto along_x = [&](std::int32_t offset) {
       return blended(L::template gather<2>(field.levels + kOne + offset, at), wx);
@@ -57,60 +60,135 @@ struct FieldPacket : Packet<Arch> {
     Triple at;  // its lattice position
   };
 
+  // A packet on its way.
+  struct Walk {
+    V last, sample, active;
+    Triple at;                 // lattice position of the sample
+    V back_x, back_y, back_z;  // -1: towards lower places
+    Hits hits;
+  };
+  VOXMELT_WORDS Walk walk(const PictureData& data, const Row& row, V most) {
+    Walk of;
+    auto range = Rays<Arch>::in_box(row, data.field.low, data.field.high);
+    of.last = L::min(range.last, most);
+    of.sample = range.first;
+    of.active = range.first <= of.last;
+    of.at = P::select(of.active, Rays<Arch>::at(row, of.sample, kBias), Triple{});
+    of.back_x = row.step.x < 0;
+    of.back_y = row.step.y < 0;
+    of.back_z = row.step.z < 0;
+    of.hits.found = of.hits.sample = of.hits.level = of.hits.at.x = of.hits.at.y = of.hits.at.z = V{};
+    return of;
+  }
+
+  static constexpr float kLess = 1 - 1.0f / (1 << 18);
+  static constexpr int kBlockBits = 22;
+
+  struct Block {
+    V record, occupied;  // see FieldBricks::records
+    V advance;           // samples until the ray leaves the block, or the empty cube around it
+  };
+  VOXMELT_WORDS Block block(const PictureData& data, const Row& row, const Walk& of) {
+    const FieldData& field = data.field;
+    const Triple at = of.at >> kBlockBits;
+    const V index = (at.z * field.blocks_y + at.y) * field.blocks_x + at.x;
+    Block found;
+    found.record = L::template gather<4>(field.records, index);
+    const V air = found.record < 0;
+    found.occupied = of.active & ~air;
+    found.advance = L::set(1);
+    if (data.skip) {
+      const V reach = (air ? found.record & 255 : L::set(1)) << kBlockBits;
+      const auto axis = [&](V place, V back, F inverse) {
+        const V way = reach + back - ((place ^ back) & ((1 << kBlockBits) - 1));
+        return L::to_float(way) * inverse;
+      };
+      const F leave =
+          L::min(L::min(axis(of.at.x, of.back_x, row.inverse_x), axis(of.at.y, of.back_y, row.inverse_y)),
+                 axis(of.at.z, of.back_z, row.inverse_z));
+      found.advance = L::to_int(L::min(leave * kLess, L::set_float(1e8f))) + 1;
+    }
+    return found;
+  }
+
+  VOXMELT_WORDS void meet(const PictureData& data, Walk& of, Block& in, V level) {
+    const V matter = in.occupied & (level >= 0);
+    of.hits.found = of.hits.found | matter;
+    of.hits.sample = matter ? of.sample : of.hits.sample;
+    of.hits.level = matter ? level : of.hits.level;
+    of.hits.at = P::select(matter, of.at, of.hits.at);
+    of.active = of.active & ~matter;
+    if (data.skip) {
+      // The level rises no faster than the block's slope allows. Weights and blends are rounded.
+      const F rise_unit = L::set_float(1.0f / static_cast<float>(kSlopeUnit >> data.spacing));
+      const V slope = in.record & 255;
+      const F steps = L::to_float(-level - 4 - 3 * slope) / L::to_float(L::max(slope, L::set(1))) * rise_unit;
+      const V safe = L::to_int(L::max(steps * kLess, L::set_float(0))) + 1;
+      in.advance = in.occupied ? L::min(in.advance, safe) : in.advance;
+    }
+  }
+  VOXMELT_WORDS void go(const Row& row, Walk& of, V advance) {
+    of.sample = of.sample + advance;
+    of.active = of.active & (of.sample <= of.last);
+    of.at = P::select(of.active, of.at + row.step * advance, of.at);
+  }
+  VOXMELT_WORDS V occupied_sample(const PictureData& data, const Walk& of, const Block& in) {
+    const V slot = in.occupied ? in.record >> 8 : V{};
+    return sample_in(data.field, of.at, slot * kVolume + in_brick(of.at));
+  }
+  VOXMELT_WORDS void finish(const PictureData& data, const Row& row, Walk& of) {
+    while (L::any(of.active)) {
+      Block in = block(data, row, of);
+      if (L::any(in.occupied)) meet(data, of, in, occupied_sample(data, of, in));
+      go(row, of, in.advance);
+    }
+  }
+
   // The first sample in matter of every ray, up to `most`.
   VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, V most) {
-    const FieldData& field = data.field;
-    auto range = Rays<Arch>::in_box(row, field.low, field.high);
-    range.last = L::min(range.last, most);
-    V k = range.first, active = range.first <= range.last;
-    Triple q = Rays<Arch>::at(row, k, kBias);
-    q = P::select(active, q, Triple{});
-    Hits hits;
-    hits.found = hits.sample = hits.level = hits.at.x = hits.at.y = hits.at.z = V{};
-    const F rise_unit = L::set_float(1.0f / static_cast<float>(kSlopeUnit >> data.spacing));
-    const V forward_x = row.step.x >= 0, forward_y = row.step.y >= 0, forward_z = row.step.z >= 0;
-    while (L::any(active)) {
-      const Triple block = q >> 22;
-      const V index = (block.z * field.blocks_y + block.y) * field.blocks_x + block.x;
-      const V record = L::template gather<2>(field.skip, index) & 0xFFFF;
-      const V distance = record & 255, occupied = active & (distance == 0);
-      V advance = L::set(1);
-      if (data.skip) {
-        // Samples until the ray leaves the block, or the empty cube around it.
-        const V reach = L::max(distance, L::set(1));
-        const auto axis = [&](V place, V at_block, V forward, F inverse) {
-          const V bound = (at_block + (forward ? reach : 1 - reach)) << 22;
-          const F way = L::to_float(forward ? bound - place : place - bound);
-          return way * inverse;
-        };
-        const F leave = L::min(L::min(axis(q.x, block.x, forward_x, row.inverse_x),
-                                      axis(q.y, block.y, forward_y, row.inverse_y)),
-                               axis(q.z, block.z, forward_z, row.inverse_z));
-        constexpr float kLess = 1 - 1.0f / (1 << 18);
-        advance = L::to_int(L::min(leave * kLess, L::set_float(1e8f))) + 1;
+    Walk of = walk(data, row, most);
+    finish(data, row, of);
+    return of.hits;
+  }
+  // Two packets at once: while one waits for memory, the other goes on. approaches[i].row and most are read,
+  // hits are written.
+  template <class Approach>
+  VOXMELT_WORDS void march(const PictureData& data, Approach* first, Approach* end) {
+    const auto next = [&](Walk& of) -> Approach* {
+      while (first != end) {
+        Approach* const taken = first++;
+        of = walk(data, taken->row, taken->most);
+        if (L::any(of.active)) return taken;
+        taken->hits = of.hits;
       }
-      if (L::any(occupied)) {
-        const V level = sample(field, q);
-        const V matter = occupied & (level >= 0);
-        hits.found = hits.found | matter;
-        hits.sample = matter ? k : hits.sample;
-        hits.level = matter ? level : hits.level;
-        hits.at = P::select(matter, q, hits.at);
-        active = active & ~matter;
-        if (data.skip) {
-          // The level rises no faster than the block's slope allows. Weights and blends are rounded.
-          const V slope = record >> 8;
-          const F steps =
-              L::to_float(-level - 4 - 3 * slope) / L::to_float(L::max(slope, L::set(1))) * rise_unit;
-          const V safe = L::to_int(L::max(steps * (1 - 1.0f / (1 << 18)), L::set_float(0))) + 1;
-          advance = occupied ? L::min(advance, safe) : advance;
+      return nullptr;
+    };
+    Walk a, b;
+    Approach *of_a = next(a), *of_b = of_a == nullptr ? nullptr : next(b);
+    while (of_b != nullptr) {
+      Block in_a = block(data, of_a->row, a), in_b = block(data, of_b->row, b);
+      if (L::any(in_a.occupied)) meet(data, a, in_a, occupied_sample(data, a, in_a));
+      if (L::any(in_b.occupied)) meet(data, b, in_b, occupied_sample(data, b, in_b));
+      go(of_a->row, a, in_a.advance);
+      go(of_b->row, b, in_b.advance);
+      if (!L::any(a.active)) {
+        of_a->hits = a.hits;
+        of_a = next(a);
+        if (of_a == nullptr) {
+          a = b;
+          of_a = of_b;
+          of_b = nullptr;
+          break;
         }
       }
-      k = k + advance;
-      active = active & (k <= range.last);
-      q = P::select(active, q + row.step * advance, q);
+      if (!L::any(b.active)) {
+        of_b->hits = b.hits;
+        of_b = next(b);
+      }
     }
-    return hits;
+    if (of_a == nullptr) return;
+    finish(data, of_a->row, a);
+    of_a->hits = a.hits;
   }
 
   struct Surface {

@@ -24,6 +24,7 @@ struct GroundPacket : Packet<Arch> {
   using Row = typename Rays<Arch>::Row;
 
   static constexpr picture::Vector kLow{};
+  static constexpr float kMore = 1.0f / (1 << 20);
 
   struct Hits {
     V found;   // mask
@@ -56,59 +57,103 @@ struct GroundPacket : Packet<Arch> {
     return (p.y >> (picture::kPositionBits - picture::kHeightBits)) - height(ground, ground.drawn, p.x, p.z);
   }
 
-  // The place at or before which the ground is entered, to a sample.
-  VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, Triple start) {
+  // A packet on its way.
+  struct Walk {
+    V first, last, part, active;
+    F nearer, per_sample;  // 2^-32 cells that the ground may come nearer at each sample
+    Hits hits;
+  };
+  VOXMELT_WORDS Walk walk(const PictureData& data, const Row& row) {
     const GroundData& ground = data.ground;
     const std::int64_t top = std::int64_t{ground.highest} << (picture::kPositionBits - picture::kHeightBits);
     const auto range = Rays<Arch>::parts_in(
         row, kLow, {ground.cells.x * picture::kCell, top, ground.cells.z * picture::kCell});
-    V part = range.first, active = range.first <= range.last;
-    Hits hits{V{}, V{}, V{}};
-    if (!L::any(active)) return hits;
-    part = active ? part : V{};
-
+    Walk of;
+    of.first = range.first;
+    of.last = range.last;
+    of.active = range.first <= range.last;
+    of.hits = {V{}, V{}, V{}};
+    if (!L::any(of.active)) return of;
+    of.part = of.active ? range.first : V{};
     // See GroundMap::find; all floats are rounded so that less is left out.
-    constexpr float kMore = 1.0f / (1 << 20);
     const F aside = L::to_float(P::magnitude(row.step.x)) * static_cast<float>(ground.slopes.x) +
                     L::to_float(P::magnitude(row.step.z)) * static_cast<float>(ground.slopes.z);
     const F fall = L::to_float(row.step.y) * static_cast<float>(-picture::kHeight);
-    const F nearer = aside + fall + (aside + L::max(fall, -fall)) * kMore;
-    const F per_sample = nearer > 0.0f ? (1 - kMore * 4) / nearer : L::set_float(1.0f);
-    const float margin = static_cast<float>(ground.slopes.x + ground.slopes.z) * 8193.0f + (9 << 20);
-    for (;;) {
-      const Triple p = Rays<Arch>::at_part(row, start, part);
-      const V over = active ? above(ground, P::select(active, p, Triple{})) : V{};
-      const V hit = active & (over < 0);
-      hits.found = hits.found | hit;
-      hits.inside = hit ? part : hits.inside;
-      active = active & ~hit & (part < range.last);
-      if (!L::any(active)) break;
-      V next = (part >> picture::kPartBits) + 1;
-      if (data.skip) {
-        const F gap = L::to_float(over) * static_cast<float>(1 << picture::kPositionBits) - margin;
-        const F leap = gap > 0.0f ? (nearer > 0.0f ? gap * per_sample : L::set_float(1e6f)) : L::set_float(0);
-        next = next + L::to_int(L::min(leap, L::set_float(1e6f)));
-      }
-      part = active ? L::min(L::min(next, (range.last >> picture::kPartBits) + 1) << picture::kPartBits,
-                             range.last)
-                    : part;
+    of.nearer = aside + fall + (aside + L::max(fall, -fall)) * kMore;
+    of.per_sample = of.nearer > 0.0f ? (1 - kMore * 4) / of.nearer : L::set_float(1.0f);
+    return of;
+  }
+  VOXMELT_WORDS V over(const PictureData& data, const Row& row, Triple start, const Walk& of) {
+    const Triple p = P::select(of.active, Rays<Arch>::at_part(row, start, of.part), Triple{});
+    return of.active ? above(data.ground, p) : V{};
+  }
+  VOXMELT_WORDS void go(const PictureData& data, Walk& of, V over) {
+    const V hit = of.active & (over < 0);
+    of.hits.found = of.hits.found | hit;
+    of.hits.inside = hit ? of.part : of.hits.inside;
+    of.active = of.active & ~hit & (of.part < of.last);
+    V next = (of.part >> picture::kPartBits) + 1;
+    if (data.skip) {
+      const picture::Vector slopes = data.ground.slopes;
+      const float margin = static_cast<float>(slopes.x + slopes.z) * 8193.0f + (9 << 20);
+      const F gap = L::to_float(over) * static_cast<float>(1 << picture::kPositionBits) - margin;
+      const F leap =
+          gap > 0.0f ? (of.nearer > 0.0f ? gap * of.per_sample : L::set_float(1e6f)) : L::set_float(0);
+      next = next + L::to_int(L::min(leap, L::set_float(1e6f)));
     }
+    of.part = of.active
+                  ? L::min(L::min(next, (of.last >> picture::kPartBits) + 1) << picture::kPartBits, of.last)
+                  : of.part;
+  }
+  VOXMELT_WORDS Hits hits_of(const Walk& of) {
+    Hits hits = of.hits;
     const V sample = (hits.inside - 1) & -picture::kParts;
-    hits.before = hits.inside == range.first ? hits.inside - 1 : L::max(range.first, sample);
+    hits.before = hits.inside == of.first ? hits.inside - 1 : L::max(of.first, sample);
     return hits;
   }
 
   // Between neighbouring parts.
-  VOXMELT_WORDS void bisect(const GroundData& ground, const Row& row, Triple start, Hits& hits) {
-    for (;;) {
-      const V open = hits.found & (hits.inside - hits.before > 1);
-      if (!L::any(open)) return;
-      const V middle = (hits.inside + hits.before) >> 1;
-      const Triple p = P::select(open, Rays<Arch>::at_part(row, start, middle), Triple{});
-      const V in = above(ground, p) < 0;
-      hits.inside = (open & in) ? middle : hits.inside;
-      hits.before = (open & ~in) ? middle : hits.before;
+  VOXMELT_WORDS V open(const Hits& hits) { return hits.found & (hits.inside - hits.before > 1); }
+  VOXMELT_WORDS void halve(const GroundData& ground, const Row& row, Triple start, V open, Hits& hits) {
+    const V middle = (hits.inside + hits.before) >> 1;
+    const Triple p = P::select(open, Rays<Arch>::at_part(row, start, middle), Triple{});
+    const V in = above(ground, p) < 0;
+    hits.inside = (open & in) ? middle : hits.inside;
+    hits.before = (open & ~in) ? middle : hits.before;
+  }
+
+  VOXMELT_WORDS void finish(const PictureData& data, const Row& row, Triple start, Walk& of) {
+    while (L::any(of.active)) go(data, of, over(data, row, start, of));
+  }
+  // The place at or before which the ground is entered, to a sample.
+  VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, Triple start) {
+    Walk of = walk(data, row);
+    finish(data, row, start, of);
+    return hits_of(of);
+  }
+  // The same for two packets at once: while one waits for memory, the other goes on. Bisected, too.
+  template <class Approach>
+  VOXMELT_WORDS void march(const PictureData& data, Approach& one, Approach& other) {
+    Walk a = walk(data, one.row), b = walk(data, other.row);
+    while (L::any(a.active) && L::any(b.active)) {
+      const V over_a = over(data, one.row, one.start, a), over_b = over(data, other.row, other.start, b);
+      go(data, a, over_a);
+      go(data, b, over_b);
     }
+    finish(data, one.row, one.start, a);
+    finish(data, other.row, other.start, b);
+    one.ground = hits_of(a);
+    other.ground = hits_of(b);
+    for (;;) {
+      const V open_a = open(one.ground), open_b = open(other.ground);
+      if (!L::any(open_a | open_b)) return;
+      halve(data.ground, one.row, one.start, open_a, one.ground);
+      halve(data.ground, other.row, other.start, open_b, other.ground);
+    }
+  }
+
+  VOXMELT_WORDS void bisect(const GroundData& ground, const Row& row, Triple start, Hits& hits) {
+    for (V still = open(hits); L::any(still); still = open(hits)) halve(ground, row, start, still, hits);
   }
 
   // The numbers of picture::Face.

@@ -49,9 +49,13 @@ PictureData Picture::data(const picture::Camera& camera, Setting setting) const 
   of.width = static_cast<std::int32_t>(camera.width);
   of.height = static_cast<std::int32_t>(camera.height);
   of.spacing = spacing_of(setting, of.view);
-  of.field = {bricks_.cells(),    bricks_.bricks().x, bricks_.bricks().y,     bricks_.blocks().x,
-              bricks_.blocks().y, bricks_.slots(),    bricks_.levels(),       bricks_.matter(),
-              bricks_.skip(),     obstacles_,         bricks_.occupied().low, bricks_.occupied().high};
+  of.field = {bricks_.cells(),        bricks_.bricks().x,
+              bricks_.bricks().y,     bricks_.blocks().x,
+              bricks_.blocks().y,     bricks_.slots(),
+              bricks_.levels(),       bricks_.matter(),
+              bricks_.records(),      obstacles_,
+              bricks_.occupied().low, bricks_.occupied().high,
+              bricks_.shell().data(), bricks_.shell().size()};
   of.light = {reinterpret_cast<const std::uint8_t*>(light_.cells().data()), light_.count(), light_.shift()};
   of.ground = columns_.data(ground_);
   of.paint = &paint_;

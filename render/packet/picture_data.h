@@ -11,7 +11,23 @@
 
 namespace voxmelt::render {
 
-inline constexpr int kSlopeUnit = 768;  // of the slopes in FieldData::skip, see field_bricks.h
+inline constexpr int kSlopeUnit = 768;  // of the slopes in FieldData::records, see field_bricks.h
+
+// Blocks of cells, from low to high (see field_bricks.h).
+struct BlockBox {
+  std::int32_t low[3], high[3];
+};
+
+inline constexpr int kLatticeBorder = 2;  // places before cell 0
+inline constexpr int kBlockSide = 4;      // of the blocks by which rays skip
+
+// Where the samples begin whose lower cell lies in a block.
+inline picture::Vector low_of_block(int x, int y, int z) {
+  const auto axis = [](int b) {
+    return (std::int64_t{b} * kBlockSide - kLatticeBorder) * picture::kCell - picture::kToPlace;
+  };
+  return {axis(x), axis(y), axis(z)};
+}
 
 struct FieldData {
   picture::Vector cells;
@@ -19,9 +35,11 @@ struct FieldData {
   const std::int32_t* slots = nullptr;  // see field_bricks.h
   const std::int16_t* levels = nullptr;
   const std::uint32_t* matter = nullptr;
-  const std::uint16_t* skip = nullptr;
+  const std::int32_t* records = nullptr;
   bool obstacles = false;
-  picture::Vector low, high;  // outside of this box there is air
+  picture::Vector low, high;        // outside of this box there is air
+  const BlockBox* shell = nullptr;  // all of what is occupied, but for what is surrounded by it
+  std::size_t shell_count = 0;
 };
 
 struct LightData {

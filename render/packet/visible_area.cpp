@@ -6,7 +6,10 @@
 namespace voxmelt::render {
 namespace {
 
-double along(picture::Vector a, picture::Vector b) {
+constexpr auto kOne = static_cast<double>(picture::kUnit);
+constexpr auto kCells = static_cast<double>(picture::kCell);
+
+double dot_of(picture::Vector a, picture::Vector b) {
   return static_cast<double>(a.x) * static_cast<double>(b.x) +
          static_cast<double>(a.y) * static_cast<double>(b.y) +
          static_cast<double>(a.z) * static_cast<double>(b.z);
@@ -14,34 +17,51 @@ double along(picture::Vector a, picture::Vector b) {
 
 }  // namespace
 
+Projection::Projection(const picture::View& view)
+    : eye_{static_cast<double>(view.eye.x) / kCells, static_cast<double>(view.eye.y) / kCells,
+           static_cast<double>(view.eye.z) / kCells},
+      half_width_(static_cast<double>(view.half_width)),
+      half_height_(static_cast<double>(view.half_height)) {
+  const double tangent = dot_of(view.wide, view.right) / (kOne * kOne);
+  const double scale = half_height_ / (tangent * kOne);
+  const auto axis = [&](std::int64_t forward, std::int64_t right, std::int64_t up) {
+    return Axes{static_cast<double>(forward) / kOne, static_cast<double>(right) * scale,
+                static_cast<double>(-up) * scale};
+  };
+  along_[0] = axis(view.forward.x, view.right.x, view.up.x);
+  along_[1] = axis(view.forward.y, view.right.y, view.up.y);
+  along_[2] = axis(view.forward.z, view.right.z, view.up.z);
+}
+
 // The projection of a box before the eye lies within that of its corners. Rays are off their lines by the
 // roundings of starts and steps, which are far below a cell within the grid: the box is taken a cell larger.
-VisibleArea::VisibleArea(const picture::View& view, picture::Vector low, picture::Vector high) {
-  if (low.x >= high.x || low.y >= high.y || low.z >= high.z) return;
-  constexpr std::int64_t kMore = picture::kCell;
-  constexpr auto kOne = static_cast<double>(picture::kUnit);
-  const double tangent = along(view.wide, view.right) / (kOne * kOne);
-  const auto half_height = static_cast<double>(view.half_height),
-             half_width = static_cast<double>(view.half_width);
-  for (int corner = 0; corner < 8; ++corner) {
-    const picture::Vector from_eye = picture::Vector{(corner & 1) != 0 ? high.x + kMore : low.x - kMore,
-                                                     (corner & 2) != 0 ? high.y + kMore : low.y - kMore,
-                                                     (corner & 4) != 0 ? high.z + kMore : low.z - kMore} -
-                                     view.eye;
-    const double depth = along(from_eye, view.forward) / kOne;
-    if (depth < static_cast<double>(picture::kCell)) {  // beside or behind the eye
-      left_ = top_ = -1e300;
-      right_ = bottom_ = 1e300;
-      return;
-    }
-    const double scale = half_height / (depth * tangent * kOne);
-    const double across = along(from_eye, view.right) * scale + half_width;
-    const double down = half_height - along(from_eye, view.up) * scale;
-    left_ = std::min(left_, across - 1);
-    right_ = std::max(right_, across + 1);
-    top_ = std::min(top_, down - 1);
-    bottom_ = std::max(bottom_, down + 1);
+VisibleArea Projection::of(picture::Vector low, picture::Vector high) const {
+  VisibleArea area;
+  if (low.x >= high.x || low.y >= high.y || low.z >= high.z) return area;
+  const double from[3] = {static_cast<double>(low.x), static_cast<double>(low.y), static_cast<double>(low.z)},
+               to[3] = {static_cast<double>(high.x), static_cast<double>(high.y),
+                        static_cast<double>(high.z)};
+  Axes ends[3][2];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double places[2] = {from[axis] / kCells - 1 - eye_[axis], to[axis] / kCells + 1 - eye_[axis]};
+    for (int end = 0; end < 2; ++end)
+      ends[axis][end] = {along_[axis].depth * places[end], along_[axis].across * places[end],
+                         along_[axis].down * places[end]};
   }
+  for (int corner = 0; corner < 8; ++corner) {
+    const Axes &x = ends[0][corner & 1], &y = ends[1][corner >> 1 & 1], &z = ends[2][corner >> 2];
+    const double depth = x.depth + y.depth + z.depth;
+    if (depth < 1)  // beside or behind the eye
+      return {-1e300, 1e300, -1e300, 1e300};
+    const double nearer = 1 / depth;
+    const double across = (x.across + y.across + z.across) * nearer + half_width_;
+    const double down = (x.down + y.down + z.down) * nearer + half_height_;
+    area.left = std::min(area.left, across - 1);
+    area.right = std::max(area.right, across + 1);
+    area.top = std::min(area.top, down - 1);
+    area.bottom = std::max(area.bottom, down + 1);
+  }
+  return area;
 }
 
 }  // namespace voxmelt::render

@@ -7,18 +7,30 @@
 
 namespace voxmelt::render {
 
-class VisibleArea {
- public:
-  // Of the box low <= position < high, in 2^-20 cells; nowhere if it is empty.
-  VisibleArea(const picture::View& view, picture::Vector low, picture::Vector high);
-  // May a ray through these places meet the box? In picture coordinates; the ends are included.
-  bool overlaps(std::int64_t left, std::int64_t top, std::int64_t right, std::int64_t bottom) const {
-    return static_cast<double>(left) <= right_ && static_cast<double>(right) >= left_ &&
-           static_cast<double>(top) <= bottom_ && static_cast<double>(bottom) >= top_;
+// A rectangle in picture coordinates, ends included.
+struct VisibleArea {
+  double left = 1e300, right = -1e300, top = 1e300, bottom = -1e300;
+
+  // May a ray through these places meet what is seen here?
+  bool overlaps(std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) const {
+    return static_cast<double>(x0) <= right && static_cast<double>(x1) >= left &&
+           static_cast<double>(y0) <= bottom && static_cast<double>(y1) >= top;
   }
+};
+
+class Projection {
+ public:
+  explicit Projection(const picture::View& view);
+  // Of the box low <= position < high, in 2^-20 cells; nowhere if it is empty.
+  VisibleArea of(picture::Vector low, picture::Vector high) const;
 
  private:
-  double left_ = 1e300, right_ = -1e300, top_ = 1e300, bottom_ = -1e300;
+  struct Axes {  // of a position, all linear in it
+    double depth, across, down;
+  };
+  double eye_[3];
+  Axes along_[3];  // by a cell along each axis; across and down are still to be divided by the depth
+  double half_width_, half_height_;
 };
 
 }  // namespace voxmelt::render

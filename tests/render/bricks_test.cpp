@@ -91,11 +91,13 @@ void expect_plain(const FieldBricks& bricks, const render::DensityField& field, 
       if (i.y < 4) steep(1, {at.x, at.y + 1, at.z});
       if (i.z < 4) steep(2, {at.x, at.y, at.z + 1});
     });
-    const std::uint16_t skip = bricks.skip()[bricks.blocks().index(block.x, block.y, block.z)];
-    constexpr int kUnit = render::kSlopeUnit;
-    ASSERT_EQ(skip >> 8, (slopes[0] + slopes[1] + slopes[2] + kUnit - 1) / kUnit)
-        << "block " << block.x << ", " << block.y << ", " << block.z;
+    const std::int32_t record = bricks.records()[bricks.blocks().index(block.x, block.y, block.z)];
+    ASSERT_EQ(record < 0, most < 0) << "block " << block.x << ", " << block.y << ", " << block.z;
     if (most < 0) return;
+    constexpr int kUnit = render::kSlopeUnit;
+    ASSERT_EQ(record & 255, (slopes[0] + slopes[1] + slopes[2] + kUnit - 1) / kUnit)
+        << "block " << block.x << ", " << block.y << ", " << block.z;
+    ASSERT_EQ(record >> 8, bricks.slots()[bricks.bricks().index(block.x / 2, block.y / 2, block.z / 2)]);
     occupied.push_back(block);
     low = {std::min(low.x, block.x), std::min(low.y, block.y), std::min(low.z, block.z)};
     high = {std::max(high.x, block.x + 1), std::max(high.y, block.y + 1), std::max(high.z, block.z + 1)};
@@ -105,7 +107,8 @@ void expect_plain(const FieldBricks& bricks, const render::DensityField& field, 
     for (const Grid& of : occupied)
       distance = std::min(
           distance, std::max({std::abs(of.x - block.x), std::abs(of.y - block.y), std::abs(of.z - block.z)}));
-    ASSERT_EQ(bricks.skip()[bricks.blocks().index(block.x, block.y, block.z)] & 255, distance);
+    const std::int32_t record = bricks.records()[bricks.blocks().index(block.x, block.y, block.z)];
+    ASSERT_EQ(record < 0 ? record & 255 : 0, distance);
   });
   const auto corner = [](int block) {
     return (std::int64_t{4 * block} - 2) * (1 << 20) + (1 << 19) - (1 << 11);

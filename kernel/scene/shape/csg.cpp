@@ -73,9 +73,20 @@ ShapePtr make_csg(Operation operation, std::vector<ShapePtr> shapes) {
 
   if (operation == Operation::union_of) {
     return make_shape(bounds, [parts = std::move(parts)](Point p) {
+      // A part whose box is farther than the best so far cannot be nearer: so the nearest box comes first.
+      const Part* first = parts.data();
       double nearest = 1e300;
-      for (const Part& part : parts)  // a part whose box is farther than the best so far cannot be nearer
-        if (part.bounds.distance(p) < nearest) nearest = std::min(nearest, part.shape->distance(p));
+      for (const Part& part : parts) {
+        const double distance = part.bounds.distance(p);
+        if (distance >= nearest) continue;
+        nearest = distance;
+        first = &part;
+        if (distance == 0) break;
+      }
+      nearest = first->shape->distance(p);
+      for (const Part& part : parts)
+        if (&part != first && part.bounds.distance(p) < nearest)
+          nearest = std::min(nearest, part.shape->distance(p));
       return nearest;
     });
   }

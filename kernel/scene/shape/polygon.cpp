@@ -33,28 +33,49 @@ Polygon::Polygon(const std::vector<Point2>& points) : low_(points.front()), high
   }
 }
 
+// The nearest box comes first, so that most of the others are too far to be looked at.
 double Polygon::distance(Point2 p) const {
-  double nearest_squared = 1e300;
-  bool inside = false;
-  for (const Run& run : runs_) {
+  const auto to_box = [&](const Run& run) {
     const double bx = std::max({run.low.x - p.x, p.x - run.high.x, 0.0}),
                  by = std::max({run.low.y - p.y, p.y - run.high.y, 0.0});
-    const bool crossable = by == 0 && p.x <= run.high.x;
-    if (!crossable && bx * bx + by * by >= nearest_squared) continue;
+    return bx * bx + by * by;
+  };
+  const Run* first = runs_.data();
+  double nearest_squared = 1e300;
+  for (const Run& run : runs_)
+    if (const double squared = to_box(run); squared < nearest_squared) {
+      nearest_squared = squared;
+      first = &run;
+    }
+  nearest_squared = squared_distance(*first, p);
+  bool inside = false;
+  for (const Run& run : runs_) {
+    if (&run != first && to_box(run) < nearest_squared)
+      nearest_squared = std::min(nearest_squared, squared_distance(run, p));
+    if (p.y < run.low.y || p.y > run.high.y || p.x > run.high.x) continue;
+    // Even-odd rule: does a ray towards +x cross this edge?
     for (std::size_t i = run.first; i < run.end; ++i) {
       const Edge& edge = edges_[i];
-      const double wx = p.x - edge.from.x, wy = p.y - edge.from.y;
-      const double t = std::clamp((wx * edge.along.x + wy * edge.along.y) * edge.inverse_square, 0.0, 1.0);
-      const double dx = wx - t * edge.along.x, dy = wy - t * edge.along.y;
-      nearest_squared = std::min(nearest_squared, dx * dx + dy * dy);
-      // Even-odd rule: does a ray towards +x cross this edge?
       const bool from_above = p.y < edge.from.y, to_above = p.y < edge.to_y;
-      if (from_above != to_above && (wx * edge.along.y < wy * edge.along.x) == (edge.along.y > 0))
+      if (from_above != to_above &&
+          ((p.x - edge.from.x) * edge.along.y < (p.y - edge.from.y) * edge.along.x) == (edge.along.y > 0))
         inside = !inside;
     }
   }
   const double distance = std::sqrt(nearest_squared);
   return inside ? -distance : distance;
+}
+
+double Polygon::squared_distance(const Run& run, Point2 p) const {
+  double nearest = 1e300;
+  for (std::size_t i = run.first; i < run.end; ++i) {
+    const Edge& edge = edges_[i];
+    const double wx = p.x - edge.from.x, wy = p.y - edge.from.y;
+    const double t = std::clamp((wx * edge.along.x + wy * edge.along.y) * edge.inverse_square, 0.0, 1.0);
+    const double dx = wx - t * edge.along.x, dy = wy - t * edge.along.y;
+    nearest = std::min(nearest, dx * dx + dy * dy);
+  }
+  return nearest;
 }
 
 std::vector<Point2> smooth_outline(const std::vector<Point2>& points) {

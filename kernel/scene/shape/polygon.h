@@ -29,6 +29,8 @@ class Polygon {
     Point2 low, high;
     std::size_t first, end;
   };
+  double squared_distance(const Run& run, Point2 p) const;
+
   std::vector<Edge> edges_;
   std::vector<Run> runs_;
   Point2 low_, high_;
