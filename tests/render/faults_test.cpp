@@ -128,8 +128,8 @@ Change change_of(const Image& before, const Image& after) {
 }
 
 // Every amount moves by up to 1/512 of a cell, there and back. Along a silhouette two samples of a pixel may
-// then come to lie on its other side, but not more: that is a quarter of the contrast in the normal picture. In
-// the best one it is 8 levels, as the look is dull: all levels are within 128.
+// then come to lie on its other side, but not more: that is a quarter of the contrast in the normal picture.
+// In the best one it is 8 levels, as the look is dull: all levels are within 128.
 TEST(Fault, SmallChangesMovePixelsLittle) {
   const state::Grid grid{48, 40, 48};
   const state::Volume still = test::ball_and_puddle(grid);
