@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "render/ground/ground_map.h"
+#include "render/packet/clear_painter.h"
 #include "render/rule/camera.h"
 #include "render/rule/crossing.h"
 #include "render/rule/nearer.h"
@@ -44,6 +45,7 @@ class Painter {
   // Through a place of the picture: pressed light.
   picture::Color light(std::int64_t across, std::int64_t down) const {
     const Met met(scene_, view_, across, down, spacing_);
+    if (scene_.paint.clear) return clear_light(met);
     if (met.on_ground) return pressed(ground_color(met));
     if (met.matter.found) return pressed(matter_color(met));
     return scene_.background;
@@ -71,6 +73,17 @@ class Painter {
     picture::GroundCrossing ground;
     bool on_ground;
   };
+
+  picture::Color clear_light(const Met& met) const {
+    ClearPainter<Scene> along(scene_, met.ray, met.ground, spacing_);
+    if (along.follow(met.matter)) return pressed(along.sum(ground_color(met)));
+    const picture::Color share = along.passed();
+    picture::Color light = pressed(along.sum({}));
+    for (std::size_t c = 0; c < 3; ++c)
+      light[c] = std::min(light[c] + ((share[c] * scene_.background[c]) >> picture::kPassedBits),
+                          picture::kLight);
+    return light;
+  }
 
   static picture::Vector ground_normal(const Met& met, const GroundMap::Paint& paint) {
     return met.ground.face == picture::Face::none ? met.to_eye() : paint.normal;

@@ -1,6 +1,7 @@
 // Where a ray first meets matter (docs/picture.md, section 7).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "render/rule/fixed_point.h"
@@ -26,10 +27,10 @@ struct Crossing {
   Vector position;
 };
 
-// Between sample k - 1, which is air, and sample k, which is matter: bisections, and then a straight line.
+// Between the positions of two samples, of which `k` is matter and the other one air: bisections, and then a
+// straight line.
 template <class Levels>
-VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std::int64_t k) {
-  Vector outside = ray.at(k - 1), inside = ray.at(k);
+VOXMELT_RULE Crossing crossing_between(const Levels& levels, Vector outside, Vector inside, std::int64_t k) {
   std::int32_t low = sample(levels, outside), high = sample(levels, inside);
   std::int32_t part = 0;
   for (int i = 0; i < kBisections; ++i) {
@@ -49,11 +50,17 @@ VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std:
   return {true, k, part * kParts + last, outside + (((inside - outside) * last) >> 8)};
 }
 
-// A ray that starts in matter meets it at its start.
 template <class Levels>
-VOXMELT_RULE Crossing first_crossing(const Levels& levels, Vector cells, const Ray& ray) {
+VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std::int64_t k) {
+  return crossing_between(levels, ray.at(k - 1), ray.at(k), k);
+}
+
+// From sample `from` on. A ray that starts in matter meets it at its start.
+template <class Levels>
+VOXMELT_RULE Crossing first_crossing(const Levels& levels, Vector cells, const Ray& ray,
+                                     std::int64_t from = 0) {
   const Samples in = samples_in(ray, field_low(), field_high(cells));
-  for (std::int64_t k = in.first; k <= in.last; ++k) {
+  for (std::int64_t k = std::max(in.first, from); k <= in.last; ++k) {
     if (sample(levels, ray.at(k)) < 0) continue;
     return k == 0 ? Crossing{true, 0, kPlaces, ray.start} : crossing_before(levels, ray, k);
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "render/rule/clear.h"
 #include "render/rule/light_grid.h"
 #include "render/rule/look.h"
 #include "render/rule/matter.h"
@@ -20,11 +21,15 @@ struct Paint {
   Color from_below{}, from_above{};  // ambient light
   Material solid, liquid, obstacle;
   bool glow = false;
+  bool clear = false;
+  Color losses{};          // of clear matter
+  std::int32_t frost = 0;  // of its surfaces
   std::int32_t lamp_low = 0, lamp_high = 0,
                strip_low = 0;               // where the mirrored lights begin and end, in kLight
   Highlight highlight{}, dull_highlight{};  // of matter, and of obstacles
   Surroundings surroundings{};
   Glow glow_colors{};
+  Passing passing{};
 };
 
 inline constexpr std::int32_t kStripHigh = 3973;     // 0.97
@@ -45,6 +50,12 @@ VOXMELT_RULE Paint paint_of(const Look& look, const Lamp& lamp) {
   if (look.glow) {  // molten rock is dull, and the table says its colour
     of.solid = material_of(look.solid, times(look.specular, 2867), 0, of.lamp);
     of.liquid = material_of(Color{}, times(look.specular, 492), 0, of.lamp);
+  }
+  of.clear = is_clear(look);
+  if (of.clear) {
+    of.losses = losses_of(look.clear);
+    of.frost = look.frost;
+    of.passing = passing_table();
   }
   const std::int32_t blur = blur_of(look.shininess);
   of.lamp_low = 3523 - times(1229, blur);
@@ -104,10 +115,19 @@ VOXMELT_RULE Material mixed(const Material& a, const Material& b, std::int32_t s
           mixed(a.highlight, b.highlight, share), mixed(a.gloss, b.gloss, share)};
 }
 
-// Light from the matter's surface towards the eye. `to_eye` has kLength. Obstacles count from a share of 148
-// to 204, so that a film hides them and no blur shows.
-VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
-                                Matter matter) {
+// The parts of the light from a surface of matter.
+struct Shine {
+  Color mirrored{};           // and the highlight
+  Color scattered{};          // of the light that arrives
+  Color emission{};           // of glowing liquid
+  std::int32_t more = 0;      // of the light at its back, the share that the surface mirrors instead
+  std::int32_t obstacle = 0;  // the share of obstacles in it
+};
+
+// Towards the eye. `to_eye` has kLength. Obstacles count from a share of 148 to 204, so that a film hides
+// them and no blur shows.
+VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
+                            Matter matter) {
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);  // 255 is kLight - 1
   const std::int32_t obstacle = std::clamp((matter.obstacle - 148) * 73, 0, kLight);
   Material material = mixed(paint.solid, paint.liquid, liquid);
@@ -126,9 +146,9 @@ VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye
   const std::int32_t lamp = light.lamp + (light.lamp >> 7);
   const std::int32_t facing = cosine(normal, paint.to_light);
   const Vector halfway = unit_of(paint.to_light + to_eye);
-  const std::int32_t shine = std::clamp(cosine(normal, halfway), 0, kLength);
-  std::int32_t peak = highlight_at(paint.highlight, shine);
-  if (obstacle > 0) peak = mixed(peak, highlight_at(paint.dull_highlight, shine), obstacle);
+  const std::int32_t bright = std::clamp(cosine(normal, halfway), 0, kLength);
+  std::int32_t peak = highlight_at(paint.highlight, bright);
+  if (obstacle > 0) peak = mixed(peak, highlight_at(paint.dull_highlight, bright), obstacle);
   peak = (((peak * smooth_light(0, 1024, facing >> 2)) >> kLightBits) * lamp) >> 8;
 
   const std::int32_t eye = std::clamp(cosine(normal, to_eye), 0, kLength);
@@ -143,14 +163,46 @@ VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye
   // The mirrored light is at most 85 % hidden.
   const std::int32_t seen = 614 + (((free + (free >> 7)) * (open + (open >> 7)) * 3482) >> 16);
 
-  Color sum{};
+  Shine of{{}, {}, {}, more, obstacle};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::int32_t fresnel = material.mirror[c] + (((kLight - material.mirror[c]) * more) >> kLightBits);
     const std::int32_t mirror = (((around[c] * seen) >> kLightBits) * fresnel) >> kLightBits;
-    const std::int32_t own = (emission[c] * (2540 + ((1556 * eye) >> kNormalBits))) >> kLightBits;
-    sum[c] = ((arrives[c] * material.diffuse[c]) >> kLightBits) +
-             ((material.highlight[c] * peak) >> kLightBits) + mirror + own;
+    of.mirrored[c] = ((material.highlight[c] * peak) >> kLightBits) + mirror;
+    of.scattered[c] = (arrives[c] * material.diffuse[c]) >> kLightBits;
+    of.emission[c] = (emission[c] * (2540 + ((1556 * eye) >> kNormalBits))) >> kLightBits;
   }
+  return of;
+}
+
+VOXMELT_RULE std::int32_t obstacle_share(const Matter& matter) {
+  return std::clamp((matter.obstacle - 148) * 73, 0, kLight);
+}
+
+// Where a ray leaves clear matter, seen from within: `normal` points out.
+VOXMELT_RULE Shine shine_within(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
+                                Matter matter) {
+  const Shine outside = shine_of(paint, normal, to_eye, light, matter);
+  Shine of = shine_of(paint, Vector{} - normal, to_eye, light, matter);
+  of.scattered = outside.scattered;
+  of.mirrored = {};
+  return of;
+}
+
+// What clear matter scatters at a place in it.
+VOXMELT_RULE Color inner_color(const Paint& paint, const Light& light, Matter matter) {
+  const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);
+  const Color diffuse = mixed(mixed(paint.solid.diffuse, paint.liquid.diffuse, liquid),
+                              paint.obstacle.diffuse, obstacle_share(matter));
+  Color of = inner_light(paint.lamp, paint.from_below, paint.from_above, light);
+  for (std::size_t c = 0; c < 3; ++c) of[c] = (of[c] * diffuse[c]) >> kLightBits;
+  return of;
+}
+
+VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
+                                Matter matter) {
+  const Shine of = shine_of(paint, normal, to_eye, light, matter);
+  Color sum{};
+  for (std::size_t c = 0; c < 3; ++c) sum[c] = of.mirrored[c] + of.scattered[c] + of.emission[c];
   return sum;
 }
 
