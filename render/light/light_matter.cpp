@@ -100,17 +100,17 @@ bool LightSources::refresh_block(const DensityField& field, std::uint32_t block,
   const std::size_t cell = grid_.index(first.x, first.y, first.z);
   const auto room = static_cast<std::size_t>(cells);
   LightBlock from{count(first.x, grid_.x),
-                        count(first.y, grid_.y),
-                        count(first.z, grid_.z),
-                        grid_.index(0, 1, 0),
-                        grid_.index(0, 0, 1),
-                        field.intensity().data() + cell,
-                        field.liquid().data() + cell,
-                        field.heat().data() + cell,
-                        emission_of_.data(),
-                        shift_,
-                        room,
-                        room * room};
+                  count(first.y, grid_.y),
+                  count(first.z, grid_.z),
+                  grid_.index(0, 1, 0),
+                  grid_.index(0, 0, 1),
+                  field.intensity().data() + cell,
+                  field.liquid().data() + cell,
+                  field.heat().data() + cell,
+                  emission_of_.data(),
+                  shift_,
+                  room,
+                  room * room};
   std::array<std::uint8_t, 64> own{}, light{};
   loops.density(from, own.data());
   if (glow_) loops.emission(from, light.data());

@@ -37,7 +37,7 @@ class LightSources {
   int shift_ = 1;
   bool glow_ = false, clear_ = false;
   std::array<std::uint8_t, 256> thinned_{};  // densities of clear matter
-  Emission emission_of_{};  // (heat heat) >> 8, by temperature
+  Emission emission_of_{};                   // (heat heat) >> 8, by temperature
   LightMatter matter_;
   std::vector<std::uint8_t> own_, earth_;  // the two parts of the density
   std::vector<std::int32_t> ground_;

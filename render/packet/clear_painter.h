@@ -88,17 +88,14 @@ class ClearPainter {
   void surface(picture::Vector position, bool enters) {
     const picture::Vector normal = picture::normal_at(scene_.levels, position);
     const picture::Shine shine =
-        enters ? picture::shine_of(paint_, normal, to_eye_, light_before(position, normal),
-                                   matter_before(position, normal))
-               : picture::shine_within(paint_, normal, to_eye_, light_before(position, normal),
-                                       matter_before(position, normal));
+        picture::shine_of(paint_, enters ? normal : picture::Vector{} - normal, normal, to_eye_,
+                          light_before(position, normal), matter_before(position, normal));
     const picture::Color all = passed();
-    for (std::size_t c = 0; c < 3; ++c)
-      mirrored_[c] += (all[c] * shine.mirrored[c]) >> picture::kPassedBits;
+    for (std::size_t c = 0; c < 3; ++c) mirrored_[c] += (all[c] * shine.mirrored[c]) >> picture::kPassedBits;
     left_.surfaces = picture::dimmed(left_.surfaces, shine.more);
     const picture::Color before = passed();
-    left_.surfaces = picture::dimmed(left_.surfaces,
-                                     picture::mixed(paint_.frost, picture::kLight, shine.obstacle));
+    left_.surfaces =
+        picture::dimmed(left_.surfaces, picture::mixed(paint_.frost, picture::kLight, shine.obstacle));
     scatter(before, shine.scattered);
   }
 

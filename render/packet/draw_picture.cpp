@@ -201,7 +201,7 @@ SurfacePicture draw_surface(const PictureData& data, const Packets& wanted, int 
 }
 
 Image draw_picture(const PictureData& data, Setting setting, const Packets& wanted, int threads) {
-  const Packets& packets = fits_lanes(data) && !data.paint->clear ? wanted : plain_packets();
+  const Packets& packets = fits_lanes(data) ? wanted : plain_packets();
   const int width = data.width, height = data.height;
   const int across = (width + kTile - 1) / kTile, tiles = across * ((height + kTile - 1) / kTile);
   const auto tile_at = [&](int tile) {

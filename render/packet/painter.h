@@ -80,8 +80,8 @@ class Painter {
     const picture::Color share = along.passed();
     picture::Color light = pressed(along.sum({}));
     for (std::size_t c = 0; c < 3; ++c)
-      light[c] = std::min(light[c] + ((share[c] * scene_.background[c]) >> picture::kPassedBits),
-                          picture::kLight);
+      light[c] =
+          std::min(light[c] + ((share[c] * scene_.background[c]) >> picture::kPassedBits), picture::kLight);
     return light;
   }
 

@@ -78,8 +78,7 @@ VOXMELT_RULE std::int32_t thinned(std::int32_t density, std::int32_t share) {
 }
 // `shift` is that of the grid of light. A full cell of light takes what its width lets not pass of green.
 VOXMELT_RULE std::int32_t density_share(const Passing& table, const Color& losses, int shift) {
-  const std::int32_t i =
-      std::min(((1 << (shift + 8)) * losses[1]) >> 12, kNothingPasses);
+  const std::int32_t i = std::min(((1 << (shift + 8)) * losses[1]) >> 12, kNothingPasses);
   return (180 * (256 - (table[static_cast<std::size_t>(i)] >> 7))) >> 8;
 }
 

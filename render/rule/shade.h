@@ -124,12 +124,17 @@ struct Shine {
   std::int32_t obstacle = 0;  // the share of obstacles in it
 };
 
-// Towards the eye. `to_eye` has kLength. Obstacles count from a share of 148 to 204, so that a film hides
-// them and no blur shows.
-VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
+// Obstacles count from a share of 148 to 204, so that a film hides them and no blur shows.
+VOXMELT_RULE std::int32_t obstacle_share(Matter matter) {
+  return std::clamp((matter.obstacle - 148) * 73, 0, kLight);
+}
+
+// Towards the eye. `to_eye` has kLength. `normal` is on the eye's side, and `out` points out of the matter:
+// they are opposite where the eye looks at a surface from within.
+VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector out, Vector to_eye, const Light& light,
                             Matter matter) {
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);  // 255 is kLight - 1
-  const std::int32_t obstacle = std::clamp((matter.obstacle - 148) * 73, 0, kLight);
+  const std::int32_t obstacle = obstacle_share(matter);
   Material material = mixed(paint.solid, paint.liquid, liquid);
   Color emission{};
   if (paint.glow) {
@@ -142,7 +147,7 @@ VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector to_eye, co
   }
   material = mixed(material, paint.obstacle, obstacle);
 
-  const Color arrives = arriving(paint, normal, light, paint.glow && obstacle > 0);
+  const Color arrives = arriving(paint, out, light, paint.glow && obstacle > 0);
   const std::int32_t lamp = light.lamp + (light.lamp >> 7);
   const std::int32_t facing = cosine(normal, paint.to_light);
   const Vector halfway = unit_of(paint.to_light + to_eye);
@@ -174,20 +179,6 @@ VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector to_eye, co
   return of;
 }
 
-VOXMELT_RULE std::int32_t obstacle_share(const Matter& matter) {
-  return std::clamp((matter.obstacle - 148) * 73, 0, kLight);
-}
-
-// Where a ray leaves clear matter, seen from within: `normal` points out.
-VOXMELT_RULE Shine shine_within(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
-                                Matter matter) {
-  const Shine outside = shine_of(paint, normal, to_eye, light, matter);
-  Shine of = shine_of(paint, Vector{} - normal, to_eye, light, matter);
-  of.scattered = outside.scattered;
-  of.mirrored = {};
-  return of;
-}
-
 // What clear matter scatters at a place in it.
 VOXMELT_RULE Color inner_color(const Paint& paint, const Light& light, Matter matter) {
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);
@@ -200,7 +191,7 @@ VOXMELT_RULE Color inner_color(const Paint& paint, const Light& light, Matter ma
 
 VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
                                 Matter matter) {
-  const Shine of = shine_of(paint, normal, to_eye, light, matter);
+  const Shine of = shine_of(paint, normal, normal, to_eye, light, matter);
   Color sum{};
   for (std::size_t c = 0; c < 3; ++c) sum[c] = of.mirrored[c] + of.scattered[c] + of.emission[c];
   return sum;

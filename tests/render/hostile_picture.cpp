@@ -139,6 +139,11 @@ scene::Look hostile_look(Random& random) {
   look.glow = random.one_in(2);
   look.glow_cold = edged(random) * 0.6;
   look.glow_hot = look.glow_cold + (random.one_in(5) ? 0x1p-16 : fraction(random) * 0.4);
+  if (random.one_in(2)) {  // clear: from a fog to a glass, and colours
+    look.glow = false;
+    for (double& half : look.clear) half = random.any({0.0, 0.01, 1.0, 256.0, 3.3, between(random, 0, 40)});
+    look.frost = edged(random);
+  }
   look.smooth = random.below(7);
   look.smooth_solid = random.below(7);
   return look;
@@ -222,6 +227,7 @@ std::string description(const HostilePicture& picture) {
   text.precision(17);
   text << "grid " << grid.x << ' ' << grid.y << ' ' << grid.z << ", smooth " << picture.look.smooth << ' '
        << picture.look.smooth_solid << (picture.look.glow ? ", glow" : "")
+       << (picture.look.clear != scene::Vec3{} ? ", clear" : "")
        << (picture.terrain.height.empty() ? ""
            : picture.terrain.textured     ? ", textured terrain"
                                           : ", terrain")
