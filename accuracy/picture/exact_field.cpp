@@ -155,9 +155,12 @@ Exact ExactField::normal(Exact p) const {
   return unit(slope * -1);
 }
 
+// Read among the centres of cells.
 ExactField::Matter ExactField::matter(Exact p) const {
-  const Cell x = cell_of(p.x, 0.5, -kBorder, cells_[0]), y = cell_of(p.y, 0.5, -kBorder, cells_[1]),
-             z = cell_of(p.z, 0.5, -kBorder, cells_[2]);
+  const auto axis = [](double at, int cells) {
+    return cell_of(std::clamp(at, 0.5, cells - 0.5), 0.5, 0, cells - 1);
+  };
+  const Cell x = axis(p.x, cells_[0]), y = axis(p.y, cells_[1]), z = axis(p.z, cells_[2]);
   std::array<double, 3> sum{};
   for (int corner = 0; corner < 8; ++corner) {
     const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;

@@ -61,8 +61,11 @@ picture::Color IntegerPixels::light(std::int64_t across, std::int64_t down) cons
   } else if (matter.found) {
     const picture::Vector normal =
         matter.sample == 0 ? to_eye : picture::normal_at(scene_.levels, matter.position);
-    picture::Matter of = picture::matter_at(scene_.matter, matter.position);
-    of.obstacle = picture::matter_at(scene_.matter, matter.position + normal * 32).obstacle;
+    const auto matter_at = [&](picture::Vector p) {
+      return picture::matter_at(scene_.matter, scene_.levels.cells(), p);
+    };
+    picture::Matter of = matter_at(matter.position);
+    of.obstacle = matter_at(matter.position + normal * 32).obstacle;
     color = picture::matter_color(scene_.paint, normal, to_eye, light_before(matter.position, normal), of);
   } else {
     return color;

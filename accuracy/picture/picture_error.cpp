@@ -157,8 +157,7 @@ void measure(const MidMelt& which, const Options& options, std::map<std::string,
     picture::Camera camera = render::camera_in_integers(asked);
     if (camera.distance == 0) {  // the distance that fits is data for both
       const picture::Vector back = picture::view_of(camera, data.levels.cells()).eye - camera.target;
-      camera.distance = static_cast<std::int64_t>(
-          std::sqrt(dot(accuracy::exact(back, 256), accuracy::exact(back, 256))) + 0.5);
+      camera.distance = std::llround(std::sqrt(dot(accuracy::exact(back, 256), accuracy::exact(back, 256))));
     }
     const ExactPicture picture(exact, camera, data.levels.cells());
     const render::Image converged = picture.draw(workers);

@@ -78,8 +78,7 @@ void BrickFilter::filter_row(const Task& task, int by, int bz) {
 
 void BrickFilter::filter(const Task& task, int channel, const CellBox& box) {
   const auto c = static_cast<std::size_t>(channel);
-  const int wide =
-      std::max(task.liquid_passes, task.solid_passes);  // so the shares reach as far as the intensity
+  const int wide = channel_passes(task.liquid_passes, task.solid_passes);
   low_pass_.load(*task.cells.all()[c], box, wide);
   low_pass_.advance(wide);
   std::uint16_t* const to = task.to.all()[c]->data();

@@ -1,6 +1,7 @@
 // Filters the channels of some bricks side by side, and mixes the intensities that liquid and solid ask for.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -18,6 +19,12 @@ using BrickFlags = std::vector<std::uint8_t>;
 struct DirtyPart {
   BrickPart matter, heat;
 };
+
+// Of all channels but the intensity: the shares reach as far as that does, and at least to the first cell of
+// air, even where nothing is filtered.
+inline int channel_passes(int liquid_passes, int solid_passes) {
+  return std::max({liquid_passes, solid_passes, 1});
+}
 
 // Its memory is taken once and used again, for task after task.
 class BrickFilter {

@@ -69,7 +69,7 @@ void DensityField::find_dirty(bool all) {
             static_cast<std::size_t>(near.y)] = 1;
     });
   };
-  const int wide = std::max(liquid_passes_, solid_passes_);
+  const int wide = channel_passes(liquid_passes_, solid_passes_);
   for (const std::uint32_t index : cells_.changed()) {
     const BrickChange& change = cells_.change(index);
     const auto i = static_cast<int>(index);

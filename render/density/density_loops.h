@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "kernel/engine/cpu/independent_loop.h"
 #include "render/density/loops.h"
 
 namespace voxmelt::render {
@@ -158,7 +159,7 @@ struct DensityLoops {
   // down, and the mean of that and b up.
   [[gnu::always_inline]] static void average(const std::uint16_t* a, const std::uint16_t* b,
                                              const std::uint16_t* c, int count, std::uint16_t* to) {
-#pragma GCC ivdep
+    VOXMELT_INDEPENDENT
     for (int i = 0; i < count; ++i) {
       const auto outer = static_cast<std::uint16_t>((a[i] & c[i]) + ((a[i] ^ c[i]) >> 1));
       to[i] = static_cast<std::uint16_t>((outer + b[i] + 1) >> 1);
@@ -244,7 +245,7 @@ struct DensityLoops {
   }
   static void smooth_levels(const LevelRows& from, int count, std::int32_t* to) {
     const std::int32_t *low = from.low, *mid = from.here, *high = from.high;
-#pragma GCC ivdep
+    VOXMELT_INDEPENDENT
     for (int x = 0; x < count; ++x) {
       const std::int32_t here = mid[x];
       const std::int32_t straight = bend(mid[x - 1], here, mid[x + 1]) + bend(low[x], here, high[x]);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "kernel/engine/cpu/independent_loop.h"
 #include "render/light/light_loops.h"
 
 namespace voxmelt::render {
@@ -247,7 +248,7 @@ struct LightSweeps {
       const Word *low = ray(slice.rays, slice.at_u, slice.at_v + v), *high = low + slice.ray_row;
       Byte* const to = slice.to + static_cast<std::size_t>(v) * slice.row_step;
       Byte other = 0;
-#pragma GCC ivdep
+      VOXMELT_INDEPENDENT
       for (int i = 0; i < count; ++i) {
         const Byte fresh = static_cast<Byte>(
             blended(blended(low[i], low[i + 1], part_u), blended(high[i], high[i + 1], part_u), part_v));
@@ -264,17 +265,17 @@ struct LightSweeps {
     for (int v = 0; v < slice.v; ++v) {
       const Byte* density = slice.density + static_cast<std::size_t>(v) * slice.row_step;
       Word* const to = losses(v);
-#pragma GCC ivdep
+      VOXMELT_INDEPENDENT
       for (int i = 0; i < count; ++i) own[i] = loss_of(density[i]);
       own[-1] = 0;
       for (int i = slice.u; i < window + 1; ++i) own[i] = 0;
-#pragma GCC ivdep
+      VOXMELT_INDEPENDENT
       for (int i = 0; i < window; ++i) to[i] = blended_losses(own[i], own[i - 1], part_u);
     }
     for (int v = 0; v <= slice.v; ++v) {
       const Word *here = losses(v), *before = losses(v - 1);
       Word* const to = ray(slice.rays, slice.at_u, slice.at_v + v);
-#pragma GCC ivdep
+      VOXMELT_INDEPENDENT
       for (int i = 0; i < window; ++i) to[i] = passed(to[i], blended_losses(here[i], before[i], part_v));
     }
     // Softer along u into the room, and back along v.
@@ -282,7 +283,7 @@ struct LightSweeps {
     for (int b = slice.low_v; b < slice.high_v; ++b) {
       const Word* from = ray(slice.rays, 0, b);
       Word* const to = ray(slice.room, 0, b);
-#pragma GCC ivdep
+      VOXMELT_INDEPENDENT
       for (int i = 0; i < wide; ++i) to[i] = softer(from[i - 1], from[i], from[i + 1]);
     }
     for (const int b : {slice.low_v - 1, slice.high_v})
@@ -290,7 +291,7 @@ struct LightSweeps {
     for (int b = slice.low_v; b < slice.high_v; ++b) {
       const Word* from = ray(slice.room, 0, b);
       Word* const to = ray(slice.rays, 0, b);
-#pragma GCC ivdep
+      VOXMELT_INDEPENDENT
       for (int i = 0; i < wide; ++i)
         to[i] = softer(from[i - slice.ray_row], from[i], from[i + slice.ray_row]);
       for (int i = slice.count_u; i < wide + 1; ++i) to[i] = 255;

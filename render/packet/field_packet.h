@@ -199,8 +199,15 @@ struct FieldPacket : Packet<Arch> {
     const U odd = (((first >> 8) & kEven) * keep + ((second >> 8) & kEven) * by + 0x00800080) & (kEven << 8);
     return L::as_signed(even | odd);
   }
-  // Liquid, heat and obstacle as bytes of a lane.
+  // Liquid, heat and obstacle as bytes of a lane, read among the centres of cells (rule/matter.h).
   VOXMELT_WORDS V matter(const FieldData& field, Triple q) {
+    const auto among_centers = [](V place, std::int64_t cells) {
+      constexpr auto kHalf = static_cast<std::int32_t>(picture::kCell / 2);
+      return L::clamp(place, kBias + kHalf,
+                      static_cast<std::int32_t>(cells * picture::kCell) + (kBias - kHalf));
+    };
+    q = {among_centers(q.x, field.cells.x), among_centers(q.y, field.cells.y),
+         among_centers(q.z, field.cells.z)};
     const V at = corner(field, q);
     const V wx = (q.x >> 12) & 255, wy = (q.y >> 12) & 255, wz = (q.z >> 12) & 255;
     const auto along_x = [&](std::int32_t offset) {

@@ -121,7 +121,7 @@ struct GroundPacket : Packet<Arch> {
     of = outside.z < 0 ? face(Face::low_z) : of;
     of = outside.x > end(ground.cells.x) ? face(Face::high_x) : of;
     of = outside.x < 0 ? face(Face::low_x) : of;
-    return found & (inside != 0) ? of : V{};
+    return (found & (inside != 0)) ? of : V{};
   }
 
   struct Painted {

@@ -102,8 +102,11 @@ class Painter {
   }
   picture::Color matter_color(const Met& met) const {
     const picture::Vector normal = matter_normal(met), position = met.matter.position;
-    picture::Matter matter = picture::matter_at(scene_.matter, position);
-    matter.obstacle = picture::matter_at(scene_.matter, position + normal * (std::int64_t{1} << 5)).obstacle;
+    const auto matter_at = [&](picture::Vector p) {
+      return picture::matter_at(scene_.matter, scene_.cells, p);
+    };
+    picture::Matter matter = matter_at(position);
+    matter.obstacle = matter_at(position + normal * (std::int64_t{1} << 5)).obstacle;
     return picture::matter_color(scene_.paint, normal, met.to_eye(), light_before(position, normal), matter);
   }
   picture::Light light_before(picture::Vector position, picture::Vector normal) const {

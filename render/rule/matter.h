@@ -37,16 +37,25 @@ VOXMELT_RULE std::int32_t emission_of(std::int32_t liquid, std::int32_t heat) {
   return (liquid * ((heat * heat) >> 8)) >> 16;
 }
 
-// Bytes between eight cells, like levels.
+// Where the bytes of a position are read: outside the outermost centres of cells there is nothing to blend
+// with, so that a face that a side of the grid cuts has the colour of the cells behind it.
+VOXMELT_RULE std::int64_t among_centers(std::int64_t position, std::int64_t cells) {
+  return std::clamp(position, kCell / 2, cells * kCell - kCell / 2);
+}
+
+// Bytes between eight cells, like levels. `cells` is the size of the grid, matter(x, y, z) asks for its
+// cells.
 template <class Cells>
-VOXMELT_RULE Matter matter_at(const Cells& cells, Vector position) {
-  const Place x = place_of(position.x), y = place_of(position.y), z = place_of(position.z);
+VOXMELT_RULE Matter matter_at(const Cells& matter, Vector cells, Vector position) {
+  const Place x = place_of(among_centers(position.x, cells.x)),
+              y = place_of(among_centers(position.y, cells.y)),
+              z = place_of(among_centers(position.z, cells.z));
   const auto both = [](Matter a, Matter b, std::int32_t w) {
     return Matter{blended(a.liquid, b.liquid, w), blended(a.heat, b.heat, w),
                   blended(a.obstacle, b.obstacle, w)};
   };
   const auto along_x = [&](std::int64_t cy, std::int64_t cz) {
-    return both(cells(x.cell, cy, cz), cells(x.cell + 1, cy, cz), x.weight);
+    return both(matter(x.cell, cy, cz), matter(x.cell + 1, cy, cz), x.weight);
   };
   const auto along_y = [&](std::int64_t cz) {
     return both(along_x(y.cell, cz), along_x(y.cell + 1, cz), y.weight);

@@ -21,7 +21,10 @@ class MatterBytes {
           obstacle.push_back(air || S + L + O == 0 ? 0 : 255 * O / (S + L + O));
         }
   }
+  // At the nearest position between the centres of the outermost cells.
   Int read(const Ints& bytes, Vec p) const {
+    const Int half = power_of_two(19), m[3] = {levels.nx, levels.ny, levels.nz};
+    for (int axis = 0; axis < 3; ++axis) p.at(axis) = clamped(p.at(axis), half, (m[axis] << 20) - half);
     return blended_eight(p, [&](Int x, Int y, Int z) {
       return levels.inside(x, y, z) ? bytes[(z * levels.ny + y) * levels.nx + x] : Int{0};
     });

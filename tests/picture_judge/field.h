@@ -101,7 +101,7 @@ inline Field make_field(const Input& in, const std::vector<Column>& columns) {
         if (c.floor == c.bed && c.end > c.floor) move_puddle(state, c, x, z, c.rise + c.shift, raw.intensity);
       }
     }
-  const Int passes = std::max(in.smooth, in.smooth_solid);
+  const Int passes = std::max<Int>({in.smooth, in.smooth_solid, 1});
   Field field;
   field.solid = filtered(in, raw.solid, passes);
   field.liquid = filtered(in, raw.liquid, passes);

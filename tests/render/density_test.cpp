@@ -117,6 +117,7 @@ TEST(DensityField, WorkedColumn) {
   EXPECT_EQ(field.wetness()[column], 4096);
   const auto up = [&](const render::Values<std::uint16_t>& of) {
     std::vector<int> values;
+    values.reserve(7);
     for (int y = 0; y < 7; ++y) values.push_back(of[grid.index(9, y, 10)]);
     return values;
   };

@@ -119,6 +119,7 @@ TEST(Png, TheBetterFilterIsTaken) {
 
 TEST(ContactSheet, PlacesFramesInReadingOrder) {
   std::vector<Image> frames;
+  frames.reserve(5);
   for (int i = 0; i < 5; ++i)
     frames.emplace_back(10, 6, render::Rgb{static_cast<std::uint8_t>(10 + i), 0, 0});
   render::SheetStyle style;

@@ -79,7 +79,7 @@ void expect_plain(const render::DensityField& field, const state::Volume& volume
   ASSERT_EQ(field.has_obstacles(), obstacles);
   EXPECT_TRUE(!obstacles || same(field.cells().obstacle, cells.obstacle));
 
-  const int wide = std::max(look.smooth, look.smooth_solid);
+  const int wide = std::max({look.smooth, look.smooth_solid, 1});
   PlainCells filtered;
   filtered.solid = plain_low_pass(grid, wide, cells.solid);
   filtered.liquid = plain_low_pass(grid, wide, cells.liquid);

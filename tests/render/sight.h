@@ -63,7 +63,7 @@ class Sight {
     return hit ? hit->point.y : -1;
   }
   picture::Matter matter(Point at) const {
-    return picture::matter_at(matter_, scaled(at, picture::kPositionBits));
+    return picture::matter_at(matter_, levels_.cells(), scaled(at, picture::kPositionBits));
   }
   // How much of an obstacle shows at a surface, 0 .. 1: it is looked for half a cell before the surface, and
   // counts from a share of 148 to one of 204 (docs/picture-light.md, section 6).

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "accuracy/picture/compare.h"
 #include "accuracy/picture/exact_picture.h"
@@ -123,6 +124,17 @@ TEST(ExactPicture, ColoursByFormula) {
       2e-3);
   expect_near(accuracy::pressed({0.5, 0.7, 1.0}), {0.5, 0.7, 0.7 + 0.3 * (1 - std::exp(-1.0))}, 1e-12);
   EXPECT_EQ(accuracy::bytes_of({0, 0.2140411, 1}), (render::Rgb{0, 127, 255}));  // sRGB's 127.5 is 0.21404114
+}
+
+// Liquid ends at y = 9 and at the sides of the grid: it is liquid there, too.
+TEST(ExactPicture, ACutHasTheMatterBehindIt) {
+  state::Volume volume = half_full({12, 16, 14});
+  std::swap(volume.solid, volume.liquid);
+  const World world(volume, unfiltered(), {});
+  for (const Exact& p :
+       {Exact{0, 4, 7}, Exact{-0.5, 4, 7}, Exact{12, 4, 7}, Exact{12.5, 4, 7}, Exact{6, 0, 7}, Exact{6, 4, 0},
+        Exact{6, 4, 14}, Exact{12.5, 4, 14.5}, Exact{6, 9, 7}})
+    EXPECT_NEAR(world.exact.field.matter(p).liquid, 255, 1e-9) << p.x << ' ' << p.y << ' ' << p.z;
 }
 
 TEST(ExactPicture, ABall) {

@@ -65,7 +65,7 @@ TEST(Tables, SurroundingsByHeight) {
   EXPECT_NEAR(red(2048), 901 / 4096.0, 0.001);    // zenith
   EXPECT_NEAR(red(0), 1000 / 4096.0 / 4, 0.001);  // straight down: a quarter of the ground
   EXPECT_NEAR(blue(0), 3000 / 4096.0 / 4, 0.001);
-  EXPECT_NEAR(blue(1024), (2250 + 3973) / 2 / 4096.0, 0.003);  // the horizon: half of both
+  EXPECT_NEAR(blue(1024), (2250 + 3973) / 2.0 / 4096, 0.003);  // the horizon: half of both
 }
 
 // h^1.75, h^4.5 and h^8 with 2.3, 1.15 and 0.2.
@@ -132,7 +132,7 @@ TEST(Shade, AmbientLightComesFromSkyAndGround) {
   EXPECT_NEAR(down[0], 0.9 * 1024, 1);
   EXPECT_NEAR(down[2], 0.9 * 4096, 1);
   light.open = {255, 255, 127, 255, 255, 255};
-  EXPECT_NEAR(arriving(paint, {0, 16384, 0}, light, false)[1], 4096 * 127 / 256, 1);
+  EXPECT_NEAR(arriving(paint, {0, 16384, 0}, light, false)[1], 4096 * 127 / 256.0, 1);
 }
 
 // Glow of 32 from below is 32 x 6144 / 32 in red.
@@ -158,7 +158,7 @@ TEST(Shade, ObstaclesHaveTheirOwnColour) {
   EXPECT_LT(solid[1], 300);
   EXPECT_GT(liquid[1], 3500);
   EXPECT_LT(liquid[0], 300);
-  EXPECT_NEAR(obstacle[2], 4424 * 2294 / 4096,
+  EXPECT_NEAR(obstacle[2], 4424 * 2294 / 4096.0,
               100);                      // 2048 and 0.12 of the way to white, under the sky's blue
   EXPECT_EQ(color({0, 0, 148}), solid);  // a film's worth of obstacle shows nothing of it
 }
