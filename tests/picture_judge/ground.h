@@ -83,6 +83,11 @@ struct GroundHit {
   Int part = 0;
   Vec crossing;
   Face face = Face::top;
+  // picture.md 9
+  bool drawn_before(const MatterHit& matter) const {
+    const Int bias = face == Face::top ? 0 : 1024;
+    return met && (!matter.met || 8 * part <= matter.place() + bias);
+  }
 };
 
 // Section 4.

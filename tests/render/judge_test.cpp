@@ -84,11 +84,6 @@ bool expect_all_agree(const HostilePicture& of, const std::filesystem::path& fil
   render::DensityField field;
   field.update(of.volume, of.look, of.terrain, 1);
   const render::PictureScene scene(field, of.look, of.light, of.terrain);
-  if (of.look.clear != scene::Vec3{}) {  // the judge does not draw clear matter yet
-    const Image plain = reference_picture(scene, render::camera_in_integers(of.camera), of.setting);
-    expect_packets_draw(plain, of);
-    return has_colors(plain);
-  }
   test::write_judge_file(file, of.volume, of.look, of.light, of.terrain, of.camera, of.setting);
   EXPECT_EQ(test::judged_field(file), field_bytes(field, scene)) << "the field";
 
