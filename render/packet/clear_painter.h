@@ -101,7 +101,7 @@ class ClearPainter {
 
   // A way in matter, with what is at a place of it.
   void walk(picture::Vector position, std::int32_t way) {
-    const picture::Matter matter = picture::matter_at(scene_.matter, position);
+    const picture::Matter matter = matter_at(position);
     const picture::Light light =
         picture::light_at(scene_.light, scene_.light_count, scene_.light_shift, position);
     const picture::Color before = passed();
@@ -121,9 +121,12 @@ class ClearPainter {
                              picture::before_surface(position, normal, scene_.light_shift));
   }
   picture::Matter matter_before(picture::Vector position, picture::Vector normal) const {
-    picture::Matter matter = picture::matter_at(scene_.matter, position);
-    matter.obstacle = picture::matter_at(scene_.matter, position + normal * (std::int64_t{1} << 5)).obstacle;
+    picture::Matter matter = matter_at(position);
+    matter.obstacle = matter_at(position + normal * (std::int64_t{1} << 5)).obstacle;
     return matter;
+  }
+  picture::Matter matter_at(picture::Vector position) const {
+    return picture::matter_at(scene_.matter, scene_.cells, position);
   }
 
   const Scene& scene_;

@@ -16,6 +16,7 @@ double fraction(Random& random) { return static_cast<double>(random.bits() >> 11
 double between(Random& random, double low, double high) { return low + (high - low) * fraction(random); }
 // Just below half of a unit of light: the sum with 1/2 rounds to 1 in doubles.
 constexpr double kBelowHalf = 0x1.fffffffffffffp-2 * 0x1p-12;
+constexpr double kBelowHalfClear = 0x1.fffffffffffffp-2 * 0x1p-6;  // as much of a unit of `clear`
 
 // From 0 to 1, often an end.
 double edged(Random& random) {
@@ -139,10 +140,14 @@ scene::Look hostile_look(Random& random) {
   look.glow = random.one_in(2);
   look.glow_cold = edged(random) * 0.6;
   look.glow_hot = look.glow_cold + (random.one_in(5) ? 0x1p-16 : fraction(random) * 0.4);
-  if (random.one_in(2)) {  // clear: from a fog to a glass, and colours
-    look.glow = false;
-    for (double& half : look.clear) half = random.any({0.0, 0.01, 1.0, 256.0, 3.3, between(random, 0, 40)});
-    look.frost = edged(random);
+  if (random.one_in(2)) {  // clear: from a fog to a glass, and colours; no colour where it glows
+    const bool glow = look.glow && random.one_in(4);
+    look.glow = glow;
+    for (double& half : look.clear)
+      half = random.any({0.0, 0.01, kBelowHalfClear, 0x1p-7, 1.0, 256.0, 3.3, between(random, 0, 40)});
+    if (random.one_in(6))
+      look.clear = random.any<scene::Vec3>({{kBelowHalfClear, 0, 0}, {0, 0x1p-7, 0}, {0, 0, 9}});
+    look.frost = random.one_in(3) ? 0.2 * edged(random) : edged(random);
   }
   look.smooth = random.below(7);
   look.smooth_solid = random.below(7);
