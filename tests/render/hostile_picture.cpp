@@ -225,6 +225,44 @@ HostilePicture hostile_picture(std::uint64_t seed, int most) {
   return picture;
 }
 
+HostilePicture hostile_clear_picture(std::uint64_t seed, int most) {
+  Random random(seed * 6151 + 3);
+  HostilePicture picture = hostile_picture(random.bits(), most);
+  state::Volume& volume = picture.volume;
+  volume = state::Volume(state::Grid{random.between(5, 20), random.between(5, 20), random.between(5, 20)});
+  picture.terrain = hostile_terrain(random, volume.grid);
+  switch (random.below(3)) {
+    case 0:
+      fill_land(volume, picture.terrain, random);
+      break;
+    case 1:
+      fill_lumps(volume, random);
+      break;
+    default:  // a block from side to side with obstacles and holes in it, perhaps on ground
+      const int holes = random.any({30, 200}), walls = random.any({20, 300}), bed = random.below(3);
+      worlds::for_each(worlds::whole(volume.grid), [&](int x, int y, int z) {
+        put(volume, x, y, z,
+            y < bed || random.one_in(walls) ? kInert
+            : random.one_in(holes)          ? kAir
+            : (x + z) % 9 < 4               ? kLiquid
+                                            : kSolid,
+            random);
+        if (random.below(8) > 0 && y >= bed && volume.amount[volume.at(x, y, z)] > 0)
+          volume.amount[volume.at(x, y, z)] = 4096;
+      });
+  }
+  picture.look.glow = false;
+  for (double& half : picture.look.clear) half = random.any({2.0, 256.0, 0.3, between(random, 1, 40)});
+  picture.look.frost = random.one_in(4) ? edged(random) : 0.1 * fraction(random);
+  picture.light.ambient = 0.5;
+  picture.camera = hostile_camera(random, volume);
+  picture.camera.width = random.between(20, 48);
+  picture.camera.height = random.between(20, 48);
+  if (!random.one_in(4))
+    picture.camera.target = {0.5 * volume.grid.x, 0.5 * volume.grid.y, 0.5 * volume.grid.z};
+  return picture;
+}
+
 std::string description(const HostilePicture& picture) {
   const state::Grid& grid = picture.volume.grid;
   const scene::Camera& camera = picture.camera;

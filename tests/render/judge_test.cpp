@@ -94,23 +94,28 @@ bool expect_all_agree(const HostilePicture& of, const std::filesystem::path& fil
   return has_colors(judged);
 }
 
-TEST(Judge, AgreesOnHostilePictures) {
+void expect_agreement(const char* name, HostilePicture (*picture_of)(std::uint64_t, int),
+                      std::uint64_t pictures) {
   const char* one = std::getenv("VOXMELT_PICTURE_SEED");
   const std::uint64_t first = one == nullptr ? 0 : std::strtoull(one, nullptr, 10);
-  const std::uint64_t last = one == nullptr ? kPictures : first + 1;
-  const std::filesystem::path file = test::judge_file_name("hostile");
+  const std::uint64_t last = one == nullptr ? pictures : first + 1;
+  const std::filesystem::path file = test::judge_file_name(name);
   std::uint64_t full = 0;
   for (std::uint64_t seed = first; seed < last; ++seed) {
-    const HostilePicture picture = test::hostile_picture(seed, kMostCells);
+    const HostilePicture picture = picture_of(seed, kMostCells);
     if (one != nullptr) std::cout << description(picture) << std::endl;
     full += expect_all_agree(picture, file) ? 1 : 0;
-    if (HasFailure())
+    if (testing::Test::HasFailure())
       FAIL() << "VOXMELT_PICTURE_SEED=" << seed << ": " << description(picture) << "\nthe judge read "
              << file;
   }
   EXPECT_GT(full, (last - first) / 3) << "too many pictures of one colour";
   std::filesystem::remove(file);
 }
+
+TEST(Judge, AgreesOnHostilePictures) { expect_agreement("hostile", test::hostile_picture, kPictures); }
+
+TEST(Judge, AgreesOnClearPictures) { expect_agreement("clear", test::hostile_clear_picture, kPictures / 2); }
 
 }  // namespace
 }  // namespace voxmelt
