@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 
 namespace voxmelt::accuracy {
 namespace {
@@ -45,6 +46,10 @@ Material mix(const Material& a, const Material& b, double share) {
 }
 
 }  // namespace
+
+ExactShade::ExactShade(const render::PictureScene& scene) : light_(scene.light), paint_(scene.paint) {
+  if (paint_.clear) throw std::invalid_argument("no picture in double: the look has clear matter");
+}
 
 ExactShade::Light ExactShade::light_before(Exact p, Exact normal) const {
   const double side = 1 << light_.shift();

@@ -13,7 +13,8 @@ namespace voxmelt::accuracy {
 
 class ExactShade {
  public:
-  explicit ExactShade(const render::PictureScene& scene) : light_(scene.light), paint_(scene.paint) {}
+  // Throws std::invalid_argument for a look with clear matter: rays end at the first surface here.
+  explicit ExactShade(const render::PictureScene& scene);
 
   // Linear red, green and blue; 1 is white.
   Exact matter_color(Exact p, Exact normal, Exact to_eye, const ExactField::Matter& matter) const;

@@ -34,6 +34,10 @@ struct Look {
   double specular = 0.4;
   double metallic = 0;  // 0: wax, chocolate, plastic; 1: bare metal that mirrors its surroundings
   bool glow = false;    // colour and light of the liquid by its temperature (lava)
+  // Through so many cells of matter passes half of the red, green and blue; less than 1 counts as 1. All 0:
+  // matter is opaque.
+  Vec3 clear{};
+  double frost = 0.1;                       // share of the light that a surface of clear matter scatters
   double glow_cold = 0.3, glow_hot = 0.95;  // temperatures at the ends of the glow ramp, 0..1
   int smooth = 3, smooth_solid = 1;  // low-pass of liquid and of solid: passes of the 3x3x3 binomial filter
 

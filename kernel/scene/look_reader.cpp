@@ -33,6 +33,19 @@ Light read_light(Reader& root) {
   return light;
 }
 
+namespace {
+
+Vec3 read_clear(Reader& reader, const Vec3& fallback) {
+  const Range range = at_most(256);
+  if (reader.has("clear") && reader.kind("clear") != Value::Kind::array) {
+    const double all = reader.number("clear", range);
+    return {all, all, all};
+  }
+  return reader.vector<3>("clear", range, fallback);
+}
+
+}  // namespace
+
 Look read_look(Reader& root) {
   Look look;
   std::optional<Reader> reader = root.table("look");
@@ -48,6 +61,9 @@ Look read_look(Reader& root) {
   look.glow_cold = reader->number("glow_cold", fraction(), look.glow_cold);
   look.glow_hot = reader->number("glow_hot", fraction(), look.glow_hot);
   if (look.glow_hot <= look.glow_cold) reader->fail("glow_hot", " must be more than glow_cold");
+  look.clear = read_clear(*reader, look.clear);
+  if (look.glow && look.clear != Vec3{}) reader->fail("clear", " is for matter that does not glow");
+  look.frost = reader->number("frost", fraction(), look.frost);
   look.smooth = static_cast<int>(reader->integer("smooth", 0, kMostSmooth, look.smooth));
   look.smooth_solid = static_cast<int>(reader->integer("smooth_solid", 0, kMostSmooth, look.smooth_solid));
   reader->finish();

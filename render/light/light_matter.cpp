@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "render/rule/clear.h"
 #include "render/rule/fixed_point.h"
 #include "render/rule/matter.h"
 
@@ -21,17 +22,32 @@ std::array<std::uint16_t, 257> emission_by_temperature(const picture::Look& look
   return of;
 }
 
+// Of matter that is no obstacle, by its own.
+std::array<std::uint8_t, 256> thinned_densities(const picture::Look& look, int shift) {
+  std::array<std::uint8_t, 256> of;
+  const std::int32_t share =
+      picture::is_clear(look)
+          ? picture::density_share(picture::passing_table(), picture::losses_of(look.clear), shift)
+          : 256;
+  for (std::size_t i = 0; i < of.size(); ++i)
+    of[i] = static_cast<std::uint8_t>(picture::thinned(static_cast<std::int32_t>(i), share));
+  return of;
+}
+
 }  // namespace
 
 bool LightSources::update(const DensityField& field, const std::vector<std::int32_t>& ground,
                           const picture::Look& look, const std::vector<std::uint32_t>* refreshed,
                           const LightLoops& loops) {
   const state::Grid& grid = field.grid();
-  const bool other = !(grid == grid_) || look.glow != glow_;
+  const picture::Vector cells{grid.x, grid.y, grid.z};
+  const std::array<std::uint8_t, 256> thinned = thinned_densities(look, picture::light_shift(cells));
+  const bool other = !(grid == grid_) || look.glow != glow_ || thinned != thinned_;
   if (other) {
     grid_ = grid;
     glow_ = look.glow;
-    const picture::Vector cells{grid.x, grid.y, grid.z};
+    clear_ = picture::is_clear(look);
+    thinned_ = thinned;
     shift_ = picture::light_shift(cells);
     matter_ = {{picture::light_cells(cells), 0}, {}};
     if (glow_) matter_.emission = matter_.density;
@@ -83,21 +99,29 @@ bool LightSources::refresh_block(const DensityField& field, std::uint32_t block,
   const auto count = [&](int from, int of) { return std::min(side, of - from); };
   const std::size_t cell = grid_.index(first.x, first.y, first.z);
   const auto room = static_cast<std::size_t>(cells);
-  const LightBlock from{count(first.x, grid_.x),
-                        count(first.y, grid_.y),
-                        count(first.z, grid_.z),
-                        grid_.index(0, 1, 0),
-                        grid_.index(0, 0, 1),
-                        field.intensity().data() + cell,
-                        field.liquid().data() + cell,
-                        field.heat().data() + cell,
-                        emission_of_.data(),
-                        shift_,
-                        room,
-                        room * room};
+  LightBlock from{count(first.x, grid_.x),
+                  count(first.y, grid_.y),
+                  count(first.z, grid_.z),
+                  grid_.index(0, 1, 0),
+                  grid_.index(0, 0, 1),
+                  field.intensity().data() + cell,
+                  field.liquid().data() + cell,
+                  field.heat().data() + cell,
+                  emission_of_.data(),
+                  shift_,
+                  room,
+                  room * room};
   std::array<std::uint8_t, 64> own{}, light{};
   loops.density(from, own.data());
   if (glow_) loops.emission(from, light.data());
+  if (clear_) {
+    std::array<std::uint8_t, 64> obstacle{};
+    if (field.has_obstacles()) {
+      from.intensity = field.obstacle().data() + cell;
+      loops.density(from, obstacle.data());
+    }
+    for (std::size_t c = 0; c < own.size(); ++c) own[c] = thinned_density(own[c], obstacle[c]);
+  }
   const auto ends = [&](int n) { return static_cast<std::size_t>((n - 1) >> shift_) + 1; };
   bool changed = false;
   for (std::size_t z = 0; z < ends(from.z); ++z)
@@ -114,6 +138,12 @@ bool LightSources::refresh_block(const DensityField& field, std::uint32_t block,
       for (std::size_t x = 0; x < wide; ++x) changed = show(to + x) || changed;
     }
   return changed;
+}
+
+// Obstacles are not clear.
+std::uint8_t LightSources::thinned_density(std::uint8_t all, std::uint8_t obstacle) const {
+  const int opaque = std::min(all, obstacle);
+  return static_cast<std::uint8_t>(opaque + thinned_[static_cast<std::size_t>(all - opaque)]);
 }
 
 bool LightSources::show(std::size_t cell) {

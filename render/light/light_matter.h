@@ -31,11 +31,13 @@ class LightSources {
   bool refresh_ground(const std::vector<std::int32_t>& ground);
   bool refresh_earth(std::int64_t x, std::int64_t z, const std::vector<std::int32_t>& ground);
   bool show(std::size_t cell);
+  std::uint8_t thinned_density(std::uint8_t all, std::uint8_t obstacle) const;
 
   state::Grid grid_{0, 0, 0}, blocks_{0, 0, 0};  // blocks: bricks, or cells of light if those are larger
   int shift_ = 1;
-  bool glow_ = false;
-  Emission emission_of_{};  // (heat heat) >> 8, by temperature
+  bool glow_ = false, clear_ = false;
+  std::array<std::uint8_t, 256> thinned_{};  // densities of clear matter
+  Emission emission_of_{};                   // (heat heat) >> 8, by temperature
   LightMatter matter_;
   std::vector<std::uint8_t> own_, earth_;  // the two parts of the density
   std::vector<std::int32_t> ground_;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "render/packet/clear_packet.h"
 #include "render/packet/ground_packet.h"
 #include "render/packet/shade_packet.h"
 #include "render/rule/nearer.h"
@@ -21,6 +22,7 @@ struct DrawPacket : Packet<Arch> {
   using Field = FieldPacket<Arch>;
   using Ground = GroundPacket<Arch>;
   using Shade = ShadePacket<Arch>;
+  using Clear = ClearPacket<Arch>;
   using Color = typename Shade::Color;
 
   // What a packet meets, of which `matter` and `ground` tell: no lane has both.
@@ -146,6 +148,49 @@ struct DrawPacket : Packet<Arch> {
     return Shade::select(of.found, Shade::pressed(*data.tone, lit), color);
   }
 
+  // The light through clear matter: matter, ground and background may all be seen by a ray.
+  [[gnu::noinline]] static void clear_light(const PictureData& data, V across, V down, Color& to) {
+    const auto row = Rays<Arch>::through(data, across, down);
+    const Triple start = Rays<Arch>::wrapped_start(row),
+                 to_eye = P::unit_of(Triple{} - row.step, data.inverse_root);
+    typename Ground::Hits ground{V{}, V{}, V{}};
+    if (data.ground.any) ground = Ground::march(data, row, start);
+    V face{};
+    if (L::any(ground.found)) {
+      Ground::bisect(data.ground, row, start, ground);
+      face = Ground::face_of(data.ground, ground.found, ground.inside,
+                             Rays<Arch>::at_part(row, start, ground.before));
+    }
+    const V first = face == static_cast<std::int32_t>(picture::Face::top)
+                        ? V{}
+                        : L::set(static_cast<std::int32_t>(picture::kSideFirst << data.view.halvings));
+    typename Clear::Rest rest{
+        data, row,     to_eye, P::dot((Triple{} - row.step) >> 4, to_eye) >> 14, L::set(picture::kLight),
+        V{},  Color{}, Color{}};
+    const V arrived = Clear::follow(rest, {ground.found, ground.inside, first});
+    const Color share = rest.passed();
+    Color behind{};
+    if (L::any(arrived)) {
+      const Triple position = P::select(arrived, Rays<Arch>::at_part(row, start, ground.inside), Triple{});
+      const auto paint = Ground::painted(data, arrived, face, position, to_eye);
+      const Triple normal = P::select(arrived, paint.normal, to_eye);
+      const auto light = LightPacket<Arch>::at(data.light, false,
+                                               LightPacket<Arch>::before(position, normal, data.light.shift));
+      const Color own{{paint.color[0], paint.color[1], paint.color[2]}};
+      behind = Shade::select(arrived, Shade::ground_color(*data.paint, normal, light, own), behind);
+    }
+    Color sum;
+    for (std::size_t c = 0; c < 3; ++c)
+      sum.c[c] =
+          rest.mirrored.c[c] + ((rest.scattered.c[c] + share.c[c] * behind.c[c]) >> picture::kPassedBits);
+    to = Shade::pressed(*data.tone, sum);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const V through = L::min(to.c[c] + ((share.c[c] * data.background[c]) >> picture::kPassedBits),
+                               L::set(picture::kLight));
+      to.c[c] = arrived ? to.c[c] : through;
+    }
+  }
+
   // Places are rounded up to whole packets: see Places.
   static void draw(const PictureData& data, Places places, PressedLight to) {
     const auto store = [&](const Color& of, std::size_t i) {
@@ -153,6 +198,14 @@ struct DrawPacket : Packet<Arch> {
       L::store_halves(of.c[1], to.green + i);
       L::store_halves(of.c[2], to.blue + i);
     };
+    if (data.paint->clear) {
+      for (std::size_t i = 0; i < places.count; i += P::kCount) {
+        Color of;
+        clear_light(data, L::load(places.across + i), L::load(places.down + i), of);
+        store(of, i);
+      }
+      return;
+    }
     constexpr std::size_t kBatch = 16;
     Approach of[kBatch];
     for (std::size_t i = 0; i < places.count;) {

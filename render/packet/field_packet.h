@@ -68,11 +68,15 @@ struct FieldPacket : Packet<Arch> {
     Hits hits;
   };
   VOXMELT_WORDS Walk walk(const PictureData& data, const Row& row, V most) {
+    return walk(data, row, L::set(-1), V{}, most);
+  }
+  // Of some rays, from sample `from` on.
+  VOXMELT_WORDS Walk walk(const PictureData& data, const Row& row, V rays, V from, V most) {
     Walk of;
     auto range = Rays<Arch>::in_box(row, data.field.low, data.field.high);
     of.last = L::min(range.last, most);
-    of.sample = range.first;
-    of.active = range.first <= of.last;
+    of.sample = L::max(range.first, from);
+    of.active = rays & (of.sample <= of.last);
     of.at = P::select(of.active, Rays<Arch>::at(row, of.sample, kBias), Triple{});
     of.back_x = row.step.x < 0;
     of.back_y = row.step.y < 0;
@@ -146,7 +150,11 @@ struct FieldPacket : Packet<Arch> {
 
   // The first sample in matter of every ray, up to `most`.
   VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, V most) {
-    Walk of = walk(data, row, most);
+    return march(data, row, L::set(-1), V{}, most);
+  }
+  // The same of some rays, from sample `from` on.
+  VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, V rays, V from, V most) {
+    Walk of = walk(data, row, rays, from, most);
     finish(data, row, of);
     return of.hits;
   }
@@ -198,8 +206,14 @@ struct FieldPacket : Packet<Arch> {
 
   VOXMELT_WORDS Surface crossing(const FieldData& field, const Row& row, const Hits& hits) {
     const V from_start = hits.sample == 0;
-    Triple inside = hits.at, outside = P::select(hits.found & ~from_start, hits.at - row.step, hits.at);
-    V low = sample(field, outside), high = hits.level, part{};
+    const Triple outside = P::select(hits.found & ~from_start, hits.at - row.step, hits.at);
+    const Surface of = crossing_between(field, outside, hits.at, hits.level);
+    return {from_start ? L::set(picture::kPlaces) : of.part, P::select(from_start, hits.at, of.at)};
+  }
+
+  // Between two lattice positions, `outside` in air and `inside` in matter of the level `high`.
+  VOXMELT_WORDS Surface crossing_between(const FieldData& field, Triple outside, Triple inside, V high) {
+    V low = sample(field, outside), part{};
     for (int i = 0; i < picture::kBisections; ++i) {
       const Triple middle = outside + ((inside - outside) >> 1);
       const V level = sample(field, middle), air = level < 0;
@@ -211,8 +225,7 @@ struct FieldPacket : Packet<Arch> {
     }
     const V rise = high - low;
     const V last = L::to_int(L::to_float(-low * picture::kParts) / L::to_float(rise == 0 ? L::set(1) : rise));
-    return {from_start ? L::set(picture::kPlaces) : part * picture::kParts + last,
-            P::select(from_start, hits.at, outside + (((inside - outside) * last) >> 8))};
+    return {part * picture::kParts + last, outside + (((inside - outside) * last) >> 8)};
   }
 
   // Weights of the quadratic B-spline (rule/normal.h): the first two as a pair of 16 bits, and the third.

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "render/ground/watched_ground.h"
+#include "render/packet/clear_painter.h"
 #include "render/rule/camera.h"
 #include "render/rule/crossing.h"
 #include "render/rule/nearer.h"
@@ -46,6 +47,7 @@ class Painter {
   // Through a place of the picture: pressed light.
   picture::Color light(std::int64_t across, std::int64_t down) const {
     const Met met(scene_, view_, across, down, spacing_, watch_);
+    if (scene_.paint.clear) return clear_light(met);
     if (met.on_ground) return pressed(ground_color(met));
     if (met.matter.found) return pressed(matter_color(met));
     watch_(Stage::pixel, "background", scene_.background);
@@ -72,7 +74,7 @@ class Painter {
         Watch watch)
         : ray(picture::ray_through(view, across, down, spacing, watch)),
           matter(picture::first_crossing(picture::Watched{scene.levels, watch, Stage::sample}, scene.cells,
-                                         ray, watch)),
+                                         ray, 0, watch)),
           ground(find_ground(scene.ground, ray, watch)),
           on_ground(picture::ground_first(ground, matter, view.halvings)) {
       if (!on_ground && !matter.found) return;
@@ -92,6 +94,17 @@ class Painter {
     watch_(Stage::met, "to_eye", eye);
     return eye;
   }
+  picture::Color clear_light(const Met& met) const {
+    ClearPainter<Scene> along(scene_, met.ray, met.ground, spacing_, view_.halvings);
+    if (along.follow(met.matter)) return pressed(along.sum(ground_color(met)));
+    const picture::Color share = along.passed();
+    picture::Color light = pressed(along.sum({}));
+    for (std::size_t c = 0; c < 3; ++c)
+      light[c] =
+          std::min(light[c] + ((share[c] * scene_.background[c]) >> picture::kPassedBits), picture::kLight);
+    return light;
+  }
+
   picture::Vector ground_normal(const Met& met, const GroundMap::Paint& paint) const {
     return met.ground.face == picture::Face::none ? to_eye(met) : paint.normal;
   }

@@ -192,10 +192,10 @@ struct Rays : Packet<Arch> {
     const F begin = to_floats(start);
     const F before = static_cast<float>(from) - begin, behind = static_cast<float>(to) - begin;
     const V back = step < 0, still = step == 0;
-    // A ray that does not move along the axis is in or out.
+    // A ray that does not move along the axis is in or out: by more than the samples that in_box adds.
     const F near = still ? (before > 4096.0f ? L::set_float(2e9f) : L::set_float(0))
                          : (back ? -behind : before) * inverse;
-    const F far = still ? (behind < -4096.0f ? L::set_float(-1) : L::set_float(1e9f))
+    const F far = still ? (behind < -4096.0f ? L::set_float(-1e9f) : L::set_float(1e9f))
                         : (back ? -before : behind) * inverse;
     span.first = L::max(span.first, near);
     span.last = L::min(span.last, far);

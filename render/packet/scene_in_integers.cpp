@@ -28,6 +28,9 @@ picture::Look look_in_integers(const scene::Look& look) {
   of.shininess = static_cast<std::int32_t>(std::max<std::int64_t>(fixed(look.shininess, 0), 1));
   of.specular = light(look.specular);
   of.metallic = light(look.metallic);
+  for (std::size_t c = 0; c < 3; ++c)
+    of.clear[c] = static_cast<std::int32_t>(fixed(look.clear[c], picture::kClearBits));
+  of.frost = light(look.frost);
   of.glow = look.glow;
   of.glow_cold = static_cast<std::int32_t>(fixed(look.glow_cold, 16));
   of.glow_hot = static_cast<std::int32_t>(fixed(look.glow_hot, 16));

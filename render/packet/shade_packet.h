@@ -102,12 +102,19 @@ struct ShadePacket : Packet<Arch> {
     a.gloss = P::mixed(a.gloss, L::set(b.gloss), share);
   }
 
-  // `matter`: liquid, heat and obstacle as bytes of a lane.
-  VOXMELT_WORDS Color matter_color(const PictureData& data, Triple normal, Triple to_eye, const Light& light,
-                                   V matter, V obstacle_byte) {
+  VOXMELT_WORDS V obstacle_share(V byte) { return L::clamp((byte - 148) * 73, 0, picture::kLight); }
+
+  struct Shine {
+    Color mirrored, scattered, emission;
+    V more, obstacle;
+  };
+
+  // `matter`: liquid, heat and obstacle as bytes of a lane. `normal` and `out`: see rule/shade.h.
+  VOXMELT_WORDS Shine shine_of(const PictureData& data, Triple normal, Triple out, Triple to_eye,
+                               const Light& light, V matter, V obstacle_byte) {
     const picture::Paint& paint = *data.paint;
     const V liquid_byte = matter & 255, liquid = (liquid_byte << 4) + (liquid_byte >> 4);
-    const V obstacle = L::clamp((obstacle_byte - 148) * 73, 0, picture::kLight);
+    const V obstacle = obstacle_share(obstacle_byte);
     Material material = mixed(paint.solid, paint.liquid, liquid);
     Color emission{};
     if (paint.glow) {
@@ -122,15 +129,14 @@ struct ShadePacket : Packet<Arch> {
     const bool obstacles = data.field.obstacles;
     if (obstacles) mix_in(material, paint.obstacle, obstacle);
 
-    Color arrives = arriving(paint, normal, light, false);
-    if (paint.glow && obstacles)
-      arrives = select(obstacle > 0, arriving(paint, normal, light, true), arrives);
+    Color arrives = arriving(paint, out, light, false);
+    if (paint.glow && obstacles) arrives = select(obstacle > 0, arriving(paint, out, light, true), arrives);
     const V lamp = whole(Lights::lamp(light));
     const V facing = cosine(normal, constant(paint.to_light));
     const Triple halfway = P::unit_of(constant(paint.to_light) + to_eye, data.inverse_root);
-    const V shine = L::clamp(cosine(normal, halfway), 0, picture::kLength);
-    V peak = highlight_at(paint.highlight, shine);
-    if (obstacles) peak = P::mixed(peak, highlight_at(paint.dull_highlight, shine), obstacle);
+    const V bright = L::clamp(cosine(normal, halfway), 0, picture::kLength);
+    V peak = highlight_at(paint.highlight, bright);
+    if (obstacles) peak = P::mixed(peak, highlight_at(paint.dull_highlight, bright), obstacle);
     peak = (((peak * smooth_step(0, 1024, facing >> 2)) >> 12) * lamp) >> 8;
 
     const V eye = L::clamp(cosine(normal, to_eye), 0, picture::kLength);
@@ -142,15 +148,48 @@ struct ShadePacket : Packet<Arch> {
     const V seen =
         614 + ((whole(Lights::open(light, reflected)) * whole(Lights::open(light, normal)) * 3482) >> 16);
 
-    Color sum;
+    Shine of{{}, {}, emission, more, obstacle};
     for (std::size_t c = 0; c < 3; ++c) {
       const V fresnel = material.mirror.c[c] + (((picture::kLight - material.mirror.c[c]) * more) >> 12);
       const V mirror = (((around.c[c] * seen) >> 12) * fresnel) >> 12;
-      sum.c[c] =
-          ((arrives.c[c] * material.diffuse.c[c]) >> 12) + ((material.highlight.c[c] * peak) >> 12) + mirror;
-      if (paint.glow) sum.c[c] = sum.c[c] + ((emission.c[c] * (2540 + ((1556 * eye) >> 14))) >> 12);
+      of.mirrored.c[c] = ((material.highlight.c[c] * peak) >> 12) + mirror;
+      of.scattered.c[c] = (arrives.c[c] * material.diffuse.c[c]) >> 12;
+      if (paint.glow) of.emission.c[c] = (emission.c[c] * (2540 + ((1556 * eye) >> 14))) >> 12;
+    }
+    return of;
+  }
+
+  VOXMELT_WORDS Color matter_color(const PictureData& data, Triple normal, Triple to_eye, const Light& light,
+                                   V matter, V obstacle_byte) {
+    const Shine of = shine_of(data, normal, normal, to_eye, light, matter, obstacle_byte);
+    Color sum;
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum.c[c] = of.scattered.c[c] + of.mirrored.c[c];
+      if (data.paint->glow) sum.c[c] = sum.c[c] + of.emission.c[c];
     }
     return sum;
+  }
+
+  // What clear matter scatters at a place in it.
+  VOXMELT_WORDS Color inner_color(const PictureData& data, const Light& light, V matter) {
+    const picture::Paint& paint = *data.paint;
+    const V liquid_byte = matter & 255, liquid = (liquid_byte << 4) + (liquid_byte >> 4);
+    const V lamp = whole(Lights::lamp(light));
+    const auto side = [&](int i) {
+      return Lights::byte(i < 3 ? light.lamp_open : light.open, i < 3 ? i + 1 : i - 3);
+    };
+    const V beside = side(0) + side(1) + side(4) + side(5);
+    const V above = ((2 * side(2) + beside) * 43) >> 9, below = ((2 * side(3) + beside) * 43) >> 9;
+    Color of;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const V inner =
+          ((paint.from_above[c] * above + paint.from_below[c] * below) >> 8) + ((paint.lamp[c] * lamp) >> 9);
+      V diffuse = P::mixed(paint.solid.diffuse[c], paint.liquid.diffuse[c], liquid);
+      if (data.field.obstacles)
+        diffuse = P::mixed(diffuse, L::set(paint.obstacle.diffuse[c]), obstacle_share((matter >> 16) & 255));
+      of.c[c] = (inner * diffuse) >> 12;
+    }
+    return of;
   }
 
   VOXMELT_WORDS Color ground_color(const picture::Paint& paint, Triple normal, const Light& light,

@@ -1,6 +1,7 @@
 // Where a ray first meets matter (docs/picture.md, section 7).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -28,12 +29,11 @@ struct Crossing {
   Vector position;
 };
 
-// Between sample k - 1, which is air, and sample k, which is matter: bisections, and then a straight line.
+// Between the positions of two samples, of which `k` is matter and the other one air: bisections, and then a
+// straight line.
 template <class Levels, class Watch = Silent>
-VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std::int64_t k,
-                                      Watch watch = {}) {
-  Vector outside = ray.at(k - 1), inside = ray.at(k);
-  watch(Stage::crossing, "samples", std::array{k - 1, k});
+VOXMELT_RULE Crossing crossing_between(const Levels& levels, Vector outside, Vector inside, std::int64_t k,
+                                       Watch watch = {}) {
   std::int32_t low = sample(levels, outside, watch), high = sample(levels, inside, watch);
   std::int32_t part = 0;
   for (int i = 0; i < kBisections; ++i) {
@@ -57,12 +57,20 @@ VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std:
   return {true, k, part * kParts + last, outside + (((inside - outside) * last) >> 8)};
 }
 
-// A ray that starts in matter meets it at its start.
 template <class Levels, class Watch = Silent>
-VOXMELT_RULE Crossing first_crossing(const Levels& levels, Vector cells, const Ray& ray, Watch watch = {}) {
+VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std::int64_t k,
+                                      Watch watch = {}) {
+  watch(Stage::crossing, "samples", std::array{k - 1, k});
+  return crossing_between(levels, ray.at(k - 1), ray.at(k), k, watch);
+}
+
+// From sample `from` on. A ray that starts in matter meets it at its start.
+template <class Levels, class Watch = Silent>
+VOXMELT_RULE Crossing first_crossing(const Levels& levels, Vector cells, const Ray& ray,
+                                     std::int64_t from = 0, Watch watch = {}) {
   const Samples in = samples_in(ray, field_low(), field_high(cells));
   watch(Stage::ray, "range", std::array{in.first, in.last});
-  for (std::int64_t k = in.first; k <= in.last; ++k) {
+  for (std::int64_t k = std::max(in.first, from); k <= in.last; ++k) {
     watch(Stage::sample, "k", k);
     if (sample(levels, ray.at(k), watch) < 0) continue;
     const Crossing met =

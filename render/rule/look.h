@@ -16,12 +16,15 @@ using Color = std::array<std::int32_t, 3>;  // red, green, blue: linear light, k
 
 inline constexpr int kLightBits = 12;
 inline constexpr std::int32_t kLight = 1 << kLightBits;
+inline constexpr int kClearBits = 6;
 
 // What a scene file says, times kLight to the nearest integer.
 struct Look {
   Color solid{}, liquid{}, ground{}, background{};
   std::int32_t shininess = 1;  // itself, 1 or more
   std::int32_t specular = 0, metallic = 0;
+  Color clear{};           // half passes through so much of a way, 2^kClearBits is a cell; all 0: opaque
+  std::int32_t frost = 0;  // share that a surface of clear matter scatters
   bool glow = false;
   std::int32_t glow_cold = 0, glow_hot = 0;  // temperatures, 65536 is the scene's range
 };

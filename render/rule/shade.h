@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "render/rule/clear.h"
 #include "render/rule/light_grid.h"
 #include "render/rule/look.h"
 #include "render/rule/matter.h"
@@ -21,11 +22,15 @@ struct Paint {
   Color from_below{}, from_above{};  // ambient light
   Material solid, liquid, obstacle;
   bool glow = false;
+  bool clear = false;
+  Color losses{};          // of clear matter
+  std::int32_t frost = 0;  // of its surfaces
   std::int32_t lamp_low = 0, lamp_high = 0,
                strip_low = 0;               // where the mirrored lights begin and end, in kLight
   Highlight highlight{}, dull_highlight{};  // of matter, and of obstacles
   Surroundings surroundings{};
   Glow glow_colors{};
+  Passing passing{};
 };
 
 inline constexpr std::int32_t kStripHigh = 3973;     // 0.97
@@ -46,6 +51,12 @@ VOXMELT_RULE Paint paint_of(const Look& look, const Lamp& lamp) {
   if (look.glow) {  // molten rock is dull, and the table says its colour
     of.solid = material_of(look.solid, times(look.specular, 2867), 0, of.lamp);
     of.liquid = material_of(Color{}, times(look.specular, 492), 0, of.lamp);
+  }
+  of.clear = is_clear(look);
+  if (of.clear) {
+    of.losses = losses_of(look.clear);
+    of.frost = look.frost;
+    of.passing = passing_table();
   }
   const std::int32_t blur = blur_of(look.shininess);
   of.lamp_low = 3523 - times(1229, blur);
@@ -116,13 +127,27 @@ VOXMELT_RULE Material mixed(const Material& a, const Material& b, std::int32_t s
           mixed(a.highlight, b.highlight, share), mixed(a.gloss, b.gloss, share)};
 }
 
-// Light from the matter's surface towards the eye. `to_eye` has kLength. Obstacles count from a share of 148
-// to 204, so that a film hides them and no blur shows.
+// The parts of the light from a surface of matter.
+struct Shine {
+  Color mirrored{};           // and the highlight
+  Color scattered{};          // of the light that arrives
+  Color emission{};           // of glowing liquid
+  std::int32_t more = 0;      // of the light at its back, the share that the surface mirrors instead
+  std::int32_t obstacle = 0;  // the share of obstacles in it
+};
+
+// Obstacles count from a share of 148 to 204, so that a film hides them and no blur shows.
+VOXMELT_RULE std::int32_t obstacle_share(Matter matter) {
+  return std::clamp((matter.obstacle - 148) * 73, 0, kLight);
+}
+
+// Towards the eye. `to_eye` has kLength. `normal` is on the eye's side, and `out` points out of the matter:
+// they are opposite where the eye looks at a surface from within.
 template <class Watch = Silent>
-VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
-                                Matter matter, Watch watch = {}) {
+VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector out, Vector to_eye, const Light& light,
+                            Matter matter, Watch watch = {}) {
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);  // 255 is kLight - 1
-  const std::int32_t obstacle = std::clamp((matter.obstacle - 148) * 73, 0, kLight);
+  const std::int32_t obstacle = obstacle_share(matter);
   Material material = mixed(paint.solid, paint.liquid, liquid);
   Color emission{};
   if (paint.glow) {
@@ -139,14 +164,14 @@ VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye
   watch(Stage::material, "highlight", material.highlight), watch(Stage::material, "gloss", material.gloss);
   watch(Stage::material, "emission", emission);
 
-  const Color arrives = arriving(paint, normal, light, paint.glow && obstacle > 0, watch);
+  const Color arrives = arriving(paint, out, light, paint.glow && obstacle > 0, watch);
   const std::int32_t lamp = light.lamp + (light.lamp >> 7);
   const std::int32_t facing = cosine(normal, paint.to_light);
   const Vector halfway = unit_of(paint.to_light + to_eye, watch);
-  const std::int32_t shine = std::clamp(cosine(normal, halfway), 0, kLength);
-  std::int32_t peak = highlight_at(paint.highlight, shine);
-  if (obstacle > 0) peak = mixed(peak, highlight_at(paint.dull_highlight, shine), obstacle);
-  watch(Stage::mirror, "half", halfway), watch(Stage::mirror, "shine", shine);
+  const std::int32_t bright = std::clamp(cosine(normal, halfway), 0, kLength);
+  std::int32_t peak = highlight_at(paint.highlight, bright);
+  if (obstacle > 0) peak = mixed(peak, highlight_at(paint.dull_highlight, bright), obstacle);
+  watch(Stage::mirror, "half", halfway), watch(Stage::mirror, "shine", bright);
   watch(Stage::mirror, "unlit peak", peak);
   peak = (((peak * smooth_light(0, 1024, facing >> 2)) >> kLightBits) * lamp) >> 8;
 
@@ -167,16 +192,37 @@ VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye
   const std::int32_t seen = 614 + (((free + (free >> 7)) * (open + (open >> 7)) * 3482) >> 16);
 
   watch(Stage::mirror, "seen open by r", free), watch(Stage::mirror, "free", seen);
-  Color fresnel{}, mirror{}, own{}, sum{};
+  Shine of{{}, {}, {}, more, obstacle};
+  Color fresnel{}, mirror{};
   for (std::size_t c = 0; c < 3; ++c) {
     fresnel[c] = material.mirror[c] + (((kLight - material.mirror[c]) * more) >> kLightBits);
     mirror[c] = (((around[c] * seen) >> kLightBits) * fresnel[c]) >> kLightBits;
-    own[c] = (emission[c] * (2540 + ((1556 * eye) >> kNormalBits))) >> kLightBits;
-    sum[c] = ((arrives[c] * material.diffuse[c]) >> kLightBits) +
-             ((material.highlight[c] * peak) >> kLightBits) + mirror[c] + own[c];
+    of.mirrored[c] = ((material.highlight[c] * peak) >> kLightBits) + mirror[c];
+    of.scattered[c] = (arrives[c] * material.diffuse[c]) >> kLightBits;
+    of.emission[c] = (emission[c] * (2540 + ((1556 * eye) >> kNormalBits))) >> kLightBits;
   }
   watch(Stage::colour, "fresnel", fresnel), watch(Stage::colour, "mirrored", mirror);
-  watch(Stage::colour, "own", own), watch(Stage::colour, "colour", sum);
+  watch(Stage::colour, "own", of.emission);
+  return of;
+}
+
+// What clear matter scatters at a place in it.
+VOXMELT_RULE Color inner_color(const Paint& paint, const Light& light, Matter matter) {
+  const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);
+  const Color diffuse = mixed(mixed(paint.solid.diffuse, paint.liquid.diffuse, liquid),
+                              paint.obstacle.diffuse, obstacle_share(matter));
+  Color of = inner_light(paint.lamp, paint.from_below, paint.from_above, light);
+  for (std::size_t c = 0; c < 3; ++c) of[c] = (of[c] * diffuse[c]) >> kLightBits;
+  return of;
+}
+
+template <class Watch = Silent>
+VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
+                                Matter matter, Watch watch = {}) {
+  const Shine of = shine_of(paint, normal, normal, to_eye, light, matter, watch);
+  Color sum{};
+  for (std::size_t c = 0; c < 3; ++c) sum[c] = of.mirrored[c] + of.scattered[c] + of.emission[c];
+  watch(Stage::colour, "colour", sum);
   return sum;
 }
 

@@ -13,6 +13,7 @@ struct View {
 
 struct Ray {
   Vec start, step;
+  Int halvings = 0;  // of the step: section 10
 };
 
 inline Vec times30(Vec a, Int b) {
@@ -76,11 +77,12 @@ inline View make_view(const Input& in) {
   return view;
 }
 
-// Section 4: the ray of the place (X, Y), in 32nds of a pixel, with a step of 2^-m cells.
+// Section 4: the ray of the place (X, Y), in 64ths of a pixel, with a step of 2^-m cells.
 inline Ray make_ray(const View& view, Int X, Int Y, Int m) {
   const Int u = X - 32 * view.width, v = 32 * view.height - Y;
   const Vec direction = view.forward * (32 * view.height) + view.wide * u + view.high * v;
   Ray ray;
+  ray.halvings = view.halvings;
   ray.start =
       view.eye + ((view.forward * view.near) >> 14) + ((view.near_wide * u + view.near_high * v) >> 10);
   const Int largest = largest_magnitude(direction);

@@ -55,33 +55,61 @@ inline Vec ground_color(const Look& look, const LightGrid& grid, Vec p, Vec norm
   return product(arriving, color) >> 12;
 }
 
-inline Vec matter_color(const Look& look, const LightGrid& grid, const MatterBytes& bytes, Vec p, Vec n,
-                        Vec e) {
-  const Int liquid = bytes.read(bytes.liquid, p), heat = bytes.read(bytes.heat, p);
-  const Int obstacle = bytes.read(bytes.obstacle, p + (n << 5));
-  const Int l = 16 * liquid + (liquid >> 4), w = clamped(73 * (obstacle - 148), 0, 4096);
-  const Int one = power_of_two(14);
+// Section 6: l and w.
+struct Shares {
+  Int liquid, obstacle;
+};
+inline Shares shares_of(Int liquid, Int obstacle) {
+  return {16 * liquid + (liquid >> 4), clamped(73 * (obstacle - 148), 0, 4096)};
+}
 
+// Section 6: light and matter at a surface, with no eye yet.
+struct Surface {
+  Vec n, arriving, emission;
+  Int w = 0;
+  Material material;
+  LightBytes light;
+};
+inline Surface surface_at(const Look& look, const LightGrid& grid, const MatterBytes& bytes, Vec p, Vec n) {
+  const Int heat = bytes.read(bytes.heat, p);
+  const auto [l, w] = shares_of(bytes.read(bytes.liquid, p), bytes.read(bytes.obstacle, p + (n << 5)));
+  Surface surface;
+  surface.n = n;
+  surface.w = w;
   Material material = mixed(look.solid, look.liquid, l);
-  Vec emission;
   if (look.glows) {
     material.diffuse = material.diffuse + ((look.glow_crust[heat] * l) >> 12);
-    emission = (((look.glow_light[heat] * l) >> 12) * (4096 - w)) >> 12;
+    surface.emission = (((look.glow_light[heat] * l) >> 12) * (4096 - w)) >> 12;
   }
-  material = mixed(material, look.obstacle, w);
+  surface.material = mixed(material, look.obstacle, w);
+  surface.light = grid.at_surface(p, n);
+  surface.arriving = arriving_light(look, surface.light, n, look.glows && w > 0);
+  return surface;
+}
+inline Vec body_of(const Surface& surface) {
+  return product(surface.arriving, surface.material.diffuse) >> 12;
+}
 
-  const LightBytes light = grid.at_surface(p, n);
-  const Vec arriving = arriving_light(look, light, n, look.glows && w > 0);
-  const Int facing = cosine(n, look.to_light);
+// What an eye in the direction e sees in the surface as in a mirror, where `n` points to its side.
+struct Mirrored {
+  Int eye = 0, more = 0;
+  Vec shine;  // highlight and surroundings
+};
+inline Mirrored mirrored_in(const Look& look, const Surface& surface, Vec n, Vec e) {
+  const Int one = power_of_two(14), facing = cosine(n, look.to_light);
+  const Material& material = surface.material;
+  const LightBytes& light = surface.light;
 
   const Vec half = unit_of(look.to_light + e);
   const Int shine = clamped(cosine(n, half), 0, one);
   Int peak = mixed(Look::highlight_of(look.highlights, shine),
-                   Look::highlight_of(look.obstacle_highlights, shine), w);
+                   Look::highlight_of(look.obstacle_highlights, shine), surface.w);
   peak = (((peak * smooth(0, 1024, facing >> 2)) >> 12) * whole(light.lamp)) >> 8;
 
-  const Int eye = clamped(cosine(n, e), 0, one), a = one - eye, a2 = (a * a) >> 14;
-  const Int graze = (((a2 * a2) >> 14) * a) >> 14, more = (graze * material.gloss) >> 14;
+  Mirrored mirrored;
+  mirrored.eye = clamped(cosine(n, e), 0, one);
+  const Int a = one - mirrored.eye, a2 = (a * a) >> 14, graze = (((a2 * a2) >> 14) * a) >> 14;
+  mirrored.more = (graze * material.gloss) >> 14;
   const Vec r = ((n * ((2 * dot(n, e)) >> 14)) >> 14) - e;
   const Int free = 614 + ((whole(seen(light.open, r)) * whole(seen(light.open, n)) * 3482) >> 16);
 
@@ -90,8 +118,15 @@ inline Vec matter_color(const Look& look, const LightGrid& grid, const MatterByt
   const Vec strip_seen = Vec{2867, 3072, 3482} * smooth(look.strip_low, 3973, cosine(r, look.to_strip) >> 2);
   const Vec around = look.surroundings[clamped(r.y + one, 0, power_of_two(15)) >> 4] + (lamp_seen >> 12) +
                      (strip_seen >> 12);
-  const Vec fresnel = material.mirror + (((Vec{4096, 4096, 4096} - material.mirror) * more) >> 12);
+  const Vec fresnel = material.mirror + (((Vec{4096, 4096, 4096} - material.mirror) * mirrored.more) >> 12);
+  mirrored.shine = ((material.highlight * peak) >> 12) + (product((around * free) >> 12, fresnel) >> 12);
+  return mirrored;
+}
 
-  return (product(arriving, material.diffuse) >> 12) + ((material.highlight * peak) >> 12) +
-         (product((around * free) >> 12, fresnel) >> 12) + ((emission * (2540 + ((1556 * eye) >> 14))) >> 12);
+inline Vec matter_color(const Look& look, const LightGrid& grid, const MatterBytes& bytes, Vec p, Vec n,
+                        Vec e) {
+  const Surface surface = surface_at(look, grid, bytes, p, n);
+  const Mirrored mirrored = mirrored_in(look, surface, n, e);
+  return body_of(surface) + mirrored.shine +
+         ((surface.emission * (2540 + ((1556 * mirrored.eye) >> 14))) >> 12);
 }

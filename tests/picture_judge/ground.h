@@ -83,11 +83,18 @@ struct GroundHit {
   Int part = 0;
   Vec crossing;
   Face face = Face::top;
+  Int halvings = 0;  // of the step: picture.md 10
+  // picture.md 9
+  bool drawn_before(const MatterHit& matter) const {
+    const Int bias = face == Face::top ? 0 : 1024 * power_of_two(halvings);
+    return met && (!matter.met || 8 * part <= matter.place() + bias);
+  }
 };
 
 // Section 4.
 inline GroundHit meet_ground(const Ground& ground, const Ray& ray) {
   GroundHit hit;
+  hit.halvings = ray.halvings;
   if (!ground.exists) return hit;
   const auto P = [&ray](Int t) { return ray.start + ((ray.step * t) >> 8); };
   const Vec high{ground.nx << 20, 256 * ground.highest, ground.nz << 20};

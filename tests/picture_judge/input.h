@@ -23,6 +23,8 @@ struct Input {
   double shininess = 1, specular = 0, metallic = 0;
   bool glows = false;
   double glow_cold = 0, glow_hot = 0;
+  ColorNumbers clear;
+  double frost = 0;
   double light_x = 0, light_y = 0, light_z = 0, ambient = 0;
   double target_x = 0, target_y = 0, target_z = 0;
   double azimuth = 0, elevation = 0, distance = 0, field_of_view = 0;
@@ -86,6 +88,9 @@ inline void read_line_of(Input& in, const std::string& line) {
     in.glows = integer_from(words) != 0;
     in.glow_cold = number_from(words);
     in.glow_hot = number_from(words);
+  } else if (name == "clear") {
+    in.clear = color_from(words);
+    in.frost = number_from(words);
   } else if (name == "light") {
     in.light_x = number_from(words);
     in.light_y = number_from(words);

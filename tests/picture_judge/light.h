@@ -41,8 +41,9 @@ class LightGrid {
       for (Ints& g : glow) g.assign(loss.size(), 0);
   }
   // Section 5: light at a surface.
-  LightBytes at_surface(Vec p, Vec normal) const {
-    const Vec q = (p + (normal << (6 + s))) >> s;
+  LightBytes at_surface(Vec p, Vec normal) const { return at(p + (normal << (6 + s))); }
+  LightBytes at(Vec position) const {
+    const Vec q = position >> s;
     const auto read = [&](const Ints& values) {
       return blended_eight(q, [&](Int x, Int y, Int z) {
         return values[place(clamped(x, 0, n[0] - 1), clamped(y, 0, n[1] - 1), clamped(z, 0, n[2] - 1))];
@@ -65,7 +66,7 @@ class LightGrid {
     for (Int Z = 0; Z < n[2]; ++Z)
       for (Int Y = 0; Y < n[1]; ++Y)
         for (Int X = 0; X < n[0]; ++X) {
-          Int intensity = 0, G = 0, glowing = 0;
+          Int intensity = 0, obstacles = 0, G = 0, glowing = 0;
           for (Int z = Z * width; z < std::min((Z + 1) * width, in.nz); ++z)
             for (Int x = X * width; x < std::min((X + 1) * width, in.nx); ++x) {
               if (ground.exists)
@@ -73,14 +74,23 @@ class LightGrid {
               for (Int y = Y * width; y < std::min((Y + 1) * width, in.ny); ++y) {
                 const Int i = in.cell(x, y, z);
                 intensity += field.intensity[i];
+                obstacles += field.obstacle[i];
                 const Int heat = heat_byte(look, field.liquid[i], field.heat[i]);
                 glowing += (field.liquid[i] * ((heat * heat) >> 8)) >> 16;
               }
             }
-          const Int density = std::max(intensity >> (3 * s + 8), (255 * G) >> (3 * s + 12));
+          Int a = intensity >> (3 * s + 8);
+          if (look.clear.is_clear) a = thinned(look, a, std::min(obstacles >> (3 * s + 8), a));
+          const Int density = std::max(a, (255 * G) >> (3 * s + 12));
           loss.push_back(density < 12 ? 0 : clamped(3 * (density - 12) / 2, 0, 256));
           emission.push_back(glowing >> (3 * s));
         }
+  }
+  // picture-translucent.md 8: o is the obstacles' part of a.
+  Int thinned(const Look& look, Int a, Int o) const {
+    const Int share = (180 * (256 - (look.clear.passes(power_of_two(s + 8), look.clear.loss.y) >> 7))) >> 8;
+    const Int d = a - o;
+    return o + (d <= 12 ? d : 12 + (((d - 12) * share) >> 8));
   }
   // Section 5, the lamp: which rays are kept, and all others hold 255.
   void sweep_lamp(Vec to_light) {

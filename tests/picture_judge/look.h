@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "input.h"
+#include "clear_look.h"
 
 // Light counts in 4096ths.
 inline Int times(Int a, Int b) { return rounded(a * b, 12); }
@@ -34,7 +34,7 @@ inline Vec light_color(const ColorNumbers& c) {
 
 class Look {
  public:
-  explicit Look(const Input& in) : glows(in.glows) {
+  explicit Look(const Input& in) : glows(in.glows), clear(in) {
     ground = light_color(in.ground);
     background = light_color(in.background);
     const Int specular = scaled_number(in.specular, 12), metallic = scaled_number(in.metallic, 12);
@@ -81,6 +81,7 @@ class Look {
   }
 
   bool glows;
+  ClearLook clear;
   Vec ground, background, to_light, to_strip, lamp, from_below, from_above;
   Int cold = 0, hot = 0, blur = 0, lamp_low = 0, lamp_high = 0, strip_low = 0;
   Material solid, liquid, obstacle;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bytes.h"
-#include "color.h"
+#include "clear.h"
 #include "rock.h"
 
 struct Scene {
@@ -33,25 +33,28 @@ struct Scene {
   Press press;
 };
 
+inline Vec ground_color_of(const Scene& scene, const Ray& ray, const GroundHit& ground) {
+  const GroundLook look = scene.rock.look_of(ground);
+  const Vec normal = ground.face == Face::inside ? to_eye_of(ray) : look.normal;
+  return ground_color(scene.look, scene.grid, ground.crossing, normal, look.color);
+}
+
 // A sample: the pressed light of the ray through the place (X, Y).
 inline Vec sample_of(const Scene& scene, Int X, Int Y, Int m) {
   const Ray ray = make_ray(scene.view, X, Y, m);
-  const MatterHit matter = meet_matter(scene.levels, ray);
   const GroundHit ground = meet_ground(scene.ground, ray);
-  bool ground_drawn = ground.met;
-  if (ground.met && matter.met) {
-    const Int bias = ground.face == Face::top ? 0 : 1024 * power_of_two(scene.view.halvings);
-    ground_drawn = 8 * ground.part <= matter.place + bias;
+  if (scene.look.clear.is_clear) {
+    const ClearScene clear{scene.look, scene.levels, scene.grid, scene.bytes};
+    ClearWalk walk(clear, ray, m);
+    return walk.walk(ground) ? walk.color_at_ground(scene.press, ground_color_of(scene, ray, ground))
+                             : walk.color_at_background(scene.press);
   }
-  if (ground_drawn) {
-    const GroundLook look = scene.rock.look_of(ground);
-    const Vec normal = ground.face == Face::inside ? to_eye_of(ray) : look.normal;
-    return scene.press(ground_color(scene.look, scene.grid, ground.crossing, normal, look.color));
-  }
+  const MatterHit matter = meet_matter(scene.levels, ray);
+  if (ground.drawn_before(matter)) return scene.press(ground_color_of(scene, ray, ground));
   if (matter.met) {
-    const Vec e = to_eye_of(ray);
-    const Vec normal = matter.at_start ? e : matter_normal(scene.levels, matter.crossing);
-    return scene.press(matter_color(scene.look, scene.grid, scene.bytes, matter.crossing, normal, e));
+    const Vec e = to_eye_of(ray), p = matter.crossing.position;
+    const Vec normal = matter.at_start() ? e : matter_normal(scene.levels, p);
+    return scene.press(matter_color(scene.look, scene.grid, scene.bytes, p, normal, e));
   }
   return scene.look.background;
 }

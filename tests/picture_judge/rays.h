@@ -65,48 +65,51 @@ class Levels {
   Ints level;
 };
 
-struct MatterHit {
-  bool met = false, at_start = false;
-  Int place = 0;  // section 9, in 2048ths of a step from sample 0
-  Vec crossing;
+struct Crossing {
+  Vec position;
+  Int part = 0;  // in 2048ths of the way from the sample in air to the one in matter
 };
 
-// Section 7.
-inline MatterHit meet_matter(const Levels& levels, const Ray& ray) {
-  MatterHit hit;
-  const Range range = range_in_box(ray.start, ray.step, levels.box_low(), levels.box_high());
-  for (Int k = range.first; k <= range.last; ++k) {
-    const Vec here = ray.start + ray.step * k;
-    Int b = levels.sample(here);
-    if (b < 0) continue;
-    hit.met = true;
-    if (k == 0) {
-      hit.at_start = true;
-      hit.crossing = ray.start;
-      hit.place = 0;
-      return hit;
+// Section 7: A lies in air and B in matter.
+inline Crossing crossing_between(const Levels& levels, Vec A, Vec B) {
+  Int a = levels.sample(A), b = levels.sample(B), e = 0;
+  for (int middle = 0; middle < 3; ++middle) {
+    const Vec M = A + ((B - A) >> 1);
+    const Int m = levels.sample(M);
+    e *= 2;
+    if (m < 0) {
+      A = M;
+      a = m;
+      e += 1;
+    } else {
+      B = M;
+      b = m;
     }
-    Vec A = ray.start + ray.step * (k - 1), B = here;
-    Int a = levels.sample(A), e = 0;
-    for (int middle = 0; middle < 3; ++middle) {
-      const Vec M = A + ((B - A) >> 1);
-      const Int m = levels.sample(M);
-      e *= 2;
-      if (m < 0) {
-        A = M;
-        a = m;
-        e += 1;
-      } else {
-        B = M;
-        b = m;
-      }
-    }
-    const Int f = floor_divided(-a * 256, b - a);
-    hit.crossing = A + (((B - A) * f) >> 8);
-    hit.place = (k - 1) * 2048 + 256 * e + f;
-    return hit;
   }
-  return hit;
+  const Int f = floor_divided(-a * 256, b - a);
+  return {A + (((B - A) * f) >> 8), 256 * e + f};
+}
+
+inline Vec place_of_sample(const Ray& ray, Int k) { return ray.start + ray.step * k; }
+
+struct MatterHit {
+  bool met = false;
+  Int sample = 0;  // the first in matter
+  Crossing crossing;
+  bool at_start() const { return sample == 0; }
+  Int place() const { return (sample - 1) * 2048 + crossing.part; }  // section 9
+};
+
+// Section 7, from sample `from` on.
+inline MatterHit meet_matter(const Levels& levels, const Ray& ray, Int from = 0) {
+  const Range range = range_in_box(ray.start, ray.step, levels.box_low(), levels.box_high());
+  for (Int k = std::max(range.first, from); k <= range.last; ++k) {
+    const Vec here = place_of_sample(ray, k);
+    if (levels.sample(here) < 0) continue;
+    if (k == 0) return {true, 0, {ray.start, 2048}};
+    return {true, k, crossing_between(levels, place_of_sample(ray, k - 1), here)};
+  }
+  return {};
 }
 
 // Section 8.

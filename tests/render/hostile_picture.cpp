@@ -17,6 +17,7 @@ double fraction(Random& random) { return static_cast<double>(random.bits() >> 11
 double between(Random& random, double low, double high) { return low + (high - low) * fraction(random); }
 // Just below half of a unit of light: the sum with 1/2 rounds to 1 in doubles.
 constexpr double kBelowHalf = 0x1.fffffffffffffp-2 * 0x1p-12;
+constexpr double kBelowHalfClear = 0x1.fffffffffffffp-2 * 0x1p-6;  // as much of a unit of `clear`
 
 // From 0 to 1, often an end.
 double edged(Random& random) {
@@ -140,6 +141,15 @@ scene::Look hostile_look(Random& random) {
   look.glow = random.one_in(2);
   look.glow_cold = edged(random) * 0.6;
   look.glow_hot = look.glow_cold + (random.one_in(5) ? 0x1p-16 : fraction(random) * 0.4);
+  if (random.one_in(2)) {  // clear: from a fog to a glass, and colours; no colour where it glows
+    const bool glow = look.glow && random.one_in(4);
+    look.glow = glow;
+    for (double& half : look.clear)
+      half = random.any({0.0, 0.01, kBelowHalfClear, 0x1p-7, 1.0, 256.0, 3.3, between(random, 0, 40)});
+    if (random.one_in(6))
+      look.clear = random.any<scene::Vec3>({{kBelowHalfClear, 0, 0}, {0, 0x1p-7, 0}, {0, 0, 9}});
+    look.frost = random.one_in(3) ? 0.2 * edged(random) : edged(random);
+  }
   look.smooth = random.below(7);
   look.smooth_solid = random.below(7);
   return look;
@@ -222,6 +232,44 @@ HostilePicture hostile_picture(std::uint64_t seed, int most) {
   return picture;
 }
 
+HostilePicture hostile_clear_picture(std::uint64_t seed, int most) {
+  Random random(seed * 6151 + 3);
+  HostilePicture picture = hostile_picture(random.bits(), most);
+  state::Volume& volume = picture.volume;
+  volume = state::Volume(state::Grid{random.between(5, 20), random.between(5, 20), random.between(5, 20)});
+  picture.terrain = hostile_terrain(random, volume.grid);
+  switch (random.below(3)) {
+    case 0:
+      fill_land(volume, picture.terrain, random);
+      break;
+    case 1:
+      fill_lumps(volume, random);
+      break;
+    default:  // a block from side to side with obstacles and holes in it, perhaps on ground
+      const int holes = random.any({30, 200}), walls = random.any({20, 300}), bed = random.below(3);
+      worlds::for_each(worlds::whole(volume.grid), [&](int x, int y, int z) {
+        put(volume, x, y, z,
+            y < bed || random.one_in(walls) ? kInert
+            : random.one_in(holes)          ? kAir
+            : (x + z) % 9 < 4               ? kLiquid
+                                            : kSolid,
+            random);
+        if (random.below(8) > 0 && y >= bed && volume.amount[volume.at(x, y, z)] > 0)
+          volume.amount[volume.at(x, y, z)] = 4096;
+      });
+  }
+  picture.look.glow = false;
+  for (double& half : picture.look.clear) half = random.any({2.0, 256.0, 0.3, between(random, 1, 40)});
+  picture.look.frost = random.one_in(4) ? edged(random) : 0.1 * fraction(random);
+  picture.light.ambient = 0.5;
+  picture.camera = hostile_camera(random, volume);
+  picture.camera.width = random.between(20, 48);
+  picture.camera.height = random.between(20, 48);
+  if (!random.one_in(4))
+    picture.camera.target = {0.5 * volume.grid.x, 0.5 * volume.grid.y, 0.5 * volume.grid.z};
+  return picture;
+}
+
 std::string description(const HostilePicture& picture) {
   const state::Grid& grid = picture.volume.grid;
   const scene::Camera& camera = picture.camera;
@@ -229,6 +277,7 @@ std::string description(const HostilePicture& picture) {
   text.precision(17);
   text << "grid " << grid.x << ' ' << grid.y << ' ' << grid.z << ", smooth " << picture.look.smooth << ' '
        << picture.look.smooth_solid << (picture.look.glow ? ", glow" : "")
+       << (picture.look.clear != scene::Vec3{} ? ", clear" : "")
        << (picture.terrain.height.empty() ? ""
            : picture.terrain.textured     ? ", textured terrain"
                                           : ", terrain")

@@ -24,6 +24,9 @@ struct HostilePicture {
 // The same on every machine. `most` bounds the number of cells.
 HostilePicture hostile_picture(std::uint64_t seed, int most);
 
+// One with clear matter, through which rays see far: obstacles, ground, sides of the grid, surfaces.
+HostilePicture hostile_clear_picture(std::uint64_t seed, int most);
+
 // What it is made of, in words.
 std::string description(const HostilePicture& picture);
 

@@ -76,13 +76,18 @@ void expect_packets_draw(const Image& expected, const HostilePicture& of) {
   });
 }
 
+bool has_colors(const Image& image) {
+  return std::any_of(image.pixels.begin(), image.pixels.end(),
+                     [&](const render::Rgb& pixel) { return pixel != image.pixels[0]; });
+}
+
 using Counts = std::array<std::uint64_t, 3>;  // of pictures of more than one colour, by halvings of the step
 
 void expect_all_agree(const HostilePicture& of, const std::filesystem::path& file, Counts& full) {
-  test::write_judge_file(file, of.volume, of.look, of.light, of.terrain, of.camera, of.setting);
   render::DensityField field;
   field.update(of.volume, of.look, of.terrain, 1);
   const render::PictureScene scene(field, of.look, of.light, of.terrain);
+  test::write_judge_file(file, of.volume, of.look, of.light, of.terrain, of.camera, of.setting);
   EXPECT_EQ(test::judged_field(file), field_bytes(field, scene)) << "the field";
 
   const Image judged = test::judged_picture(file, of.camera.width, of.camera.height);
@@ -91,30 +96,33 @@ void expect_all_agree(const HostilePicture& of, const std::filesystem::path& fil
   expect_packets_draw(judged, of);
   const auto halvings =
       picture::view_of(render::camera_in_integers(of.camera), scene.levels.cells()).halvings;
-  if (std::any_of(judged.pixels.begin(), judged.pixels.end(),
-                  [&](const render::Rgb& pixel) { return pixel != judged.pixels[0]; }))
-    ++full[static_cast<std::size_t>(halvings)];
+  if (has_colors(judged)) ++full[static_cast<std::size_t>(halvings)];
 }
 
-TEST(Judge, AgreesOnHostilePictures) {
+void expect_agreement(const char* name, HostilePicture (*picture_of)(std::uint64_t, int),
+                      std::uint64_t pictures) {
   const char* one = std::getenv("VOXMELT_PICTURE_SEED");
   const std::uint64_t first = one == nullptr ? 0 : std::strtoull(one, nullptr, 10);
-  const std::uint64_t last = one == nullptr ? kPictures : first + 1;
-  const std::filesystem::path file = test::judge_file_name("hostile");
+  const std::uint64_t last = one == nullptr ? pictures : first + 1;
+  const std::filesystem::path file = test::judge_file_name(name);
   Counts full{};
   for (std::uint64_t seed = first; seed < last; ++seed) {
-    const HostilePicture picture = test::hostile_picture(seed, kMostCells);
+    const HostilePicture picture = picture_of(seed, kMostCells);
     if (one != nullptr) std::cout << description(picture) << std::endl;
     expect_all_agree(picture, file, full);
-    if (HasFailure())
+    if (testing::Test::HasFailure())
       FAIL() << "VOXMELT_PICTURE_SEED=" << seed << ": " << description(picture) << "\nthe judge read "
              << file;
   }
   EXPECT_GT(full[0] + full[1] + full[2], (last - first) / 3) << "too many pictures of one colour";
   for (const std::uint64_t count : full)
-    EXPECT_TRUE(one != nullptr || count > kPictures / 30) << count << " of such a step";
+    EXPECT_TRUE(one != nullptr || count > pictures / 30) << count << " of such a step";
   std::filesystem::remove(file);
 }
+
+TEST(Judge, AgreesOnHostilePictures) { expect_agreement("hostile", test::hostile_picture, kPictures); }
+
+TEST(Judge, AgreesOnClearPictures) { expect_agreement("clear", test::hostile_clear_picture, kPictures / 2); }
 
 }  // namespace
 }  // namespace voxmelt

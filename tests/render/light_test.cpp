@@ -152,6 +152,7 @@ TEST(Light, SourcesToldAndUntold) {
       look.glow = field_look.glow;
       look.glow_cold = random.below(30000);
       look.glow_hot = random.between(20000, 65536);
+      if (random.one_in(2)) look.clear = {random.below(3), random.between(1, 1200), 900};
       std::vector<std::int32_t> ground;
       if (random.one_in(2))
         for (int i = 0; i < grid.x * grid.z; ++i) ground.push_back(random.below(grid.y * 4096 + 1));
@@ -174,18 +175,20 @@ TEST(Light, SourcesToldAndUntold) {
         volume.changed.new_version();
         for (int edits = random.below(40); edits > 0; --edits) {
           const int x = random.below(grid.x), y = random.below(grid.y), z = random.below(grid.z),
-                    kind = random.below(4);
+                    kind = random.below(5);
           const state::Slot at = volume.at(x, y, z);
           volume.solid.set(x, y, z, kind == 1);
-          volume.liquid.set(x, y, z, kind >= 2);
-          volume.amount[at] = static_cast<std::uint16_t>(kind == 0 ? 0 : 1 + random.below(6000));
-          volume.heat[at] = static_cast<std::uint16_t>(kind == 0 ? 0 : random.below(65536));
+          volume.liquid.set(x, y, z, kind == 2 || kind == 3);
+          volume.inert.set(x, y, z, kind == 4);
+          volume.amount[at] = static_cast<std::uint16_t>(kind % 4 == 0 ? 0 : 1 + random.below(6000));
+          volume.heat[at] = static_cast<std::uint16_t>(kind % 4 == 0 ? 0 : random.below(65536));
           volume.changed.mark(state::ChangedBricks::kMatter, std::uint64_t{1} << x / 64 % 64, y / 8, z / 8);
         }
         for (int edits = random.below(4); edits > 0 && !ground.empty(); --edits)
           ground[static_cast<std::size_t>(random.below(static_cast<int>(ground.size())))] =
               random.below(grid.y * 4096 + 1);
         if (random.one_in(6)) look.glow_hot = random.between(20000, 65536);
+        if (random.one_in(6) && !look.glow) look.clear[1] = random.between(1, 1200);
         if (random.one_in(9)) ground.clear();
       }
     }

@@ -107,6 +107,10 @@ Hostile random_scene(Random& random) {
   of.look.metallic = random.whole(0, 2) / 2.0;
   of.look.specular = random.real(0, 1);
   of.look.shininess = random.whole(1, 200);
+  if (!of.look.glow && !random.one_in(3)) {
+    for (double& half : of.look.clear) half = random.one_in(4) ? 0.0 : random.real(0.5, 20);
+    of.look.frost = random.real(0, 0.5);
+  }
   of.light.direction = {random.real(-1, 1), random.real(0.1, 1), random.real(-1, 1)};
   return of;
 }

@@ -1,6 +1,7 @@
 #include "tests/render/plain_light.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "render/rule/light_grid.h"
@@ -174,6 +175,14 @@ void for_cells(const state::Grid& grid, int shift, picture::Vector at, const Vis
       for (int x = static_cast<int>(at.x << shift); x < end(at.x, grid.x); ++x) visit(x, y, z);
 }
 
+// What is left of the density of clear matter, in 256ths: in double, as far as the rule's roundings let it.
+std::int64_t plain_share(double half, int width) {
+  const double per_cell = std::min(std::floor(4096 / std::max(half, 1.0 / 64)), 4096.0) / 16;
+  const double entry = std::floor(width * per_cell);
+  const double passes = entry < 2047 ? std::round(32768 * std::exp2(-entry / 256)) : 0;
+  return static_cast<std::int64_t>(std::floor(180 * (256 - std::floor(passes / 128)) / 256));
+}
+
 }  // namespace
 
 LightMatter plain_light_matter(const DensityField& field, const std::vector<std::int32_t>& ground,
@@ -183,14 +192,17 @@ LightMatter plain_light_matter(const DensityField& field, const std::vector<std:
   const int shift = picture::light_shift(cells);
   LightMatter of{{count, 0}, {}};
   if (look.glow) of.emission = {count, 0};
+  const bool clear = !look.glow && (look.clear[0] > 0 || look.clear[1] > 0 || look.clear[2] > 0);
+  const std::int64_t share = clear ? plain_share(look.clear[1] / 64.0, 1 << shift) : 0;
   for (std::int64_t z = 0; z < count.z; ++z)
     for (std::int64_t y = 0; y < count.y; ++y)
       for (std::int64_t x = 0; x < count.x; ++x) {
-        std::int64_t matter = 0, earth = 0, light = 0;
+        std::int64_t matter = 0, obstacle = 0, earth = 0, light = 0;
         const std::int64_t floor = (y << shift) * 4096, height = std::int64_t{4096} << shift;
         for_cells(grid, shift, {x, y, z}, [&](int cx, int cy, int cz) {
           const std::size_t i = grid.index(cx, cy, cz);
           matter += field.intensity()[i];
+          if (field.has_obstacles()) obstacle += field.obstacle()[i];
           if (cy == y << shift && !ground.empty())
             earth += std::clamp<std::int64_t>(
                 ground[static_cast<std::size_t>(cz) * static_cast<std::size_t>(grid.x) +
@@ -203,8 +215,14 @@ LightMatter plain_light_matter(const DensityField& field, const std::vector<std:
                 picture::matter_of(field.solid()[i], field.liquid()[i], field.heat()[i], 0, look).heat);
         });
         const std::size_t i = of.density.index(x, y, z);
-        of.density.cells[i] =
-            static_cast<std::uint8_t>(std::max(matter >> (3 * shift + 8), (earth * 255) >> (3 * shift + 12)));
+        matter >>= 3 * shift + 8;
+        obstacle = std::min(obstacle >> (3 * shift + 8), matter);
+        if (clear) {
+          matter -= obstacle;
+          if (matter > 12) matter = 12 + (matter - 12) * share / 256;
+          matter += obstacle;
+        }
+        of.density.cells[i] = static_cast<std::uint8_t>(std::max(matter, (earth * 255) >> (3 * shift + 12)));
         if (look.glow) of.emission.cells[i] = static_cast<std::uint8_t>(light >> (3 * shift));
       }
   return of;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
+#include <stdexcept>
 #include <utility>
 
 #include "accuracy/picture/compare.h"
@@ -60,6 +61,12 @@ state::Volume half_full(state::Grid grid) {
         volume.amount[volume.at(x, y, z)] = rule::kOne;
       }
   return volume;
+}
+
+TEST(Exact, ClearMatterIsRefused) {
+  scene::Look look = unfiltered();
+  look.clear = {0, 9, 0};
+  EXPECT_THROW(World(half_full({8, 12, 8}), look, {}), std::invalid_argument);
 }
 
 TEST(Cubic, FirstReachedByHand) {

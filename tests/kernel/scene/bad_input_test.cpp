@@ -137,6 +137,11 @@ const std::vector<Case>& cases() {
        "scene.toml:8:10: error: cannot read none/solid.npy: No such file or directory"},
       // Drawing.
       {kBox + "[look]\nsolid = [1, 1, 2]\n", "scene.toml:8:16: error: look.solid.2 = 2 exceeds 1"},
+      {kBox + "[look]\nclear = 256.5\n", "scene.toml:8:9: error: look.clear = 256.5 exceeds 256"},
+      {kBox + "[look]\nclear = [9, -1, 9]\n", "scene.toml:8:13: error: look.clear.1 = -1 is below 0"},
+      {kBox + "[look]\nglow = true\nclear = 4\n",
+       "scene.toml:9:9: error: look.clear is for matter that does not glow"},
+      {kBox + "[look]\nfrost = 1.5\n", "scene.toml:8:9: error: look.frost = 1.5 exceeds 1"},
       {kBox + "[light]\ndirection = [0, 0, 0]\n", "scene.toml:8:13: error: light.direction has no length"},
       {kBox + "[camera]\nwidth = 1000000\n",
        "scene.toml:8:9: error: camera.width = 1000000 is outside 16..16384"},

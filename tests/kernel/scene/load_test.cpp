@@ -237,6 +237,17 @@ TEST(Load, MobilityOfTheViscousLaw) {
   EXPECT_EQ(flow.viscous.substeps_max, 1024);
 }
 
+TEST(Load, ClearIsANumberOrThree) {
+  const SceneFolder folder;
+  const auto look = [&](const std::string& keys) { return folder.load_text(kLeast + "[look]\n" + keys).look; };
+  EXPECT_EQ(look("").clear, (Vec3{0, 0, 0}));
+  EXPECT_EQ(look("").frost, 0.1);
+  EXPECT_EQ(look("clear=7.5\nfrost=0.25\n").clear, (Vec3{7.5, 7.5, 7.5}));
+  EXPECT_EQ(look("clear=7.5\nfrost=0.25\n").frost, 0.25);
+  EXPECT_EQ(look("clear=[1,0,256]\n").clear, (Vec3{1, 0, 256}));
+  EXPECT_EQ(look("glow=true\nclear=[0,0,0]\n").clear, (Vec3{}));  // opaque, which may glow
+}
+
 TEST(Overrides, ReplaceAndAddKeys) {
   const SceneFolder folder;
   const Scene scene = folder.load_text(kLeast + "[heat]\n[[heat_source]]\nat=[0,0,0]\npower=1\n",
