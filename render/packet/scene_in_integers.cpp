@@ -1,5 +1,6 @@
 #include "render/packet/scene_in_integers.h"
 
+#include <cstddef>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

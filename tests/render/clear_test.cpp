@@ -54,16 +54,13 @@ class Fog {
     const Light light;
     const Vector one{1, 1, 1};
     const render::PaintedScene<CubeOfLevels, Inside, Light> scene{
-        levels_, levels_.cells(), inside_, none_,      light,
-        one,     1,               paint_,  background_, render::tone_table()};
+        levels_, levels_.cells(), inside_, none_, light, one, 1, paint_, background_, render::tone_table()};
     render::ClearPainter along(scene, ray, ground, spacing);
     const bool arrived = along.follow(picture::first_crossing(levels_, levels_.cells(), ray));
     return {arrived, along.passed(), along.sum({})};
   }
   // How long the way in matter is by what passes, in cells.
-  double way(const Seen& seen, double half = 8) const {
-    return -half * std::log2(seen.passed[1] / 32768.0);
-  }
+  double way(const Seen& seen, double half = 8) const { return -half * std::log2(seen.passed[1] / 32768.0); }
   void put_obstacle_from(std::int64_t x) { inside_.obstacle_from = x; }
   const picture::Paint& paint() const { return paint_; }
 
