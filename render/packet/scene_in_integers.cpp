@@ -1,8 +1,8 @@
 #include "render/packet/scene_in_integers.h"
 
-#include <cstddef>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace voxmelt::render {
