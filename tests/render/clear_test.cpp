@@ -19,7 +19,6 @@ namespace voxmelt {
 namespace {
 
 using picture::Color;
-using picture::kCell;
 using picture::Vector;
 using test::CubeOfLevels;
 
@@ -125,7 +124,7 @@ TEST(Clear, FrostDimsAtEachSurface) {
   scene::Look look = dull_look(8);
   look.frost = 0.25;
   const Fog fog(levels, look);
-  EXPECT_NEAR(fog.seen(fog.ray(2, 20, 20, 1, 0, 0)).passed[0], 32768 * 9 / 32, 60);
+  EXPECT_NEAR(fog.seen(fog.ray(2, 20, 20, 1, 0, 0)).passed[0], 32768 * 9 / 32.0, 60);
 }
 
 // What is scattered and what passes add up to all, whatever the number of stretches: no rounding adds up.
@@ -176,7 +175,7 @@ TEST(Clear, AnEyeInMatterSeesThroughIt) {
   look.frost = 0.5;
   const Fog fog(levels, look);
   const Fog::Seen seen = fog.seen(fog.ray(22, 20, 20, 1, 0, 0));
-  EXPECT_NEAR(seen.passed[0], 32768 / 4, 60);  // half on the way, half at the one surface
+  EXPECT_NEAR(seen.passed[0], 32768 / 4.0, 60);  // half on the way, half at the one surface
 }
 
 const state::Grid kGrid{40, 36, 40};
