@@ -1,7 +1,6 @@
 // What a ray sees through clear matter, by render/rule alone (docs/picture-translucent.md).
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

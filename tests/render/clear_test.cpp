@@ -19,7 +19,6 @@ namespace voxmelt {
 namespace {
 
 using picture::Color;
-using picture::kCell;
 using picture::Vector;
 using test::CubeOfLevels;
 
@@ -54,16 +53,13 @@ class Fog {
     const Light light;
     const Vector one{1, 1, 1};
     const render::PaintedScene<CubeOfLevels, Inside, Light> scene{
-        levels_, levels_.cells(), inside_, none_,      light,
-        one,     1,               paint_,  background_, render::tone_table()};
+        levels_, levels_.cells(), inside_, none_, light, one, 1, paint_, background_, render::tone_table()};
     render::ClearPainter along(scene, ray, ground, spacing);
     const bool arrived = along.follow(picture::first_crossing(levels_, levels_.cells(), ray));
     return {arrived, along.passed(), along.sum({})};
   }
   // How long the way in matter is by what passes, in cells.
-  double way(const Seen& seen, double half = 8) const {
-    return -half * std::log2(seen.passed[1] / 32768.0);
-  }
+  double way(const Seen& seen, double half = 8) const { return -half * std::log2(seen.passed[1] / 32768.0); }
   void put_obstacle_from(std::int64_t x) { inside_.obstacle_from = x; }
   const picture::Paint& paint() const { return paint_; }
 
@@ -128,7 +124,7 @@ TEST(Clear, FrostDimsAtEachSurface) {
   scene::Look look = dull_look(8);
   look.frost = 0.25;
   const Fog fog(levels, look);
-  EXPECT_NEAR(fog.seen(fog.ray(2, 20, 20, 1, 0, 0)).passed[0], 32768 * 9 / 32, 60);
+  EXPECT_NEAR(fog.seen(fog.ray(2, 20, 20, 1, 0, 0)).passed[0], 32768 * 9 / 32.0, 60);
 }
 
 // What is scattered and what passes add up to all, whatever the number of stretches: no rounding adds up.
@@ -179,7 +175,7 @@ TEST(Clear, AnEyeInMatterSeesThroughIt) {
   look.frost = 0.5;
   const Fog fog(levels, look);
   const Fog::Seen seen = fog.seen(fog.ray(22, 20, 20, 1, 0, 0));
-  EXPECT_NEAR(seen.passed[0], 32768 / 4, 60);  // half on the way, half at the one surface
+  EXPECT_NEAR(seen.passed[0], 32768 / 4.0, 60);  // half on the way, half at the one surface
 }
 
 const state::Grid kGrid{40, 36, 40};

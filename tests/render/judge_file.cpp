@@ -81,11 +81,12 @@ void write_judge_file(const std::filesystem::path& file, const state::Volume& vo
       << "liquid" << text_of(look.liquid) << "ground" << text_of(look.ground) << "background"
       << text_of(look.background) << "shininess" << text_of({look.shininess}) << "specular"
       << text_of({look.specular}) << "metallic" << text_of({look.metallic}) << "glow"
-      << text_of({look.glow ? 1.0 : 0.0, look.glow_cold, look.glow_hot}) << (look.clear != scene::Vec3{}
+      << text_of({look.glow ? 1.0 : 0.0, look.glow_cold, look.glow_hot})
+      << (look.clear != scene::Vec3{}
               ? "clear" + text_of({look.clear[0], look.clear[1], look.clear[2], look.frost})
               : "")
-      << "light"
-      << text_of({light.direction[0], light.direction[1], light.direction[2], light.ambient}) << "camera"
+      << "light" << text_of({light.direction[0], light.direction[1], light.direction[2], light.ambient})
+      << "camera"
       << text_of({camera.target[0], camera.target[1], camera.target[2], camera.azimuth, camera.elevation,
                   camera.distance, camera.field_of_view, 1.0 * camera.width, 1.0 * camera.height})
       << "terrain" << text_of({given ? 1.0 : 0.0, terrain.textured ? 1.0 : 0.0}) << "setting "

@@ -239,7 +239,9 @@ TEST(Load, MobilityOfTheViscousLaw) {
 
 TEST(Load, ClearIsANumberOrThree) {
   const SceneFolder folder;
-  const auto look = [&](const std::string& keys) { return folder.load_text(kLeast + "[look]\n" + keys).look; };
+  const auto look = [&](const std::string& keys) {
+    return folder.load_text(kLeast + "[look]\n" + keys).look;
+  };
   EXPECT_EQ(look("").clear, (Vec3{0, 0, 0}));
   EXPECT_EQ(look("").frost, 0.1);
   EXPECT_EQ(look("clear=7.5\nfrost=0.25\n").clear, (Vec3{7.5, 7.5, 7.5}));
