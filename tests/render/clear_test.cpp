@@ -54,7 +54,7 @@ class Fog {
     const Vector one{1, 1, 1};
     const render::PaintedScene<CubeOfLevels, Inside, Light> scene{
         levels_, levels_.cells(), inside_, none_, light, one, 1, paint_, background_, render::tone_table()};
-    render::ClearPainter along(scene, ray, ground, spacing);
+    render::ClearPainter along(scene, ray, ground, spacing, 0);
     const bool arrived = along.follow(picture::first_crossing(levels_, levels_.cells(), ray));
     return {arrived, along.passed(), along.sum({})};
   }
