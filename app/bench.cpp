@@ -10,12 +10,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/options.h"
 #include "app/version.h"
+#include "app/visibility.h"
 #include "bench/measure/report.h"
 #include "bench/measure/suite.h"
 #include "kernel/run/io/output_folder.h"
@@ -120,7 +122,10 @@ int run_bench(const BenchOptions& options) {
     const std::uint32_t middle = measure::middle_of(scene.name);
     const std::uint32_t step = options.from.value_or(middle > 0 ? middle : scene.steps / 2);
     note(options.common, fmt::format("melting {} to step {}", scene.name, step));
-    suite.run_scene(measure::scene_at(scene, step, thread_count(options.common)), scene);
+    const int threads = thread_count(options.common);
+    auto provider = make_provider(
+        choose_visibility(options.common.visibility, scene.parameters.heat, scene.initial.grid), threads);
+    suite.run_scene(measure::scene_at(scene, step, threads, std::move(provider)), scene);
   }
   if (options.scenes.empty()) suite.run_dense();
 
@@ -155,6 +160,7 @@ void add_bench(CLI::App& program, Chosen& chosen) {
                       "step of the scenes to time (default: the middle of their melt)");
   command->add_option("--out", options->out, "folder for bench.json, performance_tables.md and roofline.svg");
   add_common(*command, options->common);
+  add_visibility(*command, options->common);
   command->footer(
       "Without --implementation it times every instruction set of this processor, without --threads one\n"
       "thread and all. Every result is compared with the reference before its time counts. Each phase of\n"

@@ -13,6 +13,7 @@
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/surface_pictures.h"
+#include "app/visibility.h"
 #include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
 #include "render/packet/picture.h"
@@ -130,6 +131,7 @@ void add_render(CLI::App& program, Chosen& chosen) {
                    "this many views around the scene, into the folder --out")
       ->check(CLI::Range(1, 3600));
   add_common(*command, options->common);
+  add_visibility(*command, options->common);
   command->callback([options, &chosen] { chosen = [options] { return run_render(*options); }; });
 }
 

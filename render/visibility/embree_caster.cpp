@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #if defined(__SSE2__)
@@ -42,33 +43,42 @@ class FlushDenormals {
   unsigned before_ = 0;
 };
 
-// What the callback needs of the rays that are on their way. Embree hands the context on, so it comes first.
+// A ray that has left the brick where it began, and has met nothing there.
+struct Traveller {
+  Traveller(const Cell& cell, const Course& course) : walk(cell, course) {}
+  BrickWalk<std::int64_t> walk;
+  std::size_t ray = 0;
+  std::size_t first_brick = 0;
+};
+
+// What the callback needs of the rays of a packet. Embree hands the context on, so it comes first.
 struct Errand {
   RTCIntersectContext context;
   const Opaque* opaque;
-  const rule::Position* source;
-  std::span<const Ray> rays;
+  const Traveller* travellers;  // by the ids of rays
   std::span<Fate> fates;
 };
 
 struct Prepared {
   std::array<float, 3> from, way;
-  float end;
+  float begin, end;
 };
 
-// In cells, and scaled so that no component of the direction is above 1.
-Prepared prepare_ray(const Ray& ray, const rule::Position& source) {
-  const std::array<std::int64_t, 3> from{ray.start.x, ray.start.y, ray.start.z},
-      to{source.x, source.y, source.z};
-  std::int64_t longest = 1;
-  for (std::size_t a = 0; a < 3; ++a) longest = std::max(longest, std::abs(to[a] - from[a]));
+// In cells, and scaled so that the longest component of the direction is 1. The ray goes on from `cell`.
+Prepared prepare_ray(const Ray& ray, const Course& course, const Cell& cell) {
+  const std::size_t main = course.length[0] >= course.length[1]
+                               ? (course.length[0] >= course.length[2] ? 0 : 2)
+                               : (course.length[1] >= course.length[2] ? 1 : 2);
+  const auto longest = static_cast<float>(course.length[main]);
+  const std::array<std::int64_t, 3> from{ray.start.x, ray.start.y, ray.start.z};
   Prepared prepared{};
   for (std::size_t a = 0; a < 3; ++a) {
     prepared.from[a] = static_cast<float>(from[a]) / rule::kPositionUnit;
-    prepared.way[a] = static_cast<float>(static_cast<double>(to[a] - from[a]) / static_cast<double>(longest));
+    prepared.way[a] = static_cast<float>(course.way[a]) * (static_cast<float>(course.length[a]) / longest);
   }
-  // The walk knows exactly where the segment ends; here it may end a cell later.
-  prepared.end = static_cast<float>(longest) / rule::kPositionUnit * 1.0001f + 1;
+  // The walk knows exactly where the ray goes on, and where it ends. Here it may be a cell or two longer.
+  prepared.begin = std::max(0.0f, static_cast<float>(std::abs(cell[main] - ray.cell[main])) - 1.5f);
+  prepared.end = longest / rule::kPositionUnit * 1.0001f + 1;
   return prepared;
 }
 
@@ -91,18 +101,18 @@ struct EmbreeCaster::Scene {
     geometry = nullptr;
     scene = nullptr;
   }
-  void build(const Opaque& opaque);
+  static std::vector<std::uint32_t> shell(const Opaque& opaque);
+  void build(const Opaque& now, std::vector<std::uint32_t> boxes);
   void refit() const;
 
   static void bounds(const RTCBoundsFunctionArguments* call);
   static void occluded(const RTCOccludedFunctionNArguments* call);
-  bool stops(const Errand& errand, unsigned ray, const Cell& first, std::size_t brick) const;
 
   RTCDevice device;
   RTCScene scene = nullptr;
   RTCGeometry geometry = nullptr;
   const Opaque* opaque = nullptr;
-  std::vector<std::uint32_t> bricks;  // of each box
+  std::vector<std::uint32_t> bricks;  // of each box, ascending
 };
 
 namespace {
@@ -141,35 +151,52 @@ void EmbreeCaster::Scene::bounds(const RTCBoundsFunctionArguments* call) {
   box.upper_x = upper(0), box.upper_y = upper(1), box.upper_z = upper(2);
 }
 
-bool EmbreeCaster::Scene::stops(const Errand& errand, unsigned ray, const Cell& first,
-                                std::size_t brick) const {
-  const Fate fate = with_walk(errand.rays[ray], *errand.source, [&](auto& walk) {
-    bool ends = false;
-    return walk.enter(first) ? meet_in_brick(*opaque, brick, walk, ends) : kSees;
-  });
-  if (fate == kSees) return false;
-  errand.fates[ray] = fate;
-  return true;
-}
-
 void EmbreeCaster::Scene::occluded(const RTCOccludedFunctionNArguments* call) {
   const auto& self = *static_cast<const Scene*>(call->geometryUserPtr);
   const auto& errand = *reinterpret_cast<const Errand*>(call->context);
   const std::size_t brick = self.bricks[call->primID];
-  const Cell first = first_cell(*self.opaque, brick);
+  const Cell first = first_cell(*errand.opaque, brick);
   for (unsigned lane = 0; lane < call->N; ++lane) {
     if (call->valid[lane] == 0) continue;
-    if (self.stops(errand, RTCRayN_id(call->ray, call->N, lane), first, brick))
-      RTCRayN_tfar(call->ray, call->N, lane) = -std::numeric_limits<float>::infinity();
+    const Traveller& traveller = errand.travellers[RTCRayN_id(call->ray, call->N, lane)];
+    if (traveller.first_brick == brick) continue;
+    BrickWalk<std::int64_t> walk = traveller.walk;
+    bool ends = false;
+    if (!walk.enter(first)) continue;
+    const Fate fate = meet_in_brick(*errand.opaque, brick, walk, ends);
+    if (fate == kSees) continue;
+    errand.fates[traveller.ray] = fate;
+    RTCRayN_tfar(call->ray, call->N, lane) = -std::numeric_limits<float>::infinity();
   }
 }
 
-void EmbreeCaster::Scene::build(const Opaque& now) {
+// A ray comes to no brick that is full, and has 26 full neighbours, without having met an opaque cell. So
+// such a brick needs no box.
+std::vector<std::uint32_t> EmbreeCaster::Scene::shell(const Opaque& opaque) {
+  const state::Grid& g = opaque.bricks();
+  std::vector<std::uint8_t> buried(g.cells()), before;
+  for (std::size_t brick = 0; brick < buried.size(); ++brick) buried[brick] = opaque.full(brick);
+  const auto erode = [&](std::size_t stride, std::size_t size) {
+    before = buried;
+    for (std::size_t brick = 0; brick < buried.size(); ++brick) {
+      const std::size_t at = brick / stride % size;
+      buried[brick] =
+          at > 0 && at + 1 < size && before[brick] && before[brick - stride] && before[brick + stride];
+    }
+  };
+  erode(1, static_cast<std::size_t>(g.x));
+  erode(g.index(0, 1, 0), static_cast<std::size_t>(g.y));
+  erode(g.index(0, 0, 1), static_cast<std::size_t>(g.z));
+  std::vector<std::uint32_t> bricks;
+  for (std::size_t brick = 0; brick < buried.size(); ++brick)
+    if (!opaque.empty(brick) && buried[brick] == 0) bricks.push_back(static_cast<std::uint32_t>(brick));
+  return bricks;
+}
+
+void EmbreeCaster::Scene::build(const Opaque& now, std::vector<std::uint32_t> boxes) {
   drop();
   opaque = &now;
-  bricks.clear();
-  for (std::size_t brick = 0; brick < now.bricks().cells(); ++brick)
-    if (!now.empty(brick)) bricks.push_back(static_cast<std::uint32_t>(brick));
+  bricks = std::move(boxes);
   scene = rtcNewScene(device);
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC);
   geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
@@ -184,7 +211,6 @@ void EmbreeCaster::Scene::build(const Opaque& now) {
 }
 
 void EmbreeCaster::Scene::refit() const {
-  rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
   rtcCommitGeometry(geometry);
   rtcCommitScene(scene);
 }
@@ -195,11 +221,21 @@ EmbreeCaster::~EmbreeCaster() = default;
 bool EmbreeCaster::built_in() { return true; }
 
 void EmbreeCaster::prepare(const Opaque& opaque, const Opaque::News& news) {
-  if (scene_->scene == nullptr || scene_->opaque != &opaque || news.appeared) {
-    scene_->build(opaque);
-  } else if (news.vanished) {
+  const bool other = scene_->scene == nullptr || scene_->opaque != &opaque;
+  if (!other && !news.appeared && !news.vanished) return;
+  std::vector<std::uint32_t> boxes = Scene::shell(opaque);
+  // Boxes that are no longer needed shrink to points. Those that are new ask for another tree.
+  if (other || news.appeared ||
+      !std::includes(scene_->bricks.begin(), scene_->bricks.end(), boxes.begin(), boxes.end()))
+    scene_->build(opaque, std::move(boxes));
+  else
     scene_->refit();
-  }
+}
+
+EmbreeCaster::Box EmbreeCaster::box() const {
+  RTCBounds bounds{};
+  rtcGetSceneBounds(scene_->scene, &bounds);
+  return {{bounds.lower_x, bounds.lower_y, bounds.lower_z}, {bounds.upper_x, bounds.upper_y, bounds.upper_z}};
 }
 
 namespace {
@@ -208,7 +244,7 @@ void set_ray(RTCRayN* packet, unsigned n, unsigned lane, const Prepared& ray, un
   RTCRayN_org_x(packet, n, lane) = ray.from[0];
   RTCRayN_org_y(packet, n, lane) = ray.from[1];
   RTCRayN_org_z(packet, n, lane) = ray.from[2];
-  RTCRayN_tnear(packet, n, lane) = 0;
+  RTCRayN_tnear(packet, n, lane) = ray.begin;
   RTCRayN_dir_x(packet, n, lane) = ray.way[0];
   RTCRayN_dir_y(packet, n, lane) = ray.way[1];
   RTCRayN_dir_z(packet, n, lane) = ray.way[2];
@@ -219,20 +255,63 @@ void set_ray(RTCRayN* packet, unsigned n, unsigned lane, const Prepared& ray, un
   RTCRayN_flags(packet, n, lane) = 0;
 }
 
-// Lanes past the last ray are not valid.
-template <unsigned kLanes, class Packet, class Occluded>
-void cast_packets(Errand& errand, const Occluded& occluded) {
-  for (std::size_t first = 0; first < errand.rays.size(); first += kLanes) {
-    alignas(64) Packet packet{};
-    alignas(64) std::array<int, kLanes> valid{};
-    const std::size_t lanes = std::min<std::size_t>(kLanes, errand.rays.size() - first);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      valid[lane] = -1;
-      set_ray(reinterpret_cast<RTCRayN*>(&packet), kLanes, static_cast<unsigned>(lane),
-              prepare_ray(errand.rays[first + lane], *errand.source), static_cast<unsigned>(first + lane));
-    }
-    occluded(valid.data(), &packet);
+// Collects rays, and hands them to Embree when it is full. Lanes that are not filled are not valid.
+template <unsigned kLanes, class Rays, class Occluded>
+class Travel {
+ public:
+  Travel(const Opaque& opaque, std::span<Fate> fates, const Occluded& occluded)
+      : errand_{{}, &opaque, nullptr, fates}, occluded_(occluded) {
+    rtcInitIntersectContext(&errand_.context);
+    if (kLanes > 1) errand_.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    travellers_.reserve(kLanes);
   }
+
+  void add(const Traveller& traveller, const Prepared& ray) {
+    const auto lane = static_cast<unsigned>(travellers_.size());
+    valid_[lane] = -1;
+    set_ray(reinterpret_cast<RTCRayN*>(&rays_), kLanes, lane, ray, lane);
+    travellers_.push_back(traveller);
+    if (travellers_.size() == kLanes) cast();
+  }
+
+  void cast() {
+    errand_.travellers = travellers_.data();
+    occluded_(valid_.data(), &errand_.context, &rays_);
+    travellers_.clear();
+    valid_.fill(0);
+  }
+
+ private:
+  alignas(64) Rays rays_{};
+  alignas(64) std::array<int, kLanes> valid_{};
+  Errand errand_;
+  Occluded occluded_;
+  std::vector<Traveller> travellers_;
+};
+
+template <unsigned kLanes, class Rays, class Occluded>
+void cast_by(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
+             std::span<Fate> fates, const Occluded& occluded) {
+  Travel<kLanes, Rays, Occluded> travel(opaque, fates, occluded);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Ray& ray = rays[i];
+    fates[i] = kSees;
+    if (!opaque.contains(ray.cell)) continue;
+    const Course course(ray, source);
+    if (!course.narrow()) {  // a source as far as that is rare
+      fates[i] = two_level_fate(opaque, source, ray);
+      continue;
+    }
+    // Many rays end where they begin, without a tree.
+    Traveller traveller(ray.cell, course);
+    traveller.ray = i;
+    traveller.first_brick = opaque.brick_at(ray.cell);
+    bool ends = false;
+    fates[i] = meet_in_brick(opaque, traveller.first_brick, traveller.walk, ends);
+    if (fates[i] != kSees || ends) continue;
+    travel.add(traveller, prepare_ray(ray, course, traveller.walk.cell()));
+  }
+  travel.cast();
 }
 
 }  // namespace
@@ -240,25 +319,23 @@ void cast_packets(Errand& errand, const Occluded& occluded) {
 void EmbreeCaster::cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
                         std::span<Fate> fates) const {
   const FlushDenormals flush;
-  std::fill(fates.begin(), fates.end(), kSees);
-  Errand errand{{}, &opaque, &source, rays, fates};
-  rtcInitIntersectContext(&errand.context);
-  errand.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCScene scene = scene_->scene;
   switch (packet_) {
     case Packet::one:
-      cast_packets<1, RTCRay>(
-          errand, [&](const int*, RTCRay* ray) { rtcOccluded1(scene_->scene, &errand.context, ray); });
-      return;
+      return cast_by<1, RTCRay>(opaque, source, rays, fates,
+                                [scene](const int* valid, RTCIntersectContext* context, RTCRay* ray) {
+                                  if (*valid != 0) rtcOccluded1(scene, context, ray);
+                                });
     case Packet::eight:
-      cast_packets<8, RTCRay8>(errand, [&](const int* valid, RTCRay8* ray) {
-        rtcOccluded8(valid, scene_->scene, &errand.context, ray);
-      });
-      return;
+      return cast_by<8, RTCRay8>(opaque, source, rays, fates,
+                                 [scene](const int* valid, RTCIntersectContext* context, RTCRay8* ray) {
+                                   rtcOccluded8(valid, scene, context, ray);
+                                 });
     case Packet::sixteen:
-      cast_packets<16, RTCRay16>(errand, [&](const int* valid, RTCRay16* ray) {
-        rtcOccluded16(valid, scene_->scene, &errand.context, ray);
-      });
-      return;
+      return cast_by<16, RTCRay16>(opaque, source, rays, fates,
+                                   [scene](const int* valid, RTCIntersectContext* context, RTCRay16* ray) {
+                                     rtcOccluded16(valid, scene, context, ray);
+                                   });
   }
 }
 

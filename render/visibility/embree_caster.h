@@ -1,10 +1,11 @@
 // Rays by Embree: its tree finds the bricks that a ray may meet, and the integer walk decides in each.
 //
-// Every brick of 8x8x8 cells that holds something opaque is a box, around its opaque cells and kMargin wider.
+// A brick of 8x8x8 cells that holds something opaque is a box, around its opaque cells and 0.02 cells wider.
 // So rounding in Embree's floats hides no brick that the exact walk meets, and what it finds too much is
-// refused by the walk. The answers are those of rule::VoxelWalk.
+// refused by the walk. The answers are those of rule::VoxelWalk. Boxes take about 100 bytes each.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -30,6 +31,11 @@ class EmbreeCaster final : public Caster {
   void prepare(const Opaque& opaque, const Opaque::News& news) override;
   void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
             std::span<Fate> fates) const override;
+
+  struct Box {
+    std::array<float, 3> low, high;
+  };
+  Box box() const;  // around all boxes, as the tree has them now
 
  private:
   struct Scene;

@@ -12,6 +12,7 @@ EmbreeCaster::EmbreeCaster(Packet packet) : packet_(packet) {
 }
 EmbreeCaster::~EmbreeCaster() = default;
 bool EmbreeCaster::built_in() { return false; }
+EmbreeCaster::Box EmbreeCaster::box() const { return {}; }
 void EmbreeCaster::prepare(const Opaque&, const Opaque::News&) {}
 void EmbreeCaster::cast(const Opaque&, const rule::Position&, std::span<const Ray>, std::span<Fate>) const {}
 

@@ -41,6 +41,9 @@ class PlainCaster final : public Caster {
             std::span<Fate> fates) const override;
 };
 
+// By bricks, the fate of one ray.
+Fate two_level_fate(const Opaque& opaque, const rule::Position& source, const Ray& ray);
+
 // From brick to brick where nothing stands, and from cell to cell elsewhere.
 class TwoLevelCaster final : public Caster {
  public:

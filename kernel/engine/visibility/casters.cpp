@@ -19,6 +19,8 @@ Fate plain_fate(const Opaque& opaque, const rule::Position& source, const Ray& r
   return kSees;
 }
 
+}  // namespace
+
 Fate two_level_fate(const Opaque& opaque, const rule::Position& source, const Ray& ray) {
   if (!opaque.contains(ray.cell)) return kSees;
   return with_walk(ray, source, [&](auto& walk) {
@@ -35,8 +37,6 @@ Fate two_level_fate(const Opaque& opaque, const rule::Position& source, const Ra
     return kSees;
   });
 }
-
-}  // namespace
 
 void PlainCaster::cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
                        std::span<Fate> fates) const {

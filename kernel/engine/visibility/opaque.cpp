@@ -19,6 +19,7 @@ void Opaque::resize(const state::Grid& grid) {
   solid_ = state::BitPlane(grid);
   bits_ = state::Pages(bricks_.cells() * kSide * kSide);
   filled_.assign((bricks_.cells() + 63) / 64, 0);
+  full_.assign(bricks_.cells(), 0);
   changed_.assign(static_cast<std::size_t>(grid.z), 0);
 }
 
@@ -77,10 +78,15 @@ void Opaque::write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, in
 void Opaque::fill(int layer) {
   const std::size_t each = bricks_.index(0, 0, 1), first = each * static_cast<std::size_t>(layer);
   for (std::size_t brick = first; brick < first + each; ++brick) {
-    const bool full = std::any_of(rows(brick), rows(brick) + 64, [](std::uint8_t row) { return row != 0; });
+    std::uint8_t any = 0, all = 0xff;
+    for (std::size_t row = 0; row < 64; ++row) {
+      any |= rows(brick)[row];
+      all &= rows(brick)[row];
+    }
+    full_[brick] = all == 0xff;
     const std::uint64_t bit = std::uint64_t{1} << (brick & 63);
     std::uint64_t& word = filled_[brick >> 6];
-    word = full ? word | bit : word & ~bit;
+    word = any != 0 ? word | bit : word & ~bit;
   }
 }
 

@@ -44,6 +44,7 @@ class Opaque {
     return bricks_.index(cell[0] >> 3, cell[1] >> 3, cell[2] >> 3);
   }
   bool empty(std::size_t brick) const { return (filled_[brick >> 6] >> (brick & 63) & 1) == 0; }
+  bool full(std::size_t brick) const { return full_[brick] != 0; }
   static std::size_t place(std::size_t brick, const Cell& cell) {
     return brick << 9 | static_cast<std::size_t>((cell[2] & 7) << 6 | (cell[1] & 7) << 3 | (cell[0] & 7));
   }
@@ -63,6 +64,7 @@ class Opaque {
   state::BitPlane plane_, solid_;
   state::Pages bits_;                  // 64 bytes a brick
   std::vector<std::uint64_t> filled_;  // a bit for each brick that holds something
+  std::vector<std::uint8_t> full_;     // by bricks: are all 512 cells opaque?
   std::vector<std::uint8_t> changed_;  // by slices
 };
 
