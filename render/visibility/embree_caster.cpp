@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -132,17 +133,27 @@ void EmbreeCaster::Scene::bounds(const RTCBoundsFunctionArguments* call) {
   const std::size_t brick = self.bricks[call->primID];
   const Cell first = first_cell(*self.opaque, brick);
   const std::uint8_t* rows = self.opaque->rows(brick);
-  std::array<int, 3> low{8, 8, 8}, high{0, 0, 0};
-  for (int row = 0; row < 64; ++row) {
-    if (rows[row] == 0) continue;
-    const std::array<int, 3> from{std::countr_zero(rows[row]), row & 7, row >> 3},
-        to{8 - std::countl_zero(rows[row]), (row & 7) + 1, (row >> 3) + 1};
-    for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], from[a]);
-      high[a] = std::max(high[a], to[a]);
-    }
+  // Of all rows: which x are taken, which rows of a slice, which slices; a bit or a byte each.
+  std::uint64_t slice = 0, slices = 0;
+  for (unsigned z = 0; z < 8; ++z) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, rows + 8 * z, 8);
+    slice |= word;
+    slices |= std::uint64_t{word != 0} << z;
   }
-  if (high[0] == 0) low = high = {4, 4, 4};
+  std::uint64_t row = 0, in_slice = 0;
+  for (unsigned y = 0; y < 8; ++y) {
+    std::uint8_t byte = 0;
+    std::memcpy(&byte, reinterpret_cast<const std::uint8_t*>(&slice) + y, 1);
+    row |= byte;
+    in_slice |= std::uint64_t{byte != 0} << y;
+  }
+  std::array<int, 3> low{4, 4, 4}, high{4, 4, 4};
+  const std::array<std::uint64_t, 3> taken{row, in_slice, slices};
+  for (std::size_t a = 0; a < 3 && row != 0; ++a) {
+    low[a] = std::countr_zero(taken[a]);
+    high[a] = 64 - std::countl_zero(taken[a]);
+  }
   const float margin = high[0] == low[0] ? 0 : kMargin;
   const auto lower = [&](std::size_t a) { return static_cast<float>(first[a] + low[a]) - margin; };
   const auto upper = [&](std::size_t a) { return static_cast<float>(first[a] + high[a]) + margin; };
@@ -176,20 +187,21 @@ std::vector<std::uint32_t> EmbreeCaster::Scene::shell(const Opaque& opaque) {
   const state::Grid& g = opaque.bricks();
   std::vector<std::uint8_t> buried(g.cells()), before;
   for (std::size_t brick = 0; brick < buried.size(); ++brick) buried[brick] = opaque.full(brick);
-  const auto erode = [&](std::size_t stride, std::size_t size) {
+  for (const std::size_t stride : {std::size_t{1}, g.index(0, 1, 0), g.index(0, 0, 1)}) {
     before = buried;
-    for (std::size_t brick = 0; brick < buried.size(); ++brick) {
-      const std::size_t at = brick / stride % size;
-      buried[brick] =
-          at > 0 && at + 1 < size && before[brick] && before[brick - stride] && before[brick + stride];
-    }
-  };
-  erode(1, static_cast<std::size_t>(g.x));
-  erode(g.index(0, 1, 0), static_cast<std::size_t>(g.y));
-  erode(g.index(0, 0, 1), static_cast<std::size_t>(g.z));
+    for (std::size_t brick = stride; brick + stride < buried.size(); ++brick)
+      buried[brick] = before[brick] & before[brick - stride] & before[brick + stride];
+  }
+  const auto last = [](int at, int size) { return at == 0 || at == size - 1; };
   std::vector<std::uint32_t> bricks;
-  for (std::size_t brick = 0; brick < buried.size(); ++brick)
-    if (!opaque.empty(brick) && buried[brick] == 0) bricks.push_back(static_cast<std::uint32_t>(brick));
+  for (int z = 0; z < g.z; ++z)
+    for (int y = 0; y < g.y; ++y)
+      for (int x = 0; x < g.x; ++x) {
+        const std::size_t brick = g.index(x, y, z);
+        const bool border = last(x, g.x) || last(y, g.y) || last(z, g.z);
+        if (!opaque.empty(brick) && (border || buried[brick] == 0))
+          bricks.push_back(static_cast<std::uint32_t>(brick));
+      }
   return bricks;
 }
 

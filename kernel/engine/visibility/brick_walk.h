@@ -15,9 +15,10 @@
 
 namespace voxmelt::visibility {
 
-// No axis of a ray is longer than this, in sixteenths, where 64 bits suffice for a walk in any grid: a
-// crossing within a grid of 4096 cells, and a brick beyond, stays below 2^17.
-inline constexpr std::int64_t kLongestNarrow = std::int64_t{1} << 22;
+// No axis of a ray is longer than this, in sixteenths, where 64 bits suffice for a walk in any grid: the
+// product of three lengths is at most 2^60. A crossing within a grid of 4096 cells, and a brick beyond, stays
+// below 2^17, and so below 2^57 when it is multiplied by two lengths.
+inline constexpr std::int64_t kLongestNarrow = std::int64_t{1} << 20;
 
 // The lengths of a ray along the axes, and which way it goes.
 struct Course {
@@ -41,21 +42,18 @@ template <class Whole>  // std::int64_t, or a wider one
 class BrickWalk {
  public:
   BrickWalk(const Cell& cell, const Course& course) : cell_(cell), way_(course.way) {
-    __extension__ using Wide = unsigned __int128;
-    Wide end = 1;
     for (std::size_t a = 0; a < 3; ++a) {
-      if (course.length[a] > 0) end *= static_cast<Wide>(course.length[a]);
       if (course.length[a] == 0) {
         next_[a] = kNever;
         continue;
       }
+      end_ *= course.length[a];
       Whole others = 1;
       for (const std::size_t b : {(a + 1) % 3, (a + 2) % 3})
         if (course.length[b] > 0) others *= course.length[b];
       next_[a] = course.crossing[a] * others;
       each_[a] = rule::kPositionUnit * others;
     }
-    end_ = static_cast<Whole>(std::min(end, static_cast<Wide>(kNever)));
   }
 
   const Cell& cell() const { return cell_; }
@@ -70,6 +68,43 @@ class BrickWalk {
       next_[a] += crosses ? each_[a] : 0;
     }
     return true;
+  }
+
+  // Tests cells (numbers within a brick, as Opaque::place counts them) until one holds, the segment ends, or
+  // the walk has left the brick. Says which.
+  enum class End { stopped, arrived, left };
+  template <class Test>
+  End within(std::uint32_t& number, const Test& test) {
+    // Five bits for each coordinate: 8 to 15 inside the brick, 7 or 16 beyond.
+    constexpr std::uint32_t kGuards = 0x6318, kInside = 0x2108;
+    const Cell first{cell_[0] & ~7, cell_[1] & ~7, cell_[2] & ~7};
+    std::uint32_t packed = kInside;
+    std::array<std::uint32_t, 3> moves{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      packed += static_cast<std::uint32_t>(cell_[a] & 7) << (5 * a);
+      moves[a] = static_cast<std::uint32_t>(way_[a]) << (5 * a);
+    }
+    End end = End::left;
+    do {
+      number = (packed & 7) | (packed >> 2 & 0x38) | (packed >> 4 & 0x1c0);
+      const Whole at = std::min({next_[0], next_[1], next_[2]});
+      if (test(number)) {
+        end = End::stopped;
+      } else if (at >= end_) {
+        end = End::arrived;
+      } else {
+        for (std::size_t a = 0; a < 3; ++a) {
+          const bool crosses = next_[a] == at;
+          packed += crosses ? moves[a] : 0;
+          next_[a] += crosses ? each_[a] : 0;
+        }
+        continue;
+      }
+      break;
+    } while ((packed & kGuards) == kInside);
+    for (std::size_t a = 0; a < 3; ++a)
+      cell_[a] = first[a] + static_cast<int>(packed >> (5 * a) & 31) - state::kBrickSide;
+    return end;
   }
 
   // Moves to the first cell beyond the brick of this one; false when the segment ends first.
@@ -130,7 +165,7 @@ class BrickWalk {
   Cell cell_;
   std::array<int, 3> way_;
   std::array<Whole, 3> next_{}, each_{};  // of the next plane, and from plane to plane; 0: along the plane
-  Whole end_{};
+  Whole end_ = 1;
 };
 
 // Calls `walk` with the walk of a ray, in numbers that are wide enough.
@@ -150,16 +185,13 @@ auto with_walk(const Ray& ray, const rule::Position& source, const Walk& walk) {
 // whether the segment ends in the brick.
 template <class Walk>
 Fate meet_in_brick(const Opaque& opaque, std::size_t brick, Walk& walk, bool& ends) {
-  const Cell first = walk.cell();
-  do {
-    const std::size_t place = Opaque::place(brick, walk.cell());
-    if (opaque.holds(place)) return met(place);
-    if (!walk.step()) {
-      ends = true;
-      return kSees;
-    }
-  } while (walk.same_brick(first));
-  return kSees;
+  const std::uint8_t* const rows = opaque.rows(brick);
+  std::uint32_t number = 0;
+  const auto end =
+      walk.within(number, [&](std::uint32_t at) { return (rows[at >> 3] >> (at & 7) & 1) != 0; });
+  using End = typename Walk::End;
+  ends = end == End::arrived;
+  return end == End::stopped ? met(brick << 9 | number) : kSees;
 }
 
 }  // namespace voxmelt::visibility
