@@ -18,7 +18,6 @@
 #include <xmmintrin.h>
 #endif
 
-#include "kernel/automaton/state/changed_bricks.h"
 #include "kernel/engine/visibility/brick_walk.h"
 
 namespace voxmelt::visibility {

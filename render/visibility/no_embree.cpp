@@ -1,4 +1,5 @@
 // In place of embree_caster.cpp, where this build has no Embree.
+#include <span>
 #include <stdexcept>
 
 #include "render/visibility/embree_caster.h"

@@ -1,6 +1,7 @@
 // Who follows rays. Every caster gives the answers of rule::VoxelWalk: whether a ray sees its source.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>

@@ -1,3 +1,4 @@
+#include <span>
 #include <cstddef>
 
 #include "kernel/automaton/rule/visibility.h"

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "kernel/engine/visibility/kept_rays.h"
 #include "tests/kernel/engine/visibility/caster_check.h"
@@ -53,6 +53,53 @@ TEST_P(EmbreeCasters, KeptRaysAreAsIfAllWereCast) {
       });
       if (random.one_in(4)) heat.sources[0].keys[0].at = awkward_source(random, v.grid);
     }
+  }
+}
+
+// Two bricks of which one melts away, and one melts partly: boxes by hand, 0.02 wider than the opaque cells.
+TEST_P(EmbreeCasters, BoxesShrinkWithWhatMelts) {
+  Volume v(Grid{40, 20, 20});
+  for_each({2, 3, 4, 6, 7, 8}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
+  put_inert(v, 33, 10, 19);
+  cpu::Workers workers(1);
+  Opaque opaque;
+  EmbreeCaster embree(GetParam());
+  const auto expect = [&](std::array<float, 3> low, std::array<float, 3> high) {
+    const EmbreeCaster::Box box = embree.box();
+    for (std::size_t a = 0; a < 3; ++a) {
+      EXPECT_NEAR(box.low[a], low[a] - 0.02, 1e-4) << a;
+      EXPECT_NEAR(box.high[a], high[a] + 0.02, 1e-4) << a;
+    }
+  };
+  embree.prepare(opaque, opaque.take(v, workers));
+  expect({2, 3, 4}, {34, 11, 20});
+  for (int z = 4; z < 8; ++z)
+    for (int y = 3; y < 7; ++y) v.solid.set(2, y, z, false);
+  v.inert.set(33, 10, 19, false);
+  embree.prepare(opaque, opaque.take(v, workers));
+  EXPECT_NEAR(embree.box().low[0], 2.98, 1e-4) << "refitted";
+  EXPECT_NEAR(embree.box().high[0], 36, 1e-4) << "the middle of the brick that is empty now";
+}
+
+// A ball of full bricks has boxes on its shell only. It melts until the inner ones are bare.
+TEST_P(EmbreeCasters, ABallThatMeltsToItsCore) {
+  Volume v(Grid{64, 64, 64});
+  const auto squared = [](int x, int y, int z) {
+    return (x - 32) * (x - 32) + (y - 32) * (y - 32) + (z - 32) * (z - 32);
+  };
+  for_each(whole(v.grid), [&](int x, int y, int z) {
+    if (squared(x, y, z) < 30 * 30) put_solid(v, x, y, z);
+  });
+  EmbreeCaster embree(GetParam());
+  cpu::Workers workers(1);
+  Opaque opaque;
+  for (int radius = 30; radius > 4; radius -= 5) {
+    embree.prepare(opaque, opaque.take(v, workers));
+    for (const Position source : {Position{2000, 1500, 300}, {512, 2000, 512}, {-8, 200, 500}})
+      check_fates(embree, opaque, v, source, 1);
+    for_each(whole(v.grid), [&](int x, int y, int z) {
+      if (squared(x, y, z) >= (radius - 5) * (radius - 5)) v.solid.set(x, y, z, false);
+    });
   }
 }
 

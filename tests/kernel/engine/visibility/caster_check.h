@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <array>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "kernel/automaton/rule/visibility.h"

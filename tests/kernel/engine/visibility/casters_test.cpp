@@ -1,6 +1,7 @@
 // The casters of this room, and the surface by words, against rule::VoxelWalk and the page.
 #include <gtest/gtest.h>
 
+#include <vector>
 #include <algorithm>
 #include <array>
 #include <cstddef>

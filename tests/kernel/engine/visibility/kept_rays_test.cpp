@@ -1,6 +1,7 @@
 // Casting only what changed against casting everything: the same bits in every cell, call after call.
 #include <gtest/gtest.h>
 
+#include <string>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
