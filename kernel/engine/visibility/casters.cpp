@@ -1,5 +1,5 @@
-#include <span>
 #include <cstddef>
+#include <span>
 
 #include "kernel/automaton/rule/visibility.h"
 #include "kernel/engine/visibility/brick_walk.h"

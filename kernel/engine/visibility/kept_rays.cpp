@@ -24,16 +24,22 @@ class Batch {
       : caster_(caster), opaque_(opaque), source_(source), fates_(fates) {}
 
   void add(const Ray& ray, std::size_t place) {
-    rays_[size_] = ray;
-    places_[size_] = place;
-    if (++size_ == kBatch) cast();
+    if (rays_.empty()) {  // most bands have few rays, or none
+      rays_.reserve(kBatch);
+      places_.reserve(kBatch);
+    }
+    rays_.push_back(ray);
+    places_.push_back(place);
+    if (rays_.size() == kBatch) cast();
   }
   void cast() {
+    if (rays_.empty()) return;
     std::array<Fate, kBatch> found;
-    caster_.cast(opaque_, source_, {rays_.data(), size_}, {found.data(), size_});
-    for (std::size_t i = 0; i < size_; ++i) fates_[places_[i]] = found[i];
-    cast_ += static_cast<std::int64_t>(size_);
-    size_ = 0;
+    caster_.cast(opaque_, source_, rays_, {found.data(), rays_.size()});
+    for (std::size_t i = 0; i < rays_.size(); ++i) fates_[places_[i]] = found[i];
+    cast_ += static_cast<std::int64_t>(rays_.size());
+    rays_.clear();
+    places_.clear();
   }
   std::int64_t count() const { return cast_; }
 
@@ -42,9 +48,8 @@ class Batch {
   const Opaque& opaque_;
   rule::Position source_;
   std::vector<Fate>& fates_;
-  std::array<Ray, kBatch> rays_;
-  std::array<std::size_t, kBatch> places_{};
-  std::size_t size_ = 0;
+  std::vector<Ray> rays_;
+  std::vector<std::size_t> places_;
   std::int64_t cast_ = 0;
 };
 

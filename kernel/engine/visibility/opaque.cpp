@@ -49,6 +49,10 @@ Opaque::News Opaque::take_layer(const state::Volume& volume, int layer) {
     for (int y = 0; y < grid_.y; ++y) {
       const auto now_solid = volume.solid.row(y, z), now_inert = volume.inert.row(y, z);
       const auto solid = solid_.row(y, z), opaque = plane_.row(y, z);
+      std::uint64_t any = 0;  // most rows are as they were
+      for (std::size_t w = 0; w < solid.size(); ++w)
+        any |= ((now_solid[w] | now_inert[w]) ^ opaque[w]) | (solid[w] ^ now_solid[w]);
+      if (any == 0) continue;
       for (std::size_t w = 0; w < solid.size(); ++w) {
         const std::uint64_t was = opaque[w], is = now_solid[w] | now_inert[w];
         const std::uint64_t turned = solid[w] ^ now_solid[w];
