@@ -32,6 +32,11 @@ TEST_P(EmbreeCasters, OfHostileWorldsAgreeWithTheWalk) {
   check_hostile_worlds(embree, 200, 73);
 }
 
+TEST_P(EmbreeCasters, OfFiveScenesAndAHundredSourcesAgreeWithTheWalk) {
+  EmbreeCaster embree(GetParam());
+  check_scenes(embree);
+}
+
 // Through a whole run of melting and of changes by hand, on two threads.
 TEST_P(EmbreeCasters, KeptRaysAreAsIfAllWereCast) {
   Random random(17);

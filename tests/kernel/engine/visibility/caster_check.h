@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "kernel/automaton/rule/visibility.h"
@@ -83,6 +83,42 @@ inline void check_hostile_worlds(Caster& caster, int worlds, std::uint64_t seed)
   }
   EXPECT_GT(all.seeing, all.rays / 20) << "few of " << all.rays << " see their source";
   EXPECT_GT(all.rays - all.seeing, all.rays / 20) << "few of " << all.rays << " are dark";
+}
+
+// Five states of one size: a ball, a wall with holes, a comb of plates, dust, and a ball half melted.
+inline Volume ray_scene(int number) {
+  Volume v(Grid{48, 40, 44});
+  Random random(static_cast<std::uint64_t>(number));
+  const auto squared = [](int x, int y, int z) {
+    return (x - 24) * (x - 24) + (y - 20) * (y - 20) + (z - 22) * (z - 22);
+  };
+  for_each(whole(v.grid), [&](int x, int y, int z) {
+    const bool ball = squared(x, y, z) < 17 * 17;
+    const bool stands = number == 0   ? ball
+                        : number == 1 ? y == 0 || (x == 20 && (y / 3 + z / 5) % 3 != 0)
+                        : number == 2 ? y < 4 || (z % 6 == 0 && y < 30)
+                        : number == 3 ? random.one_in(60)
+                                      : ball && (y < 12 || !random.one_in(3));
+    if (stands && (number == 1 && x == 20)) return put_inert(v, x, y, z);
+    if (stands) put_solid(v, x, y, z);
+  });
+  return v;
+}
+
+inline void check_scenes(Caster& caster) {
+  cpu::Workers workers(1);
+  for (int number = 0; number < 5; ++number) {
+    const Volume v = ray_scene(number);
+    Opaque opaque;
+    caster.prepare(opaque, opaque.take(v, workers));
+    Random random(static_cast<std::uint64_t>(1000 + number));
+    Counts all;
+    for (int n = 0; n < 100 && !testing::Test::HasFailure(); ++n) {
+      const Counts counts = check_fates(caster, opaque, v, awkward_source(random, v.grid), 1);
+      all.rays += counts.rays, all.seeing += counts.seeing;
+    }
+    EXPECT_GT(all.seeing, 1000u) << number;
+  }
 }
 
 }  // namespace voxmelt::visibility

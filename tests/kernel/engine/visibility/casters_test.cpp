@@ -1,11 +1,11 @@
 // The casters of this room, and the surface by words, against rule::VoxelWalk and the page.
 #include <gtest/gtest.h>
 
-#include <vector>
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "kernel/engine/visibility/brick_walk.h"
 #include "kernel/engine/visibility/surface.h"
@@ -19,6 +19,11 @@ TEST(Casters, OfHostileWorldsAgreeWithTheWalk) {
   check_hostile_worlds(plain, 60, 71);
   TwoLevelCaster two_level;
   check_hostile_worlds(two_level, 200, 72);
+}
+
+TEST(Casters, OfFiveScenesAndAHundredSourcesAgreeWithTheWalk) {
+  TwoLevelCaster two_level;
+  check_scenes(two_level);
 }
 
 // Step by step, from brick to brick, and straight into each brick: the same cells as VoxelWalk, in 64 bits

@@ -1,10 +1,10 @@
 // Casting only what changed against casting everything: the same bits in every cell, call after call.
 #include <gtest/gtest.h>
 
-#include <string>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "kernel/engine/visibility/kept_rays.h"
