@@ -95,15 +95,12 @@ class Commands(unittest.TestCase):
             self.good("digest", self.scene, "--report", "t.json", *asked)
             self.assertEqual(json.loads((self.folder / "t.json").read_text())["threads"], used, asked)
 
-    # A block that a source melts, beside a wall. Whoever follows the rays, the bits are the same.
+    # A block melts beside a wall. Whoever follows the rays, the bits are the same.
     def test_visibility_is_chosen_and_named(self):
-        (self.folder / "lit.toml").write_text(
-            '[grid]\nsize = [20, 12, 20]\n[heat]\n[material]\nmelting_point = 100\n'
-            '[[solid]]\nshape = "box"\nsize = [8, 8, 8]\nat = [8, 4, 10]\n'
-            '[[heat_source]]\nat = [18, 11, 3]\npower = 20000\n')
         lines, seen = set(), {}
         for name in ("auto", "walk", "two-level", "embree"):
-            result = voxmelt("digest", "lit.toml", "--steps", 40, "--visibility", name, "--report", "v.json", cwd=self.folder)
+            result = voxmelt("digest", "lesson_shadow", "--steps", 100, "--visibility", name, "--report", "v.json",
+                             cwd=self.folder)
             if name == "embree" and result.returncode == 2:
                 self.assertIn("this build has no Embree", result.stderr)
                 continue
@@ -115,7 +112,7 @@ class Commands(unittest.TestCase):
         self.assertEqual({n: s["provider"] for n, s in seen.items() if n != "auto"}, {n: n for n in seen if n != "auto"})
         self.assertTrue(all(s["reason"] for s in seen.values()))
         self.assertGreater(seen["two-level"]["rays"], seen["two-level"]["rays_cast"])
-        self.assertEqual(voxmelt("digest", "lit.toml", "--visibility", "mirror", cwd=self.folder).returncode, 2)
+        self.assertEqual(voxmelt("digest", "lesson_shadow", "--visibility", "mirror", cwd=self.folder).returncode, 2)
 
     def test_run_replaces_only_its_own_folder(self):
         self.good("run", self.scene, "--out", "mine", "--steps", "0")
