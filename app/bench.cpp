@@ -17,6 +17,7 @@
 #include "app/interrupt.h"
 #include "app/options.h"
 #include "app/version.h"
+#include "app/visibility.h"
 #include "bench/measure/report.h"
 #include "bench/measure/suite.h"
 #include "kernel/engine/cpu/instruction_set.h"
@@ -118,7 +119,10 @@ int run_bench(const BenchOptions& options) {
     const std::uint32_t middle = measure::middle_of(scene.name);
     const std::uint32_t step = options.from.value_or(middle > 0 ? middle : scene.steps / 2);
     note(options.common, fmt::format("melting {} to step {}", scene.name, step));
-    const measure::Workload workload = measure::scene_at(scene, step, thread_count(options.common));
+    const int threads = thread_count(options.common);
+    auto provider = make_provider(
+        choose_visibility(options.common.visibility, scene.parameters.heat, scene.initial.grid), threads);
+    const measure::Workload workload = measure::scene_at(scene, step, threads, std::move(provider));
     if (automaton) suite.run_scene(workload, scene);
     if (picture) print_drawing(suite.run_drawing(workload, scene));
   }
@@ -164,6 +168,7 @@ void add_bench(CLI::App& program, Chosen& chosen) {
                       "step of the scenes to time (default: the middle of their melt)");
   command->add_option("--out", options->out, "folder for bench.json, performance_tables.md and roofline.svg");
   add_common(*command, options->common);
+  add_visibility(*command, options->common);
   command->footer(
       "Without --implementation it times every instruction set of this processor, without --threads one\n"
       "thread and all. Every result is compared with the reference before its time counts. Each phase of\n"

@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/report.h"
+#include "app/visibility.h"
 #include "app/watch.h"
 #include "kernel/automaton/state/digest.h"
 
@@ -61,6 +62,7 @@ void add_digest(CLI::App& program, Chosen& chosen) {
   command->add_option("--steps", options->steps, "steps to run")->capture_default_str();
   command->add_option("--every", options->every, "also a line at step 0 and after every K steps");
   add_common(*command, options->common);
+  add_visibility(*command, options->common);
   command->callback([options, &chosen] { chosen = [options] { return run_digest(*options); }; });
 }
 

@@ -12,6 +12,7 @@
 #include "app/interrupt.h"
 #include "app/options.h"
 #include "app/report.h"
+#include "app/visibility.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
@@ -63,6 +64,7 @@ void add_export(CLI::App& program, Chosen& chosen) {
       ->check(CLI::IsMember({"npy", "vti"}))
       ->capture_default_str();
   add_common(*command, options->common);
+  add_visibility(*command, options->common);
   command->callback([options, &chosen] { chosen = [options] { return run_export(*options); }; });
 }
 

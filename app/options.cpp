@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "app/resources.h"
+#include "app/visibility.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
@@ -99,7 +100,10 @@ run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
   const step::Implementation& implementation = find_implementation(common);
   step::Tuning tuning;
   tuning.threads = thread_count(common);
-  run::Simulation simulation(scene.parameters, std::move(scene.initial), implementation, tuning);
+  auto provider = make_provider(
+      choose_visibility(common.visibility, scene.parameters.heat, scene.initial.grid), tuning.threads);
+  run::Simulation simulation(scene.parameters, std::move(scene.initial), implementation, tuning,
+                             std::move(provider));
   simulation.begin_at(scene.first_step);
   return simulation;
 }

@@ -25,6 +25,7 @@ class UsageError : public std::runtime_error {
 struct Common {
   std::string scene;
   std::string implementation = "auto";
+  std::string visibility = "auto";
   int threads = 0;  // 0: all of the machine's
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;

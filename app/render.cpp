@@ -16,6 +16,7 @@
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/surface_pictures.h"
+#include "app/visibility.h"
 #include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
 #include "render/packet/picture.h"
@@ -166,6 +167,7 @@ void add_render(CLI::App& program, Chosen& chosen) {
                    "print all numbers of pixel X,Y, from the upper left, instead of drawing")
       ->excludes(out, turntable, depth, normals);
   add_common(*command, options->common);
+  add_visibility(*command, options->common);
   command->callback([options, &chosen] { chosen = [options] { return run_render(*options); }; });
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/version.h"
+#include "app/visibility.h"
 #include "kernel/automaton/state/connectivity.h"
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/io/export.h"
@@ -58,6 +59,17 @@ json seconds_json(const run::Simulation::Seconds& steps, const RunSeconds& run) 
   return result;
 }
 
+// Who followed the rays, and how many; rays are not counted by the plain walk.
+json visibility_json(const Common& common, const run::Simulation& simulation) {
+  const VisibilityChoice choice =
+      choose_visibility(common.visibility, simulation.parameters().heat, simulation.volume().grid);
+  const visibility::Casts casts = simulation.provider().casts();
+  return {{"provider", simulation.provider().name()},
+          {"reason", choice.reason},
+          {"rays", casts.asked},
+          {"rays_cast", casts.cast}};
+}
+
 std::int64_t peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -86,6 +98,7 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"law", simulation.parameters().flow.law == rule::Law::paper ? "paper" : "viscous"},
       {"features", scene.features},
       {"warnings", scene.warnings},
+      {"visibility", visibility_json(common, simulation)},
       {"irradiance_capped", simulation.irradiance_capped()},
       {"grid", {volume.grid.x, volume.grid.y, volume.grid.z}},
       {"mass", ledger_json(ledger.mass, {{"solid", held.solid}, {"liquid", held.liquid}}, drift.mass)},

@@ -16,6 +16,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/report.h"
+#include "app/visibility.h"
 #include "app/watch.h"
 #include "kernel/run/io/output_folder.h"
 
@@ -105,6 +106,7 @@ void add_run(CLI::App& program, Chosen& chosen) {
   command->add_option("--out", options->out, "folder to write (default: out/SCENE)");
   command->add_option("--size", options->size, "size of a frame in pixels, e.g. 640x480");
   add_common(*command, options->common);
+  add_visibility(*command, options->common);
   command->callback([options, &chosen] { chosen = [options] { return run_scene(*options); }; });
 }
 

@@ -20,6 +20,7 @@
 #include "app/interrupt.h"
 #include "app/options.h"
 #include "app/resources.h"
+#include "app/visibility.h"
 #include "hwmodel/lockstep/replay.h"
 #include "hwmodel/lockstep/report.h"
 #include "hwmodel/presets/presets.h"
@@ -262,6 +263,7 @@ void add_verify(CLI::App& program, Chosen& chosen) {
   command->add_option("--out", options->out,
                       "folder for the replay of a mismatch (default: out/verify_SCENE)");
   add_common(*command, options->common);
+  add_visibility(*command, options->common);
   command->footer(
       "--set also takes hw.lanes (1, 2, 4 .. 32), hw.cascade (1 .. 16), hw.substeps (1 .. 64), "
       "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none).");

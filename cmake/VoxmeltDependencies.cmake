@@ -28,3 +28,9 @@ target_include_directories(voxmelt_systemc SYSTEM INTERFACE ${SYSTEMC_INCLUDE_DI
 # It is linked only where it is used. Otherwise a program without a simulation would have to define sc_main.
 target_link_libraries(voxmelt_systemc INTERFACE -Wl,--push-state,--as-needed ${SYSTEMC_LINK_LIBRARIES} -Wl,--pop-state)
 target_compile_definitions(voxmelt_systemc INTERFACE SC_CPLUSPLUS=201703L)
+
+# Embree is the one library that a build may lack: Debian has it for x86-64 only.
+find_package(embree 3 CONFIG QUIET)
+if(NOT embree_FOUND)
+  message(STATUS "no Embree: rays are cast by two levels of bricks, or by the plain walk")
+endif()

@@ -43,6 +43,7 @@ PURPOSES = {
     "render/packet": "rays in packets, and pictures by them",
     "render/reference": "the picture, in plain loops",
     "render/image": "PNG, sheet, film",
+    "render/visibility": "rays by Embree",
     "render/frames": "files beside the steps",
     "kernel/run": "the run loop",
     "kernel/run/io": "exports and output folders",

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <utility>
 
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/simulation.h"
@@ -79,10 +81,12 @@ rule::Parameters later(rule::Parameters parameters, std::uint32_t steps) {
   return parameters;
 }
 
-Workload scene_at(const scene::Scene& scene, std::uint32_t step, int threads) {
+Workload scene_at(const scene::Scene& scene, std::uint32_t step, int threads,
+                  std::unique_ptr<visibility::Provider> provider) {
   step::Tuning tuning;
   tuning.threads = threads;
-  run::Simulation simulation(scene.parameters, scene.initial, *run::implementations().find("auto"), tuning);
+  run::Simulation simulation(scene.parameters, scene.initial, *run::implementations().find("auto"), tuning,
+                             std::move(provider));
   while (simulation.steps_done() < step) simulation.step();
   Workload workload;
   workload.name = fmt::format("scene:{}/step:{}", scene.name, step);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "kernel/automaton/rule/parameters.h"
 #include "kernel/automaton/state/volume.h"
+#include "kernel/engine/visibility/visibility.h"
 #include "kernel/scene/scene.h"
 
 namespace voxmelt::measure {
@@ -33,7 +35,8 @@ std::vector<std::string> usual_scenes(bool quick);
 
 // The scene at `step`, reached with the fastest implementation. Steps are counted from 0 again: sources,
 // vents and drains keep their times, the random bits are those of other steps.
-Workload scene_at(const scene::Scene& scene, std::uint32_t step, int threads);
+Workload scene_at(const scene::Scene& scene, std::uint32_t step, int threads,
+                  std::unique_ptr<visibility::Provider> provider = nullptr);
 
 // The same sources, vents and drains, `steps` later.
 rule::Parameters later(rule::Parameters parameters, std::uint32_t steps);

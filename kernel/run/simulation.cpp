@@ -12,6 +12,7 @@
 #include "kernel/engine/parallel/stepper.h"
 #include "kernel/engine/scalar/reference.h"
 #include "kernel/engine/scalar/substeps.h"
+#include "kernel/engine/visibility/kept_rays.h"
 
 namespace voxmelt::run {
 namespace {
@@ -53,7 +54,8 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
       host_(dynamic_cast<step::HostStepper*>(stepper_.get())),
       device_(dynamic_cast<step::DeviceStepper*>(stepper_.get())),
       provider_(provider != nullptr ? std::move(provider)
-                                    : std::make_unique<visibility::VoxelWalkProvider>(tuning.threads)),
+                                    : std::make_unique<visibility::KeptRays>(
+                                          std::make_unique<visibility::TwoLevelCaster>(), tuning.threads)),
       ledger_(state::Ledger::open(volume_)),
       threads_(std::min(tuning.threads, cpu::Workers::most())) {
   make_irradiance();

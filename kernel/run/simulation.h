@@ -22,7 +22,7 @@ class Simulation {
  public:
   Simulation(rule::Parameters parameters, state::Volume initial, const step::Implementation& implementation,
              const step::Tuning& tuning = {},
-             std::unique_ptr<visibility::Provider> provider = nullptr);  // null: the integer walk
+             std::unique_ptr<visibility::Provider> provider = nullptr);  // null: two levels
 
   // The automaton's number of the next step, before the first one; 0 without this call.
   void begin_at(std::uint32_t step) { first_step_ = step; }
@@ -68,6 +68,7 @@ class Simulation {
     double visibility = 0;
   };
   const Seconds& seconds() const { return seconds_; }
+  const visibility::Provider& provider() const { return *provider_; }
 
  private:
   void make_irradiance();

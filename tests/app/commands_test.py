@@ -95,6 +95,25 @@ class Commands(unittest.TestCase):
             self.good("digest", self.scene, "--report", "t.json", *asked)
             self.assertEqual(json.loads((self.folder / "t.json").read_text())["threads"], used, asked)
 
+    # A block melts beside a wall. Whoever follows the rays, the bits are the same.
+    def test_visibility_is_chosen_and_named(self):
+        lines, seen = set(), {}
+        for name in ("auto", "walk", "two-level", "embree"):
+            result = voxmelt("digest", "lesson_shadow", "--steps", 100, "--visibility", name, "--report", "v.json",
+                             cwd=self.folder)
+            if name == "embree" and result.returncode == 2:
+                self.assertIn("this build has no Embree", result.stderr)
+                continue
+            self.assertEqual(result.returncode, 0, result.stderr)
+            lines.add(result.stdout)
+            seen[name] = json.loads((self.folder / "v.json").read_text())["visibility"]
+        self.assertEqual(len(lines), 1)
+        self.assertEqual(seen["auto"]["provider"], "two-level", "a small grid")
+        self.assertEqual({n: s["provider"] for n, s in seen.items() if n != "auto"}, {n: n for n in seen if n != "auto"})
+        self.assertTrue(all(s["reason"] for s in seen.values()))
+        self.assertGreater(seen["two-level"]["rays"], seen["two-level"]["rays_cast"])
+        self.assertEqual(voxmelt("digest", "lesson_shadow", "--visibility", "mirror", cwd=self.folder).returncode, 2)
+
     def test_run_replaces_only_its_own_folder(self):
         self.good("run", self.scene, "--out", "mine", "--steps", "0")
         self.good("run", self.scene, "--out", "mine", "--steps", "1")

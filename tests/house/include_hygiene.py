@@ -15,7 +15,7 @@ from pathlib import Path
 NOT_OURS = ("build", "out")
 # Header -> its names in namespace std. A name that several headers give is satisfied by each; the first is the usual one.
 TABLE = {
-    "algorithm": "all_of any_of none_of binary_search clamp copy copy_n count count_if equal fill fill_n find find_if for_each is_sorted "
+    "algorithm": "all_of any_of includes none_of binary_search clamp copy copy_n count count_if equal fill fill_n find find_if for_each is_sorted "
                  "lexicographical_compare lower_bound max max_element min min_element minmax minmax_element mismatch nth_element "
                  "partition remove remove_if replace reverse rotate search sort stable_sort transform unique upper_bound",
     "array": "array get to_array tuple_size",

@@ -1,0 +1,25 @@
+// Who follows the rays of heat sources: --visibility, or a choice by size and number of rays.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "app/options.h"
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/grid.h"
+#include "kernel/engine/visibility/visibility.h"
+
+namespace voxmelt::app {
+
+struct VisibilityChoice {
+  std::string name;    // walk, two-level or embree
+  std::string reason;  // for the report
+};
+
+void add_visibility(CLI::App& command, Common& common);
+// Throws UsageError where this build does not have what was asked for.
+VisibilityChoice choose_visibility(const std::string& asked, const rule::Heat& heat, const state::Grid& grid);
+std::unique_ptr<visibility::Provider> make_provider(const VisibilityChoice& choice, int threads);
+
+}  // namespace voxmelt::app

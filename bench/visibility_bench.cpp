@@ -1,0 +1,175 @@
+// Rays towards a point source, by each caster on one thread: millions in a second of its processor time. A
+// ball with pits, from three sources; all rays of its surface, by slices. `prepare` is what it takes to build
+// what a caster keeps, `refit` what it takes after some cells have melted.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/volume.h"
+#include "kernel/engine/cpu/workers.h"
+#include "kernel/engine/visibility/surface.h"
+#include "render/visibility/embree_caster.h"
+
+namespace voxmelt {
+namespace {
+
+using visibility::Cell;
+using visibility::Ray;
+
+// Of this thread.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+state::Volume pitted_ball(int n) {
+  state::Volume v(state::Grid{n, n, n});
+  const auto squared = [&](int x, int y, int z) {
+    const std::int64_t dx = 2 * x + 1 - n, dy = 2 * y + 1 - n, dz = 2 * z + 1 - n;
+    return dx * dx + dy * dy + dz * dz;
+  };
+  for (int z = 0; z < n; ++z)
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) v.solid.set(x, y, z, squared(x, y, z) * 100 < std::int64_t{81} * n * n);
+  std::uint64_t random = 1;  // pits: little balls about its surface
+  const auto drawn = [&] {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(random >> 40) / (1 << 24);
+  };
+  for (int pit = 0; pit < 400; ++pit) {
+    const double height = 2 * drawn() - 1, turn = 2 * std::numbers::pi * drawn();
+    const double out = 0.45 * n, flat = out * std::sqrt(1 - height * height);
+    const double radius = n * (0.01 + 0.05 * drawn());
+    const std::array<double, 3> middle{n / 2.0 + flat * std::cos(turn), n / 2.0 + out * height,
+                                       n / 2.0 + flat * std::sin(turn)};
+    const auto low = [&](std::size_t a) { return std::max(0, static_cast<int>(middle[a] - radius)); };
+    const auto high = [&](std::size_t a) { return std::min(n, static_cast<int>(middle[a] + radius) + 1); };
+    for (int z = low(2); z < high(2); ++z)
+      for (int y = low(1); y < high(1); ++y)
+        for (int x = low(0); x < high(0); ++x)
+          if (std::hypot(x - middle[0], y - middle[1], z - middle[2]) < radius) v.solid.set(x, y, z, false);
+  }
+  return v;
+}
+
+std::vector<Ray> all_rays(const visibility::Opaque& opaque, const rule::Position& source) {
+  const state::Grid& g = opaque.grid();
+  const visibility::Surface surface(g, source);
+  const std::array<std::int64_t, 3> at{source.x, source.y, source.z};
+  std::vector<Ray> rays;
+  for (int z = 0; z < g.z; ++z)
+    for (int y = 0; y < g.y; ++y)
+      for (int x = 0; x < g.x; ++x) {
+        if ((x & 63) == 0 && opaque.solid().row(y, z)[static_cast<std::size_t>(x) / 64] == 0) {
+          x += 63;
+          continue;
+        }
+        const auto faces = surface.faces(opaque, static_cast<std::size_t>(x) / 64, y, z);
+        const Cell cell{x, y, z};
+        for (std::size_t a = 0; a < 3; ++a) {
+          if ((faces[a] >> (x & 63) & 1) == 0) continue;
+          Cell beyond = cell;
+          beyond[a] += visibility::side_of(at[a], cell[a]);
+          std::array<std::int64_t, 3> start{16 * x + 8, 16 * y + 8, 16 * z + 8};
+          start[a] = 16 * std::max(cell[a], beyond[a]);
+          rays.push_back({beyond, {start[0], start[1], start[2]}});
+        }
+      }
+  return rays;
+}
+
+struct World {
+  explicit World(int n) : volume(pitted_ball(n)) {
+    cpu::Workers workers(1);
+    news = opaque.take(volume, workers);
+    const std::int64_t side = 16 * n;
+    for (const rule::Position& source :
+         {rule::Position{2 * side, side * 3 / 2, -side / 2}, rule::Position{side / 3, side * 5 / 4, side / 4},
+          rule::Position{-side / 8, side / 2, side / 2}})
+      rays.emplace_back(source, all_rays(opaque, source));
+  }
+  state::Volume volume;
+  visibility::Opaque opaque;
+  visibility::Opaque::News news;
+  std::vector<std::pair<rule::Position, std::vector<Ray>>> rays;
+};
+
+World& world(int n) {
+  static std::unique_ptr<World> last;  // one at a time
+  if (last == nullptr || last->volume.grid.x != n) last = std::make_unique<World>(n);
+  return *last;
+}
+
+void cast(benchmark::State& state, int n, const std::function<std::unique_ptr<visibility::Caster>()>& make) {
+  World& w = world(n);
+  const std::unique_ptr<visibility::Caster> caster = make();
+  const double begin = processor_seconds();
+  caster->prepare(w.opaque, w.news);
+  state.counters["prepare_ms"] = 1e3 * (processor_seconds() - begin);
+  const double middle = processor_seconds();
+  caster->prepare(w.opaque, {.appeared = false, .vanished = true, .turned = false});
+  state.counters["refit_ms"] = 1e3 * (processor_seconds() - middle);
+  std::vector<visibility::Fate> fates;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t rays = 0, seeing = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    double seconds = 0;
+    rays = seeing = 0;
+    for (const auto& [source, of_source] : w.rays) {
+      fates.resize(of_source.size());
+      const double start = processor_seconds();
+      for (std::size_t first = 0; first < fates.size(); first += 1024) {  // as KeptRays does
+        const std::size_t count = std::min<std::size_t>(1024, fates.size() - first);
+        caster->cast(w.opaque, source, {of_source.data() + first, count}, {fates.data() + first, count});
+      }
+      seconds += processor_seconds() - start;
+      rays += fates.size();
+      seeing += static_cast<std::size_t>(std::count(fates.begin(), fates.end(), visibility::kSees));
+    }
+    state.SetIterationTime(seconds);
+    least = std::min(least, seconds);
+  }
+  state.counters["rays"] = static_cast<double>(rays);
+  state.counters["seeing"] = static_cast<double>(seeing);  // the same for every caster
+  state.counters["Mray_per_s"] = static_cast<double>(rays) / least / 1e6;
+}
+
+}  // namespace
+}  // namespace voxmelt
+
+int main(int argc, char** argv) {
+  using namespace voxmelt;
+  using namespace voxmelt::visibility;
+  using Make = std::function<std::unique_ptr<Caster>()>;
+  std::vector<std::pair<std::string, Make>> casters{
+      {"walk", [] { return std::make_unique<PlainCaster>(); }},
+      {"two-level", [] { return std::make_unique<TwoLevelCaster>(); }}};
+  if (EmbreeCaster::built_in())
+    for (const Packet packet : {Packet::one, Packet::eight, Packet::sixteen})
+      casters.emplace_back("embree-" + std::to_string(static_cast<int>(packet)),
+                           [packet] { return std::make_unique<EmbreeCaster>(packet); });
+  for (const int n : {64, 128, 256, 512})
+    for (const auto& [name, make] : casters)
+      benchmark::RegisterBenchmark(("rays/" + std::to_string(n) + "/" + name).c_str(),
+                                   [n, make = make](benchmark::State& state) { cast(state, n, make); })
+          ->UseManualTime()
+          ->Unit(benchmark::kMillisecond)
+          ->Iterations(n > 256 ? 3 : 8);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,56 @@
+// Who follows rays. Every caster gives the answers of rule::VoxelWalk: whether a ray sees its source.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/engine/visibility/opaque.h"
+
+namespace voxmelt::visibility {
+
+// From a face of a solid cell. `cell` lies beyond the face, and is not opaque. It may lie outside the grid.
+struct Ray {
+  Cell cell;
+  rule::Position start;
+};
+
+// What became of a ray: it sees the source, or it meets the opaque cell at this place (Opaque::place). Any
+// opaque cell on its way will do. Where places exceed 32 bits, it is only known to be dark.
+using Fate = std::uint32_t;
+inline constexpr Fate kSees = 0xffff'ffff, kDark = 0xffff'fffe;
+inline Fate met(std::size_t place) { return place < kDark ? static_cast<Fate>(place) : kDark; }
+
+class Caster {
+ public:
+  virtual ~Caster() = default;
+  virtual std::string_view name() const = 0;
+  // Before rays are cast into what `opaque` now is. The same one every time.
+  virtual void prepare(const Opaque& /*opaque*/, const Opaque::News& /*news*/) {}
+  // One fate for each ray. Several threads may call it at once.
+  virtual void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
+                    std::span<Fate> fates) const = 0;
+};
+
+// rule::VoxelWalk itself, cell after cell.
+class PlainCaster final : public Caster {
+ public:
+  std::string_view name() const override { return "walk"; }
+  void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
+            std::span<Fate> fates) const override;
+};
+
+// By bricks, the fate of one ray.
+Fate two_level_fate(const Opaque& opaque, const rule::Position& source, const Ray& ray);
+
+// From brick to brick where nothing stands, and from cell to cell elsewhere.
+class TwoLevelCaster final : public Caster {
+ public:
+  std::string_view name() const override { return "two-level"; }
+  void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
+            std::span<Fate> fates) const override;
+};
+
+}  // namespace voxmelt::visibility

@@ -1,0 +1,288 @@
+#include "kernel/engine/visibility/kept_rays.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdlib>
+
+#include "kernel/automaton/rule/source.h"
+#include "kernel/automaton/rule/visibility.h"
+
+namespace voxmelt::visibility {
+namespace {
+
+constexpr int kBandCells = 1 << 15;  // about; more threads have work, and the memory of each is bounded
+constexpr std::uint32_t kStale = 0xffff'ffff;
+constexpr std::size_t kBatch = 1024;
+
+bool same(const rule::Position& a, const rule::Position& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+// Rays that are cast together, and where their fates belong.
+class Batch {
+ public:
+  Batch(const Caster& caster, const Opaque& opaque, const rule::Position& source, std::vector<Fate>& fates)
+      : caster_(caster), opaque_(opaque), source_(source), fates_(fates) {}
+
+  void add(const Ray& ray, std::size_t place) {
+    if (rays_.empty()) {  // most bands have few rays, or none
+      rays_.reserve(kBatch);
+      places_.reserve(kBatch);
+    }
+    rays_.push_back(ray);
+    places_.push_back(place);
+    if (rays_.size() == kBatch) cast();
+  }
+  void cast() {
+    if (rays_.empty()) return;
+    std::array<Fate, kBatch> found;
+    caster_.cast(opaque_, source_, rays_, {found.data(), rays_.size()});
+    for (std::size_t i = 0; i < rays_.size(); ++i) fates_[places_[i]] = found[i];
+    cast_ += static_cast<std::int64_t>(rays_.size());
+    rays_.clear();
+    places_.clear();
+  }
+  std::int64_t count() const { return cast_; }
+
+ private:
+  const Caster& caster_;
+  const Opaque& opaque_;
+  rule::Position source_;
+  std::vector<Fate>& fates_;
+  std::vector<Ray> rays_;
+  std::vector<std::size_t> places_;
+  std::int64_t cast_ = 0;
+};
+
+}  // namespace
+
+std::int64_t KeptRays::irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
+                                  state::Field<std::uint16_t>& result) {
+  const state::Grid before = opaque_.grid();
+  news_ = opaque_.take(volume, workers_);
+  const int side = heat.rays_per_face == 16 ? 4 : heat.rays_per_face == 4 ? 2 : 1;
+  if (before != volume.grid || side != side_ || heat.sources.size() != sources_.size()) {
+    side_ = side;
+    written_ = nullptr;
+    begin(heat);
+  }
+  move_sources(heat, step);
+  const bool steady = std::all_of(sources_.begin(), sources_.end(), [](const Source& s) { return s.steady; });
+  if (written_ != result.data()) {
+    result.clear();
+  } else if (steady && !news_.any()) {
+    for (Band& band : bands_) band.casts.cast = 0;
+  }
+  if (written_ != result.data() || !steady || news_.any()) {
+    caster_->prepare(opaque_, news_);
+    std::vector<Surface> surfaces;
+    for (const Source& source : sources_) surfaces.emplace_back(volume.grid, source.at);
+    workers_.run(static_cast<int>(bands_.size()),
+                 [&](int i) { update(bands_[static_cast<std::size_t>(i)], surfaces, result); });
+    written_ = result.data();
+  }
+  std::int64_t cuts = 0;
+  for (const Band& band : bands_) {
+    cuts += band.cuts;
+    casts_ += band.casts;
+  }
+  return cuts;
+}
+
+void KeptRays::begin(const rule::Heat& heat) {
+  const state::Grid& g = opaque_.grid();
+  sources_.assign(heat.sources.size(), {});
+  bands_.clear();
+  const int rows = std::clamp(kBandCells / g.x, 1, g.y);
+  for (int z = 0; z < g.z; ++z)
+    for (int y = 0; y < g.y; y += rows) {
+      Band& band = bands_.emplace_back();
+      band.z = z;
+      band.y0 = y;
+      band.y1 = std::min(g.y, y + rows);
+      band.sources.resize(sources_.size());
+    }
+}
+
+// A source that has just been made has power 0, as one that is off. Nothing is kept of either.
+void KeptRays::move_sources(const rule::Heat& heat, std::uint32_t step) {
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    const rule::SourceKey now = rule::source_at(heat.sources[s], step);
+    Source& source = sources_[s];
+    source.still = !news_.appeared && source.power > 0 && same(source.at, now.at);
+    source.steady = (source.still || now.power == 0) && source.power == now.power;
+    source.at = now.at;
+    source.power = now.power;
+  }
+}
+
+void KeptRays::update(Band& band, const std::vector<Surface>& surfaces,
+                      state::Field<std::uint16_t>& result) const {
+  erase(band, result);
+  band.casts = {};
+  std::size_t bytes = 0;
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    renew(band, sources_[s], surfaces[s], band.sources[s]);
+    bytes += band.sources[s].bytes();
+  }
+  band.cuts = write(band, result);
+  const state::Grid& g = opaque_.grid();
+  const auto cells = static_cast<std::size_t>(band.y1 - band.y0) * static_cast<std::size_t>(g.x);
+  band.kept = bytes <= kMostKept * cells + (std::size_t{16} << 10);
+  if (!band.kept) band.sources.assign(sources_.size(), {});
+}
+
+void KeptRays::erase(const Band& band, state::Field<std::uint16_t>& result) const {
+  if (!band.kept)
+    for (int y = band.y0; y < band.y1; ++y)
+      std::fill_n(result.row(y, band.z), opaque_.grid().x, std::uint16_t{0});
+  for (const OfSource& own : band.sources)
+    for (const Lit& lit : own.cells) {
+      const Cell cell = cell_at(band, lit);
+      result.row(cell[1], cell[2])[cell[0]] = 0;
+    }
+}
+
+std::int64_t KeptRays::write(const Band& band, state::Field<std::uint16_t>& result) const {
+  std::int64_t cuts = 0;
+  for (const OfSource& own : band.sources)
+    for (const Lit& lit : own.cells) {
+      if (lit.value == 0) continue;
+      const Cell cell = cell_at(band, lit);
+      std::uint16_t& sum = result.row(cell[1], cell[2])[cell[0]];
+      const std::uint32_t whole = sum + lit.value;
+      constexpr std::uint32_t most = rule::kIrradianceMax;
+      sum = static_cast<std::uint16_t>(std::min(whole, most));
+      if (whole > most) ++cuts;
+    }
+  return cuts;
+}
+
+void KeptRays::renew(Band& band, const Source& source, const Surface& surface, OfSource& own) const {
+  if (source.power == 0) {
+    own = {};
+    return;
+  }
+  const bool still = source.still && band.kept;
+  if (!still || opaque_.changed_about(band.z)) {
+    OfSource now = find(band, surface);
+    if (still) keep(own, now);
+    own = std::move(now);
+  }
+  if (!source.steady)
+    for (Lit& lit : own.cells) lit.value = kStale;
+  band.casts += cast(band, source, own);
+  const Fate* fates = own.fates.data();
+  for (Lit& lit : own.cells) {
+    if (lit.value == kStale) lit.value = value(band, source, lit, fates);
+    fates += rays_of(lit);
+  }
+}
+
+// All cells with faces that look, as if nothing was known of their rays.
+KeptRays::OfSource KeptRays::find(const Band& band, const Surface& surface) const {
+  OfSource now;
+  std::size_t rays = 0;
+  for (int y = band.y0; y < band.y1; ++y)
+    for (std::size_t w = 0; w < opaque_.plane().row_words(); ++w) {
+      const std::array<std::uint64_t, 3> faces = surface.faces(opaque_, w, y, band.z);
+      for (std::uint64_t bits = faces[0] | faces[1] | faces[2]; bits != 0; bits &= bits - 1) {
+        const int b = std::countr_zero(bits);
+        const auto looking = static_cast<std::uint8_t>((faces[0] >> b & 1) | (faces[1] >> b & 1) << 1 |
+                                                       (faces[2] >> b & 1) << 2);
+        const int place = (y - band.y0) << 16 | (64 * static_cast<int>(w) + b);
+        now.cells.push_back({static_cast<std::uint32_t>(place), kStale, looking});
+        rays += rays_of(now.cells.back());
+      }
+    }
+  now.fates.assign(rays, kDark);
+  return now;
+}
+
+// Takes over what is known of the faces that already looked.
+void KeptRays::keep(const OfSource& old, OfSource& now) const {
+  const auto each = static_cast<std::size_t>(side_ * side_);
+  const Fate* from = old.fates.data();
+  Fate* to = now.fates.data();
+  auto was = old.cells.begin();
+  for (Lit& lit : now.cells) {
+    for (; was != old.cells.end() && was->place < lit.place; ++was) from += rays_of(*was);
+    if (was == old.cells.end() || was->place != lit.place) {
+      to += rays_of(lit);
+      continue;
+    }
+    if (was->faces == lit.faces) lit.value = was->value;
+    for (int a = 0; a < 3; ++a) {
+      const bool looked = (was->faces >> a & 1) != 0, looks = (lit.faces >> a & 1) != 0;
+      if (looked && looks) std::copy_n(from, each, to);
+      from += looked ? each : 0;
+      to += looks ? each : 0;
+    }
+    ++was;
+  }
+}
+
+// Follows each ray of which it is not known that it sees the source, or meets a cell that is opaque now.
+Casts KeptRays::cast(const Band& band, const Source& source, OfSource& own) const {
+  Batch batch(*caster_, opaque_, source.at, own.fates);
+  const std::int64_t square = rule::kPositionUnit / side_;
+  std::size_t place = 0;
+  for (Lit& lit : own.cells) {
+    const Cell cell = cell_at(band, lit);
+    for (std::size_t a = 0; a < 3; ++a) {
+      if ((lit.faces >> a & 1) == 0) continue;
+      const std::size_t across = (a + 1) % 3, along = (a + 2) % 3;
+      for (int i = 0; i < side_; ++i)
+        for (int j = 0; j < side_; ++j, ++place) {
+          const Fate fate = own.fates[place];
+          if (fate == kSees || (fate != kDark && opaque_.holds(fate))) continue;
+          std::array<std::int64_t, 3> start{};
+          Cell beyond = cell;
+          beyond[a] += side_of(a == 0 ? source.at.x : a == 1 ? source.at.y : source.at.z, cell[a]);
+          start[a] = rule::kPositionUnit * std::max(cell[a], beyond[a]);
+          start[across] = rule::kPositionUnit * cell[across] + square * i + square / 2;
+          start[along] = rule::kPositionUnit * cell[along] + square * j + square / 2;
+          batch.add({beyond, {start[0], start[1], start[2]}}, place);
+          lit.value = kStale;
+        }
+    }
+  }
+  batch.cast();
+  return {static_cast<std::int64_t>(place), batch.count()};
+}
+
+std::uint32_t KeptRays::value(const Band& band, const Source& source, const Lit& lit,
+                              const Fate* fates) const {
+  const Cell cell = cell_at(band, lit);
+  const auto middle = [&](std::size_t a) { return rule::kPositionUnit * cell[a] + rule::kPositionUnit / 2; };
+  const std::array<std::int64_t, 3> delta{source.at.x - middle(0), source.at.y - middle(1),
+                                          source.at.z - middle(2)};
+  std::int64_t facing = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if ((lit.faces >> a & 1) == 0) continue;
+    facing += std::abs(delta[a]) * std::count(fates, fates + side_ * side_, kSees);
+    fates += side_ * side_;
+  }
+  if (facing == 0) return 0;
+  const auto squared =
+      static_cast<std::uint64_t>(delta[0] * delta[0] + delta[1] * delta[1] + delta[2] * delta[2]);
+  constexpr std::uint64_t cut = rule::kIrradianceMax + 1;
+  return static_cast<std::uint32_t>(
+      std::min(rule::irradiance(source.power, facing, side_ * side_, squared), cut));
+}
+
+std::size_t KeptRays::rays_of(const Lit& lit) const {
+  return static_cast<std::size_t>(side_ * side_ * std::popcount(lit.faces));
+}
+
+Cell KeptRays::cell_at(const Band& band, const Lit& lit) {
+  return {static_cast<int>(lit.place & 0xffff), band.y0 + static_cast<int>(lit.place >> 16), band.z};
+}
+
+std::size_t KeptRays::kept_bytes() const {
+  std::size_t bytes = 0;
+  for (const Band& band : bands_)
+    for (const OfSource& own : band.sources) bytes += own.bytes();
+  return bytes;
+}
+
+}  // namespace voxmelt::visibility

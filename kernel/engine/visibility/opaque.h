@@ -1,0 +1,71 @@
+// The cells that stop rays, as a caster reads them: solid or inert. They are kept from one casting to the
+// next, as rows of bits and as bricks of 8x8x8 bits, so that it is known what is new. They take 3/8 byte for
+// each cell of the grid, in pages that stay untaken where nothing stands.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/automaton/state/bit_plane.h"
+#include "kernel/automaton/state/grid.h"
+#include "kernel/automaton/state/pages.h"
+#include "kernel/automaton/state/volume.h"
+#include "kernel/engine/cpu/workers.h"
+
+namespace voxmelt::visibility {
+
+using Cell = std::array<int, 3>;
+
+class Opaque {
+ public:
+  struct News {
+    bool appeared = false;  // a cell is opaque that was not, or the grid is another one
+    bool vanished = false;  // a cell is no longer opaque
+    bool turned = false;    // a cell is solid that was inert, or the reverse
+    bool any() const { return appeared || vanished || turned; }
+  };
+  // Takes the masks of a volume over.
+  News take(const state::Volume& volume, cpu::Workers& workers);
+
+  const state::Grid& grid() const { return grid_; }
+  const state::BitPlane& plane() const { return plane_; }
+  const state::BitPlane& solid() const { return solid_; }
+  // Did a mask of this slice, or of one beside it, change when the masks were last taken?
+  bool changed_about(int z) const;
+
+  bool contains(const Cell& cell) const { return grid_.contains(cell[0], cell[1], cell[2]); }
+  bool test(const Cell& cell) const { return contains(cell) && holds(place(brick_at(cell), cell)); }
+
+  // By bricks. A place is 512 times the number of a brick, and the number of a cell in it.
+  const state::Grid& bricks() const { return bricks_; }
+  std::size_t brick_at(const Cell& cell) const {
+    return bricks_.index(cell[0] >> 3, cell[1] >> 3, cell[2] >> 3);
+  }
+  bool empty(std::size_t brick) const { return (filled_[brick >> 6] >> (brick & 63) & 1) == 0; }
+  bool full(std::size_t brick) const { return full_[brick] != 0; }
+  static std::size_t place(std::size_t brick, const Cell& cell) {
+    return brick << 9 | static_cast<std::size_t>((cell[2] & 7) << 6 | (cell[1] & 7) << 3 | (cell[0] & 7));
+  }
+  bool holds(std::size_t place) const { return (bytes()[place >> 3] >> (place & 7) & 1) != 0; }
+  // The cells of a brick, a byte for each row: rows by y, then by z.
+  const std::uint8_t* rows(std::size_t brick) const { return bytes() + (brick << 6); }
+
+ private:
+  void resize(const state::Grid& grid);
+  News take_layer(const state::Volume& volume, int layer);
+  void write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z);
+  void fill(int layer);
+  std::uint8_t* bytes() { return reinterpret_cast<std::uint8_t*>(bits_.data()); }
+  const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(bits_.data()); }
+
+  state::Grid grid_, bricks_;
+  state::BitPlane plane_, solid_;
+  state::Pages bits_;                  // 64 bytes a brick
+  std::vector<std::uint64_t> filled_;  // a bit for each brick that holds something
+  std::vector<std::uint8_t> full_;     // by bricks: are all 512 cells opaque?
+  std::vector<std::uint8_t> changed_;  // by slices
+};
+
+}  // namespace voxmelt::visibility

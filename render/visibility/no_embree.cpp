@@ -1,0 +1,20 @@
+// In place of embree_caster.cpp, where this build has no Embree.
+#include <span>
+#include <stdexcept>
+
+#include "render/visibility/embree_caster.h"
+
+namespace voxmelt::visibility {
+
+struct EmbreeCaster::Scene {};
+
+EmbreeCaster::EmbreeCaster(Packet packet) : packet_(packet) {
+  throw std::logic_error("this build has no Embree");
+}
+EmbreeCaster::~EmbreeCaster() = default;
+bool EmbreeCaster::built_in() { return false; }
+EmbreeCaster::Box EmbreeCaster::box() const { return {}; }
+void EmbreeCaster::prepare(const Opaque&, const Opaque::News&) {}
+void EmbreeCaster::cast(const Opaque&, const rule::Position&, std::span<const Ray>, std::span<Fate>) const {}
+
+}  // namespace voxmelt::visibility

@@ -1,0 +1,124 @@
+// Holds a caster against rule::VoxelWalk, ray by ray.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/automaton/rule/visibility.h"
+#include "tests/kernel/engine/visibility/ray_worlds.h"
+
+namespace voxmelt::visibility {
+
+inline bool opaque_in(const Volume& v, const Cell& c) {
+  return v.grid.contains(c[0], c[1], c[2]) &&
+         (v.solid.test(c[0], c[1], c[2]) || v.inert.test(c[0], c[1], c[2]));
+}
+
+// The places, as Opaque numbers them, of the opaque cells that a ray meets.
+inline std::vector<std::size_t> met_by(const Volume& v, const Ray& ray, const Position& source) {
+  std::vector<std::size_t> places;
+  const auto bricks = [](int size) { return static_cast<std::size_t>((size + 7) / 8); };
+  rule::VoxelWalk walk(ray.cell, ray.start, source);
+  bool inside = v.grid.contains(walk.x(), walk.y(), walk.z());
+  while (inside && walk.next()) {
+    const std::array<int, 3> cell{walk.x(), walk.y(), walk.z()};
+    inside = v.grid.contains(walk.x(), walk.y(), walk.z());
+    if (!opaque_in(v, cell)) continue;
+    const std::array<std::size_t, 3> c{static_cast<std::size_t>(cell[0]), static_cast<std::size_t>(cell[1]),
+                                       static_cast<std::size_t>(cell[2])};
+    const std::size_t brick = (c[2] / 8 * bricks(v.grid.y) + c[1] / 8) * bricks(v.grid.x) + c[0] / 8;
+    places.push_back(512 * brick + 64 * (c[2] % 8) + 8 * (c[1] % 8) + c[0] % 8);
+  }
+  return places;
+}
+
+struct Counts {
+  std::size_t rays = 0, seeing = 0;
+};
+
+// Casts all rays of a source at once, and holds every fate.
+inline Counts check_fates(Caster& caster, const Opaque& opaque, const Volume& v, const Position& source,
+                          int side) {
+  const std::vector<Ray> rays = all_rays(v, source, side);
+  std::vector<Fate> fates(rays.size(), 12345);
+  caster.cast(opaque, source, rays, fates);
+  Counts counts{rays.size(), 0};
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const std::vector<std::size_t> places = met_by(v, rays[i], source);
+    counts.seeing += places.empty();
+    const bool right = places.empty() ? fates[i] == kSees
+                                      : std::find(places.begin(), places.end(), fates[i]) != places.end();
+    if (!right) ++wrong;
+  }
+  EXPECT_EQ(wrong, 0u) << caster.name() << ": of " << rays.size() << " rays, grid " << v.grid.x << ' '
+                       << v.grid.y << ' ' << v.grid.z << ", source " << source.x << ' ' << source.y << ' '
+                       << source.z;
+  return counts;
+}
+
+// 200 random worlds, each with three sources; while it melts, the caster keeps what it has built.
+inline void check_hostile_worlds(Caster& caster, int worlds, std::uint64_t seed) {
+  Random random(seed);
+  cpu::Workers workers(1);
+  Opaque opaque;
+  Counts all;
+  for (int world = 0; world < worlds && !testing::Test::HasFailure(); ++world) {
+    Volume v = hostile_world(random, hostile_grid(random));
+    for (int melt = 0; melt < 3; ++melt) {
+      caster.prepare(opaque, opaque.take(v, workers));
+      const Position source = awkward_source(random, v.grid);
+      const Counts counts = check_fates(caster, opaque, v, source, random.any({1, 2, 4}));
+      all.rays += counts.rays, all.seeing += counts.seeing;
+      const std::int32_t part = random.any({2, 5, 50});
+      for_each(whole(v.grid), [&](int x, int y, int z) {
+        if (v.solid.test(x, y, z) && random.one_in(part)) v.solid.set(x, y, z, false);
+      });
+    }
+  }
+  EXPECT_GT(all.seeing, all.rays / 20) << "few of " << all.rays << " see their source";
+  EXPECT_GT(all.rays - all.seeing, all.rays / 20) << "few of " << all.rays << " are dark";
+}
+
+// Five states of one size: a ball, a wall with holes, a comb of plates, dust, and a ball half melted.
+inline Volume ray_scene(int number) {
+  Volume v(Grid{48, 40, 44});
+  Random random(static_cast<std::uint64_t>(number));
+  const auto squared = [](int x, int y, int z) {
+    return (x - 24) * (x - 24) + (y - 20) * (y - 20) + (z - 22) * (z - 22);
+  };
+  for_each(whole(v.grid), [&](int x, int y, int z) {
+    const bool ball = squared(x, y, z) < 17 * 17;
+    const bool stands = number == 0   ? ball
+                        : number == 1 ? y == 0 || (x == 20 && (y / 3 + z / 5) % 3 != 0)
+                        : number == 2 ? y < 4 || (z % 6 == 0 && y < 30)
+                        : number == 3 ? random.one_in(60)
+                                      : ball && (y < 12 || !random.one_in(3));
+    if (stands && (number == 1 && x == 20)) return put_inert(v, x, y, z);
+    if (stands) put_solid(v, x, y, z);
+  });
+  return v;
+}
+
+inline void check_scenes(Caster& caster) {
+  cpu::Workers workers(1);
+  for (int number = 0; number < 5; ++number) {
+    const Volume v = ray_scene(number);
+    Opaque opaque;
+    caster.prepare(opaque, opaque.take(v, workers));
+    Random random(static_cast<std::uint64_t>(1000 + number));
+    Counts all;
+    for (int n = 0; n < 100 && !testing::Test::HasFailure(); ++n) {
+      const Counts counts = check_fates(caster, opaque, v, awkward_source(random, v.grid), 1);
+      all.rays += counts.rays, all.seeing += counts.seeing;
+    }
+    EXPECT_GT(all.seeing, 1000u) << number;
+  }
+}
+
+}  // namespace voxmelt::visibility

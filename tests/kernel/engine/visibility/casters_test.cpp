@@ -1,0 +1,177 @@
+// The casters of this room, and the surface by words, against rule::VoxelWalk and the page.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/engine/visibility/brick_walk.h"
+#include "kernel/engine/visibility/surface.h"
+#include "tests/kernel/engine/visibility/caster_check.h"
+
+namespace voxmelt::visibility {
+namespace {
+
+TEST(Casters, OfHostileWorldsAgreeWithTheWalk) {
+  PlainCaster plain;
+  check_hostile_worlds(plain, 60, 71);
+  TwoLevelCaster two_level;
+  check_hostile_worlds(two_level, 200, 72);
+}
+
+TEST(Casters, OfFiveScenesAndAHundredSourcesAgreeWithTheWalk) {
+  TwoLevelCaster two_level;
+  check_scenes(two_level);
+}
+
+// Step by step, from brick to brick, and straight into each brick: the same cells as VoxelWalk, in 64 bits
+// and in 128.
+template <class Whole>
+void follow(const Ray& ray, const Position& source) {
+  std::vector<Cell> cells;
+  rule::VoxelWalk plain(ray.cell, ray.start, source);
+  while (cells.size() < 400 && plain.next()) cells.push_back({plain.x(), plain.y(), plain.z()});
+  const bool ends = cells.size() < 400;
+  const Course course(ray, source);
+  BrickWalk<Whole> walk(ray.cell, course);
+  for (const Cell& cell : cells) {
+    ASSERT_TRUE(walk.step());
+    ASSERT_EQ(walk.cell(), cell);
+  }
+  ASSERT_TRUE(!ends || !walk.step());
+
+  BrickWalk<Whole> by_bricks(ray.cell, course);
+  Cell last = ray.cell;
+  for (const Cell& cell : cells) {
+    const Cell first{cell[0] & ~7, cell[1] & ~7, cell[2] & ~7};
+    if (by_bricks.same_brick(cell)) continue;
+    ASSERT_TRUE(by_bricks.leave());
+    ASSERT_EQ(by_bricks.cell(), cell) << "the first beyond the brick of " << last[0];
+    BrickWalk<Whole> into(ray.cell, course);
+    ASSERT_TRUE(into.enter(first));
+    ASSERT_EQ(into.cell(), cell);
+    for (std::size_t a = 0; a < 3; ++a) {  // a brick beside it, that the walk may miss
+      Cell beside = first;
+      beside[a] += 8;
+      const auto in_it = [&](const Cell& c) {
+        return ((c[0] ^ beside[0]) | (c[1] ^ beside[1]) | (c[2] ^ beside[2])) >> 3 == 0;
+      };
+      BrickWalk<Whole> aside(ray.cell, course);
+      const bool enters = aside.enter(beside);
+      const auto found = std::find_if(cells.begin(), cells.end(), in_it);
+      if (in_it(ray.cell)) {
+        ASSERT_TRUE(enters && aside.cell() == ray.cell);
+      } else if (found != cells.end() || ends) {
+        ASSERT_EQ(enters, found != cells.end());
+        ASSERT_TRUE(!enters || aside.cell() == *found);
+      }
+    }
+    last = cell;
+  }
+  ASSERT_TRUE(!ends || !by_bricks.leave());
+}
+
+TEST(BrickWalk, IsTheWalk) {
+  __extension__ using Wide = __int128;
+  Random random(5);
+  const Grid g{40, 40, 40};
+  for (int trial = 0; trial < 6000; ++trial) {
+    const Cell cell{random.below(40), random.below(40), random.below(40)};
+    std::array<std::int64_t, 3> start{};
+    for (std::size_t a = 0; a < 3; ++a) start[a] = 16 * cell[a] + random.any({2, 6, 8, 10, 14});
+    const std::size_t axis = static_cast<std::size_t>(random.below(3));
+    start[axis] = 16 * cell[axis];
+    Position source = awkward_source(random, g);
+    (axis == 0   ? source.x
+     : axis == 1 ? source.y
+                 : source.z) = start[axis] + random.any({1, 8, 16, 100, 128, 500, 100000, 40000000});
+    const Ray ray{cell, {start[0], start[1], start[2]}};
+    if (Course(ray, source).narrow()) follow<std::int64_t>(ray, source);
+    follow<Wide>(ray, source);
+    if (HasFailure()) FAIL() << "trial " << trial;
+  }
+}
+
+// The longest course that counts as narrow, from corner to corner of the largest grid: no number overflows.
+TEST(BrickWalk, TheLongestNarrowCourse) {
+  const Position source{kLongestNarrow, kLongestNarrow - 8, kLongestNarrow - 24};
+  const Ray ray{{0, 0, 0}, {0, 6, 14}};
+  const Course course(ray, source);
+  ASSERT_TRUE(course.narrow());
+  BrickWalk<std::int64_t> walk(ray.cell, course);
+  rule::VoxelWalk plain(ray.cell, ray.start, source);
+  for (int cells = 0; plain.next() && plain.x() < 4096; ++cells) {
+    ASSERT_TRUE(walk.step());
+    ASSERT_EQ(walk.cell(), (Cell{plain.x(), plain.y(), plain.z()})) << cells;
+  }
+  EXPECT_GE(walk.cell()[0], 4095);
+}
+
+TEST(Surface, ByWordsIsTheSurfaceOfThePage) {
+  Random random(9);
+  cpu::Workers workers(1);
+  std::size_t looking = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Volume v = hostile_world(random, hostile_grid(random));
+    const Position source = awkward_source(random, v.grid);
+    Opaque opaque;
+    opaque.take(v, workers);
+    const Surface surface(v.grid, source);
+    std::size_t faces = 0;
+    std::vector<Ray> found;
+    for_each(whole(v.grid), [&](int x, int y, int z) {
+      const auto words = surface.faces(opaque, static_cast<std::size_t>(x) / 64, y, z);
+      for (const std::uint64_t word : words) faces += word >> (x & 63) & 1;
+      for (std::size_t a = 0; a < 3; ++a)
+        if ((words[a] >> (x & 63) & 1) != 0) {
+          Cell beyond{x, y, z};
+          beyond[a] += side_of(a == 0 ? source.x : a == 1 ? source.y : source.z, beyond[a]);
+          found.push_back({beyond, {}});
+        }
+    });
+    const std::vector<Ray> expected = all_rays(v, source, 1);
+    ASSERT_EQ(faces, expected.size()) << "trial " << trial;
+    for (std::size_t i = 0; i < faces; ++i) ASSERT_EQ(found[i].cell, expected[i].cell);
+    looking += faces;
+  }
+  EXPECT_GT(looking, 10000u);
+}
+
+TEST(Opaque, TellsWhatIsNew) {
+  Random random(4);
+  cpu::Workers workers(2);
+  Opaque opaque;
+  Volume v = hostile_world(random, {70, 9, 17});
+  put_solid(v, 69, 8, 16);
+  EXPECT_TRUE(opaque.take(v, workers).appeared);
+  EXPECT_FALSE(opaque.take(v, workers).any());
+  v.solid.set(69, 8, 16, false);
+  const Opaque::News melted = opaque.take(v, workers);
+  EXPECT_TRUE(melted.vanished && !melted.appeared);
+  EXPECT_TRUE(opaque.changed_about(15) && opaque.changed_about(16) && !opaque.changed_about(14));
+  put_inert(v, 69, 8, 16);
+  EXPECT_TRUE(opaque.take(v, workers).appeared);
+  v.inert.set(69, 8, 16, false);
+  v.solid.set(69, 8, 16, true);
+  const Opaque::News turned = opaque.take(v, workers);
+  EXPECT_TRUE(turned.turned && !turned.appeared && !turned.vanished);
+  for (int round = 0; round < 20; ++round) {
+    for_each(whole(v.grid), [&](int x, int y, int z) {
+      if (random.one_in(20)) v.solid.set(x, y, z, !v.solid.test(x, y, z));
+    });
+    opaque.take(v, workers);
+    std::vector<bool> filled(opaque.bricks().cells());
+    for_each({-1, -1, -1, 71, 10, 18}, [&](int x, int y, int z) {
+      const Cell cell{x, y, z};
+      ASSERT_EQ(opaque.test(cell), opaque_in(v, cell)) << x << ' ' << y << ' ' << z;
+      if (opaque_in(v, cell)) filled[opaque.brick_at(cell)] = true;
+    });
+    for (std::size_t brick = 0; brick < filled.size(); ++brick)
+      ASSERT_EQ(opaque.empty(brick), !filled[brick]);
+  }
+}
+
+}  // namespace
+}  // namespace voxmelt::visibility

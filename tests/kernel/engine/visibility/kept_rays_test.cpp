@@ -1,0 +1,146 @@
+// Casting only what changed against casting everything: the same bits in every cell, call after call.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernel/engine/visibility/kept_rays.h"
+#include "tests/kernel/engine/visibility/ray_worlds.h"
+
+namespace voxmelt::visibility {
+namespace {
+
+// What all have: a result that each provider gets back as it left it.
+struct Kept {
+  KeptRays provider;
+  state::Field<std::uint16_t> result;
+};
+
+void expect_all_cast(Kept& kept, const Volume& v, const rule::Heat& heat, std::uint32_t step,
+                     const std::string& where) {
+  state::Field<std::uint16_t> expected(v.grid);
+  const std::int64_t cuts = VoxelWalkProvider().irradiance(v, heat, step, expected);
+  if (kept.result.layout().cells() != expected.layout().cells())
+    kept.result = state::Field<std::uint16_t>(v.grid);
+  ASSERT_EQ(kept.provider.irradiance(v, heat, step, kept.result), cuts) << where;
+  ASSERT_EQ(kept.result, expected) << where;
+}
+
+enum class Event { melts, appears, turns, moves, dims, rests, darkens, rays, sources };
+
+// Melting, and all that a user can do between two castings.
+TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
+  Random random(303);
+  Casts casts;
+  for (int world = 0; world < 200; ++world) {
+    Volume v = hostile_world(random, hostile_grid(random));
+    std::vector<Position> sources;
+    for (int n = random.between(1, 3); n > 0; --n) sources.push_back(awkward_source(random, v.grid));
+    rule::Heat heat = shone_by(sources, random.any({1, 1, 4, 16}));
+    Kept kept{KeptRays(std::make_unique<TwoLevelCaster>(), random.between(1, 2)), {}};
+    Event event = Event::rests;
+    for (int call = 0; call < 8; ++call) {
+      const std::string where = "world " + std::to_string(world) + ", call " + std::to_string(call) +
+                                ", event " + std::to_string(static_cast<int>(event));
+      ASSERT_NO_FATAL_FAILURE(expect_all_cast(kept, v, heat, static_cast<std::uint32_t>(call), where));
+      using enum Event;
+      event = random.any(
+          {melts, melts, melts, melts, appears, turns, moves, dims, rests, darkens, rays, sources});
+      const std::int32_t part = random.any({3, 20, 200});
+      const auto n = static_cast<std::size_t>(random.below(static_cast<std::int32_t>(heat.sources.size())));
+      rule::SourceKey& key = heat.sources[n].keys[0];
+      for_each(whole(v.grid), [&](int x, int y, int z) {
+        const bool solid = v.solid.test(x, y, z), inert = v.inert.test(x, y, z);
+        if (event == melts && solid && random.one_in(part)) put(v, x, y, z, 0), v.solid.set(x, y, z, false);
+        if (event == appears && !solid && !inert && random.one_in(20 * part)) put_any(v, random, x, y, z);
+        if (event == turns && solid != inert && random.one_in(part))
+          v.solid.set(x, y, z, inert), v.inert.set(x, y, z, solid);
+      });
+      if (event == moves) key.at = awkward_source(random, v.grid);
+      if (event == dims) key.power = key.power / 3 + 5;
+      if (event == darkens) key.power = key.power == 0 ? kRayPower : 0;
+      if (event == rays) heat.rays_per_face = random.any({1, 4, 16});
+      if (event == sources) heat.sources.push_back({{{0, awkward_source(random, v.grid), kRayPower}}});
+    }
+    casts += kept.provider.casts();
+  }
+  EXPECT_LT(casts.cast, casts.asked) << "something is remembered";
+}
+
+// A ball that melts from the outside, beside a wall of rock. Few rays are cast again.
+TEST(KeptRays, CastsFewRaysWhileABallMelts) {
+  Volume v(Grid{40, 40, 40});
+  const auto from_centre = [](int x, int y, int z) {
+    return (x - 20) * (x - 20) + (y - 20) * (y - 20) + (z - 20) * (z - 20);
+  };
+  for_each(whole(v.grid), [&](int x, int y, int z) {
+    if (from_centre(x, y, z) < 200) put_solid(v, x, y, z);
+  });
+  fill_inert(v, {30, 0, 0, 31, 25, 40});
+  const rule::Heat heat = shone_by({{700, 500, 300}, {-50, 320, 320}}, 4);
+  Kept kept{KeptRays(), {}};
+  Random random(8);
+  for (int call = 0; call < 60; ++call) {
+    ASSERT_NO_FATAL_FAILURE(expect_all_cast(kept, v, heat, 0, std::to_string(call)));
+    const int cut = 200 - 2 * call;
+    for_each(whole(v.grid), [&](int x, int y, int z) {
+      if (from_centre(x, y, z) > cut && random.one_in(4)) v.solid.set(x, y, z, false);
+    });
+  }
+  const Casts casts = kept.provider.casts();
+  EXPECT_LT(4 * casts.cast, casts.asked) << casts.cast << " of " << casts.asked;
+}
+
+TEST(KeptRays, CastsNothingWhereNothingChanged) {
+  Random random(6);
+  Volume v = hostile_world(random, {64, 16, 16});
+  put_solid(v, 1, 15, 1);
+  Kept kept{KeptRays(), {}};
+  rule::Heat heat = shone_by({{10, 16 * 40, 10}}, 16);
+  expect_all_cast(kept, v, heat, 0, "first");
+  const Casts first = kept.provider.casts();
+  EXPECT_EQ(first.cast, first.asked);
+  EXPECT_GT(first.asked, 0);
+  heat.sources[0].keys[0].power *= 2;
+  expect_all_cast(kept, v, heat, 0, "brighter");
+  expect_all_cast(kept, v, heat, 0, "as before");
+  EXPECT_EQ(kept.provider.casts().cast, first.cast);
+  EXPECT_EQ(kept.provider.casts().asked, 3 * first.asked);
+}
+
+// Where every second cell is solid, its rays would take 52 bytes for each cell of the grid. So nothing is
+// kept, and the bits are the same.
+TEST(KeptRays, TakeNoMoreMemoryThanSaid) {
+  Volume v(Grid{64, 48, 24});
+  for_each(whole(v.grid), [&](int x, int y, int z) {
+    if ((x + y + z) % 2 == 0) put_solid(v, x, y, z);
+  });
+  Kept kept{KeptRays(), {}};
+  const rule::Heat heat = shone_by({{5000, 4000, 3000}}, 16);
+  const std::size_t bands = 24;
+  for (int call = 0; call < 4; ++call) {
+    ASSERT_NO_FATAL_FAILURE(expect_all_cast(kept, v, heat, 0, "call " + std::to_string(call)));
+    EXPECT_LE(kept.provider.kept_bytes(), KeptRays::kMostKept * v.grid.cells() + (bands << 14));
+    for (int y = 0; y < 48; ++y) v.solid.set(10 + call, y, 3, false);
+  }
+  EXPECT_EQ(kept.provider.kept_bytes(), 0u);
+}
+
+// A result that is not the one of the last call is written whole.
+TEST(KeptRays, AnotherResultIsWrittenWhole) {
+  Random random(2);
+  const Volume v = hostile_world(random, {20, 20, 20});
+  const rule::Heat heat = shone_by({{600, 600, 600}});
+  KeptRays provider;
+  state::Field<std::uint16_t> one(v.grid), other(v.grid);
+  other.data()[5] = 77;
+  provider.irradiance(v, heat, 0, one);
+  provider.irradiance(v, heat, 0, other);
+  EXPECT_EQ(one, other);
+}
+
+}  // namespace
+}  // namespace voxmelt::visibility

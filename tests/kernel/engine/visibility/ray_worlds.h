@@ -1,0 +1,120 @@
+// Volumes that rays find hard, sources in awkward places, and every ray that the page asks for.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/engine/visibility/caster.h"
+#include "tests/kernel/worlds.h"
+
+namespace voxmelt::visibility {
+
+using namespace worlds;
+using rule::Position;
+
+// A power that a cell at the middle distance of the grid feels, and that cuts the nearest.
+constexpr std::uint64_t kRayPower = std::uint64_t{1} << 24;
+
+inline rule::Heat shone_by(const std::vector<Position>& sources, int rays = 1,
+                           std::uint64_t power = kRayPower) {
+  rule::Heat heat;
+  heat.enabled = heat.radiation = true;
+  heat.rays_per_face = rays;
+  for (const Position& at : sources) heat.sources.push_back({{{0, at, power}}});
+  return heat;
+}
+
+// Sides that straddle words of 64 and bricks of 8, or are a single cell. At most 2^14 cells.
+inline Grid hostile_grid(Random& random) {
+  const auto side = [&] { return random.any({1, 2, 7, 8, 9, 15, 16, 17, 25, 63, 64, 65, 72, 130}); };
+  Grid g{side(), side(), side()};
+  while (g.cells() > 1u << 14) {
+    int& longest = g.x >= g.y && g.x >= g.z ? g.x : g.y >= g.z ? g.y : g.z;
+    longest = std::max(1, longest / 2 + random.between(-1, 1));
+  }
+  return g;
+}
+
+inline void put_any(Volume& v, Random& random, int x, int y, int z) {
+  if (random.one_in(4)) return put_inert(v, x, y, z);
+  if (random.one_in(6)) return put(v, x, y, z, 4096);
+  put_solid(v, x, y, z);
+}
+
+// Dust, blocks of cells, plates, or all but some holes.
+inline Volume hostile_world(Random& random, const Grid& g) {
+  Volume v(g);
+  const int kind = random.below(4);
+  const std::int32_t sparse = random.between(2, 40);
+  if (kind == 0 || kind == 3)
+    for_each(whole(g), [&](int x, int y, int z) {
+      if (random.one_in(sparse) != (kind == 3)) put_any(v, random, x, y, z);
+    });
+  for (int n = kind == 1 || kind == 2 ? random.between(1, 6) : 0; n > 0; --n) {
+    Box box{random.below(g.x), random.below(g.y), random.below(g.z), 0, 0, 0};
+    const auto end = [&](int begin, int size) {
+      return kind == 2 && random.one_in(3) ? begin + 1 : random.between(begin + 1, size);
+    };
+    box.x1 = end(box.x0, g.x), box.y1 = end(box.y0, g.y), box.z1 = end(box.z0, g.z);
+    for_each(box, [&](int x, int y, int z) {
+      if (!random.one_in(50)) put_any(v, random, x, y, z);
+    });
+  }
+  return v;
+}
+
+// In the plane of faces, on an edge or a corner, at the centre of a cell (also of a solid), anywhere, or far
+// outside: so far that 64 bits no longer suffice for one denominator.
+inline Position awkward_source(Random& random, const Grid& g) {
+  const bool far = random.one_in(6);
+  const auto coordinate = [&](int size) -> std::int64_t {
+    switch (random.below(far ? 6 : 4)) {
+      case 0:
+        return 16 * random.between(-1, size + 1);
+      case 1:
+        return 16 * random.below(size) + 8;
+      case 2:
+        return random.between(-100, 16 * size + 100);
+      case 3:
+        return random.between(0, 16 * size);
+      case 4:
+        return random.between(-(1 << 25), 1 << 25);
+      default:
+        return random.between(-40000, 40000);
+    }
+  };
+  return {coordinate(g.x), coordinate(g.y), coordinate(g.z)};
+}
+
+// From every face of a solid cell that looks at the source, by the page and cell by cell.
+inline std::vector<Ray> all_rays(const Volume& v, const Position& s, int side) {
+  std::vector<Ray> rays;
+  const std::array<std::int64_t, 3> source{s.x, s.y, s.z};
+  for_each(whole(v.grid), [&](int x, int y, int z) {
+    if (!v.solid.test(x, y, z)) return;
+    const Cell cell{x, y, z};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::int64_t middle = 16 * cell[a] + 8;
+      if (source[a] >= middle - 8 && source[a] <= middle + 8) continue;
+      Cell beyond = cell;
+      beyond[a] += source[a] > middle ? 1 : -1;
+      if (v.grid.contains(beyond[0], beyond[1], beyond[2]) &&
+          (v.solid.test(beyond[0], beyond[1], beyond[2]) || v.inert.test(beyond[0], beyond[1], beyond[2])))
+        continue;
+      for (int i = 0; i < side; ++i)
+        for (int j = 0; j < side; ++j) {
+          std::array<std::int64_t, 3> from{};
+          from[a] = source[a] > middle ? middle + 8 : middle - 8;
+          from[(a + 1) % 3] = 16 * cell[(a + 1) % 3] + (16 * i + 8) / side;
+          from[(a + 2) % 3] = 16 * cell[(a + 2) % 3] + (16 * j + 8) / side;
+          rays.push_back({beyond, {from[0], from[1], from[2]}});
+        }
+    }
+  });
+  return rays;
+}
+
+}  // namespace voxmelt::visibility
