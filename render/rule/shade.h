@@ -136,7 +136,7 @@ struct Shine {
   std::int32_t obstacle = 0;  // the share of obstacles in it
 };
 
-// Obstacles count from a share of 148 to 204, so that a film hides them and no blur shows.
+// Obstacles count from a share of 148 to 204, so that what is half a cell deep hides them and no blur shows.
 VOXMELT_RULE std::int32_t obstacle_share(Matter matter) {
   return std::clamp((matter.obstacle - 148) * 73, 0, kLight);
 }

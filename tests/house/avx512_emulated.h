@@ -109,6 +109,12 @@ inline __m512i adds_epu16(__m512i a, __m512i b) {
 inline __m512i subs_epu16(__m512i a, __m512i b) {
   return lanes<U16>([x = (U16)a, y = (U16)b](int i) { return x[i] < y[i] ? 0 : x[i] - y[i]; });
 }
+inline __m512i abs_epi32(__m512i a) {
+  return lanes<U32>([x = (I32)a, y = (U32)a](int i) { return x[i] < 0 ? 0 - y[i] : y[i]; });
+}
+inline __m512i avg_epu16(__m512i a, __m512i b) {
+  return lanes<U16>([x = (U16)a, y = (U16)b](int i) { return (x[i] + y[i] + 1) >> 1; });
+}
 inline __m512i mulhi_epu16(__m512i a, __m512i b) {
   return lanes<U16>([x = (U16)a, y = (U16)b](int i) { return std::uint32_t{x[i]} * y[i] >> 16; });
 }
@@ -224,11 +230,13 @@ inline __m512i blend(Mask<V> k, __m512i no, __m512i yes) {
 
 }  // namespace emulated
 
+#define _mm512_abs_epi32 emulated::abs_epi32
 #define _mm512_add_epi16 emulated::add<emulated::U16>
 #define _mm512_add_epi32 emulated::add<emulated::U32>
 #define _mm512_add_epi64 emulated::add<emulated::U64>
 #define _mm512_add_ps emulated::add_ps
 #define _mm512_adds_epu16 emulated::adds_epu16
+#define _mm512_avg_epu16 emulated::avg_epu16
 #define _mm512_alignr_epi64 emulated::alignr_epi64
 #define _mm512_alignr_epi8 emulated::alignr_epi8
 #define _mm512_and_si512 emulated::bitwise_and
@@ -259,7 +267,9 @@ inline __m512i blend(Mask<V> k, __m512i no, __m512i yes) {
   emulated::blend<emulated::U16>(k, no, emulated::sub<emulated::U16>(a, b))
 #define _mm512_maskz_mov_epi16(k, yes) emulated::blend<emulated::U16>(k, emulated::zero(), yes)
 #define _mm512_max_epi16 emulated::max<emulated::I16>
+#define _mm512_max_epi32 emulated::max<emulated::I32>
 #define _mm512_max_epu16 emulated::max<emulated::U16>
+#define _mm512_min_epi32 emulated::min<emulated::I32>
 #define _mm512_min_epu16 emulated::min<emulated::U16>
 #define _mm512_mul_ps emulated::mul_ps
 #define _mm512_mulhi_epu16 emulated::mulhi_epu16
