@@ -289,11 +289,10 @@ struct LightSweeps {
     for (const int b : {slice.low_v - 1, slice.high_v})
       for (int i = 0; i < wide; ++i) ray(slice.room, 0, b)[i] = 255;
     for (int b = slice.low_v; b < slice.high_v; ++b) {
-      const Word* from = ray(slice.room, 0, b);
+      const Word *from = ray(slice.room, 0, b), *before = from - slice.ray_row, *after = from + slice.ray_row;
       Word* const to = ray(slice.rays, 0, b);
       VOXMELT_INDEPENDENT
-      for (int i = 0; i < wide; ++i)
-        to[i] = softer(from[i - slice.ray_row], from[i], from[i + slice.ray_row]);
+      for (int i = 0; i < wide; ++i) to[i] = softer(before[i], from[i], after[i]);
       for (int i = slice.count_u; i < wide + 1; ++i) to[i] = 255;
     }
   }

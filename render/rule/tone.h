@@ -13,7 +13,7 @@ namespace voxmelt::picture {
 // x = (light - 0.7) / 0.3. The powers come about by repeated products.
 inline constexpr std::int32_t kShoulder = 2867, kShoulderRange = 1229, kBrightest = 12287;
 
-using Tone = std::array<std::uint16_t, kBrightest + 1>;
+using Tone = std::array<std::uint16_t, kBrightest + 2>;  // the last only because packets read two at once
 VOXMELT_RULE Tone tone_table() {
   constexpr std::int64_t kStep = 1072868508;  // e^(-1 / 1229) in 2^30
   Tone table{};
