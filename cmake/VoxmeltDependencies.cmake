@@ -29,7 +29,7 @@ target_include_directories(voxmelt_systemc SYSTEM INTERFACE ${SYSTEMC_INCLUDE_DI
 target_link_libraries(voxmelt_systemc INTERFACE -Wl,--push-state,--as-needed ${SYSTEMC_LINK_LIBRARIES} -Wl,--pop-state)
 target_compile_definitions(voxmelt_systemc INTERFACE SC_CPLUSPLUS=201703L)
 
-# Embree is the one library that a build may lack: Debian has it for x86-64 only.
+# Embree is the one library that a build may lack: it is asked for on x86-64 only.
 find_package(embree 3 CONFIG QUIET)
 if(NOT embree_FOUND)
   message(STATUS "no Embree: rays are cast by two levels of bricks, or by the plain walk")

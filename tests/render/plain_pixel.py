@@ -73,10 +73,8 @@ def place(p):
 
 class Pixel:
     def __init__(self, scene, x, y):
-        self.scene, self.x, self.y = scene, x, y
-        self.cells = scene["grid"]["size"]
-        self.rows = []  # (stage, name, numbers)
-        self.brick = None
+        self.scene, self.x, self.y, self.cells = scene, x, y, scene["grid"]["size"]
+        self.rows, self.brick = [], None  # rows: (stage, name, numbers)
 
     def tell(self, stage, name, *numbers):
         flat = []
@@ -170,12 +168,10 @@ class Pixel:
         self.eye, self.forward, self.wide, self.high, self.near = eye, forward, wide, high, near
         self.near_wide = [(c * near) // (512 * camera["height"]) for c in wide]
         self.near_high = [(c * near) // (512 * camera["height"]) for c in high]
+        self.e = 2 - min(2, tangent * near // ((15 << 25) * camera["height"]))  # picture.md 10
         for name, numbers in (("eye", eye), ("forward", forward), ("right", right), ("up", up), ("wide", wide), ("high", high),
-                              ("near", near), ("near_wide", self.near_wide), ("near_high", self.near_high)):
+                              ("near", near), ("near_wide", self.near_wide), ("near_high", self.near_high), ("e", self.e)):
             tell(name, numbers)
-        limit = (15 << 25) * camera["height"]  # picture.md 10
-        self.e = 0 if tangent * near >= 2 * limit else 1 if tangent * near >= limit else 2
-        tell("e", self.e)
 
     # picture-light.md 1 and 2
     def materials(self):
