@@ -43,11 +43,12 @@ class WallConduction {
       for (int part = 0; part < L::kParts; ++part) {
         if (!L::in_part(contacts.all, part)) continue;
         const std::size_t at = v_.cell(w, y, z_) + static_cast<std::size_t>(part * L::kCount);
-        const V heat = plateau_(L::load(v_.heat + at));
+        const std::uint16_t* const own = v_.heat + at;
+        const V heat = plateau_(L::load(own));
         V gain = L::zero();
         for (int k = 0; k < Axes::kCount; ++k) {
-          const V after = wall_or(contacts.after[k], part, at + ahead(k), heat),
-                  before = wall_or(contacts.before[k], part, at - ahead(k), heat);
+          const V after = wall_or(contacts.after[k], part, own + ahead(k), heat),
+                  before = wall_or(contacts.before[k], part, own - ahead(k), heat);
           gain = gain + fluxes_[k].between(heat, after) - fluxes_[k].between(before, heat);
           differ = differ | (heat ^ after) | (heat ^ before);
         }
@@ -128,15 +129,14 @@ class WallConduction {
     return inert & ~cold;
   }
 
-  [[gnu::always_inline]] std::size_t ahead(int k) const {
+  [[gnu::always_inline]] std::ptrdiff_t ahead(int k) const {
     const Axis a = Axes::kAxes[k];
-    return static_cast<std::size_t>(a.dz * static_cast<std::ptrdiff_t>(v_.slice) +
-                                    a.dy * static_cast<std::ptrdiff_t>(v_.row) + a.dx);
+    return a.dz * static_cast<std::ptrdiff_t>(v_.slice) + a.dy * static_cast<std::ptrdiff_t>(v_.row) + a.dx;
   }
   // The temperatures of the walls at a place. Where there is none, the cell's own: then nothing flows.
-  [[gnu::always_inline]] V wall_or(std::uint64_t contacts, int part, std::size_t at, V heat) const {
+  [[gnu::always_inline]] V wall_or(std::uint64_t contacts, int part, const std::uint16_t* at, V heat) const {
     if (!L::in_part(contacts, part)) return heat;
-    return L::select(L::from_bits(contacts, part), plateau_(L::load_any(v_.heat + at)), heat);
+    return L::select(L::from_bits(contacts, part), plateau_(L::load_any(at)), heat);
   }
 
   const View v_;
