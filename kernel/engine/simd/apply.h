@@ -154,8 +154,8 @@ class Apply {
       constexpr int opposite = d ^ (d < 4 ? 1 : 3);
       constexpr std::ptrdiff_t dx = d < 4 ? (d == 0) - (d == 1) : (d < 6 ? 1 : -1);
       const Gifts& giver = d < 2 ? own_ : (d % 2 == 0 ? above_ : below_);
-      const std::size_t from =
-          (d < 2 ? own_at_ : (d % 2 == 0 ? above_at_ : below_at_)) + at(item) + static_cast<std::size_t>(dx);
+      const std::size_t row_at = d < 2 ? own_at_ : (d % 2 == 0 ? above_at_ : below_at_);
+      const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(row_at + at(item)) + dx;  // it may be -1
       const M takes = L::has(L::widen_bytes(giver.pattern + from), 1 << opposite);
       energy_in = L::add_if(takes, energy_in, energy_flow<opposite>(giver, from));
       if constexpr (!kFeatures.hot) {
@@ -207,11 +207,11 @@ class Apply {
 
   // Lean: one flow for the axes and one for the diagonals.
   template <int d>
-  [[gnu::always_inline]] static V flow(const Gifts& gifts, std::size_t at) {
+  [[gnu::always_inline]] static V flow(const Gifts& gifts, auto at) {
     return L::load_any(gifts.flow[kFeatures.general ? d : d / 4 * 4] + at);
   }
   template <int d>
-  [[gnu::always_inline]] static V energy_flow(const Gifts& gifts, std::size_t at) {
+  [[gnu::always_inline]] static V energy_flow(const Gifts& gifts, auto at) {
     return L::load_any(gifts.energy[kFeatures.general ? d : d / 4 * 4] + at);
   }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "kernel/engine/cpu/lanes.h"
@@ -21,7 +22,7 @@ struct alignas(64) EndedRuns {
   std::uint64_t ordered;         // of these, those whose run keeps its order
   int top;                       // greatest of `last`
 };
-static_assert(sizeof(EndedRuns) == kSettleRecord);
+static_assert(sizeof(EndedRuns) == kSettleRecord && offsetof(EndedRuns, columns) % 64 == 0);
 
 // Below the pivot a cell gets 4096, at it `at`, above it `above`.
 struct alignas(64) SettledRuns {
@@ -29,10 +30,11 @@ struct alignas(64) SettledRuns {
   std::uint16_t at[64], above[64];
   std::uint16_t head_low[64], head_high[64];  // 1024 + head above the grid's bottom
   std::uint16_t mobility[64], dead[64];
-  std::uint16_t heat[64];  // of runs that do not keep their order
-  std::uint64_t ordered;
+  std::uint16_t heat[64];                            // of runs that do not keep their order
   std::uint16_t fine[64], limit[64], shown_bed[64];  // as in Runs
+  std::uint64_t ordered;                             // after the arrays, so that vectors may be aligned
 };
+static_assert(offsetof(SettledRuns, ordered) % 64 == 0);
 
 template <class Arch, bool kHot>
 class RunData {
