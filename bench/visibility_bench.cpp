@@ -85,7 +85,7 @@ std::vector<Ray> all_rays(const visibility::Opaque& opaque, const rule::Position
           beyond[a] += visibility::side_of(at[a], cell[a]);
           std::array<std::int64_t, 3> start{16 * x + 8, 16 * y + 8, 16 * z + 8};
           start[a] = 16 * std::max(cell[a], beyond[a]);
-          rays.push_back({beyond, {start[0], start[1], start[2]}});
+          rays.push_back({beyond, {start[0], start[1], start[2]}, source});
         }
       }
   return rays;
@@ -133,7 +133,7 @@ void cast(benchmark::State& state, int n, const std::function<std::unique_ptr<vi
       const double start = processor_seconds();
       for (std::size_t first = 0; first < fates.size(); first += 1024) {  // as KeptRays does
         const std::size_t count = std::min<std::size_t>(1024, fates.size() - first);
-        caster->cast(w.opaque, source, {of_source.data() + first, count}, {fates.data() + first, count});
+        caster->cast(w.opaque, {of_source.data() + first, count}, {fates.data() + first, count});
       }
       seconds += processor_seconds() - start;
       rays += fates.size();

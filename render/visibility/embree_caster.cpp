@@ -301,16 +301,16 @@ class Travel {
 };
 
 template <unsigned kLanes, class Rays, class Occluded>
-void cast_by(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-             std::span<Fate> fates, const Occluded& occluded) {
+void cast_by(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates,
+             const Occluded& occluded) {
   Travel<kLanes, Rays, Occluded> travel(opaque, fates, occluded);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Ray& ray = rays[i];
     fates[i] = kSees;
     if (!opaque.contains(ray.cell)) continue;
-    const Course course(ray, source);
+    const Course course(ray);
     if (!course.narrow()) {  // a source as far as that is rare
-      fates[i] = two_level_fate(opaque, source, ray);
+      fates[i] = two_level_fate(opaque, ray);
       continue;
     }
     // Many rays end where they begin, without a tree.
@@ -327,23 +327,22 @@ void cast_by(const Opaque& opaque, const rule::Position& source, std::span<const
 
 }  // namespace
 
-void EmbreeCaster::cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-                        std::span<Fate> fates) const {
+void EmbreeCaster::cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const {
   const FlushDenormals flush;
   RTCScene scene = scene_->scene;
   switch (packet_) {
     case Packet::one:
-      return cast_by<1, RTCRay>(opaque, source, rays, fates,
+      return cast_by<1, RTCRay>(opaque, rays, fates,
                                 [scene](const int* valid, RTCIntersectContext* context, RTCRay* ray) {
                                   if (*valid != 0) rtcOccluded1(scene, context, ray);
                                 });
     case Packet::eight:
-      return cast_by<8, RTCRay8>(opaque, source, rays, fates,
+      return cast_by<8, RTCRay8>(opaque, rays, fates,
                                  [scene](const int* valid, RTCIntersectContext* context, RTCRay8* ray) {
                                    rtcOccluded8(valid, scene, context, ray);
                                  });
     case Packet::sixteen:
-      return cast_by<16, RTCRay16>(opaque, source, rays, fates,
+      return cast_by<16, RTCRay16>(opaque, rays, fates,
                                    [scene](const int* valid, RTCIntersectContext* context, RTCRay16* ray) {
                                      rtcOccluded16(valid, scene, context, ray);
                                    });

@@ -29,8 +29,7 @@ class EmbreeCaster final : public Caster {
   std::string_view name() const override { return "embree"; }
   // Builds the tree where opaque cells appeared, and refits it where some vanished.
   void prepare(const Opaque& opaque, const Opaque::News& news) override;
-  void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-            std::span<Fate> fates) const override;
+  void cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const override;
 
   struct Box {
     std::array<float, 3> low, high;

@@ -22,9 +22,9 @@ inline constexpr std::int64_t kLongestNarrow = std::int64_t{1} << 20;
 
 // The lengths of a ray along the axes, and which way it goes.
 struct Course {
-  Course(const Ray& ray, const rule::Position& source) {
+  explicit Course(const Ray& ray) {
     const std::array<std::int64_t, 3> from{ray.start.x, ray.start.y, ray.start.z},
-        to{source.x, source.y, source.z};
+        to{ray.end.x, ray.end.y, ray.end.z};
     for (std::size_t a = 0; a < 3; ++a) {
       const std::int64_t delta = to[a] - from[a], lower = rule::kPositionUnit * ray.cell[a];
       way[a] = delta > 0 ? 1 : -1;
@@ -170,9 +170,9 @@ class BrickWalk {
 
 // Calls `walk` with the walk of a ray, in numbers that are wide enough.
 template <class Walk>
-auto with_walk(const Ray& ray, const rule::Position& source, const Walk& walk) {
+auto with_walk(const Ray& ray, const Walk& walk) {
   __extension__ using Wide = __int128;
-  const Course course(ray, source);
+  const Course course(ray);
   if (course.narrow()) {
     BrickWalk<std::int64_t> narrow(ray.cell, course);
     return walk(narrow);

@@ -11,10 +11,11 @@
 
 namespace voxmelt::visibility {
 
-// From a face of a solid cell. `cell` lies beyond the face, and is not opaque. It may lie outside the grid.
+// From a face of a solid cell to a point of its source. `cell` lies beyond the face, and is not opaque. It
+// may lie outside the grid.
 struct Ray {
   Cell cell;
-  rule::Position start;
+  rule::Position start, end;
 };
 
 // What became of a ray: it sees the source, or it meets the opaque cell at this place (Opaque::place). Any
@@ -30,27 +31,24 @@ class Caster {
   // Before rays are cast into what `opaque` now is. The same one every time.
   virtual void prepare(const Opaque& /*opaque*/, const Opaque::News& /*news*/) {}
   // One fate for each ray. Several threads may call it at once.
-  virtual void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-                    std::span<Fate> fates) const = 0;
+  virtual void cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const = 0;
 };
 
 // rule::VoxelWalk itself, cell after cell.
 class PlainCaster final : public Caster {
  public:
   std::string_view name() const override { return "walk"; }
-  void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-            std::span<Fate> fates) const override;
+  void cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const override;
 };
 
 // By bricks, the fate of one ray.
-Fate two_level_fate(const Opaque& opaque, const rule::Position& source, const Ray& ray);
+Fate two_level_fate(const Opaque& opaque, const Ray& ray);
 
 // From brick to brick where nothing stands, and from cell to cell elsewhere.
 class TwoLevelCaster final : public Caster {
  public:
   std::string_view name() const override { return "two-level"; }
-  void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-            std::span<Fate> fates) const override;
+  void cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const override;
 };
 
 }  // namespace voxmelt::visibility

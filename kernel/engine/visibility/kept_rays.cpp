@@ -20,8 +20,8 @@ bool same(const rule::Position& a, const rule::Position& b) { return a.x == b.x 
 // Rays that are cast together, and where their fates belong.
 class Batch {
  public:
-  Batch(const Caster& caster, const Opaque& opaque, const rule::Position& source, std::vector<Fate>& fates)
-      : caster_(caster), opaque_(opaque), source_(source), fates_(fates) {}
+  Batch(const Caster& caster, const Opaque& opaque, std::vector<Fate>& fates)
+      : caster_(caster), opaque_(opaque), fates_(fates) {}
 
   void add(const Ray& ray, std::size_t place) {
     if (rays_.empty()) {  // most bands have few rays, or none
@@ -35,7 +35,7 @@ class Batch {
   void cast() {
     if (rays_.empty()) return;
     std::array<Fate, kBatch> found;
-    caster_.cast(opaque_, source_, rays_, {found.data(), rays_.size()});
+    caster_.cast(opaque_, rays_, {found.data(), rays_.size()});
     for (std::size_t i = 0; i < rays_.size(); ++i) fates_[places_[i]] = found[i];
     cast_ += static_cast<std::int64_t>(rays_.size());
     rays_.clear();
@@ -46,7 +46,6 @@ class Batch {
  private:
   const Caster& caster_;
   const Opaque& opaque_;
-  rule::Position source_;
   std::vector<Fate>& fates_;
   std::vector<Ray> rays_;
   std::vector<std::size_t> places_;
@@ -223,7 +222,7 @@ void KeptRays::keep(const OfSource& old, OfSource& now) const {
 
 // Follows each ray of which it is not known that it sees the source, or meets a cell that is opaque now.
 Casts KeptRays::cast(const Band& band, const Source& source, OfSource& own) const {
-  Batch batch(*caster_, opaque_, source.at, own.fates);
+  Batch batch(*caster_, opaque_, own.fates);
   const std::int64_t square = rule::kPositionUnit / side_;
   std::size_t place = 0;
   for (Lit& lit : own.cells) {
@@ -241,7 +240,7 @@ Casts KeptRays::cast(const Band& band, const Source& source, OfSource& own) cons
           start[a] = rule::kPositionUnit * std::max(cell[a], beyond[a]);
           start[across] = rule::kPositionUnit * cell[across] + square * i + square / 2;
           start[along] = rule::kPositionUnit * cell[along] + square * j + square / 2;
-          batch.add({beyond, {start[0], start[1], start[2]}}, place);
+          batch.add({beyond, {start[0], start[1], start[2]}, source.at}, place);
           lit.value = kStale;
         }
     }

@@ -20,10 +20,10 @@ inline bool opaque_in(const Volume& v, const Cell& c) {
 }
 
 // The places, as Opaque numbers them, of the opaque cells that a ray meets.
-inline std::vector<std::size_t> met_by(const Volume& v, const Ray& ray, const Position& source) {
+inline std::vector<std::size_t> met_by(const Volume& v, const Ray& ray) {
   std::vector<std::size_t> places;
   const auto bricks = [](int size) { return static_cast<std::size_t>((size + 7) / 8); };
-  rule::VoxelWalk walk(ray.cell, ray.start, source);
+  rule::VoxelWalk walk(ray.cell, ray.start, ray.end);
   bool inside = v.grid.contains(walk.x(), walk.y(), walk.z());
   while (inside && walk.next()) {
     const std::array<int, 3> cell{walk.x(), walk.y(), walk.z()};
@@ -46,11 +46,11 @@ inline Counts check_fates(Caster& caster, const Opaque& opaque, const Volume& v,
                           int side) {
   const std::vector<Ray> rays = all_rays(v, source, side);
   std::vector<Fate> fates(rays.size(), 12345);
-  caster.cast(opaque, source, rays, fates);
+  caster.cast(opaque, rays, fates);
   Counts counts{rays.size(), 0};
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const std::vector<std::size_t> places = met_by(v, rays[i], source);
+    const std::vector<std::size_t> places = met_by(v, rays[i]);
     counts.seeing += places.empty();
     const bool right = places.empty() ? fates[i] == kSees
                                       : std::find(places.begin(), places.end(), fates[i]) != places.end();

@@ -29,12 +29,12 @@ TEST(Casters, OfFiveScenesAndAHundredSourcesAgreeWithTheWalk) {
 // Step by step, from brick to brick, and straight into each brick: the same cells as VoxelWalk, in 64 bits
 // and in 128.
 template <class Whole>
-void follow(const Ray& ray, const Position& source) {
+void follow(const Ray& ray) {
   std::vector<Cell> cells;
-  rule::VoxelWalk plain(ray.cell, ray.start, source);
+  rule::VoxelWalk plain(ray.cell, ray.start, ray.end);
   while (cells.size() < 400 && plain.next()) cells.push_back({plain.x(), plain.y(), plain.z()});
   const bool ends = cells.size() < 400;
-  const Course course(ray, source);
+  const Course course(ray);
   BrickWalk<Whole> walk(ray.cell, course);
   for (const Cell& cell : cells) {
     ASSERT_TRUE(walk.step());
@@ -87,9 +87,9 @@ TEST(BrickWalk, IsTheWalk) {
     (axis == 0   ? source.x
      : axis == 1 ? source.y
                  : source.z) = start[axis] + random.any({1, 8, 16, 100, 128, 500, 100000, 40000000});
-    const Ray ray{cell, {start[0], start[1], start[2]}};
-    if (Course(ray, source).narrow()) follow<std::int64_t>(ray, source);
-    follow<Wide>(ray, source);
+    const Ray ray{cell, {start[0], start[1], start[2]}, source};
+    if (Course(ray).narrow()) follow<std::int64_t>(ray);
+    follow<Wide>(ray);
     if (HasFailure()) FAIL() << "trial " << trial;
   }
 }
@@ -97,11 +97,11 @@ TEST(BrickWalk, IsTheWalk) {
 // The longest course that counts as narrow, from corner to corner of the largest grid: no number overflows.
 TEST(BrickWalk, TheLongestNarrowCourse) {
   const Position source{kLongestNarrow, kLongestNarrow - 8, kLongestNarrow - 24};
-  const Ray ray{{0, 0, 0}, {0, 6, 14}};
-  const Course course(ray, source);
+  const Ray ray{{0, 0, 0}, {0, 6, 14}, source};
+  const Course course(ray);
   ASSERT_TRUE(course.narrow());
   BrickWalk<std::int64_t> walk(ray.cell, course);
-  rule::VoxelWalk plain(ray.cell, ray.start, source);
+  rule::VoxelWalk plain(ray.cell, ray.start, ray.end);
   for (int cells = 0; plain.next() && plain.x() < 4096; ++cells) {
     ASSERT_TRUE(walk.step());
     ASSERT_EQ(walk.cell(), (Cell{plain.x(), plain.y(), plain.z()})) << cells;
@@ -128,7 +128,7 @@ TEST(Surface, ByWordsIsTheSurfaceOfThePage) {
         if ((words[a] >> (x & 63) & 1) != 0) {
           Cell beyond{x, y, z};
           beyond[a] += side_of(a == 0 ? source.x : a == 1 ? source.y : source.z, beyond[a]);
-          found.push_back({beyond, {}});
+          found.push_back({beyond, {}, {}});
         }
     });
     const std::vector<Ray> expected = all_rays(v, source, 1);

@@ -110,7 +110,7 @@ inline std::vector<Ray> all_rays(const Volume& v, const Position& s, int side) {
           from[a] = source[a] > middle ? middle + 8 : middle - 8;
           from[(a + 1) % 3] = 16 * cell[(a + 1) % 3] + (16 * i + 8) / side;
           from[(a + 2) % 3] = 16 * cell[(a + 2) % 3] + (16 * j + 8) / side;
-          rays.push_back({beyond, {from[0], from[1], from[2]}});
+          rays.push_back({beyond, {from[0], from[1], from[2]}, s});
         }
     }
   });
