@@ -112,6 +112,7 @@ struct EmbreeCaster::Scene {
   RTCScene scene = nullptr;
   RTCGeometry geometry = nullptr;
   const Opaque* opaque = nullptr;
+  Gaps gaps;
   std::vector<std::uint32_t> bricks;  // of each box, ascending
 };
 
@@ -234,6 +235,7 @@ bool EmbreeCaster::built_in() { return true; }
 void EmbreeCaster::prepare(const Opaque& opaque, const Opaque::News& news) {
   const bool other = scene_->scene == nullptr || scene_->opaque != &opaque;
   if (!other && !news.appeared && !news.vanished) return;
+  scene_->gaps.update(opaque, news);
   std::vector<std::uint32_t> boxes = Scene::shell(opaque);
   // Boxes that are no longer needed shrink to points. Those that are new ask for another tree.
   if (other || news.appeared ||
@@ -301,7 +303,7 @@ class Travel {
 };
 
 template <unsigned kLanes, class Rays, class Occluded>
-void cast_by(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates,
+void cast_by(const Opaque& opaque, const Gaps& gaps, std::span<const Ray> rays, std::span<Fate> fates,
              const Occluded& occluded) {
   Travel<kLanes, Rays, Occluded> travel(opaque, fates, occluded);
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -310,7 +312,7 @@ void cast_by(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fa
     if (!opaque.contains(ray.cell)) continue;
     const Course course(ray);
     if (!course.narrow()) {  // a source as far as that is rare
-      fates[i] = two_level_fate(opaque, ray);
+      fates[i] = two_level_fate(opaque, gaps, ray);
       continue;
     }
     // Many rays end where they begin, without a tree.
@@ -332,17 +334,17 @@ void EmbreeCaster::cast(const Opaque& opaque, std::span<const Ray> rays, std::sp
   RTCScene scene = scene_->scene;
   switch (packet_) {
     case Packet::one:
-      return cast_by<1, RTCRay>(opaque, rays, fates,
+      return cast_by<1, RTCRay>(opaque, scene_->gaps, rays, fates,
                                 [scene](const int* valid, RTCIntersectContext* context, RTCRay* ray) {
                                   if (*valid != 0) rtcOccluded1(scene, context, ray);
                                 });
     case Packet::eight:
-      return cast_by<8, RTCRay8>(opaque, rays, fates,
+      return cast_by<8, RTCRay8>(opaque, scene_->gaps, rays, fates,
                                  [scene](const int* valid, RTCIntersectContext* context, RTCRay8* ray) {
                                    rtcOccluded8(valid, scene, context, ray);
                                  });
     case Packet::sixteen:
-      return cast_by<16, RTCRay16>(opaque, rays, fates,
+      return cast_by<16, RTCRay16>(opaque, scene_->gaps, rays, fates,
                                    [scene](const int* valid, RTCIntersectContext* context, RTCRay16* ray) {
                                      rtcOccluded16(valid, scene, context, ray);
                                    });

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "kernel/automaton/rule/parameters.h"
+#include "kernel/engine/visibility/gaps.h"
 #include "kernel/engine/visibility/opaque.h"
 
 namespace voxmelt::visibility {
@@ -42,13 +43,17 @@ class PlainCaster final : public Caster {
 };
 
 // By bricks, the fate of one ray.
-Fate two_level_fate(const Opaque& opaque, const Ray& ray);
+Fate two_level_fate(const Opaque& opaque, const Gaps& gaps, const Ray& ray);
 
-// From brick to brick where nothing stands, and from cell to cell elsewhere.
+// Over gaps at once where nothing stands, and from cell to cell elsewhere.
 class TwoLevelCaster final : public Caster {
  public:
   std::string_view name() const override { return "two-level"; }
+  void prepare(const Opaque& opaque, const Opaque::News& news) override { gaps_.update(opaque, news); }
   void cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const override;
+
+ private:
+  Gaps gaps_;
 };
 
 }  // namespace voxmelt::visibility

@@ -22,15 +22,18 @@ Fate plain_fate(const Opaque& opaque, const Ray& ray) {
 
 }  // namespace
 
-Fate two_level_fate(const Opaque& opaque, const Ray& ray) {
+Fate two_level_fate(const Opaque& opaque, const Gaps& gaps, const Ray& ray) {
   if (!opaque.contains(ray.cell)) return kSees;
   return with_walk(ray, [&](auto& walk) {
+    const std::size_t octant = walk.octant();
     bool ends = false;
     // What lies in a brick, but beyond the grid, is empty. So a ray may leave the grid there.
     while (!ends && opaque.bricks().contains(walk.cell()[0] >> 3, walk.cell()[1] >> 3, walk.cell()[2] >> 3)) {
       const std::size_t brick = opaque.brick_at(walk.cell());
-      if (opaque.empty(brick)) {
-        ends = !walk.leave();
+      const int gap = gaps.at(octant, brick);
+      if (gap == Gaps::kEndless) return kSees;
+      if (gap > 0) {
+        ends = !walk.leave(gap);
       } else if (const Fate fate = meet_in_brick(opaque, brick, walk, ends); fate != kSees) {
         return fate;
       }
@@ -44,7 +47,7 @@ void PlainCaster::cast(const Opaque& opaque, std::span<const Ray> rays, std::spa
 }
 
 void TwoLevelCaster::cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const {
-  for (std::size_t i = 0; i < rays.size(); ++i) fates[i] = two_level_fate(opaque, rays[i]);
+  for (std::size_t i = 0; i < rays.size(); ++i) fates[i] = two_level_fate(opaque, gaps_, rays[i]);
 }
 
 }  // namespace voxmelt::visibility

@@ -14,8 +14,12 @@ namespace {
 constexpr int kBandCells = 1 << 15;  // about; more threads have work, and the memory of each is bounded
 constexpr std::uint32_t kStale = 0xffff'ffff;
 constexpr std::size_t kBatch = 1024;
+constexpr std::array<int, 8> kAxes{0, 1, 1, 2, 1, 2, 2, 3};  // how many bits are set
 
 bool same(const rule::Position& a, const rule::Position& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+// A ray that sees goes on to see, and one that met a cell stays dark while that one is opaque.
+bool known(const Opaque& opaque, Fate fate) { return fate == kSees || (fate != kDark && opaque.holds(fate)); }
 
 // Rays that are cast together, and where their fates belong.
 class Batch {
@@ -65,13 +69,12 @@ std::int64_t KeptRays::irradiance(const state::Volume& volume, const rule::Heat&
     begin(heat);
   }
   move_sources(heat, step);
-  const bool steady = std::all_of(sources_.begin(), sources_.end(), [](const Source& s) { return s.steady; });
-  if (written_ != result.data()) {
-    result.clear();
-  } else if (steady && !news_.any()) {
+  steady_ = written_ == result.data() &&
+            std::all_of(sources_.begin(), sources_.end(), [](const Source& s) { return s.steady; });
+  if (written_ != result.data()) result.clear();
+  if (steady_ && !news_.any()) {
     for (Band& band : bands_) band.casts.cast = 0;
-  }
-  if (written_ != result.data() || !steady || news_.any()) {
+  } else {
     caster_->prepare(opaque_, news_);
     std::vector<Surface> surfaces;
     for (const Source& source : sources_) surfaces.emplace_back(volume.grid, source.at);
@@ -116,6 +119,10 @@ void KeptRays::move_sources(const rule::Heat& heat, std::uint32_t step) {
 
 void KeptRays::update(Band& band, const std::vector<Surface>& surfaces,
                       state::Field<std::uint16_t>& result) const {
+  if (rests(band)) {
+    band.casts.cast = 0;
+    return;
+  }
   erase(band, result);
   band.casts = {};
   std::size_t bytes = 0;
@@ -156,32 +163,63 @@ std::int64_t KeptRays::write(const Band& band, state::Field<std::uint16_t>& resu
   return cuts;
 }
 
+// Nothing here is new: no face, and no ray has lost the cell that it met. So all is written already.
+bool KeptRays::rests(const Band& band) const {
+  if (!steady_ || !band.kept) return false;
+  for (std::size_t w = static_cast<std::size_t>(band.y0) / 64; 64 * w < static_cast<std::size_t>(band.y1);
+       ++w)
+    if (rows_of(band, w) != 0) return false;
+  return std::all_of(band.sources.begin(), band.sources.end(), [&](const OfSource& own) {
+    return std::all_of(own.fates.begin(), own.fates.end(), [&](Fate fate) { return known(opaque_, fate); });
+  });
+}
+
+// Of rows y = 64 w to 64 w + 63, those of the band that may have other faces than before.
+std::uint64_t KeptRays::rows_of(const Band& band, std::size_t w) const {
+  const auto below = [w](int y) {  // rows of this word before y
+    const int rows = std::clamp(y - 64 * static_cast<int>(w), 0, 64);
+    return rows == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << rows) - 1;
+  };
+  return opaque_.changed_about(w, band.z) & below(band.y1) & ~below(band.y0);
+}
+
 void KeptRays::renew(Band& band, const Source& source, const Surface& surface, OfSource& own) const {
   if (source.power == 0) {
     own = {};
     return;
   }
-  const bool still = source.still && band.kept;
-  if (!still || opaque_.changed_about(band.z)) {
-    OfSource now = find(band, surface);
-    if (still) keep(own, now);
-    own = std::move(now);
-  }
+  own = find(band, surface, own, source.still && band.kept);
   if (!source.steady)
     for (Lit& lit : own.cells) lit.value = kStale;
   band.casts += cast(band, source, own);
   const Fate* fates = own.fates.data();
   for (Lit& lit : own.cells) {
     if (lit.value == kStale) lit.value = value(band, source, lit, fates);
-    fates += rays_of(lit);
+    fates += lit.rays;
   }
 }
 
-// All cells with faces that look, as if nothing was known of their rays.
-KeptRays::OfSource KeptRays::find(const Band& band, const Surface& surface) const {
+// All cells with faces that look. Of a source that is still, what is known of their rays is taken over, and
+// rows without a change are not looked at.
+KeptRays::OfSource KeptRays::find(const Band& band, const Surface& surface, const OfSource& old,
+                                  bool still) const {
   OfSource now;
-  std::size_t rays = 0;
-  for (int y = band.y0; y < band.y1; ++y)
+  now.cells.reserve(old.cells.size() + 64);
+  now.fates.reserve(old.fates.size() + 64);
+  std::size_t cell = 0, fate = 0;  // the next of the old ones
+  const auto pass_to = [&](int y) {
+    const auto place = static_cast<std::uint32_t>(y - band.y0) << 16;
+    for (; cell < old.cells.size() && old.cells[cell].place < place; ++cell) fate += old.cells[cell].rays;
+  };
+  const auto keep_to = [&](int y) {
+    const auto from_cell = static_cast<std::ptrdiff_t>(cell), from_fate = static_cast<std::ptrdiff_t>(fate);
+    pass_to(y);
+    now.cells.insert(now.cells.end(), old.cells.begin() + from_cell,
+                     old.cells.begin() + static_cast<std::ptrdiff_t>(cell));
+    now.fates.insert(now.fates.end(), old.fates.begin() + from_fate,
+                     old.fates.begin() + static_cast<std::ptrdiff_t>(fate));
+  };
+  const auto find_row = [&](int y) {
     for (std::size_t w = 0; w < opaque_.plane().row_words(); ++w) {
       const std::array<std::uint64_t, 3> faces = surface.faces(opaque_, w, y, band.z);
       for (std::uint64_t bits = faces[0] | faces[1] | faces[2]; bits != 0; bits &= bits - 1) {
@@ -189,34 +227,47 @@ KeptRays::OfSource KeptRays::find(const Band& band, const Surface& surface) cons
         const auto looking = static_cast<std::uint8_t>((faces[0] >> b & 1) | (faces[1] >> b & 1) << 1 |
                                                        (faces[2] >> b & 1) << 2);
         const int place = (y - band.y0) << 16 | (64 * static_cast<int>(w) + b);
-        now.cells.push_back({static_cast<std::uint32_t>(place), kStale, looking});
-        rays += rays_of(now.cells.back());
+        const int rays = side_ * side_ * kAxes[looking];
+        keep(old, cell, fate,
+             {static_cast<std::uint32_t>(place), kStale, looking, static_cast<std::uint8_t>(rays)}, now);
       }
     }
-  now.fates.assign(rays, kDark);
+  };
+  if (!still) {
+    cell = old.cells.size();
+    for (int y = band.y0; y < band.y1; ++y) find_row(y);
+    return now;
+  }
+  for (std::size_t w = static_cast<std::size_t>(band.y0) / 64; 64 * w < static_cast<std::size_t>(band.y1);
+       ++w)
+    for (std::uint64_t rows = rows_of(band, w); rows != 0; rows &= rows - 1) {
+      const int y = 64 * static_cast<int>(w) + std::countr_zero(rows);
+      keep_to(y);
+      find_row(y);
+      pass_to(y + 1);
+    }
+  keep_to(band.y1);
   return now;
 }
 
-// Takes over what is known of the faces that already looked.
-void KeptRays::keep(const OfSource& old, OfSource& now) const {
+// Adds a cell, with what is known of the faces that already looked.
+void KeptRays::keep(const OfSource& old, std::size_t& cell, std::size_t& fate, const Lit& lit,
+                    OfSource& now) const {
   const auto each = static_cast<std::size_t>(side_ * side_);
-  const Fate* from = old.fates.data();
-  Fate* to = now.fates.data();
-  auto was = old.cells.begin();
-  for (Lit& lit : now.cells) {
-    for (; was != old.cells.end() && was->place < lit.place; ++was) from += rays_of(*was);
-    if (was == old.cells.end() || was->place != lit.place) {
-      to += rays_of(lit);
-      continue;
-    }
-    if (was->faces == lit.faces) lit.value = was->value;
-    for (int a = 0; a < 3; ++a) {
-      const bool looked = (was->faces >> a & 1) != 0, looks = (lit.faces >> a & 1) != 0;
-      if (looked && looks) std::copy_n(from, each, to);
-      from += looked ? each : 0;
-      to += looks ? each : 0;
-    }
-    ++was;
+  std::size_t to = now.fates.size();
+  now.cells.push_back(lit);
+  now.fates.resize(to + lit.rays, kDark);
+  for (; cell < old.cells.size() && old.cells[cell].place < lit.place; ++cell) fate += old.cells[cell].rays;
+  if (cell == old.cells.size() || old.cells[cell].place != lit.place) return;
+  const Lit& was = old.cells[cell++];
+  if (was.faces == lit.faces) now.cells.back().value = was.value;
+  for (int a = 0; a < 3; ++a) {
+    const bool looked = (was.faces >> a & 1) != 0, looks = (lit.faces >> a & 1) != 0;
+    if (looked && looks)
+      std::copy_n(old.fates.begin() + static_cast<std::ptrdiff_t>(fate), each,
+                  now.fates.begin() + static_cast<std::ptrdiff_t>(to));
+    fate += looked ? each : 0;
+    to += looks ? each : 0;
   }
 }
 
@@ -232,8 +283,7 @@ Casts KeptRays::cast(const Band& band, const Source& source, OfSource& own) cons
       const std::size_t across = (a + 1) % 3, along = (a + 2) % 3;
       for (int i = 0; i < side_; ++i)
         for (int j = 0; j < side_; ++j, ++place) {
-          const Fate fate = own.fates[place];
-          if (fate == kSees || (fate != kDark && opaque_.holds(fate))) continue;
+          if (known(opaque_, own.fates[place])) continue;
           std::array<std::int64_t, 3> start{};
           Cell beyond = cell;
           beyond[a] += side_of(a == 0 ? source.at.x : a == 1 ? source.at.y : source.at.z, cell[a]);
@@ -267,10 +317,6 @@ std::uint32_t KeptRays::value(const Band& band, const Source& source, const Lit&
   constexpr std::uint64_t cut = rule::kIrradianceMax + 1;
   return static_cast<std::uint32_t>(
       std::min(rule::irradiance(source.power, facing, side_ * side_, squared), cut));
-}
-
-std::size_t KeptRays::rays_of(const Lit& lit) const {
-  return static_cast<std::size_t>(side_ * side_ * std::popcount(lit.faces));
 }
 
 Cell KeptRays::cell_at(const Band& band, const Lit& lit) {

@@ -40,6 +40,7 @@ class KeptRays final : public Provider {
     std::uint32_t place;  // within its band: the row times 2^16, and x
     std::uint32_t value;  // what it receives, cut just above the largest irradiance
     std::uint8_t faces;   // a bit for each axis
+    std::uint8_t rays;    // of all its faces
   };
   struct OfSource {
     std::vector<Lit> cells;   // ascending
@@ -66,12 +67,13 @@ class KeptRays final : public Provider {
   void update(Band& band, const std::vector<Surface>& surfaces, state::Field<std::uint16_t>& result) const;
   void erase(const Band& band, state::Field<std::uint16_t>& result) const;
   void renew(Band& band, const Source& source, const Surface& surface, OfSource& own) const;
-  OfSource find(const Band& band, const Surface& surface) const;
-  void keep(const OfSource& old, OfSource& now) const;
+  bool rests(const Band& band) const;
+  std::uint64_t rows_of(const Band& band, std::size_t w) const;
+  OfSource find(const Band& band, const Surface& surface, const OfSource& old, bool still) const;
+  void keep(const OfSource& old, std::size_t& cell, std::size_t& fate, const Lit& lit, OfSource& now) const;
   Casts cast(const Band& band, const Source& source, OfSource& own) const;
   std::uint32_t value(const Band& band, const Source& source, const Lit& lit, const Fate* fates) const;
   std::int64_t write(const Band& band, state::Field<std::uint16_t>& result) const;
-  std::size_t rays_of(const Lit& lit) const;
   static Cell cell_at(const Band& band, const Lit& lit);
 
   std::unique_ptr<Caster> caster_;
@@ -82,6 +84,7 @@ class KeptRays final : public Provider {
   std::vector<Source> sources_;
   std::vector<Band> bands_;
   const void* written_ = nullptr;  // where the result of the last time lies
+  bool steady_ = false;            // it is given again, and all sources are steady
   Casts casts_;
 };
 

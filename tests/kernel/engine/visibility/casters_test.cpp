@@ -47,7 +47,7 @@ void follow(const Ray& ray) {
   for (const Cell& cell : cells) {
     const Cell first{cell[0] & ~7, cell[1] & ~7, cell[2] & ~7};
     if (by_bricks.same_brick(cell)) continue;
-    ASSERT_TRUE(by_bricks.leave());
+    ASSERT_TRUE(by_bricks.leave(1));
     ASSERT_EQ(by_bricks.cell(), cell) << "the first beyond the brick of " << last[0];
     BrickWalk<Whole> into(ray.cell, course);
     ASSERT_TRUE(into.enter(first));
@@ -70,7 +70,7 @@ void follow(const Ray& ray) {
     }
     last = cell;
   }
-  ASSERT_TRUE(!ends || !by_bricks.leave());
+  ASSERT_TRUE(!ends || !by_bricks.leave(1));
 }
 
 TEST(BrickWalk, IsTheWalk) {
@@ -150,7 +150,9 @@ TEST(Opaque, TellsWhatIsNew) {
   v.solid.set(69, 8, 16, false);
   const Opaque::News melted = opaque.take(v, workers);
   EXPECT_TRUE(melted.vanished && !melted.appeared);
-  EXPECT_TRUE(opaque.changed_about(15) && opaque.changed_about(16) && !opaque.changed_about(14));
+  EXPECT_EQ(opaque.changed_about(0, 16) & 0x1ff, 3u << 7);
+  EXPECT_EQ(opaque.changed_about(0, 15), 1u << 8);
+  EXPECT_EQ(opaque.changed_about(0, 14), 0u);
   put_inert(v, 69, 8, 16);
   EXPECT_TRUE(opaque.take(v, workers).appeared);
   v.inert.set(69, 8, 16, false);
