@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 #include <span>
 
@@ -32,8 +33,8 @@ Fate two_level_fate(const Opaque& opaque, const Gaps& gaps, const Ray& ray) {
       const std::size_t brick = opaque.brick_at(walk.cell());
       const int gap = gaps.at(octant, brick);
       if (gap == Gaps::kEndless) return kSees;
-      if (gap > 0) {
-        ends = !walk.leave(gap);
+      if (gap > 0 || opaque.clear_ahead(brick, walk.cell(), octant)) {
+        ends = !walk.leave(std::max(gap, 1));
       } else if (const Fate fate = meet_in_brick(opaque, brick, walk, ends); fate != kSees) {
         return fate;
       }

@@ -21,8 +21,10 @@ bool same(const rule::Position& a, const rule::Position& b) { return a.x == b.x 
 // A ray that sees goes on to see, and one that met a cell stays dark while that one is opaque.
 bool known(const Opaque& opaque, Fate fate) { return fate == kSees || (fate != kDark && opaque.holds(fate)); }
 
+}  // namespace
+
 // Rays that are cast together, and where their fates belong.
-class Batch {
+class KeptRays::Batch {
  public:
   Batch(const Caster& caster, const Opaque& opaque, std::vector<Fate>& fates)
       : caster_(caster), opaque_(opaque), fates_(fates) {}
@@ -55,8 +57,6 @@ class Batch {
   std::vector<std::size_t> places_;
   std::int64_t cast_ = 0;
 };
-
-}  // namespace
 
 std::int64_t KeptRays::irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
                                   state::Field<std::uint16_t>& result) {
@@ -253,50 +253,60 @@ KeptRays::OfSource KeptRays::find(const Band& band, const Surface& surface, cons
 // Adds a cell, with what is known of the faces that already looked.
 void KeptRays::keep(const OfSource& old, std::size_t& cell, std::size_t& fate, const Lit& lit,
                     OfSource& now) const {
-  const auto each = static_cast<std::size_t>(side_ * side_);
-  std::size_t to = now.fates.size();
-  now.cells.push_back(lit);
-  now.fates.resize(to + lit.rays, kDark);
   for (; cell < old.cells.size() && old.cells[cell].place < lit.place; ++cell) fate += old.cells[cell].rays;
-  if (cell == old.cells.size() || old.cells[cell].place != lit.place) return;
+  const bool is_new = cell == old.cells.size() || old.cells[cell].place != lit.place;
+  now.cells.push_back(lit);
+  if (is_new) {
+    now.fates.insert(now.fates.end(), lit.rays, kDark);
+    return;
+  }
   const Lit& was = old.cells[cell++];
+  const auto each = static_cast<std::size_t>(side_ * side_);
   if (was.faces == lit.faces) now.cells.back().value = was.value;
   for (int a = 0; a < 3; ++a) {
     const bool looked = (was.faces >> a & 1) != 0, looks = (lit.faces >> a & 1) != 0;
-    if (looked && looks)
-      std::copy_n(old.fates.begin() + static_cast<std::ptrdiff_t>(fate), each,
-                  now.fates.begin() + static_cast<std::ptrdiff_t>(to));
+    for (std::size_t n = 0; looks && n < each; ++n) now.fates.push_back(looked ? old.fates[fate + n] : kDark);
     fate += looked ? each : 0;
-    to += looks ? each : 0;
   }
 }
 
 // Follows each ray of which it is not known that it sees the source, or meets a cell that is opaque now.
 Casts KeptRays::cast(const Band& band, const Source& source, OfSource& own) const {
   Batch batch(*caster_, opaque_, own.fates);
-  const std::int64_t square = rule::kPositionUnit / side_;
   std::size_t place = 0;
   for (Lit& lit : own.cells) {
-    const Cell cell = cell_at(band, lit);
-    for (std::size_t a = 0; a < 3; ++a) {
-      if ((lit.faces >> a & 1) == 0) continue;
-      const std::size_t across = (a + 1) % 3, along = (a + 2) % 3;
-      for (int i = 0; i < side_; ++i)
-        for (int j = 0; j < side_; ++j, ++place) {
-          if (known(opaque_, own.fates[place])) continue;
-          std::array<std::int64_t, 3> start{};
-          Cell beyond = cell;
-          beyond[a] += side_of(a == 0 ? source.at.x : a == 1 ? source.at.y : source.at.z, cell[a]);
-          start[a] = rule::kPositionUnit * std::max(cell[a], beyond[a]);
-          start[across] = rule::kPositionUnit * cell[across] + square * i + square / 2;
-          start[along] = rule::kPositionUnit * cell[along] + square * j + square / 2;
-          batch.add({beyond, {start[0], start[1], start[2]}, source.at}, place);
-          lit.value = kStale;
-        }
+    const auto fates = own.fates.begin() + static_cast<std::ptrdiff_t>(place);
+    const bool all = std::all_of(fates, fates + lit.rays, [&](Fate fate) { return known(opaque_, fate); });
+    if (!all) {
+      lit.value = kStale;
+      add_rays(band, source, lit, place, own, batch);
     }
+    place += lit.rays;
   }
   batch.cast();
   return {static_cast<std::int64_t>(place), batch.count()};
+}
+
+// Those of a cell. Their fates begin at `place`.
+void KeptRays::add_rays(const Band& band, const Source& source, const Lit& lit, std::size_t place,
+                        const OfSource& own, Batch& batch) const {
+  const Cell cell = cell_at(band, lit);
+  const std::int64_t square = rule::kPositionUnit / side_;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if ((lit.faces >> a & 1) == 0) continue;
+    const std::size_t across = (a + 1) % 3, along = (a + 2) % 3;
+    for (int i = 0; i < side_; ++i)
+      for (int j = 0; j < side_; ++j, ++place) {
+        if (known(opaque_, own.fates[place])) continue;
+        std::array<std::int64_t, 3> start{};
+        Cell beyond = cell;
+        beyond[a] += side_of(a == 0 ? source.at.x : a == 1 ? source.at.y : source.at.z, cell[a]);
+        start[a] = rule::kPositionUnit * std::max(cell[a], beyond[a]);
+        start[across] = rule::kPositionUnit * cell[across] + square * i + square / 2;
+        start[along] = rule::kPositionUnit * cell[along] + square * j + square / 2;
+        batch.add({beyond, {start[0], start[1], start[2]}, source.at}, place);
+      }
+  }
 }
 
 std::uint32_t KeptRays::value(const Band& band, const Source& source, const Lit& lit,

@@ -71,7 +71,10 @@ class KeptRays final : public Provider {
   std::uint64_t rows_of(const Band& band, std::size_t w) const;
   OfSource find(const Band& band, const Surface& surface, const OfSource& old, bool still) const;
   void keep(const OfSource& old, std::size_t& cell, std::size_t& fate, const Lit& lit, OfSource& now) const;
+  class Batch;
   Casts cast(const Band& band, const Source& source, OfSource& own) const;
+  void add_rays(const Band& band, const Source& source, const Lit& lit, std::size_t place,
+                const OfSource& own, Batch& batch) const;
   std::uint32_t value(const Band& band, const Source& source, const Lit& lit, const Fate* fates) const;
   std::int64_t write(const Band& band, state::Field<std::uint16_t>& result) const;
   static Cell cell_at(const Band& band, const Lit& lit);

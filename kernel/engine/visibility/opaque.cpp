@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kSide = state::kBrickSide;
 constexpr int kWordBricks = 64 / kSide;
+constexpr std::size_t kTogether = 16;  // words that are compared at once
 
 }  // namespace
 
@@ -49,13 +50,16 @@ Opaque::News Opaque::take_layer(const state::Volume& volume, int layer) {
     const std::uint64_t *const now_solid = volume.solid.row(0, z).data(), *const now_inert =
                                                                               volume.inert.row(0, z).data();
     std::uint64_t *const solid = solid_.row(0, z).data(), *const opaque = plane_.row(0, z).data();
-    // A few rows at a time, most of which are as they were.
-    constexpr std::size_t kTogether = 16;
+    const auto differs = [&](std::size_t w) {
+      return ((now_solid[w] | now_inert[w]) ^ opaque[w]) | (solid[w] ^ now_solid[w]);
+    };
     for (std::size_t first = 0; first < slice; first += kTogether) {
       const std::size_t end = std::min(slice, first + kTogether);
-      std::uint64_t any = 0;
-      for (std::size_t w = first; w < end; ++w)
-        any |= ((now_solid[w] | now_inert[w]) ^ opaque[w]) | (solid[w] ^ now_solid[w]);
+      std::uint64_t any = 0;  // most words are as they were
+      if (end - first == kTogether)
+        for (std::size_t i = 0; i < kTogether; ++i) any |= differs(first + i);
+      else
+        any = 1;
       for (std::size_t w = first; any != 0 && w < end; ++w) {
         const std::uint64_t was = opaque[w], is = now_solid[w] | now_inert[w];
         const std::uint64_t turned = solid[w] ^ now_solid[w];
@@ -100,6 +104,23 @@ int Opaque::look_into(int layer) {
     if (any == 0) ++emptied;
   }
   return emptied;
+}
+
+bool Opaque::clear_ahead(std::size_t brick, const Cell& cell, std::size_t octant) const {
+  const auto x = static_cast<unsigned>(cell[0] & 7), y = static_cast<unsigned>(cell[1] & 7);
+  int z = cell[2] & 7;
+  constexpr std::uint64_t kRows = 0x0101'0101'0101'0101;
+  const std::uint64_t row = (octant & 1) != 0 ? 0xffu << x & 0xff : 0xffu >> (7 - x);
+  const std::uint64_t column =
+      (octant & 2) != 0 ? ~std::uint64_t{0} << (8 * y) : ~std::uint64_t{0} >> (8 * (7 - y));
+  const std::uint64_t* const slices = reinterpret_cast<const std::uint64_t*>(bits_.data()) + 8 * brick;
+  std::uint64_t any = 0;
+  if ((octant & 4) != 0) {
+    for (; z < 8; ++z) any |= slices[z];
+  } else {
+    for (; z >= 0; --z) any |= slices[z];
+  }
+  return (any & row * kRows & column) == 0;
 }
 
 std::uint64_t Opaque::changed_about(std::size_t w, int z) const {

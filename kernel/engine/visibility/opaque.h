@@ -53,6 +53,8 @@ class Opaque {
   bool holds(std::size_t place) const { return (bytes()[place >> 3] >> (place & 7) & 1) != 0; }
   // The cells of a brick, a byte for each row: rows by y, then by z.
   const std::uint8_t* rows(std::size_t brick) const { return bytes() + (brick << 6); }
+  // Is all of a brick empty that a ray from this cell on can come to? `octant` is that of BrickWalk.
+  bool clear_ahead(std::size_t brick, const Cell& cell, std::size_t octant) const;
 
  private:
   enum Contents : std::uint8_t { kEmpty, kPartly, kFull, kUnknown };
