@@ -12,9 +12,7 @@ namespace voxmelt::visibility {
 namespace {
 
 constexpr int kBandCells = 1 << 15;  // about; more threads have work, and the memory of each is bounded
-constexpr std::uint32_t kStale = 0xffff'ffff;
 constexpr std::size_t kBatch = 1024;
-constexpr std::array<int, 8> kAxes{0, 1, 1, 2, 1, 2, 2, 3};  // how many bits are set
 
 bool same(const rule::Position& a, const rule::Position& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -141,7 +139,7 @@ void KeptRays::erase(const Band& band, state::Field<std::uint16_t>& result) cons
   if (!band.kept)
     for (int y = band.y0; y < band.y1; ++y)
       std::fill_n(result.row(y, band.z), opaque_.grid().x, std::uint16_t{0});
-  for (const OfSource& own : band.sources)
+  for (const LitCells& own : band.sources)
     for (const Lit& lit : own.cells) {
       const Cell cell = cell_at(band, lit);
       result.row(cell[1], cell[2])[cell[0]] = 0;
@@ -150,7 +148,7 @@ void KeptRays::erase(const Band& band, state::Field<std::uint16_t>& result) cons
 
 std::int64_t KeptRays::write(const Band& band, state::Field<std::uint16_t>& result) const {
   std::int64_t cuts = 0;
-  for (const OfSource& own : band.sources)
+  for (const LitCells& own : band.sources)
     for (const Lit& lit : own.cells) {
       if (lit.value == 0) continue;
       const Cell cell = cell_at(band, lit);
@@ -168,22 +166,23 @@ bool KeptRays::rests(const Band& band) const {
   if (!steady_ || !band.kept) return false;
   for (std::size_t w = static_cast<std::size_t>(band.y0) / 64; 64 * w < static_cast<std::size_t>(band.y1);
        ++w)
-    if (rows_of(band, w) != 0) return false;
-  return std::all_of(band.sources.begin(), band.sources.end(), [&](const OfSource& own) {
+    if (rows_of(band, w, true) != 0) return false;
+  return std::all_of(band.sources.begin(), band.sources.end(), [&](const LitCells& own) {
     return std::all_of(own.fates.begin(), own.fates.end(), [&](Fate fate) { return known(opaque_, fate); });
   });
 }
 
-// Of rows y = 64 w to 64 w + 63, those of the band that may have other faces than before.
-std::uint64_t KeptRays::rows_of(const Band& band, std::size_t w) const {
+// Of rows y = 64 w to 64 w + 63, those of the band; or only those that may have other faces than before.
+std::uint64_t KeptRays::rows_of(const Band& band, std::size_t w, bool changed) const {
   const auto below = [w](int y) {  // rows of this word before y
     const int rows = std::clamp(y - 64 * static_cast<int>(w), 0, 64);
     return rows == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << rows) - 1;
   };
-  return opaque_.changed_about(w, band.z) & below(band.y1) & ~below(band.y0);
+  const std::uint64_t rows = below(band.y1) & ~below(band.y0);
+  return changed ? rows & opaque_.changed_about(w, band.z) : rows;
 }
 
-void KeptRays::renew(Band& band, const Source& source, const Surface& surface, OfSource& own) const {
+void KeptRays::renew(Band& band, const Source& source, const Surface& surface, LitCells& own) const {
   if (source.power == 0) {
     own = {};
     return;
@@ -201,24 +200,10 @@ void KeptRays::renew(Band& band, const Source& source, const Surface& surface, O
 
 // All cells with faces that look. Of a source that is still, what is known of their rays is taken over, and
 // rows without a change are not looked at.
-KeptRays::OfSource KeptRays::find(const Band& band, const Surface& surface, const OfSource& old,
-                                  bool still) const {
-  OfSource now;
-  now.cells.reserve(old.cells.size() + 64);
-  now.fates.reserve(old.fates.size() + 64);
-  std::size_t cell = 0, fate = 0;  // the next of the old ones
-  const auto pass_to = [&](int y) {
-    const auto place = static_cast<std::uint32_t>(y - band.y0) << 16;
-    for (; cell < old.cells.size() && old.cells[cell].place < place; ++cell) fate += old.cells[cell].rays;
-  };
-  const auto keep_to = [&](int y) {
-    const auto from_cell = static_cast<std::ptrdiff_t>(cell), from_fate = static_cast<std::ptrdiff_t>(fate);
-    pass_to(y);
-    now.cells.insert(now.cells.end(), old.cells.begin() + from_cell,
-                     old.cells.begin() + static_cast<std::ptrdiff_t>(cell));
-    now.fates.insert(now.fates.end(), old.fates.begin() + from_fate,
-                     old.fates.begin() + static_cast<std::ptrdiff_t>(fate));
-  };
+LitCells KeptRays::find(const Band& band, const Surface& surface, const LitCells& old, bool still) const {
+  const LitCells none;
+  RenewedLitCells now(still ? old : none, side_ * side_);
+  const auto row_place = [&](int y) { return static_cast<std::uint32_t>(y - band.y0) << 16; };
   const auto find_row = [&](int y) {
     for (std::size_t w = 0; w < opaque_.plane().row_words(); ++w) {
       const std::array<std::uint64_t, 3> faces = surface.faces(opaque_, w, y, band.z);
@@ -226,52 +211,24 @@ KeptRays::OfSource KeptRays::find(const Band& band, const Surface& surface, cons
         const int b = std::countr_zero(bits);
         const auto looking = static_cast<std::uint8_t>((faces[0] >> b & 1) | (faces[1] >> b & 1) << 1 |
                                                        (faces[2] >> b & 1) << 2);
-        const int place = (y - band.y0) << 16 | (64 * static_cast<int>(w) + b);
-        const int rays = side_ * side_ * kAxes[looking];
-        keep(old, cell, fate,
-             {static_cast<std::uint32_t>(place), kStale, looking, static_cast<std::uint8_t>(rays)}, now);
+        now.look(row_place(y) | static_cast<std::uint32_t>(64 * static_cast<int>(w) + b), looking);
       }
     }
+    now.drop_before(row_place(y + 1));
   };
-  if (!still) {
-    cell = old.cells.size();
-    for (int y = band.y0; y < band.y1; ++y) find_row(y);
-    return now;
-  }
   for (std::size_t w = static_cast<std::size_t>(band.y0) / 64; 64 * w < static_cast<std::size_t>(band.y1);
        ++w)
-    for (std::uint64_t rows = rows_of(band, w); rows != 0; rows &= rows - 1) {
+    for (std::uint64_t rows = rows_of(band, w, still); rows != 0; rows &= rows - 1) {
       const int y = 64 * static_cast<int>(w) + std::countr_zero(rows);
-      keep_to(y);
+      now.keep_before(row_place(y));
       find_row(y);
-      pass_to(y + 1);
     }
-  keep_to(band.y1);
-  return now;
-}
-
-// Adds a cell, with what is known of the faces that already looked.
-void KeptRays::keep(const OfSource& old, std::size_t& cell, std::size_t& fate, const Lit& lit,
-                    OfSource& now) const {
-  for (; cell < old.cells.size() && old.cells[cell].place < lit.place; ++cell) fate += old.cells[cell].rays;
-  const bool is_new = cell == old.cells.size() || old.cells[cell].place != lit.place;
-  now.cells.push_back(lit);
-  if (is_new) {
-    now.fates.insert(now.fates.end(), lit.rays, kDark);
-    return;
-  }
-  const Lit& was = old.cells[cell++];
-  const auto each = static_cast<std::size_t>(side_ * side_);
-  if (was.faces == lit.faces) now.cells.back().value = was.value;
-  for (int a = 0; a < 3; ++a) {
-    const bool looked = (was.faces >> a & 1) != 0, looks = (lit.faces >> a & 1) != 0;
-    for (std::size_t n = 0; looks && n < each; ++n) now.fates.push_back(looked ? old.fates[fate + n] : kDark);
-    fate += looked ? each : 0;
-  }
+  now.keep_before(row_place(band.y1));
+  return now.take();
 }
 
 // Follows each ray of which it is not known that it sees the source, or meets a cell that is opaque now.
-Casts KeptRays::cast(const Band& band, const Source& source, OfSource& own) const {
+Casts KeptRays::cast(const Band& band, const Source& source, LitCells& own) const {
   Batch batch(*caster_, opaque_, own.fates);
   std::size_t place = 0;
   for (Lit& lit : own.cells) {
@@ -289,7 +246,7 @@ Casts KeptRays::cast(const Band& band, const Source& source, OfSource& own) cons
 
 // Those of a cell. Their fates begin at `place`.
 void KeptRays::add_rays(const Band& band, const Source& source, const Lit& lit, std::size_t place,
-                        const OfSource& own, Batch& batch) const {
+                        const LitCells& own, Batch& batch) const {
   const Cell cell = cell_at(band, lit);
   const std::int64_t square = rule::kPositionUnit / side_;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -336,7 +293,7 @@ Cell KeptRays::cell_at(const Band& band, const Lit& lit) {
 std::size_t KeptRays::kept_bytes() const {
   std::size_t bytes = 0;
   for (const Band& band : bands_)
-    for (const OfSource& own : band.sources) bytes += own.bytes();
+    for (const LitCells& own : band.sources) bytes += own.bytes();
   return bytes;
 }
 

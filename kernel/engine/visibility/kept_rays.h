@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kernel/engine/visibility/caster.h"
+#include "kernel/engine/visibility/lit_cells.h"
 #include "kernel/engine/visibility/opaque.h"
 #include "kernel/engine/visibility/surface.h"
 #include "kernel/engine/visibility/visibility.h"
@@ -35,22 +36,11 @@ class KeptRays final : public Provider {
   std::size_t kept_bytes() const;  // beside Opaque
 
  private:
-  // A cell with faces that look at the source.
-  struct Lit {
-    std::uint32_t place;  // within its band: the row times 2^16, and x
-    std::uint32_t value;  // what it receives, cut just above the largest irradiance
-    std::uint8_t faces;   // a bit for each axis
-    std::uint8_t rays;    // of all its faces
-  };
-  struct OfSource {
-    std::vector<Lit> cells;   // ascending
-    std::vector<Fate> fates;  // of their rays: by cell, face and square
-    std::size_t bytes() const { return cells.size() * sizeof(Lit) + fates.size() * sizeof(Fate); }
-  };
   // Some rows of a slice: the work of one thread.
   struct Band {
     int z = 0, y0 = 0, y1 = 0;
-    std::vector<OfSource> sources;
+    // A cell's place is its row within the band times 2^16, and x. Its value is cut just above the largest.
+    std::vector<LitCells> sources;
     bool kept = true;  // else what it had of the sources took too much memory
     std::int64_t cuts = 0;
     Casts casts;
@@ -66,15 +56,14 @@ class KeptRays final : public Provider {
   void move_sources(const rule::Heat& heat, std::uint32_t step);
   void update(Band& band, const std::vector<Surface>& surfaces, state::Field<std::uint16_t>& result) const;
   void erase(const Band& band, state::Field<std::uint16_t>& result) const;
-  void renew(Band& band, const Source& source, const Surface& surface, OfSource& own) const;
+  void renew(Band& band, const Source& source, const Surface& surface, LitCells& own) const;
   bool rests(const Band& band) const;
-  std::uint64_t rows_of(const Band& band, std::size_t w) const;
-  OfSource find(const Band& band, const Surface& surface, const OfSource& old, bool still) const;
-  void keep(const OfSource& old, std::size_t& cell, std::size_t& fate, const Lit& lit, OfSource& now) const;
+  std::uint64_t rows_of(const Band& band, std::size_t w, bool changed) const;
+  LitCells find(const Band& band, const Surface& surface, const LitCells& old, bool still) const;
   class Batch;
-  Casts cast(const Band& band, const Source& source, OfSource& own) const;
+  Casts cast(const Band& band, const Source& source, LitCells& own) const;
   void add_rays(const Band& band, const Source& source, const Lit& lit, std::size_t place,
-                const OfSource& own, Batch& batch) const;
+                const LitCells& own, Batch& batch) const;
   std::uint32_t value(const Band& band, const Source& source, const Lit& lit, const Fate* fates) const;
   std::int64_t write(const Band& band, state::Field<std::uint16_t>& result) const;
   static Cell cell_at(const Band& band, const Lit& lit);
