@@ -1,10 +1,11 @@
-#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "kernel/automaton/rule/visibility.h"
 #include "kernel/engine/visibility/brick_walk.h"
 #include "kernel/engine/visibility/caster.h"
+#include "kernel/engine/visibility/two_level.h"
 
 namespace voxmelt::visibility {
 namespace {
@@ -26,20 +27,8 @@ Fate plain_fate(const Opaque& opaque, const Ray& ray) {
 Fate two_level_fate(const Opaque& opaque, const Gaps& gaps, const Ray& ray) {
   if (!opaque.contains(ray.cell)) return kSees;
   return with_walk(ray, [&](auto& walk) {
-    const std::size_t octant = walk.octant();
     bool ends = false;
-    // What lies in a brick, but beyond the grid, is empty. So a ray may leave the grid there.
-    while (!ends && opaque.bricks().contains(walk.cell()[0] >> 3, walk.cell()[1] >> 3, walk.cell()[2] >> 3)) {
-      const std::size_t brick = opaque.brick_at(walk.cell());
-      const int gap = gaps.at(octant, brick);
-      if (gap == Gaps::kEndless) return kSees;
-      if (gap > 0 || opaque.clear_ahead(brick, walk.cell(), octant)) {
-        ends = !walk.leave(std::max(gap, 1));
-      } else if (const Fate fate = meet_in_brick(opaque, brick, walk, ends); fate != kSees) {
-        return fate;
-      }
-    }
-    return kSees;
+    return follow(opaque, gaps, walk, std::numeric_limits<int>::max(), ends);
   });
 }
 
