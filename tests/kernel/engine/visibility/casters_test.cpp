@@ -73,6 +73,31 @@ void follow(const Ray& ray) {
   ASSERT_TRUE(!ends || !by_bricks.leave(1));
 }
 
+// Out of cubes of bricks, of all sides: to the first cell of VoxelWalk that lies beyond.
+template <class Whole>
+void follow_cubes(const Ray& ray, Random& random) {
+  const Course course(ray);
+  BrickWalk<Whole> walk(ray.cell, course);
+  rule::VoxelWalk plain(ray.cell, ray.start, ray.end);
+  for (int jump = 0; jump < 12; ++jump) {
+    const int side = random.any({1, 1, 2, 3, 7, 20, 254});
+    const Cell from = walk.cell();
+    const auto within = [&](std::size_t a, int at) {
+      const int there = at >> 3, here = from[a] >> 3;
+      return course.way[a] > 0 ? there >= here && there < here + side : there <= here && there > here - side;
+    };
+    Cell at = from;
+    bool ends = false;
+    while (!ends && within(0, at[0]) && within(1, at[1]) && within(2, at[2])) {
+      ends = !plain.next();
+      at = {plain.x(), plain.y(), plain.z()};
+    }
+    ASSERT_EQ(walk.leave(side), !ends) << "side " << side;
+    if (ends) return;
+    ASSERT_EQ(walk.cell(), at) << "side " << side;
+  }
+}
+
 TEST(BrickWalk, IsTheWalk) {
   __extension__ using Wide = __int128;
   Random random(5);
@@ -88,8 +113,12 @@ TEST(BrickWalk, IsTheWalk) {
      : axis == 1 ? source.y
                  : source.z) = start[axis] + random.any({1, 8, 16, 100, 128, 500, 100000, 40000000});
     const Ray ray{cell, {start[0], start[1], start[2]}, source};
-    if (Course(ray).narrow()) follow<std::int64_t>(ray);
+    if (Course(ray).narrow()) {
+      follow<std::int64_t>(ray);
+      follow_cubes<std::int64_t>(ray, random);
+    }
     follow<Wide>(ray);
+    follow_cubes<Wide>(ray, random);
     if (HasFailure()) FAIL() << "trial " << trial;
   }
 }
