@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdlib>
 
+#include "kernel/automaton/rule/ray.h"
 #include "kernel/automaton/rule/source.h"
 #include "kernel/automaton/rule/visibility.h"
 
@@ -16,6 +17,10 @@ constexpr std::uint32_t kStale = 0xffff'ffff;
 constexpr std::size_t kBatch = 1024;
 
 bool same(const rule::Position& a, const rule::Position& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+// Do rays end at the same places?
+bool same_ends(const rule::SourceKey& a, const rule::SourceKey& b) {
+  return same(a.at, b.at) && a.radius == b.radius && same(a.direction, b.direction);
+}
 
 // Rays that are cast together, and where their fates belong.
 class Batch {
@@ -58,9 +63,11 @@ std::int64_t KeptRays::irradiance(const state::Volume& volume, const rule::Heat&
                                   state::Field<std::uint16_t>& result) {
   const state::Grid before = opaque_.grid();
   news_ = opaque_.take(volume, workers_);
-  const int side = heat.rays_per_face == 16 ? 4 : heat.rays_per_face == 4 ? 2 : 1;
-  if (before != volume.grid || side != side_ || heat.sources.size() != sources_.size()) {
-    side_ = side;
+  const rule::RaySetting setting = rule::ray_setting({volume.grid.x, volume.grid.y, volume.grid.z}, heat);
+  if (before != volume.grid || setting.side != setting_.side || heat.ray_seed != seed_ ||
+      heat.sources.size() != sources_.size()) {
+    setting_ = setting;
+    seed_ = heat.ray_seed;
     written_ = nullptr;
     begin(heat);
   }
@@ -74,7 +81,7 @@ std::int64_t KeptRays::irradiance(const state::Volume& volume, const rule::Heat&
   if (written_ != result.data() || !steady || news_.any()) {
     caster_->prepare(opaque_, news_);
     std::vector<Surface> surfaces;
-    for (const Source& source : sources_) surfaces.emplace_back(volume.grid, source.at);
+    for (const Source& source : sources_) surfaces.emplace_back(volume.grid, source.kind, source.now);
     workers_.run(static_cast<int>(bands_.size()),
                  [&](int i) { update(bands_[static_cast<std::size_t>(i)], surfaces, result); });
     written_ = result.data();
@@ -107,10 +114,12 @@ void KeptRays::move_sources(const rule::Heat& heat, std::uint32_t step) {
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     const rule::SourceKey now = rule::source_at(heat.sources[s], step);
     Source& source = sources_[s];
-    source.still = !news_.appeared && source.power > 0 && same(source.at, now.at);
-    source.steady = (source.still || now.power == 0) && source.power == now.power;
-    source.at = now.at;
-    source.power = now.power;
+    const std::uint64_t power = source.now.power;
+    source.still =
+        !news_.appeared && power > 0 && source.kind == heat.sources[s].kind && same_ends(source.now, now);
+    source.steady = (source.still || now.power == 0) && power == now.power;
+    source.kind = heat.sources[s].kind;
+    source.now = now;
   }
 }
 
@@ -157,7 +166,7 @@ std::int64_t KeptRays::write(const Band& band, state::Field<std::uint16_t>& resu
 }
 
 void KeptRays::renew(Band& band, const Source& source, const Surface& surface, OfSource& own) const {
-  if (source.power == 0) {
+  if (source.now.power == 0) {
     own = {};
     return;
   }
@@ -183,11 +192,14 @@ KeptRays::OfSource KeptRays::find(const Band& band, const Surface& surface) cons
   std::size_t rays = 0;
   for (int y = band.y0; y < band.y1; ++y)
     for (std::size_t w = 0; w < opaque_.plane().row_words(); ++w) {
-      const std::array<std::uint64_t, 3> faces = surface.faces(opaque_, w, y, band.z);
-      for (std::uint64_t bits = faces[0] | faces[1] | faces[2]; bits != 0; bits &= bits - 1) {
+      const Surface::Faces faces = surface.faces(opaque_, w, y, band.z);
+      std::uint64_t any = 0;
+      for (const std::uint64_t word : faces) any |= word;
+      for (std::uint64_t bits = any; bits != 0; bits &= bits - 1) {
         const int b = std::countr_zero(bits);
-        const auto looking = static_cast<std::uint8_t>((faces[0] >> b & 1) | (faces[1] >> b & 1) << 1 |
-                                                       (faces[2] >> b & 1) << 2);
+        std::uint8_t looking = 0;
+        for (std::size_t f = 0; f < faces.size(); ++f)
+          looking = static_cast<std::uint8_t>(looking | (faces[f] >> b & 1) << f);
         const int place = (y - band.y0) << 16 | (64 * static_cast<int>(w) + b);
         now.cells.push_back({static_cast<std::uint32_t>(place), kStale, looking});
         rays += rays_of(now.cells.back());
@@ -199,7 +211,7 @@ KeptRays::OfSource KeptRays::find(const Band& band, const Surface& surface) cons
 
 // Takes over what is known of the faces that already looked.
 void KeptRays::keep(const OfSource& old, OfSource& now) const {
-  const auto each = static_cast<std::size_t>(side_ * side_);
+  const auto each = static_cast<std::size_t>(setting_.rays());
   const Fate* from = old.fates.data();
   Fate* to = now.fates.data();
   auto was = old.cells.begin();
@@ -210,8 +222,8 @@ void KeptRays::keep(const OfSource& old, OfSource& now) const {
       continue;
     }
     if (was->faces == lit.faces) lit.value = was->value;
-    for (int a = 0; a < 3; ++a) {
-      const bool looked = (was->faces >> a & 1) != 0, looks = (lit.faces >> a & 1) != 0;
+    for (int f = 0; f < rule::kFaces; ++f) {
+      const bool looked = (was->faces >> f & 1) != 0, looks = (lit.faces >> f & 1) != 0;
       if (looked && looks) std::copy_n(from, each, to);
       from += looked ? each : 0;
       to += looks ? each : 0;
@@ -223,54 +235,59 @@ void KeptRays::keep(const OfSource& old, OfSource& now) const {
 // Follows each ray of which it is not known that it sees the source, or meets a cell that is opaque now.
 Casts KeptRays::cast(const Band& band, const Source& source, OfSource& own) const {
   Batch batch(*caster_, opaque_, own.fates);
-  const std::int64_t square = rule::kPositionUnit / side_;
+  std::int64_t asked = 0;
   std::size_t place = 0;
   for (Lit& lit : own.cells) {
+    const auto end = place + rays_of(lit);
+    const auto known = [&](std::size_t at) {
+      const Fate fate = own.fates[at];
+      return fate == kSees || fate == kNone || (fate != kDark && opaque_.holds(fate));
+    };
+    const std::size_t first = place;
+    while (place < end && known(place)) asked += own.fates[place++] != kNone;
+    if (place == end) continue;  // nothing is new: so it is with most cells
     const Cell cell = cell_at(band, lit);
-    for (std::size_t a = 0; a < 3; ++a) {
-      if ((lit.faces >> a & 1) == 0) continue;
-      const std::size_t across = (a + 1) % 3, along = (a + 2) % 3;
-      for (int i = 0; i < side_; ++i)
-        for (int j = 0; j < side_; ++j, ++place) {
-          const Fate fate = own.fates[place];
-          if (fate == kSees || (fate != kDark && opaque_.holds(fate))) continue;
-          std::array<std::int64_t, 3> start{};
-          Cell beyond = cell;
-          beyond[a] += side_of(a == 0 ? source.at.x : a == 1 ? source.at.y : source.at.z, cell[a]);
-          start[a] = rule::kPositionUnit * std::max(cell[a], beyond[a]);
-          start[across] = rule::kPositionUnit * cell[across] + square * i + square / 2;
-          start[along] = rule::kPositionUnit * cell[along] + square * j + square / 2;
-          batch.add({beyond, {start[0], start[1], start[2]}, source.at}, place);
-          lit.value = kStale;
+    rule::CellRays rays(setting_, source.kind, source.now, cell);
+    std::size_t at = first;
+    for (int f = 0; f < rule::kFaces; ++f) {
+      if ((lit.faces >> f & 1) == 0) continue;
+      rays.choose(f);
+      for (int i = 0; i < setting_.side; ++i)
+        for (int j = 0; j < setting_.side; ++j, ++at) {
+          if (at < place) continue;
+          if (!known(at)) {
+            const rule::Position start = rays.start(i, j);
+            const rule::CellRays::Ray ray = rays.ray(setting_.side * i + j, start);
+            own.fates[at] = ray.weight > 0 ? kDark : kNone;
+            if (ray.weight > 0) batch.add({beyond_face(cell, rule::face_of(f)), start, ray.end}, at);
+            lit.value = kStale;
+          }
+          asked += own.fates[at] != kNone;
         }
     }
+    place = end;
   }
   batch.cast();
-  return {static_cast<std::int64_t>(place), batch.count()};
+  return {asked, batch.count()};
 }
 
 std::uint32_t KeptRays::value(const Band& band, const Source& source, const Lit& lit,
                               const Fate* fates) const {
-  const Cell cell = cell_at(band, lit);
-  const auto middle = [&](std::size_t a) { return rule::kPositionUnit * cell[a] + rule::kPositionUnit / 2; };
-  const std::array<std::int64_t, 3> delta{source.at.x - middle(0), source.at.y - middle(1),
-                                          source.at.z - middle(2)};
-  std::int64_t facing = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if ((lit.faces >> a & 1) == 0) continue;
-    facing += std::abs(delta[a]) * std::count(fates, fates + side_ * side_, kSees);
-    fates += side_ * side_;
+  rule::CellRays rays(setting_, source.kind, source.now, cell_at(band, lit));
+  std::int64_t sum = 0;
+  for (int f = 0; f < rule::kFaces; ++f) {
+    if ((lit.faces >> f & 1) == 0) continue;
+    rays.choose(f);
+    for (int i = 0; i < setting_.side; ++i)
+      for (int j = 0; j < setting_.side; ++j)
+        if (*fates++ == kSees) sum += rays.ray(setting_.side * i + j, rays.start(i, j)).weight;
   }
-  if (facing == 0) return 0;
-  const auto squared =
-      static_cast<std::uint64_t>(delta[0] * delta[0] + delta[1] * delta[1] + delta[2] * delta[2]);
   constexpr std::uint64_t cut = rule::kIrradianceMax + 1;
-  return static_cast<std::uint32_t>(
-      std::min(rule::irradiance(source.power, facing, side_ * side_, squared), cut));
+  return static_cast<std::uint32_t>(std::min(rays.receives(sum), cut));
 }
 
 std::size_t KeptRays::rays_of(const Lit& lit) const {
-  return static_cast<std::size_t>(side_ * side_ * std::popcount(lit.faces));
+  return static_cast<std::size_t>(setting_.rays() * std::popcount(lit.faces));
 }
 
 Cell KeptRays::cell_at(const Band& band, const Lit& lit) {
