@@ -77,6 +77,19 @@ TEST(SourceAt, GrowsToTheMostThatAFileMayName) {
   EXPECT_EQ(at.z, 0);
 }
 
+// (5 - 2) x 1 / 2 = 1.5; (-9 - 2) / 2 = -5.5, down to -6; 7 stays.
+TEST(SourceAt, RadiusAndDirectionMoveToo) {
+  const HeatSource source{
+      {{.step = 1, .radius = 2, .direction = {2, 7, 0}}, {.step = 3, .radius = 5, .direction = {-9, 7, 4}}},
+      SourceKind::sphere};
+  const SourceKey middle = source_at(source, 2);
+  EXPECT_EQ(middle.radius, 3);
+  EXPECT_EQ(middle.direction.x, -4);
+  EXPECT_EQ(middle.direction.y, 7);
+  EXPECT_EQ(middle.direction.z, 2);
+  EXPECT_EQ(source_at(source, 3).radius, 5);
+}
+
 TEST(SourceAt, ChoosesItsKeys) {
   const HeatSource source{{{4, {10, 0, 0}, 7}, {6, {20, 0, 0}, 1}, {10, {20, -4, 0}, 1}}};
   EXPECT_EQ(source_at(source, 0).power, 7u);
