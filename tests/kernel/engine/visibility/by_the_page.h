@@ -51,11 +51,11 @@ inline Wide root(Wide square) {
 inline std::uint64_t word(std::uint64_t seed, std::uint32_t face, std::uint64_t index) {
   const auto right = [](std::uint32_t v) { return v >> 8 | v << 24; };
   const auto left = [](std::uint32_t v) { return v << 3 | v >> 29; };
-  std::vector<std::uint32_t> k{static_cast<std::uint32_t>(seed)};
-  std::vector<std::uint32_t> l{static_cast<std::uint32_t>(seed >> 32), 0x766F786D, 0x72617973};
+  std::array<std::uint32_t, 10> k{static_cast<std::uint32_t>(seed)};
+  std::array<std::uint32_t, 12> l{static_cast<std::uint32_t>(seed >> 32), 0x766F786D, 0x72617973};
   for (std::uint32_t i = 0; i < 9; ++i) {
-    l.push_back((k[i] + right(l[i])) ^ i);
-    k.push_back(left(k[i]) ^ l[i + 3]);
+    l[i + 3] = (k[i] + right(l[i])) ^ i;
+    k[i + 1] = left(k[i]) ^ l[i + 3];
   }
   std::uint32_t x = face, y = static_cast<std::uint32_t>(index);
   for (const std::uint32_t key : k) {
@@ -75,10 +75,13 @@ inline Turned turned(std::uint64_t word, int n, int rays) {
   const Wide u = (Wide{word} + 65536 * n / rays) % 65536;
   const Wide v = (Wide{word / 65536} + 65536 * reversed / rays) % 65536;
   const Wide rho = root(2048 * (2 * v + 1));
-  const auto cosine = [](Wide c) {
-    return static_cast<Wide>(
-        std::floor(16384 * std::cos(static_cast<double>(2 * c + 1) * std::numbers::pi / 256)));
-  };
+  static const std::vector<Wide> cosines = [] {
+    std::vector<Wide> all;
+    for (int at = 0; at < 64; ++at)
+      all.push_back(static_cast<Wide>(std::floor(16384 * std::cos((2 * at + 1) * std::numbers::pi / 256))));
+    return all;
+  }();
+  const auto cosine = [](Wide at) { return cosines.at(static_cast<std::size_t>(at)); };
   const Wide c = u / 256 % 64;
   Wide p = 1 + rho * cosine(c) / 16384, q = 1 + rho * cosine(63 - c) / 16384;
   for (Wide t = 0; t < u / 16384; ++t) {
@@ -151,13 +154,15 @@ inline void add_page_rays(std::vector<PageRay>& rays, const worlds::Volume& v, c
     Cell beyond = cell;
     beyond[a] += sigma;
     if (opaque(v, beyond)) continue;
+    const bool turns = shine.kind == sphere || shine.kind == sky;
+    const std::uint64_t bits = turns ? word(seed, static_cast<std::uint32_t>(f), index) : 0;
     for (int n = 0; n < side * side; ++n) {
       const int i = n / side, j = n % side;
       Three from{};
       from[a] = middle[a] + 8 * sigma;
       from[(a + 1) % 3] = middle[(a + 1) % 3] - 8 + (16 * i + 8) / side;
       from[(a + 2) % 3] = middle[(a + 2) % 3] - 8 + (16 * j + 8) / side;
-      const Turned place = turned(word(seed, static_cast<std::uint32_t>(f), index), n, side * side);
+      const Turned place = turns ? turned(bits, n, side * side) : Turned{};
       Three end{};
       Wide w = 0;
       if (shine.kind == point || shine.kind == sphere) {
