@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdlib>
 
 #include "kernel/automaton/rule/ray.h"
 #include "kernel/automaton/rule/source.h"

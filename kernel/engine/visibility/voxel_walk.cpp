@@ -6,7 +6,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
 #include "kernel/automaton/rule/ray.h"
 #include "kernel/automaton/rule/source.h"

@@ -97,7 +97,7 @@ const std::vector<Case>& cases() {
       {kBox + "[heat]\n[[heat_source]]\nkind = \"sky\"\npower = 1\nkeyframes = [{step=0,power=1}]\n",
        "scene.toml:11:13: error: heat_source.0.keyframes excludes power"},
       {kBox + "[heat]\n[[heat_source]]\nkind = \"sky\"\nkeyframes = [{step=0,power=1,radius=3}]\n",
-       "error: unknown key heat_source.0.keyframes.0.radius"},
+       "scene.toml:10:30: error: unknown key heat_source.0.keyframes.0.radius"},
       {kBox + "[[vent]]\nat = [0, 0, 0]\nradius = 1\nrate = 1\nfrom = 5\nuntil = 5\n",
        "scene.toml:12:9: error: vent.0.until = 5 must be after from = 5"},
       {kBox + "[[drain]]\nat = [0, 0, 0]\nradius = 1\nrate = 2\n",

@@ -1,6 +1,7 @@
 // Points, spheres, suns and skies: against the page, against integrals, and against known answers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
