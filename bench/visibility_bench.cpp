@@ -69,8 +69,7 @@ state::Volume pitted_ball(int n) {
 
 std::vector<Ray> all_rays(const visibility::Opaque& opaque, const rule::Position& source) {
   const state::Grid& g = opaque.grid();
-  const visibility::Surface surface(g, source);
-  const std::array<std::int64_t, 3> at{source.x, source.y, source.z};
+  const visibility::Surface surface(g, rule::SourceKind::point, {0, source, 1});
   std::vector<Ray> rays;
   for (int z = 0; z < g.z; ++z)
     for (int y = 0; y < g.y; ++y)
@@ -81,10 +80,11 @@ std::vector<Ray> all_rays(const visibility::Opaque& opaque, const rule::Position
         }
         const auto faces = surface.faces(opaque, static_cast<std::size_t>(x) / 64, y, z);
         const Cell cell{x, y, z};
-        for (std::size_t a = 0; a < 3; ++a) {
-          if ((faces[a] >> (x & 63) & 1) == 0) continue;
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+          if ((faces[f] >> (x & 63) & 1) == 0) continue;
+          const std::size_t a = f / 2;
           Cell beyond = cell;
-          beyond[a] += visibility::side_of(at[a], cell[a]);
+          beyond[a] += f % 2 == 0 ? 1 : -1;
           std::array<std::int64_t, 3> start{16 * x + 8, 16 * y + 8, 16 * z + 8};
           start[a] = 16 * std::max(cell[a], beyond[a]);
           rays.push_back({beyond, {start[0], start[1], start[2]}, source});

@@ -20,10 +20,11 @@ struct Ray {
 };
 
 // What became of a ray: it sees the source, or it meets the opaque cell at this place (Opaque::place). Any
-// opaque cell on its way will do. Where places exceed 32 bits, it is only known to be dark.
+// opaque cell on its way will do. Where places exceed 32 bits, it is only known to be dark. No caster gives
+// kNone: those who keep fates say so that there is no ray to cast.
 using Fate = std::uint32_t;
-inline constexpr Fate kSees = 0xffff'ffff, kDark = 0xffff'fffe;
-inline Fate met(std::size_t place) { return place < kDark ? static_cast<Fate>(place) : kDark; }
+inline constexpr Fate kSees = 0xffff'ffff, kDark = 0xffff'fffe, kNone = 0xffff'fffd;
+inline Fate met(std::size_t place) { return place < kNone ? static_cast<Fate>(place) : kDark; }
 
 class Caster {
  public:

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdlib>
 
+#include "kernel/automaton/rule/ray.h"
 #include "kernel/automaton/rule/source.h"
 #include "kernel/automaton/rule/visibility.h"
 
@@ -15,9 +15,15 @@ constexpr int kBandCells = 1 << 15;  // about; more threads have work, and the m
 constexpr std::size_t kBatch = 1024;
 
 bool same(const rule::Position& a, const rule::Position& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+// Do rays end at the same places?
+bool same_ends(const rule::SourceKey& a, const rule::SourceKey& b) {
+  return same(a.at, b.at) && a.radius == b.radius && same(a.direction, b.direction);
+}
 
 // A ray that sees goes on to see, and one that met a cell stays dark while that one is opaque.
-bool known(const Opaque& opaque, Fate fate) { return fate == kSees || (fate != kDark && opaque.holds(fate)); }
+bool known(const Opaque& opaque, Fate fate) {
+  return fate == kSees || fate == kNone || (fate != kDark && opaque.holds(fate));
+}
 
 }  // namespace
 
@@ -60,9 +66,11 @@ std::int64_t KeptRays::irradiance(const state::Volume& volume, const rule::Heat&
                                   state::Field<std::uint16_t>& result) {
   const state::Grid before = opaque_.grid();
   news_ = opaque_.take(volume, workers_);
-  const int side = heat.rays_per_face == 16 ? 4 : heat.rays_per_face == 4 ? 2 : 1;
-  if (before != volume.grid || side != side_ || heat.sources.size() != sources_.size()) {
-    side_ = side;
+  const rule::RaySetting setting = rule::ray_setting({volume.grid.x, volume.grid.y, volume.grid.z}, heat);
+  if (before != volume.grid || setting.side != setting_.side || heat.ray_seed != seed_ ||
+      heat.sources.size() != sources_.size()) {
+    setting_ = setting;
+    seed_ = heat.ray_seed;
     written_ = nullptr;
     begin(heat);
   }
@@ -75,7 +83,7 @@ std::int64_t KeptRays::irradiance(const state::Volume& volume, const rule::Heat&
   } else {
     caster_->prepare(opaque_, news_);
     std::vector<Surface> surfaces;
-    for (const Source& source : sources_) surfaces.emplace_back(volume.grid, source.at);
+    for (const Source& source : sources_) surfaces.emplace_back(volume.grid, source.kind, source.now);
     workers_.run(static_cast<int>(bands_.size()),
                  [&](int i) { update(bands_[static_cast<std::size_t>(i)], surfaces, result); });
     written_ = result.data();
@@ -108,10 +116,12 @@ void KeptRays::move_sources(const rule::Heat& heat, std::uint32_t step) {
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     const rule::SourceKey now = rule::source_at(heat.sources[s], step);
     Source& source = sources_[s];
-    source.still = !news_.appeared && source.power > 0 && same(source.at, now.at);
-    source.steady = (source.still || now.power == 0) && source.power == now.power;
-    source.at = now.at;
-    source.power = now.power;
+    const std::uint64_t power = source.now.power;
+    source.still =
+        !news_.appeared && power > 0 && source.kind == heat.sources[s].kind && same_ends(source.now, now);
+    source.steady = (source.still || now.power == 0) && power == now.power;
+    source.kind = heat.sources[s].kind;
+    source.now = now;
   }
 }
 
@@ -183,7 +193,7 @@ std::uint64_t KeptRays::rows_of(const Band& band, std::size_t w, bool changed) c
 }
 
 void KeptRays::renew(Band& band, const Source& source, const Surface& surface, LitCells& own) const {
-  if (source.power == 0) {
+  if (source.now.power == 0) {
     own = {};
     return;
   }
@@ -202,15 +212,18 @@ void KeptRays::renew(Band& band, const Source& source, const Surface& surface, L
 // rows without a change are not looked at.
 LitCells KeptRays::find(const Band& band, const Surface& surface, const LitCells& old, bool still) const {
   const LitCells none;
-  RenewedLitCells now(still ? old : none, side_ * side_);
+  RenewedLitCells now(still ? old : none, setting_.rays());
   const auto row_place = [&](int y) { return static_cast<std::uint32_t>(y - band.y0) << 16; };
   const auto find_row = [&](int y) {
     for (std::size_t w = 0; w < opaque_.plane().row_words(); ++w) {
-      const std::array<std::uint64_t, 3> faces = surface.faces(opaque_, w, y, band.z);
-      for (std::uint64_t bits = faces[0] | faces[1] | faces[2]; bits != 0; bits &= bits - 1) {
+      const Surface::Faces faces = surface.faces(opaque_, w, y, band.z);
+      std::uint64_t any = 0;
+      for (const std::uint64_t word : faces) any |= word;
+      for (std::uint64_t bits = any; bits != 0; bits &= bits - 1) {
         const int b = std::countr_zero(bits);
-        const auto looking = static_cast<std::uint8_t>((faces[0] >> b & 1) | (faces[1] >> b & 1) << 1 |
-                                                       (faces[2] >> b & 1) << 2);
+        std::uint8_t looking = 0;
+        for (std::size_t f = 0; f < faces.size(); ++f)
+          looking = static_cast<std::uint8_t>(looking | (faces[f] >> b & 1) << f);
         now.look(row_place(y) | static_cast<std::uint32_t>(64 * static_cast<int>(w) + b), looking);
       }
     }
@@ -230,60 +243,52 @@ LitCells KeptRays::find(const Band& band, const Surface& surface, const LitCells
 // Follows each ray of which it is not known that it sees the source, or meets a cell that is opaque now.
 Casts KeptRays::cast(const Band& band, const Source& source, LitCells& own) const {
   Batch batch(*caster_, opaque_, own.fates);
+  std::int64_t asked = 0;
   std::size_t place = 0;
   for (Lit& lit : own.cells) {
-    const auto fates = own.fates.begin() + static_cast<std::ptrdiff_t>(place);
-    const bool all = std::all_of(fates, fates + lit.rays, [&](Fate fate) { return known(opaque_, fate); });
-    if (!all) {
-      lit.value = kStale;
-      add_rays(band, source, lit, place, own, batch);
+    const auto end = place + lit.rays;
+    const auto is_known = [&](std::size_t at) { return known(opaque_, own.fates[at]); };
+    const std::size_t first = place;
+    while (place < end && is_known(place)) asked += own.fates[place++] != kNone;
+    if (place == end) continue;  // nothing is new: so it is with most cells
+    const Cell cell = cell_at(band, lit);
+    rule::CellRays rays(setting_, source.kind, source.now, cell);
+    std::size_t at = first;
+    for (int f = 0; f < rule::kFaces; ++f) {
+      if ((lit.faces >> f & 1) == 0) continue;
+      rays.choose(f);
+      for (int i = 0; i < setting_.side; ++i)
+        for (int j = 0; j < setting_.side; ++j, ++at) {
+          if (at < place) continue;
+          if (!is_known(at)) {
+            const rule::Position start = rays.start(i, j);
+            const rule::CellRays::Ray ray = rays.ray(setting_.side * i + j, start);
+            own.fates[at] = ray.weight > 0 ? kDark : kNone;
+            if (ray.weight > 0) batch.add({beyond_face(cell, rule::face_of(f)), start, ray.end}, at);
+            lit.value = kStale;
+          }
+          asked += own.fates[at] != kNone;
+        }
     }
-    place += lit.rays;
+    place = end;
   }
   batch.cast();
-  return {static_cast<std::int64_t>(place), batch.count()};
-}
-
-// Those of a cell. Their fates begin at `place`.
-void KeptRays::add_rays(const Band& band, const Source& source, const Lit& lit, std::size_t place,
-                        const LitCells& own, Batch& batch) const {
-  const Cell cell = cell_at(band, lit);
-  const std::int64_t square = rule::kPositionUnit / side_;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if ((lit.faces >> a & 1) == 0) continue;
-    const std::size_t across = (a + 1) % 3, along = (a + 2) % 3;
-    for (int i = 0; i < side_; ++i)
-      for (int j = 0; j < side_; ++j, ++place) {
-        if (known(opaque_, own.fates[place])) continue;
-        std::array<std::int64_t, 3> start{};
-        Cell beyond = cell;
-        beyond[a] += side_of(a == 0 ? source.at.x : a == 1 ? source.at.y : source.at.z, cell[a]);
-        start[a] = rule::kPositionUnit * std::max(cell[a], beyond[a]);
-        start[across] = rule::kPositionUnit * cell[across] + square * i + square / 2;
-        start[along] = rule::kPositionUnit * cell[along] + square * j + square / 2;
-        batch.add({beyond, {start[0], start[1], start[2]}, source.at}, place);
-      }
-  }
+  return {asked, batch.count()};
 }
 
 std::uint32_t KeptRays::value(const Band& band, const Source& source, const Lit& lit,
                               const Fate* fates) const {
-  const Cell cell = cell_at(band, lit);
-  const auto middle = [&](std::size_t a) { return rule::kPositionUnit * cell[a] + rule::kPositionUnit / 2; };
-  const std::array<std::int64_t, 3> delta{source.at.x - middle(0), source.at.y - middle(1),
-                                          source.at.z - middle(2)};
-  std::int64_t facing = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if ((lit.faces >> a & 1) == 0) continue;
-    facing += std::abs(delta[a]) * std::count(fates, fates + side_ * side_, kSees);
-    fates += side_ * side_;
+  rule::CellRays rays(setting_, source.kind, source.now, cell_at(band, lit));
+  std::int64_t sum = 0;
+  for (int f = 0; f < rule::kFaces; ++f) {
+    if ((lit.faces >> f & 1) == 0) continue;
+    rays.choose(f);
+    for (int i = 0; i < setting_.side; ++i)
+      for (int j = 0; j < setting_.side; ++j)
+        if (*fates++ == kSees) sum += rays.ray(setting_.side * i + j, rays.start(i, j)).weight;
   }
-  if (facing == 0) return 0;
-  const auto squared =
-      static_cast<std::uint64_t>(delta[0] * delta[0] + delta[1] * delta[1] + delta[2] * delta[2]);
   constexpr std::uint64_t cut = rule::kIrradianceMax + 1;
-  return static_cast<std::uint32_t>(
-      std::min(rule::irradiance(source.power, facing, side_ * side_, squared), cut));
+  return static_cast<std::uint32_t>(std::min(rays.receives(sum), cut));
 }
 
 Cell KeptRays::cell_at(const Band& band, const Lit& lit) {

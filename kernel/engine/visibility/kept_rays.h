@@ -1,7 +1,7 @@
 // A provider that casts only what changed. While a source stands still, a ray that saw it sees it: opaque
 // cells only vanish. A dark ray stays dark while the cell that it met is opaque. Where an opaque cell appears
-// (a volume edited by hand), or a source moves, every ray is cast anew. So the irradiance is what it would be
-// if all were cast each time, and depends on no memory.
+// (a volume edited by hand), or a source moves, every ray is cast anew. A sky always stands still. So the
+// irradiance is what it would be if all were cast each time, and depends on no memory.
 //
 // What is kept, beside Opaque: 12 bytes for each cell with a face that looks, and 4 for each of its rays. A
 // band of rows keeps at most kMostKept bytes for each of its cells and 16 KiB. Beyond that it keeps nothing.
@@ -46,9 +46,9 @@ class KeptRays final : public Provider {
     Casts casts;
   };
   struct Source {
-    rule::Position at;
-    std::uint64_t power = 0;
-    bool still = false;   // it stands where it stood, and no opaque cell has appeared
+    rule::SourceKind kind = rule::SourceKind::point;
+    rule::SourceKey now;
+    bool still = false;   // its rays end where they ended, and no opaque cell has appeared
     bool steady = false;  // moreover, its power is what it was
   };
 
@@ -62,8 +62,6 @@ class KeptRays final : public Provider {
   LitCells find(const Band& band, const Surface& surface, const LitCells& old, bool still) const;
   class Batch;
   Casts cast(const Band& band, const Source& source, LitCells& own) const;
-  void add_rays(const Band& band, const Source& source, const Lit& lit, std::size_t place,
-                const LitCells& own, Batch& batch) const;
   std::uint32_t value(const Band& band, const Source& source, const Lit& lit, const Fate* fates) const;
   std::int64_t write(const Band& band, state::Field<std::uint16_t>& result) const;
   static Cell cell_at(const Band& band, const Lit& lit);
@@ -72,7 +70,8 @@ class KeptRays final : public Provider {
   cpu::Workers workers_;
   Opaque opaque_;
   Opaque::News news_;
-  int side_ = 0;  // a face casts side_ x side_ rays
+  rule::RaySetting setting_{};
+  std::uint64_t seed_ = 0;
   std::vector<Source> sources_;
   std::vector<Band> bands_;
   const void* written_ = nullptr;  // where the result of the last time lies

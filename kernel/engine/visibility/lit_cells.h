@@ -2,12 +2,13 @@
 // is renewed: what stays is copied in one piece.
 #pragma once
 
-#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "kernel/automaton/rule/ray.h"
 #include "kernel/engine/visibility/caster.h"
 
 namespace voxmelt::visibility {
@@ -16,14 +17,14 @@ namespace voxmelt::visibility {
 struct Lit {
   std::uint32_t place;  // ascending; who keeps the list says what it means
   std::uint32_t value;  // what the cell receives, or kStale
-  std::uint8_t faces;   // a bit for each axis
+  std::uint8_t faces;   // a bit for each face
   std::uint8_t rays;    // of all its faces
 };
 inline constexpr std::uint32_t kStale = 0xffff'ffff;
 
 struct LitCells {
   std::vector<Lit> cells;   // by place
-  std::vector<Fate> fates;  // of their rays: by cell, and by axis
+  std::vector<Fate> fates;  // of their rays: by cell, and by face
   std::size_t bytes() const { return cells.size() * sizeof(Lit) + fates.size() * sizeof(Fate); }
 };
 
@@ -51,11 +52,10 @@ class RenewedLitCells {
     const bool was = more() && next().place == place;
     if (was && next().faces == faces) return pass();
     copy();
-    constexpr std::array<int, 8> axes{0, 1, 1, 2, 1, 2, 2, 3};  // how many bits are set
-    now_.cells.push_back({place, kStale, faces, static_cast<std::uint8_t>(each_ * axes[faces])});
+    now_.cells.push_back({place, kStale, faces, static_cast<std::uint8_t>(each_ * std::popcount(faces))});
     std::size_t from = fate_;
-    for (int a = 0; a < 3; ++a) {
-      const bool looked = was && (next().faces >> a & 1) != 0, looks = (faces >> a & 1) != 0;
+    for (int f = 0; f < rule::kFaces; ++f) {
+      const bool looked = was && (next().faces >> f & 1) != 0, looks = (faces >> f & 1) != 0;
       for (int n = 0; looks && n < each_; ++n)
         now_.fates.push_back(looked ? old_.fates[from + static_cast<std::size_t>(n)] : kDark);
       from += static_cast<std::size_t>(looked ? each_ : 0);
