@@ -15,10 +15,13 @@ namespace {
 // Measured with bench/visibility_bench.cpp. Below this Embree follows rays no faster than two levels.
 constexpr std::size_t kLeastEmbreeCells = std::size_t{1} << 26;
 
-bool moves(const rule::PointSource& source) {
+bool moves(const rule::HeatSource& source) {
   return std::any_of(source.keys.begin(), source.keys.end(), [&](const rule::SourceKey& key) {
-    const rule::Position &a = key.at, &b = source.keys.front().at;
-    return a.x != b.x || a.y != b.y || a.z != b.z;
+    const rule::SourceKey& first = source.keys.front();
+    const auto differ = [](const rule::Position& a, const rule::Position& b) {
+      return a.x != b.x || a.y != b.y || a.z != b.z;
+    };
+    return differ(key.at, first.at) || differ(key.direction, first.direction) || key.radius != first.radius;
   });
 }
 

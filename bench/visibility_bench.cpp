@@ -1,6 +1,7 @@
-// Rays towards a point source, by each caster on one thread: millions in a second of its processor time. A
-// ball with pits, from three sources; all rays of its surface, by slices. `prepare` is what it takes to build
-// what a caster keeps, `refit` what it takes after some cells have melted.
+// Rays by each caster on one thread: millions in a second of its processor time. A ball with pits, by slices:
+// `rays` are all rays of its surface towards three points, `sky` leave its upper faces for the open sky.
+// `prepare` is what it takes to build what a caster keeps, `refit` what it takes after some cells have
+// melted.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -67,8 +69,7 @@ state::Volume pitted_ball(int n) {
 
 std::vector<Ray> all_rays(const visibility::Opaque& opaque, const rule::Position& source) {
   const state::Grid& g = opaque.grid();
-  const visibility::Surface surface(g, source);
-  const std::array<std::int64_t, 3> at{source.x, source.y, source.z};
+  const visibility::Surface surface(g, rule::SourceKind::point, {0, source, 1});
   std::vector<Ray> rays;
   for (int z = 0; z < g.z; ++z)
     for (int y = 0; y < g.y; ++y)
@@ -79,13 +80,45 @@ std::vector<Ray> all_rays(const visibility::Opaque& opaque, const rule::Position
         }
         const auto faces = surface.faces(opaque, static_cast<std::size_t>(x) / 64, y, z);
         const Cell cell{x, y, z};
-        for (std::size_t a = 0; a < 3; ++a) {
-          if ((faces[a] >> (x & 63) & 1) == 0) continue;
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+          if ((faces[f] >> (x & 63) & 1) == 0) continue;
+          const std::size_t a = f / 2;
           Cell beyond = cell;
-          beyond[a] += visibility::side_of(at[a], cell[a]);
+          beyond[a] += f % 2 == 0 ? 1 : -1;
           std::array<std::int64_t, 3> start{16 * x + 8, 16 * y + 8, 16 * z + 8};
           start[a] = 16 * std::max(cell[a], beyond[a]);
-          rays.push_back({beyond, {start[0], start[1], start[2]}});
+          rays.push_back({beyond, {start[0], start[1], start[2]}, source});
+        }
+      }
+  return rays;
+}
+
+// From the upper face of each cell that has one, in four directions of the upper half, out of the grid.
+std::vector<Ray> sky_rays(const visibility::Opaque& opaque) {
+  const state::Grid& g = opaque.grid();
+  const std::int64_t far = std::int64_t{32} * g.x;
+  std::uint64_t random = 7;
+  const auto drawn = [&](std::int64_t most) {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<std::int64_t>((random >> 33) % static_cast<std::uint64_t>(2 * most + 1)) - most;
+  };
+  std::vector<Ray> rays;
+  for (int z = 0; z < g.z; ++z)
+    for (int y = 0; y < g.y; ++y)
+      for (int x = 0; x < g.x; ++x) {
+        if (!opaque.solid().test(x, y, z) || opaque.test({x, y + 1, z})) continue;
+        const rule::Position start{16 * x + 8, 16 * (y + 1), 16 * z + 8};
+        for (int n = 0; n < 4; ++n) {
+          rule::Position way;
+          do {
+            way = {drawn(far), std::abs(drawn(far)), drawn(far)};
+          } while (way.y == 0 || way.x * way.x + way.y * way.y + way.z * way.z > far * far);
+          const std::int64_t longest = std::max({std::abs(way.x), way.y, std::abs(way.z)});
+          const auto scaled = [&](std::int64_t part) { return part * far / longest; };
+          rays.push_back({{x, y + 1, z},
+                          start,
+                          {start.x + scaled(way.x), start.y + std::max<std::int64_t>(1, scaled(way.y)),
+                           start.z + scaled(way.z)}});
         }
       }
   return rays;
@@ -98,13 +131,16 @@ struct World {
     const std::int64_t side = 16 * n;
     for (const rule::Position& source :
          {rule::Position{2 * side, side * 3 / 2, -side / 2}, rule::Position{side / 3, side * 5 / 4, side / 4},
-          rule::Position{-side / 8, side / 2, side / 2}})
-      rays.emplace_back(source, all_rays(opaque, source));
+          rule::Position{-side / 8, side / 2, side / 2}}) {
+      const std::vector<Ray> more = all_rays(opaque, source);
+      to_points.insert(to_points.end(), more.begin(), more.end());
+    }
+    to_sky = sky_rays(opaque);
   }
   state::Volume volume;
   visibility::Opaque opaque;
   visibility::Opaque::News news;
-  std::vector<std::pair<rule::Position, std::vector<Ray>>> rays;
+  std::vector<Ray> to_points, to_sky;
 };
 
 World& world(int n) {
@@ -113,38 +149,38 @@ World& world(int n) {
   return *last;
 }
 
-void cast(benchmark::State& state, int n, const std::function<std::unique_ptr<visibility::Caster>()>& make) {
-  World& w = world(n);
+struct Case {
+  int n;
+  std::vector<Ray> World::*rays;
+};
+
+void cast(benchmark::State& state, const Case& of,
+          const std::function<std::unique_ptr<visibility::Caster>()>& make) {
+  World& w = world(of.n);
+  const std::vector<Ray>& rays = w.*of.rays;
   const std::unique_ptr<visibility::Caster> caster = make();
   const double begin = processor_seconds();
   caster->prepare(w.opaque, w.news);
   state.counters["prepare_ms"] = 1e3 * (processor_seconds() - begin);
   const double middle = processor_seconds();
-  caster->prepare(w.opaque, {.appeared = false, .vanished = true, .turned = false});
+  caster->prepare(w.opaque, {.appeared = false, .vanished = true, .turned = false, .emptied = 0});
   state.counters["refit_ms"] = 1e3 * (processor_seconds() - middle);
-  std::vector<visibility::Fate> fates;
+  std::vector<visibility::Fate> fates(rays.size());
   double least = std::numeric_limits<double>::infinity();
-  std::size_t rays = 0, seeing = 0;
   for ([[maybe_unused]] auto _ : state) {
-    double seconds = 0;
-    rays = seeing = 0;
-    for (const auto& [source, of_source] : w.rays) {
-      fates.resize(of_source.size());
-      const double start = processor_seconds();
-      for (std::size_t first = 0; first < fates.size(); first += 1024) {  // as KeptRays does
-        const std::size_t count = std::min<std::size_t>(1024, fates.size() - first);
-        caster->cast(w.opaque, source, {of_source.data() + first, count}, {fates.data() + first, count});
-      }
-      seconds += processor_seconds() - start;
-      rays += fates.size();
-      seeing += static_cast<std::size_t>(std::count(fates.begin(), fates.end(), visibility::kSees));
+    const double start = processor_seconds();
+    for (std::size_t first = 0; first < fates.size(); first += 1024) {  // as KeptRays does
+      const std::size_t count = std::min<std::size_t>(1024, fates.size() - first);
+      caster->cast(w.opaque, {rays.data() + first, count}, {fates.data() + first, count});
     }
+    const double seconds = processor_seconds() - start;
     state.SetIterationTime(seconds);
     least = std::min(least, seconds);
   }
-  state.counters["rays"] = static_cast<double>(rays);
+  const auto seeing = std::count(fates.begin(), fates.end(), visibility::kSees);
+  state.counters["rays"] = static_cast<double>(rays.size());
   state.counters["seeing"] = static_cast<double>(seeing);  // the same for every caster
-  state.counters["Mray_per_s"] = static_cast<double>(rays) / least / 1e6;
+  state.counters["Mray_per_s"] = static_cast<double>(rays.size()) / least / 1e6;
 }
 
 }  // namespace
@@ -162,12 +198,15 @@ int main(int argc, char** argv) {
       casters.emplace_back("embree-" + std::to_string(static_cast<int>(packet)),
                            [packet] { return std::make_unique<EmbreeCaster>(packet); });
   for (const int n : {64, 128, 256, 512})
-    for (const auto& [name, make] : casters)
-      benchmark::RegisterBenchmark(("rays/" + std::to_string(n) + "/" + name).c_str(),
-                                   [n, make = make](benchmark::State& state) { cast(state, n, make); })
-          ->UseManualTime()
-          ->Unit(benchmark::kMillisecond)
-          ->Iterations(n > 256 ? 3 : 8);
+    for (const auto& [kind, rays] : {std::pair{"rays/", &World::to_points}, {"sky/", &World::to_sky}})
+      for (const auto& [name, make] : casters)
+        benchmark::RegisterBenchmark((kind + std::to_string(n) + "/" + name).c_str(),
+                                     [n, rays = rays, make = make](benchmark::State& state) {
+                                       cast(state, {n, rays}, make);
+                                     })
+            ->UseManualTime()
+            ->Unit(benchmark::kMillisecond)
+            ->Iterations(n > 256 ? 3 : 8);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

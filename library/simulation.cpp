@@ -182,7 +182,7 @@ std::vector<Drain> Simulation::drains() const {
 void Simulation::set_heat_sources(const std::vector<HeatSource>& sources) {
   if (!sources.empty() && !parts_->simulation.parameters().heat.enabled)
     throw InputError("set_heat_sources: error: the scene has no [heat]: without it nothing is heated");
-  translated([&] { parts_->change_sources([&](auto& all) { all.points = library::to_rules(sources); }); });
+  translated([&] { parts_->change_sources([&](auto& all) { all.heat = library::to_rules(sources); }); });
 }
 
 void Simulation::set_vents(const std::vector<Vent>& vents) {

@@ -1,5 +1,7 @@
 #include "library/sources.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -12,6 +14,13 @@ namespace voxmelt::library {
 namespace {
 
 using scene::Value;
+
+// By HeatSourceKind, which has the order of rule::SourceKind.
+const char* name_of(HeatSourceKind kind) {
+  constexpr std::array<const char*, 4> names{"point", "sphere", "directional", "sky"};
+  const auto number = static_cast<std::size_t>(kind);
+  return number < names.size() ? names[number] : "none";
+}
 
 // The document that a scene file with these tables would be.
 class Document {
@@ -41,6 +50,11 @@ class Document {
     integer.integer = step;
     integer.real = step;
     return integer;
+  }
+  Value text(const char* text) const {
+    Value string = value(Value::Kind::text);
+    string.text = text;
+    return string;
   }
   Value position(const Position& at) const { return array({number(at[0]), number(at[1]), number(at[2])}); }
 
@@ -79,21 +93,30 @@ Position to_cells(const rule::Position& at) {
   const auto cells = [](std::int64_t v) { return static_cast<double>(v) / rule::kPositionUnit; };
   return {cells(at.x), cells(at.y), cells(at.z)};
 }
+Position to_direction(const rule::Position& d) {
+  const auto part = [](std::int64_t v) { return static_cast<double>(v) / scene::kDirectionUnit; };
+  return {part(d.x), part(d.y), part(d.z)};
+}
 double to_cells(std::int64_t length) { return static_cast<double>(length) / rule::kPositionUnit; }
 double to_part(rule::Amount amount) { return static_cast<double>(amount) / rule::kOne; }
 
 }  // namespace
 
-std::vector<rule::PointSource> to_rules(const std::vector<HeatSource>& sources) {
+std::vector<rule::HeatSource> to_rules(const std::vector<HeatSource>& sources) {
   const Document document("set_heat_sources");
+  using enum HeatSourceKind;
   const Value root = document.list("heat_source", sources, [&](const HeatSource& source) {
-    return document.list("keyframes", source.keyframes, [&](const Keyframe& keyframe) {
-      Value table = document.table();
-      table.put("step", document.step(keyframe.step));
-      table.put("at", document.position(keyframe.at));
-      table.put("power", document.number(keyframe.power));
-      return table;
+    Value table = document.list("keyframes", source.keyframes, [&](const Keyframe& keyframe) {
+      Value frame = document.table();
+      frame.put("step", document.step(keyframe.step));
+      if (source.kind == point || source.kind == sphere) frame.put("at", document.position(keyframe.at));
+      if (source.kind == sphere) frame.put("radius", document.number(keyframe.radius));
+      if (source.kind == directional) frame.put("direction", document.position(keyframe.direction));
+      frame.put("power", document.number(keyframe.power));
+      return frame;
     });
+    table.put("kind", document.text(name_of(source.kind)));
+    return table;
   });
   return checked(root, scene::read_heat_sources);
 }
@@ -116,10 +139,12 @@ std::vector<rule::Drain> to_rules(const std::vector<Drain>& drains) {
   return checked(root, scene::read_drains);
 }
 
-HeatSource from_rule(const rule::PointSource& source) {
+HeatSource from_rule(const rule::HeatSource& source) {
   HeatSource result;
+  result.kind = static_cast<HeatSourceKind>(source.kind);
   for (const rule::SourceKey& key : source.keys)
-    result.keyframes.push_back({key.step, to_cells(key.at), scene::from_power(key.power)});
+    result.keyframes.push_back({key.step, to_cells(key.at), scene::from_power(key.power),
+                                to_cells(key.radius), to_direction(key.direction)});
   return result;
 }
 

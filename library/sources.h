@@ -10,12 +10,12 @@ namespace voxmelt::library {
 
 // The readers of scene files check and round the numbers. They throw scene::InputError that names the key, as
 // for a scene: "set_vents: error: vent.0.rate = 2 exceeds 1, a full cell per cell and step".
-std::vector<rule::PointSource> to_rules(const std::vector<HeatSource>& sources);
+std::vector<rule::HeatSource> to_rules(const std::vector<HeatSource>& sources);
 std::vector<rule::Vent> to_rules(const std::vector<Vent>& vents);
 std::vector<rule::Drain> to_rules(const std::vector<Drain>& drains);
 
 // The conversion is exact: to_rules gives the same integers again.
-HeatSource from_rule(const rule::PointSource& source);
+HeatSource from_rule(const rule::HeatSource& source);
 Vent from_rule(const rule::Vent& vent);
 Drain from_rule(const rule::Drain& drain);
 

@@ -73,7 +73,7 @@ rule::Parameters later(rule::Parameters parameters, std::uint32_t steps) {
   };
   for (rule::Vent& vent : parameters.vents) shift(vent.from), shift(vent.until);
   for (rule::Drain& drain : parameters.drains) shift(drain.from), shift(drain.until);
-  for (rule::PointSource& source : parameters.heat.sources) {
+  for (rule::HeatSource& source : parameters.heat.sources) {
     // The last key that has passed stays, at step 0, so a moving source starts from there.
     while (source.keys.size() > 1 && source.keys[1].step <= steps) source.keys.erase(source.keys.begin());
     for (rule::SourceKey& key : source.keys) shift(key.step);

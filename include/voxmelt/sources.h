@@ -1,5 +1,5 @@
 /// @file
-/// What acts on a volume from outside: point sources of heat, vents and drains, in the units and ranges of
+/// What acts on a volume from outside: sources of heat, vents and drains, in the units and ranges of
 /// scene files (docs/scenes.md). Lengths are in cells; cell c covers c..c+1.
 #pragma once
 
@@ -15,21 +15,33 @@ using Position = std::array<double, 3>;
 /// For an `until`: never.
 inline constexpr std::uint32_t kNever = 0xFFFFFFFFu;
 
-/// Where a heat source is at a step, and how strong it is.
-struct Keyframe {
-  std::uint32_t step = 0;  ///< number of the step
-  Position at{};           ///< position
-  /// A surface cell at distance d that faces the source gains power / d^2 per step, in temperature (the
-  /// scene's range is 0..1); docs/automaton.md, section 5. 0..4194303.
-  double power = 0;
+/// What a heat source is.
+enum class HeatSourceKind : std::uint8_t {
+  point,
+  sphere,       ///< a ball that shines: its shadows are soft
+  directional,  ///< a sun
+  sky,          ///< everything above the horizon, equally bright
 };
 
-/// A point source of heat. Between two keyframes, position and power change linearly in the step. Before the
-/// first and after the last they are constant.
-struct HeatSource {
-  std::vector<Keyframe> keyframes;  ///< at least one, steps ascending
+/// Where a heat source is at a step, and how strong it is. What its kind does not have is not used.
+struct Keyframe {
+  std::uint32_t step = 0;  ///< number of the step
+  Position at{};           ///< position of a point, centre of a sphere
+  /// A surface cell at distance d that faces a point or a sphere gains power / d^2 per step, in temperature
+  /// (the scene's range is 0..1). One that faces a sun, or lies open under a sky, gains power;
+  /// docs/automaton.md, section 5. 0..4194303.
+  double power = 0;
+  double radius = 0;     ///< of a sphere, 0..8192
+  Position direction{};  ///< towards a directional source, of any length but 0; each -10^6..10^6
+};
 
-  /// A source that stays where it is.
+/// A source of heat. Between two keyframes, all numbers change linearly in the step. Before the first and
+/// after the last they are constant.
+struct HeatSource {
+  std::vector<Keyframe> keyframes;              ///< at least one, steps ascending
+  HeatSourceKind kind = HeatSourceKind::point;  ///< point, sphere, directional or sky
+
+  /// A point source that stays where it is.
   static HeatSource fixed(const Position& at, double power) { return {{{0, at, power}}}; }
 };
 

@@ -58,6 +58,7 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
                                           std::make_unique<visibility::TwoLevelCaster>(), tuning.threads)),
       ledger_(state::Ledger::open(volume_)),
       threads_(std::min(tuning.threads, cpu::Workers::most())) {
+  parameters_.heat.ray_seed = parameters_.seed;  // providers of irradiance see heat alone
   make_irradiance();
   volume_.changed.follow(volume_.grid);
 }
@@ -68,7 +69,7 @@ void Simulation::make_irradiance() {
 }
 
 void Simulation::change_sources(Sources sources) {
-  parameters_.heat.sources = std::move(sources.points);
+  parameters_.heat.sources = std::move(sources.heat);
   parameters_.heat.radiation = parameters_.heat.radiation || !parameters_.heat.sources.empty();
   parameters_.vents = std::move(sources.vents);
   parameters_.drains = std::move(sources.drains);

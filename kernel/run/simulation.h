@@ -39,11 +39,11 @@ class Simulation {
   int substeps() const { return substeps_; }  // of the step that has begun last
   step::Moment moment() const { return {step_number(), substep_, substeps_}; }  // of the next phase
 
-  // Other point sources, vents and drains, between two steps. Vents and drains take effect at the next step,
-  // point sources at the next step of visibility (docs/automaton.md, section 5), as if the scene had them
+  // Other heat sources, vents and drains, between two steps. Vents and drains take effect at the next step,
+  // heat sources at the next step of visibility (docs/automaton.md, section 5), as if the scene had them
   // from the start. The caller has checked their ranges; sources need a scene with heat.
   struct Sources {
-    std::vector<rule::PointSource> points;
+    std::vector<rule::HeatSource> heat;
     std::vector<rule::Vent> vents;
     std::vector<rule::Drain> drains;
   };

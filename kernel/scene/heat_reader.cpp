@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -21,6 +22,8 @@ constexpr double kCalmGamma = 0.3927;
 constexpr double kLargestPower = 4194303;  // x 2^28 fits 50 bits
 constexpr double kLargestExchange =
     0.57735;  // 1 / sqrt 3: a corner exposed on three axes stays within the air
+constexpr double kLargestRadius = 8192;
+constexpr double kLargestDirection = 1e6, kLeastDirection = 1e-6;
 constexpr std::int64_t kLastStep = 0xFFFFFFFFll;
 
 Range power() { return at_most(kLargestPower); }
@@ -64,15 +67,32 @@ int read_rays(Reader& reader) {
   return static_cast<int>(asked);
 }
 
-rule::PointSource read_source(Reader& reader) {
-  reader.choice("kind", {"point"}, 0);
-  rule::PointSource source;
+// What a key of a source says, as far as its kind has it.
+rule::SourceKey read_source_key(Reader& reader, rule::SourceKind kind, std::uint32_t step) {
+  using enum rule::SourceKind;
+  rule::SourceKey key{.step = step};
+  if (kind == point || kind == sphere) key.at = to_position(reader.vector<3>("at", coordinate()));
+  if (kind == sphere) key.radius = to_position(reader.number("radius", at_most(kLargestRadius)));
+  if (kind == directional) {
+    const std::array<double, 3> direction = reader.vector<3>("direction", within(kLargestDirection));
+    if (std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])}) < kLeastDirection)
+      reader.fail("direction", " has no length");
+    key.direction = to_direction(direction);
+  }
+  key.power = to_power(reader.number("power", power()));
+  return key;
+}
+
+rule::HeatSource read_source(Reader& reader) {
+  rule::HeatSource source;
+  source.kind =
+      static_cast<rule::SourceKind>(reader.choice("kind", {"point", "sphere", "directional", "sky"}, 0));
   if (!reader.has("keyframes")) {
-    source.keys.push_back(
-        {0, to_position(reader.vector<3>("at", coordinate())), to_power(reader.number("power", power()))});
+    source.keys.push_back(read_source_key(reader, source.kind, 0));
   } else {
-    if (reader.has("at") || reader.has("power"))
-      reader.fail("keyframes", " excludes at and power: each keyframe has its own");
+    for (const char* key : {"at", "radius", "direction", "power"})
+      if (reader.has(key))
+        reader.fail("keyframes", fmt::format(" excludes {}: each keyframe has its own", key));
     std::vector<Reader> frames = reader.tables("keyframes");
     if (frames.empty()) reader.fail("keyframes", " is empty");
     for (Reader& frame : frames) {
@@ -80,8 +100,7 @@ rule::PointSource read_source(Reader& reader) {
       if (!source.keys.empty() && step <= source.keys.back().step)
         frame.fail("step",
                    fmt::format(" = {} must be after the keyframe before, {}", step, source.keys.back().step));
-      source.keys.push_back(
-          {step, to_position(frame.vector<3>("at", coordinate())), to_power(frame.number("power", power()))});
+      source.keys.push_back(read_source_key(frame, source.kind, step));
       frame.finish();
     }
   }
@@ -91,8 +110,8 @@ rule::PointSource read_source(Reader& reader) {
 
 }  // namespace
 
-std::vector<rule::PointSource> read_heat_sources(Reader& root) {
-  std::vector<rule::PointSource> sources;
+std::vector<rule::HeatSource> read_heat_sources(Reader& root) {
+  std::vector<rule::HeatSource> sources;
   for (Reader& source : root.tables("heat_source")) sources.push_back(read_source(source));
   return sources;
 }

@@ -13,9 +13,9 @@ namespace voxmelt::scene {
 rule::Material read_material(Reader& root);  // [material]
 // [heat], [heat.air] and [[heat_source]]
 rule::Heat read_heat(Reader& root, int ny, std::vector<std::string>& warnings);
-std::vector<rule::PointSource> read_heat_sources(Reader& root);  // [[heat_source]] alone
-std::vector<rule::Vent> read_vents(Reader& root);                // [[vent]]
-std::vector<rule::Drain> read_drains(Reader& root);              // [[drain]]
+std::vector<rule::HeatSource> read_heat_sources(Reader& root);  // [[heat_source]] alone
+std::vector<rule::Vent> read_vents(Reader& root);               // [[vent]]
+std::vector<rule::Drain> read_drains(Reader& root);             // [[drain]]
 // [flow] and its tables
 rule::Flow read_flow(Reader& root, std::vector<std::string>& warnings);
 

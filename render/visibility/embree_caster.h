@@ -27,10 +27,9 @@ class EmbreeCaster final : public Caster {
   static bool built_in();  // false: this build has no Embree, and nothing else may be called
 
   std::string_view name() const override { return "embree"; }
-  // Builds the tree where opaque cells appeared, and refits it where some vanished.
+  // Builds the tree anew, over the bricks that are there or over what is left of those before.
   void prepare(const Opaque& opaque, const Opaque::News& news) override;
-  void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-            std::span<Fate> fates) const override;
+  void cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const override;
 
   struct Box {
     std::array<float, 3> low, high;

@@ -15,6 +15,6 @@ EmbreeCaster::~EmbreeCaster() = default;
 bool EmbreeCaster::built_in() { return false; }
 EmbreeCaster::Box EmbreeCaster::box() const { return {}; }
 void EmbreeCaster::prepare(const Opaque&, const Opaque::News&) {}
-void EmbreeCaster::cast(const Opaque&, const rule::Position&, std::span<const Ray>, std::span<Fate>) const {}
+void EmbreeCaster::cast(const Opaque&, std::span<const Ray>, std::span<Fate>) const {}
 
 }  // namespace voxmelt::visibility

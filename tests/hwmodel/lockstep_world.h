@@ -64,7 +64,7 @@ inline Start crop(const Start& whole, int side) {
     cut.volume.heat[to] = whole.volume.heat[from];
   });
   const auto move = [&](rule::Position& at) { at.x -= 16 * x0, at.y -= 16 * y0, at.z -= 16 * z0; };
-  for (rule::PointSource& source : cut.parameters.heat.sources)
+  for (rule::HeatSource& source : cut.parameters.heat.sources)
     for (rule::SourceKey& key : source.keys) move(key.at);
   for (rule::Vent& vent : cut.parameters.vents) move(vent.region.at);
   for (rule::Drain& drain : cut.parameters.drains) move(drain.region.at);

@@ -112,6 +112,29 @@ TEST_F(Sources, WhatIsReadBackIsWhatWasSetRounded) {
   }
 }
 
+TEST_F(Sources, OfEveryKindAreReadBack) {
+  using enum HeatSourceKind;
+  Simulation simulation(file);
+  simulation.set_heat_sources(
+      {{{{.step = 2, .at = {1, 2, 3}, .power = 4, .radius = 2.03}}, sphere},
+       {{{.power = 0.25, .direction = {0, 3, -1}}, {.step = 7, .power = 1, .direction = {1, 1, 1}}},
+        directional},
+       {{{.power = 0.125}}, sky}});
+  for (int round = 0; round < 2; ++round) {  // what was rounded stays
+    const std::vector<HeatSource> read = simulation.heat_sources();
+    ASSERT_EQ(read.size(), 3u);
+    EXPECT_EQ(read[0].kind, sphere);
+    EXPECT_EQ(read[0].keyframes[0].radius, 2);
+    EXPECT_EQ(read[0].keyframes[0].at, (Position{1, 2, 3}));
+    EXPECT_EQ(read[1].kind, directional);
+    EXPECT_EQ(read[1].keyframes[0].direction, (Position{0, 1, -10923.0 / 32768}));
+    EXPECT_EQ(read[1].keyframes[1].direction, (Position{1, 1, 1}));
+    EXPECT_EQ(read[2].kind, sky);
+    EXPECT_EQ(read[2].keyframes[0].power, 0.125);
+    simulation.set_heat_sources(read);
+  }
+}
+
 TEST_F(Sources, WhatASceneMayNotSayIsRefusedAndNothingChanges) {
   Simulation simulation(file);
   simulation.set_vents({{{55, 8, 10}, 2, 0.1}});
@@ -151,6 +174,12 @@ TEST_F(Sources, WhatASceneMayNotSayIsRefusedAndNothingChanges) {
   EXPECT_NE(lamps({HeatSource::fixed({0, nan, 0}, 1)}), "nothing");
   EXPECT_NE(lamps({HeatSource::fixed({0, 0, 0}, -1)}), "nothing");
   EXPECT_NE(lamps({HeatSource{}}).find("is empty"), std::string::npos);
+  using enum HeatSourceKind;
+  EXPECT_NE(lamps({{{{.radius = 8193}}, sphere}}).find("heat_source.0.keyframes.0.radius"),
+            std::string::npos);
+  EXPECT_NE(lamps({{{{.power = 1}}, directional}}).find("has no length"), std::string::npos);
+  EXPECT_NE(lamps({{{{.power = 1}}, static_cast<HeatSourceKind>(4)}}).find("heat_source.0.kind"),
+            std::string::npos);
   EXPECT_NE(lamps({HeatSource{{{4, {}, 1}, {4, {}, 2}}}}).find("must be after"), std::string::npos);
   EXPECT_EQ(simulation.heat_sources()[0].keyframes[0].power, 4);
 

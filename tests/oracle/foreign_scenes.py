@@ -84,13 +84,25 @@ class Maker:
         return heat
 
     def source(self):
-        source = self.some("heat_source", "kind", given=0.3)
+        source = self.some("heat_source", "kind", given=0.7)
+        kind = source.get("kind", "point")
         if self.gives("heat_source.keyframes", 0.5):
             frame = "heat_source.keyframes"
             steps = sorted({self.step(f"{frame}.step") for _ in range(self.dice.randint(1, 4))})
-            return {**source, "keyframes": [{"step": step, "at": self.at(f"{frame}.at", 6),
-                                             "power": self.draw(f"{frame}.power")} for step in steps]}
-        return {**source, "at": self.at("heat_source.at", 6), "power": self.draw("heat_source.power")}
+            return {**source, "keyframes": [{"step": step, **self.shine(frame, kind)} for step in steps]}
+        return {**source, **self.shine("heat_source", kind)}
+
+    def shine(self, table, kind):
+        """What a source of this kind says, or one of its keyframes."""
+        said = {"power": self.draw(f"{table}.power")}
+        if kind in ("point", "sphere"):
+            said["at"] = self.at(f"{table}.at", 6)
+        if kind == "sphere":
+            said["radius"] = self.draw(f"{table}.radius")
+        if kind == "directional":
+            direction = [self.draw(f"{table}.direction") for _ in "xyz"]
+            said["direction"] = direction if any(abs(d) > 1e-5 for d in direction) else [0, 1, 0]
+        return said
 
     def region(self, table):
         region = {"at": self.at(f"{table}.at"), "radius": self.draw(f"{table}.radius"), "rate": self.draw(f"{table}.rate")}

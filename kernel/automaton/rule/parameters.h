@@ -21,15 +21,22 @@ struct Position {
   std::int64_t x = 0, y = 0, z = 0;
 };
 
-// Between two keyframes, the position and the power of a point source change linearly in the step.
+enum class SourceKind : std::uint8_t { point, sphere, directional, sky };
+
+// Between two keys, all numbers of a source change linearly in the step. Those that its kind lacks are 0.
 struct SourceKey {
   std::uint32_t step = 0;
-  Position at;
-  std::uint64_t power = 0;  // irradiance x squared distance: 1/16 temperature unit per step x (1/16 cell)^2
+  Position at{};
+  // Irradiance x squared distance: 1/16 temperature unit per step x (1/16 cell)^2. Of a sun or a sky: the
+  // irradiance of what is turned to it, x 256.
+  std::uint64_t power = 0;
+  std::int64_t radius = 0;
+  Position direction{};  // towards a directional source, of any length
 };
 
-struct PointSource {
+struct HeatSource {
   std::vector<SourceKey> keys;  // at least one, ascending in step
+  SourceKind kind = SourceKind::point;
 };
 
 struct Heat {
@@ -40,10 +47,11 @@ struct Heat {
   std::uint16_t weight_corner = 0;  // l^2 = 3
   std::uint16_t convection = 0;     // upward exchange in liquid, 1/65536, at most 32767; 0 is off
   bool walls = false;               // isothermal walls: inert cells whose heat is not 0
-  bool radiation = false;           // point sources present
+  bool radiation = false;           // heat sources present
   std::uint32_t visibility_every = 8;
-  int rays_per_face = 1;  // 1, 4 or 16: from the centres of equal squares
-  std::vector<PointSource> sources;
+  int rays_per_face = 1;       // 1, 4 or 16: from the centres of equal squares
+  std::uint64_t ray_seed = 1;  // of the places where rays end: the scene's seed
+  std::vector<HeatSource> sources;
   bool air = false;                          // exchange with moving air at exposed cells (oven, or cooling)
   std::uint16_t air_exchange = 0;            // 1/65536 per step and unit area, at most 37837
   std::vector<Temperature> air_temperature;  // one per y

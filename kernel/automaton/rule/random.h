@@ -16,14 +16,17 @@ namespace voxmelt::rule {
 inline constexpr int kRandomRounds = 10;
 using RoundKeys = std::array<std::uint32_t, kRandomRounds>;
 
-// Speck64/128 key schedule of (seed low, seed high, "voxm", "elt!").
-VOXMELT_RULE RoundKeys round_keys(std::uint64_t seed) {
+// The last word of the key: "elt!" for the random bits of cells, "rays" for the places where rays end.
+inline constexpr std::uint32_t kCellWord = 0x656C7421, kRayWord = 0x72617973;
+
+// Speck64/128 key schedule of (seed low, seed high, "voxm", last word).
+VOXMELT_RULE RoundKeys round_keys(std::uint64_t seed, std::uint32_t last_word = kCellWord) {
   RoundKeys key{};
   std::array<std::uint32_t, kRandomRounds + 3> l{};
   key[0] = static_cast<std::uint32_t>(seed);
   l[0] = static_cast<std::uint32_t>(seed >> 32);
   l[1] = 0x766F786Du;
-  l[2] = 0x656C7421u;
+  l[2] = last_word;
   for (std::uint32_t i = 0; i + 1 < kRandomRounds; ++i) {
     l[i + 3] = (key[i] + std::rotr(l[i], 8)) ^ i;
     key[i + 1] = std::rotl(key[i], 3) ^ l[i + 3];

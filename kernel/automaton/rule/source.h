@@ -1,4 +1,4 @@
-// Vents, drains and the path of a moving point source: integers in sixteenths of a cell.
+// Vents, drains and the path of a moving heat source: integers in sixteenths of a cell.
 #pragma once
 
 #include <algorithm>
@@ -41,8 +41,12 @@ VOXMELT_RULE std::int64_t between(std::int64_t a, std::int64_t b, std::int64_t i
          static_cast<std::int64_t>(rest * static_cast<std::uint64_t>(i) / static_cast<std::uint64_t>(n));
 }
 
-// Position and power of a source at a step.
-inline SourceKey source_at(const PointSource& source, std::uint32_t step) {
+VOXMELT_RULE Position between(const Position& a, const Position& b, std::int64_t i, std::int64_t n) {
+  return {between(a.x, b.x, i, n), between(a.y, b.y, i, n), between(a.z, b.z, i, n)};
+}
+
+// The numbers of a source at a step.
+inline SourceKey source_at(const HeatSource& source, std::uint32_t step) {
   const auto& keys = source.keys;
   if (step <= keys.front().step) return keys.front();
   if (step >= keys.back().step) return keys.back();
@@ -50,10 +54,10 @@ inline SourceKey source_at(const PointSource& source, std::uint32_t step) {
   while (keys[k + 1].step <= step) ++k;
   const SourceKey &a = keys[k], &b = keys[k + 1];
   const std::int64_t i = step - a.step, n = b.step - a.step;
-  return {step,
-          {between(a.at.x, b.at.x, i, n), between(a.at.y, b.at.y, i, n), between(a.at.z, b.at.z, i, n)},
+  return {step, between(a.at, b.at, i, n),
           static_cast<std::uint64_t>(
-              between(static_cast<std::int64_t>(a.power), static_cast<std::int64_t>(b.power), i, n))};
+              between(static_cast<std::int64_t>(a.power), static_cast<std::int64_t>(b.power), i, n)),
+          between(a.radius, b.radius, i, n), between(a.direction, b.direction, i, n)};
 }
 
 }  // namespace voxmelt::rule

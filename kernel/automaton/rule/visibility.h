@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -16,7 +17,8 @@ inline constexpr std::int32_t kIrradianceMax = 65535;  // UQ12.4 temperature uni
 // floor(sqrt(a)), digit by digit: exact, and the same everywhere.
 VOXMELT_RULE std::uint64_t square_root(std::uint64_t a) {
   std::uint64_t root = 0;
-  for (std::uint64_t bit = std::uint64_t{1} << 62; bit != 0; bit >>= 2) {
+  const int even = (63 - std::countl_zero(a | 1)) & ~1;  // of the greatest power of 4 that is not above a
+  for (std::uint64_t bit = std::uint64_t{1} << even; bit != 0; bit >>= 2) {
     const std::uint64_t next = root + bit;
     root >>= 1;
     if (a < next) continue;

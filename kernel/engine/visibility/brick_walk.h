@@ -16,15 +16,15 @@
 namespace voxmelt::visibility {
 
 // No axis of a ray is longer than this, in sixteenths, where 64 bits suffice for a walk in any grid: the
-// product of three lengths is at most 2^60. A crossing within a grid of 4096 cells, and a brick beyond, stays
-// below 2^17, and so below 2^57 when it is multiplied by two lengths.
+// product of three lengths is at most 2^60. A crossing within a grid of 4096 cells, and 254 bricks beyond,
+// stays below 2^17, and so below 2^57 when it is multiplied by two lengths.
 inline constexpr std::int64_t kLongestNarrow = std::int64_t{1} << 20;
 
 // The lengths of a ray along the axes, and which way it goes.
 struct Course {
-  Course(const Ray& ray, const rule::Position& source) {
+  explicit Course(const Ray& ray) {
     const std::array<std::int64_t, 3> from{ray.start.x, ray.start.y, ray.start.z},
-        to{source.x, source.y, source.z};
+        to{ray.end.x, ray.end.y, ray.end.z};
     for (std::size_t a = 0; a < 3; ++a) {
       const std::int64_t delta = to[a] - from[a], lower = rule::kPositionUnit * ray.cell[a];
       way[a] = delta > 0 ? 1 : -1;
@@ -107,15 +107,21 @@ class BrickWalk {
     return end;
   }
 
-  // Moves to the first cell beyond the brick of this one; false when the segment ends first.
-  bool leave() {
+  // A bit for each axis along which the ray goes up.
+  std::size_t octant() const {
+    return static_cast<std::size_t>((way_[0] > 0) | (way_[1] > 0) << 1 | (way_[2] > 0) << 2);
+  }
+
+  // Moves to the first cell beyond the cube of `side` bricks that begins with this one, on the way; false
+  // when the segment ends first.
+  bool leave(int side) {
+    const int more = state::kBrickSide * (side - 1);
     Whole exit = kNever;
-    for (std::size_t a = 0; a < 3; ++a) exit = std::min(exit, next_[a] + inside(a) * each_[a]);
+    for (std::size_t a = 0; a < 3; ++a) exit = std::min(exit, next_[a] + (more + inside(a)) * each_[a]);
     if (exit >= end_) return false;
     for (std::size_t a = 0; a < 3; ++a) {
       const Whole rest = exit - next_[a];
-      // At most 8 planes of an axis lie within a brick, so three comparisons divide.
-      if (rest >= 0) cross(a, 1 + eighths(rest, each_[a]));
+      if (rest >= 0) cross(a, 1 + (side == 1 ? eighths(rest, each_[a]) : static_cast<int>(rest / each_[a])));
     }
     return true;
   }
@@ -170,9 +176,9 @@ class BrickWalk {
 
 // Calls `walk` with the walk of a ray, in numbers that are wide enough.
 template <class Walk>
-auto with_walk(const Ray& ray, const rule::Position& source, const Walk& walk) {
+auto with_walk(const Ray& ray, const Walk& walk) {
   __extension__ using Wide = __int128;
-  const Course course(ray, source);
+  const Course course(ray);
   if (course.narrow()) {
     BrickWalk<std::int64_t> narrow(ray.cell, course);
     return walk(narrow);

@@ -7,21 +7,24 @@
 #include <string_view>
 
 #include "kernel/automaton/rule/parameters.h"
+#include "kernel/engine/visibility/gaps.h"
 #include "kernel/engine/visibility/opaque.h"
 
 namespace voxmelt::visibility {
 
-// From a face of a solid cell. `cell` lies beyond the face, and is not opaque. It may lie outside the grid.
+// From a face of a solid cell to a point of its source. `cell` lies beyond the face, and is not opaque. It
+// may lie outside the grid.
 struct Ray {
   Cell cell;
-  rule::Position start;
+  rule::Position start, end;
 };
 
 // What became of a ray: it sees the source, or it meets the opaque cell at this place (Opaque::place). Any
-// opaque cell on its way will do. Where places exceed 32 bits, it is only known to be dark.
+// opaque cell on its way will do. Where places exceed 32 bits, it is only known to be dark. No caster gives
+// kNone: those who keep fates say so that there is no ray to cast.
 using Fate = std::uint32_t;
-inline constexpr Fate kSees = 0xffff'ffff, kDark = 0xffff'fffe;
-inline Fate met(std::size_t place) { return place < kDark ? static_cast<Fate>(place) : kDark; }
+inline constexpr Fate kSees = 0xffff'ffff, kDark = 0xffff'fffe, kNone = 0xffff'fffd;
+inline Fate met(std::size_t place) { return place < kNone ? static_cast<Fate>(place) : kDark; }
 
 class Caster {
  public:
@@ -30,27 +33,28 @@ class Caster {
   // Before rays are cast into what `opaque` now is. The same one every time.
   virtual void prepare(const Opaque& /*opaque*/, const Opaque::News& /*news*/) {}
   // One fate for each ray. Several threads may call it at once.
-  virtual void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-                    std::span<Fate> fates) const = 0;
+  virtual void cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const = 0;
 };
 
 // rule::VoxelWalk itself, cell after cell.
 class PlainCaster final : public Caster {
  public:
   std::string_view name() const override { return "walk"; }
-  void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-            std::span<Fate> fates) const override;
+  void cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const override;
 };
 
 // By bricks, the fate of one ray.
-Fate two_level_fate(const Opaque& opaque, const rule::Position& source, const Ray& ray);
+Fate two_level_fate(const Opaque& opaque, const Gaps& gaps, const Ray& ray);
 
-// From brick to brick where nothing stands, and from cell to cell elsewhere.
+// Over gaps at once where nothing stands, and from cell to cell elsewhere.
 class TwoLevelCaster final : public Caster {
  public:
   std::string_view name() const override { return "two-level"; }
-  void cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-            std::span<Fate> fates) const override;
+  void prepare(const Opaque& opaque, const Opaque::News& news) override { gaps_.update(opaque, news); }
+  void cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const override;
+
+ private:
+  Gaps gaps_;
 };
 
 }  // namespace voxmelt::visibility

@@ -1,15 +1,17 @@
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "kernel/automaton/rule/visibility.h"
 #include "kernel/engine/visibility/brick_walk.h"
 #include "kernel/engine/visibility/caster.h"
+#include "kernel/engine/visibility/two_level.h"
 
 namespace voxmelt::visibility {
 namespace {
 
-Fate plain_fate(const Opaque& opaque, const rule::Position& source, const Ray& ray) {
-  rule::VoxelWalk walk(ray.cell, ray.start, source);
+Fate plain_fate(const Opaque& opaque, const Ray& ray) {
+  rule::VoxelWalk walk(ray.cell, ray.start, ray.end);
   bool inside = opaque.contains(ray.cell);
   while (inside && walk.next()) {  // a straight ray that has left the grid never comes back
     const Cell cell{walk.x(), walk.y(), walk.z()};
@@ -22,31 +24,20 @@ Fate plain_fate(const Opaque& opaque, const rule::Position& source, const Ray& r
 
 }  // namespace
 
-Fate two_level_fate(const Opaque& opaque, const rule::Position& source, const Ray& ray) {
+Fate two_level_fate(const Opaque& opaque, const Gaps& gaps, const Ray& ray) {
   if (!opaque.contains(ray.cell)) return kSees;
-  return with_walk(ray, source, [&](auto& walk) {
+  return with_walk(ray, [&](auto& walk) {
     bool ends = false;
-    // What lies in a brick, but beyond the grid, is empty. So a ray may leave the grid there.
-    while (!ends && opaque.bricks().contains(walk.cell()[0] >> 3, walk.cell()[1] >> 3, walk.cell()[2] >> 3)) {
-      const std::size_t brick = opaque.brick_at(walk.cell());
-      if (opaque.empty(brick)) {
-        ends = !walk.leave();
-      } else if (const Fate fate = meet_in_brick(opaque, brick, walk, ends); fate != kSees) {
-        return fate;
-      }
-    }
-    return kSees;
+    return follow(opaque, gaps, walk, std::numeric_limits<int>::max(), ends);
   });
 }
 
-void PlainCaster::cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-                       std::span<Fate> fates) const {
-  for (std::size_t i = 0; i < rays.size(); ++i) fates[i] = plain_fate(opaque, source, rays[i]);
+void PlainCaster::cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const {
+  for (std::size_t i = 0; i < rays.size(); ++i) fates[i] = plain_fate(opaque, rays[i]);
 }
 
-void TwoLevelCaster::cast(const Opaque& opaque, const rule::Position& source, std::span<const Ray> rays,
-                          std::span<Fate> fates) const {
-  for (std::size_t i = 0; i < rays.size(); ++i) fates[i] = two_level_fate(opaque, source, rays[i]);
+void TwoLevelCaster::cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const {
+  for (std::size_t i = 0; i < rays.size(); ++i) fates[i] = two_level_fate(opaque, gaps_, rays[i]);
 }
 
 }  // namespace voxmelt::visibility

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdlib>
 
+#include "kernel/automaton/rule/ray.h"
 #include "kernel/automaton/rule/source.h"
 #include "kernel/automaton/rule/visibility.h"
 
@@ -12,16 +12,26 @@ namespace voxmelt::visibility {
 namespace {
 
 constexpr int kBandCells = 1 << 15;  // about; more threads have work, and the memory of each is bounded
-constexpr std::uint32_t kStale = 0xffff'ffff;
 constexpr std::size_t kBatch = 1024;
 
 bool same(const rule::Position& a, const rule::Position& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+// Do rays end at the same places?
+bool same_ends(const rule::SourceKey& a, const rule::SourceKey& b) {
+  return same(a.at, b.at) && a.radius == b.radius && same(a.direction, b.direction);
+}
+
+// A ray that sees goes on to see, and one that met a cell stays dark while that one is opaque.
+bool known(const Opaque& opaque, Fate fate) {
+  return fate == kSees || fate == kNone || (fate != kDark && opaque.holds(fate));
+}
+
+}  // namespace
 
 // Rays that are cast together, and where their fates belong.
-class Batch {
+class KeptRays::Batch {
  public:
-  Batch(const Caster& caster, const Opaque& opaque, const rule::Position& source, std::vector<Fate>& fates)
-      : caster_(caster), opaque_(opaque), source_(source), fates_(fates) {}
+  Batch(const Caster& caster, const Opaque& opaque, std::vector<Fate>& fates)
+      : caster_(caster), opaque_(opaque), fates_(fates) {}
 
   void add(const Ray& ray, std::size_t place) {
     if (rays_.empty()) {  // most bands have few rays, or none
@@ -35,7 +45,7 @@ class Batch {
   void cast() {
     if (rays_.empty()) return;
     std::array<Fate, kBatch> found;
-    caster_.cast(opaque_, source_, rays_, {found.data(), rays_.size()});
+    caster_.cast(opaque_, rays_, {found.data(), rays_.size()});
     for (std::size_t i = 0; i < rays_.size(); ++i) fates_[places_[i]] = found[i];
     cast_ += static_cast<std::int64_t>(rays_.size());
     rays_.clear();
@@ -46,36 +56,34 @@ class Batch {
  private:
   const Caster& caster_;
   const Opaque& opaque_;
-  rule::Position source_;
   std::vector<Fate>& fates_;
   std::vector<Ray> rays_;
   std::vector<std::size_t> places_;
   std::int64_t cast_ = 0;
 };
 
-}  // namespace
-
 std::int64_t KeptRays::irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
                                   state::Field<std::uint16_t>& result) {
   const state::Grid before = opaque_.grid();
   news_ = opaque_.take(volume, workers_);
-  const int side = heat.rays_per_face == 16 ? 4 : heat.rays_per_face == 4 ? 2 : 1;
-  if (before != volume.grid || side != side_ || heat.sources.size() != sources_.size()) {
-    side_ = side;
+  const rule::RaySetting setting = rule::ray_setting({volume.grid.x, volume.grid.y, volume.grid.z}, heat);
+  if (before != volume.grid || setting.side != setting_.side || heat.ray_seed != seed_ ||
+      heat.sources.size() != sources_.size()) {
+    setting_ = setting;
+    seed_ = heat.ray_seed;
     written_ = nullptr;
     begin(heat);
   }
   move_sources(heat, step);
-  const bool steady = std::all_of(sources_.begin(), sources_.end(), [](const Source& s) { return s.steady; });
-  if (written_ != result.data()) {
-    result.clear();
-  } else if (steady && !news_.any()) {
+  steady_ = written_ == result.data() &&
+            std::all_of(sources_.begin(), sources_.end(), [](const Source& s) { return s.steady; });
+  if (written_ != result.data()) result.clear();
+  if (steady_ && !news_.any()) {
     for (Band& band : bands_) band.casts.cast = 0;
-  }
-  if (written_ != result.data() || !steady || news_.any()) {
+  } else {
     caster_->prepare(opaque_, news_);
     std::vector<Surface> surfaces;
-    for (const Source& source : sources_) surfaces.emplace_back(volume.grid, source.at);
+    for (const Source& source : sources_) surfaces.emplace_back(volume.grid, source.kind, source.now);
     workers_.run(static_cast<int>(bands_.size()),
                  [&](int i) { update(bands_[static_cast<std::size_t>(i)], surfaces, result); });
     written_ = result.data();
@@ -108,15 +116,21 @@ void KeptRays::move_sources(const rule::Heat& heat, std::uint32_t step) {
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     const rule::SourceKey now = rule::source_at(heat.sources[s], step);
     Source& source = sources_[s];
-    source.still = !news_.appeared && source.power > 0 && same(source.at, now.at);
-    source.steady = (source.still || now.power == 0) && source.power == now.power;
-    source.at = now.at;
-    source.power = now.power;
+    const std::uint64_t power = source.now.power;
+    source.still =
+        !news_.appeared && power > 0 && source.kind == heat.sources[s].kind && same_ends(source.now, now);
+    source.steady = (source.still || now.power == 0) && power == now.power;
+    source.kind = heat.sources[s].kind;
+    source.now = now;
   }
 }
 
 void KeptRays::update(Band& band, const std::vector<Surface>& surfaces,
                       state::Field<std::uint16_t>& result) const {
+  if (rests(band)) {
+    band.casts.cast = 0;
+    return;
+  }
   erase(band, result);
   band.casts = {};
   std::size_t bytes = 0;
@@ -135,7 +149,7 @@ void KeptRays::erase(const Band& band, state::Field<std::uint16_t>& result) cons
   if (!band.kept)
     for (int y = band.y0; y < band.y1; ++y)
       std::fill_n(result.row(y, band.z), opaque_.grid().x, std::uint16_t{0});
-  for (const OfSource& own : band.sources)
+  for (const LitCells& own : band.sources)
     for (const Lit& lit : own.cells) {
       const Cell cell = cell_at(band, lit);
       result.row(cell[1], cell[2])[cell[0]] = 0;
@@ -144,7 +158,7 @@ void KeptRays::erase(const Band& band, state::Field<std::uint16_t>& result) cons
 
 std::int64_t KeptRays::write(const Band& band, state::Field<std::uint16_t>& result) const {
   std::int64_t cuts = 0;
-  for (const OfSource& own : band.sources)
+  for (const LitCells& own : band.sources)
     for (const Lit& lit : own.cells) {
       if (lit.value == 0) continue;
       const Cell cell = cell_at(band, lit);
@@ -157,121 +171,124 @@ std::int64_t KeptRays::write(const Band& band, state::Field<std::uint16_t>& resu
   return cuts;
 }
 
-void KeptRays::renew(Band& band, const Source& source, const Surface& surface, OfSource& own) const {
-  if (source.power == 0) {
+// Nothing here is new: no face, and no ray has lost the cell that it met. So all is written already.
+bool KeptRays::rests(const Band& band) const {
+  if (!steady_ || !band.kept) return false;
+  for (std::size_t w = static_cast<std::size_t>(band.y0) / 64; 64 * w < static_cast<std::size_t>(band.y1);
+       ++w)
+    if (rows_of(band, w, true) != 0) return false;
+  return std::all_of(band.sources.begin(), band.sources.end(), [&](const LitCells& own) {
+    return std::all_of(own.fates.begin(), own.fates.end(), [&](Fate fate) { return known(opaque_, fate); });
+  });
+}
+
+// Of rows y = 64 w to 64 w + 63, those of the band; or only those that may have other faces than before.
+std::uint64_t KeptRays::rows_of(const Band& band, std::size_t w, bool changed) const {
+  const auto below = [w](int y) {  // rows of this word before y
+    const int rows = std::clamp(y - 64 * static_cast<int>(w), 0, 64);
+    return rows == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << rows) - 1;
+  };
+  const std::uint64_t rows = below(band.y1) & ~below(band.y0);
+  return changed ? rows & opaque_.changed_about(w, band.z) : rows;
+}
+
+void KeptRays::renew(Band& band, const Source& source, const Surface& surface, LitCells& own) const {
+  if (source.now.power == 0) {
     own = {};
     return;
   }
-  const bool still = source.still && band.kept;
-  if (!still || opaque_.changed_about(band.z)) {
-    OfSource now = find(band, surface);
-    if (still) keep(own, now);
-    own = std::move(now);
-  }
+  own = find(band, surface, own, source.still && band.kept);
   if (!source.steady)
     for (Lit& lit : own.cells) lit.value = kStale;
   band.casts += cast(band, source, own);
   const Fate* fates = own.fates.data();
   for (Lit& lit : own.cells) {
     if (lit.value == kStale) lit.value = value(band, source, lit, fates);
-    fates += rays_of(lit);
+    fates += lit.rays;
   }
 }
 
-// All cells with faces that look, as if nothing was known of their rays.
-KeptRays::OfSource KeptRays::find(const Band& band, const Surface& surface) const {
-  OfSource now;
-  std::size_t rays = 0;
-  for (int y = band.y0; y < band.y1; ++y)
+// All cells with faces that look. Of a source that is still, what is known of their rays is taken over, and
+// rows without a change are not looked at.
+LitCells KeptRays::find(const Band& band, const Surface& surface, const LitCells& old, bool still) const {
+  const LitCells none;
+  RenewedLitCells now(still ? old : none, setting_.rays());
+  const auto row_place = [&](int y) { return static_cast<std::uint32_t>(y - band.y0) << 16; };
+  const auto find_row = [&](int y) {
     for (std::size_t w = 0; w < opaque_.plane().row_words(); ++w) {
-      const std::array<std::uint64_t, 3> faces = surface.faces(opaque_, w, y, band.z);
-      for (std::uint64_t bits = faces[0] | faces[1] | faces[2]; bits != 0; bits &= bits - 1) {
+      const Surface::Faces faces = surface.faces(opaque_, w, y, band.z);
+      std::uint64_t any = 0;
+      for (const std::uint64_t word : faces) any |= word;
+      for (std::uint64_t bits = any; bits != 0; bits &= bits - 1) {
         const int b = std::countr_zero(bits);
-        const auto looking = static_cast<std::uint8_t>((faces[0] >> b & 1) | (faces[1] >> b & 1) << 1 |
-                                                       (faces[2] >> b & 1) << 2);
-        const int place = (y - band.y0) << 16 | (64 * static_cast<int>(w) + b);
-        now.cells.push_back({static_cast<std::uint32_t>(place), kStale, looking});
-        rays += rays_of(now.cells.back());
+        std::uint8_t looking = 0;
+        for (std::size_t f = 0; f < faces.size(); ++f)
+          looking = static_cast<std::uint8_t>(looking | (faces[f] >> b & 1) << f);
+        now.look(row_place(y) | static_cast<std::uint32_t>(64 * static_cast<int>(w) + b), looking);
       }
     }
-  now.fates.assign(rays, kDark);
-  return now;
-}
-
-// Takes over what is known of the faces that already looked.
-void KeptRays::keep(const OfSource& old, OfSource& now) const {
-  const auto each = static_cast<std::size_t>(side_ * side_);
-  const Fate* from = old.fates.data();
-  Fate* to = now.fates.data();
-  auto was = old.cells.begin();
-  for (Lit& lit : now.cells) {
-    for (; was != old.cells.end() && was->place < lit.place; ++was) from += rays_of(*was);
-    if (was == old.cells.end() || was->place != lit.place) {
-      to += rays_of(lit);
-      continue;
+    now.drop_before(row_place(y + 1));
+  };
+  for (std::size_t w = static_cast<std::size_t>(band.y0) / 64; 64 * w < static_cast<std::size_t>(band.y1);
+       ++w)
+    for (std::uint64_t rows = rows_of(band, w, still); rows != 0; rows &= rows - 1) {
+      const int y = 64 * static_cast<int>(w) + std::countr_zero(rows);
+      now.keep_before(row_place(y));
+      find_row(y);
     }
-    if (was->faces == lit.faces) lit.value = was->value;
-    for (int a = 0; a < 3; ++a) {
-      const bool looked = (was->faces >> a & 1) != 0, looks = (lit.faces >> a & 1) != 0;
-      if (looked && looks) std::copy_n(from, each, to);
-      from += looked ? each : 0;
-      to += looks ? each : 0;
-    }
-    ++was;
-  }
+  now.keep_before(row_place(band.y1));
+  return now.take();
 }
 
 // Follows each ray of which it is not known that it sees the source, or meets a cell that is opaque now.
-Casts KeptRays::cast(const Band& band, const Source& source, OfSource& own) const {
-  Batch batch(*caster_, opaque_, source.at, own.fates);
-  const std::int64_t square = rule::kPositionUnit / side_;
+Casts KeptRays::cast(const Band& band, const Source& source, LitCells& own) const {
+  Batch batch(*caster_, opaque_, own.fates);
+  std::int64_t asked = 0;
   std::size_t place = 0;
   for (Lit& lit : own.cells) {
+    const auto end = place + lit.rays;
+    const auto is_known = [&](std::size_t at) { return known(opaque_, own.fates[at]); };
+    const std::size_t first = place;
+    while (place < end && is_known(place)) asked += own.fates[place++] != kNone;
+    if (place == end) continue;  // nothing is new: so it is with most cells
     const Cell cell = cell_at(band, lit);
-    for (std::size_t a = 0; a < 3; ++a) {
-      if ((lit.faces >> a & 1) == 0) continue;
-      const std::size_t across = (a + 1) % 3, along = (a + 2) % 3;
-      for (int i = 0; i < side_; ++i)
-        for (int j = 0; j < side_; ++j, ++place) {
-          const Fate fate = own.fates[place];
-          if (fate == kSees || (fate != kDark && opaque_.holds(fate))) continue;
-          std::array<std::int64_t, 3> start{};
-          Cell beyond = cell;
-          beyond[a] += side_of(a == 0 ? source.at.x : a == 1 ? source.at.y : source.at.z, cell[a]);
-          start[a] = rule::kPositionUnit * std::max(cell[a], beyond[a]);
-          start[across] = rule::kPositionUnit * cell[across] + square * i + square / 2;
-          start[along] = rule::kPositionUnit * cell[along] + square * j + square / 2;
-          batch.add({beyond, {start[0], start[1], start[2]}}, place);
-          lit.value = kStale;
+    rule::CellRays rays(setting_, source.kind, source.now, cell);
+    std::size_t at = first;
+    for (int f = 0; f < rule::kFaces; ++f) {
+      if ((lit.faces >> f & 1) == 0) continue;
+      rays.choose(f);
+      for (int i = 0; i < setting_.side; ++i)
+        for (int j = 0; j < setting_.side; ++j, ++at) {
+          if (at < place) continue;
+          if (!is_known(at)) {
+            const rule::Position start = rays.start(i, j);
+            const rule::CellRays::Ray ray = rays.ray(setting_.side * i + j, start);
+            own.fates[at] = ray.weight > 0 ? kDark : kNone;
+            if (ray.weight > 0) batch.add({beyond_face(cell, rule::face_of(f)), start, ray.end}, at);
+            lit.value = kStale;
+          }
+          asked += own.fates[at] != kNone;
         }
     }
+    place = end;
   }
   batch.cast();
-  return {static_cast<std::int64_t>(place), batch.count()};
+  return {asked, batch.count()};
 }
 
 std::uint32_t KeptRays::value(const Band& band, const Source& source, const Lit& lit,
                               const Fate* fates) const {
-  const Cell cell = cell_at(band, lit);
-  const auto middle = [&](std::size_t a) { return rule::kPositionUnit * cell[a] + rule::kPositionUnit / 2; };
-  const std::array<std::int64_t, 3> delta{source.at.x - middle(0), source.at.y - middle(1),
-                                          source.at.z - middle(2)};
-  std::int64_t facing = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if ((lit.faces >> a & 1) == 0) continue;
-    facing += std::abs(delta[a]) * std::count(fates, fates + side_ * side_, kSees);
-    fates += side_ * side_;
+  rule::CellRays rays(setting_, source.kind, source.now, cell_at(band, lit));
+  std::int64_t sum = 0;
+  for (int f = 0; f < rule::kFaces; ++f) {
+    if ((lit.faces >> f & 1) == 0) continue;
+    rays.choose(f);
+    for (int i = 0; i < setting_.side; ++i)
+      for (int j = 0; j < setting_.side; ++j)
+        if (*fates++ == kSees) sum += rays.ray(setting_.side * i + j, rays.start(i, j)).weight;
   }
-  if (facing == 0) return 0;
-  const auto squared =
-      static_cast<std::uint64_t>(delta[0] * delta[0] + delta[1] * delta[1] + delta[2] * delta[2]);
   constexpr std::uint64_t cut = rule::kIrradianceMax + 1;
-  return static_cast<std::uint32_t>(
-      std::min(rule::irradiance(source.power, facing, side_ * side_, squared), cut));
-}
-
-std::size_t KeptRays::rays_of(const Lit& lit) const {
-  return static_cast<std::size_t>(side_ * side_ * std::popcount(lit.faces));
+  return static_cast<std::uint32_t>(std::min(rays.receives(sum), cut));
 }
 
 Cell KeptRays::cell_at(const Band& band, const Lit& lit) {
@@ -281,7 +298,7 @@ Cell KeptRays::cell_at(const Band& band, const Lit& lit) {
 std::size_t KeptRays::kept_bytes() const {
   std::size_t bytes = 0;
   for (const Band& band : bands_)
-    for (const OfSource& own : band.sources) bytes += own.bytes();
+    for (const LitCells& own : band.sources) bytes += own.bytes();
   return bytes;
 }
 

@@ -1,7 +1,7 @@
 // A provider that casts only what changed. While a source stands still, a ray that saw it sees it: opaque
 // cells only vanish. A dark ray stays dark while the cell that it met is opaque. Where an opaque cell appears
-// (a volume edited by hand), or a source moves, every ray is cast anew. So the irradiance is what it would be
-// if all were cast each time, and depends on no memory.
+// (a volume edited by hand), or a source moves, every ray is cast anew. A sky always stands still. So the
+// irradiance is what it would be if all were cast each time, and depends on no memory.
 //
 // What is kept, beside Opaque: 12 bytes for each cell with a face that looks, and 4 for each of its rays. A
 // band of rows keeps at most kMostKept bytes for each of its cells and 16 KiB. Beyond that it keeps nothing.
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kernel/engine/visibility/caster.h"
+#include "kernel/engine/visibility/lit_cells.h"
 #include "kernel/engine/visibility/opaque.h"
 #include "kernel/engine/visibility/surface.h"
 #include "kernel/engine/visibility/visibility.h"
@@ -35,29 +36,19 @@ class KeptRays final : public Provider {
   std::size_t kept_bytes() const;  // beside Opaque
 
  private:
-  // A cell with faces that look at the source.
-  struct Lit {
-    std::uint32_t place;  // within its band: the row times 2^16, and x
-    std::uint32_t value;  // what it receives, cut just above the largest irradiance
-    std::uint8_t faces;   // a bit for each axis
-  };
-  struct OfSource {
-    std::vector<Lit> cells;   // ascending
-    std::vector<Fate> fates;  // of their rays: by cell, face and square
-    std::size_t bytes() const { return cells.size() * sizeof(Lit) + fates.size() * sizeof(Fate); }
-  };
   // Some rows of a slice: the work of one thread.
   struct Band {
     int z = 0, y0 = 0, y1 = 0;
-    std::vector<OfSource> sources;
+    // A cell's place is its row within the band times 2^16, and x. Its value is cut just above the largest.
+    std::vector<LitCells> sources;
     bool kept = true;  // else what it had of the sources took too much memory
     std::int64_t cuts = 0;
     Casts casts;
   };
   struct Source {
-    rule::Position at;
-    std::uint64_t power = 0;
-    bool still = false;   // it stands where it stood, and no opaque cell has appeared
+    rule::SourceKind kind = rule::SourceKind::point;
+    rule::SourceKey now;
+    bool still = false;   // its rays end where they ended, and no opaque cell has appeared
     bool steady = false;  // moreover, its power is what it was
   };
 
@@ -65,23 +56,26 @@ class KeptRays final : public Provider {
   void move_sources(const rule::Heat& heat, std::uint32_t step);
   void update(Band& band, const std::vector<Surface>& surfaces, state::Field<std::uint16_t>& result) const;
   void erase(const Band& band, state::Field<std::uint16_t>& result) const;
-  void renew(Band& band, const Source& source, const Surface& surface, OfSource& own) const;
-  OfSource find(const Band& band, const Surface& surface) const;
-  void keep(const OfSource& old, OfSource& now) const;
-  Casts cast(const Band& band, const Source& source, OfSource& own) const;
+  void renew(Band& band, const Source& source, const Surface& surface, LitCells& own) const;
+  bool rests(const Band& band) const;
+  std::uint64_t rows_of(const Band& band, std::size_t w, bool changed) const;
+  LitCells find(const Band& band, const Surface& surface, const LitCells& old, bool still) const;
+  class Batch;
+  Casts cast(const Band& band, const Source& source, LitCells& own) const;
   std::uint32_t value(const Band& band, const Source& source, const Lit& lit, const Fate* fates) const;
   std::int64_t write(const Band& band, state::Field<std::uint16_t>& result) const;
-  std::size_t rays_of(const Lit& lit) const;
   static Cell cell_at(const Band& band, const Lit& lit);
 
   std::unique_ptr<Caster> caster_;
   cpu::Workers workers_;
   Opaque opaque_;
   Opaque::News news_;
-  int side_ = 0;  // a face casts side_ x side_ rays
+  rule::RaySetting setting_{};
+  std::uint64_t seed_ = 0;
   std::vector<Source> sources_;
   std::vector<Band> bands_;
   const void* written_ = nullptr;  // where the result of the last time lies
+  bool steady_ = false;            // it is given again, and all sources are steady
   Casts casts_;
 };
 

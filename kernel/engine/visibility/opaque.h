@@ -24,6 +24,7 @@ class Opaque {
     bool appeared = false;  // a cell is opaque that was not, or the grid is another one
     bool vanished = false;  // a cell is no longer opaque
     bool turned = false;    // a cell is solid that was inert, or the reverse
+    int emptied = 0;        // bricks that held something, and hold nothing any more
     bool any() const { return appeared || vanished || turned; }
   };
   // Takes the masks of a volume over.
@@ -32,8 +33,9 @@ class Opaque {
   const state::Grid& grid() const { return grid_; }
   const state::BitPlane& plane() const { return plane_; }
   const state::BitPlane& solid() const { return solid_; }
-  // Did a mask of this slice, or of one beside it, change when the masks were last taken?
-  bool changed_about(int z) const;
+  // Rows y = 64 w to 64 w + 63 of slice z, a bit each: did a mask of this row, or of one beside it, change
+  // when the masks were last taken? Only such a row may have other faces than before.
+  std::uint64_t changed_about(std::size_t w, int z) const;
 
   bool contains(const Cell& cell) const { return grid_.contains(cell[0], cell[1], cell[2]); }
   bool test(const Cell& cell) const { return contains(cell) && holds(place(brick_at(cell), cell)); }
@@ -43,29 +45,35 @@ class Opaque {
   std::size_t brick_at(const Cell& cell) const {
     return bricks_.index(cell[0] >> 3, cell[1] >> 3, cell[2] >> 3);
   }
-  bool empty(std::size_t brick) const { return (filled_[brick >> 6] >> (brick & 63) & 1) == 0; }
-  bool full(std::size_t brick) const { return full_[brick] != 0; }
+  bool empty(std::size_t brick) const { return contents_[brick] == kEmpty; }
+  bool full(std::size_t brick) const { return contents_[brick] == kFull; }
   static std::size_t place(std::size_t brick, const Cell& cell) {
     return brick << 9 | static_cast<std::size_t>((cell[2] & 7) << 6 | (cell[1] & 7) << 3 | (cell[0] & 7));
   }
   bool holds(std::size_t place) const { return (bytes()[place >> 3] >> (place & 7) & 1) != 0; }
   // The cells of a brick, a byte for each row: rows by y, then by z.
   const std::uint8_t* rows(std::size_t brick) const { return bytes() + (brick << 6); }
+  // Is all of a brick empty that a ray from this cell on can come to? `octant` is that of BrickWalk.
+  bool clear_ahead(std::size_t brick, const Cell& cell, std::size_t octant) const;
 
  private:
+  enum Contents : std::uint8_t { kEmpty, kPartly, kFull, kUnknown };
   void resize(const state::Grid& grid);
   News take_layer(const state::Volume& volume, int layer);
   void write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z);
-  void fill(int layer);
+  int look_into(int layer);
+  std::size_t change_word(int y, int z) const {
+    return static_cast<std::size_t>(z) * column_words_ + (static_cast<std::size_t>(y) >> 6);
+  }
   std::uint8_t* bytes() { return reinterpret_cast<std::uint8_t*>(bits_.data()); }
   const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(bits_.data()); }
 
   state::Grid grid_, bricks_;
   state::BitPlane plane_, solid_;
-  state::Pages bits_;                  // 64 bytes a brick
-  std::vector<std::uint64_t> filled_;  // a bit for each brick that holds something
-  std::vector<std::uint8_t> full_;     // by bricks: are all 512 cells opaque?
-  std::vector<std::uint8_t> changed_;  // by slices
+  state::Pages bits_;                   // 64 bytes a brick
+  std::vector<Contents> contents_;      // by bricks
+  std::size_t column_words_ = 0;        // of the rows of a slice
+  std::vector<std::uint64_t> changed_;  // by slices: a bit for each row
 };
 
 }  // namespace voxmelt::visibility

@@ -1,4 +1,4 @@
-// What each surface cell receives from the point sources, as data: recomputed at steps divisible by
+// What each surface cell receives from the heat sources, as data: recomputed at steps divisible by
 // heat.visibility_every, a pure function of that step's masks and sources (docs/automaton.md, section 5).
 #pragma once
 

@@ -6,8 +6,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
+#include "kernel/automaton/rule/ray.h"
 #include "kernel/automaton/rule/source.h"
 #include "kernel/engine/visibility/visibility.h"
 
@@ -21,8 +21,13 @@ bool opaque(const state::Volume& volume, int x, int y, int z) {
 
 using Cell = std::array<int, 3>;
 
-bool sees(const state::Volume& volume, Cell first, rule::Position start, rule::Position source) {
-  rule::VoxelWalk walk(first, start, source);
+Cell beyond_face(Cell cell, const rule::Face& face) {
+  cell[face.axis] += static_cast<int>(face.side);
+  return cell;
+}
+
+bool sees(const state::Volume& volume, Cell first, rule::Position start, rule::Position end) {
+  rule::VoxelWalk walk(first, start, end);
   bool inside = volume.grid.contains(walk.x(), walk.y(), walk.z());
   while (inside && walk.next()) {  // a straight ray that has left the grid never comes back
     if (opaque(volume, walk.x(), walk.y(), walk.z())) return false;
@@ -31,37 +36,35 @@ bool sees(const state::Volume& volume, Cell first, rule::Position start, rule::P
   return true;
 }
 
-// How many rays from the face of a cell towards `beyond`, along `axis`, see the source: `side` x `side` of
-// them, from the centres of equal squares.
-int seeing(const state::Volume& volume, Cell cell, std::size_t axis, Cell beyond, int side,
-           rule::Position source) {
-  std::array<std::int64_t, 3> start{};
-  start[axis] = rule::kPositionUnit * std::max(cell[axis], beyond[axis]);
-  const std::size_t across = (axis + 1) % 3, along = (axis + 2) % 3;
-  const std::int64_t square = rule::kPositionUnit / side;
-  int count = 0;
-  for (int i = 0; i < side; ++i)
-    for (int j = 0; j < side; ++j) {
-      start[across] = rule::kPositionUnit * cell[across] + square * i + square / 2;
-      start[along] = rule::kPositionUnit * cell[along] + square * j + square / 2;
-      count += sees(volume, beyond, {start[0], start[1], start[2]}, source);
-    }
-  return count;
-}
-
-// The sum, over the rays that see the source, of |delta| along the axis of their face.
-std::int64_t facing(const state::Volume& volume, Cell cell, const std::array<std::int64_t, 3>& delta,
-                    int side, rule::Position source) {
+// The sum of the weights of all rays of a cell that see the source.
+std::int64_t weight_seeing(const state::Volume& volume, rule::CellRays& rays, Cell cell, unsigned faces,
+                           int side) {
   std::int64_t sum = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::int64_t length = std::abs(delta[axis]);
-    if (length <= rule::kPositionUnit / 2) continue;  // the source is in the face's plane, or behind it
-    Cell beyond = cell;
-    beyond[axis] += delta[axis] > 0 ? 1 : -1;
-    if (opaque(volume, beyond[0], beyond[1], beyond[2])) continue;
-    sum += length * seeing(volume, cell, axis, beyond, side, source);
+  for (int f = 0; f < rule::kFaces; ++f) {
+    if ((faces >> f & 1) == 0) continue;
+    rays.choose(f);
+    const Cell beyond = beyond_face(cell, rule::face_of(f));
+    for (int i = 0; i < side; ++i)
+      for (int j = 0; j < side; ++j) {
+        const rule::Position start = rays.start(i, j);
+        const rule::CellRays::Ray ray = rays.ray(side * i + j, start);
+        if (ray.weight > 0 && sees(volume, beyond, start, ray.end)) sum += ray.weight;
+      }
   }
   return sum;
+}
+
+// Which faces of a cell are free, and may have rays that are cast: a bit for each.
+unsigned free_faces(const state::Volume& volume, rule::SourceKind kind, const rule::SourceKey& source,
+                    Cell cell) {
+  unsigned faces = 0;
+  for (int f = 0; f < rule::kFaces; ++f) {
+    const rule::Face face = rule::face_of(f);
+    if (!rule::may_look(kind, source, face, cell[face.axis])) continue;
+    const Cell beyond = beyond_face(cell, face);
+    if (!opaque(volume, beyond[0], beyond[1], beyond[2])) faces |= 1u << f;
+  }
+  return faces;
 }
 
 }  // namespace
@@ -71,22 +74,20 @@ std::int64_t VoxelWalkProvider::irradiance(const state::Volume& volume, const ru
   const state::Grid g = volume.grid;
   result.clear();
   std::atomic<std::int64_t> cuts = 0;
-  const int rays = heat.rays_per_face;
-  const int side = rays == 16 ? 4 : rays == 4 ? 2 : 1;
-  for (const rule::PointSource& path : heat.sources) {
+  const rule::RaySetting setting = rule::ray_setting({g.x, g.y, g.z}, heat);
+  for (const rule::HeatSource& path : heat.sources) {
     const rule::SourceKey source = rule::source_at(path, step);
     if (source.power == 0) continue;
 
     const auto light = [&](int x, int y, int z) {
-      const std::array<std::int64_t, 3> delta{source.at.x - (rule::kPositionUnit * x + 8),
-                                              source.at.y - (rule::kPositionUnit * y + 8),
-                                              source.at.z - (rule::kPositionUnit * z + 8)};
-      const std::int64_t sum_facing = facing(volume, {x, y, z}, delta, side, source.at);
-      if (sum_facing == 0) return;
-      const auto squared =
-          static_cast<std::uint64_t>(delta[0] * delta[0] + delta[1] * delta[1] + delta[2] * delta[2]);
+      const Cell at{x, y, z};
+      const unsigned faces = free_faces(volume, path.kind, source, at);
+      if (faces == 0) return;
+      rule::CellRays rays(setting, path.kind, source, at);
+      const std::int64_t seeing = weight_seeing(volume, rays, at, faces, setting.side);
+      if (seeing == 0) return;
       std::uint16_t& cell = result[volume.at(x, y, z)];
-      const std::uint64_t sum = cell + rule::irradiance(source.power, sum_facing, rays, squared);
+      const std::uint64_t sum = cell + rays.receives(seeing);
       cell = static_cast<std::uint16_t>(std::min<std::uint64_t>(sum, rule::kIrradianceMax));
       if (sum > rule::kIrradianceMax) cuts.fetch_add(1, std::memory_order_relaxed);
     };

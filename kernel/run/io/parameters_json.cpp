@@ -12,14 +12,28 @@ using json = nlohmann::ordered_json;
 
 json position(rule::Position p) { return {p.x, p.y, p.z}; }
 
+json source_json(const rule::HeatSource& source) {
+  using enum rule::SourceKind;
+  json json_of_source = json::object();
+  if (source.kind == sphere) json_of_source["kind"] = "sphere";
+  if (source.kind == directional) json_of_source["kind"] = "directional";
+  if (source.kind == sky) json_of_source["kind"] = "sky";
+  json keys = json::array();
+  for (const rule::SourceKey& key : source.keys) {
+    json json_of_key = {{"step", key.step}};
+    if (source.kind == point || source.kind == sphere) json_of_key["at"] = position(key.at);
+    if (source.kind == sphere) json_of_key["radius"] = key.radius;
+    if (source.kind == directional) json_of_key["direction"] = position(key.direction);
+    json_of_key["power"] = key.power;
+    keys.push_back(json_of_key);
+  }
+  json_of_source["keys"] = keys;
+  return json_of_source;
+}
+
 json sources_json(const rule::Heat& heat) {
   json sources = json::array();
-  for (const rule::PointSource& source : heat.sources) {
-    json keys = json::array();
-    for (const rule::SourceKey& key : source.keys)
-      keys.push_back({{"step", key.step}, {"at", position(key.at)}, {"power", key.power}});
-    sources.push_back({{"keys", keys}});
-  }
+  for (const rule::HeatSource& source : heat.sources) sources.push_back(source_json(source));
   return sources;
 }
 

@@ -41,4 +41,12 @@ inline rule::Position to_position(const std::array<double, 3>& at) {
   return {to_position(at[0]), to_position(at[1]), to_position(at[2])};
 }
 
+// A direction of any length, not 0: its longest component becomes 32768. So what was rounded stays as it is.
+inline constexpr double kDirectionUnit = 32768;
+inline rule::Position to_direction(const std::array<double, 3>& d) {
+  const double longest = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
+  const auto part = [&](double v) { return std::llround(v / longest * kDirectionUnit); };
+  return {part(d[0]), part(d[1]), part(d[2])};
+}
+
 }  // namespace voxmelt::scene

@@ -40,7 +40,7 @@ rule::Drain drain(std::uint32_t from, std::uint32_t until) {
 // By hand: before step 3 a vent opens; before 13 a lamp is lit, which shines from 16 on, the next step of
 // visibility; before 21 the lamp moves (24) and a drain takes the vent's place; before 37 all is gone (40).
 void change(Simulation& simulation) {
-  const auto lamp = [](rule::Position at) { return rule::PointSource{{{0, at, kPower}}}; };
+  const auto lamp = [](rule::Position at) { return rule::HeatSource{{{0, at, kPower}}}; };
   if (simulation.steps_done() == 3) simulation.change_sources({{}, {vent(0, 0xFFFFFFFFu)}, {}});
   if (simulation.steps_done() == 13) simulation.change_sources({{lamp(kLamp)}, {vent(0, 0xFFFFFFFFu)}, {}});
   if (simulation.steps_done() == 21) simulation.change_sources({{lamp(kOther)}, {}, {drain(0, 0xFFFFFFFFu)}});

@@ -151,6 +151,17 @@ power = 140
 [[heat_source]]
 kind = "point"
 keyframes = [{ step = 0, at = [0, 0, 0], power = 0 }, { step = 9, at = [1, 0, 0], power = 4194303 }]
+[[heat_source]]
+kind = "sphere"
+at = [1, 2, 3]
+radius = 2.5
+power = 2
+[[heat_source]]
+kind = "directional"
+keyframes = [{ step = 3, direction = [0.3, -0.4, 0.1], power = 1 }, { step = 8, direction = [0, 7, 0], power = 2 }]
+[[heat_source]]
+kind = "sky"
+power = 0.5
 [[vent]]
 at = [4, 4, 4]
 radius = 2.5
@@ -188,7 +199,22 @@ doubling = 0.03125
   EXPECT_EQ(p.heat.air_temperature.front(), 0);
   EXPECT_EQ(p.heat.air_temperature[4], 32768);
   EXPECT_EQ(p.heat.air_temperature.back(), 65535);
-  ASSERT_EQ(p.heat.sources.size(), 2u);
+  ASSERT_EQ(p.heat.sources.size(), 5u);
+  using enum rule::SourceKind;
+  EXPECT_EQ(p.heat.sources[1].kind, point);
+  EXPECT_EQ(p.heat.sources[2].kind, sphere);
+  EXPECT_EQ(p.heat.sources[2].keys[0].at.y, 32);
+  EXPECT_EQ(p.heat.sources[2].keys[0].radius, 40);
+  EXPECT_EQ(p.heat.sources[3].kind, directional);
+  EXPECT_EQ(p.heat.sources[3].keys[0].step, 3u);
+  const rule::Position sun = p.heat.sources[3].keys[0].direction;  // -0.4 becomes -32768
+  EXPECT_EQ(sun.x, 24576);
+  EXPECT_EQ(sun.y, -32768);
+  EXPECT_EQ(sun.z, 8192);
+  EXPECT_EQ(p.heat.sources[3].keys[1].direction.y, 32768);
+  EXPECT_EQ(p.heat.sources[3].keys[1].power, std::uint64_t{2} << 28);
+  EXPECT_EQ(p.heat.sources[4].kind, sky);
+  EXPECT_EQ(p.heat.sources[4].keys[0].power, std::uint64_t{1} << 27);
   EXPECT_EQ(p.heat.sources[0].keys[0].at.x, -24);
   EXPECT_EQ(p.heat.sources[0].keys[0].at.z, 321);
   EXPECT_EQ(p.heat.sources[0].keys[0].power, std::uint64_t{140} << 28);

@@ -43,7 +43,7 @@ TEST_P(EmbreeCasters, KeptRaysAreAsIfAllWereCast) {
   for (int world = 0; world < 30; ++world) {
     Volume v = hostile_world(random, hostile_grid(random));
     rule::Heat heat =
-        shone_by({awkward_source(random, v.grid), awkward_source(random, v.grid)}, random.any({1, 4, 16}));
+        shone_by({awkward_shine(random, v.grid), awkward_shine(random, v.grid)}, random.any({1, 4, 16}), 5);
     KeptRays kept(std::make_unique<EmbreeCaster>(GetParam()), 2);
     state::Field<std::uint16_t> result(v.grid), expected(v.grid);
     for (int call = 0; call < 6; ++call) {
@@ -56,7 +56,7 @@ TEST_P(EmbreeCasters, KeptRaysAreAsIfAllWereCast) {
         if (v.solid.test(x, y, z) && random.one_in(part)) v.solid.set(x, y, z, false);
         if (appears && random.one_in(100 * part) && !v.inert.test(x, y, z)) v.solid.set(x, y, z, true);
       });
-      if (random.one_in(4)) heat.sources[0].keys[0].at = awkward_source(random, v.grid);
+      if (random.one_in(4)) heat.sources[0].keys[0] = awkward_shine(random, v.grid, heat.sources[0].kind).key;
     }
   }
 }
@@ -101,7 +101,7 @@ TEST_P(EmbreeCasters, ABallThatMeltsToItsCore) {
   for (int radius = 30; radius > 4; radius -= 5) {
     embree.prepare(opaque, opaque.take(v, workers));
     for (const Position source : {Position{2000, 1500, 300}, {512, 2000, 512}, {-8, 200, 500}})
-      check_fates(embree, opaque, v, source, 1);
+      check_fates(embree, opaque, v, {rule::SourceKind::point, {.at = source}}, 1);
     for_each(whole(v.grid), [&](int x, int y, int z) {
       if (squared(x, y, z) >= (radius - 5) * (radius - 5)) v.solid.set(x, y, z, false);
     });

@@ -68,7 +68,7 @@ TEST(Between, IsTheFloorOf128Bits) {
 // Power 4194303 in the file is 4194303 x 2^28; 2^28 / 16384 = 2^14 of it come with each step.
 TEST(SourceAt, GrowsToTheMostThatAFileMayName) {
   constexpr std::uint64_t most = std::uint64_t{4194303} << 28, each = std::uint64_t{4194303} << 14;
-  const PointSource source{{{0, {0, 0, 0}, 0}, {16384, {kFar, -kFar, 1}, most}}};
+  const HeatSource source{{{0, {0, 0, 0}, 0}, {16384, {kFar, -kFar, 1}, most}}};
   for (const std::uint32_t step : {0u, 1u, 8191u, 8192u, 8193u, 16383u, 16384u, kLastStep})
     EXPECT_EQ(source_at(source, step).power, each * std::min(step, 16384u)) << "step " << step;
   const Position at = source_at(source, 8193).at;  // 8193 x 2^10; 8193 / 16384
@@ -77,8 +77,21 @@ TEST(SourceAt, GrowsToTheMostThatAFileMayName) {
   EXPECT_EQ(at.z, 0);
 }
 
+// (5 - 2) x 1 / 2 = 1.5; (-9 - 2) / 2 = -5.5, down to -6; 7 stays.
+TEST(SourceAt, RadiusAndDirectionMoveToo) {
+  const HeatSource source{
+      {{.step = 1, .radius = 2, .direction = {2, 7, 0}}, {.step = 3, .radius = 5, .direction = {-9, 7, 4}}},
+      SourceKind::sphere};
+  const SourceKey middle = source_at(source, 2);
+  EXPECT_EQ(middle.radius, 3);
+  EXPECT_EQ(middle.direction.x, -4);
+  EXPECT_EQ(middle.direction.y, 7);
+  EXPECT_EQ(middle.direction.z, 2);
+  EXPECT_EQ(source_at(source, 3).radius, 5);
+}
+
 TEST(SourceAt, ChoosesItsKeys) {
-  const PointSource source{{{4, {10, 0, 0}, 7}, {6, {20, 0, 0}, 1}, {10, {20, -4, 0}, 1}}};
+  const HeatSource source{{{4, {10, 0, 0}, 7}, {6, {20, 0, 0}, 1}, {10, {20, -4, 0}, 1}}};
   EXPECT_EQ(source_at(source, 0).power, 7u);
   EXPECT_EQ(source_at(source, 5).power, 4u);
   EXPECT_EQ(source_at(source, 5).at.x, 15);

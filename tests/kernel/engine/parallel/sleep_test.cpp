@@ -43,7 +43,7 @@ void calm_heat(Random& random, Grid g, Parameters& p) {
   p.material.latent_heat = static_cast<rule::Temperature>(random.any({0, 0, 300}));
   p.heat.radiation = random.one_in(3);
   p.heat.visibility_every = static_cast<std::uint32_t>(random.any({1, 3, 7}));
-  rule::PointSource source;  // dark until it comes near
+  rule::HeatSource source;  // dark until it comes near
   const rule::Region at = somewhere(random, g);
   source.keys = {{random.one_in(2) ? 9u : 3u, at.at, 0},
                  {12, {at.at.x, at.at.y + 40, at.at.z}, std::uint64_t{1} << random.between(10, 30)},

@@ -41,7 +41,7 @@ inline void hostile_heat_parameters(Random& random, Grid g, Parameters& p) {
     p.material.latent_heat = static_cast<rule::Temperature>(random.below(65536 - p.material.melting_point));
   p.heat.radiation = random.one_in(2);
   p.heat.visibility_every = static_cast<std::uint32_t>(random.between(1, 3));
-  rule::PointSource source;
+  rule::HeatSource source;
   for (const std::uint32_t step : {0u, 2u, 5u})
     source.keys.push_back({step,
                            {random.between(-20, 16 * g.x + 20), random.between(-20, 16 * g.y + 20),

@@ -14,21 +14,16 @@
 
 namespace voxmelt::visibility {
 
-inline bool opaque_in(const Volume& v, const Cell& c) {
-  return v.grid.contains(c[0], c[1], c[2]) &&
-         (v.solid.test(c[0], c[1], c[2]) || v.inert.test(c[0], c[1], c[2]));
-}
-
 // The places, as Opaque numbers them, of the opaque cells that a ray meets.
-inline std::vector<std::size_t> met_by(const Volume& v, const Ray& ray, const Position& source) {
+inline std::vector<std::size_t> met_by(const Volume& v, const Ray& ray) {
   std::vector<std::size_t> places;
   const auto bricks = [](int size) { return static_cast<std::size_t>((size + 7) / 8); };
-  rule::VoxelWalk walk(ray.cell, ray.start, source);
+  rule::VoxelWalk walk(ray.cell, ray.start, ray.end);
   bool inside = v.grid.contains(walk.x(), walk.y(), walk.z());
   while (inside && walk.next()) {
     const std::array<int, 3> cell{walk.x(), walk.y(), walk.z()};
     inside = v.grid.contains(walk.x(), walk.y(), walk.z());
-    if (!opaque_in(v, cell)) continue;
+    if (!page::opaque(v, cell)) continue;
     const std::array<std::size_t, 3> c{static_cast<std::size_t>(cell[0]), static_cast<std::size_t>(cell[1]),
                                        static_cast<std::size_t>(cell[2])};
     const std::size_t brick = (c[2] / 8 * bricks(v.grid.y) + c[1] / 8) * bricks(v.grid.x) + c[0] / 8;
@@ -42,27 +37,28 @@ struct Counts {
 };
 
 // Casts all rays of a source at once, and holds every fate.
-inline Counts check_fates(Caster& caster, const Opaque& opaque, const Volume& v, const Position& source,
-                          int side) {
-  const std::vector<Ray> rays = all_rays(v, source, side);
+inline Counts check_fates(Caster& caster, const Opaque& opaque, const Volume& v, const Shine& shine, int side,
+                          std::uint64_t seed = 1) {
+  std::vector<Ray> rays;
+  for (const PageRay& ray : page_rays(v, shine, side, seed)) rays.push_back(ray.ray);
   std::vector<Fate> fates(rays.size(), 12345);
-  caster.cast(opaque, source, rays, fates);
+  caster.cast(opaque, rays, fates);
   Counts counts{rays.size(), 0};
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const std::vector<std::size_t> places = met_by(v, rays[i], source);
+    const std::vector<std::size_t> places = met_by(v, rays[i]);
     counts.seeing += places.empty();
     const bool right = places.empty() ? fates[i] == kSees
                                       : std::find(places.begin(), places.end(), fates[i]) != places.end();
     if (!right) ++wrong;
   }
   EXPECT_EQ(wrong, 0u) << caster.name() << ": of " << rays.size() << " rays, grid " << v.grid.x << ' '
-                       << v.grid.y << ' ' << v.grid.z << ", source " << source.x << ' ' << source.y << ' '
-                       << source.z;
+                       << v.grid.y << ' ' << v.grid.z << ", source of kind " << static_cast<int>(shine.kind)
+                       << " at " << shine.key.at.x << ' ' << shine.key.at.y << ' ' << shine.key.at.z;
   return counts;
 }
 
-// 200 random worlds, each with three sources; while it melts, the caster keeps what it has built.
+// Random worlds, each with three sources of any kind; while it melts, the caster keeps what it has built.
 inline void check_hostile_worlds(Caster& caster, int worlds, std::uint64_t seed) {
   Random random(seed);
   cpu::Workers workers(1);
@@ -72,8 +68,8 @@ inline void check_hostile_worlds(Caster& caster, int worlds, std::uint64_t seed)
     Volume v = hostile_world(random, hostile_grid(random));
     for (int melt = 0; melt < 3; ++melt) {
       caster.prepare(opaque, opaque.take(v, workers));
-      const Position source = awkward_source(random, v.grid);
-      const Counts counts = check_fates(caster, opaque, v, source, random.any({1, 2, 4}));
+      const Shine shine = awkward_shine(random, v.grid);
+      const Counts counts = check_fates(caster, opaque, v, shine, random.any({1, 2, 4}), seed);
       all.rays += counts.rays, all.seeing += counts.seeing;
       const std::int32_t part = random.any({2, 5, 50});
       for_each(whole(v.grid), [&](int x, int y, int z) {
@@ -86,14 +82,16 @@ inline void check_hostile_worlds(Caster& caster, int worlds, std::uint64_t seed)
 }
 
 // Five states of one size: a ball, a wall with holes, a comb of plates, dust, and a ball half melted.
-inline Volume ray_scene(int number) {
-  Volume v(Grid{48, 40, 44});
+inline Volume ray_scene(int number, const Grid& grid = {48, 40, 44}) {
+  Volume v(grid);
   Random random(static_cast<std::uint64_t>(number));
-  const auto squared = [](int x, int y, int z) {
-    return (x - 24) * (x - 24) + (y - 20) * (y - 20) + (z - 22) * (z - 22);
+  const auto squared = [&](int x, int y, int z) {
+    const int dx = x - grid.x / 2, dy = y - grid.y / 2, dz = z - grid.z / 2;
+    return dx * dx + dy * dy + dz * dz;
   };
+  const int radius = grid.y / 2 - 3;
   for_each(whole(v.grid), [&](int x, int y, int z) {
-    const bool ball = squared(x, y, z) < 17 * 17;
+    const bool ball = squared(x, y, z) < radius * radius;
     const bool stands = number == 0   ? ball
                         : number == 1 ? y == 0 || (x == 20 && (y / 3 + z / 5) % 3 != 0)
                         : number == 2 ? y < 4 || (z % 6 == 0 && y < 30)
@@ -114,10 +112,14 @@ inline void check_scenes(Caster& caster) {
     Random random(static_cast<std::uint64_t>(1000 + number));
     Counts all;
     for (int n = 0; n < 100 && !testing::Test::HasFailure(); ++n) {
-      const Counts counts = check_fates(caster, opaque, v, awkward_source(random, v.grid), 1);
-      all.rays += counts.rays, all.seeing += counts.seeing;
+      for (const rule::SourceKind kind : kKinds) {
+        if (kind == rule::SourceKind::sky && n > 5) continue;  // one is as the other
+        const auto seed = static_cast<std::uint64_t>(n);
+        const Counts counts = check_fates(caster, opaque, v, awkward_shine(random, v.grid, kind), 1, seed);
+        all.rays += counts.rays, all.seeing += counts.seeing;
+      }
     }
-    EXPECT_GT(all.seeing, 1000u) << number;
+    EXPECT_GT(all.seeing, 4000u) << number;
   }
 }
 

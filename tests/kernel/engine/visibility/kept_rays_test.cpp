@@ -29,7 +29,7 @@ void expect_all_cast(Kept& kept, const Volume& v, const rule::Heat& heat, std::u
   ASSERT_EQ(kept.result, expected) << where;
 }
 
-enum class Event { melts, appears, turns, moves, dims, rests, darkens, rays, sources };
+enum class Event { melts, appears, turns, moves, dims, rests, darkens, rays, sources, seed };
 
 // Melting, and all that a user can do between two castings.
 TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
@@ -37,9 +37,9 @@ TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
   Casts casts;
   for (int world = 0; world < 200; ++world) {
     Volume v = hostile_world(random, hostile_grid(random));
-    std::vector<Position> sources;
-    for (int n = random.between(1, 3); n > 0; --n) sources.push_back(awkward_source(random, v.grid));
-    rule::Heat heat = shone_by(sources, random.any({1, 1, 4, 16}));
+    std::vector<Shine> shines;
+    for (int n = random.between(1, 3); n > 0; --n) shines.push_back(awkward_shine(random, v.grid));
+    rule::Heat heat = shone_by(shines, random.any({1, 1, 4, 16}), 7);
     Kept kept{KeptRays(std::make_unique<TwoLevelCaster>(), random.between(1, 2)), {}};
     Event event = Event::rests;
     for (int call = 0; call < 8; ++call) {
@@ -48,10 +48,11 @@ TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
       ASSERT_NO_FATAL_FAILURE(expect_all_cast(kept, v, heat, static_cast<std::uint32_t>(call), where));
       using enum Event;
       event = random.any(
-          {melts, melts, melts, melts, appears, turns, moves, dims, rests, darkens, rays, sources});
+          {melts, melts, melts, melts, appears, turns, moves, dims, rests, darkens, rays, sources, seed});
       const std::int32_t part = random.any({3, 20, 200});
       const auto n = static_cast<std::size_t>(random.below(static_cast<std::int32_t>(heat.sources.size())));
-      rule::SourceKey& key = heat.sources[n].keys[0];
+      rule::HeatSource& source = heat.sources[n];
+      rule::SourceKey& key = source.keys[0];
       for_each(whole(v.grid), [&](int x, int y, int z) {
         const bool solid = v.solid.test(x, y, z), inert = v.inert.test(x, y, z);
         if (event == melts && solid && random.one_in(part)) put(v, x, y, z, 0), v.solid.set(x, y, z, false);
@@ -59,11 +60,20 @@ TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
         if (event == turns && solid != inert && random.one_in(part))
           v.solid.set(x, y, z, inert), v.inert.set(x, y, z, solid);
       });
-      if (event == moves) key.at = awkward_source(random, v.grid);
+      if (event == moves) {  // also: a source of another kind takes its place
+        const Shine other =
+            random.one_in(3) ? awkward_shine(random, v.grid) : awkward_shine(random, v.grid, source.kind);
+        key = other.key;
+        source.kind = other.kind;
+      }
       if (event == dims) key.power = key.power / 3 + 5;
       if (event == darkens) key.power = key.power == 0 ? kRayPower : 0;
       if (event == rays) heat.rays_per_face = random.any({1, 4, 16});
-      if (event == sources) heat.sources.push_back({{{0, awkward_source(random, v.grid), kRayPower}}});
+      if (event == seed) ++heat.ray_seed;
+      if (event == sources) {
+        const Shine more = awkward_shine(random, v.grid);
+        heat.sources.push_back({{more.key}, more.kind});
+      }
     }
     casts += kept.provider.casts();
   }

@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/engine/visibility/caster.h"
-#include "tests/kernel/worlds.h"
+#include "tests/kernel/engine/visibility/by_the_page.h"
 
 namespace voxmelt::visibility {
 
@@ -89,32 +88,34 @@ inline Position awkward_source(Random& random, const Grid& g) {
   return {coordinate(g.x), coordinate(g.y), coordinate(g.z)};
 }
 
-// From every face of a solid cell that looks at the source, by the page and cell by cell.
-inline std::vector<Ray> all_rays(const Volume& v, const Position& s, int side) {
-  std::vector<Ray> rays;
-  const std::array<std::int64_t, 3> source{s.x, s.y, s.z};
-  for_each(whole(v.grid), [&](int x, int y, int z) {
-    if (!v.solid.test(x, y, z)) return;
-    const Cell cell{x, y, z};
-    for (std::size_t a = 0; a < 3; ++a) {
-      const std::int64_t middle = 16 * cell[a] + 8;
-      if (source[a] >= middle - 8 && source[a] <= middle + 8) continue;
-      Cell beyond = cell;
-      beyond[a] += source[a] > middle ? 1 : -1;
-      if (v.grid.contains(beyond[0], beyond[1], beyond[2]) &&
-          (v.solid.test(beyond[0], beyond[1], beyond[2]) || v.inert.test(beyond[0], beyond[1], beyond[2])))
-        continue;
-      for (int i = 0; i < side; ++i)
-        for (int j = 0; j < side; ++j) {
-          std::array<std::int64_t, 3> from{};
-          from[a] = source[a] > middle ? middle + 8 : middle - 8;
-          from[(a + 1) % 3] = 16 * cell[(a + 1) % 3] + (16 * i + 8) / side;
-          from[(a + 2) % 3] = 16 * cell[(a + 2) % 3] + (16 * j + 8) / side;
-          rays.push_back({beyond, {from[0], from[1], from[2]}});
-        }
-    }
-  });
-  return rays;
+// A sphere from nothing to larger than its distance, a sun along axes and nearly along them, or a sky.
+inline Shine awkward_shine(Random& random, const Grid& g, rule::SourceKind kind) {
+  using enum rule::SourceKind;
+  Shine shine{kind, {.power = kRayPower}};
+  if (kind == point || kind == sphere) shine.key.at = awkward_source(random, g);
+  if (kind == sphere) shine.key.radius = random.any({0, 1, 7, 30, 100, 400, 3000, 1 << 17, 1 << 24});
+  if (kind == directional) {
+    const auto part = [&]() -> std::int64_t {
+      const std::int32_t most = random.any({0, 1, 5, 40, 1000, 32768, 65536});
+      return random.one_in(3) ? most : random.between(-most, most);
+    };
+    shine.key.direction = {part(), part(), part()};
+  }
+  return shine;
+}
+inline constexpr std::array<rule::SourceKind, 4> kKinds{rule::SourceKind::point, rule::SourceKind::sphere,
+                                                        rule::SourceKind::directional, rule::SourceKind::sky};
+inline Shine awkward_shine(Random& random, const Grid& g) {
+  return awkward_shine(random, g, kKinds.at(static_cast<std::size_t>(random.below(4))));
+}
+
+inline rule::Heat shone_by(const std::vector<Shine>& shines, int rays, std::uint64_t seed) {
+  rule::Heat heat;
+  heat.enabled = heat.radiation = true;
+  heat.rays_per_face = rays;
+  heat.ray_seed = seed;
+  for (const Shine& shine : shines) heat.sources.push_back({{shine.key}, shine.kind});
+  return heat;
 }
 
 }  // namespace voxmelt::visibility

@@ -136,8 +136,7 @@ TEST(Irradiance, FallsWithTheSquareAndTheCosine) {
 }
 
 TEST(SourcePath, MovesLinearlyAndFloors) {
-  const rule::PointSource source{
-      {{10, {100, -100, 0}, 1000}, {13, {90, -110, 1}, 0}, {20, {90, -110, 1}, 7}}};
+  const rule::HeatSource source{{{10, {100, -100, 0}, 1000}, {13, {90, -110, 1}, 0}, {20, {90, -110, 1}, 7}}};
   const auto at = [&](std::uint32_t step) { return rule::source_at(source, step); };
   EXPECT_EQ(at(0).at.x, 100);
   EXPECT_EQ(at(10).power, 1000u);

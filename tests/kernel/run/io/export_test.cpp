@@ -102,27 +102,89 @@ bool names(const std::string& json, const std::string& key) {
 TEST(ParametersJson, NamesEverythingOfSection14) {
   Parameters p = paper_showcase();
   p.seed = ~std::uint64_t{0};
-  p.heat.sources = {{{{3, {1, -2, 3}, (std::uint64_t{1} << 50) - 1}}}};
+  using enum rule::SourceKind;
+  p.heat.sources = {{{{3, {1, -2, 3}, (std::uint64_t{1} << 50) - 1}}},
+                    {{{.step = 4, .at = {7, 8, 9}, .power = 10, .radius = 987}}, sphere},
+                    {{{.step = 5, .power = 11, .direction = {-654, 321, 0}}}, directional},
+                    {{{.step = 6, .power = 12}}, sky}};
   p.vents = {{}};
   p.drains = {{}};
   const std::string json = parameters_json(p, {3, 4, 5}, 17);
-  for (const char* key : {"grid",          "step",         "seed",         "material",
-                          "melting_point", "latent_heat",  "heat",         "enabled",
-                          "neighbours",    "weight_face",  "weight_edge",  "weight_corner",
-                          "convection",    "walls",        "radiation",    "visibility_every",
-                          "rays_per_face", "sources",      "keys",         "at",
-                          "power",         "air",          "air_exchange", "air_temperature",
-                          "vents",         "radius",       "rate",         "temperature",
-                          "energy",        "from",         "until",        "drains",
-                          "flow",          "law",          "fall",         "factor",
-                          "wall_factor",   "minimum",      "hang",         "paper",
-                          "threshold",     "use_table",    "table",        "share",
-                          "downhill",      "margin",       "support",      "slump",
-                          "beta",          "alpha_liquid", "alpha_solid",  "alpha_floor",
-                          "reheat",        "viscous",      "mobility",     "yield",
-                          "stiffness",     "substeps",     "substeps_max", "thermal_viscosity",
+  for (const char* key : {"grid",
+                          "step",
+                          "seed",
+                          "material",
+                          "melting_point",
+                          "latent_heat",
+                          "heat",
+                          "enabled",
+                          "neighbours",
+                          "weight_face",
+                          "weight_edge",
+                          "weight_corner",
+                          "convection",
+                          "walls",
+                          "radiation",
+                          "visibility_every",
+                          "rays_per_face",
+                          "sources",
+                          "keys",
+                          "at",
+                          "power",
+                          "radius",
+                          "direction",
+                          "kind",
+                          "air",
+                          "air_exchange",
+                          "air_temperature",
+                          "vents",
+                          "radius",
+                          "rate",
+                          "temperature",
+                          "energy",
+                          "from",
+                          "until",
+                          "drains",
+                          "flow",
+                          "law",
+                          "fall",
+                          "factor",
+                          "wall_factor",
+                          "minimum",
+                          "hang",
+                          "paper",
+                          "threshold",
+                          "use_table",
+                          "table",
+                          "share",
+                          "downhill",
+                          "margin",
+                          "support",
+                          "slump",
+                          "beta",
+                          "alpha_liquid",
+                          "alpha_solid",
+                          "alpha_floor",
+                          "reheat",
+                          "viscous",
+                          "mobility",
+                          "yield",
+                          "stiffness",
+                          "substeps",
+                          "substeps_max",
+                          "thermal_viscosity",
                           "mobility_table"})
     EXPECT_TRUE(names(json, key)) << key;
+  std::string dense;
+  for (const char c : json)
+    if (c != ' ' && c != '\n') dense += c;
+  EXPECT_NE(
+      dense.find("[{\"keys\":[{\"step\":3,\"at\":[1,-2,3],\"power\":1125899906842623}]},"
+                 "{\"kind\":\"sphere\",\"keys\":[{\"step\":4,\"at\":[7,8,9],\"radius\":987,\"power\":10}]},"
+                 "{\"kind\":\"directional\",\"keys\":[{\"step\":5,\"direction\":[-654,321,0],\"power\":11}]},"
+                 "{\"kind\":\"sky\",\"keys\":[{\"step\":6,\"power\":12}]}]"),
+      std::string::npos)
+      << dense;
   for (const char* value : {"\"seed\": 18446744073709551615", "\"step\": 17", "\"power\": 1125899906842623",
                             "\"law\": \"paper\""})
     EXPECT_NE(json.find(value), std::string::npos) << value;

@@ -1,0 +1,101 @@
+// The cells of some rows whose faces look at a source, with what is known of their rays; and how such a list
+// is renewed: what stays is copied in one piece.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "kernel/automaton/rule/ray.h"
+#include "kernel/engine/visibility/caster.h"
+
+namespace voxmelt::visibility {
+
+// A cell with faces that look at the source.
+struct Lit {
+  std::uint32_t place;  // ascending; who keeps the list says what it means
+  std::uint32_t value;  // what the cell receives, or kStale
+  std::uint8_t faces;   // a bit for each face
+  std::uint8_t rays;    // of all its faces
+};
+inline constexpr std::uint32_t kStale = 0xffff'ffff;
+
+struct LitCells {
+  std::vector<Lit> cells;   // by place
+  std::vector<Fate> fates;  // of their rays: by cell, and by face
+  std::size_t bytes() const { return cells.size() * sizeof(Lit) + fates.size() * sizeof(Fate); }
+};
+
+// Makes a list from an older one. Its calls go by ascending places.
+class RenewedLitCells {
+ public:
+  RenewedLitCells(const LitCells& old, int rays_per_face) : old_(old), each_(rays_per_face) {
+    now_.cells.reserve(old.cells.size() + kMore);
+    now_.fates.reserve(old.fates.size() + kMore);
+  }
+
+  void keep_before(std::uint32_t place) {
+    while (more() && next().place < place) pass();
+  }
+  void drop_before(std::uint32_t place) {
+    if (!more() || next().place >= place) return;
+    copy();
+    while (more() && next().place < place) pass();
+    begin();
+  }
+
+  // This cell has these faces, and none between it and the last one. What is known of a face is kept.
+  void look(std::uint32_t place, std::uint8_t faces) {
+    drop_before(place);
+    const bool was = more() && next().place == place;
+    if (was && next().faces == faces) return pass();
+    copy();
+    now_.cells.push_back({place, kStale, faces, static_cast<std::uint8_t>(each_ * std::popcount(faces))});
+    std::size_t from = fate_;
+    for (int f = 0; f < rule::kFaces; ++f) {
+      const bool looked = was && (next().faces >> f & 1) != 0, looks = (faces >> f & 1) != 0;
+      for (int n = 0; looks && n < each_; ++n)
+        now_.fates.push_back(looked ? old_.fates[from + static_cast<std::size_t>(n)] : kDark);
+      from += static_cast<std::size_t>(looked ? each_ : 0);
+    }
+    if (was) pass();
+    begin();
+  }
+
+  LitCells take() {
+    copy();
+    return std::move(now_);
+  }
+
+ private:
+  static constexpr std::size_t kMore = 64;  // about as many come at once
+
+  bool more() const { return cell_ < old_.cells.size(); }
+  const Lit& next() const { return old_.cells[cell_]; }
+  void pass() { fate_ += old_.cells[cell_++].rays; }
+  void begin() {
+    first_cell_ = cell_;
+    first_fate_ = fate_;
+  }
+  // What was passed since `begin`.
+  void copy() {
+    const auto append = [](auto& to, const auto& from, std::size_t first, std::size_t end) {
+      const auto begin = from.begin();
+      to.insert(to.end(), begin + static_cast<std::ptrdiff_t>(first),
+                begin + static_cast<std::ptrdiff_t>(end));
+    };
+    append(now_.cells, old_.cells, first_cell_, cell_);
+    append(now_.fates, old_.fates, first_fate_, fate_);
+    begin();
+  }
+
+  const LitCells& old_;
+  int each_;
+  LitCells now_;
+  std::size_t cell_ = 0, fate_ = 0;              // the next of the old ones
+  std::size_t first_cell_ = 0, first_fate_ = 0;  // the first that is not copied yet
+};
+
+}  // namespace voxmelt::visibility
