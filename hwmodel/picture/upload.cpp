@@ -109,6 +109,7 @@ int line_bytes_of(int bytes) { return (bytes + kBurst - 1) / kBurst * kBurst; }
 template <class Word>
 Layout write_bricks(Writer& writer, const render::FieldData& field, const Word* from, int bits, bool apron) {
   const state::Grid bricks = lattice_bricks(field);
+  if (apron) bits = kBrickBits;
   Layout of;
   of.sparse = true;
   of.apron = apron;
