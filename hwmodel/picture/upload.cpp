@@ -1,5 +1,6 @@
 #include "hwmodel/picture/upload.h"
 
+#include <vector>
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -73,7 +74,8 @@ SkipMap skip_of(const render::FieldData& field) {
   const state::Grid bricks = lattice_bricks(field);
   SkipMap of;
   of.x = 2 * bricks.x, of.y = 2 * bricks.y, of.z = 2 * bricks.z;
-  of.words.resize(static_cast<std::size_t>(of.x) * static_cast<std::size_t>(of.y) * static_cast<std::size_t>(of.z));
+  of.words.resize(static_cast<std::size_t>(of.x) * static_cast<std::size_t>(of.y) *
+                  static_cast<std::size_t>(of.z));
   for (std::size_t i = 0; i < of.words.size(); ++i) {
     const std::int32_t record = field.records[i];
     of.words[i] = static_cast<std::uint16_t>((record & 255) + (record < 0 ? 256 : 0));
@@ -186,7 +188,8 @@ Memory memory_of(const render::PictureData& data, const Configuration& configura
   memory.matter = write_bricks(writer, field, field.matter, 2, false);
 
   const picture::Vector& count = data.light.count;
-  const std::array<int, 3> cells{static_cast<int>(count.x), static_cast<int>(count.y), static_cast<int>(count.z)};
+  const std::array<int, 3> cells{static_cast<int>(count.x), static_cast<int>(count.y),
+                                 static_cast<int>(count.z)};
   memory.light = write_dense<LightWord>(writer, cells, {1, 1, 1}, [&](int x, int y, int z) {
     LightWord word;
     std::memcpy(word.data(), data.light.cells + 16 * ((z * count.y + y) * count.x + x), sizeof word);
@@ -203,15 +206,16 @@ Memory memory_of(const render::PictureData& data, const Configuration& configura
     const int q = ground.fineness;
     if (!texels.empty())
       memory.texels = write_dense<Texel>(writer, {nx << q, 1, nz << q}, {2, 0, 2}, [&](int x, int, int z) {
-        const picture::Texel& t =
-            texels[static_cast<std::size_t>(z) * static_cast<std::size_t>(nx << q) + static_cast<std::size_t>(x)];
+        const picture::Texel& t = texels[static_cast<std::size_t>(z) * static_cast<std::size_t>(nx << q) +
+                                         static_cast<std::size_t>(x)];
         return Texel{t.red, t.green, t.blue, t.bump_x, t.bump_z};
       });
   }
   Layout frame;
   writer.begin(frame);
   memory.frame = frame.base;
-  memory.bytes.resize(memory.bytes.size() + 2 * static_cast<std::size_t>(frame_bytes(data.width, data.height)));
+  memory.bytes.resize(memory.bytes.size() +
+                      2 * static_cast<std::size_t>(frame_bytes(data.width, data.height)));
   return memory;
 }
 

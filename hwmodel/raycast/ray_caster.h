@@ -2,12 +2,12 @@
 // for the memory and one for the tiles; inside, plain two-phase channels.
 #pragma once
 
+#include <utility>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/layout.h"
@@ -36,7 +36,8 @@ class RayCaster {
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {
    public:
-    StageError(const std::string& what, std::string failed) : std::runtime_error(what), stage(std::move(failed)) {}
+    StageError(const std::string& what, std::string failed)
+        : std::runtime_error(what), stage(std::move(failed)) {}
     std::string stage;
   };
 
