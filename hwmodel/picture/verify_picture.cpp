@@ -1,5 +1,6 @@
 #include "hwmodel/picture/verify_picture.h"
 
+#include <ctime>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
