@@ -1,11 +1,11 @@
 #include "hwmodel/picture/upload.h"
 
-#include <vector>
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include "hwmodel/raycast/ground.h"
 #include "hwmodel/raycast/ray_caster.h"

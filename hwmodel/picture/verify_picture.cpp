@@ -1,8 +1,8 @@
 #include "hwmodel/picture/verify_picture.h"
 
-#include <ctime>
 #include <cstddef>
 #include <cstdint>
+#include <ctime>
 #include <stdexcept>
 
 #include "hwmodel/picture/expectation.h"

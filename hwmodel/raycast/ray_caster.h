@@ -2,12 +2,12 @@
 // for the memory and one for the tiles; inside, plain two-phase channels.
 #pragma once
 
-#include <utility>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/layout.h"
