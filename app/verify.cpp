@@ -20,6 +20,7 @@
 #include "app/interrupt.h"
 #include "app/options.h"
 #include "app/resources.h"
+#include "app/verify_picture.h"
 #include "app/visibility.h"
 #include "hwmodel/lockstep/replay.h"
 #include "hwmodel/lockstep/report.h"
@@ -36,6 +37,7 @@ struct VerifyCommand {
   std::uint32_t steps = 10, every = 1, from = 0;
   std::optional<std::uint32_t> plant_step;
   std::string hw, plant, out;
+  PictureChoice picture;
   std::vector<std::string> hw_sets;
 };
 
@@ -187,8 +189,17 @@ void print_result(const VerifyCommand& command, const scene::Scene& scene,
   if (report.strike) print_plant(report);
 }
 
+int run_picture(const VerifyCommand& command) {
+  scene::Scene scene = load_scene(command.common);
+  catch_interrupts();
+  const run::Simulation ahead = run_ahead(scene, command);
+  return verify_picture(command.common, command.picture, scene, ahead, find_preset(command.hw),
+                        command.hw_sets);
+}
+
 int run_verify(VerifyCommand command) {
   split_sets(command);
+  if (command.picture.asked) return run_picture(command);
   const hwmodel::FaultInfo* fault = hwmodel::find_fault(command.plant);
   if (!command.plant.empty() && (fault == nullptr || fault->fault == hwmodel::Fault::none))
     throw UsageError(
@@ -262,6 +273,7 @@ void add_verify(CLI::App& program, Chosen& chosen) {
                       "the first step in which it may strike (default: in the middle)");
   command->add_option("--out", options->out,
                       "folder for the replay of a mismatch (default: out/verify_SCENE)");
+  add_picture_choice(*command, options->picture);
   add_common(*command, options->common);
   add_visibility(*command, options->common);
   command->footer(

@@ -5,15 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "hwmodel/process/process.h"
 #include "hwmodel/stream/blocks.h"
-#include "hwmodel/stream/process.h"
-
-// libsystemc's own main needs this symbol. Ours never calls it.
-int sc_main(int, char**) { return 1; }
-
-// SystemC never frees its pools, which is no leak of ours. (Only the address sanitizer calls this.)
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libsystemc"; }
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -38,7 +31,7 @@ struct Pipeline::Machine {
                                                   c.fifo_depth, c.stall_seed));
     }
     const auto link = [&](int channel, const std::string& name) {
-      links.push_back(std::make_unique<Link<Cell>>(name, channel, c));
+      links.push_back(std::make_unique<Link<Cell>>(name, channel, c.lanes, c.fifo_depth, c.stall_seed));
     };
     link(0, step_name(0) + "reader -> " + steps.front()->stages().front()->name());
     for (int t = 0; t < c.cascade; ++t) {
@@ -51,7 +44,8 @@ struct Pipeline::Machine {
       StepBlock& step = *steps[at(t)];
       step.connect(links[at(t)]->fifo(), links[at(t + 1)]->fifo());
       if (!fed) continue;
-      feed_links.push_back(std::make_unique<Link<UInt<16>>>(step_name(t) + "feed -> exchange", 1000 + t, c));
+      feed_links.push_back(std::make_unique<Link<UInt<16>>>(step_name(t) + "feed -> exchange", 1000 + t,
+                                                            c.lanes, c.fifo_depth, c.stall_seed));
       feeds.push_back(std::make_unique<Feed>(design.shape, feed_links.back()->fifo()));
       step.feed(feed_links.back()->fifo());
     }

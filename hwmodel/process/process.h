@@ -1,5 +1,5 @@
-// What the pipeline needs of SystemC: a simulation context of its own, channels that commit in the update
-// phase, blocks with one process each. Only pipeline.cpp includes this file.
+// What a machine needs of SystemC: a simulation context of its own, channels that commit in the update phase,
+// blocks with one process each. Only the file that assembles a machine includes this one.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include <systemc>
 #include <utility>
 
-#include "hwmodel/stream/pipeline.h"
+#include "hwmodel/channel/fifo.h"
 
 namespace voxmelt::hwmodel {
 
@@ -21,18 +21,12 @@ inline constexpr std::uint64_t kPeriod = 1000;  // of the clock, in the kernel's
 // A simulation context of its own, so that a program can run many simulations, one after the other.
 class Context {
  public:
-  Context() : own_(new sc_core::sc_simcontext) { enter(); }
+  Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
-  ~Context() {
-    delete own_;
-    leave();
-  }
-  void enter() { sc_core::sc_curr_simcontext = sc_core::sc_default_global_context = own_; }
-  void leave() {
-    sc_core::sc_curr_simcontext = outer_;
-    sc_core::sc_default_global_context = outer_default_;
-  }
+  ~Context();
+  void enter();
+  void leave();
 
  private:
   sc_core::sc_simcontext* outer_ = sc_core::sc_curr_simcontext;
@@ -59,8 +53,8 @@ struct Shared {
 template <class Word>
 class Link final : public sc_core::sc_prim_channel {
  public:
-  Link(std::string name, int channel, const Configuration& c)
-      : fifo_(std::move(name), channel, c.lanes, c.fifo_depth, c.stall_seed) {}
+  Link(std::string name, int channel, int lanes, int depth, std::uint64_t stall_seed)
+      : fifo_(std::move(name), channel, lanes, depth, stall_seed) {}
   Fifo<Word>& fifo() { return fifo_; }
   void tick() { request_update(); }
 

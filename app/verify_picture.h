@@ -1,0 +1,26 @@
+// voxmelt verify --picture: the ray caster in lock-step with the software's picture.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+#include "kernel/run/simulation.h"
+#include "kernel/scene/scene.h"
+
+namespace voxmelt::app {
+
+struct PictureChoice {
+  bool asked = false, compare = true;
+  std::string view, size, setting = "normal", png;
+  int frames = 1;
+};
+void add_picture_choice(CLI::App& command, PictureChoice& choice);
+
+int verify_picture(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
+                   const run::Simulation& state, const std::filesystem::path& preset,
+                   const std::vector<std::string>& hw_sets);
+
+}  // namespace voxmelt::app

@@ -1,0 +1,274 @@
+#include "hwmodel/picture/checker.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <type_traits>
+
+#include "render/packet/tables.h"
+
+namespace voxmelt::hwmodel::raycast {
+namespace {
+
+Vec vec_of(picture::Vector v) { return {v.x, v.y, v.z}; }
+picture::Vector vector_of(Vec v) { return {v.x, v.y, v.z}; }
+
+template <class Value>
+std::string text_of_value(const Value& value) {
+  if constexpr (std::is_same_v<Value, Vec>) {
+    return fmt::format("{} {} {}", value.x, value.y, value.z);
+  } else if constexpr (std::is_enum_v<Value>) {
+    return fmt::format("{}", static_cast<int>(value));
+  } else if constexpr (std::is_arithmetic_v<Value>) {
+    return fmt::format("{}", value);
+  } else {
+    return fmt::format("{}", fmt::join(value, " "));
+  }
+}
+
+}  // namespace
+
+std::string text_of(const Difference& d) {
+  std::string text = fmt::format(
+      "DIFFERENCE behind stage {}: pixel ({}, {}), sample {}, cycle {}\n  {}: expected {}, actual {}\n",
+      d.stage, d.x, d.y, d.sample, d.cycle, d.name, d.expected, d.actual);
+  if (d.has_position) {
+    const Vec q = to_lattice(d.position) >> (kCellBits + kBrickBits);
+    text += fmt::format("  position {} {} {}, brick ({}, {}, {})\n", d.position.x, d.position.y, d.position.z,
+                        q.x, q.y, q.z);
+  }
+  return text;
+}
+
+Checker::Checker(const Expectation& expectation, RayCaster& caster, int width, int height)
+    : expectation_(expectation), caster_(caster), width_(static_cast<std::size_t>(width)), height_(height) {
+  begin_pass(1);
+}
+
+Watchers Checker::watchers() { return {this, this, this, this, this, this, this, this, this, this}; }
+
+void Checker::begin_pass(int samples) {
+  samples_ = samples;
+  const std::size_t pixels = width_ * static_cast<std::size_t>(height_);
+  places_.assign(pixels * static_cast<std::size_t>(samples), -1);
+  sums_.assign(pixels, {});
+  rays_.clear();
+  free_.clear();
+}
+
+std::size_t Checker::index_of(const RayId& id) const {
+  return (static_cast<std::size_t>(id.y) * width_ + static_cast<std::size_t>(id.x)) *
+             static_cast<std::size_t>(samples_) +
+         static_cast<std::size_t>(id.sample);
+}
+
+ExpectedRay& Checker::ray(const RayId& id) {
+  std::int32_t& place = places_[index_of(id)];
+  if (place < 0) {
+    if (free_.empty()) {
+      free_.push_back(static_cast<std::int32_t>(rays_.size()));
+      rays_.emplace_back();
+    }
+    place = free_.back();
+    free_.pop_back();
+    const Sub sub = sub_of(samples_, id.sample);
+    rays_[static_cast<std::size_t>(place)] =
+        expectation_.ray(64 * std::int64_t{id.x} + sub.across, 64 * std::int64_t{id.y} + sub.down);
+  }
+  return rays_[static_cast<std::size_t>(place)];
+}
+ExpectedRay& Checker::shaded(const RayId& id) {
+  ExpectedRay& of = ray(id);
+  if (!of.shaded) expectation_.shade(of);
+  return of;
+}
+
+template <class Value>
+void Checker::compare(const char* stage, const RayId& id, const char* name, const Value& expected,
+                      const Value& actual, const Vec* position) {
+  ++compared_;
+  if (expected == actual || difference_) [[likely]]
+    return;
+  difference_ = Difference{stage,
+                           name,
+                           id.x,
+                           id.y,
+                           id.sample,
+                           caster_.cycle(),
+                           text_of_value(expected),
+                           text_of_value(actual),
+                           position != nullptr ? *position : Vec{},
+                           position != nullptr};
+  caster_.stop();
+}
+
+void Checker::entered(int, std::int64_t, const RayToken* token) {
+  const ExpectedRay& of = ray(token->id);
+  compare("set-up", token->id, "start", vec_of(of.ray.start), token->ray.start);
+  compare("set-up", token->id, "step", vec_of(of.ray.step), token->ray.step);
+}
+
+void Checker::entered(int, std::int64_t, const GroundedRay* token) {
+  const ExpectedRay& of = ray(token->id);
+  const Vec position = vec_of(of.ground.position);
+  compare("ground", token->id, "found", of.ground.found, token->ground.found);
+  if (!of.ground.found) return;
+  compare("ground", token->id, "part", of.ground.part, token->ground.part, &position);
+  compare("ground", token->id, "crossing", position, token->ground.position, &position);
+  compare("ground", token->id, "face", static_cast<Face>(of.ground.face), token->ground.face, &position);
+}
+
+void Checker::entered(int, std::int64_t, const LevelRequest* token) {
+  if (token->asker != Asker::walk) return;
+  const ExpectedRay& of = ray(token->id);
+  const Vec position = from_lattice(token->at);
+  compare("walk", token->id, "position", vec_of(expectation_.at(of, token->k)), position, &position);
+  if (of.matter.found && token->k > of.matter.sample)
+    compare("walk", token->id, "k, beyond the first sample in matter", of.matter.sample, token->k, &position);
+}
+
+void Checker::entered(int, std::int64_t, const Levels* token) {
+  const Places places = token->request.places();
+  const auto side = static_cast<std::size_t>(places.side);
+  const Vec position = from_lattice(token->request.at);
+  std::array<std::int16_t, 27> expected{};
+  std::array<std::int16_t, 27> actual{};
+  std::size_t i = 0;
+  for (std::size_t z = 0; z < side; ++z)
+    for (std::size_t y = 0; y < side; ++y)
+      for (std::size_t x = 0; x < side; ++x, ++i) {
+        expected[i] = static_cast<std::int16_t>(expectation_.level(
+            places.x[x] - kLatticeBorder, places.y[y] - kLatticeBorder, places.z[z] - kLatticeBorder));
+        actual[i] = token->words[i];
+      }
+  compare("levels", token->request.id, "fetched", expected, actual, &position);
+}
+
+void Checker::entered(int, std::int64_t, const LevelToken* token) {
+  const Vec position = from_lattice(token->request.at);
+  compare("sample", token->request.id, "level", expectation_.sample(vector_of(position)),
+          std::int32_t{token->level}, &position);
+}
+
+void Checker::entered(int, std::int64_t, const HitToken* token) {
+  const ExpectedRay& of = ray(token->ray.id);
+  const Vec position = from_lattice(token->at);
+  compare("walk", token->ray.id, "the first sample in matter", of.matter.found ? of.matter.sample : -1,
+          token->k, &position);
+}
+
+void Checker::entered(int, std::int64_t, const MetToken* token) {
+  const ExpectedRay& of = ray(token->id);
+  if (!token->matter.found) {
+    const bool hidden = of.matter.found && of.ground.found && of.matter.sample > (of.ground.part >> 8) + 1;
+    compare("walk", token->id, "matter found", of.matter.found && !hidden, false);
+    return;
+  }
+  const Vec position = vec_of(of.matter.position);
+  compare("crossing", token->id, "sample", of.matter.sample, token->matter.sample, &position);
+  compare("crossing", token->id, "part", std::int64_t{of.matter.part}, token->matter.part, &position);
+  compare("crossing", token->id, "crossing", position, token->matter.position, &position);
+}
+
+void Checker::entered(int channel, std::int64_t, const Surface* token) {
+  const ExpectedRay& of = shaded(token->id);
+  compare_surface(static_cast<Channel>(channel % 100), of.surface, *token, of);
+}
+
+void Checker::compare_surface(Channel behind, const Surface& e, const Surface& a, const ExpectedRay& ray) {
+  const bool matter = e.kind == Surface::Kind::matter, ground = e.kind == Surface::Kind::ground;
+  const char* stage = "";
+  const auto same = [&](const char* name, const auto& expected, const auto& actual) {
+    compare(stage, a.id, name, expected, actual, &e.position);
+  };
+  switch (behind) {
+    case Channel::met:
+      stage = "met";
+      same("on ground", e.kind, a.kind);
+      if (!matter && !ground) return;
+      same("position", e.position, a.position);
+      same("depth", e.depth, a.depth);
+      same("to_eye", e.to_eye, a.to_eye);
+      return;
+    case Channel::normal:
+      stage = "normal";
+      if (matter) same("normal", e.normal, a.normal);
+      return;
+    case Channel::paint:
+      stage = "paint";
+      if (ground) same("normal", vec_of(ray.ground_normal), a.normal);
+      return;
+    case Channel::texture:
+      stage = "texture";
+      if (ground) same("color", e.color, a.color), same("normal", e.normal, a.normal);
+      return;
+    case Channel::matter:
+      stage = "matter";
+      if (!matter) return;
+      same("liquid", e.matter.liquid, a.matter.liquid);
+      same("heat", e.matter.heat, a.matter.heat);
+      same("obstacle", e.matter.obstacle, a.matter.obstacle);
+      return;
+    case Channel::light:
+      stage = "light";
+      if (!matter && !ground) return;
+      same("lamp", e.light.lamp, a.light.lamp);
+      same("open", e.light.open, a.light.open);
+      same("glow", e.light.glow, a.light.glow);
+      return;
+    case Channel::arriving:
+      stage = "arriving";
+      if (!matter && !ground) return;
+      same("lamp", e.arriving.lamp, a.arriving.lamp);
+      same("facing", e.arriving.facing, a.arriving.facing);
+      same("lit", e.arriving.lit, a.arriving.lit);
+      same("arriving", e.arriving.light, a.arriving.light);
+      if (!matter) return;
+      stage = "material";
+      same("l", e.mixture.l, a.mixture.l);
+      same("w", e.mixture.w, a.mixture.w);
+      same("diffuse", e.mixture.material.diffuse, a.mixture.material.diffuse);
+      same("mirror", e.mixture.material.mirror, a.mixture.material.mirror);
+      same("highlight", e.mixture.material.highlight, a.mixture.material.highlight);
+      same("gloss", e.mixture.material.gloss, a.mixture.material.gloss);
+      same("emission", e.mixture.emission, a.mixture.emission);
+      return;
+    case Channel::mirror:
+      stage = "mirror";
+      if (!matter) return;
+      same("peak", e.mirrored.peak, a.mirrored.peak);
+      same("eye", e.mirrored.eye, a.mirrored.eye);
+      same("more", e.mirrored.more, a.mirrored.more);
+      same("r", e.mirrored.reflected, a.mirrored.reflected);
+      same("around", e.mirrored.around, a.mirrored.around);
+      same("free", e.mirrored.free, a.mirrored.free);
+      return;
+    case Channel::colour:
+      stage = "colour";
+      same("colour", e.sum, a.sum);
+      return;
+    default:
+      return;
+  }
+}
+
+void Checker::entered(int, std::int64_t, const PressedToken* token) {
+  const ExpectedRay& of = shaded(token->id);
+  compare("press", token->id, "pressed", of.pressed, token->pressed);
+  const std::size_t i = index_of(token->id);
+  for (std::size_t c = 0; c < 3; ++c) sums_[i / static_cast<std::size_t>(samples_)][c] += of.pressed[c];
+  free_.push_back(places_[i]);  // the ray has come to its end
+  places_[i] = -1;
+}
+
+void Checker::entered(int, std::int64_t, const PixelToken* token) {
+  RayId id = token->id;
+  id.sample = 0;
+  const Rgb& sum = sums_[index_of(id) / static_cast<std::size_t>(samples_)];
+  std::array<std::uint8_t, 3> expected{};
+  for (std::size_t c = 0; c < 3; ++c)
+    expected[c] = render::byte_table()[static_cast<std::size_t>((sum[c] + samples_ / 2) / samples_)];
+  compare("pixel", token->id, "bytes", expected, token->bytes);
+}
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,88 @@
+// Compares every token that leaves a stage of the ray caster with the reference. The first difference ends
+// the run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/picture/expectation.h"
+#include "hwmodel/raycast/ray_caster.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+struct Difference {
+  std::string stage, name;
+  std::int32_t x = 0, y = 0;
+  int sample = 0;
+  std::int64_t cycle = 0;
+  std::string expected, actual;
+  Vec position;  // of the sample or of the surface, in 2^-20 cells
+  bool has_position = false;
+};
+std::string text_of(const Difference& difference);
+
+class Checker final : FifoWatcher<RayToken>,
+                      FifoWatcher<GroundedRay>,
+                      FifoWatcher<LevelRequest>,
+                      FifoWatcher<Levels>,
+                      FifoWatcher<LevelToken>,
+                      FifoWatcher<HitToken>,
+                      FifoWatcher<MetToken>,
+                      FifoWatcher<Surface>,
+                      FifoWatcher<PressedToken>,
+                      FifoWatcher<PixelToken> {
+ public:
+  Checker(const Expectation& expectation, RayCaster& caster, int width, int height);
+
+  Watchers watchers();
+  void begin_pass(int samples);  // of a pixel
+  const std::optional<Difference>& difference() const { return difference_; }
+  std::int64_t compared() const { return compared_; }  // numbers
+
+ private:
+  void entered(int channel, std::int64_t ordinal, const RayToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const GroundedRay* token) override;
+  void entered(int channel, std::int64_t ordinal, const LevelRequest* token) override;
+  void entered(int channel, std::int64_t ordinal, const Levels* token) override;
+  void entered(int channel, std::int64_t ordinal, const LevelToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const HitToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const MetToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const Surface* token) override;
+  void entered(int channel, std::int64_t ordinal, const PressedToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const PixelToken* token) override;
+  void left(int, std::int64_t, const RayToken*) override {}
+  void left(int, std::int64_t, const GroundedRay*) override {}
+  void left(int, std::int64_t, const LevelRequest*) override {}
+  void left(int, std::int64_t, const Levels*) override {}
+  void left(int, std::int64_t, const LevelToken*) override {}
+  void left(int, std::int64_t, const HitToken*) override {}
+  void left(int, std::int64_t, const MetToken*) override {}
+  void left(int, std::int64_t, const Surface*) override {}
+  void left(int, std::int64_t, const PressedToken*) override {}
+  void left(int, std::int64_t, const PixelToken*) override {}
+
+  ExpectedRay& ray(const RayId& id);
+  ExpectedRay& shaded(const RayId& id);
+  std::size_t index_of(const RayId& id) const;
+  template <class Value>
+  void compare(const char* stage, const RayId& id, const char* name, const Value& expected,
+               const Value& actual, const Vec* position = nullptr);
+  void compare_surface(Channel behind, const Surface& expected, const Surface& actual,
+                       const ExpectedRay& ray);
+
+  const Expectation& expectation_;
+  RayCaster& caster_;
+  std::size_t width_;
+  int height_, samples_ = 1;
+  std::vector<std::int32_t> places_;  // of rays in `rays_`, by pixel and sample; -1: not there
+  std::vector<ExpectedRay> rays_;
+  std::vector<std::int32_t> free_;
+  std::vector<Rgb> sums_;  // of pressed light, by pixel
+  std::optional<Difference> difference_;
+  std::int64_t compared_ = 0;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,51 @@
+// What the software's reference says of a ray: the numbers of its trace (docs/picture-trace.md), in the terms
+// of the ray caster's tokens.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/raycast/tokens.h"
+#include "render/packet/draw_picture.h"
+#include "render/reference/picture_scene.h"
+#include "render/rule/camera.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+struct ExpectedRay {
+  picture::Ray ray;
+  picture::Crossing matter;
+  picture::GroundCrossing ground;
+  bool shaded = false;  // what follows is there
+  Surface surface;      // as it leaves the last stage that adds to it
+  picture::Vector ground_normal;
+  Rgb pressed{};
+};
+
+class Expectation {
+ public:
+  Expectation(const render::PictureScene& scene, const picture::Camera& camera, render::Setting setting);
+
+  // The ray through a place of the picture, in 64ths of a pixel, and what it meets.
+  ExpectedRay ray(std::int64_t across, std::int64_t down) const;
+  void shade(ExpectedRay& ray) const;
+
+  picture::Vector at(const ExpectedRay& ray, std::int64_t k) const { return ray.ray.at(k); }
+  std::int32_t level(std::int64_t x, std::int64_t y, std::int64_t z) const { return scene_.levels(x, y, z); }
+  std::int32_t sample(picture::Vector position) const;
+  const picture::View& view() const { return view_; }
+
+ private:
+  picture::Crossing first_crossing(const picture::Ray& ray) const;
+
+  const render::PictureScene& scene_;
+  picture::View view_;
+  int spacing_;
+  // Of lower cells -1 .. n - 1: is one of the eight levels around a sample matter? A sample is never outside
+  // the range of its levels.
+  std::vector<std::uint8_t> near_matter_;
+  std::size_t row_ = 0, slice_ = 0;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,31 @@
+// The numbers by which a ray caster is configured.
+#pragma once
+
+#include <cstdint>
+
+namespace voxmelt::hwmodel::raycast {
+
+struct CacheShape {
+  int sets = 16, ways = 4;
+  int spare = 8;   // lines more than tags: as many misses may be under way
+  int queue = 64;  // requests between tag and data: what they wait hides the memory
+  int lines() const { return sets * ways; }
+};
+
+struct Configuration {
+  int pipes = 1;                 // W
+  int rays = 64;                 // under way in the walk of a pipe
+  int walkers = 2;               // steps through air in a cycle of a pipe
+  int fifo_depth = 4;            // tokens, of every channel
+  std::uint64_t stall_seed = 0;  // 0: no stalls
+  int tiles = 4;                 // tile buffers of a pipe
+  CacheShape levels, matter, light, ground;
+  int latency = 40;    // of the memory, in cycles
+  int bus_bytes = 64;  // that the memory gives in a cycle
+  bool apron = false;  // bricks of levels hold their apron: a line is a brick
+  int level_bits = 2;  // log2 of the places of a line of levels along an axis, without apron: 2 or 3
+};
+
+inline constexpr int kTileSide = 8;  // pixels
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,110 @@
+// The crossing between a sample in air and the next one in matter: three middles, and a straight line
+// (docs/picture.md, section 7). Many rays are under way. The level of sample k - 1 is asked for only where it
+// is needed and not known.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/field.h"
+#include "hwmodel/raycast/stage.h"
+#include "hwmodel/raycast/tokens.h"
+#include "hwmodel/raycast/walk_stage.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+class CrossingStage final : public Stage {
+ public:
+  CrossingStage(WalkStage& walk, int rays)
+      : Stage("crossing"), walk_(walk), rays_(static_cast<std::size_t>(rays)) {}
+  void connect(Fifo<HitToken>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<MetToken>& out) {
+    in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
+  }
+
+ private:
+  struct Context {
+    HitToken hit;
+    Bracket bracket;
+    int halved = 0;
+  };
+  Context& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
+
+  Did cycle() override {
+    bool moved = false, blocked = false;
+    if (!done_.empty()) {
+      if (out_->ready()) {
+        finish(done_.front());
+        done_.pop_front();
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    if (!asking_.empty()) {
+      if (ask_->ready()) {
+        const int i = asking_.front();
+        asking_.pop_front();
+        const Context& of = at(i);
+        *ask_->put() = {Asker::crossing, static_cast<std::int16_t>(i), of.hit.ray.id, of.hit.k,
+                        on_wires<32>(of.halved < 3 ? middle_of(of.bracket) : of.bracket.outside)};
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    if (answer_->valid()) {
+      const LevelToken& token = *answer_->get();
+      take(token.request.context, token.level);
+      moved = true;
+    }
+    if (in_->valid()) {
+      begin(*in_->get());
+      moved = true;
+    }
+    if (moved) return Did::busy;
+    if (blocked) return Did::blocked;
+    return waiting_ == 0 ? Did::starved : Did::memory;
+  }
+
+  void begin(const HitToken& hit) {
+    Context& of = at(hit.context);
+    of.hit = hit;
+    ++waiting_;
+    of.bracket = {hit.at - hit.ray.ray.step, hit.at, hit.before, hit.level, 0};
+    of.halved = 0;
+    (hit.k == 0 ? done_ : asking_).push_back(hit.context);
+  }
+  void take(int i, std::int64_t level) {
+    Context& of = at(i);
+    if (of.halved == 3) {
+      of.bracket.a = level;
+      return done_.push_back(i);
+    }
+    halve(of.bracket, level);
+    const bool needs_before = ++of.halved == 3 && of.bracket.e == 0 && !of.hit.knows_before;
+    (of.halved < 3 || needs_before ? asking_ : done_).push_back(i);
+  }
+  void finish(int i) {
+    const Context& of = at(i);
+    const GroundedRay& ray = of.hit.ray;
+    const Crossing met = of.hit.k == 0 ? Crossing{true, 0, 2048, on_wires<32>(ray.ray.start)}
+                                       : crossing_of(of.bracket, of.hit.k);
+    *out_->put() = {ray.id, ray.ray, ray.ground, met};
+    walk_.give_back(i);
+    --waiting_;
+  }
+
+  WalkStage& walk_;
+  std::vector<Context> rays_;
+  int waiting_ = 0;
+  std::deque<int> asking_, done_;
+  Fifo<HitToken>* in_ = nullptr;
+  Fifo<LevelRequest>* ask_ = nullptr;
+  Fifo<LevelToken>* answer_ = nullptr;
+  Fifo<MetToken>* out_ = nullptr;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,161 @@
+// Where rays meet the ground (docs/picture-ground.md, section 4). Many rays are under way; each looks at one
+// height after the other. A step is a quarter of a cell at most, so the nine columns around it serve all of
+// its eight halvings: a row of eight units, which take a ray a cycle. Without ground the stage hands rays on.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/ground.h"
+#include "hwmodel/raycast/registers.h"
+#include "hwmodel/raycast/stage.h"
+#include "hwmodel/raycast/tokens.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+// Rays that the unit works on, by their numbers; each is in one of the queues.
+class GroundStage final : public Stage {
+ public:
+  GroundStage(const Registers& registers, int rays)
+      : Stage("ground"), registers_(registers), rays_(static_cast<std::size_t>(rays)) {
+    for (int i = rays - 1; i >= 0; --i) free_.push_back(i);
+  }
+  void connect(Fifo<RayToken>& in, Fifo<ClampedRequest>& ask, Fifo<ColumnGather::Out>& answer,
+               Fifo<GroundedRay>& out) {
+    in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
+  }
+
+ private:
+  struct Search {
+    GroundedRay ray;
+    Parts parts;
+    std::int64_t part = 0;                 // that is looked at
+    std::int64_t outside = 0, inside = 0;  // of the bisection
+    bool bisects = false;
+  };
+  Search& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
+
+  Did cycle() override {
+    bool moved = false, blocked = false;
+    if (answer_->valid()) {
+      const ColumnGather::Out& answer = *answer_->get();
+      decide(answer.request.context, answer);
+      moved = true;
+    }
+    if (!done_.empty()) {
+      if (out_->ready()) {
+        *out_->put() = at(done_.front()).ray;
+        free_.push_back(done_.front());
+        done_.pop_front();
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    if (!ready_.empty()) {
+      if (ask_->ready()) {
+        look(ready_.front());
+        ready_.pop_front();
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    if (in_->valid() && !free_.empty()) {
+      begin(*in_->get());
+      moved = true;
+    }
+    if (moved) return Did::busy;
+    if (blocked) return Did::blocked;
+    return free_.size() == rays_.size() ? Did::starved : Did::memory;
+  }
+
+  void begin(const RayToken& token) {
+    const int i = free_.back();
+    free_.pop_back();
+    Search& of = at(i);
+    of = {};
+    of.ray.id = token.id;
+    of.ray.ray = token.ray;
+    if (registers_.ground.any) of.parts = parts_of(registers_, token.ray);
+    of.part = of.parts.first;
+    (of.parts.first > of.parts.last ? done_ : ready_).push_back(i);
+  }
+
+  // Asks for the height at the part. A middle outside of the slab needs none.
+  void look(int i) {
+    Search& of = at(i);
+    const Vec p = at_part(of.ray.ray, of.part);
+    ClampedRequest& ask = *ask_->put();
+    ask.at = {spot_of(p.x), {}, spot_of(p.z)};
+    ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1,
+                 static_cast<std::int32_t>(registers_.cells.z)};
+    ask.asker = 0;
+    ask.context = static_cast<std::int16_t>(i);
+    ask.side = 2;
+    if (!of.bisects) return;
+    const Vec a = at_part(of.ray.ray, of.outside), b = at_part(of.ray.ray, of.inside);
+    ask.at = {spot_of(std::min(a.x, b.x)), {}, spot_of(std::min(a.z, b.z))};
+    ask.side = 3;
+  }
+
+  void decide(int i, const ColumnGather::Out& answer) {
+    Search& of = at(i);
+    const Vec p = at_part(of.ray.ray, of.part);
+    if (of.bisects) return bisect(i, columns_of(answer));
+    // Words 0, 1, 4 and 5: the two columns along x, twice along z.
+    const auto drawn = [&](std::size_t n) { return std::int64_t{answer.words[n < 2 ? n : n + 2].drawn}; };
+    const SInt<24> height = between_columns(drawn, answer.request.at.x, answer.request.at.z);
+    search(i, (p.y >> 8) - height);
+  }
+  void search(int i, std::int64_t above) {
+    Search& of = at(i);
+    if (above < 0) {
+      const std::int64_t before = ((of.part - 1) >> 8) << 8;
+      of.outside = of.part == of.parts.first ? of.part - 1 : std::max(of.parts.first, before);
+      of.inside = of.part;
+      of.bisects = true;
+      return ready_.push_back(i);
+    }
+    if (of.part == of.parts.last) return done_.push_back(i);
+    of.part = std::min((((of.part >> 8) + 1 + skipped(of, above)) << 8), of.parts.last);
+    ready_.push_back(i);
+  }
+  // Samples behind a place so far above the ground that lie outside as well.
+  std::int64_t skipped(const Search& of, std::int64_t above) const {
+    const std::int64_t nearer = approach_of(registers_, of.ray.ray);
+    const std::int64_t left = (above << 20) - margin_of(registers_);
+    if (nearer <= 0) return left > 0 ? std::int64_t{1} << 26 : 0;
+    return left > 0 ? steps_in(left >> 12, inverse_of((nearer >> 12) + 1)) : 0;
+  }
+  void bisect(int i, const NineColumns& columns) {
+    Search& of = at(i);
+    while (of.inside - of.outside > 1) {
+      const std::int64_t middle = (of.inside + of.outside) >> 1;
+      const Vec p = at_part(of.ray.ray, middle);
+      const bool inside = in_slab(registers_, p) && (p.y >> 8) < columns.height(&Column::drawn, p.x, p.z);
+      (inside ? of.inside : of.outside) = middle;
+    }
+    GroundHit& hit = of.ray.ground;
+    hit.found = true;
+    hit.part = UInt<36>(of.inside);
+    hit.position = on_wires<31>(at_part(of.ray.ray, of.inside));
+    hit.face = of.inside == 0 ? Face::none : face_of(registers_, at_part(of.ray.ray, of.outside));
+    done_.push_back(i);
+  }
+
+  const Registers& registers_;
+  std::vector<Search> rays_;
+  std::vector<int> free_;
+  std::deque<int> ready_, done_;
+  Fifo<RayToken>* in_ = nullptr;
+  Fifo<ClampedRequest>* ask_ = nullptr;
+  Fifo<ColumnGather::Out>* answer_ = nullptr;
+  Fifo<GroundedRay>* out_ = nullptr;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

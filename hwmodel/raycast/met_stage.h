@@ -1,0 +1,64 @@
+// What a ray meets first: matter, the ground or the background; its depth, and the direction to the eye
+// (docs/picture.md, sections 8 and 9).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/registers.h"
+#include "hwmodel/raycast/stage.h"
+#include "hwmodel/raycast/tokens.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+inline bool ground_first(const GroundHit& ground, const Crossing& matter, int halvings) {
+  if (!ground.found || !matter.found) return ground.found;
+  const std::int64_t bias = ground.face == Face::top ? 0 : std::int64_t{1024} << halvings;
+  return 8 * ground.part <= (matter.sample - 1) * 2048 + matter.part + bias;
+}
+inline std::int64_t depth_of(const CameraRegisters& camera, Vec position) {
+  const std::int64_t z = dot((position - camera.eye) >> 8, camera.forward) >> 30;
+  return UInt<16>(std::clamp<std::int64_t>((z - 256 * camera.near) >> 7, 0, 65534));
+}
+
+class MetStage final : public Stage {
+ public:
+  explicit MetStage(const Registers& registers) : Stage("met"), registers_(registers) {}
+  // From the walk come rays that met no matter, and from the crossing the others.
+  void connect(Fifo<MetToken>& missed, Fifo<MetToken>& crossed, Fifo<Surface>& out) {
+    in_ = {&crossed, &missed}, out_ = &out;
+  }
+
+ private:
+  Did cycle() override {
+    for (Fifo<MetToken>* in : in_) {
+      if (!in->valid()) continue;
+      if (!out_->ready()) return Did::blocked;
+      *out_->put() = surface_of(*in->get());
+      return Did::busy;
+    }
+    return Did::starved;
+  }
+  Surface surface_of(const MetToken& met) const {
+    Surface of;
+    of.id = met.id;
+    of.step = met.ray.step;
+    const bool ground = ground_first(met.ground, met.matter, registers_.camera.halvings);
+    if (!ground && !met.matter.found) return of;
+    of.kind = ground ? Surface::Kind::ground : Surface::Kind::matter;
+    of.inside = ground ? met.ground.face == Face::none : met.matter.sample == 0;
+    of.face = met.ground.face;
+    of.position = ground ? met.ground.position : met.matter.position;
+    of.depth = depth_of(registers_.camera, of.position);
+    of.to_eye = unit_of(Vec{} - met.ray.step);
+    return of;
+  }
+
+  const Registers& registers_;
+  std::array<Fifo<MetToken>*, 2> in_{};
+  Fifo<Surface>* out_ = nullptr;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,92 @@
+// The ground's normal and colour (docs/picture-ground.md, sections 5 and 8): nine columns of the top, and
+// then four texels of rock.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "hwmodel/raycast/attach_stage.h"
+#include "hwmodel/raycast/ground.h"
+#include "hwmodel/raycast/registers.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+class PaintStage final : public AttachStage<ClampedRequest, ColumnGather::Out> {
+ public:
+  PaintStage(const Registers& registers, int waiting)
+      : AttachStage("paint", static_cast<std::size_t>(waiting)), registers_(registers) {}
+
+ private:
+  int questions(const Surface& of) const override {
+    return of.kind == Surface::Kind::ground && of.face == Face::top ? 1 : 0;
+  }
+  ClampedRequest question(const Surface& of, int) const override {
+    ClampedRequest ask;
+    ask.at = {spot_of(of.position.x - kHalf), {}, spot_of(of.position.z - kHalf)};
+    ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1,
+                 static_cast<std::int32_t>(registers_.cells.z)};
+    ask.asker = 1;
+    ask.side = 3;
+    return ask;
+  }
+  void take(Surface& of, int, const ColumnGather::Out& answer) override {
+    const NineColumns columns = columns_of(answer);
+    const Vec& p = of.position;
+    const auto bare = [&](std::int64_t x, std::int64_t z) {
+      return std::int64_t{columns.height(&Column::bare, x, z)};
+    };
+    of.normal = top_normal(
+        registers_, p,
+        {bare(p.x - kHalf, p.z), bare(p.x + kHalf, p.z), bare(p.x, p.z - kHalf), bare(p.x, p.z + kHalf)});
+  }
+  void finish(Surface& of) override {
+    if (of.kind != Surface::Kind::ground) return;
+    if (of.face == Face::top) {
+      of.color = registers_.ground.color;
+      return;
+    }
+    of.color = cut_color(registers_.ground, of.position, of.face);
+    of.normal = of.face == Face::none ? of.to_eye : side_normal(of.face);
+  }
+
+  static constexpr std::int64_t kHalf = kCell / 2;
+  const Registers& registers_;
+};
+
+// The texture of rock, where the ground has one.
+class TextureStage final : public AttachStage<ClampedRequest, TexelGather::Out> {
+ public:
+  TextureStage(const Registers& registers, int waiting)
+      : AttachStage("texture", static_cast<std::size_t>(waiting)), registers_(registers) {}
+
+ private:
+  int questions(const Surface& of) const override {
+    return registers_.ground.textured && of.kind == Surface::Kind::ground && of.face == Face::top ? 1 : 0;
+  }
+  ClampedRequest question(const Surface& of, int) const override {
+    const int q = registers_.ground.fineness;
+    ClampedRequest ask;
+    ask.at = {spot_of(of.position.x << q), {}, spot_of(of.position.z << q)};
+    ask.count = {static_cast<std::int32_t>(registers_.cells.x << q), 1,
+                 static_cast<std::int32_t>(registers_.cells.z << q)};
+    return ask;
+  }
+  void take(Surface& of, int, const TexelGather::Out& answer) override {
+    const auto between = [&](const auto& channel) {
+      const auto value = [&](std::size_t n) {
+        return std::int64_t{channel(answer.words[n < 2 ? n : n + 2])};
+      };
+      return between_columns(value, answer.request.at.x, answer.request.at.z);
+    };
+    of.color = {static_cast<std::int32_t>(between([](const Texel& t) { return t.red; })),
+                static_cast<std::int32_t>(between([](const Texel& t) { return t.green; })),
+                static_cast<std::int32_t>(between([](const Texel& t) { return t.blue; }))};
+    const SInt<14> x = between([](const Texel&t) { return 64 * t.bump_x; }),
+                   z = between([](const Texel&t) { return 64 * t.bump_z; });
+    of.normal = unit_of(of.normal + Vec{x, 0, z});
+  }
+
+  const Registers& registers_;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

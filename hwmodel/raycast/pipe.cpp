@@ -1,0 +1,228 @@
+#include "hwmodel/raycast/pipe.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace voxmelt::hwmodel::raycast {
+namespace {
+
+// Of the memory port.
+enum Client : int { kLevels, kMatter, kLight, kColumns, kTexels, kTiles };
+
+constexpr int kWaiting = 16;   // surfaces in a stage that fetches
+constexpr int kSearches = 32;  // rays in the search for the ground
+
+}  // namespace
+
+Pipe::Pipe(const Registers& registers, const FrameRegisters& frame, const Memory& memory,
+           const Configuration& c, int number)
+    : configuration_(c),
+      memory_(memory),
+      number_(number),
+      buffers_(c.tiles),
+      tiles_(registers, frame, buffers_, kTiles),
+      set_up_(registers),
+      ground_(registers, kSearches),
+      walk_(registers, c.rays, c.walkers),
+      crossing_(walk_, c.rays),
+      ask_("ask"),
+      levels_("levels", c.levels, memory.levels, kLevels, static_cast<std::int16_t>(kAir), 5),
+      met_(registers),
+      normal_(kWaiting),
+      paint_(registers, kWaiting),
+      height_ask_("ask for heights"),
+      columns_("heights", c.ground, memory.heights, kColumns, Column{}, 1),
+      texture_(registers, kWaiting),
+      texels_("texels", c.ground, memory.texels, kTexels, Texel{}, 1),
+      matter_(registers, kWaiting),
+      matter_words_("matter words", c.matter, memory.matter, kMatter, 0, 5),
+      light_(registers, kWaiting),
+      light_cells_("light cells", c.light, memory.light, kLight, LightWord{}, 5),
+      arriving_(registers),
+      mirror_(registers),
+      colour_(registers),
+      press_(registers),
+      pixel_(registers, buffers_),
+      write_(frame, buffers_),
+      port_(memory) {
+  // From the end to the begin, so that it matters to no one but the reader of a waveform.
+  stages_ = {&port_,
+             &write_,
+             &pixel_,
+             &press_,
+             &colour_,
+             &mirror_,
+             &arriving_,
+             &light_,
+             &light_cells_.data,
+             &light_cells_.tags,
+             &matter_,
+             &matter_words_.data,
+             &matter_words_.tags,
+             &texture_,
+             &texels_.data,
+             &texels_.tags,
+             &paint_,
+             &normal_,
+             &met_,
+             &crossing_,
+             &sample_,
+             &levels_.data,
+             &levels_.tags,
+             &ask_,
+             &walk_,
+             &ground_,
+             &columns_.data,
+             &columns_.tags,
+             &height_ask_,
+             &set_up_,
+             &tiles_};
+}
+
+template <class Word>
+Fifo<Word>& Pipe::channel(Channel which, const char* name, int depth) {
+  const int number = 100 * number_ + static_cast<int>(which);
+  auto fifo = std::make_shared<Fifo<Word>>(name, number, 1, std::max(depth, configuration_.fifo_depth),
+                                           configuration_.stall_seed);
+  Fifo<Word>& made = *fifo;
+  commits_.push_back([](void* f) { static_cast<Fifo<Word>*>(f)->commit(); });
+  committed_.push_back(&made);
+  states_.push_back([&made] {
+    return ChannelState{made.name(), made.count(), made.depth(), made.entered()};
+  });
+  owned_.push_back(std::move(fifo));
+  return made;
+}
+
+void Pipe::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory, Fifo<LineReply>& replies) {
+  const int rays = configuration_.rays;  // of queues in which every ray has a place
+  auto& orders = channel<TileOrder>(Channel::tiles, "tiles -> set-up");
+  auto& set_up = channel<RayToken>(Channel::set_up, "set-up -> ground");
+  auto& ground = channel<GroundedRay>(Channel::ground, "ground -> walk");
+  auto& walk_asks = channel<LevelRequest>(Channel::walk_asks, "walk -> ask");
+  auto& crossing_asks = channel<LevelRequest>(Channel::crossing_asks, "crossing -> ask");
+  auto& normal_asks = channel<LevelRequest>(Channel::normal_asks, "normal -> ask");
+  auto& level_asks = channel<LevelRequest>(Channel::level_asks, "ask -> levels");
+  auto& levels = channel<Levels>(Channel::levels, "levels -> sample");
+  auto& normal_levels = channel<Levels>(Channel::normal_levels, "levels -> normal");
+  auto& walk_levels = channel<LevelToken>(Channel::walk_levels, "sample -> walk");
+  auto& crossing_levels = channel<LevelToken>(Channel::crossing_levels, "sample -> crossing");
+  auto& hits = channel<HitToken>(Channel::hits, "walk -> crossing", rays);
+  auto& missed = channel<MetToken>(Channel::missed, "walk -> met");
+  auto& crossed = channel<MetToken>(Channel::crossed, "crossing -> met");
+  auto& met = channel<Surface>(Channel::met, "met -> normal");
+  auto& normal = channel<Surface>(Channel::normal, "normal -> paint");
+  auto& search_asks = channel<ClampedRequest>(Channel::search_asks, "ground -> ask for heights");
+  auto& paint_asks = channel<ClampedRequest>(Channel::paint_asks, "paint -> ask for heights");
+  auto& height_asks = channel<ClampedRequest>(Channel::height_asks, "ask for heights -> heights");
+  auto& search_heights = channel<ColumnGather::Out>(Channel::search_heights, "heights -> ground");
+  auto& paint_heights = channel<ColumnGather::Out>(Channel::paint_heights, "heights -> paint");
+  auto& paint = channel<Surface>(Channel::paint, "paint -> texture");
+  auto& texel_asks = channel<ClampedRequest>(Channel::texel_asks, "texture -> texels");
+  auto& texels = channel<TexelGather::Out>(Channel::texels, "texels -> texture");
+  auto& texture = channel<Surface>(Channel::texture, "texture -> matter");
+  auto& matter_asks = channel<MatterRequest>(Channel::matter_asks, "matter -> matter words");
+  auto& matter_words = channel<MatterGather::Out>(Channel::matter_words, "matter words -> matter");
+  auto& matter = channel<Surface>(Channel::matter, "matter -> light");
+  auto& light_asks = channel<ClampedRequest>(Channel::light_asks, "light -> light cells");
+  auto& light_cells = channel<LightGather::Out>(Channel::light_cells, "light cells -> light");
+  auto& light = channel<Surface>(Channel::light, "light -> arriving");
+  auto& arriving = channel<Surface>(Channel::arriving, "arriving -> mirror");
+  auto& mirror = channel<Surface>(Channel::mirror, "mirror -> colour");
+  auto& colour = channel<Surface>(Channel::colour, "colour -> press");
+  auto& pressed = channel<PressedToken>(Channel::pressed, "press -> pixel");
+  auto& pixels = channel<PixelToken>(Channel::pixels, "pixel -> write");
+  const auto line = [&](const char* name) -> Fifo<LineRequest>& {
+    return channel<LineRequest>(Channel::to_memory, name);
+  };
+  auto& level_lines = line("levels -> memory port");
+  auto& matter_lines = line("matter words -> memory port");
+  auto& light_lines = line("light cells -> memory port");
+  auto& column_lines = line("heights -> memory port");
+  auto& texel_lines = line("texels -> memory port");
+  auto& tile_lines = line("tiles -> memory port");
+  auto& written = line("write -> memory port");
+
+  tiles_.connect(tiles, tile_lines, orders);
+  set_up_.connect(orders, set_up);
+  ground_.connect(set_up, search_asks, search_heights, ground);
+  height_ask_.connect({&paint_asks, &search_asks}, height_asks);
+  columns_.connect(height_asks, column_lines);
+  columns_.connect_out({&search_heights, &paint_heights});
+  walk_.connect(ground, walk_asks, walk_levels, hits, missed);
+  crossing_.connect(hits, crossing_asks, crossing_levels, crossed);
+  ask_.connect({&normal_asks, &crossing_asks, &walk_asks}, level_asks);
+  levels_.connect(level_asks, level_lines);
+  levels_.connect_out({&levels, &normal_levels});
+  sample_.connect(levels, walk_levels, crossing_levels);
+  met_.connect(missed, crossed, met);
+  normal_.connect(met, normal_asks, normal_levels, normal);
+  paint_.connect(normal, paint_asks, paint_heights, paint);
+  texture_.connect(paint, texel_asks, texels, texture);
+  texels_.connect(texel_asks, texel_lines);
+  texels_.connect_out({&texels});
+  matter_.connect(texture, matter_asks, matter_words, matter);
+  matter_words_.connect(matter_asks, matter_lines);
+  matter_words_.connect_out({&matter_words});
+  light_.connect(matter, light_asks, light_cells, light);
+  light_cells_.connect(light_asks, light_lines);
+  light_cells_.connect_out({&light_cells});
+  arriving_.connect(light, arriving);
+  mirror_.connect(arriving, mirror);
+  colour_.connect(mirror, colour);
+  press_.connect(colour, pressed);
+  pixel_.connect(pressed, pixels);
+  write_.connect(pixels, written);
+  port_.connect(
+      {&level_lines, &matter_lines, &light_lines, &column_lines, &texel_lines, &tile_lines, &written},
+      to_memory, replies, {&levels_, &matter_words_, &light_cells_, &columns_, &texels_, &tiles_});
+
+  watch_ = [set_up = &set_up, ground = &ground, asks = &level_asks, levels = &levels,
+            normal_levels = &normal_levels, walk_levels = &walk_levels, crossing_levels = &crossing_levels,
+            hits = &hits, missed = &missed, crossed = &crossed,
+            surfaces =
+                std::vector{&met, &normal, &paint, &texture, &matter, &light, &arriving, &mirror, &colour},
+            pressed = &pressed, pixels = &pixels](const Watchers& w) {
+    set_up->watch(w.set_up), ground->watch(w.ground), asks->watch(w.asks);
+    levels->watch(w.levels), normal_levels->watch(w.levels);
+    walk_levels->watch(w.samples), crossing_levels->watch(w.samples);
+    hits->watch(w.hits), missed->watch(w.met), crossed->watch(w.met);
+    for (Fifo<Surface>* fifo : surfaces) fifo->watch(w.surfaces);
+    pressed->watch(w.pressed), pixels->watch(w.pixels);
+  };
+}
+
+void Pipe::watch(const Watchers& watchers) { watch_(watchers); }
+
+int Pipe::cycle() {
+  int moved = 0;
+  for (Stage* stage : stages_) {
+    running_ = stage;
+    moved += stage->run() ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < commits_.size(); ++i) commits_[i](committed_[i]);
+  return moved;
+}
+
+void Pipe::end_pass() {
+  for (Stage* stage : stages_) stage->end_pass();
+}
+
+std::vector<Pipe::CacheReport> Pipe::caches() const {
+  return {{"levels", levels_.counts(), memory_.levels.line_bytes},
+          {"matter", matter_words_.counts(), memory_.matter.line_bytes},
+          {"light", light_cells_.counts(), memory_.light.line_bytes},
+          {"heights", columns_.counts(), memory_.heights.line_bytes},
+          {"texels", texels_.counts(), memory_.texels.line_bytes}};
+}
+
+std::vector<Pipe::ChannelState> Pipe::channels() const {
+  std::vector<ChannelState> of;
+  of.reserve(states_.size());
+  for (const auto& state : states_) of.push_back(state());
+  return of;
+}
+
+}  // namespace voxmelt::hwmodel::raycast

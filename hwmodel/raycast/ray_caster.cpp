@@ -1,0 +1,174 @@
+#include "hwmodel/raycast/ray_caster.h"
+
+#include <cstddef>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "hwmodel/process/process.h"
+
+namespace voxmelt::hwmodel::raycast {
+namespace {
+
+constexpr std::int64_t kHangAfter = 4000;  // cycles in which nothing moves
+constexpr std::int64_t kPollEvery = 4096;
+
+int tiles_along(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
+
+// Deals tiles to the pipes, each to the next one that has room.
+class Dealer {
+ public:
+  void begin(const FrameRegisters& frame, bool second) { frame_ = frame, second_ = second, next_ = 0; }
+  void connect(Fifo<TileJob>& out) { out_.push_back(&out); }
+  bool cycle() {
+    if (next_ == frame_.tiles_x * frame_.tiles_y) return false;
+    for (std::size_t i = 0; i < out_.size(); ++i) {
+      Fifo<TileJob>& out = *out_[(turn_ + i) % out_.size()];
+      if (!out.ready()) continue;
+      *out.put() = {next_ % frame_.tiles_x * kTileSide, next_ / frame_.tiles_x * kTileSide, second_};
+      ++next_;
+      turn_ = (turn_ + i + 1) % out_.size();
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  FrameRegisters frame_;
+  bool second_ = false;
+  int next_ = 0;
+  std::size_t turn_ = 0;
+  std::vector<Fifo<TileJob>*> out_;
+};
+
+}  // namespace
+
+std::int64_t frame_bytes(int width, int height) {
+  return std::int64_t{tiles_along(width)} * tiles_along(height) * kTileBytes;
+}
+
+struct RayCaster::Machine {
+  Machine(const Registers& r, Memory& m, const Configuration& c)
+      : registers(r),
+        memory(m),
+        configuration(c),
+        clock("clock", 1, sc_core::SC_NS),
+        memory_block(m, c.latency, c.bus_bytes) {
+    const auto count = static_cast<std::size_t>(c.pipes);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string pipe = "pipe " + std::to_string(i) + ": ";
+      const int channel = 100 * static_cast<int>(i) + 90;
+      const auto link = [&]<class Word>(std::vector<std::unique_ptr<Link<Word>>>& links, const char* name,
+                                        int number) {
+        links.push_back(
+            std::make_unique<Link<Word>>(pipe + name, channel + number, 1, c.fifo_depth, c.stall_seed));
+      };
+      link(jobs, "dealer -> tiles", 0);
+      link(requests, "memory port -> memory", 1);
+      link(replies, "memory -> memory port", 2);
+      pipes.push_back(std::make_unique<Pipe>(registers, frame, memory, configuration, static_cast<int>(i)));
+      pipes.back()->connect(jobs.back()->fifo(), requests.back()->fifo(), replies.back()->fifo());
+      dealer.connect(jobs.back()->fifo());
+      memory_block.connect(requests.back()->fifo(), replies.back()->fifo());
+    }
+    make_blocks();
+  }
+
+  void make_blocks() {
+    const auto add = [&](const std::string& name, std::function<void()> cycle) {
+      blocks.push_back(std::make_unique<Block>(name.c_str(), clock, shared, std::move(cycle)));
+    };
+    add("dealer", [this] {
+      shared.moves += dealer.cycle() ? 1 : 0;
+      for (const auto& link : jobs) link->tick();
+    });
+    for (std::size_t i = 0; i < pipes.size(); ++i)
+      add("pipe_" + std::to_string(i), [this, i] {
+        try {
+          shared.moves += pipes[i]->cycle();
+        } catch (const WidthError& error) {
+          throw StageError(error.what(), pipes[i]->running().name());
+        }
+        requests[i]->tick();
+      });
+    add("memory", [this] {
+      shared.moves += memory_block.cycle(shared.cycle()) ? 1 : 0;
+      for (const auto& link : replies) link->tick();
+      watch_progress();
+    });
+  }
+
+  void watch_progress() {
+    idle = shared.moves == moves_before ? idle + 1 : 0;
+    moves_before = shared.moves;
+    shared.complete = memory_block.counts().written_bytes == bytes_at_end;
+    shared.hangs = idle > kHangAfter;
+    if (shared.complete || shared.hangs) shared.end();
+    if (poll && shared.cycle() % kPollEvery == 0) poll();
+  }
+
+  FrameEnd run_pass(bool second, int samples, int most) {
+    const std::int64_t bytes = frame_bytes(registers.camera.width, registers.camera.height);
+    frame = {second ? memory.frame : 0,
+             second ? memory.frame + bytes : memory.frame,
+             tiles_along(registers.camera.width),
+             tiles_along(registers.camera.height),
+             samples,
+             most};
+    dealer.begin(frame, second);
+    bytes_at_end = memory_block.counts().written_bytes + bytes;
+    shared.complete = shared.hangs = false;
+    shared.last_cycle = kNever;
+    idle = 0;
+    memory_block.begin();
+
+    context.enter();
+    shared.first_cycle = ran ? Shared::now() + 1 : 0;
+    ran = true;
+    sc_core::sc_start();
+    context.leave();
+    for (const auto& pipe : pipes) pipe->end_pass();
+    if (shared.error) std::rethrow_exception(std::exchange(shared.error, nullptr));
+    return {shared.last_cycle + 1, shared.complete, shared.hangs};
+  }
+
+  std::function<void()> poll;
+  std::int64_t moves_before = 0, idle = 0, bytes_at_end = 0;
+  bool ran = false;
+  Context context;  // first: everything of SystemC lives in it
+  Shared shared;
+  const Registers& registers;
+  Memory& memory;
+  Configuration configuration;
+  FrameRegisters frame;
+  sc_core::sc_clock clock;
+  Dealer dealer;
+  MemoryBlock memory_block;
+  std::vector<std::unique_ptr<Link<TileJob>>> jobs;
+  std::vector<std::unique_ptr<Link<LineRequest>>> requests;
+  std::vector<std::unique_ptr<Link<LineReply>>> replies;
+  std::vector<std::unique_ptr<Pipe>> pipes;
+  std::vector<std::unique_ptr<Block>> blocks;
+};
+
+RayCaster::RayCaster(const Registers& registers, Memory& memory, const Configuration& configuration)
+    : machine_(std::make_unique<Machine>(registers, memory, configuration)) {
+  machine_->context.leave();
+}
+RayCaster::~RayCaster() { machine_->context.enter(); }
+
+void RayCaster::watch(const Watchers& watchers) {
+  for (const auto& pipe : machine_->pipes) pipe->watch(watchers);
+}
+void RayCaster::stop() { machine_->shared.end(); }
+void RayCaster::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
+
+FrameEnd RayCaster::draw_first() { return machine_->run_pass(false, 1, 0); }
+FrameEnd RayCaster::draw_again(int samples, int most) { return machine_->run_pass(true, samples, most); }
+
+std::int64_t RayCaster::cycle() const { return machine_->shared.cycle(); }
+int RayCaster::pipes() const { return machine_->configuration.pipes; }
+const Pipe& RayCaster::pipe(int i) const { return *machine_->pipes[static_cast<std::size_t>(i)]; }
+const MemoryCounts& RayCaster::memory_counts() const { return machine_->memory_block.counts(); }
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,62 @@
+// The brick ray caster: tiles are dealt to W pipes, which share a memory. One SystemC process per pipe, one
+// for the memory and one for the tiles; inside, plain two-phase channels.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "hwmodel/raycast/configuration.h"
+#include "hwmodel/raycast/layout.h"
+#include "hwmodel/raycast/pipe.h"
+#include "hwmodel/raycast/registers.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+struct FrameEnd {
+  std::int64_t cycles = 0;
+  bool complete = false, hangs = false;
+};
+
+class RayCaster {
+ public:
+  // Registers and memory belong to the host, who may change both between two frames.
+  RayCaster(const Registers& registers, Memory& memory, const Configuration& configuration);
+  ~RayCaster();
+  RayCaster(const RayCaster&) = delete;
+  RayCaster& operator=(const RayCaster&) = delete;
+
+  void watch(const Watchers& watchers);
+  void stop();  // after the present cycle
+  void poll(std::function<void()> poll);
+
+  // Where a value did not fit its wire.
+  class StageError : public std::runtime_error {
+   public:
+    StageError(const std::string& what, std::string failed)
+        : std::runtime_error(what), stage(std::move(failed)) {}
+    std::string stage;
+  };
+
+  // Draws every pixel with one sample: into the frame at Memory::frame.
+  FrameEnd draw_first();
+  // Draws those that differ by more than `most` with so many samples: into the frame behind it.
+  FrameEnd draw_again(int samples, int most);
+
+  std::int64_t cycle() const;  // of the present frame
+  int pipes() const;
+  const Pipe& pipe(int i) const;
+  const MemoryCounts& memory_counts() const;
+
+ private:
+  struct Machine;
+  std::unique_ptr<Machine> machine_;
+};
+
+// Bytes of a frame in memory.
+std::int64_t frame_bytes(int width, int height);
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,62 @@
+// The sampler: eight levels to one, a sample a cycle.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/field.h"
+#include "hwmodel/raycast/stage.h"
+#include "hwmodel/raycast/tokens.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+class SampleStage final : public Stage {
+ public:
+  SampleStage() : Stage("sample") {}
+  void connect(Fifo<Levels>& in, Fifo<LevelToken>& to_walk, Fifo<LevelToken>& to_crossing) {
+    in_ = &in, to_walk_ = &to_walk, to_crossing_ = &to_crossing;
+  }
+
+ private:
+  Did cycle() override {
+    if (!in_->valid()) return Did::starved;
+    const Levels& levels = *in_->oldest();
+    Fifo<LevelToken>& out = levels.request.asker == Asker::walk ? *to_walk_ : *to_crossing_;
+    if (!out.ready()) return Did::blocked;
+    in_->get();
+    const SInt<16> level = sample_of(levels.words.data(), levels.request.at);
+    *out.put() = {levels.request, static_cast<std::int16_t>(level)};
+    return Did::busy;
+  }
+
+  Fifo<Levels>* in_ = nullptr;
+  Fifo<LevelToken>* to_walk_ = nullptr;
+  Fifo<LevelToken>* to_crossing_ = nullptr;
+};
+
+// Several that ask the same memory, on one channel. The first of them comes first.
+template <class Request>
+class AskStage final : public Stage {
+ public:
+  explicit AskStage(std::string name) : Stage(std::move(name)) {}
+  void connect(std::vector<Fifo<Request>*> in, Fifo<Request>& out) { in_ = std::move(in), out_ = &out; }
+
+ private:
+  Did cycle() override {
+    for (Fifo<Request>* in : in_) {
+      if (!in->valid()) continue;
+      if (!out_->ready()) return Did::blocked;
+      *out_->put() = *in->get();
+      return Did::busy;
+    }
+    return Did::starved;
+  }
+
+  std::vector<Fifo<Request>*> in_;
+  Fifo<Request>* out_ = nullptr;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,106 @@
+// Shading in four stages (docs/picture-light.md, sections 6 and 7): what arrives and what matter is, what it
+// mirrors, the sum, and the pressing of bright light. A surface a cycle.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/registers.h"
+#include "hwmodel/raycast/shade.h"
+#include "hwmodel/raycast/stage.h"
+#include "hwmodel/raycast/tokens.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+// One surface in, one out.
+class SurfaceStage : public Stage {
+ public:
+  SurfaceStage(std::string name, const Registers& registers)
+      : Stage(std::move(name)), registers_(registers) {}
+  void connect(Fifo<Surface>& in, Fifo<Surface>& out) { in_ = &in, out_ = &out; }
+
+ protected:
+  virtual void compute(Surface& surface) const = 0;
+  const LookRegisters& look() const { return registers_.look; }
+
+ private:
+  Did cycle() override {
+    if (!in_->valid()) return Did::starved;
+    if (!out_->ready()) return Did::blocked;
+    Surface& surface = *out_->put();
+    surface = *in_->get();
+    compute(surface);
+    return Did::busy;
+  }
+
+  const Registers& registers_;
+  Fifo<Surface>* in_ = nullptr;
+  Fifo<Surface>* out_ = nullptr;
+};
+
+class ArrivingStage final : public SurfaceStage {
+ public:
+  explicit ArrivingStage(const Registers& registers) : SurfaceStage("arriving", registers) {}
+
+ private:
+  void compute(Surface& of) const override {
+    if (of.kind == Surface::Kind::background) return;
+    const bool matter = of.kind == Surface::Kind::matter;
+    if (matter) of.mixture = mixture_of(look(), of.matter);
+    of.arriving = arriving_of(look(), of.normal, of.light, look().glow && (!matter || of.mixture.w > 0));
+  }
+};
+
+class MirrorStage final : public SurfaceStage {
+ public:
+  explicit MirrorStage(const Registers& registers) : SurfaceStage("mirror", registers) {}
+
+ private:
+  void compute(Surface& of) const override {
+    if (of.kind != Surface::Kind::matter) return;
+    of.mirrored = mirrored_of(look(), of.normal, of.to_eye, of.light, of.arriving, of.mixture);
+  }
+};
+
+class ColourStage final : public SurfaceStage {
+ public:
+  explicit ColourStage(const Registers& registers) : SurfaceStage("colour", registers) {}
+
+ private:
+  void compute(Surface& of) const override {
+    if (of.kind == Surface::Kind::background)
+      of.sum = look().background;
+    else
+      of.sum = of.kind == Surface::Kind::matter ? matter_color(of.arriving, of.mixture, of.mirrored)
+                                                : ground_color(of.arriving, of.color);
+  }
+};
+
+class PressStage final : public Stage {
+ public:
+  explicit PressStage(const Registers& registers) : Stage("press"), registers_(registers) {}
+  void connect(Fifo<Surface>& in, Fifo<PressedToken>& out) { in_ = &in, out_ = &out; }
+
+ private:
+  Did cycle() override {
+    if (!in_->valid()) return Did::starved;
+    if (!out_->ready()) return Did::blocked;
+    const Surface& surface = *in_->get();
+    PressedToken& token = *out_->put();
+    token = {surface.id, surface.sum};
+    if (surface.kind != Surface::Kind::background)
+      for (std::int32_t& c : token.pressed)
+        c = registers_.look.tone[static_cast<std::size_t>(std::clamp(c, 0, 12287))];
+    return Did::busy;
+  }
+
+  const Registers& registers_;
+  Fifo<Surface>* in_ = nullptr;
+  Fifo<PressedToken>* out_ = nullptr;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

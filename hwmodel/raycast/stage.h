@@ -1,0 +1,56 @@
+// A stage of the ray caster: one evaluation a cycle, of which each is exactly one of six.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+namespace voxmelt::hwmodel::raycast {
+
+enum class Did : std::uint8_t { busy, starved, blocked, memory };
+
+// `memory`: it waits for the memory. `fill`: before its first token came, and `drain`: after its last one.
+struct Account {
+  std::int64_t busy = 0, starved = 0, blocked = 0, memory = 0, fill = 0, drain = 0;
+  std::int64_t total() const { return busy + starved + blocked + memory + fill + drain; }
+};
+
+class Stage {
+ public:
+  explicit Stage(std::string name) : name_(std::move(name)) {}
+  virtual ~Stage() = default;
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  // One cycle. Tells whether anything moved.
+  bool run() {
+    const Did did = cycle();
+    if (did == Did::starved) {
+      ++(started_ ? idle_ : account_.fill);
+      return false;
+    }
+    account_.starved += std::exchange(idle_, 0);
+    started_ = true;
+    ++(did == Did::busy ? account_.busy : did == Did::blocked ? account_.blocked : account_.memory);
+    return did == Did::busy;
+  }
+  // After the last cycle: what was idle since the last token is drain.
+  void end_pass() {
+    account_.drain += std::exchange(idle_, 0);
+    started_ = false;
+  }
+
+  const std::string& name() const { return name_; }
+  const Account& account() const { return account_; }
+
+ protected:
+  virtual Did cycle() = 0;
+
+ private:
+  std::string name_;
+  Account account_;
+  std::int64_t idle_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,177 @@
+// The walk: rays under way look for their first sample in matter. In each cycle some of them take a step
+// through air, one is sampled and one may begin. So no ray waits for another one's memory.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/registers.h"
+#include "hwmodel/raycast/stage.h"
+#include "hwmodel/raycast/tokens.h"
+#include "hwmodel/raycast/walk.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+// A ray in matter, on its way to the crossing. Its place in the walk stays taken until then.
+struct HitToken {
+  std::int16_t context = 0;
+  GroundedRay ray;
+  std::int64_t k = 0;
+  Vec at;                     // of sample k, in the lattice
+  std::int16_t level = 0;     // there
+  bool knows_before = false;  // the level of sample k - 1
+  std::int16_t before = 0;
+};
+
+struct WalkCounts {
+  std::int64_t rays = 0, samples = 0, leaps = 0;
+};
+
+class WalkStage final : public Stage {
+ public:
+  WalkStage(const Registers& registers, int rays, int walkers)
+      : Stage("walk"), registers_(registers), walkers_(walkers), rays_(static_cast<std::size_t>(rays)) {
+    for (int i = rays - 1; i >= 0; --i) free_.push_back(i);
+  }
+  void connect(Fifo<GroundedRay>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<HitToken>& hit,
+               Fifo<MetToken>& missed) {
+    in_ = &in, ask_ = &ask, answer_ = &answer, hit_ = &hit, missed_ = &missed;
+  }
+  // The crossing is done with a ray.
+  void give_back(int context) { free_.push_back(context); }
+  const WalkCounts& counts() const { return counts_; }
+
+ private:
+  struct Context {
+    GroundedRay ray;
+    Walker walker;
+    std::int64_t k = 0, most = 0;
+    std::int64_t slope = 0;
+    std::int64_t known = -2;  // the last sample whose level is known
+    std::int16_t level = 0;
+  };
+  Context& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
+
+  Did cycle() override {
+    bool moved = false, blocked = false;
+    if (!lost_.empty()) {
+      if (missed_->ready()) {
+        const Context& of = at(lost_.front());
+        *missed_->put() = {of.ray.id, of.ray.ray, of.ray.ground, {}};
+        free_.push_back(lost_.front());
+        lost_.pop_front();
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    if (!sampled_.empty()) {
+      if (ask_->ready()) {
+        ask(sampled_.front());
+        sampled_.pop_front();
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    const int walking = std::min(walkers_, static_cast<int>(walking_.size()));
+    for (int i = 0; i < walking; ++i) {
+      const int ray = walking_.front();
+      walking_.pop_front();
+      step(ray);
+      moved = true;
+    }
+    if (answer_->valid() && hit_->ready()) {
+      decide(*answer_->get());
+      moved = true;
+    }
+    if (in_->valid() && !free_.empty()) {
+      begin(*in_->get());
+      moved = true;
+    }
+    if (moved) return Did::busy;
+    if (blocked) return Did::blocked;
+    return free_.size() == rays_.size() ? Did::starved : Did::memory;
+  }
+
+  void begin(const GroundedRay& ray) {
+    const int i = free_.back();
+    free_.pop_back();
+    Context& of = at(i);
+    of.ray = ray;
+    of.walker = walker_of(ray.ray);
+    of.k = 0;
+    of.known = -2;
+    // Matter that is not behind the ground is met by the sample after it, at the latest.
+    of.most = ray.ground.found ? (ray.ground.part >> 8) + 1 : kMostSamples;
+    ++counts_.rays;
+    walking_.push_back(i);
+  }
+
+  void advance(Context& of, std::int64_t steps) {
+    of.k += steps;
+    of.walker.at = of.walker.at + of.walker.step * steps;
+  }
+
+  void step(int i) {
+    Context& of = at(i);
+    ++counts_.leaps;
+    if (of.k > of.most) return lost_.push_back(i);
+    const SkipMap& skip = registers_.skip;
+    const auto to_box = steps_to_box(of.walker, skip.low, skip.high);
+    if (!to_box) return lost_.push_back(i);
+    if (*to_box > 0) {
+      advance(of, *to_box);
+      return walking_.push_back(i);
+    }
+    const Vec& q = of.walker.at;
+    const std::uint16_t word = skip.at(q.x >> kBlockBits, q.y >> kBlockBits, q.z >> kBlockBits);
+    if (word >= 256) {
+      advance(of, steps_out(of.walker, word - 256));
+      return walking_.push_back(i);
+    }
+    of.slope = word;
+    sampled_.push_back(i);
+  }
+
+  void ask(int i) {
+    const Context& of = at(i);
+    LevelRequest& request = *ask_->put();
+    request = {Asker::walk, static_cast<std::int16_t>(i), of.ray.id, UInt<27>(of.k),
+               on_wires<32>(of.walker.at)};
+    ++counts_.samples;
+  }
+
+  void decide(const LevelToken& token) {
+    const int i = token.request.context;
+    Context& of = at(i);
+    if (token.level >= 0) {
+      *hit_->put() = {token.request.context, of.ray,  of.k, of.walker.at, token.level,
+                      of.known == of.k - 1,  of.level};
+      return;
+    }
+    of.known = of.k;
+    of.level = token.level;
+    const std::int64_t rise = steps_to_rise(token.level, of.slope, registers_.camera.spacing);
+    advance(of, std::min(rise, steps_out(of.walker, 1)));
+    walking_.push_back(i);
+  }
+
+  const Registers& registers_;
+  int walkers_;
+  std::vector<Context> rays_;
+  std::vector<int> free_;
+  std::deque<int> walking_, sampled_, lost_;
+  WalkCounts counts_;
+  Fifo<GroundedRay>* in_ = nullptr;
+  Fifo<LevelRequest>* ask_ = nullptr;
+  Fifo<LevelToken>* answer_ = nullptr;
+  Fifo<HitToken>* hit_ = nullptr;
+  Fifo<MetToken>* missed_ = nullptr;
+};
+
+}  // namespace voxmelt::hwmodel::raycast
