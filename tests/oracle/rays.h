@@ -4,6 +4,7 @@
 #include "state.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
