@@ -62,9 +62,13 @@ def source(maker):
     plain = maker.wanted in {f"heat_source.{key}" for key in ("at", "radius", "direction", "power")}
     if plain or not maker.gives(frame, 0.5):
         return {**named, **numbers_of(maker, kind, "heat_source")}
-    steps = sorted({maker.step(f"{frame}.step") for _ in range(maker.dice.randint(1, 4))})
-    frames = [{"step": step, **numbers_of(maker, kind, frame)} for step in steps]
-    for before, after in zip(frames, frames[1:]):
-        if kind == "directional" and maker.chance(0.3):  # between opposite ones there may be no direction at all
-            after["direction"] = [-part for part in before["direction"]]
+    turns_back = kind == "directional" and not maker.wanted.startswith(frame) and maker.chance(0.4)
+    steps = {maker.step(f"{frame}.step") for _ in range(maker.dice.randint(1, 4))}
+    if turns_back:
+        steps = {maker.first, maker.first + 2 * maker.dice.randint(1, 5)}
+    frames = [{"step": step, **numbers_of(maker, kind, frame)} for step in sorted(steps)]
+    if turns_back:  # in the middle, D is short or 0: only then a ray needs many D to leave the grid
+        longest = max(map(abs, frames[0]["direction"]))
+        noise = maker.dice.choice((0, 1e-4, 1e-3))
+        frames[1]["direction"] = [noise * maker.dice.uniform(-1, 1) - part / longest for part in frames[0]["direction"]]
     return {**named, "keyframes": frames}
