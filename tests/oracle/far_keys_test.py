@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The program and the oracle agree on sources with keys far apart, strong and late: on both sides of the steps
-from which (b - a)(s - a.step) exceeds 64 bits.
+from which (b - a)(s - a.step) exceeds 64 bits; and on a sun that turns back.
 
-  far_keys_test.py VOXMELT ORACLE SCENE
+  far_keys_test.py VOXMELT ORACLE SCENE STEPS...
 """
 import subprocess
 import sys
@@ -14,12 +14,11 @@ def output(*command):
 
 
 def main():
-    voxmelt, oracle, scene = sys.argv[1:]
+    voxmelt, oracle, scene, *counts = sys.argv[1:]
     found = set()
     with tempfile.TemporaryDirectory() as folder:
         start = f"{folder}/start"
         output(voxmelt, "export", scene, "--steps", "0", "--out", start, "--quiet")
-        counts = ("8192", "8200", "11999", "12001", "20192", "20200")
         for steps in counts:
             mine = output(voxmelt, "digest", scene, "--steps", steps, "--quiet")
             judge = output(oracle, start, "--steps", steps)

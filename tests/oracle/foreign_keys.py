@@ -41,8 +41,9 @@ TEMPERATURE = Key(0, 1, 0.2, 0.95, 1 / 65535, 65534 / 65535, 0.5)
 AMOUNT = Key(0, 15, 0.01, 0.5, 1 / 4096, 4095 / 4096, 1, 4097 / 4096)
 ALPHA = Key(0, 1, 0.5, 1.0, 65534 / 65536, 1 / 65536)
 POSITION = Key(-65536, 65536, -4.0, 12.0, 0.5, 1)  # most positions are drawn near the grid
-RADIUS = Key(0, 8192, 0.0, 6.0, 1 / 16, 0.5, 8191)  # of a sphere
-DIRECTION = Key(-10**6, 10**6, -1.0, 1.0, 0, 1 / 32768)
+RADIUS = Key(0, 8192, 0.1, 8.0, 1 / 32, 1 / 16, 0.5, 1, 8191)
+DIRECTION = Key(-10**6, 10**6, -1.0, 1.0, 0.0, 1e-9, 1 / 65536, 1, -1)
+POWER = Key(0, 4194303, 0.1, 100.0, 1 / 2**28, 4194302)
 STEP = Key(0, LAST_STEP, 0, 30, 65535, 65536, 2**31 - 1, 2**31, 2**31 + 1, LAST_STEP - 1)
 
 KEYS = {
@@ -61,14 +62,14 @@ KEYS = {
     "heat.air.top": TEMPERATURE,
     "heat_source.kind": Choice("point", "sphere", "directional", "sky"),
     "heat_source.at": POSITION,
-    "heat_source.power": Key(0, 4194303, 0.1, 100.0, 1 / 2**28, 4194302),
     "heat_source.radius": RADIUS,
     "heat_source.direction": DIRECTION,
+    "heat_source.power": POWER,
     "heat_source.keyframes.step": STEP,
     "heat_source.keyframes.at": POSITION,
-    "heat_source.keyframes.power": Key(0, 4194303, 0.1, 100.0, 1 / 2**28, 4194302),
     "heat_source.keyframes.radius": RADIUS,
     "heat_source.keyframes.direction": DIRECTION,
+    "heat_source.keyframes.power": POWER,
     "flow.law": Choice("paper", "viscous"),
     "flow.fall.factor": Key(0, 1, 0.2, 1.0, 1 / 65536, 65535 / 65536),
     "flow.fall.wall_factor": Key(0, 1, 0.2, 1.0, 1 / 65536, 65535 / 65536),

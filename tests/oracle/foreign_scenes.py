@@ -3,7 +3,7 @@
 
   foreign_scenes.py SEED FOLDER     writes FOLDER/scene.toml and FOLDER/fields/*.npy
 
-A new key needs a row of KEYS in foreign_keys.py, and a place in the function of its table here.
+A new key needs a row of KEYS in foreign_keys.py, and a place in the function of its table here, or in foreign_sources.py.
 """
 import math
 import random
@@ -14,6 +14,7 @@ sys.dont_write_bytecode = True  # a folder of bytecode here would fail oracle.in
 from foreign_columns import Columns
 from foreign_fields import HEAT_MOST, Fields
 from foreign_keys import ENDS, KEYS, LAST_STEP, TINY
+from foreign_sources import source
 
 
 class Maker:
@@ -50,6 +51,8 @@ class Maker:
             return [self.dice.choice((63, 64, 65, 130)), self.dice.randint(1, 8), self.dice.randint(1, 5)]
         if luck < 0.4:
             return [self.dice.randint(1, 7), self.dice.choice((17, 33, 40, 70)), self.dice.randint(1, 3)]
+        if luck < 0.45:
+            return [self.dice.randint(1, 40), self.dice.randint(1, 24), self.dice.randint(1, 24)]
         return [self.dice.randint(1, 12) for _ in range(3)]
 
     def at(self, key, around=0):
@@ -82,27 +85,6 @@ class Maker:
             heat["air"] = {"exchange": self.draw("heat.air.exchange"), "bottom": self.draw("heat.air.bottom"),
                            **self.some("heat.air", "top")}
         return heat
-
-    def source(self):
-        source = self.some("heat_source", "kind", given=0.7)
-        kind = source.get("kind", "point")
-        if self.gives("heat_source.keyframes", 0.5):
-            frame = "heat_source.keyframes"
-            steps = sorted({self.step(f"{frame}.step") for _ in range(self.dice.randint(1, 4))})
-            return {**source, "keyframes": [{"step": step, **self.shine(frame, kind)} for step in steps]}
-        return {**source, **self.shine("heat_source", kind)}
-
-    def shine(self, table, kind):
-        """What a source of this kind says, or one of its keyframes."""
-        said = {"power": self.draw(f"{table}.power")}
-        if kind in ("point", "sphere"):
-            said["at"] = self.at(f"{table}.at", 6)
-        if kind == "sphere":
-            said["radius"] = self.draw(f"{table}.radius")
-        if kind == "directional":
-            direction = [self.draw(f"{table}.direction") for _ in "xyz"]
-            said["direction"] = direction if any(abs(d) > 1e-5 for d in direction) else [0, 1, 0]
-        return said
 
     def region(self, table):
         region = {"at": self.at(f"{table}.at"), "radius": self.draw(f"{table}.radius"), "rate": self.draw(f"{table}.rate")}
@@ -188,7 +170,7 @@ class Maker:
         if sources or self.gives("heat", 0.7):
             scene["heat"] = self.heat()
             if sources:
-                scene["heat_source"] = [self.source() for _ in range(self.dice.randint(1, 3))]
+                scene["heat_source"] = [source(self) for _ in range(self.dice.randint(1, 4))]
         for table in ("vent", "drain"):
             if self.gives(table, 0.4):
                 scene[table] = [self.region(table) for _ in range(self.dice.randint(1, 3))]

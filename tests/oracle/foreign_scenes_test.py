@@ -22,11 +22,13 @@ from pathlib import Path
 sys.dont_write_bytecode = True  # a folder of bytecode here would fail oracle.independence
 from foreign_keys import ENDS, uses
 from foreign_scenes import write_scene
+from foreign_sources import KEYS_OF
 
 LEDGERS = ("mass", "energy", "heat")
 COUNTERS = ("cells", "mass", "limited_cells", "limited_mass")  # in the order of the oracle's line
 MOST_WORK = 1000000  # cells x sub-steps x steps of a run of more than one step
 MANY_SUBSTEPS = 20
+CASTERS = ("auto", "walk", "two-level")  # of voxmelt --visibility
 MOST_DEAD = 0.2  # share of the scenes in which nothing flows and nothing melts
 LEAST_PAST_2_31 = 5  # scenes that cross step 2^31
 
@@ -56,11 +58,11 @@ def of_oracle(oracle, start, steps, fields):
     return digests, ledgers, counters
 
 
-def of_voxmelt(voxmelt, folder, steps, implementation, threads):
+def of_voxmelt(voxmelt, folder, steps, implementation, threads, caster):
     """The same of the program, and its report."""
     file = folder / f"{implementation}.json"
     digests = output(voxmelt, "digest", folder / "scene.toml", "--steps", steps, "--every", 1, "--quiet",
-                     "--implementation", implementation, "--threads", threads, "--report", file)
+                     "--implementation", implementation, "--threads", threads, "--visibility", caster, "--report", file)
     report = json.loads(file.read_text())
     ledgers = {}
     for name in LEDGERS:
@@ -96,6 +98,8 @@ def events(scene, steps, digests, report, start, end):
              if term not in ("start", "solid", "liquid", "held", "drift")}
     # Vents and drains alone change amounts by what they add and remove; melting changes none.
     flows, melts = moved > int(report["mass"]["added"]) + int(report["mass"]["removed"]), solids[1] < solids[0]
+    sources = scene.get("heat_source", [])
+    changing = [s for s in sources if len(s.get("keyframes", [])) > 1]
     return terms | {
         "liquid flows": flows, "solids melt": melts, "dead": not flows and not melts,
         "law: paper": report["law"] == "paper", "law: viscous": report["law"] == "viscous",
@@ -104,6 +108,9 @@ def events(scene, steps, digests, report, start, end):
         "a limit withholds flow": int(report["limit"]["limited_cells"]) > 0,
         "counts its sub-steps": scene["flow"].get("viscous", {}).get("substeps") == "auto",
         "many sub-steps": most_substeps(scene) > MANY_SUBSTEPS,
+        "several kinds of sources": len({s.get("kind", "point") for s in sources}) > 1,
+        **{f"keyframes of a {s.get('kind', 'point')}": True for s in changing},
+        "radiation without a cut": int(report["heat"]["radiated"]) != 0 and report["irradiance_capped"] == 0,
         **{f"{name} 65535 at the start": max(field(start, name)) == 65535 for name in ("amount", "energy", "heat")},
         **{f"feature: {name}": True for name in report["features"]}}
 
@@ -124,7 +131,7 @@ def run_scene(voxmelt, oracle, names, seed, folder):
     for steps in lengths:
         judge, judged, counters = of_oracle(oracle, start, steps, end)
         for name in names:
-            mine, ledgers, report = of_voxmelt(voxmelt, folder, steps, name, 1 + seed % 3)
+            mine, ledgers, report = of_voxmelt(voxmelt, folder, steps, name, 1 + seed % 3, CASTERS[seed // 3 % 3])
             compare(f"{name}, {steps} steps, digests", mine, judge)
             for ledger in LEDGERS:
                 compare(f"{name}, {steps} steps, ledger of {ledger} {list(report[ledger])}", ledgers[ledger], judged[ledger])
@@ -148,6 +155,7 @@ def run_scenes(voxmelt, oracle, seeds, folder):
     names = implementations(voxmelt)
     used = collections.Counter()
     happened = collections.Counter({f"feature: {name}": 0 for name in output(voxmelt, "list", "features")})
+    happened.update({f"keyframes of a {kind}": 0 for kind in KEYS_OF})
 
     def run(seed):
         try:

@@ -1,6 +1,7 @@
 // docs/automaton.md section 14: parameters.json and the ranges a scene may use.
 #include "parameters.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <limits>
@@ -46,6 +47,7 @@ bool yes(const Json& json, const char* key) {
 }
 
 constexpr Int MOST = std::numeric_limits<Int>::max();
+constexpr Int LAST_STEP = (Int{1} << 32) - 1;
 constexpr Int FAR = Int{1} << 24;  // the farthest position, in sixteenths: visibility multiplies two of them
 
 std::vector<Int> integers(const Json& json, const std::string& name, Int low, Int high) {
@@ -82,13 +84,43 @@ std::vector<Region> read_regions(const Json& json, bool vents) {
   return regions;
 }
 
+// A source without `kind` is a point.
+Kind kind_of(const Json& json) {
+  if (!json.contains("kind")) return Kind::point;
+  const Json& name = json.at("kind");
+  if (name == "sphere") return Kind::sphere;
+  if (name == "directional") return Kind::directional;
+  require(name == "sky", "the kind of a source is neither sphere, directional nor sky");
+  return Kind::sky;
+}
+
+// Keys have only what their kind has.
+Key read_key(const Json& json, Kind kind) {
+  Key key;
+  std::size_t members = 2;
+  key.step = integer(json, "step", 0, LAST_STEP);
+  key.power = integer(json, "power", 0, (Int{1} << 50) - 1);
+  if (kind == Kind::point || kind == Kind::sphere) {
+    key.at = point(json, "at", -FAR, FAR);
+    ++members;
+  }
+  if (kind == Kind::sphere) {
+    key.radius = integer(json, "radius", 0, FAR);
+    ++members;
+  }
+  if (kind == Kind::directional) {
+    key.direction = point(json, "direction", -65536, 65536);
+    ++members;
+  }
+  require(json.size() == members, "a key of a source has what its kind has not");
+  return key;
+}
+
 RadiationSource read_radiation_source(const Json& json) {
   RadiationSource source;
+  source.kind = kind_of(json);
   for (const Json& entry : member(json, "keys")) {
-    Key key;
-    key.step = integer(entry, "step", 0, MOST);
-    key.at = point(entry, "at", -FAR, FAR);
-    key.power = integer(entry, "power", 0, (Int{1} << 50) - 1);
+    const Key key = read_key(entry, source.kind);
     require(source.keys.empty() || source.keys.back().step < key.step, "keys do not ascend");
     source.keys.push_back(key);
   }

@@ -11,13 +11,18 @@ namespace oracle {
 
 using Point = std::array<Int, 3>;  // x, y, z in sixteenths of a cell
 
+enum class Kind { point, sphere, directional, sky };
+
 struct Key {
   Int step = 0;
-  Point at{};
+  Point at{};         // points and spheres
+  Int radius = 0;     // spheres
+  Point direction{};  // directional sources
   Int power = 0;
 };
 
 struct RadiationSource {
+  Kind kind = Kind::point;
   std::vector<Key> keys;
 };
 

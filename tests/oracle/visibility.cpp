@@ -1,21 +1,22 @@
-// docs/automaton.md section 5: which faces of solid cells see a source, and what the cells get from it.
+// docs/automaton.md section 5: which rays see their source, and what the cells get from it.
 //
 // A ray is cut into the layers of cells along its longest axis. In a layer it meets few cells; each opaque
 // one of them is tested by itself: the ray, as the set of t in (0, 1) with start + t delta, and the cell's
 // interior, as an open interval of t per axis, have a point in common. All numbers are exact fractions.
 // A ray may start on the border of a cell; the test needs no exception for that, nor for the ray's own cell.
+#include "rays.h"
+
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
-
-#include "state.h"
 
 namespace oracle {
 namespace {
 
 struct Ray {
   Point from{};             // its start on a face, in sixteenths
-  Point delta{};            // from there to the source
+  Point delta{};            // from there to its end
   std::size_t longest = 0;  // the axis of the greatest |delta|
 };
 
@@ -115,25 +116,6 @@ Opaque opaque_cells(const State& state) {
   return opaque;
 }
 
-// Position and power of a source at step s, from its keys.
-Key key_at(const RadiationSource& source, Int s) {
-  const std::vector<Key>& keys = source.keys;
-  if (s < keys.front().step) return keys.front();
-  for (std::size_t n = 0; n + 1 < keys.size(); ++n) {
-    const Key &a = keys[n], &b = keys[n + 1];
-    if (s < a.step || s >= b.step) continue;
-    const auto between = [&](Int from, Int to) {
-      const Sum way = Sum{to - from} * (s - a.step);
-      return from + static_cast<Int>(floor_divide<Sum>(way, b.step - a.step));
-    };
-    Key now;
-    for (std::size_t axis = 0; axis < 3; ++axis) now.at[axis] = between(a.at[axis], b.at[axis]);
-    now.power = between(a.power, b.power);
-    return now;
-  }
-  return keys.back();
-}
-
 Ray ray_between(const Point& from, const Point& to) {
   Ray ray;
   ray.from = from;
@@ -144,59 +126,59 @@ Ray ray_between(const Point& from, const Point& to) {
   return ray;
 }
 
-// How many of the m x m rays see the source that start at the face whose centre is given, across `axis`.
-Int seeing_rays(const Opaque& opaque, const Point& face, std::size_t axis, Int m, const Point& source) {
-  const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
-  Int count = 0;
-  Point start = face;
-  for (Int i = 0; i < m; ++i)
-    for (Int j = 0; j < m; ++j) {
-      start[a] = face[a] - 8 + (16 * i + 8) / m;
-      start[b] = face[b] - 8 + (16 * j + 8) / m;
-      if (sees(opaque, ray_between(start, source))) ++count;
+// N of section 5: the sum of w over all rays of the cell that see the source.
+Int seen(const State& state, const Opaque& opaque, const Light& light, const Turns& turns, Int cell) {
+  const Place p = state.place(cell);
+  const Int R = state.parameters.heat.rays_per_face;
+  Int N = 0;
+  for (Int f = 0; f < 6; ++f) {
+    const Face face = face_of(p, f);
+    if (opaque.at(face.beyond)) continue;  // not free
+    for (Int n = 0; n < R; ++n) {
+      const Point from = start_of(face, n, R);
+      const std::optional<Cast> cast = cast_from(from, face, light, turns, {cell, f, n, R}, opaque.size);
+      if (cast && sees(opaque, ray_between(from, cast->end))) N += cast->weight;
     }
-  return count;
+  }
+  return N;
 }
 
-Int received(const Opaque& opaque, Place p, const Key& source, Int rays_per_face) {
-  const std::array<Int, 3> own_cell = {p.x, p.y, p.z};
-  const Int m = square_root(rays_per_face);
-  Point centre{}, delta{};
-  Int square = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    centre[axis] = 16 * own_cell[axis] + 8;
-    delta[axis] = source.at[axis] - centre[axis];
-    square += delta[axis] * delta[axis];
-  }
-  Int N = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Int ahead = delta[axis] > 0 ? 1 : -1;
-    std::array<Int, 3> neighbour = own_cell;
-    neighbour[axis] += ahead;
-    if (magnitude(delta[axis]) <= 8 || opaque.at(neighbour)) continue;  // this face does not look
-    Point face = centre;
-    face[axis] += 8 * ahead;
-    N += seeing_rays(opaque, face, axis, m, source.at) * magnitude(delta[axis]);
-  }
+// What the cell gets from a source whose N is given.
+Sum received(const Light& light, const Point& centre, Int N, Int R) {
   if (N == 0) return 0;
-  const Int d2 = larger(square, 256);
-  const Sum divisor = Sum{rays_per_face} * d2 * square_root(4096 * d2);
-  return static_cast<Int>(64 * Sum{source.power} * N / divisor);
+  const Key& now = light.now;
+  const Sum product = Sum{now.power} * N;
+  switch (light.kind) {
+    case Kind::directional:
+      return 64 * product / (Sum{256} * R * square_root(4096 * squared_length(now.direction)));
+    case Kind::sky:
+      return product / (256 * R);
+    case Kind::point:
+    case Kind::sphere:
+      break;
+  }
+  const Int radius = light.kind == Kind::sphere ? now.radius : 0;
+  const Int distance = squared_length(difference(now.at, centre));
+  const Int d2 = larger(larger(distance, radius * radius), 256);
+  return 64 * product / (Sum{R} * d2 * square_root(4096 * d2));
 }
 
 }  // namespace
 
 void find_irradiance(State& state) {
   const Opaque opaque = opaque_cells(state);
-  const Int rays = state.parameters.heat.rays_per_face;
-  std::vector<Key> sources;
+  const Turns turns(state.parameters.seed);
+  const Int R = state.parameters.heat.rays_per_face;
+  std::vector<Light> lights;
   for (const RadiationSource& source : state.parameters.heat.sources)
-    sources.push_back(key_at(source, state.step));
+    lights.push_back({source.kind, key_at(source, state.step)});
   for (Int& irradiance : state.irradiance) irradiance = 0;
   for (const Int i : state.list) {
     if (state.cells[i].solid == 0) continue;
-    for (const Key& source : sources) {
-      const Sum sum = Sum{state.irradiance[i]} + received(opaque, state.place(i), source, rays);
+    const Point centre = centre_of(state.place(i));
+    for (const Light& light : lights) {
+      const Int N = seen(state, opaque, light, turns, i);
+      const Sum sum = state.irradiance[i] + received(light, centre, N, R);
       state.irradiance[i] = sum > 65535 ? 65535 : static_cast<Int>(sum);
     }
   }
