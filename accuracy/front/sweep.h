@@ -8,7 +8,6 @@
 // the finest grid, at the usual setting. It is never laid beside the others.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>

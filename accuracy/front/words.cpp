@@ -31,12 +31,19 @@ std::vector<Pick> picks_of_formats(const Swept& swept) {
   return picks(swept, bits_against_arithmetic_error(swept));
 }
 
-bool usual_is_on_the_front(const Swept& swept) {
-  const Plotted plotted = run_time_against_whole_error(swept);
-  const std::vector<std::size_t> left = undominated(plotted.places);
-  return std::any_of(left.begin(), left.end(), [&](std::size_t i) {
-    return swept.points[plotted.point[i]].choice.axis == Axis::usual;
+std::vector<const Measured*> faster_and_better(const Swept& swept) {
+  constexpr std::size_t kMost = 3;
+  const Measured& usual = swept.points.front();
+  std::vector<const Measured*> found;
+  for (const Measured& point : swept.points)
+    if (point.cost.run_seconds && point.whole && *point.cost.run_seconds <= *usual.cost.run_seconds &&
+        point.whole->largest() < usual.whole->largest())
+      found.push_back(&point);
+  std::stable_sort(found.begin(), found.end(), [](const Measured* a, const Measured* b) {
+    return *a->cost.run_seconds < *b->cost.run_seconds;
   });
+  found.resize(std::min(found.size(), kMost));
+  return found;
 }
 
 }  // namespace voxmelt::accuracy::front

@@ -1,7 +1,6 @@
 // The front in words: which setting to take for which error.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +18,7 @@ struct Pick {
 std::vector<Pick> picks_of_settings(const Swept& swept);  // the fastest run whose whole error keeps the bound
 std::vector<Pick> picks_of_formats(const Swept& swept);   // the fewest bits whose arithmetic error keeps it
 
-bool usual_is_on_the_front(const Swept& swept);
+// The settings that are both faster and better than the usual one: at most three, the fastest first.
+std::vector<const Measured*> faster_and_better(const Swept& swept);
 
 }  // namespace voxmelt::accuracy::front

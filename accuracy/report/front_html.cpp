@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "accuracy/front/pareto.h"
@@ -24,6 +26,7 @@ using front::Swept;
 
 constexpr const char* kFrontStyle = R"(
 .picks { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(300px, 100%), 1fr)); gap: 14px; }
+.picks a { color: inherit; }
 .picks .card { margin: 0; padding: 18px 20px 12px; }
 dl { display: grid; grid-template-columns: 52px 1fr; gap: 6px 10px; margin: 8px 0; font-size: 14.5px; }
 dt { font-weight: 700; } dd { margin: 0; }

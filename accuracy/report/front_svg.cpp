@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -14,7 +13,7 @@
 namespace voxmelt::accuracy {
 namespace {
 
-constexpr double kWidth = 440, kHeight = 320, kLeft = 66, kRight = 424, kTop = 18, kBottom = 264;
+constexpr double kWidth = 440, kHeight = 320, kLeft = 78, kRight = 424, kTop = 18, kBottom = 264;
 constexpr double kLeastError = 1e-10, kRoom = 1.35;
 
 std::string text(double x, double y, const char* anchor, const std::string& what, const char* css) {

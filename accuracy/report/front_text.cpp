@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <string>
 
 #include "accuracy/report/report.h"
@@ -38,18 +37,6 @@ std::string seconds_text(double seconds) {
   return fmt::format("{:.{}f} s", seconds, seconds < 0.0995 ? 3 : seconds < 9.95 ? 2 : 1);
 }
 
-std::string setting_text(const front::Setting& s, bool viscous) {
-  std::string text =
-      fmt::format("step {}, {} neighbours",
-                  s.step < 1 ? fmt::format("1/{:g}", 1 / s.step) : fmt::format("{:g}", s.step), s.neighbours);
-  if (s.interval > 0)
-    text += fmt::format(", {} ray{}, visibility every {}", s.rays, s.rays == 1 ? "" : "s", s.interval);
-  if (viscous)
-    text += s.substeps > 0 ? fmt::format(", {} sub-steps", s.substeps)
-                           : fmt::format(", up to {} sub-steps", s.substeps_max);
-  return text;
-}
-
 std::string pick_text(const front::Pick& pick) {
   if (pick.point == nullptr) return "none of the settings measured";
   const Measured& point = *pick.point;
@@ -73,10 +60,13 @@ std::string title_of(const front::Swept& swept) {
 
 std::string usual_text(const front::Swept& swept) {
   const Measured& usual = swept.points.front();
-  return fmt::format("The usual setting: error {}, {} a run; {}. Other random bits change a run by up to {}.",
+  std::string beaten;
+  for (const Measured* point : front::faster_and_better(swept))
+    beaten += fmt::format("{}{} ({}, {})", beaten.empty() ? "" : "; ", front::text_of(point->choice),
+                          percent_text(point->whole->largest()), seconds_text(*point->cost.run_seconds));
+  return fmt::format("The usual setting: error {}, {} a run. {}. Other random bits change a run by up to {}.",
                      percent_text(usual.whole->largest()), seconds_text(*usual.cost.run_seconds),
-                     front::usual_is_on_the_front(swept) ? "no setting is both faster and better"
-                                                         : "another setting is faster and better",
+                     beaten.empty() ? "No setting is both faster and better" : "Faster and better: " + beaten,
                      percent_text(swept.seed_error));
 }
 

@@ -14,6 +14,5 @@ std::string format_pick_text(const front::Pick& pick);  // "u16 nearest: 0.05 %,
 std::string title_of(const front::Swept& swept);        // "cello" or "cello, viscous law"
 std::string usual_text(const front::Swept& swept);  // what the usual setting gives, and whether none beats it
 extern const char* const kHowErrorsAreMeasured[4];  // paragraphs
-std::string setting_text(const front::Setting& setting, bool viscous);
 
 }  // namespace voxmelt::accuracy

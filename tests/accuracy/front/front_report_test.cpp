@@ -107,7 +107,7 @@ TEST(FrontReport, PageStandsAloneAndSaysWhichSetting) {
             "<dt>1 %</dt><dd>step 1/2: error 0.8 % (model 1.6 %, arithmetic 0.08 %), 2.00 s a run</dd>"),
       1);
   EXPECT_EQ(count(page, "<dt>0.1 %</dt><dd>none of the settings measured</dd>"), 1);
-  EXPECT_EQ(count(page, "no setting is both faster and better"), 1);
+  EXPECT_EQ(count(page, "No setting is both faster and better"), 1);
 }
 
 TEST(FrontReport, MarkdownHasTheWordsAndThePoints) {
