@@ -7,6 +7,15 @@
 
 namespace voxmelt::accuracy::front {
 
+namespace {
+
+// Under the viscous law the reference is a run of the engine. Beside itself it is no evidence.
+bool is_its_own_reference(const Swept& swept, const Measured& point) {
+  return swept.subject->viscous && point.choice.setting == swept.reference;
+}
+
+}  // namespace
+
 std::vector<std::size_t> undominated(std::span<const Place> places) {
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -37,7 +46,8 @@ std::optional<std::size_t> best(std::span<const Place> places) {
 Plotted run_time_against_whole_error(const Swept& swept) {
   Plotted plotted;
   for (std::size_t i = 0; i < swept.points.size(); ++i)
-    if (const Measured& point = swept.points[i]; point.cost.run_seconds && point.whole) {
+    if (const Measured& point = swept.points[i];
+        point.cost.run_seconds && point.whole && !is_its_own_reference(swept, point)) {
       plotted.point.push_back(i);
       plotted.places.push_back({*point.cost.run_seconds, point.whole->largest()});
     }

@@ -22,7 +22,10 @@ const char* const kHowErrorsAreMeasured[4] = {
     "random choices are the same. The model error is that of the automaton in double at this setting, beside "
     "it in double at the finest setting that was run: a quarter of a step, 26 neighbours, 16 rays, "
     "visibility "
-    "at every step. The whole error is that of the run beside that reference. It need not be the sum.",
+    "at every step. The whole error is that of the run beside that reference. It need not be the sum. The "
+    "reference is the finest that was run, not the truth: a run with its step does not see that step's "
+    "error. "
+    "Under the viscous law, which has no twin, the reference is the engine's run; it is on no front.",
     "All three belong to one grid. What the grid costs is told apart: the engine on a coarser grid beside "
     "the "
     "engine on the finest. Bodies are scaled with the grid, steps are as long as cells.",

@@ -96,6 +96,17 @@ TEST(Words, FrontsHoldWhatBelongsTogether) {
   EXPECT_EQ(bits_against_arithmetic_error(one).places[0].error, 0.05);
 }
 
+// A run of the engine that is the reference has no error, because it is compared with itself.
+TEST(Words, ARunThatIsItsOwnReferenceIsOnNoFront) {
+  Swept one = swept();
+  one.subject = &all_subjects().back();
+  ASSERT_TRUE(one.subject->viscous);
+  one.reference = one.points[1].choice.setting;
+  EXPECT_EQ(run_time_against_whole_error(one).point, (Indices{0, 2}));
+  one.subject = &all_subjects().front();  // by the paper's law the reference is the twin's
+  EXPECT_EQ(run_time_against_whole_error(one).point, (Indices{0, 1, 2}));
+}
+
 TEST(Words, PicksName) {
   const Swept one = swept();
   const std::vector<Pick> settings = picks_of_settings(one), formats = picks_of_formats(one);
