@@ -13,6 +13,7 @@
 
 #include "accuracy/case.h"
 #include "accuracy/report/report.h"
+#include "app/accuracy_front.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/options.h"
@@ -28,6 +29,8 @@ using accuracy::Case;
 struct AccuracyOptions {
   Common common;
   std::vector<std::string> cases;
+  std::vector<std::string> front;  // scenes
+  bool wants_front = false;
   std::string out;
   bool quick = false;
 };
@@ -76,6 +79,11 @@ int run_accuracy(const AccuracyOptions& options) {
   conditions.sets = common.sets;
   if (common.seed) conditions.sets.push_back(fmt::format("run.seed={}", *common.seed));
   conditions.scenes = scenes_of_cases();
+  if (options.wants_front) {
+    if (!options.cases.empty()) throw UsageError("error: --front and --case exclude each other");
+    conditions.scenes = conditions.scenes.parent_path();
+    return run_front(common, {options.front, options.out, options.quick}, conditions);
+  }
   const std::vector<const Case*> cases = chosen_cases(options.cases);
   check_report_place(common, options.out);
   std::optional<io::OutputFolder> out;
@@ -124,14 +132,24 @@ void add_accuracy(CLI::App& program, Chosen& chosen) {
       ->add_option("--case", options->cases, "this case only (repeatable); `voxmelt list cases` names them")
       ->type_name("NAME")
       ->allow_extra_args(false);
+  CLI::Option* front =
+      command
+          ->add_option("--front", options->front,
+                       "instead: speed against error, of all scenes of the front or of these; one thread")
+          ->type_name("[SCENE ...]")
+          ->expected(0, -1);
   command->add_option("--out", options->out,
-                      "folder for accuracy.html, accuracy.md, accuracy.csv and accuracy.json");
+                      "folder for accuracy.html, .md, .csv and .json (--front: front.html, ...)");
   add_common(*command, options->common);
   command->footer(
       "Each case runs a scene of scenes/accuracy and compares with what mathematics says of it.\n"
       "Ends with 1 where an error is larger than its gate. Baseline: the paper's program, plainly written,\n"
       "on the same start; for a scene of the viscous law it runs the paper's law.");
-  command->callback([options, &chosen] { chosen = [options] { return run_accuracy(*options); }; });
+  command->callback([options, front, &chosen] {
+    options->wants_front = front->count() > 0;
+    std::erase(options->front, "");  // of --front alone
+    chosen = [options] { return run_accuracy(*options); };
+  });
 }
 
 }  // namespace voxmelt::app

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "accuracy/report/report.h"
+#include "accuracy/report/wrapped.h"
 
 namespace voxmelt::accuracy {
 namespace {
@@ -16,16 +17,6 @@ std::string bar_free(std::string text) {
   for (char& c : text)
     if (c == '|') c = '/';
   return text;
-}
-
-std::string wrapped(const std::string& text) {
-  std::istringstream words(text);
-  std::string out, line, word;
-  while (words >> word) {
-    if (!line.empty() && line.size() + 1 + word.size() > kColumns) out += line + '\n', line.clear();
-    line += (line.empty() ? "" : " ") + word;
-  }
-  return out + line;
 }
 
 std::string list_item(const std::string& text) {
@@ -47,6 +38,16 @@ std::string table_row(const Row& row) {
 }
 
 }  // namespace
+
+std::string wrapped(const std::string& text) {
+  std::istringstream words(text);
+  std::string out, line, word;
+  while (words >> word) {
+    if (!line.empty() && line.size() + 1 + word.size() > kColumns) out += line + '\n', line.clear();
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return out + line;
+}
 
 std::string markdown_text(const Report& report) {
   std::string out = fmt::format(

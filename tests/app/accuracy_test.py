@@ -52,6 +52,35 @@ class Accuracy(unittest.TestCase):
             self.assertEqual(report["missed"], 1)
             self.assertEqual(report["set"], [planted])
 
+    def test_the_front(self):
+        result, report = self.accuracy("--front", "goblet", "--out", "out", "--report", "r.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        points = report["points"]
+        self.assertIn(f"{len(points)} points along {report['axes']} axes", result.stdout)
+        rows = list(csv.DictReader((self.folder / "out/front.csv").open()))
+        self.assertEqual([row["name"] for row in rows], [point["name"] for point in points])
+        for row, point in zip(rows, points):
+            self.assertEqual(point["scene"], "goblet")
+            self.assertEqual(point["grid"] == report["scenes"][0]["grid"], point["whole_error"] is not None)
+            if point["whole_error"]:
+                self.assertEqual(float(row["whole_error"]), point["whole_error"]["largest"])
+        # The front by its definition, from the report alone.
+        runs = [(p["run_seconds"], p["whole_error"]["largest"], p) for p in points
+                if p["computed_by"] == "engine" and p["whole_error"]]
+        for seconds, error, point in runs:
+            beaten = any(s <= seconds and e <= error and (s, e) != (seconds, error) for s, e, _ in runs)
+            self.assertEqual(point["on_the_front"], not beaten, point["name"])
+        page = (self.folder / "out/front.html").read_text()
+        self.assertNotIn("http", page)
+        self.assertIn("Which setting to take", page)
+        self.assertTrue((self.folder / "out/front.md").read_text().startswith("<!-- Written by"))
+
+    def test_bad_use_of_the_front(self):
+        for arguments, said in ((["--front", "swan"], "--front swan"), (["--front", "--case", "slab"], "exclude")):
+            result = voxmelt("accuracy", *arguments, cwd=self.folder)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(said, result.stderr)
+
     def test_no_result_but_the_speed_depends_on_who_computes(self):
         found = []
         for more in (["--implementation", "reference"], ["--threads", 2]):

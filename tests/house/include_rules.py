@@ -61,7 +61,9 @@ ALLOWED = {
                       "kernel/run", "render/density", "render/packet", "render/image", "render/frames"],
     # The judge sees states and scenes, never a rule.
     "accuracy": [STATE, STEP, "kernel/scene", "kernel/run", "bench/measure"],
-    "accuracy/report": ["accuracy"],
+    "accuracy/report": ["accuracy", "accuracy/front"],
+    # The twin has rules of its own; with the automaton it shares its choices at random and who follows rays.
+    "accuracy/front": ["accuracy", RULE, STATE, "kernel/scene", VISIBILITY, "bench/measure"],
     # The converged picture reads the picture's data, and computes with its own arithmetic.
     "accuracy/picture": ["kernel/scene", CPU, "kernel/run", PICTURE, "render/density", "render/image", "render/reference", "render/packet/scene_in_integers.h"],
     # What strangers include: the standard library only.
@@ -69,7 +71,7 @@ ALLOWED = {
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
                 "render/image", "render/packet"],
     "examples": ["include/voxmelt"],
-    "app": [PARAMETERS, CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/report", "bench/measure", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/picture", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
+    "app": [PARAMETERS, CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/picture", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
             "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.
@@ -86,7 +88,7 @@ THIRD_PARTY = {
     "benchmark/": ["bench"],
     "nlohmann/": ["accuracy/report", "kernel/run/io", "hwmodel/lockstep", "hwmodel/picture", "bench/measure", "app"],
     "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/lockstep", "hwmodel/picture", "bench/measure", "accuracy",
-             "accuracy/report", "app"],
+             "accuracy/front", "accuracy/report", "app"],
 }
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500
