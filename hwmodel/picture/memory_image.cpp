@@ -31,7 +31,8 @@ Layout brick_layout(const render::FieldData& field, int word_bytes, int bits, bo
   of.sparse = true;
   of.apron = apron;
   of.word_bytes = word_bytes;
-  of.bits = {bits, bits, bits};
+  const int side = apron ? kBrickBits : bits;  // with its apron a brick is a line
+  of.bits = {side, side, side};
   of.count = {bricks.x, bricks.y, bricks.z};
   of.slots.assign(field.slots, field.slots + bricks.cells());
   of.line_bytes = whole_bursts((apron ? render::kBrickVolume : 1 << (3 * bits)) * word_bytes);

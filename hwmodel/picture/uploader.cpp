@@ -144,8 +144,10 @@ bool Uploader::send(const Layout& layout, Sent volume, std::int64_t line, const 
   upload_.add(layout.address(line), bytes, layout.line_bytes);
   report.lines[of].push_back(line);
   report.bytes[of] += layout.line_bytes;
-  return std::memcmp(memory_.bytes.data() + layout.address(line), bytes,
-                     static_cast<std::size_t>(layout.line_bytes)) != 0;
+  const bool other = std::memcmp(memory_.bytes.data() + layout.address(line), bytes,
+                                 static_cast<std::size_t>(layout.line_bytes)) != 0;
+  if (other) report.other_bytes[of] += layout.line_bytes;
+  return other;
 }
 
 void Uploader::run(UploadReport& report) {

@@ -34,6 +34,7 @@ struct UploadReport {
   std::vector<SentBrick> bricks;
   std::array<std::vector<std::int64_t>, kSentVolumes> lines;  // caches must forget them
   std::array<std::int64_t, kSentVolumes> bytes{};
+  std::array<std::int64_t, kSentVolumes> other_bytes{};  // of lines that were others
   std::int64_t slots = 0, skip_words = 0;  // register words: 32 bits, 16 bits
   std::int64_t bursts = 0, cycles = 0;
   Account account;
