@@ -57,12 +57,43 @@ Expectation::Expectation(const render::PictureScene& scene, const picture::Camer
                          render::Setting setting)
     : scene_(scene),
       view_(picture::view_of(camera, scene.levels.cells())),
-      spacing_(render::spacing_of(setting, view_)) {}
+      spacing_(render::spacing_of(setting, view_)) {
+  const picture::Vector cells = scene.levels.cells();
+  row_ = static_cast<std::size_t>(cells.x + 1), slice_ = row_ * static_cast<std::size_t>(cells.y + 1);
+  near_matter_.assign(slice_ * static_cast<std::size_t>(cells.z + 1), 0);
+  for (std::int64_t z = 0; z < cells.z; ++z)
+    for (std::int64_t y = 0; y < cells.y; ++y)
+      for (std::int64_t x = 0; x < cells.x; ++x) {
+        if (scene.levels(x, y, z) < 0) continue;
+        const std::size_t i = static_cast<std::size_t>(z) * slice_ + static_cast<std::size_t>(y) * row_ +
+                              static_cast<std::size_t>(x);
+        for (const std::size_t more : {std::size_t{0}, slice_})
+          for (const std::size_t beside : {std::size_t{0}, row_})
+            near_matter_[i + more + beside] = near_matter_[i + more + beside + 1] = 1;
+      }
+}
+
+// That of the rule, which looks at every sample.
+picture::Crossing Expectation::first_crossing(const picture::Ray& ray) const {
+  const picture::Samples in =
+      picture::samples_in(ray, picture::field_low(), picture::field_high(scene_.levels.cells()));
+  picture::Vector at = ray.at(in.first);
+  for (std::int64_t k = in.first; k <= in.last; ++k, at = at + ray.step) {
+    const auto lower = [](std::int64_t p) {
+      return static_cast<std::size_t>(((p + picture::kToPlace) >> picture::kPositionBits) + 1);
+    };
+    if (near_matter_[lower(at.z) * slice_ + lower(at.y) * row_ + lower(at.x)] == 0) continue;
+    if (sample(at) < 0) continue;
+    return k == 0 ? picture::Crossing{true, 0, picture::kPlaces, ray.start}
+                  : picture::crossing_before(scene_.levels, ray, k);
+  }
+  return {};
+}
 
 ExpectedRay Expectation::ray(std::int64_t across, std::int64_t down) const {
   ExpectedRay of;
   of.ray = picture::ray_through(view_, across, down, spacing_);
-  of.matter = picture::first_crossing(scene_.levels, scene_.levels.cells(), of.ray);
+  of.matter = first_crossing(of.ray);
   of.ground = scene_.ground.find(of.ray);
   return of;
 }

@@ -2,7 +2,9 @@
 // of the ray caster's tokens.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "hwmodel/raycast/tokens.h"
 #include "render/packet/draw_picture.h"
@@ -35,9 +37,15 @@ class Expectation {
   const picture::View& view() const { return view_; }
 
  private:
+  picture::Crossing first_crossing(const picture::Ray& ray) const;
+
   const render::PictureScene& scene_;
   picture::View view_;
   int spacing_;
+  // Of lower cells -1 .. n - 1: is one of the eight levels around a sample matter? A sample is never outside
+  // the range of its levels.
+  std::vector<std::uint8_t> near_matter_;
+  std::size_t row_ = 0, slice_ = 0;
 };
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -1,6 +1,7 @@
-// Fetches the words of a small box of places through a cache: two or three places along each axis, from eight
-// banks. Bank (x + 2 y + 4 z) mod 8 holds a place, so that the eight words of two places a side lie in eight
-// banks, and the 27 of three in no bank more than five times. Two stages: tags, and behind a queue data.
+// Fetches the words of a small box of places through a cache: two or three places along each axis. Of a volume,
+// bank (x + 2 y + 4 z) mod 8 holds a place, so that the eight words of two places a side lie in eight banks, and
+// the 27 of three in no bank more than five times. Columns have 16 banks, (x mod 4) + 4 (z mod 4), and nine of
+// them come at once. Two stages: tags, and behind a queue data.
 #pragma once
 
 #include <algorithm>
@@ -55,18 +56,20 @@ class LineClient {
   virtual void arrived(const LineReply& reply, const std::uint8_t* bytes) = 0;
 };
 
-// Request has places(const Registers or Layout...)-free `Places places() const`.
+// A Request says which places it reads, and to which channel the answer goes.
 template <class Request, class Word, std::size_t kMost>
 class Gather final : public LineClient {
  public:
   using Out = Gathered<Request, Word, kMost>;
-  // Banks of an even and an odd brick of tags allow the eight lookups of a request in one cycle.
-  Gather(const std::string& name, const CacheShape& shape, const Layout& layout, int client, Word absent)
+  // `cycles`: that three places a side take.
+  Gather(const std::string& name, const CacheShape& shape, const Layout& layout, int client, Word absent,
+         int cycles)
       : tags(name + " tags", *this),
         data(name + " data", *this),
         layout_(layout),
         client_(client),
         absent_(absent),
+        cycles_(cycles),
         cache_(shape),
         arrived_(static_cast<std::size_t>(shape.lines() + shape.spare), 0),
         store_(arrived_.size() * static_cast<std::size_t>(layout.line_bytes)),
@@ -182,7 +185,7 @@ class Gather final : public LineClient {
       if (entry.slots[i] >= 0 && arrived_[static_cast<std::size_t>(entry.slots[i])] == 0) return Did::memory;
     Fifo<Out>& out = *out_[entry.request.kind_index()];
     if (!out.ready()) return Did::blocked;
-    if (++reading_ < (entry.places.side == 3 ? 5 : 1)) return Did::busy;
+    if (++reading_ < (entry.places.side == 3 ? cycles_ : 1)) return Did::busy;
     reading_ = 0;
     Out& to = *out.put();
     to.request = entry.request;
@@ -227,6 +230,7 @@ class Gather final : public LineClient {
   const Layout& layout_;
   int client_;
   Word absent_;
+  int cycles_;
   Cache cache_;
   std::vector<std::uint8_t> arrived_;
   std::vector<std::uint8_t> store_;

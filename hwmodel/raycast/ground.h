@@ -38,6 +38,20 @@ std::int64_t between_columns(const Value& value, Spot x, Spot z) {
   return blended(blended(value(0), value(1), x.weight), blended(value(2), value(3), x.weight), z.weight);
 }
 
+// The nine columns from a cell on along x and z: with them, the height of any place up to half a cell around.
+struct NineColumns {
+  std::int64_t x = 0, z = 0;  // the first cell
+  std::array<Column, 9> of{};
+
+  template <class Value>
+  SInt<24> height(Value value, std::int64_t px, std::int64_t pz) const {
+    const Spot sx = spot_of(px), sz = spot_of(pz);
+    const auto first = static_cast<std::size_t>(3 * (sz.cell - z) + (sx.cell - x));
+    const auto number = [&](std::size_t n) { return std::int64_t{of[first + (n & 1) + 3 * (n >> 1)].*value}; };
+    return between_columns(number, sx, sz);
+  }
+};
+
 inline Vec at_part(const Ray& ray, std::int64_t part) { return ray.start + ((ray.step * part) >> 8); }
 
 // The parts of a ray in the box around the ground: six quotients of 36 bits, which must be exact.

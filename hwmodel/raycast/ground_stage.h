@@ -1,5 +1,6 @@
-// Where rays meet the ground (docs/picture-ground.md, section 4). Several rays are under way; each looks at
-// one height after the other. Without ground the stage hands rays on.
+// Where rays meet the ground (docs/picture-ground.md, section 4). Many rays are under way; each looks at one
+// height after the other. A step is a quarter of a cell at most, so the nine columns around it serve all of its
+// eight halvings: a row of eight units, which take a ray a cycle. Without ground the stage hands rays on.
 #pragma once
 
 #include <algorithm>
@@ -94,19 +95,21 @@ class GroundStage final : public Stage {
     ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1, static_cast<std::int32_t>(registers_.cells.z)};
     ask.asker = 0;
     ask.context = static_cast<std::int16_t>(i);
+    ask.side = 2;
+    if (!of.bisects) return;
+    const Vec a = at_part(of.ray.ray, of.outside), b = at_part(of.ray.ray, of.inside);
+    ask.at = {spot_of(std::min(a.x, b.x)), {}, spot_of(std::min(a.z, b.z))};
+    ask.side = 3;
   }
 
   void decide(int i, const ColumnGather::Out& answer) {
     Search& of = at(i);
+    const Vec p = at_part(of.ray.ray, of.part);
+    if (of.bisects) return bisect(i, columns_of(answer));
     // Words 0, 1, 4 and 5: the two columns along x, twice along z.
     const auto drawn = [&](std::size_t n) { return std::int64_t{answer.words[n < 2 ? n : n + 2].drawn}; };
-    const std::int64_t height = between_columns(drawn, answer.request.at.x, answer.request.at.z);
-    const Vec p = at_part(of.ray.ray, of.part);
-    const std::int64_t above = (p.y >> 8) - SInt<24>(height);
-    if (of.bisects)
-      halve(i, above < 0 && in_slab(registers_, p));
-    else
-      search(i, above);
+    const SInt<24> height = between_columns(drawn, answer.request.at.x, answer.request.at.z);
+    search(i, (p.y >> 8) - height);
   }
   void search(int i, std::int64_t above) {
     Search& of = at(i);
@@ -115,7 +118,7 @@ class GroundStage final : public Stage {
       of.outside = of.part == of.parts.first ? of.part - 1 : std::max(of.parts.first, before);
       of.inside = of.part;
       of.bisects = true;
-      return next_middle(i);
+      return ready_.push_back(i);
     }
     if (of.part == of.parts.last) return done_.push_back(i);
     of.part = std::min((((of.part >> 8) + 1 + skipped(of, above)) << 8), of.parts.last);
@@ -128,17 +131,13 @@ class GroundStage final : public Stage {
     if (nearer <= 0) return left > 0 ? std::int64_t{1} << 26 : 0;
     return left > 0 ? steps_in(left >> 12, inverse_of((nearer >> 12) + 1)) : 0;
   }
-  void halve(int i, bool inside) {
-    Search& of = at(i);
-    (inside ? of.inside : of.outside) = of.part;
-    next_middle(i);
-  }
-  void next_middle(int i) {
+  void bisect(int i, const NineColumns& columns) {
     Search& of = at(i);
     while (of.inside - of.outside > 1) {
-      of.part = (of.inside + of.outside) >> 1;
-      if (in_slab(registers_, at_part(of.ray.ray, of.part))) return ready_.push_back(i);
-      of.outside = of.part;
+      const std::int64_t middle = (of.inside + of.outside) >> 1;
+      const Vec p = at_part(of.ray.ray, middle);
+      const bool inside = in_slab(registers_, p) && (p.y >> 8) < columns.height(&Column::drawn, p.x, p.z);
+      (inside ? of.inside : of.outside) = middle;
     }
     GroundHit& hit = of.ray.ground;
     hit.found = true;

@@ -1,4 +1,4 @@
-// The ground's normal and colour (docs/picture-ground.md, sections 5 and 8): four heights of the top, and then
+// The ground's normal and colour (docs/picture-ground.md, sections 5 and 8): nine columns of the top, and then
 // four texels of rock.
 #pragma once
 
@@ -20,23 +20,25 @@ class PaintStage final : public AttachStage<ClampedRequest, ColumnGather::Out> {
 
  private:
   int questions(const Surface& of) const override {
-    return of.kind == Surface::Kind::ground && of.face == Face::top ? 4 : 0;
+    return of.kind == Surface::Kind::ground && of.face == Face::top ? 1 : 0;
   }
-  ClampedRequest question(const Surface& of, int which) const override {
-    constexpr std::int64_t kHalf = kCell / 2;
-    constexpr std::array<std::int64_t, 4> kX{-kHalf, kHalf, 0, 0}, kZ{0, 0, -kHalf, kHalf};
-    const auto i = static_cast<std::size_t>(which);
+  ClampedRequest question(const Surface& of, int) const override {
     ClampedRequest ask;
-    ask.at = {spot_of(of.position.x + kX[i]), {}, spot_of(of.position.z + kZ[i])};
+    ask.at = {spot_of(of.position.x - kHalf), {}, spot_of(of.position.z - kHalf)};
     ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1, static_cast<std::int32_t>(registers_.cells.z)};
     ask.asker = 1;
+    ask.side = 3;
     return ask;
   }
-  void take(Surface& of, int which, const ColumnGather::Out& answer) override {
-    const auto bare = [&](std::size_t n) { return std::int64_t{answer.words[n < 2 ? n : n + 2].bare}; };
-    heights_[static_cast<std::size_t>(which)] =
-        SInt<24>(between_columns(bare, answer.request.at.x, answer.request.at.z));
-    if (which == 3) of.normal = top_normal(registers_, of.position, heights_);
+  void take(Surface& of, int, const ColumnGather::Out& answer) override {
+    const NineColumns columns = columns_of(answer);
+    const Vec& p = of.position;
+    const auto bare = [&](std::int64_t x, std::int64_t z) {
+      return std::int64_t{columns.height(&Column::bare, x, z)};
+    };
+    of.normal = top_normal(registers_, p,
+                           {bare(p.x - kHalf, p.z), bare(p.x + kHalf, p.z), bare(p.x, p.z - kHalf),
+                            bare(p.x, p.z + kHalf)});
   }
   void finish(Surface& of) override {
     if (of.kind != Surface::Kind::ground) return;
@@ -48,8 +50,8 @@ class PaintStage final : public AttachStage<ClampedRequest, ColumnGather::Out> {
     of.normal = of.face == Face::none ? of.to_eye : side_normal(of.face);
   }
 
+  static constexpr std::int64_t kHalf = kCell / 2;
   const Registers& registers_;
-  std::array<std::int64_t, 4> heights_{};
 };
 
 // The texture of rock, where the ground has one.

@@ -120,20 +120,27 @@ struct ClampedRequest {
   Spots at;
   std::array<std::int32_t, 3> count{1, 1, 1};
   std::int16_t asker = 0, context = 0;
+  int side = 2;
 
   std::size_t kind_index() const { return static_cast<std::size_t>(asker); }
   Places places() const {
-    const auto two = [](const Spot& s, std::int32_t n) {
+    const auto along = [](const Spot& s, std::int32_t n) {
       const auto inside = [&](std::int64_t i) {
         return static_cast<std::int32_t>(i < 0 ? 0 : i >= n ? n - 1 : i);
       };
-      return std::array<std::int32_t, 3>{inside(s.cell), inside(s.cell + 1), 0};
+      return std::array<std::int32_t, 3>{inside(s.cell), inside(s.cell + 1), inside(s.cell + 2)};
     };
-    return {two(at.x, count[0]), two(at.y, count[1]), two(at.z, count[2]), 2, {}};
+    return {along(at.x, count[0]), along(at.y, count[1]), along(at.z, count[2]), side, {}};
   }
 };
 using LightGather = Gather<ClampedRequest, LightWord, 8>;
-using ColumnGather = Gather<ClampedRequest, Column, 8>;
+using ColumnGather = Gather<ClampedRequest, Column, 27>;
+inline NineColumns columns_of(const ColumnGather::Out& answer) {
+  NineColumns of{answer.request.at.x.cell, answer.request.at.z.cell, {}};
+  for (std::size_t z = 0; z < 3; ++z)
+    for (std::size_t x = 0; x < 3; ++x) of.of[3 * z + x] = answer.words[9 * z + x];
+  return of;
+}
 using TexelGather = Gather<ClampedRequest, Texel, 8>;
 
 // A surface that a ray meets, or the background, on its way to a colour. Each stage adds what it finds.

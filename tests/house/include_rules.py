@@ -45,9 +45,14 @@ ALLOWED = {
     "render/visibility": [VISIBILITY],
     # The model computes with its own arithmetic: of the kernel it sees data only.
     "hwmodel/channel": [],
-    "hwmodel/stream": ["hwmodel/channel", PARAMETERS, STATE, f"{STEP}/phase.h"],
+    "hwmodel/process": ["hwmodel/channel"],
+    "hwmodel/stream": ["hwmodel/channel", "hwmodel/process", PARAMETERS, STATE, f"{STEP}/phase.h"],
     "hwmodel/faults": ["hwmodel/channel", "hwmodel/stream"],
-    "hwmodel/presets": ["hwmodel/stream", "kernel/scene/text"],
+    # The ray caster sees nothing of the software at all: the host's part is in hwmodel/picture.
+    "hwmodel/raycast": ["hwmodel/channel", "hwmodel/process"],
+    "hwmodel/picture": ["hwmodel/channel", "hwmodel/raycast", STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image",
+                        "render/density", "render/ground", "render/packet", "render/reference"],
+    "hwmodel/presets": ["hwmodel/raycast", "hwmodel/stream", "kernel/scene/text"],
     "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
     "bench": ["accuracy/picture", "bench/measure", "hwmodel/stream", PARAMETERS, STATE, "kernel/scene", CPU, VISIBILITY, "kernel/run",
               "render/density", "render/packet", "render/reference", "render/visibility"],
@@ -64,12 +69,12 @@ ALLOWED = {
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
                 "render/image", "render/packet"],
     "examples": ["include/voxmelt"],
-    "app": [PARAMETERS, CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/report", "bench/measure", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
+    "app": [PARAMETERS, CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/report", "bench/measure", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/picture", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
             "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.
 THIRD_PARTY = {
-    "systemc": ["hwmodel/stream"],
+    "systemc": ["hwmodel/process"],
     "xsimd/": [CPU],
     "tbb/": [CPU],
     "embree3/": ["render/visibility"],
@@ -80,7 +85,7 @@ THIRD_PARTY = {
     "CLI/": ["app"],
     "benchmark/": ["bench"],
     "nlohmann/": ["accuracy/report", "kernel/run/io", "hwmodel/lockstep", "bench/measure", "app"],
-    "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/lockstep", "bench/measure", "accuracy",
+    "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/lockstep", "hwmodel/picture", "bench/measure", "accuracy",
              "accuracy/report", "app"],
 }
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
@@ -153,6 +158,7 @@ def self_test():
         "hwmodel/stream/l.cpp": f'#include "{RULE}/heat.h"\n',
         "hwmodel/stream/m.cpp": "const int f = rule::scaled(1, 2);\n",
         "hwmodel/stream/n.cpp": '#include "kernel/engine/scalar/reference.h"\n',
+        "hwmodel/raycast/m2.h": f'#include "{PICTURE}/sample.h"\n',
         "hwmodel/channel/o.h": '#include "hwmodel/stream/cell.h"\n',
         "app/p.cpp": "#include <systemc>\n",
         "kernel/engine/parallel/q.cpp": "#include <tbb/parallel_for.h>\n",
@@ -165,7 +171,8 @@ def self_test():
     }
     fine = {"kernel/engine/scalar/ok.cpp": f'#include "{RULE}/heat.h"\n#include <vector>\n',
             "examples/ok.cpp": '#include <voxmelt/voxmelt.h>\n',
-            "hwmodel/stream/ok.cpp": f'#include "{PARAMETERS}"\n#include <systemc>\n'}
+            "hwmodel/stream/ok.cpp": f'#include "{PARAMETERS}"\n',
+            "hwmodel/process/ok.cpp": "#include <systemc>\n"}
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         for name, text in {**planted, **fine}.items():
@@ -184,7 +191,7 @@ def self_test():
         if expected not in unused:
             sys.exit(f"missed: {expected}")
     for used in (f"kernel/engine/scalar: may include {RULE}, ", f"hwmodel/stream: may include {PARAMETERS}, ",
-                 "hwmodel/stream: may include <systemc"):
+                 "hwmodel/process: may include <systemc"):
         if any(offence.startswith(used) for offence in unused):
             sys.exit(f"wrongly reported: {used}")
     print(f"all {len(planted)} planted offences caught, and allowances that nobody uses")

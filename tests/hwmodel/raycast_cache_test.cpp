@@ -152,7 +152,7 @@ struct Fetched {
 
 // A memory that answers after a while, channels that stall, and requests of two and three places a side.
 Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_seed, int latency, int count) {
-  TestGather gather("words", shape, world.layout, 3, kAbsent);
+  TestGather gather("words", shape, world.layout, 3, kAbsent, 5);
   Fifo<Ask> in("in", 0, 1, 2, stall_seed);
   Fifo<LineRequest> ask("ask", 1, 1, 2, stall_seed);
   Fifo<TestGather::Out> two("two", 2, 1, 2, stall_seed), three("three", 3, 1, 2, stall_seed);

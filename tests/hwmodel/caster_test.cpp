@@ -1,0 +1,50 @@
+// The ray caster in lock-step with the reference of the picture, in hostile pictures and configurations.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+
+#include "hwmodel/picture/verify_picture.h"
+#include "tests/kernel/worlds.h"
+#include "tests/render/hostile_picture.h"
+
+namespace voxmelt::hwmodel::raycast {
+namespace {
+
+Configuration random_configuration(worlds::Random& random) {
+  Configuration c;
+  c.pipes = random.any({1, 2, 4});
+  c.rays = random.any({1, 2, 17, 64});
+  c.walkers = random.between(1, 4);
+  c.fifo_depth = random.any({1, 2, 8});
+  c.stall_seed = random.one_in(2) ? 0 : static_cast<std::uint64_t>(random.between(1, 1000));
+  c.tiles = random.any({1, 2, 4});
+  for (CacheShape* cache : {&c.levels, &c.matter, &c.light, &c.ground})
+    *cache = {random.any({1, 2, 16}), random.any({1, 2, 4}), random.any({8, 20}), random.any({1, 3, 64})};
+  c.latency = random.any({1, 5, 60});
+  c.bus_bytes = random.any({4, 64, 256});
+  c.level_bits = random.between(1, 3);
+  c.apron = random.one_in(3);
+  return c;
+}
+
+std::string text_of(const PictureReport& report) {
+  return (report.difference ? text_of(*report.difference) : "") + report.hang + std::to_string(report.different_bytes) +
+         " pixels differ";
+}
+
+TEST(Caster, HostilePictures) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    test::HostilePicture picture = test::hostile_picture(seed, 3000);
+    picture.look.clear = {};
+    worlds::Random random(seed + 900);
+    PictureOptions options;
+    options.configuration = random_configuration(random);
+    const PictureReport report = verify_picture(
+        {picture.volume, picture.look, picture.light, picture.terrain, picture.camera, picture.setting}, options);
+    ASSERT_TRUE(report.good()) << "seed " << seed << ": " << text_of(report) << '\n' << description(picture);
+  }
+}
+
+}  // namespace
+}  // namespace voxmelt::hwmodel::raycast
