@@ -193,7 +193,8 @@ int run_picture(const VerifyCommand& command) {
   scene::Scene scene = load_scene(command.common);
   catch_interrupts();
   const run::Simulation ahead = run_ahead(scene, command);
-  return verify_picture(command.common, command.picture, scene, ahead, find_preset(command.hw), command.hw_sets);
+  return verify_picture(command.common, command.picture, scene, ahead, find_preset(command.hw),
+                        command.hw_sets);
 }
 
 int run_verify(VerifyCommand command) {

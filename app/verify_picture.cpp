@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <system_error>
 
@@ -36,13 +35,17 @@ void add_picture_choice(CLI::App& command, PictureChoice& choice) {
   command.add_option("--view", choice.view, "with --picture: the camera's AZIMUTH,ELEVATION in degrees");
   command.add_option("--size", choice.size, "with --picture: size in pixels, e.g. 256x256");
   command
-      .add_option("--setting", choice.setting, "with --picture: samples per pixel: fast 1, normal 1 or 8, best 1 or 32")
+      .add_option("--setting", choice.setting,
+                  "with --picture: samples per pixel: fast 1, normal 1 or 8, best 1 or 32")
       ->check(CLI::IsMember({"fast", "normal", "best"}))
       ->capture_default_str();
-  command.add_option("--frames", choice.frames, "with --picture: draw it so often; later frames find warm caches")
+  command
+      .add_option("--frames", choice.frames,
+                  "with --picture: draw it so often; later frames find warm caches")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command.add_flag("!--no-compare", choice.compare, "with --picture: compare the bytes alone, not every stage");
+  command.add_flag("!--no-compare", choice.compare,
+                   "with --picture: compare the bytes alone, not every stage");
   command.add_option("--png", choice.png, "with --picture: write the ray caster's picture");
 }
 
@@ -52,10 +55,13 @@ int verify_picture(const Common& common, const PictureChoice& choice, const scen
   scene::Camera camera = scene.camera;
   if (!choice.size.empty()) set_size(camera, choice.size);
   if (!choice.view.empty()) set_view(camera, choice.view);
+  if (!scene.look.glow && scene.look.clear != scene::Vec3{})
+    throw UsageError("error: --picture: the ray caster does not draw clear matter (look.clear)");
   const hwmodel::CasterPreset configured = hwmodel::load_caster_preset(preset, hw_sets);
   const render::Setting setting = choice.setting == "fast"   ? render::Setting::fast
                                   : choice.setting == "best" ? render::Setting::best
                                                              : render::Setting::normal;
+  check_report_place(common, "");
   hwmodel::raycast::PictureOptions options;
   options.configuration = configured.configuration;
   options.compare = choice.compare;
@@ -64,11 +70,12 @@ int verify_picture(const Common& common, const PictureChoice& choice, const scen
   const hwmodel::raycast::PictureReport report = hwmodel::raycast::verify_picture(
       {state.volume(), scene.look, scene.light, scene.terrain, camera, setting}, options);
 
-  fmt::print("{}: step {}, {} x {}, {}; pipes {}, fifo depth {}, stall seed {}\n", scene.name, state.step_number(),
-             camera.width, camera.height, choice.setting, options.configuration.pipes,
+  fmt::print("{}: step {}, {} x {}, {}; pipes {}, fifo depth {}, stall seed {}\n", scene.name,
+             state.step_number(), camera.width, camera.height, choice.setting, options.configuration.pipes,
              options.configuration.fifo_depth, options.configuration.stall_seed);
   if (!common.quiet) fmt::print("{}", hwmodel::raycast::table_of(report, options.configuration));
   fmt::print("{}", hwmodel::raycast::verdict_text(report));
+  write_report(common, hwmodel::raycast::json_of(report, options.configuration).dump(2) + '\n');
   if (!choice.png.empty()) render::write_png(choice.png, report.image);
   return report.good() ? kDone : kCheckFailed;
 }

@@ -29,12 +29,13 @@ std::string text_of_value(const Value& value) {
 }  // namespace
 
 std::string text_of(const Difference& d) {
-  std::string text = fmt::format("DIFFERENCE behind stage {}: pixel ({}, {}), sample {}, cycle {}\n  {}: expected {}, actual {}\n",
-                                 d.stage, d.x, d.y, d.sample, d.cycle, d.name, d.expected, d.actual);
+  std::string text = fmt::format(
+      "DIFFERENCE behind stage {}: pixel ({}, {}), sample {}, cycle {}\n  {}: expected {}, actual {}\n",
+      d.stage, d.x, d.y, d.sample, d.cycle, d.name, d.expected, d.actual);
   if (d.has_position) {
     const Vec q = to_lattice(d.position) >> (kCellBits + kBrickBits);
-    text += fmt::format("  position {} {} {}, brick ({}, {}, {})\n", d.position.x, d.position.y, d.position.z, q.x,
-                        q.y, q.z);
+    text += fmt::format("  position {} {} {}, brick ({}, {}, {})\n", d.position.x, d.position.y, d.position.z,
+                        q.x, q.y, q.z);
   }
   return text;
 }
@@ -88,8 +89,16 @@ void Checker::compare(const char* stage, const RayId& id, const char* name, cons
   ++compared_;
   if (expected == actual || difference_) [[likely]]
     return;
-  difference_ = Difference{stage, name, id.x, id.y, id.sample, caster_.cycle(), text_of_value(expected),
-                           text_of_value(actual), position != nullptr ? *position : Vec{}, position != nullptr};
+  difference_ = Difference{stage,
+                           name,
+                           id.x,
+                           id.y,
+                           id.sample,
+                           caster_.cycle(),
+                           text_of_value(expected),
+                           text_of_value(actual),
+                           position != nullptr ? *position : Vec{},
+                           position != nullptr};
   caster_.stop();
 }
 
@@ -128,8 +137,8 @@ void Checker::entered(int, std::int64_t, const Levels* token) {
   for (std::size_t z = 0; z < side; ++z)
     for (std::size_t y = 0; y < side; ++y)
       for (std::size_t x = 0; x < side; ++x, ++i) {
-        expected[i] = static_cast<std::int16_t>(
-            expectation_.level(places.x[x] - kLatticeBorder, places.y[y] - kLatticeBorder, places.z[z] - kLatticeBorder));
+        expected[i] = static_cast<std::int16_t>(expectation_.level(
+            places.x[x] - kLatticeBorder, places.y[y] - kLatticeBorder, places.z[z] - kLatticeBorder));
         actual[i] = token->words[i];
       }
   compare("levels", token->request.id, "fetched", expected, actual, &position);
@@ -137,15 +146,15 @@ void Checker::entered(int, std::int64_t, const Levels* token) {
 
 void Checker::entered(int, std::int64_t, const LevelToken* token) {
   const Vec position = from_lattice(token->request.at);
-  compare("sample", token->request.id, "level", expectation_.sample(vector_of(position)), std::int32_t{token->level},
-          &position);
+  compare("sample", token->request.id, "level", expectation_.sample(vector_of(position)),
+          std::int32_t{token->level}, &position);
 }
 
 void Checker::entered(int, std::int64_t, const HitToken* token) {
   const ExpectedRay& of = ray(token->ray.id);
   const Vec position = from_lattice(token->at);
-  compare("walk", token->ray.id, "the first sample in matter", of.matter.found ? of.matter.sample : -1, token->k,
-          &position);
+  compare("walk", token->ray.id, "the first sample in matter", of.matter.found ? of.matter.sample : -1,
+          token->k, &position);
 }
 
 void Checker::entered(int, std::int64_t, const MetToken* token) {

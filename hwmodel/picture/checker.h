@@ -1,10 +1,9 @@
-// Compares every token that leaves a stage of the ray caster with the reference. The first difference ends the
-// run.
+// Compares every token that leaves a stage of the ray caster with the reference. The first difference ends
+// the run.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +19,7 @@ struct Difference {
   int sample = 0;
   std::int64_t cycle = 0;
   std::string expected, actual;
-  Vec position;      // of the sample or of the surface, in 2^-20 cells
+  Vec position;  // of the sample or of the surface, in 2^-20 cells
   bool has_position = false;
 };
 std::string text_of(const Difference& difference);
@@ -69,9 +68,10 @@ class Checker final : FifoWatcher<RayToken>,
   ExpectedRay& shaded(const RayId& id);
   std::size_t index_of(const RayId& id) const;
   template <class Value>
-  void compare(const char* stage, const RayId& id, const char* name, const Value& expected, const Value& actual,
-               const Vec* position = nullptr);
-  void compare_surface(Channel behind, const Surface& expected, const Surface& actual, const ExpectedRay& ray);
+  void compare(const char* stage, const RayId& id, const char* name, const Value& expected,
+               const Value& actual, const Vec* position = nullptr);
+  void compare_surface(Channel behind, const Surface& expected, const Surface& actual,
+                       const ExpectedRay& ray);
 
   const Expectation& expectation_;
   RayCaster& caster_;

@@ -1,6 +1,7 @@
 // Plain loops over places. They share no code with the loops that lay out lines.
 #include <fmt/format.h>
 
+#include <string>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

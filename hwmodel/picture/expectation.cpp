@@ -23,7 +23,8 @@ struct Keep {
   Surface& to;
 
   template <class Value>
-  [[gnu::always_inline]] void operator()(picture::Stage stage, std::string_view name, const Value& value) const {
+  [[gnu::always_inline]] void operator()(picture::Stage stage, std::string_view name,
+                                         const Value& value) const {
     using picture::Stage;
     if constexpr (std::is_same_v<Value, picture::Color>) {
       if (stage == Stage::material && name == "diffuse") to.mixture.material.diffuse = value;
@@ -127,8 +128,7 @@ void Expectation::shade(ExpectedRay& ray) const {
     ray.ground_normal = to_eye;
     const auto columns = render::columns_of(scene_.ground, scene_.ground.bare());
     if (!to.inside)
-      ray.ground_normal =
-          picture::ground_normal(columns, scene_.ground.cells(), position, ray.ground.face);
+      ray.ground_normal = picture::ground_normal(columns, scene_.ground.cells(), position, ray.ground.face);
     const render::GroundMap::Paint paint = scene_.ground.paint(ray.ground);
     normal = to.inside ? to_eye : paint.normal;
     color = {static_cast<std::int32_t>(paint.color.x), static_cast<std::int32_t>(paint.color.y),

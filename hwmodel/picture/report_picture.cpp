@@ -8,35 +8,99 @@
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
-double ratio(std::int64_t a, std::int64_t b) { return b == 0 ? 0 : static_cast<double>(a) / static_cast<double>(b); }
+double ratio(std::int64_t a, std::int64_t b) {
+  return b == 0 ? 0 : static_cast<double>(a) / static_cast<double>(b);
+}
 
 }  // namespace
 
 std::string table_of(const PictureReport& report, const Configuration& c) {
-  std::string text = fmt::format("{:<16}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}   in % of {} cycles\n", "stage", "busy",
-                                 "starved", "blocked", "memory", "fill", "drain", report.all_cycles);
+  std::string text = fmt::format("{:<16}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}   in % of {} cycles\n", "stage",
+                                 "busy", "starved", "blocked", "memory", "fill", "drain", report.all_cycles);
   for (const StageAccount& stage : report.stages) {
     const Account& a = stage.account;
     const auto part = [&](std::int64_t cycles) { return 100 * ratio(cycles, a.total()); };
-    text += fmt::format("{:<16}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}\n", stage.name, part(a.busy),
-                        part(a.starved), part(a.blocked), part(a.memory), part(a.fill), part(a.drain));
+    text += fmt::format("{:<16}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}\n", stage.name,
+                        part(a.busy), part(a.starved), part(a.blocked), part(a.memory), part(a.fill),
+                        part(a.drain));
   }
-  text += fmt::format("{:<16}{:>12}{:>12}{:>10}{:>12}\n", "cache", "lookups", "misses", "hits, %", "line, bytes");
+  text +=
+      fmt::format("{:<16}{:>12}{:>12}{:>10}{:>12}\n", "cache", "lookups", "misses", "hits, %", "line, bytes");
   for (const CacheAccount& cache : report.caches)
-    text += fmt::format("{:<16}{:>12}{:>12}{:>10.2f}{:>12}\n", cache.name, cache.counts.lookups, cache.counts.misses,
-                        100 - 100 * ratio(cache.counts.misses, cache.counts.lookups), cache.line_bytes);
-  text += fmt::format("{} rays; per ray {:.2f} steps of the walk, {:.2f} samples of it, {:.2f} cycles\n", report.rays,
-                      ratio(report.leaps, report.rays), ratio(report.samples, report.rays),
+    text += fmt::format("{:<16}{:>12}{:>12}{:>10.2f}{:>12}\n", cache.name, cache.counts.lookups,
+                        cache.counts.misses, 100 - 100 * ratio(cache.counts.misses, cache.counts.lookups),
+                        cache.line_bytes);
+  text += fmt::format("{} rays; per ray {:.2f} steps of the walk, {:.2f} samples of it, {:.2f} cycles\n",
+                      report.rays, ratio(report.leaps, report.rays), ratio(report.samples, report.rays),
                       ratio(report.all_cycles * c.pipes, report.rays));
   text += fmt::format("memory: {} reads, {} bytes read, {} written, bus busy {:.1f} %; {} bytes stored\n",
                       report.memory.reads, report.memory.read_bytes, report.memory.written_bytes,
                       100 * ratio(report.memory.bus_cycles, report.all_cycles), report.memory_bytes);
   text += fmt::format("the last frame: {} cycles, {:.1f} frames a second at 200 MHz\n", report.end.cycles,
                       2e8 / static_cast<double>(std::max<std::int64_t>(report.end.cycles, 1)));
-  text += fmt::format("simulated in {:.2f} s: {:.2f} million cycles a second, {:.2f} million samples a second\n",
-                      report.seconds, static_cast<double>(report.all_cycles) / report.seconds / 1e6,
-                      static_cast<double>(report.sampled) / report.seconds / 1e6);
+  text +=
+      fmt::format("simulated in {:.2f} s: {:.2f} million cycles a second, {:.2f} million samples a second\n",
+                  report.seconds, static_cast<double>(report.all_cycles) / report.seconds / 1e6,
+                  static_cast<double>(report.sampled) / report.seconds / 1e6);
   return text;
+}
+
+nlohmann::ordered_json json_of(const PictureReport& report, const Configuration& c) {
+  using Json = nlohmann::ordered_json;
+  const auto cache_shape = [](const CacheShape& cache) {
+    return Json{{"sets", cache.sets}, {"ways", cache.ways}, {"spare", cache.spare}, {"queue", cache.queue}};
+  };
+  Json json;
+  json["good"] = report.good();
+  json["configuration"] = {{"pipes", c.pipes},
+                           {"rays", c.rays},
+                           {"walkers", c.walkers},
+                           {"fifo_depth", c.fifo_depth},
+                           {"stall_seed", c.stall_seed},
+                           {"tiles", c.tiles},
+                           {"latency", c.latency},
+                           {"bus_bytes", c.bus_bytes},
+                           {"apron", c.apron},
+                           {"level_bits", c.level_bits},
+                           {"levels", cache_shape(c.levels)},
+                           {"matter", cache_shape(c.matter)},
+                           {"light", cache_shape(c.light)},
+                           {"ground", cache_shape(c.ground)}};
+  json["cycles"] = report.all_cycles;
+  json["cycles_of_last_frame"] = report.end.cycles;
+  json["compared_numbers"] = report.compared;
+  json["different_pixels"] = report.different_bytes;
+  json["rays"] = report.rays;
+  json["walk_steps"] = report.leaps;
+  json["walk_samples"] = report.samples;
+  json["samples"] = report.sampled;
+  json["memory"] = {{"reads", report.memory.reads},
+                    {"read_bytes", report.memory.read_bytes},
+                    {"written_bytes", report.memory.written_bytes},
+                    {"bus_cycles", report.memory.bus_cycles},
+                    {"stored_bytes", report.memory_bytes}};
+  for (const StageAccount& stage : report.stages) {
+    const Account& a = stage.account;
+    json["stages"].push_back({{"name", stage.name},
+                              {"busy", a.busy},
+                              {"starved", a.starved},
+                              {"blocked", a.blocked},
+                              {"memory", a.memory},
+                              {"fill", a.fill},
+                              {"drain", a.drain}});
+  }
+  for (const CacheAccount& cache : report.caches)
+    json["caches"].push_back({{"name", cache.name},
+                              {"lookups", cache.counts.lookups},
+                              {"misses", cache.counts.misses},
+                              {"line_bytes", cache.line_bytes}});
+  if (report.difference) {
+    const Difference& d = *report.difference;
+    json["difference"] = {{"stage", d.stage},       {"x", d.x},          {"y", d.y},
+                          {"sample", d.sample},     {"cycle", d.cycle},  {"name", d.name},
+                          {"expected", d.expected}, {"actual", d.actual}};
+  }
+  return json;
 }
 
 std::string verdict_text(const PictureReport& report) {
@@ -44,7 +108,8 @@ std::string verdict_text(const PictureReport& report) {
   if (report.difference) text += text_of(*report.difference);
   text += report.hang;
   if (report.good())
-    return text + fmt::format("{} numbers compared, and the bytes of the picture: no difference\n", report.compared);
+    return text +
+           fmt::format("{} numbers compared, and the bytes of the picture: no difference\n", report.compared);
   if (!report.difference) text += fmt::format("{} pixels of the picture differ\n", report.different_bytes);
   return text;
 }

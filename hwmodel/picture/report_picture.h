@@ -1,6 +1,7 @@
 // What a run of the ray caster says: the table and the verdict.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "hwmodel/picture/verify_picture.h"
@@ -8,6 +9,7 @@
 namespace voxmelt::hwmodel::raycast {
 
 std::string table_of(const PictureReport& report, const Configuration& configuration);
+nlohmann::ordered_json json_of(const PictureReport& report, const Configuration& configuration);
 std::string verdict_text(const PictureReport& report);
 
 }  // namespace voxmelt::hwmodel::raycast

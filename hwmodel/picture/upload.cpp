@@ -64,7 +64,8 @@ SkipMap skip_of(const render::FieldData& field) {
   const state::Grid bricks = lattice_bricks(field);
   SkipMap of;
   of.x = 2 * bricks.x, of.y = 2 * bricks.y, of.z = 2 * bricks.z;
-  of.words.resize(static_cast<std::size_t>(of.x) * static_cast<std::size_t>(of.y) * static_cast<std::size_t>(of.z));
+  of.words.resize(static_cast<std::size_t>(of.x) * static_cast<std::size_t>(of.y) *
+                  static_cast<std::size_t>(of.z));
   for (std::size_t i = 0; i < of.words.size(); ++i) {
     const std::int32_t record = field.records[i];
     of.words[i] = static_cast<std::uint16_t>((record & 255) + (record < 0 ? 256 : 0));

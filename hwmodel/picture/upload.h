@@ -2,8 +2,6 @@
 // data of the software's picture as they are, and lays them out as docs/hardware.md says.
 #pragma once
 
-#include <vector>
-
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/layout.h"
 #include "hwmodel/raycast/registers.h"

@@ -1,5 +1,6 @@
 #include "hwmodel/picture/uploader.h"
 
+#include <utility>
 #include <algorithm>
 #include <cstddef>
 #include <cstring>

@@ -4,6 +4,7 @@
 // such list: the host compares them with what it has sent, line by line.
 #pragma once
 
+#include <cstddef>
 #include <array>
 #include <cstdint>
 #include <optional>

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <ctime>
 #include <stdexcept>
 
 #include "hwmodel/picture/expectation.h"
@@ -22,8 +21,8 @@ render::Image image_of(const Memory& memory, std::int64_t frame, int width, int 
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::int64_t tile = std::int64_t{y / kTileSide} * tiles_x + x / kTileSide;
-      const std::uint8_t* bytes = memory.bytes.data() + frame + tile * kTileBytes +
-                                  3 * ((y % kTileSide) * kTileSide + x % kTileSide);
+      const std::uint8_t* bytes =
+          memory.bytes.data() + frame + tile * kTileBytes + 3 * ((y % kTileSide) * kTileSide + x % kTileSide);
       image.at(x, y) = {bytes[0], bytes[1], bytes[2]};
     }
   return image;
@@ -34,8 +33,8 @@ std::string hang_of(const RayCaster& caster) {
   for (int i = 0; i < caster.pipes(); ++i)
     for (const Pipe::ChannelState& channel : caster.pipe(i).channels())
       if (channel.count > 0)
-        text += "  pipe " + std::to_string(i) + ": " + channel.name + ": " + std::to_string(channel.count) + " of " +
-                std::to_string(channel.depth) + "\n";
+        text += "  pipe " + std::to_string(i) + ": " + channel.name + ": " + std::to_string(channel.count) +
+                " of " + std::to_string(channel.depth) + "\n";
   return "nothing moves any more; channels that hold tokens:\n" + text;
 }
 
@@ -113,8 +112,8 @@ PictureReport verify_picture(const PictureInput& input, const PictureOptions& op
   if (report.end.hangs) report.hang = hang_of(caster);
   if (options.compare && report.compared == 0) throw std::logic_error("lock-step compared nothing");
 
-  report.image = image_of(memory, memory.frame + (fast ? 0 : frame_bytes(data.width, data.height)), data.width,
-                          data.height);
+  report.image = image_of(memory, memory.frame + (fast ? 0 : frame_bytes(data.width, data.height)),
+                          data.width, data.height);
   for (int y = 0; y < data.height; ++y)
     for (int x = 0; x < data.width; ++x)
       if (report.image.at(x, y) != expected.at(x, y)) ++report.different_bytes;

@@ -46,11 +46,11 @@ struct CacheAccount {
 
 struct PictureReport {
   std::optional<Difference> difference;
-  std::string hang;                  // what is full and what is empty, if nothing moved any more
-  std::int64_t different_bytes = 0;  // of the pictures
-  std::int64_t compared = 0;         // numbers
-  FrameEnd end;                      // of the last frame
-  double seconds = 0;                // of the simulation, comparing included
+  std::string hang;                               // what is full and what is empty, if nothing moved any more
+  std::int64_t different_bytes = 0;               // of the pictures
+  std::int64_t compared = 0;                      // numbers
+  FrameEnd end;                                   // of the last frame
+  double seconds = 0;                             // of the simulation, comparing included
   std::int64_t rays = 0, samples = 0, leaps = 0;  // of the walk
   std::int64_t sampled = 0;                       // by the sampler, those of crossings, too
   MemoryCounts memory;

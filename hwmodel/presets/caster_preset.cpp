@@ -27,7 +27,8 @@ void read_cache(scene::Reader& hw, const std::string& name, raycast::CacheShape&
 
 }  // namespace
 
-CasterPreset load_caster_preset(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+CasterPreset load_caster_preset(const std::filesystem::path& file,
+                                const std::vector<std::string>& overrides) {
   scene::Value document;
   if (!file.empty()) document = scene::read_document(file);
   for (const std::string& assignment : overrides) scene::apply_override(document, assignment);

@@ -65,7 +65,9 @@ inline Spot spot_of(std::int64_t position) {
 struct Spots {
   Spot x, y, z;
 };
-inline Spots spots_of(Vec position) { return {spot_of(position.x), spot_of(position.y), spot_of(position.z)}; }
+inline Spots spots_of(Vec position) {
+  return {spot_of(position.x), spot_of(position.y), spot_of(position.z)};
+}
 
 // The inverse root: R[i] = 2^15 / sqrt(i / 128) for i = 128 .. 512, a memory of 385 words (section 8).
 inline constexpr auto kInverseRoot = [] {

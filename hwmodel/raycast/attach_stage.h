@@ -49,12 +49,14 @@ class AttachStage : public Stage {
     }
     // Answers come in the order of the questions.
     if (answer_->valid()) {
-      while (waiting_[first_unanswered_].answered == waiting_[first_unanswered_].questions) ++first_unanswered_;
+      while (waiting_[first_unanswered_].answered == waiting_[first_unanswered_].questions)
+        ++first_unanswered_;
       Waiting& of = waiting_[first_unanswered_];
       take(of.surface, of.answered++, *answer_->get());
       moved = true;
     }
-    while (first_unasked_ < waiting_.size() && waiting_[first_unasked_].asked == waiting_[first_unasked_].questions)
+    while (first_unasked_ < waiting_.size() &&
+           waiting_[first_unasked_].asked == waiting_[first_unasked_].questions)
       ++first_unasked_;
     if (first_unasked_ < waiting_.size()) {
       Waiting& of = waiting_[first_unasked_];

@@ -7,7 +7,7 @@ namespace voxmelt::hwmodel::raycast {
 
 struct CacheShape {
   int sets = 16, ways = 4;
-  int spare = 8;  // lines more than tags: as many misses may be under way
+  int spare = 8;   // lines more than tags: as many misses may be under way
   int queue = 64;  // requests between tag and data: what they wait hides the memory
   int lines() const { return sets * ways; }
 };
@@ -20,10 +20,10 @@ struct Configuration {
   std::uint64_t stall_seed = 0;  // 0: no stalls
   int tiles = 4;                 // tile buffers of a pipe
   CacheShape levels, matter, light, ground;
-  int latency = 40;     // of the memory, in cycles
-  int bus_bytes = 64;   // that the memory gives in a cycle
-  bool apron = false;   // bricks of levels hold their apron: a line is a brick
-  int level_bits = 2;    // log2 of the places of a line of levels along an axis, without apron: 2 or 3
+  int latency = 40;    // of the memory, in cycles
+  int bus_bytes = 64;  // that the memory gives in a cycle
+  bool apron = false;  // bricks of levels hold their apron: a line is a brick
+  int level_bits = 2;  // log2 of the places of a line of levels along an axis, without apron: 2 or 3
 };
 
 inline constexpr int kTileSide = 8;  // pixels

@@ -18,7 +18,8 @@ namespace voxmelt::hwmodel::raycast {
 
 class CrossingStage final : public Stage {
  public:
-  CrossingStage(WalkStage& walk, int rays) : Stage("crossing"), walk_(walk), rays_(static_cast<std::size_t>(rays)) {}
+  CrossingStage(WalkStage& walk, int rays)
+      : Stage("crossing"), walk_(walk), rays_(static_cast<std::size_t>(rays)) {}
   void connect(Fifo<HitToken>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<MetToken>& out) {
     in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
   }

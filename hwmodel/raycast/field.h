@@ -71,7 +71,8 @@ inline Slope slope_of(const std::int16_t* levels, Vec q) {
     const std::int64_t l = (t * t) >> 9, r = (u * u) >> 9;
     return Weights{{l, 256 - l - r, r}, {-t, t - u, u}};
   };
-  const auto splined = [](std::int64_t a, std::int64_t b, std::int64_t c, const std::array<std::int64_t, 3>& w,
+  const auto splined = [](std::int64_t a, std::int64_t b, std::int64_t c,
+                          const std::array<std::int64_t, 3>& w,
                           int shift) { return SInt<17>(rounded(a * w[0] + b * w[1] + c * w[2], shift)); };
   const Weights x = weights(q.x), y = weights(q.y), z = weights(q.z);
   std::array<std::int64_t, 3> along_x{}, along_y{}, value{};  // of the planes

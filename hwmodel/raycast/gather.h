@@ -1,10 +1,9 @@
-// Fetches the words of a small box of places through a cache: two or three places along each axis. Of a volume,
-// bank (x + 2 y + 4 z) mod 8 holds a place, so that the eight words of two places a side lie in eight banks, and
-// the 27 of three in no bank more than five times. Columns have 16 banks, (x mod 4) + 4 (z mod 4), and nine of
-// them come at once. Two stages: tags, and behind a queue data.
+// Fetches the words of a small box of places through a cache: two or three places along each axis. Of a
+// volume, bank (x + 2 y + 4 z) mod 8 holds a place, so that the eight words of two places a side lie in eight
+// banks, and the 27 of three in no bank more than five times. Columns have 16 banks, (x mod 4) + 4 (z mod 4),
+// and nine of them come at once. Two stages: tags, and behind a queue data.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -109,8 +108,8 @@ class Gather final : public LineClient {
   struct Entry {
     Request request;
     Places places;
-    std::array<std::uint8_t, 3> lines{};     // different lines along each axis: 1 or 2
-    std::array<std::int32_t, 8> slots{};     // -1: nothing is stored there
+    std::array<std::uint8_t, 3> lines{};  // different lines along each axis: 1 or 2
+    std::array<std::int32_t, 8> slots{};  // -1: nothing is stored there
     std::array<std::int32_t, 8> lost{};
   };
   std::size_t line_bytes() const { return static_cast<std::size_t>(layout_.line_bytes); }
@@ -208,11 +207,12 @@ class Gather final : public LineClient {
             offset = layout_.apron_offset(p.x[x], p.y[y], p.z[z], p.low[0] >> kBrickBits,
                                           p.low[1] >> kBrickBits, p.low[2] >> kBrickBits);
           } else {
-            const auto beyond = [&](const std::array<std::int32_t, 3>& along, std::size_t i, std::size_t axis) {
+            const auto beyond = [&](const std::array<std::int32_t, 3>& along, std::size_t i,
+                                    std::size_t axis) {
               return (along[i] >> layout_.bits[axis]) == (along[0] >> layout_.bits[axis]) ? 0u : 1u;
             };
-            which = (beyond(p.z, z, 2) * entry.lines[1] + beyond(p.y, y, 1)) * entry.lines[0] +
-                    beyond(p.x, x, 0);
+            which =
+                (beyond(p.z, z, 2) * entry.lines[1] + beyond(p.y, y, 1)) * entry.lines[0] + beyond(p.x, x, 0);
             offset = layout_.offset(p.x[x], p.y[y], p.z[z]);
           }
           const int slot = entry.slots[which];

@@ -47,7 +47,9 @@ struct NineColumns {
   SInt<24> height(Value value, std::int64_t px, std::int64_t pz) const {
     const Spot sx = spot_of(px), sz = spot_of(pz);
     const auto first = static_cast<std::size_t>(3 * (sz.cell - z) + (sx.cell - x));
-    const auto number = [&](std::size_t n) { return std::int64_t{of[first + (n & 1) + 3 * (n >> 1)].*value}; };
+    const auto number = [&](std::size_t n) {
+      return std::int64_t{of[first + (n & 1) + 3 * (n >> 1)].*value};
+    };
     return between_columns(number, sx, sz);
   }
 };
@@ -79,7 +81,8 @@ inline Parts parts_of(const Registers& registers, const Ray& ray) {
 }
 
 inline bool in_slab(const Registers& registers, Vec p) {
-  return p.x >= 0 && p.x < registers.cells.x * kCell && p.z >= 0 && p.z < registers.cells.z * kCell && p.y >= 0;
+  return p.x >= 0 && p.x < registers.cells.x * kCell && p.z >= 0 && p.z < registers.cells.z * kCell &&
+         p.y >= 0;
 }
 
 // The ray came from outside of the ground.
@@ -105,7 +108,8 @@ inline std::int64_t margin_of(const Registers& registers) {
 // The upper edges are rounded.
 inline std::int64_t rim(std::int64_t p, std::int64_t cells) {
   const std::int64_t half = kCell / 2;
-  return (std::max<std::int64_t>(0, half - (cells * kCell - p)) >> 7) - (std::max<std::int64_t>(0, half - p) >> 7);
+  return (std::max<std::int64_t>(0, half - (cells * kCell - p)) >> 7) -
+         (std::max<std::int64_t>(0, half - p) >> 7);
 }
 // Of the top, from the bare heights half a cell to the west, east, north and south.
 inline Vec top_normal(const Registers& registers, Vec p, const std::array<std::int64_t, 4>& heights) {
@@ -116,12 +120,18 @@ inline Vec top_normal(const Registers& registers, Vec p, const std::array<std::i
 inline Vec side_normal(Face face) {
   constexpr std::int64_t one = 1 << 14;
   switch (face) {
-    case Face::low_x: return {-one, 0, 0};
-    case Face::high_x: return {one, 0, 0};
-    case Face::low_z: return {0, 0, -one};
-    case Face::high_z: return {0, 0, one};
-    case Face::under: return {0, -one, 0};
-    default: return {};
+    case Face::low_x:
+      return {-one, 0, 0};
+    case Face::high_x:
+      return {one, 0, 0};
+    case Face::low_z:
+      return {0, 0, -one};
+    case Face::high_z:
+      return {0, 0, one};
+    case Face::under:
+      return {0, -one, 0};
+    default:
+      return {};
   }
 }
 
@@ -130,8 +140,8 @@ template <class Value>
 std::int64_t along_table(const std::vector<Value>& table, std::int64_t position) {
   const Spot at = spot_of(position);
   const auto entry = [&](std::int64_t i) {
-    return std::int64_t{
-        table[static_cast<std::size_t>(std::clamp<std::int64_t>(i, 0, static_cast<std::int64_t>(table.size()) - 1))]};
+    return std::int64_t{table[static_cast<std::size_t>(
+        std::clamp<std::int64_t>(i, 0, static_cast<std::int64_t>(table.size()) - 1))]};
   };
   return blended(entry(at.cell), entry(at.cell + 1), at.weight);
 }
@@ -140,8 +150,7 @@ inline Rgb cut_color(const GroundRegisters& ground, Vec p, Face face) {
   std::int64_t band = 0;
   if (ground.textured && face != Face::under && face != Face::none) {
     const bool by_z = face == Face::low_x || face == Face::high_x;
-    const std::int64_t bend =
-        along_table(ground.bends[static_cast<std::size_t>(face) - 1], by_z ? p.z : p.x);
+    const std::int64_t bend = along_table(ground.bends[static_cast<std::size_t>(face) - 1], by_z ? p.z : p.x);
     band = along_table(ground.bands, (p.y + bend) << 2);
   }
   Rgb of{};

@@ -1,6 +1,6 @@
 // Where rays meet the ground (docs/picture-ground.md, section 4). Many rays are under way; each looks at one
-// height after the other. A step is a quarter of a cell at most, so the nine columns around it serve all of its
-// eight halvings: a row of eight units, which take a ray a cycle. Without ground the stage hands rays on.
+// height after the other. A step is a quarter of a cell at most, so the nine columns around it serve all of
+// its eight halvings: a row of eight units, which take a ray a cycle. Without ground the stage hands rays on.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class GroundStage final : public Stage {
   struct Search {
     GroundedRay ray;
     Parts parts;
-    std::int64_t part = 0;             // that is looked at
+    std::int64_t part = 0;                 // that is looked at
     std::int64_t outside = 0, inside = 0;  // of the bisection
     bool bisects = false;
   };
@@ -92,7 +92,8 @@ class GroundStage final : public Stage {
     const Vec p = at_part(of.ray.ray, of.part);
     ClampedRequest& ask = *ask_->put();
     ask.at = {spot_of(p.x), {}, spot_of(p.z)};
-    ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1, static_cast<std::int32_t>(registers_.cells.z)};
+    ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1,
+                 static_cast<std::int32_t>(registers_.cells.z)};
     ask.asker = 0;
     ask.context = static_cast<std::int16_t>(i);
     ask.side = 2;

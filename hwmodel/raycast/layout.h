@@ -1,5 +1,5 @@
-// Where words lie in memory (docs/hardware.md): lines, which the memory gives as a whole, of words in a box of
-// places. Sparse volumes consist of bricks of 8 x 8 x 8 places, of which only some are stored.
+// Where words lie in memory (docs/hardware.md): lines, which the memory gives as a whole, of words in a box
+// of places. Sparse volumes consist of bricks of 8 x 8 x 8 places, of which only some are stored.
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@ inline constexpr std::int64_t kNoLine = -1;
 inline constexpr int kBurst = 64;  // bytes
 
 struct Layout {
-  std::int64_t base = 0;             // address of line 0
+  std::int64_t base = 0;  // address of line 0
   int word_bytes = 0, line_bytes = 0;
-  std::array<int, 3> bits{};         // log2 of the places of a line along x, y, z
-  std::array<int, 3> count{};        // lines along each axis; of a sparse volume bricks
+  std::array<int, 3> bits{};   // log2 of the places of a line along x, y, z
+  std::array<int, 3> count{};  // lines along each axis; of a sparse volume bricks
   bool sparse = false, apron = false;
-  std::vector<std::int32_t> slots;   // of a sparse volume: which stored brick, 0: none
+  std::vector<std::int32_t> slots;  // of a sparse volume: which stored brick, 0: none
 
   std::int64_t brick_at(int bx, int by, int bz) const {
     if (bx < 0 || by < 0 || bz < 0 || bx >= count[0] || by >= count[1] || bz >= count[2]) return 0;
@@ -49,10 +49,10 @@ struct Layout {
 // What the host has written to memory, and where.
 struct Memory {
   std::vector<std::uint8_t> bytes;
-  Layout levels, matter;  // by lattice place
-  Layout light;           // by cell of light; 16 bytes: lamp, six of openness, nothing, six of glow
-  Layout heights;         // by column: drawn and bare height, 32 bits each
-  Layout texels;          // docs/picture-ground.md, section 7
+  Layout levels, matter;   // by lattice place
+  Layout light;            // by cell of light; 16 bytes: lamp, six of openness, nothing, six of glow
+  Layout heights;          // by column: drawn and bare height, 32 bits each
+  Layout texels;           // docs/picture-ground.md, section 7
   std::int64_t frame = 0;  // the picture, tile by tile, 3 bytes a pixel
 };
 

@@ -1,5 +1,5 @@
-// What matter is made of at the crossing, and the light in front of a surface (docs/picture-light.md, sections
-// 3 and 5).
+// What matter is made of at the crossing, and the light in front of a surface (docs/picture-light.md,
+// sections 3 and 5).
 #pragma once
 
 #include <algorithm>

@@ -52,8 +52,8 @@ class MemoryPort final : public Stage {
   Fifo<LineReply>* replies_ = nullptr;
 };
 
-// The memory itself: a request a cycle, from one pipe after the other; a fixed latency; a bus of so many bytes
-// a cycle.
+// The memory itself: a request a cycle, from one pipe after the other; a fixed latency; a bus of so many
+// bytes a cycle.
 struct MemoryCounts {
   std::int64_t reads = 0, read_bytes = 0, written_bytes = 0, bus_cycles = 0;
 };
@@ -61,7 +61,9 @@ class MemoryBlock {
  public:
   MemoryBlock(Memory& memory, int latency, int bus_bytes)
       : memory_(memory), latency_(latency), bus_bytes_(bus_bytes) {}
-  void connect(Fifo<LineRequest>& requests, Fifo<LineReply>& replies) { ports_.push_back({&requests, &replies}); }
+  void connect(Fifo<LineRequest>& requests, Fifo<LineReply>& replies) {
+    ports_.push_back({&requests, &replies});
+  }
   const MemoryCounts& counts() const { return counts_; }
   void begin() { bus_free_ = 0; }  // cycles count from 0 again
 

@@ -1,6 +1,8 @@
 // The normal of matter, from 27 levels (docs/picture.md, section 8).
 #pragma once
 
+#include <cstddef>
+
 #include "hwmodel/raycast/attach_stage.h"
 #include "hwmodel/raycast/field.h"
 

@@ -1,9 +1,7 @@
-// The ground's normal and colour (docs/picture-ground.md, sections 5 and 8): nine columns of the top, and then
-// four texels of rock.
+// The ground's normal and colour (docs/picture-ground.md, sections 5 and 8): nine columns of the top, and
+// then four texels of rock.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,7 +23,8 @@ class PaintStage final : public AttachStage<ClampedRequest, ColumnGather::Out> {
   ClampedRequest question(const Surface& of, int) const override {
     ClampedRequest ask;
     ask.at = {spot_of(of.position.x - kHalf), {}, spot_of(of.position.z - kHalf)};
-    ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1, static_cast<std::int32_t>(registers_.cells.z)};
+    ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1,
+                 static_cast<std::int32_t>(registers_.cells.z)};
     ask.asker = 1;
     ask.side = 3;
     return ask;
@@ -36,9 +35,9 @@ class PaintStage final : public AttachStage<ClampedRequest, ColumnGather::Out> {
     const auto bare = [&](std::int64_t x, std::int64_t z) {
       return std::int64_t{columns.height(&Column::bare, x, z)};
     };
-    of.normal = top_normal(registers_, p,
-                           {bare(p.x - kHalf, p.z), bare(p.x + kHalf, p.z), bare(p.x, p.z - kHalf),
-                            bare(p.x, p.z + kHalf)});
+    of.normal = top_normal(
+        registers_, p,
+        {bare(p.x - kHalf, p.z), bare(p.x + kHalf, p.z), bare(p.x, p.z - kHalf), bare(p.x, p.z + kHalf)});
   }
   void finish(Surface& of) override {
     if (of.kind != Surface::Kind::ground) return;
@@ -74,14 +73,16 @@ class TextureStage final : public AttachStage<ClampedRequest, TexelGather::Out> 
   }
   void take(Surface& of, int, const TexelGather::Out& answer) override {
     const auto between = [&](const auto& channel) {
-      const auto value = [&](std::size_t n) { return std::int64_t{channel(answer.words[n < 2 ? n : n + 2])}; };
+      const auto value = [&](std::size_t n) {
+        return std::int64_t{channel(answer.words[n < 2 ? n : n + 2])};
+      };
       return between_columns(value, answer.request.at.x, answer.request.at.z);
     };
     of.color = {static_cast<std::int32_t>(between([](const Texel& t) { return t.red; })),
                 static_cast<std::int32_t>(between([](const Texel& t) { return t.green; })),
                 static_cast<std::int32_t>(between([](const Texel& t) { return t.blue; }))};
-    const SInt<14> x = between([](const Texel& t) { return 64 * t.bump_x; }),
-                   z = between([](const Texel& t) { return 64 * t.bump_z; });
+    const SInt<14> x = between([](const Texel&t) { return 64 * t.bump_x; }),
+                   z = between([](const Texel&t) { return 64 * t.bump_z; });
     of.normal = unit_of(of.normal + Vec{x, 0, z});
   }
 

@@ -11,13 +11,13 @@ namespace {
 // Of the memory port.
 enum Client : int { kLevels, kMatter, kLight, kColumns, kTexels, kTiles };
 
-constexpr int kWaiting = 16;  // surfaces in a stage that fetches
+constexpr int kWaiting = 16;   // surfaces in a stage that fetches
 constexpr int kSearches = 32;  // rays in the search for the ground
 
 }  // namespace
 
-Pipe::Pipe(const Registers& registers, const FrameRegisters& frame, const Memory& memory, const Configuration& c,
-           int number)
+Pipe::Pipe(const Registers& registers, const FrameRegisters& frame, const Memory& memory,
+           const Configuration& c, int number)
     : configuration_(c),
       memory_(memory),
       number_(number),
@@ -48,11 +48,36 @@ Pipe::Pipe(const Registers& registers, const FrameRegisters& frame, const Memory
       write_(frame, buffers_),
       port_(memory) {
   // From the end to the begin, so that it matters to no one but the reader of a waveform.
-  stages_ = {&port_,         &write_,       &pixel_,       &press_,        &colour_,      &mirror_,
-             &arriving_,     &light_,       &light_cells_.data, &light_cells_.tags, &matter_, &matter_words_.data,
-             &matter_words_.tags, &texture_, &texels_.data, &texels_.tags, &paint_,       &normal_,
-             &met_,          &crossing_,    &sample_,      &levels_.data,  &levels_.tags, &ask_,
-             &walk_,         &ground_,      &columns_.data, &columns_.tags, &height_ask_, &set_up_,
+  stages_ = {&port_,
+             &write_,
+             &pixel_,
+             &press_,
+             &colour_,
+             &mirror_,
+             &arriving_,
+             &light_,
+             &light_cells_.data,
+             &light_cells_.tags,
+             &matter_,
+             &matter_words_.data,
+             &matter_words_.tags,
+             &texture_,
+             &texels_.data,
+             &texels_.tags,
+             &paint_,
+             &normal_,
+             &met_,
+             &crossing_,
+             &sample_,
+             &levels_.data,
+             &levels_.tags,
+             &ask_,
+             &walk_,
+             &ground_,
+             &columns_.data,
+             &columns_.tags,
+             &height_ask_,
+             &set_up_,
              &tiles_};
 }
 
@@ -64,7 +89,9 @@ Fifo<Word>& Pipe::channel(Channel which, const char* name, int depth) {
   Fifo<Word>& made = *fifo;
   commits_.push_back([](void* f) { static_cast<Fifo<Word>*>(f)->commit(); });
   committed_.push_back(&made);
-  states_.push_back([&made] { return ChannelState{made.name(), made.count(), made.depth(), made.entered()}; });
+  states_.push_back([&made] {
+    return ChannelState{made.name(), made.count(), made.depth(), made.entered()};
+  });
   owned_.push_back(std::move(fifo));
   return made;
 }
@@ -148,13 +175,15 @@ void Pipe::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory, Fifo<Line
   press_.connect(colour, pressed);
   pixel_.connect(pressed, pixels);
   write_.connect(pixels, written);
-  port_.connect({&level_lines, &matter_lines, &light_lines, &column_lines, &texel_lines, &tile_lines, &written},
-                to_memory, replies, {&levels_, &matter_words_, &light_cells_, &columns_, &texels_, &tiles_});
+  port_.connect(
+      {&level_lines, &matter_lines, &light_lines, &column_lines, &texel_lines, &tile_lines, &written},
+      to_memory, replies, {&levels_, &matter_words_, &light_cells_, &columns_, &texels_, &tiles_});
 
   watch_ = [set_up = &set_up, ground = &ground, asks = &level_asks, levels = &levels,
             normal_levels = &normal_levels, walk_levels = &walk_levels, crossing_levels = &crossing_levels,
             hits = &hits, missed = &missed, crossed = &crossed,
-            surfaces = std::vector{&met, &normal, &paint, &texture, &matter, &light, &arriving, &mirror, &colour},
+            surfaces =
+                std::vector{&met, &normal, &paint, &texture, &matter, &light, &arriving, &mirror, &colour},
             pressed = &pressed, pixels = &pixels](const Watchers& w) {
     set_up->watch(w.set_up), ground->watch(w.ground), asks->watch(w.asks);
     levels->watch(w.levels), normal_levels->watch(w.levels);

@@ -1,4 +1,5 @@
-// A pipe of the ray caster: its stages and the channels between them. One SystemC process evaluates all of it.
+// A pipe of the ray caster: its stages and the channels between them. One SystemC process evaluates all of
+// it.
 #pragma once
 
 #include <cstddef>
@@ -26,10 +27,43 @@ namespace voxmelt::hwmodel::raycast {
 
 // The channels of a pipe, by what fills them.
 enum class Channel : std::uint8_t {
-  tiles, set_up, ground, walk_asks, crossing_asks, normal_asks, level_asks, levels, normal_levels, walk_levels,
-  crossing_levels, hits, missed, crossed, met, normal, search_asks, paint_asks, height_asks, search_heights,
-  paint_heights, paint, texel_asks, texels, texture, matter_asks, matter_words, matter, light_asks, light_cells,
-  light, arriving, mirror, colour, pressed, pixels, to_memory
+  tiles,
+  set_up,
+  ground,
+  walk_asks,
+  crossing_asks,
+  normal_asks,
+  level_asks,
+  levels,
+  normal_levels,
+  walk_levels,
+  crossing_levels,
+  hits,
+  missed,
+  crossed,
+  met,
+  normal,
+  search_asks,
+  paint_asks,
+  height_asks,
+  search_heights,
+  paint_heights,
+  paint,
+  texel_asks,
+  texels,
+  texture,
+  matter_asks,
+  matter_words,
+  matter,
+  light_asks,
+  light_cells,
+  light,
+  arriving,
+  mirror,
+  colour,
+  pressed,
+  pixels,
+  to_memory
 };
 
 // Who listens to what leaves a stage. Null: nobody.

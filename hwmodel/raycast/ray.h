@@ -1,7 +1,8 @@
-// From the place of a sample in the picture to its ray (docs/picture.md, section 4), and how far a ray goes in
-// how many samples. Products and shifts; no division.
+// From the place of a sample in the picture to its ray (docs/picture.md, section 4), and how far a ray goes
+// in how many samples. Products and shifts; no division.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,8 +24,8 @@ inline Ray ray_of(const CameraRegisters& camera, std::int64_t across, std::int64
   const Vec start = on_wires<53>(camera.eye + ((camera.forward * camera.near) >> 14) +
                                  ((camera.near_wide * u + camera.near_high * v) >> 10));
   const int shift = bits_of(largest(direction) - 1) - kCellBits + camera.spacing;
-  const Vec step = on_wires<20>(
-      {rounded(direction.x, shift), rounded(direction.y, shift), rounded(direction.z, shift)});
+  const Vec step =
+      on_wires<20>({rounded(direction.x, shift), rounded(direction.y, shift), rounded(direction.z, shift)});
   return {start, step};
 }
 

@@ -1,5 +1,6 @@
 #include "hwmodel/raycast/ray_caster.h"
 
+#include <vector>
 #include <cstddef>
 #include <exception>
 #include <utility>
@@ -57,8 +58,10 @@ struct RayCaster::Machine {
     for (std::size_t i = 0; i < count; ++i) {
       const std::string pipe = "pipe " + std::to_string(i) + ": ";
       const int channel = 100 * static_cast<int>(i) + 90;
-      const auto link = [&]<class Word>(std::vector<std::unique_ptr<Link<Word>>>& links, const char* name, int number) {
-        links.push_back(std::make_unique<Link<Word>>(pipe + name, channel + number, 1, c.fifo_depth, c.stall_seed));
+      const auto link = [&]<class Word>(std::vector<std::unique_ptr<Link<Word>>>& links, const char* name,
+                                        int number) {
+        links.push_back(
+            std::make_unique<Link<Word>>(pipe + name, channel + number, 1, c.fifo_depth, c.stall_seed));
       };
       link(jobs, "dealer -> tiles", 0);
       link(requests, "memory port -> memory", 1);
@@ -106,8 +109,12 @@ struct RayCaster::Machine {
 
   FrameEnd run_pass(bool second, int samples, int most) {
     const std::int64_t bytes = frame_bytes(registers.camera.width, registers.camera.height);
-    frame = {second ? memory.frame : 0, second ? memory.frame + bytes : memory.frame,
-             tiles_along(registers.camera.width), tiles_along(registers.camera.height), samples, most};
+    frame = {second ? memory.frame : 0,
+             second ? memory.frame + bytes : memory.frame,
+             tiles_along(registers.camera.width),
+             tiles_along(registers.camera.height),
+             samples,
+             most};
     dealer.begin(frame, second);
     bytes_at_end = memory_block.counts().written_bytes + bytes;
     shared.complete = shared.hangs = false;

@@ -2,13 +2,14 @@
 // for the memory and one for the tiles; inside, plain two-phase channels.
 #pragma once
 
+#include <vector>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/layout.h"
@@ -37,7 +38,8 @@ class RayCaster {
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {
    public:
-    StageError(const std::string& what, std::string failed) : std::runtime_error(what), stage(std::move(failed)) {}
+    StageError(const std::string& what, std::string failed)
+        : std::runtime_error(what), stage(std::move(failed)) {}
     std::string stage;
   };
 

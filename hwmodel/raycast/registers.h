@@ -2,6 +2,7 @@
 // all rays share; nothing of a ray is computed here.
 #pragma once
 
+#include <cstddef>
 #include <array>
 #include <cstdint>
 #include <vector>

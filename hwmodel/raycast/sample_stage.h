@@ -1,6 +1,7 @@
 // The sampler: eight levels to one, a sample a cycle.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>

@@ -20,7 +20,8 @@ inline MatterBytes matter_of(const std::uint32_t* words, const Spots& at) {
   const auto byte = [&](int shift) {
     const auto w = [&](std::size_t i) { return std::int64_t{(words[i] >> shift) & 255}; };
     const auto row = [&](std::size_t i) { return blended(w(i), w(i + 1), at.x.weight); };
-    return UInt<8>(blended(blended(row(0), row(2), at.y.weight), blended(row(4), row(6), at.y.weight), at.z.weight));
+    return UInt<8>(
+        blended(blended(row(0), row(2), at.y.weight), blended(row(4), row(6), at.y.weight), at.z.weight));
   };
   return {static_cast<std::int32_t>(byte(0)), static_cast<std::int32_t>(byte(8)),
           static_cast<std::int32_t>(byte(16))};
@@ -68,8 +69,7 @@ inline Arriving arriving_of(const LookRegisters& look, Vec normal, const Light& 
   constexpr Rgb kGlow{6144, 1966, 369};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::int64_t ambient =
-        look.from_below[c] +
-        (((look.from_above[c] - look.from_below[c]) * (normal.y + (1 << 14))) >> 15);
+        look.from_below[c] + (((look.from_above[c] - look.from_below[c]) * (normal.y + (1 << 14))) >> 15);
     of.light[c] = static_cast<std::int32_t>(
         UInt<16>(((ambient * open) >> 8) + ((look.lamp[c] * of.lit) >> 14) + ((kGlow[c] * glow) >> 5)));
   }
@@ -119,8 +119,8 @@ inline Mirrored mirrored_of(const LookRegisters& look, Vec normal, Vec to_eye, c
   Mirrored of;
   const Vec half = unit_of(look.to_light + to_eye);
   const std::int64_t shine = std::clamp<std::int64_t>(cosine(normal, half), 0, 1 << 14);
-  const std::int64_t unlit = mixed(highlight_at(look.highlight, shine),
-                                   highlight_at(look.dull_highlight, shine), mixture.w);
+  const std::int64_t unlit =
+      mixed(highlight_at(look.highlight, shine), highlight_at(look.dull_highlight, shine), mixture.w);
   of.peak = UInt<13>((((unlit * smooth(0, 1024, arriving.facing >> 2)) >> 12) * arriving.lamp) >> 8);
 
   of.eye = std::clamp<std::int64_t>(cosine(normal, to_eye), 0, 1 << 14);
@@ -150,11 +150,11 @@ inline Rgb matter_color(const Arriving& arriving, const Mixture& of, const Mirro
   for (std::size_t c = 0; c < 3; ++c) {
     const std::int64_t fresnel =
         of.material.mirror[c] + (((4096 - of.material.mirror[c]) * mirror.more) >> 12);
-    sum[c] = static_cast<std::int32_t>(UInt<17>(
-        ((std::int64_t{arriving.light[c]} * of.material.diffuse[c]) >> 12) +
-        ((of.material.highlight[c] * mirror.peak) >> 12) +
-        ((((mirror.around[c] * mirror.free) >> 12) * fresnel) >> 12) +
-        ((of.emission[c] * (2540 + ((1556 * mirror.eye) >> 14))) >> 12)));
+    sum[c] = static_cast<std::int32_t>(
+        UInt<17>(((std::int64_t{arriving.light[c]} * of.material.diffuse[c]) >> 12) +
+                 ((of.material.highlight[c] * mirror.peak) >> 12) +
+                 ((((mirror.around[c] * mirror.free) >> 12) * fresnel) >> 12) +
+                 ((of.emission[c] * (2540 + ((1556 * mirror.eye) >> 14))) >> 12)));
   }
   return sum;
 }

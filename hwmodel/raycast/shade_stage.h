@@ -2,6 +2,7 @@
 // mirrors, the sum, and the pressing of bright light. A surface a cycle.
 #pragma once
 
+#include <cstdint>
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -18,7 +19,8 @@ namespace voxmelt::hwmodel::raycast {
 // One surface in, one out.
 class SurfaceStage : public Stage {
  public:
-  SurfaceStage(std::string name, const Registers& registers) : Stage(std::move(name)), registers_(registers) {}
+  SurfaceStage(std::string name, const Registers& registers)
+      : Stage(std::move(name)), registers_(registers) {}
   void connect(Fifo<Surface>& in, Fifo<Surface>& out) { in_ = &in, out_ = &out; }
 
  protected:

@@ -2,7 +2,6 @@
 // return to memory (docs/picture.md, section 10).
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -95,7 +94,8 @@ class TileStage final : public Stage, public LineClient {
     if (pixels == 0)
       buffers_.complete.push_back(i);
     else
-      *out_->put() = {job.x, job.y, static_cast<std::int16_t>(i), static_cast<std::int16_t>(buffer.samples), pixels};
+      *out_->put() = {job.x, job.y, static_cast<std::int16_t>(i), static_cast<std::int16_t>(buffer.samples),
+                      pixels};
     in_->get();
     asked_ = 0;
     return Did::busy;
@@ -200,8 +200,12 @@ class WriteStage final : public Stage {
     const int i = buffers_.complete.front();
     const TileBuffer& buffer = buffers_.at(i);
     LineRequest& to = *out_->put();
-    to = {0, 0, frame_.address(frame_.write, buffer.job.x / kTileSide, buffer.job.y / kTileSide) + kBurst * burst_,
-          kBurst, true, {}};
+    to = {0,
+          0,
+          frame_.address(frame_.write, buffer.job.x / kTileSide, buffer.job.y / kTileSide) + kBurst * burst_,
+          kBurst,
+          true,
+          {}};
     std::memcpy(to.data.data(), buffer.bytes.data() + kBurst * burst_, kBurst);
     if (++burst_ == kTileBytes / kBurst) {
       burst_ = 0;

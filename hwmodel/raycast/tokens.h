@@ -1,6 +1,7 @@
 // What the channels of a pipe carry.
 #pragma once
 
+#include <cstddef>
 #include <array>
 #include <cstdint>
 
@@ -41,7 +42,8 @@ inline Sub sub_of(int samples, int which) {
                                                19, 25, 30, 5,  21, 10, 3,  26, 17, 0,  13, 6, 23, 9,  29, 18};
   if (samples == 1) return {};
   const std::int64_t unit = 64 / samples, i = which;
-  const std::int64_t row = samples == 8 ? kEight[static_cast<std::size_t>(which)] : kMany[static_cast<std::size_t>(which)];
+  const std::int64_t row =
+      samples == 8 ? kEight[static_cast<std::size_t>(which)] : kMany[static_cast<std::size_t>(which)];
   return {unit * i + unit / 2, unit * row + unit / 2};
 }
 

@@ -15,7 +15,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-inline constexpr int kBlockBits = 22;  // of a block of four places
+inline constexpr int kBlockBits = 22;                                      // of a block of four places
 inline constexpr std::int64_t kMostSamples = (std::int64_t{1} << 27) - 1;  // of a ray
 
 struct Walker {
@@ -23,14 +23,16 @@ struct Walker {
   Inverse x, y, z;
 };
 inline Walker walker_of(const Ray& ray) {
-  return {to_lattice(ray.start), ray.step, inverse_of(ray.step.x), inverse_of(ray.step.y), inverse_of(ray.step.z)};
+  return {to_lattice(ray.start), ray.step, inverse_of(ray.step.x), inverse_of(ray.step.y),
+          inverse_of(ray.step.z)};
 }
 
 // Samples until the box low <= position < high; 0 within it; nothing if the ray misses it.
 inline std::optional<std::int64_t> steps_to_box(const Walker& of, Vec low, Vec high) {
   std::int64_t steps = 0;
   bool misses = false;
-  const auto axis = [&](std::int64_t q, std::int64_t step, Inverse inverse, std::int64_t from, std::int64_t to) {
+  const auto axis = [&](std::int64_t q, std::int64_t step, Inverse inverse, std::int64_t from,
+                        std::int64_t to) {
     if (q < from) {
       misses |= step <= 0;
       steps = std::max(steps, steps_in(from - q - 1, inverse) + 1);

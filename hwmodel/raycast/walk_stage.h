@@ -2,6 +2,7 @@
 // through air, one is sampled and one may begin. So no ray waits for another one's memory.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -20,8 +21,8 @@ struct HitToken {
   std::int16_t context = 0;
   GroundedRay ray;
   std::int64_t k = 0;
-  Vec at;                    // of sample k, in the lattice
-  std::int16_t level = 0;    // there
+  Vec at;                     // of sample k, in the lattice
+  std::int16_t level = 0;     // there
   bool knows_before = false;  // the level of sample k - 1
   std::int16_t before = 0;
 };
@@ -140,7 +141,8 @@ class WalkStage final : public Stage {
   void ask(int i) {
     const Context& of = at(i);
     LevelRequest& request = *ask_->put();
-    request = {Asker::walk, static_cast<std::int16_t>(i), of.ray.id, UInt<27>(of.k), on_wires<32>(of.walker.at)};
+    request = {Asker::walk, static_cast<std::int16_t>(i), of.ray.id, UInt<27>(of.k),
+               on_wires<32>(of.walker.at)};
     ++counts_.samples;
   }
 
@@ -148,8 +150,8 @@ class WalkStage final : public Stage {
     const int i = token.request.context;
     Context& of = at(i);
     if (token.level >= 0) {
-      *hit_->put() = {token.request.context, of.ray, of.k, of.walker.at, token.level,
-                      of.known == of.k - 1, of.level};
+      *hit_->put() = {token.request.context, of.ray,  of.k, of.walker.at, token.level,
+                      of.known == of.k - 1,  of.level};
       return;
     }
     of.known = of.k;

@@ -44,8 +44,8 @@ struct Pipeline::Machine {
       StepBlock& step = *steps[at(t)];
       step.connect(links[at(t)]->fifo(), links[at(t + 1)]->fifo());
       if (!fed) continue;
-      feed_links.push_back(std::make_unique<Link<UInt<16>>>(step_name(t) + "feed -> exchange", 1000 + t, c.lanes,
-                                                               c.fifo_depth, c.stall_seed));
+      feed_links.push_back(std::make_unique<Link<UInt<16>>>(step_name(t) + "feed -> exchange", 1000 + t,
+                                                            c.lanes, c.fifo_depth, c.stall_seed));
       feeds.push_back(std::make_unique<Feed>(design.shape, feed_links.back()->fifo()));
       step.feed(feed_links.back()->fifo());
     }

@@ -84,7 +84,7 @@ THIRD_PARTY = {
     "libdeflate": ["render/image"],
     "CLI/": ["app"],
     "benchmark/": ["bench"],
-    "nlohmann/": ["accuracy/report", "kernel/run/io", "hwmodel/lockstep", "bench/measure", "app"],
+    "nlohmann/": ["accuracy/report", "kernel/run/io", "hwmodel/lockstep", "hwmodel/picture", "bench/measure", "app"],
     "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/lockstep", "hwmodel/picture", "bench/measure", "accuracy",
              "accuracy/report", "app"],
 }
