@@ -1,10 +1,10 @@
 // Plain loops over places. They share no code with the loops that lay out lines.
 #include <fmt/format.h>
 
-#include <string>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include "hwmodel/picture/uploader.h"
@@ -114,7 +114,8 @@ void compare_skip_map(Comparison& to, const Registers& registers, const render::
     for (int y = 0; y < skip.y; ++y)
       for (int x = 0; x < skip.x; ++x) {
         const std::int32_t record = field.records[(std::ptrdiff_t{z} * skip.y + y) * skip.x + x];
-        to.word("skip map", {}, {x, y, z}, record < 0 ? (record & 255) + 256 : record & 255, skip.at(x, y, z));
+        to.word("skip map", {}, {x, y, z}, record < 0 ? (record & 255) + 256 : record & 255,
+                skip.at(x, y, z));
       }
 }
 

@@ -86,7 +86,8 @@ void brick_lines(const Layout& layout, const state::Grid& at, const Word* from, 
             for (int x = lx; x < lx + side; ++x)
               std::memcpy(bytes.data() + layout.offset(x, y, z),
                           brick + ((z + 1) * kApronSide + y + 1) * kApronSide + x + 1, sizeof(Word));
-        sink(layout.line_at((8 * at.x + lx) >> bits, (8 * at.y + ly) >> bits, (8 * at.z + lz) >> bits), bytes.data());
+        sink(layout.line_at((8 * at.x + lx) >> bits, (8 * at.y + ly) >> bits, (8 * at.z + lz) >> bits),
+             bytes.data());
       }
 }
 
@@ -143,7 +144,8 @@ Memory room_for(const render::PictureData& data, const Configuration& configurat
   Layout frame;
   take_room(memory, frame, 0);
   memory.frame = frame.base;
-  memory.bytes.resize(memory.bytes.size() + 2 * static_cast<std::size_t>(frame_bytes(data.width, data.height)));
+  memory.bytes.resize(memory.bytes.size() +
+                      2 * static_cast<std::size_t>(frame_bytes(data.width, data.height)));
   return memory;
 }
 
@@ -177,8 +179,8 @@ void texel_lines(const render::PictureData& data, const Layout& layout, const Li
   const std::vector<picture::Texel>& texels = data.ground.map->texels();
   const std::array<int, 3> count = texel_count(data);
   dense_lines<Texel>(layout, count, sink, [&](int x, int, int z) {
-    const picture::Texel& t =
-        texels[static_cast<std::size_t>(z) * static_cast<std::size_t>(count[0]) + static_cast<std::size_t>(x)];
+    const picture::Texel& t = texels[static_cast<std::size_t>(z) * static_cast<std::size_t>(count[0]) +
+                                     static_cast<std::size_t>(x)];
     return Texel{t.red, t.green, t.blue, t.bump_x, t.bump_z};
   });
 }

@@ -92,7 +92,8 @@ Memory memory_of(const render::PictureData& data, const Configuration& configura
   Memory memory = room_for(data, configuration, stored_bricks(data.field));
   const auto into = [&](const Layout& layout) {
     return [&](std::int64_t line, const std::uint8_t* bytes) {
-      std::memcpy(memory.bytes.data() + layout.address(line), bytes, static_cast<std::size_t>(layout.line_bytes));
+      std::memcpy(memory.bytes.data() + layout.address(line), bytes,
+                  static_cast<std::size_t>(layout.line_bytes));
     };
   };
   const state::Grid bricks = lattice_bricks(data.field);

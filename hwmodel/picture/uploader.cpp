@@ -1,21 +1,15 @@
 #include "hwmodel/picture/uploader.h"
 
-#include <utility>
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <stdexcept>
+#include <utility>
 
-#include "hwmodel/channel/fifo.h"
 #include "hwmodel/picture/memory_image.h"
-#include "hwmodel/raycast/memory_port.h"
-#include "hwmodel/raycast/ray_caster.h"
 #include "kernel/automaton/state/changed_bricks.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
-
-constexpr std::int64_t kHangAfter = 4000;  // cycles in which nothing is written
 
 state::Grid field_bricks(const render::FieldData& field) {
   const auto side = [](std::int64_t cells) { return static_cast<int>(cells); };
@@ -47,7 +41,11 @@ UploadReport Uploader::update(const render::PictureData& data, const std::vector
   if (forgotten_ && forgotten_->update == updates_) std::erase(report.bricks, forgotten_->brick);
   send_bricks(data, report);
   send_lines(data, report);
-  run(report);
+  const UploadEnd end = run_upload(upload_, memory_, configuration_);
+  report.words = upload_.words;
+  report.bursts = upload_.bursts();
+  report.cycles = end.cycles;
+  report.account = end.account;
   ++updates_;
   return report;
 }
@@ -79,7 +77,8 @@ std::vector<SentBrick> Uploader::due_bricks(const render::PictureData& data,
   const auto mark = [&](const state::Grid& f, int low, std::vector<std::uint8_t>& due) {
     for (int z = std::max(f.z - low, 0); z <= std::min(f.z + 1, to.z - 1); ++z)
       for (int y = std::max(f.y - low, 0); y <= std::min(f.y + 1, to.y - 1); ++y)
-        for (int x = std::max(f.x - low, 0); x <= std::min(f.x + 1, to.x - 1); ++x) due[to.index(x, y, z)] = 1;
+        for (int x = std::max(f.x - low, 0); x <= std::min(f.x + 1, to.x - 1); ++x)
+          due[to.index(x, y, z)] = 1;
   };
   for (const std::uint32_t brick : changed) {
     const int i = static_cast<int>(brick);
@@ -149,25 +148,6 @@ bool Uploader::send(const Layout& layout, Sent volume, std::int64_t line, const 
                                  static_cast<std::size_t>(layout.line_bytes)) != 0;
   if (other) report.other_bytes[of] += layout.line_bytes;
   return other;
-}
-
-void Uploader::run(UploadReport& report) {
-  Fifo<LineRequest> requests("upload -> memory", 0, 1, configuration_.fifo_depth, configuration_.stall_seed);
-  Fifo<LineReply> replies("memory -> upload", 1, 1, configuration_.fifo_depth, configuration_.stall_seed);
-  MemoryBlock memory(memory_, configuration_.latency, configuration_.bus_bytes);
-  UploadStage stage(upload_, configuration_.bus_bytes);
-  stage.connect(requests);
-  memory.connect(requests, replies);
-  report.bursts = upload_.bursts();
-  std::int64_t idle = 0;
-  while (!stage.done() || memory.counts().written_bytes < report.bursts * kBurst) {
-    const bool sent = stage.run(), written = memory.cycle(report.cycles++);
-    requests.commit();
-    idle = sent || written ? 0 : idle + 1;
-    if (idle > kHangAfter) throw std::logic_error("the upload hangs between its stage and the memory");
-  }
-  stage.end_pass();
-  report.account = stage.account();
 }
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -4,8 +4,8 @@
 // such list: the host compares them with what it has sent, line by line.
 #pragma once
 
-#include <cstddef>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -36,8 +36,8 @@ struct UploadReport {
   std::array<std::vector<std::int64_t>, kSentVolumes> lines;  // caches must forget them
   std::array<std::int64_t, kSentVolumes> bytes{};
   std::array<std::int64_t, kSentVolumes> other_bytes{};  // of lines that were others
-  std::int64_t slots = 0, skip_words = 0;  // register words: 32 bits, 16 bits
-  std::int64_t bursts = 0, cycles = 0;
+  std::int64_t slots = 0, skip_words = 0;                // register words: 32 bits, 16 bits
+  std::int64_t words = 0, bursts = 0, cycles = 0;
   Account account;
 };
 
@@ -70,7 +70,6 @@ class Uploader {
   void send_registers(const render::PictureData& data, UploadReport& report);
   bool send(const Layout& layout, Sent volume, std::int64_t line, const std::uint8_t* bytes,
             UploadReport& report);
-  void run(UploadReport& report);
 
   Configuration configuration_;
   Registers registers_;

@@ -1,9 +1,9 @@
 #include "hwmodel/raycast/ray_caster.h"
 
-#include <vector>
 #include <cstddef>
 #include <exception>
 #include <utility>
+#include <vector>
 
 #include "hwmodel/process/process.h"
 

@@ -2,7 +2,6 @@
 // for the memory and one for the tiles; inside, plain two-phase channels.
 #pragma once
 
-#include <vector>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/layout.h"

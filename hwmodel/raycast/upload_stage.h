@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/gather.h"
 #include "hwmodel/raycast/layout.h"
 #include "hwmodel/raycast/stage.h"
@@ -62,5 +63,12 @@ class UploadStage final : public Stage {
   int beats_, beats_left_ = 0;
   Fifo<LineRequest>* out_ = nullptr;
 };
+
+struct UploadEnd {
+  std::int64_t cycles = 0;
+  Account account;
+};
+// Sends it all. It takes no SystemC: nothing else runs between two pictures.
+UploadEnd run_upload(const Upload& upload, Memory& memory, const Configuration& configuration);
 
 }  // namespace voxmelt::hwmodel::raycast

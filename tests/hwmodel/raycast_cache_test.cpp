@@ -22,7 +22,8 @@ namespace voxmelt::hwmodel::raycast {
 namespace {
 
 TEST(RaycastCache, HitsAndMissesAreThoseOfLists) {
-  for (const auto& [sets, ways] : {std::pair{1, 1}, std::pair{1, 4}, std::pair{8, 1}, std::pair{4, 2}, std::pair{16, 4}}) {
+  for (const auto& [sets, ways] :
+       {std::pair{1, 1}, std::pair{1, 4}, std::pair{8, 1}, std::pair{4, 2}, std::pair{16, 4}}) {
     Cache cache({sets, ways, 4, 64});
     std::vector<std::list<std::int64_t>> lists(static_cast<std::size_t>(sets));
     std::map<std::int64_t, int> slots;  // of lines that have a tag
@@ -57,7 +58,8 @@ TEST(RaycastCache, HitsAndMissesAreThoseOfLists) {
         } else {
           ASSERT_EQ(found.lost, -1);
         }
-        for (const auto& [other, slot] : slots) ASSERT_NE(found.slot, slot) << "is still the slot of " << other;
+        for (const auto& [other, slot] : slots)
+          ASSERT_NE(found.slot, slot) << "is still the slot of " << other;
         slots[line] = found.slot;
       }
       list.push_front(line);
@@ -116,7 +118,9 @@ struct World {
         for (int bx = 0; bx < 3; ++bx)
           if (stored(bx, by, bz)) fill(bx, by, bz);
   }
-  bool stored(int bx, int by, int bz) const { return layout.slots[static_cast<std::size_t>((bz * 3 + by) * 3 + bx)] != 0; }
+  bool stored(int bx, int by, int bz) const {
+    return layout.slots[static_cast<std::size_t>((bz * 3 + by) * 3 + bx)] != 0;
+  }
   static Word number(int x, int y, int z) { return static_cast<Word>(1000 + (z * 24 + y) * 24 + x); }
   void put(std::int64_t address, Word word) { std::memcpy(bytes.data() + address, &word, sizeof word); }
   void fill(int bx, int by, int bz) {
@@ -126,20 +130,26 @@ struct World {
         for (int x = low; x < high; ++x) {
           const int px = 8 * bx + x, py = 8 * by + y, pz = 8 * bz + z;
           if (layout.apron) {
-            const std::int64_t at = layout.base + layout.slots[static_cast<std::size_t>((bz * 3 + by) * 3 + bx)] * std::int64_t{layout.line_bytes};
+            const std::int64_t at =
+                layout.base + layout.slots[static_cast<std::size_t>((bz * 3 + by) * 3 + bx)] *
+                                  std::int64_t{layout.line_bytes};
             put(at + 2 * (((z + 1) * 11 + y + 1) * 11 + x + 1), number(px, py, pz));
           } else {
             const int bits = layout.bits[0], side = 1 << bits, more = 8 / side;
-            const std::int64_t line = std::int64_t{layout.slots[static_cast<std::size_t>((bz * 3 + by) * 3 + bx)]} * more * more * more +
-                                      ((z / side) * more + y / side) * more + x / side;
-            put(layout.base + line * layout.line_bytes + 2 * (((z % side) * side + y % side) * side + x % side),
+            const std::int64_t line =
+                std::int64_t{layout.slots[static_cast<std::size_t>((bz * 3 + by) * 3 + bx)]} * more * more *
+                    more +
+                ((z / side) * more + y / side) * more + x / side;
+            put(layout.base + line * layout.line_bytes +
+                    2 * (((z % side) * side + y % side) * side + x % side),
                 number(px, py, pz));
           }
         }
   }
   // With aprons the whole request is served by the brick of its low place.
   Word expected(const Places& p, int x, int y, int z) const {
-    const bool is = layout.apron ? stored(p.low[0] / 8, p.low[1] / 8, p.low[2] / 8) : stored(x / 8, y / 8, z / 8);
+    const bool is =
+        layout.apron ? stored(p.low[0] / 8, p.low[1] / 8, p.low[2] / 8) : stored(x / 8, y / 8, z / 8);
     return is ? number(x, y, z) : kAbsent;
   }
   Layout layout;
@@ -172,14 +182,17 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
     for (Fifo<TestGather::Out>* out : {&two, &three}) {
       if (!out->valid()) continue;
       const TestGather::Out& answer = *out->get();
-      const auto same = std::find_if(asked.begin(), asked.end(), [&](const Ask& a) { return a.kind == answer.request.kind; });
+      const auto same = std::find_if(asked.begin(), asked.end(),
+                                     [&](const Ask& a) { return a.kind == answer.request.kind; });
       EXPECT_NE(same, asked.end());
       if (same == asked.end()) return of;
       EXPECT_EQ(answer.request.number, same->number) << "in order";
       const Places& p = same->p;
       const auto side = static_cast<std::size_t>(p.side);
       for (std::size_t i = 0; i < side * side * side; ++i)
-        EXPECT_EQ(answer.words[i], world.expected(p, p.x[i % side], p.y[i / side % side], p.z[i / side / side])) << got << " " << i;
+        EXPECT_EQ(answer.words[i],
+                  world.expected(p, p.x[i % side], p.y[i / side % side], p.z[i / side / side]))
+            << got << " " << i;
       if (testing::Test::HasFailure()) return of;
       asked.erase(same);
       ++got;
@@ -194,7 +207,8 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
       const LineRequest& request = *ask.get();
       EXPECT_FALSE(request.write);
       EXPECT_EQ(request.bytes, world.layout.line_bytes);
-      under_way.push_back({of.cycles + latency, {request.client, request.slot, request.address, request.bytes}});
+      under_way.push_back(
+          {of.cycles + latency, {request.client, request.slot, request.address, request.bytes}});
     }
     gather.data.run();
     gather.tags.run();
@@ -211,7 +225,9 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
       next.p.side = next.kind == 1 ? 3 : 2;
       next.p.low = {x, y, z};
       const int from = next.kind == 1 ? -1 : 0;
-      const auto places = [&](int at) { return std::array<std::int32_t, 3>{at + from, at + from + 1, at + from + 2}; };
+      const auto places = [&](int at) {
+        return std::array<std::int32_t, 3>{at + from, at + from + 1, at + from + 2};
+      };
       next.p.x = places(x), next.p.y = places(y), next.p.z = places(z);
       asked.push_back(next);
     }
@@ -225,18 +241,21 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
 TEST(RaycastGather, WordsAreThoseOfAPlainReadingInTheirOrder) {
   for (const bool apron : {false, true})
     for (const int bits : {apron ? 3 : 1, apron ? 3 : 2, 3})
-      for (const CacheShape& shape : {CacheShape{1, 1, 8, 1}, CacheShape{1, 8, 8, 4}, CacheShape{4, 2, 8, 64}, CacheShape{16, 4, 8, 64}})
+      for (const CacheShape& shape : {CacheShape{1, 1, 8, 1}, CacheShape{1, 8, 8, 4}, CacheShape{4, 2, 8, 64},
+                                      CacheShape{16, 4, 8, 64}})
         for (const std::uint64_t seed : {0, 5})
           for (const int latency : {1, 40}) {
             run(World(apron, bits), shape, seed, latency, 300);
-            if (HasFailure()) FAIL() << "apron " << apron << " bits " << bits << " sets " << shape.sets << " seed " << seed;
+            if (HasFailure())
+              FAIL() << "apron " << apron << " bits " << bits << " sets " << shape.sets << " seed " << seed;
           }
 }
 
 // A larger cache misses less; a queue between tags and data hides the memory.
 TEST(RaycastGather, SizeAndQueueDoWhatTheyAreFor) {
   const World world(false, 2);
-  const Fetched small = run(world, {2, 2, 8, 64}, 0, 40, 2000), large = run(world, {64, 8, 8, 64}, 0, 40, 2000);
+  const Fetched small = run(world, {2, 2, 8, 64}, 0, 40, 2000),
+                large = run(world, {64, 8, 8, 64}, 0, 40, 2000);
   EXPECT_LT(4 * large.misses, small.misses);
   const Fetched narrow = run(world, {2, 2, 8, 1}, 0, 40, 2000);
   EXPECT_EQ(narrow.misses, small.misses);  // the order of lookups is the same

@@ -279,6 +279,9 @@ TEST(RaycastField, TheWorkedVectorsOfLength1) {
   EXPECT_EQ(unit_of({-15949, 15680, 21742}), (Vec{-8378, 8236, 11420}));
   EXPECT_EQ(unit(Vec{-3889, 31747, 0}), (Vec{-1992, 16262, 0}));
   EXPECT_EQ(unit_of({}), (Vec{}));
+  // 17 bits are shifted by 3: (8193, 5000, -1), whose last component is 16384 / 9598 = 1.7 and not half of
+  // it.
+  EXPECT_EQ(unit_of({65551, 40007, -1}).z, -2);
   EXPECT_EQ(kInverseRoot[508 - 128], 16448);
   EXPECT_EQ(kInverseRoot[509 - 128], 16432);
   EXPECT_EQ(kInverseRoot[0], 32768);
@@ -291,7 +294,9 @@ TEST(RaycastField, LengthsAreThoseOfRealNumbers) {
   std::mt19937_64 random(8);
   for (int n = 0; n < 100000; ++n) {
     const std::int64_t most = std::int64_t{1} << (1 + n % 15);
-    const auto component = [&] { return static_cast<std::int64_t>(random() % static_cast<unsigned>(2 * most)) - most; };
+    const auto component = [&] {
+      return static_cast<std::int64_t>(random() % static_cast<unsigned>(2 * most)) - most;
+    };
     Vec g{component(), component(), component()};
     if (largest(g) > 32767 || g == Vec{}) continue;
     const Vec of = unit(g);

@@ -27,8 +27,8 @@ Registers slab(std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t high
 std::int64_t worked_height(Vec p) {
   const auto column = [](std::int64_t i) { return std::int64_t{i <= 0 ? 32768 : 16384}; };
   const Spot x = spot_of(p.x), z = spot_of(p.z);
-  return between_columns(
-      [&](std::size_t n) { return column(x.cell + static_cast<std::int64_t>(n & 1)); }, x, z);
+  return between_columns([&](std::size_t n) { return column(x.cell + static_cast<std::int64_t>(n & 1)); }, x,
+                         z);
 }
 
 TEST(RaycastGround, TheWorkedRay) {
@@ -75,7 +75,9 @@ TEST(RaycastGround, NineColumnsHoldAPlaceAndHalfACellAround) {
   NineColumns of{5, -1, {}};
   for (std::int32_t i = 0; i < 9; ++i) of.of[static_cast<std::size_t>(i)] = {100 * i * i, -i};
   // Position of cell c and weight w: c + 1/2 cells and w 2^12.
-  const auto place = [](std::int64_t cell, std::int64_t weight) { return cell * kOne + kOne / 2 + (weight << 12); };
+  const auto place = [](std::int64_t cell, std::int64_t weight) {
+    return cell * kOne + kOne / 2 + (weight << 12);
+  };
   // Entries 4, 5, 7 and 8: 1600 and 2500 are 2050, 4900 and 6400 are 5650; a quarter on 2950.
   EXPECT_EQ(of.height(&Column::drawn, place(6, 128), place(0, 64)), 2950);
   EXPECT_EQ(of.height(&Column::drawn, place(5, 0), place(-1, 0)), 0);
@@ -86,12 +88,15 @@ TEST(RaycastGround, NineColumnsHoldAPlaceAndHalfACellAround) {
 
 TEST(RaycastGround, TheFirstAndTheLastPartAreThoseOfAPlainSearch) {
   std::mt19937_64 random(21);
-  const auto within = [&](std::int64_t n) { return static_cast<std::int64_t>(random() % static_cast<unsigned>(2 * n)) - n; };
+  const auto within = [&](std::int64_t n) {
+    return static_cast<std::int64_t>(random() % static_cast<unsigned>(2 * n)) - n;
+  };
   int found = 0;
   for (int n = 0; n < 3000; ++n) {
     const Registers registers = slab(1 + n % 2, 3, 1, 1 + static_cast<std::int64_t>(random() % 12288));
     const Ray ray{{within(2 * kOne), within(2 * kOne), within(2 * kOne)},
-                  {n % 7 == 0 ? 0 : within(kOne / 4), n % 5 == 0 ? 0 : within(kOne / 4), n % 11 == 0 ? 0 : within(kOne / 4)}};
+                  {n % 7 == 0 ? 0 : within(kOne / 4), n % 5 == 0 ? 0 : within(kOne / 4),
+                   n % 11 == 0 ? 0 : within(kOne / 4)}};
     std::int64_t first = -1, last = -1;
     for (std::int64_t t = 0; t < 256 * 40; ++t) {
       const Vec p = ray.start + ((ray.step * t) >> 8);
@@ -111,6 +116,22 @@ TEST(RaycastGround, TheFirstAndTheLastPartAreThoseOfAPlainSearch) {
     ++found;
   }
   EXPECT_GT(found, 200);
+}
+
+// Part 1024 of a quarter of a cell a step is exactly on the high side, which is outside; so is the start of
+// the way back.
+TEST(RaycastGround, TheHighSideIsOutside) {
+  const Registers registers = slab(1, 1, 1, 4096);
+  const std::int64_t quarter = kOne / 4, half = kOne / 2;
+  for (const Vec& step : {Vec{quarter, 0, 0}, Vec{0, quarter, 0}, Vec{0, 0, quarter}}) {
+    const Vec side{step.x == 0 ? half : 0, step.y == 0 ? half : 0, step.z == 0 ? half : 0};
+    const Parts parts = parts_of(registers, {side, step});
+    EXPECT_EQ(parts.first, 0);
+    EXPECT_EQ(parts.last, 1023);
+    const Parts back = parts_of(registers, {side + step * 4, Vec{} - step});
+    EXPECT_EQ(back.first, 1);
+    EXPECT_EQ(back.last, 1024);
+  }
 }
 
 TEST(RaycastGround, FacesInTheirOrder) {
@@ -143,7 +164,8 @@ TEST(RaycastGround, ARayComesNoNearerThanItsApproach) {
     Registers registers = slab(8, 8, 8, 8 * 4096);
     std::array<std::array<std::int64_t, 8>, 8> heights{};  // [z][x]
     for (auto& row : heights)
-      for (std::int64_t& height : row) height = static_cast<std::int64_t>(random() % (n % 2 == 0 ? 512 : 16384));
+      for (std::int64_t& height : row)
+        height = static_cast<std::int64_t>(random() % (n % 2 == 0 ? 512 : 16384));
     std::int64_t u = 0, v = 0;
     for (std::size_t a = 0; a < 8; ++a)
       for (std::size_t b = 0; b < 7; ++b) {
@@ -153,15 +175,21 @@ TEST(RaycastGround, ARayComesNoNearerThanItsApproach) {
     registers.ground.slopes = {u, 0, v};
     const auto height = [&](Vec p) {
       const Spot x = spot_of(p.x), z = spot_of(p.z);
-      const auto inside = [](std::int64_t i) { return static_cast<std::size_t>(std::clamp<std::int64_t>(i, 0, 7)); };
+      const auto inside = [](std::int64_t i) {
+        return static_cast<std::size_t>(std::clamp<std::int64_t>(i, 0, 7));
+      };
       return between_columns(
           [&](std::size_t i) {
-            return heights[inside(z.cell + static_cast<std::int64_t>(i >> 1))][inside(x.cell + static_cast<std::int64_t>(i & 1))];
+            return heights[inside(z.cell + static_cast<std::int64_t>(i >> 1))]
+                          [inside(x.cell + static_cast<std::int64_t>(i & 1))];
           },
           x, z);
     };
-    const auto within = [&](std::int64_t m) { return static_cast<std::int64_t>(random() % static_cast<unsigned>(2 * m)) - m; };
-    const Ray ray{{within(2 * kOne), 6 * kOne, within(2 * kOne)}, {within(kOne / 4), -kOne / 8, within(kOne / 4)}};
+    const auto within = [&](std::int64_t m) {
+      return static_cast<std::int64_t>(random() % static_cast<unsigned>(2 * m)) - m;
+    };
+    const Ray ray{{within(2 * kOne), 6 * kOne, within(2 * kOne)},
+                  {within(kOne / 4), -kOne / 8, within(kOne / 4)}};
     const auto above = [&](std::int64_t k) {
       const Vec p = ray.start + ray.step * k;
       return ((p.y >> 8) - height(p)) << 20;  // 2^-32 cells
@@ -176,7 +204,9 @@ TEST(RaycastGround, ARayComesNoNearerThanItsApproach) {
   EXPECT_GT(near, 20);  // some come almost so near
 }
 
-void expect_near(Vec of, Vec expected) { EXPECT_LE(largest(of - expected), 2) << of.x << " " << of.y << " " << of.z; }
+void expect_near(Vec of, Vec expected) {
+  EXPECT_LE(largest(of - expected), 2) << of.x << " " << of.y << " " << of.z;
+}
 
 // 16384 / sqrt 2 = 11585; 2048 : 4096 has 16384 / sqrt 5 = 7327 and 14654.
 TEST(RaycastGround, NormalsOfTheTopByHand) {
@@ -189,6 +219,7 @@ TEST(RaycastGround, NormalsOfTheTopByHand) {
   expect_near(top_normal(registers, {kOne, kOne, 2 * kOne - kOne / 4}, {9, 9, 9, 9}), {0, 14654, 7327});
   // A fall of 2^20 has 21 bits and is shifted by 7: 8192 to 32.
   expect_near(top_normal(registers, middle, {1 << 20, 0, 9, 9}), {16384, 64, 0});
+  EXPECT_EQ(top_normal(registers, middle, {1 << 20, 0, 209, 9}).z, 2);  // 200 becomes 1 of 8192
 }
 
 // At half a cell the table of quarters is read at 2: half way between entries 1 and 2, -500. A bend of an

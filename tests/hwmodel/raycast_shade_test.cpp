@@ -1,5 +1,5 @@
-// The ray caster's colours, alone: the worked pixel (docs/picture-trace.md, section 4), and hand computations of
-// what it does not show: glow, obstacles, and each of eight neighbours.
+// The ray caster's colours, alone: the worked pixel (docs/picture-trace.md, section 4), and hand computations
+// of what it does not show: glow, obstacles, and each of eight neighbours.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -62,8 +62,9 @@ TEST(RaycastShade, TheWorkedPixelsMatter) {
 }
 
 // Weights 64, 128, 192. Liquid: 10 and 90 are 30, 40 and 200 are 80, 0 and 100 are 25, 7 and 255 are 69. Then
-// 55 and 47, then 49. Heat has the same numbers in reverse order: 255 and 7 are 193, 100 and 0 are 75, 200 and
-// 40 are 160, 90 and 10 are 70. Then 134 and 115, then 120. Obstacle: only the last corner, 255: 64, 32, 24.
+// 55 and 47, then 49. Heat has the same numbers in reverse order: 255 and 7 are 193, 100 and 0 are 75, 200
+// and 40 are 160, 90 and 10 are 70. Then 134 and 115, then 120. Obstacle: only the last corner, 255: 64,
+// 32, 24.
 constexpr std::array<std::uint32_t, 8> kBytes{10, 90, 40, 200, 0, 100, 7, 255};
 constexpr Spots kAt{{0, 64}, {0, 128}, {0, 192}};
 
@@ -76,7 +77,12 @@ TEST(RaycastShade, EachCornerOfMatterHasItsWeight) {
 TEST(RaycastShade, TheWorkedPixelsLight) {
   std::array<LightWord, 8> words{};
   for (std::size_t i = 0; i < 8; ++i)
-    words[i] = {255, 200, 255, 255, 200, static_cast<std::uint8_t>(i < 4 ? 200 : 255),
+    words[i] = {255,
+                200,
+                255,
+                255,
+                200,
+                static_cast<std::uint8_t>(i < 4 ? 200 : 255),
                 static_cast<std::uint8_t>(i < 4 ? 255 : 200)};
   EXPECT_EQ(light_of(words.data(), {{-1, 194}, {2, 126}, {0, 75}}, false), worked_light());
 }
@@ -186,8 +192,8 @@ TEST(RaycastShade, GlowArrivesWhereItIsAskedFor) {
   EXPECT_EQ(arriving_of(look, {0, -16384, 0}, light, false).light, (Rgb{0, 0, 0}));
 }
 
-// The mirrored eye looks straight up. Half way between the tables 2500; with 129/256 of the lamp 1259. Where the
-// surface turns from the lamp, smooth(0, 1024, 512) is a half.
+// The mirrored eye looks straight up. Half way between the tables 2500; with 129/256 of the lamp 1259. Where
+// the surface turns from the lamp, smooth(0, 1024, 512) is a half.
 TEST(RaycastShade, HighlightsOfObstaclesAndOfTheEdge) {
   LookRegisters look;
   look.to_light = {0, 16384, 0};
@@ -209,7 +215,7 @@ TEST(RaycastShade, HighlightsOfObstaclesAndOfTheEdge) {
   const Mirrored of = mirrored_of(look, up, up, light, arriving, mixture);
   EXPECT_EQ(of.eye, 16384);
   EXPECT_EQ(of.reflected, up);
-  EXPECT_EQ(of.free, 614);  // nothing is open
+  EXPECT_EQ(of.free, 614);                        // nothing is open
   EXPECT_EQ(of.around, (Rgb{9830, 9626, 9216}));  // the middle of the lamp
 
   std::array<std::uint16_t, 1026> table{};

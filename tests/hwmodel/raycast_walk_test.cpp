@@ -17,7 +17,9 @@ namespace {
 class Random {
  public:
   explicit Random(unsigned seed) : random_(seed) {}
-  std::int64_t below(std::int64_t n) { return static_cast<std::int64_t>(random_() % static_cast<unsigned>(n)); }
+  std::int64_t below(std::int64_t n) {
+    return static_cast<std::int64_t>(random_() % static_cast<unsigned>(n));
+  }
   std::int64_t within(std::int64_t n) { return below(2 * n + 1) - n; }
 
  private:
@@ -28,7 +30,8 @@ class Random {
 Vec random_step(Random& random, int spacing) {
   const std::int64_t most = std::int64_t{1} << (20 - spacing);
   std::array<std::int64_t, 3> of{};
-  for (std::int64_t& one : of) one = random.below(4) == 0 ? 0 : random.within(random.below(3) == 0 ? 40 : most);
+  for (std::int64_t& one : of)
+    one = random.below(4) == 0 ? 0 : random.within(random.below(3) == 0 ? 40 : most);
   const std::int64_t longest = most - random.below(most / 2);
   of[static_cast<std::size_t>(random.below(3))] = random.below(2) == 0 ? longest : -longest;
   return {of[0], of[1], of[2]};
@@ -47,10 +50,12 @@ TEST(RaycastWalk, NoSampleBeforeTheBoxIsInIt) {
   for (int n = 0; n < 4000; ++n) {
     const auto corner = [&] { return random.below(6 << 20); };
     Vec low{corner(), corner(), corner()};
-    const Vec high = low + Vec{1 + random.below(3 << 20), 1 + random.below(3 << 20), 1 + random.below(3 << 20)};
+    const Vec high =
+        low + Vec{1 + random.below(3 << 20), 1 + random.below(3 << 20), 1 + random.below(3 << 20)};
     const Vec step = random_step(random, 2 + n % 4);
     Vec start{random.within(9 << 20), random.within(9 << 20), random.within(9 << 20)};
-    if (n % 2 == 0) start = low - step * random.below(600);  // it comes to a corner of the box, or close to it
+    if (n % 2 == 0)
+      start = low - step * random.below(600);  // it comes to a corner of the box, or close to it
     Walker of = walker_at(start, step);
     std::int64_t first = -1;
     for (std::int64_t k = 0; k < 2400 && first < 0; ++k)
@@ -58,7 +63,8 @@ TEST(RaycastWalk, NoSampleBeforeTheBoxIsInIt) {
     // The walk goes on until it is in the box, or knows that it never will be.
     std::int64_t k = 0;
     int leaps = 0;
-    for (std::optional<std::int64_t> steps; (steps = steps_to_box(of, low, high)) && *steps > 0 && k < 2400; ++leaps) {
+    for (std::optional<std::int64_t> steps; (steps = steps_to_box(of, low, high)) && *steps > 0 && k < 2400;
+         ++leaps) {
       ASSERT_TRUE(first < 0 || k + *steps <= first) << n;
       k += *steps;
       of.at = of.at + of.step * *steps;
@@ -77,6 +83,19 @@ TEST(RaycastWalk, NoSampleBeforeTheBoxIsInIt) {
   EXPECT_GT(misses, 1000);
 }
 
+// Along an axis on which it does not move, a ray never comes to a box that it is not in.
+TEST(RaycastWalk, ARayThatStandsStillOutsideOfTheBoxMissesItAtOnce) {
+  const Vec low{1 << 20, 1 << 20, 1 << 20}, high{2 << 20, 2 << 20, 2 << 20};
+  const std::int64_t inside = 3 << 19;
+  for (const std::int64_t beside : {std::int64_t{0}, std::int64_t{2 << 20}}) {
+    EXPECT_FALSE(steps_to_box(walker_at({beside, 0, 0}, {0, 1 << 18, 1 << 18}), low, high));
+    EXPECT_FALSE(steps_to_box(walker_at({0, beside, 0}, {1 << 18, 0, 1 << 18}), low, high));
+    EXPECT_FALSE(steps_to_box(walker_at({0, 0, beside}, {1 << 18, 1 << 18, 0}), low, high));
+  }
+  EXPECT_TRUE(steps_to_box(walker_at({inside, 0, inside}, {0, 1 << 18, 0}), low, high));
+  EXPECT_EQ(steps_to_box(walker_at({inside, inside, inside}, {0, 1 << 18, 0}), low, high), 0);
+}
+
 std::int64_t blocks_away(Vec a, Vec b) {
   constexpr std::int64_t kBlock = std::int64_t{4} << 20;
   return std::max({std::abs(a.x / kBlock - b.x / kBlock), std::abs(a.y / kBlock - b.y / kBlock),
@@ -88,7 +107,8 @@ TEST(RaycastWalk, NoSampleThatIsLeftOutIsReachBlocksAway) {
   for (int n = 0; n < 6000; ++n) {
     const std::int64_t reach = 1 + n % 16;
     const auto coordinate = [&] { return (std::int64_t{400} << 20) + random.below(4 << 20); };
-    const Walker of = walker_at({coordinate(), coordinate(), coordinate()}, random_step(random, 2 + n / 16 % 4));
+    const Walker of =
+        walker_at({coordinate(), coordinate(), coordinate()}, random_step(random, 2 + n / 16 % 4));
     std::int64_t exact = 1;
     while (blocks_away(of.at, of.at + of.step * exact) < reach) ++exact;
     const std::int64_t steps = steps_out(of, reach);
@@ -119,12 +139,14 @@ TEST(RaycastWalk, TheLevelDoesNotRiseToTheSurfaceInStepsThatAreLeftOut) {
     std::array<std::array<std::array<std::int64_t, 5>, 5>, 5> levels{};  // [z][y][x]
     const std::int64_t rough = std::int64_t{1} << (4 + n % 12);
     const std::int64_t base = -random.below(20000), lean = random.within(rough);
-    const bool straight = n % 3 == 0;  // uphill along the diagonal: the level rises as fast as the bound allows
+    const bool straight =
+        n % 3 == 0;  // uphill along the diagonal: the level rises as fast as the bound allows
     for (std::size_t z = 0; z < 5; ++z)
       for (std::size_t y = 0; y < 5; ++y)
         for (std::size_t x = 0; x < 5; ++x)
           levels[z][y][x] = std::clamp<std::int64_t>(
-              base + lean * static_cast<std::int64_t>(x + y + z) + (straight ? 0 : random.within(rough)), -32640, 32640);
+              base + lean * static_cast<std::int64_t>(x + y + z) + (straight ? 0 : random.within(rough)),
+              -32640, 32640);
     std::array<std::int64_t, 3> most{};
     for (std::size_t a = 0; a < 5; ++a)
       for (std::size_t b = 0; b < 5; ++b)
@@ -136,7 +158,8 @@ TEST(RaycastWalk, TheLevelDoesNotRiseToTheSurfaceInStepsThatAreLeftOut) {
     const std::int64_t slope = (most[0] + most[1] + most[2] + 767) / 768;
     const int spacing = 2 + n % 4;
     const Vec start{random.below(4 << 20), random.below(4 << 20), random.below(4 << 20)};
-    const std::int64_t most_step = std::int64_t{1} << (20 - spacing), uphill = lean < 0 ? -most_step : most_step;
+    const std::int64_t most_step = std::int64_t{1} << (20 - spacing),
+                       uphill = lean < 0 ? -most_step : most_step;
     const Vec step = straight ? Vec{uphill, uphill, uphill} : random_step(random, spacing);
     const auto level = [&](Vec q) {
       std::array<std::int16_t, 8> of{};
@@ -175,7 +198,8 @@ TEST(RaycastWalk, TheSteepestRiseMeetsItsBound) {
         // In 1/8 of a level: what steps - 1 of them rise, less the margin of weights and blends.
         const std::int64_t rise = (steps - 1) * 768 * 8 * slope / (std::int64_t{1} << spacing);
         ASSERT_GE(steps, 1);
-        ASSERT_TRUE(steps == 1 || rise + 8 * (3 * slope + 3) < -8 * level) << slope << " " << spacing << " " << level;
+        ASSERT_TRUE(steps == 1 || rise + 8 * (3 * slope + 3) < -8 * level)
+            << slope << " " << spacing << " " << level;
         // Not a tenth less than could be.
         const std::int64_t free = -level - 3 * slope - 4;
         ASSERT_GE(10 * (steps + 1) * 768 * slope, 9 * free * (std::int64_t{1} << spacing));
