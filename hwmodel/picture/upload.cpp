@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include "hwmodel/picture/memory_image.h"
 #include "hwmodel/raycast/field.h"

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ctime>
 #include <stdexcept>
 
 #include "hwmodel/picture/expectation.h"

@@ -17,12 +17,20 @@ int power_of_two(scene::Reader& hw, const std::string& key, int low, int high, i
   return value;
 }
 
-// A cache that holds fewer lines than a request needs at once would wait for itself.
-void read_cache(scene::Reader& hw, const std::string& name, raycast::CacheShape& cache) {
-  cache.sets = power_of_two(hw, name + "_sets", 1, 65536, cache.sets);
-  cache.ways = power_of_two(hw, name + "_ways", 1, 64, cache.ways);
-  cache.spare = static_cast<int>(hw.integer(name + "_spare", 8, 256, cache.spare));
-  cache.queue = static_cast<int>(hw.integer(name + "_queue", 1, 1024, cache.queue));
+struct CacheKeys {
+  const char *sets, *ways, *spare, *queue;
+};
+constexpr CacheKeys kLevels{"levels_sets", "levels_ways", "levels_spare", "levels_queue"};
+constexpr CacheKeys kMatter{"matter_sets", "matter_ways", "matter_spare", "matter_queue"};
+constexpr CacheKeys kLight{"light_sets", "light_ways", "light_spare", "light_queue"};
+constexpr CacheKeys kGround{"ground_sets", "ground_ways", "ground_spare", "ground_queue"};
+
+// A request needs up to eight lines at once: with fewer to spare it could wait for itself.
+void read_cache(scene::Reader& hw, const CacheKeys& keys, raycast::CacheShape& cache) {
+  cache.sets = power_of_two(hw, keys.sets, 1, 65536, cache.sets);
+  cache.ways = power_of_two(hw, keys.ways, 1, 64, cache.ways);
+  cache.spare = static_cast<int>(hw.integer(keys.spare, 8, 256, cache.spare));
+  cache.queue = static_cast<int>(hw.integer(keys.queue, 1, 1024, cache.queue));
 }
 
 }  // namespace
@@ -51,10 +59,10 @@ CasterPreset load_caster_preset(const std::filesystem::path& file,
     c.bus_bytes = number("bus_bytes", 1, 4096, c.bus_bytes);
     c.apron = number("apron", 0, 1, c.apron ? 1 : 0) != 0;
     c.level_bits = number("level_bits", 1, 3, c.level_bits);
-    read_cache(*hw, "levels", c.levels);
-    read_cache(*hw, "matter", c.matter);
-    read_cache(*hw, "light", c.light);
-    read_cache(*hw, "ground", c.ground);
+    read_cache(*hw, kLevels, c.levels);
+    read_cache(*hw, kMatter, c.matter);
+    read_cache(*hw, kLight, c.light);
+    read_cache(*hw, kGround, c.ground);
     hw->finish();
   }
   root.finish();

@@ -2,8 +2,8 @@
 // all rays share; nothing of a ray is computed here.
 #pragma once
 
-#include <cstddef>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 

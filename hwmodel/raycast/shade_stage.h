@@ -2,9 +2,9 @@
 // mirrors, the sum, and the pressing of bright light. A surface a cycle.
 #pragma once
 
-#include <cstdint>
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 

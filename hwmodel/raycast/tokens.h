@@ -1,8 +1,8 @@
 // What the channels of a pipe carry.
 #pragma once
 
-#include <cstddef>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "hwmodel/raycast/field.h"

@@ -36,7 +36,7 @@ TABLE = {
     "cstdio": "FILE fclose feof ferror fflush fgets fopen fprintf fputc fputs fread fseek fwrite printf puts remove rename snprintf",
     "cstdlib": "abort abs aligned_alloc atoi atol atoll exit free getenv malloc quick_exit strtod strtol strtoll strtoul strtoull system",
     "cstring": "memchr memcmp memcpy memmove memset strchr strcmp strerror strlen strncmp strstr",
-    "ctime": "time time_t gmtime strftime",
+    "ctime": "clock clock_t time time_t gmtime strftime",
     "deque": "deque erase erase_if",
     "exception": "current_exception exception exception_ptr rethrow_exception terminate uncaught_exceptions",
     "filesystem": "filesystem",
