@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
 #include "hwmodel/picture/memory_image.h"
 #include "hwmodel/raycast/field.h"

@@ -112,7 +112,7 @@ TEST(RaycastShade, SidesAreSeenByTheSignOfADirection) {
   EXPECT_EQ(seen(sides, {0, 0, 16384}), 200);
   EXPECT_EQ(seen(sides, {0, 0, -16384}), 66);
   EXPECT_EQ(seen(sides, {0, -11585, 11585}), 149);
-  EXPECT_EQ(seen({255, 255, 255, 255, 255, 255}, {16400, 0, 300}), 255);  // a little longer than it should be
+  EXPECT_EQ(seen({255, 255, 255, 255, 255, 255}, {16500, 0, 300}), 255);  // a little longer than it should be
 }
 
 TEST(RaycastShade, TheWorkedPixelsColour) {
