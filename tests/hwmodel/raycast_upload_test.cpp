@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <numeric>
+#include <random>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -195,6 +196,48 @@ TEST(Upload, EveryLayoutHoldsTheFieldAfterEveryStep) {
         melt.send(uploader);
       }
     }
+}
+
+// Lone cells at the sides of bricks come and go, without any filter: bricks are stored anew in rooms of
+// others, and an apron holds what no other listed brick has.
+TEST(Upload, LoneCellsThatComeAndGoAreWhereTheyShouldBe) {
+  scene::Look look;
+  look.smooth = look.smooth_solid = 0;
+  scene::Camera picture_camera;
+  picture_camera.width = 16, picture_camera.height = 16;
+  const picture::Camera camera = render::camera_in_integers(picture_camera);
+  std::mt19937 random(61);
+  for (const bool apron : {false, true}) {
+    Configuration configuration;
+    configuration.apron = apron;
+    Uploader uploader{configuration};
+    state::Volume volume({40, 40, 40});
+    render::DensityField field;
+    render::Picture now;
+    const auto toggle = [&] {
+      const auto coordinate = [&] {
+        return static_cast<int>(8 * (random() % 5) + (random() % 4 < 3 ? 0 : random() % 8));
+      };
+      const int x = coordinate(), y = coordinate(), z = coordinate();
+      const bool solid = !volume.solid.test(x, y, z);
+      volume.solid.set(x, y, z, solid);
+      volume.amount[volume.at(x, y, z)] = solid ? 4096 : 0;
+    };
+    for (int i = 0; i < 20; ++i) toggle();
+    for (int step = 0; step < 60; ++step) {
+      field.update(volume, look, {}, 1);
+      const std::vector<std::uint32_t>* changed = step == 0 ? nullptr : &field.refreshed();
+      now.update(field, look, {}, {}, changed, 1);
+      uploader.update(now.data(camera, render::Setting::fast), changed);
+      render::Picture fresh;
+      fresh.update(volume, look, {}, {}, 1);
+      const UploadComparison of =
+          compare_upload(uploader.registers(), uploader.memory(), fresh.data(camera, render::Setting::fast));
+      ASSERT_FALSE(of.first) << text(of, step) << "apron " << apron;
+      toggle();
+      if (step % 3 == 0) toggle();
+    }
+  }
 }
 
 // A vent fills an empty grid: bricks begin to be stored, until there is no room for them.
