@@ -68,8 +68,8 @@ std::vector<SentBrick> Uploader::all_bricks(const render::PictureData& data) con
 
 // Cells 8 f .. 8 f + 7 of the field change levels and matter of the cells 8 f - 1 .. 8 f + 8, by the
 // pre-filter. These are the places 8 f + 1 .. 8 f + 10 of the lattice, in its bricks f and f + 1; brick f - 1
-// has the first of them in its apron. Today's filter reaches a cell at least, so that its list holds the bricks
-// that only `before` and `moved` add; nothing here relies on that.
+// has the first of them in its apron. Today's filter reaches a cell at least, so that its list holds the
+// bricks that only `before` and `moved` add; nothing here relies on that.
 std::vector<SentBrick> Uploader::due_bricks(const render::PictureData& data,
                                             const std::vector<std::uint32_t>& changed) const {
   const state::Grid from = field_bricks(data.field), to = lattice_bricks(data.field);
