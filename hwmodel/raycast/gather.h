@@ -86,6 +86,7 @@ class Gather final : public LineClient {
   const CacheCounts& counts() const { return cache_.counts(); }
   // Host: the memory has new contents.
   void forget_all() { cache_.clear(); }
+  void forget(std::int64_t line) { cache_.forget(line); }
 
  private:
   struct Tags final : Stage {

@@ -218,6 +218,21 @@ std::vector<Pipe::CacheReport> Pipe::caches() const {
           {"texels", texels_.counts(), memory_.texels.line_bytes}};
 }
 
+void Pipe::forget(std::size_t i, const std::vector<std::int64_t>& lines) {
+  for (const std::int64_t line : lines) {
+    if (i == 0) levels_.forget(line);
+    if (i == 1) matter_words_.forget(line);
+    if (i == 2) light_cells_.forget(line);
+    if (i == 3) columns_.forget(line);
+    if (i == 4) texels_.forget(line);
+  }
+}
+
+void Pipe::forget_all() {
+  levels_.forget_all(), matter_words_.forget_all(), light_cells_.forget_all();
+  columns_.forget_all(), texels_.forget_all();
+}
+
 std::vector<Pipe::ChannelState> Pipe::channels() const {
   std::vector<ChannelState> of;
   of.reserve(states_.size());

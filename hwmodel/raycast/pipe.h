@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -101,6 +102,9 @@ class Pipe {
     int line_bytes;
   };
   std::vector<CacheReport> caches() const;
+  // Between two pictures: the memory has other lines of volume i, in the order of `caches`; or all is new.
+  void forget(std::size_t i, const std::vector<std::int64_t>& lines);
+  void forget_all();
   struct ChannelState {
     std::string name;
     int count, depth;

@@ -166,6 +166,13 @@ void RayCaster::poll(std::function<void()> poll) { machine_->poll = std::move(po
 FrameEnd RayCaster::draw_first() { return machine_->run_pass(false, 1, 0); }
 FrameEnd RayCaster::draw_again(int samples, int most) { return machine_->run_pass(true, samples, most); }
 
+void RayCaster::forget(std::size_t i, const std::vector<std::int64_t>& lines) {
+  for (const auto& pipe : machine_->pipes) pipe->forget(i, lines);
+}
+void RayCaster::forget_all() {
+  for (const auto& pipe : machine_->pipes) pipe->forget_all();
+}
+
 std::int64_t RayCaster::cycle() const { return machine_->shared.cycle(); }
 int RayCaster::pipes() const { return machine_->configuration.pipes; }
 const Pipe& RayCaster::pipe(int i) const { return *machine_->pipes[static_cast<std::size_t>(i)]; }

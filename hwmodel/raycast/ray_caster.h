@@ -2,12 +2,14 @@
 // for the memory and one for the tiles; inside, plain two-phase channels.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/layout.h"
@@ -45,6 +47,10 @@ class RayCaster {
   FrameEnd draw_first();
   // Draws those that differ by more than `most` with so many samples: into the frame behind it.
   FrameEnd draw_again(int samples, int most);
+
+  // After an upload: lines of volume i (Pipe::caches) are others; or all is new.
+  void forget(std::size_t i, const std::vector<std::int64_t>& lines);
+  void forget_all();
 
   std::int64_t cycle() const;  // of the present frame
   int pipes() const;

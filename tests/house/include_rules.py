@@ -50,7 +50,7 @@ ALLOWED = {
     "hwmodel/faults": ["hwmodel/channel", "hwmodel/stream"],
     # The ray caster sees nothing of the software at all: the host's part is in hwmodel/picture.
     "hwmodel/raycast": ["hwmodel/channel", "hwmodel/process"],
-    "hwmodel/picture": ["hwmodel/raycast", f"{STATE}/volume.h", "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image",
+    "hwmodel/picture": ["hwmodel/raycast", STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image",
                         "render/density", "render/ground", "render/packet", "render/reference"],
     "hwmodel/presets": ["hwmodel/raycast", "hwmodel/stream", "kernel/scene/text"],
     "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],

@@ -1,0 +1,98 @@
+// Keeps the ray caster's registers and memory up to date: after a step, only bricks that changed are sent.
+//
+// Bricks come from the list of those that the field's filter went through. Light, heights and texels have no
+// such list: the host compares them with what it has sent, line by line.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/picture/upload.h"
+#include "hwmodel/raycast/stage.h"
+#include "hwmodel/raycast/upload_stage.h"
+#include "kernel/automaton/state/grid.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+enum class Sent : std::uint8_t { levels, matter, light, heights, texels };
+inline constexpr std::size_t kSentVolumes = 5;
+
+struct SentBrick {
+  Sent volume = Sent::levels;
+  state::Grid brick;
+  bool other = false;  // a byte of it was another one in memory
+  friend bool operator==(const SentBrick& a, const SentBrick& b) {
+    return a.volume == b.volume && a.brick.x == b.brick.x && a.brick.y == b.brick.y && a.brick.z == b.brick.z;
+  }
+};
+
+struct UploadReport {
+  bool whole = false;  // everything was sent
+  std::vector<SentBrick> bricks;
+  std::array<std::vector<std::int64_t>, kSentVolumes> lines;  // caches must forget them
+  std::array<std::int64_t, kSentVolumes> bytes{};
+  std::array<std::int64_t, kSentVolumes> other_bytes{};  // of lines that were others
+  std::int64_t slots = 0, skip_words = 0;                // register words: 32 bits, 16 bits
+  std::int64_t words = 0, bursts = 0, cycles = 0;
+  Account account;
+};
+
+// A fault: in that update, counted from 0, a brick is not sent.
+struct ForgottenBrick {
+  std::int64_t update = 0;
+  SentBrick brick;
+};
+
+class Uploader {
+ public:
+  explicit Uploader(const Configuration& configuration) : configuration_(configuration) {}
+
+  // Takes over a picture's data. `changed`: bricks of the field that were filtered again since the last call
+  // (DensityField::refreshed), or null for all. Another grid or size of picture, and bricks for which there
+  // is no room any more, make it send everything.
+  UploadReport update(const render::PictureData& data, const std::vector<std::uint32_t>* changed);
+  void forget(const ForgottenBrick& brick) { forgotten_ = brick; }
+
+  const Registers& registers() const { return registers_; }
+  Memory& memory() { return memory_; }
+
+ private:
+  bool is_whole(const render::PictureData& data) const;
+  std::vector<SentBrick> all_bricks(const render::PictureData& data) const;
+  std::vector<SentBrick> due_bricks(const render::PictureData& data,
+                                    const std::vector<std::uint32_t>& changed) const;
+  void send_bricks(const render::PictureData& data, UploadReport& report);
+  void send_lines(const render::PictureData& data, UploadReport& report);
+  void send_registers(const render::PictureData& data, UploadReport& report);
+  bool send(const Layout& layout, Sent volume, std::int64_t line, const std::uint8_t* bytes,
+            UploadReport& report);
+
+  Configuration configuration_;
+  Registers registers_;
+  Memory memory_;
+  Upload upload_;
+  std::int64_t room_ = 0;  // for so many bricks
+  std::int64_t updates_ = 0;
+  std::optional<ForgottenBrick> forgotten_;
+};
+
+// Where registers and memory are not what a picture's data say, by places: the data may come from another
+// object, which stores its bricks elsewhere.
+struct UploadDifference {
+  std::string volume;
+  state::Grid brick, place;  // the brick of a sparse volume; the place, column or cell of light
+  std::int64_t expected = 0, actual = 0;
+};
+struct UploadComparison {
+  std::optional<UploadDifference> first;
+  std::int64_t compared = 0;  // words
+};
+UploadComparison compare_upload(const Registers& registers, const Memory& memory,
+                                const render::PictureData& data);
+std::string text_of(const UploadDifference& difference, std::int64_t step);
+
+}  // namespace voxmelt::hwmodel::raycast
