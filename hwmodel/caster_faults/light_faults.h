@@ -2,9 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <utility>
 
 #include "hwmodel/caster_faults/planted.h"
 
