@@ -35,9 +35,11 @@ class FetchFaults : public Planted {
     }
     Words wrong = words;
     if (armed(Fault::cache_wrong_way)) {
-      gather.read_words(entry, [&](std::size_t i) { return other_way(gather, entry, i); }, wrong.data());
+      gather.read_words(
+          entry, [&](std::size_t i) { return other_way(gather, entry, i); }, wrong.data());
     } else if (armed(Fault::levels_border)) {
-      gather.read_words(entry, [&](std::size_t) { return gather.bytes_in(entry.slots[0]); }, wrong.data());
+      gather.read_words(
+          entry, [&](std::size_t) { return gather.bytes_in(entry.slots[0]); }, wrong.data());
     } else if (armed(Fault::levels_bank_swap)) {
       std::swap(wrong[0], wrong[1]);
     } else {

@@ -40,7 +40,8 @@ class LightFaults : public Planted {
       std::copy(look.highlight.begin() + 1, look.highlight.end(), wrong.highlight.begin());
       replace("mirror", of.id, of.mirrored.peak, with(wrong).peak);
     }
-    if (armed(Fault::mirror_ray)) replace("mirror", of.id, of.mirrored.reflected, Vec{} - of.mirrored.reflected);
+    if (armed(Fault::mirror_ray))
+      replace("mirror", of.id, of.mirrored.reflected, Vec{} - of.mirrored.reflected);
   }
 
   void coloured(Surface& of) {

@@ -18,9 +18,10 @@ class SurfaceFaults : public Planted {
     const Vec& q = levels.request.at;
     constexpr std::int64_t kOne = 1 << 12;  // of a weight
     const auto try_at = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
-      const auto room = [](std::int64_t at, std::int64_t more) { return weight_of(at) < 255 ? at + more : at; };
-      const std::int64_t wrong =
-          sample_of(levels.words.data(), {room(q.x, x), room(q.y, y), room(q.z, z)});
+      const auto room = [](std::int64_t at, std::int64_t more) {
+        return weight_of(at) < 255 ? at + more : at;
+      };
+      const std::int64_t wrong = sample_of(levels.words.data(), {room(q.x, x), room(q.y, y), room(q.z, z)});
       replace_level(levels, level, wrong);
     };
     if (armed(Fault::sample_weight_x)) try_at(kOne, 0, 0);
@@ -30,8 +31,8 @@ class SurfaceFaults : public Planted {
       const Vec plane{q.x, q.y, (q.z >> kCellBits) << kCellBits};  // its weight along z is 0
       std::array<std::int16_t, 8> upper{};
       for (std::size_t i = 0; i < 4; ++i) upper[i] = levels.words[4 + i];
-      const std::int64_t below = sample_of(levels.words.data(), plane), above = sample_of(upper.data(), plane),
-                         wz = weight_of(q.z);
+      const std::int64_t below = sample_of(levels.words.data(), plane),
+                         above = sample_of(upper.data(), plane), wz = weight_of(q.z);
       replace_level(levels, level, (below * (256 - wz) + above * wz) >> 8);
     }
   }

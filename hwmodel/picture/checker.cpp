@@ -48,7 +48,9 @@ Checker::Checker(const Expectation& expectation, RayCaster& caster, int width, i
   tiles_x_ = (width + kTileSide - 1) / kTileSide;
 }
 
-Watchers Checker::watchers() { return {this, this, this, this, this, this, this, this, this, this, this, this}; }
+Watchers Checker::watchers() {
+  return {this, this, this, this, this, this, this, this, this, this, this, this};
+}
 
 void Checker::begin_pass(int samples, int most, std::int64_t frame) {
   samples_ = samples, most_ = most, frame_ = frame;
@@ -303,7 +305,8 @@ void Checker::entered(int, std::int64_t, const PixelToken* token) {
   for (std::size_t c = 0; c < 3; ++c)
     expected[c] = render::byte_table()[static_cast<std::size_t>((sum[c] + samples_ / 2) / samples_)];
   compare("pixel", token->id, "bytes", expected, token->bytes);
-  std::copy(expected.begin(), expected.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(byte_of(id.x, id.y)));
+  std::copy(expected.begin(), expected.end(),
+            bytes_.begin() + static_cast<std::ptrdiff_t>(byte_of(id.x, id.y)));
 }
 
 // Beyond the edges of the picture, a tile holds zeros.

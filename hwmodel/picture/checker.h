@@ -90,7 +90,7 @@ class Checker final : FifoWatcher<TileOrder>,
   std::vector<std::int32_t> places_;  // of rays in `rays_`, by pixel and sample; -1: not there
   std::vector<ExpectedRay> rays_;
   std::vector<std::int32_t> free_;
-  std::vector<Rgb> sums_;                   // of pressed light, by pixel
+  std::vector<Rgb> sums_;                    // of pressed light, by pixel
   std::vector<std::uint8_t> bytes_, first_;  // expected, tile by tile; of the first pass
   int most_ = 0, tiles_x_ = 0;
   std::int64_t frame_ = 0;

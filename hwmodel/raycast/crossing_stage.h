@@ -93,7 +93,7 @@ class CrossingStage final : public Stage {
     const Context& of = at(i);
     const GroundedRay& ray = of.hit.ray;
     Crossing met = of.hit.k == 0 ? Crossing{true, 0, 2048, on_wires<32>(ray.ray.start)}
-                                       : crossing_of(of.bracket, of.hit.k);
+                                 : crossing_of(of.bracket, of.hit.k);
     faults_.crossed(of.hit, of.bracket, met);
     *out_->put() = {ray.id, ray.ray, ray.ground, met};
     walk_.give_back(i);

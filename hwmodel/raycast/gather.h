@@ -235,7 +235,8 @@ class Gather final : public LineClient {
     reading_ = 0;
     Out& to = *out.put();
     to.request = entry.request;
-    read_words(entry, [&](std::size_t which) { return bytes_in(entry.slots[which]); }, to.words.data());
+    read_words(
+        entry, [&](std::size_t which) { return bytes_in(entry.slots[which]); }, to.words.data());
     faults_.fetched(*this, entry, to.words);
     for (std::size_t i = 0; i < all; ++i)
       if (entry.lost[i] >= 0) cache_.release(entry.lost[i]);

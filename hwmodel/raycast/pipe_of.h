@@ -28,8 +28,8 @@ namespace voxmelt::hwmodel::raycast {
 template <class Faults>
 class PipeOf final : public Pipe {
  public:
-  PipeOf(const Registers& registers, const FrameRegisters& frame, const Memory& memory, const Configuration& c,
-         int number, Faults faults = {});
+  PipeOf(const Registers& registers, const FrameRegisters& frame, const Memory& memory,
+         const Configuration& c, int number, Faults faults = {});
 
   void connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory, Fifo<LineReply>& replies) override;
   void watch(const Watchers& watchers) override { watch_(watchers); }
@@ -257,13 +257,14 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
       {&level_lines, &matter_lines, &light_lines, &column_lines, &texel_lines, &tile_lines, &written},
       to_memory, replies, {&levels_, &matter_words_, &light_cells_, &columns_, &texels_, &tiles_});
 
-  watch_ = [orders = &orders, written = &written, set_up = &set_up, ground = &ground, asks = &level_asks, levels = &levels,
-            normal_levels = &normal_levels, walk_levels = &walk_levels, crossing_levels = &crossing_levels,
-            hits = &hits, missed = &missed, crossed = &crossed,
+  watch_ = [orders = &orders, written = &written, set_up = &set_up, ground = &ground, asks = &level_asks,
+            levels = &levels, normal_levels = &normal_levels, walk_levels = &walk_levels,
+            crossing_levels = &crossing_levels, hits = &hits, missed = &missed, crossed = &crossed,
             surfaces =
                 std::vector{&met, &normal, &paint, &texture, &matter, &light, &arriving, &mirror, &colour},
             pressed = &pressed, pixels = &pixels](const Watchers& w) {
-    orders->watch(w.tiles), written->watch(w.written), set_up->watch(w.set_up), ground->watch(w.ground), asks->watch(w.asks);
+    orders->watch(w.tiles), written->watch(w.written), set_up->watch(w.set_up), ground->watch(w.ground),
+        asks->watch(w.asks);
     levels->watch(w.levels), normal_levels->watch(w.levels);
     walk_levels->watch(w.samples), crossing_levels->watch(w.samples);
     hits->watch(w.hits), missed->watch(w.met), crossed->watch(w.met);

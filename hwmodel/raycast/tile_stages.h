@@ -90,7 +90,8 @@ class TileStage final : public Stage, public LineClient {
     if (missing_ > 0) return Did::memory;
     if (buffers_.free.empty() || !out_->ready()) return Did::blocked;
     std::uint64_t pixels = pixels_of(job, frame_.most, kBeside);
-    faults_.chosen(job, frame_.most, [&](int most, unsigned beside) { return pixels_of(job, most, beside); }, pixels);
+    faults_.chosen(
+        job, frame_.most, [&](int most, unsigned beside) { return pixels_of(job, most, beside); }, pixels);
     const int i = buffers_.free.back();
     buffers_.free.pop_back();
     TileBuffer& buffer = buffers_.at(i);

@@ -30,9 +30,9 @@ void put_solid(state::Volume& volume, int x, int y, int z, int amount) {
 }
 
 // A wall whose surface lies just inside of the blocks of four places. Cell c is place c + 2, so the places 8
-// and 16 are borders of blocks, and the cells there decide how near the surface comes. With corners, they hold
-// something else in each block: in some of them the first sample beyond the border is in matter. Without, no
-// block sticks out of the box of what is occupied.
+// and 16 are borders of blocks, and the cells there decide how near the surface comes. With corners, they
+// hold something else in each block: in some of them the first sample beyond the border is in matter.
+// Without, no block sticks out of the box of what is occupied.
 Case wall_at_border(int seed, bool corners) {
   Case of;
   of.picture.volume = state::Volume(state::Grid{24, 24, 24});
@@ -94,7 +94,8 @@ Case hostile(int seed) {
   c.levels = {random.any({1, 4}), random.any({1, 2, 4}), 8, 64};
   c.level_bits = random.between(1, 3);
   c.apron = random.one_in(3);
-  if (of.picture.camera.width * of.picture.camera.height > 500) of.picture.camera.width = of.picture.camera.height = 20;
+  if (of.picture.camera.width * of.picture.camera.height > 500)
+    of.picture.camera.width = of.picture.camera.height = 20;
   of.picture.setting = render::Setting::normal;
   return of;
 }
