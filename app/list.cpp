@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/resources.h"
+#include "hwmodel/caster_faults/faults.h"
 #include "hwmodel/faults/faults.h"
 #include "hwmodel/presets/presets.h"
 #include "kernel/scene/features.h"
@@ -59,6 +60,9 @@ int list_cases() {
 
 int list_faults() {
   for (const hwmodel::FaultInfo& fault : hwmodel::all_faults())
+    fmt::print("{:<24} {:<14} {}\n", fault.name, fault.stage, fault.what);
+  fmt::print("\nwith --picture, in the ray caster:\n");
+  for (const hwmodel::raycast::FaultInfo& fault : hwmodel::raycast::all_faults())
     fmt::print("{:<24} {:<14} {}\n", fault.name, fault.stage, fault.what);
   return kDone;
 }

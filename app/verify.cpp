@@ -199,7 +199,11 @@ int run_picture(const VerifyCommand& command) {
 
 int run_verify(VerifyCommand command) {
   split_sets(command);
-  if (command.picture.asked) return run_picture(command);
+  if (command.picture.asked) {
+    if (command.plant_step) throw UsageError("error: --plant-step: a picture has no steps (--picture)");
+    command.picture.plant = command.plant;
+    return run_picture(command);
+  }
   const hwmodel::FaultInfo* fault = hwmodel::find_fault(command.plant);
   if (!command.plant.empty() && (fault == nullptr || fault->fault == hwmodel::Fault::none))
     throw UsageError(

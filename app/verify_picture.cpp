@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/film.h"
 #include "app/interrupt.h"
+#include "hwmodel/caster_faults/faults.h"
 #include "hwmodel/picture/report_picture.h"
 #include "hwmodel/picture/verify_picture.h"
 #include "hwmodel/presets/caster_preset.h"
@@ -61,14 +62,25 @@ int verify_picture(const Common& common, const PictureChoice& choice, const scen
   const render::Setting setting = choice.setting == "fast"   ? render::Setting::fast
                                   : choice.setting == "best" ? render::Setting::best
                                                              : render::Setting::normal;
+  const hwmodel::raycast::FaultInfo* fault = hwmodel::raycast::find_fault(choice.plant);
+  if (!choice.plant.empty() && fault == nullptr)
+    throw UsageError(fmt::format(
+        "error: --plant {}: unknown in the ray caster; `voxmelt list faults` names them", choice.plant));
+  if (!choice.plant.empty() && !choice.compare)
+    throw UsageError("error: --plant: with --no-compare no stage is compared");
   check_report_place(common, "");
   hwmodel::raycast::PictureOptions options;
   options.configuration = configured.configuration;
   options.compare = choice.compare;
   options.frames = choice.frames;
+  if (fault != nullptr) options.fault = fault->fault;
   options.poll = stop_if_interrupted;
   const hwmodel::raycast::PictureReport report = hwmodel::raycast::verify_picture(
       {state.volume(), scene.look, scene.light, scene.terrain, camera, setting}, options);
+
+  if (fault != nullptr && report.good() && !report.strike)
+    throw UsageError(fmt::format(
+        "error: --plant {}: in this picture there is nothing that this fault could change", choice.plant));
 
   fmt::print("{}: step {}, {} x {}, {}; pipes {}, fifo depth {}, stall seed {}\n", scene.name,
              state.step_number(), camera.width, camera.height, choice.setting, options.configuration.pipes,
@@ -77,7 +89,7 @@ int verify_picture(const Common& common, const PictureChoice& choice, const scen
   fmt::print("{}", hwmodel::raycast::verdict_text(report));
   write_report(common, hwmodel::raycast::json_of(report, options.configuration).dump(2) + '\n');
   if (!choice.png.empty()) render::write_png(choice.png, report.image);
-  return report.good() ? kDone : kCheckFailed;
+  return report.good() && !report.strike ? kDone : kCheckFailed;
 }
 
 }  // namespace voxmelt::app

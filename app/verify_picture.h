@@ -14,7 +14,7 @@ namespace voxmelt::app {
 
 struct PictureChoice {
   bool asked = false, compare = true;
-  std::string view, size, setting = "normal", png;
+  std::string view, size, setting = "normal", png, plant;
   int frames = 1;
 };
 void add_picture_choice(CLI::App& command, PictureChoice& choice);

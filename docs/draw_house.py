@@ -36,6 +36,7 @@ PURPOSES = {
     "hwmodel/faults": "planted, to be found",
     "hwmodel/presets": "hardware configurations",
     "hwmodel/raycast": "draws pictures, with its own arithmetic",
+    "hwmodel/caster_faults": "planted in it, to be found",
     "hwmodel/picture": "its host; holds it against the software",
     "hwmodel/lockstep": "holds the model against the software, bit for bit",
     "render": "the pictures",

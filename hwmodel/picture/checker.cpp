@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
 #include "render/packet/tables.h"
+#include "render/rule/antialias.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
@@ -42,13 +44,20 @@ std::string text_of(const Difference& d) {
 
 Checker::Checker(const Expectation& expectation, RayCaster& caster, int width, int height)
     : expectation_(expectation), caster_(caster), width_(static_cast<std::size_t>(width)), height_(height) {
-  begin_pass(1);
+  bytes_.resize(static_cast<std::size_t>(frame_bytes(width, height)));
+  tiles_x_ = (width + kTileSide - 1) / kTileSide;
 }
 
-Watchers Checker::watchers() { return {this, this, this, this, this, this, this, this, this, this}; }
+Watchers Checker::watchers() {
+  return {this, this, this, this, this, this, this, this, this, this, this, this};
+}
 
-void Checker::begin_pass(int samples) {
-  samples_ = samples;
+void Checker::begin_pass(int samples, int most, std::int64_t frame) {
+  samples_ = samples, most_ = most, frame_ = frame;
+  if (samples == 1)
+    std::fill(bytes_.begin(), bytes_.end(), std::uint8_t{0});
+  else
+    first_ = bytes_;
   const std::size_t pixels = width_ * static_cast<std::size_t>(height_);
   places_.assign(pixels * static_cast<std::size_t>(samples), -1);
   sums_.assign(pixels, {});
@@ -60,6 +69,23 @@ std::size_t Checker::index_of(const RayId& id) const {
   return (static_cast<std::size_t>(id.y) * width_ + static_cast<std::size_t>(id.x)) *
              static_cast<std::size_t>(samples_) +
          static_cast<std::size_t>(id.sample);
+}
+
+std::size_t Checker::byte_of(int x, int y) const {
+  const int tile = y / kTileSide * tiles_x_ + x / kTileSide;
+  return static_cast<std::size_t>(tile * kTileBytes + 3 * (y % kTileSide * kTileSide + x % kTileSide));
+}
+
+bool Checker::drawn_again(int x, int y) const {
+  const int width = static_cast<int>(width_);
+  const auto at = [&](int px, int py) {
+    const std::uint8_t* bytes = first_.data() + byte_of(px, py);
+    return std::array<std::uint8_t, 3>{bytes[0], bytes[1], bytes[2]};
+  };
+  const auto from = [&](int nx, int ny) {
+    return nx >= 0 && ny >= 0 && nx < width && ny < height_ && picture::differ(at(x, y), at(nx, ny), most_);
+  };
+  return from(x - 1, y) || from(x + 1, y) || from(x, y - 1) || from(x, y + 1);
 }
 
 ExpectedRay& Checker::ray(const RayId& id) {
@@ -100,6 +126,15 @@ void Checker::compare(const char* stage, const RayId& id, const char* name, cons
                            position != nullptr ? *position : Vec{},
                            position != nullptr};
   caster_.stop();
+}
+
+void Checker::entered(int, std::int64_t, const TileOrder* token) {
+  for (int i = 0; i < kTilePixels; ++i) {
+    const int x = token->x + i % kTileSide, y = token->y + i / kTileSide;
+    const bool in = x < static_cast<int>(width_) && y < height_;
+    compare("tiles", {x, y, 0, 0}, "to be drawn", in && (samples_ == 1 || drawn_again(x, y)),
+            (token->pixels >> i & 1) != 0);
+  }
 }
 
 void Checker::entered(int, std::int64_t, const RayToken* token) {
@@ -197,6 +232,7 @@ void Checker::compare_surface(Channel behind, const Surface& e, const Surface& a
     case Channel::paint:
       stage = "paint";
       if (ground) same("normal", vec_of(ray.ground_normal), a.normal);
+      if (ground && e.face != Face::top) same("color", e.color, a.color);  // rock may still come
       return;
     case Channel::texture:
       stage = "texture";
@@ -269,6 +305,18 @@ void Checker::entered(int, std::int64_t, const PixelToken* token) {
   for (std::size_t c = 0; c < 3; ++c)
     expected[c] = render::byte_table()[static_cast<std::size_t>((sum[c] + samples_ / 2) / samples_)];
   compare("pixel", token->id, "bytes", expected, token->bytes);
+  std::copy(expected.begin(), expected.end(),
+            bytes_.begin() + static_cast<std::ptrdiff_t>(byte_of(id.x, id.y)));
+}
+
+// Beyond the edges of the picture, a tile holds zeros.
+void Checker::entered(int, std::int64_t, const LineRequest* token) {
+  const std::int64_t from = token->address - frame_;
+  const auto tile = static_cast<int>(from / kTileBytes);
+  const RayId first{tile % tiles_x_ * kTileSide, tile / tiles_x_ * kTileSide, 0, 0};
+  std::array<std::uint8_t, kBurst> expected{};
+  std::copy_n(bytes_.begin() + from, kBurst, expected.begin());
+  compare("write", first, "bytes of the tile", expected, token->data);
 }
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -24,7 +24,8 @@ struct Difference {
 };
 std::string text_of(const Difference& difference);
 
-class Checker final : FifoWatcher<RayToken>,
+class Checker final : FifoWatcher<TileOrder>,
+                      FifoWatcher<RayToken>,
                       FifoWatcher<GroundedRay>,
                       FifoWatcher<LevelRequest>,
                       FifoWatcher<Levels>,
@@ -33,16 +34,20 @@ class Checker final : FifoWatcher<RayToken>,
                       FifoWatcher<MetToken>,
                       FifoWatcher<Surface>,
                       FifoWatcher<PressedToken>,
-                      FifoWatcher<PixelToken> {
+                      FifoWatcher<PixelToken>,
+                      FifoWatcher<LineRequest> {
  public:
   Checker(const Expectation& expectation, RayCaster& caster, int width, int height);
 
   Watchers watchers();
-  void begin_pass(int samples);  // of a pixel
+  // The first pass has one sample of a pixel. The second one has several, of the pixels that differ from a
+  // neighbour by more than `most`. `frame`: where it is written.
+  void begin_pass(int samples, int most, std::int64_t frame);
   const std::optional<Difference>& difference() const { return difference_; }
   std::int64_t compared() const { return compared_; }  // numbers
 
  private:
+  void entered(int channel, std::int64_t ordinal, const TileOrder* token) override;
   void entered(int channel, std::int64_t ordinal, const RayToken* token) override;
   void entered(int channel, std::int64_t ordinal, const GroundedRay* token) override;
   void entered(int channel, std::int64_t ordinal, const LevelRequest* token) override;
@@ -53,6 +58,8 @@ class Checker final : FifoWatcher<RayToken>,
   void entered(int channel, std::int64_t ordinal, const Surface* token) override;
   void entered(int channel, std::int64_t ordinal, const PressedToken* token) override;
   void entered(int channel, std::int64_t ordinal, const PixelToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const LineRequest* token) override;
+  void left(int, std::int64_t, const TileOrder*) override {}
   void left(int, std::int64_t, const RayToken*) override {}
   void left(int, std::int64_t, const GroundedRay*) override {}
   void left(int, std::int64_t, const LevelRequest*) override {}
@@ -63,10 +70,13 @@ class Checker final : FifoWatcher<RayToken>,
   void left(int, std::int64_t, const Surface*) override {}
   void left(int, std::int64_t, const PressedToken*) override {}
   void left(int, std::int64_t, const PixelToken*) override {}
+  void left(int, std::int64_t, const LineRequest*) override {}
 
   ExpectedRay& ray(const RayId& id);
   ExpectedRay& shaded(const RayId& id);
   std::size_t index_of(const RayId& id) const;
+  std::size_t byte_of(int x, int y) const;  // in a frame
+  bool drawn_again(int x, int y) const;
   template <class Value>
   void compare(const char* stage, const RayId& id, const char* name, const Value& expected,
                const Value& actual, const Vec* position = nullptr);
@@ -80,7 +90,10 @@ class Checker final : FifoWatcher<RayToken>,
   std::vector<std::int32_t> places_;  // of rays in `rays_`, by pixel and sample; -1: not there
   std::vector<ExpectedRay> rays_;
   std::vector<std::int32_t> free_;
-  std::vector<Rgb> sums_;  // of pressed light, by pixel
+  std::vector<Rgb> sums_;                    // of pressed light, by pixel
+  std::vector<std::uint8_t> bytes_, first_;  // expected, tile by tile; of the first pass
+  int most_ = 0, tiles_x_ = 0;
+  std::int64_t frame_ = 0;
   std::optional<Difference> difference_;
   std::int64_t compared_ = 0;
 };

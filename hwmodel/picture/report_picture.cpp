@@ -100,6 +100,12 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                           {"sample", d.sample},     {"cycle", d.cycle},  {"name", d.name},
                           {"expected", d.expected}, {"actual", d.actual}};
   }
+  if (report.strike)
+    json["planted"] = {{"stage", report.strike->stage},
+                       {"x", report.strike->x},
+                       {"y", report.strike->y},
+                       {"sample", report.strike->sample},
+                       {"found_there", report.found_where_planted()}};
   return json;
 }
 
@@ -107,6 +113,12 @@ std::string verdict_text(const PictureReport& report) {
   std::string text;
   if (report.difference) text += text_of(*report.difference);
   text += report.hang;
+  if (report.strike)
+    text += fmt::format("planted: {}, pixel ({}, {}), sample {}; {}\n", report.strike->stage,
+                        report.strike->x, report.strike->y, report.strike->sample,
+                        report.good()                  ? "NOT FOUND"
+                        : report.found_where_planted() ? "found there"
+                                                       : "found, but ELSEWHERE");
   if (report.good())
     return text +
            fmt::format("{} numbers compared, and the bytes of the picture: no difference\n", report.compared);

@@ -1,10 +1,12 @@
 #include "hwmodel/picture/verify_picture.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <ctime>
 #include <stdexcept>
 
+#include "hwmodel/caster_faults/planted_pipe.h"
 #include "hwmodel/picture/expectation.h"
 #include "hwmodel/picture/upload.h"
 #include "render/density/density_field.h"
@@ -29,14 +31,21 @@ render::Image image_of(const Memory& memory, std::int64_t frame, int width, int 
   return image;
 }
 
-std::string hang_of(const RayCaster& caster) {
-  std::string text;
+void tell_hang(PictureReport& report, const RayCaster& caster) {
+  std::string text, waiting;
   for (int i = 0; i < caster.pipes(); ++i)
     for (const Pipe::ChannelState& channel : caster.pipe(i).channels())
       if (channel.count > 0)
         text += "  pipe " + std::to_string(i) + ": " + channel.name + ": " + std::to_string(channel.count) +
                 " of " + std::to_string(channel.depth) + "\n";
-  return "nothing moves any more; channels that hold tokens:\n" + text;
+  for (int i = 0; i < caster.pipes(); ++i)
+    for (const Stage* stage : caster.pipe(i).stages()) {
+      if (!stage->waits_for_memory()) continue;
+      report.waiting.push_back(stage->name());
+      waiting += "  pipe " + std::to_string(i) + ": " + stage->name() + "\n";
+    }
+  report.hang = "nothing moves any more; channels that hold tokens:\n" + text +
+                "stages that wait for the memory:\n" + waiting;
 }
 
 void add(Account& sum, const Account& more) {
@@ -73,6 +82,13 @@ void take_accounts(PictureReport& report, const RayCaster& caster) {
 
 }  // namespace
 
+bool PictureReport::found_where_planted() const {
+  if (!strike) return false;
+  if (!difference) return std::find(waiting.begin(), waiting.end(), strike->stage + " data") != waiting.end();
+  return difference->stage == strike->stage && difference->x == strike->x && difference->y == strike->y &&
+         difference->sample == strike->sample;
+}
+
 PictureReport verify_picture(const PictureInput& input, const PictureOptions& options) {
   const bool fast = input.setting == render::Setting::fast;
   render::DensityField field;
@@ -88,7 +104,9 @@ PictureReport verify_picture(const PictureInput& input, const PictureOptions& op
   const Registers registers = registers_of(data);
   Memory memory = memory_of(data, c);
   const Expectation expectation(scene, camera, input.setting);
-  RayCaster caster(registers, memory, c);
+  FaultPlan plan(options.fault);
+  RayCaster caster(registers, memory, c,
+                   options.fault == Fault::none ? PipeMaker(make_pipe) : planted_pipes(plan));
   caster.poll(options.poll);
   Checker checker(expectation, caster, data.width, data.height);
   if (options.compare) caster.watch(checker.watchers());
@@ -98,11 +116,11 @@ PictureReport verify_picture(const PictureInput& input, const PictureOptions& op
   const int most = input.setting == render::Setting::best ? 8 : 16;
   const std::clock_t begin = std::clock();  // of the processor: the machine may have other work
   for (int frame = 0; frame < options.frames && !checker.difference(); ++frame) {
-    checker.begin_pass(1);
+    checker.begin_pass(1, 0, memory.frame);
     report.end = caster.draw_first();
     report.all_cycles += report.end.cycles;
     if (fast || checker.difference() || !report.end.complete) continue;
-    checker.begin_pass(samples);
+    checker.begin_pass(samples, most, memory.frame + frame_bytes(data.width, data.height));
     const FrameEnd second = caster.draw_again(samples, most);
     report.all_cycles += second.cycles;
     report.end = {report.end.cycles + second.cycles, second.complete, second.hangs};
@@ -110,7 +128,8 @@ PictureReport verify_picture(const PictureInput& input, const PictureOptions& op
   report.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   report.difference = checker.difference();
   report.compared = checker.compared();
-  if (report.end.hangs) report.hang = hang_of(caster);
+  if (report.end.hangs) tell_hang(report, caster);
+  report.strike = plan.struck();
   if (options.compare && report.compared == 0) throw std::logic_error("lock-step compared nothing");
 
   report.image = image_of(memory, memory.frame + (fast ? 0 : frame_bytes(data.width, data.height)),

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hwmodel/caster_faults/faults.h"
 #include "hwmodel/picture/checker.h"
 #include "kernel/automaton/state/volume.h"
 #include "kernel/scene/look.h"
@@ -29,6 +30,7 @@ struct PictureInput {
 
 struct PictureOptions {
   Configuration configuration;
+  Fault fault = Fault::none;
   bool compare = true;  // behind every stage; the bytes are always compared
   int frames = 1;       // the same one again and again: later ones find the caches warm
   std::function<void()> poll;
@@ -47,6 +49,8 @@ struct CacheAccount {
 struct PictureReport {
   std::optional<Difference> difference;
   std::string hang;                               // what is full and what is empty, if nothing moved any more
+  std::vector<std::string> waiting;               // then: stages that wait for the memory
+  std::optional<FaultPlan::Strike> strike;        // of the planted fault
   std::int64_t different_bytes = 0;               // of the pictures
   std::int64_t compared = 0;                      // numbers
   FrameEnd end;                                   // of the last frame
@@ -59,6 +63,8 @@ struct PictureReport {
   std::int64_t memory_bytes = 0;
   std::int64_t all_cycles = 0;  // of all frames
   render::Image image;
+  // At the stage, pixel and sample that the fault left wrong; what got lost there is found as a hang.
+  bool found_where_planted() const;
   bool good() const { return !difference && hang.empty() && different_bytes == 0 && end.complete; }
 };
 

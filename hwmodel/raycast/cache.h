@@ -39,6 +39,13 @@ class Cache {
       if (set[w].line == line) return true;
     return false;
   }
+  // The slot of another line of its set; -1: there is none.
+  int slot_beside(std::int64_t line) const {
+    const Tag* set = set_of(line);
+    for (std::size_t w = 0; w < ways_; ++w)
+      if (set[w].line != kNoLine && set[w].line != line) return set[w].slot;
+    return -1;
+  }
   bool has_room() const { return !free_.empty(); }
   // A miss takes a free slot.
   Found look_up(std::int64_t line) {

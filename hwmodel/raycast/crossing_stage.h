@@ -10,16 +10,18 @@
 
 #include "hwmodel/channel/fifo.h"
 #include "hwmodel/raycast/field.h"
+#include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/stage.h"
 #include "hwmodel/raycast/tokens.h"
 #include "hwmodel/raycast/walk_stage.h"
 
 namespace voxmelt::hwmodel::raycast {
 
+template <class Faults = NoFaults>
 class CrossingStage final : public Stage {
  public:
-  CrossingStage(WalkStage& walk, int rays)
-      : Stage("crossing"), walk_(walk), rays_(static_cast<std::size_t>(rays)) {}
+  CrossingStage(WalkStage<Faults>& walk, int rays, Faults faults = {})
+      : Stage("crossing"), walk_(walk), faults_(faults), rays_(static_cast<std::size_t>(rays)) {}
   void connect(Fifo<HitToken>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<MetToken>& out) {
     in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
   }
@@ -90,14 +92,16 @@ class CrossingStage final : public Stage {
   void finish(int i) {
     const Context& of = at(i);
     const GroundedRay& ray = of.hit.ray;
-    const Crossing met = of.hit.k == 0 ? Crossing{true, 0, 2048, on_wires<32>(ray.ray.start)}
-                                       : crossing_of(of.bracket, of.hit.k);
+    Crossing met = of.hit.k == 0 ? Crossing{true, 0, 2048, on_wires<32>(ray.ray.start)}
+                                 : crossing_of(of.bracket, of.hit.k);
+    faults_.crossed(of.hit, of.bracket, met);
     *out_->put() = {ray.id, ray.ray, ray.ground, met};
     walk_.give_back(i);
     --waiting_;
   }
 
-  WalkStage& walk_;
+  WalkStage<Faults>& walk_;
+  [[no_unique_address]] Faults faults_;
   std::vector<Context> rays_;
   int waiting_ = 0;
   std::deque<int> asking_, done_;

@@ -16,6 +16,7 @@
 #include "hwmodel/raycast/cache.h"
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/layout.h"
+#include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/stage.h"
 
 namespace voxmelt::hwmodel::raycast {
@@ -56,16 +57,17 @@ class LineClient {
 };
 
 // A Request says which places it reads, and to which channel the answer goes.
-template <class Request, class Word, std::size_t kMost>
+template <class Request, class Word, std::size_t kMost, class Faults = NoFaults>
 class Gather final : public LineClient {
  public:
   using Out = Gathered<Request, Word, kMost>;
   // `cycles`: that three places a side take.
   Gather(const std::string& name, const CacheShape& shape, const Layout& layout, int client, Word absent,
-         int cycles)
+         int cycles, Faults faults = {})
       : tags(name + " tags", *this),
         data(name + " data", *this),
         layout_(layout),
+        faults_(faults),
         client_(client),
         absent_(absent),
         cycles_(cycles),
@@ -80,6 +82,10 @@ class Gather final : public LineClient {
 
   void arrived(const LineReply& reply, const std::uint8_t* bytes) override {
     const auto slot = static_cast<std::size_t>(reply.slot);
+    if (faults_.keeps_old_line()) [[unlikely]] {
+      arrived_[slot] = 1;
+      return;
+    }
     std::memcpy(store_.data() + slot * line_bytes(), bytes, line_bytes());
     arrived_[slot] = 1;
   }
@@ -104,7 +110,7 @@ class Gather final : public LineClient {
   Tags tags;
   Data data;  // evaluate it first
 
- private:
+  // What a fault policy looks at, too.
   struct Entry {
     Request request;
     Places places;
@@ -112,6 +118,54 @@ class Gather final : public LineClient {
     std::array<std::int32_t, 8> slots{};  // -1: nothing is stored there
     std::array<std::int32_t, 8> lost{};
   };
+  const Layout& layout() const { return layout_; }
+  const Cache& cache() const { return cache_; }
+  const std::uint8_t* bytes_in(int slot) const {
+    return slot < 0 ? nullptr : store_.data() + static_cast<std::size_t>(slot) * line_bytes();
+  }
+  bool has_arrived(int slot) const { return arrived_[static_cast<std::size_t>(slot)] != 0; }
+  std::int64_t line_of(const Entry& entry, int which) const {
+    const Places& p = entry.places;
+    if (layout_.apron)
+      return layout_.line_at(p.low[0] >> kBrickBits, p.low[1] >> kBrickBits, p.low[2] >> kBrickBits);
+    const auto last = static_cast<std::size_t>(p.side - 1);
+    const int ix = which % entry.lines[0], iy = which / entry.lines[0] % entry.lines[1],
+              iz = which / entry.lines[0] / entry.lines[1];
+    return layout_.line_at(p.x[ix == 0 ? 0 : last] >> layout_.bits[0],
+                           p.y[iy == 0 ? 0 : last] >> layout_.bits[1],
+                           p.z[iz == 0 ? 0 : last] >> layout_.bits[2]);
+  }
+  // Line i of the entry is at `bytes_of(i)`; null: nothing is stored there.
+  template <class BytesOf>
+  void read_words(const Entry& entry, const BytesOf& bytes_of, Word* to) const {
+    const Places& p = entry.places;
+    const auto side = static_cast<std::size_t>(p.side);
+    for (std::size_t z = 0; z < side; ++z)
+      for (std::size_t y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < side; ++x, ++to) {
+          std::size_t which = 0;
+          int offset = 0;
+          if (layout_.apron) {
+            offset = layout_.apron_offset(p.x[x], p.y[y], p.z[z], p.low[0] >> kBrickBits,
+                                          p.low[1] >> kBrickBits, p.low[2] >> kBrickBits);
+          } else {
+            const auto beyond = [&](const std::array<std::int32_t, 3>& along, std::size_t i,
+                                    std::size_t axis) {
+              return (along[i] >> layout_.bits[axis]) == (along[0] >> layout_.bits[axis]) ? 0u : 1u;
+            };
+            which =
+                (beyond(p.z, z, 2) * entry.lines[1] + beyond(p.y, y, 1)) * entry.lines[0] + beyond(p.x, x, 0);
+            offset = layout_.offset(p.x[x], p.y[y], p.z[z]);
+          }
+          const std::uint8_t* bytes = bytes_of(which);
+          if (bytes == nullptr)
+            *to = absent_;
+          else
+            std::memcpy(to, bytes + offset, sizeof(Word));
+        }
+  }
+
+ private:
   std::size_t line_bytes() const { return static_cast<std::size_t>(layout_.line_bytes); }
 
   Did look_up() {
@@ -129,15 +183,21 @@ class Gather final : public LineClient {
         entry.slots[i] = -1;
         continue;
       }
-      const bool hit = cache_.holds(line);
+      const std::int64_t tag = faults_.tag_of(line);
+      const bool hit = cache_.holds(tag);
       if (!hit && (missed || !cache_.has_room() || !to_memory_->ready()))
         return missed ? Did::busy : Did::memory;  // one miss a cycle
-      const Cache::Found found = cache_.look_up(line);
+      const Cache::Found found = cache_.look_up(tag);
       entry.slots[i] = found.slot;
       if (found.hit) continue;
       missed = true;
-      entry.lost[i] = found.lost;
+      if (found.lost >= 0 && faults_.releases_early()) [[unlikely]]
+        cache_.release(found.lost);
+      else
+        entry.lost[i] = found.lost;
       arrived_[static_cast<std::size_t>(found.slot)] = 0;
+      if (faults_.loses_miss(entry)) [[unlikely]]
+        continue;
       LineRequest& ask = *to_memory_->put();
       ask.client = client_, ask.slot = found.slot, ask.address = layout_.address(line);
       ask.bytes = layout_.line_bytes, ask.write = false;
@@ -164,70 +224,31 @@ class Gather final : public LineClient {
     };
     entry.lines = {many(p.x, 0), many(p.y, 1), many(p.z, 2)};
   }
-  std::int64_t line_of(const Entry& entry, int which) const {
-    const Places& p = entry.places;
-    if (layout_.apron)
-      return layout_.line_at(p.low[0] >> kBrickBits, p.low[1] >> kBrickBits, p.low[2] >> kBrickBits);
-    const auto last = static_cast<std::size_t>(p.side - 1);
-    const int ix = which % entry.lines[0], iy = which / entry.lines[0] % entry.lines[1],
-              iz = which / entry.lines[0] / entry.lines[1];
-    return layout_.line_at(p.x[ix == 0 ? 0 : last] >> layout_.bits[0],
-                           p.y[iy == 0 ? 0 : last] >> layout_.bits[1],
-                           p.z[iz == 0 ? 0 : last] >> layout_.bits[2]);
-  }
-
   Did read() {
     if (count_ == 0) return Did::starved;
     Entry& entry = queue_[head_];
     const auto all = static_cast<std::size_t>(entry.lines[0] * entry.lines[1] * entry.lines[2]);
     for (std::size_t i = 0; i < all; ++i)
-      if (entry.slots[i] >= 0 && arrived_[static_cast<std::size_t>(entry.slots[i])] == 0) return Did::memory;
+      if (entry.slots[i] >= 0 && !has_arrived(entry.slots[i]) && !faults_.reads_early()) return Did::memory;
     Fifo<Out>& out = *out_[entry.request.kind_index()];
     if (!out.ready()) return Did::blocked;
     if (++reading_ < (entry.places.side == 3 ? cycles_ : 1)) return Did::busy;
     reading_ = 0;
     Out& to = *out.put();
     to.request = entry.request;
-    read_words(entry, to.words.data());
+    read_words(
+        entry, [&](std::size_t which) { return bytes_in(entry.slots[which]); }, to.words.data());
+    faults_.fetched(*this, entry, to.words);
     for (std::size_t i = 0; i < all; ++i)
       if (entry.lost[i] >= 0) cache_.release(entry.lost[i]);
     head_ = after(head_);
     --count_;
     return Did::busy;
   }
-  void read_words(const Entry& entry, Word* to) const {
-    const Places& p = entry.places;
-    const auto side = static_cast<std::size_t>(p.side);
-    for (std::size_t z = 0; z < side; ++z)
-      for (std::size_t y = 0; y < side; ++y)
-        for (std::size_t x = 0; x < side; ++x, ++to) {
-          std::size_t which = 0;
-          int offset = 0;
-          if (layout_.apron) {
-            offset = layout_.apron_offset(p.x[x], p.y[y], p.z[z], p.low[0] >> kBrickBits,
-                                          p.low[1] >> kBrickBits, p.low[2] >> kBrickBits);
-          } else {
-            const auto beyond = [&](const std::array<std::int32_t, 3>& along, std::size_t i,
-                                    std::size_t axis) {
-              return (along[i] >> layout_.bits[axis]) == (along[0] >> layout_.bits[axis]) ? 0u : 1u;
-            };
-            which =
-                (beyond(p.z, z, 2) * entry.lines[1] + beyond(p.y, y, 1)) * entry.lines[0] + beyond(p.x, x, 0);
-            offset = layout_.offset(p.x[x], p.y[y], p.z[z]);
-          }
-          const int slot = entry.slots[which];
-          if (slot < 0)
-            *to = absent_;
-          else
-            std::memcpy(to,
-                        store_.data() + static_cast<std::size_t>(slot) * line_bytes() +
-                            static_cast<std::size_t>(offset),
-                        sizeof(Word));
-        }
-  }
   std::size_t after(std::size_t i) const { return i + 1 == queue_.size() ? 0 : i + 1; }
 
   const Layout& layout_;
+  [[no_unique_address]] Faults faults_;
   int client_;
   Word absent_;
   int cycles_;

@@ -11,6 +11,7 @@
 
 #include "hwmodel/channel/fifo.h"
 #include "hwmodel/raycast/ground.h"
+#include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/stage.h"
 #include "hwmodel/raycast/tokens.h"
@@ -18,10 +19,11 @@
 namespace voxmelt::hwmodel::raycast {
 
 // Rays that the unit works on, by their numbers; each is in one of the queues.
+template <class Faults = NoFaults>
 class GroundStage final : public Stage {
  public:
-  GroundStage(const Registers& registers, int rays)
-      : Stage("ground"), registers_(registers), rays_(static_cast<std::size_t>(rays)) {
+  GroundStage(const Registers& registers, int rays, Faults faults = {})
+      : Stage("ground"), registers_(registers), faults_(faults), rays_(static_cast<std::size_t>(rays)) {
     for (int i = rays - 1; i >= 0; --i) free_.push_back(i);
   }
   void connect(Fifo<RayToken>& in, Fifo<ClampedRequest>& ask, Fifo<ColumnGather::Out>& answer,
@@ -48,7 +50,9 @@ class GroundStage final : public Stage {
     }
     if (!done_.empty()) {
       if (out_->ready()) {
-        *out_->put() = at(done_.front()).ray;
+        GroundedRay& ray = *out_->put();
+        ray = at(done_.front()).ray;
+        faults_.grounded(ray);
         free_.push_back(done_.front());
         done_.pop_front();
         moved = true;
@@ -149,6 +153,7 @@ class GroundStage final : public Stage {
   }
 
   const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
   std::vector<Search> rays_;
   std::vector<int> free_;
   std::deque<int> ready_, done_;

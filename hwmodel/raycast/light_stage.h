@@ -7,16 +7,18 @@
 #include <cstdint>
 
 #include "hwmodel/raycast/attach_stage.h"
+#include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/shade.h"
 
 namespace voxmelt::hwmodel::raycast {
 
 // Twice, where the scene has obstacles: they are looked for half a cell outside.
+template <class Faults = NoFaults>
 class MatterStage final : public AttachStage<MatterRequest, MatterGather::Out> {
  public:
-  MatterStage(const Registers& registers, int waiting)
-      : AttachStage("matter", static_cast<std::size_t>(waiting)), registers_(registers) {}
+  MatterStage(const Registers& registers, int waiting, Faults faults = {})
+      : AttachStage("matter", static_cast<std::size_t>(waiting)), registers_(registers), faults_(faults) {}
 
  private:
   int questions(const Surface& of) const override {
@@ -32,7 +34,8 @@ class MatterStage final : public AttachStage<MatterRequest, MatterGather::Out> {
     return {spots_of({among(p.x, cells.x), among(p.y, cells.y), among(p.z, cells.z)})};
   }
   void take(Surface& of, int which, const MatterGather::Out& answer) override {
-    const MatterBytes bytes = matter_of(answer.words.data(), answer.request.at);
+    MatterBytes bytes = matter_of(answer.words.data(), answer.request.at);
+    faults_.known(which, of, bytes);
     if (which == 0)
       of.matter = bytes;
     else
@@ -40,12 +43,14 @@ class MatterStage final : public AttachStage<MatterRequest, MatterGather::Out> {
   }
 
   const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
 };
 
+template <class Faults = NoFaults>
 class LightStage final : public AttachStage<ClampedRequest, LightGather::Out> {
  public:
-  LightStage(const Registers& registers, int waiting)
-      : AttachStage("light", static_cast<std::size_t>(waiting)), registers_(registers) {}
+  LightStage(const Registers& registers, int waiting, Faults faults = {})
+      : AttachStage("light", static_cast<std::size_t>(waiting)), registers_(registers), faults_(faults) {}
 
  private:
   int questions(const Surface& of) const override { return of.kind == Surface::Kind::background ? 0 : 1; }
@@ -61,9 +66,11 @@ class LightStage final : public AttachStage<ClampedRequest, LightGather::Out> {
   }
   void take(Surface& of, int, const LightGather::Out& answer) override {
     of.light = light_of(answer.words.data(), answer.request.at, registers_.look.glow);
+    faults_.lighted(answer, registers_.look.glow, of);
   }
 
   const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
 };
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/stage.h"
 #include "hwmodel/raycast/tokens.h"
@@ -23,9 +24,11 @@ inline std::int64_t depth_of(const CameraRegisters& camera, Vec position) {
   return UInt<16>(std::clamp<std::int64_t>((z - 256 * camera.near) >> 7, 0, 65534));
 }
 
+template <class Faults = NoFaults>
 class MetStage final : public Stage {
  public:
-  explicit MetStage(const Registers& registers) : Stage("met"), registers_(registers) {}
+  explicit MetStage(const Registers& registers, Faults faults = {})
+      : Stage("met"), registers_(registers), faults_(faults) {}
   // From the walk come rays that met no matter, and from the crossing the others.
   void connect(Fifo<MetToken>& missed, Fifo<MetToken>& crossed, Fifo<Surface>& out) {
     in_ = {&crossed, &missed}, out_ = &out;
@@ -41,11 +44,12 @@ class MetStage final : public Stage {
     }
     return Did::starved;
   }
-  Surface surface_of(const MetToken& met) const {
+  Surface surface_of(const MetToken& met) {
     Surface of;
     of.id = met.id;
     of.step = met.ray.step;
-    const bool ground = ground_first(met.ground, met.matter, registers_.camera.halvings);
+    bool ground = ground_first(met.ground, met.matter, registers_.camera.halvings);
+    faults_.compared(met, ground);
     if (!ground && !met.matter.found) return of;
     of.kind = ground ? Surface::Kind::ground : Surface::Kind::matter;
     of.inside = ground ? met.ground.face == Face::none : met.matter.sample == 0;
@@ -53,10 +57,12 @@ class MetStage final : public Stage {
     of.position = ground ? met.ground.position : met.matter.position;
     of.depth = depth_of(registers_.camera, of.position);
     of.to_eye = unit_of(Vec{} - met.ray.step);
+    faults_.met(of);
     return of;
   }
 
   const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
   std::array<Fifo<MetToken>*, 2> in_{};
   Fifo<Surface>* out_ = nullptr;
 };

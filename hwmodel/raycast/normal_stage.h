@@ -5,12 +5,15 @@
 
 #include "hwmodel/raycast/attach_stage.h"
 #include "hwmodel/raycast/field.h"
+#include "hwmodel/raycast/no_faults.h"
 
 namespace voxmelt::hwmodel::raycast {
 
+template <class Faults = NoFaults>
 class NormalStage final : public AttachStage<LevelRequest, Levels> {
  public:
-  explicit NormalStage(int waiting) : AttachStage("normal", static_cast<std::size_t>(waiting)) {}
+  explicit NormalStage(int waiting, Faults faults = {})
+      : AttachStage("normal", static_cast<std::size_t>(waiting)), faults_(faults) {}
 
  private:
   int questions(const Surface& of) const override {
@@ -20,11 +23,15 @@ class NormalStage final : public AttachStage<LevelRequest, Levels> {
     return {Asker::normal, 0, of.id, 0, to_lattice(of.position)};
   }
   void take(Surface& of, int, const Levels& levels) override {
-    of.normal = slope_of(levels.words.data(), levels.request.at).normal;
+    const Slope slope = slope_of(levels.words.data(), levels.request.at);
+    of.normal = slope.normal;
+    faults_.inclined(slope, of);
   }
   void finish(Surface& of) override {
     if (of.inside) of.normal = of.to_eye;
   }
+
+  [[no_unique_address]] Faults faults_;
 };
 
 }  // namespace voxmelt::hwmodel::raycast

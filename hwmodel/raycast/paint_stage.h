@@ -7,14 +7,16 @@
 
 #include "hwmodel/raycast/attach_stage.h"
 #include "hwmodel/raycast/ground.h"
+#include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/registers.h"
 
 namespace voxmelt::hwmodel::raycast {
 
+template <class Faults = NoFaults>
 class PaintStage final : public AttachStage<ClampedRequest, ColumnGather::Out> {
  public:
-  PaintStage(const Registers& registers, int waiting)
-      : AttachStage("paint", static_cast<std::size_t>(waiting)), registers_(registers) {}
+  PaintStage(const Registers& registers, int waiting, Faults faults = {})
+      : AttachStage("paint", static_cast<std::size_t>(waiting)), registers_(registers), faults_(faults) {}
 
  private:
   int questions(const Surface& of) const override {
@@ -43,21 +45,24 @@ class PaintStage final : public AttachStage<ClampedRequest, ColumnGather::Out> {
     if (of.kind != Surface::Kind::ground) return;
     if (of.face == Face::top) {
       of.color = registers_.ground.color;
-      return;
+    } else {
+      of.color = cut_color(registers_.ground, of.position, of.face);
+      of.normal = of.face == Face::none ? of.to_eye : side_normal(of.face);
     }
-    of.color = cut_color(registers_.ground, of.position, of.face);
-    of.normal = of.face == Face::none ? of.to_eye : side_normal(of.face);
+    faults_.painted(registers_.ground, of);
   }
 
   static constexpr std::int64_t kHalf = kCell / 2;
   const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
 };
 
 // The texture of rock, where the ground has one.
+template <class Faults = NoFaults>
 class TextureStage final : public AttachStage<ClampedRequest, TexelGather::Out> {
  public:
-  TextureStage(const Registers& registers, int waiting)
-      : AttachStage("texture", static_cast<std::size_t>(waiting)), registers_(registers) {}
+  TextureStage(const Registers& registers, int waiting, Faults faults = {})
+      : AttachStage("texture", static_cast<std::size_t>(waiting)), registers_(registers), faults_(faults) {}
 
  private:
   int questions(const Surface& of) const override {
@@ -83,10 +88,13 @@ class TextureStage final : public AttachStage<ClampedRequest, TexelGather::Out> 
                 static_cast<std::int32_t>(between([](const Texel& t) { return t.blue; }))};
     const SInt<14> x = between([](const Texel&t) { return 64 * t.bump_x; }),
                    z = between([](const Texel&t) { return 64 * t.bump_z; });
-    of.normal = unit_of(of.normal + Vec{x, 0, z});
+    const Vec smooth = of.normal, bump{x, 0, z};
+    of.normal = unit_of(smooth + bump);
+    faults_.textured(answer, smooth, bump, of);
   }
 
   const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
 };
 
 }  // namespace voxmelt::hwmodel::raycast

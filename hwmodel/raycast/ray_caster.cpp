@@ -48,7 +48,7 @@ std::int64_t frame_bytes(int width, int height) {
 }
 
 struct RayCaster::Machine {
-  Machine(const Registers& r, Memory& m, const Configuration& c)
+  Machine(const Registers& r, Memory& m, const Configuration& c, const PipeMaker& make)
       : registers(r),
         memory(m),
         configuration(c),
@@ -66,7 +66,7 @@ struct RayCaster::Machine {
       link(jobs, "dealer -> tiles", 0);
       link(requests, "memory port -> memory", 1);
       link(replies, "memory -> memory port", 2);
-      pipes.push_back(std::make_unique<Pipe>(registers, frame, memory, configuration, static_cast<int>(i)));
+      pipes.push_back(make(registers, frame, memory, configuration, static_cast<int>(i)));
       pipes.back()->connect(jobs.back()->fifo(), requests.back()->fifo(), replies.back()->fifo());
       dealer.connect(jobs.back()->fifo());
       memory_block.connect(requests.back()->fifo(), replies.back()->fifo());
@@ -151,8 +151,9 @@ struct RayCaster::Machine {
   std::vector<std::unique_ptr<Block>> blocks;
 };
 
-RayCaster::RayCaster(const Registers& registers, Memory& memory, const Configuration& configuration)
-    : machine_(std::make_unique<Machine>(registers, memory, configuration)) {
+RayCaster::RayCaster(const Registers& registers, Memory& memory, const Configuration& configuration,
+                     const PipeMaker& make)
+    : machine_(std::make_unique<Machine>(registers, memory, configuration, make)) {
   machine_->context.leave();
 }
 RayCaster::~RayCaster() { machine_->context.enter(); }

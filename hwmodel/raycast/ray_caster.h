@@ -26,7 +26,8 @@ struct FrameEnd {
 class RayCaster {
  public:
   // Registers and memory belong to the host, who may change both between two frames.
-  RayCaster(const Registers& registers, Memory& memory, const Configuration& configuration);
+  RayCaster(const Registers& registers, Memory& memory, const Configuration& configuration,
+            const PipeMaker& make = make_pipe);
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;

@@ -8,14 +8,16 @@
 
 #include "hwmodel/channel/fifo.h"
 #include "hwmodel/raycast/field.h"
+#include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/stage.h"
 #include "hwmodel/raycast/tokens.h"
 
 namespace voxmelt::hwmodel::raycast {
 
+template <class Faults = NoFaults>
 class SampleStage final : public Stage {
  public:
-  SampleStage() : Stage("sample") {}
+  explicit SampleStage(Faults faults = {}) : Stage("sample"), faults_(faults) {}
   void connect(Fifo<Levels>& in, Fifo<LevelToken>& to_walk, Fifo<LevelToken>& to_crossing) {
     in_ = &in, to_walk_ = &to_walk, to_crossing_ = &to_crossing;
   }
@@ -27,11 +29,13 @@ class SampleStage final : public Stage {
     Fifo<LevelToken>& out = levels.request.asker == Asker::walk ? *to_walk_ : *to_crossing_;
     if (!out.ready()) return Did::blocked;
     in_->get();
-    const SInt<16> level = sample_of(levels.words.data(), levels.request.at);
+    SInt<16> level = sample_of(levels.words.data(), levels.request.at);
+    faults_.sampled(levels, level);
     *out.put() = {levels.request, static_cast<std::int16_t>(level)};
     return Did::busy;
   }
 
+  [[no_unique_address]] Faults faults_;
   Fifo<Levels>* in_ = nullptr;
   Fifo<LevelToken>* to_walk_ = nullptr;
   Fifo<LevelToken>* to_crossing_ = nullptr;

@@ -5,15 +5,18 @@
 #include <cstdint>
 
 #include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/stage.h"
 #include "hwmodel/raycast/tokens.h"
 
 namespace voxmelt::hwmodel::raycast {
 
+template <class Faults = NoFaults>
 class SetupStage final : public Stage {
  public:
-  explicit SetupStage(const Registers& registers) : Stage("set-up"), registers_(registers) {}
+  explicit SetupStage(const Registers& registers, Faults faults = {})
+      : Stage("set-up"), registers_(registers), faults_(faults) {}
   void connect(Fifo<TileOrder>& in, Fifo<RayToken>& out) { in_ = &in, out_ = &out; }
 
  private:
@@ -32,6 +35,7 @@ class SetupStage final : public Stage {
     RayToken& token = *out_->put();
     token.id = {x, y, static_cast<std::int16_t>(sample_), static_cast<std::int16_t>(tile.buffer)};
     token.ray = ray_of(registers_.camera, 64 * std::int64_t{x} + sub.across, 64 * std::int64_t{y} + sub.down);
+    faults_.set_up(registers_.camera, tile.samples, token);
     if (++sample_ == tile.samples) {
       sample_ = 0;
       left_ &= left_ - 1;
@@ -44,6 +48,7 @@ class SetupStage final : public Stage {
   }
 
   const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
   Fifo<TileOrder>* in_ = nullptr;
   Fifo<RayToken>* out_ = nullptr;
   bool open_ = false;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/shade.h"
 #include "hwmodel/raycast/stage.h"
@@ -24,7 +25,7 @@ class SurfaceStage : public Stage {
   void connect(Fifo<Surface>& in, Fifo<Surface>& out) { in_ = &in, out_ = &out; }
 
  protected:
-  virtual void compute(Surface& surface) const = 0;
+  virtual void compute(Surface& surface) = 0;
   const LookRegisters& look() const { return registers_.look; }
 
  private:
@@ -42,47 +43,64 @@ class SurfaceStage : public Stage {
   Fifo<Surface>* out_ = nullptr;
 };
 
+template <class Faults = NoFaults>
 class ArrivingStage final : public SurfaceStage {
  public:
-  explicit ArrivingStage(const Registers& registers) : SurfaceStage("arriving", registers) {}
+  explicit ArrivingStage(const Registers& registers, Faults faults = {})
+      : SurfaceStage("arriving", registers), faults_(faults) {}
 
  private:
-  void compute(Surface& of) const override {
+  void compute(Surface& of) override {
     if (of.kind == Surface::Kind::background) return;
     const bool matter = of.kind == Surface::Kind::matter;
     if (matter) of.mixture = mixture_of(look(), of.matter);
     of.arriving = arriving_of(look(), of.normal, of.light, look().glow && (!matter || of.mixture.w > 0));
+    faults_.arrived(look(), of);
   }
+
+  [[no_unique_address]] Faults faults_;
 };
 
+template <class Faults = NoFaults>
 class MirrorStage final : public SurfaceStage {
  public:
-  explicit MirrorStage(const Registers& registers) : SurfaceStage("mirror", registers) {}
+  explicit MirrorStage(const Registers& registers, Faults faults = {})
+      : SurfaceStage("mirror", registers), faults_(faults) {}
 
  private:
-  void compute(Surface& of) const override {
+  void compute(Surface& of) override {
     if (of.kind != Surface::Kind::matter) return;
     of.mirrored = mirrored_of(look(), of.normal, of.to_eye, of.light, of.arriving, of.mixture);
+    faults_.mirrored(look(), of);
   }
+
+  [[no_unique_address]] Faults faults_;
 };
 
+template <class Faults = NoFaults>
 class ColourStage final : public SurfaceStage {
  public:
-  explicit ColourStage(const Registers& registers) : SurfaceStage("colour", registers) {}
+  explicit ColourStage(const Registers& registers, Faults faults = {})
+      : SurfaceStage("colour", registers), faults_(faults) {}
 
  private:
-  void compute(Surface& of) const override {
+  void compute(Surface& of) override {
     if (of.kind == Surface::Kind::background)
       of.sum = look().background;
     else
       of.sum = of.kind == Surface::Kind::matter ? matter_color(of.arriving, of.mixture, of.mirrored)
                                                 : ground_color(of.arriving, of.color);
+    faults_.coloured(of);
   }
+
+  [[no_unique_address]] Faults faults_;
 };
 
+template <class Faults = NoFaults>
 class PressStage final : public Stage {
  public:
-  explicit PressStage(const Registers& registers) : Stage("press"), registers_(registers) {}
+  explicit PressStage(const Registers& registers, Faults faults = {})
+      : Stage("press"), registers_(registers), faults_(faults) {}
   void connect(Fifo<Surface>& in, Fifo<PressedToken>& out) { in_ = &in, out_ = &out; }
 
  private:
@@ -95,10 +113,12 @@ class PressStage final : public Stage {
     if (surface.kind != Surface::Kind::background)
       for (std::int32_t& c : token.pressed)
         c = registers_.look.tone[static_cast<std::size_t>(std::clamp(c, 0, 12287))];
+    faults_.pressed(registers_.look, surface, token);
     return Did::busy;
   }
 
   const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
   Fifo<Surface>* in_ = nullptr;
   Fifo<PressedToken>* out_ = nullptr;
 };

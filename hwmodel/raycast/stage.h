@@ -25,6 +25,7 @@ class Stage {
   // One cycle. Tells whether anything moved.
   bool run() {
     const Did did = cycle();
+    waits_ = did == Did::memory;
     if (did == Did::starved) {
       ++(started_ ? idle_ : account_.fill);
       return false;
@@ -42,6 +43,7 @@ class Stage {
 
   const std::string& name() const { return name_; }
   const Account& account() const { return account_; }
+  bool waits_for_memory() const { return waits_; }
 
  protected:
   virtual Did cycle() = 0;
@@ -50,7 +52,7 @@ class Stage {
   std::string name_;
   Account account_;
   std::int64_t idle_ = 0;
-  bool started_ = false;
+  bool started_ = false, waits_ = false;
 };
 
 }  // namespace voxmelt::hwmodel::raycast

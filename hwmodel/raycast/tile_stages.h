@@ -12,6 +12,7 @@
 
 #include "hwmodel/channel/fifo.h"
 #include "hwmodel/raycast/gather.h"
+#include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/stage.h"
 #include "hwmodel/raycast/tokens.h"
@@ -52,10 +53,17 @@ struct TileBuffers {
 };
 
 // Gives a tile its buffer, and finds its pixels. In the second pass it reads the tile and the four beside it.
+template <class Faults = NoFaults>
 class TileStage final : public Stage, public LineClient {
  public:
-  TileStage(const Registers& registers, const FrameRegisters& frame, TileBuffers& buffers, int client)
-      : Stage("tiles"), registers_(registers), frame_(frame), buffers_(buffers), client_(client) {}
+  TileStage(const Registers& registers, const FrameRegisters& frame, TileBuffers& buffers, int client,
+            Faults faults = {})
+      : Stage("tiles"),
+        registers_(registers),
+        frame_(frame),
+        faults_(faults),
+        buffers_(buffers),
+        client_(client) {}
   void connect(Fifo<TileJob>& in, Fifo<LineRequest>& ask, Fifo<TileOrder>& out) {
     in_ = &in, ask_ = &ask, out_ = &out;
   }
@@ -81,7 +89,9 @@ class TileStage final : public Stage, public LineClient {
     }
     if (missing_ > 0) return Did::memory;
     if (buffers_.free.empty() || !out_->ready()) return Did::blocked;
-    const std::uint64_t pixels = pixels_of(job);
+    std::uint64_t pixels = pixels_of(job, frame_.most, kBeside);
+    faults_.chosen(
+        job, frame_.most, [&](int most, unsigned beside) { return pixels_of(job, most, beside); }, pixels);
     const int i = buffers_.free.back();
     buffers_.free.pop_back();
     TileBuffer& buffer = buffers_.at(i);
@@ -109,11 +119,13 @@ class TileStage final : public Stage, public LineClient {
     const auto i = static_cast<std::size_t>(which);
     return {job.x / kTileSide + kX[i], job.y / kTileSide + kY[i]};
   }
-  std::uint64_t pixels_of(const TileJob& job) const {
+  // Bits of the neighbours: left, right, above, below.
+  static constexpr unsigned kBeside = 15;
+  std::uint64_t pixels_of(const TileJob& job, int most, unsigned beside) const {
     std::uint64_t pixels = 0;
     for (int y = 0; y < kTileSide; ++y)
       for (int x = 0; x < kTileSide; ++x)
-        if (is_in(job, x, y) && (!job.second || differs(job, x, y)))
+        if (is_in(job, x, y) && (!job.second || differs(job, x, y, most, beside)))
           pixels |= std::uint64_t{1} << (y * kTileSide + x);
     return pixels;
   }
@@ -125,20 +137,21 @@ class TileStage final : public Stage, public LineClient {
     const std::size_t tile = x < 0 ? 1 : x >= kTileSide ? 2 : y < 0 ? 3 : y >= kTileSide ? 4 : 0;
     return around_[tile].data() + 3 * ((y & (kTileSide - 1)) * kTileSide + (x & (kTileSide - 1)));
   }
-  bool differs(const TileJob& job, int x, int y) const {
+  bool differs(const TileJob& job, int x, int y, int most, unsigned beside) const {
     const std::uint8_t* here = pixel(x, y);
-    const auto from = [&](int nx, int ny) {
-      if (!is_in(job, nx, ny)) return false;
+    const auto from = [&](int side, int nx, int ny) {
+      if ((beside >> side & 1) == 0 || !is_in(job, nx, ny)) return false;
       const std::uint8_t* there = pixel(nx, ny);
       for (int c = 0; c < 3; ++c)
-        if (magnitude(int{here[c]} - int{there[c]}) > frame_.most) return true;
+        if (magnitude(int{here[c]} - int{there[c]}) > most) return true;
       return false;
     };
-    return from(x - 1, y) || from(x + 1, y) || from(x, y - 1) || from(x, y + 1);
+    return from(0, x - 1, y) || from(1, x + 1, y) || from(2, x, y - 1) || from(3, x, y + 1);
   }
 
   const Registers& registers_;
   const FrameRegisters& frame_;
+  [[no_unique_address]] Faults faults_;
   TileBuffers& buffers_;
   int client_, asked_ = 0, missing_ = 0;
   std::array<TileBytes, 5> around_{};
@@ -148,10 +161,11 @@ class TileStage final : public Stage, public LineClient {
 };
 
 // Adds the samples of a pixel, and makes its bytes.
+template <class Faults = NoFaults>
 class PixelStage final : public Stage {
  public:
-  PixelStage(const Registers& registers, TileBuffers& buffers)
-      : Stage("pixel"), registers_(registers), buffers_(buffers) {}
+  PixelStage(const Registers& registers, TileBuffers& buffers, Faults faults = {})
+      : Stage("pixel"), registers_(registers), faults_(faults), buffers_(buffers) {}
   void connect(Fifo<PressedToken>& in, Fifo<PixelToken>& out) { in_ = &in, out_ = &out; }
 
  private:
@@ -169,22 +183,25 @@ class PixelStage final : public Stage {
     for (std::size_t c = 0; c < 3; ++c) {
       const int light = (buffer.sums[at][c] + buffer.samples / 2) / buffer.samples;
       pixel.bytes[c] = registers_.look.bytes[static_cast<std::size_t>(light)];
-      buffer.bytes[3 * at + c] = pixel.bytes[c];
     }
+    faults_.totalled(registers_.look, buffer.sums[at], buffer.samples, pixel);
+    for (std::size_t c = 0; c < 3; ++c) buffer.bytes[3 * at + c] = pixel.bytes[c];
     return Did::busy;
   }
 
   const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
   TileBuffers& buffers_;
   Fifo<PressedToken>* in_ = nullptr;
   Fifo<PixelToken>* out_ = nullptr;
 };
 
 // Writes complete tiles to memory.
+template <class Faults = NoFaults>
 class WriteStage final : public Stage {
  public:
-  WriteStage(const FrameRegisters& frame, TileBuffers& buffers)
-      : Stage("write"), frame_(frame), buffers_(buffers) {}
+  WriteStage(const FrameRegisters& frame, TileBuffers& buffers, Faults faults = {})
+      : Stage("write"), frame_(frame), faults_(faults), buffers_(buffers) {}
   void connect(Fifo<PixelToken>& in, Fifo<LineRequest>& out) { in_ = &in, out_ = &out; }
 
  private:
@@ -207,6 +224,7 @@ class WriteStage final : public Stage {
           true,
           {}};
     std::memcpy(to.data.data(), buffer.bytes.data() + kBurst * burst_, kBurst);
+    faults_.written(frame_, buffer, burst_, to);
     if (++burst_ == kTileBytes / kBurst) {
       burst_ = 0;
       buffers_.complete.pop_front();
@@ -216,6 +234,7 @@ class WriteStage final : public Stage {
   }
 
   const FrameRegisters& frame_;
+  [[no_unique_address]] Faults faults_;
   TileBuffers& buffers_;
   int burst_ = 0;
   Fifo<PixelToken>* in_ = nullptr;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/stage.h"
 #include "hwmodel/raycast/tokens.h"
@@ -27,14 +28,22 @@ struct HitToken {
   std::int16_t before = 0;
 };
 
+// Why samples are left out.
+enum class Leap : std::uint8_t { to_box, out_of_block, through_air };
+
 struct WalkCounts {
   std::int64_t rays = 0, samples = 0, leaps = 0;
 };
 
+template <class Faults = NoFaults>
 class WalkStage final : public Stage {
  public:
-  WalkStage(const Registers& registers, int rays, int walkers)
-      : Stage("walk"), registers_(registers), walkers_(walkers), rays_(static_cast<std::size_t>(rays)) {
+  WalkStage(const Registers& registers, int rays, int walkers, Faults faults = {})
+      : Stage("walk"),
+        registers_(registers),
+        faults_(faults),
+        walkers_(walkers),
+        rays_(static_cast<std::size_t>(rays)) {
     for (int i = rays - 1; i >= 0; --i) free_.push_back(i);
   }
   void connect(Fifo<GroundedRay>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<HitToken>& hit,
@@ -109,10 +118,12 @@ class WalkStage final : public Stage {
     // Matter that is not behind the ground is met by the sample after it, at the latest.
     of.most = ray.ground.found ? (ray.ground.part >> 8) + 1 : kMostSamples;
     ++counts_.rays;
+    faults_.begun(of);
     walking_.push_back(i);
   }
 
-  void advance(Context& of, std::int64_t steps) {
+  void advance(Context& of, Leap leap, std::int64_t steps) {
+    faults_.leaps(of, leap, steps);
     of.k += steps;
     of.walker.at = of.walker.at + of.walker.step * steps;
   }
@@ -125,13 +136,13 @@ class WalkStage final : public Stage {
     const auto to_box = steps_to_box(of.walker, skip.low, skip.high);
     if (!to_box) return lost_.push_back(i);
     if (*to_box > 0) {
-      advance(of, *to_box);
+      advance(of, Leap::to_box, *to_box);
       return walking_.push_back(i);
     }
     const Vec& q = of.walker.at;
     const std::uint16_t word = skip.at(q.x >> kBlockBits, q.y >> kBlockBits, q.z >> kBlockBits);
     if (word >= 256) {
-      advance(of, steps_out(of.walker, word - 256));
+      advance(of, Leap::out_of_block, steps_out(of.walker, word - 256));
       return walking_.push_back(i);
     }
     of.slope = word;
@@ -143,13 +154,16 @@ class WalkStage final : public Stage {
     LevelRequest& request = *ask_->put();
     request = {Asker::walk, static_cast<std::int16_t>(i), of.ray.id, UInt<27>(of.k),
                on_wires<32>(of.walker.at)};
+    faults_.asked(of, request);
     ++counts_.samples;
   }
 
   void decide(const LevelToken& token) {
     const int i = token.request.context;
     Context& of = at(i);
-    if (token.level >= 0) {
+    bool matter = token.level >= 0;
+    faults_.judged(of, matter);
+    if (matter) {
       *hit_->put() = {token.request.context, of.ray,  of.k, of.walker.at, token.level,
                       of.known == of.k - 1,  of.level};
       return;
@@ -157,11 +171,12 @@ class WalkStage final : public Stage {
     of.known = of.k;
     of.level = token.level;
     const std::int64_t rise = steps_to_rise(token.level, of.slope, registers_.camera.spacing);
-    advance(of, std::min(rise, steps_out(of.walker, 1)));
+    advance(of, Leap::through_air, std::min(rise, steps_out(of.walker, 1)));
     walking_.push_back(i);
   }
 
   const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
   int walkers_;
   std::vector<Context> rays_;
   std::vector<int> free_;

@@ -325,7 +325,8 @@ kappa = 20
         self.assertEqual(LINE.match(digest.strip()).group(2), smooth["digest"])
 
     def test_every_planted_fault_is_found_where_it_was_planted_and_replays(self):
-        names = [line.split()[0] for line in self.good("list", "faults").splitlines()]
+        of_pipeline, _ = self.good("list", "faults").split("\n\n")
+        names = [line.split()[0] for line in of_pipeline.splitlines()]
         self.assertGreaterEqual(len(names), 20)
         for name in names:
             found = 0
@@ -393,6 +394,30 @@ kappa = 20
         for wrong in ("[hw]\nlane = 4\n", "[hw]\nlanes = 4\n[wh]\n"):
             write(self.folder, wrong, "wrong.toml")
             self.assertEqual(voxmelt("verify", self.scene, "--hw", "wrong.toml", cwd=self.folder).returncode, 2, wrong)
+
+    def test_every_fault_planted_in_the_ray_caster_is_found_where_it_was_planted(self):
+        _, of_caster = self.good("list", "faults").split("\n\n")
+        rows = [line.split() for line in of_caster.splitlines()[1:]]
+        self.assertGreaterEqual(len(rows), 24)
+        never = set()
+        for name, stage, *_ in rows:
+            found = 0
+            for scene, *more in (["proving_ground"], ["lava", "--from", 40]):
+                result = voxmelt("verify", scene, *more, "--picture", "--size", "32x32", "--plant", name,
+                                 "--report", "p.json", cwd=self.folder)
+                if result.returncode == 2:
+                    self.assertIn("nothing that this fault could change", result.stderr)
+                    continue
+                self.assertEqual(result.returncode, 1, name + result.stderr)
+                self.assertIn("found there", result.stdout, name)
+                planted = json.loads((self.folder / "p.json").read_text())["planted"]
+                self.assertEqual((planted["stage"], planted["found_there"]), (stage, True), name)
+                found += 1
+                break
+            if found == 0:
+                never.add(name)
+        # Pictures that are made for these: tests/hwmodel/caster_faults_test.cpp.
+        self.assertEqual(never, {"cache-tag-bits", "ground-face", "walk-box", "walk-first-sample"})
 
     def test_verify_does_what_its_options_say(self):
         base = self.good("verify", self.scene, "--steps", 6, "--report", "all.json", "--implementation", "reference")

@@ -50,7 +50,8 @@ ALLOWED = {
     "hwmodel/faults": ["hwmodel/channel", "hwmodel/stream"],
     # The ray caster sees nothing of the software at all: the host's part is in hwmodel/picture.
     "hwmodel/raycast": ["hwmodel/channel", "hwmodel/process"],
-    "hwmodel/picture": ["hwmodel/raycast", STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image",
+    "hwmodel/caster_faults": ["hwmodel/raycast"],
+    "hwmodel/picture": ["hwmodel/caster_faults", "hwmodel/raycast", STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image",
                         "render/density", "render/ground", "render/packet", "render/reference"],
     "hwmodel/presets": ["hwmodel/raycast", "hwmodel/stream", "kernel/scene/text"],
     "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
@@ -71,7 +72,7 @@ ALLOWED = {
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
                 "render/image", "render/packet"],
     "examples": ["include/voxmelt"],
-    "app": [PARAMETERS, CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/picture", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
+    "app": [PARAMETERS, CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/caster_faults", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/picture", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
             "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.

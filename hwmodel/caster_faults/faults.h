@@ -1,0 +1,115 @@
+// Faults that can be planted in the ray caster, to see that the lock-step checker finds them: `voxmelt list
+// faults`, `voxmelt verify SCENE --picture --plant NAME`. A fault strikes once, at the first place where it
+// makes a difference, and notes the stage that it leaves wrong, the pixel and the sample.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace voxmelt::hwmodel::raycast {
+
+enum class Fault : std::uint8_t {
+  none,
+  // tiles, set-up and ground
+  tiles_threshold,
+  tiles_neighbour,
+  set_up_sample,
+  set_up_floor,
+  ground_lost,
+  ground_part,
+  ground_face,
+  // walk
+  walk_first_sample,
+  walk_box,
+  walk_block,
+  walk_rise,
+  walk_stale_position,
+  walk_passes,
+  // levels
+  cache_wrong_way,
+  cache_tag_bits,
+  cache_stale_line,
+  cache_reads_early,
+  cache_early_release,
+  cache_lost_miss,
+  levels_bank_swap,
+  levels_border,
+  // sample, crossing, met
+  sample_weight_x,
+  sample_weight_y,
+  sample_weight_z,
+  sample_rounding,
+  crossing_halvings,
+  crossing_quotient,
+  crossing_ends,
+  met_compare,
+  met_depth,
+  met_eye,
+  // normal, paint, texture
+  normal_axes,
+  normal_root,
+  paint_side,
+  paint_band,
+  paint_top,
+  texture_bump,
+  texture_texel,
+  // matter and light
+  matter_share,
+  matter_place,
+  light_cell,
+  light_side,
+  light_glow,
+  // arriving, mirror, colour
+  arriving_shadow,
+  arriving_glow,
+  material_liquid,
+  material_obstacle,
+  mirror_sky,
+  mirror_highlight,
+  mirror_ray,
+  colour_fresnel,
+  colour_emission,
+  // bytes
+  press_tone,
+  pixel_byte,
+  pixel_mean,
+  pixel_channels,
+  write_place,
+  write_burst,
+  end,  // no fault, but the end of the list
+};
+
+struct FaultInfo {
+  Fault fault;
+  std::string_view name, stage, what;
+};
+
+std::span<const FaultInfo> all_faults();
+const FaultInfo* find_fault(std::string_view name);  // null: unknown
+
+class FaultPlan {
+ public:
+  FaultPlan() = default;
+  explicit FaultPlan(Fault fault) : fault_(fault) {}
+
+  Fault fault() const { return fault_; }
+  bool armed(Fault fault) const { return fault == fault_ && !struck_; }
+
+  struct Strike {
+    std::string stage;
+    std::int32_t x, y;  // of the pixel; of a tile that is written, its first one
+    int sample;
+  };
+  void strike(Strike strike) { struck_ = std::move(strike); }
+  const std::optional<Strike>& struck() const { return struck_; }
+
+ private:
+  Fault fault_ = Fault::none;
+  std::optional<Strike> struck_;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,35 @@
+#include "hwmodel/caster_faults/planted_pipe.h"
+
+#include <memory>
+
+#include "hwmodel/caster_faults/fetch_faults.h"
+#include "hwmodel/caster_faults/light_faults.h"
+#include "hwmodel/caster_faults/ray_faults.h"
+#include "hwmodel/caster_faults/surface_faults.h"
+#include "hwmodel/caster_faults/tile_faults.h"
+#include "hwmodel/raycast/pipe_of.h"
+
+namespace voxmelt::hwmodel::raycast {
+namespace {
+
+// The policy that takes the place of NoFaults.
+struct CasterFaults : RayFaults, FetchFaults, SurfaceFaults, LightFaults, TileFaults {
+  CasterFaults(FaultPlan& plan, const Registers& registers, const Memory& memory)
+      : RayFaults(plan, registers, memory),
+        FetchFaults(plan, registers, memory),
+        SurfaceFaults(plan, registers, memory),
+        LightFaults(plan, registers, memory),
+        TileFaults(plan, registers, memory) {}
+};
+
+}  // namespace
+
+PipeMaker planted_pipes(FaultPlan& plan) {
+  return [&plan](const Registers& registers, const FrameRegisters& frame, const Memory& memory,
+                 const Configuration& c, int number) -> std::unique_ptr<Pipe> {
+    return std::make_unique<PipeOf<CasterFaults>>(registers, frame, memory, c, number,
+                                                  CasterFaults(plan, registers, memory));
+  };
+}
+
+}  // namespace voxmelt::hwmodel::raycast
