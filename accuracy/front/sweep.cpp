@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "accuracy/front/twin.h"
@@ -215,7 +214,7 @@ Swept sweep(const Subject& subject, Extent extent, const Conditions& conditions,
     if (choice.axis == Axis::grid || choice.axis == Axis::usual)
       point.grid = errors(ran.curves, on_finest_grid);
     if (choice.axis == Axis::usual) first = ran.curves;
-    swept.points.push_back(std::move(point));
+    swept.points.push_back(point);
   }
   time_again(runs, extent == Extent::quick ? 1 : kRounds, swept.points);
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kSeeds; ++seed) {
