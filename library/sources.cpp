@@ -62,6 +62,7 @@ class Document {
   template <class Item, class ToTable>
   Value list(const char* key, const std::vector<Item>& items, const ToTable& to_table) const {
     std::vector<Value> tables;
+    tables.reserve(items.size());
     for (const Item& item : items) tables.push_back(to_table(item));
     Value root = table();
     root.put(key, array(std::move(tables)));

@@ -77,6 +77,7 @@ inline Turned turned(std::uint64_t word, int n, int rays) {
   const Wide rho = root(2048 * (2 * v + 1));
   static const std::vector<Wide> cosines = [] {
     std::vector<Wide> all;
+    all.reserve(64);
     for (int at = 0; at < 64; ++at)
       all.push_back(static_cast<Wide>(std::floor(16384 * std::cos((2 * at + 1) * std::numbers::pi / 256))));
     return all;
