@@ -120,14 +120,13 @@ int run_bench(const BenchOptions& options) {
     const std::uint32_t step = options.from.value_or(middle > 0 ? middle : scene.steps / 2);
     note(options.common, fmt::format("melting {} to step {}", scene.name, step));
     const int threads = thread_count(options.common);
-    auto provider = make_provider(
-        choose_visibility(options.common.visibility, scene.parameters.heat, scene.initial.grid), threads);
+    auto provider = make_provider(choose_visibility(options.common.visibility), threads);
     const measure::Workload workload = measure::scene_at(scene, step, threads, std::move(provider));
     if (automaton) suite.run_scene(workload, scene);
     if (picture) print_drawing(suite.run_drawing(workload, scene));
   }
   if (automaton && options.scenes.empty()) suite.run_dense();
-  if (!finer.empty()) print_finer_grids(suite.run_finer_grids(finer, options.from));
+  if (!finer.empty()) print_finer_grids(suite.run_finer_grids(finer, options.from.value_or(0)));
   for (const scene::Scene& scene : films) print_film(suite.run_film(scene));
 
   const measure::Findings findings = suite.take();

@@ -100,8 +100,7 @@ run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
   const step::Implementation& implementation = find_implementation(common);
   step::Tuning tuning;
   tuning.threads = thread_count(common);
-  auto provider = make_provider(
-      choose_visibility(common.visibility, scene.parameters.heat, scene.initial.grid), tuning.threads);
+  auto provider = make_provider(choose_visibility(common.visibility), tuning.threads);
   run::Simulation simulation(scene.parameters, std::move(scene.initial), implementation, tuning,
                              std::move(provider));
   simulation.begin_at(scene.first_step);

@@ -1,4 +1,4 @@
-// Who follows the rays of heat sources: --visibility, or a choice by size and number of rays.
+// Who follows the rays of heat sources: --visibility, or the fastest that was measured.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,8 +6,6 @@
 #include <string>
 
 #include "app/options.h"
-#include "kernel/automaton/rule/parameters.h"
-#include "kernel/automaton/state/grid.h"
 #include "kernel/engine/visibility/visibility.h"
 
 namespace voxmelt::app {
@@ -19,7 +17,7 @@ struct VisibilityChoice {
 
 void add_visibility(CLI::App& command, Common& common);
 // Throws UsageError where this build does not have what was asked for.
-VisibilityChoice choose_visibility(const std::string& asked, const rule::Heat& heat, const state::Grid& grid);
+VisibilityChoice choose_visibility(const std::string& asked);
 std::unique_ptr<visibility::Provider> make_provider(const VisibilityChoice& choice, int threads);
 
 }  // namespace voxmelt::app

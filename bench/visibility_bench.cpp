@@ -197,7 +197,7 @@ int main(int argc, char** argv) {
     for (const Packet packet : {Packet::one, Packet::eight, Packet::sixteen})
       casters.emplace_back("embree-" + std::to_string(static_cast<int>(packet)),
                            [packet] { return std::make_unique<EmbreeCaster>(packet); });
-  for (const int n : {64, 128, 256, 512})
+  for (const int n : {64, 128, 256, 512, 1024})
     for (const auto& [kind, rays] : {std::pair{"rays/", &World::to_points}, {"sky/", &World::to_sky}})
       for (const auto& [name, make] : casters)
         benchmark::RegisterBenchmark((kind + std::to_string(n) + "/" + name).c_str(),

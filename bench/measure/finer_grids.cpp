@@ -29,21 +29,6 @@ render::Picture picture_of(const state::Volume& volume, const scene::Scene& scen
 
 }  // namespace
 
-Workload half_melted(const scene::Scene& scene, int threads) {
-  step::Tuning tuning;
-  tuning.threads = threads;
-  run::Simulation simulation(scene.parameters, scene.initial, *run::implementations().find("auto"), tuning);
-  const std::int64_t half = scene.initial.solid.count() / 2;
-  const std::uint32_t most = 4 * scene.steps;  // it may never melt
-  while (simulation.steps_done() < most && simulation.volume().solid.count() >= half)
-    for (int i = 0; i < 50; ++i) simulation.step();
-  Workload workload;
-  workload.name = fmt::format("scene:{}/step:{}", scene.name, simulation.steps_done());
-  workload.parameters = later(scene.parameters, simulation.steps_done());
-  workload.start = simulation.volume();
-  return workload;
-}
-
 std::optional<double> growth_of_normal(const std::vector<FinerGrid>& grids, std::size_t grid,
                                        std::size_t timing) {
   if (grid == 0) return std::nullopt;
@@ -52,12 +37,12 @@ std::optional<double> growth_of_normal(const std::vector<FinerGrid>& grids, std:
 
 std::vector<FinerGrid> measure_finer_grids(const std::vector<scene::Scene>& scenes,
                                            const std::vector<Drawer>& drawers, int threads,
-                                           const Rounds& rounds, std::optional<std::uint32_t> step) {
+                                           const Rounds& rounds, std::uint32_t step) {
   std::vector<FinerGrid> result;
   std::vector<render::Picture> pictures;
   std::vector<scene::Camera> cameras;
   for (const scene::Scene& scene : scenes) {
-    const Workload middle = step ? scene_at(scene, *step, threads) : half_melted(scene, threads);
+    const Workload middle = scene_at(scene, step, threads);
     FinerGrid& grid = result.emplace_back();
     grid.scene = middle.name;
     grid.grid = middle.start.grid;

@@ -26,14 +26,9 @@ struct FinerGrid {
 std::optional<double> growth_of_normal(const std::vector<FinerGrid>& grids, std::size_t grid,
                                        std::size_t timing);
 
-// Scenes in their order, each after `step` steps, or in the middle of its melt (half_melted). `threads` melt
-// them; all are drawn in the same rounds.
+// Scenes in their order, each after `step` steps. `threads` melt them; all are drawn in the same rounds.
 std::vector<FinerGrid> measure_finer_grids(const std::vector<scene::Scene>& scenes,
                                            const std::vector<Drawer>& drawers, int threads,
-                                           const Rounds& rounds,
-                                           std::optional<std::uint32_t> step = std::nullopt);
-
-// The first multiple of 50 steps after which less than half of the scene's solid cells are left.
-Workload half_melted(const scene::Scene& scene, int threads);
+                                           const Rounds& rounds, std::uint32_t step);
 
 }  // namespace voxmelt::measure

@@ -194,7 +194,7 @@ const Drawing& Suite::run_drawing(const Workload& workload, const scene::Scene& 
 }
 
 const std::vector<FinerGrid>& Suite::run_finer_grids(const std::vector<scene::Scene>& scenes,
-                                                     std::optional<std::uint32_t> step) {
+                                                     std::uint32_t step) {
   return findings_.finer_grids =
              measure_finer_grids(scenes, plan_.drawers, plan_.threads.back(), plan_.rounds, step);
 }

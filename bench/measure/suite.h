@@ -102,8 +102,7 @@ class Suite {
 
   // The picture's parts: each returns what it has found, which is kept too.
   const Drawing& run_drawing(const Workload& workload, const scene::Scene& scene);
-  const std::vector<FinerGrid>& run_finer_grids(const std::vector<scene::Scene>& scenes,
-                                                std::optional<std::uint32_t> step);
+  const std::vector<FinerGrid>& run_finer_grids(const std::vector<scene::Scene>& scenes, std::uint32_t step);
   const MeltFilm& run_film(const scene::Scene& scene);
 
   // Measures the machine once more. Tables and report use the better of its rates, for all cases alike.
