@@ -11,7 +11,7 @@
 #include "hwmodel/caster_faults/faults.h"
 #include "hwmodel/picture/report_picture.h"
 #include "hwmodel/picture/verify_picture.h"
-#include "hwmodel/presets/caster_preset.h"
+#include "hwmodel/presets/presets.h"
 #include "render/image/png.h"
 
 namespace voxmelt::app {
@@ -58,7 +58,7 @@ int verify_picture(const Common& common, const PictureChoice& choice, const scen
   if (!choice.view.empty()) set_view(camera, choice.view);
   if (!scene.look.glow && scene.look.clear != scene::Vec3{})
     throw UsageError("error: --picture: the ray caster does not draw clear matter (look.clear)");
-  const hwmodel::CasterPreset configured = hwmodel::load_caster_preset(preset, hw_sets);
+  const hwmodel::Preset configured = hwmodel::load_preset(preset, hw_sets, hwmodel::Runs::caster);
   const render::Setting setting = choice.setting == "fast"   ? render::Setting::fast
                                   : choice.setting == "best" ? render::Setting::best
                                                              : render::Setting::normal;
@@ -70,7 +70,7 @@ int verify_picture(const Common& common, const PictureChoice& choice, const scen
     throw UsageError("error: --plant: with --no-compare no stage is compared");
   check_report_place(common, "");
   hwmodel::raycast::PictureOptions options;
-  options.configuration = configured.configuration;
+  options.configuration = configured.caster;
   options.compare = choice.compare;
   options.frames = choice.frames;
   if (fault != nullptr) options.fault = fault->fault;

@@ -164,6 +164,8 @@ void RayCaster::watch(const Watchers& watchers) {
 void RayCaster::stop() { machine_->shared.end(); }
 void RayCaster::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
 
+void RayCaster::share(BusNeighbour* neighbour) { machine_->memory_block.share(neighbour); }
+
 FrameEnd RayCaster::draw_first() { return machine_->run_pass(false, 1, 0); }
 FrameEnd RayCaster::draw_again(int samples, int most) { return machine_->run_pass(true, samples, most); }
 

@@ -35,6 +35,7 @@ class RayCaster {
   void watch(const Watchers& watchers);
   void stop();  // after the present cycle
   void poll(std::function<void()> poll);
+  void share(BusNeighbour* neighbour);  // of the memory's bus; null: nobody
 
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {
