@@ -20,6 +20,7 @@
 #include "app/interrupt.h"
 #include "app/options.h"
 #include "app/resources.h"
+#include "app/verify_machine.h"
 #include "app/verify_picture.h"
 #include "app/visibility.h"
 #include "hwmodel/lockstep/replay.h"
@@ -197,8 +198,32 @@ int run_picture(const VerifyCommand& command) {
                         command.hw_sets);
 }
 
+int run_machine(const VerifyCommand& command) {
+  if (command.picture.asked) throw UsageError("error: --machine: it draws pictures without --picture");
+  if (!command.plant.empty() || command.plant_step)
+    throw UsageError("error: --plant: not with --machine; plant it in one machine alone");
+  const hwmodel::Preset preset =
+      hwmodel::load_preset(find_preset(command.hw), command.hw_sets, hwmodel::Runs::machine);
+  scene::Scene scene = load_scene(command.common);
+  check_replay_place(command, scene);
+  check_report_place(command.common, replay_place(command, scene).string());
+  catch_interrupts();
+  const run::Simulation ahead = run_ahead(scene, command);
+  hwmodel::VerifyOptions options;
+  options.steps = command.steps;
+  options.every = command.every;
+  options.configuration = preset.configuration;
+  options.poll = stop_if_interrupted;
+  const hwmodel::MachineReport report =
+      verify_machine(command.common, command.picture, scene, ahead, preset, options);
+  if (report.steps.mismatch != nullptr)
+    try_writing([&] { write_replay(command, scene, report.steps); });
+  return report.good() ? kDone : kCheckFailed;
+}
+
 int run_verify(VerifyCommand command) {
   split_sets(command);
+  if (command.picture.machine) return run_machine(command);
   if (command.picture.asked) {
     if (command.plant_step) throw UsageError("error: --plant-step: a picture has no steps (--picture)");
     command.picture.plant = command.plant;
@@ -282,7 +307,7 @@ void add_verify(CLI::App& program, Chosen& chosen) {
   add_visibility(*command, options->common);
   command->footer(
       "--set also takes hw.lanes (1, 2, 4 .. 32), hw.cascade (1 .. 16), hw.substeps (1 .. 64), "
-      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none).");
+      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none); the ray caster's keys are in docs/hardware-picture.md.");
   command->callback([options, &chosen] { chosen = [options] { return run_verify(*options); }; });
 }
 

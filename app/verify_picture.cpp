@@ -33,7 +33,9 @@ void set_view(scene::Camera& camera, const std::string& view) {
 
 void add_picture_choice(CLI::App& command, PictureChoice& choice) {
   command.add_flag("--picture", choice.asked, "verify the ray caster: one picture, after --from steps");
-  command.add_option("--view", choice.view, "with --picture: the camera's AZIMUTH,ELEVATION in degrees");
+  command.add_flag("--machine", choice.machine,
+                   "verify the pipeline and the ray caster on one memory: --steps in all, --frames pictures");
+  command.add_option("--view", choice.view, "with --picture or --machine: the camera's AZIMUTH,ELEVATION in degrees");
   command.add_option("--size", choice.size, "with --picture: size in pixels, e.g. 256x256");
   command
       .add_option("--setting", choice.setting,
@@ -42,7 +44,7 @@ void add_picture_choice(CLI::App& command, PictureChoice& choice) {
       ->capture_default_str();
   command
       .add_option("--frames", choice.frames,
-                  "with --picture: draw it so often; later frames find warm caches")
+                  "with --picture: draw it so often; with --machine: pictures of the steps")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command.add_flag("!--no-compare", choice.compare,
@@ -50,18 +52,27 @@ void add_picture_choice(CLI::App& command, PictureChoice& choice) {
   command.add_option("--png", choice.png, "with --picture: write the ray caster's picture");
 }
 
-int verify_picture(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
-                   const run::Simulation& state, const fs::path& preset,
-                   const std::vector<std::string>& hw_sets) {
+scene::Camera camera_of(const PictureChoice& choice, const scene::Scene& scene) {
   scene::Camera camera = scene.camera;
   if (!choice.size.empty()) set_size(camera, choice.size);
   if (!choice.view.empty()) set_view(camera, choice.view);
   if (!scene.look.glow && scene.look.clear != scene::Vec3{})
     throw UsageError("error: --picture: the ray caster does not draw clear matter (look.clear)");
+  return camera;
+}
+
+render::Setting setting_of(const PictureChoice& choice) {
+  return choice.setting == "fast"   ? render::Setting::fast
+         : choice.setting == "best" ? render::Setting::best
+                                    : render::Setting::normal;
+}
+
+int verify_picture(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
+                   const run::Simulation& state, const fs::path& preset,
+                   const std::vector<std::string>& hw_sets) {
+  const scene::Camera camera = camera_of(choice, scene);
+  const render::Setting setting = setting_of(choice);
   const hwmodel::Preset configured = hwmodel::load_preset(preset, hw_sets, hwmodel::Runs::caster);
-  const render::Setting setting = choice.setting == "fast"   ? render::Setting::fast
-                                  : choice.setting == "best" ? render::Setting::best
-                                                             : render::Setting::normal;
   const hwmodel::raycast::FaultInfo* fault = hwmodel::raycast::find_fault(choice.plant);
   if (!choice.plant.empty() && fault == nullptr)
     throw UsageError(fmt::format(

@@ -73,7 +73,7 @@ class Run {
   }
 
   VerifyReport run() {
-    while (report_.steps < options_.steps && report_.mismatch == nullptr) advance();
+    while (report_.steps < options_.steps && report_.mismatch == nullptr && !stopped_) advance();
     if (report_.mismatch == nullptr && options_.steps > 0 && checker_.compared_cells() == 0)
       throw std::logic_error("lock-step compared nothing");
     report_.compared_cells = checker_.compared_cells();
@@ -118,7 +118,7 @@ class Run {
     report_.steps += static_cast<std::uint32_t>(pass.steps);
     if (options_.visit_every == 0 || report_.steps % options_.visit_every != 0) return;
     report_.stages = pipeline_.stages();
-    options_.visit(memory_, report_);
+    stopped_ = !options_.visit(memory_, report_);
   }
 
   // That one pass may reach.
@@ -231,6 +231,7 @@ class Run {
   Expectation software_;
   state::Volume memory_;
   VerifyReport report_;
+  bool stopped_ = false;  // by who visits
 };
 
 }  // namespace
