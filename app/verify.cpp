@@ -216,8 +216,7 @@ int run_machine(const VerifyCommand& command) {
   options.poll = stop_if_interrupted;
   const hwmodel::MachineReport report =
       verify_machine(command.common, command.picture, scene, ahead, preset, options);
-  if (report.steps.mismatch != nullptr)
-    try_writing([&] { write_replay(command, scene, report.steps); });
+  if (report.steps.mismatch != nullptr) try_writing([&] { write_replay(command, scene, report.steps); });
   return report.good() ? kDone : kCheckFailed;
 }
 
@@ -307,7 +306,8 @@ void add_verify(CLI::App& program, Chosen& chosen) {
   add_visibility(*command, options->common);
   command->footer(
       "--set also takes hw.lanes (1, 2, 4 .. 32), hw.cascade (1 .. 16), hw.substeps (1 .. 64), "
-      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none); the ray caster's keys are in docs/hardware-picture.md.");
+      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none); the ray caster's keys are in "
+      "docs/hardware-picture.md.");
   command->callback([options, &chosen] { chosen = [options] { return run_verify(*options); }; });
 }
 

@@ -35,7 +35,8 @@ void add_picture_choice(CLI::App& command, PictureChoice& choice) {
   command.add_flag("--picture", choice.asked, "verify the ray caster: one picture, after --from steps");
   command.add_flag("--machine", choice.machine,
                    "verify the pipeline and the ray caster on one memory: --steps in all, --frames pictures");
-  command.add_option("--view", choice.view, "with --picture or --machine: the camera's AZIMUTH,ELEVATION in degrees");
+  command.add_option("--view", choice.view,
+                     "with --picture or --machine: the camera's AZIMUTH,ELEVATION in degrees");
   command.add_option("--size", choice.size, "with --picture: size in pixels, e.g. 256x256");
   command
       .add_option("--setting", choice.setting,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "hwmodel/machine/screen.h"
 
@@ -15,7 +16,8 @@ StreamWork work_of(const VerifyReport& report, const Design& design, const Confi
   work.cycles = report.cycles;
   const std::int64_t interval = c.fifo_depth == 1 ? 2 : 1;
   work.lag = std::max<std::int64_t>(
-      report.predicted_cycles / std::max<std::int64_t>(report.passes, 1) - interval * design.shape.tokens(), 0);
+      report.predicted_cycles / std::max<std::int64_t>(report.passes, 1) - interval * design.shape.tokens(),
+      0);
   const std::int64_t cell_bits = std::int64_t{design.cell_bits()} * c.lanes;
   for (const StageReport& stage : report.stages) {
     if (stage.kind == StageKind::reader) work.tokens += stage.cycles.busy;
@@ -46,8 +48,8 @@ class Run {
       return visit(volume, done);
     };
     if (screen_.good())
-      report_.steps =
-          verify(input_.parameters, input_.picture.volume, input_.first_step, input_.fast, input_.tuning, steps);
+      report_.steps = verify(input_.parameters, input_.picture.volume, input_.first_step, input_.fast,
+                             input_.tuning, steps);
     report_.pictures = screen_.report();
     report_.different_beside = screen_.different_beside();
     const std::int64_t tokens = design_.shape.tokens() * design_.shape.lanes;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "hwmodel/picture/report_picture.h"
 
@@ -130,7 +131,8 @@ Json json_of(const MachineReport& report, const MachineOptions& options) {
   const auto n = static_cast<double>(report.periods.size());
   const auto steps = static_cast<double>(report.steps.steps);
   const auto rates = [&](std::int64_t cycles) {
-    return Json{{"frames", rate(n, cycles, options.clock_mhz)}, {"steps", rate(steps, cycles, options.clock_mhz)}};
+    return Json{{"frames", rate(n, cycles, options.clock_mhz)},
+                {"steps", rate(steps, cycles, options.clock_mhz)}};
   };
   json["a_second"] = {{"in_turn", rates(sum.in_turn())}, {"overlapped", rates(sum.overlapped())}};
   json["a_second"]["pipeline_alone"] = rate(steps, sum.stream, options.clock_mhz);

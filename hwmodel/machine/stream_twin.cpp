@@ -33,7 +33,8 @@ std::int64_t StreamTwin::cycle(bool has_room) {
   }
   const std::int64_t lag = std::min(work_.lag, end_ - 1), window = end_ - lag;
   const auto in_pass = [&](std::int64_t bits) { return part(bits, pass_, work_.passes); };
-  if (at_ >= 0 && at_ < window) bits_ += part(in_pass(work_.read_bits) + in_pass(work_.fed_bits), at_, window);
+  if (at_ >= 0 && at_ < window)
+    bits_ += part(in_pass(work_.read_bits) + in_pass(work_.fed_bits), at_, window);
   if (at_ >= lag) bits_ += part(in_pass(work_.written_bits), at_ - lag, window);
   if (++at_ == end_) {
     ++pass_;

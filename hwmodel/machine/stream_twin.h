@@ -1,8 +1,9 @@
-// The pipeline as the memory sees it: how many bytes it moves in which cycle. The pipeline itself is simulated
-// with a memory that always answers; its twin repeats the passes on a memory that somebody else uses, too.
+// The pipeline as the memory sees it: how many bytes it moves in which cycle. The pipeline itself is
+// simulated with a memory that always answers; its twin repeats the passes on a memory that somebody else
+// uses, too.
 //
-// The twin is rigid. Where the bus has no room, all of the pipeline waits for that cycle. It is exact where the
-// bus has room; the real one may hide a short wait in its channels.
+// The twin is rigid. Where the bus has no room, all of the pipeline waits for that cycle. It is exact where
+// the bus has room; the real one may hide a short wait in its channels.
 #pragma once
 
 #include <cstdint>

@@ -31,11 +31,11 @@ struct SentBrick {
 };
 
 struct UploadReport {
-  bool whole = false;  // everything was sent
-  std::vector<SentBrick> bricks;  // that were looked at
+  bool whole = false;                                         // everything was sent
+  std::vector<SentBrick> bricks;                              // that were looked at
   std::array<std::vector<std::int64_t>, kSentVolumes> lines;  // caches must forget them
   std::array<std::int64_t, kSentVolumes> bytes{};
-  std::int64_t slots = 0, skip_words = 0;                // register words: 32 bits, 16 bits
+  std::int64_t slots = 0, skip_words = 0;  // register words: 32 bits, 16 bits
   std::int64_t words = 0, bursts = 0, cycles = 0;
   Account account;
 };
