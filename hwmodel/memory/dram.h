@@ -66,19 +66,20 @@ class Dram {
   };
   struct Waiting {
     Request request;
-    std::int64_t put = 0;
+    std::int64_t put = 0;     // cycle of the memory
+    std::int64_t number = 0;  // of a read at its port
+    bool held = false;        // for an older request to the same burst
   };
   struct Port {
     PortClient* client = nullptr;
     std::deque<Waiting> inbox;
     std::deque<UnderWay> reads;
-    std::int64_t first_read = 0, next_read = 0;  // numbers of reads: of the oldest here, of the next
-    std::deque<std::int64_t> numbers;            // of the reads in the inbox
+    std::int64_t first_read = 0;  // number of the oldest one
   };
 
   void run(std::int64_t end);
   bool take_request(std::size_t channel);
-  void finish(const Entry& entry, std::int64_t done);
+  void finish(const Controller::Done& done);
 
   Parameters parameters_;
   Policy policy_;
@@ -89,6 +90,7 @@ class Dram {
   std::vector<Port> ports_;
   std::int64_t machine_cycle_ = 0, now_ = 0;
   std::int64_t moves_ = 0;
+  Counts latencies_;
   RequestListener* trace_ = nullptr;
 };
 

@@ -13,6 +13,7 @@
 #include "hwmodel/channel/fifo.h"
 #include "hwmodel/raycast/gather.h"
 #include "hwmodel/raycast/layout.h"
+#include "hwmodel/raycast/line_memory.h"
 #include "hwmodel/raycast/stage.h"
 
 namespace voxmelt::hwmodel::raycast {
@@ -52,23 +53,18 @@ class MemoryPort final : public Stage {
   Fifo<LineReply>* replies_ = nullptr;
 };
 
-// The memory itself: a request a cycle, from one pipe after the other; a fixed latency; a bus of so many
-// bytes a cycle.
-struct MemoryCounts {
-  std::int64_t reads = 0, read_bytes = 0, written_bytes = 0, bus_cycles = 0;
-};
-class MemoryBlock {
+// A memory with a fixed latency and a bus of so many bytes a cycle. It takes a request a cycle, from one pipe
+// after the other.
+class MemoryBlock final : public LineMemory {
  public:
   MemoryBlock(Memory& memory, int latency, int bus_bytes)
       : memory_(memory), latency_(latency), bus_bytes_(bus_bytes) {}
-  void connect(Fifo<LineRequest>& requests, Fifo<LineReply>& replies) {
+  void connect(Fifo<LineRequest>& requests, Fifo<LineReply>& replies) override {
     ports_.push_back({&requests, &replies});
   }
-  const MemoryCounts& counts() const { return counts_; }
-  void begin() { bus_free_ = 0; }  // cycles count from 0 again
-
-  // Tells whether anything moved.
-  bool cycle(std::int64_t now) {
+  const MemoryCounts& counts() const override { return counts_; }
+  void begin() override { bus_free_ = 0; }
+  bool cycle(std::int64_t now) override {
     bool moved = false;
     if (!under_way_.empty() && under_way_.front().done <= now &&
         ports_[under_way_.front().port].replies->ready()) {

@@ -13,6 +13,7 @@
 
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/layout.h"
+#include "hwmodel/raycast/line_memory.h"
 #include "hwmodel/raycast/pipe.h"
 #include "hwmodel/raycast/registers.h"
 
@@ -56,7 +57,7 @@ class RayCaster {
   std::int64_t cycle() const;  // of the present frame
   int pipes() const;
   const Pipe& pipe(int i) const;
-  const MemoryCounts& memory_counts() const;
+  MemoryCounts memory_counts() const;
 
  private:
   struct Machine;
