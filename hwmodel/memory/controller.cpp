@@ -57,9 +57,11 @@ std::int64_t Controller::step(std::int64_t now, Done& done) {
   std::int64_t next = kFar;
   if (refresh(now, next)) return now + 1;
   choose_side(now, next);
-  if (active().empty()) return next;
+  if (empty()) return next;
   bool issued = false;
-  if (starves(active().front(), now)) {
+  if (active().empty()) {
+    issued = row(now, next);
+  } else if (starves(active().front(), now)) {
     issued = row(now, next);
     issued |= column(now, next, done);
   } else {
@@ -153,11 +155,11 @@ bool Controller::column(std::int64_t now, std::int64_t& next, Done& done) {
     bank.precharge = std::max(bank.precharge, entry.write ? end + p.wr : now + p.rtp);
     account_.column(now + latency, p.beats(), latency, entry.write, entry.at.rank, entry.activated, counts_);
     ++counts_.columns;
-    ++run_;
     Location at = entry.at;
     at.column += (p.columns_of_request() - entry.left) * p.transfers;
     tell(now, entry.write ? Command::Kind::write : Command::Kind::read, at);
     if (--entry.left > 0) return true;
+    ++run_;
     ++(entry.write ? counts_.writes : counts_.reads);
     ++(entry.precharged ? counts_.conflicts : entry.activated ? counts_.misses : counts_.hits);
     done = {true, entry, entry.write ? now : end + p.interface_cycles};
@@ -170,12 +172,16 @@ bool Controller::column(std::int64_t now, std::int64_t& next, Done& done) {
 }
 
 // For the oldest request of each bank. A row with a request that would hit it stays open, unless the oldest
-// request of all starves.
+// request of all starves. Banks that this side leaves alone are made ready for the other side.
 bool Controller::row(std::int64_t now, std::int64_t& next) {
-  Queue& queue = active();
-  if (queue.empty()) return false;
-  const bool starving = starves(queue.front(), now);
-  std::uint64_t hit = 0, seen = 0;
+  std::uint64_t seen = 0;
+  const bool starving = !active().empty() && starves(active().front(), now);
+  if (row_of(active(), starving, seen, now, next)) return true;
+  return row_of(writing_ ? reads_ : writes_, false, seen, now, next);
+}
+
+bool Controller::row_of(Queue& queue, bool starving, std::uint64_t& seen, std::int64_t now, std::int64_t& next) {
+  std::uint64_t hit = 0;
   for (const Entry& entry : queue) {
     BankState& bank = ranks_[static_cast<std::size_t>(entry.at.rank)].bank(entry.at.group, entry.at.bank);
     if (bank.open == entry.at.row) hit |= std::uint64_t{1} << bank_of(entry.at);

@@ -60,6 +60,7 @@ class Controller {
   void choose_side(std::int64_t now, std::int64_t& next);
   bool column(std::int64_t now, std::int64_t& next, Done& done);
   bool row(std::int64_t now, std::int64_t& next);
+  bool row_of(Queue& queue, bool starving, std::uint64_t& seen, std::int64_t now, std::int64_t& next);
   bool starves(const Entry& entry, std::int64_t now) const { return now - entry.arrival > policy_.starve; }
   std::size_t bank_of(const Location& at) const;  // in the channel
   Queue& active() { return writing_ ? writes_ : reads_; }
@@ -70,7 +71,7 @@ class Controller {
   int channel_;
   Queue reads_, writes_;
   bool writing_ = false, hurry_ = false;
-  int run_ = 0;                      // columns since it turned round
+  int run_ = 0;                      // requests since it turned round
   std::int64_t no_reads_since_ = 0;
   std::vector<RankState> ranks_;
   ColumnRules columns_;

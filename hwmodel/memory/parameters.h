@@ -49,8 +49,8 @@ struct Parameters {
 // What the controller may choose.
 struct Policy {
   int reads = 32, writes = 64;  // entries of its two queues, of each channel
-  int high = 48, low = 16;      // writes begin at `high` and end at `low`, unless no read waits
-  int batch = 32;               // column commands of one kind, while the other kind waits
+  int high = 48, low = 8;       // writes begin at `high` and end at `low`, unless no read waits
+  int batch = 48;               // requests of one kind, while the other kind waits
   int linger = 32;              // cycles without a read after which a few writes begin, too
   int starve = 2000;            // cycles after which a request has its bank for itself
   int inbox = 8;                // requests of a port that no queue has taken
