@@ -98,7 +98,6 @@ hwmodel::MachineReport verify_machine(const Common& common, const PictureChoice&
   options.picture.compare = choice.compare;
   options.picture.frames = choice.frames;
   options.picture.poll = stop_if_interrupted;
-  options.clock_mhz = preset.clock_mhz;
   const step::Implementation& fast = find_implementation(common);
   step::Tuning tuning;
   tuning.threads = thread_count(common);
@@ -112,11 +111,10 @@ hwmodel::MachineReport verify_machine(const Common& common, const PictureChoice&
 
   const hwmodel::Configuration& p = steps.configuration;
   const hwmodel::raycast::Configuration& c = preset.caster;
-  fmt::print(
-      "{}: pipeline: lanes {}, cascade {}; ray caster: pipes {}; fifo depth {}, stall seed {}; {} x {}, {}\n"
-      "memory: latency {}, {} bytes a cycle\n",
-      scene.name, p.lanes, p.cascade, c.pipes, c.fifo_depth, c.stall_seed, camera.width, camera.height,
-      choice.setting, c.latency, c.bus_bytes);
+  fmt::print("{}: pipeline: lanes {}, cascade {}; ray caster: pipes {}; fifo depth {}, stall seed {}\n",
+             scene.name, p.lanes, p.cascade, c.pipes, c.fifo_depth, c.stall_seed);
+  fmt::print("{} x {}, {}; memory: {}\n", camera.width, camera.height, choice.setting,
+             c.dram ? c.dram->name : fmt::format("latency {}, {} bytes a cycle", c.latency, c.bus_bytes));
   nlohmann::ordered_json json = hwmodel::json_of(report, options);
   if (report.good()) {
     const Software here =

@@ -65,21 +65,17 @@ class Run {
     const StreamWork all = work_of(done, design_, options_.steps.configuration);
     of.work = all - before_;
     before_ = all;
-    const raycast::Configuration& memory = options_.picture.configuration;
-    StreamTwin alone(of.work, memory.latency);
-    of.stream = cycles_alone(alone, memory);
-
-    StreamTwin twin(of.work, memory.latency);
-    screen_.draw_beside(twin);
+    of.stream = cycles_alone(of.work, options_.picture.configuration);
+    screen_.draw_beside(of.work);
     of.frame_beside = screen_.beside().last().cycles;
-    of.stream_beside = cycles_alone(twin, memory);  // the rest, if it is not done
+    of.stream_beside = screen_.twin().cycles();
     of.together = std::max(of.frame_beside, of.stream_beside);
 
     of.upload = screen_.take_over(volume);
     of.host_seconds = screen_.host_seconds();
     const raycast::MemoryCounts counts = screen_.alone().memory_counts();
     screen_.draw();
-    const raycast::MemoryCounts& now = screen_.alone().memory_counts();
+    const raycast::MemoryCounts now = screen_.alone().memory_counts();
     of.frame = screen_.alone().last().cycles;
     of.frame_read = now.read_bytes - counts.read_bytes;
     of.frame_written = now.written_bytes - counts.written_bytes;

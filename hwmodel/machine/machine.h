@@ -21,8 +21,8 @@ struct MachineInput {
 };
 struct MachineOptions {
   VerifyOptions steps;              // their number is a multiple of the frames
-  raycast::PictureOptions picture;  // with the memory of both machines
-  int clock_mhz = 200;
+  raycast::PictureOptions picture;  // with the memory of both machines, and the clock
+  int clock_mhz() const { return picture.configuration.clock_mhz; }
 };
 
 // From one picture to the next, in cycles.

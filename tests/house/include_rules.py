@@ -54,7 +54,7 @@ ALLOWED = {
     "hwmodel/picture": ["hwmodel/caster_faults", "hwmodel/raycast", STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image",
                         "render/density", "render/ground", "render/packet", "render/reference"],
     "hwmodel/presets": ["hwmodel/raycast", "hwmodel/stream", "kernel/scene/text"],
-    "hwmodel/machine": ["hwmodel/lockstep", "hwmodel/picture", "hwmodel/raycast", STATE, "render/image", "render/density", "render/packet",
+    "hwmodel/machine": ["hwmodel/lockstep", "hwmodel/memory", "hwmodel/picture", "hwmodel/raycast", STATE, "render/image", "render/density", "render/packet",
                         "render/reference", f"{PICTURE}/camera.h"],
     "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
     "bench": ["accuracy/picture", "bench/measure", "hwmodel/stream", PARAMETERS, STATE, "kernel/scene", CPU, VISIBILITY, "kernel/run",

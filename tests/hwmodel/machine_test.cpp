@@ -35,21 +35,24 @@ std::int64_t sum_of(const std::vector<std::int64_t>& of) {
 StreamWork four_tokens() { return {1, 7, 3, 4, 64, 0, 64}; }
 
 TEST(StreamTwin, ReadsAndWritesInTheCyclesOfThePass) {
-  StreamTwin twin(four_tokens(), 2);
+  StreamTwin twin(2);
+  twin.begin(four_tokens());
   EXPECT_EQ(moved_by(twin), (std::vector<std::int64_t>{0, 0, 2, 2, 2, 4, 2, 2, 2}));
   EXPECT_EQ(twin.cycles(), 9);
   EXPECT_EQ(twin.waited(), 0);
 }
 
 TEST(StreamTwin, WaitsAsAWholeWhereTheBusHasNoRoom) {
-  StreamTwin twin(four_tokens(), 0);
+  StreamTwin twin(0);
+  twin.begin(four_tokens());
   EXPECT_EQ(moved_by(twin, 2), (std::vector<std::int64_t>{2, 0, 2, 0, 2, 0, 4, 0, 2, 0, 2, 0, 2}));
   EXPECT_EQ(twin.waited(), 6);
 }
 
 TEST(StreamTwin, MovesEveryByteOfUnevenPasses) {
   const StreamWork work{3, 1000, 77, 700, 12345, 4321, 12345};
-  StreamTwin twin(work, 40);
+  StreamTwin twin(40);
+  twin.begin(work);
   EXPECT_EQ(sum_of(moved_by(twin)), (12345 + 4321 + 12345 + 7) / 8);
   EXPECT_EQ(twin.cycles(), 1000 + 3 * 40);
 }
@@ -60,8 +63,7 @@ TEST(StreamTwin, TakesWhatTheBusLetsThrough) {
   memory.latency = 10;
   for (const auto& [bus, cycles] : {std::pair{64, 20020}, std::pair{20, 20020}, std::pair{10, 39600}}) {
     memory.bus_bytes = bus;
-    StreamTwin twin(work, memory.latency);
-    const std::int64_t took = cycles_alone(twin, memory);
+    const std::int64_t took = cycles_alone(work, memory);
     EXPECT_GE(took, cycles - 64) << bus;  // the last bytes are promised, and come later
     EXPECT_LE(took, cycles + 200) << bus;
   }
