@@ -31,13 +31,22 @@ render::Image image_of(const Memory& memory, std::int64_t frame, int width, int 
   return image;
 }
 
+// The second pass compares a pixel with those beside it.
+Window with_neighbours(const Window& of) { return {of.left - 1, of.top - 1, of.right + 1, of.bottom + 1}; }
+
 void tell_hang(PictureReport& report, const RayCaster& caster) {
-  std::string text, waiting;
+  std::string text, waiting, jammed;
   for (int i = 0; i < caster.pipes(); ++i)
     for (const Pipe::ChannelState& channel : caster.pipe(i).channels())
       if (channel.count > 0)
         text += "  pipe " + std::to_string(i) + ": " + channel.name + ": " + std::to_string(channel.count) +
                 " of " + std::to_string(channel.depth) + "\n";
+  for (int i = 0; i < caster.pipes(); ++i)
+    for (const Pipe::ChannelState& channel : caster.pipe(i).channels())
+      if (channel.count < channel.depth && !channel.ready) {
+        report.jammed.push_back(channel.name);
+        jammed += "  pipe " + std::to_string(i) + ": " + channel.name + "\n";
+      }
   for (int i = 0; i < caster.pipes(); ++i)
     for (const Stage* stage : caster.pipe(i).stages()) {
       if (!stage->waits_for_memory()) continue;
@@ -46,6 +55,25 @@ void tell_hang(PictureReport& report, const RayCaster& caster) {
     }
   report.hang = "nothing moves any more; channels that hold tokens:\n" + text +
                 "stages that wait for the memory:\n" + waiting;
+  if (!jammed.empty()) report.hang += "channels that have room and take nothing:\n" + jammed;
+  if (report.under_way)
+    report.hang += "a ray under way: pixel (" + std::to_string(report.under_way->x) + ", " +
+                   std::to_string(report.under_way->y) + "), sample " +
+                   std::to_string(report.under_way->sample) + "\n";
+}
+
+// Tells how many pixels it compared.
+std::int64_t compare_bytes(PictureReport& report, const render::Image& expected, const Window& window) {
+  std::int64_t pixels = 0;
+  for (int y = 0; y < expected.height; ++y)
+    for (int x = 0; x < expected.width; ++x) {
+      if (!window.holds(x, y)) continue;
+      ++pixels;
+      if (report.image.at(x, y) == expected.at(x, y)) continue;
+      if (!report.different) report.different = RayId{x, y, 0, 0};
+      ++report.different_bytes;
+    }
+  return pixels;
 }
 
 void add(Account& sum, const Account& more) {
@@ -84,9 +112,12 @@ void take_accounts(PictureReport& report, const RayCaster& caster) {
 
 bool PictureReport::found_where_planted() const {
   if (!strike) return false;
-  if (!difference) return std::find(waiting.begin(), waiting.end(), strike->stage + " data") != waiting.end();
+  const auto names = [&](const std::vector<std::string>& of, const std::string& stage) {
+    return std::find(of.begin(), of.end(), stage) != of.end();
+  };
+  if (!difference) return names(waiting, strike->stage + " data") || names(jammed, strike->stage);
   return difference->stage == strike->stage && difference->x == strike->x && difference->y == strike->y &&
-         difference->sample == strike->sample;
+         difference->sample == strike->sample && difference->address == strike->address;
 }
 
 PictureReport verify_picture(const PictureInput& input, const PictureOptions& options) {
@@ -101,10 +132,10 @@ PictureReport verify_picture(const PictureInput& input, const PictureOptions& op
   const render::Image expected = software.draw(input.camera, input.setting, 1);
 
   const Configuration& c = options.configuration;
-  const Registers registers = registers_of(data);
+  Registers registers = registers_of(data);
   Memory memory = memory_of(data, c);
   const Expectation expectation(scene, camera, input.setting);
-  FaultPlan plan(options.fault);
+  FaultPlan plan(options.fault, options.fault_channel);
   RayCaster caster(registers, memory, c,
                    options.fault == Fault::none ? PipeMaker(make_pipe) : planted_pipes(plan));
   caster.poll(options.poll);
@@ -115,28 +146,30 @@ PictureReport verify_picture(const PictureInput& input, const PictureOptions& op
   const int samples = fast ? 1 : input.setting == render::Setting::normal ? 8 : 32;
   const int most = input.setting == render::Setting::best ? 8 : 16;
   const std::clock_t begin = std::clock();  // of the processor: the machine may have other work
-  for (int frame = 0; frame < options.frames && !checker.difference(); ++frame) {
-    checker.begin_pass(1, 0, memory.frame);
+  for (int frame = 0; frame < options.frames && !checker.difference() && !report.end.hangs; ++frame) {
+    registers.camera.window = fast ? options.window : with_neighbours(options.window);
+    checker.begin_pass(1, 0, memory.frame, registers.camera.window);
     report.end = caster.draw_first();
+    if (options.compare) checker.end_pass(report.end);
     report.all_cycles += report.end.cycles;
     if (fast || checker.difference() || !report.end.complete) continue;
-    checker.begin_pass(samples, most, memory.frame + frame_bytes(data.width, data.height));
+    registers.camera.window = options.window;
+    checker.begin_pass(samples, most, memory.frame + frame_bytes(data.width, data.height), options.window);
     const FrameEnd second = caster.draw_again(samples, most);
     report.all_cycles += second.cycles;
+    if (options.compare) checker.end_pass(second);
     report.end = {report.end.cycles + second.cycles, second.complete, second.hangs};
   }
   report.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   report.difference = checker.difference();
   report.compared = checker.compared();
+  report.under_way = checker.ray_under_way();
   if (report.end.hangs) tell_hang(report, caster);
   report.strike = plan.struck();
-  if (options.compare && report.compared == 0) throw std::logic_error("lock-step compared nothing");
-
   report.image = image_of(memory, memory.frame + (fast ? 0 : frame_bytes(data.width, data.height)),
                           data.width, data.height);
-  for (int y = 0; y < data.height; ++y)
-    for (int x = 0; x < data.width; ++x)
-      if (report.image.at(x, y) != expected.at(x, y)) ++report.different_bytes;
+  const std::int64_t pixels = compare_bytes(report, expected, options.window);
+  if (!options.compare) report.compared = pixels;
   report.memory = caster.memory_counts();
   report.memory_bytes = static_cast<std::int64_t>(memory.bytes.size());
   take_accounts(report, caster);

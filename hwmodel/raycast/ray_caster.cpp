@@ -18,14 +18,17 @@ int tiles_along(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 // Deals tiles to the pipes, each to the next one that has room.
 class Dealer {
  public:
-  void begin(const FrameRegisters& frame, bool second) { frame_ = frame, second_ = second, next_ = 0; }
+  void begin(const FrameRegisters& frame, const Window& window, bool second) {
+    frame_ = frame, window_ = window, second_ = second, next_ = 0;
+  }
   void connect(Fifo<TileJob>& out) { out_.push_back(&out); }
   bool cycle() {
+    while (next_ < frame_.tiles_x * frame_.tiles_y && !window_.meets(tile_x(), tile_y(), kTileSide)) ++next_;
     if (next_ == frame_.tiles_x * frame_.tiles_y) return false;
     for (std::size_t i = 0; i < out_.size(); ++i) {
       Fifo<TileJob>& out = *out_[(turn_ + i) % out_.size()];
       if (!out.ready()) continue;
-      *out.put() = {next_ % frame_.tiles_x * kTileSide, next_ / frame_.tiles_x * kTileSide, second_};
+      *out.put() = {tile_x(), tile_y(), second_};
       ++next_;
       turn_ = (turn_ + i + 1) % out_.size();
       return true;
@@ -34,7 +37,11 @@ class Dealer {
   }
 
  private:
+  int tile_x() const { return next_ % frame_.tiles_x * kTileSide; }
+  int tile_y() const { return next_ / frame_.tiles_x * kTileSide; }
+
   FrameRegisters frame_;
+  Window window_;
   bool second_ = false;
   int next_ = 0;
   std::size_t turn_ = 0;
@@ -107,6 +114,14 @@ struct RayCaster::Machine {
     if (poll && shared.cycle() % kPollEvery == 0) poll();
   }
 
+  std::int64_t bytes_in(const Window& window) const {
+    std::int64_t tiles = 0;
+    for (int y = 0; y < frame.tiles_y; ++y)
+      for (int x = 0; x < frame.tiles_x; ++x)
+        tiles += window.meets(x * kTileSide, y * kTileSide, kTileSide) ? 1 : 0;
+    return tiles * kTileBytes;
+  }
+
   FrameEnd run_pass(bool second, int samples, int most) {
     const std::int64_t bytes = frame_bytes(registers.camera.width, registers.camera.height);
     frame = {second ? memory.frame : 0,
@@ -115,8 +130,8 @@ struct RayCaster::Machine {
              tiles_along(registers.camera.height),
              samples,
              most};
-    dealer.begin(frame, second);
-    bytes_at_end = memory_block.counts().written_bytes + bytes;
+    dealer.begin(frame, registers.camera.window, second);
+    bytes_at_end = memory_block.counts().written_bytes + bytes_in(registers.camera.window);
     shared.complete = shared.hangs = false;
     shared.last_cycle = kNever;
     idle = 0;
@@ -160,6 +175,9 @@ RayCaster::~RayCaster() { machine_->context.enter(); }
 
 void RayCaster::watch(const Watchers& watchers) {
   for (const auto& pipe : machine_->pipes) pipe->watch(watchers);
+  for (const auto& link : machine_->jobs) link->fifo().watch(watchers.jobs);
+  for (const auto& link : machine_->requests) link->fifo().watch(watchers.requests);
+  for (const auto& link : machine_->replies) link->fifo().watch(watchers.replies);
 }
 void RayCaster::stop() { machine_->shared.end(); }
 void RayCaster::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }

@@ -125,7 +125,8 @@ class TileStage final : public Stage, public LineClient {
     std::uint64_t pixels = 0;
     for (int y = 0; y < kTileSide; ++y)
       for (int x = 0; x < kTileSide; ++x)
-        if (is_in(job, x, y) && (!job.second || differs(job, x, y, most, beside)))
+        if (is_in(job, x, y) && registers_.camera.window.holds(job.x + x, job.y + y) &&
+            (!job.second || differs(job, x, y, most, beside)))
           pixels |= std::uint64_t{1} << (y * kTileSide + x);
     return pixels;
   }
@@ -209,7 +210,9 @@ class WriteStage final : public Stage {
     bool moved = false;
     if (in_->valid()) {
       const PixelToken& pixel = *in_->get();
-      if (--buffers_.at(pixel.id.buffer).left == 0) buffers_.complete.push_back(pixel.id.buffer);
+      TileBuffer& of = buffers_.at(pixel.id.buffer);
+      const bool at_once = buffers_.complete.empty() && out_->ready();
+      if (--of.left == 0 || faults_.writes_early(at_once, of)) buffers_.complete.push_back(pixel.id.buffer);
       moved = true;
     }
     if (buffers_.complete.empty()) return moved ? Did::busy : Did::starved;
