@@ -2,8 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace voxmelt::hwmodel::raycast {
 namespace {
+
+// The pixels of it that the picture has.
+Window whole_tile(std::int32_t x, std::int32_t y, const render::Image& image) {
+  return {x, y, std::min(x + kTileSide, image.width), std::min(y + kTileSide, image.height)};
+}
 
 std::optional<Window> part_of(const PictureReport& report) {
   const auto box = [](std::int32_t x, std::int32_t y, std::int32_t side) {
@@ -13,7 +20,7 @@ std::optional<Window> part_of(const PictureReport& report) {
     const Difference& d = *report.difference;
     if (d.address >= 0) return {};
     const bool of_tile = d.stage == "dealer" || d.stage == "write";
-    return box(d.x, d.y, of_tile ? kTileSide : 1);
+    return of_tile ? whole_tile(d.x, d.y, report.image) : box(d.x, d.y, 1);
   }
   if (!report.hang.empty()) {
     if (!report.under_way) return {};

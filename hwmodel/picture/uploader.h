@@ -1,7 +1,7 @@
-// Keeps the ray caster's registers and memory up to date: after a step, only bricks that changed are sent.
+// Keeps the ray caster's registers and memory up to date: after a step, only lines that changed are sent.
 //
-// Bricks come from the list of those that the field's filter went through. Light, heights and texels have no
-// such list: the host compares them with what it has sent, line by line.
+// The host compares lines with what it has sent. Of levels and matter it looks at the bricks that the field's
+// filter went through; light, heights and texels have no such list, and it looks at all of them.
 #pragma once
 
 #include <array>
@@ -24,19 +24,18 @@ inline constexpr std::size_t kSentVolumes = 5;
 struct SentBrick {
   Sent volume = Sent::levels;
   state::Grid brick;
-  bool other = false;  // a byte of it was another one in memory
+  bool other = false;  // a line of it was sent
   friend bool operator==(const SentBrick& a, const SentBrick& b) {
     return a.volume == b.volume && a.brick.x == b.brick.x && a.brick.y == b.brick.y && a.brick.z == b.brick.z;
   }
 };
 
 struct UploadReport {
-  bool whole = false;  // everything was sent
-  std::vector<SentBrick> bricks;
+  bool whole = false;                                         // everything was sent
+  std::vector<SentBrick> bricks;                              // that were looked at
   std::array<std::vector<std::int64_t>, kSentVolumes> lines;  // caches must forget them
   std::array<std::int64_t, kSentVolumes> bytes{};
-  std::array<std::int64_t, kSentVolumes> other_bytes{};  // of lines that were others
-  std::int64_t slots = 0, skip_words = 0;                // register words: 32 bits, 16 bits
+  std::int64_t slots = 0, skip_words = 0;  // register words: 32 bits, 16 bits
   std::int64_t words = 0, bursts = 0, cycles = 0;
   Account account;
 };
@@ -68,8 +67,9 @@ class Uploader {
   void send_bricks(const render::PictureData& data, UploadReport& report);
   void send_lines(const render::PictureData& data, UploadReport& report);
   void send_registers(const render::PictureData& data, UploadReport& report);
-  bool send(const Layout& layout, Sent volume, std::int64_t line, const std::uint8_t* bytes,
-            UploadReport& report);
+  // Sends a line that is another one in memory. Tells whether it did.
+  bool send_other(const Layout& layout, Sent volume, std::int64_t line, const std::uint8_t* bytes,
+                  UploadReport& report);
 
   Configuration configuration_;
   Registers registers_;

@@ -54,8 +54,17 @@ class MemoryPort final : public Stage {
 
 // The memory itself: a request a cycle, from one pipe after the other; a fixed latency; a bus of so many
 // bytes a cycle.
+// Who uses the bus, too, and takes nothing else from the ray caster.
+class BusNeighbour {
+ public:
+  virtual ~BusNeighbour() = default;
+  // A cycle: how many bytes it moves. Without room it waits.
+  virtual std::int64_t cycle(bool has_room) = 0;
+};
+
 struct MemoryCounts {
   std::int64_t reads = 0, read_bytes = 0, written_bytes = 0, bus_cycles = 0;
+  std::int64_t neighbour_cycles = 0;  // of the bus
 };
 class MemoryBlock {
  public:
@@ -64,12 +73,14 @@ class MemoryBlock {
   void connect(Fifo<LineRequest>& requests, Fifo<LineReply>& replies) {
     ports_.push_back({&requests, &replies});
   }
+  void share(BusNeighbour* neighbour) { neighbour_ = neighbour; }  // null: nobody
   const MemoryCounts& counts() const { return counts_; }
   void begin() { bus_free_ = 0; }  // cycles count from 0 again
 
   // Tells whether anything moved.
   bool cycle(std::int64_t now) {
     bool moved = false;
+    if (neighbour_ != nullptr) serve_neighbour(now);
     if (!under_way_.empty() && under_way_.front().done <= now &&
         ports_[under_way_.front().port].replies->ready()) {
       *ports_[under_way_.front().port].replies->put() = under_way_.front().reply;
@@ -89,6 +100,7 @@ class MemoryBlock {
 
  private:
   static constexpr std::size_t kMostUnderWay = 256;
+  static constexpr std::int64_t kMostAhead = 64;  // cycles of the bus that are promised
   struct Port {
     Fifo<LineRequest>* requests;
     Fifo<LineReply>* replies;
@@ -99,6 +111,16 @@ class MemoryBlock {
     LineReply reply;
   };
 
+  // Its bytes fill whole cycles of the bus, one after the other.
+  void serve_neighbour(std::int64_t now) {
+    const std::int64_t first = now + latency_;
+    owed_ += neighbour_->cycle(bus_free_ - first < kMostAhead);
+    const std::int64_t beats = owed_ / bus_bytes_;
+    if (beats == 0) return;
+    owed_ %= bus_bytes_;
+    counts_.neighbour_cycles += beats;
+    bus_free_ = std::max(bus_free_, first) + beats;
+  }
   void serve(const LineRequest& request, std::size_t port, std::int64_t now) {
     const std::int64_t beats = (request.bytes + bus_bytes_ - 1) / bus_bytes_;
     counts_.bus_cycles += beats;
@@ -120,6 +142,8 @@ class MemoryBlock {
   std::vector<Port> ports_;
   std::size_t turn_ = 0;
   std::int64_t bus_free_ = 0;
+  BusNeighbour* neighbour_ = nullptr;
+  std::int64_t owed_ = 0;  // bytes of the neighbour that fill no cycle yet
   std::deque<UnderWay> under_way_;
   MemoryCounts counts_;
 };

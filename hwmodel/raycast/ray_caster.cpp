@@ -18,12 +18,11 @@ int tiles_along(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 // Deals tiles to the pipes, each to the next one that has room.
 class Dealer {
  public:
-  void begin(const FrameRegisters& frame, const Window& window, bool second) {
-    frame_ = frame, window_ = window, second_ = second, next_ = 0;
-  }
+  void begin(const FrameRegisters& frame, bool second) { frame_ = frame, second_ = second, next_ = 0; }
   void connect(Fifo<TileJob>& out) { out_.push_back(&out); }
   bool cycle() {
-    while (next_ < frame_.tiles_x * frame_.tiles_y && !window_.meets(tile_x(), tile_y(), kTileSide)) ++next_;
+    while (next_ < frame_.tiles_x * frame_.tiles_y && !frame_.window.meets(tile_x(), tile_y(), kTileSide))
+      ++next_;
     if (next_ == frame_.tiles_x * frame_.tiles_y) return false;
     for (std::size_t i = 0; i < out_.size(); ++i) {
       Fifo<TileJob>& out = *out_[(turn_ + i) % out_.size()];
@@ -41,7 +40,6 @@ class Dealer {
   int tile_y() const { return next_ / frame_.tiles_x * kTileSide; }
 
   FrameRegisters frame_;
-  Window window_;
   bool second_ = false;
   int next_ = 0;
   std::size_t turn_ = 0;
@@ -114,11 +112,11 @@ struct RayCaster::Machine {
     if (poll && shared.cycle() % kPollEvery == 0) poll();
   }
 
-  std::int64_t bytes_in(const Window& window) const {
+  std::int64_t bytes_dealt() const {
     std::int64_t tiles = 0;
     for (int y = 0; y < frame.tiles_y; ++y)
       for (int x = 0; x < frame.tiles_x; ++x)
-        tiles += window.meets(x * kTileSide, y * kTileSide, kTileSide) ? 1 : 0;
+        tiles += frame.window.meets(x * kTileSide, y * kTileSide, kTileSide) ? 1 : 0;
     return tiles * kTileBytes;
   }
 
@@ -129,9 +127,10 @@ struct RayCaster::Machine {
              tiles_along(registers.camera.width),
              tiles_along(registers.camera.height),
              samples,
-             most};
-    dealer.begin(frame, registers.camera.window, second);
-    bytes_at_end = memory_block.counts().written_bytes + bytes_in(registers.camera.window);
+             most,
+             window};
+    dealer.begin(frame, second);
+    bytes_at_end = memory_block.counts().written_bytes + bytes_dealt();
     shared.complete = shared.hangs = false;
     shared.last_cycle = kNever;
     idle = 0;
@@ -156,6 +155,7 @@ struct RayCaster::Machine {
   Memory& memory;
   Configuration configuration;
   FrameRegisters frame;
+  Window window;
   sc_core::sc_clock clock;
   Dealer dealer;
   MemoryBlock memory_block;
@@ -182,6 +182,9 @@ void RayCaster::watch(const Watchers& watchers) {
 void RayCaster::stop() { machine_->shared.end(); }
 void RayCaster::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
 
+void RayCaster::share(BusNeighbour* neighbour) { machine_->memory_block.share(neighbour); }
+
+void RayCaster::draw_only(const Window& window) { machine_->window = window; }
 FrameEnd RayCaster::draw_first() { return machine_->run_pass(false, 1, 0); }
 FrameEnd RayCaster::draw_again(int samples, int most) { return machine_->run_pass(true, samples, most); }
 

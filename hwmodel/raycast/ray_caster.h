@@ -35,6 +35,7 @@ class RayCaster {
   void watch(const Watchers& watchers);
   void stop();  // after the present cycle
   void poll(std::function<void()> poll);
+  void share(BusNeighbour* neighbour);  // of the memory's bus; null: nobody
 
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {
@@ -44,6 +45,8 @@ class RayCaster {
     std::string stage;
   };
 
+  // From now on; other pixels keep bytes of no meaning.
+  void draw_only(const Window& window);
   // Draws every pixel with one sample: into the frame at Memory::frame.
   FrameEnd draw_first();
   // Draws those that differ by more than `most` with so many samples: into the frame behind it.

@@ -31,8 +31,7 @@ struct CameraRegisters {
   Vec eye, forward, wide, high, near_wide, near_high;
   std::int64_t near = 0;
   std::int32_t width = 0, height = 0;  // pixels
-  Window window;
-  int spacing = 2;  // steps of 2^-spacing cells
+  int spacing = 2;                     // steps of 2^-spacing cells
   int halvings = 0;
 };
 
