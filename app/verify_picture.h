@@ -16,8 +16,9 @@ namespace voxmelt::app {
 struct PictureChoice {
   bool asked = false, compare = true;
   bool machine = false;  // the whole machine is asked for
-  std::string view, size, setting = "normal", png, plant;
+  std::string view, size, setting = "normal", png, plant, pixel;
   int frames = 1;
+  std::string again;  // what to type to see the picture again
 };
 void add_picture_choice(CLI::App& command, PictureChoice& choice);
 

@@ -26,13 +26,36 @@ render::Image image_of(const Memory& memory, std::int64_t frame, int width, int 
   return image;
 }
 
+// The second pass compares a pixel with those beside it.
+Window with_neighbours(const Window& of) { return {of.left - 1, of.top - 1, of.right + 1, of.bottom + 1}; }
+
+// Tells how many pixels it compared.
+std::int64_t compare_bytes(PictureReport& report, const render::Image& expected, const Window& window) {
+  std::int64_t pixels = 0;
+  for (int y = 0; y < expected.height; ++y)
+    for (int x = 0; x < expected.width; ++x) {
+      if (!window.holds(x, y)) continue;
+      ++pixels;
+      if (report.image.at(x, y) == expected.at(x, y)) continue;
+      if (!report.different) report.different = RayId{x, y, 0, 0};
+      ++report.different_bytes;
+    }
+  return pixels;
+}
+
 void tell_hang(PictureReport& report, const RayCaster& caster) {
-  std::string text, waiting;
+  std::string text, waiting, jammed;
   for (int i = 0; i < caster.pipes(); ++i)
     for (const Pipe::ChannelState& channel : caster.pipe(i).channels())
       if (channel.count > 0)
         text += "  pipe " + std::to_string(i) + ": " + channel.name + ": " + std::to_string(channel.count) +
                 " of " + std::to_string(channel.depth) + "\n";
+  for (int i = 0; i < caster.pipes(); ++i)
+    for (const Pipe::ChannelState& channel : caster.pipe(i).channels())
+      if (channel.count < channel.depth && !channel.ready) {
+        report.jammed.push_back(channel.name);
+        jammed += "  pipe " + std::to_string(i) + ": " + channel.name + "\n";
+      }
   for (int i = 0; i < caster.pipes(); ++i)
     for (const Stage* stage : caster.pipe(i).stages()) {
       if (!stage->waits_for_memory()) continue;
@@ -41,6 +64,11 @@ void tell_hang(PictureReport& report, const RayCaster& caster) {
     }
   report.hang = "nothing moves any more; channels that hold tokens:\n" + text +
                 "stages that wait for the memory:\n" + waiting;
+  if (!jammed.empty()) report.hang += "channels that have room and take nothing:\n" + jammed;
+  if (report.under_way)
+    report.hang += "a ray under way: pixel (" + std::to_string(report.under_way->x) + ", " +
+                   std::to_string(report.under_way->y) + "), sample " +
+                   std::to_string(report.under_way->sample) + "\n";
 }
 
 void add(Account& sum, const Account& more) {
@@ -79,15 +107,18 @@ void take_accounts(PictureReport& report, const RayCaster& caster) {
 
 bool PictureReport::found_where_planted() const {
   if (!strike) return false;
-  if (!difference) return std::find(waiting.begin(), waiting.end(), strike->stage + " data") != waiting.end();
+  const auto names = [&](const std::vector<std::string>& of, const std::string& stage) {
+    return std::find(of.begin(), of.end(), stage) != of.end();
+  };
+  if (!difference) return names(waiting, strike->stage + " data") || names(jammed, strike->stage);
   return difference->stage == strike->stage && difference->x == strike->x && difference->y == strike->y &&
-         difference->sample == strike->sample;
+         difference->sample == strike->sample && difference->address == strike->address;
 }
 
 PictureRun::PictureRun(const Registers& registers, Memory& memory, const PictureOptions& options)
     : memory_(memory),
       options_(options),
-      plan_(options.fault),
+      plan_(options.fault, options.fault_channel),
       caster_(registers, memory, options_.configuration,
               options.fault == Fault::none ? PipeMaker(make_pipe) : planted_pipes(plan_)) {
   caster_.poll(options.poll);
@@ -110,26 +141,31 @@ void PictureRun::draw(const render::PictureScene& scene, const picture::Camera& 
   caster_.watch(options_.compare ? checker.watchers() : Watchers{});
 
   const std::clock_t begin = std::clock();  // of the processor: the machine may have other work
-  checker.begin_pass(1, 0, memory_.frame);
+  const Window first = fast ? options_.window : with_neighbours(options_.window);
+  caster_.draw_only(first);
+  checker.begin_pass(1, 0, memory_.frame, first);
   report_.end = caster_.draw_first();
+  if (options_.compare) checker.end_pass(report_.end);
   report_.all_cycles += report_.end.cycles;
   if (!fast && !checker.difference() && report_.end.complete) {
-    checker.begin_pass(samples, most, second_frame);
+    caster_.draw_only(options_.window);
+    checker.begin_pass(samples, most, second_frame, options_.window);
     const FrameEnd second = caster_.draw_again(samples, most);
     report_.all_cycles += second.cycles;
+    if (options_.compare) checker.end_pass(second);
     report_.end = {report_.end.cycles + second.cycles, second.complete, second.hangs};
   }
   caster_.watch({});
   report_.seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   report_.difference = checker.difference();
   report_.compared += checker.compared();
+  report_.under_way = checker.ray_under_way();
   if (report_.end.hangs) tell_hang(report_, caster_);
   if (options_.compare && checker.compared() == 0) throw std::logic_error("lock-step compared nothing");
 
   report_.image = image_of(memory_, fast ? memory_.frame : second_frame, width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      if (report_.image.at(x, y) != expected.at(x, y)) ++report_.different_bytes;
+  const std::int64_t pixels = compare_bytes(report_, expected, options_.window);
+  if (!options_.compare) report_.compared += pixels;
 }
 
 PictureReport PictureRun::report() {

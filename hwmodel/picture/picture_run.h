@@ -11,6 +11,7 @@
 #include "hwmodel/picture/checker.h"
 #include "hwmodel/picture/uploader.h"
 #include "hwmodel/raycast/ray_caster.h"
+#include "hwmodel/raycast/registers.h"
 #include "render/image/image.h"
 #include "render/packet/draw_picture.h"
 #include "render/reference/picture_scene.h"
@@ -20,8 +21,10 @@ namespace voxmelt::hwmodel::raycast {
 struct PictureOptions {
   Configuration configuration;
   Fault fault = Fault::none;
-  bool compare = true;  // behind every stage; the bytes are always compared
-  int frames = 1;       // the same one again and again: later ones find the caches warm
+  std::string fault_channel;  // of a fault of channels; empty: a usual one
+  Window window;              // draw and compare only these pixels
+  bool compare = true;        // behind every stage; the bytes are always compared
+  int frames = 1;             // the same one again and again: later ones find the caches warm
   std::function<void()> poll;
 };
 
@@ -39,9 +42,12 @@ struct PictureReport {
   std::optional<Difference> difference;
   std::string hang;                               // what is full and what is empty, if nothing moved any more
   std::vector<std::string> waiting;               // then: stages that wait for the memory
+  std::vector<std::string> jammed;                // then: channels that have room and take nothing
+  std::optional<RayId> under_way;                 // then: a ray that has not come to its end
   std::optional<FaultPlan::Strike> strike;        // of the planted fault
   std::int64_t different_bytes = 0;               // of the pictures
-  std::int64_t compared = 0;                      // numbers
+  std::optional<RayId> different;                 // the first pixel among them
+  std::int64_t compared = 0;                      // numbers; pixels, if no stage is compared
   FrameEnd end;                                   // of the last frame
   double seconds = 0;                             // of the simulation, comparing included
   std::int64_t rays = 0, samples = 0, leaps = 0;  // of the walk
@@ -55,7 +61,9 @@ struct PictureReport {
   render::Image image;
   // At the stage, pixel and sample that the fault left wrong; what got lost there is found as a hang.
   bool found_where_planted() const;
-  bool good() const { return !difference && hang.empty() && different_bytes == 0 && end.complete; }
+  bool good() const {
+    return !difference && hang.empty() && different_bytes == 0 && end.complete && compared > 0;
+  }
 };
 
 class PictureRun {

@@ -26,6 +26,11 @@ std::string text_of(const UploadReport& upload) {
   return text + fmt::format("), {} words of registers; {} cycles\n", upload.words, upload.cycles);
 }
 
+std::string place_of(const FaultPlan::Strike& of) {
+  if (of.address >= 0) return fmt::format("the line at address {}", of.address);
+  return fmt::format("pixel ({}, {}), sample {}", of.x, of.y, of.sample);
+}
+
 }  // namespace
 
 nlohmann::ordered_json json_of(const UploadReport& upload) {
@@ -130,6 +135,8 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
     json["difference"] = {{"stage", d.stage},       {"x", d.x},          {"y", d.y},
                           {"sample", d.sample},     {"cycle", d.cycle},  {"name", d.name},
                           {"expected", d.expected}, {"actual", d.actual}};
+    if (d.address >= 0) json["difference"]["address"] = d.address;
+    if (d.address >= 0) json["difference"]["address"] = d.address;
   }
   if (report.strike)
     json["planted"] = {{"stage", report.strike->stage},
@@ -145,8 +152,7 @@ std::string verdict_text(const PictureReport& report) {
   if (report.difference) text += text_of(*report.difference);
   text += report.hang;
   if (report.strike)
-    text += fmt::format("planted: {}, pixel ({}, {}), sample {}; {}\n", report.strike->stage,
-                        report.strike->x, report.strike->y, report.strike->sample,
+    text += fmt::format("planted: {}, {}; {}\n", report.strike->stage, place_of(*report.strike),
                         report.good()                  ? "NOT FOUND"
                         : report.found_where_planted() ? "found there"
                                                        : "found, but ELSEWHERE");

@@ -23,11 +23,13 @@ class Dealer {
   void begin(const FrameRegisters& frame, bool second) { frame_ = frame, second_ = second, next_ = 0; }
   void connect(Fifo<TileJob>& out) { out_.push_back(&out); }
   bool cycle() {
+    while (next_ < frame_.tiles_x * frame_.tiles_y && !frame_.window.meets(tile_x(), tile_y(), kTileSide))
+      ++next_;
     if (next_ == frame_.tiles_x * frame_.tiles_y) return false;
     for (std::size_t i = 0; i < out_.size(); ++i) {
       Fifo<TileJob>& out = *out_[(turn_ + i) % out_.size()];
       if (!out.ready()) continue;
-      *out.put() = {next_ % frame_.tiles_x * kTileSide, next_ / frame_.tiles_x * kTileSide, second_};
+      *out.put() = {tile_x(), tile_y(), second_};
       ++next_;
       turn_ = (turn_ + i + 1) % out_.size();
       return true;
@@ -36,6 +38,9 @@ class Dealer {
   }
 
  private:
+  int tile_x() const { return next_ % frame_.tiles_x * kTileSide; }
+  int tile_y() const { return next_ / frame_.tiles_x * kTileSide; }
+
   FrameRegisters frame_;
   bool second_ = false;
   int next_ = 0;
@@ -109,6 +114,14 @@ struct RayCaster::Machine {
     if (poll && shared.cycle() % kPollEvery == 0) poll();
   }
 
+  std::int64_t bytes_dealt() const {
+    std::int64_t tiles = 0;
+    for (int y = 0; y < frame.tiles_y; ++y)
+      for (int x = 0; x < frame.tiles_x; ++x)
+        tiles += frame.window.meets(x * kTileSide, y * kTileSide, kTileSide) ? 1 : 0;
+    return tiles * kTileBytes;
+  }
+
   FrameEnd run_pass(bool second, int samples, int most) {
     const std::int64_t bytes = frame_bytes(registers.camera.width, registers.camera.height);
     frame = {second ? memory.frame : 0,
@@ -116,9 +129,10 @@ struct RayCaster::Machine {
              tiles_along(registers.camera.width),
              tiles_along(registers.camera.height),
              samples,
-             most};
+             most,
+             window};
     dealer.begin(frame, second);
-    bytes_at_end = memory_block->counts().written_bytes + bytes;
+    bytes_at_end = memory_block->counts().written_bytes + bytes_dealt();
     shared.complete = shared.hangs = false;
     shared.last_cycle = kNever;
     idle = 0;
@@ -143,6 +157,7 @@ struct RayCaster::Machine {
   Memory& memory;
   Configuration configuration;
   FrameRegisters frame;
+  Window window;
   sc_core::sc_clock clock;
   Dealer dealer;
   std::unique_ptr<LineMemory> memory_block;
@@ -163,6 +178,9 @@ RayCaster::~RayCaster() { machine_->context.enter(); }
 
 void RayCaster::watch(const Watchers& watchers) {
   for (const auto& pipe : machine_->pipes) pipe->watch(watchers);
+  for (const auto& link : machine_->jobs) link->fifo().watch(watchers.jobs);
+  for (const auto& link : machine_->requests) link->fifo().watch(watchers.requests);
+  for (const auto& link : machine_->replies) link->fifo().watch(watchers.replies);
 }
 void RayCaster::stop() { machine_->shared.end(); }
 void RayCaster::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
@@ -176,6 +194,7 @@ void RayCaster::wait_for_neighbour() {
   for (std::int64_t now = 0; !machine_->neighbour->done(); ++now) machine_->memory_block->cycle(now);
 }
 
+void RayCaster::draw_only(const Window& window) { machine_->window = window; }
 FrameEnd RayCaster::draw_first() { return machine_->run_pass(false, 1, 0); }
 FrameEnd RayCaster::draw_again(int samples, int most) { return machine_->run_pass(true, samples, most); }
 

@@ -48,6 +48,8 @@ class RayCaster {
     std::string stage;
   };
 
+  // From now on; other pixels keep bytes of no meaning.
+  void draw_only(const Window& window);
   // Draws every pixel with one sample: into the frame at Memory::frame.
   FrameEnd draw_first();
   // Draws those that differ by more than `most` with so many samples: into the frame behind it.

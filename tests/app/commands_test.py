@@ -397,21 +397,23 @@ kappa = 20
 
     def test_every_fault_planted_in_the_ray_caster_is_found_where_it_was_planted(self):
         _, of_caster = self.good("list", "faults").split("\n\n")
-        rows = [line.split() for line in of_caster.splitlines()[1:]]
+        rows = of_caster.splitlines()[1:]
         self.assertGreaterEqual(len(rows), 24)
         never = set()
-        for name, stage, *_ in rows:
+        for row in rows:
+            name = row.split()[0]
             found = 0
             for scene, *more in (["proving_ground"], ["lava", "--from", 40]):
                 result = voxmelt("verify", scene, *more, "--picture", "--size", "32x32", "--plant", name,
-                                 "--report", "p.json", cwd=self.folder)
+                                 "--set", "hw.pipes=2", "--set", "hw.stall_seed=1", "--report", "p.json", cwd=self.folder)
                 if result.returncode == 2:
                     self.assertIn("nothing that this fault could change", result.stderr)
                     continue
                 self.assertEqual(result.returncode, 1, name + result.stderr)
                 self.assertIn("found there", result.stdout, name)
                 planted = json.loads((self.folder / "p.json").read_text())["planted"]
-                self.assertEqual((planted["stage"], planted["found_there"]), (stage, True), name)
+                self.assertTrue(planted["found_there"], name)
+                self.assertIn(f" {planted['stage']} ", row)
                 found += 1
                 break
             if found == 0:
