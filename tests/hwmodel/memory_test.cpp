@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iostream>
 #include <map>
 #include <sstream>
 #include <string>
@@ -228,11 +229,14 @@ TEST(Memory, StreamsComeNearThePeak) {
     const Parameters p = sheet(name);
     const Counts one = saturated(p, {{0, false}});
     const Counts three = saturated(p, {{0, false}, {kFar, true}, {2 * kFar, false}});
-    for (const Counts& c : {one, three})
-      std::printf("%-12s busy %.4f refresh %.4f turn %.4f row %.4f spacing %.4f idle %.4f\n", name, share(c),
-                  double(c.refresh) / double(c.cycles()), double(c.turnaround) / double(c.cycles()),
-                  double(c.row) / double(c.cycles()), double(c.spacing) / double(c.cycles()),
-                  double(c.idle) / double(c.cycles()));
+    for (const Counts& c : {one, three}) {
+      const auto percent = [&](std::int64_t cycles) {
+        return std::to_string(100.0 * static_cast<double>(cycles) / static_cast<double>(c.cycles()));
+      };
+      std::cout << name << ", in %: busy " << percent(c.busy) << ", refresh " << percent(c.refresh)
+                << ", turnaround " << percent(c.turnaround) << ", row " << percent(c.row) << ", spacing "
+                << percent(c.spacing) << ", idle " << percent(c.idle) << '\n';
+    }
     EXPECT_GE(share(one), 0.9) << name;
     EXPECT_GE(share(three), 0.8) << name;
     EXPECT_LE(share(one), 1 - static_cast<double>(p.rfc) / p.refi) << name;  // no more than refresh leaves
