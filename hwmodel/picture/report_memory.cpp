@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstdint>
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -21,10 +21,10 @@ std::string memory_text(const memory::Counts& c, const memory::Parameters& p) {
          fmt::format("  rows: {:.1f} % hits, {:.1f} % misses, {:.1f} % conflicts; {} refreshes\n",
                      100 * ratio(c.hits, requests), 100 * ratio(c.misses, requests),
                      100 * ratio(c.conflicts, requests), c.refreshes) +
-         fmt::format("  data bus, in %: busy {:.1f}, idle {:.1f}, refresh {:.1f}, turnaround {:.1f}, row {:.1f}, "
-                     "spacing {:.1f}\n",
-                     part(c.busy), part(c.idle), part(c.refresh), part(c.turnaround), part(c.row),
-                     part(c.spacing)) +
+         fmt::format(
+             "  data bus, in %: busy {:.1f}, idle {:.1f}, refresh {:.1f}, turnaround {:.1f}, row {:.1f}, "
+             "spacing {:.1f}\n",
+             part(c.busy), part(c.idle), part(c.refresh), part(c.turnaround), part(c.row), part(c.spacing)) +
          fmt::format("  turnarounds: {} to write, {} to read; {} requests waited for one of the same burst\n",
                      c.read_to_write, c.write_to_read, c.held) +
          fmt::format("  a read takes {:.0f} ns in the mean, {:.0f} ns at worst\n",

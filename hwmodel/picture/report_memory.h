@@ -1,7 +1,6 @@
 // What a memory did, in words and as JSON.
 #pragma once
 
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 

@@ -54,7 +54,8 @@ bool DramLines::cycle(std::int64_t) {
 
 bool DramLines::give_reply(Port& port) {
   bool moved = false;
-  while (!port.lines.empty() && port.lines.front().bursts_left > 0 && dram_.reply(port.dram_port) != nullptr) {
+  while (!port.lines.empty() && port.lines.front().bursts_left > 0 &&
+         dram_.reply(port.dram_port) != nullptr) {
     dram_.take(port.dram_port);
     --port.lines.front().bursts_left;
     moved = true;
@@ -72,8 +73,8 @@ void DramLines::accept(Port& port) {
   if (!request.write) {
     ++counts_.reads;
     counts_.read_bytes += request.bytes;
-    port.lines.push_back({{request.client, request.slot, request.address, request.bytes},
-                          static_cast<int>(port.bursts)});
+    port.lines.push_back(
+        {{request.client, request.slot, request.address, request.bytes}, static_cast<int>(port.bursts)});
     return;
   }
   if (free_.empty()) {

@@ -184,7 +184,8 @@ MemoryCounts RayCaster::memory_counts() const {
   counts.dram = machine_->memory_block->dram_counts();
   if (counts.dram) {  // in cycles of the machine, as of the other memory
     const memory::Parameters& p = *machine_->configuration.dram;
-    counts.bus_cycles = counts.dram->busy * machine_->configuration.clock_mhz / (std::int64_t{p.mhz} * p.channels);
+    counts.bus_cycles =
+        counts.dram->busy * machine_->configuration.clock_mhz / (std::int64_t{p.mhz} * p.channels);
   }
   return counts;
 }

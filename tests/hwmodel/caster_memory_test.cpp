@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -52,7 +51,8 @@ TEST(CasterMemory, HostilePicturesOnADram) {
     for (const char* cause : {"busy", "idle", "refresh", "turnaround", "row", "spacing"})
       sum += json["data_bus_cycles"][cause].get<std::int64_t>();
     EXPECT_EQ(json["data_bus_cycles"]["all"], sum);
-    EXPECT_NE(memory_text(dram, *c.dram).find(std::to_string(dram.refreshes) + " refreshes"), std::string::npos);
+    EXPECT_NE(memory_text(dram, *c.dram).find(std::to_string(dram.refreshes) + " refreshes"),
+              std::string::npos);
   }
 }
 
@@ -61,7 +61,8 @@ TEST(CasterMemory, AnUploadArrivesOnADram) {
   upload.words = 5;
   std::vector<std::uint8_t> line(kBurst);
   for (int i = 0; i < 5000; ++i) {
-    for (std::size_t b = 0; b < line.size(); ++b) line[b] = static_cast<std::uint8_t>(7 * i + static_cast<int>(b));
+    for (std::size_t b = 0; b < line.size(); ++b)
+      line[b] = static_cast<std::uint8_t>(7 * i + static_cast<int>(b));
     upload.add(64 * std::int64_t{i}, line.data(), kBurst);
   }
   Configuration c;

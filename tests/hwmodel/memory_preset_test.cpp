@@ -1,8 +1,12 @@
 // Files of memories: what they say arrives, and what is wrong in them is refused at its place.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include "hwmodel/presets/memory_preset.h"
