@@ -31,6 +31,7 @@ PURPOSES = {
     "accuracy/picture": "picture in double",
     "hwmodel": "the hardware in SystemC: a pipeline, a ray caster",
     "hwmodel/channel": "FIFOs, line buffers, wires of a declared width",
+    "hwmodel/memory": "when a DRAM gives and takes",
     "hwmodel/process": "what a machine needs of SystemC",
     "hwmodel/stream": "one stage per phase, with its own arithmetic",
     "hwmodel/faults": "planted, to be found",

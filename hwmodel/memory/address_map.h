@@ -1,5 +1,5 @@
-// Where a burst lies. From the lowest bits of its number on: channel, bank group, columns of a row, bank, rank,
-// row. So a stream goes from group to group, and meets another bank at the end of a row.
+// Where a burst lies. From the lowest bits of its number on: channel, bank group, columns of a row, bank,
+// rank, row. So a stream goes from group to group, and meets another bank at the end of a row.
 #pragma once
 
 #include <cstdint>

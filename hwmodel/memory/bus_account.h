@@ -1,4 +1,5 @@
-// Whom the cycles of a data bus belong to: told at each column command, for all the time since the data before.
+// Whom the cycles of a data bus belong to: told at each column command, for all the time since the data
+// before.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "hwmodel/memory/controller.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace voxmelt::hwmodel::memory {
 namespace {
@@ -180,7 +181,8 @@ bool Controller::row(std::int64_t now, std::int64_t& next) {
   return row_of(writing_ ? reads_ : writes_, false, seen, now, next);
 }
 
-bool Controller::row_of(Queue& queue, bool starving, std::uint64_t& seen, std::int64_t now, std::int64_t& next) {
+bool Controller::row_of(Queue& queue, bool starving, std::uint64_t& seen, std::int64_t now,
+                        std::int64_t& next) {
   std::uint64_t hit = 0;
   for (const Entry& entry : queue) {
     BankState& bank = ranks_[static_cast<std::size_t>(entry.at.rank)].bank(entry.at.group, entry.at.bank);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "hwmodel/memory/address_map.h"
@@ -23,7 +22,7 @@ struct Entry {
   std::int64_t put = 0, arrival = 0;  // cycles: at its port, in the queue
   Location at;
   bool write = false;
-  int left = 0;  // column commands
+  int left = 0;                                // column commands
   bool activated = false, precharged = false;  // for its sake
   int port = 0;
   std::uint32_t id = 0;
@@ -35,7 +34,8 @@ class Controller {
   Controller(const Parameters& parameters, const Policy& policy, int channel);
 
   bool has_room(bool write) const;
-  // An older request to the same burst waits, and one of the two writes. If it is a write, it will be hurried.
+  // An older request to the same burst waits, and one of the two writes. If it is a write, it will be
+  // hurried.
   bool must_wait(std::int64_t address, bool write);
   void take(const Entry& entry, std::int64_t now);
 
@@ -71,7 +71,7 @@ class Controller {
   int channel_;
   Queue reads_, writes_;
   bool writing_ = false, hurry_ = false;
-  int run_ = 0;                      // requests since it turned round
+  int run_ = 0;  // requests since it turned round
   std::int64_t no_reads_since_ = 0;
   std::vector<RankState> ranks_;
   ColumnRules columns_;

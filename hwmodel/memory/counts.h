@@ -7,7 +7,7 @@
 namespace voxmelt::hwmodel::memory {
 
 struct Counts {
-  std::int64_t reads = 0, writes = 0;             // requests of 64 bytes
+  std::int64_t reads = 0, writes = 0;                // requests of 64 bytes
   std::int64_t hits = 0, misses = 0, conflicts = 0;  // of them: the row was open, no row was, another one was
   std::int64_t activates = 0, precharges = 0, refreshes = 0, columns = 0;  // commands
   std::int64_t read_to_write = 0, write_to_read = 0;                       // turnarounds of a channel

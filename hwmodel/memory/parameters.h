@@ -18,23 +18,23 @@ struct Parameters {
   int rows = 1, columns = 1, width_bits = 64, transfers = 8;
 
   // All of these are cycles.
-  int cl = 0, cwl = 0;              // from a column command to its data
+  int cl = 0, cwl = 0;                // from a column command to its data
   int read_more = 0, write_more = 0;  // that data may lie later (tDQSCK and tDQSS of LPDDR4)
-  int rcd = 0;                      // ACT to RD and WR
-  int rp = 0, rp_all = 0;           // PRE to ACT, of one bank and of all
-  int ras = 0, rc = 0;              // ACT to PRE, and to ACT of the same bank
-  int ccd_s = 0, ccd_l = 0;         // RD to RD, WR to WR: of another group, of the same one
-  int rrd_s = 0, rrd_l = 0;         // ACT to ACT of another bank: likewise
-  int faw = 0;                      // four ACT at most in so many cycles
-  int wr = 0;                       // end of written data to PRE
-  int wtr_s = 0, wtr_l = 0;         // end of written data to RD
-  int rtp = 0;                      // RD to PRE
-  int read_to_write = 0;            // cycles without data between read and written data
-  int rank_switch = 0;              // cycles without data between those of two ranks
-  int refi = 0, rfc = 0;            // between two REF; REF to the next command
+  int rcd = 0;                        // ACT to RD and WR
+  int rp = 0, rp_all = 0;             // PRE to ACT, of one bank and of all
+  int ras = 0, rc = 0;                // ACT to PRE, and to ACT of the same bank
+  int ccd_s = 0, ccd_l = 0;           // RD to RD, WR to WR: of another group, of the same one
+  int rrd_s = 0, rrd_l = 0;           // ACT to ACT of another bank: likewise
+  int faw = 0;                        // four ACT at most in so many cycles
+  int wr = 0;                         // end of written data to PRE
+  int wtr_s = 0, wtr_l = 0;           // end of written data to RD
+  int rtp = 0;                        // RD to PRE
+  int read_to_write = 0;              // cycles without data between read and written data
+  int rank_switch = 0;                // cycles without data between those of two ranks
+  int refi = 0, rfc = 0;              // between two REF; REF to the next command
   int act_slots = 1, column_slots = 1, pre_slots = 1, ref_slots = 1;  // cycles of the command bus
-  bool two_buses = false;           // column commands have a bus of their own
-  int interface_cycles = 0;         // on the way of a read through controller and pins, beyond all above
+  bool two_buses = false;    // column commands have a bus of their own
+  int interface_cycles = 0;  // on the way of a read through controller and pins, beyond all above
 
   int beats() const { return transfers / 2; }  // cycles of the data of one column command
   int column_bytes() const { return width_bits / 8 * transfers; }

@@ -15,7 +15,7 @@ namespace voxmelt::hwmodel::memory {
 inline constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min() / 4;
 
 struct BankState {
-  int open = -1;  // row
+  int open = -1;                                         // row
   std::int64_t activate = 0, column = 0, precharge = 0;  // from which cycle on
 };
 
@@ -52,8 +52,8 @@ class RankState {
     for (BankState& bank : banks_) bank.activate = std::max(bank.activate, now + p.rfc);
   }
 
-  std::int64_t due;        // the next refresh
-  bool closing = false;    // for it
+  std::int64_t due;      // the next refresh
+  bool closing = false;  // for it
 
  private:
   std::vector<BankState> banks_;

@@ -1,6 +1,7 @@
 #include "hwmodel/memory/timing_checker.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace voxmelt::hwmodel::memory {
 namespace {
@@ -14,12 +15,18 @@ bool is_column(Kind kind) { return kind == Kind::read || kind == Kind::write; }
 
 std::string words(Kind kind) {
   switch (kind) {
-    case Kind::activate: return "ACT";
-    case Kind::precharge: return "PRE";
-    case Kind::precharge_all: return "PREA";
-    case Kind::read: return "RD";
-    case Kind::write: return "WR";
-    case Kind::refresh: break;
+    case Kind::activate:
+      return "ACT";
+    case Kind::precharge:
+      return "PRE";
+    case Kind::precharge_all:
+      return "PREA";
+    case Kind::read:
+      return "RD";
+    case Kind::write:
+      return "WR";
+    case Kind::refresh:
+      break;
   }
   return "REF";
 }
@@ -40,8 +47,8 @@ void TimingChecker::must(const char* rule, bool holds, const Command& c) {
   ++violations_;
   ++by_rule_[rule];
   if (first_.empty())
-    first_ = std::string(rule) + ": " + words(c.kind) + " in cycle " + std::to_string(c.cycle) + ", channel " +
-             std::to_string(c.channel) + ", rank " + std::to_string(c.rank) + ", group " +
+    first_ = std::string(rule) + ": " + words(c.kind) + " in cycle " + std::to_string(c.cycle) +
+             ", channel " + std::to_string(c.channel) + ", rank " + std::to_string(c.rank) + ", group " +
              std::to_string(c.group) + ", bank " + std::to_string(c.bank) + ", row " + std::to_string(c.row);
 }
 
@@ -61,9 +68,13 @@ void TimingChecker::issued(const Command& c) {
   if (c.kind != Kind::precharge && c.kind != Kind::precharge_all)
     at_least("tRFC", rank.refresh, sheet_.rfc, c);
   switch (c.kind) {
-    case Kind::activate: check_activate(rank, c); break;
+    case Kind::activate:
+      check_activate(rank, c);
+      break;
     case Kind::read:
-    case Kind::write: check_column(channel, rank, c); break;
+    case Kind::write:
+      check_column(channel, rank, c);
+      break;
     case Kind::precharge: {
       Bank& bank = bank_of(rank, c);
       check_precharge(bank, c);
@@ -78,7 +89,9 @@ void TimingChecker::issued(const Command& c) {
         bank.precharge = c.cycle;
       }
       break;
-    case Kind::refresh: check_refresh(rank, c); break;
+    case Kind::refresh:
+      check_refresh(rank, c);
+      break;
   }
 }
 
@@ -136,7 +149,6 @@ void TimingChecker::check_column(Channel& channel, Rank& rank, const Command& c)
   Group& group = rank.groups[static_cast<std::size_t>(c.group)];
   (read ? group.read : group.write) = c.cycle;
   (read ? bank.read : bank.write) = c.cycle;
-  (read ? rank.read : rank.write) = c.cycle;
 }
 
 // When data lie on the bus, and how long it must rest between two of them.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -42,8 +41,7 @@ class TimingChecker final : public CommandListener {
     std::vector<Bank> banks;
     std::vector<Group> groups;
     std::array<std::int64_t, 4> activates{kNever, kNever, kNever, kNever};  // the newest is first
-    std::int64_t read = kNever, write = kNever, refresh = kNever;
-    std::int64_t refreshes = 0;
+    std::int64_t refresh = kNever, refreshes = 0;
   };
   struct Channel {
     std::vector<Rank> ranks;

@@ -29,7 +29,7 @@ struct Configuration {
   int latency = 40;                        // of the memory, in cycles
   int bus_bytes = 64;                      // that the memory gives in a cycle
   std::string memory_trace;                // file of the requests to a DRAM; empty: none
-  bool apron = false;  // bricks of levels hold their apron: a line is a brick
+  bool apron = false;                      // bricks of levels hold their apron: a line is a brick
   int level_bits = 2;  // log2 of the places of a line of levels along an axis, without apron: 2 or 3
 };
 

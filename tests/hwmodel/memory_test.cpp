@@ -1,8 +1,10 @@
 // The DRAM: commands and replies worked by hand from the sheet, traffic at random, and what it reaches.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iostream>
 #include <map>
 #include <sstream>
 #include <string>
@@ -30,6 +32,11 @@ std::string words(const std::vector<Command>& commands) {
   }
   return text;
 }
+
+struct Served final : RequestListener {
+  void taken(std::int64_t, const Request& request) override { ++by_id[request.id]; }
+  std::array<std::int64_t, 3> by_id{};
+};
 
 constexpr std::int64_t kNextGroup = 64, kNextColumn = 4 * 64, kNextRow = 64LL * 4 * 128 * 4;
 
@@ -72,8 +79,8 @@ TEST(Memory, ReadsWorkedByHand) {
     dram.cycle();
     while (dram.reply(port) != nullptr) replied.push_back(cycle), dram.take(port);
   }
-  // ACT 0 and, tRRD_S later, ACT 4. RD 17 after tRCD, RD 21 likewise. The third: tCCD_L after 17 is 23, tCCD_S
-  // after 21 is 25. The row in the second bank closes tRAS after 4; ACT 60 after tRP; RD 77.
+  // ACT 0 and, tRRD_S later, ACT 4. RD 17 after tRCD, RD 21 likewise. The third: tCCD_L after 17 is 23,
+  // tCCD_S after 21 is 25. The row in the second bank closes tRAS after 4; ACT 60 after tRP; RD 77.
   EXPECT_EQ(words(recorder.all), "ACT 0; ACT 4; RD 17; RD 21; RD 25; PRE 43; ACT 60; RD 77; ");
   // Replies 17 + 4 + 24 later: memory cycles 62, 66, 70, 122, six of them in a cycle.
   EXPECT_EQ(replied, (std::vector<std::int64_t>{11, 11, 12, 21}));
@@ -83,7 +90,42 @@ TEST(Memory, ReadsWorkedByHand) {
   EXPECT_EQ(counts.conflicts, 1);
   EXPECT_EQ(counts.worst_read, 122);
   EXPECT_EQ(counts.read_latency, 62 + 66 + 70 + 122);
+  // Data lie at 34 .. 45 and 94 .. 97. The first read could not have come before its latency of 17.
   EXPECT_EQ(counts.busy, 16);
+  EXPECT_EQ(counts.row, 17 + 48);
+  EXPECT_EQ(counts.idle, 17 + (39 * 6 - 98));
+  EXPECT_EQ(counts.cycles(), 39 * 6);
+}
+
+// A B A of one bank: its open row goes first, then it closes.
+TEST(Memory, AnOpenRowServesItsHitsBeforeItCloses) {
+  Dram dram(sheet("ddr4-2400"), 200);
+  Recorder recorder;
+  dram.listen(&recorder);
+  const int port = dram.open_port(nullptr);
+  for (const std::int64_t address : {std::int64_t{0}, 16 * kNextRow, kNextColumn})
+    dram.put(port, {address, 0, false});
+  for (int cycle = 1; cycle < 40; ++cycle) dram.cycle();
+  EXPECT_EQ(words(recorder.all), "ACT 0; RD 17; RD 23; PRE 39; ACT 56; RD 73; ");
+  EXPECT_EQ(recorder.all.back().row, 16);
+}
+
+TEST(Memory, PortsTakeTurns) {
+  Dram dram(sheet("ddr4-2400"), 400);
+  Served served;
+  dram.trace(&served);
+  for (int port = 0; port < 3; ++port) dram.open_port(nullptr);
+  for (int cycle = 0; cycle < 20000; ++cycle) {
+    for (int port = 0; port < 3; ++port) {
+      while (dram.reply(port) != nullptr) dram.take(port);
+      while (dram.ready(port))
+        dram.put(port, {std::int64_t{port} << 26, static_cast<std::uint32_t>(port), false});
+    }
+    dram.cycle();
+  }
+  for (const std::int64_t of : served.by_id)
+    EXPECT_NEAR(static_cast<double>(of), static_cast<double>(served.by_id[0]), 2);
+  EXPECT_GT(served.by_id[0], 2000);
 }
 
 TEST(Memory, WritesAndTurnaroundWorkedByHand) {
@@ -95,9 +137,14 @@ TEST(Memory, WritesAndTurnaroundWorkedByHand) {
   for (int i = 0; i < 9; ++i) dram.cycle();
   dram.put(port, {kNextColumn, 2, false});  // memory cycle 54
   for (int i = 0; i < 20; ++i) dram.cycle();
-  // A lone write waits 32 cycles for reads. WR 49; its data end at 65, and RD of its group follows tWTR_L later.
+  // A lone write waits 32 cycles for reads. WR 49; its data end at 65, and RD of its group follows tWTR_L
+  // later.
   EXPECT_EQ(words(recorder.all), "ACT 0; WR 32; RD 57; ");
   EXPECT_EQ(dram.counts().write_to_read, 1);
+  EXPECT_EQ(dram.counts().worst_write, 32);
+  // Written data lie at 44 .. 47; the read came in 54, its data lie at 74 .. 77, 17 later than they might at
+  // once.
+  EXPECT_EQ(dram.counts().turnaround, 3);
   ASSERT_NE(dram.reply(port), nullptr);
   EXPECT_EQ(dram.reply(port)->id, 2u);
   EXPECT_FALSE(dram.idle());
@@ -117,6 +164,16 @@ TEST(Memory, RefreshWorkedByHand) {
   // The row is closed at once; REF after tRP, ACT after tRFC.
   EXPECT_EQ(words(recorder.all), "ACT 0; RD 17; PREA 9360; REF 9377; ACT 9797; RD 9814; ");
   EXPECT_EQ(dram.counts().refreshes, 1);
+  EXPECT_EQ(dram.counts().refresh, 9814 - 9360);  // until RD; its latency is idle time
+}
+
+TEST(Memory, AnIdleMemoryIsRefreshedOnTime) {
+  Dram dram(two_ranks(), 200);
+  Recorder recorder;
+  dram.listen(&recorder);
+  for (int i = 0; i < 1560 * 3; ++i) dram.cycle();
+  // The ranks take turns: half an interval lies between them.
+  EXPECT_EQ(words(recorder.all), "REF 4680; REF 9360; REF 14040; REF 18720; REF 23400; ");
 }
 
 TEST(Memory, ClocksDoNotDrift) {
@@ -228,11 +285,14 @@ TEST(Memory, StreamsComeNearThePeak) {
     const Parameters p = sheet(name);
     const Counts one = saturated(p, {{0, false}});
     const Counts three = saturated(p, {{0, false}, {kFar, true}, {2 * kFar, false}});
-    for (const Counts& c : {one, three})
-      std::printf("%-12s busy %.4f refresh %.4f turn %.4f row %.4f spacing %.4f idle %.4f\n", name, share(c),
-                  double(c.refresh) / double(c.cycles()), double(c.turnaround) / double(c.cycles()),
-                  double(c.row) / double(c.cycles()), double(c.spacing) / double(c.cycles()),
-                  double(c.idle) / double(c.cycles()));
+    for (const Counts& c : {one, three}) {
+      const auto percent = [&](std::int64_t cycles) {
+        return std::to_string(100.0 * static_cast<double>(cycles) / static_cast<double>(c.cycles()));
+      };
+      std::cout << name << ", in %: busy " << percent(c.busy) << ", refresh " << percent(c.refresh)
+                << ", turnaround " << percent(c.turnaround) << ", row " << percent(c.row) << ", spacing "
+                << percent(c.spacing) << ", idle " << percent(c.idle) << '\n';
+    }
     EXPECT_GE(share(one), 0.9) << name;
     EXPECT_GE(share(three), 0.8) << name;
     EXPECT_LE(share(one), 1 - static_cast<double>(p.rfc) / p.refi) << name;  // no more than refresh leaves

@@ -1,5 +1,5 @@
-// The checker of command timing: each rule by two streams written by hand, one that just keeps it and one that
-// is a cycle too early; and controllers with one number shortened.
+// The checker of command timing: each rule by two streams written by hand, one that just keeps it and one
+// that is a cycle too early; and controllers with one number shortened.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -66,9 +66,17 @@ TEST(TimingChecker, EveryRuleOfTheSheetToTheCycle) {
        126},
       {"tCCD_L", {act(100, kA), act(106, kSameGroup), read(140, kA)}, Kind::read, kSameGroup, 146},
       {"tCCD_L", {act(100, kA), act(106, kSameGroup), write(140, kA)}, Kind::write, kSameGroup, 146},
-      {"data bus, tCCD_S", {act(100, kA), act(106, kOtherGroup), read(140, kA)}, Kind::read, kOtherGroup, 144},
+      {"data bus, tCCD_S",
+       {act(100, kA), act(106, kOtherGroup), read(140, kA)},
+       Kind::read,
+       kOtherGroup,
+       144},
       {"tWTR_L", {act(100, kA), write(140, kA)}, Kind::read, kA, 140 + 12 + 4 + 9},
-      {"tWTR_S", {act(100, kA), act(106, kOtherGroup), write(140, kA)}, Kind::read, kOtherGroup, 140 + 12 + 4 + 3},
+      {"tWTR_S",
+       {act(100, kA), act(106, kOtherGroup), write(140, kA)},
+       Kind::read,
+       kOtherGroup,
+       140 + 12 + 4 + 3},
       // Read data lie at 157 .. 160; written data may follow from 163 on, 12 cycles behind their command.
       {"read to write", {act(100, kA), read(140, kA)}, Kind::write, kA, 151},
       {"rank switch", {act(100, kA), act(101, kOtherRank), read(140, kA)}, Kind::read, kOtherRank, 146},
