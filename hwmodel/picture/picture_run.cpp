@@ -116,7 +116,8 @@ bool PictureReport::found_where_planted() const {
 }
 
 PictureRun::PictureRun(const Registers& registers, Memory& memory, const PictureOptions& options)
-    : memory_(memory),
+    : registers_(registers),
+      memory_(memory),
       options_(options),
       plan_(options.fault, options.fault_channel),
       caster_(registers, memory, options_.configuration,
@@ -153,7 +154,9 @@ void PictureRun::draw(const render::PictureScene& scene, const picture::Camera& 
     const FrameEnd second = caster_.draw_again(samples, most);
     report_.all_cycles += second.cycles;
     if (options_.compare) checker.end_pass(second);
-    report_.end = {report_.end.cycles + second.cycles, second.complete, second.hangs};
+    const std::int64_t first_cycles = report_.end.cycles;
+    report_.end = second;
+    report_.end.cycles += first_cycles;
   }
   caster_.watch({});
   report_.seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
@@ -172,6 +175,7 @@ PictureReport PictureRun::report() {
   report_.strike = plan_.struck();
   report_.memory = caster_.memory_counts();
   report_.memory_bytes = static_cast<std::int64_t>(memory_.bytes.size());
+  report_.cost = cost_of(options_.configuration, registers_, memory_);
   take_accounts(report_, caster_);
   return report_;
 }

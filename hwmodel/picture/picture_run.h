@@ -10,6 +10,7 @@
 #include "hwmodel/caster_faults/faults.h"
 #include "hwmodel/picture/checker.h"
 #include "hwmodel/picture/uploader.h"
+#include "hwmodel/raycast/cost.h"
 #include "hwmodel/raycast/ray_caster.h"
 #include "hwmodel/raycast/registers.h"
 #include "render/image/image.h"
@@ -55,6 +56,7 @@ struct PictureReport {
   MemoryCounts memory;
   std::vector<StageAccount> stages;  // all pipes together
   std::vector<CacheAccount> caches;
+  PipeCost cost;  // of one pipe
   std::int64_t memory_bytes = 0;
   std::int64_t all_cycles = 0;        // of all frames
   std::vector<UploadReport> uploads;  // before each frame; without their lists
@@ -87,6 +89,7 @@ class PictureRun {
   PictureReport report();
 
  private:
+  const Registers& registers_;
   const Memory& memory_;
   PictureOptions options_;
   FaultPlan plan_;

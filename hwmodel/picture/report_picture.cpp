@@ -33,6 +33,23 @@ std::string place_of(const FaultPlan::Strike& of) {
   return fmt::format("pixel ({}, {}), sample {}", of.x, of.y, of.sample);
 }
 
+nlohmann::ordered_json json_of(const PipeCost& cost) {
+  nlohmann::ordered_json json;
+  for (const ChannelCost& of : cost.channels)
+    json["channels"].push_back({{"name", of.name}, {"bits", of.bits}, {"depth", of.depth}});
+  for (const MemoryCost& of : cost.memories)
+    json["memories"].push_back(
+        {{"stage", of.stage}, {"name", of.name}, {"words", of.words}, {"bits", of.bits}});
+  for (const UnitCost& of : cost.units)
+    json["units"].push_back(
+        {{"stage", of.stage}, {"multipliers", of.multipliers}, {"dividers", of.dividers}});
+  json["channel_bits"] = cost.channel_bits();
+  json["memory_bits"] = cost.memory_bits();
+  json["multipliers"] = cost.all_units().multipliers;
+  json["dividers"] = cost.all_units().dividers;
+  return json;
+}
+
 }  // namespace
 
 nlohmann::ordered_json json_of(const UploadReport& upload) {
@@ -73,6 +90,9 @@ std::string table_of(const PictureReport& report, const Configuration& c) {
   for (std::size_t i = 0; i < std::min<std::size_t>(report.uploads.size(), 2); ++i)
     text += text_of(report.uploads[i]);
   if (report.memory.dram) text += memory_text(*report.memory.dram, *c.dram);
+  text += fmt::format("a pipe: {} bits of memories, {} of channels, {} multipliers, {} dividers\n",
+                      report.cost.memory_bits(), report.cost.channel_bits(),
+                      report.cost.all_units().multipliers, report.cost.all_units().dividers);
   text += fmt::format("the last frame: {} cycles, {:.1f} frames a second at {} MHz\n", report.end.cycles,
                       1e6 * c.clock_mhz / static_cast<double>(std::max<std::int64_t>(report.end.cycles, 1)),
                       c.clock_mhz);
@@ -120,6 +140,7 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                     {"bus_cycles", report.memory.bus_cycles},
                     {"stored_bytes", report.memory_bytes}};
   if (report.memory.dram) json["dram"] = memory_json(*report.memory.dram, *c.dram);
+  json["pipe"] = json_of(report.cost);
   json["uploads"] = Json::array();
   for (const UploadReport& upload : report.uploads) json["uploads"].push_back(json_of(upload));
   for (const StageAccount& stage : report.stages) {

@@ -28,6 +28,9 @@ namespace voxmelt::hwmodel::raycast {
 template <class Faults>
 class PipeOf final : public Pipe {
  public:
+  static constexpr int kWaiting = 16;   // surfaces in a stage that fetches
+  static constexpr int kSearches = 32;  // rays in the search for the ground
+
   PipeOf(const Registers& registers, const FrameRegisters& frame, const Memory& memory,
          const Configuration& c, int number, Faults faults = {});
 
@@ -47,8 +50,6 @@ class PipeOf final : public Pipe {
  private:
   // Of the memory port.
   enum Client : int { kLevels, kMatter, kLight, kColumns, kTexels, kTiles };
-  static constexpr int kWaiting = 16;   // surfaces in a stage that fetches
-  static constexpr int kSearches = 32;  // rays in the search for the ground
 
   template <class Word>
   Fifo<Word>& channel(Channel which, const char* name, int depth = 0);

@@ -1,6 +1,6 @@
 // How wide every number is that a channel carries and a later stage reads. What only the checker reads is no
-// wire. A visitor gets (bits, has a sign, value) of each number: it sums the bits (cost.h), or checks that the
-// values fit, as a test does in running pictures.
+// wire. A visitor gets (bits, has a sign, value) of each number: it sums the bits (cost.h), or checks that
+// the values fit, as a test does in running pictures.
 #pragma once
 
 #include <cstddef>
@@ -114,7 +114,8 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& of, Visit&& vis
   const auto until = [&](Behind last) { return stage <= last; };
   wires_of(s.id, of, visit);
   visit(2, false, static_cast<std::int64_t>(s.kind));
-  if (until(Behind::paint)) visit(1, false, s.inside ? 1 : 0), visit(3, false, static_cast<std::int64_t>(s.face));
+  if (until(Behind::paint))
+    visit(1, false, s.inside ? 1 : 0), visit(3, false, static_cast<std::int64_t>(s.face));
   if (until(Behind::matter)) vector_wires(s.position, 32, visit);
   if (until(Behind::arriving)) vector_wires(s.to_eye, 16, visit);
   if (from(Behind::normal) && until(Behind::arriving)) vector_wires(s.normal, 16, visit);
