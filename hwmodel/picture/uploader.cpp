@@ -38,7 +38,8 @@ UploadReport Uploader::update(const render::PictureData& data, const std::vector
     report.bricks = due_bricks(data, *changed);
   }
   send_registers(data, report);
-  std::erase_if(report.bricks, [&](const SentBrick& of) { return strikes(UploadFault::Kind::forgotten, of); });
+  std::erase_if(report.bricks,
+                [&](const SentBrick& of) { return strikes(UploadFault::Kind::forgotten, of); });
   send_bricks(data, report);
   send_lines(data, report);
   const UploadEnd end = run_upload(upload_, memory_, configuration_);

@@ -227,8 +227,9 @@ TEST(Upload, AMisplacedBrickIsFoundWithItsStep) {
   }
 }
 
-// Caches that hold all, and are not told of one brick that was sent: lock-step finds an old word in it, or the
-// picture does not need it. A brick whose words it needs, but for which the caches are told, is never found.
+// Caches that hold all, and are not told of one brick that was sent: lock-step finds an old word in it, or
+// the picture does not need it. A brick whose words it needs, but for which the caches are told, is never
+// found.
 TEST(Upload, ABrickOfWhichTheCachesAreNotToldIsFoundInTheNextPicture) {
   PictureOptions options;
   options.configuration.levels = options.configuration.matter = {1024, 4, 8, 64};
