@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <ctime>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "app/commands.h"
 #include "app/interrupt.h"
@@ -72,11 +72,12 @@ std::string verdict_of(const hwmodel::MachineReport& report) {
   std::string text;
   if (report.steps.mismatch != nullptr) text += hwmodel::text_of(*report.steps.mismatch);
   if (report.different_beside > 0)
-    text += fmt::format("{} pixels differ that were drawn while the pipeline worked\n",
-                        report.different_beside);
+    text +=
+        fmt::format("{} pixels differ that were drawn while the pipeline worked\n", report.different_beside);
   if (report.steps.mismatch == nullptr && report.steps.steps > 0)
-    text += fmt::format("{} cells compared behind the stages of the pipeline: no difference; digest {:016x}\n",
-                        report.steps.compared_cells, report.steps.digest);
+    text +=
+        fmt::format("{} cells compared behind the stages of the pipeline: no difference; digest {:016x}\n",
+                    report.steps.compared_cells, report.steps.digest);
   return text + hwmodel::raycast::verdict_text(report.pictures);
 }
 
@@ -89,33 +90,31 @@ hwmodel::MachineReport verify_machine(const Common& common, const PictureChoice&
   const render::Setting setting = setting_of(choice);
   const auto frames = static_cast<std::uint32_t>(choice.frames);
   if (steps.steps % frames != 0)
-    throw UsageError(fmt::format("error: --frames {}: --steps {} is no multiple of it (--machine)", frames,
-                                 steps.steps));
+    throw UsageError(
+        fmt::format("error: --frames {}: --steps {} is no multiple of it (--machine)", frames, steps.steps));
   hwmodel::MachineOptions options;
   options.steps = steps;
   options.picture.configuration = preset.caster;
   options.picture.compare = choice.compare;
   options.picture.frames = choice.frames;
   options.picture.poll = stop_if_interrupted;
-  options.clock_mhz = preset.clock_mhz;
   const step::Implementation& fast = find_implementation(common);
   step::Tuning tuning;
   tuning.threads = thread_count(common);
-  hwmodel::MachineReport report = hwmodel::verify_machine(
-      {scene.parameters,
-       ahead.step_number(),
-       fast,
-       tuning,
-       {ahead.volume(), scene.look, scene.light, scene.terrain, camera, setting}},
-      options);
+  hwmodel::MachineReport report =
+      hwmodel::verify_machine({scene.parameters,
+                               ahead.step_number(),
+                               fast,
+                               tuning,
+                               {ahead.volume(), scene.look, scene.light, scene.terrain, camera, setting}},
+                              options);
 
   const hwmodel::Configuration& p = steps.configuration;
   const hwmodel::raycast::Configuration& c = preset.caster;
-  fmt::print(
-      "{}: pipeline: lanes {}, cascade {}; ray caster: pipes {}; fifo depth {}, stall seed {}; {} x {}, {}\n"
-      "memory: latency {}, {} bytes a cycle\n",
-      scene.name, p.lanes, p.cascade, c.pipes, c.fifo_depth, c.stall_seed, camera.width, camera.height,
-      choice.setting, c.latency, c.bus_bytes);
+  fmt::print("{}: pipeline: lanes {}, cascade {}; ray caster: pipes {}; fifo depth {}, stall seed {}\n",
+             scene.name, p.lanes, p.cascade, c.pipes, c.fifo_depth, c.stall_seed);
+  fmt::print("{} x {}, {}; memory: {}\n", camera.width, camera.height, choice.setting,
+             c.dram ? c.dram->name : fmt::format("latency {}, {} bytes a cycle", c.latency, c.bus_bytes));
   nlohmann::ordered_json json = hwmodel::json_of(report, options);
   if (report.good()) {
     const Software here =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "hwmodel/machine/screen.h"
 
@@ -15,7 +16,8 @@ StreamWork work_of(const VerifyReport& report, const Design& design, const Confi
   work.cycles = report.cycles;
   const std::int64_t interval = c.fifo_depth == 1 ? 2 : 1;
   work.lag = std::max<std::int64_t>(
-      report.predicted_cycles / std::max<std::int64_t>(report.passes, 1) - interval * design.shape.tokens(), 0);
+      report.predicted_cycles / std::max<std::int64_t>(report.passes, 1) - interval * design.shape.tokens(),
+      0);
   const std::int64_t cell_bits = std::int64_t{design.cell_bits()} * c.lanes;
   for (const StageReport& stage : report.stages) {
     if (stage.kind == StageKind::reader) work.tokens += stage.cycles.busy;
@@ -46,8 +48,8 @@ class Run {
       return visit(volume, done);
     };
     if (screen_.good())
-      report_.steps =
-          verify(input_.parameters, input_.picture.volume, input_.first_step, input_.fast, input_.tuning, steps);
+      report_.steps = verify(input_.parameters, input_.picture.volume, input_.first_step, input_.fast,
+                             input_.tuning, steps);
     report_.pictures = screen_.report();
     report_.different_beside = screen_.different_beside();
     const std::int64_t tokens = design_.shape.tokens() * design_.shape.lanes;
@@ -63,21 +65,17 @@ class Run {
     const StreamWork all = work_of(done, design_, options_.steps.configuration);
     of.work = all - before_;
     before_ = all;
-    const raycast::Configuration& memory = options_.picture.configuration;
-    StreamTwin alone(of.work, memory.latency);
-    of.stream = cycles_alone(alone, memory);
-
-    StreamTwin twin(of.work, memory.latency);
-    screen_.draw_beside(twin);
+    of.stream = cycles_alone(of.work, options_.picture.configuration);
+    screen_.draw_beside(of.work);
     of.frame_beside = screen_.beside().last().cycles;
-    of.stream_beside = cycles_alone(twin, memory);  // the rest, if it is not done
+    of.stream_beside = screen_.twin().cycles();
     of.together = std::max(of.frame_beside, of.stream_beside);
 
     of.upload = screen_.take_over(volume);
     of.host_seconds = screen_.host_seconds();
     const raycast::MemoryCounts counts = screen_.alone().memory_counts();
     screen_.draw();
-    const raycast::MemoryCounts& now = screen_.alone().memory_counts();
+    const raycast::MemoryCounts now = screen_.alone().memory_counts();
     of.frame = screen_.alone().last().cycles;
     of.frame_read = now.read_bytes - counts.read_bytes;
     of.frame_written = now.written_bytes - counts.written_bytes;

@@ -21,8 +21,8 @@ struct MachineInput {
 };
 struct MachineOptions {
   VerifyOptions steps;              // their number is a multiple of the frames
-  raycast::PictureOptions picture;  // with the memory of both machines
-  int clock_mhz = 200;
+  raycast::PictureOptions picture;  // with the memory of both machines, and the clock
+  int clock_mhz() const { return picture.configuration.clock_mhz; }
 };
 
 // From one picture to the next, in cycles.
@@ -31,11 +31,11 @@ struct Period {
   StreamWork work;
   std::int64_t stream = 0;  // of the pipeline, on the memory alone
   raycast::UploadReport upload;
-  std::int64_t frame = 0;                   // of the ray caster, on the memory alone
+  std::int64_t frame = 0;  // of the ray caster, on the memory alone
   std::int64_t frame_read = 0, frame_written = 0, frame_bus = 0;
-  std::int64_t together = 0;                // of both: these steps, and the picture before them
+  std::int64_t together = 0;                         // of both: these steps, and the picture before them
   std::int64_t stream_beside = 0, frame_beside = 0;  // how long each of them took then
-  double host_seconds = 0;                  // field, light and comparing lines, by this processor
+  double host_seconds = 0;                           // field, light and comparing lines, by this processor
 
   std::int64_t in_turn() const { return stream + upload.cycles + frame; }
   std::int64_t overlapped() const { return together + upload.cycles; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "hwmodel/picture/report_picture.h"
 
@@ -21,6 +22,12 @@ double rate(double times, std::int64_t cycles, int clock_mhz) {
 }
 
 std::int64_t upload_bytes(const Period& of) { return of.upload.bursts * raycast::kBurst; }
+
+// That the memory could move at most.
+double bytes_a_cycle(const MachineOptions& options) {
+  const raycast::Configuration& c = options.picture.configuration;
+  return c.dram ? static_cast<double>(c.dram->peak()) / c.clock_mhz : c.bus_bytes;
+}
 
 Json json_of(const Period& of) {
   return {{"step", of.step},
@@ -57,9 +64,8 @@ std::vector<Bound> bounds_of(const MachineReport& report, const MachineOptions& 
   if (busiest != nullptr)
     bounds.push_back({"stage " + busiest->name + " of the ray caster",
                       ratio(busiest->account.busy, busiest->account.total()) * ratio(sum.frame, all)});
-  const double bus = static_cast<double>(sum.work.bytes()) / options.picture.configuration.bus_bytes +
-                     static_cast<double>(sum.frame_bus) +
-                     ratio(upload_bytes(sum), options.picture.configuration.bus_bytes);
+  const double bus = static_cast<double>(sum.frame_bus) +
+                     static_cast<double>(sum.work.bytes() + upload_bytes(sum)) / bytes_a_cycle(options);
   bounds.push_back({"bytes on the memory's bus", ratio(bus, static_cast<double>(all))});
   bounds.push_back({"upload, while both wait", ratio(sum.upload.cycles, all)});
   std::stable_sort(bounds.begin(), bounds.end(),
@@ -94,13 +100,13 @@ std::string table_of(const MachineReport& report, const MachineOptions& options)
   const double steps = static_cast<double>(report.steps.steps);
   const auto rates = [&](const char* name, std::int64_t cycles) {
     text += fmt::format("{:<12}{:.1f} frames and {:.1f} steps a second at {} MHz\n", name,
-                        rate(n, cycles, options.clock_mhz), rate(steps, cycles, options.clock_mhz),
-                        options.clock_mhz);
+                        rate(n, cycles, options.clock_mhz()), rate(steps, cycles, options.clock_mhz()),
+                        options.clock_mhz());
   };
   rates("in turn:", sum.in_turn());
   rates("overlapped:", sum.overlapped());
   text += fmt::format("alone: {:.1f} steps a second by the pipeline, {:.1f} frames by the ray caster\n",
-                      rate(steps, sum.stream, options.clock_mhz), rate(n, sum.frame, options.clock_mhz));
+                      rate(steps, sum.stream, options.clock_mhz()), rate(n, sum.frame, options.clock_mhz()));
   text += "of the overlapped cycles:";
   const std::vector<Bound> bounds = bounds_of(report, options);
   for (const Bound& bound : bounds) text += fmt::format(" {} {:.0f} %;", bound.name, 100 * bound.share);
@@ -113,7 +119,7 @@ std::string table_of(const MachineReport& report, const MachineOptions& options)
 
 Json json_of(const MachineReport& report, const MachineOptions& options) {
   Json json{{"good", report.good()},
-            {"clock_mhz", options.clock_mhz},
+            {"clock_mhz", options.clock_mhz()},
             {"first_step", report.steps.first_step},
             {"steps", report.steps.steps},
             {"frames", report.periods.size()},
@@ -130,11 +136,12 @@ Json json_of(const MachineReport& report, const MachineOptions& options) {
   const auto n = static_cast<double>(report.periods.size());
   const auto steps = static_cast<double>(report.steps.steps);
   const auto rates = [&](std::int64_t cycles) {
-    return Json{{"frames", rate(n, cycles, options.clock_mhz)}, {"steps", rate(steps, cycles, options.clock_mhz)}};
+    return Json{{"frames", rate(n, cycles, options.clock_mhz())},
+                {"steps", rate(steps, cycles, options.clock_mhz())}};
   };
   json["a_second"] = {{"in_turn", rates(sum.in_turn())}, {"overlapped", rates(sum.overlapped())}};
-  json["a_second"]["pipeline_alone"] = rate(steps, sum.stream, options.clock_mhz);
-  json["a_second"]["caster_alone"] = rate(n, sum.frame, options.clock_mhz);
+  json["a_second"]["pipeline_alone"] = rate(steps, sum.stream, options.clock_mhz());
+  json["a_second"]["caster_alone"] = rate(n, sum.frame, options.clock_mhz());
   for (const Bound& bound : bounds_of(report, options))
     json["bounds"].push_back({{"name", bound.name}, {"share", bound.share}});
   json["caster"] = raycast::json_of(report.pictures, options.picture.configuration);

@@ -11,7 +11,8 @@ Screen::Screen(const raycast::PictureInput& input, const raycast::PictureOptions
     : input_(input),
       options_(options),
       camera_(render::camera_in_integers(input.camera)),
-      uploader_(options.configuration) {}
+      uploader_(options.configuration),
+      twin_(options.configuration.dram ? 0 : options.configuration.latency) {}
 
 raycast::UploadReport Screen::take_over(const state::Volume& volume) {
   const bool first = !alone_;
@@ -27,6 +28,7 @@ raycast::UploadReport Screen::take_over(const state::Volume& volume) {
   if (first) {
     raycast::PictureOptions bytes_alone = options_;
     bytes_alone.compare = false;
+    bytes_alone.configuration.memory_trace.clear();
     alone_.emplace(uploader_.registers(), uploader_.memory(), options_);
     beside_.emplace(uploader_.registers(), uploader_.memory(), bytes_alone);
     beside_->draw(*scene_, camera_, input_.setting, expected_);  // its caches are as warm as the other ones
@@ -44,9 +46,11 @@ void Screen::draw() {
   good_ = good_ && alone_->good();
 }
 
-void Screen::draw_beside(StreamTwin& twin) {
-  beside_->share(&twin);
+void Screen::draw_beside(const StreamWork& work) {
+  twin_.begin(work);
+  beside_->share(&twin_);
   beside_->draw(*scene_, camera_, input_.setting, expected_);
+  beside_->wait_for_neighbour();
   beside_->share(nullptr);
   good_ = good_ && beside_->good();
 }

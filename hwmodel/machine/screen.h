@@ -28,12 +28,14 @@ class Screen {
   // Draws the state that was taken over last; checked.
   void draw();
   // Draws it again, by a ray caster that shares the memory with the pipeline; its bytes are checked.
-  void draw_beside(StreamTwin& twin);
+  // Ends when both are done.
+  void draw_beside(const StreamWork& work);
 
   bool good() const { return good_; }
   double host_seconds() const { return host_seconds_; }  // of the last state: field, light, comparing lines
   const raycast::PictureRun& alone() const { return *alone_; }
   const raycast::PictureRun& beside() const { return *beside_; }
+  const StreamTwin& twin() const { return twin_; }
   raycast::PictureReport report() { return alone_->report(); }
   std::int64_t different_beside();  // pixels
   const raycast::Memory& memory() { return uploader_.memory(); }
@@ -48,6 +50,7 @@ class Screen {
   render::Image expected_;
   raycast::Uploader uploader_;
   std::optional<raycast::PictureRun> alone_, beside_;
+  StreamTwin twin_;  // of the pipeline, on the memory of `beside_`
   bool good_ = true;
   double host_seconds_ = 0;
 };

@@ -73,8 +73,8 @@ class PictureRun {
 
   // The lines that were sent are not those in the caches.
   void forget(const UploadReport& upload);
-  // Who uses the memory's bus, too.
-  void share(BusNeighbour* neighbour) { caster_.share(neighbour); }
+  void share(Neighbour* neighbour) { caster_.share(neighbour); }
+  void wait_for_neighbour() { caster_.wait_for_neighbour(); }
   // Draws what registers and memory say. `scene` and `camera` are the same for the software; `expected` is
   // its picture.
   void draw(const render::PictureScene& scene, const picture::Camera& camera, render::Setting setting,
@@ -83,7 +83,7 @@ class PictureRun {
   // What was found so far; after a failure nothing more can be drawn.
   bool good() const { return report_.good(); }
   const FrameEnd& last() const { return report_.end; }
-  const MemoryCounts& memory_counts() const { return caster_.memory_counts(); }
+  MemoryCounts memory_counts() const { return caster_.memory_counts(); }
   PictureReport report();
 
  private:

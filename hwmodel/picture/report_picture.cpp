@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hwmodel/picture/report_memory.h"
+
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
@@ -70,8 +72,10 @@ std::string table_of(const PictureReport& report, const Configuration& c) {
                       100 * ratio(report.memory.bus_cycles, report.all_cycles), report.memory_bytes);
   for (std::size_t i = 0; i < std::min<std::size_t>(report.uploads.size(), 2); ++i)
     text += text_of(report.uploads[i]);
-  text += fmt::format("the last frame: {} cycles, {:.1f} frames a second at 200 MHz\n", report.end.cycles,
-                      2e8 / static_cast<double>(std::max<std::int64_t>(report.end.cycles, 1)));
+  if (report.memory.dram) text += memory_text(*report.memory.dram, *c.dram);
+  text += fmt::format("the last frame: {} cycles, {:.1f} frames a second at {} MHz\n", report.end.cycles,
+                      1e6 * c.clock_mhz / static_cast<double>(std::max<std::int64_t>(report.end.cycles, 1)),
+                      c.clock_mhz);
   text +=
       fmt::format("simulated in {:.2f} s: {:.2f} million cycles a second, {:.2f} million samples a second\n",
                   report.seconds, static_cast<double>(report.all_cycles) / report.seconds / 1e6,
@@ -92,6 +96,8 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                            {"fifo_depth", c.fifo_depth},
                            {"stall_seed", c.stall_seed},
                            {"tiles", c.tiles},
+                           {"clock_mhz", c.clock_mhz},
+                           {"memory", c.dram ? c.dram->name : "fixed"},
                            {"latency", c.latency},
                            {"bus_bytes", c.bus_bytes},
                            {"apron", c.apron},
@@ -113,6 +119,7 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                     {"written_bytes", report.memory.written_bytes},
                     {"bus_cycles", report.memory.bus_cycles},
                     {"stored_bytes", report.memory_bytes}};
+  if (report.memory.dram) json["dram"] = memory_json(*report.memory.dram, *c.dram);
   json["uploads"] = Json::array();
   for (const UploadReport& upload : report.uploads) json["uploads"].push_back(json_of(upload));
   for (const StageAccount& stage : report.stages) {

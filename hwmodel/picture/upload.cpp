@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "hwmodel/picture/memory_image.h"
 #include "hwmodel/raycast/field.h"

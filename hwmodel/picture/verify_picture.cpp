@@ -1,5 +1,7 @@
 #include "hwmodel/picture/verify_picture.h"
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "render/density/density_field.h"

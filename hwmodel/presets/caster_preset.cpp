@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "hwmodel/presets/memory_preset.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -47,6 +48,7 @@ void read_caster(scene::Reader& hw, raycast::Configuration& c) {
   c.bus_bytes = number("bus_bytes", 1, 4096, c.bus_bytes);
   c.apron = number("apron", 0, 1, c.apron ? 1 : 0) != 0;
   c.level_bits = number("level_bits", 1, 3, c.level_bits);
+  read_memory(hw, c);
   read_cache(hw, kLevels, c.levels);
   read_cache(hw, kMatter, c.matter);
   read_cache(hw, kLight, c.light);

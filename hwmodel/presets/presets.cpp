@@ -28,8 +28,6 @@ Preset preset_of(const scene::Value& document, Runs runs) {
   if (std::optional<scene::Reader> hw = root.table("hw")) {
     if (runs != Runs::caster) read_pipeline(*hw, preset.configuration);
     if (runs != Runs::pipeline) read_caster(*hw, preset.caster);
-    if (runs != Runs::pipeline)
-      preset.clock_mhz = static_cast<int>(hw->integer("clock_mhz", 1, 10000, preset.clock_mhz));
     hw->finish();
   }
   root.finish();
@@ -42,7 +40,9 @@ Preset load_preset(const std::filesystem::path& file, const std::vector<std::str
   scene::Value document, options;
   if (!file.empty()) document = scene::read_document(file);
   for (const std::string& assignment : overrides) {
-    scene::apply_override(options, assignment);
+    // What a trace needs may stand in the file.
+    if (runs == Runs::pipeline || !assignment.starts_with("hw.memory_trace"))
+      scene::apply_override(options, assignment);
     scene::apply_override(document, assignment);
   }
   static_cast<void>(preset_of(options, runs));  // a key of what does not run is unknown

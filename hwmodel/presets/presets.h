@@ -1,5 +1,5 @@
 // Hardware configurations from TOML: a preset by name, a file of one's own, and --set hw.key=value. A file
-// describes the whole machine: the pipeline, the ray caster, and the clock of both.
+// describes the whole machine: the pipeline, the ray caster, and the memory and the clock of both.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,7 @@ namespace voxmelt::hwmodel {
 struct Preset {
   std::string title;
   Configuration configuration;    // of the pipeline
-  raycast::Configuration caster;  // shares fifo_depth and stall_seed with it
-  int clock_mhz = 200;
+  raycast::Configuration caster;  // with the memory and the clock; has the same fifo_depth and stall_seed
 };
 
 // What is to run: an override of what does not is an error. A file may have keys of all.

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <exception>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "hwmodel/process/process.h"
+#include "hwmodel/raycast/line_memory.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
@@ -58,7 +60,7 @@ struct RayCaster::Machine {
         memory(m),
         configuration(c),
         clock("clock", 1, sc_core::SC_NS),
-        memory_block(m, c.latency, c.bus_bytes) {
+        memory_block(make_line_memory(m, c)) {
     const auto count = static_cast<std::size_t>(c.pipes);
     for (std::size_t i = 0; i < count; ++i) {
       const std::string pipe = "pipe " + std::to_string(i) + ": ";
@@ -74,7 +76,7 @@ struct RayCaster::Machine {
       pipes.push_back(make(registers, frame, memory, configuration, static_cast<int>(i)));
       pipes.back()->connect(jobs.back()->fifo(), requests.back()->fifo(), replies.back()->fifo());
       dealer.connect(jobs.back()->fifo());
-      memory_block.connect(requests.back()->fifo(), replies.back()->fifo());
+      memory_block->connect(requests.back()->fifo(), replies.back()->fifo());
     }
     make_blocks();
   }
@@ -97,7 +99,7 @@ struct RayCaster::Machine {
         requests[i]->tick();
       });
     add("memory", [this] {
-      shared.moves += memory_block.cycle(shared.cycle()) ? 1 : 0;
+      shared.moves += memory_block->cycle(shared.cycle()) ? 1 : 0;
       for (const auto& link : replies) link->tick();
       watch_progress();
     });
@@ -106,7 +108,7 @@ struct RayCaster::Machine {
   void watch_progress() {
     idle = shared.moves == moves_before ? idle + 1 : 0;
     moves_before = shared.moves;
-    shared.complete = memory_block.counts().written_bytes == bytes_at_end;
+    shared.complete = memory_block->counts().written_bytes == bytes_at_end;
     shared.hangs = idle > kHangAfter;
     if (shared.complete || shared.hangs) shared.end();
     if (poll && shared.cycle() % kPollEvery == 0) poll();
@@ -130,11 +132,11 @@ struct RayCaster::Machine {
              most,
              window};
     dealer.begin(frame, second);
-    bytes_at_end = memory_block.counts().written_bytes + bytes_dealt();
+    bytes_at_end = memory_block->counts().written_bytes + bytes_dealt();
     shared.complete = shared.hangs = false;
     shared.last_cycle = kNever;
     idle = 0;
-    memory_block.begin();
+    memory_block->begin();
 
     context.enter();
     shared.first_cycle = ran ? Shared::now() + 1 : 0;
@@ -158,7 +160,8 @@ struct RayCaster::Machine {
   Window window;
   sc_core::sc_clock clock;
   Dealer dealer;
-  MemoryBlock memory_block;
+  std::unique_ptr<LineMemory> memory_block;
+  Neighbour* neighbour = nullptr;
   std::vector<std::unique_ptr<Link<TileJob>>> jobs;
   std::vector<std::unique_ptr<Link<LineRequest>>> requests;
   std::vector<std::unique_ptr<Link<LineReply>>> replies;
@@ -182,7 +185,14 @@ void RayCaster::watch(const Watchers& watchers) {
 void RayCaster::stop() { machine_->shared.end(); }
 void RayCaster::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
 
-void RayCaster::share(BusNeighbour* neighbour) { machine_->memory_block.share(neighbour); }
+void RayCaster::share(Neighbour* neighbour) {
+  machine_->neighbour = neighbour;
+  machine_->memory_block->share(neighbour);
+}
+void RayCaster::wait_for_neighbour() {
+  machine_->memory_block->begin();
+  for (std::int64_t now = 0; !machine_->neighbour->done(); ++now) machine_->memory_block->cycle(now);
+}
 
 void RayCaster::draw_only(const Window& window) { machine_->window = window; }
 FrameEnd RayCaster::draw_first() { return machine_->run_pass(false, 1, 0); }
@@ -198,6 +208,15 @@ void RayCaster::forget_all() {
 std::int64_t RayCaster::cycle() const { return machine_->shared.cycle(); }
 int RayCaster::pipes() const { return machine_->configuration.pipes; }
 const Pipe& RayCaster::pipe(int i) const { return *machine_->pipes[static_cast<std::size_t>(i)]; }
-const MemoryCounts& RayCaster::memory_counts() const { return machine_->memory_block.counts(); }
+MemoryCounts RayCaster::memory_counts() const {
+  MemoryCounts counts = machine_->memory_block->counts();
+  counts.dram = machine_->memory_block->dram_counts();
+  if (counts.dram) {  // in cycles of the machine, as of the other memory
+    const memory::Parameters& p = *machine_->configuration.dram;
+    counts.bus_cycles =
+        counts.dram->busy * machine_->configuration.clock_mhz / (std::int64_t{p.mhz} * p.channels);
+  }
+  return counts;
+}
 
 }  // namespace voxmelt::hwmodel::raycast

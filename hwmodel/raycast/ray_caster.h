@@ -13,6 +13,7 @@
 
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/layout.h"
+#include "hwmodel/raycast/line_memory.h"
 #include "hwmodel/raycast/pipe.h"
 #include "hwmodel/raycast/registers.h"
 
@@ -35,7 +36,9 @@ class RayCaster {
   void watch(const Watchers& watchers);
   void stop();  // after the present cycle
   void poll(std::function<void()> poll);
-  void share(BusNeighbour* neighbour);  // of the memory's bus; null: nobody
+  // Of the memory, while it draws; null: with nobody.
+  void share(Neighbour* neighbour);
+  void wait_for_neighbour();  // without drawing, until it is done
 
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {
@@ -59,7 +62,7 @@ class RayCaster {
   std::int64_t cycle() const;  // of the present frame
   int pipes() const;
   const Pipe& pipe(int i) const;
-  const MemoryCounts& memory_counts() const;
+  MemoryCounts memory_counts() const;
 
  private:
   struct Machine;
