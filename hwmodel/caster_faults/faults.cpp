@@ -83,6 +83,7 @@ constexpr std::array kFaults{
     FaultInfo{channel_lost, "channel-lost", kChannel, "a token is lost in a channel"},
     FaultInfo{channel_twice, "channel-twice", kChannel, "a token comes again in place of the next one"},
     FaultInfo{channel_swap, "channel-swap", kChannel, "two tokens of a channel change places"},
+    FaultInfo{channel_bit, "channel-bit", kChannel, "a bit of a surface's normal changes in a channel"},
     FaultInfo{channel_never_ready, "channel-never-ready", kChannel,
               "a channel takes no token any more: everything hangs"},
     FaultInfo{dealer_twice, "dealer-twice", "dealer", "a tile is dealt again in place of the next one"},

@@ -87,6 +87,7 @@ enum class Fault : std::uint8_t {
   channel_lost,
   channel_twice,
   channel_swap,
+  channel_bit,
   channel_never_ready,
   dealer_twice,
   dealer_never,

@@ -30,6 +30,11 @@ class TokenFault final : public FifoFault<Word> {
       strike(here);
       return Effect::jammed;
     }
+    if constexpr (requires { now->normal.x; })
+      if (plan_.armed(Fault::channel_bit)) {
+        now->normal.x ^= 1;
+        strike(here);
+      }
     if (same_place(here, before)) return Effect::none;
     if (plan_.armed(Fault::channel_twice)) {
       *now = *last;
@@ -115,7 +120,7 @@ class FlowFaults : public Planted {
     if constexpr (OfRay<Word> || OfTile<Word>) {
       if (channel.name() != to_->channel()) return;
       if (armed(Fault::channel_lost) || armed(Fault::channel_twice) || armed(Fault::channel_swap) ||
-          armed(Fault::channel_never_ready))
+          armed(Fault::channel_bit) || armed(Fault::channel_never_ready))
         channel.plant(kept(std::make_shared<TokenFault<Word>>(*to_, channel)));
     }
   }

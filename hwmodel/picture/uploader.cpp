@@ -38,7 +38,8 @@ UploadReport Uploader::update(const render::PictureData& data, const std::vector
     report.bricks = due_bricks(data, *changed);
   }
   send_registers(data, report);
-  if (forgotten_ && forgotten_->update == updates_) std::erase(report.bricks, forgotten_->brick);
+  std::erase_if(report.bricks,
+                [&](const SentBrick& of) { return strikes(UploadFault::Kind::forgotten, of); });
   send_bricks(data, report);
   send_lines(data, report);
   const UploadEnd end = run_upload(upload_, memory_, configuration_);
@@ -118,10 +119,16 @@ void Uploader::send_registers(const render::PictureData& data, UploadReport& rep
 void Uploader::send_bricks(const render::PictureData& data, UploadReport& report) {
   for (SentBrick& of : report.bricks) {
     const Layout& layout = of.volume == Sent::levels ? memory_.levels : memory_.matter;
+    std::vector<std::int64_t>& told = report.lines[static_cast<std::size_t>(of.volume)];
+    const std::size_t sent_before = upload_.addresses.size(), told_before = told.size();
     const LineSink sink = [&](std::int64_t line, const std::uint8_t* bytes) {
       of.other = send_other(layout, of.volume, line, bytes, report) || of.other;
     };
     (of.volume == Sent::levels ? level_lines : matter_lines)(data, layout, of.brick, sink);
+    if (strikes(UploadFault::Kind::misplaced, of))
+      for (std::size_t i = sent_before; i < upload_.addresses.size(); ++i)
+        upload_.addresses[i] += std::int64_t{layout.line_bytes} << (3 * (kBrickBits - layout.bits[0]));
+    if (strikes(UploadFault::Kind::untold, of)) told.resize(told_before);
   }
 }
 

@@ -40,8 +40,11 @@ struct UploadReport {
   Account account;
 };
 
-// A fault: in that update, counted from 0, a brick is not sent.
-struct ForgottenBrick {
+// A fault of an update, counted from 0: a brick is not sent, is sent to the place of the next one, or is sent
+// and the caches are not told.
+struct UploadFault {
+  enum class Kind : std::uint8_t { forgotten, misplaced, untold };
+  Kind kind = Kind::forgotten;
   std::int64_t update = 0;
   SentBrick brick;
 };
@@ -54,7 +57,7 @@ class Uploader {
   // (DensityField::refreshed), or null for all. Another grid or size of picture, and bricks for which there
   // is no room any more, make it send everything.
   UploadReport update(const render::PictureData& data, const std::vector<std::uint32_t>* changed);
-  void forget(const ForgottenBrick& brick) { forgotten_ = brick; }
+  void plant(const UploadFault& fault) { fault_ = fault; }
 
   const Registers& registers() const { return registers_; }
   Memory& memory() { return memory_; }
@@ -64,6 +67,9 @@ class Uploader {
   std::vector<SentBrick> all_bricks(const render::PictureData& data) const;
   std::vector<SentBrick> due_bricks(const render::PictureData& data,
                                     const std::vector<std::uint32_t>& changed) const;
+  bool strikes(UploadFault::Kind kind, const SentBrick& brick) const {
+    return fault_ && fault_->kind == kind && fault_->update == updates_ && fault_->brick == brick;
+  }
   void send_bricks(const render::PictureData& data, UploadReport& report);
   void send_lines(const render::PictureData& data, UploadReport& report);
   void send_registers(const render::PictureData& data, UploadReport& report);
@@ -77,7 +83,7 @@ class Uploader {
   Upload upload_;
   std::int64_t room_ = 0;  // for so many bricks
   std::int64_t updates_ = 0;
-  std::optional<ForgottenBrick> forgotten_;
+  std::optional<UploadFault> fault_;
 };
 
 // Where registers and memory are not what a picture's data say, by places: the data may come from another

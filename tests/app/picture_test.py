@@ -154,6 +154,8 @@ class Picture(unittest.TestCase):
         out, report = self.picture("--size", "32x32", "--setting", "fast", "--pixel", "20,9")
         self.assertIn("no difference", out)
         self.assertEqual((report["rays"], report["memory"]["written_bytes"]), (1, 192))
+        self.picture("--size", "32x32", "--setting", "fast", "--pixel", "31,31")
+        self.picture("--size", "32x32", "--setting", "fast", "--pixel", "30,29,2x3")
         _, report = self.picture("--size", "32x32", "--setting", "fast", "--pixel", "20,9,5x8")
         self.assertEqual((report["rays"], report["memory"]["written_bytes"]), (40, 4 * 192))
 

@@ -59,6 +59,8 @@ TEST(Window, APixelAloneIsThatOfThePicture) {
         (std::min(x + 1, 28) - std::max(x - 1, 0) + 1) * (std::min(y + 1, 28) - std::max(y - 1, 0) + 1);
     EXPECT_TRUE(part.rays == around || part.rays == around + 8) << part.rays;
     twice += part.rays == around + 8 ? 1 : 0;
+    const auto tiles = [](int at) { return (std::min(at + 1, 28) / 8) - (std::max(at - 1, 0) / 8) + 1; };
+    EXPECT_EQ(part.memory.written_bytes, (tiles(x) * tiles(y) + 1) * kTileBytes) << x << ' ' << y;
   }
   EXPECT_GT(twice, 2);
   EXPECT_LT(twice, 58);
@@ -151,6 +153,23 @@ TEST(Hang, NamesTheChannelThatTakesNothingAndARayUnderWay) {
       EXPECT_TRUE(report.under_way) << channel;
       EXPECT_NE(report.hang.find("a ray under way: pixel ("), std::string::npos) << report.hang;
     }
+  }
+}
+
+// Nothing leaves the channel behind the last token: so nothing shows that it is lost, before all stands
+// still.
+TEST(Hang, NamesTheLastTokenThatIsLost) {
+  for (const char* channel : {"set-up -> ground", "light -> arriving", "press -> pixel"}) {
+    test::HostilePicture row = block(3);
+    row.camera.height = 1;
+    row.setting = render::Setting::fast;
+    PictureOptions options;
+    options.fault = Fault::channel_lost;
+    options.fault_channel = channel;
+    const PictureReport report = verify_picture(input_of(row), options);
+    ASSERT_TRUE(report.strike) << channel;
+    ASSERT_TRUE(report.difference) << channel << '\n' << report.hang;
+    EXPECT_TRUE(report.found_where_planted()) << text_of(report);
   }
 }
 
