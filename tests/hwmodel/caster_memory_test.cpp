@@ -11,6 +11,7 @@
 #include "hwmodel/picture/report_memory.h"
 #include "hwmodel/picture/verify_picture.h"
 #include "hwmodel/presets/memory_preset.h"
+#include "hwmodel/raycast/dram_lines.h"
 #include "hwmodel/raycast/upload_stage.h"
 #include "tests/kernel/worlds.h"
 #include "tests/render/hostile_picture.h"
@@ -80,6 +81,50 @@ TEST(CasterMemory, AnUploadArrivesOnADram) {
   const UploadEnd fast = run_upload(upload, memory, c);
   EXPECT_GE(fast.cycles, 5000 * 4 / 3);
   EXPECT_LT(fast.cycles, 5000 * 4 / 3 * 110 / 100);
+}
+
+// Two machines on one DRAM, each with its own bytes: what one writes the other never sees.
+TEST(CasterMemory, TwoShareADram) {
+  memory::Dram dram(load_memory("ddr4-2400", "test"), 200);
+  std::vector<Memory> memories(2);
+  struct Side {
+    Side(Memory& memory, memory::Dram& dram_of_both, std::int64_t base)
+        : lines(memory, dram_of_both, base),
+          requests("requests", 0, 1, 4, 0),
+          replies("replies", 1, 1, 4, 0) {
+      lines.connect(requests, replies);
+    }
+    DramLines lines;
+    Fifo<LineRequest> requests;
+    Fifo<LineReply> replies;
+    int asked = 0, replied = 0;
+  };
+  for (Memory& memory : memories) memory.bytes.resize(100 * 128);
+  Side first(memories[0], dram, 0), second(memories[1], dram, 100 * 128);
+  for (int cycle = 0; cycle < 3000; ++cycle) {
+    std::uint8_t mark = 1;
+    for (Side* side : {&first, &second}) {
+      if (side->asked < 300 && side->requests.ready()) {  // writes both bursts of a line, then reads it
+        const int line = side->asked / 3, what = side->asked % 3;
+        LineRequest& request = *side->requests.put();
+        request = {0, line, line * 128 + (what == 1 ? 64 : 0), what == 2 ? 128 : kBurst, what != 2, {}};
+        request.data.fill(mark);
+        ++side->asked;
+      }
+      if (side->replies.valid()) {
+        EXPECT_EQ(side->replies.get()->slot, side->replied++);
+      }
+      side->lines.cycle(cycle);
+      ++mark;
+    }
+    dram.cycle();
+    for (Side* side : {&first, &second}) side->requests.commit(), side->replies.commit();
+  }
+  EXPECT_EQ(first.replied, 100);
+  EXPECT_EQ(second.replied, 100);
+  EXPECT_EQ(memories[0].bytes, std::vector<std::uint8_t>(100 * 128, 1));
+  EXPECT_EQ(memories[1].bytes, std::vector<std::uint8_t>(100 * 128, 2));
+  EXPECT_EQ(dram.counts().writes, 400);
 }
 
 TEST(CasterMemory, TheTraceHasEveryRequest) {

@@ -110,6 +110,33 @@ TEST(Memory, AnOpenRowServesItsHitsBeforeItCloses) {
   EXPECT_EQ(recorder.all.back().row, 16);
 }
 
+// The same while hits of other groups, which came before, keep the bus: from 39 on tRAS would let the row
+// close.
+TEST(Memory, ARowWithAWaitingHitStaysOpen) {
+  Dram dram(sheet("ddr4-2400"), 200);
+  Recorder recorder;
+  dram.listen(&recorder);
+  const int port = dram.open_port(nullptr);
+  std::vector<std::int64_t> addresses{0};
+  for (int i = 0; i < 24; ++i) addresses.push_back(i / 3 * kNextColumn + (1 + i % 3) * kNextGroup);
+  addresses.push_back(16 * kNextRow);
+  addresses.push_back(kNextColumn);
+  std::size_t next = 0;
+  for (int cycle = 1; cycle < 60; ++cycle) {
+    while (next < addresses.size() && dram.ready(port)) dram.put(port, {addresses[next++], 0, false});
+    dram.cycle();
+  }
+  std::vector<Command> of_the_bank;
+  for (const Command& c : recorder.all)
+    if (c.group == 0) of_the_bank.push_back(c);
+  ASSERT_EQ(of_the_bank.size(), 6u);
+  using Kind = Command::Kind;
+  constexpr std::array kOrder{Kind::activate,  Kind::read,     Kind::read,
+                              Kind::precharge, Kind::activate, Kind::read};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(of_the_bank[i].kind, kOrder[i]) << i;
+  EXPECT_GT(of_the_bank[2].cycle, 39 + 4);
+}
+
 TEST(Memory, PortsTakeTurns) {
   Dram dram(sheet("ddr4-2400"), 400);
   Served served;
@@ -152,6 +179,19 @@ TEST(Memory, WritesAndTurnaroundWorkedByHand) {
   EXPECT_TRUE(dram.idle());
 }
 
+// A read waits for an older write to its burst, and the write does not linger then.
+TEST(Memory, AReadHurriesTheWriteBeforeIt) {
+  Dram dram(sheet("ddr4-2400"), 200);
+  Recorder recorder;
+  dram.listen(&recorder);
+  const int port = dram.open_port(nullptr);
+  dram.put(port, {0, 1, true});
+  dram.put(port, {0, 2, false});
+  for (int i = 0; i < 20; ++i) dram.cycle();
+  EXPECT_EQ(words(recorder.all), "ACT 0; WR 17; RD 42; ");
+  EXPECT_EQ(dram.counts().held, 1);
+}
+
 TEST(Memory, RefreshWorkedByHand) {
   Dram dram(sheet("ddr4-2400"), 200);
   Recorder recorder;
@@ -160,10 +200,12 @@ TEST(Memory, RefreshWorkedByHand) {
   dram.put(port, {0, 1, false});
   for (int i = 0; i < 1560; ++i) dram.cycle();  // 9360 cycles of the memory
   dram.put(port, {0, 2, false});
-  for (int i = 0; i < 200; ++i) dram.cycle();
-  // The row is closed at once; REF after tRP, ACT after tRFC.
-  EXPECT_EQ(words(recorder.all), "ACT 0; RD 17; PREA 9360; REF 9377; ACT 9797; RD 9814; ");
-  EXPECT_EQ(dram.counts().refreshes, 1);
+  for (int i = 0; i < 1600; ++i) dram.cycle();
+  // The row is closed at once; REF after tRP, ACT after tRFC. The next refresh counts from when this one was
+  // due.
+  EXPECT_EQ(words(recorder.all),
+            "ACT 0; RD 17; PREA 9360; REF 9377; ACT 9797; RD 9814; PREA 18720; REF 18737; ");
+  EXPECT_EQ(dram.counts().refreshes, 2);
   EXPECT_EQ(dram.counts().refresh, 9814 - 9360);  // until RD; its latency is idle time
 }
 
