@@ -13,6 +13,8 @@
 
 #include "hwmodel/machine/machine.h"
 #include "hwmodel/machine/report_machine.h"
+#include "hwmodel/memory/dram.h"
+#include "hwmodel/presets/memory_preset.h"
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
@@ -67,6 +69,37 @@ TEST(StreamTwin, TakesWhatTheBusLetsThrough) {
     EXPECT_GE(took, cycles - 64) << bus;  // the last bytes are promised, and come later
     EXPECT_LE(took, cycles + 200) << bus;
   }
+}
+
+// A pass on a DRAM: every word is read, and every word written, in whole bursts.
+TEST(StreamTwin, GivesADramWholeBursts) {
+  const memory::Parameters parameters = load_memory("ddr4-2400", "");
+  memory::Dram dram(parameters, 200);
+  StreamTwin twin(0);
+  const StreamWork work{2, 9000, 500, 8000, 2 * 4000 * 200, 2 * 4000 * 64, 2 * 4000 * 200};
+  for (int time = 1; time <= 2; ++time) {
+    twin.begin(work);
+    while (!twin.done()) {
+      twin.cycle(dram, 0);
+      dram.cycle();
+    }
+    // A pass: 4000 tokens of 25 bytes, and as many of 8 bytes.
+    EXPECT_EQ(dram.counts().reads, time * 2 * ((100000 + 63) / 64 + 32000 / 64));
+    EXPECT_GE(twin.cycles(), 9000);
+    EXPECT_LE(twin.cycles(), 9000 + 2 * 200);  // 58 bytes of 96 a cycle: it waits for the first bursts alone
+  }
+  while (!dram.idle()) dram.cycle();
+  EXPECT_EQ(dram.counts().writes, 2 * 2 * ((100000 + 63) / 64));
+}
+
+// 200 bytes a cycle where the bus gives 96.
+TEST(StreamTwin, WaitsForADram) {
+  raycast::Configuration memory;
+  memory.dram = load_memory("ddr4-2400", "");
+  const std::int64_t bits = 4000 * 8 * 100;
+  const std::int64_t cycles = cycles_alone({1, 4100, 100, 4000, bits, 0, bits}, memory);
+  EXPECT_GT(cycles, 2 * bits / 8 / 96);
+  EXPECT_LT(cycles, 2 * bits / 8 / 96 * 5 / 4);  // at least four fifths of the peak
 }
 
 struct Melt {
@@ -185,6 +218,21 @@ TEST(Machine, BothWaitForANarrowBus) {
         EXPECT_EQ(of.together, std::max(of.stream_beside, of.frame_beside));
       }
     }
+  }
+}
+
+TEST(Machine, BothAreClientsOfOneDram) {
+  const Melt melt("bunny_small", 300);
+  MachineOptions options = small_machine();
+  options.picture.configuration.dram = load_memory("ddr4-2400", "");
+  const MachineReport report = melt.verify(options);
+  ASSERT_TRUE(report.good());
+  for (std::size_t i = 1; i < 3; ++i) {
+    const Period &before = report.periods[i - 1], &of = report.periods[i];
+    EXPECT_GT(of.stream, of.work.cycles);
+    EXPECT_GE(of.stream_beside, of.stream - of.stream / 50);
+    EXPECT_GT(of.frame_beside, before.frame);
+    EXPECT_EQ(of.together, std::max(of.stream_beside, of.frame_beside));
   }
 }
 
