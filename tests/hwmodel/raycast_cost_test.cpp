@@ -2,13 +2,13 @@
 // every channel and stage of a pipe has its row.
 #include <gtest/gtest.h>
 
-#include <cstddef>
-#include <type_traits>
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "hwmodel/picture/uploader.h"
