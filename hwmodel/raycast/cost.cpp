@@ -10,7 +10,7 @@ namespace voxmelt::hwmodel::raycast {
 namespace {
 
 constexpr int kSpots = 3 * (12 + 8);  // cell and weight along three axes
-constexpr int kAddress = 32, kClient = 3;
+constexpr int kAddress = 32;
 constexpr int kColumns = 9, kTexels = 4, kCorners = 8;  // that one answer holds
 
 template <class... Of>
