@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -20,6 +18,8 @@
 #include "app/interrupt.h"
 #include "app/options.h"
 #include "app/resources.h"
+#include "app/shell_word.h"
+#include "app/verify_machine.h"
 #include "app/verify_picture.h"
 #include "app/visibility.h"
 #include "hwmodel/lockstep/replay.h"
@@ -61,17 +61,27 @@ void split_sets(VerifyCommand& command) {
   command.common.sets = std::move(scene);
 }
 
-// Quotes a text as one word for a shell.
-std::string shell_word(std::string text) {
-  if (text.starts_with('-')) text = "./" + text;
-  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 ||
-           std::string_view("_-./=,:+").find(static_cast<char>(c)) != std::string_view::npos;
-  });
-  if (plain) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
+std::string who_computes(const Common& common) {
+  std::string text;
+  if (common.seed) text += fmt::format(" --seed {}", *common.seed);
+  if (common.implementation != "auto") text += " --implementation " + common.implementation;
+  return text;
+}
+
+// Everything that the user must type to see a picture again, but for its pixel.
+std::string picture_again(const VerifyCommand& command, const std::string& scene) {
+  const PictureChoice& picture = command.picture;
+  std::string text = fmt::format("voxmelt verify {} --picture", shell_word(scene));
+  if (command.from != 0) text += fmt::format(" --from {}", command.from);
+  if (!picture.view.empty()) text += " --view=" + picture.view;
+  if (!picture.size.empty()) text += " --size " + shell_word(picture.size);
+  if (picture.setting != "normal") text += " --setting " + picture.setting;
+  if (!command.hw.empty()) text += " --hw " + shell_word(command.hw);
+  for (const auto* sets : {&command.hw_sets, &command.common.sets})
+    for (const std::string& set : *sets) text += " --set " + shell_word(set);
+  text += who_computes(command.common);
+  if (!command.plant.empty()) text += " --plant " + command.plant;
+  return text;
 }
 
 // Everything that the user must type to see it again.
@@ -84,8 +94,7 @@ std::string again(const VerifyCommand& command, const std::string& scene,
   for (const std::string& set : command.hw_sets) text += " --set " + shell_word(set);
   for (const std::string& set : command.common.sets)  // the replay has its own start
     if (!set.starts_with("start.")) text += " --set " + shell_word(set);
-  if (command.common.seed) text += fmt::format(" --seed {}", *command.common.seed);
-  if (command.common.implementation != "auto") text += " --implementation " + command.common.implementation;
+  text += who_computes(command.common);
   if (!command.plant.empty()) text += fmt::format(" --plant {} --plant-step {}", command.plant, step);
   return text;
 }
@@ -193,12 +202,37 @@ int run_picture(const VerifyCommand& command) {
   scene::Scene scene = load_scene(command.common);
   catch_interrupts();
   const run::Simulation ahead = run_ahead(scene, command);
-  return verify_picture(command.common, command.picture, scene, ahead, find_preset(command.hw),
-                        command.hw_sets);
+  PictureChoice picture = command.picture;
+  picture.again = picture_again(command, scene.file.string());
+  return verify_picture(command.common, picture, scene, ahead, find_preset(command.hw), command.hw_sets);
+}
+
+int run_machine(const VerifyCommand& command) {
+  if (command.picture.asked) throw UsageError("error: --machine: it draws pictures without --picture");
+  if (!command.picture.pixel.empty()) throw UsageError("error: --pixel: --machine draws whole pictures");
+  if (!command.plant.empty() || command.plant_step)
+    throw UsageError("error: --plant: not with --machine; plant it in one machine alone");
+  const hwmodel::Preset preset =
+      hwmodel::load_preset(find_preset(command.hw), command.hw_sets, hwmodel::Runs::machine);
+  scene::Scene scene = load_scene(command.common);
+  check_replay_place(command, scene);
+  check_report_place(command.common, replay_place(command, scene).string());
+  catch_interrupts();
+  const run::Simulation ahead = run_ahead(scene, command);
+  hwmodel::VerifyOptions options;
+  options.steps = command.steps;
+  options.every = command.every;
+  options.configuration = preset.configuration;
+  options.poll = stop_if_interrupted;
+  const hwmodel::MachineReport report =
+      verify_machine(command.common, command.picture, scene, ahead, preset, options);
+  if (report.steps.mismatch != nullptr) try_writing([&] { write_replay(command, scene, report.steps); });
+  return report.good() ? kDone : kCheckFailed;
 }
 
 int run_verify(VerifyCommand command) {
   split_sets(command);
+  if (command.picture.machine) return run_machine(command);
   if (command.picture.asked) {
     if (command.plant_step) throw UsageError("error: --plant-step: a picture has no steps (--picture)");
     command.picture.plant = command.plant;
@@ -282,7 +316,8 @@ void add_verify(CLI::App& program, Chosen& chosen) {
   add_visibility(*command, options->common);
   command->footer(
       "--set also takes hw.lanes (1, 2, 4 .. 32), hw.cascade (1 .. 16), hw.substeps (1 .. 64), "
-      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none).");
+      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none); the ray caster's keys are in "
+      "docs/hardware-picture.md.");
   command->callback([options, &chosen] { chosen = [options] { return run_verify(*options); }; });
 }
 

@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdint>
 #include <system_error>
 
 #include "app/commands.h"
 #include "app/film.h"
 #include "app/interrupt.h"
 #include "hwmodel/caster_faults/faults.h"
+#include "hwmodel/picture/replay_pixel.h"
 #include "hwmodel/picture/report_picture.h"
 #include "hwmodel/picture/verify_picture.h"
-#include "hwmodel/presets/caster_preset.h"
+#include "hwmodel/presets/presets.h"
 #include "render/image/png.h"
 
 namespace voxmelt::app {
@@ -29,11 +31,40 @@ void set_view(scene::Camera& camera, const std::string& view) {
     throw UsageError(fmt::format("error: --view {}: want AZIMUTH,ELEVATION in degrees", view));
 }
 
+// "X,Y" or "X,Y,WxH" in pixels.
+hwmodel::raycast::Window part_of(const std::string& pixel, const scene::Camera& camera) {
+  std::int32_t x = 0, y = 0, wide = 1, high = 1;
+  const char *at = pixel.data(), *end = at + pixel.size();
+  const auto number = [&](std::int32_t& of) {
+    const auto [behind, bad] = std::from_chars(at, end, of);
+    at = behind;
+    return bad == std::errc();
+  };
+  const auto sign = [&](char c) { return at != end && *at++ == c; };
+  bool good = number(x) && sign(',') && number(y);
+  if (good && at != end) good = sign(',') && number(wide) && sign('x') && number(high);
+  if (!good || at != end) throw UsageError(fmt::format("error: --pixel {}: want X,Y or X,Y,WxH", pixel));
+  if (x < 0 || y < 0 || wide < 1 || high < 1 || x > camera.width - wide || y > camera.height - high)
+    throw UsageError(fmt::format("error: --pixel {}: not in a picture of {} x {} pixels", pixel, camera.width,
+                                 camera.height));
+  return {x, y, x + wide, y + high};
+}
+
+// What --pixel says for a part.
+std::string text_of(const hwmodel::raycast::Window& part) {
+  const std::int32_t wide = part.right - part.left, high = part.bottom - part.top;
+  const std::string place = fmt::format("{},{}", part.left, part.top);
+  return wide == 1 && high == 1 ? place : fmt::format("{},{}x{}", place, wide, high);
+}
+
 }  // namespace
 
 void add_picture_choice(CLI::App& command, PictureChoice& choice) {
   command.add_flag("--picture", choice.asked, "verify the ray caster: one picture, after --from steps");
-  command.add_option("--view", choice.view, "with --picture: the camera's AZIMUTH,ELEVATION in degrees");
+  command.add_flag("--machine", choice.machine,
+                   "verify the pipeline and the ray caster on one memory: --steps in all, --frames pictures");
+  command.add_option("--view", choice.view,
+                     "with --picture or --machine: the camera's AZIMUTH,ELEVATION in degrees");
   command.add_option("--size", choice.size, "with --picture: size in pixels, e.g. 256x256");
   command
       .add_option("--setting", choice.setting,
@@ -42,26 +73,37 @@ void add_picture_choice(CLI::App& command, PictureChoice& choice) {
       ->capture_default_str();
   command
       .add_option("--frames", choice.frames,
-                  "with --picture: draw it so often; later frames find warm caches")
+                  "with --picture: draw it so often; with --machine: pictures of the steps")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command.add_flag("!--no-compare", choice.compare,
                    "with --picture: compare the bytes alone, not every stage");
   command.add_option("--png", choice.png, "with --picture: write the ray caster's picture");
+  command.add_option("--pixel", choice.pixel,
+                     "with --picture: draw only pixel X,Y, or X,Y,WxH: so many from there on");
 }
 
-int verify_picture(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
-                   const run::Simulation& state, const fs::path& preset,
-                   const std::vector<std::string>& hw_sets) {
+scene::Camera camera_of(const PictureChoice& choice, const scene::Scene& scene) {
   scene::Camera camera = scene.camera;
   if (!choice.size.empty()) set_size(camera, choice.size);
   if (!choice.view.empty()) set_view(camera, choice.view);
   if (!scene.look.glow && scene.look.clear != scene::Vec3{})
     throw UsageError("error: --picture: the ray caster does not draw clear matter (look.clear)");
-  const hwmodel::CasterPreset configured = hwmodel::load_caster_preset(preset, hw_sets);
-  const render::Setting setting = choice.setting == "fast"   ? render::Setting::fast
-                                  : choice.setting == "best" ? render::Setting::best
-                                                             : render::Setting::normal;
+  return camera;
+}
+
+render::Setting setting_of(const PictureChoice& choice) {
+  return choice.setting == "fast"   ? render::Setting::fast
+         : choice.setting == "best" ? render::Setting::best
+                                    : render::Setting::normal;
+}
+
+int verify_picture(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
+                   const run::Simulation& state, const fs::path& preset,
+                   const std::vector<std::string>& hw_sets) {
+  const scene::Camera camera = camera_of(choice, scene);
+  const render::Setting setting = setting_of(choice);
+  const hwmodel::Preset configured = hwmodel::load_preset(preset, hw_sets, hwmodel::Runs::caster);
   const hwmodel::raycast::FaultInfo* fault = hwmodel::raycast::find_fault(choice.plant);
   if (!choice.plant.empty() && fault == nullptr)
     throw UsageError(fmt::format(
@@ -70,13 +112,15 @@ int verify_picture(const Common& common, const PictureChoice& choice, const scen
     throw UsageError("error: --plant: with --no-compare no stage is compared");
   check_report_place(common, "");
   hwmodel::raycast::PictureOptions options;
-  options.configuration = configured.configuration;
+  options.configuration = configured.caster;
   options.compare = choice.compare;
   options.frames = choice.frames;
   if (fault != nullptr) options.fault = fault->fault;
   options.poll = stop_if_interrupted;
-  const hwmodel::raycast::PictureReport report = hwmodel::raycast::verify_picture(
-      {state.volume(), scene.look, scene.light, scene.terrain, camera, setting}, options);
+  if (!choice.pixel.empty()) options.window = part_of(choice.pixel, camera);
+  const hwmodel::raycast::PictureInput input{state.volume(), scene.look, scene.light,
+                                             scene.terrain,  camera,     setting};
+  const hwmodel::raycast::PictureReport report = hwmodel::raycast::verify_picture(input, options);
 
   if (fault != nullptr && report.good() && !report.strike)
     throw UsageError(fmt::format(
@@ -87,7 +131,15 @@ int verify_picture(const Common& common, const PictureChoice& choice, const scen
              options.configuration.fifo_depth, options.configuration.stall_seed);
   if (!common.quiet) fmt::print("{}", hwmodel::raycast::table_of(report, options.configuration));
   fmt::print("{}", hwmodel::raycast::verdict_text(report));
-  write_report(common, hwmodel::raycast::json_of(report, options.configuration).dump(2) + '\n');
+  nlohmann::ordered_json json = hwmodel::raycast::json_of(report, options.configuration);
+  const auto replay = hwmodel::raycast::replay_pixel(input, options, report);
+  if (replay) {
+    const std::string pixel = text_of(replay->part);
+    fmt::print("{}to see it again:\n  {} --pixel {}\n", hwmodel::raycast::text_of(*replay), choice.again,
+               pixel);
+    json["replay"] = {{"pixel", pixel}, {"fails_alone", replay->fails}};
+  }
+  write_report(common, json.dump(2) + '\n');
   if (!choice.png.empty()) render::write_png(choice.png, report.image);
   return report.good() && !report.strike ? kDone : kCheckFailed;
 }

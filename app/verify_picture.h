@@ -9,15 +9,22 @@
 #include "app/options.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
+#include "render/packet/draw_picture.h"
 
 namespace voxmelt::app {
 
 struct PictureChoice {
   bool asked = false, compare = true;
-  std::string view, size, setting = "normal", png, plant;
+  bool machine = false;  // the whole machine is asked for
+  std::string view, size, setting = "normal", png, plant, pixel;
   int frames = 1;
+  std::string again;  // what to type to see the picture again
 };
 void add_picture_choice(CLI::App& command, PictureChoice& choice);
+
+// The scene's camera as chosen; throws UsageError.
+scene::Camera camera_of(const PictureChoice& choice, const scene::Scene& scene);
+render::Setting setting_of(const PictureChoice& choice);
 
 int verify_picture(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
                    const run::Simulation& state, const std::filesystem::path& preset,

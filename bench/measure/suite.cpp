@@ -6,20 +6,13 @@
 #include <cstdint>
 #include <utility>
 
+#include "bench/measure/paper.h"
 #include "bench/measure/picture.h"
 #include "bench/measure/report.h"
 #include "kernel/run/simulation.h"
 
 namespace voxmelt::measure {
 namespace {
-
-constexpr struct {
-  const char* scene;
-  const char* as;
-  double gravity, spreading, update, frames;
-} kPaper[] = {{"cello", "Cello", 3.2, 15.6, 65.8, 1000 / 84.6},
-              {"goblet", "Chocolate", 3.2, 18.4, 83.8, 1000 / 105.4},
-              {"lava", "Lava", 3.2, 21.6, 90.2, 1000 / 115.0}};
 
 std::optional<cpu::InstructionSet> set_named(const std::string& name) {
   for (const cpu::InstructionSetRow& row : cpu::kInstructionSets)
@@ -133,11 +126,11 @@ void Suite::run(const Workload& workload, bool baseline) {
 
   findings_.cases.insert(findings_.cases.end(), cases.begin(), cases.end());
 
-  for (const auto& row : kPaper) {
+  for (const auto& row : kPaperTable) {
     if (!workload.name.starts_with(fmt::format("scene:{}/", row.scene)) || !result.plain) continue;
     const state::Grid g = workload.start.grid;
     findings_.table_1.push_back(
-        {row.as, "the paper, 2003", g, row.gravity, row.spreading, row.update, row.frames});
+        {row.as, "the paper, 2003", g, row.gravity, row.spreading, row.update, row.frames()});
     findings_.table_1.push_back(table_row(row.as, "its program, plainly written, here", g, *result.plain,
                                           baseline_update_seconds(workload, plan_.picture_rounds())));
   }

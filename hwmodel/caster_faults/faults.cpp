@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
+#include <utility>
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
 using enum Fault;
+constexpr const char* kChannel = "texture -> matter";  // that every ray passes, halfway
 constexpr std::array kFaults{
     FaultInfo{tiles_threshold, "tiles-threshold", "tiles",
               "a pixel is drawn again whose bytes differ by just the most that is allowed"},
@@ -76,6 +79,18 @@ constexpr std::array kFaults{
     FaultInfo{pixel_channels, "pixel-channels", "pixel", "red and blue change places"},
     FaultInfo{write_place, "write-place", "write", "a burst is written to the next tile's place"},
     FaultInfo{write_burst, "write-burst", "write", "the next burst of the tile is written"},
+    FaultInfo{write_early, "write-early", "write", "a tile is written before its last pixel has come"},
+    FaultInfo{channel_lost, "channel-lost", kChannel, "a token is lost in a channel"},
+    FaultInfo{channel_twice, "channel-twice", kChannel, "a token comes again in place of the next one"},
+    FaultInfo{channel_swap, "channel-swap", kChannel, "two tokens of a channel change places"},
+    FaultInfo{channel_bit, "channel-bit", kChannel, "a bit of a surface's normal changes in a channel"},
+    FaultInfo{channel_never_ready, "channel-never-ready", kChannel,
+              "a channel takes no token any more: everything hangs"},
+    FaultInfo{dealer_twice, "dealer-twice", "dealer", "a tile is dealt again in place of the next one"},
+    FaultInfo{dealer_never, "dealer-never", "dealer", "a tile is never dealt: everything hangs"},
+    FaultInfo{memory_client, "memory-client", "memory", "a line of heights is given to the cache of texels"},
+    FaultInfo{memory_pipe, "memory-pipe", "memory", "a pipe gets the line of another one"},
+    FaultInfo{memory_bit, "memory-bit", "levels", "a bit of a line changes on its way from the memory"},
 };
 
 // A fault that the table lacks would never be tested.
@@ -88,6 +103,9 @@ constexpr bool has_all_in_order() {
 static_assert(has_all_in_order(), "a row for each fault, in the order of the enumerators");
 
 }  // namespace
+
+FaultPlan::FaultPlan(Fault fault, std::string channel)
+    : fault_(fault), channel_(channel.empty() ? kChannel : std::move(channel)) {}
 
 std::span<const FaultInfo> all_faults() { return kFaults; }
 

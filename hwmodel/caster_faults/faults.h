@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace voxmelt::hwmodel::raycast {
 
@@ -80,6 +82,18 @@ enum class Fault : std::uint8_t {
   pixel_channels,
   write_place,
   write_burst,
+  write_early,
+  // channels, dealer, memory
+  channel_lost,
+  channel_twice,
+  channel_swap,
+  channel_bit,
+  channel_never_ready,
+  dealer_twice,
+  dealer_never,
+  memory_client,
+  memory_pipe,
+  memory_bit,
   end,  // no fault, but the end of the list
 };
 
@@ -94,21 +108,27 @@ const FaultInfo* find_fault(std::string_view name);  // null: unknown
 class FaultPlan {
  public:
   FaultPlan() = default;
-  explicit FaultPlan(Fault fault) : fault_(fault) {}
+  // `channel`: in which a channel's fault strikes; else the one of the table.
+  explicit FaultPlan(Fault fault, std::string channel = {});
 
   Fault fault() const { return fault_; }
   bool armed(Fault fault) const { return fault == fault_ && !struck_; }
+  const std::string& channel() const { return channel_; }
 
   struct Strike {
     std::string stage;
     std::int32_t x, y;  // of the pixel; of a tile that is written, its first one
     int sample;
+    std::int64_t address = -1;  // of a line in memory
   };
   void strike(Strike strike) { struck_ = std::move(strike); }
   const std::optional<Strike>& struck() const { return struck_; }
+  void keep(std::shared_ptr<void> part) { kept_.push_back(std::move(part)); }  // of it, as long as it lives
 
  private:
   Fault fault_ = Fault::none;
+  std::string channel_;
+  std::vector<std::shared_ptr<void>> kept_;
   std::optional<Strike> struck_;
 };
 

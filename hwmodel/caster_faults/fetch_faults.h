@@ -20,6 +20,9 @@ class FetchFaults : public Planted {
   bool releases_early() const { return armed(Fault::cache_early_release); }
   bool keeps_old_line() const { return armed(Fault::cache_stale_line); }
   bool reads_early() const { return armed(Fault::cache_reads_early); }
+  void came(std::uint8_t* bytes, std::size_t count) const {
+    if (count > 0 && armed(Fault::memory_bit)) bytes[0] ^= 1;
+  }
   template <class Entry>
   bool loses_miss(const Entry& entry) {
     if (!armed(Fault::cache_lost_miss)) return false;
@@ -53,7 +56,7 @@ class FetchFaults : public Planted {
  private:
   bool plan_strikes_late() const {
     return armed(Fault::cache_tag_bits) || armed(Fault::cache_early_release) ||
-           armed(Fault::cache_stale_line) || armed(Fault::cache_reads_early);
+           armed(Fault::cache_stale_line) || armed(Fault::cache_reads_early) || armed(Fault::memory_bit);
   }
   template <class Entry, class Words>
   static bool same(const Entry& entry, const Words& a, const Words& b) {

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "hwmodel/caster_faults/fetch_faults.h"
+#include "hwmodel/caster_faults/flow_faults.h"
 #include "hwmodel/caster_faults/light_faults.h"
 #include "hwmodel/caster_faults/ray_faults.h"
 #include "hwmodel/caster_faults/surface_faults.h"
@@ -13,22 +14,25 @@ namespace voxmelt::hwmodel::raycast {
 namespace {
 
 // The policy that takes the place of NoFaults.
-struct CasterFaults : RayFaults, FetchFaults, SurfaceFaults, LightFaults, TileFaults {
-  CasterFaults(FaultPlan& plan, const Registers& registers, const Memory& memory)
+struct CasterFaults : RayFaults, FetchFaults, SurfaceFaults, LightFaults, TileFaults, FlowFaults {
+  CasterFaults(FaultPlan& plan, const Registers& registers, const Memory& memory,
+               const std::shared_ptr<LastReply>& last_reply)
       : RayFaults(plan, registers, memory),
         FetchFaults(plan, registers, memory),
         SurfaceFaults(plan, registers, memory),
         LightFaults(plan, registers, memory),
-        TileFaults(plan, registers, memory) {}
+        TileFaults(plan, registers, memory),
+        FlowFaults(plan, registers, memory, last_reply) {}
 };
 
 }  // namespace
 
 PipeMaker planted_pipes(FaultPlan& plan) {
-  return [&plan](const Registers& registers, const FrameRegisters& frame, const Memory& memory,
-                 const Configuration& c, int number) -> std::unique_ptr<Pipe> {
+  return [&plan, last = std::make_shared<LastReply>()](
+             const Registers& registers, const FrameRegisters& frame, const Memory& memory,
+             const Configuration& c, int number) -> std::unique_ptr<Pipe> {
     return std::make_unique<PipeOf<CasterFaults>>(registers, frame, memory, c, number,
-                                                  CasterFaults(plan, registers, memory));
+                                                  CasterFaults(plan, registers, memory, last));
   };
 }
 

@@ -73,7 +73,7 @@ class Run {
   }
 
   VerifyReport run() {
-    while (report_.steps < options_.steps && report_.mismatch == nullptr) advance();
+    while (report_.steps < options_.steps && report_.mismatch == nullptr && !stopped_) advance();
     if (report_.mismatch == nullptr && options_.steps > 0 && checker_.compared_cells() == 0)
       throw std::logic_error("lock-step compared nothing");
     report_.compared_cells = checker_.compared_cells();
@@ -100,8 +100,7 @@ class Run {
     // How many sub-steps a step has is known when it begins, unless the scene says so.
     const bool known = !pipeline_.design().parameters.flow.viscous.counts_substeps();
     if (pass.ends() && (known || pipeline_.design().paper()))
-      pass.steps =
-          steps_of_pass(pipeline_.design(), options_.configuration, step, options_.steps - report_.steps);
+      pass.steps = steps_of_pass(pipeline_.design(), options_.configuration, step, steps_left());
     report_.pass_end = step + static_cast<std::uint32_t>(pass.steps);
 
     std::vector<std::vector<Expected>> expected;
@@ -117,6 +116,15 @@ class Run {
       if (!run_pass(pass, expected)) return;
     }
     report_.steps += static_cast<std::uint32_t>(pass.steps);
+    if (options_.visit_every == 0 || report_.steps % options_.visit_every != 0) return;
+    report_.stages = pipeline_.stages();
+    stopped_ = !options_.visit(memory_, report_);
+  }
+
+  // That one pass may reach.
+  std::uint32_t steps_left() const {
+    const std::uint32_t left = options_.steps - report_.steps, every = options_.visit_every;
+    return every == 0 ? left : std::min(left, every - report_.steps % every);
   }
 
   bool run_pass(const Pass& pass, const std::vector<std::vector<Expected>>& steps) {
@@ -223,6 +231,7 @@ class Run {
   Expectation software_;
   state::Volume memory_;
   VerifyReport report_;
+  bool stopped_ = false;  // by who visits
 };
 
 }  // namespace

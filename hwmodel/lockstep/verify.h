@@ -14,6 +14,7 @@
 
 namespace voxmelt::hwmodel {
 
+struct VerifyReport;
 struct VerifyOptions {
   std::uint32_t steps = 10;
   std::uint32_t every = 1;  // compare every K-th step, and the last
@@ -21,6 +22,10 @@ struct VerifyOptions {
   Fault fault = Fault::none;
   std::uint32_t fault_step = 0;  // the first step in which it may strike
   std::function<void()> poll;    // called now and then; what it throws ends everything
+  // Unless it is 0, `visit` is called after every so many steps, with the model's memory and with what it all
+  // took so far: passes, cycles, stages. No pass reaches beyond. If it gives false, the run ends.
+  std::uint32_t visit_every = 0;
+  std::function<bool(const state::Volume&, const VerifyReport&)> visit;
 };
 
 struct VerifyReport {

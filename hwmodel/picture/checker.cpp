@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <algorithm>
 #include <array>
 #include <type_traits>
+#include <utility>
 
 #include "render/packet/tables.h"
 #include "render/rule/antialias.h"
@@ -31,9 +33,10 @@ std::string text_of_value(const Value& value) {
 }  // namespace
 
 std::string text_of(const Difference& d) {
-  std::string text = fmt::format(
-      "DIFFERENCE behind stage {}: pixel ({}, {}), sample {}, cycle {}\n  {}: expected {}, actual {}\n",
-      d.stage, d.x, d.y, d.sample, d.cycle, d.name, d.expected, d.actual);
+  const std::string place = d.address < 0 ? fmt::format("pixel ({}, {}), sample {}", d.x, d.y, d.sample)
+                                          : fmt::format("the line at address {}", d.address);
+  std::string text = fmt::format("DIFFERENCE behind stage {}: {}, cycle {}\n  {}: expected {}, actual {}\n",
+                                 d.stage, place, d.cycle, d.name, d.expected, d.actual);
   if (d.has_position) {
     const Vec q = to_lattice(d.position) >> (kCellBits + kBrickBits);
     text += fmt::format("  position {} {} {}, brick ({}, {}, {})\n", d.position.x, d.position.y, d.position.z,
@@ -43,17 +46,26 @@ std::string text_of(const Difference& d) {
 }
 
 Checker::Checker(const Expectation& expectation, RayCaster& caster, int width, int height)
-    : expectation_(expectation), caster_(caster), width_(static_cast<std::size_t>(width)), height_(height) {
+    : expectation_(expectation),
+      caster_(caster),
+      width_(static_cast<std::size_t>(width)),
+      height_(height),
+      transit_(caster, [this](Difference of) { tell(std::move(of)); }),
+      tile_check_(width, height, [this](Difference of) { tell(std::move(of)); }),
+      memory_check_([this](Difference of) { tell(std::move(of)); }) {
   bytes_.resize(static_cast<std::size_t>(frame_bytes(width, height)));
   tiles_x_ = (width + kTileSide - 1) / kTileSide;
 }
 
 Watchers Checker::watchers() {
-  return {this, this, this, this, this, this, this, this, this, this, this, this};
+  return transit_.around({this, this, this, this, this, this, this, this, this, this, this, this,
+                          &tile_check_, &memory_check_, &memory_check_});
 }
 
-void Checker::begin_pass(int samples, int most, std::int64_t frame) {
-  samples_ = samples, most_ = most, frame_ = frame;
+void Checker::begin_pass(int samples, int most, std::int64_t frame, const Window& window) {
+  samples_ = samples, most_ = most, frame_ = frame, window_ = window;
+  ended_.reset();
+  transit_.begin_pass(), tile_check_.begin_pass(window), memory_check_.begin_pass();
   if (samples == 1)
     std::fill(bytes_.begin(), bytes_.end(), std::uint8_t{0});
   else
@@ -63,6 +75,33 @@ void Checker::begin_pass(int samples, int most, std::int64_t frame) {
   sums_.assign(pixels, {});
   rays_.clear();
   free_.clear();
+}
+
+void Checker::end_pass(const FrameEnd& end) {
+  if (difference_ || !(end.complete || end.hangs)) return;
+  ended_ = end.cycles;
+  tile_check_.end_pass(end.hangs);
+  if (end.hangs) transit_.look_for_lost();
+}
+
+std::optional<RayId> Checker::ray_under_way() const {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (places_[i] < 0) continue;
+    const std::size_t pixel = i / static_cast<std::size_t>(samples_);
+    return RayId{static_cast<std::int32_t>(pixel % width_), static_cast<std::int32_t>(pixel / width_),
+                 static_cast<std::int16_t>(i % static_cast<std::size_t>(samples_)), 0};
+  }
+  return {};
+}
+
+void Checker::tell(Difference difference) {
+  if (difference_) return;
+  difference.cycle = ended_.value_or(0);
+  if (!ended_) {
+    difference.cycle = caster_.cycle();
+    caster_.stop();
+  }
+  difference_ = std::move(difference);
 }
 
 std::size_t Checker::index_of(const RayId& id) const {
@@ -115,23 +154,20 @@ void Checker::compare(const char* stage, const RayId& id, const char* name, cons
   ++compared_;
   if (expected == actual || difference_) [[likely]]
     return;
-  difference_ = Difference{stage,
-                           name,
-                           id.x,
-                           id.y,
-                           id.sample,
-                           caster_.cycle(),
-                           text_of_value(expected),
-                           text_of_value(actual),
-                           position != nullptr ? *position : Vec{},
-                           position != nullptr};
-  caster_.stop();
+  Difference of;
+  of.stage = stage, of.name = name;
+  of.x = id.x, of.y = id.y, of.sample = id.sample;
+  of.expected = text_of_value(expected), of.actual = text_of_value(actual);
+  of.has_position = position != nullptr;
+  if (position != nullptr) of.position = *position;
+  tell(std::move(of));
 }
 
 void Checker::entered(int, std::int64_t, const TileOrder* token) {
+  tile_check_.ordered(*token);
   for (int i = 0; i < kTilePixels; ++i) {
     const int x = token->x + i % kTileSide, y = token->y + i / kTileSide;
-    const bool in = x < static_cast<int>(width_) && y < height_;
+    const bool in = x < static_cast<int>(width_) && y < height_ && window_.holds(x, y);
     compare("tiles", {x, y, 0, 0}, "to be drawn", in && (samples_ == 1 || drawn_again(x, y)),
             (token->pixels >> i & 1) != 0);
   }
@@ -312,8 +348,11 @@ void Checker::entered(int, std::int64_t, const PixelToken* token) {
 // Beyond the edges of the picture, a tile holds zeros.
 void Checker::entered(int, std::int64_t, const LineRequest* token) {
   const std::int64_t from = token->address - frame_;
+  if (from < 0 || from + kBurst > static_cast<std::int64_t>(bytes_.size()))
+    return compare("write", {}, "address in the frame", std::int64_t{0}, from);
   const auto tile = static_cast<int>(from / kTileBytes);
   const RayId first{tile % tiles_x_ * kTileSide, tile / tiles_x_ * kTileSide, 0, 0};
+  tile_check_.written(tile, static_cast<int>(from % kTileBytes / kBurst));
   std::array<std::uint8_t, kBurst> expected{};
   std::copy_n(bytes_.begin() + from, kBurst, expected.begin());
   compare("write", first, "bytes of the tile", expected, token->data);

@@ -5,24 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "hwmodel/picture/difference.h"
 #include "hwmodel/picture/expectation.h"
+#include "hwmodel/picture/memory_check.h"
+#include "hwmodel/picture/tile_check.h"
+#include "hwmodel/picture/transit.h"
 #include "hwmodel/raycast/ray_caster.h"
 
 namespace voxmelt::hwmodel::raycast {
-
-struct Difference {
-  std::string stage, name;
-  std::int32_t x = 0, y = 0;
-  int sample = 0;
-  std::int64_t cycle = 0;
-  std::string expected, actual;
-  Vec position;  // of the sample or of the surface, in 2^-20 cells
-  bool has_position = false;
-};
-std::string text_of(const Difference& difference);
 
 class Checker final : FifoWatcher<TileOrder>,
                       FifoWatcher<RayToken>,
@@ -42,9 +34,13 @@ class Checker final : FifoWatcher<TileOrder>,
   Watchers watchers();
   // The first pass has one sample of a pixel. The second one has several, of the pixels that differ from a
   // neighbour by more than `most`. `frame`: where it is written.
-  void begin_pass(int samples, int most, std::int64_t frame);
+  void begin_pass(int samples, int most, std::int64_t frame, const Window& window = {});
+  // After it: looks for what never came.
+  void end_pass(const FrameEnd& end);
   const std::optional<Difference>& difference() const { return difference_; }
   std::int64_t compared() const { return compared_; }  // numbers
+  // Of the first ray in the picture that has not come to its end. (All have, in a pass that is complete.)
+  std::optional<RayId> ray_under_way() const;
 
  private:
   void entered(int channel, std::int64_t ordinal, const TileOrder* token) override;
@@ -69,9 +65,12 @@ class Checker final : FifoWatcher<TileOrder>,
   void left(int, std::int64_t, const MetToken*) override {}
   void left(int, std::int64_t, const Surface*) override {}
   void left(int, std::int64_t, const PressedToken*) override {}
-  void left(int, std::int64_t, const PixelToken*) override {}
+  void left(int, std::int64_t, const PixelToken* token) override {
+    tile_check_.pixel_complete(token->id.x, token->id.y);
+  }
   void left(int, std::int64_t, const LineRequest*) override {}
 
+  void tell(Difference difference);
   ExpectedRay& ray(const RayId& id);
   ExpectedRay& shaded(const RayId& id);
   std::size_t index_of(const RayId& id) const;
@@ -94,6 +93,11 @@ class Checker final : FifoWatcher<TileOrder>,
   std::vector<std::uint8_t> bytes_, first_;  // expected, tile by tile; of the first pass
   int most_ = 0, tiles_x_ = 0;
   std::int64_t frame_ = 0;
+  Window window_;
+  std::optional<std::int64_t> ended_;  // the cycles of the pass
+  Transit transit_;
+  TileCheck tile_check_;
+  MemoryCheck memory_check_;
   std::optional<Difference> difference_;
   std::int64_t compared_ = 0;
 };

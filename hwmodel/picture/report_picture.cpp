@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+
+#include "hwmodel/picture/report_memory.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
@@ -12,7 +16,54 @@ double ratio(std::int64_t a, std::int64_t b) {
   return b == 0 ? 0 : static_cast<double>(a) / static_cast<double>(b);
 }
 
+constexpr std::array kVolumeNames{"levels", "matter", "light", "heights", "texels"};
+static_assert(kVolumeNames.size() == kSentVolumes);
+
+std::string text_of(const UploadReport& upload) {
+  std::string text =
+      fmt::format("upload{}: {} bytes in {} bursts (", upload.whole ? " of everything" : " of what changed",
+                  upload.bursts * kBurst, upload.bursts);
+  for (std::size_t i = 0; i < kSentVolumes; ++i)
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", kVolumeNames[i], upload.bytes[i]);
+  return text + fmt::format("), {} words of registers; {} cycles\n", upload.words, upload.cycles);
+}
+
+std::string place_of(const FaultPlan::Strike& of) {
+  if (of.address >= 0) return fmt::format("the line at address {}", of.address);
+  return fmt::format("pixel ({}, {}), sample {}", of.x, of.y, of.sample);
+}
+
+nlohmann::ordered_json json_of(const PipeCost& cost) {
+  nlohmann::ordered_json json;
+  for (const ChannelCost& of : cost.channels)
+    json["channels"].push_back({{"name", of.name}, {"bits", of.bits}, {"depth", of.depth}});
+  for (const MemoryCost& of : cost.memories)
+    json["memories"].push_back(
+        {{"stage", of.stage}, {"name", of.name}, {"words", of.words}, {"bits", of.bits}});
+  for (const UnitCost& of : cost.units)
+    json["units"].push_back(
+        {{"stage", of.stage}, {"multipliers", of.multipliers}, {"dividers", of.dividers}});
+  json["channel_bits"] = cost.channel_bits();
+  json["memory_bits"] = cost.memory_bits();
+  json["multipliers"] = cost.all_units().multipliers;
+  json["dividers"] = cost.all_units().dividers;
+  return json;
+}
+
 }  // namespace
+
+nlohmann::ordered_json json_of(const UploadReport& upload) {
+  nlohmann::ordered_json json{{"whole", upload.whole},
+                              {"bytes", upload.bursts * kBurst},
+                              {"bursts", upload.bursts},
+                              {"words", upload.words},
+                              {"cycles", upload.cycles}};
+  for (std::size_t i = 0; i < kSentVolumes; ++i) json["volumes"][kVolumeNames[i]] = upload.bytes[i];
+  const Account& a = upload.account;
+  json["stage"] = {{"busy", a.busy},     {"starved", a.starved}, {"blocked", a.blocked},
+                   {"memory", a.memory}, {"fill", a.fill},       {"drain", a.drain}};
+  return json;
+}
 
 std::string table_of(const PictureReport& report, const Configuration& c) {
   std::string text = fmt::format("{:<16}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}   in % of {} cycles\n", "stage",
@@ -36,8 +87,15 @@ std::string table_of(const PictureReport& report, const Configuration& c) {
   text += fmt::format("memory: {} reads, {} bytes read, {} written, bus busy {:.1f} %; {} bytes stored\n",
                       report.memory.reads, report.memory.read_bytes, report.memory.written_bytes,
                       100 * ratio(report.memory.bus_cycles, report.all_cycles), report.memory_bytes);
-  text += fmt::format("the last frame: {} cycles, {:.1f} frames a second at 200 MHz\n", report.end.cycles,
-                      2e8 / static_cast<double>(std::max<std::int64_t>(report.end.cycles, 1)));
+  for (std::size_t i = 0; i < std::min<std::size_t>(report.uploads.size(), 2); ++i)
+    text += text_of(report.uploads[i]);
+  if (report.memory.dram) text += memory_text(*report.memory.dram, *c.dram);
+  text += fmt::format("a pipe: {} bits of memories, {} of channels, {} multipliers, {} dividers\n",
+                      report.cost.memory_bits(), report.cost.channel_bits(),
+                      report.cost.all_units().multipliers, report.cost.all_units().dividers);
+  text += fmt::format("the last frame: {} cycles, {:.1f} frames a second at {} MHz\n", report.end.cycles,
+                      1e6 * c.clock_mhz / static_cast<double>(std::max<std::int64_t>(report.end.cycles, 1)),
+                      c.clock_mhz);
   text +=
       fmt::format("simulated in {:.2f} s: {:.2f} million cycles a second, {:.2f} million samples a second\n",
                   report.seconds, static_cast<double>(report.all_cycles) / report.seconds / 1e6,
@@ -58,6 +116,8 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                            {"fifo_depth", c.fifo_depth},
                            {"stall_seed", c.stall_seed},
                            {"tiles", c.tiles},
+                           {"clock_mhz", c.clock_mhz},
+                           {"memory", c.dram ? c.dram->name : "fixed"},
                            {"latency", c.latency},
                            {"bus_bytes", c.bus_bytes},
                            {"apron", c.apron},
@@ -79,6 +139,10 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                     {"written_bytes", report.memory.written_bytes},
                     {"bus_cycles", report.memory.bus_cycles},
                     {"stored_bytes", report.memory_bytes}};
+  if (report.memory.dram) json["dram"] = memory_json(*report.memory.dram, *c.dram);
+  json["pipe"] = json_of(report.cost);
+  json["uploads"] = Json::array();
+  for (const UploadReport& upload : report.uploads) json["uploads"].push_back(json_of(upload));
   for (const StageAccount& stage : report.stages) {
     const Account& a = stage.account;
     json["stages"].push_back({{"name", stage.name},
@@ -99,6 +163,8 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
     json["difference"] = {{"stage", d.stage},       {"x", d.x},          {"y", d.y},
                           {"sample", d.sample},     {"cycle", d.cycle},  {"name", d.name},
                           {"expected", d.expected}, {"actual", d.actual}};
+    if (d.address >= 0) json["difference"]["address"] = d.address;
+    if (d.address >= 0) json["difference"]["address"] = d.address;
   }
   if (report.strike)
     json["planted"] = {{"stage", report.strike->stage},
@@ -114,8 +180,7 @@ std::string verdict_text(const PictureReport& report) {
   if (report.difference) text += text_of(*report.difference);
   text += report.hang;
   if (report.strike)
-    text += fmt::format("planted: {}, pixel ({}, {}), sample {}; {}\n", report.strike->stage,
-                        report.strike->x, report.strike->y, report.strike->sample,
+    text += fmt::format("planted: {}, {}; {}\n", report.strike->stage, place_of(*report.strike),
                         report.good()                  ? "NOT FOUND"
                         : report.found_where_planted() ? "found there"
                                                        : "found, but ELSEWHERE");

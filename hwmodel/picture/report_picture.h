@@ -10,6 +10,7 @@ namespace voxmelt::hwmodel::raycast {
 
 std::string table_of(const PictureReport& report, const Configuration& configuration);
 nlohmann::ordered_json json_of(const PictureReport& report, const Configuration& configuration);
+nlohmann::ordered_json json_of(const UploadReport& upload);
 std::string verdict_text(const PictureReport& report);
 
 }  // namespace voxmelt::hwmodel::raycast

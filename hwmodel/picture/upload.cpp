@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "hwmodel/picture/memory_image.h"
 #include "hwmodel/raycast/field.h"
@@ -86,28 +85,6 @@ Registers registers_of(const render::PictureData& data) {
   of.light_cells = vec_of(data.light.count);
   of.light_shift = data.light.shift;
   return of;
-}
-
-Memory memory_of(const render::PictureData& data, const Configuration& configuration) {
-  Memory memory = room_for(data, configuration, stored_bricks(data.field));
-  const auto into = [&](const Layout& layout) {
-    return [&](std::int64_t line, const std::uint8_t* bytes) {
-      std::memcpy(memory.bytes.data() + layout.address(line), bytes,
-                  static_cast<std::size_t>(layout.line_bytes));
-    };
-  };
-  const state::Grid bricks = lattice_bricks(data.field);
-  for (int z = 0; z < bricks.z; ++z)
-    for (int y = 0; y < bricks.y; ++y)
-      for (int x = 0; x < bricks.x; ++x) {
-        if (memory.levels.brick_at(x, y, z) == 0) continue;
-        level_lines(data, memory.levels, {x, y, z}, into(memory.levels));
-        matter_lines(data, memory.matter, {x, y, z}, into(memory.matter));
-      }
-  light_lines(data, memory.light, into(memory.light));
-  height_lines(data, memory.heights, into(memory.heights));
-  texel_lines(data, memory.texels, into(memory.texels));
-  return memory;
 }
 
 }  // namespace voxmelt::hwmodel::raycast

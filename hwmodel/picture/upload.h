@@ -10,6 +10,5 @@
 namespace voxmelt::hwmodel::raycast {
 
 Registers registers_of(const render::PictureData& data);
-Memory memory_of(const render::PictureData& data, const Configuration& configuration);
 
 }  // namespace voxmelt::hwmodel::raycast

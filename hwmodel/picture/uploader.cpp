@@ -38,7 +38,8 @@ UploadReport Uploader::update(const render::PictureData& data, const std::vector
     report.bricks = due_bricks(data, *changed);
   }
   send_registers(data, report);
-  if (forgotten_ && forgotten_->update == updates_) std::erase(report.bricks, forgotten_->brick);
+  std::erase_if(report.bricks,
+                [&](const SentBrick& of) { return strikes(UploadFault::Kind::forgotten, of); });
   send_bricks(data, report);
   send_lines(data, report);
   const UploadEnd end = run_upload(upload_, memory_, configuration_);
@@ -118,37 +119,40 @@ void Uploader::send_registers(const render::PictureData& data, UploadReport& rep
 void Uploader::send_bricks(const render::PictureData& data, UploadReport& report) {
   for (SentBrick& of : report.bricks) {
     const Layout& layout = of.volume == Sent::levels ? memory_.levels : memory_.matter;
+    std::vector<std::int64_t>& told = report.lines[static_cast<std::size_t>(of.volume)];
+    const std::size_t sent_before = upload_.addresses.size(), told_before = told.size();
     const LineSink sink = [&](std::int64_t line, const std::uint8_t* bytes) {
-      of.other = send(layout, of.volume, line, bytes, report) || of.other;
+      of.other = send_other(layout, of.volume, line, bytes, report) || of.other;
     };
     (of.volume == Sent::levels ? level_lines : matter_lines)(data, layout, of.brick, sink);
+    if (strikes(UploadFault::Kind::misplaced, of))
+      for (std::size_t i = sent_before; i < upload_.addresses.size(); ++i)
+        upload_.addresses[i] += std::int64_t{layout.line_bytes} << (3 * (kBrickBits - layout.bits[0]));
+    if (strikes(UploadFault::Kind::untold, of)) told.resize(told_before);
   }
 }
 
 void Uploader::send_lines(const render::PictureData& data, UploadReport& report) {
-  const auto if_other = [&](const Layout& layout, Sent volume) -> LineSink {
+  const auto into = [&](const Layout& layout, Sent volume) -> LineSink {
     return [&, volume](std::int64_t line, const std::uint8_t* bytes) {
-      const bool same = std::memcmp(memory_.bytes.data() + layout.address(line), bytes,
-                                    static_cast<std::size_t>(layout.line_bytes)) == 0;
-      if (report.whole || !same) send(layout, volume, line, bytes, report);
+      send_other(layout, volume, line, bytes, report);
     };
   };
-  light_lines(data, memory_.light, if_other(memory_.light, Sent::light));
-  height_lines(data, memory_.heights, if_other(memory_.heights, Sent::heights));
-  texel_lines(data, memory_.texels, if_other(memory_.texels, Sent::texels));
+  light_lines(data, memory_.light, into(memory_.light, Sent::light));
+  height_lines(data, memory_.heights, into(memory_.heights, Sent::heights));
+  texel_lines(data, memory_.texels, into(memory_.texels, Sent::texels));
 }
 
-// Tells whether the line was another one.
-bool Uploader::send(const Layout& layout, Sent volume, std::int64_t line, const std::uint8_t* bytes,
-                    UploadReport& report) {
+bool Uploader::send_other(const Layout& layout, Sent volume, std::int64_t line, const std::uint8_t* bytes,
+                          UploadReport& report) {
   const auto of = static_cast<std::size_t>(volume);
+  if (!report.whole && std::memcmp(memory_.bytes.data() + layout.address(line), bytes,
+                                   static_cast<std::size_t>(layout.line_bytes)) == 0)
+    return false;
   upload_.add(layout.address(line), bytes, layout.line_bytes);
   report.lines[of].push_back(line);
   report.bytes[of] += layout.line_bytes;
-  const bool other = std::memcmp(memory_.bytes.data() + layout.address(line), bytes,
-                                 static_cast<std::size_t>(layout.line_bytes)) != 0;
-  if (other) report.other_bytes[of] += layout.line_bytes;
-  return other;
+  return true;
 }
 
 }  // namespace voxmelt::hwmodel::raycast

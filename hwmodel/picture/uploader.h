@@ -1,7 +1,7 @@
-// Keeps the ray caster's registers and memory up to date: after a step, only bricks that changed are sent.
+// Keeps the ray caster's registers and memory up to date: after a step, only lines that changed are sent.
 //
-// Bricks come from the list of those that the field's filter went through. Light, heights and texels have no
-// such list: the host compares them with what it has sent, line by line.
+// The host compares lines with what it has sent. Of levels and matter it looks at the bricks that the field's
+// filter went through; light, heights and texels have no such list, and it looks at all of them.
 #pragma once
 
 #include <array>
@@ -24,25 +24,27 @@ inline constexpr std::size_t kSentVolumes = 5;
 struct SentBrick {
   Sent volume = Sent::levels;
   state::Grid brick;
-  bool other = false;  // a byte of it was another one in memory
+  bool other = false;  // a line of it was sent
   friend bool operator==(const SentBrick& a, const SentBrick& b) {
     return a.volume == b.volume && a.brick.x == b.brick.x && a.brick.y == b.brick.y && a.brick.z == b.brick.z;
   }
 };
 
 struct UploadReport {
-  bool whole = false;  // everything was sent
-  std::vector<SentBrick> bricks;
+  bool whole = false;                                         // everything was sent
+  std::vector<SentBrick> bricks;                              // that were looked at
   std::array<std::vector<std::int64_t>, kSentVolumes> lines;  // caches must forget them
   std::array<std::int64_t, kSentVolumes> bytes{};
-  std::array<std::int64_t, kSentVolumes> other_bytes{};  // of lines that were others
-  std::int64_t slots = 0, skip_words = 0;                // register words: 32 bits, 16 bits
+  std::int64_t slots = 0, skip_words = 0;  // register words: 32 bits, 16 bits
   std::int64_t words = 0, bursts = 0, cycles = 0;
   Account account;
 };
 
-// A fault: in that update, counted from 0, a brick is not sent.
-struct ForgottenBrick {
+// A fault of an update, counted from 0: a brick is not sent, is sent to the place of the next one, or is sent
+// and the caches are not told.
+struct UploadFault {
+  enum class Kind : std::uint8_t { forgotten, misplaced, untold };
+  Kind kind = Kind::forgotten;
   std::int64_t update = 0;
   SentBrick brick;
 };
@@ -55,7 +57,7 @@ class Uploader {
   // (DensityField::refreshed), or null for all. Another grid or size of picture, and bricks for which there
   // is no room any more, make it send everything.
   UploadReport update(const render::PictureData& data, const std::vector<std::uint32_t>* changed);
-  void forget(const ForgottenBrick& brick) { forgotten_ = brick; }
+  void plant(const UploadFault& fault) { fault_ = fault; }
 
   const Registers& registers() const { return registers_; }
   Memory& memory() { return memory_; }
@@ -65,11 +67,15 @@ class Uploader {
   std::vector<SentBrick> all_bricks(const render::PictureData& data) const;
   std::vector<SentBrick> due_bricks(const render::PictureData& data,
                                     const std::vector<std::uint32_t>& changed) const;
+  bool strikes(UploadFault::Kind kind, const SentBrick& brick) const {
+    return fault_ && fault_->kind == kind && fault_->update == updates_ && fault_->brick == brick;
+  }
   void send_bricks(const render::PictureData& data, UploadReport& report);
   void send_lines(const render::PictureData& data, UploadReport& report);
   void send_registers(const render::PictureData& data, UploadReport& report);
-  bool send(const Layout& layout, Sent volume, std::int64_t line, const std::uint8_t* bytes,
-            UploadReport& report);
+  // Sends a line that is another one in memory. Tells whether it did.
+  bool send_other(const Layout& layout, Sent volume, std::int64_t line, const std::uint8_t* bytes,
+                  UploadReport& report);
 
   Configuration configuration_;
   Registers registers_;
@@ -77,7 +83,7 @@ class Uploader {
   Upload upload_;
   std::int64_t room_ = 0;  // for so many bricks
   std::int64_t updates_ = 0;
-  std::optional<ForgottenBrick> forgotten_;
+  std::optional<UploadFault> fault_;
 };
 
 // Where registers and memory are not what a picture's data say, by places: the data may come from another

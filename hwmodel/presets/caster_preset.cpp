@@ -2,10 +2,9 @@
 
 #include <bit>
 #include <cstdint>
-#include <optional>
+#include <string>
 
-#include "kernel/scene/text/compose.h"
-#include "kernel/scene/text/reader.h"
+#include "hwmodel/presets/memory_preset.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -35,38 +34,25 @@ void read_cache(scene::Reader& hw, const CacheKeys& keys, raycast::CacheShape& c
 
 }  // namespace
 
-CasterPreset load_caster_preset(const std::filesystem::path& file,
-                                const std::vector<std::string>& overrides) {
-  scene::Value document;
-  if (!file.empty()) document = scene::read_document(file);
-  for (const std::string& assignment : overrides) scene::apply_override(document, assignment);
-
-  CasterPreset preset;
-  scene::Reader root(document, "");
-  preset.title = root.text("title", "");
-  raycast::Configuration& c = preset.configuration;
-  if (std::optional<scene::Reader> hw = root.table("hw")) {
-    const auto number = [&](const char* key, int low, int high, int value) {
-      return static_cast<int>(hw->integer(key, low, high, value));
-    };
-    c.pipes = number("pipes", 1, 64, c.pipes);
-    c.rays = number("rays", 1, 4096, c.rays);
-    c.walkers = number("walkers", 1, 16, c.walkers);
-    c.fifo_depth = number("fifo_depth", 1, 1024, c.fifo_depth);
-    c.stall_seed = static_cast<std::uint64_t>(hw->integer("stall_seed", 0, INT64_MAX, 0));
-    c.tiles = number("tiles", 1, 64, c.tiles);
-    c.latency = number("latency", 1, 1000, c.latency);
-    c.bus_bytes = number("bus_bytes", 1, 4096, c.bus_bytes);
-    c.apron = number("apron", 0, 1, c.apron ? 1 : 0) != 0;
-    c.level_bits = number("level_bits", 1, 3, c.level_bits);
-    read_cache(*hw, kLevels, c.levels);
-    read_cache(*hw, kMatter, c.matter);
-    read_cache(*hw, kLight, c.light);
-    read_cache(*hw, kGround, c.ground);
-    hw->finish();
-  }
-  root.finish();
-  return preset;
+void read_caster(scene::Reader& hw, raycast::Configuration& c) {
+  const auto number = [&](const char* key, int low, int high, int value) {
+    return static_cast<int>(hw.integer(key, low, high, value));
+  };
+  c.pipes = number("pipes", 1, 64, c.pipes);
+  c.rays = number("rays", 1, 4096, c.rays);
+  c.walkers = number("walkers", 1, 16, c.walkers);
+  c.fifo_depth = number("fifo_depth", 1, 1024, c.fifo_depth);
+  c.stall_seed = static_cast<std::uint64_t>(hw.integer("stall_seed", 0, INT64_MAX, 0));
+  c.tiles = number("tiles", 1, 64, c.tiles);
+  c.latency = number("latency", 1, 1000, c.latency);
+  c.bus_bytes = number("bus_bytes", 1, 4096, c.bus_bytes);
+  c.apron = number("apron", 0, 1, c.apron ? 1 : 0) != 0;
+  c.level_bits = number("level_bits", 1, 3, c.level_bits);
+  read_memory(hw, c);
+  read_cache(hw, kLevels, c.levels);
+  read_cache(hw, kMatter, c.matter);
+  read_cache(hw, kLight, c.light);
+  read_cache(hw, kGround, c.ground);
 }
 
 }  // namespace voxmelt::hwmodel

@@ -1,20 +1,11 @@
-// Configurations of the ray caster from TOML, as those of the pipeline (presets.h).
+// The keys of the ray caster in a table `hw`.
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "hwmodel/raycast/configuration.h"
+#include "kernel/scene/text/reader.h"
 
 namespace voxmelt::hwmodel {
 
-struct CasterPreset {
-  std::string title;
-  raycast::Configuration configuration;
-};
-
-// `overrides` are "hw.key=value". Throws scene::InputError with its place.
-CasterPreset load_caster_preset(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+void read_caster(scene::Reader& hw, raycast::Configuration& c);
 
 }  // namespace voxmelt::hwmodel

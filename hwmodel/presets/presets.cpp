@@ -4,32 +4,49 @@
 #include <cstdint>
 #include <optional>
 
+#include "hwmodel/presets/caster_preset.h"
 #include "kernel/scene/text/compose.h"
 #include "kernel/scene/text/reader.h"
 
 namespace voxmelt::hwmodel {
+namespace {
 
-Preset load_preset(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  scene::Value document;
-  if (!file.empty()) document = scene::read_document(file);
-  for (const std::string& assignment : overrides) scene::apply_override(document, assignment);
+void read_pipeline(scene::Reader& hw, Configuration& c) {
+  c.lanes = static_cast<int>(hw.integer("lanes", 1, kMostLanes, c.lanes));
+  if (!std::has_single_bit(static_cast<unsigned>(c.lanes)))
+    hw.fail("lanes", " = " + std::to_string(c.lanes) + " is not one of 1, 2, 4, 8, 16, 32");
+  c.cascade = static_cast<int>(hw.integer("cascade", 1, kMostCascade, c.cascade));
+  c.fifo_depth = static_cast<int>(hw.integer("fifo_depth", 1, kMostDepth, c.fifo_depth));
+  c.stall_seed = static_cast<std::uint64_t>(hw.integer("stall_seed", 0, INT64_MAX, 0));
+  c.substeps = static_cast<int>(hw.integer("substeps", 1, kMostSubsteps, c.substeps));
+}
 
+Preset preset_of(const scene::Value& document, Runs runs) {
   Preset preset;
   scene::Reader root(document, "");
   preset.title = root.text("title", "");
-  Configuration& c = preset.configuration;
   if (std::optional<scene::Reader> hw = root.table("hw")) {
-    c.lanes = static_cast<int>(hw->integer("lanes", 1, kMostLanes, c.lanes));
-    if (!std::has_single_bit(static_cast<unsigned>(c.lanes)))
-      hw->fail("lanes", " = " + std::to_string(c.lanes) + " is not one of 1, 2, 4, 8, 16, 32");
-    c.cascade = static_cast<int>(hw->integer("cascade", 1, kMostCascade, c.cascade));
-    c.fifo_depth = static_cast<int>(hw->integer("fifo_depth", 1, kMostDepth, c.fifo_depth));
-    c.stall_seed = static_cast<std::uint64_t>(hw->integer("stall_seed", 0, INT64_MAX, 0));
-    c.substeps = static_cast<int>(hw->integer("substeps", 1, kMostSubsteps, c.substeps));
+    if (runs != Runs::caster) read_pipeline(*hw, preset.configuration);
+    if (runs != Runs::pipeline) read_caster(*hw, preset.caster);
     hw->finish();
   }
   root.finish();
   return preset;
+}
+
+}  // namespace
+
+Preset load_preset(const std::filesystem::path& file, const std::vector<std::string>& overrides, Runs runs) {
+  scene::Value document, options;
+  if (!file.empty()) document = scene::read_document(file);
+  for (const std::string& assignment : overrides) {
+    // What a trace needs may stand in the file.
+    if (runs == Runs::pipeline || !assignment.starts_with("hw.memory_trace"))
+      scene::apply_override(options, assignment);
+    scene::apply_override(document, assignment);
+  }
+  static_cast<void>(preset_of(options, runs));  // a key of what does not run is unknown
+  return preset_of(document, Runs::machine);
 }
 
 }  // namespace voxmelt::hwmodel

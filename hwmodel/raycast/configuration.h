@@ -2,6 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
+
+#include "hwmodel/memory/parameters.h"
 
 namespace voxmelt::hwmodel::raycast {
 
@@ -20,9 +24,12 @@ struct Configuration {
   std::uint64_t stall_seed = 0;  // 0: no stalls
   int tiles = 4;                 // tile buffers of a pipe
   CacheShape levels, matter, light, ground;
-  int latency = 40;    // of the memory, in cycles
-  int bus_bytes = 64;  // that the memory gives in a cycle
-  bool apron = false;  // bricks of levels hold their apron: a line is a brick
+  int clock_mhz = 200;
+  std::optional<memory::Parameters> dram;  // none: a memory of a fixed latency, as the next two say
+  int latency = 40;                        // of the memory, in cycles
+  int bus_bytes = 64;                      // that the memory gives in a cycle
+  std::string memory_trace;                // file of the requests to a DRAM; empty: none
+  bool apron = false;                      // bricks of levels hold their apron: a line is a brick
   int level_bits = 2;  // log2 of the places of a line of levels along an axis, without apron: 2 or 3
 };
 

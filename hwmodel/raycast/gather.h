@@ -87,6 +87,7 @@ class Gather final : public LineClient {
       return;
     }
     std::memcpy(store_.data() + slot * line_bytes(), bytes, line_bytes());
+    faults_.came(store_.data() + slot * line_bytes(), line_bytes());
     arrived_[slot] = 1;
   }
   const CacheCounts& counts() const { return cache_.counts(); }

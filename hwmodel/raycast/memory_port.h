@@ -13,6 +13,7 @@
 #include "hwmodel/channel/fifo.h"
 #include "hwmodel/raycast/gather.h"
 #include "hwmodel/raycast/layout.h"
+#include "hwmodel/raycast/line_memory.h"
 #include "hwmodel/raycast/stage.h"
 
 namespace voxmelt::hwmodel::raycast {
@@ -52,24 +53,21 @@ class MemoryPort final : public Stage {
   Fifo<LineReply>* replies_ = nullptr;
 };
 
-// The memory itself: a request a cycle, from one pipe after the other; a fixed latency; a bus of so many
-// bytes a cycle.
-struct MemoryCounts {
-  std::int64_t reads = 0, read_bytes = 0, written_bytes = 0, bus_cycles = 0;
-};
-class MemoryBlock {
+// A memory with a fixed latency and a bus of so many bytes a cycle. It takes a request a cycle, from one pipe
+// after the other.
+class MemoryBlock final : public LineMemory {
  public:
   MemoryBlock(Memory& memory, int latency, int bus_bytes)
       : memory_(memory), latency_(latency), bus_bytes_(bus_bytes) {}
-  void connect(Fifo<LineRequest>& requests, Fifo<LineReply>& replies) {
+  void connect(Fifo<LineRequest>& requests, Fifo<LineReply>& replies) override {
     ports_.push_back({&requests, &replies});
   }
-  const MemoryCounts& counts() const { return counts_; }
-  void begin() { bus_free_ = 0; }  // cycles count from 0 again
-
-  // Tells whether anything moved.
-  bool cycle(std::int64_t now) {
+  const MemoryCounts& counts() const override { return counts_; }
+  void begin() override { bus_free_ = 0; }
+  void share(Neighbour* neighbour) override { neighbour_ = neighbour; }
+  bool cycle(std::int64_t now) override {
     bool moved = false;
+    if (neighbour_ != nullptr) serve_neighbour(now);
     if (!under_way_.empty() && under_way_.front().done <= now &&
         ports_[under_way_.front().port].replies->ready()) {
       *ports_[under_way_.front().port].replies->put() = under_way_.front().reply;
@@ -89,6 +87,7 @@ class MemoryBlock {
 
  private:
   static constexpr std::size_t kMostUnderWay = 256;
+  static constexpr std::int64_t kMostAhead = 64;  // cycles of the bus that are promised
   struct Port {
     Fifo<LineRequest>* requests;
     Fifo<LineReply>* replies;
@@ -99,6 +98,15 @@ class MemoryBlock {
     LineReply reply;
   };
 
+  // Its bytes fill whole cycles of the bus, one after the other.
+  void serve_neighbour(std::int64_t now) {
+    const std::int64_t first = now + latency_;
+    owed_ += neighbour_->cycle(bus_free_ - first < kMostAhead);
+    const std::int64_t beats = owed_ / bus_bytes_;
+    if (beats == 0) return;
+    owed_ %= bus_bytes_;
+    bus_free_ = std::max(bus_free_, first) + beats;
+  }
   void serve(const LineRequest& request, std::size_t port, std::int64_t now) {
     const std::int64_t beats = (request.bytes + bus_bytes_ - 1) / bus_bytes_;
     counts_.bus_cycles += beats;
@@ -120,6 +128,8 @@ class MemoryBlock {
   std::vector<Port> ports_;
   std::size_t turn_ = 0;
   std::int64_t bus_free_ = 0;
+  Neighbour* neighbour_ = nullptr;
+  std::int64_t owed_ = 0;  // bytes of the neighbour that fill no cycle yet
   std::deque<UnderWay> under_way_;
   MemoryCounts counts_;
 };

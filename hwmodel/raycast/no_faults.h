@@ -8,6 +8,9 @@
 namespace voxmelt::hwmodel::raycast {
 
 struct NoFaults {
+  // a channel between stages; those of pipe `number` to the dealer and from the memory
+  static void made(auto&&...) {}
+  static void connected(auto&&...) {}
   // tiles: the pixels that are to be drawn; set-up: the ray that leaves; ground: what it met
   static void chosen(auto&&...) {}
   static void set_up(auto&&...) {}
@@ -23,6 +26,7 @@ struct NoFaults {
   static constexpr bool loses_miss(auto&&...) { return false; }
   static constexpr bool keeps_old_line() { return false; }
   static constexpr bool reads_early() { return false; }
+  static void came(auto&&...) {}  // the bytes of a line
   static void fetched(auto&&...) {}
   // sample, crossing, normal: what they compute; met: is the ground first? the surface that leaves
   static void sampled(auto&&...) {}
@@ -40,8 +44,9 @@ struct NoFaults {
   static void mirrored(auto&&...) {}
   static void coloured(auto&&...) {}
   static void pressed(auto&&...) {}
-  // pixel: its bytes; write: a burst of a tile
+  // pixel: its bytes; write: is a tile with so many pixels left taken for complete? a burst of a tile
   static void totalled(auto&&...) {}
+  static constexpr bool writes_early(auto&&...) { return false; }
   static void written(auto&&...) {}
 };
 

@@ -70,6 +70,10 @@ struct Watchers {
   FifoWatcher<PressedToken>* pressed = nullptr;
   FifoWatcher<PixelToken>* pixels = nullptr;
   FifoWatcher<LineRequest>* written = nullptr;
+  // The channels of a pipe to dealer and memory.
+  FifoWatcher<TileJob>* jobs = nullptr;
+  FifoWatcher<LineRequest>* requests = nullptr;
+  FifoWatcher<LineReply>* replies = nullptr;
 };
 
 class Pipe {
@@ -99,7 +103,8 @@ class Pipe {
   virtual void forget_all() = 0;
   struct ChannelState {
     std::string name;
-    int count, depth;
+    int number, count, depth;
+    bool ready;  // takes a token
     std::int64_t entered;
   };
   virtual std::vector<ChannelState> channels() const = 0;

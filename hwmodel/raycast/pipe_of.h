@@ -28,6 +28,9 @@ namespace voxmelt::hwmodel::raycast {
 template <class Faults>
 class PipeOf final : public Pipe {
  public:
+  static constexpr int kWaiting = 16;   // surfaces in a stage that fetches
+  static constexpr int kSearches = 32;  // rays in the search for the ground
+
   PipeOf(const Registers& registers, const FrameRegisters& frame, const Memory& memory,
          const Configuration& c, int number, Faults faults = {});
 
@@ -47,14 +50,13 @@ class PipeOf final : public Pipe {
  private:
   // Of the memory port.
   enum Client : int { kLevels, kMatter, kLight, kColumns, kTexels, kTiles };
-  static constexpr int kWaiting = 16;   // surfaces in a stage that fetches
-  static constexpr int kSearches = 32;  // rays in the search for the ground
 
   template <class Word>
   Fifo<Word>& channel(Channel which, const char* name, int depth = 0);
 
   const Configuration& configuration_;
   const Memory& memory_;
+  [[no_unique_address]] Faults faults_;
   int number_;
   TileBuffers buffers_;
   TileStage<Faults> tiles_;
@@ -97,6 +99,7 @@ PipeOf<Faults>::PipeOf(const Registers& registers, const FrameRegisters& frame, 
                        const Configuration& c, int number, Faults faults)
     : configuration_(c),
       memory_(memory),
+      faults_(faults),
       number_(number),
       buffers_(c.tiles),
       tiles_(registers, frame, buffers_, kTiles, faults),
@@ -166,10 +169,12 @@ Fifo<Word>& PipeOf<Faults>::channel(Channel which, const char* name, int depth) 
   auto fifo = std::make_shared<Fifo<Word>>(name, number, 1, std::max(depth, configuration_.fifo_depth),
                                            configuration_.stall_seed);
   Fifo<Word>& made = *fifo;
+  faults_.made(made);
   commits_.push_back([](void* f) { static_cast<Fifo<Word>*>(f)->commit(); });
   committed_.push_back(&made);
   states_.push_back([&made] {
-    return ChannelState{made.name(), made.count(), made.depth(), made.entered()};
+    return ChannelState{made.name(),  made.channel(), made.count(),
+                        made.depth(), made.ready(),   made.entered()};
   });
   owned_.push_back(std::move(fifo));
   return made;
@@ -177,6 +182,7 @@ Fifo<Word>& PipeOf<Faults>::channel(Channel which, const char* name, int depth) 
 
 template <class Faults>
 void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory, Fifo<LineReply>& replies) {
+  faults_.connected(number_, tiles, replies, kColumns, kTexels);
   const int rays = configuration_.rays;  // of queues in which every ray has a place
   auto& orders = channel<TileOrder>(Channel::tiles, "tiles -> set-up");
   auto& set_up = channel<RayToken>(Channel::set_up, "set-up -> ground");

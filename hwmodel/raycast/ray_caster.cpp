@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <exception>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "hwmodel/process/process.h"
+#include "hwmodel/raycast/line_memory.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
@@ -21,11 +23,13 @@ class Dealer {
   void begin(const FrameRegisters& frame, bool second) { frame_ = frame, second_ = second, next_ = 0; }
   void connect(Fifo<TileJob>& out) { out_.push_back(&out); }
   bool cycle() {
+    while (next_ < frame_.tiles_x * frame_.tiles_y && !frame_.window.meets(tile_x(), tile_y(), kTileSide))
+      ++next_;
     if (next_ == frame_.tiles_x * frame_.tiles_y) return false;
     for (std::size_t i = 0; i < out_.size(); ++i) {
       Fifo<TileJob>& out = *out_[(turn_ + i) % out_.size()];
       if (!out.ready()) continue;
-      *out.put() = {next_ % frame_.tiles_x * kTileSide, next_ / frame_.tiles_x * kTileSide, second_};
+      *out.put() = {tile_x(), tile_y(), second_};
       ++next_;
       turn_ = (turn_ + i + 1) % out_.size();
       return true;
@@ -34,6 +38,9 @@ class Dealer {
   }
 
  private:
+  int tile_x() const { return next_ % frame_.tiles_x * kTileSide; }
+  int tile_y() const { return next_ / frame_.tiles_x * kTileSide; }
+
   FrameRegisters frame_;
   bool second_ = false;
   int next_ = 0;
@@ -53,7 +60,7 @@ struct RayCaster::Machine {
         memory(m),
         configuration(c),
         clock("clock", 1, sc_core::SC_NS),
-        memory_block(m, c.latency, c.bus_bytes) {
+        memory_block(make_line_memory(m, c)) {
     const auto count = static_cast<std::size_t>(c.pipes);
     for (std::size_t i = 0; i < count; ++i) {
       const std::string pipe = "pipe " + std::to_string(i) + ": ";
@@ -69,7 +76,7 @@ struct RayCaster::Machine {
       pipes.push_back(make(registers, frame, memory, configuration, static_cast<int>(i)));
       pipes.back()->connect(jobs.back()->fifo(), requests.back()->fifo(), replies.back()->fifo());
       dealer.connect(jobs.back()->fifo());
-      memory_block.connect(requests.back()->fifo(), replies.back()->fifo());
+      memory_block->connect(requests.back()->fifo(), replies.back()->fifo());
     }
     make_blocks();
   }
@@ -92,7 +99,7 @@ struct RayCaster::Machine {
         requests[i]->tick();
       });
     add("memory", [this] {
-      shared.moves += memory_block.cycle(shared.cycle()) ? 1 : 0;
+      shared.moves += memory_block->cycle(shared.cycle()) ? 1 : 0;
       for (const auto& link : replies) link->tick();
       watch_progress();
     });
@@ -101,10 +108,18 @@ struct RayCaster::Machine {
   void watch_progress() {
     idle = shared.moves == moves_before ? idle + 1 : 0;
     moves_before = shared.moves;
-    shared.complete = memory_block.counts().written_bytes == bytes_at_end;
+    shared.complete = memory_block->counts().written_bytes == bytes_at_end;
     shared.hangs = idle > kHangAfter;
     if (shared.complete || shared.hangs) shared.end();
     if (poll && shared.cycle() % kPollEvery == 0) poll();
+  }
+
+  std::int64_t bytes_dealt() const {
+    std::int64_t tiles = 0;
+    for (int y = 0; y < frame.tiles_y; ++y)
+      for (int x = 0; x < frame.tiles_x; ++x)
+        tiles += frame.window.meets(x * kTileSide, y * kTileSide, kTileSide) ? 1 : 0;
+    return tiles * kTileBytes;
   }
 
   FrameEnd run_pass(bool second, int samples, int most) {
@@ -114,13 +129,14 @@ struct RayCaster::Machine {
              tiles_along(registers.camera.width),
              tiles_along(registers.camera.height),
              samples,
-             most};
+             most,
+             window};
     dealer.begin(frame, second);
-    bytes_at_end = memory_block.counts().written_bytes + bytes;
+    bytes_at_end = memory_block->counts().written_bytes + bytes_dealt();
     shared.complete = shared.hangs = false;
     shared.last_cycle = kNever;
     idle = 0;
-    memory_block.begin();
+    memory_block->begin();
 
     context.enter();
     shared.first_cycle = ran ? Shared::now() + 1 : 0;
@@ -141,9 +157,11 @@ struct RayCaster::Machine {
   Memory& memory;
   Configuration configuration;
   FrameRegisters frame;
+  Window window;
   sc_core::sc_clock clock;
   Dealer dealer;
-  MemoryBlock memory_block;
+  std::unique_ptr<LineMemory> memory_block;
+  Neighbour* neighbour = nullptr;
   std::vector<std::unique_ptr<Link<TileJob>>> jobs;
   std::vector<std::unique_ptr<Link<LineRequest>>> requests;
   std::vector<std::unique_ptr<Link<LineReply>>> replies;
@@ -160,10 +178,23 @@ RayCaster::~RayCaster() { machine_->context.enter(); }
 
 void RayCaster::watch(const Watchers& watchers) {
   for (const auto& pipe : machine_->pipes) pipe->watch(watchers);
+  for (const auto& link : machine_->jobs) link->fifo().watch(watchers.jobs);
+  for (const auto& link : machine_->requests) link->fifo().watch(watchers.requests);
+  for (const auto& link : machine_->replies) link->fifo().watch(watchers.replies);
 }
 void RayCaster::stop() { machine_->shared.end(); }
 void RayCaster::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
 
+void RayCaster::share(Neighbour* neighbour) {
+  machine_->neighbour = neighbour;
+  machine_->memory_block->share(neighbour);
+}
+void RayCaster::wait_for_neighbour() {
+  machine_->memory_block->begin();
+  for (std::int64_t now = 0; !machine_->neighbour->done(); ++now) machine_->memory_block->cycle(now);
+}
+
+void RayCaster::draw_only(const Window& window) { machine_->window = window; }
 FrameEnd RayCaster::draw_first() { return machine_->run_pass(false, 1, 0); }
 FrameEnd RayCaster::draw_again(int samples, int most) { return machine_->run_pass(true, samples, most); }
 
@@ -177,6 +208,15 @@ void RayCaster::forget_all() {
 std::int64_t RayCaster::cycle() const { return machine_->shared.cycle(); }
 int RayCaster::pipes() const { return machine_->configuration.pipes; }
 const Pipe& RayCaster::pipe(int i) const { return *machine_->pipes[static_cast<std::size_t>(i)]; }
-const MemoryCounts& RayCaster::memory_counts() const { return machine_->memory_block.counts(); }
+MemoryCounts RayCaster::memory_counts() const {
+  MemoryCounts counts = machine_->memory_block->counts();
+  counts.dram = machine_->memory_block->dram_counts();
+  if (counts.dram) {  // in cycles of the machine, as of the other memory
+    const memory::Parameters& p = *machine_->configuration.dram;
+    counts.bus_cycles =
+        counts.dram->busy * machine_->configuration.clock_mhz / (std::int64_t{p.mhz} * p.channels);
+  }
+  return counts;
+}
 
 }  // namespace voxmelt::hwmodel::raycast

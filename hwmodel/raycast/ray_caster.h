@@ -13,6 +13,7 @@
 
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/layout.h"
+#include "hwmodel/raycast/line_memory.h"
 #include "hwmodel/raycast/pipe.h"
 #include "hwmodel/raycast/registers.h"
 
@@ -35,6 +36,9 @@ class RayCaster {
   void watch(const Watchers& watchers);
   void stop();  // after the present cycle
   void poll(std::function<void()> poll);
+  // Of the memory, while it draws; null: with nobody.
+  void share(Neighbour* neighbour);
+  void wait_for_neighbour();  // without drawing, until it is done
 
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {
@@ -44,6 +48,8 @@ class RayCaster {
     std::string stage;
   };
 
+  // From now on; other pixels keep bytes of no meaning.
+  void draw_only(const Window& window);
   // Draws every pixel with one sample: into the frame at Memory::frame.
   FrameEnd draw_first();
   // Draws those that differ by more than `most` with so many samples: into the frame behind it.
@@ -56,7 +62,7 @@ class RayCaster {
   std::int64_t cycle() const;  // of the present frame
   int pipes() const;
   const Pipe& pipe(int i) const;
-  const MemoryCounts& memory_counts() const;
+  MemoryCounts memory_counts() const;
 
  private:
   struct Machine;

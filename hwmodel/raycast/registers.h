@@ -11,6 +11,21 @@
 
 namespace voxmelt::hwmodel::raycast {
 
+// Only pixels in it are drawn: as it is, the whole picture.
+struct Window {
+  std::int32_t left = 0, top = 0;
+  std::int32_t right = 1 << 30, bottom = 1 << 30;  // the first ones beyond
+
+  bool holds(std::int32_t x, std::int32_t y) const {
+    return x >= left && y >= top && x < right && y < bottom;
+  }
+  // Of a tile or another box of pixels.
+  bool meets(std::int32_t x, std::int32_t y, std::int32_t side) const {
+    return x + side > left && y + side > top && x < right && y < bottom;
+  }
+  friend bool operator==(const Window&, const Window&) = default;
+};
+
 // The view of a camera (docs/picture.md, section 3).
 struct CameraRegisters {
   Vec eye, forward, wide, high, near_wide, near_high;

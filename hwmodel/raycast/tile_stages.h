@@ -29,6 +29,7 @@ struct FrameRegisters {
   std::int64_t read = 0, write = 0;  // addresses
   int tiles_x = 0, tiles_y = 0;
   int samples = 8, most = 16;  // of the second pass: of pixels that differ by more than `most`
+  Window window;
 
   std::int64_t address(std::int64_t frame, int tile_x, int tile_y) const {
     return frame + (std::int64_t{tile_y} * tiles_x + tile_x) * kTileBytes;
@@ -125,7 +126,8 @@ class TileStage final : public Stage, public LineClient {
     std::uint64_t pixels = 0;
     for (int y = 0; y < kTileSide; ++y)
       for (int x = 0; x < kTileSide; ++x)
-        if (is_in(job, x, y) && (!job.second || differs(job, x, y, most, beside)))
+        if (is_in(job, x, y) && frame_.window.holds(job.x + x, job.y + y) &&
+            (!job.second || differs(job, x, y, most, beside)))
           pixels |= std::uint64_t{1} << (y * kTileSide + x);
     return pixels;
   }
@@ -209,7 +211,9 @@ class WriteStage final : public Stage {
     bool moved = false;
     if (in_->valid()) {
       const PixelToken& pixel = *in_->get();
-      if (--buffers_.at(pixel.id.buffer).left == 0) buffers_.complete.push_back(pixel.id.buffer);
+      TileBuffer& of = buffers_.at(pixel.id.buffer);
+      const bool at_once = buffers_.complete.empty() && out_->ready();
+      if (--of.left == 0 || faults_.writes_early(at_once, of)) buffers_.complete.push_back(pixel.id.buffer);
       moved = true;
     }
     if (buffers_.complete.empty()) return moved ? Did::busy : Did::starved;

@@ -29,6 +29,7 @@ struct Upload {
 
 class UploadStage final : public Stage {
  public:
+  // `bus_bytes` of a cycle; a DRAM takes bursts as it can.
   UploadStage(const Upload& upload, int bus_bytes)
       : Stage("upload"),
         upload_(upload),

@@ -131,7 +131,10 @@ void fail_at(const Place& place, const std::string& message) {
 
 Value parse_file(const std::filesystem::path& file) {
   auto origin = std::make_shared<const Origin>(Origin{file.string(), file.parent_path(), false});
-  const std::string text = read_text_file(file, kLargestDocument, origin->name);
+  return parse_text(read_text_file(file, kLargestDocument, origin->name), origin);
+}
+
+Value parse_text(const std::string& text, const std::shared_ptr<const Origin>& origin) {
   check_line_lengths(text, origin->name);
   try {
     return convert(toml::parse(text, origin->name), origin);

@@ -50,6 +50,8 @@ const char* name_of(Value::Kind kind);  // "a number", "a string", ...
 
 // Reads and parses one file (at most 16 MiB). Throws InputError.
 Value parse_file(const std::filesystem::path& file);
+// The same of a text at hand. `origin` names it in messages.
+Value parse_text(const std::string& text, const std::shared_ptr<const Origin>& origin);
 
 // One value in TOML syntax; a bare word is a string. Throws InputError naming `origin`.
 Value parse_value(const std::string& text, const std::shared_ptr<const Origin>& origin);

@@ -1,0 +1,151 @@
+#include "hwmodel/machine/report_machine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/picture/report_picture.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double ratio(double a, double b) { return b == 0 ? 0 : a / b; }
+double ratio(std::int64_t a, std::int64_t b) { return ratio(static_cast<double>(a), static_cast<double>(b)); }
+
+// Of a sum over periods: how often a second.
+double rate(double times, std::int64_t cycles, int clock_mhz) {
+  return ratio(times * 1e6 * clock_mhz, static_cast<double>(cycles));
+}
+
+std::int64_t upload_bytes(const Period& of) { return of.upload.bursts * raycast::kBurst; }
+
+// That the memory could move at most.
+double bytes_a_cycle(const MachineOptions& options) {
+  const raycast::Configuration& c = options.picture.configuration;
+  return c.dram ? static_cast<double>(c.dram->peak()) / c.clock_mhz : c.bus_bytes;
+}
+
+Json json_of(const Period& of) {
+  return {{"step", of.step},
+          {"steps",
+           {{"passes", of.work.passes},
+            {"cycles", of.work.cycles},
+            {"tokens", of.work.tokens},
+            {"cycles_on_memory", of.stream},
+            {"read_bytes", (of.work.read_bits + 7) / 8},
+            {"irradiance_bytes", (of.work.fed_bits + 7) / 8},
+            {"written_bytes", (of.work.written_bits + 7) / 8}}},
+          {"upload", raycast::json_of(of.upload)},
+          {"frame",
+           {{"cycles", of.frame},
+            {"read_bytes", of.frame_read},
+            {"written_bytes", of.frame_written},
+            {"bus_cycles", of.frame_bus}}},
+          {"together", {{"cycles", of.together}, {"steps", of.stream_beside}, {"frame", of.frame_beside}}},
+          {"cycles_in_turn", of.in_turn()},
+          {"cycles_overlapped", of.overlapped()},
+          {"host_seconds", of.host_seconds}};
+}
+
+}  // namespace
+
+std::vector<Bound> bounds_of(const MachineReport& report, const MachineOptions& options) {
+  const Period sum = report.sum();
+  const std::int64_t all = sum.overlapped();
+  // The accounts are those of all frames, the first one among them; the share of a stage is nearly the same.
+  const raycast::StageAccount* busiest = nullptr;
+  for (const raycast::StageAccount& stage : report.pictures.stages)
+    if (busiest == nullptr || stage.account.busy > busiest->account.busy) busiest = &stage;
+  std::vector<Bound> bounds{{"tokens of the pipeline", ratio(sum.work.tokens, all)}};
+  if (busiest != nullptr)
+    bounds.push_back({"stage " + busiest->name + " of the ray caster",
+                      ratio(busiest->account.busy, busiest->account.total()) * ratio(sum.frame, all)});
+  const double bus = static_cast<double>(sum.frame_bus) +
+                     static_cast<double>(sum.work.bytes() + upload_bytes(sum)) / bytes_a_cycle(options);
+  bounds.push_back({"bytes on the memory's bus", ratio(bus, static_cast<double>(all))});
+  bounds.push_back({"upload, while both wait", ratio(sum.upload.cycles, all)});
+  std::stable_sort(bounds.begin(), bounds.end(),
+                   [](const Bound& a, const Bound& b) { return a.share > b.share; });
+  return bounds;
+}
+
+std::string table_of(const MachineReport& report, const MachineOptions& options) {
+  constexpr const char* kLine = "{:<8}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}\n";
+  const Period sum = report.sum();
+  std::string text = fmt::format(kLine, "step", "steps", "bytes", "upload", "bytes", "frame", "bytes",
+                                 "in turn", "together", "overlapped");
+  const auto row = [&](const std::string& name, const Period& of, std::int64_t n) {
+    text += fmt::format(kLine, name, of.stream / n, of.work.bytes() / n, of.upload.cycles / n,
+                        upload_bytes(of) / n, of.frame / n, (of.frame_read + of.frame_written) / n,
+                        of.in_turn() / n, of.together / n, of.overlapped() / n);
+  };
+  for (const Period& of : report.periods) row(std::to_string(of.step), of, 1);
+  const auto frames = static_cast<std::int64_t>(report.periods.size());
+  if (frames == 0) return text;
+  row("mean", sum, frames);
+  text += fmt::format("before: upload of everything {} bytes, {} cycles; the first frame {} cycles\n",
+                      report.first_upload.bursts * raycast::kBurst, report.first_upload.cycles,
+                      report.first_frame);
+  text += fmt::format("pipeline: {} cycles of {} on a memory that always answers ({} passes of {} tokens)\n",
+                      sum.stream, sum.work.cycles, sum.work.passes,
+                      sum.work.tokens / std::max<std::int64_t>(sum.work.passes, 1));
+  text += fmt::format("in memory: {} bytes of state, {} of irradiance, {} of the ray caster\n",
+                      report.state_bytes, report.irradiance_bytes, report.pictures.memory_bytes);
+
+  const auto n = static_cast<double>(frames);
+  const double steps = static_cast<double>(report.steps.steps);
+  const auto rates = [&](const char* name, std::int64_t cycles) {
+    text += fmt::format("{:<12}{:.1f} frames and {:.1f} steps a second at {} MHz\n", name,
+                        rate(n, cycles, options.clock_mhz()), rate(steps, cycles, options.clock_mhz()),
+                        options.clock_mhz());
+  };
+  rates("in turn:", sum.in_turn());
+  rates("overlapped:", sum.overlapped());
+  text += fmt::format("alone: {:.1f} steps a second by the pipeline, {:.1f} frames by the ray caster\n",
+                      rate(steps, sum.stream, options.clock_mhz()), rate(n, sum.frame, options.clock_mhz()));
+  text += "of the overlapped cycles:";
+  const std::vector<Bound> bounds = bounds_of(report, options);
+  for (const Bound& bound : bounds) text += fmt::format(" {} {:.0f} %;", bound.name, 100 * bound.share);
+  text += fmt::format(" bound by {}\n", bounds.front().name);
+  text += fmt::format(
+      "the host takes {:.2f} ms a frame for field, light and comparing, on this machine: {:.1f} a second\n",
+      1e3 * sum.host_seconds / n, ratio(n, sum.host_seconds));
+  return text;
+}
+
+Json json_of(const MachineReport& report, const MachineOptions& options) {
+  Json json{{"good", report.good()},
+            {"clock_mhz", options.clock_mhz()},
+            {"first_step", report.steps.first_step},
+            {"steps", report.steps.steps},
+            {"frames", report.periods.size()},
+            {"compared_cells", report.steps.compared_cells},
+            {"digest", fmt::format("{:016x}", report.steps.digest)},
+            {"different_pixels_beside", report.different_beside},
+            {"state_bytes", report.state_bytes},
+            {"irradiance_bytes", report.irradiance_bytes},
+            {"first_upload", raycast::json_of(report.first_upload)},
+            {"first_frame_cycles", report.first_frame},
+            {"periods", Json::array()}};
+  for (const Period& of : report.periods) json["periods"].push_back(json_of(of));
+  const Period sum = report.sum();
+  const auto n = static_cast<double>(report.periods.size());
+  const auto steps = static_cast<double>(report.steps.steps);
+  const auto rates = [&](std::int64_t cycles) {
+    return Json{{"frames", rate(n, cycles, options.clock_mhz())},
+                {"steps", rate(steps, cycles, options.clock_mhz())}};
+  };
+  json["a_second"] = {{"in_turn", rates(sum.in_turn())}, {"overlapped", rates(sum.overlapped())}};
+  json["a_second"]["pipeline_alone"] = rate(steps, sum.stream, options.clock_mhz());
+  json["a_second"]["caster_alone"] = rate(n, sum.frame, options.clock_mhz());
+  for (const Bound& bound : bounds_of(report, options))
+    json["bounds"].push_back({{"name", bound.name}, {"share", bound.share}});
+  json["caster"] = raycast::json_of(report.pictures, options.picture.configuration);
+  return json;
+}
+
+}  // namespace voxmelt::hwmodel

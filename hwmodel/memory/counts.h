@@ -1,0 +1,37 @@
+// What a memory did.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace voxmelt::hwmodel::memory {
+
+struct Counts {
+  std::int64_t reads = 0, writes = 0;                // requests of 64 bytes
+  std::int64_t hits = 0, misses = 0, conflicts = 0;  // of them: the row was open, no row was, another one was
+  std::int64_t activates = 0, precharges = 0, refreshes = 0, columns = 0;  // commands
+  std::int64_t read_to_write = 0, write_to_read = 0;                       // turnarounds of a channel
+  std::int64_t held = 0;  // requests that waited for an older one to the same burst
+
+  // Every cycle of every channel's data bus is one of these. `idle`: no request waits, or the first one is on
+  // its way. `row`: a bank opens a row. `spacing`: of column commands in one bank group.
+  std::int64_t busy = 0, idle = 0, refresh = 0, turnaround = 0, row = 0, spacing = 0;
+
+  // From the port to the reply, in cycles of the memory.
+  std::int64_t read_latency = 0, worst_read = 0;
+  std::int64_t worst_write = 0;  // until its column command
+
+  std::int64_t cycles() const { return busy + idle + refresh + turnaround + row + spacing; }
+
+  Counts& operator+=(const Counts& o) {
+    reads += o.reads, writes += o.writes, hits += o.hits, misses += o.misses, conflicts += o.conflicts;
+    activates += o.activates, precharges += o.precharges, refreshes += o.refreshes, columns += o.columns;
+    read_to_write += o.read_to_write, write_to_read += o.write_to_read, held += o.held;
+    busy += o.busy, idle += o.idle, refresh += o.refresh, turnaround += o.turnaround;
+    row += o.row, spacing += o.spacing, read_latency += o.read_latency;
+    worst_read = std::max(worst_read, o.worst_read), worst_write = std::max(worst_write, o.worst_write);
+    return *this;
+  }
+};
+
+}  // namespace voxmelt::hwmodel::memory

@@ -1,0 +1,60 @@
+// The numbers of a memory: its shape, and the rules of its data sheet in cycles of its clock. They come from
+// the files in hwmodel/presets/memories, which name the source of each.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace voxmelt::hwmodel::memory {
+
+inline constexpr int kBurst = 64;  // bytes of a request
+
+struct Parameters {
+  std::string name, title;
+  int mhz = 0;  // of the memory's clock; data move at both edges
+
+  // A power of 2 each. Columns of a row are as wide as the channel.
+  int channels = 1, ranks = 1, groups = 1, banks = 1;  // banks of a group
+  int rows = 1, columns = 1, width_bits = 64, transfers = 8;
+
+  // All of these are cycles.
+  int cl = 0, cwl = 0;                // from a column command to its data
+  int read_more = 0, write_more = 0;  // that data may lie later (tDQSCK and tDQSS of LPDDR4)
+  int rcd = 0;                        // ACT to RD and WR
+  int rp = 0, rp_all = 0;             // PRE to ACT, of one bank and of all
+  int ras = 0, rc = 0;                // ACT to PRE, and to ACT of the same bank
+  int ccd_s = 0, ccd_l = 0;           // RD to RD, WR to WR: of another group, of the same one
+  int rrd_s = 0, rrd_l = 0;           // ACT to ACT of another bank: likewise
+  int faw = 0;                        // four ACT at most in so many cycles
+  int wr = 0;                         // end of written data to PRE
+  int wtr_s = 0, wtr_l = 0;           // end of written data to RD
+  int rtp = 0;                        // RD to PRE
+  int read_to_write = 0;              // cycles without data between read and written data
+  int rank_switch = 0;                // cycles without data between those of two ranks
+  int refi = 0, rfc = 0;              // between two REF; REF to the next command
+  int act_slots = 1, column_slots = 1, pre_slots = 1, ref_slots = 1;  // cycles of the command bus
+  bool two_buses = false;    // column commands have a bus of their own
+  int interface_cycles = 0;  // on the way of a read through controller and pins, beyond all above
+
+  int beats() const { return transfers / 2; }  // cycles of the data of one column command
+  int column_bytes() const { return width_bits / 8 * transfers; }
+  int columns_of_request() const { return kBurst / column_bytes(); }  // commands
+  int banks_of_rank() const { return groups * banks; }
+  std::int64_t row_bytes() const { return std::int64_t{columns} * (width_bits / 8); }
+  std::int64_t bytes() const { return row_bytes() * rows * banks_of_rank() * ranks * channels; }
+  // Bytes in a second, times 1e-6: 64 bits at 1200 MHz give 19200.
+  std::int64_t peak() const { return std::int64_t{mhz} * 2 * (width_bits / 8) * channels; }
+};
+
+// What the controller may choose.
+struct Policy {
+  int reads = 32, writes = 64;  // entries of its two queues, of each channel
+  int high = 48, low = 8;       // writes begin at `high` and end at `low`, unless no read waits
+  int batch = 48;               // requests of one kind, while the other kind waits
+  int linger = 32;              // cycles without a read after which a few writes begin, too
+  int starve = 2000;            // cycles after which a request has its bank for itself
+  int inbox = 8;                // requests of a port that no queue has taken
+  int under_way = 256;          // reads of a port without a reply
+};
+
+}  // namespace voxmelt::hwmodel::memory

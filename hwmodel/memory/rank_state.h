@@ -1,0 +1,100 @@
+// From which cycle on a rank may take which command: every command that is issued moves these cycles forward.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "hwmodel/memory/parameters.h"
+
+namespace voxmelt::hwmodel::memory {
+
+inline constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min() / 4;
+
+struct BankState {
+  int open = -1;                                         // row
+  std::int64_t activate = 0, column = 0, precharge = 0;  // from which cycle on
+};
+
+// Rows of one rank.
+class RankState {
+ public:
+  explicit RankState(const Parameters& p)
+      : due(p.refi),
+        banks_(static_cast<std::size_t>(p.banks_of_rank())),
+        groups_(static_cast<std::size_t>(p.groups), 0),
+        four_(4, kLongAgo),
+        banks_of_group_(p.banks) {}
+
+  BankState& bank(int group, int bank_of_group) {
+    return banks_[static_cast<std::size_t>(group * banks_of_group_ + bank_of_group)];
+  }
+  std::vector<BankState>& banks() { return banks_; }
+
+  std::int64_t may_activate(const BankState& bank, int group, const Parameters& p) const {
+    return std::max({bank.activate, groups_[static_cast<std::size_t>(group)], four_[oldest_] + p.faw});
+  }
+  void activate(BankState& bank, int group, int row, std::int64_t now, const Parameters& p) {
+    bank = {row, now + p.rc, now + p.rcd, now + p.ras};
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      groups_[g] = std::max(groups_[g], now + (static_cast<int>(g) == group ? p.rrd_l : p.rrd_s));
+    four_[oldest_] = now;
+    oldest_ = (oldest_ + 1) % four_.size();
+  }
+  static void precharge(BankState& bank, std::int64_t now, int cycles) {
+    bank.open = -1;
+    bank.activate = std::max(bank.activate, now + cycles);
+  }
+  void refresh(std::int64_t now, const Parameters& p) {
+    for (BankState& bank : banks_) bank.activate = std::max(bank.activate, now + p.rfc);
+  }
+
+  std::int64_t due;      // the next refresh
+  bool closing = false;  // for it
+
+ private:
+  std::vector<BankState> banks_;
+  std::vector<std::int64_t> groups_;  // from which cycle on a bank of each may be activated
+  std::vector<std::int64_t> four_;    // the last four ACT
+  std::size_t oldest_ = 0;
+  int banks_of_group_;
+};
+
+// Column commands of a channel: its ranks share the data bus.
+class ColumnRules {
+ public:
+  explicit ColumnRules(const Parameters& p) : groups_(p.groups), ranks_(p.ranks) {
+    for (auto& from : from_) from.assign(static_cast<std::size_t>(p.groups * p.ranks), 0);
+  }
+  std::int64_t from(bool write, int rank, int group) const {
+    return from_[write ? 1 : 0][static_cast<std::size_t>(rank * groups_ + group)];
+  }
+  void issued(bool write, int rank, int group, std::int64_t now, const Parameters& p) {
+    const int read_data = p.cl + p.read_more, write_data = p.cwl + p.write_more;
+    for (int r = 0; r < ranks_; ++r)
+      for (int g = 0; g < groups_; ++g) {
+        const bool same_rank = r == rank, same_group = same_rank && g == group;
+        const int apart = p.beats() + p.rank_switch;
+        const int same_kind = same_rank ? (same_group ? p.ccd_l : p.ccd_s) : apart;
+        int other_kind = 0;
+        if (!write)
+          other_kind = read_data - write_data + p.beats() +
+                       (same_rank ? p.read_to_write : std::max(p.read_to_write, p.rank_switch));
+        else
+          other_kind = same_rank ? write_data + p.beats() + (same_group ? p.wtr_l : p.wtr_s)
+                                 : std::max(1, write_data - read_data + apart);
+        const auto i = static_cast<std::size_t>(r * groups_ + g);
+        from_[write ? 1 : 0][i] = std::max(from_[write ? 1 : 0][i], now + same_kind);
+        from_[write ? 0 : 1][i] = std::max(from_[write ? 0 : 1][i], now + other_kind);
+      }
+  }
+
+ private:
+  int groups_, ranks_;
+  std::array<std::vector<std::int64_t>, 2> from_;  // reads, writes
+};
+
+}  // namespace voxmelt::hwmodel::memory

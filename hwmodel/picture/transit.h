@@ -1,0 +1,100 @@
+// What enters a channel must leave it: once, in order, unchanged. Behind each stage the checker compares what
+// enters a channel; this compares what leaves it with that.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hwmodel/picture/difference.h"
+#include "hwmodel/raycast/pipe.h"
+#include "hwmodel/raycast/ray_caster.h"
+#include "hwmodel/raycast/token_id.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+class Transit {
+ public:
+  using Tell = std::function<void(Difference)>;
+  // The caster must outlive it.
+  Transit(const RayCaster& caster, Tell tell);
+
+  // Of all channels that are watched. The watchers must outlive it.
+  Watchers around(Watchers watchers);
+  void begin_pass() { under_way_.assign(under_way_.size(), {}); }
+  // After a hang: a token that entered a channel, of which the channel knows nothing.
+  void look_for_lost();
+  std::int64_t compared() const { return compared_; }  // tokens
+
+ private:
+  struct Token {
+    RayId id;
+    std::uint64_t sum = 0;
+  };
+  struct Line {
+    std::deque<Token> tokens;
+    Token last;  // that left
+    bool any_left = false;
+  };
+
+  template <class Word>
+  class Around final : public FifoWatcher<Word> {
+   public:
+    Around(Transit& transit, FifoWatcher<Word>& inner) : transit_(transit), inner_(inner) {}
+    void entered(int channel, std::int64_t ordinal, const Word* token) override {
+      transit_.line(channel).tokens.push_back({id_of(*token), sum_of(*token)});
+      inner_.entered(channel, ordinal, token);
+    }
+    void left(int channel, std::int64_t ordinal, const Word* token) override {
+      transit_.left(channel, {id_of(*token), sum_of(*token)});
+      inner_.left(channel, ordinal, token);
+    }
+
+   private:
+    Transit& transit_;
+    FifoWatcher<Word>& inner_;
+  };
+  template <class Word>
+  FifoWatcher<Word>* around(FifoWatcher<Word>* inner) {
+    if (inner == nullptr) return nullptr;
+    auto made = std::make_shared<Around<Word>>(*this, *inner);
+    FifoWatcher<Word>* of = made.get();
+    owned_.push_back(std::move(made));
+    return of;
+  }
+  // A token stays where it is in its channel, and with it every byte between its members.
+  template <class Word>
+  static std::uint64_t sum_of(const Word& token) {
+    std::uint64_t sum = 0x9E3779B97F4A7C15U;
+    const auto* at = reinterpret_cast<const unsigned char*>(&token);
+    std::size_t left = sizeof token;
+    for (; left >= 8; left -= 8, at += 8) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, at, sizeof word);
+      sum = (sum ^ word) * 0xBF58476D1CE4E5B9U;
+      sum ^= sum >> 29;
+    }
+    std::uint64_t word = 0;
+    std::memcpy(&word, at, left);
+    return (sum ^ word) * 0xBF58476D1CE4E5B9U;
+  }
+
+  Line& line(int channel);
+  void left(int channel, const Token& token);
+  void tell(int channel, const RayId& at, const char* name, std::string expected, std::string actual);
+  std::string name_of(int channel) const;
+
+  const RayCaster& caster_;
+  Tell tell_;
+  std::vector<Line> under_way_;  // by channel
+  std::vector<std::shared_ptr<void>> owned_;
+  std::int64_t compared_ = 0;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,25 @@
+// Numbers of memories from TOML: those in memories/, which the program holds, or a file of one's own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hwmodel/memory/parameters.h"
+#include "hwmodel/raycast/configuration.h"
+#include "kernel/scene/text/reader.h"
+
+namespace voxmelt::hwmodel {
+
+struct MemoryFile {
+  std::string name, text;
+};
+const std::vector<MemoryFile>& memory_files();
+
+// By the name of one of them, or the path of a file that ends in ".toml". Throws scene::InputError: with
+// `place` in front where there is no such memory, else with the place in the file.
+memory::Parameters load_memory(const std::string& name, const std::string& place);
+
+// The keys `clock_mhz`, `memory` ("fixed", or as above) and `memory_trace` of [hw].
+void read_memory(scene::Reader& hw, raycast::Configuration& configuration);
+
+}  // namespace voxmelt::hwmodel
