@@ -1,7 +1,6 @@
 // Tokens, tiles and lines that get lost, come twice or come to somebody else.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <utility>

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <algorithm>
 #include <array>
 #include <type_traits>

@@ -2,6 +2,7 @@
 // are those of a request that this pipe sent and that has no reply yet.
 #pragma once
 
+#include <utility>
 #include <cstdint>
 #include <functional>
 #include <vector>

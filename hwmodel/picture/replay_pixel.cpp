@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <algorithm>
 
 namespace voxmelt::hwmodel::raycast {

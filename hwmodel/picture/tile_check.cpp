@@ -1,5 +1,6 @@
 #include "hwmodel/picture/tile_check.h"
 
+#include <string>
 #include <algorithm>
 #include <bit>
 #include <utility>

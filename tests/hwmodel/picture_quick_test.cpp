@@ -1,4 +1,5 @@
 // A quick part of the picture's matrix; parts of a picture; what a run says that goes wrong.
+#include <array>
 #include <cstddef>
 #include <set>
 #include <utility>

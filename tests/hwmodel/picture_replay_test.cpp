@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "hwmodel/picture/verify_picture.h"

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
