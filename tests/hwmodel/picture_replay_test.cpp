@@ -181,6 +181,9 @@ TEST(Hang, NamesTheLastTokenThatIsLost) {
     ASSERT_TRUE(report.strike) << channel;
     ASSERT_TRUE(report.difference) << channel << '\n' << report.hang;
     EXPECT_TRUE(report.found_where_planted()) << text_of(report);
+    if (std::string(channel) == "press -> pixel") continue;  // a ray ends there
+    ASSERT_TRUE(report.under_way);
+    EXPECT_EQ(report.under_way->x, report.difference->x);
   }
 }
 
