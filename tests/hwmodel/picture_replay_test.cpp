@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "hwmodel/picture/memory_check.h"
+#include "hwmodel/picture/tile_check.h"
 #include "hwmodel/picture/verify_picture.h"
 #include "tests/kernel/worlds.h"
 #include "tests/render/hostile_picture.h"
@@ -128,6 +131,14 @@ TEST(Replay, WhatOnlyTheBytesShowIsReplayedWithItsStage) {
   ASSERT_TRUE(replay);
   EXPECT_TRUE(replay->fails);
   EXPECT_NE(replay->text.find("behind stage pixel"), std::string::npos) << replay->text;
+  PictureReport told;
+  told.end.complete = true;
+  told.compared = told.different_bytes = 1;
+  told.different = RayId{7, 3, 0, 0};
+  const std::optional<PixelReplay> there = replay_pixel(input_of(picture), {}, told);
+  ASSERT_TRUE(there);
+  EXPECT_EQ(there->part, (Window{7, 3, 8, 4}));
+  EXPECT_FALSE(there->fails);
 }
 
 TEST(Replay, AGoodPictureHasNone) {
@@ -170,7 +181,50 @@ TEST(Hang, NamesTheLastTokenThatIsLost) {
     ASSERT_TRUE(report.strike) << channel;
     ASSERT_TRUE(report.difference) << channel << '\n' << report.hang;
     EXPECT_TRUE(report.found_where_planted()) << text_of(report);
+    if (std::string(channel) == "press -> pixel") continue;  // a ray ends there
+    ASSERT_TRUE(report.under_way);
+    EXPECT_EQ(report.under_way->x, report.difference->x);
   }
+}
+
+TEST(TileCheck, ABurstThatIsWrittenTwiceIsFound) {
+  std::vector<Difference> told;
+  TileCheck check(20, 12, [&](const Difference& of) { told.push_back(of); });
+  check.begin_pass({});
+  check.written(4, 1);
+  check.written(4, 2);
+  ASSERT_TRUE(told.empty());
+  check.written(4, 1);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].stage, "write");
+  EXPECT_EQ(told[0].x, 8);  // three tiles in a row
+  EXPECT_EQ(told[0].y, 8);
+}
+
+TEST(MemoryCheck, AReplyIsOfAnOpenRequestOfItsPipeAndComesOnce) {
+  std::vector<Difference> told;
+  MemoryCheck check([&](const Difference& of) { told.push_back(of); });
+  LineRequest request;
+  request.client = 2, request.slot = 5, request.address = 640, request.bytes = 128;
+  const LineReply reply{2, 5, 640, 128};
+  const int ask = 191, answer = 192, other = 92;  // of pipe 1, and of pipe 0
+  check.entered(ask, 0, &request);
+  check.left(answer, 0, &reply);
+  EXPECT_TRUE(told.empty());
+  check.left(answer, 1, &reply);
+  EXPECT_EQ(told.size(), 1U);
+  check.entered(ask, 1, &request);
+  check.left(other, 0, &reply);
+  EXPECT_EQ(told.size(), 2U);
+  for (const LineReply& wrong : {LineReply{1, 5, 640, 128}, LineReply{2, 4, 640, 128},
+                                 LineReply{2, 5, 704, 128}, LineReply{2, 5, 640, 64}}) {
+    const std::size_t before = told.size();
+    check.left(answer, 2, &wrong);
+    EXPECT_EQ(told.size(), before + 1);
+    EXPECT_EQ(told.back().address, wrong.address);
+  }
+  check.left(answer, 3, &reply);
+  EXPECT_EQ(told.size(), 6U);
 }
 
 // A picture that was not compared is not good, whatever its bytes are.
