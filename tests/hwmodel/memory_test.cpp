@@ -212,13 +212,17 @@ TEST(Memory, RefreshWorkedByHand) {
   dram.put(port, {0, 1, false});
   for (int i = 0; i < 1560; ++i) dram.cycle();  // 9360 cycles of the memory
   dram.put(port, {0, 2, false});
-  for (int i = 0; i < 1600; ++i) dram.cycle();
+  for (int i = 0; i < 140; ++i) dram.cycle();
+  dram.put(port, {16 * kNextRow, 3, false});  // memory cycle 10200: another row
+  for (int i = 0; i < 1500; ++i) dram.cycle();
   // The row is closed at once; REF after tRP, ACT after tRFC. The next refresh counts from when this one was
   // due.
   EXPECT_EQ(words(recorder.all),
-            "ACT 0; RD 17; PREA 9360; REF 9377; ACT 9797; RD 9814; PREA 18720; REF 18737; ");
+            "ACT 0; RD 17; PREA 9360; REF 9377; ACT 9797; RD 9814; PRE 10200; ACT 10217; RD 10234; "
+            "PREA 18720; REF 18737; ");
   EXPECT_EQ(dram.counts().refreshes, 2);
   EXPECT_EQ(dram.counts().refresh, 9814 - 9360);  // until RD; its latency is idle time
+  EXPECT_EQ(dram.counts().row, 17 + 34);          // the first ACT; PRE and ACT of the third read
 }
 
 TEST(Memory, AnIdleMemoryIsRefreshedOnTime) {
