@@ -97,6 +97,18 @@ TEST(Memory, ReadsWorkedByHand) {
   EXPECT_EQ(counts.cycles(), 39 * 6);
 }
 
+// Four groups, and a second bank of the first one: five ACT take tFAW.
+TEST(Memory, FourRowsAreOpenedInTheirWindow) {
+  Dram dram(sheet("ddr4-2400"), 200);
+  Recorder recorder;
+  dram.listen(&recorder);
+  const int port = dram.open_port(nullptr);
+  for (int group = 0; group < 4; ++group) dram.put(port, {group * kNextGroup, 0, false});
+  dram.put(port, {128 * kNextColumn, 0, false});
+  for (int cycle = 1; cycle < 20; ++cycle) dram.cycle();
+  EXPECT_EQ(words(recorder.all), "ACT 0; ACT 4; ACT 8; ACT 12; RD 17; RD 21; RD 25; ACT 26; RD 29; RD 43; ");
+}
+
 // A B A of one bank: its open row goes first, then it closes.
 TEST(Memory, AnOpenRowServesItsHitsBeforeItCloses) {
   Dram dram(sheet("ddr4-2400"), 200);
@@ -200,13 +212,17 @@ TEST(Memory, RefreshWorkedByHand) {
   dram.put(port, {0, 1, false});
   for (int i = 0; i < 1560; ++i) dram.cycle();  // 9360 cycles of the memory
   dram.put(port, {0, 2, false});
-  for (int i = 0; i < 1600; ++i) dram.cycle();
+  for (int i = 0; i < 140; ++i) dram.cycle();
+  dram.put(port, {16 * kNextRow, 3, false});  // memory cycle 10200: another row
+  for (int i = 0; i < 1500; ++i) dram.cycle();
   // The row is closed at once; REF after tRP, ACT after tRFC. The next refresh counts from when this one was
   // due.
   EXPECT_EQ(words(recorder.all),
-            "ACT 0; RD 17; PREA 9360; REF 9377; ACT 9797; RD 9814; PREA 18720; REF 18737; ");
+            "ACT 0; RD 17; PREA 9360; REF 9377; ACT 9797; RD 9814; PRE 10200; ACT 10217; RD 10234; "
+            "PREA 18720; REF 18737; ");
   EXPECT_EQ(dram.counts().refreshes, 2);
   EXPECT_EQ(dram.counts().refresh, 9814 - 9360);  // until RD; its latency is idle time
+  EXPECT_EQ(dram.counts().row, 17 + 34);          // the first ACT; PRE and ACT of the third read
 }
 
 TEST(Memory, AnIdleMemoryIsRefreshedOnTime) {
@@ -248,7 +264,10 @@ struct Bytes final : PortClient, RequestListener {
 };
 
 TEST(Memory, KeepsTheRulesTheOrderAndItsAccounts) {
-  for (const Parameters& p : {sheet("ddr4-2400"), two_ranks(), sheet("hbm2"), sheet("lpddr4-3200")}) {
+  Parameters slow_bus = sheet("lpddr4-3200");  // two ranks share a bus on which commands take cycles
+  slow_bus.ranks = 2, slow_bus.channels = 1;
+  for (const Parameters& p :
+       {sheet("ddr4-2400"), two_ranks(), sheet("hbm2"), sheet("lpddr4-3200"), slow_bus}) {
     for (const int mhz : {150, 400}) {
       Dram dram(p, mhz);
       TimingChecker checker(p);
@@ -256,13 +275,13 @@ TEST(Memory, KeepsTheRulesTheOrderAndItsAccounts) {
       dram.listen(&checker);
       dram.trace(&bytes);
       Traffic traffic(dram, 3, 5 + static_cast<std::uint64_t>(mhz), &bytes);
-      traffic.run(200000);
+      traffic.run(120000);
       ASSERT_TRUE(traffic.drain()) << p.name;
       for (int i = 0; i < 100; ++i) dram.cycle();  // until the last data have passed
       checker.finish(dram.memory_cycles());
       EXPECT_EQ(checker.violations(), 0) << p.name << ": " << checker.first();
       EXPECT_EQ(bytes.wrong, 0) << p.name;
-      EXPECT_GT(bytes.compared, 15000);
+      EXPECT_GT(bytes.compared, 6000);
       const Counts counts = dram.counts();
       EXPECT_EQ(traffic.replies(), traffic.asked());
       EXPECT_EQ(counts.reads, traffic.asked());
@@ -335,6 +354,8 @@ TEST(Memory, StreamsComeNearThePeak) {
                 << ", turnaround " << percent(c.turnaround) << ", row " << percent(c.row) << ", spacing "
                 << percent(c.spacing) << ", idle " << percent(c.idle) << '\n';
     }
+    // Both kinds wait all the time, and get the same number of requests.
+    EXPECT_NEAR(static_cast<double>(three.reads), static_cast<double>(three.writes), 500.0) << name;
     EXPECT_GE(share(one), 0.9) << name;
     EXPECT_GE(share(three), 0.8) << name;
     EXPECT_LE(share(one), 1 - static_cast<double>(p.rfc) / p.refi) << name;  // no more than refresh leaves

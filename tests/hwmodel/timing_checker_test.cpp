@@ -173,7 +173,7 @@ TEST(TimingChecker, FindsEveryPlantedTimingError) {
     of.plant(believed);
     EXPECT_TRUE(found(ddr4, believed).contains(of.rule)) << of.rule;
   }
-  for (Parameters of : {lpddr4, hbm}) {
+  for (const Parameters& of : {lpddr4, hbm}) {
     EXPECT_TRUE(found(of, of).empty());
     Parameters believed = of;
     --believed.act_slots;
