@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cstdint>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +17,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/options.h"
 #include "app/resources.h"
 #include "app/verify_picture.h"
@@ -154,7 +154,7 @@ bool try_writing(Write&& write) {
     write();
     return true;
   } catch (const io::OutputError& error) {
-    std::cerr << error.what() << '\n';
+    say(error.what());
     return false;
   }
 }
