@@ -62,8 +62,8 @@ SCENES = {
     "300 brackets": ("x = " + "[" * 300 + "]" * 300 + "\n" + SMALL, "scene.toml:1:69: error: more than 64 brackets deep", 2),
     "a letter outside ASCII": ("x = [1, \u0262]\n" + SMALL, "scene.toml:1:9: error: a letter outside ASCII", 2),
     "a header without a name": ("[\n" + SMALL, "scene.toml:1:1: error: a table's name is missing", 2),
-    "a number that is none": ("x = t\n" + SMALL, "scene.toml:1:5: error: ", 2),
-    "a control character": ('title = "\\u001b[31m"\nnme = 1\n' + SMALL, "scene.toml:2:1: error: unknown key nme", 2),
+    "a number that is none": ("x = t\n" + SMALL, "scene.toml:1:6: error: ", 2),
+    "a control character": ('description = "\\u001b[31m"\nnme = 1\n' + SMALL, "scene.toml:2:1: error: unknown key nme", 2),
     "an escape in a key": ('"\\u001b[31m" = 1\n' + SMALL, "unknown key \\x1b[31m", 2),
     "start from nowhere": (SMALL + '[start]\nfields = "nowhere"\n', "nowhere", 2),
 }
@@ -108,7 +108,7 @@ ARGUMENTS = [
     (["digest", "scene.toml", "--report", "/nowhere/r.json", "--steps", "0"], "/nowhere/r.json", 2),
     (["run", "scene.toml", "--report", "nowhere/r.json"], "there is no folder", 2),
     (["run", "scene.toml", "--out", "o", "--report", "o/r.json"], "lies in --out", 2),
-    (["run", "scene.toml", "--out", "."], "current folder", 2),
+    (["run", "scene.toml", "--out", "."], "--out .: error: the scene reads scene.toml there", 2),
     (["render", "scene.toml", "--azimuth", "nan"], "--azimuth", 2),
     (["render", "scene.toml", "--elevation", "inf"], "--elevation", 2),
     (["digest", "scene.toml", "--seed", "9223372036854775808"], "--seed", 2),
@@ -186,7 +186,7 @@ class BadInput(unittest.TestCase):
 
     def test_a_pipe_without_a_writer_is_not_waited_for(self):
         os.mkfifo(self.folder / "pipe")
-        self.refused(["digest", "pipe"], "nothing came through this pipe", 2)
+        self.refused(["digest", "./pipe"], "nothing came through this pipe", 2)
 
     def test_a_scene_may_come_through_a_pipe(self):
         write(self.folder, SMALL)

@@ -30,7 +30,7 @@ class FullDisk(unittest.TestCase):
     def test_a_run_keeps_its_frames_and_the_old_output(self):
         self.assertEqual(voxmelt("run", self.scene, "--steps", 2, cwd=self.folder).returncode, 0)
         old = {p: p.read_bytes() for p in (self.folder / "out/scene").rglob("*") if p.is_file()}
-        run = ["run", self.scene, "--steps", 40, "--frame-every", 2, "--size", "160x120"]
+        run = ["run", self.scene, "--steps", 40, "--frame-every", 2, "--size", "160x120", "--quiet"]
         kept, last = set(), None
         for room in range(0, 400000, 10000):
             result = self.with_room(room, *run)
@@ -64,7 +64,7 @@ class FullDisk(unittest.TestCase):
         for arguments in (["export", self.scene, "--out", "e"], ["render", self.scene, "--out", "p.png"],
                           ["digest", self.scene, "--report", "r.json"]):
             with self.subTest(arguments[0]):
-                result = self.with_room(-RESERVE + 100, *arguments)
+                result = self.with_room(-RESERVE + 100, *arguments, "--quiet")
                 self.assertEqual(result.returncode, 3, result.stderr)
                 self.assertIn("No space left on device", result.stderr)
                 self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)

@@ -135,7 +135,8 @@ Value parse_file(const std::filesystem::path& file) {
 
 Value parse_value(const std::string& text, const std::shared_ptr<const Origin>& origin) {
   const Place place{origin, 0, 0};
-  if (const Objection objection = object_to(text); !objection.text.empty() && !is_bare_word(text))
+  if (const Objection objection = object_to("value = " + text);
+      !objection.text.empty() && !is_bare_word(text))
     fail_at(place, objection.text);
   if (text.find_first_of("\r\n") != std::string::npos) fail_at(place, "the value must be one line");
   try {
