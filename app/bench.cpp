@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +14,7 @@
 #include "app/bench_text.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/options.h"
 #include "app/version.h"
 #include "app/visibility.h"
@@ -38,7 +38,7 @@ struct BenchOptions {
 };
 
 void note(const Common& common, const std::string& text) {
-  if (!common.quiet) std::cerr << text << '\n';
+  if (!common.quiet) say(text);
 }
 
 measure::Plan plan_of(const BenchOptions& options) {

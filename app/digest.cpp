@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <iostream>
 #include <memory>
 #include <string>
 
 #include "app/commands.h"
+#include "app/message.h"
 #include "app/options.h"
 #include "app/report.h"
 #include "app/visibility.h"
@@ -28,11 +28,12 @@ void print_line(const run::Simulation& simulation) {
   fmt::print("step {} digest {:016x} mass {} solid {} liquid {}\n", simulation.steps_done(),
              state::digest(volume), state::to_string(held.solid + held.liquid), volume.solid.count(),
              volume.liquid.count());
-  std::fflush(stdout);
+  if (std::fflush(stdout) != 0) throw OutputStopped();
 }
 
 int run_digest(const DigestOptions& options) {
   scene::Scene scene = load_scene(options.common);
+  keep_inputs(scene, {{"--report", options.common.report}});
   check_report_place(options.common, "");
   run::Simulation simulation = make_simulation(scene, options.common);
   if (options.every > 0) print_line(simulation);
@@ -48,7 +49,7 @@ int run_digest(const DigestOptions& options) {
   write_report(options.common, report_json(scene, options.common, simulation, {}));
   const std::string drift = drift_text(simulation.drift());
   if (drift.empty()) return kDone;
-  std::cerr << "error: the ledgers do not balance: " << drift << '\n';
+  say("error: the ledgers do not balance: " + drift);
   return kCheckFailed;
 }
 

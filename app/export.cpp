@@ -26,6 +26,7 @@ struct ExportOptions {
 
 int run_export(const ExportOptions& options) {
   scene::Scene scene = load_scene(options.common);
+  keep_inputs(scene, {{"--out", options.out}, {"--report", options.common.report}});
   check_report_place(options.common, options.out);
   io::OutputFolder out(options.out);
   catch_interrupts();

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/interrupt.h"
 #include "app/options.h"
 
 namespace voxmelt::app {
@@ -37,7 +38,9 @@ Film::Film(const scene::Scene& scene, const std::filesystem::path& folder, std::
     : scene_(scene),
       threads_(threads),
       frames_(folder, {planned, frame_bytes(scene.camera), threads}),
-      drawing_(threads > 1 ? 1 : 0, 1, [this](Shot& shot) { draw(shot); }) {}
+      drawing_(threads > 1 ? 1 : 0, 1, [this](Shot& shot) { draw(shot); }) {
+  picture_.stop_when(interrupted);
+}
 
 void Film::add_frame(const state::Volume& volume, std::uint32_t step) {
   const auto waiting = std::chrono::steady_clock::now();
@@ -53,9 +56,13 @@ void Film::add_frame(const state::Volume& volume, std::uint32_t step) {
 
 void Film::draw(const Shot& shot) {
   const auto begin = std::chrono::steady_clock::now();
-  render::Image image = picture_.draw(scene_.camera, render::Setting::normal, threads_);
-  seconds_.render += seconds_since(begin);
-  frames_.add(std::move(image), fmt::format("step {}", shot.step));
+  try {
+    render::Image image = picture_.draw(scene_.camera, render::Setting::normal, threads_);
+    seconds_.render += seconds_since(begin);
+    frames_.add(std::move(image), fmt::format("step {}", shot.step));
+  } catch (const render::Stopped&) {  // an interrupted run keeps the frames that it has
+    seconds_.render += seconds_since(begin);
+  }
 }
 
 void Film::check() {

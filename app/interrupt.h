@@ -3,8 +3,8 @@
 
 namespace voxmelt::app {
 
-void catch_interrupts();  // SIGINT, SIGTERM, SIGHUP
+void catch_interrupts();  // SIGINT, SIGTERM, SIGHUP, SIGQUIT
 bool interrupted();
-void stop_if_interrupted();  // throws UsageError: nothing is written
+void stop_if_interrupted();  // throws Interrupted: nothing is written
 
 }  // namespace voxmelt::app

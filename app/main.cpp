@@ -1,19 +1,18 @@
 // voxmelt: melts solid voxel models and lets them flow.
-#include <cerrno>
 #include <csignal>
-#include <cstdio>
-#include <cstring>
 #include <exception>
-#include <iostream>
+#include <filesystem>
 #include <new>
 #include <string>
 
 #include "app/commands.h"
+#include "app/message.h"
 #include "app/options.h"
 #include "app/version.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/scene/scene.h"
 #include "render/image/png.h"
+#include "render/packet/draw_picture.h"
 
 namespace {
 
@@ -31,7 +30,7 @@ constexpr const char* kIntroduction =
     "  voxmelt accuracy --quick             how well, against what mathematics says\n"
     "  voxmelt list scenes\n\n"
     "A scene is a TOML file; docs/scenes.md explains its keys. Exit codes: 0 done, 1 a check failed,\n"
-    "2 bad usage or input, 3 out of memory or disk.";
+    "2 bad usage or input, 3 out of memory or disk, 4 interrupted.";
 
 // The message of CLI11 would say only that a subcommand is required.
 void check_subcommand(const CLI::App& program, const char* given) {
@@ -45,7 +44,7 @@ void check_subcommand(const CLI::App& program, const char* given) {
 }
 
 int fail(const std::string& message, int code) {
-  std::cerr << message << '\n';
+  voxmelt::app::say(message);
   return code;
 }
 
@@ -53,6 +52,9 @@ int fail(const std::string& message, int code) {
 
 int main(int argc, char** argv) {
   using namespace voxmelt;
+  app::open_standard_streams();
+  // A file that grows too large and a pipe that is closed are error messages, not ends of the program.
+  for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
   try {
     CLI::App program(kIntroduction, "voxmelt");
     program.set_version_flag("--version", app::version_text());
@@ -70,14 +72,20 @@ int main(int argc, char** argv) {
     try {
       program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-      return program.exit(error) == 0 ? app::kDone : app::kBadInput;
+      if (error.get_exit_code() != 0)
+        return fail(std::string("error: ") + error.what() + "; --help says more", app::kBadInput);
+      program.exit(error);  // help, or the version
+      return app::standard_output_is_well() ? app::kDone : app::kOutOfResources;
     }
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error message, not a crash
     const int code = chosen();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      return fail(std::string("standard output: error: cannot write: ") + std::strerror(errno),
-                  app::kOutOfResources);
-    return code;
+    return app::standard_output_is_well() ? code : app::kOutOfResources;
+  } catch (const app::OutputStopped&) {
+    app::standard_output_is_well();
+    return app::kOutOfResources;
+  } catch (const app::Interrupted& interrupted) {
+    return fail(interrupted.what(), app::kInterrupted);
+  } catch (const render::Stopped&) {
+    return fail(app::Interrupted().what(), app::kInterrupted);
   } catch (const scene::InputError& error) {
     return fail(error.what(), app::kBadInput);
   } catch (const app::UsageError& error) {
@@ -90,6 +98,8 @@ int main(int argc, char** argv) {
     return fail(error.what(), error.out_of_space() ? app::kOutOfResources : app::kBadInput);
   } catch (const std::bad_alloc&) {
     return fail("error: out of memory", app::kOutOfResources);
+  } catch (const std::filesystem::filesystem_error& error) {  // a place that cannot be used
+    return fail(std::string("error: ") + error.what(), app::kBadInput);
   } catch (const std::exception& error) {
     return fail(std::string("error: ") + error.what(), app::kCheckFailed);
   }

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <system_error>
 #include <thread>
 #include <utility>
 
+#include "app/message.h"
 #include "app/resources.h"
 #include "app/visibility.h"
 #include "kernel/run/io/output_folder.h"
@@ -33,9 +33,9 @@ fs::path find_scene(const std::string& given) {
       given));
 }
 
-void say(const Common& common, const std::vector<std::string>& warnings) {
+void say_warnings(const Common& common, const std::vector<std::string>& warnings) {
   if (common.quiet) return;
-  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
+  for (const std::string& warning : warnings) say("warning: " + warning);
 }
 
 }  // namespace
@@ -73,12 +73,12 @@ scene::Scene load_scene(const Common& common) {
   std::vector<std::string> sets = common.sets;
   if (common.seed) sets.push_back(fmt::format("run.seed={}", *common.seed));
   scene::Scene scene = scene::load(find_scene(common.scene), sets);
-  say(common, scene.warnings);
+  say_warnings(common, scene.warnings);
   return scene;
 }
 
 void warn(scene::Scene& scene, const Common& common, const std::vector<std::string>& warnings) {
-  say(common, warnings);
+  say_warnings(common, warnings);
   scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
 }
 
@@ -105,6 +105,20 @@ run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
                              std::move(provider));
   simulation.begin_at(scene.first_step);
   return simulation;
+}
+
+void keep_inputs(const scene::Scene& scene, const std::vector<Output>& outputs) {
+  for (const Output& output : outputs)
+    for (const fs::path& file : scene.files) {
+      if (output.place.empty()) continue;
+      std::error_code ignored;
+      const fs::path place = fs::weakly_canonical(output.place, ignored);
+      const fs::path within = fs::weakly_canonical(file, ignored).lexically_relative(place);
+      if (within.empty() || *within.begin() == "..") continue;
+      throw UsageError(fmt::format("{} {}: error: {}", output.option, output.place,
+                                   within == "." ? "the scene reads this file"
+                                                 : fmt::format("the scene reads {} there", within.string())));
+    }
 }
 
 void check_report_place(const Common& common, const std::string& out) {

@@ -14,12 +14,18 @@
 
 namespace voxmelt::app {
 
-enum ExitCode : int { kDone = 0, kCheckFailed = 1, kBadInput = 2, kOutOfResources = 3 };
+enum ExitCode : int { kDone = 0, kCheckFailed = 1, kBadInput = 2, kOutOfResources = 3, kInterrupted = 4 };
 
 // Bad usage that CLI11 cannot see (an unknown implementation, an impossible size): exit code 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// A signal ended the command before anything was written: exit code 4.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted; nothing was written") {}
 };
 
 struct Common {
@@ -46,6 +52,12 @@ run::Simulation make_simulation(scene::Scene& scene, const Common& common);
 int thread_count(const Common& common);
 
 // Fails at once if --report could not be written later. `out` is the output folder, empty for none.
+// What a scene reads can be no place of an output: of a file, or of a folder above it. Places that are empty
+// do not count. Throws UsageError.
+struct Output {
+  std::string option, place;
+};
+void keep_inputs(const scene::Scene& scene, const std::vector<Output>& outputs);
 void check_report_place(const Common& common, const std::string& out);
 void write_report(const Common& common, const std::string& text);  // if --report was given
 

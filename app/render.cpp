@@ -1,8 +1,10 @@
 // voxmelt render: one picture, or a turntable.
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -28,7 +30,8 @@ namespace {
 struct RenderOptions {
   Common common;
   std::uint32_t steps = 0;
-  std::string out = "picture.png", size, setting = "normal";
+  std::string out, setting = "normal";
+  std::optional<std::string> size;
   std::string depth, normals;        // files; empty for none
   std::optional<std::string> trace;  // X,Y
   std::optional<double> azimuth, elevation;
@@ -81,9 +84,26 @@ std::string write_surface(const RenderOptions& options, const render::Picture& p
   return text;
 }
 
-int run_render(const RenderOptions& options) {
+// A picture's name does not promise another kind of picture.
+void check_is_png(const std::string& option, const std::string& file) {
+  std::string suffix = std::filesystem::path(file).extension().string();
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (!file.empty() && !suffix.empty() && suffix != ".png")
+    throw UsageError(
+        fmt::format("{} {}: error: pictures are written as PNG, not as {}", option, file, suffix));
+}
+
+int run_render(RenderOptions options) {
+  if (options.out.empty()) options.out = options.turntable > 0 ? "turntable" : "picture.png";
+  if (options.turntable == 0) check_is_png("--out", options.out);
+  check_is_png("--depth", options.depth);
+  check_is_png("--normals", options.normals);
   scene::Scene scene = load_scene(options.common);
-  if (!options.size.empty()) set_size(scene.camera, options.size);
+  keep_inputs(scene, {{"--out", options.out},
+                      {"--depth", options.depth},
+                      {"--normals", options.normals},
+                      {"--report", options.common.report}});
+  if (options.size) set_size(scene.camera, *options.size);
   if (options.azimuth) scene.camera.azimuth = *options.azimuth;
   if (options.elevation) scene.camera.elevation = *options.elevation;
   if (options.turntable > 0 && !(options.depth.empty() && options.normals.empty()))
@@ -112,6 +132,7 @@ int run_render(const RenderOptions& options) {
     return kDone;
   }
   render::Picture picture;
+  picture.stop_when(interrupted);
   picture.update(simulation.volume(), scene.look, scene.light, scene.terrain, threads);
   const auto draw = [&] { return picture.draw(scene.camera, setting, threads); };
   if (picture.camera_inside(scene.camera))
@@ -144,8 +165,8 @@ void add_render(CLI::App& program, Chosen& chosen) {
       program.add_subcommand("render", "Draw the state after N steps: one picture, or a turntable");
   add_scene(*command, options->common);
   command->add_option("--steps", options->steps, "steps to run first")->capture_default_str();
-  CLI::Option* out = command->add_option("--out", options->out, "file to write (folder with --turntable)")
-                         ->capture_default_str();
+  CLI::Option* out = command->add_option(
+      "--out", options->out, "file to write (default: picture.png), or folder (default: turntable)");
   command->add_option("--size", options->size, "size in pixels, e.g. 1280x960");
   CLI::Option* depth =
       command->add_option("--depth", options->depth, "also write how far the surface is (PNG, 16 bits)");

@@ -78,7 +78,7 @@ std::int64_t peak_bytes() {
 }  // namespace
 
 std::string report_json(const scene::Scene& scene, const Common& common, const run::Simulation& simulation,
-                        const RunSeconds& seconds) {
+                        const RunSeconds& seconds, bool complete) {
   const state::Volume& volume = simulation.volume();
   const state::Holdings held = state::holdings(volume);
   const state::Ledger& ledger = simulation.ledger();
@@ -89,6 +89,7 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"set", common.sets},
       {"seed", simulation.parameters().seed},
       {"steps", simulation.steps_done()},
+      {"complete", complete},
       {"digest", fmt::format("{:016x}", state::digest(volume))},
       {"initial_digest", fmt::format("{:016x}", scene.initial_digest)},
       {"implementation", run::implementations().find(common.implementation)->name},

@@ -15,9 +15,10 @@ struct RunSeconds {
   double total = 0;
 };
 
-// JSON text; integers too large for JSON readers are written as strings.
+// JSON text; `complete`: every step that was asked for was done, and every frame made. Integers too large for
+// JSON readers are written as strings.
 std::string report_json(const scene::Scene& scene, const Common& common, const run::Simulation& simulation,
-                        const RunSeconds& seconds);
+                        const RunSeconds& seconds, bool complete = true);
 
 // What the limit of the mobility withholds, where that is much; else empty.
 std::string limit_text(const state::LimitCounts<state::Sum>& limit);

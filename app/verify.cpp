@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +15,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/options.h"
 #include "app/resources.h"
 #include "app/shell_word.h"
@@ -163,7 +163,7 @@ bool try_writing(Write&& write) {
     write();
     return true;
   } catch (const io::OutputError& error) {
-    std::cerr << error.what() << '\n';
+    say(error.what());
     return false;
   }
 }

@@ -17,6 +17,7 @@
 #include "kernel/scene/start.h"
 #include "kernel/scene/text/compose.h"
 #include "kernel/scene/text/reader.h"
+#include "kernel/scene/text/text_file.h"
 
 namespace voxmelt::scene {
 namespace {
@@ -64,6 +65,7 @@ std::string title_of(const std::filesystem::path& file) {
 }
 
 Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const FilesRead read;
   Value document = read_document(file);
   for (const std::string& assignment : overrides) apply_override(document, assignment);
 
@@ -104,8 +106,15 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   const std::vector<std::string> dropped = drop_unused(scene.initial, scene.parameters);
   if (start) scene.warnings.insert(scene.warnings.end(), dropped.begin(), dropped.end());
   scene.parameters.heat.walls = scene.parameters.heat.enabled && has_walls(scene.initial);
+  if (start && scene.parameters.heat.visibility_age(scene.first_step) != 0)
+    scene.warnings.push_back(
+        fmt::format("{}: start.step = {} is no step of visibility: what heat sources light is computed anew, "
+                    "and the bits "
+                    "differ from those of the run that was exported until the next such step",
+                    start->place("step").text(), scene.first_step));
   scene.features = features_of(scene.parameters);
   scene.initial_digest = state::digest(scene.initial);
+  scene.files = read.files();
   scene.terrain = std::move(contents.terrain);
   return scene;
 }

@@ -23,6 +23,7 @@ struct Scene {
   std::uint32_t first_step = 0;       // the automaton's number of the first step
   std::vector<std::string> features;  // named extras and features that this scene asks for
   std::vector<std::string> warnings;  // e.g. leaks of a mesh
+  std::vector<std::filesystem::path> files;  // that were read for it
   rule::Parameters parameters;
   state::Volume initial;
   std::uint64_t initial_digest = 0;

@@ -64,8 +64,9 @@ std::string Frames::finish() {
   film_.wait();
   video_.close();  // so that ffmpeg ends beside the sheet
   const auto begin = std::chrono::steady_clock::now();
-  write_png(folder_ / "contact_sheet.png",
-            sheet_.sheet(labels_, [this](std::size_t frame) { return read_png(file_of(frame)); }));
+  if (!labels_.empty())
+    write_png(folder_ / "contact_sheet.png",
+              sheet_.sheet(labels_, [this](std::size_t frame) { return read_png(file_of(frame)); }));
   encode_seconds_ += seconds_since(begin);
 
   // The message need not name the folder.

@@ -56,17 +56,27 @@ class Samples {
   std::vector<std::uint16_t> red_, green_, blue_;
 };
 
-// Calls work(tile, samples) for every tile, on some threads.
+// Calls work(tile, samples) for every tile, on some threads. Throws Stopped.
 template <class Work>
-void for_tiles(int tiles, int threads, const Work& work) {
+void for_tiles(int tiles, int threads, const Stop& stop, const Work& work) {
   std::atomic<int> next{0};
+  std::atomic<bool> stopped{false};
   const auto some = [&] {
     Samples samples(kTile * kTile * picture::kThirtyTwo.size());
-    for (int tile = next++; tile < tiles; tile = next++) work(tile, samples);
+    for (int tile = next++; tile < tiles && !stopped; tile = next++) {
+      if (stop && stop()) {
+        stopped = true;
+      } else {
+        work(tile, samples);
+      }
+    }
   };
-  std::vector<std::jthread> helpers;
-  for (int i = 1; i < std::min(threads, tiles); ++i) helpers.emplace_back(some);
-  some();
+  {
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < std::min(threads, tiles); ++i) helpers.emplace_back(some);
+    some();
+  }
+  if (stopped) throw Stopped{};
 }
 
 struct Tile {
@@ -198,7 +208,8 @@ SurfacePicture draw_surface(const PictureData& data, const Packets& wanted, int 
   return picture;
 }
 
-Image draw_picture(const PictureData& data, Setting setting, const Packets& wanted, int threads) {
+Image draw_picture(const PictureData& data, Setting setting, const Packets& wanted, int threads,
+                   const Stop& stop) {
   const Packets& packets = fits_lanes(data) ? wanted : plain_packets();
   const int width = data.width, height = data.height;
   const int across = (width + kTile - 1) / kTile, tiles = across * ((height + kTile - 1) / kTile);
@@ -214,7 +225,7 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
 
   // Packets are small squares, whose rays run together.
   const int side = packets.lanes >= 16 ? 4 : packets.lanes >= 4 ? 2 : 1, wide = packets.lanes / side;
-  for_tiles(tiles, threads, [&](int index, Samples& samples) {
+  for_tiles(tiles, threads, stop, [&](int index, Samples& samples) {
     const Tile tile = tile_at(index);
     PictureData of_tile;
     if (!areas.in(index, tile, of_tile)) return;
@@ -237,7 +248,7 @@ Image draw_picture(const PictureData& data, Setting setting, const Packets& want
   const auto refine = [&]<std::size_t kCount>(int difference,
                                               const std::array<picture::Sub, kCount>& pattern) {
     const Image before = image;
-    for_tiles(tiles, threads, [&](int index, Samples& samples) {
+    for_tiles(tiles, threads, stop, [&](int index, Samples& samples) {
       const Tile tile = tile_at(index);
       std::array<std::uint16_t, kTile * kTile> pixel;
       std::size_t pixels = 0;

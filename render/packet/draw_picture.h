@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "kernel/engine/cpu/instruction_set.h"
@@ -27,7 +28,11 @@ constexpr int spacing_of(Setting setting, const picture::View& view) {
 // Do all rays' numbers fit the lanes? Otherwise plain_packets() draw the picture, whichever are asked for.
 bool fits_lanes(const PictureData& data);
 
-Image draw_picture(const PictureData& data, Setting setting, const Packets& packets, int threads);
+// `stop` is asked before each tile, on every thread. Throws Stopped once it said yes.
+struct Stopped {};
+using Stop = std::function<bool()>;
+Image draw_picture(const PictureData& data, Setting setting, const Packets& packets, int threads,
+                   const Stop& stop = {});
 
 // What the middle of each pixel shows, row by row from the top: its depth (picture::depth_in_picture,
 // kNoDepth where there is nothing) and unit normal (2^14 is 1).

@@ -67,7 +67,7 @@ PictureData Picture::data(const picture::Camera& camera, Setting setting) const 
 }
 
 Image Picture::draw(const scene::Camera& camera, Setting setting, int threads, const Packets& packets) const {
-  return draw_picture(data(camera_in_integers(camera), setting), setting, packets, threads);
+  return draw_picture(data(camera_in_integers(camera), setting), setting, packets, threads, stop_);
 }
 
 SurfacePicture Picture::surface(const scene::Camera& camera, Setting setting, int threads,

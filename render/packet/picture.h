@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "kernel/automaton/state/volume.h"
@@ -35,6 +36,8 @@ class Picture {
               const scene::Terrain& terrain, const std::vector<std::uint32_t>* changed, int threads,
               cpu::InstructionSet set = cpu::widest());
 
+  // What is asked before each tile of a picture; drawing throws Stopped once it said yes.
+  void stop_when(Stop stop) { stop_ = std::move(stop); }
   Image draw(const scene::Camera& camera, Setting setting, int threads,
              const Packets& packets = best_packets()) const;
   SurfacePicture surface(const scene::Camera& camera, Setting setting, int threads,
@@ -58,6 +61,7 @@ class Picture {
   GroundColumns columns_;
   LightSources sources_;
   LightVolume light_;
+  Stop stop_;
   bool obstacles_ = false;
   std::unique_ptr<cpu::Workers> workers_;
 };

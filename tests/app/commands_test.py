@@ -147,7 +147,13 @@ class Commands(unittest.TestCase):
         for redirect in ("> /dev/full", ">&-"):
             result = subprocess.run(["bash", "-c", f"'{PROGRAM}' digest '{self.scene}' --steps 0 {redirect}"],
                                     capture_output=True, text=True)
-            self.assertNotEqual(result.returncode, 0, redirect)
+            self.assertEqual(result.returncode, 3, redirect)
+            said = "No space left on device" if "full" in redirect else "it is closed"
+            self.assertEqual(result.stderr, f"standard output: error: cannot write: {said}\n")
+        piped = f"'{PROGRAM}' digest '{self.scene}' --steps 1000000 --every 1 | head -1; exit ${{PIPESTATUS[0]}}"
+        result = subprocess.run(["bash", "-c", piped], capture_output=True, text=True, timeout=60)
+        self.assertEqual((result.returncode, result.stderr),
+                         (3, "standard output: error: cannot write: Broken pipe\n"))
 
     def test_an_interrupted_export_leaves_nothing(self):
         process = subprocess.Popen([PROGRAM, "export", self.scene, "--steps", "4000000", "--out", "e"],
@@ -158,7 +164,16 @@ class Commands(unittest.TestCase):
                 break
         time.sleep(0.2)
         process.terminate()
-        self.assertEqual(process.wait(60), 2)
+        self.assertEqual(process.wait(60), 4)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["scene.toml"])
+
+    def test_a_large_picture_is_left_soon(self):
+        process = subprocess.Popen([PROGRAM, "render", self.scene, "--size", "8192x8192", "--setting", "best", "--set",
+                                    "camera.distance=20", "--out", "p.png"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        time.sleep(1)
+        process.terminate()
+        _, said = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, said), (4, "interrupted; nothing was written\n"))
         self.assertEqual([p.name for p in self.folder.iterdir()], ["scene.toml"])
 
     def test_digest_lines(self):
@@ -292,8 +307,9 @@ kappa = 20
                 break
         time.sleep(0.3)
         process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(60), 0)
+        self.assertEqual(process.wait(60), 4)
         report = json.loads((self.folder / "out/scene/report.json").read_text())
+        self.assertIs(report["complete"], False)
         self.assertLess(report["steps"], 4000000)
         self.assertEqual(report["mass"]["drift"], 0)
 
@@ -304,6 +320,8 @@ kappa = 20
         process.wait(60)
         self.assertFalse((self.folder / "out/scene").exists())
         self.good("run", self.scene, "--steps", "1")
+        self.assertEqual([p.name for p in (self.folder / "out").iterdir()], ["scene"], "leavings are removed")
+        self.assertIs(json.loads((self.folder / "out/scene/report.json").read_text())["complete"], True)
 
     def test_verify_finds_no_difference_and_accounts_for_every_cycle(self):
         out = self.good("verify", self.scene, "--from", 4, "--steps", 5, "--report", "v.json",

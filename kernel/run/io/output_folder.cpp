@@ -1,5 +1,7 @@
 #include "kernel/run/io/output_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,14 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kMarker = ".voxmelt-output";
+constexpr const char* kReserve = ".voxmelt-reserve";  // room for report and marker when the disk is full
+constexpr std::size_t kReserved = std::size_t{256} << 10;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
   throw OutputError(path.string() + ": error: " + what + ": " + std::strerror(error),
                     error == ENOSPC || error == EDQUOT);
-}
-
-std::string beside(const fs::path& place) {
-  return place.string() + ".partial-" + std::to_string(::getpid());
 }
 
 [[noreturn]] void refuse(const fs::path& place, const std::string& why) {
@@ -37,6 +37,11 @@ std::set<std::string> files_within(const fs::path& folder) {
     if (!entry.is_directory() || entry.is_symlink())
       files.insert(entry.path().lexically_relative(folder).string());
   return files;
+}
+
+// Desktops put such files into every folder that somebody looks at.
+bool made_by_desktops(const std::string& name) {
+  return name == ".DS_Store" || name == "Thumbs.db" || name == "desktop.ini" || name == ".directory";
 }
 
 // An old output is replaced whole, so it must hold nothing that voxmelt did not write.
@@ -54,8 +59,41 @@ void check_replaceable(const fs::path& place) {
   std::set<std::string> written{kMarker};
   for (std::string line; std::getline(marker, line);) written.insert(line);
   for (const std::string& file : files_within(place))
-    if (!written.contains(file))
+    if (!written.contains(file) && !made_by_desktops(fs::path(file).filename().string()))
       refuse(place, "holds '" + file + "', which voxmelt did not write; choose another folder");
+}
+
+// A new file or folder beside `place`, for its partial state.
+std::string beside(const fs::path& place) { return place.string() + ".partial-XXXXXX"; }
+
+mode_t with_umask(mode_t mode) {
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return mode & ~mask;
+}
+
+// Nothing is lost where the room cannot be had: then a full disk leaves no report.
+void reserve(const fs::path& folder) {
+  std::FILE* file = std::fopen((folder / kReserve).c_str(), "wb");
+  if (file == nullptr) return;
+  const std::string bytes(kReserved, '\1');
+  (void)std::fwrite(bytes.data(), 1, bytes.size(), file);
+  (void)std::fclose(file);
+}
+
+// Folders change places in one step; where the file system cannot, the old one goes first. Returns 0 or
+// errno.
+int exchange(const fs::path& fresh, const fs::path& old) {
+  if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) return errno;
+  const std::string aside = fresh.string() + ".old";
+  if (std::rename(old.c_str(), aside.c_str()) != 0) return errno;
+  if (std::rename(fresh.c_str(), old.c_str()) != 0) {
+    const int why = errno;
+    (void)std::rename(aside.c_str(), old.c_str());
+    return why;
+  }
+  return std::rename(aside.c_str(), fresh.c_str()) == 0 ? 0 : errno;
 }
 
 }  // namespace
@@ -69,13 +107,15 @@ OutputFolder::OutputFolder(const fs::path& place) : place_(fs::weakly_canonical(
   for (fs::path above = place_.parent_path(); !fs::exists(above, error); above = above.parent_path())
     first_new_ = above;
   fs::create_directories(place_.parent_path(), error);
-  std::string partial = place_.string() + ".partial-XXXXXX";
-  if (error || ::mkdtemp(partial.data()) == nullptr)
-    fail(place_, "cannot create the output folder", error ? error.value() : errno);
+  if (error) fail(place_, "cannot create the output folder", error.value());
+  const FileLock above = FileLock::wait(place_.parent_path());
+  if (clear_leavings(place_)) refuse(place_, "another run is writing there; wait for it, or choose another");
+  std::string partial = beside(place_);
+  if (::mkdtemp(partial.data()) == nullptr) fail(place_, "cannot create the output folder", errno);
   partial_ = partial;
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  ::chmod(partial.c_str(), 0777 & ~mask);
+  lock_ = FileLock::attempt(partial_);
+  ::chmod(partial.c_str(), with_umask(0777));
+  reserve(partial_);
 }
 
 OutputFolder::~OutputFolder() {
@@ -89,24 +129,35 @@ OutputFolder::~OutputFolder() {
   }
 }
 
-void OutputFolder::commit() {
+void OutputFolder::release_reserve() {
+  std::error_code ignored;
+  fs::remove(partial_ / kReserve, ignored);
+}
+
+void OutputFolder::move_to(const fs::path& place) {
+  release_reserve();
+  check_replaceable(place);  // once more: somebody may have put a file there meanwhile
   std::string files;
   for (const std::string& file : files_within(partial_)) files += file + "\n";
   write_file(partial_ / kMarker, files);
+  flush_folder(partial_);
 
   std::error_code error;
-  const fs::path old = partial_.string() + ".old";
-  const bool replace = fs::exists(place_, error);
-  if (replace) fs::rename(place_, old, error);
-  if (error) fail(place_, "cannot replace the folder", error.value());
-  fs::rename(partial_, place_, error);
-  if (error) {
-    const int why = error.value();
-    if (replace) fs::rename(old, place_, error);
-    fail(place_, "cannot move the finished folder into place", why);
-  }
+  const bool replace = fs::exists(place, error);
+  const int why =
+      replace ? exchange(partial_, place) : (std::rename(partial_.c_str(), place.c_str()) == 0 ? 0 : errno);
+  if (why != 0) fail(place, "cannot move the finished folder into place", why);
   committed_ = true;
-  if (replace) fs::remove_all(old, error);
+  flush_entry(place);
+  if (replace) fs::remove_all(partial_, error);  // what stood there before
+}
+
+void OutputFolder::commit() { move_to(place_); }
+
+fs::path OutputFolder::keep_incomplete() {
+  const fs::path place = place_.string() + ".incomplete";
+  move_to(place);
+  return place;
 }
 
 void write_file(const fs::path& place, const std::string& bytes) {
@@ -114,11 +165,24 @@ void write_file(const fs::path& place, const std::string& bytes) {
   std::error_code ignored;
   const bool replace =
       !fs::is_symlink(place, ignored) && (!fs::exists(place, ignored) || fs::is_regular_file(place, ignored));
-  const fs::path partial = replace ? fs::path(beside(place)) : place;
-  std::FILE* file = std::fopen(partial.c_str(), "wb");
+  std::string partial = replace ? beside(place) : place.string();
+  int descriptor = -1;
+  if (replace) {
+    // Within a partial folder of ours this lock is taken, and nothing was left over.
+    const FileLock above = FileLock::attempt(fs::absolute(place).parent_path());
+    if (above) clear_leavings(fs::absolute(place));
+    descriptor = ::mkostemp(partial.data(), O_CLOEXEC);
+    if (descriptor >= 0) (void)::flock(descriptor, LOCK_EX | LOCK_NB);
+  } else {
+    descriptor = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  }
+  std::FILE* file = descriptor < 0 ? nullptr : ::fdopen(descriptor, "wb");
   if (file == nullptr) fail(place, "cannot write", errno);
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
   int error = written ? 0 : errno;
+  if (std::fflush(file) != 0 && error == 0) error = errno;
+  if (replace && error == 0 && (::fchmod(descriptor, with_umask(0666)) != 0 || ::fsync(descriptor) != 0))
+    error = errno;
   if (std::fclose(file) != 0 && error == 0) error = errno;
   if (error == 0 && replace && std::rename(partial.c_str(), place.c_str()) != 0) error = errno;
   if (error == 0) return;

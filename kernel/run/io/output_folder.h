@@ -1,9 +1,12 @@
-// Output that is never half-written: a folder is filled beside its final place and renamed when complete.
+// Output that is never half-written: a folder is filled beside its final place, flushed, and exchanged with
+// what stood there when it is complete.
 #pragma once
 
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+
+#include "kernel/run/io/file_lock.h"
 
 namespace voxmelt::io {
 
@@ -21,7 +24,8 @@ class OutputError : public std::runtime_error {
 class OutputFolder {
  public:
   // Prepares a fresh "<place>.partial-..." beside `place`; fails at once if that cannot be done. `place` must
-  // not exist, or hold nothing but what an earlier commit() wrote there (it is then replaced whole).
+  // not exist, or hold nothing but what an earlier commit() wrote there (it is then replaced whole). What
+  // dead processes left beside it is removed; while a living one is at work on it, this throws.
   explicit OutputFolder(const std::filesystem::path& place);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -29,16 +33,26 @@ class OutputFolder {
 
   const std::filesystem::path& partial() const { return partial_; }  // write here
   const std::filesystem::path& place() const { return place_; }      // it ends up here
+  // At every moment either what stood at `place` stands there, or what was made.
   void commit();
 
+  // After the disk was full: gives the room back that was kept for this, so that a few small files can still
+  // be written.
+  void release_reserve();
+  // What was made so far goes to "<place>.incomplete", what stands at `place` stays. Returns where it is.
+  std::filesystem::path keep_incomplete();
+
  private:
+  void move_to(const std::filesystem::path& place);
+
   std::filesystem::path place_, partial_;
   std::filesystem::path
       first_new_;  // the uppermost folder above `partial_` that had to be made; empty for none
+  FileLock lock_;  // of `partial_`
   bool committed_ = false;
 };
 
-// Writes a file beside its place and renames it; a device or pipe is written directly.
+// Writes a file beside its place, flushes and renames it; a device or pipe is written directly.
 void write_file(const std::filesystem::path& place, const std::string& bytes);
 
 }  // namespace voxmelt::io

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/scene/text/guard.h"
+
 namespace voxmelt::scene {
 namespace {
 
@@ -69,6 +71,12 @@ std::vector<std::string> split_path(const std::string& path) {
   return parts;
 }
 
+// As much of it as a line of a message bears.
+std::string shown(const std::string& assignment) {
+  constexpr std::size_t kMost = 200;
+  return assignment.size() <= kMost ? assignment : assignment.substr(0, kMost) + "...";
+}
+
 bool is_key(const std::string& part) {
   return !part.empty() && std::all_of(part.begin(), part.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
@@ -105,12 +113,13 @@ Value& descend(Value& at, const std::string& part, const std::string& walked, co
 Value read_document(const std::filesystem::path& file) { return read_document(file, 0); }
 
 void apply_override(Value& document, const std::string& assignment) {
-  auto origin = std::make_shared<const Origin>(Origin{"--set " + assignment, {}, true});
+  auto origin = std::make_shared<const Origin>(Origin{"--set " + shown(assignment), {}, true});
   const Place place{origin, 0, 0};
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0)
     fail_at(place, "expected path.to.key=value, for example heat.gamma=0.2");
   const std::vector<std::string> parts = split_path(assignment.substr(0, equals));
+  if (parts.size() > kDeepestKey) fail_at(place, fmt::format("a key of more than {} parts", kDeepestKey));
   if (!std::all_of(parts.begin(), parts.end(), is_key))
     fail_at(place, "expected names separated by dots before '=', for example heat.gamma=0.2");
   if (equals + 1 == assignment.size()) fail_at(place, "there is no value after '='");

@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "kernel/scene/text/error.h"
+#include "kernel/scene/text/guard.h"
 #include "kernel/scene/text/text_file.h"
 
 namespace voxmelt::scene {
 namespace {
 
 constexpr std::size_t kLargestDocument = std::size_t{16} << 20;
-constexpr std::size_t kLongestLine = 32768;
 
 Place place_of(const toml::source_region& region, const std::shared_ptr<const Origin>& origin) {
   return {origin, region.begin.line, region.begin.column};
@@ -60,18 +60,11 @@ bool is_bare_word(const std::string& text) {
   });
 }
 
-// The TOML parser recurses once per part of a dotted key: a key of a hundred thousand parts would crash
-// the program.
-void check_line_lengths(const std::string& text, const std::string& name) {
-  std::size_t line = 1, begin = 0;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (end - begin > kLongestLine)
-      throw InputError(
-          fmt::format("{}:{}:1: error: a line of more than {} characters", name, line, kLongestLine));
-    begin = end + 1;
-    ++line;
-  }
+void check(const std::string& text, const std::shared_ptr<const Origin>& origin) {
+  const Objection objection = object_to(text);
+  if (objection.text.empty()) return;
+  fail_at({origin, static_cast<std::uint32_t>(objection.line), static_cast<std::uint32_t>(objection.column)},
+          objection.text);
 }
 
 }  // namespace
@@ -135,7 +128,7 @@ Value parse_file(const std::filesystem::path& file) {
 }
 
 Value parse_text(const std::string& text, const std::shared_ptr<const Origin>& origin) {
-  check_line_lengths(text, origin->name);
+  check(text, origin);
   try {
     return convert(toml::parse(text, origin->name), origin);
   } catch (const toml::parse_error& error) {
@@ -145,6 +138,9 @@ Value parse_text(const std::string& text, const std::shared_ptr<const Origin>& o
 
 Value parse_value(const std::string& text, const std::shared_ptr<const Origin>& origin) {
   const Place place{origin, 0, 0};
+  if (const Objection objection = object_to("value = " + text);
+      !objection.text.empty() && !is_bare_word(text))
+    fail_at(place, objection.text);
   if (text.find_first_of("\r\n") != std::string::npos) fail_at(place, "the value must be one line");
   try {
     const toml::table table = toml::parse("value = " + text);

@@ -1,15 +1,46 @@
 #include "kernel/scene/text/text_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 
 #include "kernel/scene/text/error.h"
 
 namespace voxmelt::scene {
+namespace {
+
+constexpr int kPatience = 5000;  // milliseconds, for the next bytes of a pipe
+
+thread_local FilesRead* innermost = nullptr;
+
+class Descriptor {
+ public:
+  explicit Descriptor(const std::filesystem::path& file)  // a pipe without a writer must not hold us
+      : value_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  int value() const { return value_; }
+
+ private:
+  int value_;
+};
+
+}  // namespace
+
+FilesRead::FilesRead() : outer_(innermost) { innermost = this; }
+FilesRead::~FilesRead() { innermost = outer_; }
+void FilesRead::note(const std::filesystem::path& file) {
+  if (innermost != nullptr) innermost->files_.push_back(file);
+}
 
 std::string read_text_file(const std::filesystem::path& file, std::size_t limit, const std::string& where) {
   const auto fail = [&](const std::string& why) {
@@ -17,19 +48,25 @@ std::string read_text_file(const std::filesystem::path& file, std::size_t limit,
   };
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) fail("it is a folder");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail(errno != 0 ? std::strerror(errno) : "unknown reason");
+  const Descriptor open(file);
+  if (open.value() < 0) fail(std::strerror(errno));
+  FilesRead::note(file);
 
   // The file is read in pieces, so that reading an endless device stops at the limit.
   std::string text;
-  char piece[65536];
-  while (stream.read(piece, sizeof piece) || stream.gcount() > 0) {
-    text.append(piece, static_cast<std::size_t>(stream.gcount()));
+  const bool pipe = std::filesystem::is_fifo(file, ignored);
+  std::array<char, 65536> piece;
+  for (;;) {
+    pollfd waiting{open.value(), POLLIN, 0};
+    if (pipe && ::poll(&waiting, 1, kPatience) == 0)
+      fail(fmt::format("nothing came through this pipe for {} seconds", kPatience / 1000));
+    const ssize_t count = ::read(open.value(), piece.data(), piece.size());
+    if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (count < 0) fail(std::strerror(errno));
+    if (count == 0) return text;
+    text.append(piece.data(), static_cast<std::size_t>(count));
     if (text.size() > limit) fail(fmt::format("larger than {} bytes", limit));
   }
-  if (stream.bad()) fail("reading stopped half-way");
-  return text;
 }
 
 }  // namespace voxmelt::scene

@@ -4,11 +4,27 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace voxmelt::scene {
 
-// The bytes of `file`. Throws InputError "<where>: error: ..." when it is missing, a folder or larger
-// than `limit`.
+// The bytes of `file`. Throws InputError "<where>: error: ..." when it is missing, a folder, larger than
+// `limit`, or a pipe through which nothing comes for a while.
 std::string read_text_file(const std::filesystem::path& file, std::size_t limit, const std::string& where);
+
+// While one lives, it notes the files that this thread reads; the innermost one notes.
+class FilesRead {
+ public:
+  FilesRead();
+  ~FilesRead();
+  FilesRead(const FilesRead&) = delete;
+  FilesRead& operator=(const FilesRead&) = delete;
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+  static void note(const std::filesystem::path& file);
+
+ private:
+  std::vector<std::filesystem::path> files_;
+  FilesRead* outer_;
+};
 
 }  // namespace voxmelt::scene

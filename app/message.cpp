@@ -1,0 +1,56 @@
+#include "app/message.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace voxmelt::app {
+namespace {
+
+bool g_output_was_closed = false;
+
+}  // namespace
+
+std::string one_line(std::string_view text) {
+  while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
+  std::string line;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n') {
+      line += ' ';
+    } else if (byte < 0x20 || byte == 0x7f) {
+      line += fmt::format("\\x{:02x}", byte);
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
+void say(std::string_view text) { fmt::print(stderr, "{}\n", one_line(text)); }
+
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) != -1) continue;
+    const bool output = stream == STDOUT_FILENO;
+    g_output_was_closed = g_output_was_closed || output;
+    (void)::open(output ? "/dev/full" : "/dev/null", O_RDWR);  // the lowest number that is free: this one
+  }
+}
+
+bool standard_output_is_well() {
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  const int why = errno;
+  if (flushed && std::ferror(stdout) == 0) return true;
+  say(fmt::format("standard output: error: cannot write: {}", g_output_was_closed ? "it is closed"
+                                                              : why != 0          ? std::strerror(why)
+                                                                         : "an earlier write failed"));
+  return false;
+}
+
+}  // namespace voxmelt::app

@@ -1,0 +1,25 @@
+// What the program says when something is wrong: one line, whatever stands in it.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace voxmelt::app {
+
+// Line breaks become blanks; other control characters are written as \x1b.
+std::string one_line(std::string_view text);
+
+// To standard error.
+void say(std::string_view text);
+
+// Standard streams that are closed are opened, so that no file of ours takes their places. What is written to
+// a closed standard output is an error, as on a full device.
+void open_standard_streams();
+
+// Nobody reads standard output any more, so that a command can end early. main() says why.
+struct OutputStopped {};
+
+// Everything written to standard output arrived; else says so and returns false.
+bool standard_output_is_well();
+
+}  // namespace voxmelt::app

@@ -1,0 +1,80 @@
+#include "kernel/run/io/file_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "kernel/run/io/output_folder.h"
+
+namespace voxmelt::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+int open_to_lock(const fs::path& path) { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }
+
+void flush(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0 && errno == ELOOP) return;  // a link: its entry is flushed with its folder
+  const bool done = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS);
+  const int why = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!done)
+    throw OutputError(path.string() + ": error: cannot flush: " + std::strerror(why),
+                      why == ENOSPC || why == EDQUOT);
+}
+
+}  // namespace
+
+FileLock::~FileLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+FileLock FileLock::wait(const fs::path& path) {
+  FileLock lock;
+  lock.descriptor_ = open_to_lock(path);
+  while (lock && ::flock(lock.descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+  }
+  return lock;
+}
+
+FileLock FileLock::attempt(const fs::path& path) {
+  FileLock lock;
+  lock.descriptor_ = open_to_lock(path);
+  if (!lock || ::flock(lock.descriptor_, LOCK_EX | LOCK_NB) == 0) return lock;
+  FileLock none;
+  none.held_by_another_ = errno == EWOULDBLOCK;
+  return none;
+}
+
+bool clear_leavings(const fs::path& place) {
+  const std::string begin = place.filename().string() + ".partial-";
+  std::error_code ignored;
+  std::vector<fs::path> leavings;
+  for (const auto& entry : fs::directory_iterator(place.parent_path(), ignored))
+    if (entry.path().filename().string().starts_with(begin)) leavings.push_back(entry.path());
+  bool alive = false;
+  for (const fs::path& left : leavings) {
+    if (fs::is_symlink(left, ignored)) continue;
+    const FileLock lock = FileLock::attempt(left);
+    if (lock) fs::remove_all(left, ignored);
+    alive = alive || lock.held_by_another();
+  }
+  return alive;
+}
+
+void flush_folder(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_directory() || entry.is_regular_file()) flush(entry.path());
+  flush(folder);
+}
+
+void flush_entry(const fs::path& path) { flush(path.parent_path()); }
+
+}  // namespace voxmelt::io

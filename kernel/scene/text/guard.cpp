@@ -1,0 +1,103 @@
+#include "kernel/scene/text/guard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace voxmelt::scene {
+namespace {
+
+// Walks through a document as TOML cuts it: comments, four kinds of strings, and everything else.
+class Guard {
+ public:
+  explicit Guard(std::string_view document) : text_(document) {
+    if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;  // a byte order mark
+  }
+
+  Objection run() {
+    while (at_ < text_.size() && found_.text.empty()) {
+      const char c = text_[at_];
+      if (c == '#') {
+        at_ = end_of_line();
+      } else if (c == '"' || c == '\'') {
+        skip_string(c);
+        fresh_ = false;
+      } else {
+        look_at(c);
+        ++at_;
+      }
+    }
+    return found_;
+  }
+
+ private:
+  void look_at(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n') {
+      dots_ = 0, ++line_, line_begin_ = at_ + 1;
+      fresh_ = true;
+      return;
+    }
+    if (byte >= 0x80) return object("a letter outside ASCII must stand in quotes or in a comment");
+    if ((byte < 0x20 && c != '\t' && c != '\r') || byte == 0x7f)
+      return object(fmt::format("the control character 0x{:02x}", byte));
+    if (c == '[' && fresh_ && depth_ == 0) return check_header();
+    if (c == '[' || c == '{') {
+      dots_ = 0;
+      if (++depth_ > kDeepestBracket) object(fmt::format("more than {} brackets deep", kDeepestBracket));
+    } else if (c == ']' || c == '}') {
+      if (depth_ > 0) --depth_;
+    } else if (c == '=' || c == ',') {
+      dots_ = 0;
+    } else if (c == '.' && ++dots_ >= kDeepestKey) {
+      object(fmt::format("a key of more than {} parts", kDeepestKey));
+    }
+    if (c != ' ' && c != '\t' && c != '\r') fresh_ = false;
+  }
+
+  // The name in a header stands on its line, whole.
+  void check_header() {
+    fresh_ = false;
+    const std::string_view rest = text_.substr(at_, end_of_line() - at_);
+    const std::size_t name = rest.find_first_not_of("[ \t\r");
+    if (name == std::string_view::npos || rest[name] == '#') object("a table's name is missing");
+  }
+
+  // A string that is not closed ends with its line, or with the document; the parser says so.
+  void skip_string(char quote) {
+    const bool escapes = quote == '"';
+    const bool many = text_.substr(at_, 3) == std::string_view(escapes ? "\"\"\"" : "'''");
+    at_ += many ? 3 : 1;
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (c == '\n') {
+        if (!many) return;
+        ++line_, line_begin_ = at_ + 1;
+      } else if (c == '\\' && escapes) {
+        if (at_ + 1 < text_.size() && text_[at_ + 1] != '\n') ++at_;
+      } else if (c == quote && (!many || text_.substr(at_, 3) == std::string(3, quote))) {
+        at_ += many ? 3 : 1;
+        while (many && at_ < text_.size() && text_[at_] == quote) ++at_;  // quotes at its end belong to it
+        return;
+      }
+    }
+  }
+
+  std::size_t end_of_line() const { return std::min(text_.find('\n', at_), text_.size()); }
+  void object(std::string text) { found_ = {std::move(text), line_, at_ - line_begin_ + 1}; }
+
+  std::string_view text_;
+  std::size_t at_ = 0, line_ = 1, line_begin_ = 0;
+  std::size_t dots_ = 0, depth_ = 0;
+  bool fresh_ = true;  // nothing but blanks on this line yet
+  Objection found_;
+};
+
+}  // namespace
+
+Objection object_to(std::string_view document) { return Guard(document).run(); }
+
+}  // namespace voxmelt::scene

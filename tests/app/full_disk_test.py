@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""The disk is full after so many bytes (tests/app/full_disk.cpp): what is complete is kept, what was there stays."""
+import json
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from program import SMALL, voxmelt, write
+
+DISK = str(Path(sys.argv[2]).resolve())
+RESERVE = 256 << 10
+
+
+class FullDisk(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        self.scene = write(self.folder, SMALL)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def with_room(self, room, *arguments):
+        # without ffmpeg: a film is written by another process
+        env = dict(os.environ, LD_PRELOAD=DISK, FULL_DISK_BYTES=str(RESERVE + room), PATH="/nowhere")
+        return voxmelt(*arguments, cwd=self.folder, env=env)
+
+    def test_a_run_keeps_its_frames_and_the_old_output(self):
+        self.assertEqual(voxmelt("run", self.scene, "--steps", 2, cwd=self.folder).returncode, 0)
+        old = {p: p.read_bytes() for p in (self.folder / "out/scene").rglob("*") if p.is_file()}
+        run = ["run", self.scene, "--steps", 40, "--frame-every", 2, "--size", "160x120", "--quiet"]
+        kept, last = set(), None
+        for room in range(0, 400000, 10000):
+            result = self.with_room(room, *run)
+            if result.returncode == 0:
+                break
+            with self.subTest(room=room):
+                self.assertEqual(result.returncode, 3, result.stderr)
+                said = result.stderr.splitlines()
+                self.assertEqual(len(said), 1, said)
+                self.assertIn("No space left on device; the run ended after step", said[0])
+                self.assertIn("is kept in out/scene.incomplete/", said[0])
+                self.assertEqual({p.name for p in (self.folder / "out").iterdir()}, {"scene", "scene.incomplete"})
+                self.assertEqual({p: p.read_bytes() for p in old}, old, "the old output is as it was")
+                report = json.loads((self.folder / "out/scene.incomplete/report.json").read_text())
+                self.assertIs(report["complete"], False)
+                frames = sorted((self.folder / "out/scene.incomplete/frames").iterdir())
+                for frame in frames:
+                    self.assertTrue(frame.name.endswith(".png"), frame)
+                    self.assertEqual(frame.read_bytes()[-8:-4], b"IEND", frame)
+                kept.add(len(frames))
+                last = {frame.name: frame.read_bytes() for frame in frames}
+        else:
+            self.fail("never enough room")
+        self.assertGreater(len(kept), 4, "the disk was full at different places")
+        self.assertIs(json.loads((self.folder / "out/scene/report.json").read_text())["complete"], True)
+        whole = {p.name: p.read_bytes() for p in (self.folder / "out/scene/frames").iterdir()}
+        self.assertEqual(len(whole), 21)
+        self.assertEqual({name: whole[name] for name in last}, last, "what was kept is what it would have been")
+
+    def test_other_outputs_leave_nothing(self):
+        for arguments in (["export", self.scene, "--out", "e"], ["render", self.scene, "--out", "p.png"],
+                          ["digest", self.scene, "--report", "r.json"]):
+            with self.subTest(arguments[0]):
+                result = self.with_room(-RESERVE + 100, *arguments, "--quiet")
+                self.assertEqual(result.returncode, 3, result.stderr)
+                self.assertIn("No space left on device", result.stderr)
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                self.assertEqual([p.name for p in self.folder.iterdir()], ["scene.toml"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["full_disk_test"], verbosity=1)
