@@ -56,8 +56,6 @@ int verify_picture(const Common& common, const PictureChoice& choice, const scen
   scene::Camera camera = scene.camera;
   if (!choice.size.empty()) set_size(camera, choice.size);
   if (!choice.view.empty()) set_view(camera, choice.view);
-  if (!scene.look.glow && scene.look.clear != scene::Vec3{})
-    throw UsageError("error: --picture: the ray caster does not draw clear matter (look.clear)");
   const hwmodel::CasterPreset configured = hwmodel::load_caster_preset(preset, hw_sets);
   const render::Setting setting = choice.setting == "fast"   ? render::Setting::fast
                                   : choice.setting == "best" ? render::Setting::best

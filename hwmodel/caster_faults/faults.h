@@ -80,6 +80,17 @@ enum class Fault : std::uint8_t {
   pixel_channels,
   write_place,
   write_burst,
+  // clear matter
+  stretch_way,
+  stretch_place,
+  stretch_side,
+  passed_way,
+  passed_obstacle,
+  passed_frost,
+  passed_mirror,
+  passed_order,
+  press_behind,
+  press_nothing,
   end,  // no fault, but the end of the list
 };
 

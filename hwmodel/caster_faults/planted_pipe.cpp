@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "hwmodel/caster_faults/clear_faults.h"
 #include "hwmodel/caster_faults/fetch_faults.h"
 #include "hwmodel/caster_faults/light_faults.h"
 #include "hwmodel/caster_faults/ray_faults.h"
@@ -13,13 +14,14 @@ namespace voxmelt::hwmodel::raycast {
 namespace {
 
 // The policy that takes the place of NoFaults.
-struct CasterFaults : RayFaults, FetchFaults, SurfaceFaults, LightFaults, TileFaults {
+struct CasterFaults : RayFaults, FetchFaults, SurfaceFaults, LightFaults, TileFaults, ClearFaults {
   CasterFaults(FaultPlan& plan, const Registers& registers, const Memory& memory)
       : RayFaults(plan, registers, memory),
         FetchFaults(plan, registers, memory),
         SurfaceFaults(plan, registers, memory),
         LightFaults(plan, registers, memory),
-        TileFaults(plan, registers, memory) {}
+        TileFaults(plan, registers, memory),
+        ClearFaults(plan, registers, memory) {}
 };
 
 }  // namespace

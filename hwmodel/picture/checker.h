@@ -35,7 +35,8 @@ class Checker final : FifoWatcher<TileOrder>,
                       FifoWatcher<Surface>,
                       FifoWatcher<PressedToken>,
                       FifoWatcher<PixelToken>,
-                      FifoWatcher<LineRequest> {
+                      FifoWatcher<LineRequest>,
+                      FifoWatcher<PassedToken> {
  public:
   Checker(const Expectation& expectation, RayCaster& caster, int width, int height);
 
@@ -59,6 +60,7 @@ class Checker final : FifoWatcher<TileOrder>,
   void entered(int channel, std::int64_t ordinal, const PressedToken* token) override;
   void entered(int channel, std::int64_t ordinal, const PixelToken* token) override;
   void entered(int channel, std::int64_t ordinal, const LineRequest* token) override;
+  void entered(int channel, std::int64_t ordinal, const PassedToken* token) override;
   void left(int, std::int64_t, const TileOrder*) override {}
   void left(int, std::int64_t, const RayToken*) override {}
   void left(int, std::int64_t, const GroundedRay*) override {}
@@ -71,6 +73,7 @@ class Checker final : FifoWatcher<TileOrder>,
   void left(int, std::int64_t, const PressedToken*) override {}
   void left(int, std::int64_t, const PixelToken*) override {}
   void left(int, std::int64_t, const LineRequest*) override {}
+  void left(int, std::int64_t, const PassedToken*) override {}
 
   ExpectedRay& ray(const RayId& id);
   ExpectedRay& shaded(const RayId& id);
@@ -82,6 +85,11 @@ class Checker final : FifoWatcher<TileOrder>,
                const Value& actual, const Vec* position = nullptr);
   void compare_surface(Channel behind, const Surface& expected, const Surface& actual,
                        const ExpectedRay& ray);
+  // Of rays through clear matter: checker_clear.cpp.
+  void compare_clear(const HitToken& token);
+  void compare_clear(const MetToken& token);
+  void compare_clear(Channel behind, const Surface& token);
+  void compare_crossing(const RayId& id, const picture::Crossing& expected, const Crossing& actual);
 
   const Expectation& expectation_;
   RayCaster& caster_;

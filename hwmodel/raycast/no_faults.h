@@ -40,6 +40,10 @@ struct NoFaults {
   static void mirrored(auto&&...) {}
   static void coloured(auto&&...) {}
   static void pressed(auto&&...) {}
+  // stretch: an event that leaves; passed: a ray behind an event; press: the light of such a ray
+  static void told(auto&&...) {}
+  static void passed(auto&&...) {}
+  static void seen_through(auto&&...) {}
   // pixel: its bytes; write: a burst of a tile
   static void totalled(auto&&...) {}
   static void written(auto&&...) {}

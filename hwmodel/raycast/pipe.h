@@ -53,7 +53,13 @@ enum class Channel : std::uint8_t {
   colour,
   pressed,
   pixels,
-  to_memory
+  to_memory,
+  // of clear matter
+  stretch_asks,
+  stretch_levels,
+  exits,
+  onward,
+  passed
 };
 
 // Who listens to what leaves a stage. Null: nobody.
@@ -70,6 +76,7 @@ struct Watchers {
   FifoWatcher<PressedToken>* pressed = nullptr;
   FifoWatcher<PixelToken>* pixels = nullptr;
   FifoWatcher<LineRequest>* written = nullptr;
+  FifoWatcher<PassedToken>* passed = nullptr;
 };
 
 class Pipe {

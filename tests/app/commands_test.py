@@ -402,7 +402,7 @@ kappa = 20
         never = set()
         for name, stage, *_ in rows:
             found = 0
-            for scene, *more in (["proving_ground"], ["lava", "--from", 40]):
+            for scene, *more in (["proving_ground"], ["lava", "--from", 40], ["ice", "--from", 40]):
                 result = voxmelt("verify", scene, *more, "--picture", "--size", "32x32", "--plant", name,
                                  "--report", "p.json", cwd=self.folder)
                 if result.returncode == 2:
