@@ -87,8 +87,6 @@ scene::Camera camera_of(const PictureChoice& choice, const scene::Scene& scene) 
   scene::Camera camera = scene.camera;
   if (!choice.size.empty()) set_size(camera, choice.size);
   if (!choice.view.empty()) set_view(camera, choice.view);
-  if (!scene.look.glow && scene.look.clear != scene::Vec3{})
-    throw UsageError("error: --picture: the ray caster does not draw clear matter (look.clear)");
   return camera;
 }
 

@@ -91,6 +91,19 @@ constexpr std::array kFaults{
     FaultInfo{memory_client, "memory-client", "memory", "a line of heights is given to the cache of texels"},
     FaultInfo{memory_pipe, "memory-pipe", "memory", "a pipe gets the line of another one"},
     FaultInfo{memory_bit, "memory-bit", "levels", "a bit of a line changes on its way from the memory"},
+    FaultInfo{stretch_way, "stretch-way", "stretch", "a way in clear matter is one too long"},
+    FaultInfo{stretch_place, "stretch-place", "stretch",
+              "what is in clear matter is looked for at the next sample"},
+    FaultInfo{stretch_side, "stretch-side", "stretch", "a ray that enters clear matter is said to leave it"},
+    FaultInfo{passed_way, "passed-way", "passed", "a way in clear matter is taken for a shorter one"},
+    FaultInfo{passed_obstacle, "passed-obstacle", "passed", "an obstacle in clear matter hides nothing"},
+    FaultInfo{passed_frost, "passed-frost", "passed", "the frost of a surface is forgotten"},
+    FaultInfo{passed_mirror, "passed-mirror", "passed", "at a grazing angle no less passes"},
+    FaultInfo{passed_order, "passed-order", "passed",
+              "what a surface mirrors is weighed with what passes behind it"},
+    FaultInfo{press_behind, "press-behind", "press",
+              "the background behind clear matter is pressed like a surface"},
+    FaultInfo{press_nothing, "press-nothing", "press", "nothing is seen behind clear matter"},
 };
 
 // A fault that the table lacks would never be tested.

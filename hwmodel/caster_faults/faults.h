@@ -94,6 +94,17 @@ enum class Fault : std::uint8_t {
   memory_client,
   memory_pipe,
   memory_bit,
+  // clear matter
+  stretch_way,
+  stretch_place,
+  stretch_side,
+  passed_way,
+  passed_obstacle,
+  passed_frost,
+  passed_mirror,
+  passed_order,
+  press_behind,
+  press_nothing,
   end,  // no fault, but the end of the list
 };
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "hwmodel/caster_faults/clear_faults.h"
 #include "hwmodel/caster_faults/fetch_faults.h"
 #include "hwmodel/caster_faults/flow_faults.h"
 #include "hwmodel/caster_faults/light_faults.h"
@@ -14,7 +15,7 @@ namespace voxmelt::hwmodel::raycast {
 namespace {
 
 // The policy that takes the place of NoFaults.
-struct CasterFaults : RayFaults, FetchFaults, SurfaceFaults, LightFaults, TileFaults, FlowFaults {
+struct CasterFaults : RayFaults, FetchFaults, SurfaceFaults, LightFaults, TileFaults, FlowFaults, ClearFaults {
   CasterFaults(FaultPlan& plan, const Registers& registers, const Memory& memory,
                const std::shared_ptr<LastReply>& last_reply)
       : RayFaults(plan, registers, memory),
@@ -22,7 +23,8 @@ struct CasterFaults : RayFaults, FetchFaults, SurfaceFaults, LightFaults, TileFa
         SurfaceFaults(plan, registers, memory),
         LightFaults(plan, registers, memory),
         TileFaults(plan, registers, memory),
-        FlowFaults(plan, registers, memory, last_reply) {}
+        FlowFaults(plan, registers, memory, last_reply),
+        ClearFaults(plan, registers, memory) {}
 };
 
 }  // namespace

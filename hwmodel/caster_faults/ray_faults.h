@@ -80,7 +80,7 @@ class RayFaults : public Planted {
   }
 
   void crossed(const HitToken& hit, const Bracket& bracket, Crossing& met) {
-    if (hit.k == 0) return;
+    if (hit.k == 0 || hit.leaves) return;
     const RayId& id = hit.ray.id;
     if (armed(Fault::crossing_halvings)) {
       const Vec before = hit.at - hit.ray.ray.step;

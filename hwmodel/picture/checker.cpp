@@ -2,36 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <string>
 #include <algorithm>
 #include <array>
-#include <type_traits>
-#include <utility>
+#include <string>
 
+#include "hwmodel/picture/compare.h"
+#include "hwmodel/picture/keep.h"
 #include "render/packet/tables.h"
 #include "render/rule/antialias.h"
 
 namespace voxmelt::hwmodel::raycast {
-namespace {
-
-Vec vec_of(picture::Vector v) { return {v.x, v.y, v.z}; }
-picture::Vector vector_of(Vec v) { return {v.x, v.y, v.z}; }
-
-template <class Value>
-std::string text_of_value(const Value& value) {
-  if constexpr (std::is_same_v<Value, Vec>) {
-    return fmt::format("{} {} {}", value.x, value.y, value.z);
-  } else if constexpr (std::is_enum_v<Value>) {
-    return fmt::format("{}", static_cast<int>(value));
-  } else if constexpr (std::is_arithmetic_v<Value>) {
-    return fmt::format("{}", value);
-  } else {
-    return fmt::format("{}", fmt::join(value, " "));
-  }
-}
-
-}  // namespace
-
 std::string text_of(const Difference& d) {
   const std::string place = d.address < 0 ? fmt::format("pixel ({}, {}), sample {}", d.x, d.y, d.sample)
                                           : fmt::format("the line at address {}", d.address);
@@ -58,8 +38,8 @@ Checker::Checker(const Expectation& expectation, RayCaster& caster, int width, i
 }
 
 Watchers Checker::watchers() {
-  return transit_.around({this, this, this, this, this, this, this, this, this, this, this, this,
-                          &tile_check_, &memory_check_, &memory_check_});
+  return transit_.around({this, this, this, this, this, this, this, this, this, this, this, this, &tile_check_,
+                          &memory_check_, &memory_check_, this});
 }
 
 void Checker::begin_pass(int samples, int most, std::int64_t frame, const Window& window) {
@@ -148,21 +128,6 @@ ExpectedRay& Checker::shaded(const RayId& id) {
   return of;
 }
 
-template <class Value>
-void Checker::compare(const char* stage, const RayId& id, const char* name, const Value& expected,
-                      const Value& actual, const Vec* position) {
-  ++compared_;
-  if (expected == actual || difference_) [[likely]]
-    return;
-  Difference of;
-  of.stage = stage, of.name = name;
-  of.x = id.x, of.y = id.y, of.sample = id.sample;
-  of.expected = text_of_value(expected), of.actual = text_of_value(actual);
-  of.has_position = position != nullptr;
-  if (position != nullptr) of.position = *position;
-  tell(std::move(of));
-}
-
 void Checker::entered(int, std::int64_t, const TileOrder* token) {
   tile_check_.ordered(*token);
   for (int i = 0; i < kTilePixels; ++i) {
@@ -190,10 +155,12 @@ void Checker::entered(int, std::int64_t, const GroundedRay* token) {
 }
 
 void Checker::entered(int, std::int64_t, const LevelRequest* token) {
-  if (token->asker != Asker::walk) return;
+  if (token->asker != Asker::walk && token->asker != Asker::stretch) return;
   const ExpectedRay& of = ray(token->id);
   const Vec position = from_lattice(token->at);
-  compare("walk", token->id, "position", vec_of(expectation_.at(of, token->k)), position, &position);
+  compare(token->asker == Asker::walk ? "walk" : "stretch", token->id, "position",
+          vec_of(expectation_.at(of, token->k)), position, &position);
+  if (expectation_.clear()) return;
   if (of.matter.found && token->k > of.matter.sample)
     compare("walk", token->id, "k, beyond the first sample in matter", of.matter.sample, token->k, &position);
 }
@@ -222,6 +189,7 @@ void Checker::entered(int, std::int64_t, const LevelToken* token) {
 }
 
 void Checker::entered(int, std::int64_t, const HitToken* token) {
+  if (expectation_.clear()) return compare_clear(*token);
   const ExpectedRay& of = ray(token->ray.id);
   const Vec position = from_lattice(token->at);
   compare("walk", token->ray.id, "the first sample in matter", of.matter.found ? of.matter.sample : -1,
@@ -229,36 +197,45 @@ void Checker::entered(int, std::int64_t, const HitToken* token) {
 }
 
 void Checker::entered(int, std::int64_t, const MetToken* token) {
+  if (expectation_.clear()) return compare_clear(*token);
   const ExpectedRay& of = ray(token->id);
   if (!token->matter.found) {
     const bool hidden = of.matter.found && of.ground.found && of.matter.sample > (of.ground.part >> 8) + 1;
     compare("walk", token->id, "matter found", of.matter.found && !hidden, false);
     return;
   }
-  const Vec position = vec_of(of.matter.position);
-  compare("crossing", token->id, "sample", of.matter.sample, token->matter.sample, &position);
-  compare("crossing", token->id, "part", std::int64_t{of.matter.part}, token->matter.part, &position);
-  compare("crossing", token->id, "crossing", position, token->matter.position, &position);
+  compare_crossing(token->id, of.matter, token->matter);
+}
+
+void Checker::compare_crossing(const RayId& id, const picture::Crossing& expected, const Crossing& actual) {
+  const Vec position = vec_of(expected.position);
+  compare("crossing", id, "sample", expected.sample, actual.sample, &position);
+  compare("crossing", id, "part", std::int64_t{expected.part}, actual.part, &position);
+  compare("crossing", id, "crossing", position, actual.position, &position);
 }
 
 void Checker::entered(int channel, std::int64_t, const Surface* token) {
+  const auto behind = static_cast<Channel>(channel % 100);
+  if (expectation_.clear()) return compare_clear(behind, *token);
   const ExpectedRay& of = shaded(token->id);
-  compare_surface(static_cast<Channel>(channel % 100), of.surface, *token, of);
+  compare_surface(behind, of.surface, *token, of);
 }
 
 void Checker::compare_surface(Channel behind, const Surface& e, const Surface& a, const ExpectedRay& ray) {
   const bool matter = e.kind == Surface::Kind::matter, ground = e.kind == Surface::Kind::ground;
+  const bool clear = expectation_.clear(), way = e.kind == Surface::Kind::way;
   const char* stage = "";
   const auto same = [&](const char* name, const auto& expected, const auto& actual) {
     compare(stage, a.id, name, expected, actual, &e.position);
   };
   switch (behind) {
     case Channel::met:
-      stage = "met";
+      stage = clear ? "stretch" : "met";
       same("on ground", e.kind, a.kind);
-      if (!matter && !ground) return;
+      if (clear) same("leaves", e.clear.leaves, a.clear.leaves), same("d", e.clear.way, a.clear.way);
+      if (!matter && !ground && !way) return;
       same("position", e.position, a.position);
-      same("depth", e.depth, a.depth);
+      if (!clear) same("depth", e.depth, a.depth);
       same("to_eye", e.to_eye, a.to_eye);
       return;
     case Channel::normal:
@@ -276,20 +253,28 @@ void Checker::compare_surface(Channel behind, const Surface& e, const Surface& a
       return;
     case Channel::matter:
       stage = "matter";
-      if (!matter) return;
+      if (!matter && !way) return;
       same("liquid", e.matter.liquid, a.matter.liquid);
       same("heat", e.matter.heat, a.matter.heat);
       same("obstacle", e.matter.obstacle, a.matter.obstacle);
       return;
     case Channel::light:
       stage = "light";
-      if (!matter && !ground) return;
+      if (!matter && !ground && !way) return;
       same("lamp", e.light.lamp, a.light.lamp);
       same("open", e.light.open, a.light.open);
       same("glow", e.light.glow, a.light.glow);
       return;
     case Channel::arriving:
       stage = "arriving";
+      if (way) {
+        same("inner", e.arriving.light, a.arriving.light);
+        stage = "material";
+        same("l", e.mixture.l, a.mixture.l);
+        same("w", e.mixture.w, a.mixture.w);
+        same("diffuse", e.mixture.material.diffuse, a.mixture.material.diffuse);
+        return;
+      }
       if (!matter && !ground) return;
       same("lamp", e.arriving.lamp, a.arriving.lamp);
       same("facing", e.arriving.facing, a.arriving.facing);
@@ -318,6 +303,7 @@ void Checker::compare_surface(Channel behind, const Surface& e, const Surface& a
     case Channel::colour:
       stage = "colour";
       same("colour", e.sum, a.sum);
+      if (clear && matter) same("gleam", e.clear.gleam, a.clear.gleam);
       return;
     default:
       return;

@@ -27,7 +27,8 @@ class Checker final : FifoWatcher<TileOrder>,
                       FifoWatcher<Surface>,
                       FifoWatcher<PressedToken>,
                       FifoWatcher<PixelToken>,
-                      FifoWatcher<LineRequest> {
+                      FifoWatcher<LineRequest>,
+                      FifoWatcher<PassedToken> {
  public:
   Checker(const Expectation& expectation, RayCaster& caster, int width, int height);
 
@@ -55,6 +56,7 @@ class Checker final : FifoWatcher<TileOrder>,
   void entered(int channel, std::int64_t ordinal, const PressedToken* token) override;
   void entered(int channel, std::int64_t ordinal, const PixelToken* token) override;
   void entered(int channel, std::int64_t ordinal, const LineRequest* token) override;
+  void entered(int channel, std::int64_t ordinal, const PassedToken* token) override;
   void left(int, std::int64_t, const TileOrder*) override {}
   void left(int, std::int64_t, const RayToken*) override {}
   void left(int, std::int64_t, const GroundedRay*) override {}
@@ -69,6 +71,7 @@ class Checker final : FifoWatcher<TileOrder>,
     tile_check_.pixel_complete(token->id.x, token->id.y);
   }
   void left(int, std::int64_t, const LineRequest*) override {}
+  void left(int, std::int64_t, const PassedToken*) override {}
 
   void tell(Difference difference);
   ExpectedRay& ray(const RayId& id);
@@ -81,6 +84,11 @@ class Checker final : FifoWatcher<TileOrder>,
                const Value& actual, const Vec* position = nullptr);
   void compare_surface(Channel behind, const Surface& expected, const Surface& actual,
                        const ExpectedRay& ray);
+  // Of rays through clear matter: checker_clear.cpp.
+  void compare_clear(const HitToken& token);
+  void compare_clear(const MetToken& token);
+  void compare_clear(Channel behind, const Surface& token);
+  void compare_crossing(const RayId& id, const picture::Crossing& expected, const Crossing& actual);
 
   const Expectation& expectation_;
   RayCaster& caster_;

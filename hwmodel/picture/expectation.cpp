@@ -2,58 +2,16 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string_view>
-#include <type_traits>
 
+#include "hwmodel/picture/keep.h"
 #include "render/ground/watched_ground.h"
 #include "render/packet/tables.h"
 #include "render/rule/crossing.h"
 #include "render/rule/nearer.h"
 #include "render/rule/normal.h"
 #include "render/rule/shade.h"
-#include "render/rule/watch.h"
 
 namespace voxmelt::hwmodel::raycast {
-namespace {
-
-Vec vec_of(picture::Vector v) { return {v.x, v.y, v.z}; }
-
-// Keeps what the rule tells of a surface.
-struct Keep {
-  Surface& to;
-
-  template <class Value>
-  [[gnu::always_inline]] void operator()(picture::Stage stage, std::string_view name,
-                                         const Value& value) const {
-    using picture::Stage;
-    if constexpr (std::is_same_v<Value, picture::Color>) {
-      if (stage == Stage::material && name == "diffuse") to.mixture.material.diffuse = value;
-      if (stage == Stage::material && name == "mirror") to.mixture.material.mirror = value;
-      if (stage == Stage::material && name == "highlight") to.mixture.material.highlight = value;
-      if (stage == Stage::material && name == "emission") to.mixture.emission = value;
-      if (stage == Stage::arriving && name == "arriving") to.arriving.light = value;
-      if (stage == Stage::mirror && name == "around") to.mirrored.around = value;
-      if (stage == Stage::colour && name == "colour") to.sum = value;
-    } else if constexpr (std::is_same_v<Value, picture::Vector>) {
-      if (stage == Stage::mirror && name == "r") to.mirrored.reflected = vec_of(value);
-    } else if constexpr (std::is_integral_v<Value>) {
-      const auto narrow = static_cast<std::int32_t>(value);
-      if (stage == Stage::material && name == "l") to.mixture.l = narrow;
-      if (stage == Stage::material && name == "w") to.mixture.w = narrow;
-      if (stage == Stage::material && name == "gloss") to.mixture.material.gloss = narrow;
-      if (stage == Stage::arriving && name == "lamp") to.arriving.lamp = value;
-      if (stage == Stage::arriving && name == "facing") to.arriving.facing = value;
-      if (stage == Stage::arriving && name == "lit") to.arriving.lit = value;
-      if (stage == Stage::mirror && name == "peak") to.mirrored.peak = value;
-      if (stage == Stage::mirror && name == "eye") to.mirrored.eye = value;
-      if (stage == Stage::mirror && name == "more") to.mirrored.more = value;
-      if (stage == Stage::mirror && name == "free") to.mirrored.free = value;
-    }
-  }
-};
-
-}  // namespace
-
 Expectation::Expectation(const render::PictureScene& scene, const picture::Camera& camera,
                          render::Setting setting)
     : scene_(scene),
@@ -104,59 +62,82 @@ std::int32_t Expectation::sample(picture::Vector position) const {
 }
 
 void Expectation::shade(ExpectedRay& ray) const {
-  using Kind = Surface::Kind;
   ray.shaded = true;
+  if (scene_.paint.clear) return follow(ray);
   Surface& to = ray.surface;
-  const bool on_ground = picture::ground_first(ray.ground, ray.matter, view_.halvings);
-  if (!on_ground && !ray.matter.found) {
+  if (picture::ground_first(ray.ground, ray.matter, view_.halvings)) {
+    shade_ground(ray);
+  } else if (ray.matter.found) {
+    shade_matter(ray);
+  } else {
     to.sum = ray.pressed = scene_.look.background;
     return;
   }
-  to.kind = on_ground ? Kind::ground : Kind::matter;
-  const picture::Vector position = on_ground ? ray.ground.position : ray.matter.position;
+  ray.pressed = pressed(to.sum);
+}
+
+void Expectation::meet(ExpectedRay& ray, picture::Vector position) const {
+  Surface& to = ray.surface;
   to.position = vec_of(position);
   to.face = static_cast<Face>(ray.ground.face);
-  to.inside = on_ground ? ray.ground.face == picture::Face::none : ray.matter.sample == 0;
   to.depth = picture::depth_in_picture(view_, position);
-  const picture::Vector to_eye = picture::unit_of(picture::Vector{} - ray.ray.step);
-  to.to_eye = vec_of(to_eye);
+  to.to_eye = vec_of(picture::unit_of(picture::Vector{} - ray.ray.step));
+}
 
-  picture::Vector normal;
-  picture::Color color{};
-  if (on_ground) {
-    // Before the texture of rock, too.
-    ray.ground_normal = to_eye;
-    const auto columns = render::columns_of(scene_.ground, scene_.ground.bare());
-    if (!to.inside)
-      ray.ground_normal = picture::ground_normal(columns, scene_.ground.cells(), position, ray.ground.face);
-    const render::GroundMap::Paint paint = scene_.ground.paint(ray.ground);
-    normal = to.inside ? to_eye : paint.normal;
-    color = {static_cast<std::int32_t>(paint.color.x), static_cast<std::int32_t>(paint.color.y),
-             static_cast<std::int32_t>(paint.color.z)};
-    to.color = color;
-  } else {
-    normal = to.inside ? to_eye : picture::normal_at(scene_.levels, position);
-  }
+picture::Light Expectation::light_before(picture::Vector position, picture::Vector normal) const {
+  return picture::light_at(scene_.light, scene_.light.count(), scene_.light.shift(),
+                           picture::before_surface(position, normal, scene_.light.shift()));
+}
+
+void Expectation::shade_ground(ExpectedRay& ray) const {
+  Surface& to = ray.surface;
+  const picture::Vector position = ray.ground.position;
+  to.kind = Surface::Kind::ground;
+  to.inside = ray.ground.face == picture::Face::none;
+  meet(ray, position);
+  const picture::Vector to_eye = vector_of(to.to_eye);
+  // Before the texture of rock, too.
+  ray.ground_normal = to_eye;
+  const auto columns = render::columns_of(scene_.ground, scene_.ground.bare());
+  if (!to.inside)
+    ray.ground_normal = picture::ground_normal(columns, scene_.ground.cells(), position, ray.ground.face);
+  const render::GroundMap::Paint paint = scene_.ground.paint(ray.ground);
+  const picture::Vector normal = to.inside ? to_eye : paint.normal;
+  const picture::Color color{static_cast<std::int32_t>(paint.color.x),
+                             static_cast<std::int32_t>(paint.color.y),
+                             static_cast<std::int32_t>(paint.color.z)};
+  to.color = color;
   to.normal = vec_of(normal);
-  const picture::Light light =
-      picture::light_at(scene_.light, scene_.light.count(), scene_.light.shift(),
-                        picture::before_surface(position, normal, scene_.light.shift()));
+  const picture::Light light = light_before(position, normal);
   to.light = {light.lamp, light.open, light.glow};
-  picture::Color sum;
-  if (on_ground) {
-    sum = picture::ground_color(scene_.paint, normal, light, color, Keep{to});
-  } else {
-    const auto matter_at = [&](picture::Vector p) {
-      return picture::matter_at(scene_.matter, scene_.levels.cells(), p);
-    };
-    picture::Matter matter = matter_at(position);
-    matter.obstacle = matter_at(position + normal * 32).obstacle;
-    to.matter = {matter.liquid, matter.heat, matter.obstacle};
-    sum = picture::matter_color(scene_.paint, normal, to_eye, light, matter, Keep{to});
-  }
+  to.sum = picture::ground_color(scene_.paint, normal, light, color, Keep{to});
+}
+
+void Expectation::shade_matter(ExpectedRay& ray) const {
+  Surface& to = ray.surface;
+  const picture::Vector position = ray.matter.position;
+  to.kind = Surface::Kind::matter;
+  to.inside = ray.matter.sample == 0;
+  meet(ray, position);
+  const picture::Vector to_eye = vector_of(to.to_eye);
+  const picture::Vector normal = to.inside ? to_eye : picture::normal_at(scene_.levels, position);
+  to.normal = vec_of(normal);
+  const picture::Light light = light_before(position, normal);
+  to.light = {light.lamp, light.open, light.glow};
+  const auto matter_at = [&](picture::Vector p) {
+    return picture::matter_at(scene_.matter, scene_.levels.cells(), p);
+  };
+  picture::Matter matter = matter_at(position);
+  matter.obstacle = matter_at(position + normal * 32).obstacle;
+  to.matter = {matter.liquid, matter.heat, matter.obstacle};
+  to.sum = picture::matter_color(scene_.paint, normal, to_eye, light, matter, Keep{to});
+}
+
+Rgb Expectation::pressed(const Rgb& sum) {
+  Rgb of{};
   for (std::size_t c = 0; c < 3; ++c)
-    ray.pressed[c] =
-        render::tone_table()[static_cast<std::size_t>(std::clamp(sum[c], 0, picture::kBrightest))];
+    of[c] = render::tone_table()[static_cast<std::size_t>(std::clamp(sum[c], 0, picture::kBrightest))];
+  return of;
 }
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -13,6 +13,22 @@
 
 namespace voxmelt::hwmodel::raycast {
 
+// What comes along a ray through clear matter. If nothing passes any more, the reference ends there.
+struct ExpectedClear {
+  std::vector<picture::Crossing> entries, exits;  // one that lies behind the ground is there, too
+  std::vector<Surface> events;                    // surfaces and ways
+  bool dark = false;
+  Passage passage;
+
+  // A ray's crossing number `span`; null: there is none.
+  const picture::Crossing* entry(int span) const { return at(entries, span); }
+  const picture::Crossing* exit(int span) const { return at(exits, span); }
+  static const picture::Crossing* at(const std::vector<picture::Crossing>& all, int span) {
+    const auto i = static_cast<std::size_t>(span);
+    return i < all.size() ? &all[i] : nullptr;
+  }
+};
+
 struct ExpectedRay {
   picture::Ray ray;
   picture::Crossing matter;
@@ -21,6 +37,7 @@ struct ExpectedRay {
   Surface surface;      // as it leaves the last stage that adds to it
   picture::Vector ground_normal;
   Rgb pressed{};
+  ExpectedClear clear;  // if matter is clear
 };
 
 class Expectation {
@@ -35,8 +52,15 @@ class Expectation {
   std::int32_t level(std::int64_t x, std::int64_t y, std::int64_t z) const { return scene_.levels(x, y, z); }
   std::int32_t sample(picture::Vector position) const;
   const picture::View& view() const { return view_; }
+  bool clear() const { return scene_.paint.clear; }
 
  private:
+  void meet(ExpectedRay& ray, picture::Vector position) const;
+  picture::Light light_before(picture::Vector position, picture::Vector normal) const;
+  void shade_ground(ExpectedRay& ray) const;
+  void shade_matter(ExpectedRay& ray) const;
+  void follow(ExpectedRay& ray) const;  // through clear matter: clear_expectation.cpp
+  static Rgb pressed(const Rgb& sum);
   picture::Crossing first_crossing(const picture::Ray& ray) const;
 
   const render::PictureScene& scene_;

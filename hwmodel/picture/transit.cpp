@@ -18,6 +18,7 @@ Watchers Transit::around(Watchers w) {
   w.asks = around(w.asks);
   w.levels = around(w.levels), w.samples = around(w.samples), w.hits = around(w.hits), w.met = around(w.met);
   w.surfaces = around(w.surfaces), w.pressed = around(w.pressed), w.pixels = around(w.pixels);
+  w.passed = around(w.passed);
   return w;
 }
 

@@ -35,6 +35,7 @@ LookRegisters look_of(const render::PictureData& data) {
   of.solid = material_of(paint.solid), of.liquid = material_of(paint.liquid);
   of.obstacle = material_of(paint.obstacle);
   of.glow = paint.glow, of.obstacles = data.field.obstacles;
+  of.clear = paint.clear, of.losses = paint.losses, of.frost = paint.frost;
   of.lamp_low = paint.lamp_low, of.lamp_high = paint.lamp_high, of.strip_low = paint.strip_low;
   of.highlight = paint.highlight, of.dull_highlight = paint.dull_highlight;
   of.surroundings = paint.surroundings;

@@ -1,5 +1,5 @@
 // The crossing between a sample in air and the next one in matter: three middles, and a straight line
-// (docs/picture.md, section 7). Many rays are under way. The level of sample k - 1 is asked for only where it
+// (docs/picture.md, section 7). A ray that leaves clear matter has them in the other order. Many rays are under way. The level of sample k - 1 is asked for only where it
 // is needed and not known.
 #pragma once
 
@@ -25,6 +25,7 @@ class CrossingStage final : public Stage {
   void connect(Fifo<HitToken>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<MetToken>& out) {
     in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
   }
+  void connect_exits(Fifo<HitToken>& exits) { exits_ = &exits; }
 
  private:
   struct Context {
@@ -66,6 +67,10 @@ class CrossingStage final : public Stage {
       begin(*in_->get());
       moved = true;
     }
+    if (exits_ != nullptr && exits_->valid()) {
+      begin(*exits_->get());
+      moved = true;
+    }
     if (moved) return Did::busy;
     if (blocked) return Did::blocked;
     return waiting_ == 0 ? Did::starved : Did::memory;
@@ -75,9 +80,10 @@ class CrossingStage final : public Stage {
     Context& of = at(hit.context);
     of.hit = hit;
     ++waiting_;
-    of.bracket = {hit.at - hit.ray.ray.step, hit.at, hit.before, hit.level, 0};
+    const Vec& step = hit.ray.ray.step;
+    of.bracket = {hit.leaves ? hit.at + step : hit.at - step, hit.at, hit.before, hit.level, 0};
     of.halved = 0;
-    (hit.k == 0 ? done_ : asking_).push_back(hit.context);
+    (begins_in_matter(hit) ? done_ : asking_).push_back(hit.context);
   }
   void take(int i, std::int64_t level) {
     Context& of = at(i);
@@ -92,13 +98,15 @@ class CrossingStage final : public Stage {
   void finish(int i) {
     const Context& of = at(i);
     const GroundedRay& ray = of.hit.ray;
-    Crossing met = of.hit.k == 0 ? Crossing{true, 0, 2048, on_wires<32>(ray.ray.start)}
-                                 : crossing_of(of.bracket, of.hit.k);
+    Crossing met = begins_in_matter(of.hit) ? Crossing{true, 0, 2048, on_wires<32>(ray.ray.start)}
+                                            : crossing_of(of.bracket, of.hit.k);
     faults_.crossed(of.hit, of.bracket, met);
-    *out_->put() = {ray.id, ray.ray, ray.ground, met};
-    walk_.give_back(i);
+    *out_->put() = {ray.id,         ray.ray,       ray.ground,   met,      of.hit.context,
+                    of.hit.span,    of.hit.leaves, of.hit.level, of.hit.at};
+    walk_.crossed(i);
     --waiting_;
   }
+  static bool begins_in_matter(const HitToken& hit) { return hit.k == 0 && !hit.leaves; }
 
   WalkStage<Faults>& walk_;
   [[no_unique_address]] Faults faults_;
@@ -106,6 +114,7 @@ class CrossingStage final : public Stage {
   int waiting_ = 0;
   std::deque<int> asking_, done_;
   Fifo<HitToken>* in_ = nullptr;
+  Fifo<HitToken>* exits_ = nullptr;
   Fifo<LevelRequest>* ask_ = nullptr;
   Fifo<LevelToken>* answer_ = nullptr;
   Fifo<MetToken>* out_ = nullptr;

@@ -13,7 +13,8 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// Twice, where the scene has obstacles: they are looked for half a cell outside.
+// Twice, where the scene has obstacles: they are looked for half a cell outside. On a way in clear matter all
+// is read at its place. It has no normal: so the light is read there, too.
 template <class Faults = NoFaults>
 class MatterStage final : public AttachStage<MatterRequest, MatterGather::Out> {
  public:
@@ -22,6 +23,7 @@ class MatterStage final : public AttachStage<MatterRequest, MatterGather::Out> {
 
  private:
   int questions(const Surface& of) const override {
+    if (of.kind == Surface::Kind::way) return 1;
     if (of.kind != Surface::Kind::matter) return 0;
     return registers_.look.obstacles ? 2 : 1;
   }

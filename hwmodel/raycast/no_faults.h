@@ -44,6 +44,10 @@ struct NoFaults {
   static void mirrored(auto&&...) {}
   static void coloured(auto&&...) {}
   static void pressed(auto&&...) {}
+  // stretch: an event that leaves; passed: a ray behind an event; press: the light of such a ray
+  static void told(auto&&...) {}
+  static void passed(auto&&...) {}
+  static void seen_through(auto&&...) {}
   // pixel: its bytes; write: is a tile with so many pixels left taken for complete? a burst of a tile
   static void totalled(auto&&...) {}
   static constexpr bool writes_early(auto&&...) { return false; }

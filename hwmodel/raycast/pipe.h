@@ -53,7 +53,13 @@ enum class Channel : std::uint8_t {
   colour,
   pressed,
   pixels,
-  to_memory
+  to_memory,
+  // of clear matter
+  stretch_asks,
+  stretch_levels,
+  exits,
+  onward,
+  passed
 };
 
 // Who listens to what leaves a stage. Null: nobody.
@@ -74,6 +80,7 @@ struct Watchers {
   FifoWatcher<TileJob>* jobs = nullptr;
   FifoWatcher<LineRequest>* requests = nullptr;
   FifoWatcher<LineReply>* replies = nullptr;
+  FifoWatcher<PassedToken>* passed = nullptr;
 };
 
 class Pipe {

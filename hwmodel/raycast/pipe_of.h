@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,14 +18,35 @@
 #include "hwmodel/raycast/met_stage.h"
 #include "hwmodel/raycast/normal_stage.h"
 #include "hwmodel/raycast/paint_stage.h"
+#include "hwmodel/raycast/passed_stage.h"
 #include "hwmodel/raycast/pipe.h"
 #include "hwmodel/raycast/sample_stage.h"
 #include "hwmodel/raycast/setup_stage.h"
 #include "hwmodel/raycast/shade_stage.h"
+#include "hwmodel/raycast/stretch_stage.h"
 #include "hwmodel/raycast/tile_stages.h"
 #include "hwmodel/raycast/walk_stage.h"
 
 namespace voxmelt::hwmodel::raycast {
+
+// Of two kinds of scenes, which have the other stages in common.
+template <class Faults>
+struct OpaqueStages {
+  OpaqueStages(const Registers& registers, Faults faults)
+      : met(registers, faults), press(registers, faults) {}
+  MetStage<Faults> met;
+  PressStage<Faults> press;
+};
+template <class Faults>
+struct ClearStages {
+  ClearStages(const Registers& registers, WalkStage<Faults>& walk, int rays, Faults faults)
+      : passed(registers, walk, rays, faults),
+        stretch(registers, passed, rays, faults),
+        press(registers, faults) {}
+  PassedStage<Faults> passed;
+  StretchStage<Faults> stretch;
+  ClearPressStage<Faults> press;
+};
 
 template <class Faults>
 class PipeOf final : public Pipe {
@@ -53,6 +76,7 @@ class PipeOf final : public Pipe {
 
   template <class Word>
   Fifo<Word>& channel(Channel which, const char* name, int depth = 0);
+  void list_stages();
 
   const Configuration& configuration_;
   const Memory& memory_;
@@ -67,7 +91,6 @@ class PipeOf final : public Pipe {
   AskStage<LevelRequest> ask_;
   Gather<LevelRequest, std::int16_t, 27, Faults> levels_;
   SampleStage<Faults> sample_;
-  MetStage<Faults> met_;
   NormalStage<Faults> normal_;
   PaintStage<Faults> paint_;
   AskStage<ClampedRequest> height_ask_;
@@ -81,10 +104,11 @@ class PipeOf final : public Pipe {
   ArrivingStage<Faults> arriving_;
   MirrorStage<Faults> mirror_;
   ColourStage<Faults> colour_;
-  PressStage<Faults> press_;
   PixelStage<Faults> pixel_;
   WriteStage<Faults> write_;
   MemoryPort port_;
+  std::optional<OpaqueStages<Faults>> opaque_;
+  std::optional<ClearStages<Faults>> clear_;
   std::vector<Stage*> stages_;
   const Stage* running_ = nullptr;
   std::vector<std::shared_ptr<void>> owned_;
@@ -110,7 +134,6 @@ PipeOf<Faults>::PipeOf(const Registers& registers, const FrameRegisters& frame, 
       ask_("ask"),
       levels_("levels", c.levels, memory.levels, kLevels, static_cast<std::int16_t>(kAir), 5, faults),
       sample_(faults),
-      met_(registers, faults),
       normal_(kWaiting, faults),
       paint_(registers, kWaiting, faults),
       height_ask_("ask for heights"),
@@ -124,42 +147,35 @@ PipeOf<Faults>::PipeOf(const Registers& registers, const FrameRegisters& frame, 
       arriving_(registers, faults),
       mirror_(registers, faults),
       colour_(registers, faults),
-      press_(registers, faults),
       pixel_(registers, buffers_, faults),
       write_(frame, buffers_, faults),
       port_(memory) {
+  if (registers.look.clear)
+    clear_.emplace(registers, walk_, c.rays, faults);
+  else
+    opaque_.emplace(registers, faults);
+  list_stages();
+}
+
+template <class Faults>
+void PipeOf<Faults>::list_stages() {
+  const auto add = [&](std::initializer_list<Stage*> more) {
+    stages_.insert(stages_.end(), more.begin(), more.end());
+  };
   // From the end to the begin, so that it matters to no one but the reader of a waveform.
-  stages_ = {&port_,
-             &write_,
-             &pixel_,
-             &press_,
-             &colour_,
-             &mirror_,
-             &arriving_,
-             &light_,
-             &light_cells_.data,
-             &light_cells_.tags,
-             &matter_,
-             &matter_words_.data,
-             &matter_words_.tags,
-             &texture_,
-             &texels_.data,
-             &texels_.tags,
-             &paint_,
-             &normal_,
-             &met_,
-             &crossing_,
-             &sample_,
-             &levels_.data,
-             &levels_.tags,
-             &ask_,
-             &walk_,
-             &ground_,
-             &columns_.data,
-             &columns_.tags,
-             &height_ask_,
-             &set_up_,
-             &tiles_};
+  add({&port_, &write_, &pixel_});
+  if (clear_)
+    add({&clear_->press, &clear_->passed});
+  else
+    add({&opaque_->press});
+  add({&colour_, &mirror_, &arriving_, &light_, &light_cells_.data, &light_cells_.tags, &matter_,
+       &matter_words_.data, &matter_words_.tags, &texture_, &texels_.data, &texels_.tags, &paint_, &normal_});
+  if (clear_)
+    add({&clear_->stretch});
+  else
+    add({&opaque_->met});
+  add({&crossing_, &sample_, &levels_.data, &levels_.tags, &ask_, &walk_, &ground_, &columns_.data,
+       &columns_.tags, &height_ask_, &set_up_, &tiles_});
 }
 
 template <class Faults>
@@ -196,9 +212,9 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
   auto& walk_levels = channel<LevelToken>(Channel::walk_levels, "sample -> walk");
   auto& crossing_levels = channel<LevelToken>(Channel::crossing_levels, "sample -> crossing");
   auto& hits = channel<HitToken>(Channel::hits, "walk -> crossing", rays);
-  auto& missed = channel<MetToken>(Channel::missed, "walk -> met");
-  auto& crossed = channel<MetToken>(Channel::crossed, "crossing -> met");
-  auto& met = channel<Surface>(Channel::met, "met -> normal");
+  auto& missed = channel<MetToken>(Channel::missed, clear_ ? "walk -> stretch" : "walk -> met");
+  auto& crossed = channel<MetToken>(Channel::crossed, clear_ ? "crossing -> stretch" : "crossing -> met");
+  auto& met = channel<Surface>(Channel::met, clear_ ? "stretch -> normal" : "met -> normal");
   auto& normal = channel<Surface>(Channel::normal, "normal -> paint");
   auto& search_asks = channel<ClampedRequest>(Channel::search_asks, "ground -> ask for heights");
   auto& paint_asks = channel<ClampedRequest>(Channel::paint_asks, "paint -> ask for heights");
@@ -217,7 +233,7 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
   auto& light = channel<Surface>(Channel::light, "light -> arriving");
   auto& arriving = channel<Surface>(Channel::arriving, "arriving -> mirror");
   auto& mirror = channel<Surface>(Channel::mirror, "mirror -> colour");
-  auto& colour = channel<Surface>(Channel::colour, "colour -> press");
+  auto& colour = channel<Surface>(Channel::colour, clear_ ? "colour -> passed" : "colour -> press");
   auto& pressed = channel<PressedToken>(Channel::pressed, "press -> pixel");
   auto& pixels = channel<PixelToken>(Channel::pixels, "pixel -> write");
   const auto line = [&](const char* name) -> Fifo<LineRequest>& {
@@ -239,11 +255,31 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
   columns_.connect_out({&search_heights, &paint_heights});
   walk_.connect(ground, walk_asks, walk_levels, hits, missed);
   crossing_.connect(hits, crossing_asks, crossing_levels, crossed);
-  ask_.connect({&normal_asks, &crossing_asks, &walk_asks}, level_asks);
   levels_.connect(level_asks, level_lines);
   levels_.connect_out({&levels, &normal_levels});
   sample_.connect(levels, walk_levels, crossing_levels);
-  met_.connect(missed, crossed, met);
+  std::vector<Fifo<LevelRequest>*> askers{&normal_asks, &crossing_asks, &walk_asks};
+  Fifo<LevelToken>* stretch_levels = nullptr;
+  Fifo<HitToken>* exits = nullptr;
+  Fifo<PassedToken>* passed = nullptr;
+  if (clear_) {
+    auto& stretch_asks = channel<LevelRequest>(Channel::stretch_asks, "stretch -> ask");
+    stretch_levels = &channel<LevelToken>(Channel::stretch_levels, "sample -> stretch");
+    exits = &channel<HitToken>(Channel::exits, "stretch -> crossing", rays);
+    auto& onward = channel<OnwardToken>(Channel::onward, "stretch -> walk", rays);
+    passed = &channel<PassedToken>(Channel::passed, "passed -> press");
+    askers.insert(askers.end() - 1, &stretch_asks);
+    sample_.connect_stretch(*stretch_levels);
+    crossing_.connect_exits(*exits);
+    walk_.connect_onward(onward);
+    clear_->stretch.connect(missed, crossed, stretch_asks, *stretch_levels, *exits, onward, met);
+    clear_->passed.connect(colour, *passed);
+    clear_->press.connect(*passed, pressed);
+  } else {
+    opaque_->met.connect(missed, crossed, met);
+    opaque_->press.connect(colour, pressed);
+  }
+  ask_.connect(std::move(askers), level_asks);
   normal_.connect(met, normal_asks, normal_levels, normal);
   paint_.connect(normal, paint_asks, paint_heights, paint);
   texture_.connect(paint, texel_asks, texels, texture);
@@ -258,7 +294,6 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
   arriving_.connect(light, arriving);
   mirror_.connect(arriving, mirror);
   colour_.connect(mirror, colour);
-  press_.connect(colour, pressed);
   pixel_.connect(pressed, pixels);
   write_.connect(pixels, written);
   port_.connect(
@@ -270,7 +305,7 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
             crossing_levels = &crossing_levels, hits = &hits, missed = &missed, crossed = &crossed,
             surfaces =
                 std::vector{&met, &normal, &paint, &texture, &matter, &light, &arriving, &mirror, &colour},
-            pressed = &pressed, pixels = &pixels](const Watchers& w) {
+            pressed = &pressed, pixels = &pixels, stretch_levels, exits, passed](const Watchers& w) {
     orders->watch(w.tiles), written->watch(w.written), set_up->watch(w.set_up), ground->watch(w.ground),
         asks->watch(w.asks);
     levels->watch(w.levels), normal_levels->watch(w.levels);
@@ -278,6 +313,8 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
     hits->watch(w.hits), missed->watch(w.met), crossed->watch(w.met);
     for (Fifo<Surface>* fifo : surfaces) fifo->watch(w.surfaces);
     pressed->watch(w.pressed), pixels->watch(w.pixels);
+    if (passed == nullptr) return;
+    stretch_levels->watch(w.samples), exits->watch(w.hits), passed->watch(w.passed);
   };
 }
 

@@ -46,6 +46,9 @@ struct LookRegisters {
   Rgb lamp{}, from_below{}, from_above{}, background{};
   Material solid, liquid, obstacle;
   bool glow = false, obstacles = false;
+  bool clear = false;  // docs/picture-translucent.md
+  Rgb losses{};
+  std::int32_t frost = 0;
   std::int32_t lamp_low = 0, lamp_high = 0, strip_low = 0;
   std::array<std::uint16_t, 1026> highlight{}, dull_highlight{};
   std::array<std::uint32_t, 2049> surroundings{};

@@ -21,12 +21,15 @@ class SampleStage final : public Stage {
   void connect(Fifo<Levels>& in, Fifo<LevelToken>& to_walk, Fifo<LevelToken>& to_crossing) {
     in_ = &in, to_walk_ = &to_walk, to_crossing_ = &to_crossing;
   }
+  void connect_stretch(Fifo<LevelToken>& to_stretch) { to_stretch_ = &to_stretch; }
 
  private:
   Did cycle() override {
     if (!in_->valid()) return Did::starved;
     const Levels& levels = *in_->oldest();
-    Fifo<LevelToken>& out = levels.request.asker == Asker::walk ? *to_walk_ : *to_crossing_;
+    Fifo<LevelToken>& out = levels.request.asker == Asker::walk      ? *to_walk_
+                            : levels.request.asker == Asker::stretch ? *to_stretch_
+                                                                     : *to_crossing_;
     if (!out.ready()) return Did::blocked;
     in_->get();
     SInt<16> level = sample_of(levels.words.data(), levels.request.at);
@@ -39,6 +42,7 @@ class SampleStage final : public Stage {
   Fifo<Levels>* in_ = nullptr;
   Fifo<LevelToken>* to_walk_ = nullptr;
   Fifo<LevelToken>* to_crossing_ = nullptr;
+  Fifo<LevelToken>* to_stretch_ = nullptr;
 };
 
 // Several that ask the same memory, on one channel. The first of them comes first.

@@ -145,24 +145,33 @@ inline Mirrored mirrored_of(const LookRegisters& look, Vec normal, Vec to_eye, c
   return of;
 }
 
-inline Rgb matter_color(const Arriving& arriving, const Mixture& of, const Mirrored& mirror) {
-  Rgb sum{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::int64_t fresnel =
-        of.material.mirror[c] + (((4096 - of.material.mirror[c]) * mirror.more) >> 12);
-    sum[c] = static_cast<std::int32_t>(
-        UInt<17>(((std::int64_t{arriving.light[c]} * of.material.diffuse[c]) >> 12) +
-                 ((of.material.highlight[c] * mirror.peak) >> 12) +
-                 ((((mirror.around[c] * mirror.free) >> 12) * fresnel) >> 12) +
-                 ((of.emission[c] * (2540 + ((1556 * mirror.eye) >> 14))) >> 12)));
-  }
-  return sum;
-}
-inline Rgb ground_color(const Arriving& arriving, const Rgb& color) {
+// What a surface scatters of the light that arrives.
+inline Rgb scattered_color(const Arriving& arriving, const Rgb& color) {
   Rgb of{};
   for (std::size_t c = 0; c < 3; ++c)
     of[c] = static_cast<std::int32_t>((std::int64_t{arriving.light[c]} * color[c]) >> 12);
   return of;
+}
+// What it mirrors, and its highlight.
+inline Rgb gleam_of(const Mixture& of, const Mirrored& mirror) {
+  Rgb gleam{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::int64_t fresnel =
+        of.material.mirror[c] + (((4096 - of.material.mirror[c]) * mirror.more) >> 12);
+    gleam[c] =
+        static_cast<std::int32_t>(UInt<15>(((of.material.highlight[c] * mirror.peak) >> 12) +
+                                           ((((mirror.around[c] * mirror.free) >> 12) * fresnel) >> 12)));
+  }
+  return gleam;
+}
+inline Rgb matter_color(const Arriving& arriving, const Mixture& of, const Mirrored& mirror) {
+  const Rgb body = scattered_color(arriving, of.material.diffuse), gleam = gleam_of(of, mirror);
+  Rgb sum{};
+  for (std::size_t c = 0; c < 3; ++c)
+    sum[c] = static_cast<std::int32_t>(
+        UInt<17>(std::int64_t{body[c]} + gleam[c] +
+                 ((of.emission[c] * (2540 + ((1556 * mirror.eye) >> 14))) >> 12)));
+  return sum;
 }
 
 }  // namespace voxmelt::hwmodel::raycast

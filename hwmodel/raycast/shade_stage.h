@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hwmodel/channel/fifo.h"
+#include "hwmodel/raycast/clear.h"
 #include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/shade.h"
@@ -52,6 +53,11 @@ class ArrivingStage final : public SurfaceStage {
  private:
   void compute(Surface& of) override {
     if (of.kind == Surface::Kind::background) return;
+    if (of.kind == Surface::Kind::way) {
+      of.mixture = mixture_of(look(), of.matter);
+      of.arriving.light = inner_light(look(), of.light);
+      return;
+    }
     const bool matter = of.kind == Surface::Kind::matter;
     if (matter) of.mixture = mixture_of(look(), of.matter);
     of.arriving = arriving_of(look(), of.normal, of.light, look().glow && (!matter || of.mixture.w > 0));
@@ -70,7 +76,13 @@ class MirrorStage final : public SurfaceStage {
  private:
   void compute(Surface& of) override {
     if (of.kind != Surface::Kind::matter) return;
-    of.mirrored = mirrored_of(look(), of.normal, of.to_eye, of.light, of.arriving, of.mixture);
+    Vec normal = of.normal;
+    Arriving arriving = of.arriving;
+    if (of.clear.leaves) {  // the eye sees the surface from within
+      normal = Vec{} - normal;
+      arriving.facing = SInt<16>(cosine(normal, look().to_light));
+    }
+    of.mirrored = mirrored_of(look(), normal, of.to_eye, of.light, arriving, of.mixture);
     faults_.mirrored(look(), of);
   }
 
@@ -85,11 +97,16 @@ class ColourStage final : public SurfaceStage {
 
  private:
   void compute(Surface& of) override {
-    if (of.kind == Surface::Kind::background)
+    if (of.kind == Surface::Kind::background) {
       of.sum = look().background;
-    else
-      of.sum = of.kind == Surface::Kind::matter ? matter_color(of.arriving, of.mixture, of.mirrored)
-                                                : ground_color(of.arriving, of.color);
+    } else if (of.kind == Surface::Kind::ground) {
+      of.sum = scattered_color(of.arriving, of.color);
+    } else if (look().clear) {
+      of.sum = scattered_color(of.arriving, of.mixture.material.diffuse);
+      if (of.kind == Surface::Kind::matter) of.clear.gleam = gleam_of(of.mixture, of.mirrored);
+    } else {
+      of.sum = matter_color(of.arriving, of.mixture, of.mirrored);
+    }
     faults_.coloured(of);
   }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hwmodel/raycast/clear.h"
 #include "hwmodel/raycast/field.h"
 #include "hwmodel/raycast/gather.h"
 #include "hwmodel/raycast/ground.h"
@@ -61,10 +62,23 @@ struct MetToken {
   Ray ray;
   GroundHit ground;
   Crossing matter;
+  // Of a ray that goes on through clear matter: its place in the walk, how often it has entered matter before,
+  // whether it leaves it here, and the sample in matter.
+  std::int16_t context = 0, span = 0;
+  bool leaves = false;
+  std::int16_t level = 0;
+  Vec at{};
+};
+// Such a ray returns to the walk: it has left matter, and sample k is known to be air.
+struct OnwardToken {
+  std::int16_t context = 0;
+  std::int64_t k = 0;
+  Vec at;
+  std::int16_t level = 0;
 };
 
 // Who wants levels.
-enum class Asker : std::uint8_t { walk, crossing, normal };
+enum class Asker : std::uint8_t { walk, crossing, normal, stretch };
 struct LevelRequest {
   Asker asker = Asker::walk;
   std::int16_t context = 0;  // of the ray under way
@@ -145,9 +159,18 @@ inline NineColumns columns_of(const ColumnGather::Out& answer) {
 }
 using TexelGather = Gather<ClampedRequest, Texel, 8>;
 
-// A surface that a ray meets, or the background, on its way to a colour. Each stage adds what it finds.
+// Of an event on a ray through clear matter: which ray of those under way, and which of its events.
+struct ClearEvent {
+  std::int16_t context = 0;
+  bool leaves = false;  // the ray leaves matter here
+  std::int32_t event = 0;
+  std::int32_t way = 0;
+  Rgb gleam{};
+};
+// A surface that a ray meets, or the background, on its way to a colour; in clear matter a way, too. Each
+// stage adds what it finds.
 struct Surface {
-  enum class Kind : std::uint8_t { background, matter, ground };
+  enum class Kind : std::uint8_t { background, matter, ground, way };
   RayId id;
   Kind kind = Kind::background;
   bool inside = false;  // the ray starts in it
@@ -162,6 +185,14 @@ struct Surface {
   Arriving arriving;
   Mirrored mirrored;
   Rgb sum{};
+  ClearEvent clear;
+};
+// A ray through clear matter at its end, and the light behind.
+struct PassedToken {
+  RayId id;
+  bool on_ground = false;
+  Passage passage;
+  Rgb behind{};
 };
 struct PressedToken {
   RayId id;

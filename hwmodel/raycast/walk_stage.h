@@ -26,6 +26,10 @@ struct HitToken {
   std::int16_t level = 0;     // there
   bool knows_before = false;  // the level of sample k - 1
   std::int16_t before = 0;
+  // In clear matter: how often the ray has entered it before; here it leaves it, and `before` is the level of
+  // sample k + 1.
+  std::int16_t span = 0;
+  bool leaves = false;
 };
 
 // Why samples are left out.
@@ -50,7 +54,12 @@ class WalkStage final : public Stage {
                Fifo<MetToken>& missed) {
     in_ = &in, ask_ = &ask, answer_ = &answer, hit_ = &hit, missed_ = &missed;
   }
+  // Rays go on through clear matter: they return from there, and keep their places until they end.
+  void connect_onward(Fifo<OnwardToken>& onward) { onward_ = &onward; }
   // The crossing is done with a ray.
+  void crossed(int context) {
+    if (onward_ == nullptr) give_back(context);
+  }
   void give_back(int context) { free_.push_back(context); }
   const WalkCounts& counts() const { return counts_; }
 
@@ -62,6 +71,7 @@ class WalkStage final : public Stage {
     std::int64_t slope = 0;
     std::int64_t known = -2;  // the last sample whose level is known
     std::int16_t level = 0;
+    std::int16_t span = 0;
   };
   Context& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
 
@@ -69,9 +79,10 @@ class WalkStage final : public Stage {
     bool moved = false, blocked = false;
     if (!lost_.empty()) {
       if (missed_->ready()) {
-        const Context& of = at(lost_.front());
-        *missed_->put() = {of.ray.id, of.ray.ray, of.ray.ground, {}};
-        free_.push_back(lost_.front());
+        const int i = lost_.front();
+        const Context& of = at(i);
+        *missed_->put() = {of.ray.id, of.ray.ray, of.ray.ground, {}, static_cast<std::int16_t>(i), of.span};
+        crossed(i);
         lost_.pop_front();
         moved = true;
       } else {
@@ -98,12 +109,17 @@ class WalkStage final : public Stage {
       decide(*answer_->get());
       moved = true;
     }
+    if (onward_ != nullptr && onward_->valid()) {
+      go_on(*onward_->get());
+      moved = true;
+    }
     if (in_->valid() && !free_.empty()) {
       begin(*in_->get());
       moved = true;
     }
     if (moved) return Did::busy;
     if (blocked) return Did::blocked;
+    if (onward_ != nullptr) return asked_ > 0 ? Did::memory : in_->valid() ? Did::blocked : Did::starved;
     return free_.size() == rays_.size() ? Did::starved : Did::memory;
   }
 
@@ -115,11 +131,21 @@ class WalkStage final : public Stage {
     of.walker = walker_of(ray.ray);
     of.k = 0;
     of.known = -2;
+    of.span = 0;
     // Matter that is not behind the ground is met by the sample after it, at the latest.
     of.most = ray.ground.found ? (ray.ground.part >> 8) + 1 : kMostSamples;
     ++counts_.rays;
     faults_.begun(of);
     walking_.push_back(i);
+  }
+
+  void go_on(const OnwardToken& token) {
+    Context& of = at(token.context);
+    of.walker.at = token.at;
+    of.k = of.known = token.k;
+    of.level = token.level;
+    ++of.span;
+    walking_.push_back(token.context);
   }
 
   void advance(Context& of, Leap leap, std::int64_t steps) {
@@ -146,6 +172,7 @@ class WalkStage final : public Stage {
       return walking_.push_back(i);
     }
     of.slope = word;
+    if (of.known == of.k) return through_air(i);
     sampled_.push_back(i);
   }
 
@@ -156,21 +183,28 @@ class WalkStage final : public Stage {
                on_wires<32>(of.walker.at)};
     faults_.asked(of, request);
     ++counts_.samples;
+    ++asked_;
   }
 
   void decide(const LevelToken& token) {
     const int i = token.request.context;
     Context& of = at(i);
+    --asked_;
     bool matter = token.level >= 0;
     faults_.judged(of, matter);
     if (matter) {
       *hit_->put() = {token.request.context, of.ray,  of.k, of.walker.at, token.level,
-                      of.known == of.k - 1,  of.level};
+                      of.known == of.k - 1,  of.level, of.span};
       return;
     }
     of.known = of.k;
     of.level = token.level;
-    const std::int64_t rise = steps_to_rise(token.level, of.slope, registers_.camera.spacing);
+    through_air(i);
+  }
+  // From a sample whose level is known.
+  void through_air(int i) {
+    Context& of = at(i);
+    const std::int64_t rise = steps_to_rise(of.level, of.slope, registers_.camera.spacing);
     advance(of, Leap::through_air, std::min(rise, steps_out(of.walker, 1)));
     walking_.push_back(i);
   }
@@ -181,12 +215,14 @@ class WalkStage final : public Stage {
   std::vector<Context> rays_;
   std::vector<int> free_;
   std::deque<int> walking_, sampled_, lost_;
+  int asked_ = 0;  // samples under way
   WalkCounts counts_;
   Fifo<GroundedRay>* in_ = nullptr;
   Fifo<LevelRequest>* ask_ = nullptr;
   Fifo<LevelToken>* answer_ = nullptr;
   Fifo<HitToken>* hit_ = nullptr;
   Fifo<MetToken>* missed_ = nullptr;
+  Fifo<OnwardToken>* onward_ = nullptr;
 };
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -95,7 +95,7 @@ class Painter {
     return eye;
   }
   picture::Color clear_light(const Met& met) const {
-    ClearPainter<Scene> along(scene_, met.ray, met.ground, spacing_, view_.halvings);
+    ClearPainter<Scene, Watch> along(scene_, met.ray, met.ground, spacing_, view_.halvings, watch_);
     if (along.follow(met.matter)) return pressed(along.sum(ground_color(met)));
     const picture::Color share = along.passed();
     picture::Color light = pressed(along.sum({}));

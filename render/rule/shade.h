@@ -207,11 +207,15 @@ VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector out, Vecto
 }
 
 // What clear matter scatters at a place in it.
-VOXMELT_RULE Color inner_color(const Paint& paint, const Light& light, Matter matter) {
+template <class Watch = Silent>
+VOXMELT_RULE Color inner_color(const Paint& paint, const Light& light, Matter matter, Watch watch = {}) {
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);
-  const Color diffuse = mixed(mixed(paint.solid.diffuse, paint.liquid.diffuse, liquid),
-                              paint.obstacle.diffuse, obstacle_share(matter));
+  const std::int32_t obstacle = obstacle_share(matter);
+  const Color diffuse =
+      mixed(mixed(paint.solid.diffuse, paint.liquid.diffuse, liquid), paint.obstacle.diffuse, obstacle);
   Color of = inner_light(paint.lamp, paint.from_below, paint.from_above, light);
+  watch(Stage::material, "l", liquid), watch(Stage::material, "w", obstacle);
+  watch(Stage::material, "diffuse", diffuse), watch(Stage::clear, "inner", of);
   for (std::size_t c = 0; c < 3; ++c) of[c] = (of[c] * diffuse[c]) >> kLightBits;
   return of;
 }

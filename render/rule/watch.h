@@ -30,6 +30,7 @@ enum class Stage : std::uint8_t {
   material,  // 6
   mirror,    // 6
   colour,    // 6
+  clear,     // docs/picture-translucent.md
 };
 
 // Nobody listens.

@@ -421,7 +421,7 @@ kappa = 20
         for row in rows:
             name = row.split()[0]
             found = 0
-            for scene, *more in (["proving_ground"], ["lava", "--from", 40]):
+            for scene, *more in (["proving_ground"], ["lava", "--from", 40], ["ice", "--from", 40]):
                 result = voxmelt("verify", scene, *more, "--picture", "--size", "32x32", "--plant", name,
                                  "--set", "hw.pipes=2", "--set", "hw.stall_seed=1", "--report", "p.json", cwd=self.folder)
                 if result.returncode == 2:

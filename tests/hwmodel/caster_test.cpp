@@ -52,6 +52,33 @@ TEST(Caster, HostilePictures) {
   }
 }
 
+// Through clear matter: the bytes, and every number of every ray.
+TEST(Caster, HostileClearPictures) {
+  std::int64_t events = 0, rays = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    test::HostilePicture picture = test::hostile_clear_picture(seed, 3000);
+    worlds::Random random(seed + 7900);
+    PictureOptions options;
+    options.configuration = random_configuration(random);
+    picture.camera.width = picture.camera.height = 12 + static_cast<int>(seed % 9);
+    if (seed % 5 == 0) {  // with a poor machine it would take too long
+      picture.camera.width = picture.camera.height = 7;
+    } else {
+      options.configuration.levels = {16, 4, 8, 64};
+      options.configuration.rays = random.any({17, 64});
+      picture.setting = seed % 5 == 1 ? render::Setting::normal : render::Setting::fast;
+    }
+    const PictureReport report = verify_picture(
+        {picture.volume, picture.look, picture.light, picture.terrain, picture.camera, picture.setting},
+        options);
+    ASSERT_TRUE(report.good()) << "seed " << seed << ": " << text_of(report) << '\n' << description(picture);
+    rays += report.rays;
+    for (const StageAccount& stage : report.stages)
+      if (stage.name == "passed") events += stage.account.busy;
+  }
+  EXPECT_GT(events, 3 * rays) << "hardly any ray goes through matter";
+}
+
 // The accounts of all stages sum up (verify_picture throws otherwise), warm caches change no byte, and in the
 // second frame lines are still there.
 TEST(Caster, WarmCachesDrawTheSame) {

@@ -239,7 +239,7 @@ TEST(RaycastShade, TheFourTermsOfAColourByHand) {
   mirrored.free = 2048;
   mirrored.around = {4096, 4096, 0};
   EXPECT_EQ(matter_color(arriving, mixture, mirrored), (Rgb{5875, 1374, 405}));
-  EXPECT_EQ(ground_color(arriving, {100, 100, 100}), (Rgb{200, 0, 0}));
+  EXPECT_EQ(scattered_color(arriving, {100, 100, 100}), (Rgb{200, 0, 0}));
 }
 
 TEST(RaycastShade, SmoothAndItsQuotient) {
