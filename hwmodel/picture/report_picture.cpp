@@ -36,6 +36,14 @@ std::string table_of(const PictureReport& report, const Configuration& c) {
   text += fmt::format("memory: {} reads, {} bytes read, {} written, bus busy {:.1f} %; {} bytes stored\n",
                       report.memory.reads, report.memory.read_bytes, report.memory.written_bytes,
                       100 * ratio(report.memory.bus_cycles, report.all_cycles), report.memory_bytes);
+  for (const PassCycles& pass : report.passes) {
+    const char* name = pass.second ? "second" : "first";
+    if (pass.predicted < 0)
+      text += fmt::format("{} pass: {} cycles\n", name, pass.cycles);
+    else
+      text += fmt::format("{} pass: {} cycles, predicted {} ({:+.2f} %)\n", name, pass.cycles, pass.predicted,
+                          100 * pass.error());
+  }
   text += fmt::format("the last frame: {} cycles, {:.1f} frames a second at 200 MHz\n", report.end.cycles,
                       2e8 / static_cast<double>(std::max<std::int64_t>(report.end.cycles, 1)));
   text +=
@@ -55,6 +63,7 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
   json["configuration"] = {{"pipes", c.pipes},
                            {"rays", c.rays},
                            {"walkers", c.walkers},
+                           {"searchers", c.searchers},
                            {"fifo_depth", c.fifo_depth},
                            {"stall_seed", c.stall_seed},
                            {"tiles", c.tiles},
@@ -68,6 +77,11 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                            {"ground", cache_shape(c.ground)}};
   json["cycles"] = report.all_cycles;
   json["cycles_of_last_frame"] = report.end.cycles;
+  for (const PassCycles& pass : report.passes) {
+    Json of{{"second", pass.second}, {"cycles", pass.cycles}};
+    if (pass.predicted >= 0) of["predicted"] = pass.predicted, of["error"] = pass.error();
+    json["passes"].push_back(of);
+  }
   json["compared_numbers"] = report.compared;
   json["different_pixels"] = report.different_bytes;
   json["rays"] = report.rays;

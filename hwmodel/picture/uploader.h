@@ -36,7 +36,8 @@ struct UploadReport {
   std::array<std::vector<std::int64_t>, kSentVolumes> lines;  // caches must forget them
   std::array<std::int64_t, kSentVolumes> bytes{};
   std::array<std::int64_t, kSentVolumes> other_bytes{};  // of lines that were others
-  std::int64_t slots = 0, skip_words = 0;                // register words: 32 bits, 16 bits
+  // Register words: 32 bits, 16 bits; a block of ground has two of 32.
+  std::int64_t slots = 0, skip_words = 0, ground_words = 0;
   std::int64_t words = 0, bursts = 0, cycles = 0;
   Account account;
 };

@@ -108,6 +108,7 @@ PictureReport verify_picture(const PictureInput& input, const PictureOptions& op
   RayCaster caster(registers, memory, c,
                    options.fault == Fault::none ? PipeMaker(make_pipe) : planted_pipes(plan));
   caster.poll(options.poll);
+  caster.predict(options.predict);
   Checker checker(expectation, caster, data.width, data.height);
   if (options.compare) caster.watch(checker.watchers());
 
@@ -119,11 +120,13 @@ PictureReport verify_picture(const PictureInput& input, const PictureOptions& op
     checker.begin_pass(1, 0, memory.frame);
     report.end = caster.draw_first();
     report.all_cycles += report.end.cycles;
+    report.passes.push_back({false, report.end.cycles, report.end.predicted});
     if (fast || checker.difference() || !report.end.complete) continue;
     checker.begin_pass(samples, most, memory.frame + frame_bytes(data.width, data.height));
     const FrameEnd second = caster.draw_again(samples, most);
     report.all_cycles += second.cycles;
-    report.end = {report.end.cycles + second.cycles, second.complete, second.hangs};
+    report.passes.push_back({true, second.cycles, second.predicted});
+    report.end = {report.end.cycles + second.cycles, -1, second.complete, second.hangs};
   }
   report.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   report.difference = checker.difference();

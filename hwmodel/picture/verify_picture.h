@@ -28,10 +28,20 @@ struct PictureInput {
   render::Setting setting;
 };
 
+// A pass of a frame.
+struct PassCycles {
+  bool second = false;
+  std::int64_t cycles = 0, predicted = -1;  // -1: it stalled at random
+  double error() const {                    // of the prediction, in parts of the cycles
+    return static_cast<double>(predicted - cycles) / static_cast<double>(cycles);
+  }
+};
+
 struct PictureOptions {
   Configuration configuration;
   Fault fault = Fault::none;
   bool compare = true;  // behind every stage; the bytes are always compared
+  bool predict = true;  // forecast the cycles of each pass
   int frames = 1;       // the same one again and again: later ones find the caches warm
   std::function<void()> poll;
 };
@@ -62,6 +72,7 @@ struct PictureReport {
   std::vector<CacheAccount> caches;
   std::int64_t memory_bytes = 0;
   std::int64_t all_cycles = 0;  // of all frames
+  std::vector<PassCycles> passes;
   render::Image image;
   // At the stage, pixel and sample that the fault left wrong; what got lost there is found as a hang.
   bool found_where_planted() const;

@@ -16,6 +16,7 @@ struct Configuration {
   int pipes = 1;                 // W
   int rays = 64;                 // under way in the walk of a pipe
   int walkers = 2;               // steps through air in a cycle of a pipe
+  int searchers = 4;             // steps over blocks of ground in a cycle of a pipe
   int fifo_depth = 4;            // tokens, of every channel
   std::uint64_t stall_seed = 0;  // 0: no stalls
   int tiles = 4;                 // tile buffers of a pipe

@@ -94,17 +94,6 @@ inline Face face_of(const Registers& registers, Vec outside) {
   return outside.y < 0 ? Face::under : Face::top;
 }
 
-// By how much a ray comes nearer to the ground per sample at most, in 2^-32 cells; 0 or less: never.
-inline std::int64_t approach_of(const Registers& registers, const Ray& ray) {
-  const Vec& slopes = registers.ground.slopes;
-  return magnitude(ray.step.x) * slopes.x + magnitude(ray.step.z) * slopes.z - 4096 * ray.step.y;
-}
-// What covers the roundings of heights and positions, in the same unit.
-inline std::int64_t margin_of(const Registers& registers) {
-  const Vec& slopes = registers.ground.slopes;
-  return ((slopes.x + slopes.z) << 13) + (std::int64_t{1} << 23);
-}
-
 // The upper edges are rounded.
 inline std::int64_t rim(std::int64_t p, std::int64_t cells) {
   const std::int64_t half = kCell / 2;

@@ -1,6 +1,7 @@
-// Where rays meet the ground (docs/picture-ground.md, section 4). Many rays are under way; each looks at one
-// height after the other. A step is a quarter of a cell at most, so the nine columns around it serve all of
-// its eight halvings: a row of eight units, which take a ray a cycle. Without ground the stage hands rays on.
+// Where rays meet the ground (docs/picture-ground.md, section 4). Many rays are under way. In each cycle some
+// of them take a step over blocks that they pass above, and one looks at its height. A step is a quarter of a
+// cell at most, so the nine columns around it serve all of its eight halvings: a row of eight units, which take
+// a ray a cycle. Without ground the stage hands rays on.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,9 @@
 
 #include "hwmodel/channel/fifo.h"
 #include "hwmodel/raycast/ground.h"
+#include "hwmodel/raycast/ground_blocks.h"
 #include "hwmodel/raycast/no_faults.h"
+#include "hwmodel/raycast/pass_counts.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/stage.h"
 #include "hwmodel/raycast/tokens.h"
@@ -22,22 +25,29 @@ namespace voxmelt::hwmodel::raycast {
 template <class Faults = NoFaults>
 class GroundStage final : public Stage {
  public:
-  GroundStage(const Registers& registers, int rays, Faults faults = {})
-      : Stage("ground"), registers_(registers), faults_(faults), rays_(static_cast<std::size_t>(rays)) {
+  GroundStage(const Registers& registers, int rays, int searchers, Faults faults = {})
+      : Stage("ground"),
+        registers_(registers),
+        faults_(faults),
+        searchers_(searchers),
+        rays_(static_cast<std::size_t>(rays)) {
     for (int i = rays - 1; i >= 0; --i) free_.push_back(i);
   }
   void connect(Fifo<RayToken>& in, Fifo<ClampedRequest>& ask, Fifo<ColumnGather::Out>& answer,
                Fifo<GroundedRay>& out) {
     in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
   }
+  void count(PipeCounts* counts) { counts_ = counts; }
 
  private:
   struct Search {
     GroundedRay ray;
+    Searcher searcher;
     Parts parts;
     std::int64_t part = 0;                 // that is looked at
     std::int64_t outside = 0, inside = 0;  // of the bisection
     bool bisects = false;
+    int steps = 0;  // over blocks, since the last look
   };
   Search& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
 
@@ -52,6 +62,7 @@ class GroundStage final : public Stage {
       if (out_->ready()) {
         GroundedRay& ray = *out_->put();
         ray = at(done_.front()).ray;
+        if (counts_ != nullptr) counts_->steps_before(ray.id, Asked::ground_end, at(done_.front()).steps);
         faults_.grounded(ray);
         free_.push_back(done_.front());
         done_.pop_front();
@@ -59,6 +70,13 @@ class GroundStage final : public Stage {
       } else {
         blocked = true;
       }
+    }
+    const int passing = std::min(searchers_, static_cast<int>(passing_.size()));
+    for (int i = 0; i < passing; ++i) {
+      const int ray = passing_.front();
+      passing_.pop_front();
+      pass(ray);
+      moved = true;
     }
     if (!ready_.empty()) {
       if (ask_->ready()) {
@@ -87,7 +105,24 @@ class GroundStage final : public Stage {
     of.ray.ray = token.ray;
     if (registers_.ground.any) of.parts = parts_of(registers_, token.ray);
     of.part = of.parts.first;
-    (of.parts.first > of.parts.last ? done_ : ready_).push_back(i);
+    of.searcher = searcher_of(token.ray);
+    (of.parts.first > of.parts.last ? done_ : passing_).push_back(i);
+  }
+
+  // A step over the blocks below, or none: then the ray must look at columns.
+  void pass(int i) {
+    Search& of = at(i);
+    ++of.steps;
+    const auto samples = samples_above(registers_.ground.blocks, of.searcher, at_part(of.ray.ray, of.part));
+    if (!samples) return ready_.push_back(i);
+    go_on(i, *samples);
+  }
+  // To the sample behind those that are left out.
+  void go_on(int i, std::int64_t samples) {
+    Search& of = at(i);
+    if (of.part == of.parts.last) return done_.push_back(i);
+    of.part = std::min(((of.part >> 8) + 1 + samples) << 8, of.parts.last);
+    passing_.push_back(i);
   }
 
   // Asks for the height at the part. A middle outside of the slab needs none.
@@ -101,6 +136,10 @@ class GroundStage final : public Stage {
     ask.asker = 0;
     ask.context = static_cast<std::int16_t>(i);
     ask.side = 2;
+    ask.id = of.ray.id;
+    ask.kind = Asked::look;
+    if (counts_ != nullptr) counts_->steps_before(of.ray.id, Asked::look, of.steps);
+    of.steps = 0;
     if (!of.bisects) return;
     const Vec a = at_part(of.ray.ray, of.outside), b = at_part(of.ray.ray, of.inside);
     ask.at = {spot_of(std::min(a.x, b.x)), {}, spot_of(std::min(a.z, b.z))};
@@ -125,16 +164,7 @@ class GroundStage final : public Stage {
       of.bisects = true;
       return ready_.push_back(i);
     }
-    if (of.part == of.parts.last) return done_.push_back(i);
-    of.part = std::min((((of.part >> 8) + 1 + skipped(of, above)) << 8), of.parts.last);
-    ready_.push_back(i);
-  }
-  // Samples behind a place so far above the ground that lie outside as well.
-  std::int64_t skipped(const Search& of, std::int64_t above) const {
-    const std::int64_t nearer = approach_of(registers_, of.ray.ray);
-    const std::int64_t left = (above << 20) - margin_of(registers_);
-    if (nearer <= 0) return left > 0 ? std::int64_t{1} << 26 : 0;
-    return left > 0 ? steps_in(left >> 12, inverse_of((nearer >> 12) + 1)) : 0;
+    go_on(i, samples_over_slopes(registers_.ground.blocks, of.searcher, at_part(of.ray.ray, of.part), above));
   }
   void bisect(int i, const NineColumns& columns) {
     Search& of = at(i);
@@ -154,9 +184,11 @@ class GroundStage final : public Stage {
 
   const Registers& registers_;
   [[no_unique_address]] Faults faults_;
+  int searchers_;
   std::vector<Search> rays_;
   std::vector<int> free_;
-  std::deque<int> ready_, done_;
+  std::deque<int> passing_, ready_, done_;
+  PipeCounts* counts_ = nullptr;
   Fifo<RayToken>* in_ = nullptr;
   Fifo<ClampedRequest>* ask_ = nullptr;
   Fifo<ColumnGather::Out>* answer_ = nullptr;

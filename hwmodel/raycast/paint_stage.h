@@ -28,6 +28,7 @@ class PaintStage final : public AttachStage<ClampedRequest, ColumnGather::Out> {
     ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1,
                  static_cast<std::int32_t>(registers_.cells.z)};
     ask.asker = 1;
+    ask.kind = Asked::paint;
     ask.side = 3;
     return ask;
   }
@@ -74,6 +75,7 @@ class TextureStage final : public AttachStage<ClampedRequest, TexelGather::Out> 
     ask.at = {spot_of(of.position.x << q), {}, spot_of(of.position.z << q)};
     ask.count = {static_cast<std::int32_t>(registers_.cells.x << q), 1,
                  static_cast<std::int32_t>(registers_.cells.z << q)};
+    ask.kind = Asked::texel;
     return ask;
   }
   void take(Surface& of, int, const TexelGather::Out& answer) override {

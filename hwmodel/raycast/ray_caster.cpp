@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hwmodel/process/process.h"
+#include "hwmodel/raycast/forecast.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
@@ -122,6 +123,14 @@ struct RayCaster::Machine {
     idle = 0;
     memory_block.begin();
 
+    ForecastInput counted;
+    if (predicts) {
+      counted.pipes.resize(pipes.size());
+      counted.second = second;
+      counted.samples = samples;
+    }
+    for (std::size_t i = 0; i < pipes.size(); ++i) pipes[i]->count(predicts ? &counted.pipes[i] : nullptr);
+
     context.enter();
     shared.first_cycle = ran ? Shared::now() + 1 : 0;
     ran = true;
@@ -129,10 +138,17 @@ struct RayCaster::Machine {
     context.leave();
     for (const auto& pipe : pipes) pipe->end_pass();
     if (shared.error) std::rethrow_exception(std::exchange(shared.error, nullptr));
-    return {shared.last_cycle + 1, shared.complete, shared.hangs};
+    FrameEnd end{shared.last_cycle + 1, -1, shared.complete, shared.hangs};
+    if (predicts && end.complete) {
+      const auto caches = pipes.front()->caches();
+      for (std::size_t i = 0; i < caches.size(); ++i) counted.line_bytes[i] = caches[i].line_bytes;
+      end.predicted = forecast(counted, configuration);
+    }
+    return end;
   }
 
   std::function<void()> poll;
+  bool predicts = false;
   std::int64_t moves_before = 0, idle = 0, bytes_at_end = 0;
   bool ran = false;
   Context context;  // first: everything of SystemC lives in it
@@ -163,6 +179,8 @@ void RayCaster::watch(const Watchers& watchers) {
 }
 void RayCaster::stop() { machine_->shared.end(); }
 void RayCaster::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
+
+void RayCaster::predict(bool wanted) { machine_->predicts = wanted; }
 
 FrameEnd RayCaster::draw_first() { return machine_->run_pass(false, 1, 0); }
 FrameEnd RayCaster::draw_again(int samples, int most) { return machine_->run_pass(true, samples, most); }

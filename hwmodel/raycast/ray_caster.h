@@ -20,6 +20,7 @@ namespace voxmelt::hwmodel::raycast {
 
 struct FrameEnd {
   std::int64_t cycles = 0;
+  std::int64_t predicted = -1;  // of this pass (forecast.h); -1: not known
   bool complete = false, hangs = false;
 };
 
@@ -35,6 +36,7 @@ class RayCaster {
   void watch(const Watchers& watchers);
   void stop();  // after the present cycle
   void poll(std::function<void()> poll);
+  void predict(bool wanted);  // counts what each ray costs, and forecasts each pass
 
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {

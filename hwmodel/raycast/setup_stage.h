@@ -6,6 +6,7 @@
 
 #include "hwmodel/channel/fifo.h"
 #include "hwmodel/raycast/no_faults.h"
+#include "hwmodel/raycast/pass_counts.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/stage.h"
 #include "hwmodel/raycast/tokens.h"
@@ -18,6 +19,7 @@ class SetupStage final : public Stage {
   explicit SetupStage(const Registers& registers, Faults faults = {})
       : Stage("set-up"), registers_(registers), faults_(faults) {}
   void connect(Fifo<TileOrder>& in, Fifo<RayToken>& out) { in_ = &in, out_ = &out; }
+  void count(PipeCounts* counts) { counts_ = counts; }
 
  private:
   Did cycle() override {
@@ -34,6 +36,7 @@ class SetupStage final : public Stage {
     const Sub sub = sub_of(tile.samples, sample_);
     RayToken& token = *out_->put();
     token.id = {x, y, static_cast<std::int16_t>(sample_), static_cast<std::int16_t>(tile.buffer)};
+    if (counts_ != nullptr) token.id.number = counts_->begin_ray();
     token.ray = ray_of(registers_.camera, 64 * std::int64_t{x} + sub.across, 64 * std::int64_t{y} + sub.down);
     faults_.set_up(registers_.camera, tile.samples, token);
     if (++sample_ == tile.samples) {
@@ -49,6 +52,7 @@ class SetupStage final : public Stage {
 
   const Registers& registers_;
   [[no_unique_address]] Faults faults_;
+  PipeCounts* counts_ = nullptr;
   Fifo<TileOrder>* in_ = nullptr;
   Fifo<RayToken>* out_ = nullptr;
   bool open_ = false;

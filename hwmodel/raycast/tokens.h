@@ -9,15 +9,10 @@
 #include "hwmodel/raycast/gather.h"
 #include "hwmodel/raycast/ground.h"
 #include "hwmodel/raycast/ray.h"
+#include "hwmodel/raycast/ray_id.h"
 #include "hwmodel/raycast/shade.h"
 
 namespace voxmelt::hwmodel::raycast {
-
-// A ray goes through sample `sample` of a pixel, whose bytes come together in a buffer of its tile.
-struct RayId {
-  std::int32_t x = 0, y = 0;
-  std::int16_t sample = 0, buffer = 0;
-};
 
 // A tile of the picture that a pipe is to draw. The first pass draws all of its pixels with one sample, the
 // second one those that differ from their neighbours, with more.
@@ -73,6 +68,9 @@ struct LevelRequest {
   Vec at;              // in the lattice
 
   std::size_t kind_index() const { return asker == Asker::normal ? 1 : 0; }
+  Asked asked() const {
+    return asker == Asker::walk ? Asked::sample : asker == Asker::crossing ? Asked::crossing : Asked::normal;
+  }
   Places places() const {
     Places of;
     const auto place = [](std::int64_t q) { return static_cast<std::int32_t>(q >> kCellBits); };
@@ -104,7 +102,9 @@ struct LevelToken {
 // Bytes of matter around a position.
 struct MatterRequest {
   Spots at;
+  RayId id;
   std::size_t kind_index() const { return 0; }
+  Asked asked() const { return Asked::matter; }
   Places places() const {
     const auto two = [](const Spot& s) {
       const auto low = static_cast<std::int32_t>(s.cell + kLatticeBorder);
@@ -123,8 +123,11 @@ struct ClampedRequest {
   std::array<std::int32_t, 3> count{1, 1, 1};
   std::int16_t asker = 0, context = 0;
   int side = 2;
+  RayId id;
+  Asked kind = Asked::light;
 
   std::size_t kind_index() const { return static_cast<std::size_t>(asker); }
+  Asked asked() const { return kind; }
   Places places() const {
     const auto along = [](const Spot& s, std::int32_t n) {
       const auto inside = [&](std::int64_t i) {
