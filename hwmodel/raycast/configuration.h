@@ -7,7 +7,7 @@ namespace voxmelt::hwmodel::raycast {
 
 struct CacheShape {
   int sets = 16, ways = 4;
-  int spare = 8;   // lines more than tags: as many misses may be under way
+  int spare = 32;  // lines more than tags: as many misses may be under way
   int queue = 64;  // requests between tag and data: what they wait hides the memory
   int lines() const { return sets * ways; }
 };

@@ -79,7 +79,7 @@ class QueuedPipe {
     fetch(now, kMatter, matter_asks_, matter_answers_);
     texture_.cycle(now, courses_, to_texture_, texel_asks_, texel_answers_, to_matter_);
     fetch(now, kTexels, texel_asks_, texel_answers_);
-    paint_.cycle(now, courses_, to_paint_, paint_asks_, paint_answers_, to_texture_);
+    hand_on(now, to_paint_, to_texture_);
     normal_.cycle(now, courses_, to_normal_, normal_asks_, normal_answers_, to_paint_);
     met(now);
     crossing(now);
@@ -91,11 +91,7 @@ class QueuedPipe {
     first_of(now, {&normal_asks_, &crossing_asks_, &walk_asks_}, level_asks_);
     walk(now);
     ground(now);
-    fetches_[kColumns]->read(now, [&](const Request& of) -> Line<Request>& {
-      return of.counted->kind == Asked::look ? look_answers_ : paint_answers_;
-    });
-    fetches_[kColumns]->look_up(now, column_asks_);
-    first_of(now, {&paint_asks_, &look_asks_}, column_asks_);
+    fetch(now, kColumns, look_asks_, look_answers_);
     set_up(now);
     tile(now);
   }
@@ -314,10 +310,9 @@ class QueuedPipe {
       pressing_{depth_}, to_pixel_{depth_}, to_write_{depth_};
   Line<Request> walk_asks_{depth_}, crossing_asks_{depth_}, normal_asks_{depth_}, level_asks_{depth_},
       levels_{depth_}, normal_answers_{depth_}, walk_answers_{depth_}, crossing_answers_{depth_},
-      look_asks_{depth_}, paint_asks_{depth_}, column_asks_{depth_}, look_answers_{depth_},
-      paint_answers_{depth_}, texel_asks_{depth_}, texel_answers_{depth_}, matter_asks_{depth_},
+      look_asks_{depth_}, look_answers_{depth_}, texel_asks_{depth_}, texel_answers_{depth_}, matter_asks_{depth_},
       matter_answers_{depth_}, light_asks_{depth_}, light_answers_{depth_};
-  Attach normal_{Asked::normal, kWaiting}, paint_{Asked::paint, kWaiting}, texture_{Asked::texel, kWaiting},
+  Attach normal_{Asked::normal, kWaiting}, texture_{Asked::texel, kWaiting},
       matter_{Asked::matter, kWaiting}, light_{Asked::light, kWaiting};
 
  public:

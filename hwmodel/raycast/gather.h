@@ -1,7 +1,7 @@
-// Fetches the words of a small box of places through a cache: two or three places along each axis. Of a
+// Fetches the words of a small box of places through a cache: two to four places along an axis. Of a
 // volume, bank (x + 2 y + 4 z) mod 8 holds a place, so that the eight words of two places a side lie in eight
 // banks, and the 27 of three in no bank more than five times. Columns have 16 banks, (x mod 4) + 4 (z mod 4),
-// and nine of them come at once. Two stages: tags, and behind a queue data.
+// and four by four of them come at once. Two stages: tags, and behind a queue data.
 #pragma once
 
 #include <array>
@@ -39,9 +39,10 @@ struct LineReply {
 
 // The places that a request reads, and the one by which a brick with its apron is found.
 struct Places {
-  std::array<std::int32_t, 3> x{}, y{}, z{};
-  int side = 2;
+  std::array<std::int32_t, 4> x{}, y{}, z{};
+  int side = 2;  // places along x and z
   std::array<std::int32_t, 3> low{};
+  int high = 2;  // along y
 };
 
 template <class Request, class Word, std::size_t kMost>
@@ -132,20 +133,20 @@ class Gather final : public LineClient {
     const Places& p = entry.places;
     if (layout_.apron)
       return layout_.line_at(p.low[0] >> kBrickBits, p.low[1] >> kBrickBits, p.low[2] >> kBrickBits);
-    const auto last = static_cast<std::size_t>(p.side - 1);
+    const auto last = static_cast<std::size_t>(p.side - 1), top = static_cast<std::size_t>(p.high - 1);
     const int ix = which % entry.lines[0], iy = which / entry.lines[0] % entry.lines[1],
               iz = which / entry.lines[0] / entry.lines[1];
     return layout_.line_at(p.x[ix == 0 ? 0 : last] >> layout_.bits[0],
-                           p.y[iy == 0 ? 0 : last] >> layout_.bits[1],
+                           p.y[iy == 0 ? 0 : top] >> layout_.bits[1],
                            p.z[iz == 0 ? 0 : last] >> layout_.bits[2]);
   }
   // Line i of the entry is at `bytes_of(i)`; null: nothing is stored there.
   template <class BytesOf>
   void read_words(const Entry& entry, const BytesOf& bytes_of, Word* to) const {
     const Places& p = entry.places;
-    const auto side = static_cast<std::size_t>(p.side);
+    const auto side = static_cast<std::size_t>(p.side), high = static_cast<std::size_t>(p.high);
     for (std::size_t z = 0; z < side; ++z)
-      for (std::size_t y = 0; y < side; ++y)
+      for (std::size_t y = 0; y < high; ++y)
         for (std::size_t x = 0; x < side; ++x, ++to) {
           std::size_t which = 0;
           int offset = 0;
@@ -153,7 +154,7 @@ class Gather final : public LineClient {
             offset = layout_.apron_offset(p.x[x], p.y[y], p.z[z], p.low[0] >> kBrickBits,
                                           p.low[1] >> kBrickBits, p.low[2] >> kBrickBits);
           } else {
-            const auto beyond = [&](const std::array<std::int32_t, 3>& along, std::size_t i,
+            const auto beyond = [&](const std::array<std::int32_t, 4>& along, std::size_t i,
                                     std::size_t axis) {
               return (along[i] >> layout_.bits[axis]) == (along[0] >> layout_.bits[axis]) ? 0u : 1u;
             };
@@ -233,9 +234,9 @@ class Gather final : public LineClient {
       entry.lines = {1, 1, 1};
       return;
     }
-    const auto last = static_cast<std::size_t>(p.side - 1);
-    const auto many = [&](const std::array<std::int32_t, 3>& along, int axis) {
-      const int bits = layout_.bits[static_cast<std::size_t>(axis)];
+    const auto many = [&](const std::array<std::int32_t, 4>& along, std::size_t axis) {
+      const int bits = layout_.bits[axis];
+      const auto last = static_cast<std::size_t>((axis == 1 ? p.high : p.side) - 1);
       return static_cast<std::uint8_t>((along[0] >> bits) == (along[last] >> bits) ? 1 : 2);
     };
     entry.lines = {many(p.x, 0), many(p.y, 1), many(p.z, 2)};

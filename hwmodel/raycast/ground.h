@@ -30,6 +30,7 @@ struct GroundHit {
   std::int64_t part = 0;  // 1/256 of a step
   Vec position;
   Face face = Face::none;
+  Vec normal;  // of the top
 };
 
 // Between four numbers of columns: along x, then along z.
@@ -38,18 +39,18 @@ std::int64_t between_columns(const Value& value, Spot x, Spot z) {
   return blended(blended(value(0), value(1), x.weight), blended(value(2), value(3), x.weight), z.weight);
 }
 
-// The nine columns from a cell on along x and z: with them, the height of any place up to half a cell around.
-struct NineColumns {
+// The sixteen columns from a cell on along x and z: with them, the height of any place on a step of a quarter
+// of a cell, and half a cell around.
+struct NearColumns {
+  static constexpr std::size_t kSide = 4;
   std::int64_t x = 0, z = 0;  // the first cell
-  std::array<Column, 9> of{};
+  std::array<Column, kSide * kSide> of{};
 
   template <class Value>
   SInt<24> height(Value value, std::int64_t px, std::int64_t pz) const {
     const Spot sx = spot_of(px), sz = spot_of(pz);
-    const auto first = static_cast<std::size_t>(3 * (sz.cell - z) + (sx.cell - x));
-    const auto number = [&](std::size_t n) {
-      return std::int64_t{of[first + (n & 1) + 3 * (n >> 1)].*value};
-    };
+    const auto first = kSide * static_cast<std::size_t>(sz.cell - z) + static_cast<std::size_t>(sx.cell - x);
+    const auto number = [&](std::size_t n) { return std::int64_t{of[first + (n & 1) + kSide * (n >> 1)].*value}; };
     return between_columns(number, sx, sz);
   }
 };

@@ -1,7 +1,7 @@
 // Where rays meet the ground (docs/picture-ground.md, section 4). Many rays are under way. In each cycle some
-// of them take a step over blocks that they pass above, and one looks at its height. A step is a quarter of a
-// cell at most, so the nine columns around it serve all of its eight halvings: a row of eight units, which take
-// a ray a cycle. Without ground the stage hands rays on.
+// of them take a step over blocks that they pass above, and one looks at sixteen columns. A step is a quarter
+// of a cell at most, so they serve its height, its eight halvings by a row of eight units, and the normal where
+// it ends. Without ground the stage hands rays on.
 #pragma once
 
 #include <algorithm>
@@ -44,9 +44,7 @@ class GroundStage final : public Stage {
     GroundedRay ray;
     Searcher searcher;
     Parts parts;
-    std::int64_t part = 0;                 // that is looked at
-    std::int64_t outside = 0, inside = 0;  // of the bisection
-    bool bisects = false;
+    std::int64_t part = 0;  // that is looked at
     int steps = 0;  // over blocks, since the last look
   };
   Search& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
@@ -125,61 +123,61 @@ class GroundStage final : public Stage {
     passing_.push_back(i);
   }
 
-  // Asks for the height at the part. A middle outside of the slab needs none.
+  // A part out of the ground, before this one: the bisection would begin there.
+  std::int64_t part_before(const Search& of) const {
+    return of.part == of.parts.first ? of.part - 1 : std::max(of.parts.first, ((of.part - 1) >> 8) << 8);
+  }
+  // Asks for all columns that the step up to the part may need.
   void look(int i) {
     Search& of = at(i);
-    const Vec p = at_part(of.ray.ray, of.part);
+    const Vec a = at_part(of.ray.ray, part_before(of)), b = at_part(of.ray.ray, of.part);
     ClampedRequest& ask = *ask_->put();
-    ask.at = {spot_of(p.x), {}, spot_of(p.z)};
+    ask.at = {spot_of(std::min(a.x, b.x) - kCell / 2), {}, spot_of(std::min(a.z, b.z) - kCell / 2)};
     ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1,
                  static_cast<std::int32_t>(registers_.cells.z)};
     ask.asker = 0;
     ask.context = static_cast<std::int16_t>(i);
-    ask.side = 2;
+    ask.side = NearColumns::kSide;
     ask.id = of.ray.id;
     ask.kind = Asked::look;
     if (counts_ != nullptr) counts_->steps_before(of.ray.id, Asked::look, of.steps);
     of.steps = 0;
-    if (!of.bisects) return;
-    const Vec a = at_part(of.ray.ray, of.outside), b = at_part(of.ray.ray, of.inside);
-    ask.at = {spot_of(std::min(a.x, b.x)), {}, spot_of(std::min(a.z, b.z))};
-    ask.side = 3;
   }
 
   void decide(int i, const ColumnGather::Out& answer) {
     Search& of = at(i);
+    const NearColumns columns{answer.request.at.x.cell, answer.request.at.z.cell, answer.words};
     const Vec p = at_part(of.ray.ray, of.part);
-    if (of.bisects) return bisect(i, columns_of(answer));
-    // Words 0, 1, 4 and 5: the two columns along x, twice along z.
-    const auto drawn = [&](std::size_t n) { return std::int64_t{answer.words[n < 2 ? n : n + 2].drawn}; };
-    const SInt<24> height = between_columns(drawn, answer.request.at.x, answer.request.at.z);
-    search(i, (p.y >> 8) - height);
+    const std::int64_t above = (p.y >> 8) - columns.height(&Column::drawn, p.x, p.z);
+    if (above < 0) return bisect(i, columns);
+    go_on(i, samples_over_slopes(registers_.ground.blocks, of.searcher, p, above));
   }
-  void search(int i, std::int64_t above) {
+  void bisect(int i, const NearColumns& columns) {
     Search& of = at(i);
-    if (above < 0) {
-      const std::int64_t before = ((of.part - 1) >> 8) << 8;
-      of.outside = of.part == of.parts.first ? of.part - 1 : std::max(of.parts.first, before);
-      of.inside = of.part;
-      of.bisects = true;
-      return ready_.push_back(i);
-    }
-    go_on(i, samples_over_slopes(registers_.ground.blocks, of.searcher, at_part(of.ray.ray, of.part), above));
-  }
-  void bisect(int i, const NineColumns& columns) {
-    Search& of = at(i);
-    while (of.inside - of.outside > 1) {
-      const std::int64_t middle = (of.inside + of.outside) >> 1;
+    std::int64_t outside = part_before(of), inside = of.part;
+    while (inside - outside > 1) {
+      const std::int64_t middle = (inside + outside) >> 1;
       const Vec p = at_part(of.ray.ray, middle);
-      const bool inside = in_slab(registers_, p) && (p.y >> 8) < columns.height(&Column::drawn, p.x, p.z);
-      (inside ? of.inside : of.outside) = middle;
+      const bool in = in_slab(registers_, p) && (p.y >> 8) < columns.height(&Column::drawn, p.x, p.z);
+      (in ? inside : outside) = middle;
     }
     GroundHit& hit = of.ray.ground;
     hit.found = true;
-    hit.part = UInt<36>(of.inside);
-    hit.position = on_wires<31>(at_part(of.ray.ray, of.inside));
-    hit.face = of.inside == 0 ? Face::none : face_of(registers_, at_part(of.ray.ray, of.outside));
+    hit.part = UInt<36>(inside);
+    hit.position = on_wires<31>(at_part(of.ray.ray, inside));
+    hit.face = inside == 0 ? Face::none : face_of(registers_, at_part(of.ray.ray, outside));
+    if (hit.face == Face::top) hit.normal = normal_at(hit.position, columns);
     done_.push_back(i);
+  }
+
+  Vec normal_at(const Vec& p, const NearColumns& columns) const {
+    const auto bare = [&](std::int64_t x, std::int64_t z) {
+      return std::int64_t{columns.height(&Column::bare, x, z)};
+    };
+    constexpr std::int64_t kHalf = kCell / 2;
+    return top_normal(
+        registers_, p,
+        {bare(p.x - kHalf, p.z), bare(p.x + kHalf, p.z), bare(p.x, p.z - kHalf), bare(p.x, p.z + kHalf)});
   }
 
   const Registers& registers_;

@@ -69,7 +69,6 @@ class PipeOf final : public Pipe {
   MetStage<Faults> met_;
   NormalStage<Faults> normal_;
   PaintStage<Faults> paint_;
-  AskStage<ClampedRequest> height_ask_;
   ColumnGather columns_;
   TextureStage<Faults> texture_;
   TexelGather texels_;
@@ -110,8 +109,7 @@ PipeOf<Faults>::PipeOf(const Registers& registers, const FrameRegisters& frame, 
       sample_(faults),
       met_(registers, faults),
       normal_(kWaiting, faults),
-      paint_(registers, kWaiting, faults),
-      height_ask_("ask for heights"),
+      paint_(registers, faults),
       columns_("heights", c.ground, memory.heights, kColumns, Column{}, 1),
       texture_(registers, kWaiting, faults),
       texels_("texels", c.ground, memory.texels, kTexels, Texel{}, 1),
@@ -155,7 +153,6 @@ PipeOf<Faults>::PipeOf(const Registers& registers, const FrameRegisters& frame, 
              &ground_,
              &columns_.data,
              &columns_.tags,
-             &height_ask_,
              &set_up_,
              &tiles_};
 }
@@ -195,11 +192,8 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
   auto& crossed = channel<MetToken>(Channel::crossed, "crossing -> met");
   auto& met = channel<Surface>(Channel::met, "met -> normal");
   auto& normal = channel<Surface>(Channel::normal, "normal -> paint");
-  auto& search_asks = channel<ClampedRequest>(Channel::search_asks, "ground -> ask for heights");
-  auto& paint_asks = channel<ClampedRequest>(Channel::paint_asks, "paint -> ask for heights");
-  auto& height_asks = channel<ClampedRequest>(Channel::height_asks, "ask for heights -> heights");
-  auto& search_heights = channel<ColumnGather::Out>(Channel::search_heights, "heights -> ground");
-  auto& paint_heights = channel<ColumnGather::Out>(Channel::paint_heights, "heights -> paint");
+  auto& height_asks = channel<ClampedRequest>(Channel::height_asks, "ground -> heights");
+  auto& heights = channel<ColumnGather::Out>(Channel::heights, "heights -> ground");
   auto& paint = channel<Surface>(Channel::paint, "paint -> texture");
   auto& texel_asks = channel<ClampedRequest>(Channel::texel_asks, "texture -> texels");
   auto& texels = channel<TexelGather::Out>(Channel::texels, "texels -> texture");
@@ -228,10 +222,9 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
 
   tiles_.connect(tiles, tile_lines, orders);
   set_up_.connect(orders, set_up);
-  ground_.connect(set_up, search_asks, search_heights, ground);
-  height_ask_.connect({&paint_asks, &search_asks}, height_asks);
+  ground_.connect(set_up, height_asks, heights, ground);
   columns_.connect(height_asks, column_lines);
-  columns_.connect_out({&search_heights, &paint_heights});
+  columns_.connect_out({&heights});
   walk_.connect(ground, walk_asks, walk_levels, hits, missed);
   crossing_.connect(hits, crossing_asks, crossing_levels, crossed);
   ask_.connect({&normal_asks, &crossing_asks, &walk_asks}, level_asks);
@@ -240,7 +233,7 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
   sample_.connect(levels, walk_levels, crossing_levels);
   met_.connect(missed, crossed, met);
   normal_.connect(met, normal_asks, normal_levels, normal);
-  paint_.connect(normal, paint_asks, paint_heights, paint);
+  paint_.connect(normal, paint);
   texture_.connect(paint, texel_asks, texels, texture);
   texels_.connect(texel_asks, texel_lines);
   texels_.connect_out({&texels});

@@ -21,7 +21,6 @@ enum class Asked : std::uint8_t {
   hit,  // the same, in matter
   crossing,
   normal,
-  paint,
   texel,
   matter,
   light

@@ -76,16 +76,16 @@ struct LevelRequest {
     const auto place = [](std::int64_t q) { return static_cast<std::int32_t>(q >> kCellBits); };
     of.low = {place(at.x), place(at.y), place(at.z)};
     if (asker == Asker::normal) {
-      of.side = 3;
+      of.side = of.high = 3;
       const auto three = [](std::int64_t q) {
         const auto middle = static_cast<std::int32_t>(middle_place(q));
-        return std::array<std::int32_t, 3>{middle - 1, middle, middle + 1};
+        return std::array<std::int32_t, 4>{middle - 1, middle, middle + 1, 0};
       };
       of.x = three(at.x), of.y = three(at.y), of.z = three(at.z);
     } else {
-      of.x = {of.low[0], of.low[0] + 1, 0};
-      of.y = {of.low[1], of.low[1] + 1, 0};
-      of.z = {of.low[2], of.low[2] + 1, 0};
+      of.x = {of.low[0], of.low[0] + 1, 0, 0};
+      of.y = {of.low[1], of.low[1] + 1, 0, 0};
+      of.z = {of.low[2], of.low[2] + 1, 0, 0};
     }
     return of;
   }
@@ -108,7 +108,7 @@ struct MatterRequest {
   Places places() const {
     const auto two = [](const Spot& s) {
       const auto low = static_cast<std::int32_t>(s.cell + kLatticeBorder);
-      return std::array<std::int32_t, 3>{low, low + 1, 0};
+      return std::array<std::int32_t, 4>{low, low + 1, 0, 0};
     };
     Places of{two(at.x), two(at.y), two(at.z), 2, {}};
     of.low = {of.x[0], of.y[0], of.z[0]};
@@ -133,19 +133,14 @@ struct ClampedRequest {
       const auto inside = [&](std::int64_t i) {
         return static_cast<std::int32_t>(i < 0 ? 0 : i >= n ? n - 1 : i);
       };
-      return std::array<std::int32_t, 3>{inside(s.cell), inside(s.cell + 1), inside(s.cell + 2)};
+      return std::array<std::int32_t, 4>{inside(s.cell), inside(s.cell + 1), inside(s.cell + 2),
+                                         inside(s.cell + 3)};
     };
-    return {along(at.x, count[0]), along(at.y, count[1]), along(at.z, count[2]), side, {}};
+    return {along(at.x, count[0]), along(at.y, count[1]), along(at.z, count[2]), side, {}, side == 4 ? 1 : side};
   }
 };
 using LightGather = Gather<ClampedRequest, LightWord, 8>;
-using ColumnGather = Gather<ClampedRequest, Column, 27>;
-inline NineColumns columns_of(const ColumnGather::Out& answer) {
-  NineColumns of{answer.request.at.x.cell, answer.request.at.z.cell, {}};
-  for (std::size_t z = 0; z < 3; ++z)
-    for (std::size_t x = 0; x < 3; ++x) of.of[3 * z + x] = answer.words[9 * z + x];
-  return of;
-}
+using ColumnGather = Gather<ClampedRequest, Column, 16>;
 using TexelGather = Gather<ClampedRequest, Texel, 8>;
 
 // A surface that a ray meets, or the background, on its way to a colour. Each stage adds what it finds.

@@ -72,20 +72,21 @@ TEST(RaycastGround, AHeightIsBlendedAlongXAndThenZ) {
   EXPECT_EQ(between_columns(value, {0, 0}, {0, 0}), 100);
 }
 
-// Nine columns from (5, -1) on: the four of (6, 0) and half a cell around by weight 128 along x, 64 along z.
-TEST(RaycastGround, NineColumnsHoldAPlaceAndHalfACellAround) {
-  NineColumns of{5, -1, {}};
-  for (std::int32_t i = 0; i < 9; ++i) of.of[static_cast<std::size_t>(i)] = {100 * i * i, -i};
+// Sixteen columns from (5, -1) on: entry 4 z + x has 100 (4 z + x)^2.
+TEST(RaycastGround, SixteenColumnsHoldAPlaceAndHalfACellAround) {
+  NearColumns of{5, -1, {}};
+  for (std::int32_t i = 0; i < 16; ++i) of.of[static_cast<std::size_t>(i)] = {100 * i * i, -i};
   // Position of cell c and weight w: c + 1/2 cells and w 2^12.
   const auto place = [](std::int64_t cell, std::int64_t weight) {
     return cell * kOne + kOne / 2 + (weight << 12);
   };
-  // Entries 4, 5, 7 and 8: 1600 and 2500 are 2050, 4900 and 6400 are 5650; a quarter on 2950.
-  EXPECT_EQ(of.height(&Column::drawn, place(6, 128), place(0, 64)), 2950);
+  // Entries 5, 6, 9 and 10: 2500 and 3600 are 3050, 8100 and 10000 are 9050; a quarter on 4550.
+  EXPECT_EQ(of.height(&Column::drawn, place(6, 128), place(0, 64)), 4550);
   EXPECT_EQ(of.height(&Column::drawn, place(5, 0), place(-1, 0)), 0);
   EXPECT_EQ(of.height(&Column::drawn, place(6, 0), place(-1, 0)), 100);
-  EXPECT_EQ(of.height(&Column::drawn, place(5, 0), place(0, 0)), 900);
-  EXPECT_EQ(of.height(&Column::bare, place(6, 0), place(0, 0)), -4);
+  EXPECT_EQ(of.height(&Column::drawn, place(5, 0), place(0, 0)), 1600);
+  EXPECT_EQ(of.height(&Column::drawn, place(7, 0), place(1, 0)), 10000);
+  EXPECT_EQ(of.height(&Column::bare, place(6, 0), place(0, 0)), -5);
 }
 
 TEST(RaycastGround, TheFirstAndTheLastPartAreThoseOfAPlainSearch) {
