@@ -67,6 +67,7 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                            {"fifo_depth", c.fifo_depth},
                            {"stall_seed", c.stall_seed},
                            {"tiles", c.tiles},
+                           {"bands", c.bands},
                            {"latency", c.latency},
                            {"bus_bytes", c.bus_bytes},
                            {"apron", c.apron},

@@ -20,6 +20,7 @@ struct Configuration {
   int fifo_depth = 4;            // tokens, of every channel
   std::uint64_t stall_seed = 0;  // 0: no stalls
   int tiles = 4;                 // tile buffers of a pipe
+  int bands = 4;                 // of the picture, from which tiles are dealt in turn
   CacheShape levels, matter, light, ground;
   int latency = 40;    // of the memory, in cycles
   int bus_bytes = 64;  // that the memory gives in a cycle

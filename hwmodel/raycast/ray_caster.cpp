@@ -7,6 +7,7 @@
 
 #include "hwmodel/process/process.h"
 #include "hwmodel/raycast/forecast.h"
+#include "hwmodel/raycast/tile_order.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
@@ -19,14 +20,19 @@ int tiles_along(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 // Deals tiles to the pipes, each to the next one that has room.
 class Dealer {
  public:
-  void begin(const FrameRegisters& frame, bool second) { frame_ = frame, second_ = second, next_ = 0; }
+  void begin(const FrameRegisters& frame, int bands, bool second) {
+    turns_ = TileTurns(frame.tiles_x, frame.tiles_y, bands);
+    second_ = second, next_ = 0;
+  }
   void connect(Fifo<TileJob>& out) { out_.push_back(&out); }
   bool cycle() {
-    if (next_ == frame_.tiles_x * frame_.tiles_y) return false;
+    while (next_ < turns_.count() && !turns_.at(next_).any) ++next_;
+    if (next_ == turns_.count()) return false;
+    const TileTurns::Tile tile = turns_.at(next_);
     for (std::size_t i = 0; i < out_.size(); ++i) {
       Fifo<TileJob>& out = *out_[(turn_ + i) % out_.size()];
       if (!out.ready()) continue;
-      *out.put() = {next_ % frame_.tiles_x * kTileSide, next_ / frame_.tiles_x * kTileSide, second_};
+      *out.put() = {tile.x * kTileSide, tile.y * kTileSide, second_};
       ++next_;
       turn_ = (turn_ + i + 1) % out_.size();
       return true;
@@ -35,7 +41,7 @@ class Dealer {
   }
 
  private:
-  FrameRegisters frame_;
+  TileTurns turns_;
   bool second_ = false;
   int next_ = 0;
   std::size_t turn_ = 0;
@@ -116,7 +122,7 @@ struct RayCaster::Machine {
              tiles_along(registers.camera.height),
              samples,
              most};
-    dealer.begin(frame, second);
+    dealer.begin(frame, configuration.bands, second);
     bytes_at_end = memory_block.counts().written_bytes + bytes;
     shared.complete = shared.hangs = false;
     shared.last_cycle = kNever;
