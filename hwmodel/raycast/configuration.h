@@ -15,12 +15,12 @@ struct CacheShape {
 struct Configuration {
   int pipes = 1;                 // W
   int rays = 64;                 // under way in the walk of a pipe
-  int walkers = 2;               // steps through air in a cycle of a pipe
+  int walkers = 4;               // steps through air in a cycle of a pipe
   int searchers = 4;             // steps over blocks of ground in a cycle of a pipe
   int fifo_depth = 4;            // tokens, of every channel
   std::uint64_t stall_seed = 0;  // 0: no stalls
-  int tiles = 4;                 // tile buffers of a pipe
-  int bands = 4;                 // of the picture, from which tiles are dealt in turn
+  int tiles = 16;                // tile buffers of a pipe; rays of all of them are made in turn
+  int bands = 16;                // of the picture, from which tiles are dealt in turn
   CacheShape levels, matter, light, ground;
   int latency = 40;    // of the memory, in cycles
   int bus_bytes = 64;  // that the memory gives in a cycle

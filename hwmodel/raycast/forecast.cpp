@@ -41,6 +41,7 @@ class QueuedPipe {
         requests_(requests),
         replies_(replies),
         free_buffers_(c.tiles),
+        open_(static_cast<std::size_t>(c.tiles)),
         jobs(c.fifo_depth) {
     const auto fetch = [&](int client, const CacheShape& shape, int wide) {
       const auto i = static_cast<std::size_t>(client);
@@ -254,12 +255,22 @@ class QueuedPipe {
   }
 
   void set_up(Time now) {
-    if (!orders_.valid(now) || !to_ground_.ready(now)) return;
-    const std::int32_t t = orders_.front();
-    to_ground_.put(now, first_rays_[static_cast<std::size_t>(t)] + set_up_);
-    if (++set_up_ < counts_.tiles[static_cast<std::size_t>(t)].rays) return;
-    set_up_ = 0;
-    orders_.get(now);
+    if (orders_.valid(now)) {
+      const auto place = std::find_if(open_.begin(), open_.end(), [](const Open& of) { return of.left == 0; });
+      if (place != open_.end()) {
+        const auto t = static_cast<std::size_t>(orders_.get(now));
+        *place = {first_rays_[t], counts_.tiles[t].rays};
+      }
+    }
+    if (!to_ground_.ready(now)) return;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      const std::size_t at = (set_up_turn_ + i) % open_.size();
+      if (open_[at].left == 0) continue;
+      to_ground_.put(now, open_[at].ray++);
+      --open_[at].left;
+      set_up_turn_ = (at + 1) % open_.size();
+      return;
+    }
   }
   void tile(Time now) {
     if (!jobs.valid(now)) return;
@@ -297,9 +308,14 @@ class QueuedPipe {
   std::vector<int> steps_;  // left of a ray
   std::vector<std::int32_t> first_rays_, tile_of_;
   std::vector<int> pixels_left_, samples_left_;
-  int free_buffers_, tiles_asked_ = 0, tiles_missing_ = 0, set_up_ = 0, bursts_ = 0;
+  int free_buffers_, tiles_asked_ = 0, tiles_missing_ = 0, bursts_ = 0;
   int walking_rays_ = 0, searching_rays_ = 0;
-  std::size_t turn_ = 0;
+  struct Open {
+    std::int32_t ray = 0;
+    int left = 0;
+  };
+  std::vector<Open> open_;  // tiles whose rays are made in turn
+  std::size_t turn_ = 0, set_up_turn_ = 0;
   std::deque<std::int32_t> complete_, crossings_done_, crossings_asking_, lost_, sampled_, walking_, found_,
       looking_, passing_;
   int depth_ = c_.fifo_depth;

@@ -65,7 +65,7 @@ class MemoryBlock {
     ports_.push_back({&requests, &replies});
   }
   const MemoryCounts& counts() const { return counts_; }
-  void begin() { bus_free_ = 0; }  // cycles count from 0 again
+  void begin() { bus_free_ = 0, turn_ = 0; }  // cycles count from 0 again
 
   // Tells whether anything moved.
   bool cycle(std::int64_t now) {

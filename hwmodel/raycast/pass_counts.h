@@ -25,13 +25,16 @@ struct TileCount {
 
 struct PipeCounts {
   static constexpr std::size_t kCaches = 5;  // in the order of Pipe::caches
-  std::vector<std::vector<RayEvent>> rays;   // in the order of set-up
+  std::vector<std::vector<RayEvent>> rays;   // tile by tile
   std::vector<TileCount> tiles;
   std::array<int, kCaches> free{};  // lines of each cache that hold nothing, at the begin
 
-  std::int32_t begin_ray() {
-    rays.emplace_back().reserve(8);
-    return static_cast<std::int32_t>(rays.size()) - 1;
+  // The number of its first ray.
+  std::int32_t begin_tile(const TileCount& tile) {
+    const std::size_t first = rays.size();
+    tiles.push_back(tile);
+    rays.resize(first + static_cast<std::size_t>(tile.rays));
+    return static_cast<std::int32_t>(first);
   }
   void steps_before(const RayId& id, Asked kind, int steps) {
     rays[static_cast<std::size_t>(id.number)].push_back(

@@ -100,7 +100,7 @@ PipeOf<Faults>::PipeOf(const Registers& registers, const FrameRegisters& frame, 
       number_(number),
       buffers_(c.tiles),
       tiles_(registers, frame, buffers_, kTiles, faults),
-      set_up_(registers, faults),
+      set_up_(registers, c.tiles, faults),
       ground_(registers, kSearches, c.searchers, faults),
       walk_(registers, c.rays, c.walkers, faults),
       crossing_(walk_, c.rays, faults),
@@ -282,7 +282,7 @@ int PipeOf<Faults>::cycle() {
 
 template <class Faults>
 void PipeOf<Faults>::count(PipeCounts* counts) {
-  tiles_.count(counts), set_up_.count(counts), ground_.count(counts), walk_.count(counts);
+  tiles_.count(counts), ground_.count(counts), walk_.count(counts);
   levels_.count(counts), matter_words_.count(counts), light_cells_.count(counts);
   columns_.count(counts), texels_.count(counts);
   if (counts == nullptr) return;

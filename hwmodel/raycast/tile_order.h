@@ -22,10 +22,19 @@ class TileTurns {
   Tile at(int turn) const {
     const int place = turn / bands_, band = (turn % bands_ + place) % bands_;  // each band in each place of a round
     const int y = band * rows_ + place / tiles_x_;
-    return {(place + band * tiles_x_ / bands_) % tiles_x_, y, y < std::min((band + 1) * rows_, tiles_y_)};
+    return {(place + (mirrored(band) * tiles_x_ >> kBandBits)) % tiles_x_, y, y < std::min((band + 1) * rows_, tiles_y_)};
   }
 
  private:
+  static constexpr int kBandBits = 6;
+  // Where a band begins in its row, in 64ths: the bits of its number, mirrored. So bands that are at the same
+  // place of their rows lie far apart.
+  static int mirrored(int band) {
+    int part = 0;
+    for (int bit = 1 << (kBandBits - 1); band > 0; band >>= 1, bit >>= 1) part += (band & 1) * bit;
+    return part;
+  }
+
   int tiles_x_ = 0, tiles_y_ = 0, bands_ = 0, rows_ = 0;
 };
 

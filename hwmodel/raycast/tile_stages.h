@@ -104,12 +104,13 @@ class TileStage final : public Stage, public LineClient {
     buffer.sums.fill({});
     buffer.counts.fill(0);
     buffer.bytes = job.second ? around_[0] : TileBytes{};
+    const TileCount counted{buffer.left * buffer.samples, reads_};
+    const std::int32_t first_ray = counts_ == nullptr ? 0 : counts_->begin_tile(counted);
     if (pixels == 0)
       buffers_.complete.push_back(i);
     else
       *out_->put() = {job.x, job.y, static_cast<std::int16_t>(i), static_cast<std::int16_t>(buffer.samples),
-                      pixels};
-    if (counts_ != nullptr) counts_->tiles.push_back({buffer.left * buffer.samples, reads_});
+                      pixels, first_ray};
     in_->get();
     asked_ = 0, reads_ = 0;
     return Did::busy;

@@ -25,6 +25,7 @@ struct TileOrder {
   std::int32_t x = 0, y = 0;
   std::int16_t buffer = 0, samples = 1;
   std::uint64_t pixels = 0;
+  std::int32_t first_ray = 0;  // its number, where rays are counted
 };
 
 // Places of samples in a pixel, in 64ths (docs/picture.md, section 10).
