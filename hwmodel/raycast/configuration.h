@@ -19,9 +19,9 @@ struct Configuration {
   int searchers = 4;             // steps over blocks of ground in a cycle of a pipe
   int fifo_depth = 4;            // tokens, of every channel
   std::uint64_t stall_seed = 0;  // 0: no stalls
-  int tiles = 16;                // tile buffers of a pipe; rays of all of them are made in turn
+  int tiles = 8;                 // tile buffers of a pipe; rays of all of them are made in turn
   int bands = 16;                // of the picture, from which tiles are dealt in turn
-  CacheShape levels, matter, light, ground;
+  CacheShape levels{64}, matter{16}, light{32}, ground{64};
   int latency = 40;    // of the memory, in cycles
   int bus_bytes = 64;  // that the memory gives in a cycle
   bool apron = false;  // bricks of levels hold their apron: a line is a brick
