@@ -1,9 +1,10 @@
 #include "hwmodel/raycast/forecast.h"
 
+#include <deque>
+#include <initializer_list>
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <utility>
 
 #include "hwmodel/raycast/forecast_queues.h"
 #include "hwmodel/raycast/tile_stages.h"
@@ -32,8 +33,8 @@ struct Tile {
 // A pipe, stage by stage as pipe_of.h has them.
 class QueuedPipe {
  public:
-  QueuedPipe(const ForecastInput& input, const PipeCounts& counts, const Configuration& c, Line<Transfer>& requests,
-       Line<Transfer>& replies)
+  QueuedPipe(const ForecastInput& input, const PipeCounts& counts, const Configuration& c,
+             Line<Transfer>& requests, Line<Transfer>& replies)
       : counts_(counts),
         c_(c),
         second_(input.second),
@@ -45,7 +46,8 @@ class QueuedPipe {
         jobs(c.fifo_depth) {
     const auto fetch = [&](int client, const CacheShape& shape, int wide) {
       const auto i = static_cast<std::size_t>(client);
-      return std::make_unique<Fetch>(client, shape.queue, counts.free[i], input.line_bytes[i], c.fifo_depth, wide);
+      return std::make_unique<Fetch>(client, shape.queue, counts.free[i], input.line_bytes[i], c.fifo_depth,
+                                     wide);
     };
     fetches_[kLevels] = fetch(kLevels, c.levels, 5);
     fetches_[kMatter] = fetch(kMatter, c.matter, 1);
@@ -59,7 +61,8 @@ class QueuedPipe {
     for (std::size_t t = 0; t < counts.tiles.size(); ++t) {
       first_rays_.push_back(ray);
       pixels_left_.push_back(counts.tiles[t].rays / samples_);
-      for (std::int32_t i = 0; i < counts.tiles[t].rays; ++i, ++ray) tile_of_.push_back(static_cast<std::int32_t>(t));
+      for (std::int32_t i = 0; i < counts.tiles[t].rays; ++i, ++ray)
+        tile_of_.push_back(static_cast<std::int32_t>(t));
     }
     samples_left_.assign(counts.rays.size() / static_cast<std::size_t>(samples_) + 1, samples_);
   }
@@ -102,7 +105,8 @@ class QueuedPipe {
   int& steps(std::int32_t ray) { return steps_[static_cast<std::size_t>(ray)]; }
 
   void fetch(Time now, int client, Line<Request>& asks, Line<Request>& answers) {
-    fetches_[static_cast<std::size_t>(client)]->read(now, [&](const Request&) -> Line<Request>& { return answers; });
+    fetches_[static_cast<std::size_t>(client)]->read(
+        now, [&](const Request&) -> Line<Request>& { return answers; });
     fetches_[static_cast<std::size_t>(client)]->look_up(now, asks);
   }
   void hand_on(Time now, Line<std::int32_t>& in, Line<std::int32_t>& out) const {
@@ -125,8 +129,13 @@ class QueuedPipe {
       else
         fetches_[static_cast<std::size_t>(of.client)]->arrived(of.request);
     }
-    const std::array<Line<Transfer>*, 7> in{&fetches_[0]->to_memory, &fetches_[1]->to_memory, &fetches_[2]->to_memory,
-                                            &fetches_[3]->to_memory, &fetches_[4]->to_memory, &tile_lines_, &written_};
+    const std::array<Line<Transfer>*, 7> in{&fetches_[0]->to_memory,
+                                            &fetches_[1]->to_memory,
+                                            &fetches_[2]->to_memory,
+                                            &fetches_[3]->to_memory,
+                                            &fetches_[4]->to_memory,
+                                            &tile_lines_,
+                                            &written_};
     for (std::size_t i = 0; i < in.size(); ++i) {
       Line<Transfer>& from = *in[(turn_ + i) % in.size()];
       if (!from.valid(now)) continue;
@@ -256,7 +265,8 @@ class QueuedPipe {
 
   void set_up(Time now) {
     if (orders_.valid(now)) {
-      const auto place = std::find_if(open_.begin(), open_.end(), [](const Open& of) { return of.left == 0; });
+      const auto place =
+          std::find_if(open_.begin(), open_.end(), [](const Open& of) { return of.left == 0; });
       if (place != open_.end()) {
         const auto t = static_cast<std::size_t>(orders_.get(now));
         *place = {first_rays_[t], counts_.tiles[t].rays};
@@ -294,8 +304,8 @@ class QueuedPipe {
       orders_.put(now, t);
   }
 
-  static constexpr int kBeside = 5;     // tiles that the second pass reads for one
-  static constexpr int kWaiting = 16;   // as in pipe_of.h
+  static constexpr int kBeside = 5;    // tiles that the second pass reads for one
+  static constexpr int kWaiting = 16;  // as in pipe_of.h
   static constexpr int kSearches = 32;
 
   const PipeCounts& counts_;
@@ -326,10 +336,10 @@ class QueuedPipe {
       pressing_{depth_}, to_pixel_{depth_}, to_write_{depth_};
   Line<Request> walk_asks_{depth_}, crossing_asks_{depth_}, normal_asks_{depth_}, level_asks_{depth_},
       levels_{depth_}, normal_answers_{depth_}, walk_answers_{depth_}, crossing_answers_{depth_},
-      look_asks_{depth_}, look_answers_{depth_}, texel_asks_{depth_}, texel_answers_{depth_}, matter_asks_{depth_},
-      matter_answers_{depth_}, light_asks_{depth_}, light_answers_{depth_};
-  Attach normal_{Asked::normal, kWaiting}, texture_{Asked::texel, kWaiting},
-      matter_{Asked::matter, kWaiting}, light_{Asked::light, kWaiting};
+      look_asks_{depth_}, look_answers_{depth_}, texel_asks_{depth_}, texel_answers_{depth_},
+      matter_asks_{depth_}, matter_answers_{depth_}, light_asks_{depth_}, light_answers_{depth_};
+  Attach normal_{Asked::normal, kWaiting}, texture_{Asked::texel, kWaiting}, matter_{Asked::matter, kWaiting},
+      light_{Asked::light, kWaiting};
 
  public:
   Line<std::int32_t> jobs;

@@ -114,11 +114,13 @@ class Fetch {
 // The memory and its bus, for all pipes.
 class SharedMemory {
  public:
-  SharedMemory(int latency, int bus_bytes, int pipes, int fifo_depth) : latency_(latency), bus_bytes_(bus_bytes) {
+  SharedMemory(int latency, int bus_bytes, int pipes, int fifo_depth)
+      : latency_(latency), bus_bytes_(bus_bytes) {
     for (int i = 0; i < pipes; ++i) requests.emplace_back(fifo_depth), replies.emplace_back(fifo_depth);
   }
   void cycle(Time now) {
-    if (!under_way_.empty() && under_way_.front().done <= now && replies[under_way_.front().pipe].ready(now)) {
+    if (!under_way_.empty() && under_way_.front().done <= now &&
+        replies[under_way_.front().pipe].ready(now)) {
       replies[under_way_.front().pipe].put(now, under_way_.front().transfer);
       under_way_.pop_front();
     }
@@ -177,8 +179,8 @@ class Course {
 class Attach {
  public:
   Attach(Asked kind, std::size_t most) : kind_(kind), most_(most) {}
-  void cycle(Time now, std::vector<Course>& rays, Line<std::int32_t>& in, Line<Request>& ask, Line<Request>& answer,
-             Line<std::int32_t>& out) {
+  void cycle(Time now, std::vector<Course>& rays, Line<std::int32_t>& in, Line<Request>& ask,
+             Line<Request>& answer, Line<std::int32_t>& out) {
     if (!waiting_.empty() && waiting_.front().answered == waiting_.front().questions && out.ready(now)) {
       out.put(now, waiting_.front().ray);
       waiting_.pop_front();

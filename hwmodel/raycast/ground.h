@@ -50,7 +50,9 @@ struct NearColumns {
   SInt<24> height(Value value, std::int64_t px, std::int64_t pz) const {
     const Spot sx = spot_of(px), sz = spot_of(pz);
     const auto first = kSide * static_cast<std::size_t>(sz.cell - z) + static_cast<std::size_t>(sx.cell - x);
-    const auto number = [&](std::size_t n) { return std::int64_t{of[first + (n & 1) + kSide * (n >> 1)].*value}; };
+    const auto number = [&](std::size_t n) {
+      return std::int64_t{of[first + (n & 1) + kSide * (n >> 1)].*value};
+    };
     return between_columns(number, sx, sz);
   }
 };

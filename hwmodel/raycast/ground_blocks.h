@@ -84,9 +84,7 @@ inline std::int64_t approach_of(Vec slopes, Vec step) {
   return magnitude(step.x) * slopes.x + magnitude(step.z) * slopes.z - 4096 * step.y;
 }
 // What covers the roundings of heights and positions, in the same unit.
-inline std::int64_t margin_of(Vec slopes) {
-  return ((slopes.x + slopes.z) << 13) + (std::int64_t{1} << 23);
-}
+inline std::int64_t margin_of(Vec slopes) { return ((slopes.x + slopes.z) << 13) + (std::int64_t{1} << 23); }
 // Samples behind p, so far above the ground, that lie in its block and outside of the ground.
 inline std::int64_t samples_over_slopes(const GroundBlocks& blocks, const Searcher& of, Vec p,
                                         std::int64_t above) {

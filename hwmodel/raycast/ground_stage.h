@@ -1,7 +1,7 @@
 // Where rays meet the ground (docs/picture-ground.md, section 4). Many rays are under way. In each cycle some
 // of them take a step over blocks that they pass above, and one looks at sixteen columns. A step is a quarter
-// of a cell at most, so they serve its height, its eight halvings by a row of eight units, and the normal where
-// it ends. Without ground the stage hands rays on.
+// of a cell at most, so they serve its height, its eight halvings by a row of eight units, and the normal
+// where it ends. Without ground the stage hands rays on.
 #pragma once
 
 #include <algorithm>
@@ -45,7 +45,7 @@ class GroundStage final : public Stage {
     Searcher searcher;
     Parts parts;
     std::int64_t part = 0;  // that is looked at
-    int steps = 0;  // over blocks, since the last look
+    int steps = 0;          // over blocks, since the last look
   };
   Search& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
 

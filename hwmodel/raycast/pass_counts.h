@@ -13,10 +13,11 @@ namespace voxmelt::hwmodel::raycast {
 
 struct RayEvent {
   Asked kind = Asked::look;
-  std::uint8_t misses = 0;    // lines that were not in the cache
-  std::uint8_t lost = 0;      // lines that lost their tags to them
-  bool looked_up = false;     // of a request: misses are known
-  std::uint16_t before = 0;   // steps of the ray since the event before, in search of the ground or in the walk
+  std::uint8_t misses = 0;  // lines that were not in the cache
+  std::uint8_t lost = 0;    // lines that lost their tags to them
+  bool looked_up = false;   // of a request: misses are known
+  std::uint16_t before =
+      0;  // steps of the ray since the event before, in search of the ground or in the walk
 };
 struct TileCount {
   std::int32_t rays = 0;

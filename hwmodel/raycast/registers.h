@@ -51,7 +51,7 @@ struct GroundBlock {
   friend bool operator==(const GroundBlock&, const GroundBlock&) = default;
 };
 struct GroundBlocks {
-  int x = 0, z = 0;              // fine blocks
+  int x = 0, z = 0;               // fine blocks
   std::vector<GroundBlock> fine;  // x fastest
   std::vector<std::int32_t> coarse;
 

@@ -1,5 +1,6 @@
-// In which order the tiles of a picture are dealt. Air, matter and ground load different stages. So tiles come
-// in turn from several bands of rows, and from another place along each of them: then a pipe has some of all.
+// In which order the tiles of a picture are dealt. Air, matter and ground load different stages. So tiles
+// come in turn from several bands of rows, and from another place along each of them: then a pipe has some of
+// all.
 #pragma once
 
 #include <algorithm>
@@ -20,9 +21,11 @@ class TileTurns {
     bool any = false;
   };
   Tile at(int turn) const {
-    const int place = turn / bands_, band = (turn % bands_ + place) % bands_;  // each band in each place of a round
+    const int place = turn / bands_,
+              band = (turn % bands_ + place) % bands_;  // each band in each place of a round
     const int y = band * rows_ + place / tiles_x_;
-    return {(place + (mirrored(band) * tiles_x_ >> kBandBits)) % tiles_x_, y, y < std::min((band + 1) * rows_, tiles_y_)};
+    return {(place + (mirrored(band) * tiles_x_ >> kBandBits)) % tiles_x_, y,
+            y < std::min((band + 1) * rows_, tiles_y_)};
   }
 
  private:

@@ -109,8 +109,9 @@ class TileStage final : public Stage, public LineClient {
     if (pixels == 0)
       buffers_.complete.push_back(i);
     else
-      *out_->put() = {job.x, job.y, static_cast<std::int16_t>(i), static_cast<std::int16_t>(buffer.samples),
-                      pixels, first_ray};
+      *out_->put() = {
+          job.x,  job.y,    static_cast<std::int16_t>(i), static_cast<std::int16_t>(buffer.samples),
+          pixels, first_ray};
     in_->get();
     asked_ = 0, reads_ = 0;
     return Did::busy;

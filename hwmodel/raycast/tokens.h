@@ -137,7 +137,8 @@ struct ClampedRequest {
       return std::array<std::int32_t, 4>{inside(s.cell), inside(s.cell + 1), inside(s.cell + 2),
                                          inside(s.cell + 3)};
     };
-    return {along(at.x, count[0]), along(at.y, count[1]), along(at.z, count[2]), side, {}, side == 4 ? 1 : side};
+    return {along(at.x, count[0]), along(at.y, count[1]), along(at.z, count[2]), side, {},
+            side == 4 ? 1 : side};
   }
 };
 using LightGather = Gather<ClampedRequest, LightWord, 8>;

@@ -32,8 +32,8 @@ TEST(RaycastCache, HitsAndMissesAreThoseOfLists) {
     for (int n = 0; n < 20000; ++n) {
       const std::int64_t line = random() % static_cast<unsigned>(3 * sets * ways + 1);
       // The set is the exclusive or of the line's lowest three digits.
-      std::list<std::int64_t>& list = lists[static_cast<std::size_t>(
-          (line % sets) ^ (line / sets % sets) ^ (line / sets / sets % sets))];
+      std::list<std::int64_t>& list =
+          lists[static_cast<std::size_t>((line % sets) ^ (line / sets % sets) ^ (line / sets / sets % sets))];
       const auto at = std::find(list.begin(), list.end(), line);
       const bool hit = at != list.end();
       ASSERT_EQ(cache.holds(line), hit);

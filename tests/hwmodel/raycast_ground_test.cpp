@@ -218,8 +218,8 @@ TEST(RaycastGround, BoundsOfBlocksByHand) {
   EXPECT_EQ(of.coarse, (std::vector<std::int32_t>{193}));
 }
 
-// Block 0 has bound 2 cells, and the ray is 2 1/2 cells high. It falls by 1/8 cell a sample: 4 samples. By its
-// quarter of a cell along x it would stay for 9 more from 3/2 on: the last one is at 15/4.
+// Block 0 has bound 2 cells, and the ray is 2 1/2 cells high. It falls by 1/8 cell a sample: 4 samples. By
+// its quarter of a cell along x it would stay for 9 more from 3/2 on: the last one is at 15/4.
 TEST(RaycastGround, SamplesAboveABlockByHand) {
   GroundBlocks blocks;
   blocks.x = blocks.z = 1;
@@ -243,12 +243,14 @@ TEST(RaycastGround, NoSampleIsLeftOutInTheGround) {
   std::mt19937_64 random(23);
   std::int64_t above = 0, over = 0, next = 0;
   for (int n = 0; n < 400; ++n) {
-    const std::int64_t nx = 3 + static_cast<std::int64_t>(random() % 40), nz = 2 + static_cast<std::int64_t>(random() % 30);
+    const std::int64_t nx = 3 + static_cast<std::int64_t>(random() % 40),
+                       nz = 2 + static_cast<std::int64_t>(random() % 30);
     std::vector<std::int64_t> columns(static_cast<std::size_t>(nx * nz));
     const std::int64_t rough = n % 3 == 0 ? 40 : n % 3 == 1 ? 3000 : 20000;
     for (std::int64_t i = 0; i < nx * nz; ++i)
       columns[static_cast<std::size_t>(i)] =
-          (n % 2 == 0 ? 300 * (i % nx) : 0) + static_cast<std::int64_t>(random() % static_cast<unsigned>(rough));
+          (n % 2 == 0 ? 300 * (i % nx) : 0) +
+          static_cast<std::int64_t>(random() % static_cast<unsigned>(rough));
     const auto column = [&](std::int64_t x, std::int64_t z) {
       return columns[static_cast<std::size_t>(std::clamp<std::int64_t>(z, 0, nz - 1) * nx +
                                               std::clamp<std::int64_t>(x, 0, nx - 1))];
@@ -258,7 +260,8 @@ TEST(RaycastGround, NoSampleIsLeftOutInTheGround) {
       const Spot x = spot_of(p.x), z = spot_of(p.z);
       return between_columns(
           [&](std::size_t i) {
-            return column(x.cell + static_cast<std::int64_t>(i & 1), z.cell + static_cast<std::int64_t>(i >> 1));
+            return column(x.cell + static_cast<std::int64_t>(i & 1),
+                          z.cell + static_cast<std::int64_t>(i >> 1));
           },
           x, z);
     };

@@ -22,8 +22,8 @@ std::string order_of(int tiles_x, int tiles_y, int bands) {
 
 TEST(RaycastTiles, OneBandGoesRowByRow) { EXPECT_EQ(order_of(3, 2, 1), "00 10 20 01 11 21 "); }
 
-// Two bands of four tiles in a row: the second one begins in the middle of its row. Places take turns in which
-// band is the first one.
+// Two bands of four tiles in a row: the second one begins in the middle of its row. Places take turns in
+// which band is the first one.
 TEST(RaycastTiles, TwoBandsByHand) { EXPECT_EQ(order_of(4, 2, 2), "00 21 31 10 20 01 11 30 "); }
 
 // Three rows in two bands: the second band has one row.
