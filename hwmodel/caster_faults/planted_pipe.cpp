@@ -15,7 +15,13 @@ namespace voxmelt::hwmodel::raycast {
 namespace {
 
 // The policy that takes the place of NoFaults.
-struct CasterFaults : RayFaults, FetchFaults, SurfaceFaults, LightFaults, TileFaults, FlowFaults, ClearFaults {
+struct CasterFaults : RayFaults,
+                      FetchFaults,
+                      SurfaceFaults,
+                      LightFaults,
+                      TileFaults,
+                      FlowFaults,
+                      ClearFaults {
   CasterFaults(FaultPlan& plan, const Registers& registers, const Memory& memory,
                const std::shared_ptr<LastReply>& last_reply)
       : RayFaults(plan, registers, memory),

@@ -38,8 +38,8 @@ Checker::Checker(const Expectation& expectation, RayCaster& caster, int width, i
 }
 
 Watchers Checker::watchers() {
-  return transit_.around({this, this, this, this, this, this, this, this, this, this, this, this, &tile_check_,
-                          &memory_check_, &memory_check_, this});
+  return transit_.around({this, this, this, this, this, this, this, this, this, this, this, this,
+                          &tile_check_, &memory_check_, &memory_check_, this});
 }
 
 void Checker::begin_pass(int samples, int most, std::int64_t frame, const Window& window) {

@@ -12,8 +12,7 @@ namespace voxmelt::hwmodel::raycast {
 // From the walk into matter, or from a stretch to the air behind it.
 void Checker::compare_clear(const HitToken& token) {
   const ExpectedRay& of = shaded(token.ray.id);
-  const picture::Crossing* expected =
-      token.leaves ? of.clear.exit(token.span) : of.clear.entry(token.span);
+  const picture::Crossing* expected = token.leaves ? of.clear.exit(token.span) : of.clear.entry(token.span);
   if (expected == nullptr && of.clear.dark) return;
   const Vec position = from_lattice(token.at);
   compare(token.leaves ? "stretch" : "walk", token.ray.id,
@@ -23,8 +22,7 @@ void Checker::compare_clear(const HitToken& token) {
 
 void Checker::compare_clear(const MetToken& token) {
   const ExpectedRay& of = shaded(token.id);
-  const picture::Crossing* expected =
-      token.leaves ? of.clear.exit(token.span) : of.clear.entry(token.span);
+  const picture::Crossing* expected = token.leaves ? of.clear.exit(token.span) : of.clear.entry(token.span);
   if (!token.matter.found) {
     const bool hidden =
         expected != nullptr && of.ground.found && expected->sample > (of.ground.part >> 8) + 1;

@@ -118,16 +118,9 @@ struct KeepEvents {
 
 void Expectation::follow(ExpectedRay& ray) const {
   using Scene = render::PaintedScene<render::Levels, render::MatterCells, render::LightVolume>;
-  const Scene parts{scene_.levels,
-                    scene_.levels.cells(),
-                    scene_.matter,
-                    scene_.ground,
-                    scene_.light,
-                    scene_.light.count(),
-                    scene_.light.shift(),
-                    scene_.paint,
-                    scene_.look.background,
-                    render::tone_table()};
+  const Scene parts{scene_.levels,          scene_.levels.cells(), scene_.matter,        scene_.ground,
+                    scene_.light,           scene_.light.count(),  scene_.light.shift(), scene_.paint,
+                    scene_.look.background, render::tone_table()};
   Told told{ray.clear};
   if (ray.matter.found) ray.clear.entries.push_back(ray.matter);
   render::ClearPainter<Scene, KeepEvents> along(parts, ray.ray, ray.ground, spacing_, view_.halvings,
@@ -144,8 +137,8 @@ void Expectation::follow(ExpectedRay& ray) const {
   ray.pressed = pressed(along.sum({}));
   const picture::Color passes = along.passed();
   for (std::size_t c = 0; c < 3; ++c)
-    ray.pressed[c] = std::min(ray.pressed[c] + ((passes[c] * scene_.look.background[c]) >> picture::kPassedBits),
-                              picture::kLight);
+    ray.pressed[c] = std::min(
+        ray.pressed[c] + ((passes[c] * scene_.look.background[c]) >> picture::kPassedBits), picture::kLight);
 }
 
 }  // namespace voxmelt::hwmodel::raycast

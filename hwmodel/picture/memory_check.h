@@ -2,9 +2,9 @@
 // are those of a request that this pipe sent and that has no reply yet.
 #pragma once
 
-#include <utility>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "hwmodel/picture/difference.h"

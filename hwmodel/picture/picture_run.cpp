@@ -123,6 +123,8 @@ PictureRun::PictureRun(const Registers& registers, Memory& memory, const Picture
       caster_(registers, memory, options_.configuration,
               options.fault == Fault::none ? PipeMaker(make_pipe) : planted_pipes(plan_)) {
   caster_.poll(options.poll);
+  // Of rays through clear matter, and of a part of a picture, nothing is foretold.
+  caster_.predict(options.predict && !registers.look.clear && options.window.whole());
 }
 
 void PictureRun::forget(const UploadReport& upload) {
@@ -148,11 +150,13 @@ void PictureRun::draw(const render::PictureScene& scene, const picture::Camera& 
   report_.end = caster_.draw_first();
   if (options_.compare) checker.end_pass(report_.end);
   report_.all_cycles += report_.end.cycles;
+  report_.passes.push_back({false, report_.end.cycles, report_.end.predicted});
   if (!fast && !checker.difference() && report_.end.complete) {
     caster_.draw_only(options_.window);
     checker.begin_pass(samples, most, second_frame, options_.window);
     const FrameEnd second = caster_.draw_again(samples, most);
     report_.all_cycles += second.cycles;
+    report_.passes.push_back({true, second.cycles, second.predicted});
     if (options_.compare) checker.end_pass(second);
     const std::int64_t first_cycles = report_.end.cycles;
     report_.end = second;

@@ -19,12 +19,22 @@
 
 namespace voxmelt::hwmodel::raycast {
 
+// A pass of a frame.
+struct PassCycles {
+  bool second = false;
+  std::int64_t cycles = 0, predicted = -1;  // -1: not known (forecast.h)
+  double error() const {                    // of the prediction, in parts of the cycles
+    return static_cast<double>(predicted - cycles) / static_cast<double>(cycles);
+  }
+};
+
 struct PictureOptions {
   Configuration configuration;
   Fault fault = Fault::none;
   std::string fault_channel;  // of a fault of channels; empty: a usual one
   Window window;              // draw and compare only these pixels
   bool compare = true;        // behind every stage; the bytes are always compared
+  bool predict = true;        // forecast the cycles of each pass
   int frames = 1;             // the same one again and again: later ones find the caches warm
   std::function<void()> poll;
 };
@@ -58,7 +68,8 @@ struct PictureReport {
   std::vector<CacheAccount> caches;
   PipeCost cost;  // of one pipe
   std::int64_t memory_bytes = 0;
-  std::int64_t all_cycles = 0;        // of all frames
+  std::int64_t all_cycles = 0;  // of all frames
+  std::vector<PassCycles> passes;
   std::vector<UploadReport> uploads;  // before each frame; without their lists
   render::Image image;
   // At the stage, pixel and sample that the fault left wrong; what got lost there is found as a hang.

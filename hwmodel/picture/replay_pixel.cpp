@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <algorithm>
+#include <cstdint>
 
 namespace voxmelt::hwmodel::raycast {
 namespace {

@@ -93,6 +93,14 @@ std::string table_of(const PictureReport& report, const Configuration& c) {
   text += fmt::format("a pipe: {} bits of memories, {} of channels, {} multipliers, {} dividers\n",
                       report.cost.memory_bits(), report.cost.channel_bits(),
                       report.cost.all_units().multipliers, report.cost.all_units().dividers);
+  for (const PassCycles& pass : report.passes) {
+    const char* name = pass.second ? "second" : "first";
+    if (pass.predicted < 0)
+      text += fmt::format("{} pass: {} cycles\n", name, pass.cycles);
+    else
+      text += fmt::format("{} pass: {} cycles, predicted {} ({:+.2f} %)\n", name, pass.cycles, pass.predicted,
+                          100 * pass.error());
+  }
   text += fmt::format("the last frame: {} cycles, {:.1f} frames a second at {} MHz\n", report.end.cycles,
                       1e6 * c.clock_mhz / static_cast<double>(std::max<std::int64_t>(report.end.cycles, 1)),
                       c.clock_mhz);
@@ -113,9 +121,11 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
   json["configuration"] = {{"pipes", c.pipes},
                            {"rays", c.rays},
                            {"walkers", c.walkers},
+                           {"searchers", c.searchers},
                            {"fifo_depth", c.fifo_depth},
                            {"stall_seed", c.stall_seed},
                            {"tiles", c.tiles},
+                           {"bands", c.bands},
                            {"clock_mhz", c.clock_mhz},
                            {"memory", c.dram ? c.dram->name : "fixed"},
                            {"latency", c.latency},
@@ -128,6 +138,11 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                            {"ground", cache_shape(c.ground)}};
   json["cycles"] = report.all_cycles;
   json["cycles_of_last_frame"] = report.end.cycles;
+  for (const PassCycles& pass : report.passes) {
+    Json of{{"second", pass.second}, {"cycles", pass.cycles}};
+    if (pass.predicted >= 0) of["predicted"] = pass.predicted, of["error"] = pass.error();
+    json["passes"].push_back(of);
+  }
   json["compared_numbers"] = report.compared;
   json["different_pixels"] = report.different_bytes;
   json["rays"] = report.rays;

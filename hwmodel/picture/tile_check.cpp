@@ -1,8 +1,8 @@
 #include "hwmodel/picture/tile_check.h"
 
-#include <string>
 #include <algorithm>
 #include <bit>
+#include <string>
 #include <utility>
 
 namespace voxmelt::hwmodel::raycast {

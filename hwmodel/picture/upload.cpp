@@ -5,6 +5,7 @@
 
 #include "hwmodel/picture/memory_image.h"
 #include "hwmodel/raycast/field.h"
+#include "hwmodel/raycast/ground_blocks.h"
 #include "render/ground/ground_map.h"
 
 namespace voxmelt::hwmodel::raycast {
@@ -51,7 +52,9 @@ GroundRegisters ground_of(const render::PictureData& data) {
   of.any = data.ground.any;
   if (!of.any) return of;
   of.highest = map->highest();
-  of.slopes = vec_of(map->slopes());
+  of.blocks = ground_blocks(data.ground.cells.x, data.ground.cells.z, [&](std::int64_t x, std::int64_t z) {
+    return std::int64_t{data.ground.drawn[z * data.ground.row + x]};
+  });
   for (std::size_t c = 0; c < 3; ++c) of.color[c] = data.ground.color[c];
   of.textured = !map->texels().empty();
   of.fineness = map->fineness();

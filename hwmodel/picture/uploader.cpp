@@ -109,11 +109,13 @@ void Uploader::send_registers(const render::PictureData& data, UploadReport& rep
     return count;
   };
   report.skip_words = differing(next.skip.words, registers_.skip.words);
+  report.ground_words = 2 * differing(next.ground.blocks.fine, registers_.ground.blocks.fine) +
+                        differing(next.ground.blocks.coarse, registers_.ground.blocks.coarse);
   registers_ = std::move(next);
   const std::vector<std::int32_t> slots(data.field.slots, data.field.slots + memory_.levels.slots.size());
   report.slots = differing(slots, memory_.levels.slots);
   memory_.levels.slots = memory_.matter.slots = slots;
-  upload_.words = report.slots + report.skip_words;
+  upload_.words = report.slots + report.skip_words + report.ground_words;
 }
 
 void Uploader::send_bricks(const render::PictureData& data, UploadReport& report) {

@@ -35,7 +35,8 @@ struct UploadReport {
   std::vector<SentBrick> bricks;                              // that were looked at
   std::array<std::vector<std::int64_t>, kSentVolumes> lines;  // caches must forget them
   std::array<std::int64_t, kSentVolumes> bytes{};
-  std::int64_t slots = 0, skip_words = 0;  // register words: 32 bits, 16 bits
+  // Register words: 32 bits, 16 bits; a block of ground has two of 32.
+  std::int64_t slots = 0, skip_words = 0, ground_words = 0;
   std::int64_t words = 0, bursts = 0, cycles = 0;
   Account account;
 };

@@ -61,7 +61,9 @@ class AttachStage : public Stage {
     if (first_unasked_ < waiting_.size()) {
       Waiting& of = waiting_[first_unasked_];
       if (ask_->ready()) {
-        *ask_->put() = question(of.surface, of.asked++);
+        Request& request = *ask_->put();
+        request = question(of.surface, of.asked++);
+        request.id = of.surface.id;
         moved = true;
       } else {
         blocked = true;

@@ -6,6 +6,7 @@
 // is free again when the request that took it has read its data.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,6 +25,7 @@ class Cache {
   explicit Cache(const CacheShape& shape)
       : ways_(static_cast<std::size_t>(shape.ways)),
         sets_(static_cast<std::size_t>(shape.sets)),
+        set_bits_(std::countr_zero(sets_)),
         tags_(ways_ * sets_) {
     for (int slot = shape.lines() + shape.spare - 1; slot >= 0; --slot) free_.push_back(slot);
   }
@@ -47,6 +49,7 @@ class Cache {
     return -1;
   }
   bool has_room() const { return !free_.empty(); }
+  int free_lines() const { return static_cast<int>(free_.size()); }
   // A miss takes a free slot.
   Found look_up(std::int64_t line) {
     Tag* set = set_of(line);
@@ -89,14 +92,16 @@ class Cache {
     int slot = 0;
     std::int64_t used = 0;
   };
-  const Tag* set_of(std::int64_t line) const {
-    return tags_.data() + (static_cast<std::size_t>(line) & (sets_ - 1)) * ways_;
+  // A line's number is folded, or rows of a dense volume would all share a few sets.
+  std::size_t first_of(std::int64_t line) const {
+    const auto number = static_cast<std::size_t>(line);
+    return ((number ^ (number >> set_bits_) ^ (number >> (2 * set_bits_))) & (sets_ - 1)) * ways_;
   }
-  Tag* set_of(std::int64_t line) {
-    return tags_.data() + (static_cast<std::size_t>(line) & (sets_ - 1)) * ways_;
-  }
+  const Tag* set_of(std::int64_t line) const { return tags_.data() + first_of(line); }
+  Tag* set_of(std::int64_t line) { return tags_.data() + first_of(line); }
 
   std::size_t ways_, sets_;
+  int set_bits_;
   std::vector<Tag> tags_;
   std::vector<int> free_;
   std::int64_t clock_ = 0;

@@ -55,9 +55,9 @@ inline Rgb inner_light(const LookRegisters& look, const Light& light) {
   const UInt<8> below = ((2 * light.open[3] + beside) * 43) >> 9;
   Rgb of{};
   for (std::size_t c = 0; c < 3; ++c)
-    of[c] = static_cast<std::int32_t>(
-        UInt<13>(((look.from_above[c] * above + look.from_below[c] * below) >> 8) +
-                 ((look.lamp[c] * whole(light.lamp)) >> 9)));
+    of[c] =
+        static_cast<std::int32_t>(UInt<13>(((look.from_above[c] * above + look.from_below[c] * below) >> 8) +
+                                           ((look.lamp[c] * whole(light.lamp)) >> 9)));
   return of;
 }
 
@@ -100,8 +100,8 @@ inline Rgb seen_through(const LookRegisters& look, const Passage& of, bool on_gr
     const std::int64_t sum =
         of.mirrored[c] + ((of.scattered[c] + (on_ground ? std::int64_t{passes} : 0)) >> 15);
     const std::int64_t pressed = look.tone[static_cast<std::size_t>(std::clamp<std::int64_t>(sum, 0, 12287))];
-    light[c] = static_cast<std::int32_t>(
-        on_ground ? pressed : std::min<std::int64_t>(pressed + (passes >> 15), 4096));
+    light[c] = static_cast<std::int32_t>(on_ground ? pressed
+                                                   : std::min<std::int64_t>(pressed + (passes >> 15), 4096));
   }
   return light;
 }

@@ -11,7 +11,7 @@ namespace voxmelt::hwmodel::raycast {
 
 struct CacheShape {
   int sets = 16, ways = 4;
-  int spare = 8;   // lines more than tags: as many misses may be under way
+  int spare = 32;  // lines more than tags: as many misses may be under way
   int queue = 64;  // requests between tag and data: what they wait hides the memory
   int lines() const { return sets * ways; }
 };
@@ -19,11 +19,13 @@ struct CacheShape {
 struct Configuration {
   int pipes = 1;                 // W
   int rays = 64;                 // under way in the walk of a pipe
-  int walkers = 2;               // steps through air in a cycle of a pipe
+  int walkers = 4;               // steps through air in a cycle of a pipe
+  int searchers = 4;             // steps over blocks of ground in a cycle of a pipe
   int fifo_depth = 4;            // tokens, of every channel
   std::uint64_t stall_seed = 0;  // 0: no stalls
-  int tiles = 4;                 // tile buffers of a pipe
-  CacheShape levels, matter, light, ground;
+  int tiles = 8;                 // tile buffers of a pipe; rays of all of them are made in turn
+  int bands = 16;                // of the picture, from which tiles are dealt in turn
+  CacheShape levels{64}, matter{16}, light{32}, ground{64};
   int clock_mhz = 200;
   std::optional<memory::Parameters> dram;  // none: a memory of a fixed latency, as the next two say
   int latency = 40;                        // of the memory, in cycles

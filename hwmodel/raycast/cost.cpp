@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSpots = 3 * (12 + 8);  // cell and weight along three axes
 constexpr int kAddress = 32;
-constexpr int kColumns = 9, kTexels = 4, kCorners = 8;  // that one answer holds
+constexpr int kColumns = 16, kTexels = 4, kCorners = 8;  // that one answer holds
 
 template <class... Of>
 int bits_of_token(const Of&... of) {
@@ -81,11 +81,8 @@ class Costs {
     channel("crossing -> met", bits_of_token(MetToken{}, context_));
     channel("met -> normal", surface(Behind::met));
     channel("normal -> paint", surface(Behind::normal));
-    channel("ground -> ask for heights", clamped());
-    channel("paint -> ask for heights", clamped());
-    channel("ask for heights -> heights", clamped());
-    channel("heights -> ground", clamped() + kColumns * 24);  // drawn
-    channel("heights -> paint", clamped() + kColumns * 24);   // bare
+    channel("ground -> heights", clamped());
+    channel("heights -> ground", clamped() + kColumns * 2 * 24);  // drawn and bare
     channel("paint -> texture", surface(Behind::paint));
     channel("texture -> texels", kSpots);
     channel("texels -> texture", kSpots + kTexels * 8 * static_cast<int>(sizeof(Texel)));
@@ -140,12 +137,15 @@ class Costs {
     memory("crossing", "rays", c_.rays, bits_of_token(HitToken{}, context_) + 2 * position + 16 + 15 + 3 + 2);
     memory("crossing", "queues", std::int64_t{2} * c_.rays, context_.rays);
     constexpr int kSearches = PipeOf<NoFaults>::kSearches, kWaiting = PipeOf<NoFaults>::kWaiting;
-    if (registers_.ground.any)
-      memory("ground", "rays", kSearches, bits_of_token(RayToken{}, context_) + 5 * 36 + 1);
+    if (registers_.ground.any) {
+      memory("ground", "rays", kSearches, bits_of_token(RayToken{}, context_) + 3 * 36 + 3 * 18);
+      memory("ground", "bounds, 4 x 4 cells", size(registers_.ground.blocks.fine), 3 * 17);
+      memory("ground", "bounds, 16 x 16 cells", size(registers_.ground.blocks.coarse), 17);
+    }
     const auto waiting = [&](const char* stage, Behind before) {
       memory(stage, "surfaces", kWaiting, surface(before) + 3 * 2);
     };
-    waiting("normal", Behind::met), waiting("paint", Behind::normal), waiting("texture", Behind::paint);
+    waiting("normal", Behind::met), waiting("texture", Behind::paint);
     waiting("matter", Behind::texture), waiting("light", Behind::matter);
     memory("tiles", "tiles beside", 5, 8 * kTileBytes);
     memory("pixel", "sums of tiles", std::int64_t{c_.tiles} * kTilePixels, 3 * 18 + 6);
@@ -181,13 +181,16 @@ class Costs {
     stage("set-up", 12);
     // Box: six quotients. A look: places of three parts 9, height 6, leap 2 + 1. Eight halvings: place 3,
     // height 6 each. The crossing: 6.
-    stage("ground", registers_.ground.any ? 9 + 6 + 3 + 8 * (3 + 3 * kBlend) + 6 : 0,
+    stage("ground",
+          registers_.ground.any
+              ? 9 + 6 + 3 + 8 * (3 + 3 * kBlend) + 6 + 4 * 3 * kBlend + kUnit + 3 * c_.searchers
+              : 0,
           registers_.ground.any ? 6 : 0);
     for (const char* gather : {"levels", "matter words", "light cells", "heights", "texels"}) {
       stage((std::string(gather) + " tags").c_str());
       stage((std::string(gather) + " data").c_str());
     }
-    stage("ask"), stage("ask for heights");
+    stage("ask");
     // A step: to the box 3, out of a block 3, the new place 3. A decision: rise 1, out of the block 3,
     // place 3.
     stage("walk", 9 * c_.walkers + 7);
@@ -195,7 +198,7 @@ class Costs {
     stage("crossing", 3, 1);
     stage("met", kUnit);
     stage("normal", 90 + 6 + kUnit);  // the spline, its squares, the length
-    stage("paint", 4 * 3 * kBlend + kUnit + 2 * kBlend + 3);
+    stage("paint", 2 * kBlend + 3);
     stage("texture", 5 * 3 * kBlend + kUnit);
     stage("matter", 3 * 7 * kBlend);
     stage("light", 13 * 7 * kBlend);

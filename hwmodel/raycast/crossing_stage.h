@@ -1,6 +1,6 @@
 // The crossing between a sample in air and the next one in matter: three middles, and a straight line
-// (docs/picture.md, section 7). A ray that leaves clear matter has them in the other order. Many rays are under way. The level of sample k - 1 is asked for only where it
-// is needed and not known.
+// (docs/picture.md, section 7). A ray that leaves clear matter has them in the other order. Many rays are
+// under way. The level of sample k - 1 is asked for only where it is needed and not known.
 #pragma once
 
 #include <cstddef>
@@ -101,8 +101,8 @@ class CrossingStage final : public Stage {
     Crossing met = begins_in_matter(of.hit) ? Crossing{true, 0, 2048, on_wires<32>(ray.ray.start)}
                                             : crossing_of(of.bracket, of.hit.k);
     faults_.crossed(of.hit, of.bracket, met);
-    *out_->put() = {ray.id,         ray.ray,       ray.ground,   met,      of.hit.context,
-                    of.hit.span,    of.hit.leaves, of.hit.level, of.hit.at};
+    *out_->put() = {ray.id,      ray.ray,       ray.ground,   met,      of.hit.context,
+                    of.hit.span, of.hit.leaves, of.hit.level, of.hit.at};
     walk_.crossed(i);
     --waiting_;
   }

@@ -1,7 +1,7 @@
-// Fetches the words of a small box of places through a cache: two or three places along each axis. Of a
+// Fetches the words of a small box of places through a cache: two to four places along an axis. Of a
 // volume, bank (x + 2 y + 4 z) mod 8 holds a place, so that the eight words of two places a side lie in eight
 // banks, and the 27 of three in no bank more than five times. Columns have 16 banks, (x mod 4) + 4 (z mod 4),
-// and nine of them come at once. Two stages: tags, and behind a queue data.
+// and four by four of them come at once. Two stages: tags, and behind a queue data.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/layout.h"
 #include "hwmodel/raycast/no_faults.h"
+#include "hwmodel/raycast/pass_counts.h"
 #include "hwmodel/raycast/stage.h"
 
 namespace voxmelt::hwmodel::raycast {
@@ -38,9 +39,10 @@ struct LineReply {
 
 // The places that a request reads, and the one by which a brick with its apron is found.
 struct Places {
-  std::array<std::int32_t, 3> x{}, y{}, z{};
-  int side = 2;
+  std::array<std::int32_t, 4> x{}, y{}, z{};
+  int side = 2;  // places along x and z
   std::array<std::int32_t, 3> low{};
+  int high = 2;  // along y
 };
 
 template <class Request, class Word, std::size_t kMost>
@@ -91,6 +93,9 @@ class Gather final : public LineClient {
     arrived_[slot] = 1;
   }
   const CacheCounts& counts() const { return cache_.counts(); }
+  void count(PipeCounts* counts) { ray_counts_ = counts; }  // null: nobody counts
+  // Lines that hold nothing.
+  int free_lines() const { return cache_.free_lines(); }
   // Host: the memory has new contents.
   void forget_all() { cache_.clear(); }
   void forget(std::int64_t line) { cache_.forget(line); }
@@ -129,20 +134,20 @@ class Gather final : public LineClient {
     const Places& p = entry.places;
     if (layout_.apron)
       return layout_.line_at(p.low[0] >> kBrickBits, p.low[1] >> kBrickBits, p.low[2] >> kBrickBits);
-    const auto last = static_cast<std::size_t>(p.side - 1);
+    const auto last = static_cast<std::size_t>(p.side - 1), top = static_cast<std::size_t>(p.high - 1);
     const int ix = which % entry.lines[0], iy = which / entry.lines[0] % entry.lines[1],
               iz = which / entry.lines[0] / entry.lines[1];
     return layout_.line_at(p.x[ix == 0 ? 0 : last] >> layout_.bits[0],
-                           p.y[iy == 0 ? 0 : last] >> layout_.bits[1],
+                           p.y[iy == 0 ? 0 : top] >> layout_.bits[1],
                            p.z[iz == 0 ? 0 : last] >> layout_.bits[2]);
   }
   // Line i of the entry is at `bytes_of(i)`; null: nothing is stored there.
   template <class BytesOf>
   void read_words(const Entry& entry, const BytesOf& bytes_of, Word* to) const {
     const Places& p = entry.places;
-    const auto side = static_cast<std::size_t>(p.side);
+    const auto side = static_cast<std::size_t>(p.side), high = static_cast<std::size_t>(p.high);
     for (std::size_t z = 0; z < side; ++z)
-      for (std::size_t y = 0; y < side; ++y)
+      for (std::size_t y = 0; y < high; ++y)
         for (std::size_t x = 0; x < side; ++x, ++to) {
           std::size_t which = 0;
           int offset = 0;
@@ -150,7 +155,7 @@ class Gather final : public LineClient {
             offset = layout_.apron_offset(p.x[x], p.y[y], p.z[z], p.low[0] >> kBrickBits,
                                           p.low[1] >> kBrickBits, p.low[2] >> kBrickBits);
           } else {
-            const auto beyond = [&](const std::array<std::int32_t, 3>& along, std::size_t i,
+            const auto beyond = [&](const std::array<std::int32_t, 4>& along, std::size_t i,
                                     std::size_t axis) {
               return (along[i] >> layout_.bits[axis]) == (along[0] >> layout_.bits[axis]) ? 0u : 1u;
             };
@@ -192,6 +197,7 @@ class Gather final : public LineClient {
       entry.slots[i] = found.slot;
       if (found.hit) continue;
       missed = true;
+      ++misses_;
       if (found.lost >= 0 && faults_.releases_early()) [[unlikely]]
         cache_.release(found.lost);
       else
@@ -203,6 +209,7 @@ class Gather final : public LineClient {
       ask.client = client_, ask.slot = found.slot, ask.address = layout_.address(line);
       ask.bytes = layout_.line_bytes, ask.write = false;
     }
+    tell(entry);
     in_->get();
     next_ = 0;
     tail_ = after(tail_);
@@ -210,6 +217,16 @@ class Gather final : public LineClient {
     return Did::busy;
   }
 
+  void tell(const Entry& entry) {
+    if constexpr (requires { entry.request.asked(); }) {
+      if (ray_counts_ != nullptr) {
+        int lost = 0;
+        for (int i = 0; i < next_; ++i) lost += entry.lost[static_cast<std::size_t>(i)] >= 0 ? 1 : 0;
+        ray_counts_->looked_up(entry.request.id, entry.request.asked(), misses_, lost);
+      }
+    }
+    misses_ = 0;
+  }
   void begin(Entry& entry) {
     entry.request = *in_->oldest();
     entry.places = entry.request.places();
@@ -218,9 +235,9 @@ class Gather final : public LineClient {
       entry.lines = {1, 1, 1};
       return;
     }
-    const auto last = static_cast<std::size_t>(p.side - 1);
-    const auto many = [&](const std::array<std::int32_t, 3>& along, int axis) {
-      const int bits = layout_.bits[static_cast<std::size_t>(axis)];
+    const auto many = [&](const std::array<std::int32_t, 4>& along, std::size_t axis) {
+      const int bits = layout_.bits[axis];
+      const auto last = static_cast<std::size_t>((axis == 1 ? p.high : p.side) - 1);
       return static_cast<std::uint8_t>((along[0] >> bits) == (along[last] >> bits) ? 1 : 2);
     };
     entry.lines = {many(p.x, 0), many(p.y, 1), many(p.z, 2)};
@@ -258,7 +275,8 @@ class Gather final : public LineClient {
   std::vector<std::uint8_t> store_;
   std::vector<Entry> queue_;
   std::size_t head_ = 0, tail_ = 0, count_ = 0;
-  int next_ = 0, reading_ = 0;
+  int next_ = 0, misses_ = 0, reading_ = 0;
+  PipeCounts* ray_counts_ = nullptr;
   Fifo<Request>* in_ = nullptr;
   Fifo<LineRequest>* to_memory_ = nullptr;
   std::vector<Fifo<Out>*> out_;

@@ -30,6 +30,7 @@ struct GroundHit {
   std::int64_t part = 0;  // 1/256 of a step
   Vec position;
   Face face = Face::none;
+  Vec normal;  // of the top
 };
 
 // Between four numbers of columns: along x, then along z.
@@ -38,17 +39,19 @@ std::int64_t between_columns(const Value& value, Spot x, Spot z) {
   return blended(blended(value(0), value(1), x.weight), blended(value(2), value(3), x.weight), z.weight);
 }
 
-// The nine columns from a cell on along x and z: with them, the height of any place up to half a cell around.
-struct NineColumns {
+// The sixteen columns from a cell on along x and z: with them, the height of any place on a step of a quarter
+// of a cell, and half a cell around.
+struct NearColumns {
+  static constexpr std::size_t kSide = 4;
   std::int64_t x = 0, z = 0;  // the first cell
-  std::array<Column, 9> of{};
+  std::array<Column, kSide * kSide> of{};
 
   template <class Value>
   SInt<24> height(Value value, std::int64_t px, std::int64_t pz) const {
     const Spot sx = spot_of(px), sz = spot_of(pz);
-    const auto first = static_cast<std::size_t>(3 * (sz.cell - z) + (sx.cell - x));
+    const auto first = kSide * static_cast<std::size_t>(sz.cell - z) + static_cast<std::size_t>(sx.cell - x);
     const auto number = [&](std::size_t n) {
-      return std::int64_t{of[first + (n & 1) + 3 * (n >> 1)].*value};
+      return std::int64_t{of[first + (n & 1) + kSide * (n >> 1)].*value};
     };
     return between_columns(number, sx, sz);
   }
@@ -92,17 +95,6 @@ inline Face face_of(const Registers& registers, Vec outside) {
   if (outside.z < 0) return Face::low_z;
   if (outside.z >= registers.cells.z * kCell) return Face::high_z;
   return outside.y < 0 ? Face::under : Face::top;
-}
-
-// By how much a ray comes nearer to the ground per sample at most, in 2^-32 cells; 0 or less: never.
-inline std::int64_t approach_of(const Registers& registers, const Ray& ray) {
-  const Vec& slopes = registers.ground.slopes;
-  return magnitude(ray.step.x) * slopes.x + magnitude(ray.step.z) * slopes.z - 4096 * ray.step.y;
-}
-// What covers the roundings of heights and positions, in the same unit.
-inline std::int64_t margin_of(const Registers& registers) {
-  const Vec& slopes = registers.ground.slopes;
-  return ((slopes.x + slopes.z) << 13) + (std::int64_t{1} << 23);
 }
 
 // The upper edges are rounded.

@@ -1,6 +1,7 @@
-// Where rays meet the ground (docs/picture-ground.md, section 4). Many rays are under way; each looks at one
-// height after the other. A step is a quarter of a cell at most, so the nine columns around it serve all of
-// its eight halvings: a row of eight units, which take a ray a cycle. Without ground the stage hands rays on.
+// Where rays meet the ground (docs/picture-ground.md, section 4). Many rays are under way. In each cycle some
+// of them take a step over blocks that they pass above, and one looks at sixteen columns. A step is a quarter
+// of a cell at most, so they serve its height, its eight halvings by a row of eight units, and the normal
+// where it ends. Without ground the stage hands rays on.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,9 @@
 
 #include "hwmodel/channel/fifo.h"
 #include "hwmodel/raycast/ground.h"
+#include "hwmodel/raycast/ground_blocks.h"
 #include "hwmodel/raycast/no_faults.h"
+#include "hwmodel/raycast/pass_counts.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/stage.h"
 #include "hwmodel/raycast/tokens.h"
@@ -22,22 +25,27 @@ namespace voxmelt::hwmodel::raycast {
 template <class Faults = NoFaults>
 class GroundStage final : public Stage {
  public:
-  GroundStage(const Registers& registers, int rays, Faults faults = {})
-      : Stage("ground"), registers_(registers), faults_(faults), rays_(static_cast<std::size_t>(rays)) {
+  GroundStage(const Registers& registers, int rays, int searchers, Faults faults = {})
+      : Stage("ground"),
+        registers_(registers),
+        faults_(faults),
+        searchers_(searchers),
+        rays_(static_cast<std::size_t>(rays)) {
     for (int i = rays - 1; i >= 0; --i) free_.push_back(i);
   }
   void connect(Fifo<RayToken>& in, Fifo<ClampedRequest>& ask, Fifo<ColumnGather::Out>& answer,
                Fifo<GroundedRay>& out) {
     in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
   }
+  void count(PipeCounts* counts) { counts_ = counts; }
 
  private:
   struct Search {
     GroundedRay ray;
+    Searcher searcher;
     Parts parts;
-    std::int64_t part = 0;                 // that is looked at
-    std::int64_t outside = 0, inside = 0;  // of the bisection
-    bool bisects = false;
+    std::int64_t part = 0;  // that is looked at
+    int steps = 0;          // over blocks, since the last look
   };
   Search& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
 
@@ -52,6 +60,7 @@ class GroundStage final : public Stage {
       if (out_->ready()) {
         GroundedRay& ray = *out_->put();
         ray = at(done_.front()).ray;
+        if (counts_ != nullptr) counts_->steps_before(ray.id, Asked::ground_end, at(done_.front()).steps);
         faults_.grounded(ray);
         free_.push_back(done_.front());
         done_.pop_front();
@@ -59,6 +68,13 @@ class GroundStage final : public Stage {
       } else {
         blocked = true;
       }
+    }
+    const int passing = std::min(searchers_, static_cast<int>(passing_.size()));
+    for (int i = 0; i < passing; ++i) {
+      const int ray = passing_.front();
+      passing_.pop_front();
+      pass(ray);
+      moved = true;
     }
     if (!ready_.empty()) {
       if (ask_->ready()) {
@@ -87,76 +103,90 @@ class GroundStage final : public Stage {
     of.ray.ray = token.ray;
     if (registers_.ground.any) of.parts = parts_of(registers_, token.ray);
     of.part = of.parts.first;
-    (of.parts.first > of.parts.last ? done_ : ready_).push_back(i);
+    of.searcher = searcher_of(token.ray);
+    (of.parts.first > of.parts.last ? done_ : passing_).push_back(i);
   }
 
-  // Asks for the height at the part. A middle outside of the slab needs none.
+  // A step over the blocks below, or none: then the ray must look at columns.
+  void pass(int i) {
+    Search& of = at(i);
+    ++of.steps;
+    const auto samples = samples_above(registers_.ground.blocks, of.searcher, at_part(of.ray.ray, of.part));
+    if (!samples) return ready_.push_back(i);
+    go_on(i, *samples);
+  }
+  // To the sample behind those that are left out.
+  void go_on(int i, std::int64_t samples) {
+    Search& of = at(i);
+    if (of.part == of.parts.last) return done_.push_back(i);
+    of.part = std::min(((of.part >> 8) + 1 + samples) << 8, of.parts.last);
+    passing_.push_back(i);
+  }
+
+  // A part out of the ground, before this one: the bisection would begin there.
+  std::int64_t part_before(const Search& of) const {
+    return of.part == of.parts.first ? of.part - 1 : std::max(of.parts.first, ((of.part - 1) >> 8) << 8);
+  }
+  // Asks for all columns that the step up to the part may need.
   void look(int i) {
     Search& of = at(i);
-    const Vec p = at_part(of.ray.ray, of.part);
+    const Vec a = at_part(of.ray.ray, part_before(of)), b = at_part(of.ray.ray, of.part);
     ClampedRequest& ask = *ask_->put();
-    ask.at = {spot_of(p.x), {}, spot_of(p.z)};
+    ask.at = {spot_of(std::min(a.x, b.x) - kCell / 2), {}, spot_of(std::min(a.z, b.z) - kCell / 2)};
     ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1,
                  static_cast<std::int32_t>(registers_.cells.z)};
     ask.asker = 0;
     ask.context = static_cast<std::int16_t>(i);
-    ask.side = 2;
-    if (!of.bisects) return;
-    const Vec a = at_part(of.ray.ray, of.outside), b = at_part(of.ray.ray, of.inside);
-    ask.at = {spot_of(std::min(a.x, b.x)), {}, spot_of(std::min(a.z, b.z))};
-    ask.side = 3;
+    ask.side = NearColumns::kSide;
+    ask.id = of.ray.id;
+    ask.kind = Asked::look;
+    if (counts_ != nullptr) counts_->steps_before(of.ray.id, Asked::look, of.steps);
+    of.steps = 0;
   }
 
   void decide(int i, const ColumnGather::Out& answer) {
     Search& of = at(i);
+    const NearColumns columns{answer.request.at.x.cell, answer.request.at.z.cell, answer.words};
     const Vec p = at_part(of.ray.ray, of.part);
-    if (of.bisects) return bisect(i, columns_of(answer));
-    // Words 0, 1, 4 and 5: the two columns along x, twice along z.
-    const auto drawn = [&](std::size_t n) { return std::int64_t{answer.words[n < 2 ? n : n + 2].drawn}; };
-    const SInt<24> height = between_columns(drawn, answer.request.at.x, answer.request.at.z);
-    search(i, (p.y >> 8) - height);
+    const std::int64_t above = (p.y >> 8) - columns.height(&Column::drawn, p.x, p.z);
+    if (above < 0) return bisect(i, columns);
+    go_on(i, samples_over_slopes(registers_.ground.blocks, of.searcher, p, above));
   }
-  void search(int i, std::int64_t above) {
+  void bisect(int i, const NearColumns& columns) {
     Search& of = at(i);
-    if (above < 0) {
-      const std::int64_t before = ((of.part - 1) >> 8) << 8;
-      of.outside = of.part == of.parts.first ? of.part - 1 : std::max(of.parts.first, before);
-      of.inside = of.part;
-      of.bisects = true;
-      return ready_.push_back(i);
-    }
-    if (of.part == of.parts.last) return done_.push_back(i);
-    of.part = std::min((((of.part >> 8) + 1 + skipped(of, above)) << 8), of.parts.last);
-    ready_.push_back(i);
-  }
-  // Samples behind a place so far above the ground that lie outside as well.
-  std::int64_t skipped(const Search& of, std::int64_t above) const {
-    const std::int64_t nearer = approach_of(registers_, of.ray.ray);
-    const std::int64_t left = (above << 20) - margin_of(registers_);
-    if (nearer <= 0) return left > 0 ? std::int64_t{1} << 26 : 0;
-    return left > 0 ? steps_in(left >> 12, inverse_of((nearer >> 12) + 1)) : 0;
-  }
-  void bisect(int i, const NineColumns& columns) {
-    Search& of = at(i);
-    while (of.inside - of.outside > 1) {
-      const std::int64_t middle = (of.inside + of.outside) >> 1;
+    std::int64_t outside = part_before(of), inside = of.part;
+    while (inside - outside > 1) {
+      const std::int64_t middle = (inside + outside) >> 1;
       const Vec p = at_part(of.ray.ray, middle);
-      const bool inside = in_slab(registers_, p) && (p.y >> 8) < columns.height(&Column::drawn, p.x, p.z);
-      (inside ? of.inside : of.outside) = middle;
+      const bool in = in_slab(registers_, p) && (p.y >> 8) < columns.height(&Column::drawn, p.x, p.z);
+      (in ? inside : outside) = middle;
     }
     GroundHit& hit = of.ray.ground;
     hit.found = true;
-    hit.part = UInt<36>(of.inside);
-    hit.position = on_wires<31>(at_part(of.ray.ray, of.inside));
-    hit.face = of.inside == 0 ? Face::none : face_of(registers_, at_part(of.ray.ray, of.outside));
+    hit.part = UInt<36>(inside);
+    hit.position = on_wires<31>(at_part(of.ray.ray, inside));
+    hit.face = inside == 0 ? Face::none : face_of(registers_, at_part(of.ray.ray, outside));
+    if (hit.face == Face::top) hit.normal = normal_at(hit.position, columns);
     done_.push_back(i);
+  }
+
+  Vec normal_at(const Vec& p, const NearColumns& columns) const {
+    const auto bare = [&](std::int64_t x, std::int64_t z) {
+      return std::int64_t{columns.height(&Column::bare, x, z)};
+    };
+    constexpr std::int64_t kHalf = kCell / 2;
+    return top_normal(
+        registers_, p,
+        {bare(p.x - kHalf, p.z), bare(p.x + kHalf, p.z), bare(p.x, p.z - kHalf), bare(p.x, p.z + kHalf)});
   }
 
   const Registers& registers_;
   [[no_unique_address]] Faults faults_;
+  int searchers_;
   std::vector<Search> rays_;
   std::vector<int> free_;
-  std::deque<int> ready_, done_;
+  std::deque<int> passing_, ready_, done_;
+  PipeCounts* counts_ = nullptr;
   Fifo<RayToken>* in_ = nullptr;
   Fifo<ClampedRequest>* ask_ = nullptr;
   Fifo<ColumnGather::Out>* answer_ = nullptr;

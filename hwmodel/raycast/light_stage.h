@@ -33,7 +33,7 @@ class MatterStage final : public AttachStage<MatterRequest, MatterGather::Out> {
       return std::clamp(at, kCell / 2, cells * kCell - kCell / 2);
     };
     const Vec& cells = registers_.cells;
-    return {spots_of({among(p.x, cells.x), among(p.y, cells.y), among(p.z, cells.z)})};
+    return {spots_of({among(p.x, cells.x), among(p.y, cells.y), among(p.z, cells.z)}), of.id};
   }
   void take(Surface& of, int which, const MatterGather::Out& answer) override {
     MatterBytes bytes = matter_of(answer.words.data(), answer.request.at);

@@ -63,7 +63,7 @@ class MemoryBlock final : public LineMemory {
     ports_.push_back({&requests, &replies});
   }
   const MemoryCounts& counts() const override { return counts_; }
-  void begin() override { bus_free_ = 0; }
+  void begin() override { bus_free_ = 0, turn_ = 0; }
   void share(Neighbour* neighbour) override { neighbour_ = neighbour; }
   bool cycle(std::int64_t now) override {
     bool moved = false;

@@ -54,6 +54,7 @@ class MetStage final : public Stage {
     of.kind = ground ? Surface::Kind::ground : Surface::Kind::matter;
     of.inside = ground ? met.ground.face == Face::none : met.matter.sample == 0;
     of.face = met.ground.face;
+    if (ground) of.normal = met.ground.normal;
     of.position = ground ? met.ground.position : met.matter.position;
     of.depth = depth_of(registers_.camera, of.position);
     of.to_eye = unit_of(Vec{} - met.ray.step);

@@ -1,5 +1,5 @@
-// The ground's normal and colour (docs/picture-ground.md, sections 5 and 8): nine columns of the top, and
-// then four texels of rock.
+// The ground's colour, and the normal of its sides (docs/picture-ground.md, sections 5 and 8); then four
+// texels of rock.
 #pragma once
 
 #include <cstddef>
@@ -9,39 +9,18 @@
 #include "hwmodel/raycast/ground.h"
 #include "hwmodel/raycast/no_faults.h"
 #include "hwmodel/raycast/registers.h"
+#include "hwmodel/raycast/shade_stage.h"
 
 namespace voxmelt::hwmodel::raycast {
 
 template <class Faults = NoFaults>
-class PaintStage final : public AttachStage<ClampedRequest, ColumnGather::Out> {
+class PaintStage final : public SurfaceStage {
  public:
-  PaintStage(const Registers& registers, int waiting, Faults faults = {})
-      : AttachStage("paint", static_cast<std::size_t>(waiting)), registers_(registers), faults_(faults) {}
+  explicit PaintStage(const Registers& registers, Faults faults = {})
+      : SurfaceStage("paint", registers), registers_(registers), faults_(faults) {}
 
  private:
-  int questions(const Surface& of) const override {
-    return of.kind == Surface::Kind::ground && of.face == Face::top ? 1 : 0;
-  }
-  ClampedRequest question(const Surface& of, int) const override {
-    ClampedRequest ask;
-    ask.at = {spot_of(of.position.x - kHalf), {}, spot_of(of.position.z - kHalf)};
-    ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1,
-                 static_cast<std::int32_t>(registers_.cells.z)};
-    ask.asker = 1;
-    ask.side = 3;
-    return ask;
-  }
-  void take(Surface& of, int, const ColumnGather::Out& answer) override {
-    const NineColumns columns = columns_of(answer);
-    const Vec& p = of.position;
-    const auto bare = [&](std::int64_t x, std::int64_t z) {
-      return std::int64_t{columns.height(&Column::bare, x, z)};
-    };
-    of.normal = top_normal(
-        registers_, p,
-        {bare(p.x - kHalf, p.z), bare(p.x + kHalf, p.z), bare(p.x, p.z - kHalf), bare(p.x, p.z + kHalf)});
-  }
-  void finish(Surface& of) override {
+  void compute(Surface& of) override {
     if (of.kind != Surface::Kind::ground) return;
     if (of.face == Face::top) {
       of.color = registers_.ground.color;
@@ -52,7 +31,6 @@ class PaintStage final : public AttachStage<ClampedRequest, ColumnGather::Out> {
     faults_.painted(registers_.ground, of);
   }
 
-  static constexpr std::int64_t kHalf = kCell / 2;
   const Registers& registers_;
   [[no_unique_address]] Faults faults_;
 };
@@ -74,6 +52,7 @@ class TextureStage final : public AttachStage<ClampedRequest, TexelGather::Out> 
     ask.at = {spot_of(of.position.x << q), {}, spot_of(of.position.z << q)};
     ask.count = {static_cast<std::int32_t>(registers_.cells.x << q), 1,
                  static_cast<std::int32_t>(registers_.cells.z << q)};
+    ask.kind = Asked::texel;
     return ask;
   }
   void take(Surface& of, int, const TexelGather::Out& answer) override {

@@ -10,6 +10,7 @@
 
 #include "hwmodel/raycast/configuration.h"
 #include "hwmodel/raycast/memory_port.h"
+#include "hwmodel/raycast/pass_counts.h"
 #include "hwmodel/raycast/tile_stages.h"
 #include "hwmodel/raycast/walk_stage.h"
 
@@ -33,11 +34,8 @@ enum class Channel : std::uint8_t {
   crossed,
   met,
   normal,
-  search_asks,
-  paint_asks,
   height_asks,
-  search_heights,
-  paint_heights,
+  heights,
   paint,
   texel_asks,
   texels,
@@ -99,6 +97,8 @@ class Pipe {
   virtual const std::vector<Stage*>& stages() const = 0;
   virtual const Stage& running() const = 0;
   virtual const WalkCounts& walked() const = 0;
+  // Of the next pass: what each ray costs. Null: nobody counts.
+  virtual void count(PipeCounts* counts) = 0;
   struct CacheReport {
     std::string name;
     CacheCounts counts;

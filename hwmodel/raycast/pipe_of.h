@@ -65,6 +65,7 @@ class PipeOf final : public Pipe {
   const std::vector<Stage*>& stages() const override { return stages_; }
   const Stage& running() const override { return *running_; }
   const WalkCounts& walked() const override { return walk_.counts(); }
+  void count(PipeCounts* counts) override;
   std::vector<CacheReport> caches() const override;
   void forget(std::size_t i, const std::vector<std::int64_t>& lines) override;
   void forget_all() override;
@@ -93,7 +94,6 @@ class PipeOf final : public Pipe {
   SampleStage<Faults> sample_;
   NormalStage<Faults> normal_;
   PaintStage<Faults> paint_;
-  AskStage<ClampedRequest> height_ask_;
   ColumnGather columns_;
   TextureStage<Faults> texture_;
   TexelGather texels_;
@@ -127,16 +127,15 @@ PipeOf<Faults>::PipeOf(const Registers& registers, const FrameRegisters& frame, 
       number_(number),
       buffers_(c.tiles),
       tiles_(registers, frame, buffers_, kTiles, faults),
-      set_up_(registers, faults),
-      ground_(registers, kSearches, faults),
+      set_up_(registers, c.tiles, faults),
+      ground_(registers, kSearches, c.searchers, faults),
       walk_(registers, c.rays, c.walkers, faults),
       crossing_(walk_, c.rays, faults),
       ask_("ask"),
       levels_("levels", c.levels, memory.levels, kLevels, static_cast<std::int16_t>(kAir), 5, faults),
       sample_(faults),
       normal_(kWaiting, faults),
-      paint_(registers, kWaiting, faults),
-      height_ask_("ask for heights"),
+      paint_(registers, faults),
       columns_("heights", c.ground, memory.heights, kColumns, Column{}, 1),
       texture_(registers, kWaiting, faults),
       texels_("texels", c.ground, memory.texels, kTexels, Texel{}, 1),
@@ -175,7 +174,7 @@ void PipeOf<Faults>::list_stages() {
   else
     add({&opaque_->met});
   add({&crossing_, &sample_, &levels_.data, &levels_.tags, &ask_, &walk_, &ground_, &columns_.data,
-       &columns_.tags, &height_ask_, &set_up_, &tiles_});
+       &columns_.tags, &set_up_, &tiles_});
 }
 
 template <class Faults>
@@ -216,11 +215,8 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
   auto& crossed = channel<MetToken>(Channel::crossed, clear_ ? "crossing -> stretch" : "crossing -> met");
   auto& met = channel<Surface>(Channel::met, clear_ ? "stretch -> normal" : "met -> normal");
   auto& normal = channel<Surface>(Channel::normal, "normal -> paint");
-  auto& search_asks = channel<ClampedRequest>(Channel::search_asks, "ground -> ask for heights");
-  auto& paint_asks = channel<ClampedRequest>(Channel::paint_asks, "paint -> ask for heights");
-  auto& height_asks = channel<ClampedRequest>(Channel::height_asks, "ask for heights -> heights");
-  auto& search_heights = channel<ColumnGather::Out>(Channel::search_heights, "heights -> ground");
-  auto& paint_heights = channel<ColumnGather::Out>(Channel::paint_heights, "heights -> paint");
+  auto& height_asks = channel<ClampedRequest>(Channel::height_asks, "ground -> heights");
+  auto& heights = channel<ColumnGather::Out>(Channel::heights, "heights -> ground");
   auto& paint = channel<Surface>(Channel::paint, "paint -> texture");
   auto& texel_asks = channel<ClampedRequest>(Channel::texel_asks, "texture -> texels");
   auto& texels = channel<TexelGather::Out>(Channel::texels, "texels -> texture");
@@ -249,10 +245,9 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
 
   tiles_.connect(tiles, tile_lines, orders);
   set_up_.connect(orders, set_up);
-  ground_.connect(set_up, search_asks, search_heights, ground);
-  height_ask_.connect({&paint_asks, &search_asks}, height_asks);
+  ground_.connect(set_up, height_asks, heights, ground);
   columns_.connect(height_asks, column_lines);
-  columns_.connect_out({&search_heights, &paint_heights});
+  columns_.connect_out({&heights});
   walk_.connect(ground, walk_asks, walk_levels, hits, missed);
   crossing_.connect(hits, crossing_asks, crossing_levels, crossed);
   levels_.connect(level_asks, level_lines);
@@ -281,7 +276,7 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
   }
   ask_.connect(std::move(askers), level_asks);
   normal_.connect(met, normal_asks, normal_levels, normal);
-  paint_.connect(normal, paint_asks, paint_heights, paint);
+  paint_.connect(normal, paint);
   texture_.connect(paint, texel_asks, texels, texture);
   texels_.connect(texel_asks, texel_lines);
   texels_.connect_out({&texels});
@@ -327,6 +322,17 @@ int PipeOf<Faults>::cycle() {
   }
   for (std::size_t i = 0; i < commits_.size(); ++i) commits_[i](committed_[i]);
   return moved;
+}
+
+template <class Faults>
+void PipeOf<Faults>::count(PipeCounts* counts) {
+  tiles_.count(counts), ground_.count(counts), walk_.count(counts);
+  levels_.count(counts), matter_words_.count(counts), light_cells_.count(counts);
+  columns_.count(counts), texels_.count(counts);
+  if (counts == nullptr) return;
+  *counts = {};
+  counts->free = {levels_.free_lines(), matter_words_.free_lines(), light_cells_.free_lines(),
+                  columns_.free_lines(), texels_.free_lines()};
 }
 
 template <class Faults>

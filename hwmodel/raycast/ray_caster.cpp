@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "hwmodel/process/process.h"
+#include "hwmodel/raycast/forecast.h"
 #include "hwmodel/raycast/line_memory.h"
+#include "hwmodel/raycast/tile_order.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
@@ -20,16 +22,22 @@ int tiles_along(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 // Deals tiles to the pipes, each to the next one that has room.
 class Dealer {
  public:
-  void begin(const FrameRegisters& frame, bool second) { frame_ = frame, second_ = second, next_ = 0; }
+  void begin(const FrameRegisters& frame, int bands, bool second) {
+    turns_ = TileTurns(frame.tiles_x, frame.tiles_y, bands);
+    second_ = second, next_ = 0, turn_ = 0;
+  }
   void connect(Fifo<TileJob>& out) { out_.push_back(&out); }
   bool cycle() {
-    while (next_ < frame_.tiles_x * frame_.tiles_y && !frame_.window.meets(tile_x(), tile_y(), kTileSide))
-      ++next_;
-    if (next_ == frame_.tiles_x * frame_.tiles_y) return false;
+    const auto drawn = [&](const TileTurns::Tile& tile) {
+      return tile.any && frame_.window.meets(tile.x * kTileSide, tile.y * kTileSide, kTileSide);
+    };
+    while (next_ < turns_.count() && !drawn(turns_.at(next_))) ++next_;
+    if (next_ == turns_.count()) return false;
+    const TileTurns::Tile tile = turns_.at(next_);
     for (std::size_t i = 0; i < out_.size(); ++i) {
       Fifo<TileJob>& out = *out_[(turn_ + i) % out_.size()];
       if (!out.ready()) continue;
-      *out.put() = {tile_x(), tile_y(), second_};
+      *out.put() = {tile.x * kTileSide, tile.y * kTileSide, second_};
       ++next_;
       turn_ = (turn_ + i + 1) % out_.size();
       return true;
@@ -38,10 +46,8 @@ class Dealer {
   }
 
  private:
-  int tile_x() const { return next_ % frame_.tiles_x * kTileSide; }
-  int tile_y() const { return next_ / frame_.tiles_x * kTileSide; }
-
   FrameRegisters frame_;
+  TileTurns turns_;
   bool second_ = false;
   int next_ = 0;
   std::size_t turn_ = 0;
@@ -131,12 +137,20 @@ struct RayCaster::Machine {
              samples,
              most,
              window};
-    dealer.begin(frame, second);
+    dealer.begin(frame, configuration.bands, second);
     bytes_at_end = memory_block->counts().written_bytes + bytes_dealt();
     shared.complete = shared.hangs = false;
     shared.last_cycle = kNever;
     idle = 0;
     memory_block->begin();
+
+    ForecastInput counted;
+    if (predicts) {
+      counted.pipes.resize(pipes.size());
+      counted.second = second;
+      counted.samples = samples;
+    }
+    for (std::size_t i = 0; i < pipes.size(); ++i) pipes[i]->count(predicts ? &counted.pipes[i] : nullptr);
 
     context.enter();
     shared.first_cycle = ran ? Shared::now() + 1 : 0;
@@ -145,10 +159,17 @@ struct RayCaster::Machine {
     context.leave();
     for (const auto& pipe : pipes) pipe->end_pass();
     if (shared.error) std::rethrow_exception(std::exchange(shared.error, nullptr));
-    return {shared.last_cycle + 1, shared.complete, shared.hangs};
+    FrameEnd end{shared.last_cycle + 1, -1, shared.complete, shared.hangs};
+    if (predicts && end.complete && neighbour == nullptr) {
+      const auto caches = pipes.front()->caches();
+      for (std::size_t i = 0; i < caches.size(); ++i) counted.line_bytes[i] = caches[i].line_bytes;
+      end.predicted = forecast(counted, configuration);
+    }
+    return end;
   }
 
   std::function<void()> poll;
+  bool predicts = false;
   std::int64_t moves_before = 0, idle = 0, bytes_at_end = 0;
   bool ran = false;
   Context context;  // first: everything of SystemC lives in it
@@ -195,6 +216,8 @@ void RayCaster::wait_for_neighbour() {
 }
 
 void RayCaster::draw_only(const Window& window) { machine_->window = window; }
+void RayCaster::predict(bool wanted) { machine_->predicts = wanted; }
+
 FrameEnd RayCaster::draw_first() { return machine_->run_pass(false, 1, 0); }
 FrameEnd RayCaster::draw_again(int samples, int most) { return machine_->run_pass(true, samples, most); }
 

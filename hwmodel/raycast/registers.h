@@ -23,6 +23,7 @@ struct Window {
   bool meets(std::int32_t x, std::int32_t y, std::int32_t side) const {
     return x + side > left && y + side > top && x < right && y < bottom;
   }
+  bool whole() const { return *this == Window{}; }
   friend bool operator==(const Window&, const Window&) = default;
 };
 
@@ -57,11 +58,36 @@ struct LookRegisters {
   std::vector<std::uint8_t> bytes;  // by light 0 .. 4096
 };
 
+// What is known of the ground without its columns (ground_blocks.h).
+inline constexpr int kFineBits = 22;    // of a position in a block of 4 x 4 cells
+inline constexpr int kCoarseBits = 24;  // 16 x 16
+inline constexpr int kBoundShift = 6;   // bounds are in 2^-6 cells, heights in 2^-12
+
+// Of all places of a block. 17 bits each.
+struct GroundBlock {
+  std::int32_t highest = 0;
+  std::int32_t slope_x = 0, slope_z = 0;  // the largest differences of two columns side by side
+  friend bool operator==(const GroundBlock&, const GroundBlock&) = default;
+};
+struct GroundBlocks {
+  int x = 0, z = 0;               // fine blocks
+  std::vector<GroundBlock> fine;  // x fastest
+  std::vector<std::int32_t> coarse;
+
+  int coarse_x() const { return (x + 3) / 4; }
+  const GroundBlock& fine_at(Vec p) const {
+    return fine[static_cast<std::size_t>((p.z >> kFineBits) * x + (p.x >> kFineBits))];
+  }
+  std::int64_t coarse_at(Vec p) const {
+    return coarse[static_cast<std::size_t>((p.z >> kCoarseBits) * coarse_x() + (p.x >> kCoarseBits))];
+  }
+};
+
 // The slab (docs/picture-ground.md). Heights and texels lie in memory.
 struct GroundRegisters {
   bool any = false;
   std::int64_t highest = 0;  // 2^-12 cells
-  Vec slopes;                // U and V of section 4
+  GroundBlocks blocks;
   Rgb color{};
   bool textured = false;
   int fineness = 0;                                // q of section 7

@@ -168,9 +168,8 @@ inline Rgb matter_color(const Arriving& arriving, const Mixture& of, const Mirro
   const Rgb body = scattered_color(arriving, of.material.diffuse), gleam = gleam_of(of, mirror);
   Rgb sum{};
   for (std::size_t c = 0; c < 3; ++c)
-    sum[c] = static_cast<std::int32_t>(
-        UInt<17>(std::int64_t{body[c]} + gleam[c] +
-                 ((of.emission[c] * (2540 + ((1556 * mirror.eye) >> 14))) >> 12)));
+    sum[c] = static_cast<std::int32_t>(UInt<17>(
+        std::int64_t{body[c]} + gleam[c] + ((of.emission[c] * (2540 + ((1556 * mirror.eye) >> 14))) >> 12)));
   return sum;
 }
 

@@ -34,7 +34,8 @@ class StretchStage final : public Stage {
         faults_(faults),
         rays_(static_cast<std::size_t>(rays)) {}
   void connect(Fifo<MetToken>& missed, Fifo<MetToken>& crossed, Fifo<LevelRequest>& ask,
-               Fifo<LevelToken>& answer, Fifo<HitToken>& exit, Fifo<OnwardToken>& onward, Fifo<Surface>& out) {
+               Fifo<LevelToken>& answer, Fifo<HitToken>& exit, Fifo<OnwardToken>& onward,
+               Fifo<Surface>& out) {
     missed_ = &missed, crossed_ = &crossed, ask_ = &ask, answer_ = &answer, exit_ = &exit;
     onward_ = &onward, out_ = &out;
   }
@@ -231,8 +232,8 @@ class StretchStage final : public Stage {
   }
   void leave(int i) {
     const Context& of = at(i);
-    *exit_->put() = {static_cast<std::int16_t>(i), of.ray,    of.k, of.at, of.level, true, of.beyond,
-                     of.span,                      true};
+    *exit_->put() = {
+        static_cast<std::int16_t>(i), of.ray, of.k, of.at, of.level, true, of.beyond, of.span, true};
   }
 
   const Registers& registers_;

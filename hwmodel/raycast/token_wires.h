@@ -39,6 +39,7 @@ void wires_of(const GroundHit& hit, Visit&& visit) {
   visit(1, false, hit.found ? 1 : 0), visit(35, false, hit.found ? hit.part : 0);
   vector_wires(hit.position, 32, visit);
   visit(3, false, static_cast<std::int64_t>(hit.face));
+  vector_wires(hit.normal, 16, visit);
 }
 
 template <class Visit>
@@ -118,7 +119,7 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& of, Visit&& vis
     visit(1, false, s.inside ? 1 : 0), visit(3, false, static_cast<std::int64_t>(s.face));
   if (until(Behind::matter)) vector_wires(s.position, 32, visit);
   if (until(Behind::arriving)) vector_wires(s.to_eye, 16, visit);
-  if (from(Behind::normal) && until(Behind::arriving)) vector_wires(s.normal, 16, visit);
+  if (until(Behind::arriving)) vector_wires(s.normal, 16, visit);
   if (from(Behind::paint) && until(Behind::mirror)) color_wires(s.color, 13, visit);
   if (from(Behind::matter) && until(Behind::light)) {
     visit(8, false, s.matter.liquid), visit(8, false, s.matter.heat), visit(8, false, s.matter.obstacle);

@@ -10,15 +10,10 @@
 #include "hwmodel/raycast/gather.h"
 #include "hwmodel/raycast/ground.h"
 #include "hwmodel/raycast/ray.h"
+#include "hwmodel/raycast/ray_id.h"
 #include "hwmodel/raycast/shade.h"
 
 namespace voxmelt::hwmodel::raycast {
-
-// A ray goes through sample `sample` of a pixel, whose bytes come together in a buffer of its tile.
-struct RayId {
-  std::int32_t x = 0, y = 0;
-  std::int16_t sample = 0, buffer = 0;
-};
 
 // A tile of the picture that a pipe is to draw. The first pass draws all of its pixels with one sample, the
 // second one those that differ from their neighbours, with more.
@@ -31,6 +26,7 @@ struct TileOrder {
   std::int32_t x = 0, y = 0;
   std::int16_t buffer = 0, samples = 1;
   std::uint64_t pixels = 0;
+  std::int32_t first_ray = 0;  // its number, where rays are counted
 };
 
 // Places of samples in a pixel, in 64ths (docs/picture.md, section 10).
@@ -62,8 +58,8 @@ struct MetToken {
   Ray ray;
   GroundHit ground;
   Crossing matter;
-  // Of a ray that goes on through clear matter: its place in the walk, how often it has entered matter before,
-  // whether it leaves it here, and the sample in matter.
+  // Of a ray that goes on through clear matter: its place in the walk, how often it has entered matter
+  // before, whether it leaves it here, and the sample in matter.
   std::int16_t context = 0, span = 0;
   bool leaves = false;
   std::int16_t level = 0;
@@ -87,21 +83,24 @@ struct LevelRequest {
   Vec at;              // in the lattice
 
   std::size_t kind_index() const { return asker == Asker::normal ? 1 : 0; }
+  Asked asked() const {
+    return asker == Asker::walk ? Asked::sample : asker == Asker::crossing ? Asked::crossing : Asked::normal;
+  }
   Places places() const {
     Places of;
     const auto place = [](std::int64_t q) { return static_cast<std::int32_t>(q >> kCellBits); };
     of.low = {place(at.x), place(at.y), place(at.z)};
     if (asker == Asker::normal) {
-      of.side = 3;
+      of.side = of.high = 3;
       const auto three = [](std::int64_t q) {
         const auto middle = static_cast<std::int32_t>(middle_place(q));
-        return std::array<std::int32_t, 3>{middle - 1, middle, middle + 1};
+        return std::array<std::int32_t, 4>{middle - 1, middle, middle + 1, 0};
       };
       of.x = three(at.x), of.y = three(at.y), of.z = three(at.z);
     } else {
-      of.x = {of.low[0], of.low[0] + 1, 0};
-      of.y = {of.low[1], of.low[1] + 1, 0};
-      of.z = {of.low[2], of.low[2] + 1, 0};
+      of.x = {of.low[0], of.low[0] + 1, 0, 0};
+      of.y = {of.low[1], of.low[1] + 1, 0, 0};
+      of.z = {of.low[2], of.low[2] + 1, 0, 0};
     }
     return of;
   }
@@ -118,11 +117,13 @@ struct LevelToken {
 // Bytes of matter around a position.
 struct MatterRequest {
   Spots at;
+  RayId id;
   std::size_t kind_index() const { return 0; }
+  Asked asked() const { return Asked::matter; }
   Places places() const {
     const auto two = [](const Spot& s) {
       const auto low = static_cast<std::int32_t>(s.cell + kLatticeBorder);
-      return std::array<std::int32_t, 3>{low, low + 1, 0};
+      return std::array<std::int32_t, 4>{low, low + 1, 0, 0};
     };
     Places of{two(at.x), two(at.y), two(at.z), 2, {}};
     of.low = {of.x[0], of.y[0], of.z[0]};
@@ -137,26 +138,25 @@ struct ClampedRequest {
   std::array<std::int32_t, 3> count{1, 1, 1};
   std::int16_t asker = 0, context = 0;
   int side = 2;
+  RayId id;
+  Asked kind = Asked::light;
 
   std::size_t kind_index() const { return static_cast<std::size_t>(asker); }
+  Asked asked() const { return kind; }
   Places places() const {
     const auto along = [](const Spot& s, std::int32_t n) {
       const auto inside = [&](std::int64_t i) {
         return static_cast<std::int32_t>(i < 0 ? 0 : i >= n ? n - 1 : i);
       };
-      return std::array<std::int32_t, 3>{inside(s.cell), inside(s.cell + 1), inside(s.cell + 2)};
+      return std::array<std::int32_t, 4>{inside(s.cell), inside(s.cell + 1), inside(s.cell + 2),
+                                         inside(s.cell + 3)};
     };
-    return {along(at.x, count[0]), along(at.y, count[1]), along(at.z, count[2]), side, {}};
+    return {along(at.x, count[0]), along(at.y, count[1]), along(at.z, count[2]), side, {},
+            side == 4 ? 1 : side};
   }
 };
 using LightGather = Gather<ClampedRequest, LightWord, 8>;
-using ColumnGather = Gather<ClampedRequest, Column, 27>;
-inline NineColumns columns_of(const ColumnGather::Out& answer) {
-  NineColumns of{answer.request.at.x.cell, answer.request.at.z.cell, {}};
-  for (std::size_t z = 0; z < 3; ++z)
-    for (std::size_t x = 0; x < 3; ++x) of.of[3 * z + x] = answer.words[9 * z + x];
-  return of;
-}
+using ColumnGather = Gather<ClampedRequest, Column, 16>;
 using TexelGather = Gather<ClampedRequest, Texel, 8>;
 
 // Of an event on a ray through clear matter: which ray of those under way, and which of its events.

@@ -16,6 +16,8 @@ Configuration random_configuration(worlds::Random& random) {
   c.pipes = random.any({1, 2, 4});
   c.rays = random.any({1, 2, 17, 64});
   c.walkers = random.between(1, 4);
+  c.searchers = random.between(1, 4);
+  c.bands = random.between(1, 5);
   c.fifo_depth = random.any({1, 2, 8});
   c.stall_seed = random.one_in(2) ? 0 : static_cast<std::uint64_t>(random.between(1, 1000));
   c.tiles = random.any({1, 2, 4});

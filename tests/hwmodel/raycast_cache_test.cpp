@@ -31,7 +31,9 @@ TEST(RaycastCache, HitsAndMissesAreThoseOfLists) {
     std::int64_t misses = 0;
     for (int n = 0; n < 20000; ++n) {
       const std::int64_t line = random() % static_cast<unsigned>(3 * sets * ways + 1);
-      std::list<std::int64_t>& list = lists[static_cast<std::size_t>(line % sets)];
+      // The set is the exclusive or of the line's lowest three digits.
+      std::list<std::int64_t>& list =
+          lists[static_cast<std::size_t>((line % sets) ^ (line / sets % sets) ^ (line / sets / sets % sets))];
       const auto at = std::find(list.begin(), list.end(), line);
       const bool hit = at != list.end();
       ASSERT_EQ(cache.holds(line), hit);
@@ -222,11 +224,11 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
       next = {};
       next.number = put++;
       next.kind = random() % 4 == 0 ? 1 : 0;
-      next.p.side = next.kind == 1 ? 3 : 2;
+      next.p.side = next.p.high = next.kind == 1 ? 3 : 2;
       next.p.low = {x, y, z};
       const int from = next.kind == 1 ? -1 : 0;
       const auto places = [&](int at) {
-        return std::array<std::int32_t, 3>{at + from, at + from + 1, at + from + 2};
+        return std::array<std::int32_t, 4>{at + from, at + from + 1, at + from + 2, 0};
       };
       next.p.x = places(x), next.p.y = places(y), next.p.z = places(z);
       asked.push_back(next);

@@ -5,10 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
 #include "hwmodel/raycast/ground.h"
+#include "hwmodel/raycast/ground_blocks.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
@@ -70,20 +72,21 @@ TEST(RaycastGround, AHeightIsBlendedAlongXAndThenZ) {
   EXPECT_EQ(between_columns(value, {0, 0}, {0, 0}), 100);
 }
 
-// Nine columns from (5, -1) on: the four of (6, 0) and half a cell around by weight 128 along x, 64 along z.
-TEST(RaycastGround, NineColumnsHoldAPlaceAndHalfACellAround) {
-  NineColumns of{5, -1, {}};
-  for (std::int32_t i = 0; i < 9; ++i) of.of[static_cast<std::size_t>(i)] = {100 * i * i, -i};
+// Sixteen columns from (5, -1) on: entry 4 z + x has 100 (4 z + x)^2.
+TEST(RaycastGround, SixteenColumnsHoldAPlaceAndHalfACellAround) {
+  NearColumns of{5, -1, {}};
+  for (std::int32_t i = 0; i < 16; ++i) of.of[static_cast<std::size_t>(i)] = {100 * i * i, -i};
   // Position of cell c and weight w: c + 1/2 cells and w 2^12.
   const auto place = [](std::int64_t cell, std::int64_t weight) {
     return cell * kOne + kOne / 2 + (weight << 12);
   };
-  // Entries 4, 5, 7 and 8: 1600 and 2500 are 2050, 4900 and 6400 are 5650; a quarter on 2950.
-  EXPECT_EQ(of.height(&Column::drawn, place(6, 128), place(0, 64)), 2950);
+  // Entries 5, 6, 9 and 10: 2500 and 3600 are 3050, 8100 and 10000 are 9050; a quarter on 4550.
+  EXPECT_EQ(of.height(&Column::drawn, place(6, 128), place(0, 64)), 4550);
   EXPECT_EQ(of.height(&Column::drawn, place(5, 0), place(-1, 0)), 0);
   EXPECT_EQ(of.height(&Column::drawn, place(6, 0), place(-1, 0)), 100);
-  EXPECT_EQ(of.height(&Column::drawn, place(5, 0), place(0, 0)), 900);
-  EXPECT_EQ(of.height(&Column::bare, place(6, 0), place(0, 0)), -4);
+  EXPECT_EQ(of.height(&Column::drawn, place(5, 0), place(0, 0)), 1600);
+  EXPECT_EQ(of.height(&Column::drawn, place(7, 0), place(1, 0)), 10000);
+  EXPECT_EQ(of.height(&Column::bare, place(6, 0), place(0, 0)), -5);
 }
 
 TEST(RaycastGround, TheFirstAndTheLastPartAreThoseOfAPlainSearch) {
@@ -161,7 +164,6 @@ TEST(RaycastGround, ARayComesNoNearerThanItsApproach) {
   std::mt19937_64 random(22);
   int near = 0;
   for (int n = 0; n < 300; ++n) {
-    Registers registers = slab(8, 8, 8, 8 * 4096);
     std::array<std::array<std::int64_t, 8>, 8> heights{};  // [z][x]
     for (auto& row : heights)
       for (std::int64_t& height : row)
@@ -172,7 +174,7 @@ TEST(RaycastGround, ARayComesNoNearerThanItsApproach) {
         u = std::max(u, magnitude(heights[a][b] - heights[a][b + 1]));
         v = std::max(v, magnitude(heights[b][a] - heights[b + 1][a]));
       }
-    registers.ground.slopes = {u, 0, v};
+    const Vec slopes{u, 0, v};
     const auto height = [&](Vec p) {
       const Spot x = spot_of(p.x), z = spot_of(p.z);
       const auto inside = [](std::int64_t i) {
@@ -194,7 +196,7 @@ TEST(RaycastGround, ARayComesNoNearerThanItsApproach) {
       const Vec p = ray.start + ray.step * k;
       return ((p.y >> 8) - height(p)) << 20;  // 2^-32 cells
     };
-    const std::int64_t approach = approach_of(registers, ray), margin = margin_of(registers);
+    const std::int64_t approach = approach_of(slopes, ray.step), margin = margin_of(slopes);
     for (std::int64_t k = 0; k < 40; ++k)
       for (std::int64_t steps = 1; steps < 12; ++steps) {
         ASSERT_GE(above(k + steps), above(k) - steps * approach - margin) << n;
@@ -202,6 +204,100 @@ TEST(RaycastGround, ARayComesNoNearerThanItsApproach) {
       }
   }
   EXPECT_GT(near, 20);  // some come almost so near
+}
+
+// Six columns along x, one along z: 0, 4096, 4096, 0, 0, 12345. Block 0 reads columns 0 .. 4, block 1 those
+// from 3 on. Bounds are rounded up to 64: 12345 becomes 193.
+TEST(RaycastGround, BoundsOfBlocksByHand) {
+  const std::array<std::int64_t, 6> heights{0, 4096, 4096, 0, 0, 12345};
+  const GroundBlocks of =
+      ground_blocks(6, 1, [&](std::int64_t x, std::int64_t) { return heights[static_cast<std::size_t>(x)]; });
+  EXPECT_EQ(of.x, 2);
+  EXPECT_EQ(of.z, 1);
+  EXPECT_EQ(of.fine, (std::vector<GroundBlock>{{64, 64, 0}, {193, 193, 0}}));
+  EXPECT_EQ(of.coarse, (std::vector<std::int32_t>{193}));
+}
+
+// Block 0 has bound 2 cells, and the ray is 2 1/2 cells high. It falls by 1/8 cell a sample: 4 samples. By
+// its quarter of a cell along x it would stay for 9 more from 3/2 on: the last one is at 15/4.
+TEST(RaycastGround, SamplesAboveABlockByHand) {
+  GroundBlocks blocks;
+  blocks.x = blocks.z = 1;
+  blocks.fine = {{128, 0, 0}};
+  blocks.coarse = {9999};
+  const auto from = [&](Vec p, Vec step) { return samples_above(blocks, searcher_of({p, step}), p); };
+  const std::int64_t half = kOne / 2, quarter = kOne / 4, eighth = kOne / 8;
+  const auto near = [](std::optional<std::int64_t> of, std::int64_t exact) {
+    return of && *of <= exact && *of >= exact - 1;  // a reciprocal is a little too small
+  };
+  EXPECT_TRUE(near(from({3 * half, 5 * half, kOne}, {quarter, -eighth, 0}), 4));
+  EXPECT_TRUE(near(from({3 * half, 50 * half, kOne}, {quarter, -eighth, 0}), 9));
+  EXPECT_TRUE(near(from({3 * half, 5 * half, kOne}, {-quarter, eighth, 0}), 6));
+  EXPECT_TRUE(near(from({3 * half, 5 * half, kOne}, {-quarter, eighth, -quarter}), 4));
+  EXPECT_EQ(from({3 * half, 4 * half, kOne}, {0, 0, 0}), kAlways);
+  EXPECT_EQ(from({3 * half, 4 * half - 1, kOne}, {0, eighth, 0}), std::nullopt);
+}
+
+// Random columns and rays: no sample that is left out lies in the ground, and many are.
+TEST(RaycastGround, NoSampleIsLeftOutInTheGround) {
+  std::mt19937_64 random(23);
+  std::int64_t above = 0, over = 0, next = 0;
+  for (int n = 0; n < 400; ++n) {
+    const std::int64_t nx = 3 + static_cast<std::int64_t>(random() % 40),
+                       nz = 2 + static_cast<std::int64_t>(random() % 30);
+    std::vector<std::int64_t> columns(static_cast<std::size_t>(nx * nz));
+    const std::int64_t rough = n % 3 == 0 ? 40 : n % 3 == 1 ? 3000 : 20000;
+    for (std::int64_t i = 0; i < nx * nz; ++i)
+      columns[static_cast<std::size_t>(i)] =
+          (n % 2 == 0 ? 300 * (i % nx) : 0) +
+          static_cast<std::int64_t>(random() % static_cast<unsigned>(rough));
+    const auto column = [&](std::int64_t x, std::int64_t z) {
+      return columns[static_cast<std::size_t>(std::clamp<std::int64_t>(z, 0, nz - 1) * nx +
+                                              std::clamp<std::int64_t>(x, 0, nx - 1))];
+    };
+    const GroundBlocks blocks = ground_blocks(nx, nz, column);
+    const auto height = [&](Vec p) {
+      const Spot x = spot_of(p.x), z = spot_of(p.z);
+      return between_columns(
+          [&](std::size_t i) {
+            return column(x.cell + static_cast<std::int64_t>(i & 1),
+                          z.cell + static_cast<std::int64_t>(i >> 1));
+          },
+          x, z);
+    };
+    const auto in_slab = [&](Vec p) { return p.x >= 0 && p.z >= 0 && p.x < nx * kOne && p.z < nz * kOne; };
+    const auto within = [&](std::int64_t m) {
+      return static_cast<std::int64_t>(random() % static_cast<unsigned>(2 * m)) - m;
+    };
+    const Ray ray{{static_cast<std::int64_t>(random() % static_cast<unsigned>(nx * kOne)), within(8 * kOne),
+                   static_cast<std::int64_t>(random() % static_cast<unsigned>(nz * kOne))},
+                  {within(kOne / 4), within(kOne / 8), within(kOne / 4)}};
+    const Searcher searcher = searcher_of(ray);
+    for (std::int64_t part = 0; part < 256 * 60; part += n % 5 == 0 ? 77 : 256) {
+      const Vec p = at_part(ray, part);
+      if (!in_slab(p)) break;
+      const std::int64_t over_ground = (p.y >> 8) - height(p);
+      const auto left_out = [&](std::int64_t samples) {
+        for (std::int64_t k = (part >> 8) + 1; k <= (part >> 8) + std::min<std::int64_t>(samples, 80); ++k) {
+          const Vec at = at_part(ray, 256 * k);
+          ASSERT_FALSE(in_slab(at) && (at.y >> 8) < height(at)) << n << " " << part << " " << k;
+        }
+      };
+      const std::optional<std::int64_t> samples = samples_above(blocks, searcher, p);
+      if (samples) {
+        ASSERT_GE(over_ground, 0) << n;
+        left_out(*samples);
+        above += *samples > 0 ? 1 : 0;
+      } else if (over_ground >= 0) {
+        const std::int64_t more = samples_over_slopes(blocks, searcher, p, over_ground);
+        left_out(more);
+        (more > 0 ? over : next) += 1;
+      }
+    }
+  }
+  EXPECT_GT(above, 1000);
+  EXPECT_GT(over, 200);
+  EXPECT_GT(next, 200);
 }
 
 void expect_near(Vec of, Vec expected) {
