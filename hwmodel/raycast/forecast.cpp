@@ -1,9 +1,9 @@
 #include "hwmodel/raycast/forecast.h"
 
-#include <deque>
-#include <initializer_list>
 #include <algorithm>
 #include <cstddef>
+#include <deque>
+#include <initializer_list>
 #include <memory>
 
 #include "hwmodel/raycast/forecast_queues.h"
