@@ -9,6 +9,7 @@
 #include "hwmodel/channel/tap_line.h"
 #include "hwmodel/faults/faults.h"
 #include "hwmodel/stream/stage.h"
+#include "kernel/automaton/state/grid.h"
 
 namespace voxmelt::hwmodel {
 
@@ -35,6 +36,18 @@ class Planted {
   template <class Word>
   void strike_first_word(const Stage& stage, TapLine<Word>& line, const Word& one, const Word& other) {
     strike_at(stage, std::min(position_of(stage, line, one), position_of(stage, line, other)));
+  }
+
+  // A cell at the end of the grid leaves without the bit that it stands beside a wall.
+  void miss_side(const Stage& stage, Fault fault, int lane, Cell& cell) {
+    if (!armed(stage, fault) || cell.beside_wall == 0 || !cell.matter()) return;
+    const Place& at = stage.leaving();
+    const state::Grid& grid = stage.shape().grid;
+    const int x = at.x + lane;
+    if (x > 0 && x < grid.x - 1 && at.z > 0 && at.z < grid.z - 1) return;
+    if (x >= grid.x) return;
+    cell.beside_wall = 0;
+    strike_lane(stage, at, lane);
   }
 
  private:

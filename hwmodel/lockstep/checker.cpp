@@ -5,17 +5,19 @@
 #include <cstdint>
 #include <utility>
 
-#include "hwmodel/stream/volume_port.h"
+#include "hwmodel/lockstep/wanted_cell.h"
 
 namespace voxmelt::hwmodel {
 
 Checker::Checker(Pipeline& pipeline)
-    : pipeline_(pipeline), shape_(pipeline.design().shape), wanted_(static_cast<std::size_t>(shape_.lanes)) {
+    : pipeline_(pipeline),
+      shape_(pipeline.design().shape),
+      written_in_(static_cast<std::size_t>(shape_.tokens())) {
   int cascade = -1;
   std::size_t stage = 0;
   for (const ChannelReport& report : pipeline.channels()) {
     if (report.producer == StageKind::feed) continue;
-    Channel channel{report.name, report.producer, report.cascade, 0, false, nullptr, {}, {}};
+    Channel channel{report.name, report.producer, report.cascade, 0, false, {}, {}, {}};
     if (report.producer != StageKind::reader) {
       stage = report.cascade == cascade ? stage + 1 : 0;
       cascade = report.cascade;
@@ -32,46 +34,58 @@ void Checker::begin_pass(std::uint32_t first_step, const std::vector<std::vector
     channel.place = {};
     channel.in_flight.clear();
     const auto step = static_cast<std::size_t>(channel.cascade);
-    const bool compared = channel.behind_stage && step < expected.size() && !expected[step].empty();
-    channel.expected = compared ? &expected[step].at(channel.stage) : nullptr;
+    channel.expected = {};
+    if (step >= expected.size() || expected[step].empty()) continue;
+    channel.expected = expected[step].at(channel.stage);
+    if (!channel.behind_stage)  // what is read is what was before the first stage
+      channel.expected = Expected{channel.expected->before, channel.expected->before, {}};
   }
 }
 
 void Checker::entered(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
   Channel& channel = channels_[static_cast<std::size_t>(number)];
-  if (mismatch_ == nullptr && channel.expected != nullptr) compare(channel, lanes);
+  if (mismatch_ == nullptr && channel.expected) compare(channel, lanes);
   channel.in_flight.insert(channel.in_flight.end(), lanes, lanes + shape_.lanes);
   channel.place.next(shape_);
 }
 
-void Checker::compare(Channel& channel, const Cell* lanes) {
-  const Expected& expected = *channel.expected;
+void Checker::compare(const Channel& channel, const Cell* lanes) {
   const Place& place = channel.place;
-  read_token(*expected.after, shape_, place, wanted_.data());
   const int cells = std::min(shape_.lanes, shape_.grid.x - place.x);
-  for (int lane = 0; lane < cells; ++lane) {
-    const Cell& want = wanted_[static_cast<std::size_t>(lane)];
-    const Cell& is = lanes[lane];
-    const auto differs = [&](const char* field, std::int64_t a, std::int64_t b) {
-      if (a == b || mismatch_ != nullptr) return;
-      report(channel, Mismatch::Kind::stage, place, lane, field, a, b);
-      mismatch_->neighbourhood = neighbourhood(*expected.before, place.x + lane, place.y, place.z);
-    };
-    differs("state", static_cast<int>(want.state), static_cast<int>(is.state));
-    differs("amount", want.amount, is.amount);
-    differs("energy", want.energy, is.energy);
-    differs("heat", want.heat, is.heat);
-    if (expected.pattern != nullptr)
-      differs("pattern", (*expected.pattern)[expected.after->at(place.x + lane, place.y, place.z)],
-              is.pattern);
-    if (mismatch_ != nullptr) return;
+  for (int lane = 0; lane < cells; ++lane)
+    if (!compare(channel, wanted_cell(*channel.expected, place.x + lane, place.y, place.z), lanes[lane],
+                 lane))
+      return;
+  for (int lane = cells; lane < shape_.lanes; ++lane) {
+    Cell border;
+    border.beside_wall = lanes[lane].beside_wall;  // nobody asks which sides the border has
+    if (!compare(channel, border, lanes[lane], lane)) return;
   }
-  compared_cells_ += cells;
+  if (channel.behind_stage) compared_cells_ += cells;
+}
+
+bool Checker::compare(const Channel& channel, const Cell& wanted, const Cell& is, int lane) {
+  const Place& place = channel.place;
+  const auto same = [&](const char* field, std::int64_t a, std::int64_t b) {
+    if (a == b) return true;
+    report(channel, Mismatch::Kind::stage, place, lane, field, a, b);
+    mismatch_->neighbourhood = neighbourhood(*channel.expected->before, place.x + lane, place.y, place.z);
+    return false;
+  };
+  return same("state", static_cast<int>(wanted.state), static_cast<int>(is.state)) &&
+         same("amount", wanted.amount, is.amount) && same("energy", wanted.energy, is.energy) &&
+         same("heat", wanted.heat, is.heat) && same("pattern", wanted.pattern, is.pattern) &&
+         same("exposed axes", wanted.exposed_axes, is.exposed_axes) &&
+         same("beside a wall", wanted.beside_wall, is.beside_wall) &&
+         same("in a run", wanted.in_run, is.in_run) && same("head", wanted.head, is.head) &&
+         same("limit", wanted.limit, is.limit) && same("mobility", wanted.mobility, usable_mobility(is)) &&
+         same("dead zone", wanted.dead, is.dead);
 }
 
 void Checker::left(int number, std::int64_t ordinal, const Cell* lanes) {
   Channel& channel = channels_[static_cast<std::size_t>(number)];
   if (mismatch_ != nullptr) return;
+  if (&channel == &channels_.back()) written_in_[static_cast<std::size_t>(ordinal)] = pipeline_.cycle();
   for (int lane = 0; lane < shape_.lanes; ++lane) {
     const Cell entered = channel.in_flight.empty() ? Cell{} : channel.in_flight.front();
     if (!channel.in_flight.empty()) channel.in_flight.pop_front();

@@ -1,11 +1,13 @@
-// Watches every token of the pipeline. Behind each stage it must equal the reference's, and what leaves a
-// channel must be what entered it. The first difference stops the pass.
+// Watches every token of the pipeline. Behind each stage, and behind the reader, it must equal the
+// reference's, side bands included. Lanes beyond the grid must hold the border. What leaves a channel must be
+// what entered it. The first difference stops the pass.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,10 @@ class Checker final : public FifoWatcher<Cell> {
 
   const std::unique_ptr<Mismatch>& mismatch() const { return mismatch_; }
   std::int64_t compared_cells() const { return compared_cells_; }  // behind stages
+  // The cycle in which the writer took this token of the last pass.
+  std::int64_t written_in(std::int64_t ordinal) const {
+    return written_in_[static_cast<std::size_t>(ordinal)];
+  }
 
  private:
   struct Channel {
@@ -35,19 +41,20 @@ class Checker final : public FifoWatcher<Cell> {
     int cascade = 0;
     std::size_t stage = 0;  // number of the producer in its time step
     bool behind_stage = false;
-    const Expected* expected = nullptr;
+    std::optional<Expected> expected;
     Place place;                 // of the next token to enter
     std::deque<Cell> in_flight;  // copies, apart from the channel's own memory
   };
 
-  void compare(Channel& channel, const Cell* lanes);
+  void compare(const Channel& channel, const Cell* lanes);
+  bool compare(const Channel& channel, const Cell& wanted, const Cell& is, int lane);  // false: they differ
   void report(const Channel& channel, Mismatch::Kind kind, const Place& place, int lane, const char* field,
               std::int64_t expected, std::int64_t actual);
 
   Pipeline& pipeline_;
   const Shape shape_;
   std::vector<Channel> channels_;
-  std::vector<Cell> wanted_;
+  std::vector<std::int64_t> written_in_;  // by ordinal
   std::uint32_t first_step_ = 0;
   std::unique_ptr<Mismatch> mismatch_;
   std::int64_t compared_cells_ = 0;

@@ -54,6 +54,23 @@ Mismatch hang_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_
   return m;
 }
 
+// The pass took other cycles than the closed form says. Where channels hold two tokens, nobody waits.
+Mismatch cycles_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_t predicted,
+                   std::int64_t cycles) {
+  std::string waited;
+  for (const StageReport& stage : pipeline.stages())
+    if (stage.kind != StageKind::feed && stage.cycles.starved + stage.cycles.blocked > 0)
+      waited += (waited.empty() ? "" : ", ") + std::string(name_of(stage.kind)) + " of time step " +
+                std::to_string(stage.cascade);
+  return {.kind = Mismatch::Kind::cycles,
+          .where = "pipeline",
+          .step = first_step,
+          .field = "cycles",
+          .expected = predicted,
+          .actual = cycles,
+          .detail = "waited since the first pass: " + (waited.empty() ? "none" : waited)};
+}
+
 class Run {
  public:
   Run(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
@@ -61,7 +78,9 @@ class Run {
       : options_(options),
         plan_(options.fault, options.fault_step),
         pipeline_(parameters, start.grid, options.configuration,
-                  options.fault == Fault::none ? StageMaker(make_stage) : planted_stages(plan_)),
+                  options.make                   ? options.make
+                  : options.fault == Fault::none ? StageMaker(make_stage)
+                                                 : planted_stages(plan_)),
         channel_fault_(plan_, pipeline_),
         checker_(pipeline_),
         software_(parameters, start, first_step, fast, tuning,
@@ -142,14 +161,16 @@ class Run {
     std::vector<Expected> expected;
     std::size_t next = before + 2 * static_cast<std::size_t>(pass.substep);  // in `step`, of the sub-steps
     std::shared_ptr<const state::Volume> now = pass.begins() ? step.front().before : step[next - 1].after;
+    SideBands bands;
     int copy = -1;
     for (std::size_t i = 0; i < stages.size(); ++i) {
       if (stages[i] == StageKind::settle) ++copy;
       if (!pass.uses(stages[i], copy))
-        expected.push_back({now, now, nullptr});
+        expected.push_back({now, now, bands});  // it hands on what came
       else
         expected.push_back(i < before ? step[i] : step[next++]);
       now = expected.back().after;
+      bands = expected.back().bands;
     }
     return expected;
   }
@@ -162,11 +183,17 @@ class Run {
       end = pipeline_.run_pass(pass, irradiance, memory_);
     } catch (const Pipeline::StageError& error) {
       report_.mismatch = std::make_unique<Mismatch>(Mismatch{
-          .kind = Mismatch::Kind::width,
+          .kind = error.kind == Pipeline::StageError::Kind::width ? Mismatch::Kind::width
+                                                                  : Mismatch::Kind::address,
           .where = std::string(name_of(error.stage)),
           .phase = phase_of(error.stage),
           .step = pass.first + static_cast<std::uint32_t>(error.cascade),
           .cascade = error.cascade,
+          .lane = error.spot.lane,
+          .cycle = error.cycle,
+          .x = error.spot.token.x + error.spot.lane,
+          .y = error.spot.token.y,
+          .z = error.spot.token.z,
           .detail = error.what(),
       });
       return false;
@@ -176,7 +203,11 @@ class Run {
     report_.cycles += end.cycles;
     if (end.complete) {
       if (pass.ends()) report_.cell_steps += static_cast<std::int64_t>(memory_.grid.cells()) * pass.steps;
-      report_.predicted_cycles += predicted_cycles(pipeline_.design(), options_.configuration, pass);
+      const std::int64_t predicted = predicted_cycles(pipeline_.design(), options_.configuration, pass);
+      report_.predicted_cycles += predicted;
+      if (options_.configuration.stall_seed == 0 && end.cycles != predicted)
+        report_.mismatch =
+            std::make_unique<Mismatch>(cycles_of(pipeline_, pass.first, predicted, end.cycles));
     }
     if (checker_.mismatch() != nullptr) report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
     if (report_.mismatch == nullptr && end.hangs)
@@ -187,11 +218,14 @@ class Run {
   void compare_memory(std::uint32_t step, const state::Volume& wanted) {
     const Difference d = first_difference(wanted, memory_);
     if (d.field.empty()) return;
+    const Shape& shape = pipeline_.design().shape;
     report_.mismatch = std::make_unique<Mismatch>(Mismatch{
         .kind = Mismatch::Kind::memory,
         .where = std::string(name_of(StageKind::writer)),
         .step = step,
         .cascade = options_.configuration.cascade - 1,
+        .lane = d.x % shape.lanes,
+        .cycle = checker_.written_in(stream_order(shape, d.x, d.y, d.z) / shape.lanes),
         .x = d.x,
         .y = d.y,
         .z = d.z,

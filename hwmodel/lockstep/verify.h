@@ -21,6 +21,7 @@ struct VerifyOptions {
   Fault fault = Fault::none;
   std::uint32_t fault_step = 0;  // the first step in which it may strike
   std::function<void()> poll;    // called now and then; what it throws ends everything
+  StageMaker make;               // of the stages; empty: those of `fault`
 };
 
 struct VerifyReport {

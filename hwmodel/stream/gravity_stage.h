@@ -58,7 +58,7 @@ class Gravity final : public Stage {
     Falling* high = line_.tap(line_.delay() - 1);
     const int height = shape().grid.y;
     const bool pair = leaving().y + 1 < height, below_top = leaving().y + 2 < height;
-    for (int lane = 0; lane < lanes(); ++lane) {
+    for (const int lane : each_lane(lag())) {
       if (pair)
         move(low[lane], high[lane], !below_top || newest[lane].blocked());
       else

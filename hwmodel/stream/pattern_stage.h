@@ -56,7 +56,7 @@ class Pattern final : public Stage {
     const bool above_floor = came().y > 0;
     if (in != nullptr) {
       const Giver* below = line_.tap(1);
-      for (int lane = 0; lane < lanes(); ++lane) {
+      for (const int lane : each_lane()) {
         now[lane].amount = in[lane].amount;
         now[lane].energy = in[lane].energy;
         now[lane].heat = in[lane].heat;
@@ -67,13 +67,13 @@ class Pattern final : public Stage {
     Giver* south = came().z > 0 ? line_.tap(plane_) : nullptr;
     if (south != nullptr) {
       const Giver* below = line_.tap(plane_ + 1);
-      for (int lane = 0; lane < lanes(); ++lane)
+      for (const int lane : each_lane(shape().plane()))
         find_limits(south[lane], above_floor && below[lane].state == State::air);
     }
     Giver* west = came().x > 0 ? line_.tap(column_) + lanes() - 1 : nullptr;
     Giver* south_west =
         west != nullptr && south != nullptr ? line_.tap(plane_ + column_) + lanes() - 1 : nullptr;
-    for (int lane = 0; lane < lanes(); ++lane) {
+    for (const int lane : each_lane()) {
       meet(now[lane], west, south, south_west);
       west = now + lane;
       if (south != nullptr) south_west = south++;
@@ -139,7 +139,7 @@ class Pattern final : public Stage {
   void leave(const Giver* words, Cell* out) {
     std::int64_t block_of = -1;
     std::uint64_t block = 0;
-    for (int lane = 0; lane < lanes(); ++lane) {
+    for (const int lane : each_lane(lag())) {
       const Giver& word = words[lane];
       Cell cell;
       cell.amount = word.amount;

@@ -67,7 +67,9 @@ struct Pipeline::Machine {
         try {
           shared.moves += steps[t]->cycle();
         } catch (const WidthError& error) {
-          throw StageError(error.what(), steps[t]->running().kind(), static_cast<int>(t));
+          fail(error, StageError::Kind::width, t);
+        } catch (const AddressError& error) {
+          fail(error, StageError::Kind::address, t);
         }
         links[t + 1]->tick();
       });
@@ -80,6 +82,10 @@ struct Pipeline::Machine {
       writer.cycle();
       watch_progress();
     });
+  }
+
+  [[noreturn]] void fail(const ModelError& error, StageError::Kind kind, std::size_t t) const {
+    throw StageError(error.what(), kind, steps[t]->running(), static_cast<int>(t), shared.cycle());
   }
 
   // Runs once a cycle.

@@ -70,13 +70,22 @@ class Pipeline {
   std::vector<CellFifo*> channels_behind_stages(int cascade);  // of one time step, for faults to be planted
   void poll(std::function<void()> poll);  // called now and then during a pass; what it throws ends the pass
 
-  // Where a value did not fit its wire.
+  // Where a value did not fit its wire, or an address its memory.
   class StageError : public std::runtime_error {
    public:
-    StageError(const std::string& what, StageKind failed, int position)
-        : std::runtime_error(what), stage(failed), cascade(position) {}
+    enum class Kind : std::uint8_t { width, address };
+    StageError(const std::string& what, Kind wrong, const Stage& failed, int position, std::int64_t when)
+        : std::runtime_error(what),
+          kind(wrong),
+          stage(failed.kind()),
+          spot(failed.spot()),
+          cascade(position),
+          cycle(when) {}
+    Kind kind;
     StageKind stage;
+    Spot spot;
     int cascade;
+    std::int64_t cycle;
   };
 
   // Streams `volume` once; what the pass does not use is bypassed. `irradiance`: null without radiation.

@@ -62,25 +62,38 @@ class Settle final : public Stage {
   void advance(const Cell* in, Cell* out) override {
     const Cell border;
     const bool bottom = came().y == 0;
-    for (std::size_t lane = 0; lane < size(); ++lane)
+    for (const int each : each_lane(1)) {  // a cell's word is known when the next cell comes
+      const auto lane = static_cast<std::size_t>(each);
       words_[lane] = sums_[lane].next(in != nullptr ? in[lane] : border, bottom, hot_, dither_);
+    }
     faults_.summed(*this, in);
     if (came().ordinal == 0) return;  // the scan looks one token ahead
     downwards_.exchange(words_.data(), turned_.data());
     if (came().ordinal <= height_) return;
-    for (std::size_t lane = 0; lane < size(); ++lane)
+    for (const int each : each_lane(turned_delay())) {
+      const auto lane = static_cast<std::size_t>(each);
       words_[lane] = records_[lane].next(turned_[lane], dither_);
+    }
     faults_.lowered(*this);
 
     if (out != nullptr) faults_.turned(*this);
     upwards_.exchange(words_.data(), turned_.data());
     if (out == nullptr) return;
-    for (std::size_t lane = 0; lane < size(); ++lane)
+    for (const int each : each_lane(lag())) {
+      const auto lane = static_cast<std::size_t>(each);
       shows_[lane].next(turned_[lane], leaving().y, flow_, pace_, widths_, out[lane]);
+      faults_.shown(*this, each, out[lane]);
+    }
   }
 
  private:
   friend Faults;
+
+  // How long ago the token came that has been turned round once: its column is the one before, top first.
+  std::int64_t turned_delay() const {
+    const std::int64_t above = (came().ordinal - 1) % height_;  // tokens of the column that lie above it
+    return 2 * (above + 1);
+  }
 
   std::size_t size() const { return static_cast<std::size_t>(lanes()); }
 

@@ -12,7 +12,13 @@ void Stage::begin_pass(step::Moment moment, bool bypass) {
   bypass_ = bypass;
   moves_ = 0;
   came_ = left_ = {};
+  spot_delay_ = 0, spot_lane_ = 0;
   begin_step();
+}
+
+Spot Stage::spot() const {
+  const std::int64_t last = shape().tokens() - 1;
+  return {place_of(shape(), std::clamp<std::int64_t>(came_.ordinal - spot_delay_, 0, last)), spot_lane_};
 }
 
 bool Stage::cycle() {

@@ -53,6 +53,38 @@ struct Units {
   int random_blocks = 0;              // per 8 lanes
 };
 
+// Where a stage computes: a cell, and the lane of the token in which it lies.
+struct Spot {
+  Place token;
+  int lane = 0;
+};
+
+// The lanes of a token, one after another. The one that is worked on is noted, for messages.
+class Lanes {
+ public:
+  class Iterator {
+   public:
+    Iterator(int lane, int& noted) : lane_(lane), noted_(&noted) {}
+    int operator*() const { return *noted_ = lane_; }
+    Iterator& operator++() {
+      ++lane_;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return lane_ != other.lane_; }
+
+   private:
+    int lane_;
+    int* noted_;
+  };
+  Lanes(int end, int& noted) : end_(end), noted_(noted) {}
+  Iterator begin() const { return {0, noted_}; }
+  Iterator end() const { return {end_, noted_}; }
+
+ private:
+  int end_;
+  int& noted_;
+};
+
 class Stage {
  public:
   // `lag` in tokens.
@@ -82,6 +114,7 @@ class Stage {
   const Place& came() const { return came_; }
   const Place& leaving() const { return left_; }
   const StageCycles& cycles() const { return cycles_; }
+  Spot spot() const;                                               // where it computes, or did last
   virtual int output_bits() const { return design_.cell_bits(); }  // per lane, side bands included
   virtual std::vector<BufferCost> buffers() const { return {}; }
   virtual Units units() const { return {}; }
@@ -93,6 +126,13 @@ class Stage {
   virtual void begin_step() {}                      // moment() has changed; memories hold an old pass
   virtual bool side_input_ready() { return true; }  // of a stage with a second input
 
+  // What is computed next belongs to a lane of the token that came `delay` moves ago.
+  Lanes each_lane(std::int64_t delay = 0) {
+    spot_delay_ = delay;
+    return {lanes(), spot_lane_};
+  }
+  void compute_at(std::int64_t delay, int lane) { spot_delay_ = delay, spot_lane_ = lane; }
+
  private:
   StageKind kind_;
   const Design& design_;
@@ -103,6 +143,8 @@ class Stage {
   bool bypass_ = false;
   std::int64_t moves_ = 0;
   Place came_, left_;
+  std::int64_t spot_delay_ = 0;
+  int spot_lane_ = 0;
   StageCycles cycles_;
 };
 

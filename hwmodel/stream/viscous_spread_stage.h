@@ -71,7 +71,7 @@ class ViscousSpread final : public Stage {
     SpreadWord* south = line_.tap(plane);
     SpreadWord* last = line_.tap(plane + column);
     if (in != nullptr)
-      for (int lane = 0; lane < lanes(); ++lane) take(in[lane], lane, now[lane]);
+      for (const int lane : each_lane()) take(in[lane], lane, now[lane]);
     read(now_.data(), now, lanes(), floor_.tap(0), x);
     read(&west_, line_.tap(column) + end, 1, floor_.tap(1) + end, x - 1);
     read(south_.data(), south, lanes(), floor_.tap(blocks), x);
@@ -79,7 +79,8 @@ class ViscousSpread final : public Stage {
 
     const Tap* west = x > 0 ? &west_ : nullptr;
     const Tap* south_west = &south_west_;
-    for (std::size_t lane = 0; lane < now_.size(); ++lane) {
+    for (const int each : each_lane()) {
+      const auto lane = static_cast<std::size_t>(each);
       const bool corner = west != nullptr && z > 0;
       look(now_[lane].seen, west != nullptr ? &west->seen : nullptr, z > 0 ? &south_[lane].seen : nullptr,
            corner ? &south_west->seen : nullptr);
@@ -88,10 +89,17 @@ class ViscousSpread final : public Stage {
     }
 
     if (z > 0)
-      for (int lane = 0; lane < end; ++lane) finish(south[lane]);
+      for (int lane = 0; lane < end; ++lane) {
+        compute_at(shape().plane(), lane);
+        finish(south[lane]);
+      }
     if (out == nullptr) return;
+    compute_at(lag(), end);
     finish(last[end]);
-    for (int lane = 0; lane < lanes(); ++lane) give(last[lane], out[lane]);
+    for (int lane = 0; lane < lanes(); ++lane) {
+      give(last[lane], out[lane]);
+      faults_.gave(*this, lane, out[lane]);
+    }
   }
 
  private:

@@ -222,8 +222,8 @@ TEST(Checker, AValueTooWideForItsWireIsReportedWithItsStage) {
   EXPECT_EQ(report.mismatch->cascade, 2);
   EXPECT_EQ(text_of(*report.mismatch),
             "first mismatch (width): source\n"
-            "  step 2, phase source, cascade position 2, lane 0, cycle 0\n"
-            "  the value 117187 does not fit into 16 bits\n");
+            "  step 2, phase source, cascade position 2, lane 1, cycle 55\n"
+            "  cell (1, 0, 0): the value 117187 does not fit into 16 bits\n");
 }
 
 TEST(Checker, TheFailingStageIsNotTheFirst) {
