@@ -18,11 +18,11 @@ class Planted {
   explicit Planted(FaultPlan& plan) : plan_(&plan) {}
 
  protected:
-  bool armed(const Stage& stage, Fault fault) const { return plan_->armed(fault, stage.step()); }
+  bool armed(const Stage& stage, Fault fault) const { return plan_->armed(fault, stage.working_step()); }
 
   // The fault strikes; the first cell that leaves the stage wrong is the one at x, y, z ...
   void strike(const Stage& stage, int x, int y, int z) {
-    plan_->strike({stage.name(), stage.step(), x, y, z});
+    plan_->strike({stage.name(), stage.working_step(), x, y, z});
   }
   // ... in this lane of a token ...
   void strike_lane(const Stage& stage, const Place& place, int lane) {
@@ -51,13 +51,14 @@ class Planted {
   }
 
  private:
-  // The position of a word in the stream, in cells.
+  // The position of a word in the stream of its pass, in cells.
   template <class Word>
   static std::int64_t position_of(const Stage& stage, TapLine<Word>& line, const Word& word) {
     std::size_t delay = 0;
     while (&word < line.tap(delay) || &word >= line.tap(delay) + stage.lanes()) ++delay;
-    return (stage.came().ordinal - static_cast<std::int64_t>(delay)) * stage.lanes() +
-           (&word - line.tap(delay));
+    std::int64_t ordinal = stage.came().ordinal - static_cast<std::int64_t>(delay);
+    if (ordinal < 0) ordinal += stage.shape().tokens();  // of the last pass
+    return ordinal * stage.lanes() + (&word - line.tap(delay));
   }
   void strike_at(const Stage& stage, std::int64_t position) {
     strike_lane(stage, place_of(stage.shape(), position / stage.lanes()),

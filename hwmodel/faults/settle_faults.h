@@ -27,7 +27,7 @@ class SettleFaults : public Planted {
     if (!armed(stage, Fault::settle_run_broken)) return;
     column_.shift();
     if (in != nullptr) std::copy_n(in, stage.lanes(), column_.tap(0));
-    if (stage.came().ordinal == 0) return;
+    if (stage.filled() == 0) return;
     for (std::size_t lane = 0; lane < stage.size(); ++lane) {
       const SettleWord& word = stage.words_[lane];
       if (word.kind != SettleKind::top) continue;
@@ -161,7 +161,7 @@ class SettleFaults : public Planted {
   // wrong.
   void part(Faulty& stage, std::size_t lane, const Cell& top, const SettleWord& record, int wrong) {
     SettleWord& word = stage.words_[lane];
-    const Place place = place_of(stage.shape(), stage.came().ordinal - 1);
+    const Place place = stage.place_at(1);
     strike(stage, place.x + static_cast<int>(lane), place.y - static_cast<int>(word.last) + wrong, place.z);
     stage.downwards_.newest()[lane] = record;
     word = {SettleKind::outside, std::int64_t{top.amount}, 0, top.heat, 0, 0, 0};
@@ -169,8 +169,7 @@ class SettleFaults : public Planted {
 
   // `above`: the cell that has come on its way down.
   void strike_turned(const Faulty& stage, std::size_t lane, int above) {
-    const std::int64_t came = stage.came().ordinal - 1, y = stage.height_ - 1 - came % stage.height_;
-    const Place place = place_of(stage.shape(), (came / stage.height_ - 1) * stage.height_ + y);
+    const Place place = stage.place_at(stage.turned_delay());
     strike(stage, place.x + static_cast<int>(lane), place.y + above, place.z);
   }
 

@@ -5,13 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "hwmodel/faults/channel_fault.h"
 #include "hwmodel/faults/planted_stages.h"
 #include "hwmodel/lockstep/checker.h"
+#include "hwmodel/lockstep/diagnosis.h"
 #include "hwmodel/stream/prediction.h"
 #include "kernel/automaton/state/digest.h"
 
@@ -25,50 +28,6 @@ int steps_of_pass(const Design& design, const Configuration& configuration, std:
   const rule::Heat& heat = design.parameters.heat;
   if (heat.radiates()) steps = std::min(steps, heat.visibility_every - heat.visibility_age(step));
   return static_cast<int>(steps);
-}
-
-// Finds where everything waits: the first empty channel behind a full one, and the cell that should enter it.
-Mismatch hang_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_t cycle) {
-  Mismatch m{.kind = Mismatch::Kind::hang, .step = first_step, .cycle = cycle};
-  std::string full, empty;
-  const std::vector<ChannelReport> channels = pipeline.channels();
-  std::size_t last_full = 0;
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    const ChannelReport& channel = channels[i];
-    const bool feed = channel.producer == StageKind::feed;
-    if (!feed) last = i;
-    if (!feed && channel.count == channel.depth) last_full = i;
-    std::string& list = channel.count == channel.depth ? full : empty;
-    if (channel.count == channel.depth || channel.count == 0)
-      list += (list.empty() ? "" : "; ") + channel.name;
-  }
-  const ChannelReport& blamed = channels[std::min(last_full + 1, last)];
-  const Place place = place_of(pipeline.design().shape, blamed.entered);
-  m.where = blamed.name;
-  m.phase = phase_of(blamed.producer);
-  m.cascade = blamed.cascade;
-  m.step += static_cast<std::uint32_t>(blamed.cascade);
-  m.x = place.x, m.y = place.y, m.z = place.z;
-  m.detail = "full: " + (full.empty() ? "none" : full) + "\n  empty: " + (empty.empty() ? "none" : empty);
-  return m;
-}
-
-// The pass took other cycles than the closed form says. Where channels hold two tokens, nobody waits.
-Mismatch cycles_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_t predicted,
-                   std::int64_t cycles) {
-  std::string waited;
-  for (const StageReport& stage : pipeline.stages())
-    if (stage.kind != StageKind::feed && stage.cycles.starved + stage.cycles.blocked > 0)
-      waited += (waited.empty() ? "" : ", ") + std::string(name_of(stage.kind)) + " of time step " +
-                std::to_string(stage.cascade);
-  return {.kind = Mismatch::Kind::cycles,
-          .where = "pipeline",
-          .step = first_step,
-          .field = "cycles",
-          .expected = predicted,
-          .actual = cycles,
-          .detail = "waited since the first pass: " + (waited.empty() ? "none" : waited)};
 }
 
 class Run {
@@ -106,9 +65,9 @@ class Run {
   }
 
  private:
-  // One pass over several time steps, or several passes over one with many sub-steps.
+  // A train of passes over several time steps each, or several passes over one with many sub-steps.
   void advance() {
-    const std::uint32_t step = report_.first_step + report_.steps;
+    const std::uint32_t step = next_step_ = report_.first_step + report_.steps;
     if (starts_replay(step)) {
       report_.replay = memory_;
       report_.replay_step = step;
@@ -116,39 +75,86 @@ class Run {
     software_.begin_step();
     Pass pass{.first = step, .substeps = software_.substeps()};
     pass.count = std::min(pass.substeps, options_.configuration.substeps);
-    // How many sub-steps a step has is known when it begins, unless the scene says so.
-    const bool known = !pipeline_.design().parameters.flow.viscous.counts_substeps();
-    if (pass.ends() && (known || pipeline_.design().paper()))
-      pass.steps =
-          steps_of_pass(pipeline_.design(), options_.configuration, step, options_.steps - report_.steps);
-    report_.pass_end = step + static_cast<std::uint32_t>(pass.steps);
-
-    std::vector<std::vector<Expected>> expected;
-    for (int t = 0; t < pass.steps; ++t) {
-      const std::uint32_t done = report_.steps + static_cast<std::uint32_t>(t) + 1;
-      Expectation::Step one = software_.step(done % options_.every == 0 || done == options_.steps);
-      if (options_.poll) options_.poll();
-      expected.push_back(std::move(one.stages));
-      if ((report_.mismatch = std::move(one.mismatch))) return;
+    if (pass.ends() && substeps_are_known()) pass.steps = steps_of(step);
+    if (!run_software(pass)) {
+      report_.mismatch = std::move(software_mismatch_);
+      return;
     }
+    const std::uint32_t done = report_.steps;
     for (; pass.substep < pass.substeps; pass.substep += pass.count) {
       pass.count = std::min(pass.count, pass.substeps - pass.substep);
-      if (!run_pass(pass, expected)) return;
+      if (!run_train(pass)) return;
     }
-    report_.steps += static_cast<std::uint32_t>(pass.steps);
+    report_.steps = done + (next_step_ - step);
+    report_.mismatch = std::move(software_mismatch_);
   }
 
-  bool run_pass(const Pass& pass, const std::vector<std::vector<Expected>>& steps) {
-    std::vector<std::vector<Expected>> expected;
-    for (const std::vector<Expected>& step : steps) expected.push_back(expected_of(pass, step));
-    checker_.begin_pass(pass.first, expected);
-    channel_fault_.begin_pass(pass.first, pass.steps);
-    if (!run_model(pass, software_.irradiance())) return false;
-    const std::uint32_t last = pass.first + static_cast<std::uint32_t>(pass.steps) - 1;
-    if (pass.ends())
-      compare_memory(last, software_.volume());
-    else if (!expected.front().empty())
-      compare_memory(last, *expected.front().back().after);
+  // How many sub-steps a step has is known when it begins, unless the scene says so.
+  bool substeps_are_known() const {
+    return pipeline_.design().paper() || !pipeline_.design().parameters.flow.viscous.counts_substeps();
+  }
+  int steps_of(std::uint32_t step) const {
+    return steps_of_pass(pipeline_.design(), options_.configuration, step,
+                         options_.steps - (step - report_.first_step));
+  }
+
+  // Runs the software over the steps of a pass. False if its kernels differ.
+  bool run_software(const Pass& pass) {
+    report_.pass_end = pass.first + static_cast<std::uint32_t>(pass.steps);
+    expected_.clear();
+    for (int t = 0; t < pass.steps; ++t) {
+      const std::uint32_t done = pass.first + static_cast<std::uint32_t>(t) + 1 - report_.first_step;
+      Expectation::Step one = software_.step(done % options_.every == 0 || done == options_.steps);
+      if (options_.poll) options_.poll();
+      expected_.push_back(std::move(one.stages));
+      if ((software_mismatch_ = std::move(one.mismatch))) return false;
+    }
+    next_step_ = report_.pass_end;
+    return true;
+  }
+
+  // The pass that follows without a gap: only a step of visibility needs the whole state before it begins.
+  std::optional<Pass> next_pass(Pass last) {
+    const std::uint32_t step = last.first + static_cast<std::uint32_t>(last.steps);
+    const Design& design = pipeline_.design();
+    const rule::Heat& heat = design.parameters.heat;
+    if (!passes_overlap(design, options_.configuration, last) || !substeps_are_known() ||
+        step == report_.first_step + options_.steps || (heat.radiates() && heat.visibility_age(step) == 0) ||
+        checker_.mismatch() != nullptr)
+      return {};
+    last.first = step;
+    last.steps = steps_of(step);
+    if (!run_software(last)) return {};  // what is under way can still be compared
+    add_pass(last);
+    return last;
+  }
+
+  void add_pass(const Pass& pass) {
+    Checker::Wanted wanted{pass.first, {}, nullptr};
+    for (const std::vector<Expected>& step : expected_) wanted.steps.push_back(expected_of(pass, step));
+    if (pass.ends() && wanted.steps.back().empty())
+      wanted.written = std::make_shared<const state::Volume>(software_.volume());
+    checker_.add_pass(std::move(wanted));
+    channel_fault_.add_pass(pass.first, pass.steps);
+  }
+
+  bool run_train(const Pass& first) {
+    checker_.begin_train();
+    channel_fault_.begin_train();
+    add_pass(first);
+    Pass last = first;
+    const auto next = [&]() -> std::optional<Pass> {
+      std::optional<Pass> pass = next_pass(last);
+      if (pass) last = *pass;
+      return pass;
+    };
+    if (!run_model(first, next, software_.irradiance())) return false;
+    const std::uint32_t step = last.first + static_cast<std::uint32_t>(last.steps) - 1;
+    if (software_mismatch_ != nullptr) return true;
+    if (last.ends())
+      compare_memory(step, software_.volume());
+    else if (!expected_.front().empty())
+      compare_memory(step, *expected_of(last, expected_.front()).back().after);
     return report_.mismatch == nullptr;
   }
 
@@ -176,18 +182,18 @@ class Run {
   }
 
   // False when a mismatch was found.
-  bool run_model(const Pass& pass, const step::Irradiance* irradiance) {
+  bool run_model(const Pass& first, const Pipeline::Next& next, const step::Irradiance* irradiance) {
     const auto begin = std::chrono::steady_clock::now();
     PassEnd end;
     try {
-      end = pipeline_.run_pass(pass, irradiance, memory_);
+      end = pipeline_.run_train(first, next, irradiance, memory_);
     } catch (const Pipeline::StageError& error) {
       report_.mismatch = std::make_unique<Mismatch>(Mismatch{
           .kind = error.kind == Pipeline::StageError::Kind::width ? Mismatch::Kind::width
                                                                   : Mismatch::Kind::address,
           .where = std::string(name_of(error.stage)),
           .phase = phase_of(error.stage),
-          .step = pass.first + static_cast<std::uint32_t>(error.cascade),
+          .step = error.step,
           .cascade = error.cascade,
           .lane = error.spot.lane,
           .cycle = error.cycle,
@@ -199,19 +205,21 @@ class Run {
       return false;
     }
     report_.model_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    ++report_.passes;
+    report_.passes += end.passes;
     report_.cycles += end.cycles;
     if (end.complete) {
-      if (pass.ends()) report_.cell_steps += static_cast<std::int64_t>(memory_.grid.cells()) * pass.steps;
-      const std::int64_t predicted = predicted_cycles(pipeline_.design(), options_.configuration, pass);
+      if (first.ends())
+        report_.cell_steps += static_cast<std::int64_t>(memory_.grid.cells()) * (next_step_ - first.first);
+      const std::int64_t predicted =
+          predicted_cycles(pipeline_.design(), options_.configuration, first, end.passes);
       report_.predicted_cycles += predicted;
       if (options_.configuration.stall_seed == 0 && end.cycles != predicted)
         report_.mismatch =
-            std::make_unique<Mismatch>(cycles_of(pipeline_, pass.first, predicted, end.cycles));
+            std::make_unique<Mismatch>(cycles_of(pipeline_, first.first, predicted, end.cycles));
     }
     if (checker_.mismatch() != nullptr) report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
     if (report_.mismatch == nullptr && end.hangs)
-      report_.mismatch = std::make_unique<Mismatch>(hang_of(pipeline_, pass.first, end.cycles));
+      report_.mismatch = std::make_unique<Mismatch>(hang_of(pipeline_, first, end.cycles));
     return report_.mismatch == nullptr;
   }
 
@@ -256,6 +264,9 @@ class Run {
   Checker checker_;
   Expectation software_;
   state::Volume memory_;
+  std::vector<std::vector<Expected>> expected_;  // of the pass that the software has run last
+  std::unique_ptr<Mismatch> software_mismatch_;
+  std::uint32_t next_step_ = 0;  // after that pass
   VerifyReport report_;
 };
 

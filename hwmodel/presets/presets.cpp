@@ -26,6 +26,7 @@ Preset load_preset(const std::filesystem::path& file, const std::vector<std::str
     c.fifo_depth = static_cast<int>(hw->integer("fifo_depth", 1, kMostDepth, c.fifo_depth));
     c.stall_seed = static_cast<std::uint64_t>(hw->integer("stall_seed", 0, INT64_MAX, 0));
     c.substeps = static_cast<int>(hw->integer("substeps", 1, kMostSubsteps, c.substeps));
+    c.overlap = hw->integer("overlap", 0, 1, c.overlap ? 1 : 0) == 1;
     hw->finish();
   }
   root.finish();

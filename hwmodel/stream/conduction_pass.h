@@ -87,7 +87,7 @@ class ConductionPass : public Stage {
     }
     if (out == nullptr) return;
     const HeatWord* oldest = line_.tap(line_.delay());
-    for (int lane = 0; lane < lanes(); ++lane) {
+    for (const int lane : each_lane(lag())) {
       out[lane] = give_cell(oldest[lane], exposed_axes(oldest[lane]));
       faults_.gave(*this, oldest[lane], lane, out[lane]);
     }

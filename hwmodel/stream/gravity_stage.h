@@ -42,7 +42,7 @@ class Gravity final : public Stage {
   }
 
  protected:
-  void begin_step() override { dither_ = dither_of(step()); }
+  void begin_step() override { dithers_.next(dither_of(step())); }
 
   void advance(const Cell* in, Cell* out) override {
     line_.shift();
@@ -53,6 +53,7 @@ class Gravity final : public Stage {
         newest[lane] = {cell.amount, cell.energy, cell.heat, cell.state, cell.beside_wall, cell.in_run};
       }
     if (out == nullptr) return;
+    dither_ = at(dithers_, lag());
 
     Falling* low = line_.tap(line_.delay());
     Falling* high = line_.tap(line_.delay() - 1);
@@ -136,7 +137,8 @@ class Gravity final : public Stage {
   const rule::Fall& fall_;
   const rule::PaperLaw& law_;
   bool paper_, hot_;
-  UInt<16> dither_;
+  OfTwoPasses<UInt<16>> dithers_;
+  UInt<16> dither_;  // of the token that leaves
   TapLine<Falling> line_;
 };
 

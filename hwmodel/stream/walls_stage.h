@@ -32,7 +32,7 @@ class Walls final : public Stage {
     if (in != nullptr) look(in);
     if (out == nullptr) return;
     std::copy_n(line_.tap(line_.delay()), lanes(), out);
-    for (int lane = 0; lane < lanes(); ++lane) faults_.gave(*this, lane, out[lane]);
+    for (const int lane : each_lane(lag())) faults_.gave(*this, lane, out[lane]);
   }
 
  private:

@@ -261,7 +261,8 @@ TEST(Checker, AChannelThatChangesAnythingIsNamed) {
   for (const auto& [field, change] : changes) {
     Pipeline pipeline(start.parameters, start.volume.grid, {4, 2, 2, 0});
     Checker checker(pipeline);
-    checker.begin_pass(30, {});
+    checker.begin_train();
+    checker.add_pass({30, {}, nullptr});
     std::vector<Cell> lanes(4);
     checker.entered(2, 0, lanes.data());
     checker.left(2, 0, lanes.data());
