@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "hwmodel/stream/blocks.h"
 #include "hwmodel/stream/prediction.h"
 #include "tests/hwmodel/lockstep_world.h"
 
@@ -64,6 +65,43 @@ TEST(Overlap, HostileWorldsWithStalls) {
     const Configuration c{random.any({1, 2, 4, 8, 16}), random.between(1, 4), random.any({1, 2, 3, 8}),
                           random.one_in(3) ? 0 : seed + 1};
     ASSERT_TRUE(agrees(start, c, 9)) << "seed " << seed;
+  }
+}
+
+// The blocks alone: the reader waits for the writer's credit, and sees it one cycle late, whichever runs
+// first.
+TEST(Overlap, ATokenIsReadOnlyWhenItHasBeenWritten) {
+  const Shape shape{{1, 3, 1}, 1};
+  state::Volume volume(shape.grid);
+  for (const bool writer_first : {false, true}) {
+    Writer writer(shape);
+    Reader reader(shape);
+    CellFifo out("out", 0, 1, 8, 0), in("in", 1, 1, 8, 0);
+    reader.connect(out, writer), writer.connect(in);
+    reader.begin_pass(volume), writer.begin_pass(volume);
+    std::int64_t now = 0;
+    const auto cycle = [&](bool comes) {
+      if (writer_first) writer.cycle(now);
+      const bool last = reader.cycle(now);
+      if (!writer_first) writer.cycle(now);
+      if (comes) in.put()[0] = {};
+      in.commit(), out.commit();
+      ++now;
+      return last;
+    };
+    EXPECT_FALSE(cycle(false));
+    EXPECT_FALSE(cycle(false));
+    EXPECT_TRUE(cycle(false)) << "the last token of the pass";
+    reader.add_pass(), writer.add_pass();
+    cycle(true);   // a token comes to the writer
+    cycle(false);  // it is written
+    EXPECT_EQ(reader.cycles().busy, 3);
+    EXPECT_EQ(reader.cycles().starved, 2) << "nothing had been written when the cycle began";
+    cycle(false);
+    EXPECT_EQ(reader.cycles().busy, 4) << "one credit";
+    cycle(false);
+    EXPECT_EQ(reader.cycles().busy, 4) << "and no more";
+    EXPECT_EQ(reader.cycles().starved, 3);
   }
 }
 
