@@ -9,7 +9,6 @@
 #include "hwmodel/channel/tap_line.h"
 #include "hwmodel/faults/faults.h"
 #include "hwmodel/stream/stage.h"
-#include "kernel/automaton/state/grid.h"
 
 namespace voxmelt::hwmodel {
 
