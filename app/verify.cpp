@@ -316,7 +316,7 @@ void add_verify(CLI::App& program, Chosen& chosen) {
   add_visibility(*command, options->common);
   command->footer(
       "--set also takes hw.lanes (1, 2, 4 .. 32), hw.cascade (1 .. 16), hw.substeps (1 .. 64), "
-      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none); the ray caster's keys are in "
+      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none), hw.overlap (0, 1); the ray caster's keys are in "
       "docs/hardware-picture.md.");
   command->callback([options, &chosen] { chosen = [options] { return run_verify(*options); }; });
 }

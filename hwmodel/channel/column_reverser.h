@@ -27,6 +27,8 @@ class ColumnReverser {
 
   // Writes a token of this column, and gives the token of the column before that lies as far from its end.
   void exchange(const Word* in, Word* out) {
+    if (address_ >= depth_) [[unlikely]]
+      throw AddressError(static_cast<std::int64_t>(address_), static_cast<std::int64_t>(depth_));
     Word* slot = &words_[address_ * lanes_];
     std::copy(slot, slot + lanes_, out);
     std::copy(in, in + lanes_, slot);

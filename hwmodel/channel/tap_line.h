@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "hwmodel/channel/wires.h"
+
 namespace voxmelt::hwmodel {
 
 // What a buffer costs: `words` deep, `lanes` words wide, `bits` each.
@@ -34,6 +36,8 @@ class TapLine {
 
   // The lanes of the token that came `delay` shifts ago (0: the newest), open to change.
   Word* tap(std::size_t delay) {
+    if (delay >= slots_) [[unlikely]]
+      throw AddressError(static_cast<std::int64_t>(delay), static_cast<std::int64_t>(slots_));
     const std::size_t slot = newest_ >= delay ? newest_ - delay : newest_ + slots_ - delay;
     return &words_[slot * lanes_];
   }

@@ -9,12 +9,25 @@
 
 namespace voxmelt::hwmodel {
 
+// What the hardware could not do: a broken invariant of the model, reported with its stage.
+class ModelError : public std::logic_error {
+  using std::logic_error::logic_error;
+};
+
 // A value that needs more bits than its wire has.
-class WidthError : public std::logic_error {
+class WidthError : public ModelError {
  public:
   WidthError(std::int64_t value, int bits, bool is_signed)
-      : std::logic_error("the value " + std::to_string(value) + " does not fit into " + std::to_string(bits) +
-                         (is_signed ? " signed bits" : " bits")) {}
+      : ModelError("the value " + std::to_string(value) + " does not fit into " + std::to_string(bits) +
+                   (is_signed ? " signed bits" : " bits")) {}
+};
+
+// An address that a memory does not have.
+class AddressError : public ModelError {
+ public:
+  AddressError(std::int64_t address, std::int64_t words)
+      : ModelError("the address " + std::to_string(address) + " lies outside a memory of " +
+                   std::to_string(words) + " words") {}
 };
 
 // An unsigned wire or register of N bits.

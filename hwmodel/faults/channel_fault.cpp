@@ -1,18 +1,24 @@
 #include "hwmodel/faults/channel_fault.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace voxmelt::hwmodel {
 
-void ChannelFault::begin_pass(std::uint32_t first, int steps) {
+void ChannelFault::begin_train() {
   take_out();
-  if (plan_.fault() < Fault::fifo_overwrite || plan_.struck()) return;
-  step_ = std::max(first, plan_.first_step());
-  const std::uint32_t position = step_ - first;
-  if (position >= static_cast<std::uint32_t>(steps)) return;
-  const std::vector<CellFifo*> channels = pipeline_.channels_behind_stages(static_cast<int>(position));
+  firsts_.clear();
+}
+
+void ChannelFault::add_pass(std::uint32_t first, int steps) {
+  firsts_.push_back(first);
+  if (channel_ != nullptr || plan_.fault() < Fault::fifo_overwrite || plan_.struck()) return;
+  position_ = std::max(first, plan_.first_step()) - first;
+  if (position_ >= static_cast<std::uint32_t>(steps)) return;
+  armed_from_ = static_cast<std::int64_t>(firsts_.size() - 1) * pipeline_.design().shape.tokens();
+  const std::vector<CellFifo*> channels = pipeline_.channels_behind_stages(static_cast<int>(position_));
   channel_ = channels[channels.size() / 2];
   channel_->plant(this);
 }
@@ -23,10 +29,10 @@ void ChannelFault::take_out() {
 }
 
 FifoFault<Cell>::Effect ChannelFault::stores(std::int64_t ordinal, Cell* now, Cell* last, int waiting) {
-  if (plan_.struck()) return Effect::none;
+  if (plan_.struck() || ordinal < armed_from_) return Effect::none;
   const int lanes = pipeline_.design().shape.lanes;
   const int lane = first_difference(now, last);
-  const bool differs = ordinal > 0 && lane < lanes;
+  const bool differs = ordinal > armed_from_ && lane < lanes;
   switch (plan_.fault()) {
     case Fault::fifo_never_ready:
       strike(ordinal + 1, 0);  // the next token is waited for
@@ -64,8 +70,10 @@ int ChannelFault::first_difference(const Cell* one, const Cell* other) const {
 }
 
 void ChannelFault::strike(std::int64_t ordinal, int lane) {
-  const Place place = place_of(pipeline_.design().shape, ordinal);
-  plan_.strike({channel_->name(), step_, place.x + lane, place.y, place.z});
+  const Shape& shape = pipeline_.design().shape;
+  const Place place = place_of(shape, ordinal % shape.tokens());
+  const std::uint32_t step = firsts_[static_cast<std::size_t>(ordinal / shape.tokens())] + position_;
+  plan_.strike({channel_->name(), step, place.x + lane, place.y, place.z});
 }
 
 }  // namespace voxmelt::hwmodel

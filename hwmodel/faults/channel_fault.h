@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "hwmodel/faults/faults.h"
 #include "hwmodel/stream/pipeline.h"
@@ -17,8 +18,10 @@ class ChannelFault final : public FifoFault<Cell> {
   ChannelFault(const ChannelFault&) = delete;
   ChannelFault& operator=(const ChannelFault&) = delete;
 
-  // Must be called before a pass of `steps` time steps from number `first`.
-  void begin_pass(std::uint32_t first, int steps);
+  // Must be called before each train of passes, and then before each of its passes, which has `steps` time
+  // steps from number `first`.
+  void begin_train();
+  void add_pass(std::uint32_t first, int steps);
 
   Effect stores(std::int64_t ordinal, Cell* now, Cell* last, int waiting) override;
 
@@ -33,7 +36,9 @@ class ChannelFault final : public FifoFault<Cell> {
   FaultPlan& plan_;
   Pipeline& pipeline_;
   CellFifo* channel_ = nullptr;
-  std::uint32_t step_ = 0;
+  std::vector<std::uint32_t> firsts_;  // steps of the passes of the train
+  std::uint32_t position_ = 0;         // of the channel's time step in the cascade
+  std::int64_t armed_from_ = 0;        // ordinal in the train
 };
 
 }  // namespace voxmelt::hwmodel

@@ -1,8 +1,10 @@
 // Faults of the passes of conduction. They strike in the last pass (conduction, edges or corners), and only
 // where the cell in the plane before is sure to be wrong at the end of the phase. So the cell is no liquid
-// that convects, exchanges no heat with air, and with radiation is far from the hottest.
+// that convects, exchanges no heat with air, and with radiation is far from the hottest. Faults of side bands
+// strike in the first pass, which makes them.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -22,6 +24,20 @@ class ConductionFaults : public Planted {
     if (pass.kind() == StageKind::conduction && armed(pass, Fault::buffer_bit)) flip_bit(pass);
     if (is_last(pass) && any_armed(pass)) misbehave(pass);
     if (is_last(pass) && armed(pass, Fault::wall_drifts)) drift(pass);
+  }
+
+  // The cell that leaves.
+  template <const auto& kPairs>
+  void gave(const ConductionPass<kPairs, ConductionFaults>& pass, const HeatWord& word, int lane,
+            Cell& cell) {
+    if (pass.kind() != StageKind::conduction) return;
+    miss_side(pass, Fault::side_missed, lane, cell);
+    const std::int64_t axes = std::popcount(static_cast<unsigned>(word.exposed & 3));  // without z
+    if (axes == cell.exposed_axes || !pass.design().parameters.heat.air ||
+        !armed(pass, Fault::axis_uncounted))
+      return;
+    cell.exposed_axes = axes;
+    strike_lane(pass, pass.leaving(), lane);
   }
 
  private:

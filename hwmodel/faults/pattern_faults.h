@@ -43,7 +43,8 @@ class PatternFaults : public Planted {
   // the latter.
   static std::int64_t random_byte(const Faulty& stage, int lane, int further) {
     const int x = stage.leaving().x + lane;
-    return speck_byte(speck_block(stage.keys_, stage.step(), stage.block_index(x)), x + further);
+    return speck_byte(speck_block(stage.keys_, stage.step_at(stage.lag()), stage.block_index(x)),
+                      x + further);
   }
 
   std::map<const Giver*, std::int64_t> wrongly_open_;  // directions of the words that wait in the line

@@ -12,6 +12,7 @@
 #include "hwmodel/faults/settle_faults.h"
 #include "hwmodel/faults/source_faults.h"
 #include "hwmodel/faults/viscous_spread_faults.h"
+#include "hwmodel/faults/walls_faults.h"
 #include "hwmodel/stream/conduction_stage.h"
 #include "hwmodel/stream/distant_conduction_stage.h"
 #include "hwmodel/stream/melt_stage.h"
@@ -36,6 +37,8 @@ StageMaker planted_stages(FaultPlan& plan) {
         return std::make_unique<Exchange<ExchangeFaults>>(design, ExchangeFaults(plan));
       case melt:
         return std::make_unique<Melt<MeltFaults>>(design, MeltFaults(plan));
+      case walls:
+        return std::make_unique<Walls<WallsFaults>>(design, WallsFaults(plan));
       case gravity:
         return std::make_unique<Gravity<GravityFaults>>(design, GravityFaults(plan));
       case pattern:

@@ -1,7 +1,9 @@
-// Runs that end too early, lose a bit of their sum or do not mix, and columns that leave upside down.
+// Runs that end too early, lose a bit of their sum, do not mix or show something wrong, and columns that
+// leave upside down.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "hwmodel/faults/planted.h"
+#include "hwmodel/stream/run_reader.h"
 #include "hwmodel/stream/settle_stage.h"
 
 namespace voxmelt::hwmodel {
@@ -24,7 +27,7 @@ class SettleFaults : public Planted {
     if (!armed(stage, Fault::settle_run_broken)) return;
     column_.shift();
     if (in != nullptr) std::copy_n(in, stage.lanes(), column_.tap(0));
-    if (stage.came().ordinal == 0) return;
+    if (stage.filled() == 0) return;
     for (std::size_t lane = 0; lane < stage.size(); ++lane) {
       const SettleWord& word = stage.words_[lane];
       if (word.kind != SettleKind::top) continue;
@@ -38,7 +41,9 @@ class SettleFaults : public Planted {
       broken.cells.push_back({std::int64_t{top.amount}, std::int64_t{top.heat}});
       const auto wrong =
           std::mismatch(right.begin(), right.end(), broken.cells.begin()).first - right.begin();
-      if (wrong < std::ssize(right)) return part(stage, lane, top, broken.record, static_cast<int>(wrong));
+      if (wrong == std::ssize(right)) continue;
+      return part(stage, lane, top, broken.record,
+                  show_alike(stage, word, broken.record) ? static_cast<int>(wrong) : 0);
     }
   }
 
@@ -57,9 +62,11 @@ class SettleFaults : public Planted {
       const std::int64_t sum =
           std::int64_t{word.sum} -
           static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(word.sum)));
-      int k = 0;
-      while (settled_amount(sum, word.last, k) == settled_amount(word.sum, word.last, k)) ++k;
+      const SettleWord right = word;
       word.sum = sum;
+      int k = 0;
+      if (show_alike(stage, right, word))
+        while (settled_amount(sum, word.last, k) == settled_amount(right.sum, word.last, k)) ++k;
       return strike_turned(stage, lane, k);
     }
   }
@@ -77,11 +84,28 @@ class SettleFaults : public Planted {
         };
         show(right[lane], y, expected);
         show(wrong[lane], stage.height_ - 1 - y, found);
-        if (expected.state == found.state && expected.amount == found.amount && expected.heat == found.heat)
-          continue;
+        if (alike(expected, found)) continue;
         strike(stage, stage.leaving().x + static_cast<int>(lane), static_cast<int>(y), stage.leaving().z);
         return stage.upwards_.miss_turn();
       }
+  }
+
+  // A cell of a run, with what the run shows. Every change is seen behind the smaller of two limits.
+  void shown(const Faulty& stage, int lane, Cell& cell) {
+    if (cell.in_run == 0) return;
+    if (armed(stage, Fault::settle_run_untold))
+      cell.in_run = 0;
+    else if (armed(stage, Fault::settle_head))
+      cell.head = cell.head - 1;
+    else if (armed(stage, Fault::settle_mobility) && cell.mobility > 0)
+      cell.mobility = cell.mobility >> 1;
+    else if (armed(stage, Fault::settle_limit) && cell.limit > 1)
+      cell.limit = cell.limit - 1;
+    else if (armed(stage, Fault::settle_dead_zone))
+      cell.dead = cell.dead - 1;
+    else
+      return;
+    strike_lane(stage, stage.leaving(), lane);
   }
 
  private:
@@ -93,6 +117,25 @@ class SettleFaults : public Planted {
     std::vector<Held> cells;
     SettleWord record;  // in the word of the uppermost cell
   };
+
+  // What the next stage can tell apart: mobilities are never used without a limit.
+  static bool alike(Cell a, Cell b) {
+    const auto limited = [](const RunPace& pace) { return std::array{pace.limited(), pace.exposed()}; };
+    const bool same_pace = limited({a.mobility, a.limit, a.dead}) == limited({b.mobility, b.limit, b.dead});
+    a.mobility = b.mobility;
+    return same_pace && a == b;
+  }
+  static bool show_alike(const Faulty& stage, const SettleWord& one, const SettleWord& other) {
+    const auto cell = [&](const SettleWord& record) {
+      const RunShow show = hwmodel::shown(record.sum, record.last, 0, record.mobility, stage.flow_,
+                                          stage.pace_, stage.widths_);
+      Cell shows;
+      shows.head = show.head, shows.mobility = show.mobility, shows.limit = show.limit,
+      shows.dead = show.dead;
+      return shows;
+    };
+    return alike(cell(one), cell(other));
+  }
 
   // What a run of these cells comes to.
   static Outcome settled(const Faulty& stage, const std::vector<Cell>& cells) {
@@ -118,7 +161,7 @@ class SettleFaults : public Planted {
   // wrong.
   void part(Faulty& stage, std::size_t lane, const Cell& top, const SettleWord& record, int wrong) {
     SettleWord& word = stage.words_[lane];
-    const Place place = place_of(stage.shape(), stage.came().ordinal - 1);
+    const Place place = stage.place_at(1);
     strike(stage, place.x + static_cast<int>(lane), place.y - static_cast<int>(word.last) + wrong, place.z);
     stage.downwards_.newest()[lane] = record;
     word = {SettleKind::outside, std::int64_t{top.amount}, 0, top.heat, 0, 0, 0};
@@ -126,8 +169,7 @@ class SettleFaults : public Planted {
 
   // `above`: the cell that has come on its way down.
   void strike_turned(const Faulty& stage, std::size_t lane, int above) {
-    const std::int64_t came = stage.came().ordinal - 1, y = stage.height_ - 1 - came % stage.height_;
-    const Place place = place_of(stage.shape(), (came / stage.height_ - 1) * stage.height_ + y);
+    const Place place = stage.place_at(stage.turned_delay());
     strike(stage, place.x + static_cast<int>(lane), place.y + above, place.z);
   }
 

@@ -1,5 +1,5 @@
 // Flows inside the dead zone, with the dither of the next axis, sub-step or layer, as on a level bed, by the
-// giver's amount alone, or lost on their way.
+// giver's amount alone, or lost on their way. Cells that leave without their side bands.
 #pragma once
 
 #include <cstdint>
@@ -45,6 +45,13 @@ class ViscousSpreadFaults : public Planted {
     to.word->present = to.word->present - amount;
     if (stage.hot_) to.word->content = to.word->content - amount * from.word->heat;
     strike_word(stage, stage.line_, *to.word);
+  }
+
+  void gave(const Faulty& stage, int lane, Cell& cell) {
+    miss_side(stage, Fault::viscous_side_missed, lane, cell);
+    if (cell.in_run == 0 || !armed(stage, Fault::viscous_run_forgotten)) return;
+    cell.in_run = 0;
+    strike_lane(stage, stage.leaving(), lane);
   }
 
  private:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hwmodel/lockstep/mismatch.h"
+#include "hwmodel/lockstep/side_bands.h"
 #include "hwmodel/stream/stage_kind.h"
 #include "kernel/engine/scalar/reference.h"
 #include "kernel/run/simulation.h"
@@ -16,8 +17,8 @@
 namespace voxmelt::hwmodel {
 
 struct Expected {
-  std::shared_ptr<const state::Volume> before, after;         // the stage
-  std::shared_ptr<const state::Field<std::uint8_t>> pattern;  // behind `pattern` only
+  std::shared_ptr<const state::Volume> before, after;  // the stage
+  SideBands bands;
 };
 
 class Expectation {
@@ -49,16 +50,23 @@ class Expectation {
   using Snapshot = std::shared_ptr<const state::Volume>;
 
   std::unique_ptr<Mismatch> compare_software(step::Phase phase) const;
-  // The stages of one phase, given the state before and after it.
-  void expect_inside(step::Phase phase, const Snapshot& before, const Snapshot& after,
+  // The stages of one phase, given its moment, and the state before and after it.
+  void expect_inside(step::Phase phase, step::Moment moment, const Snapshot& before, const Snapshot& after,
                      std::vector<Expected>& stages);
+  SideBands bands_behind(StageKind stage, step::Moment moment, const state::Volume& before);
   Snapshot heat_up_to(StageKind stage, const state::Volume& before);
   std::shared_ptr<const state::Field<std::uint8_t>> patterns(const state::Volume& before);
+  std::shared_ptr<const ShownRuns> runs(step::Moment moment, const state::Volume& before);
+  bool falls_by_sides() const;  // do the four sides of a cell matter to its fall?
 
   rule::Parameters parameters_;
   run::Simulation reference_, fast_;
   std::string fast_name_;
   std::vector<StageKind> stages_;
+  // Of the present step: around the cells before its phase `heat` or, of the viscous law, before its spread;
+  // the runs of the present sub-step.
+  std::shared_ptr<const Surroundings> around_;
+  std::shared_ptr<const ShownRuns> shown_;
   bool begun_ = false;
   std::int64_t compared_cells_ = 0;
 };

@@ -22,6 +22,10 @@ const char* name_of(Mismatch::Kind kind) {
       return "missing stage";
     case width:
       return "width";
+    case address:
+      return "address";
+    case cycles:
+      return "cycles";
     case hang:
       return "hang";
   }
@@ -32,11 +36,14 @@ std::string text_of(const Mismatch& m) {
   using enum Mismatch::Kind;
   std::string place = fmt::format("step {}", m.step);
   if (m.phase) place += fmt::format(", phase {}", name_of(m.phase));
-  if (m.kind != software && m.kind != missing)
+  if (m.kind != software && m.kind != missing && m.kind != cycles)
     place += fmt::format(", cascade position {}, lane {}, cycle {}", m.cascade, m.lane, m.cycle);
   std::string text = fmt::format("first mismatch ({}): {}\n  {}\n", name_of(m.kind), m.where, place);
-  if (m.kind == width) return text + "  " + m.detail + '\n';
+  if (m.kind == cycles)
+    return text + fmt::format("  the pass took {} cycles, not the {} of the closed form; {}\n", m.actual,
+                              m.expected, m.detail);
   text += fmt::format("  cell ({}, {}, {})", m.x, m.y, m.z);
+  if (m.kind == width || m.kind == address) return text + ": " + m.detail + '\n';
   if (m.kind == hang) return text + " is waited for\n  " + m.detail + '\n';
   text += fmt::format(": {} expected {} = {:#06x}, is {} = {:#06x}, bits that differ {:#06x}\n", m.field,
                       m.expected, m.expected, m.actual, m.actual, m.expected ^ m.actual);

@@ -19,6 +19,8 @@ struct Mismatch {
     software,  // a software kernel differs from the reference
     missing,   // the reference changed something in a phase for which the pipeline has no stage
     width,     // a value did not fit its wire
+    address,   // a stage addressed what its memory does not have
+    cycles,    // nothing stalled, and the pass did not take the cycles of the closed form
     hang,      // nothing moves any more
   };
   Kind kind = Kind::stage;
@@ -30,7 +32,7 @@ struct Mismatch {
   int x = 0, y = 0, z = 0;
   std::string field{};
   std::int64_t expected = 0, actual = 0;
-  std::string detail{};                      // a hang's channels, a width's message
+  std::string detail{};                      // a hang's channels, a width's message, who waited
   std::vector<std::string> neighbourhood{};  // lines: what the cells around held before the phase
 };
 

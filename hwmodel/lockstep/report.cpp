@@ -183,6 +183,7 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
                {{"lanes", configuration.lanes},
                 {"cascade", configuration.cascade},
                 {"substeps", configuration.substeps},
+                {"overlap", configuration.overlap ? 1 : 0},
                 {"fifo_depth", configuration.fifo_depth},
                 {"stall_seed", configuration.stall_seed}}},
               {"first_step", report.first_step},

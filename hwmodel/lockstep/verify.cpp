@@ -5,13 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "hwmodel/faults/channel_fault.h"
 #include "hwmodel/faults/planted_stages.h"
 #include "hwmodel/lockstep/checker.h"
+#include "hwmodel/lockstep/diagnosis.h"
 #include "hwmodel/stream/prediction.h"
 #include "kernel/automaton/state/digest.h"
 
@@ -27,33 +30,6 @@ int steps_of_pass(const Design& design, const Configuration& configuration, std:
   return static_cast<int>(steps);
 }
 
-// Finds where everything waits: the first empty channel behind a full one, and the cell that should enter it.
-Mismatch hang_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_t cycle) {
-  Mismatch m{.kind = Mismatch::Kind::hang, .step = first_step, .cycle = cycle};
-  std::string full, empty;
-  const std::vector<ChannelReport> channels = pipeline.channels();
-  std::size_t last_full = 0;
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    const ChannelReport& channel = channels[i];
-    const bool feed = channel.producer == StageKind::feed;
-    if (!feed) last = i;
-    if (!feed && channel.count == channel.depth) last_full = i;
-    std::string& list = channel.count == channel.depth ? full : empty;
-    if (channel.count == channel.depth || channel.count == 0)
-      list += (list.empty() ? "" : "; ") + channel.name;
-  }
-  const ChannelReport& blamed = channels[std::min(last_full + 1, last)];
-  const Place place = place_of(pipeline.design().shape, blamed.entered);
-  m.where = blamed.name;
-  m.phase = phase_of(blamed.producer);
-  m.cascade = blamed.cascade;
-  m.step += static_cast<std::uint32_t>(blamed.cascade);
-  m.x = place.x, m.y = place.y, m.z = place.z;
-  m.detail = "full: " + (full.empty() ? "none" : full) + "\n  empty: " + (empty.empty() ? "none" : empty);
-  return m;
-}
-
 class Run {
  public:
   Run(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
@@ -61,7 +37,9 @@ class Run {
       : options_(options),
         plan_(options.fault, options.fault_step),
         pipeline_(parameters, start.grid, options.configuration,
-                  options.fault == Fault::none ? StageMaker(make_stage) : planted_stages(plan_)),
+                  options.make                   ? options.make
+                  : options.fault == Fault::none ? StageMaker(make_stage)
+                                                 : planted_stages(plan_)),
         channel_fault_(plan_, pipeline_),
         checker_(pipeline_),
         software_(parameters, start, first_step, fast, tuning,
@@ -87,9 +65,9 @@ class Run {
   }
 
  private:
-  // One pass over several time steps, or several passes over one with many sub-steps.
+  // A train of passes over several time steps each, or several passes over one with many sub-steps.
   void advance() {
-    const std::uint32_t step = report_.first_step + report_.steps;
+    const std::uint32_t step = next_step_ = report_.first_step + report_.steps;
     if (starts_replay(step)) {
       report_.replay = memory_;
       report_.replay_step = step;
@@ -97,47 +75,97 @@ class Run {
     software_.begin_step();
     Pass pass{.first = step, .substeps = software_.substeps()};
     pass.count = std::min(pass.substeps, options_.configuration.substeps);
-    // How many sub-steps a step has is known when it begins, unless the scene says so.
-    const bool known = !pipeline_.design().parameters.flow.viscous.counts_substeps();
-    if (pass.ends() && (known || pipeline_.design().paper()))
-      pass.steps = steps_of_pass(pipeline_.design(), options_.configuration, step, steps_left());
-    report_.pass_end = step + static_cast<std::uint32_t>(pass.steps);
-
-    std::vector<std::vector<Expected>> expected;
-    for (int t = 0; t < pass.steps; ++t) {
-      const std::uint32_t done = report_.steps + static_cast<std::uint32_t>(t) + 1;
-      Expectation::Step one = software_.step(done % options_.every == 0 || done == options_.steps);
-      if (options_.poll) options_.poll();
-      expected.push_back(std::move(one.stages));
-      if ((report_.mismatch = std::move(one.mismatch))) return;
+    if (pass.ends() && substeps_are_known()) pass.steps = steps_of(step);
+    if (!run_software(pass)) {
+      report_.mismatch = std::move(software_mismatch_);
+      return;
     }
+    const std::uint32_t done = report_.steps;
     for (; pass.substep < pass.substeps; pass.substep += pass.count) {
       pass.count = std::min(pass.count, pass.substeps - pass.substep);
-      if (!run_pass(pass, expected)) return;
+      if (!run_train(pass)) return;
     }
-    report_.steps += static_cast<std::uint32_t>(pass.steps);
-    if (options_.visit_every == 0 || report_.steps % options_.visit_every != 0) return;
+    report_.steps = done + (next_step_ - step);
+    report_.mismatch = std::move(software_mismatch_);
+    if (report_.mismatch != nullptr || options_.visit_every == 0 || report_.steps % options_.visit_every != 0)
+      return;
     report_.stages = pipeline_.stages();
     stopped_ = !options_.visit(memory_, report_);
   }
 
-  // That one pass may reach.
-  std::uint32_t steps_left() const {
-    const std::uint32_t left = options_.steps - report_.steps, every = options_.visit_every;
-    return every == 0 ? left : std::min(left, every - report_.steps % every);
+  // How many sub-steps a step has is known when it begins, unless the scene says so.
+  bool substeps_are_known() const {
+    return pipeline_.design().paper() || !pipeline_.design().parameters.flow.viscous.counts_substeps();
+  }
+  // No pass reaches beyond a step at which somebody visits.
+  int steps_of(std::uint32_t step) const {
+    const std::uint32_t done = step - report_.first_step, every = options_.visit_every;
+    const std::uint32_t left = options_.steps - done;
+    return steps_of_pass(pipeline_.design(), options_.configuration, step,
+                         every == 0 ? left : std::min(left, every - done % every));
   }
 
-  bool run_pass(const Pass& pass, const std::vector<std::vector<Expected>>& steps) {
-    std::vector<std::vector<Expected>> expected;
-    for (const std::vector<Expected>& step : steps) expected.push_back(expected_of(pass, step));
-    checker_.begin_pass(pass.first, expected);
-    channel_fault_.begin_pass(pass.first, pass.steps);
-    if (!run_model(pass, software_.irradiance())) return false;
-    const std::uint32_t last = pass.first + static_cast<std::uint32_t>(pass.steps) - 1;
-    if (pass.ends())
-      compare_memory(last, software_.volume());
-    else if (!expected.front().empty())
-      compare_memory(last, *expected.front().back().after);
+  // Runs the software over the steps of a pass. False if its kernels differ.
+  bool run_software(const Pass& pass) {
+    report_.pass_end = pass.first + static_cast<std::uint32_t>(pass.steps);
+    expected_.clear();
+    for (int t = 0; t < pass.steps; ++t) {
+      const std::uint32_t done = pass.first + static_cast<std::uint32_t>(t) + 1 - report_.first_step;
+      Expectation::Step one = software_.step(done % options_.every == 0 || done == options_.steps);
+      if (options_.poll) options_.poll();
+      expected_.push_back(std::move(one.stages));
+      if ((software_mismatch_ = std::move(one.mismatch))) return false;
+    }
+    next_step_ = report_.pass_end;
+    return true;
+  }
+
+  bool is_visited(std::uint32_t step) const {
+    return options_.visit_every != 0 && (step - report_.first_step) % options_.visit_every == 0;
+  }
+
+  // The pass that follows without a gap: only a step of visibility needs the whole state before it begins.
+  std::optional<Pass> next_pass(Pass last) {
+    const std::uint32_t step = last.first + static_cast<std::uint32_t>(last.steps);
+    const Design& design = pipeline_.design();
+    const rule::Heat& heat = design.parameters.heat;
+    if (!passes_overlap(design, options_.configuration, last) || !substeps_are_known() ||
+        step == report_.first_step + options_.steps || is_visited(step) || (heat.radiates() && heat.visibility_age(step) == 0) ||
+        checker_.mismatch() != nullptr)
+      return {};
+    last.first = step;
+    last.steps = steps_of(step);
+    if (!run_software(last)) return {};  // what is under way can still be compared
+    add_pass(last);
+    return last;
+  }
+
+  void add_pass(const Pass& pass) {
+    Checker::Wanted wanted{pass.first, {}, nullptr};
+    for (const std::vector<Expected>& step : expected_) wanted.steps.push_back(expected_of(pass, step));
+    if (pass.ends() && wanted.steps.back().empty())
+      wanted.written = std::make_shared<const state::Volume>(software_.volume());
+    checker_.add_pass(std::move(wanted));
+    channel_fault_.add_pass(pass.first, pass.steps);
+  }
+
+  bool run_train(const Pass& first) {
+    checker_.begin_train();
+    channel_fault_.begin_train();
+    add_pass(first);
+    Pass last = first;
+    const auto next = [&]() -> std::optional<Pass> {
+      std::optional<Pass> pass = next_pass(last);
+      if (pass) last = *pass;
+      return pass;
+    };
+    if (!run_model(first, next, software_.irradiance())) return false;
+    const std::uint32_t step = last.first + static_cast<std::uint32_t>(last.steps) - 1;
+    if (software_mismatch_ != nullptr) return true;
+    if (last.ends())
+      compare_memory(step, software_.volume());
+    else if (!expected_.front().empty())
+      compare_memory(step, *expected_of(last, expected_.front()).back().after);
     return report_.mismatch == nullptr;
   }
 
@@ -150,56 +178,73 @@ class Run {
     std::vector<Expected> expected;
     std::size_t next = before + 2 * static_cast<std::size_t>(pass.substep);  // in `step`, of the sub-steps
     std::shared_ptr<const state::Volume> now = pass.begins() ? step.front().before : step[next - 1].after;
+    SideBands bands;
     int copy = -1;
     for (std::size_t i = 0; i < stages.size(); ++i) {
       if (stages[i] == StageKind::settle) ++copy;
       if (!pass.uses(stages[i], copy))
-        expected.push_back({now, now, nullptr});
+        expected.push_back({now, now, bands});  // it hands on what came
       else
         expected.push_back(i < before ? step[i] : step[next++]);
       now = expected.back().after;
+      bands = expected.back().bands;
     }
     return expected;
   }
 
   // False when a mismatch was found.
-  bool run_model(const Pass& pass, const step::Irradiance* irradiance) {
+  bool run_model(const Pass& first, const Pipeline::Next& next, const step::Irradiance* irradiance) {
     const auto begin = std::chrono::steady_clock::now();
     PassEnd end;
     try {
-      end = pipeline_.run_pass(pass, irradiance, memory_);
+      end = pipeline_.run_train(first, next, irradiance, memory_);
     } catch (const Pipeline::StageError& error) {
       report_.mismatch = std::make_unique<Mismatch>(Mismatch{
-          .kind = Mismatch::Kind::width,
+          .kind = error.kind == Pipeline::StageError::Kind::width ? Mismatch::Kind::width
+                                                                  : Mismatch::Kind::address,
           .where = std::string(name_of(error.stage)),
           .phase = phase_of(error.stage),
-          .step = pass.first + static_cast<std::uint32_t>(error.cascade),
+          .step = error.step,
           .cascade = error.cascade,
+          .lane = error.spot.lane,
+          .cycle = error.cycle,
+          .x = error.spot.token.x + error.spot.lane,
+          .y = error.spot.token.y,
+          .z = error.spot.token.z,
           .detail = error.what(),
       });
       return false;
     }
     report_.model_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    ++report_.passes;
+    report_.passes += end.passes;
     report_.cycles += end.cycles;
     if (end.complete) {
-      if (pass.ends()) report_.cell_steps += static_cast<std::int64_t>(memory_.grid.cells()) * pass.steps;
-      report_.predicted_cycles += predicted_cycles(pipeline_.design(), options_.configuration, pass);
+      if (first.ends())
+        report_.cell_steps += static_cast<std::int64_t>(memory_.grid.cells()) * (next_step_ - first.first);
+      const std::int64_t predicted =
+          predicted_cycles(pipeline_.design(), options_.configuration, first, end.passes);
+      report_.predicted_cycles += predicted;
+      if (options_.configuration.stall_seed == 0 && end.cycles != predicted)
+        report_.mismatch =
+            std::make_unique<Mismatch>(cycles_of(pipeline_, first.first, predicted, end.cycles));
     }
     if (checker_.mismatch() != nullptr) report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
     if (report_.mismatch == nullptr && end.hangs)
-      report_.mismatch = std::make_unique<Mismatch>(hang_of(pipeline_, pass.first, end.cycles));
+      report_.mismatch = std::make_unique<Mismatch>(hang_of(pipeline_, first, end.cycles));
     return report_.mismatch == nullptr;
   }
 
   void compare_memory(std::uint32_t step, const state::Volume& wanted) {
     const Difference d = first_difference(wanted, memory_);
     if (d.field.empty()) return;
+    const Shape& shape = pipeline_.design().shape;
     report_.mismatch = std::make_unique<Mismatch>(Mismatch{
         .kind = Mismatch::Kind::memory,
         .where = std::string(name_of(StageKind::writer)),
         .step = step,
         .cascade = options_.configuration.cascade - 1,
+        .lane = d.x % shape.lanes,
+        .cycle = checker_.written_in(stream_order(shape, d.x, d.y, d.z) / shape.lanes),
         .x = d.x,
         .y = d.y,
         .z = d.z,
@@ -230,6 +275,9 @@ class Run {
   Checker checker_;
   Expectation software_;
   state::Volume memory_;
+  std::vector<std::vector<Expected>> expected_;  // of the pass that the software has run last
+  std::unique_ptr<Mismatch> software_mismatch_;
+  std::uint32_t next_step_ = 0;  // after that pass
   VerifyReport report_;
   bool stopped_ = false;  // by who visits
 };

@@ -54,6 +54,7 @@ class Apply final : public Stage {
         arrival_bits_(flow_.arrival_bits()),
         plane_(static_cast<std::size_t>(design.shape.plane())),
         column_(static_cast<std::size_t>(design.shape.column())),
+        border_(static_cast<std::size_t>(design.shape.lanes)),
         line_(design.shape.lanes, static_cast<std::size_t>(lag())) {}
 
   std::vector<BufferCost> buffers() const override {
@@ -76,31 +77,40 @@ class Apply final : public Stage {
   }
 
  protected:
-  void begin_step() override { dither_ = dither_of(step()); }
+  void begin_step() override { dithers_.next(dither_of(step())); }
 
   void advance(const Cell* in, Cell* out) override {
     line_.shift();
     Flowing* now = line_.tap(0);
     if (in != nullptr) take(in, now);
-    Flowing* south = came().z > 0 ? line_.tap(plane_) : nullptr;
+    const bool ends = ends_last_pass();
+    Flowing* south = came().z > 0 || ends ? line_.tap(plane_) : nullptr;
     if (south != nullptr)
-      for (int lane = 0; lane < lanes(); ++lane) {
+      for (const int lane : each_lane(shape().plane())) {
         wire(south[lane].in.amount, south_bits_), wire(south[lane].in.energy, south_bits_);
         weigh(south[lane], line_.tap(plane_ + 1)[lane].state);
       }
 
-    Flowing* west = came().x > 0 ? line_.tap(column_) + lanes() - 1 : nullptr;
+    Flowing* north = ends ? border_.data() : now;  // of the plane that goes
+    Flowing* west = came().x > 0 ? (ends ? north : line_.tap(column_)) + lanes() - 1 : nullptr;
     Flowing* south_west =
         west != nullptr && south != nullptr ? line_.tap(plane_ + column_) + lanes() - 1 : nullptr;
-    for (int lane = 0; south != nullptr && lane < lanes(); ++lane) {
-      meet(now[lane], west, south[lane], south_west);
-      west = now + lane;
-      south_west = south + lane;
-    }
+    if (south != nullptr)
+      for (const int lane : each_lane(ends ? shape().plane() : 0)) {
+        meet(north[lane], west, south[lane], south_west);
+        west = north + lane;
+        south_west = south + lane;
+      }
+    dither_ = at(dithers_, shape().plane());
     // Nothing more can reach these cells: in the memory that follows they are plain cells again.
-    for (int lane = 0; south != nullptr && lane + 1 < lanes(); ++lane) finish(south[lane]);
+    for (int lane = 0; south != nullptr && lane + 1 < lanes(); ++lane) {
+      compute_at(shape().plane(), lane);
+      finish(south[lane]);
+    }
     if (out == nullptr) return;
     Flowing* left = line_.tap(line_.delay());
+    dither_ = at(dithers_, lag());
+    compute_at(lag(), lanes() - 1);
     finish(left[lanes() - 1]);
     for (int lane = 0; lane < lanes(); ++lane) {
       Cell cell;
@@ -122,12 +132,12 @@ class Apply final : public Stage {
   std::int64_t southern_arrivals() const { return flow_.eight() ? kOne + 2 * (kOne >> 2) : 2 * kOne; }
 
   std::int64_t rubbed(std::int64_t energy, std::int64_t footing) const {
-    return scale(energy, alpha_[static_cast<std::size_t>(footing)]);
+    return scale(energy, looked_up(alpha_, footing));
   }
 
   void take(const Cell* in, Flowing* now) {
     const Flowing* below = line_.tap(1);
-    for (int lane = 0; lane < lanes(); ++lane) {
+    for (const int lane : each_lane()) {
       Flowing& word = now[lane];
       word.amount = in[lane].amount;
       word.energy = in[lane].energy;
@@ -198,7 +208,7 @@ class Apply final : public Stage {
 
   // Reading `text`: how much of the energy that has come the cell gains, by the friction of its ground.
   std::int64_t rubbed_at_end(const Flowing& word, std::int64_t footing) const {
-    return scale(word.in.energy, alpha_[static_cast<std::size_t>(footing)], dither_);
+    return scale(word.in.energy, looked_up(alpha_, footing), dither_);
   }
 
   // Finishes a cell that has got all that it will get.
@@ -222,7 +232,9 @@ class Apply final : public Stage {
   bool printed_, hot_;
   int south_bits_, arrival_bits_;
   std::size_t plane_, column_;
-  UInt<16> dither_;
+  OfTwoPasses<UInt<16>> dithers_;
+  UInt<16> dither_;  // of the cells that are finished
+  std::vector<Flowing> border_;
   TapLine<Flowing> line_;
 };
 

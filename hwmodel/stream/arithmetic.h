@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 #include "hwmodel/channel/wires.h"
 #include "kernel/automaton/rule/parameters.h"
@@ -21,6 +23,14 @@ inline std::int64_t signed_wire(std::int64_t value, int bits) {
   if (value < -(std::int64_t{1} << (bits - 1)) || value >> (bits - 1) > 0) [[unlikely]]
     throw WidthError(value, bits, true);
   return value;
+}
+
+// Reads a table that is a memory of the machine.
+template <class Table>
+const auto& looked_up(const Table& table, std::int64_t address) {
+  if (address < 0 || address >= std::ssize(table)) [[unlikely]]
+    throw AddressError(address, std::ssize(table));
+  return table[static_cast<std::size_t>(address)];
 }
 
 // floor((value x fraction + rounding) / 65536): one multiplier of 17 x 17 bits, signed.

@@ -15,30 +15,81 @@
 
 namespace voxmelt::hwmodel {
 
-// Streams a volume out of memory.
+// Streams the result into memory, behind the reader.
+class Writer {
+ public:
+  explicit Writer(const Shape& shape) : shape_(shape) {}
+  void connect(CellFifo& in) { in_ = &in; }
+  void begin_pass(state::Volume& volume) {
+    volume_ = &volume, place_ = {};
+    to_write_ = shape_.tokens(), written_ = 0, last_cycle_ = -1;
+  }
+  void add_pass() { to_write_ += shape_.tokens(); }
+  void cycle(std::int64_t now) {
+    if (done()) {
+      ++cycles_.fill_drain;
+    } else if (!in_->valid()) {
+      ++(written_ == 0 ? cycles_.fill_drain : cycles_.starved);
+    } else {
+      write_token(in_->get(), shape_, place_, *volume_);
+      place_.next(shape_);
+      if (place_.ordinal == shape_.tokens()) place_ = {};
+      ++written_, last_cycle_ = now;
+      ++cycles_.busy;
+    }
+  }
+  bool done() const { return written_ == to_write_; }
+  // Tokens written before this cycle: it must not matter which block runs first.
+  std::int64_t written_before(std::int64_t now) const { return written_ - (last_cycle_ == now ? 1 : 0); }
+  const StageCycles& cycles() const { return cycles_; }
+
+ private:
+  Shape shape_;
+  CellFifo* in_ = nullptr;
+  state::Volume* volume_ = nullptr;
+  Place place_;
+  std::int64_t to_write_ = 0, written_ = 0, last_cycle_ = -1;
+  StageCycles cycles_;
+};
+
+// Streams a volume out of memory. In a pass that follows without a gap, a token may be read only when the
+// writer has written it: the writer gives the reader a credit per token.
 class Reader {
  public:
   explicit Reader(const Shape& shape) : shape_(shape) {}
-  void connect(CellFifo& out) { out_ = &out; }
-  void begin_pass(const state::Volume& volume) { volume_ = &volume, place_ = {}; }
-  void cycle() {
+  void connect(CellFifo& out, const Writer& writer) { out_ = &out, writer_ = &writer; }
+  void begin_pass(const state::Volume& volume) { volume_ = &volume, place_ = {}, passes_before_ = 0; }
+  // True with the last token of a pass: another one may follow now.
+  bool cycle(std::int64_t now) {
     if (place_.ordinal == shape_.tokens()) {
       ++cycles_.fill_drain;
+    } else if (!may_read(now)) {
+      ++cycles_.starved;
     } else if (!out_->ready()) {
       ++cycles_.blocked;
     } else {
       read_token(*volume_, shape_, place_, out_->put());
       place_.next(shape_);
       ++cycles_.busy;
+      return place_.ordinal == shape_.tokens();
     }
+    return false;
   }
+  void add_pass() { ++passes_before_, place_ = {}; }
   const StageCycles& cycles() const { return cycles_; }
 
  private:
+  bool may_read(std::int64_t now) const {
+    if (passes_before_ == 0) return true;
+    return writer_->written_before(now) > (passes_before_ - 1) * shape_.tokens() + place_.ordinal;
+  }
+
   Shape shape_;
   CellFifo* out_ = nullptr;
+  const Writer* writer_ = nullptr;
   const state::Volume* volume_ = nullptr;
   Place place_;
+  std::int64_t passes_before_ = 0;  // of the train
   StageCycles cycles_;
 };
 
@@ -46,8 +97,14 @@ class Reader {
 class Feed {
  public:
   Feed(const Shape& shape, HeatFifo& out) : shape_(shape), out_(out) {}
-  void begin_pass(const state::Field<std::uint16_t>* field) { field_ = field, place_ = {}; }
+  void begin_pass(const state::Field<std::uint16_t>* field) {
+    field_ = field, place_ = {};
+    passes_left_ = 0;
+  }
+  // Another pass in which the time step works, with the same irradiance.
+  void add_pass() { ++passes_left_; }
   void cycle() {
+    if (place_.ordinal == shape_.tokens() && passes_left_ > 0) --passes_left_, place_ = {};
     if (field_ == nullptr || place_.ordinal == shape_.tokens()) {
       ++(field_ == nullptr ? cycles_.bypassed : cycles_.fill_drain);
       return;
@@ -71,34 +128,7 @@ class Feed {
   HeatFifo& out_;
   const state::Field<std::uint16_t>* field_ = nullptr;
   Place place_;
-  StageCycles cycles_;
-};
-
-// Streams the result into memory, behind the reader.
-class Writer {
- public:
-  explicit Writer(const Shape& shape) : shape_(shape) {}
-  void connect(CellFifo& in) { in_ = &in; }
-  void begin_pass(state::Volume& volume) { volume_ = &volume, place_ = {}; }
-  void cycle() {
-    if (done()) {
-      ++cycles_.fill_drain;
-    } else if (!in_->valid()) {
-      ++(place_.ordinal == 0 ? cycles_.fill_drain : cycles_.starved);
-    } else {
-      write_token(in_->get(), shape_, place_, *volume_);
-      place_.next(shape_);
-      ++cycles_.busy;
-    }
-  }
-  bool done() const { return place_.ordinal == shape_.tokens(); }
-  const StageCycles& cycles() const { return cycles_; }
-
- private:
-  Shape shape_;
-  CellFifo* in_ = nullptr;
-  state::Volume* volume_ = nullptr;
-  Place place_;
+  int passes_left_ = 0;
   StageCycles cycles_;
 };
 
@@ -125,13 +155,15 @@ class StepBlock {
   void feed(HeatFifo& feed) {
     for (const auto& stage : stages_) stage->feed(feed);
   }
-  void begin_pass(const Pass& pass, int position) {
+  // The first pass of a train begins with an empty machine; further ones are added.
+  void begin_pass(const Pass& pass, int position, bool first) {
     const std::uint32_t step = pass.first + static_cast<std::uint32_t>(position);
     int copy = -1;
     for (const auto& stage : stages_) {
       if (stage->kind() == StageKind::settle) ++copy;
       const bool works = position < pass.steps && pass.uses(stage->kind(), copy);
-      stage->begin_pass({step, pass.substep + std::max(copy, 0), pass.substeps}, !works);
+      const step::Moment moment{step, pass.substep + std::max(copy, 0), pass.substeps};
+      first ? stage->begin_pass(moment, !works) : stage->add_pass(moment, !works);
     }
   }
 

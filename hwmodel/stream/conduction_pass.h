@@ -80,15 +80,17 @@ class ConductionPass : public Stage {
       rows_[corner] = delay <= lag() ? line_.tap(static_cast<std::size_t>(delay)) : nullptr;
     }
     if (in != nullptr) {
-      for (int lane = 0; lane < lanes(); ++lane) take_cell(in[lane], material_, rows_[kHere][lane]);
+      for (const int lane : each_lane()) take_cell(in[lane], material_, rows_[kHere][lane]);
       conduct(std::make_index_sequence<kParts>());
       watch();
       faults_.conducted(*this);
     }
     if (out == nullptr) return;
     const HeatWord* oldest = line_.tap(line_.delay());
-    for (int lane = 0; lane < lanes(); ++lane)
+    for (const int lane : each_lane(lag())) {
       out[lane] = give_cell(oldest[lane], exposed_axes(oldest[lane]));
+      faults_.gave(*this, oldest[lane], lane, out[lane]);
+    }
   }
 
   virtual void watch() {}  // for what else a pass must see in the window
@@ -100,10 +102,14 @@ class ConductionPass : public Stage {
     constexpr unsigned p = kPairs[kPart].p, q = kPairs[kPart].q, span = p | q;
     if ((span & kBelow) != 0 && came().y == 0) return;
     if ((span & kSouth) != 0 && came().z == 0) return;
+    compute_at(0, 0);
     if (came().x > 0 || (span & kWest) == 0) visit(word(p, 0), word(q, 0));
     HeatWord *ps = rows_[p & ~kWest], *qs = rows_[q & ~kWest];
     constexpr int p_west = (p & kWest) != 0, q_west = (q & kWest) != 0;
-    for (int lane = 1; lane < lanes(); ++lane) visit(ps[lane - p_west], qs[lane - q_west]);
+    for (int lane = 1; lane < lanes(); ++lane) {
+      compute_at(0, lane);
+      visit(ps[lane - p_west], qs[lane - q_west]);
+    }
   }
 
   // The word in a corner of a lane's window.

@@ -34,8 +34,9 @@ class Convection final : public Stage {
     line_.shift();
     HeatWord *above = line_.tap(0), *below = line_.tap(1);
     if (in != nullptr) {
-      for (int lane = 0; lane < lanes(); ++lane) take_cell(in[lane], material_, above[lane]);
-      for (int lane = 0; lane < lanes() && came().y > 0; ++lane) rise(below[lane], above[lane]);
+      for (const int lane : each_lane()) take_cell(in[lane], material_, above[lane]);
+      if (came().y > 0)
+        for (const int lane : each_lane()) rise(below[lane], above[lane]);
     }
     if (out == nullptr) return;
     for (int lane = 0; lane < lanes(); ++lane) out[lane] = give_cell(below[lane], below[lane].exposed);

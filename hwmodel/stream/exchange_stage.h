@@ -44,8 +44,8 @@ class Exchange final : public Stage {
 
   void advance(const Cell* in, Cell* out) override {
     const UInt<16>* irradiance = radiation_ ? feed_->get() : nullptr;
-    const UInt<16> ambient = air_ ? air_temperature_[static_cast<std::size_t>(came().y)] : UInt<16>{};
-    for (int lane = 0; lane < lanes(); ++lane) {
+    const UInt<16> ambient = air_ ? looked_up(air_temperature_, came().y) : UInt<16>{};
+    for (const int lane : each_lane()) {
       out[lane] = in[lane];
       Cell& cell = out[lane];
       cell.exposed_axes = 0;
@@ -62,7 +62,7 @@ class Exchange final : public Stage {
     if (cell.state == State::solid) h = raised(h, UInt<13>((4096 * received + dither_) >> 16));
     if (axes == 0) return h;
     const SInt<17> excess = ambient - temperature_of(h, material_);
-    return raised(h, scale(excess, air_weight_[static_cast<std::size_t>(axes)], dither_));
+    return raised(h, scale(excess, looked_up(air_weight_, axes), dither_));
   }
   static UInt<16> raised(std::int64_t h, std::int64_t gain) { return h + std::min(gain, kHeatMax - h); }
 

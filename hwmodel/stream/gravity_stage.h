@@ -42,7 +42,7 @@ class Gravity final : public Stage {
   }
 
  protected:
-  void begin_step() override { dither_ = dither_of(step()); }
+  void begin_step() override { dithers_.next(dither_of(step())); }
 
   void advance(const Cell* in, Cell* out) override {
     line_.shift();
@@ -53,12 +53,13 @@ class Gravity final : public Stage {
         newest[lane] = {cell.amount, cell.energy, cell.heat, cell.state, cell.beside_wall, cell.in_run};
       }
     if (out == nullptr) return;
+    dither_ = at(dithers_, lag());
 
     Falling* low = line_.tap(line_.delay());
     Falling* high = line_.tap(line_.delay() - 1);
     const int height = shape().grid.y;
     const bool pair = leaving().y + 1 < height, below_top = leaving().y + 2 < height;
-    for (int lane = 0; lane < lanes(); ++lane) {
+    for (const int lane : each_lane(lag())) {
       if (pair)
         move(low[lane], high[lane], !below_top || newest[lane].blocked());
       else
@@ -136,7 +137,8 @@ class Gravity final : public Stage {
   const rule::Fall& fall_;
   const rule::PaperLaw& law_;
   bool paper_, hot_;
-  UInt<16> dither_;
+  OfTwoPasses<UInt<16>> dithers_;
+  UInt<16> dither_;  // of the token that leaves
   TapLine<Falling> line_;
 };
 

@@ -24,7 +24,7 @@ class Melt final : public Stage {
   friend Faults;
 
   void advance(const Cell* in, Cell* out) override {
-    for (int lane = 0; lane < lanes(); ++lane) {
+    for (const int lane : each_lane()) {
       Cell& cell = out[lane];
       cell = in[lane];
       if (!cell.matter() || cell.heat < melts_at_) continue;

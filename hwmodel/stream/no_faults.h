@@ -10,6 +10,8 @@ struct NoFaults {
   static void treated(auto&&...) {}
   static void exchanged(auto&&...) {}
   static void melted(auto&&...) {}
+  // conduction, walls, viscous spread: the cell that leaves, with what it tells later stages
+  static void gave(auto&&...) {}
   // conduction: all fluxes of the token that came; convection: a pair that exchanges nothing
   static void conducted(auto&&...) {}
   static void rested(auto&&...) {}
@@ -28,6 +30,8 @@ struct NoFaults {
   static void summed(auto&&...) {}
   static void lowered(auto&&...) {}
   static void turned(auto&&...) {}
+  // settle: the cell that leaves, with what it shows
+  static void shown(auto&&...) {}
   // viscous spread: what a cell wants to give; the taker after it
   static void wanted(auto&&...) {}
   static void moved(auto&&...) {}

@@ -35,7 +35,7 @@ class PaperFlow {
   std::int64_t share(std::int64_t heat) const {
     if (!thermal_) return law_.share;
     const std::int64_t most = eight_ ? 13107 : 16384;
-    return std::min(law_.share * std::int64_t{table_[static_cast<std::size_t>(heat >> 11)]} >> 15, most);
+    return std::min(law_.share * std::int64_t{looked_up(table_, heat >> 11)} >> 15, most);
   }
   std::int64_t part(std::int64_t whole, std::int64_t share) const {
     return std::min(scale(whole, share), cap_);
@@ -53,7 +53,7 @@ class PaperFlow {
     return {flow, std::min(flow, part(energy, share))};
   }
   std::int64_t table_share(std::int64_t pattern, int way) const {
-    return law_.table[static_cast<std::size_t>(pattern)][static_cast<std::size_t>(way)];
+    return looked_up(looked_up(law_.table, pattern), way);
   }
 
   // The gift to every direction of a pattern; nothing goes to the others.

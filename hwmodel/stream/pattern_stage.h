@@ -35,6 +35,7 @@ class Pattern final : public Stage {
         keys_(speck_keys(design.parameters.seed)),
         plane_(static_cast<std::size_t>(design.shape.plane())),
         column_(static_cast<std::size_t>(design.shape.column())),
+        border_(static_cast<std::size_t>(design.shape.lanes)),
         line_(design.shape.lanes, static_cast<std::size_t>(lag())) {}
 
   // The directions decided: to the south; in the east memory also to the north and west.
@@ -56,7 +57,7 @@ class Pattern final : public Stage {
     const bool above_floor = came().y > 0;
     if (in != nullptr) {
       const Giver* below = line_.tap(1);
-      for (int lane = 0; lane < lanes(); ++lane) {
+      for (const int lane : each_lane()) {
         now[lane].amount = in[lane].amount;
         now[lane].energy = in[lane].energy;
         now[lane].heat = in[lane].heat;
@@ -64,18 +65,20 @@ class Pattern final : public Stage {
         find_limits(now[lane], above_floor && below[lane].state == State::air);
       }
     }
-    Giver* south = came().z > 0 ? line_.tap(plane_) : nullptr;
+    const bool ends = ends_last_pass();
+    Giver* south = came().z > 0 || ends ? line_.tap(plane_) : nullptr;
     if (south != nullptr) {
       const Giver* below = line_.tap(plane_ + 1);
-      for (int lane = 0; lane < lanes(); ++lane)
+      for (const int lane : each_lane(shape().plane()))
         find_limits(south[lane], above_floor && below[lane].state == State::air);
     }
-    Giver* west = came().x > 0 ? line_.tap(column_) + lanes() - 1 : nullptr;
+    Giver* north = ends ? border_.data() : now;  // of the plane that goes
+    Giver* west = came().x > 0 ? (ends ? north : line_.tap(column_)) + lanes() - 1 : nullptr;
     Giver* south_west =
         west != nullptr && south != nullptr ? line_.tap(plane_ + column_) + lanes() - 1 : nullptr;
-    for (int lane = 0; lane < lanes(); ++lane) {
-      meet(now[lane], west, south, south_west);
-      west = now + lane;
+    for (const int lane : each_lane(ends ? shape().plane() : 0)) {
+      meet(north[lane], west, south, south_west);
+      west = north + lane;
       if (south != nullptr) south_west = south++;
     }
     if (out != nullptr) leave(line_.tap(static_cast<std::size_t>(lag())), out);
@@ -139,7 +142,7 @@ class Pattern final : public Stage {
   void leave(const Giver* words, Cell* out) {
     std::int64_t block_of = -1;
     std::uint64_t block = 0;
-    for (int lane = 0; lane < lanes(); ++lane) {
+    for (const int lane : each_lane(lag())) {
       const Giver& word = words[lane];
       Cell cell;
       cell.amount = word.amount;
@@ -148,7 +151,7 @@ class Pattern final : public Stage {
       cell.state = word.state;
       if (word.pattern != 0) {
         const int x = leaving().x + lane;
-        if (x / 8 != block_of) block_of = x / 8, block = speck_block(keys_, step(), block_index(x));
+        if (x / 8 != block_of) block_of = x / 8, block = speck_block(keys_, step_at(lag()), block_index(x));
         cell.pattern = word.pattern & speck_byte(block, x);
       }
       faults_.drawn(*this, word, lane, cell);
@@ -168,6 +171,7 @@ class Pattern final : public Stage {
   PaperFlow flow_;
   SpeckKeys keys_;
   std::size_t plane_, column_;
+  std::vector<Giver> border_;
   TapLine<Giver> line_;
 };
 

@@ -49,7 +49,7 @@ struct Pipeline::Machine {
       feeds.push_back(std::make_unique<Feed>(design.shape, feed_links.back()->fifo()));
       step.feed(feed_links.back()->fifo());
     }
-    reader.connect(links.front()->fifo());
+    reader.connect(links.front()->fifo(), writer);
     writer.connect(links.back()->fifo());
     make_blocks();
   }
@@ -59,7 +59,7 @@ struct Pipeline::Machine {
       blocks.push_back(std::make_unique<Block>(name.c_str(), clock, shared, std::move(cycle)));
     };
     add("reader", [this] {
-      reader.cycle();
+      if (reader.cycle(shared.cycle()) && next) follow(next());
       links.front()->tick();
     });
     for (std::size_t t = 0; t < steps.size(); ++t)
@@ -67,7 +67,9 @@ struct Pipeline::Machine {
         try {
           shared.moves += steps[t]->cycle();
         } catch (const WidthError& error) {
-          throw StageError(error.what(), steps[t]->running().kind(), static_cast<int>(t));
+          fail(error, StageError::Kind::width, t);
+        } catch (const AddressError& error) {
+          fail(error, StageError::Kind::address, t);
         }
         links[t + 1]->tick();
       });
@@ -77,9 +79,30 @@ struct Pipeline::Machine {
         feed_links[t]->tick();
       });
     add("writer", [this] {
-      writer.cycle();
+      writer.cycle(shared.cycle());
       watch_progress();
     });
+  }
+
+  [[noreturn]] void fail(const ModelError& error, StageError::Kind kind, std::size_t t) const {
+    throw StageError(error.what(), kind, steps[t]->running(), static_cast<int>(t), shared.cycle());
+  }
+
+  void begin(const Pass& pass, bool first) {
+    for (std::size_t t = 0; t < steps.size(); ++t) steps[t]->begin_pass(pass, static_cast<int>(t), first);
+    ++passes;
+  }
+  bool fed(const Pass& pass, std::size_t t) const {
+    return static_cast<int>(t) < pass.steps && pass.uses(StageKind::exchange, 0);
+  }
+  // Another pass follows without a gap: its first token may be read in the next cycle.
+  void follow(const std::optional<Pass>& pass) {
+    if (!pass) return;
+    begin(*pass, false);
+    reader.add_pass();
+    writer.add_pass();
+    for (std::size_t t = 0; t < feeds.size(); ++t)
+      if (fed(*pass, t)) feeds[t]->add_pass();
   }
 
   // Runs once a cycle.
@@ -104,6 +127,8 @@ struct Pipeline::Machine {
   }
 
   std::int64_t moves_before = 0, idle = 0;
+  int passes = 0;  // of the present train
+  Next next;
   std::function<void()> poll;
   bool ran = false;
   Context context;  // first: everything of SystemC lives in it
@@ -146,20 +171,25 @@ std::vector<CellFifo*> Pipeline::channels_behind_stages(int cascade) {
 
 PassEnd Pipeline::run_pass(const Pass& pass, const state::Field<std::uint16_t>* irradiance,
                            state::Volume& volume) {
+  return run_train(pass, {}, irradiance, volume);
+}
+
+PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const state::Field<std::uint16_t>* irradiance,
+                            state::Volume& volume) {
   Machine& m = *machine_;
   Shared& shared = m.shared;
   shared.complete = shared.hangs = false;
   shared.last_cycle = kNever;
   m.idle = 0;
+  m.passes = 0;
+  m.next = next;
   m.for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.begin_pass(pass.first); });
   for (const auto& link : m.feed_links) link->fifo().begin_pass(pass.first);
   m.reader.begin_pass(volume);
   m.writer.begin_pass(volume);
-  for (std::size_t t = 0; t < m.steps.size(); ++t) {
-    const bool fed = static_cast<int>(t) < pass.steps && pass.uses(StageKind::exchange, 0);
-    m.steps[t]->begin_pass(pass, static_cast<int>(t));
-    if (t < m.feeds.size()) m.feeds[t]->begin_pass(fed ? irradiance : nullptr);
-  }
+  m.begin(pass, true);
+  for (std::size_t t = 0; t < m.feeds.size(); ++t)
+    m.feeds[t]->begin_pass(m.fed(pass, t) ? irradiance : nullptr);
 
   m.context.enter();
   shared.first_cycle = m.ran ? Shared::now() + 1 : 0;
@@ -168,7 +198,7 @@ PassEnd Pipeline::run_pass(const Pass& pass, const state::Field<std::uint16_t>* 
   m.context.leave();
 
   if (shared.error) std::rethrow_exception(std::exchange(shared.error, nullptr));
-  return {shared.last_cycle + 1, shared.complete, shared.hangs};
+  return {shared.last_cycle + 1, m.passes, shared.complete, shared.hangs};
 }
 
 // It is called only within a pass, where the context is entered.

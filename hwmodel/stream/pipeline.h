@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct Configuration {
   int fifo_depth = 4;            // tokens, of every channel
   std::uint64_t stall_seed = 0;  // 0: no stalls
   int substeps = 1;              // viscous law: copies of settle and spread in a time step
+  bool overlap = true;           // may a pass enter while the last one drains?
 };
 
 inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024, kMostSubsteps = 64;
@@ -34,7 +36,7 @@ struct ChannelReport {
   StageKind producer = StageKind::reader;
   int cascade = 0;  // position of its producer
   int depth = 0, bits = 0, highest = 0, count = 0;
-  std::int64_t entered = 0;             // tokens, in the present pass
+  std::int64_t entered = 0;             // tokens, in the present train
   std::vector<std::int64_t> occupancy;  // cycles with 0, 1, ... tokens
 };
 
@@ -47,9 +49,10 @@ struct StageReport {
   Units units;
 };
 
-// How a pass of the pipeline ended.
+// How a train of passes ended.
 struct PassEnd {
   std::int64_t cycles = 0;
+  int passes = 0;         // that began
   bool complete = false;  // else it was stopped by the watcher, or it hangs
   bool hangs = false;
 };
@@ -70,22 +73,38 @@ class Pipeline {
   std::vector<CellFifo*> channels_behind_stages(int cascade);  // of one time step, for faults to be planted
   void poll(std::function<void()> poll);  // called now and then during a pass; what it throws ends the pass
 
-  // Where a value did not fit its wire.
+  // Where a value did not fit its wire, or an address its memory.
   class StageError : public std::runtime_error {
    public:
-    StageError(const std::string& what, StageKind failed, int position)
-        : std::runtime_error(what), stage(failed), cascade(position) {}
+    enum class Kind : std::uint8_t { width, address };
+    StageError(const std::string& what, Kind wrong, const Stage& failed, int position, std::int64_t when)
+        : std::runtime_error(what),
+          kind(wrong),
+          stage(failed.kind()),
+          step(failed.working_step()),
+          spot(failed.spot()),
+          cascade(position),
+          cycle(when) {}
+    Kind kind;
     StageKind stage;
+    std::uint32_t step;
+    Spot spot;
     int cascade;
+    std::int64_t cycle;
   };
 
   // Streams `volume` once; what the pass does not use is bypassed. `irradiance`: null without radiation.
   // Throws StageError.
   PassEnd run_pass(const Pass& pass, const state::Field<std::uint16_t>* irradiance, state::Volume& volume);
+  // A train: when the last token of a pass has been read, `next` says which pass follows without a gap, if
+  // any. It must not have more steps than the one before, and `passes_overlap` (prediction.h) must hold.
+  using Next = std::function<std::optional<Pass>()>;
+  PassEnd run_train(const Pass& first, const Next& next, const state::Field<std::uint16_t>* irradiance,
+                    state::Volume& volume);
 
   const Design& design() const;
   const Configuration& configuration() const;
-  std::int64_t cycle() const;  // of the present pass
+  std::int64_t cycle() const;  // of the present train
   std::vector<ChannelReport> channels() const;
   std::vector<StageReport> stages() const;  // the reader first, the writer last
 

@@ -29,19 +29,38 @@ Lag lag_of(StageKind kind, const Design& design) {
   }
 }
 
-std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, const Pass& pass) {
+namespace {
+
+struct Flow {
+  std::int64_t interval, waits, channels;
+};
+Flow flow_of(const Design& design, const Configuration& configuration, const Pass& pass) {
   const std::vector<StageKind> stages = stages_of_step(design);
-  const std::int64_t interval = configuration.fifo_depth == 1 ? 2 : 1, tokens = design.shape.tokens();
-  std::int64_t waits = 0;
+  Flow flow{configuration.fifo_depth == 1 ? 2 : 1, 0, 0};
+  const std::int64_t interval = flow.interval, tokens = design.shape.tokens();
   int copy = -1;
   for (const StageKind stage : stages) {
     if (stage == StageKind::settle) ++copy;
     if (!pass.uses(stage, copy)) continue;
     const std::int64_t lag = lag_of(stage, design).tokens(design.shape);
-    waits += lag < tokens ? interval * lag : interval * (tokens - 1) + lag - tokens + 1;
+    flow.waits += pass.steps * (lag < tokens ? interval * lag : interval * (tokens - 1) + lag - tokens + 1);
   }
-  const std::int64_t channels = configuration.cascade * static_cast<std::int64_t>(stages.size()) + 1;
-  return interval * (tokens - 1) + pass.steps * waits + channels + 1;
+  flow.channels = configuration.cascade * static_cast<std::int64_t>(stages.size()) + 1;
+  return flow;
+}
+
+}  // namespace
+
+std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, const Pass& first,
+                              std::int64_t passes) {
+  const Flow flow = flow_of(design, configuration, first);
+  return flow.interval * (passes * design.shape.tokens() - 1) + flow.waits + flow.channels + 1;
+}
+
+bool passes_overlap(const Design& design, const Configuration& configuration, const Pass& pass) {
+  const Flow flow = flow_of(design, configuration, pass);
+  return configuration.overlap && pass.begins() && pass.ends() &&
+         flow.interval * design.shape.tokens() > flow.waits + flow.channels;
 }
 
 }  // namespace voxmelt::hwmodel

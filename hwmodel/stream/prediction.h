@@ -1,4 +1,4 @@
-// How many cycles a pass takes when nothing stalls, from the configuration alone.
+// How many cycles passes take when nothing stalls, from the configuration alone.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,15 @@ namespace voxmelt::hwmodel {
 //   wait   = interval lag                          where lag < N
 //            interval (N - 1) + lag - N + 1        else (grids thinner than the stencil)
 //   interval = 1; 2 where channels hold one token only
-std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, const Pass& pass);
+//
+// In a train, the tokens of the next pass follow those of the last one: N is that of all of them, and the
+// waits are those of the first pass. Later ones have no more steps. What they leave out, they wait for.
+std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, const Pass& first,
+                              std::int64_t passes = 1);
+
+// May a pass of as many steps follow this one without a gap? The first token must come back before the reader
+// asks for it again. Else stages would wait for tokens that wait in them.
+bool passes_overlap(const Design& design, const Configuration& configuration, const Pass& pass);
 
 // How many planes, columns and single tokens a stage must have seen before it can give its first cell.
 struct Lag {

@@ -51,9 +51,11 @@ class Settle final : public Stage {
  protected:
   void begin_step() override {
     // Mixtures of no two sub-steps round alike.
-    dither_ = UInt<16>::truncated(dither_of(moment().step) +
-                                  dither_of(static_cast<std::uint32_t>(moment().substep)));
-    pace_ = (static_cast<std::int64_t>(flow_.viscous.mobility) + moment().substeps / 2) / moment().substeps;
+    dithers_.next(UInt<16>::truncated(dither_of(moment().step) +
+                                      dither_of(static_cast<std::uint32_t>(moment().substep))));
+    paces_.next((static_cast<std::int64_t>(flow_.viscous.mobility) + moment().substeps / 2) /
+                moment().substeps);
+    if (overlaps()) return;  // columns are whole
     downwards_.restart();
     upwards_.restart();
     std::fill(sums_.begin(), sums_.end(), SumScan{});
@@ -62,25 +64,43 @@ class Settle final : public Stage {
   void advance(const Cell* in, Cell* out) override {
     const Cell border;
     const bool bottom = came().y == 0;
-    for (std::size_t lane = 0; lane < size(); ++lane)
+    dither_ = at(dithers_, 1);
+    pace_ = at(paces_, lag());
+    for (const int each : each_lane(1)) {  // a cell's word is known when the next cell comes
+      const auto lane = static_cast<std::size_t>(each);
       words_[lane] = sums_[lane].next(in != nullptr ? in[lane] : border, bottom, hot_, dither_);
+    }
     faults_.summed(*this, in);
-    if (came().ordinal == 0) return;  // the scan looks one token ahead
+    if (filled() == 0) return;  // the scan looks one token ahead
     downwards_.exchange(words_.data(), turned_.data());
-    if (came().ordinal <= height_) return;
-    for (std::size_t lane = 0; lane < size(); ++lane)
+    if (filled() <= height_) return;
+    dither_ = at(dithers_, turned_delay());
+    for (const int each : each_lane(turned_delay())) {
+      const auto lane = static_cast<std::size_t>(each);
       words_[lane] = records_[lane].next(turned_[lane], dither_);
+    }
     faults_.lowered(*this);
 
+    compute_at(lag(), 0);
     if (out != nullptr) faults_.turned(*this);
     upwards_.exchange(words_.data(), turned_.data());
     if (out == nullptr) return;
-    for (std::size_t lane = 0; lane < size(); ++lane)
+    for (const int each : each_lane(lag())) {
+      const auto lane = static_cast<std::size_t>(each);
       shows_[lane].next(turned_[lane], leaving().y, flow_, pace_, widths_, out[lane]);
+      faults_.shown(*this, each, out[lane]);
+    }
   }
 
  private:
   friend Faults;
+
+  // How long ago the token came that has been turned round once: its column is the one before, top first.
+  std::int64_t turned_delay() const {
+    const std::int64_t above =
+        (came().ordinal + height_ - 1) % height_;  // tokens of the column that lie above it
+    return 2 * (above + 1);
+  }
 
   std::size_t size() const { return static_cast<std::size_t>(lanes()); }
 
@@ -89,8 +109,10 @@ class Settle final : public Stage {
   const rule::Flow& flow_;
   RunWidths widths_;
   std::int64_t height_;
-  UInt<16> dither_;
-  UInt<36> pace_;  // the mobility parameter of one sub-step; the host divides
+  OfTwoPasses<UInt<16>> dithers_;
+  OfTwoPasses<UInt<36>> paces_;  // the mobility parameter of one sub-step; the host divides
+  UInt<16> dither_;              // of the words in work
+  UInt<36> pace_;
   std::vector<SumScan> sums_;
   std::vector<RecordScan> records_;
   std::vector<ShowScan> shows_;

@@ -58,7 +58,8 @@ class Source final : public Stage {
           radius * radius - square(came().y, opening.region.at.y) - square(came().z, opening.region.at.z);
       any |= opening.reach2 >= 0;
     }
-    for (int lane = 0; any && lane < lanes(); ++lane) {
+    if (!any) return;
+    for (const int lane : each_lane()) {
       if (in[lane].blocked()) continue;
       out[lane] = treated(in[lane], lane);
       faults_.treated(*this, in[lane], lane, out[lane]);

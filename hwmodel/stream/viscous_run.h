@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 
 #include "hwmodel/stream/stage.h"
@@ -65,9 +64,7 @@ inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std:
   const UInt<47> high = (pace >> 18) * square + (low >> 18);
   UInt<41> raw = high >> 6;
   if (flow.thermal_viscosity)
-    raw = (std::min<std::int64_t>(raw, std::int64_t{1} << 36) *
-           flow.mobility_table[static_cast<std::size_t>(entry)]) >>
-          15;
+    raw = (std::min<std::int64_t>(raw, std::int64_t{1} << 36) * looked_up(flow.mobility_table, entry)) >> 15;
 
   RunShow show;
   show.head = signed_wire(bed + (sum >> 3) + (law.stiffness - 1) * (over >> 3), widths.head);

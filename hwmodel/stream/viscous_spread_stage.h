@@ -51,7 +51,7 @@ class ViscousSpread final : public Stage {
  protected:
   void begin_step() override {
     const int k = moment().substep;
-    dither_ = UInt<16>::truncated(dither_of(step()) + dither_of(static_cast<std::uint32_t>(k)));
+    dithers_.next(UInt<16>::truncated(dither_of(step()) + dither_of(static_cast<std::uint32_t>(k))));
     substep_ = Reciprocal(moment().substeps);
     for (int axis = 0; axis < 4; ++axis)
       step_dither_[static_cast<std::size_t>(axis)] = dither_of(step(), axis, 4);
@@ -71,7 +71,7 @@ class ViscousSpread final : public Stage {
     SpreadWord* south = line_.tap(plane);
     SpreadWord* last = line_.tap(plane + column);
     if (in != nullptr)
-      for (int lane = 0; lane < lanes(); ++lane) take(in[lane], lane, now[lane]);
+      for (const int lane : each_lane()) take(in[lane], lane, now[lane]);
     read(now_.data(), now, lanes(), floor_.tap(0), x);
     read(&west_, line_.tap(column) + end, 1, floor_.tap(1) + end, x - 1);
     read(south_.data(), south, lanes(), floor_.tap(blocks), x);
@@ -79,7 +79,8 @@ class ViscousSpread final : public Stage {
 
     const Tap* west = x > 0 ? &west_ : nullptr;
     const Tap* south_west = &south_west_;
-    for (std::size_t lane = 0; lane < now_.size(); ++lane) {
+    for (const int each : each_lane()) {
+      const auto lane = static_cast<std::size_t>(each);
       const bool corner = west != nullptr && z > 0;
       look(now_[lane].seen, west != nullptr ? &west->seen : nullptr, z > 0 ? &south_[lane].seen : nullptr,
            corner ? &south_west->seen : nullptr);
@@ -87,11 +88,20 @@ class ViscousSpread final : public Stage {
       south_west = &south_[lane];
     }
 
-    if (z > 0)
-      for (int lane = 0; lane < end; ++lane) finish(south[lane]);
+    dither_ = at(dithers_, shape().plane());
+    if (z > 0 || ends_last_pass())
+      for (int lane = 0; lane < end; ++lane) {
+        compute_at(shape().plane(), lane);
+        finish(south[lane]);
+      }
     if (out == nullptr) return;
+    dither_ = at(dithers_, lag());
+    compute_at(lag(), end);
     finish(last[end]);
-    for (int lane = 0; lane < lanes(); ++lane) give(last[lane], out[lane]);
+    for (int lane = 0; lane < lanes(); ++lane) {
+      give(last[lane], out[lane]);
+      faults_.gave(*this, lane, out[lane]);
+    }
   }
 
  private:
@@ -147,7 +157,8 @@ class ViscousSpread final : public Stage {
   }
 
   void note_walls(SpreadWord& q, SpreadWord* w, SpreadWord* s, int x) const {
-    if (w == nullptr || w->blocked() || s == nullptr || s->blocked() || x == shape().grid.x - 1)
+    if (w == nullptr || w->blocked() || s == nullptr || s->blocked() || x == shape().grid.x - 1 ||
+        came().z == shape().grid.z - 1)
       q.beside_wall = 1;
     if (!q.blocked()) return;
     if (w != nullptr) w->beside_wall = 1;
@@ -249,7 +260,8 @@ class ViscousSpread final : public Stage {
   [[no_unique_address]] Faults faults_;
   bool hot_, walls_;
   int head_bits_;
-  UInt<16> dither_;
+  OfTwoPasses<UInt<16>> dithers_;
+  UInt<16> dither_;                                    // of the cells that are finished
   Reciprocal substep_{1};                              // the part of a step that one takes
   std::array<UInt<16>, 4> step_dither_, axis_dither_;  // of the step; of the token's pairs
   TapLine<SpreadWord> line_;

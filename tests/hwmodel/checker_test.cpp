@@ -222,8 +222,8 @@ TEST(Checker, AValueTooWideForItsWireIsReportedWithItsStage) {
   EXPECT_EQ(report.mismatch->cascade, 2);
   EXPECT_EQ(text_of(*report.mismatch),
             "first mismatch (width): source\n"
-            "  step 2, phase source, cascade position 2, lane 0, cycle 0\n"
-            "  the value 117187 does not fit into 16 bits\n");
+            "  step 2, phase source, cascade position 2, lane 1, cycle 55\n"
+            "  cell (1, 0, 0): the value 117187 does not fit into 16 bits\n");
 }
 
 TEST(Checker, TheFailingStageIsNotTheFirst) {
@@ -261,7 +261,8 @@ TEST(Checker, AChannelThatChangesAnythingIsNamed) {
   for (const auto& [field, change] : changes) {
     Pipeline pipeline(start.parameters, start.volume.grid, {4, 2, 2, 0});
     Checker checker(pipeline);
-    checker.begin_pass(30, {});
+    checker.begin_train();
+    checker.add_pass({30, {}, nullptr});
     std::vector<Cell> lanes(4);
     checker.entered(2, 0, lanes.data());
     checker.left(2, 0, lanes.data());

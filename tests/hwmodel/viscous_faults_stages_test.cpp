@@ -64,7 +64,18 @@ void expect_found(Fault fault, Phase last, const std::string& stage) {
         ASSERT_EQ(strike.where, stage);
         ASSERT_EQ(strike.step, step);
         ASSERT_GE(step, plan.first_step());
-        ASSERT_EQ((At{strike.x, strike.y, strike.z}), first) << "seed " << seed;
+        if (last == Phase::excess) {
+          // What a run shows may be wrong in a cell before: the lock-step compares that, a volume cannot.
+          if (first == At{}) return;
+          const Shape& shape = world.design.shape;
+          ASSERT_LE(stream_order(shape, strike.x, strike.y, strike.z),
+                    stream_order(shape, first.x, first.y, first.z))
+              << "seed " << seed;
+          ASSERT_EQ(strike.x / shape.lanes, first.x / shape.lanes) << "another column";
+          ASSERT_EQ(strike.z, first.z);
+        } else {
+          ASSERT_EQ((At{strike.x, strike.y, strike.z}), first) << "seed " << seed;
+        }
         ++strikes;
         later += step > 0;
         hot += world.design.hot();

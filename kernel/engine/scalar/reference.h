@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "kernel/automaton/rule/random.h"
+#include "kernel/automaton/rule/viscous.h"
 #include "kernel/automaton/step/stepper.h"
 #include "kernel/engine/scalar/cells.h"
 
@@ -21,6 +23,11 @@ class Reference final : public step::HostStepper {
 
   // Paper law, after `spread`: the directions that each liquid cell gave to, one bit each.
   const state::Field<std::uint8_t>& pattern() const { return pattern_; }
+  // Viscous law, after `excess`: what the run of a cell shows; nothing outside runs.
+  std::optional<rule::Column> run_of(state::Slot i) const {
+    if (in_run_[i] == 0) return {};
+    return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], true, bed_[i], limit_[i]};
+  }
 
  private:
   using Volume = state::Volume;
