@@ -1,6 +1,7 @@
 // voxmelt digest: one line per K steps; equal lines mean equal bits.
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -28,7 +29,7 @@ void print_line(const run::Simulation& simulation) {
   fmt::print("step {} digest {:016x} mass {} solid {} liquid {}\n", simulation.steps_done(),
              state::digest(volume), state::to_string(held.solid + held.liquid), volume.solid.count(),
              volume.liquid.count());
-  if (std::fflush(stdout) != 0) throw OutputStopped();
+  if (std::fflush(stdout) != 0) throw OutputStopped{errno};
 }
 
 int run_digest(const DigestOptions& options) {

@@ -79,8 +79,8 @@ int main(int argc, char** argv) {
     }
     const int code = chosen();
     return app::standard_output_is_well() ? code : app::kOutOfResources;
-  } catch (const app::OutputStopped&) {
-    app::standard_output_is_well();
+  } catch (const app::OutputStopped& stopped) {
+    app::standard_output_is_well(stopped.error);
     return app::kOutOfResources;
   } catch (const app::Interrupted& interrupted) {
     return fail(interrupted.what(), app::kInterrupted);

@@ -42,10 +42,10 @@ void open_standard_streams() {
   }
 }
 
-bool standard_output_is_well() {
+bool standard_output_is_well(int error) {
   errno = 0;
   const bool flushed = std::fflush(stdout) == 0;
-  const int why = errno;
+  const int why = error != 0 ? error : errno;
   if (flushed && std::ferror(stdout) == 0) return true;
   say(fmt::format("standard output: error: cannot write: {}", g_output_was_closed ? "it is closed"
                                                               : why != 0          ? std::strerror(why)

@@ -17,9 +17,12 @@ void say(std::string_view text);
 void open_standard_streams();
 
 // Nobody reads standard output any more, so that a command can end early. main() says why.
-struct OutputStopped {};
+struct OutputStopped {
+  int error;  // as errno
+};
 
-// Everything written to standard output arrived; else says so and returns false.
-bool standard_output_is_well();
+// Everything written to standard output arrived; else says so and returns false. `error` is known from
+// before.
+bool standard_output_is_well(int error = 0);
 
 }  // namespace voxmelt::app

@@ -47,8 +47,8 @@ class ClearFaults : public Planted {
       if (armed(Fault::passed_mirror)) with(look, 0);
       if (armed(Fault::passed_order))
         for (std::size_t c = 0; c < 3; ++c)
-          wrong.mirrored[c] = before.mirrored[c] +
-                              static_cast<std::int32_t>((std::int64_t{of.passed[c]} * gleam[c]) >> 15);
+          wrong.mirrored[c] =
+              before.mirrored[c] + static_cast<std::int32_t>((std::int64_t{of.passed[c]} * gleam[c]) >> 15);
     }
     if (same(wrong, of)) return;
     of = wrong;
@@ -59,8 +59,7 @@ class ClearFaults : public Planted {
     Rgb wrong = token.pressed;
     if (armed(Fault::press_behind) && !ray.on_ground)
       wrong = raycast::seen_through(look, ray.passage, true, ray.behind);
-    if (armed(Fault::press_nothing))
-      wrong = raycast::seen_through(look, ray.passage, ray.on_ground, {});
+    if (armed(Fault::press_nothing)) wrong = raycast::seen_through(look, ray.passage, ray.on_ground, {});
     replace("press", token.id, token.pressed, wrong);
   }
 

@@ -130,8 +130,8 @@ class Run {
     const Design& design = pipeline_.design();
     const rule::Heat& heat = design.parameters.heat;
     if (!passes_overlap(design, options_.configuration, last) || !substeps_are_known() ||
-        step == report_.first_step + options_.steps || is_visited(step) || (heat.radiates() && heat.visibility_age(step) == 0) ||
-        checker_.mismatch() != nullptr)
+        step == report_.first_step + options_.steps || is_visited(step) ||
+        (heat.radiates() && heat.visibility_age(step) == 0) || checker_.mismatch() != nullptr)
       return {};
     last.first = step;
     last.steps = steps_of(step);

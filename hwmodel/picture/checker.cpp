@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 #include "hwmodel/picture/compare.h"
 #include "hwmodel/picture/keep.h"

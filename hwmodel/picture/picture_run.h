@@ -66,7 +66,7 @@ struct PictureReport {
   MemoryCounts memory;
   std::vector<StageAccount> stages;  // all pipes together
   std::vector<CacheAccount> caches;
-  PipeCost cost;  // of one pipe
+  PipeCost cost;  // of one pipe; empty where it draws clear matter, which is not counted yet
   std::int64_t memory_bytes = 0;
   std::int64_t all_cycles = 0;  // of all frames
   std::vector<PassCycles> passes;

@@ -90,9 +90,10 @@ std::string table_of(const PictureReport& report, const Configuration& c) {
   for (std::size_t i = 0; i < std::min<std::size_t>(report.uploads.size(), 2); ++i)
     text += text_of(report.uploads[i]);
   if (report.memory.dram) text += memory_text(*report.memory.dram, *c.dram);
-  text += fmt::format("a pipe: {} bits of memories, {} of channels, {} multipliers, {} dividers\n",
-                      report.cost.memory_bits(), report.cost.channel_bits(),
-                      report.cost.all_units().multipliers, report.cost.all_units().dividers);
+  if (!report.cost.channels.empty())
+    text += fmt::format("a pipe: {} bits of memories, {} of channels, {} multipliers, {} dividers\n",
+                        report.cost.memory_bits(), report.cost.channel_bits(),
+                        report.cost.all_units().multipliers, report.cost.all_units().dividers);
   for (const PassCycles& pass : report.passes) {
     const char* name = pass.second ? "second" : "first";
     if (pass.predicted < 0)
@@ -155,7 +156,7 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                     {"bus_cycles", report.memory.bus_cycles},
                     {"stored_bytes", report.memory_bytes}};
   if (report.memory.dram) json["dram"] = memory_json(*report.memory.dram, *c.dram);
-  json["pipe"] = json_of(report.cost);
+  if (!report.cost.channels.empty()) json["pipe"] = json_of(report.cost);
   json["uploads"] = Json::array();
   for (const UploadReport& upload : report.uploads) json["uploads"].push_back(json_of(upload));
   for (const StageAccount& stage : report.stages) {

@@ -23,6 +23,7 @@ int tiles_along(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 class Dealer {
  public:
   void begin(const FrameRegisters& frame, int bands, bool second) {
+    frame_ = frame;
     turns_ = TileTurns(frame.tiles_x, frame.tiles_y, bands);
     second_ = second, next_ = 0, turn_ = 0;
   }

@@ -218,6 +218,7 @@ class StretchStage final : public Stage {
     to.position = event.position;
     to.step = of.ray.ray.step;
     to.to_eye = of.to_eye;
+    if (event.kind == Kind::ground) to.normal = of.ray.ground.normal;
     to.clear = {static_cast<std::int16_t>(i), event.leaves, of.told++, event.way, {}};
     faults_.told(to);
     if (++of.first < of.count) return telling_.push_front(i);

@@ -20,9 +20,9 @@ struct Scene {
   std::string title;           // one line for `voxmelt list scenes`
   std::uint32_t steps = 1000;  // that `voxmelt run` does by default
   std::uint32_t frame_every = 100;
-  std::uint32_t first_step = 0;       // the automaton's number of the first step
-  std::vector<std::string> features;  // named extras and features that this scene asks for
-  std::vector<std::string> warnings;  // e.g. leaks of a mesh
+  std::uint32_t first_step = 0;              // the automaton's number of the first step
+  std::vector<std::string> features;         // named extras and features that this scene asks for
+  std::vector<std::string> warnings;         // e.g. leaks of a mesh
   std::vector<std::filesystem::path> files;  // that were read for it
   rule::Parameters parameters;
   state::Volume initial;

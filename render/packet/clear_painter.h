@@ -100,8 +100,7 @@ class ClearPainter {
   // Sample k is matter, and the next one air.
   picture::Crossing exit_at(std::int64_t k) const {
     watch_(Stage::crossing, "samples", std::array{k + 1, k});
-    const picture::Crossing exit =
-        picture::crossing_between(levels(), ray_.at(k + 1), ray_.at(k), k, watch_);
+    const picture::Crossing exit = picture::crossing_between(levels(), ray_.at(k + 1), ray_.at(k), k, watch_);
     watch_(Stage::crossing, "sample", exit.sample), watch_(Stage::crossing, "part", exit.part);
     watch_(Stage::crossing, "crossing", exit.position);
     return exit;

@@ -16,8 +16,8 @@ using picture::Stage;
 using picture::Vector;
 
 constexpr std::array<std::string_view, 19> kStages{
-    "picture", "pixel",  "ray",   "brick",    "sample",   "crossing", "ground", "met",  "unit", "normal",
-    "paint",   "texture", "matter", "light",    "arriving", "material", "mirror", "colour", "clear"};
+    "picture", "pixel",   "ray",    "brick", "sample",   "crossing", "ground", "met",    "unit", "normal",
+    "paint",   "texture", "matter", "light", "arriving", "material", "mirror", "colour", "clear"};
 static_assert(kStages.size() == static_cast<std::size_t>(Stage::clear) + 1);
 
 // The numbers of a value, one after the other.

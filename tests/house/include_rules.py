@@ -75,7 +75,7 @@ ALLOWED = {
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
                 "render/image", "render/packet"],
     "examples": ["include/voxmelt"],
-    "app": [PARAMETERS, CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/caster_faults", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/picture", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
+    "app": [CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/caster_faults", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/picture", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
             "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.

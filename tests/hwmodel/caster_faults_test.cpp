@@ -90,7 +90,8 @@ test::HostilePicture hostile_clear(std::uint64_t seed) {
   test::HostilePicture of = test::hostile_clear_picture(seed, 3000);
   if (seed % 2 == 1) return of;
   worlds::for_each(worlds::whole(of.volume.grid), [&](int x, int y, int z) {
-    if (of.volume.inert.test(x, y, z)) of.volume.solid.set(x, y, z, true), of.volume.inert.set(x, y, z, false);
+    if (of.volume.inert.test(x, y, z))
+      of.volume.solid.set(x, y, z, true), of.volume.inert.set(x, y, z, false);
   });
   of.terrain = {};
   of.look.frost = 0.1;

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstddef>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
