@@ -75,8 +75,12 @@ std::optional<RayId> Checker::ray_under_way() const {
   return {};
 }
 
+// A line that arrives is read in the same cycle, and a channel behind it may be looked at first: a
+// difference of the memory comes before all others of its cycle.
 void Checker::tell(Difference difference) {
-  if (difference_) return;
+  const bool before = difference.stage == "memory" && !ended_ && difference_ &&
+                      difference_->stage != "memory" && difference_->cycle == caster_.cycle();
+  if (difference_ && !before) return;
   difference.cycle = ended_.value_or(0);
   if (!ended_) {
     difference.cycle = caster_.cycle();

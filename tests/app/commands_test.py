@@ -437,7 +437,7 @@ kappa = 20
             if found == 0:
                 never.add(name)
         # Pictures that are made for these: tests/hwmodel/caster_faults_test.cpp.
-        self.assertEqual(never, {"cache-tag-bits", "ground-face", "walk-box", "walk-first-sample"})
+        self.assertEqual(never, {"cache-tag-bits", "ground-face", "passed-obstacle", "walk-box", "walk-first-sample"})
 
     def test_verify_does_what_its_options_say(self):
         base = self.good("verify", self.scene, "--steps", 6, "--report", "all.json", "--implementation", "reference")
