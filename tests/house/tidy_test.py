@@ -52,23 +52,30 @@ class Sources:
     """What a build compiles, and what each source includes."""
 
     def __init__(self, root, build):
-        self.root, self.build, self.known = root, build, {}
+        self.root, self.build, self.known, self.all = root, build, {}, {}
         commands = json.loads((build / "compile_commands.json").read_text())
         self.commands = {os.path.relpath(c["file"], root): c["command"] for c in commands}
         self.commands = {name: command for name, command in self.commands.items()
                          if not name.startswith("..") and not (root / name).is_relative_to(build)}
 
-    def included(self, name, seen=None):
+    def named(self, name):
+        """The files of ours that `name` itself includes."""
+        if name not in self.known:
+            places = (Path(name).parent, Path(), Path("include"))
+            found = [(place / other).as_posix() for other in INCLUDE.findall((self.root / name).read_text()) for place in places]
+            self.known[name] = [other for other in found if (self.root / other).is_file()]
+        return self.known[name]
+
+    def included(self, name):
         """The files of ours that `name` includes, with itself."""
-        seen = set() if seen is None else seen
-        if name not in seen and (self.root / name).is_file():
-            seen.add(name)
-            if name not in self.known:
-                self.known[name] = INCLUDE.findall((self.root / name).read_text())
-            for other in self.known[name]:
-                for place in (Path(name).parent, Path(), Path("include")):
-                    self.included((place / other).as_posix(), seen)
-        return seen
+        if name not in self.all:
+            seen, waiting = {name}, [name]
+            while waiting:
+                new = set(self.named(waiting.pop())) - seen
+                seen |= new
+                waiting += new
+            self.all[name] = seen
+        return self.all[name]
 
     def seeing(self, names):
         """The changed sources, and for each changed header the source that includes least beside it."""
