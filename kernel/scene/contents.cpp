@@ -71,6 +71,7 @@ void read_mesh_entry(Reader& reader, Entry& entry) {
   if (by_height && by_scale) reader.fail("scale", " and height exclude each other");
   const Range positive = above(0).at_most(kLargestScale);
   const double wanted = reader.number(by_scale ? "scale" : "height", positive);
+  entry.inside = static_cast<Inside>(reader.choice("inside", {"winding", "parity"}, 0));
   const Point at = to_point(reader.vector<3>("at", coordinate(), Vec3{}));
   const Rotation rotation(reader.vector<3>("rotate", within(kFullTurn), Vec3{}));
 
