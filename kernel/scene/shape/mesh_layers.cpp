@@ -29,6 +29,34 @@ std::int16_t both_ways(std::int16_t w, std::int16_t total) {
   return short_of(inside == Inside::winding ? 2 * w - total : (w & 1) + ((w ^ total) & 1));
 }
 
+// Winding numbers of a row of samples, as rays of three axes have them so far, and those of whole rays.
+struct OpenRow {
+  const std::int16_t* so_far_p;
+  std::int16_t *so_far_q, *so_far_s;
+  std::int16_t total_p;
+  const std::int16_t *total_q, *total_s;
+};
+
+// The compiler makes vectors of this loop, because no array overlaps another one.
+template <Inside inside>
+void decide(std::size_t width, const OpenRow& row, const std::int16_t* __restrict across,
+            const std::int8_t* __restrict steps, std::uint16_t* __restrict result) {
+  const std::int16_t* __restrict so_far_p = row.so_far_p;
+  std::int16_t* __restrict so_far_q = row.so_far_q;
+  std::int16_t* __restrict so_far_s = row.so_far_s;
+  const std::int16_t* __restrict total_q = row.total_q;
+  const std::int16_t* __restrict total_s = row.total_s;
+  const std::int16_t total_p = row.total_p;
+  for (std::size_t i = 0; i < width; ++i) {
+    so_far_q[i] = short_of(so_far_q[i] + across[i]);
+    so_far_s[i] = short_of(so_far_s[i] + steps[i]);
+    const std::int16_t sum =
+        short_of(both_ways<inside>(so_far_p[i], total_p) + both_ways<inside>(so_far_q[i], total_q[i]) +
+                 both_ways<inside>(so_far_s[i], total_s[i]));
+    result[i] = sum >= kHalfOfSixRays || sum <= -kHalfOfSixRays ? 1 : 0;
+  }
+}
+
 // Adds up the crossings of a cell's samples, and clears them. Most cells have none.
 void sum_up(std::int16_t* crossings, std::int16_t& w, std::int16_t* so_far) {
   std::uint64_t any = 0;
@@ -274,16 +302,9 @@ void MeshLayers::add_open_row(int q, const std::int8_t* steps) {
   }
 
   std::int16_t* across = along_q_.data() + row * width_;
-  std::int16_t* so_far_s = so_far_s_.data() + row * width_;
-  const std::int16_t* total_s = total_s_.data() + row * width_;
-  for (std::size_t i = 0; i < width_; ++i) {
-    so_far_q_[i] = short_of(so_far_q_[i] + across[i]);
-    so_far_s[i] = short_of(so_far_s[i] + steps[i]);
-    const std::int16_t sum =
-        short_of(both_ways<inside>(so_far_p_[i], total_p) + both_ways<inside>(so_far_q_[i], total_q_[i]) +
-                 both_ways<inside>(so_far_s[i], total_s[i]));
-    inside_row_[i] = static_cast<std::uint16_t>(sum + kHalfOfSixRays - 1) > 2 * (kHalfOfSixRays - 1) ? 1 : 0;
-  }
+  const OpenRow open{so_far_p_.data(), so_far_q_.data(), so_far_s_.data() + row * width_,
+                     total_p,          total_q_.data(),  total_s_.data() + row * width_};
+  decide<inside>(width_, open, across, steps, inside_row_.data());
   std::fill(across, across + width_, std::int16_t{0});
   std::uint8_t* plane = plane_.data() + row / kSamplesPerAxis * (width_ / kSamplesPerAxis);
   for (std::size_t i = 0; i < width_; i += kSamplesPerAxis) {

@@ -195,8 +195,9 @@ Surface surface_of(const Mesh& mesh, std::vector<std::string>& findings) {
   for (std::size_t s = 0; s < volumes.size(); ++s) turned += turn[s] ? 1 : 0;
 
   if (volumes.size() > 1)
-    findings.push_back(fmt::format("{} shells{}", volumes.size(),
-                                   cavities > 0 ? fmt::format(", {} of them cavities", cavities) : ""));
+    findings.push_back(
+        fmt::format("{} shells{}", volumes.size(),
+                    cavities > 0 ? ", of which " + count_of(cavities, "is a cavity", "are cavities") : ""));
   find(flat, "shell", "shells", " without volume");
   find(turned, "shell", "shells", " inside out: turned");
   find(shells.flipped(), "flipped face", "flipped faces", ": turned");
