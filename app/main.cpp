@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
     app::add_bench(program, chosen);
     app::add_accuracy(program, chosen);
     app::add_verify(program, chosen);
+    app::add_explore(program, chosen);
     app::add_list(program, chosen);
     if (argc > 1) check_subcommand(program, argv[1]);
     try {
