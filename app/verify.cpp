@@ -18,6 +18,7 @@
 #include "app/message.h"
 #include "app/options.h"
 #include "app/resources.h"
+#include "app/run_ahead.h"
 #include "app/shell_word.h"
 #include "app/verify_machine.h"
 #include "app/verify_picture.h"
@@ -122,25 +123,6 @@ void check_replay_place(const VerifyCommand& command, const scene::Scene& scene)
   if (!command.out.empty()) const io::OutputFolder can_be_written(command.out);
 }
 
-// The software runs alone to the step from which to verify. With radiation it stops at the last step of
-// visibility before.
-run::Simulation run_ahead(scene::Scene& scene, const VerifyCommand& command) {
-  const std::uint64_t asked = std::uint64_t{scene.first_step} + command.from;
-  if (asked + command.steps > 0xFFFFFFFFu)
-    throw UsageError(fmt::format("error: --from {}: step numbers end at {}", command.from, 0xFFFFFFFFu));
-  auto until = static_cast<std::uint32_t>(asked);
-  until -= scene.parameters.heat.visibility_age(until);
-  until = std::max(until, scene.first_step);
-  if (!command.common.quiet && until != asked)
-    fmt::print("verifying from step {}, a step of visibility\n", until);
-  run::Simulation simulation = make_simulation(scene, command.common);
-  while (simulation.step_number() < until) {
-    simulation.step();
-    stop_if_interrupted();
-  }
-  return simulation;
-}
-
 void write_replay(const VerifyCommand& command, const scene::Scene& scene,
                   const hwmodel::VerifyReport& report) {
   if (command.from == 0 && report.replay_step == scene.first_step) {
@@ -207,7 +189,7 @@ void print_result(const VerifyCommand& command, const scene::Scene& scene,
 int run_picture(const VerifyCommand& command) {
   scene::Scene scene = load_scene(command.common);
   catch_interrupts();
-  const run::Simulation ahead = run_ahead(scene, command);
+  const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
   PictureChoice picture = command.picture;
   picture.again = picture_again(command, scene.file.string());
   return verify_picture(command.common, picture, scene, ahead, find_preset(command.hw), command.hw_sets);
@@ -225,7 +207,7 @@ int run_machine(const VerifyCommand& command) {
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
   catch_interrupts();
-  const run::Simulation ahead = run_ahead(scene, command);
+  const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
   hwmodel::VerifyOptions options;
   options.steps = command.steps;
   options.every = command.every;
@@ -257,7 +239,7 @@ int run_verify(VerifyCommand command) {
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
   catch_interrupts();
-  const run::Simulation ahead = run_ahead(scene, command);
+  const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
 
   hwmodel::VerifyOptions options;
   options.steps = command.steps;

@@ -39,6 +39,7 @@ PURPOSES = {
     "hwmodel/raycast": "draws pictures, with its own arithmetic",
     "hwmodel/caster_faults": "planted in it, to be found",
     "hwmodel/picture": "its host; holds it against the software",
+    "hwmodel/explore": "which hardware is best for a device",
     "hwmodel/machine": "both machines on one memory",
     "hwmodel/lockstep": "holds the model against the software, bit for bit",
     "render": "the pictures",

@@ -55,6 +55,7 @@ ALLOWED = {
     "hwmodel/picture": ["hwmodel/caster_faults", "hwmodel/memory", "hwmodel/raycast", STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image",
                         "render/density", "render/ground", "render/packet", "render/reference"],
     "hwmodel/presets": ["hwmodel/memory", "hwmodel/raycast", "hwmodel/stream", "kernel/scene/text"],
+    "hwmodel/explore": ["hwmodel/lockstep", "hwmodel/machine", "hwmodel/memory", "hwmodel/stream", "kernel/scene/text"],
     "hwmodel/machine": ["hwmodel/lockstep", "hwmodel/memory", "hwmodel/picture", "hwmodel/raycast", "hwmodel/stream", STATE, "render/image", "render/density", "render/packet",
                         "render/reference", f"{PICTURE}/camera.h"],
     "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
@@ -75,7 +76,7 @@ ALLOWED = {
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
                 "render/image", "render/packet"],
     "examples": ["include/voxmelt"],
-    "app": [CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/caster_faults", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/picture", "hwmodel/presets", "hwmodel/stream", STATE, "kernel/scene", "kernel/run",
+    "app": [CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/caster_faults", "hwmodel/explore", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/picture", "hwmodel/presets", "hwmodel/stream", STATE, "kernel/scene", "kernel/run",
             "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.
@@ -89,8 +90,8 @@ THIRD_PARTY = {
     "libdeflate": ["render/image"],
     "CLI/": ["app"],
     "benchmark/": ["bench"],
-    "nlohmann/": ["accuracy/report", "kernel/run/io", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/picture", "bench/measure", "app"],
-    "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/picture", "bench/measure", "accuracy",
+    "nlohmann/": ["accuracy/report", "kernel/run/io", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/picture", "bench/measure", "app"],
+    "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/picture", "bench/measure", "accuracy",
              "accuracy/front", "accuracy/report", "app"],
 }
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
