@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "hwmodel/lockstep/report_details.h"
+
 namespace voxmelt::hwmodel {
 namespace {
 
@@ -213,6 +215,7 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
                          {"step", report.strike->step},
                          {"cell", {report.strike->x, report.strike->y, report.strike->z}},
                          {"found_there", report.found_where_planted()}};
+  add_details(result, report, design, configuration);
   return result;
 }
 
