@@ -71,7 +71,7 @@ class Pipeline {
   void watch(FifoWatcher<Cell>* watcher);
   void stop();
   std::vector<CellFifo*> channels_behind_stages(int cascade);  // of one time step, for faults to be planted
-  void probe(FifoProbe<Cell>* probe);  // of the channels of the main stream
+  void probe(FifoProbe<Cell>* probe);                          // of the channels of the main stream
   // Called at the end of every cycle of every block: then the accounts of all stages include this cycle.
   void each_cycle(std::function<void()> watch);
   void poll(std::function<void()> poll);  // called now and then during a pass; what it throws ends the pass
@@ -109,9 +109,9 @@ class Pipeline {
   const Configuration& configuration() const;
   std::int64_t cycle() const;  // of the present train
   std::vector<ChannelReport> channels() const;
-  std::vector<StageReport> stages() const;    // the reader first, the writer last
+  std::vector<StageReport> stages() const;           // the reader first, the writer last
   std::vector<const Stage*> working_stages() const;  // without the reader, the feeds and the writer
-  std::vector<StageCycles> accounts() const;  // of the same
+  std::vector<StageCycles> accounts() const;         // of the same
 
  private:
   struct Machine;
