@@ -20,11 +20,13 @@
 #include "app/resources.h"
 #include "app/run_ahead.h"
 #include "app/shell_word.h"
+#include "app/size_fifos.h"
 #include "app/verify_machine.h"
 #include "app/verify_picture.h"
 #include "app/visibility.h"
 #include "hwmodel/lockstep/replay.h"
 #include "hwmodel/lockstep/report.h"
+#include "hwmodel/machine/dram_streams.h"
 #include "hwmodel/presets/presets.h"
 #include "kernel/run/io/output_folder.h"
 
@@ -37,7 +39,7 @@ struct VerifyCommand {
   Common common;
   std::uint32_t steps = 10, every = 1, from = 0;
   std::optional<std::uint32_t> plant_step;
-  std::string hw, plant, out;
+  std::string hw, plant, out, size_fifos;
   PictureChoice picture;
   std::vector<std::string> hw_sets;
 };
@@ -226,14 +228,28 @@ int run_verify(VerifyCommand command) {
         fmt::format("error: --plant {}: unknown; `voxmelt list faults` names them", command.plant));
   if (command.plant_step && command.plant.empty())
     throw UsageError("error: --plant-step: there is no --plant whose step it would be");
-  const hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
+  hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
+  if (!command.size_fifos.empty() && fault != nullptr)
+    throw UsageError("error: --size-fifos: not with --plant; a fault may change the cycles");
   scene::Scene scene = load_scene(command.common);
+  keep_inputs(scene, {{"--size-fifos", command.size_fifos}});
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
   catch_interrupts();
   const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
 
+  const VerifiedStream stream{scene.parameters, ahead.volume().grid, ahead.step_number(), command.steps};
+  check_channels(stream, preset);
+  std::optional<std::int64_t> sized_cycles;
+  if (!command.size_fifos.empty())
+    sized_cycles = size_fifos(stream, command.common, command.size_fifos, preset);
+  const hwmodel::Design design{
+      scene.parameters, {ahead.volume().grid, preset.configuration.lanes}, preset.configuration.substeps};
+  std::optional<hwmodel::DramStreams> dram;
+  if (preset.caster.dram)
+    dram.emplace(design, preset.configuration.cascade, *preset.caster.dram, preset.caster.clock_mhz);
   hwmodel::VerifyOptions options;
+  options.memory = dram ? &*dram : nullptr;
   options.steps = command.steps;
   options.every = command.every;
   options.configuration = preset.configuration;
@@ -263,7 +279,7 @@ int run_verify(VerifyCommand command) {
   };
   if (verdict == hwmodel::Verdict::good) {
     write();
-    return kDone;
+    return !sized_cycles || check_sized(*sized_cycles, report.cycles) ? kDone : kCheckFailed;
   }
   try_writing(write);
   if (report.mismatch != nullptr) try_writing([&] { write_replay(command, scene, report); });
@@ -293,12 +309,17 @@ void add_verify(CLI::App& program, Chosen& chosen) {
                       "the first step in which it may strike (default: in the middle)");
   command->add_option("--out", options->out,
                       "folder for the replay of a mismatch (default: out/verify_SCENE)");
+  command
+      ->add_option("--size-fifos", options->size_fifos,
+                   "first find the smallest depth of each channel that loses no cycle; write it to this file")
+      ->type_name("FILE.toml");
   add_picture_choice(*command, options->picture);
   add_common(*command, options->common);
   add_visibility(*command, options->common);
   command->footer(
       "--set also takes hw.lanes (1, 2, 4 .. 32), hw.cascade (1 .. 16), hw.substeps (1 .. 64), "
-      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none), hw.overlap (0, 1); the ray caster's keys are in "
+      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none), hw.overlap (0, 1), hw.memory (ddr4-2400), "
+      "hw.clock_mhz; the ray caster's keys are in "
       "docs/hardware-picture.md.");
   command->callback([options, &chosen] { chosen = [options] { return run_verify(*options); }; });
 }

@@ -47,6 +47,7 @@ class Run {
         memory_(start) {
     pipeline_.watch(&checker_);
     pipeline_.poll(options.poll);
+    pipeline_.memory(options.memory);
     report_.first_step = first_step;
   }
 
@@ -224,7 +225,7 @@ class Run {
       const std::int64_t predicted =
           predicted_cycles(pipeline_.design(), options_.configuration, first, end.passes);
       report_.predicted_cycles += predicted;
-      if (options_.configuration.stall_seed == 0 && end.cycles != predicted)
+      if (options_.configuration.stall_seed == 0 && options_.memory == nullptr && end.cycles != predicted)
         report_.mismatch =
             std::make_unique<Mismatch>(cycles_of(pipeline_, first.first, predicted, end.cycles));
     }

@@ -26,7 +26,8 @@ struct VerifyOptions {
   // took so far: passes, cycles, stages. No pass reaches beyond. If it gives false, the run ends.
   std::uint32_t visit_every = 0;
   std::function<bool(const state::Volume&, const VerifyReport&)> visit;
-  StageMaker make;  // of the stages; empty: those of `fault`
+  StageMaker make;                 // of the stages; empty: those of `fault`
+  StreamMemory* memory = nullptr;  // that the pipeline waits for; the closed form of its cycles does not hold
 };
 
 struct VerifyReport {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hwmodel/stream/stages.h"
+#include "hwmodel/stream/stream_memory.h"
 #include "hwmodel/stream/volume_port.h"
 
 namespace voxmelt::hwmodel {
@@ -30,7 +31,10 @@ class Writer {
       ++cycles_.fill_drain;
     } else if (!in_->valid()) {
       ++(written_ == 0 ? cycles_.fill_drain : cycles_.starved);
+    } else if (memory_ != nullptr && !memory_->may_write(now)) {
+      ++cycles_.blocked;
     } else {
+      if (memory_ != nullptr) memory_->written(now);
       write_token(in_->get(), shape_, place_, *volume_);
       place_.next(shape_);
       if (place_.ordinal == shape_.tokens()) place_ = {};
@@ -38,6 +42,7 @@ class Writer {
       ++cycles_.busy;
     }
   }
+  void memory(StreamMemory* memory) { memory_ = memory; }
   bool done() const { return written_ == to_write_; }
   // Tokens written before this cycle: it must not matter which block runs first.
   std::int64_t written_before(std::int64_t now) const { return written_ - (last_cycle_ == now ? 1 : 0); }
@@ -46,6 +51,7 @@ class Writer {
  private:
   Shape shape_;
   CellFifo* in_ = nullptr;
+  StreamMemory* memory_ = nullptr;
   state::Volume* volume_ = nullptr;
   Place place_;
   std::int64_t to_write_ = 0, written_ = 0, last_cycle_ = -1;
@@ -68,6 +74,7 @@ class Reader {
     } else if (!out_->ready()) {
       ++cycles_.blocked;
     } else {
+      if (memory_ != nullptr) memory_->read(now);
       read_token(*volume_, shape_, place_, out_->put());
       place_.next(shape_);
       ++cycles_.busy;
@@ -76,10 +83,12 @@ class Reader {
     return false;
   }
   void add_pass() { ++passes_before_, place_ = {}; }
+  void memory(StreamMemory* memory) { memory_ = memory; }
   const StageCycles& cycles() const { return cycles_; }
 
  private:
   bool may_read(std::int64_t now) const {
+    if (memory_ != nullptr && !memory_->may_read(now)) return false;
     if (passes_before_ == 0) return true;
     return writer_->written_before(now) > (passes_before_ - 1) * shape_.tokens() + place_.ordinal;
   }
@@ -87,6 +96,7 @@ class Reader {
   Shape shape_;
   CellFifo* out_ = nullptr;
   const Writer* writer_ = nullptr;
+  StreamMemory* memory_ = nullptr;
   const state::Volume* volume_ = nullptr;
   Place place_;
   std::int64_t passes_before_ = 0;  // of the train
@@ -103,7 +113,8 @@ class Feed {
   }
   // Another pass in which the time step works, with the same irradiance.
   void add_pass() { ++passes_left_; }
-  void cycle() {
+  void memory(StreamMemory* memory, int t) { memory_ = memory, step_ = t; }
+  void cycle(std::int64_t now) {
     if (place_.ordinal == shape_.tokens() && passes_left_ > 0) --passes_left_, place_ = {};
     if (field_ == nullptr || place_.ordinal == shape_.tokens()) {
       ++(field_ == nullptr ? cycles_.bypassed : cycles_.fill_drain);
@@ -113,6 +124,11 @@ class Feed {
       ++cycles_.blocked;
       return;
     }
+    if (memory_ != nullptr && !memory_->may_feed(step_, now)) {
+      ++cycles_.starved;
+      return;
+    }
+    if (memory_ != nullptr) memory_->fed(step_, now);
     UInt<16>* lanes = out_.put();
     for (int lane = 0; lane < shape_.lanes; ++lane) {
       const int x = place_.x + lane;
@@ -127,6 +143,8 @@ class Feed {
   Shape shape_;
   HeatFifo& out_;
   const state::Field<std::uint16_t>* field_ = nullptr;
+  StreamMemory* memory_ = nullptr;
+  int step_ = 0;  // that it feeds
   Place place_;
   int passes_left_ = 0;
   StageCycles cycles_;
@@ -135,13 +153,15 @@ class Feed {
 // The stages of one time step and the channels between them.
 class StepBlock {
  public:
-  StepBlock(const Design& design, Stages stages, int first_channel, const std::string& prefix, int depth,
-            std::uint64_t stall_seed)
+  template <class DepthOf>  // depth_of(name of a channel)
+  StepBlock(const Design& design, Stages stages, int first_channel, const std::string& prefix,
+            const DepthOf& depth_of, std::uint64_t stall_seed)
       : stages_(std::move(stages)), out_channel_(first_channel) {
-    for (std::size_t i = 0; i + 1 < stages_.size(); ++i)
+    for (std::size_t i = 0; i + 1 < stages_.size(); ++i) {
+      const std::string name = prefix + stages_[i]->name() + " -> " + stages_[i + 1]->name();
       channels_.push_back(
-          std::make_unique<CellFifo>(prefix + stages_[i]->name() + " -> " + stages_[i + 1]->name(),
-                                     out_channel_++, design.shape.lanes, depth, stall_seed));
+          std::make_unique<CellFifo>(name, out_channel_++, design.shape.lanes, depth_of(name), stall_seed));
+    }
   }
 
   const Stages& stages() const { return stages_; }

@@ -56,7 +56,7 @@ ALLOWED = {
                         "render/density", "render/ground", "render/packet", "render/reference"],
     "hwmodel/presets": ["hwmodel/memory", "hwmodel/raycast", "hwmodel/stream", "kernel/scene/text"],
     "hwmodel/explore": ["hwmodel/lockstep", "hwmodel/machine", "hwmodel/memory", "hwmodel/stream", "kernel/scene/text"],
-    "hwmodel/machine": ["hwmodel/lockstep", "hwmodel/memory", "hwmodel/picture", "hwmodel/raycast", STATE, "render/image", "render/density", "render/packet",
+    "hwmodel/machine": ["hwmodel/lockstep", "hwmodel/memory", "hwmodel/picture", "hwmodel/raycast", "hwmodel/stream", STATE, "render/image", "render/density", "render/packet",
                         "render/reference", f"{PICTURE}/camera.h"],
     "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
     "bench": ["accuracy/picture", "bench/measure", "hwmodel/stream", PARAMETERS, STATE, "kernel/scene", CPU, VISIBILITY, "kernel/run",
