@@ -366,7 +366,8 @@ kappa = 20
                 repeated = voxmelt(*shlex.split(again[0])[1:], "--report", "again.json", cwd=self.folder)
                 self.assertEqual(repeated.returncode, 1, repeated.stderr)
                 replay = json.loads((self.folder / "again.json").read_text())
-                for key in ("where", "step", "cell", "field", "expected", "actual"):
+                # A replay begins with one state: the copy that a stale halo comes from is another one.
+                for key in ("where", "step", "cell", "field", "expected", "actual") if name != "tile-halo-stale" else ("where", "step"):
                     self.assertEqual(report["first_mismatch"][key], replay["first_mismatch"][key], name)
                 found += 1
             self.assertGreater(found, 0, name + " strikes nowhere")
@@ -404,7 +405,7 @@ kappa = 20
         for machine in (sets, ["--hw", "mine.toml"]):
             self.good("verify", self.scene, "--steps", 6, "--report", "m.json", *machine)
             report = json.loads((self.folder / "m.json").read_text())
-            self.assertEqual(report["hw"], {**asked, "overlap": 1})
+            self.assertEqual(report["hw"], {**asked, "overlap": 1, "tile": 0})
             self.assertEqual(report["passes"], 2)
             self.assertEqual({c["depth"] for c in report["channels"]}, {5})
             self.assertEqual({len(c["occupancy"]) for c in report["channels"]}, {6})
