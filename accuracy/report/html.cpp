@@ -29,7 +29,7 @@ std::string legend(const Chart& chart) {
     if (!curve.exact)
       out += fmt::format("<span><i class=\"b{}\"></i>{}</span>", colour++ % kColours, escaped(curve.name));
     else if (!exact)
-      out = "<span><i class=\"line\"></i>exact</span>" + out, exact = true;
+      out.insert(0, "<span><i class=\"line\"></i>exact</span>"), exact = true;
   }
   return out;
 }
