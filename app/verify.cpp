@@ -295,6 +295,7 @@ int run_verify(VerifyCommand command) {
   check_html_place(command.common, command.picture, replay_place(command, scene).string());
   check_place("--vcd", command.vcd, replay_place(command, scene).string());
   check_place("--shrink", command.shrink, replay_place(command, scene).string());
+  check_place("--size-fifos", command.size_fifos, replay_place(command, scene).string());
   keep_inputs(scene, {{"--html", command.picture.html},
                       {"--vcd", command.vcd},
                       {"--shrink", command.shrink},

@@ -143,6 +143,8 @@ std::string name_of(std::size_t front) {
 }
 
 // Long lines of a picture are cut at blanks.
+std::size_t row_of(std::size_t panel) { return panel / 2; }
+
 std::string wrapped(const std::string& text, std::size_t most, double x, double y) {
   std::string of;
   for (std::size_t from = 0; from < text.size(); y += 17) {
@@ -165,7 +167,7 @@ std::string svg_of(const Explored& of) {
   for (const Point& p : of.swept.points)
     if (p.taken.fits()) slowest = std::min(slowest, giga(p)), fastest = std::max(fastest, giga(p));
   constexpr double kHead = 104;
-  const double height = kHead + kHeight * static_cast<double>((shown.size() + 1) / 2);
+  const double height = kHead + kHeight * static_cast<double>(row_of(shown.size() + 1));
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
       "role='img'>\n{2}"
@@ -184,8 +186,8 @@ std::string svg_of(const Explored& of) {
       const Panel panel{of, f, Scale(least * 0.8, most * 1.05, kLeft, kWidth - kRight),
                         Scale(slowest * 0.8, fastest * 1.3, kHeight - kBottom, kTop)};
       svg += fmt::format("<g transform='translate({} {})'>\n{}{}{}{}</g>\n", i % 2 == 0 ? 0 : kWidth,
-                         kHead + kHeight * static_cast<double>(i / 2), panel.axes(name_of(f)), panel.all(),
-                         panel.limit(most), panel.front());
+                         kHead + kHeight * static_cast<double>(row_of(i)), panel.axes(name_of(f)),
+                         panel.all(), panel.limit(most), panel.front());
     }
   svg += fmt::format(
       "<circle class='verified' cx='30' cy='88' r='4'/><text x='40' y='92'>verified</text>"

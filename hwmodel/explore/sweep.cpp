@@ -23,7 +23,7 @@ Fixed fixed_of(const PartList& parts, const Configuration& hw, const Family& f) 
   const std::int64_t lanes = hw.lanes, steps = hw.cascade, depth = hw.fifo_depth;
   Fixed fixed;
   fixed.ports = 2 + (parts.fed ? steps : 0);
-  auto& [lut, ff, dsp, bram, uram] = fixed.amounts;
+  std::int64_t &lut = fixed.amounts[0], &ff = fixed.amounts[1], &dsp = fixed.amounts[2];
   lut = f.base.lut + steps * parts.lut + fixed.ports * f.port.lut;
   ff = f.base.ff + steps * parts.ff + fixed.ports * f.port.ff;
   dsp = steps * parts.dsp;

@@ -7,10 +7,7 @@ namespace voxmelt::hwmodel {
 
 DramStreams::DramStreams(const Design& design, int cascade, const memory::Parameters& parameters,
                          int clock_mhz)
-    : design_(design),
-      parameters_(parameters),
-      clock_mhz_(clock_mhz),
-      feeds_(static_cast<std::size_t>(cascade)) {
+    : parameters_(parameters), clock_mhz_(clock_mhz), feeds_(static_cast<std::size_t>(cascade)) {
   state_.token = std::int64_t{design.shape.lanes} * design.cell_bits();
   for (Input& feed : feeds_) feed.token = std::int64_t{16} * design.shape.lanes;
 }

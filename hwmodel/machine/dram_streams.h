@@ -57,7 +57,6 @@ class DramStreams final : public StreamMemory {
   const Input& feed(int t) const { return feeds_[static_cast<std::size_t>(t)]; }
   void fetch(Input& from, std::int64_t limit, std::int64_t now);
 
-  const Design& design_;
   memory::Parameters parameters_;
   int clock_mhz_;
   std::unique_ptr<memory::Dram> dram_;

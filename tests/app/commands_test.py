@@ -493,7 +493,7 @@ kappa = 20
 
     def test_a_key_of_what_does_not_run_is_unknown(self):
         for key, value, right, wrong in (("lanes", 2, [], ["--picture"]), ("pipes", 2, ["--picture"], []),
-                                         ("clock_mhz", 300, ["--picture"], [])):
+                                         ("rays", 32, ["--picture"], [])):
             arguments = ["verify", self.scene, "--steps", 1, "--size", "16x16", "--quiet", "--set", f"hw.{key}={value}"]
             self.good(*arguments, *right)
             result = voxmelt(*arguments, *wrong, cwd=self.folder)

@@ -12,13 +12,14 @@ from pathlib import Path
 
 from program import PROGRAM, SMALL, write
 
-COMMANDS = ("run", "digest", "export", "render", "bench", "accuracy", "verify", "list")
+COMMANDS = ("run", "digest", "export", "render", "bench", "accuracy", "verify", "explore", "list")
 # What a value of each kind must not be.
 BAD = {
     "UINT": ["", "x", "-1", "1.5", "99999999999999999999", "0x", "1 2", "nan", "\u0661"],
     "INT": ["", "x", "1.5", "99999999999999999999", "1,2", "inf"],
     "FLOAT": ["", "x", "nan", "inf", "1e999", "1,5"],
     "TEXT": [""],
+    "FILE": ["", "/nowhere/file.toml"],
     "KEY=VALUE": ["", "=", "x", "x=", "no.such.key=1", "\x1b[31m=1"],
     "NAME": ["", "no such case"],
     "SCENE": ["", "no such scene", "no/such.toml"],
@@ -47,7 +48,8 @@ class Options(unittest.TestCase):
         self.temporary.cleanup()
 
     def first(self, command):
-        return {"bench": [], "accuracy": [], "list": ["scenes"], "export": [self.scene, "--out", "o"]}.get(command, [self.scene])
+        return {"bench": [], "accuracy": [], "list": ["scenes"], "export": [self.scene, "--out", "o"],
+                "explore": [self.scene, "--device", "zu7ev"]}.get(command, [self.scene])
 
     def refused(self, *arguments):
         begin = time.monotonic()
