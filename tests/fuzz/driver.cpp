@@ -77,6 +77,7 @@ std::vector<std::string> corpus_of(const std::vector<std::filesystem::path>& pla
   }
   std::sort(files.begin(), files.end());
   std::vector<std::string> corpus;
+  corpus.reserve(files.size());
   for (const auto& file : files) corpus.push_back(contents(file));
   return corpus;
 }
