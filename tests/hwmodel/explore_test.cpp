@@ -177,6 +177,7 @@ TEST(Explore, ProductsAreCutIntoPieces) {
 TEST(Explore, NoSumIsKeptThatAnotherBeats) {
   const std::vector<MemoryUse> sums = sums_of({{10, 0, 0}, {0, 5, 0}}, {{10, 0, 0}, {0, 5, 0}, {0, 6, 0}});
   std::vector<std::int64_t> seen;
+  seen.reserve(sums.size());
   for (const MemoryUse& sum : sums) seen.push_back(1000 * sum.lutram + sum.parts);
   EXPECT_EQ(seen, (std::vector<std::int64_t>{10, 10005, 20000}));
 }
