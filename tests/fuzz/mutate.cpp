@@ -108,11 +108,13 @@ void Mutator::change() {
     case 6:
       if (!words_.empty()) put(words_[below(words_.size())]);
       break;
-    case 7: {  // the same piece many times
+    case 7: {  // a piece many times, at its place: what nests then nests deeply
       const std::string piece = input_.substr(at, 1 + below(6));
+      if (piece.empty()) break;
+      const std::size_t times = below((below(4) == 0 ? kMostBytes : 600) / piece.size());
       std::string many;
-      for (std::size_t i = 0, times = below(3000); i < times; ++i) many += piece;
-      put(many);
+      for (std::size_t i = 0; i < times; ++i) many += piece;
+      input_.insert(at, many);
       break;
     }
     default:
