@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/beginning.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/message.h"
@@ -35,6 +36,7 @@ namespace fs = std::filesystem;
 struct VerifyCommand {
   Common common;
   std::uint32_t steps = 10, every = 1, from = 0;
+  std::string from_text = "0";  // --from: a step, or a checkpoint
   std::optional<std::uint32_t> plant_step;
   std::string hw, plant, out;
   PictureChoice picture;
@@ -127,8 +129,11 @@ run::Simulation run_ahead(scene::Scene& scene, const VerifyCommand& command) {
   const std::uint64_t asked = std::uint64_t{scene.first_step} + command.from;
   if (asked + command.steps > 0xFFFFFFFFu)
     throw UsageError(fmt::format("error: --from {}: step numbers end at {}", command.from, 0xFFFFFFFFu));
+  const rule::Heat& heat = scene.parameters.heat;
+  const std::uint32_t earliest = scene.first_step + (scene.mid_run ? scene.mid_run->steps_done : 0);
   auto until = static_cast<std::uint32_t>(asked);
-  until -= scene.parameters.heat.visibility_age(until);
+  const std::uint32_t age = heat.visibility_age(until);
+  until = until - age >= earliest || !scene.mid_run ? until - age : until - age + heat.visibility_every;
   until = std::max(until, scene.first_step);
   if (!command.common.quiet && until != asked)
     fmt::print("verifying from step {}, a step of visibility\n", until);
@@ -198,8 +203,15 @@ void print_result(const VerifyCommand& command, const scene::Scene& scene,
   if (report.strike) print_plant(report);
 }
 
-int run_picture(const VerifyCommand& command) {
-  scene::Scene scene = load_scene(command.common);
+// Reads --from.
+scene::Scene load_beginning(VerifyCommand& command) {
+  Beginning begin = begin_from(command.common, command.from_text);
+  command.from = begin.steps;
+  return std::move(begin.scene);
+}
+
+int run_picture(VerifyCommand command) {
+  scene::Scene scene = load_beginning(command);
   catch_interrupts();
   const run::Simulation ahead = run_ahead(scene, command);
   PictureChoice picture = command.picture;
@@ -207,14 +219,14 @@ int run_picture(const VerifyCommand& command) {
   return verify_picture(command.common, picture, scene, ahead, find_preset(command.hw), command.hw_sets);
 }
 
-int run_machine(const VerifyCommand& command) {
+int run_machine(VerifyCommand command) {
   if (command.picture.asked) throw UsageError("error: --machine: it draws pictures without --picture");
   if (!command.picture.pixel.empty()) throw UsageError("error: --pixel: --machine draws whole pictures");
   if (!command.plant.empty() || command.plant_step)
     throw UsageError("error: --plant: not with --machine; plant it in one machine alone");
   const hwmodel::Preset preset =
       hwmodel::load_preset(find_preset(command.hw), command.hw_sets, hwmodel::Runs::machine);
-  scene::Scene scene = load_scene(command.common);
+  scene::Scene scene = load_beginning(command);
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
   catch_interrupts();
@@ -245,7 +257,7 @@ int run_verify(VerifyCommand command) {
   if (command.plant_step && command.plant.empty())
     throw UsageError("error: --plant-step: there is no --plant whose step it would be");
   const hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
-  scene::Scene scene = load_scene(command.common);
+  scene::Scene scene = load_beginning(command);
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
   catch_interrupts();
@@ -298,7 +310,9 @@ void add_verify(CLI::App& program, Chosen& chosen) {
   command->add_option("--steps", options->steps, "steps to verify")
       ->check(CLI::Range(1u, 1000000u))
       ->capture_default_str();
-  command->add_option("--from", options->from, "steps that the software runs first (mid-melt)")
+  command
+      ->add_option("--from", options->from_text,
+                   "steps that the software runs first (mid-melt), or a checkpoint of the scene")
       ->capture_default_str();
   command->add_option("--every", options->every, "compare every K-th step, and the last")
       ->check(CLI::Range(1u, 1000000u))
