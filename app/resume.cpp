@@ -41,7 +41,7 @@ fs::path place_named(const fs::path& given) {
 bool is_complete(const fs::path& place) {
   std::ifstream file(place / "report.json");
   const nlohmann::json report = nlohmann::json::parse(file, nullptr, false);
-  return report.is_object() && report.value("complete", false);
+  return report.is_object() && report.contains("complete") && report["complete"] == true;
 }
 
 struct Candidate {

@@ -153,6 +153,7 @@ int run_on(Prepared run, std::chrono::steady_clock::time_point start) {
     return sum_of(record.seconds, now);
   };
   const auto checkpoint = [&] {
+    film->settle();  // what threads have timed is known then
     return checkpoints.write(record, *film, simulation, watch.seen(), seconds_now());
   };
   const auto show = [&](std::uint32_t step) {

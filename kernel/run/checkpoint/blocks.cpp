@@ -194,9 +194,8 @@ BlockReader::Header BlockReader::take() {
 BlockReader::Header BlockReader::take(const BlockName& name) {
   Header block = take();
   if (block.name != name)
-    fail(path_, "block " + std::to_string(blocks_ - 1) + " is '" + block.name.kind + "' from " +
-                    std::to_string(block.name.first) + ", where '" + name.kind + "' from " +
-                    std::to_string(name.first) + " should be");
+    fail(path_, "there is block '" + block.name.kind + "' from " + std::to_string(block.name.first) +
+                    " where '" + name.kind + "' from " + std::to_string(name.first) + " should be");
   return block;
 }
 
