@@ -13,7 +13,7 @@ from pathlib import Path
 import checkpoint_reader
 from program import PROGRAM, SMALL, voxmelt, write
 
-LONG = SMALL.replace("steps = 6", "steps = 400").replace("frame_every = 3", "frame_every = 50")
+LONG = SMALL.replace("steps = 6", "steps = 2000").replace("frame_every = 3", "frame_every = 250")
 
 
 def report_of(folder):
@@ -142,7 +142,7 @@ class Checkpoints(unittest.TestCase):
         for given in (self.checkpoint, self.kept):
             result = voxmelt("info", given, cwd=self.folder)
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertIn(f"step           {self.step} of 400", result.stdout)
+            self.assertIn(f"step           {self.step} of 2000", result.stdout)
             line = voxmelt("digest", self.scene, "--steps", self.step, cwd=self.folder).stdout
             self.assertIn(f"digest         {line.split()[3]}\n", result.stdout)
             self.assertIn(f"{self.scene}  {self.scene.stat().st_size} bytes, as it was", result.stdout)
