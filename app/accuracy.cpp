@@ -53,6 +53,11 @@ std::vector<const Case*> chosen_cases(const std::vector<std::string>& names) {
   return chosen;
 }
 
+void print_header() {
+  fmt::print("{:<42} {:>10} {:>10} {:>9} {:>9} {:<7} {:>7} {:>9}\n", "", "value", "exact", "error", "gate",
+             "", "Mcell/s", "baseline");
+}
+
 void print_rows(const accuracy::Found& found) {
   fmt::print("{}: {}\n", found.one->name, found.one->title);
   for (const accuracy::Row& row : found.outcome.rows) {
@@ -96,12 +101,11 @@ int run_accuracy(const AccuracyOptions& options) {
                           .quick = options.quick,
                           .sets = conditions.sets,
                           .found = {}};
-  fmt::print("{:<42} {:>10} {:>10} {:>9} {:>9} {:<7} {:>7} {:>9}\n", "", "value", "exact", "error", "gate",
-             "", "Mcell/s", "baseline");
   for (const Case* one : cases) {
     const auto start = std::chrono::steady_clock::now();
     accuracy::Found found{one, one->measure(conditions), 0};
     found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (report.found.empty()) print_header();  // not before an error of the first case
     print_rows(found);
     report.found.push_back(std::move(found));
     stop_if_interrupted();

@@ -45,6 +45,19 @@ void check_subcommand(const CLI::App& program, const char* given) {
   throw voxmelt::app::UsageError("error: unknown command '" + std::string(given) + "'; there are " + known);
 }
 
+// CLI11 takes an empty value of many options as not given.
+void check_no_empty_values(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string given = argv[i];
+    const bool assigned = given.starts_with("--") && given.size() > 3 && given.find('=') == given.size() - 1;
+    if (given.empty() || assigned)
+      throw voxmelt::app::UsageError("error: an empty value" +
+                                     (assigned ? " of " + given.substr(0, given.size() - 1)
+                                      : i > 1  ? " after " + std::string(argv[i - 1])
+                                               : std::string()));
+  }
+}
+
 int fail(const std::string& message, int code) {
   voxmelt::app::say(message);
   return code;
@@ -71,6 +84,7 @@ int main(int argc, char** argv) {
     app::add_verify(program, chosen);
     app::add_info(program, chosen);
     app::add_list(program, chosen);
+    check_no_empty_values(argc, argv);
     if (argc > 1) check_subcommand(program, argv[1]);
     try {
       program.parse(argc, argv);

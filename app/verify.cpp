@@ -26,6 +26,7 @@
 #include "hwmodel/lockstep/replay.h"
 #include "hwmodel/lockstep/report.h"
 #include "hwmodel/presets/presets.h"
+#include "hwmodel/stream/tiling.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
@@ -173,6 +174,11 @@ bool try_writing(Write&& write) {
   }
 }
 
+void check_tile(const scene::Scene& scene, const hwmodel::Configuration& configuration) {
+  const std::string problem = hwmodel::tile_problem(scene.parameters, scene.initial.grid, configuration);
+  if (!problem.empty()) throw UsageError(fmt::format("error: hw.tile: {}", problem));
+}
+
 // What came of the planted fault.
 void print_plant(const hwmodel::VerifyReport& report) {
   const auto& at = *report.strike;
@@ -227,6 +233,7 @@ int run_machine(VerifyCommand command) {
   const hwmodel::Preset preset =
       hwmodel::load_preset(find_preset(command.hw), command.hw_sets, hwmodel::Runs::machine);
   scene::Scene scene = load_beginning(command);
+  check_tile(scene, preset.configuration);
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
   catch_interrupts();
@@ -258,6 +265,7 @@ int run_verify(VerifyCommand command) {
     throw UsageError("error: --plant-step: there is no --plant whose step it would be");
   const hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
   scene::Scene scene = load_beginning(command);
+  check_tile(scene, preset.configuration);
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
   catch_interrupts();
@@ -281,15 +289,11 @@ int run_verify(VerifyCommand command) {
     throw UsageError(fmt::format(
         "error: --plant {}: in these steps of this scene there is nothing that this fault could change",
         command.plant));
-  print_result(command, scene, report, {scene.parameters, {ahead.volume().grid, preset.configuration.lanes}},
-               options.configuration, fast.name);
+  const hwmodel::Design design =
+      hwmodel::design_of(scene.parameters, ahead.volume().grid, preset.configuration);
+  print_result(command, scene, report, design, options.configuration, fast.name);
   const auto write = [&] {
-    write_report(
-        command.common,
-        hwmodel::json_of(report, {scene.parameters, {ahead.volume().grid, preset.configuration.lanes}},
-                         preset.configuration)
-                .dump(2) +
-            '\n');
+    write_report(command.common, hwmodel::json_of(report, design, preset.configuration).dump(2) + '\n');
   };
   if (verdict == hwmodel::Verdict::good) {
     write();
@@ -330,7 +334,8 @@ void add_verify(CLI::App& program, Chosen& chosen) {
   add_visibility(*command, options->common);
   command->footer(
       "--set also takes hw.lanes (1, 2, 4 .. 32), hw.cascade (1 .. 16), hw.substeps (1 .. 64), "
-      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none), hw.overlap (0, 1); the ray caster's keys are in "
+      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none), hw.overlap (0, 1), hw.tile (0: none); the ray "
+      "caster's keys are in "
       "docs/hardware-picture.md.");
   command->callback([options, &chosen] { chosen = [options] { return run_verify(*options); }; });
 }

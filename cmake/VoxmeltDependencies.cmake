@@ -13,10 +13,6 @@ find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)
 add_library(voxmelt_toml INTERFACE)
 target_include_directories(voxmelt_toml SYSTEM INTERFACE ${TOMLPLUSPLUS_INCLUDE})
 
-find_path(TINYOBJ_INCLUDE tiny_obj_loader.h REQUIRED)
-add_library(voxmelt_tinyobj INTERFACE)
-target_include_directories(voxmelt_tinyobj SYSTEM INTERFACE ${TINYOBJ_INCLUDE})
-
 # libdeflate has no CMake package: who uses it links `deflate`.
 find_path(DEFLATE_INCLUDE libdeflate.h REQUIRED)
 find_library(DEFLATE_LIBRARY deflate REQUIRED)

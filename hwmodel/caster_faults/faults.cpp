@@ -17,6 +17,8 @@ constexpr std::array kFaults{
     FaultInfo{tiles_neighbour, "tiles-neighbour", "tiles", "the neighbour below a pixel is forgotten"},
     FaultInfo{set_up_sample, "set-up-sample", "set-up", "a ray goes through the place of the next sample"},
     FaultInfo{set_up_floor, "set-up-floor", "set-up", "the step of a ray is rounded down"},
+    FaultInfo{ground_bound, "ground-bound", "ground",
+              "a bound of heights is too low: a sample in the ground is left out"},
     FaultInfo{ground_lost, "ground-lost", "ground", "a ray passes the ground that it meets"},
     FaultInfo{ground_part, "ground-part", "ground", "the search for the ground ends one part too late"},
     FaultInfo{ground_face, "ground-face", "ground", "the low side of the slab is taken for the high one"},

@@ -21,6 +21,7 @@ enum class Fault : std::uint8_t {
   tiles_neighbour,
   set_up_sample,
   set_up_floor,
+  ground_bound,
   ground_lost,
   ground_part,
   ground_face,

@@ -1,7 +1,8 @@
-// What the parts of the fault policy share: is their fault armed, and where did it strike? And the levels as
-// they lie in memory: a fault may need to know what is right.
+// What the parts of the fault policy share: is their fault armed, and where did it strike? And the levels and
+// columns as they lie in memory: a fault may need to know what is right.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 
 #include "hwmodel/caster_faults/faults.h"
 #include "hwmodel/raycast/field.h"
+#include "hwmodel/raycast/ground.h"
 #include "hwmodel/raycast/layout.h"
 #include "hwmodel/raycast/registers.h"
 #include "hwmodel/raycast/tokens.h"
@@ -46,6 +48,25 @@ class Planted {
     for (std::size_t i = 0; i < 8; ++i)
       words[i] = word_at(places.x[i & 1], places.y[i >> 1 & 1], places.z[i >> 2], places.low);
     return sample_of(words.data(), q);
+  }
+  // Is a place in the slab, between its four columns?
+  bool in_ground(Vec p) const {
+    const Layout& of = memory_->heights;
+    const Spot x = spot_of(p.x), z = spot_of(p.z);
+    const auto height = [&](std::size_t n) {
+      const auto inside = [](std::int64_t cell, std::int64_t cells) {
+        return static_cast<int>(std::clamp<std::int64_t>(cell, 0, cells - 1));
+      };
+      const int cx = inside(x.cell + static_cast<std::int64_t>(n & 1), registers_->cells.x);
+      const int cz = inside(z.cell + static_cast<std::int64_t>(n >> 1), registers_->cells.z);
+      Column column;
+      std::memcpy(&column,
+                  memory_->bytes.data() + of.address(of.line_at(cx >> of.bits[0], 0, cz >> of.bits[2])) +
+                      of.offset(cx, 0, cz),
+                  sizeof column);
+      return std::int64_t{column.drawn};
+    };
+    return (p.y >> 8) < between_columns(height, x, z);
   }
 
  private:

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "hwmodel/caster_faults/planted.h"
 #include "hwmodel/raycast/walk_stage.h"
@@ -32,6 +33,11 @@ class RayFaults : public Planted {
     }
   }
 
+  void passes_blocks(const GroundedRay& ray, std::int64_t part, std::optional<std::int64_t>& samples) {
+    if (!armed(Fault::ground_bound) || samples || !in_ground(at_part(ray.ray, part))) return;
+    samples = 0;
+    strike("ground", ray.id);
+  }
   void grounded(GroundedRay& ray) {
     GroundHit& ground = ray.ground;
     if (!ground.found) return;

@@ -9,15 +9,15 @@ namespace voxmelt::hwmodel {
 
 void ChannelFault::begin_train() {
   take_out();
-  firsts_.clear();
+  passes_.clear();
 }
 
-void ChannelFault::add_pass(std::uint32_t first, int steps) {
-  firsts_.push_back(first);
+void ChannelFault::add_pass(const Pass& pass) {
+  passes_.push_back(pass);
   if (channel_ != nullptr || plan_.fault() < Fault::fifo_overwrite || plan_.struck()) return;
-  position_ = std::max(first, plan_.first_step()) - first;
-  if (position_ >= static_cast<std::uint32_t>(steps)) return;
-  armed_from_ = static_cast<std::int64_t>(firsts_.size() - 1) * pipeline_.design().shape.tokens();
+  position_ = std::max(pass.first, plan_.first_step()) - pass.first;
+  if (position_ >= static_cast<std::uint32_t>(pass.steps)) return;
+  armed_from_ = static_cast<std::int64_t>(passes_.size() - 1) * pipeline_.design().shape.tokens();
   const std::vector<CellFifo*> channels = pipeline_.channels_behind_stages(static_cast<int>(position_));
   channel_ = channels[channels.size() / 2];
   channel_->plant(this);
@@ -30,7 +30,10 @@ void ChannelFault::take_out() {
 
 FifoFault<Cell>::Effect ChannelFault::stores(std::int64_t ordinal, Cell* now, Cell* last, int waiting) {
   if (plan_.struck() || ordinal < armed_from_) return Effect::none;
-  const int lanes = pipeline_.design().shape.lanes;
+  const Shape& shape = pipeline_.design().shape;
+  const int lanes = shape.lanes, tile = passes_[static_cast<std::size_t>(ordinal / shape.tokens())].tile;
+  // What a tile spoils anyway beside a cut is not compared.
+  if (!shape.owns(tile, place_of_token(ordinal).x)) return Effect::none;
   const int lane = first_difference(now, last);
   const bool differs = ordinal > armed_from_ && lane < lanes;
   switch (plan_.fault()) {
@@ -45,7 +48,7 @@ FifoFault<Cell>::Effect ChannelFault::stores(std::int64_t ordinal, Cell* now, Ce
       strike(ordinal, lane);
       break;
     case Fault::fifo_overwrite:
-      if (!differs || waiting == 0) break;
+      if (!differs || waiting == 0 || !shape.owns(tile, place_of_token(ordinal - 1).x)) break;
       std::copy_n(now, lanes, last);
       strike(ordinal - 1, lane);
       return Effect::lost;
@@ -69,10 +72,16 @@ int ChannelFault::first_difference(const Cell* one, const Cell* other) const {
   return static_cast<int>(std::mismatch(one, one + pipeline_.design().shape.lanes, other).first - one);
 }
 
-void ChannelFault::strike(std::int64_t ordinal, int lane) {
+Place ChannelFault::place_of_token(std::int64_t ordinal) const {
   const Shape& shape = pipeline_.design().shape;
-  const Place place = place_of(shape, ordinal % shape.tokens());
-  const std::uint32_t step = firsts_[static_cast<std::size_t>(ordinal / shape.tokens())] + position_;
+  const auto pass = static_cast<std::size_t>(ordinal / shape.tokens());
+  return place_of(shape, ordinal % shape.tokens(), passes_.at(std::min(pass, passes_.size() - 1)).tile);
+}
+
+void ChannelFault::strike(std::int64_t ordinal, int lane) {
+  const Place place = place_of_token(ordinal);
+  const auto pass = static_cast<std::size_t>(ordinal / pipeline_.design().shape.tokens());
+  const std::uint32_t step = passes_[pass].first + position_;
   plan_.strike({channel_->name(), step, place.x + lane, place.y, place.z});
 }
 

@@ -18,10 +18,9 @@ class ChannelFault final : public FifoFault<Cell> {
   ChannelFault(const ChannelFault&) = delete;
   ChannelFault& operator=(const ChannelFault&) = delete;
 
-  // Must be called before each train of passes, and then before each of its passes, which has `steps` time
-  // steps from number `first`.
+  // Must be called before each train of passes, and then before each of its passes.
   void begin_train();
-  void add_pass(std::uint32_t first, int steps);
+  void add_pass(const Pass& pass);
 
   Effect stores(std::int64_t ordinal, Cell* now, Cell* last, int waiting) override;
 
@@ -31,14 +30,15 @@ class ChannelFault final : public FifoFault<Cell> {
   Effect swap_lanes(std::int64_t ordinal, Cell* now);
   // The first lane in which two tokens differ; the number of lanes if none does.
   int first_difference(const Cell* one, const Cell* other) const;
+  Place place_of_token(std::int64_t ordinal) const;
   void strike(std::int64_t ordinal, int lane);
 
   FaultPlan& plan_;
   Pipeline& pipeline_;
   CellFifo* channel_ = nullptr;
-  std::vector<std::uint32_t> firsts_;  // steps of the passes of the train
-  std::uint32_t position_ = 0;         // of the channel's time step in the cascade
-  std::int64_t armed_from_ = 0;        // ordinal in the train
+  std::vector<Pass> passes_;     // of the train
+  std::uint32_t position_ = 0;   // of the channel's time step in the cascade
+  std::int64_t armed_from_ = 0;  // ordinal in the train
 };
 
 }  // namespace voxmelt::hwmodel

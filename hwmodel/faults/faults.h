@@ -63,6 +63,13 @@ enum class Fault : std::uint8_t {
   viscous_flow_lost,
   viscous_side_missed,
   viscous_run_forgotten,
+  // tiles
+  tile_vent,
+  tile_coordinate,
+  tile_halo_narrow,
+  tile_halo_stale,
+  tile_overwritten,
+  tile_counted_twice,
   // buffers and channels
   buffer_bit,
   fifo_overwrite,
@@ -71,6 +78,10 @@ enum class Fault : std::uint8_t {
   fifo_never_ready,
   end,  // no fault, but the end of the list
 };
+
+inline bool is_of_tiles(Fault fault) {
+  return fault >= Fault::tile_vent && fault <= Fault::tile_counted_twice;
+}
 
 struct FaultInfo {
   Fault fault;

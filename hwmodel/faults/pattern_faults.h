@@ -28,6 +28,8 @@ class PatternFaults : public Planted {
     std::int64_t wrong = cell.pattern;
     if (armed(stage, Fault::pattern_random_lane))
       wrong = word.pattern & random_byte(stage, lane, 1);
+    else if (stage.leaving().left > 0 && armed(stage, Fault::tile_coordinate))
+      wrong = word.pattern & random_byte(stage, lane - stage.leaving().left, 0);
     else if (armed(stage, Fault::pattern_diagonal_open) || armed(stage, Fault::pattern_margin))
       wrong |= lowest_bit(wrongly_open_[&word] & random_byte(stage, lane, 0));
     wrongly_open_.erase(&word);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "hwmodel/channel/tap_line.h"
 #include "hwmodel/faults/faults.h"
@@ -17,7 +18,11 @@ class Planted {
   explicit Planted(FaultPlan& plan) : plan_(&plan) {}
 
  protected:
-  bool armed(const Stage& stage, Fault fault) const { return plan_->armed(fault, stage.working_step()); }
+  // Beside a cut, a tile computes cells that another tile owns, and some of them it spoils. A fault strikes
+  // where all that it could change is owned by the tile: those are compared.
+  bool armed(const Stage& stage, Fault fault) const {
+    return plan_->armed(fault, stage.working_step()) && deep_within(stage);
+  }
 
   // The fault strikes; the first cell that leaves the stage wrong is the one at x, y, z ...
   void strike(const Stage& stage, int x, int y, int z) {
@@ -30,11 +35,13 @@ class Planted {
   // ... or the one that a word of the stage's line holds, of two the one that leaves first.
   template <class Word>
   void strike_word(const Stage& stage, TapLine<Word>& line, const Word& word) {
-    strike_at(stage, position_of(stage, line, word));
+    const auto [age, lane] = position_of(stage, line, word);
+    strike_lane(stage, stage.place_at(-age), lane);
   }
   template <class Word>
   void strike_first_word(const Stage& stage, TapLine<Word>& line, const Word& one, const Word& other) {
-    strike_at(stage, std::min(position_of(stage, line, one), position_of(stage, line, other)));
+    const auto [age, lane] = std::min(position_of(stage, line, one), position_of(stage, line, other));
+    strike_lane(stage, stage.place_at(-age), lane);
   }
 
   // A cell at the end of the grid leaves without the bit that it stands beside a wall.
@@ -50,18 +57,20 @@ class Planted {
   }
 
  private:
-  // The position of a word in the stream of its pass, in cells.
+  static bool deep_within(const Stage& stage) {
+    const Shape& shape = stage.shape();
+    if (!shape.tiled()) return true;
+    const int tile = stage.tile_at(stage.spot_delay()), x = stage.spot().token.x, end = x + shape.lanes;
+    return shape.owns(tile, x) && (x == 0 || shape.owns(tile, x - 1)) &&
+           (end >= shape.grid.x || shape.owns(tile, end));
+  }
+
+  // Where a word is in the stream: less the shifts since it came, and its lane. What leaves first is less.
   template <class Word>
-  static std::int64_t position_of(const Stage& stage, TapLine<Word>& line, const Word& word) {
+  static std::pair<std::int64_t, int> position_of(const Stage& stage, TapLine<Word>& line, const Word& word) {
     std::size_t delay = 0;
     while (&word < line.tap(delay) || &word >= line.tap(delay) + stage.lanes()) ++delay;
-    std::int64_t ordinal = stage.came().ordinal - static_cast<std::int64_t>(delay);
-    if (ordinal < 0) ordinal += stage.shape().tokens();  // of the last pass
-    return ordinal * stage.lanes() + (&word - line.tap(delay));
-  }
-  void strike_at(const Stage& stage, std::int64_t position) {
-    strike_lane(stage, place_of(stage.shape(), position / stage.lanes()),
-                static_cast<int>(position % stage.lanes()));
+    return {-static_cast<std::int64_t>(delay), static_cast<int>(&word - line.tap(delay))};
   }
 
   FaultPlan* plan_;

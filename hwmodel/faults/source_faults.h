@@ -15,7 +15,9 @@ class SourceFaults : public Planted {
   using Faulty = Source<SourceFaults>;
 
   void treated(const Faulty& stage, const Cell& in, int lane, Cell& out) {
+    const bool cut = stage.came().left > 0 && armed(stage, Fault::tile_vent);
     const bool vents = armed(stage, Fault::vent_rate);
+    if (cut) return shift(stage, in, lane, out);
     if (!vents && !armed(stage, Fault::drain_energy)) return;
     Cell wrong = in;
     for (const auto& opening : stage.open_) {
@@ -31,6 +33,22 @@ class SourceFaults : public Planted {
       }
     }
     wrong.settle_state();
+    give(stage, wrong, lane, out);
+  }
+
+ private:
+  // Openings lie where they would be in a grid that began with the tile.
+  void shift(const Faulty& stage, const Cell& in, int lane, Cell& out) {
+    Cell wrong = in;
+    const int x = stage.came().x - stage.came().left + lane;
+    for (const auto& opening : stage.open_)
+      if (opening.reach2 >= 0 && Faulty::square(x, opening.region.at.x) <= opening.reach2)
+        opening.vent ? stage.vent(opening, wrong) : Faulty::drain(opening, wrong);
+    wrong.settle_state();
+    give(stage, wrong, lane, out);
+  }
+
+  void give(const Faulty& stage, const Cell& wrong, int lane, Cell& out) {
     if (wrong == out) return;
     out = wrong;
     strike_lane(stage, stage.came(), lane);

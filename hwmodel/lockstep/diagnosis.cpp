@@ -27,12 +27,13 @@ Mismatch hang_of(const Pipeline& pipeline, const Pass& first, std::int64_t cycle
   }
   const ChannelReport& blamed = channels[std::min(last_full + 1, last)];
   const Shape& shape = pipeline.design().shape;
-  const Place place = place_of(shape, blamed.entered % shape.tokens());
+  const std::int64_t streamed = first.tile + blamed.entered / shape.tokens();
+  const Place place =
+      place_of(shape, blamed.entered % shape.tokens(), static_cast<int>(streamed % shape.tiles()));
   m.where = blamed.name;
   m.phase = phase_of(blamed.producer);
   m.cascade = blamed.cascade;
-  const auto passes =
-      static_cast<std::uint32_t>(blamed.entered / shape.tokens());  // all but the last are alike
+  const auto passes = static_cast<std::uint32_t>(streamed / shape.tiles());  // all but the last are alike
   m.step += passes * static_cast<std::uint32_t>(first.steps) + static_cast<std::uint32_t>(blamed.cascade);
   m.x = place.x, m.y = place.y, m.z = place.z;
   m.detail = "full: " + (full.empty() ? "none" : full) + "\n  empty: " + (empty.empty() ? "none" : empty);

@@ -16,6 +16,8 @@ const char* name_of(Mismatch::Kind kind) {
       return "channel";
     case memory:
       return "memory";
+    case books:
+      return "books";
     case software:
       return "software";
     case missing:

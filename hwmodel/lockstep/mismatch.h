@@ -16,6 +16,7 @@ struct Mismatch {
     stage,     // a stage gave another state than the reference
     channel,   // what left a channel is not what entered it
     memory,    // the written volume is not the reference's
+    books,     // the writer's sums over a pass are not what the reference holds
     software,  // a software kernel differs from the reference
     missing,   // the reference changed something in a phase for which the pipeline has no stage
     width,     // a value did not fit its wire

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "hwmodel/stream/tiling.h"
+
 namespace voxmelt::hwmodel {
 namespace {
 
@@ -122,7 +124,8 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
   const Shape& shape = design.shape;
   const Units units = units_of(report, configuration.lanes);
   const Traffic traffic = traffic_of(report, design, configuration.lanes);
-  const auto plane = static_cast<double>(shape.grid.x) * shape.grid.y * configuration.cascade;
+  const int width = shape.tiled() ? shape.blocks() * shape.lanes : shape.grid.x;
+  const auto plane = static_cast<double>(width) * shape.grid.y * configuration.cascade;
   std::string text = fmt::format(
       "all lanes and time steps: {} bits of buffers ({:.1f} per cell of a plane and time step), {} "
       "multipliers, {} "
@@ -145,7 +148,14 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
   const auto cells = static_cast<double>(shape.grid.cells()) * report.steps;
   const double per_cycle = cells / static_cast<double>(report.cycles);
   const int bound = configuration.lanes * configuration.cascade;
-  const auto offered = static_cast<double>(shape.tokens() * shape.lanes);
+  const auto offered = static_cast<double>(shape.tiles() * shape.tokens() * shape.lanes);
+  const auto twice = static_cast<double>(recomputed_cells(shape));
+  if (shape.tiled())
+    text += fmt::format(
+        "tiles: {} of {} columns, {} of them halo beside each cut; {:.1f} % of the cells are computed "
+        "again\n",
+        shape.tiles(), width, shape.halo * shape.lanes,
+        100.0 * twice / static_cast<double>(shape.grid.cells()));
   text += fmt::format(
       "cycles: {} in {} passes; predicted without stalls {} ({:+.2f} %)\n{:.3f} cell-steps per cycle, {:.1f} "
       "% of the "
@@ -154,7 +164,7 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
       100.0 * static_cast<double>(report.cycles - report.predicted_cycles) /
           static_cast<double>(std::max<std::int64_t>(1, report.predicted_cycles)),
       per_cycle, 100.0 * per_cycle / bound, bound,
-      100.0 * (1 - static_cast<double>(shape.grid.cells()) / offered),
+      100.0 * (1 - (static_cast<double>(shape.grid.cells()) + twice) / offered),
       100.0 * (1 - static_cast<double>(report.steps) /
                        static_cast<double>(report.passes * configuration.cascade)));
   return text +
@@ -174,7 +184,8 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
                         {"bits", c.bits},
                         {"highest", c.highest},
                         {"occupancy", c.occupancy}});
-  const state::Grid g = design.shape.grid;
+  const Shape& shape = design.shape;
+  const state::Grid g = shape.grid;
   const Units units = units_of(report, configuration.lanes);
   const Traffic traffic = traffic_of(report, design, configuration.lanes);
   json result{{"grid", {g.x, g.y, g.z}},
@@ -184,8 +195,14 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
                 {"cascade", configuration.cascade},
                 {"substeps", configuration.substeps},
                 {"overlap", configuration.overlap ? 1 : 0},
+                {"tile", configuration.tile},
                 {"fifo_depth", configuration.fifo_depth},
                 {"stall_seed", configuration.stall_seed}}},
+              {"tiles",
+               {{"count", shape.tiles()},
+                {"columns", shape.tiled() ? shape.blocks() * shape.lanes : g.x},
+                {"halo", shape.halo * shape.lanes},
+                {"recomputed_cells_per_pass", recomputed_cells(shape)}}},
               {"first_step", report.first_step},
               {"steps", report.steps},
               {"compared_cells", report.compared_cells},

@@ -13,10 +13,12 @@
 
 #include "hwmodel/faults/channel_fault.h"
 #include "hwmodel/faults/planted_stages.h"
+#include "hwmodel/faults/tile_fault.h"
 #include "hwmodel/lockstep/checker.h"
 #include "hwmodel/lockstep/diagnosis.h"
 #include "hwmodel/stream/prediction.h"
 #include "kernel/automaton/state/digest.h"
+#include "kernel/automaton/state/ledger.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -41,6 +43,7 @@ class Run {
                   : options.fault == Fault::none ? StageMaker(make_stage)
                                                  : planted_stages(plan_)),
         channel_fault_(plan_, pipeline_),
+        tile_fault_(plan_, pipeline_),
         checker_(pipeline_),
         software_(parameters, start, first_step, fast, tuning,
                   stages_of_step({parameters, pipeline_.design().shape})),
@@ -83,7 +86,8 @@ class Run {
     const std::uint32_t done = report_.steps;
     for (; pass.substep < pass.substeps; pass.substep += pass.count) {
       pass.count = std::min(pass.count, pass.substeps - pass.substep);
-      if (!run_train(pass)) return;
+      for (pass.tile = 0; pass.tile < pipeline_.design().shape.tiles(); pass.tile = last_tile_ + 1)
+        if (!run_train(pass)) return;
     }
     report_.steps = done + (next_step_ - step);
     report_.mismatch = std::move(software_mismatch_);
@@ -124,16 +128,27 @@ class Run {
     return options_.visit_every != 0 && (step - report_.first_step) % options_.visit_every == 0;
   }
 
-  // The pass that follows without a gap: only a step of visibility needs the whole state before it begins.
+  bool is_last_tile(const Pass& pass) const { return pass.tile + 1 == pipeline_.design().shape.tiles(); }
+
+  // The next tile, or the pass that follows without a gap: only a step of visibility needs the whole state
+  // before it begins.
   std::optional<Pass> next_pass(Pass last) {
+    if (checker_.mismatch() != nullptr) return {};
+    if (!is_last_tile(last)) {
+      if (!tiles_follow(pipeline_.design(), options_.configuration, last)) return {};
+      ++last.tile;
+      add_pass(last);
+      return last;
+    }
     const std::uint32_t step = last.first + static_cast<std::uint32_t>(last.steps);
     const Design& design = pipeline_.design();
     const rule::Heat& heat = design.parameters.heat;
     if (!passes_overlap(design, options_.configuration, last) || !substeps_are_known() ||
         step == report_.first_step + options_.steps || is_visited(step) ||
-        (heat.radiates() && heat.visibility_age(step) == 0) || checker_.mismatch() != nullptr)
+        (heat.radiates() && heat.visibility_age(step) == 0))
       return {};
     last.first = step;
+    last.tile = 0;
     last.steps = steps_of(step);
     if (!run_software(last)) return {};  // what is under way can still be compared
     add_pass(last);
@@ -141,17 +156,23 @@ class Run {
   }
 
   void add_pass(const Pass& pass) {
-    Checker::Wanted wanted{pass.first, {}, nullptr};
+    Checker::Wanted wanted{pass, {}, nullptr, {}, nullptr};
     for (const std::vector<Expected>& step : expected_) wanted.steps.push_back(expected_of(pass, step));
-    if (pass.ends() && wanted.steps.back().empty())
-      wanted.written = std::make_shared<const state::Volume>(software_.volume());
+    if (pass.ends() && wanted.steps.back().empty()) {
+      if (pass.tile == 0) written_ = std::make_shared<const state::Volume>(software_.volume());
+      wanted.written = written_;
+    }
+    wanted.left = wanted.steps.back().empty() ? wanted.written : wanted.steps.back().back().after;
+    if (is_last_tile(pass) && wanted.left != nullptr) wanted.held = state::holdings(*wanted.left);
     checker_.add_pass(std::move(wanted));
-    channel_fault_.add_pass(pass.first, pass.steps);
+    channel_fault_.add_pass(pass);
+    tile_fault_.add_pass(pass);
   }
 
   bool run_train(const Pass& first) {
     checker_.begin_train();
     channel_fault_.begin_train();
+    tile_fault_.begin_train();
     add_pass(first);
     Pass last = first;
     const auto next = [&]() -> std::optional<Pass> {
@@ -160,6 +181,10 @@ class Run {
       return pass;
     };
     if (!run_model(first, next, software_.irradiance())) return false;
+    last_tile_ = last.tile;
+    if (!is_last_tile(last)) return true;
+    report_.cell_steps +=
+        first.ends() ? static_cast<std::int64_t>(memory_.grid.cells()) * (next_step_ - first.first) : 0;
     const std::uint32_t step = last.first + static_cast<std::uint32_t>(last.steps) - 1;
     if (software_mismatch_ != nullptr) return true;
     if (last.ends())
@@ -216,11 +241,9 @@ class Run {
       return false;
     }
     report_.model_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    report_.passes += end.passes;
+    report_.passes += (first.tile + end.passes) / pipeline_.design().shape.tiles();
     report_.cycles += end.cycles;
     if (end.complete) {
-      if (first.ends())
-        report_.cell_steps += static_cast<std::int64_t>(memory_.grid.cells()) * (next_step_ - first.first);
       const std::int64_t predicted =
           predicted_cycles(pipeline_.design(), options_.configuration, first, end.passes);
       report_.predicted_cycles += predicted;
@@ -244,7 +267,7 @@ class Run {
         .step = step,
         .cascade = options_.configuration.cascade - 1,
         .lane = d.x % shape.lanes,
-        .cycle = checker_.written_in(stream_order(shape, d.x, d.y, d.z) / shape.lanes),
+        .cycle = checker_.written_in(owned_ordinal(shape, d.x, d.y, d.z)),
         .x = d.x,
         .y = d.y,
         .z = d.z,
@@ -272,12 +295,15 @@ class Run {
   FaultPlan plan_;
   Pipeline pipeline_;
   ChannelFault channel_fault_;
+  TileFault tile_fault_;
   Checker checker_;
   Expectation software_;
   state::Volume memory_;
-  std::vector<std::vector<Expected>> expected_;  // of the pass that the software has run last
+  std::vector<std::vector<Expected>> expected_;   // of the pass that the software has run last
+  std::shared_ptr<const state::Volume> written_;  // by that pass, where its steps are not compared
   std::unique_ptr<Mismatch> software_mismatch_;
   std::uint32_t next_step_ = 0;  // after that pass
+  int last_tile_ = 0;            // of the last train
   VerifyReport report_;
   bool stopped_ = false;  // by who visits
 };

@@ -25,8 +25,7 @@ void add_bands(const SideBands& bands, int x, int y, int z, state::Slot at, Cell
 
 }  // namespace
 
-Cell wanted_cell(const Expected& expected, int x, int y, int z) {
-  const state::Volume& volume = *expected.after;
+Cell wanted_cell(const state::Volume& volume, int x, int y, int z) {
   const state::Slot at = volume.at(x, y, z);
   Cell cell;
   if (volume.solid.test(x, y, z))
@@ -38,7 +37,12 @@ Cell wanted_cell(const Expected& expected, int x, int y, int z) {
   cell.amount = volume.amount[at];
   cell.energy = volume.energy[at];
   cell.heat = volume.heat[at];
-  add_bands(expected.bands, x, y, z, at, cell);
+  return cell;
+}
+
+Cell wanted_cell(const Expected& expected, int x, int y, int z) {
+  Cell cell = wanted_cell(*expected.after, x, y, z);
+  add_bands(expected.bands, x, y, z, expected.after->at(x, y, z), cell);
   return cell;
 }
 

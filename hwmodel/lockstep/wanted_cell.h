@@ -10,6 +10,7 @@
 namespace voxmelt::hwmodel {
 
 Cell wanted_cell(const Expected& expected, int x, int y, int z);
+Cell wanted_cell(const state::Volume& volume, int x, int y, int z);  // without side bands
 
 // The mobility of a run, as far as the stages that read it can tell: they use it below one of two limits.
 std::int64_t usable_mobility(const Cell& cell);

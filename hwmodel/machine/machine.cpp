@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hwmodel/machine/screen.h"
+#include "hwmodel/stream/tiling.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -15,14 +16,17 @@ StreamWork work_of(const VerifyReport& report, const Design& design, const Confi
   work.passes = report.passes;
   work.cycles = report.cycles;
   const std::int64_t interval = c.fifo_depth == 1 ? 2 : 1;
-  work.lag = std::max<std::int64_t>(
-      report.predicted_cycles / std::max<std::int64_t>(report.passes, 1) - interval * design.shape.tokens(),
-      0);
+  const Shape& shape = design.shape;
+  work.lag = std::max<std::int64_t>(report.predicted_cycles / std::max<std::int64_t>(report.passes, 1) -
+                                        interval * shape.tiles() * shape.tokens(),
+                                    0);
   const std::int64_t cell_bits = std::int64_t{design.cell_bits()} * c.lanes;
   for (const StageReport& stage : report.stages) {
     if (stage.kind == StageKind::reader) work.tokens += stage.cycles.busy;
     if (stage.kind == StageKind::reader) work.read_bits += stage.cycles.busy * cell_bits;
-    if (stage.kind == StageKind::writer) work.written_bits += stage.cycles.busy * cell_bits;
+    if (stage.kind == StageKind::writer)  // of a tile, what it owns
+      work.written_bits +=
+          stage.cycles.busy * shape.grid_blocks() / (shape.tiles() * shape.blocks()) * cell_bits;
     if (stage.kind == StageKind::feed) work.fed_bits += stage.cycles.busy * 16 * c.lanes;
   }
   return work;
@@ -33,9 +37,7 @@ class Run {
   Run(const MachineInput& input, const MachineOptions& options)
       : input_(input),
         options_(options),
-        design_{input.parameters,
-                {input.picture.volume.grid, options.steps.configuration.lanes},
-                options.steps.configuration.substeps},
+        design_(design_of(input.parameters, input.picture.volume.grid, options.steps.configuration)),
         screen_(input.picture, options.picture) {}
 
   MachineReport run() {
@@ -52,9 +54,11 @@ class Run {
                              input_.tuning, steps);
     report_.pictures = screen_.report();
     report_.different_beside = screen_.different_beside();
-    const std::int64_t tokens = design_.shape.tokens() * design_.shape.lanes;
-    report_.state_bytes = (tokens * design_.cell_bits() + 7) / 8;
-    report_.irradiance_bytes = design_.hot() && input_.parameters.heat.radiation ? 2 * tokens : 0;
+    const Shape& shape = design_.shape;
+    const std::int64_t words = std::int64_t{shape.grid_blocks()} * shape.lanes * shape.grid.y * shape.grid.z;
+    const int copies = shape.tiled() ? 2 : 1;  // tiles overlap: state_memory.h
+    report_.state_bytes = (words * copies * design_.cell_bits() + 7) / 8;
+    report_.irradiance_bytes = design_.hot() && input_.parameters.heat.radiation ? 2 * words : 0;
     return std::move(report_);
   }
 

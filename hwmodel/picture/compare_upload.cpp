@@ -1,8 +1,10 @@
 // Plain loops over places. They share no code with the loops that lay out lines.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -105,6 +107,67 @@ void compare_ground(Comparison& to, const Memory& memory, const render::GroundDa
   }
 }
 
+// What each column demands of the blocks that read it: those of cells up to one beside it. In 2^-6 cells.
+class LeastBounds {
+ public:
+  LeastBounds(int cells, int blocks) : cells_(cells), blocks_(blocks) {}
+  // Of blocks that read the columns `from` to `from` + `more`, along an axis; beyond the grid the nearest is
+  // read.
+  template <class Visit>
+  void readers(int from, int more, const Visit& visit) const {
+    for (int block = 0; block < blocks_; ++block) {
+      const int low = 4 * block - 1, high = 4 * block + 4;
+      if (std::clamp(low, 0, cells_ - 1) <= from && from + more <= std::clamp(high, 0, cells_ - 1))
+        visit(block);
+    }
+  }
+
+ private:
+  int cells_, blocks_;
+};
+
+void compare_bounds(Comparison& to, const GroundBlocks& blocks, const render::GroundData& ground) {
+  const int nx = static_cast<int>(ground.cells.x), nz = static_cast<int>(ground.cells.z);
+  const int wide = (nx + 3) / 4, deep = (nz + 3) / 4, coarse = (wide + 3) / 4;
+  to.word("blocks of ground along x", {}, {}, wide, blocks.x);
+  to.word("blocks of ground along z", {}, {}, deep, blocks.z);
+  if (to.of.first) return;
+  const LeastBounds x(nx, wide), z(nz, deep);
+  std::vector<GroundBlock> fine(static_cast<std::size_t>(wide) * static_cast<std::size_t>(deep));
+  std::vector<std::int32_t> rough(static_cast<std::size_t>(coarse) *
+                                  static_cast<std::size_t>((deep + 3) / 4));
+  const auto height = [&](int cx, int cz) { return ground.drawn[std::ptrdiff_t{cz} * ground.row + cx]; };
+  const auto raise = [](std::int32_t& bound, std::int32_t by) { bound = std::max(bound, (by + 63) / 64); };
+  for (int cz = 0; cz < nz; ++cz)
+    for (int cx = 0; cx < nx; ++cx) {
+      const auto demand = [&](int more_x, int more_z, const auto& of) {
+        if (cx + more_x >= nx || cz + more_z >= nz) return;
+        x.readers(cx, more_x, [&](int bx) {
+          z.readers(cz, more_z, [&](int bz) { of(static_cast<std::size_t>(bz * wide + bx), bx, bz); });
+        });
+      };
+      demand(0, 0, [&](std::size_t i, int bx, int bz) {
+        raise(fine[i].highest, height(cx, cz));
+        raise(rough[static_cast<std::size_t>(bz / 4 * coarse + bx / 4)], height(cx, cz));
+      });
+      demand(1, 0, [&](std::size_t i, int, int) {
+        raise(fine[i].slope_x, std::abs(height(cx + 1, cz) - height(cx, cz)));
+      });
+      demand(0, 1, [&](std::size_t i, int, int) {
+        raise(fine[i].slope_z, std::abs(height(cx, cz + 1) - height(cx, cz)));
+      });
+    }
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    const state::Grid at{static_cast<int>(i) % wide, 0, static_cast<int>(i) / wide};
+    to.word("bound of heights", {}, at, fine[i].highest, blocks.fine[i].highest);
+    to.word("bound of slopes along x", {}, at, fine[i].slope_x, blocks.fine[i].slope_x);
+    to.word("bound of slopes along z", {}, at, fine[i].slope_z, blocks.fine[i].slope_z);
+  }
+  for (std::size_t i = 0; i < rough.size(); ++i)
+    to.word("bound of heights, 16 x 16 cells", {},
+            {static_cast<int>(i) % coarse, 0, static_cast<int>(i) / coarse}, rough[i], blocks.coarse[i]);
+}
+
 // Bit 31 of a record says that a block is empty; the low byte is its distance, or the slope's bound.
 void compare_skip_map(Comparison& to, const Registers& registers, const render::FieldData& field) {
   const SkipMap& skip = registers.skip;
@@ -128,7 +191,10 @@ UploadComparison compare_upload(const Registers& registers, const Memory& memory
   compare_bricks(to, "levels", memory.levels, data.field, data.field.levels, static_cast<std::int16_t>(kAir));
   compare_bricks(to, "matter", memory.matter, data.field, data.field.matter, std::uint32_t{0});
   compare_light(to, memory, data.light);
-  if (data.ground.any) compare_ground(to, memory, data.ground);
+  if (data.ground.any) {
+    compare_ground(to, memory, data.ground);
+    compare_bounds(to, registers.ground.blocks, data.ground);
+  }
   return to.of;
 }
 

@@ -179,7 +179,7 @@ PictureReport PictureRun::report() {
   report_.strike = plan_.struck();
   report_.memory = caster_.memory_counts();
   report_.memory_bytes = static_cast<std::int64_t>(memory_.bytes.size());
-  if (!registers_.look.clear) report_.cost = cost_of(options_.configuration, registers_, memory_);
+  report_.cost = cost_of(options_.configuration, registers_, memory_);
   take_accounts(report_, caster_);
   return report_;
 }

@@ -114,7 +114,9 @@ void Uploader::send_registers(const render::PictureData& data, UploadReport& rep
   registers_ = std::move(next);
   const std::vector<std::int32_t> slots(data.field.slots, data.field.slots + memory_.levels.slots.size());
   report.slots = differing(slots, memory_.levels.slots);
-  memory_.levels.slots = memory_.matter.slots = slots;
+  memory_.levels.slots = slots;
+  const bool keeps = fault_ && fault_->kind == UploadFault::Kind::old_table && fault_->update == updates_;
+  if (!keeps) memory_.matter.slots = slots;
   upload_.words = report.slots + report.skip_words + report.ground_words;
 }
 

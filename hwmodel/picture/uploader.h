@@ -42,9 +42,9 @@ struct UploadReport {
 };
 
 // A fault of an update, counted from 0: a brick is not sent, is sent to the place of the next one, or is sent
-// and the caches are not told.
+// and the caches are not told; or matter keeps its table of bricks, and `brick` does not matter.
 struct UploadFault {
-  enum class Kind : std::uint8_t { forgotten, misplaced, untold };
+  enum class Kind : std::uint8_t { forgotten, misplaced, untold, old_table };
   Kind kind = Kind::forgotten;
   std::int64_t update = 0;
   SentBrick brick;

@@ -19,6 +19,10 @@ void read_pipeline(scene::Reader& hw, Configuration& c) {
   c.fifo_depth = static_cast<int>(hw.integer("fifo_depth", 1, kMostDepth, c.fifo_depth));
   c.stall_seed = static_cast<std::uint64_t>(hw.integer("stall_seed", 0, INT64_MAX, 0));
   c.substeps = static_cast<int>(hw.integer("substeps", 1, kMostSubsteps, c.substeps));
+  c.tile = static_cast<int>(hw.integer("tile", 0, kMostTile, c.tile));
+  if (c.tile % c.lanes != 0)
+    hw.fail("tile",
+            " = " + std::to_string(c.tile) + " is not a multiple of lanes = " + std::to_string(c.lanes));
   c.overlap = hw.integer("overlap", 0, 1, c.overlap ? 1 : 0) == 1;
 }
 

@@ -72,7 +72,7 @@ struct Passage {
 inline void scatter(const LookRegisters& look, Passage& of, const Rgb& before, const Rgb& color) {
   of.passed = passed_of(look, of.left);
   for (std::size_t c = 0; c < 3; ++c) of.scattered[c] += (before[c] - of.passed[c]) * color[c];
-  check_wires<28>(of.scattered);
+  for (const std::int32_t one : of.scattered) static_cast<void>(SInt<29>(one));
 }
 inline void pass_surface(const LookRegisters& look, Passage& of, const Rgb& gleam, const Rgb& body,
                          std::int64_t more, std::int64_t obstacle) {
@@ -96,7 +96,7 @@ inline void pass_way(const LookRegisters& look, Passage& of, std::int64_t way, c
 inline Rgb seen_through(const LookRegisters& look, const Passage& of, bool on_ground, const Rgb& behind) {
   Rgb light{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const UInt<31> passes = std::int64_t{of.passed[c]} * behind[c];
+    const SInt<32> passes = std::int64_t{of.passed[c]} * behind[c];
     const std::int64_t sum =
         of.mirrored[c] + ((of.scattered[c] + (on_ground ? std::int64_t{passes} : 0)) >> 15);
     const std::int64_t pressed = look.tone[static_cast<std::size_t>(std::clamp<std::int64_t>(sum, 0, 12287))];

@@ -40,7 +40,8 @@ class Costs {
       : c_(c),
         registers_(registers),
         memory_(memory),
-        context_{bits_for(c.rays - 1), bits_for(c.tiles - 1)} {}
+        clear_(registers.look.clear),
+        context_{bits_for(c.rays - 1), bits_for(c.tiles - 1), clear_} {}
 
   PipeCost all() {
     channels();
@@ -77,9 +78,9 @@ class Costs {
     channel("sample -> walk", bits_of_token(LevelToken{}, context_));
     channel("sample -> crossing", bits_of_token(LevelToken{}, context_));
     channel("walk -> crossing", bits_of_token(HitToken{}, context_), c_.rays);
-    channel("walk -> met", bits_of_token(MetToken{}, context_));
-    channel("crossing -> met", bits_of_token(MetToken{}, context_));
-    channel("met -> normal", surface(Behind::met));
+    channel(clear_ ? "walk -> stretch" : "walk -> met", bits_of_token(MetToken{}, context_));
+    channel(clear_ ? "crossing -> stretch" : "crossing -> met", bits_of_token(MetToken{}, context_));
+    channel(clear_ ? "stretch -> normal" : "met -> normal", surface(Behind::met));
     channel("normal -> paint", surface(Behind::normal));
     channel("ground -> heights", clamped());
     channel("heights -> ground", clamped() + kColumns * 2 * 24);  // drawn and bare
@@ -95,7 +96,7 @@ class Costs {
     channel("light -> arriving", surface(Behind::light));
     channel("arriving -> mirror", surface(Behind::arriving));
     channel("mirror -> colour", surface(Behind::mirror));
-    channel("colour -> press", surface(Behind::colour));
+    channel(clear_ ? "colour -> passed" : "colour -> press", surface(Behind::colour));
     channel("press -> pixel", bits_of_token(PressedToken{}, context_));
     channel("pixel -> write", bits_of_token(PixelToken{}, context_));
     channel("levels -> memory port", slot_bits(c_.levels) + kAddress);
@@ -105,6 +106,14 @@ class Costs {
     channel("texels -> memory port", slot_bits(c_.ground) + kAddress);
     channel("tiles -> memory port", bits_for(4) + kAddress);
     channel("write -> memory port", kAddress + 8 * kBurst);
+    if (!clear_) return;
+    channel("stretch -> ask", ask);
+    channel("sample -> stretch", bits_of_token(LevelToken{}, context_));
+    int exit = 0;
+    wires_of_exit(HitToken{}, context_, [&](int bits, bool, std::int64_t) { exit += bits; });
+    channel("stretch -> crossing", exit, c_.rays);
+    channel("stretch -> walk", bits_of_token(OnwardToken{}, context_), c_.rays);
+    channel("passed -> press", bits_of_token(PassedToken{}, context_));
   }
 
   // Tag: what of a line's number its set does not tell, its slot, and its place in the order of use.
@@ -132,10 +141,11 @@ class Costs {
   void contexts() {
     const int ray = bits_of_token(GroundedRay{}, context_), position = 3 * 32;
     // Behind the ray: position, three inverses, k, its end, the slope bound, what is known of a sample.
-    memory("walk", "rays", c_.rays, ray + position + 3 * (12 + 6) + 27 + 27 + 8 + 27 + 16);
+    memory("walk", "rays", c_.rays, ray + position + 3 * (12 + 6) + 27 + 27 + 8 + 27 + 16 + (clear_ ? 1 : 0));
     memory("walk", "queues", std::int64_t{4} * c_.rays, context_.rays);
     memory("crossing", "rays", c_.rays, bits_of_token(HitToken{}, context_) + 2 * position + 16 + 15 + 3 + 2);
     memory("crossing", "queues", std::int64_t{2} * c_.rays, context_.rays);
+    if (clear_) clear_contexts();
     constexpr int kSearches = PipeOf<NoFaults>::kSearches, kWaiting = PipeOf<NoFaults>::kWaiting;
     if (registers_.ground.any) {
       memory("ground", "rays", kSearches, bits_of_token(RayToken{}, context_) + 3 * 36 + 3 * 18);
@@ -152,13 +162,33 @@ class Costs {
     memory("pixel", "bytes of tiles", c_.tiles, 8 * kTileBytes);
   }
 
+  // A place for each ray of the walk.
+  void clear_contexts() {
+    const int ground = bits_of_token(GroundHit{}), position = 3 * 32;
+    // Behind the ray: to_eye, the length of a step, k, its position and level, the level beyond, whether it
+    // is the first matter; of a stretch its steps and its way; three events, how many, and what comes then.
+    const int event = 2 + 1 + position + 18;
+    memory("stretch", "rays", c_.rays,
+           bits_of_token(RayId{}, context_) + 3 * 20 + ground + 3 * 16 + 15 + 27 + position + 15 + 16 + 1 +
+               bits_for(std::int64_t{1} << registers_.camera.spacing) + 18 + 3 * event + 2 * 2 + 2);
+    memory("stretch", "queues", std::int64_t{4} * c_.rays, context_.rays);
+    // What surfaces and ways have left; what passes, is mirrored and scattered; whether nothing passes.
+    memory("passed", "rays", c_.rays, 13 + 27 + 3 * (16 + 31 + 29) + 1);
+  }
+
   // As many copies as are read in a cycle.
   void tables() {
     const auto size = [](const auto& of) { return static_cast<std::int64_t>(of.size()); };
     memory("walk", "reciprocals", 3 * size(kReciprocals), 12);
     memory("walk", "rises", size(kRises), 20);
     memory("walk", "skip map", size(registers_.skip.words), 9);
-    for (const char* stage : {"met", "normal", "paint", "texture", "mirror"})
+    if (clear_) {
+      memory("stretch", "inverse root", 2 * size(kInverseRoot), 16);  // two rays may begin
+      memory("passed", "passing", 3 * size(kPassing), 16);
+    } else {
+      memory("met", "inverse root", size(kInverseRoot), 16);
+    }
+    for (const char* stage : {"normal", "paint", "texture", "mirror"})
       memory(stage, "inverse root", size(kInverseRoot), 16);
     std::int64_t bends = 0;
     for (const auto& bend : registers_.ground.bends) bends += size(bend);
@@ -196,24 +226,34 @@ class Costs {
     stage("walk", 9 * c_.walkers + 7);
     stage("sample", 7 * kBlend);
     stage("crossing", 3, 1);
-    stage("met", kUnit);
+    if (clear_) {
+      // Two rays may begin, by a direction and a length; a surface is up to two parts of a step, a sample
+      // one.
+      stage("stretch", 2 * (kUnit + 3) + 2 + 1);
+      // Losses 3, gleam 3, two surfaces' losses, frost 1, what passes before and after 6, scattered 3.
+      stage("passed", 3 + 3 + 2 + 1 + 6 + 3);
+    } else {
+      stage("met", kUnit);
+    }
     stage("normal", 90 + 6 + kUnit);  // the spline, its squares, the length
     stage("paint", 2 * kBlend + 3);
     stage("texture", 5 * 3 * kBlend + kUnit);
     stage("matter", 3 * 7 * kBlend);
     stage("light", 13 * 7 * kBlend);
-    // Mixing 20, glow 9; facing 3, lit 1, sides 3 + 3 + 3, light 3 x (ambient 2, lamp 1).
-    stage("arriving", 20 + (registers_.look.glow ? 9 + 3 : 0) + 3 + 1 + 3 + 3 + 9);
+    // Mixing 20, glow 9; facing 3, lit 1, sides 3 + 3 + 3, light 3 x (ambient 2, lamp 1). In matter 3 x 3.
+    stage("arriving", 20 + (registers_.look.glow ? 9 + 3 : 0) + 3 + 1 + 3 + 3 + 9 + (clear_ ? 9 : 0));
     // Half way 7, shine 3, tables 3, three smooth steps 6, peak 2, eye 3, graze 3, gloss 1, reflected 3, free
-    // 6 + 6 + 1, lamp and strip 6, around 6.
-    stage("mirror", 56, 3);
-    stage("colour", 3 * 6 + 1);
-    stage("press"), stage("pixel"), stage("write"), stage("memory port");
+    // 6 + 6 + 1, lamp and strip 6, around 6. From within, facing 3.
+    stage("mirror", 56 + (clear_ ? 3 : 0), 3);
+    stage("colour", clear_ ? 3 * 5 : 3 * 6 + 1);  // emission is of opaque matter
+    stage("press", clear_ ? 3 : 0);
+    stage("pixel"), stage("write"), stage("memory port");
   }
 
   const Configuration& c_;
   const Registers& registers_;
   const Memory& memory_;
+  bool clear_;
   ContextBits context_;
   PipeCost cost_;
 };

@@ -111,7 +111,8 @@ class GroundStage final : public Stage {
   void pass(int i) {
     Search& of = at(i);
     ++of.steps;
-    const auto samples = samples_above(registers_.ground.blocks, of.searcher, at_part(of.ray.ray, of.part));
+    auto samples = samples_above(registers_.ground.blocks, of.searcher, at_part(of.ray.ray, of.part));
+    faults_.passes_blocks(of.ray, of.part, samples);
     if (!samples) return ready_.push_back(i);
     go_on(i, *samples);
   }

@@ -11,9 +11,11 @@ struct NoFaults {
   // a channel between stages; those of pipe `number` to the dealer and from the memory
   static void made(auto&&...) {}
   static void connected(auto&&...) {}
-  // tiles: the pixels that are to be drawn; set-up: the ray that leaves; ground: what it met
+  // tiles: the pixels that are to be drawn; set-up: the ray that leaves; ground: how many samples it leaves
+  // out, and what it met
   static void chosen(auto&&...) {}
   static void set_up(auto&&...) {}
+  static void passes_blocks(auto&&...) {}
   static void grounded(auto&&...) {}
   // walk: a ray that begins; how many samples it leaves out; what it asks for; is its sample in matter?
   static void begun(auto&&...) {}

@@ -64,7 +64,7 @@ class PassedStage final : public Stage {
   Fifo<PassedToken>* out_ = nullptr;
 };
 
-// Takes the place of the stage that presses the light of opaque matter: six products, and the same table.
+// Takes the place of the stage that presses the light of opaque matter: three products, and the same table.
 template <class Faults = NoFaults>
 class ClearPressStage final : public Stage {
  public:

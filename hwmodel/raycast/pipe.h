@@ -78,7 +78,9 @@ struct Watchers {
   FifoWatcher<TileJob>* jobs = nullptr;
   FifoWatcher<LineRequest>* requests = nullptr;
   FifoWatcher<LineReply>* replies = nullptr;
+  // Of clear matter.
   FifoWatcher<PassedToken>* passed = nullptr;
+  FifoWatcher<OnwardToken>* onward = nullptr;
 };
 
 class Pipe {

@@ -257,17 +257,18 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
   Fifo<LevelToken>* stretch_levels = nullptr;
   Fifo<HitToken>* exits = nullptr;
   Fifo<PassedToken>* passed = nullptr;
+  Fifo<OnwardToken>* onward = nullptr;
   if (clear_) {
     auto& stretch_asks = channel<LevelRequest>(Channel::stretch_asks, "stretch -> ask");
     stretch_levels = &channel<LevelToken>(Channel::stretch_levels, "sample -> stretch");
     exits = &channel<HitToken>(Channel::exits, "stretch -> crossing", rays);
-    auto& onward = channel<OnwardToken>(Channel::onward, "stretch -> walk", rays);
+    onward = &channel<OnwardToken>(Channel::onward, "stretch -> walk", rays);
     passed = &channel<PassedToken>(Channel::passed, "passed -> press");
     askers.insert(askers.end() - 1, &stretch_asks);
     sample_.connect_stretch(*stretch_levels);
     crossing_.connect_exits(*exits);
-    walk_.connect_onward(onward);
-    clear_->stretch.connect(missed, crossed, stretch_asks, *stretch_levels, *exits, onward, met);
+    walk_.connect_onward(*onward);
+    clear_->stretch.connect(missed, crossed, stretch_asks, *stretch_levels, *exits, *onward, met);
     clear_->passed.connect(colour, *passed);
     clear_->press.connect(*passed, pressed);
   } else {
@@ -300,7 +301,7 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
             crossing_levels = &crossing_levels, hits = &hits, missed = &missed, crossed = &crossed,
             surfaces =
                 std::vector{&met, &normal, &paint, &texture, &matter, &light, &arriving, &mirror, &colour},
-            pressed = &pressed, pixels = &pixels, stretch_levels, exits, passed](const Watchers& w) {
+            pressed = &pressed, pixels = &pixels, stretch_levels, exits, passed, onward](const Watchers& w) {
     orders->watch(w.tiles), written->watch(w.written), set_up->watch(w.set_up), ground->watch(w.ground),
         asks->watch(w.asks);
     levels->watch(w.levels), normal_levels->watch(w.levels);
@@ -310,6 +311,7 @@ void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory,
     pressed->watch(w.pressed), pixels->watch(w.pixels);
     if (passed == nullptr) return;
     stretch_levels->watch(w.samples), exits->watch(w.hits), passed->watch(w.passed);
+    onward->watch(w.onward);
   };
 }
 

@@ -55,7 +55,7 @@ inline std::int64_t seen(const std::array<std::int32_t, 6>& sides, Vec r) {
   return std::min<std::int64_t>((part(r.x, 0) + part(r.y, 1) + part(r.z, 2)) >> 14, 255);
 }
 
-// What reaches a surface.
+// What reaches a surface. A normal that is a unit too long may get an ambient light of -1.
 struct Arriving {
   std::int64_t lamp = 0, facing = 0, lit = 0;
   Rgb light{};
@@ -71,7 +71,7 @@ inline Arriving arriving_of(const LookRegisters& look, Vec normal, const Light& 
     const std::int64_t ambient =
         look.from_below[c] + (((look.from_above[c] - look.from_below[c]) * (normal.y + (1 << 14))) >> 15);
     of.light[c] = static_cast<std::int32_t>(
-        UInt<16>(((ambient * open) >> 8) + ((look.lamp[c] * of.lit) >> 14) + ((kGlow[c] * glow) >> 5)));
+        SInt<17>(((ambient * open) >> 8) + ((look.lamp[c] * of.lit) >> 14) + ((kGlow[c] * glow) >> 5)));
   }
   return of;
 }
@@ -168,7 +168,7 @@ inline Rgb matter_color(const Arriving& arriving, const Mixture& of, const Mirro
   const Rgb body = scattered_color(arriving, of.material.diffuse), gleam = gleam_of(of, mirror);
   Rgb sum{};
   for (std::size_t c = 0; c < 3; ++c)
-    sum[c] = static_cast<std::int32_t>(UInt<17>(
+    sum[c] = static_cast<std::int32_t>(SInt<18>(
         std::int64_t{body[c]} + gleam[c] + ((of.emission[c] * (2540 + ((1556 * mirror.eye) >> 14))) >> 12)));
   return sum;
 }

@@ -12,9 +12,10 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// Wires whose number depends on the configuration.
+// What wires depend on: the configuration, and whether matter is clear.
 struct ContextBits {
   int rays = 6, buffers = 2;  // numbers of rays under way, and of tile buffers
+  bool clear = false;         // a ray goes on through matter, and a surface is an event on it
 };
 
 template <class Visit>
@@ -22,8 +23,8 @@ void vector_wires(const Vec& v, int bits, Visit&& visit) {
   visit(bits, true, v.x), visit(bits, true, v.y), visit(bits, true, v.z);
 }
 template <class Visit>
-void color_wires(const Rgb& c, int bits, Visit&& visit) {
-  for (const std::int32_t one : c) visit(bits, false, std::int64_t{one});
+void color_wires(const Rgb& c, int bits, Visit&& visit, bool has_sign = false) {
+  for (const std::int32_t one : c) visit(bits, has_sign, std::int64_t{one});
 }
 template <class Visit>
 void wires_of(const RayId& id, const ContextBits& of, Visit&& visit) {
@@ -86,6 +87,23 @@ void wires_of(const HitToken& hit, const ContextBits& of, Visit&& visit) {
   vector_wires(hit.at, 32, visit);
   visit(15, false, hit.level), visit(1, false, hit.knows_before ? 1 : 0);
   visit(16, true, hit.knows_before ? hit.before : 0);
+  if (of.clear) visit(1, false, hit.span == 0 ? 1 : 0);  // the ray's first matter
+}
+// Of a ray that leaves matter: the rest of it has stayed in the stretch.
+template <class Visit>
+void wires_of_exit(const HitToken& hit, const ContextBits& of, Visit&& visit) {
+  visit(of.rays, false, hit.context);
+  vector_wires(hit.ray.ray.step, 20, visit);
+  visit(27, false, hit.k);
+  vector_wires(hit.at, 32, visit);
+  visit(15, false, hit.level), visit(16, true, hit.before);
+}
+template <class Visit>
+void wires_of(const OnwardToken& token, const ContextBits& of, Visit&& visit) {
+  visit(of.rays, false, token.context);
+  visit(27, false, token.k);
+  vector_wires(token.at, 32, visit);
+  visit(16, true, token.level);
 }
 template <class Visit>
 void wires_of(const MetToken& met, const ContextBits& of, Visit&& visit) {
@@ -95,6 +113,19 @@ void wires_of(const MetToken& met, const ContextBits& of, Visit&& visit) {
   visit(1, false, met.matter.found ? 1 : 0);
   visit(27, false, met.matter.sample), visit(12, false, met.matter.part);
   vector_wires(met.matter.position, 32, visit);
+  if (!of.clear) return;
+  visit(of.rays, false, met.context);
+  visit(1, false, met.span == 0 ? 1 : 0), visit(1, false, met.leaves ? 1 : 0);
+  visit(15, false, met.level);
+  vector_wires(met.at, 32, visit);
+}
+template <class Visit>
+void wires_of(const PassedToken& token, const ContextBits& of, Visit&& visit) {
+  wires_of(token.id, of, visit);
+  visit(1, false, token.on_ground ? 1 : 0);
+  color_wires(token.passage.passed, 16, visit);
+  color_wires(token.passage.mirrored, 31, visit), color_wires(token.passage.scattered, 29, visit, true);
+  color_wires(token.behind, 18, visit, true);
 }
 template <class Visit>
 void wires_of(const PressedToken& token, const ContextBits& of, Visit&& visit) {
@@ -126,25 +157,33 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& of, Visit&& vis
   }
   if (stage == Behind::light) {
     visit(8, false, s.light.lamp);
-    for (const std::int32_t glow : s.light.glow) visit(8, false, glow);
+    if (!of.clear)  // it does not glow
+      for (const std::int32_t glow : s.light.glow) visit(8, false, glow);
   }
   if (from(Behind::light) && until(Behind::arriving))
     for (const std::int32_t open : s.light.open) visit(8, false, open);
   if (from(Behind::arriving) && until(Behind::mirror)) {
-    color_wires(s.arriving.light, 16, visit);
+    color_wires(s.arriving.light, 17, visit, true);
     color_wires(s.mixture.material.diffuse, 13, visit), color_wires(s.mixture.material.mirror, 13, visit);
-    color_wires(s.mixture.material.highlight, 13, visit), color_wires(s.mixture.emission, 14, visit);
+    color_wires(s.mixture.material.highlight, 13, visit);
+    if (!of.clear) color_wires(s.mixture.emission, 14, visit);
   }
+  if (stage == Behind::arriving || (of.clear && from(Behind::mirror))) visit(13, false, s.mixture.w);
   if (stage == Behind::arriving) {
     visit(9, false, s.arriving.lamp), visit(16, true, s.arriving.facing);
-    visit(13, false, s.mixture.w), visit(12, false, s.mixture.material.gloss);
+    visit(12, false, s.mixture.material.gloss);
   }
   if (stage == Behind::mirror) {
-    visit(13, false, s.mirrored.peak), visit(15, false, s.mirrored.eye);
-    visit(13, false, s.mirrored.more), visit(13, false, s.mirrored.free);
+    visit(13, false, s.mirrored.peak), visit(13, false, s.mirrored.free);
+    if (!of.clear) visit(15, false, s.mirrored.eye);
     color_wires(s.mirrored.around, 15, visit);
   }
-  if (stage == Behind::colour) color_wires(s.sum, 17, visit);
+  if (stage == Behind::mirror || (of.clear && stage == Behind::colour)) visit(13, false, s.mirrored.more);
+  if (stage == Behind::colour) color_wires(s.sum, 18, visit, true);
+  if (!of.clear) return;
+  visit(of.rays, false, s.clear.context), visit(18, false, s.clear.way);
+  if (until(Behind::arriving)) visit(1, false, s.clear.leaves ? 1 : 0);
+  if (stage == Behind::colour) color_wires(s.clear.gleam, 15, visit);
 }
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -92,7 +92,7 @@ class Apply final : public Stage {
       }
 
     Flowing* north = ends ? border_.data() : now;  // of the plane that goes
-    Flowing* west = came().x > 0 ? (ends ? north : line_.tap(column_)) + lanes() - 1 : nullptr;
+    Flowing* west = came().has_west() ? (ends ? north : line_.tap(column_)) + lanes() - 1 : nullptr;
     Flowing* south_west =
         west != nullptr && south != nullptr ? line_.tap(plane_ + column_) + lanes() - 1 : nullptr;
     if (south != nullptr)

@@ -103,7 +103,7 @@ class ConductionPass : public Stage {
     if ((span & kBelow) != 0 && came().y == 0) return;
     if ((span & kSouth) != 0 && came().z == 0) return;
     compute_at(0, 0);
-    if (came().x > 0 || (span & kWest) == 0) visit(word(p, 0), word(q, 0));
+    if (came().has_west() || (span & kWest) == 0) visit(word(p, 0), word(q, 0));
     HeatWord *ps = rows_[p & ~kWest], *qs = rows_[q & ~kWest];
     constexpr int p_west = (p & kWest) != 0, q_west = (q & kWest) != 0;
     for (int lane = 1; lane < lanes(); ++lane) {

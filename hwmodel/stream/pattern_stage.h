@@ -73,7 +73,7 @@ class Pattern final : public Stage {
         find_limits(south[lane], above_floor && below[lane].state == State::air);
     }
     Giver* north = ends ? border_.data() : now;  // of the plane that goes
-    Giver* west = came().x > 0 ? (ends ? north : line_.tap(column_)) + lanes() - 1 : nullptr;
+    Giver* west = came().has_west() ? (ends ? north : line_.tap(column_)) + lanes() - 1 : nullptr;
     Giver* south_west =
         west != nullptr && south != nullptr ? line_.tap(plane_ + column_) + lanes() - 1 : nullptr;
     for (const int lane : each_lane(ends ? shape().plane() : 0)) {

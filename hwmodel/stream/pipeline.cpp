@@ -7,6 +7,7 @@
 
 #include "hwmodel/process/process.h"
 #include "hwmodel/stream/blocks.h"
+#include "hwmodel/stream/tiling.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -20,10 +21,11 @@ struct Pipeline::Machine {
   Machine(const rule::Parameters& parameters, state::Grid grid, const Configuration& c,
           const StageMaker& make)
       : configuration(c),
-        design{parameters, {grid, c.lanes}, c.substeps},
+        design(design_of(parameters, grid, c)),
         clock("clock", 1, sc_core::SC_NS),
-        reader(design.shape),
-        writer(design.shape) {
+        memory(design.shape.tiled()),
+        reader(design.shape, memory),
+        writer(design.shape, memory) {
     const bool fed = design.hot() && parameters.heat.radiation;
     for (int t = 0; t < c.cascade; ++t) {
       const int channel = t == 0 ? 1 : steps.back()->out_channel() + 1;
@@ -99,10 +101,10 @@ struct Pipeline::Machine {
   void follow(const std::optional<Pass>& pass) {
     if (!pass) return;
     begin(*pass, false);
-    reader.add_pass();
-    writer.add_pass();
+    reader.add_pass(pass->tile);
+    writer.add_pass(pass->tile);
     for (std::size_t t = 0; t < feeds.size(); ++t)
-      if (fed(*pass, t)) feeds[t]->add_pass();
+      if (fed(*pass, t)) feeds[t]->add_pass(pass->tile);
   }
 
   // Runs once a cycle.
@@ -136,6 +138,7 @@ struct Pipeline::Machine {
   Configuration configuration;
   Design design;
   sc_core::sc_clock clock;
+  StateMemory memory;
   Reader reader;
   Writer writer;
   std::vector<std::unique_ptr<StepBlock>> steps;
@@ -161,6 +164,14 @@ void Pipeline::poll(std::function<void()> poll) { machine_->poll = std::move(pol
 
 void Pipeline::stop() { machine_->shared.end(); }
 
+void Pipeline::plant(PortFault* fault) {
+  machine_->reader.plant(fault);
+  machine_->writer.plant(fault);
+}
+
+const Books& Pipeline::books() const { return machine_->writer.books(); }
+const state::Volume& Pipeline::written() const { return machine_->writer.written(); }
+
 std::vector<CellFifo*> Pipeline::channels_behind_stages(int cascade) {
   std::vector<CellFifo*> channels;
   machine_->steps.at(static_cast<std::size_t>(cascade))->for_each_output([&](CellFifo& fifo, const Stage&) {
@@ -185,17 +196,19 @@ PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const state::Fie
   m.next = next;
   m.for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.begin_pass(pass.first); });
   for (const auto& link : m.feed_links) link->fifo().begin_pass(pass.first);
-  m.reader.begin_pass(volume);
-  m.writer.begin_pass(volume);
+  m.memory.begin_train(volume);
+  m.reader.begin_pass(pass.tile);
+  m.writer.begin_pass(pass.tile);
   m.begin(pass, true);
   for (std::size_t t = 0; t < m.feeds.size(); ++t)
-    m.feeds[t]->begin_pass(m.fed(pass, t) ? irradiance : nullptr);
+    m.feeds[t]->begin_pass(m.fed(pass, t) ? irradiance : nullptr, pass.tile);
 
   m.context.enter();
   shared.first_cycle = m.ran ? Shared::now() + 1 : 0;
   m.ran = true;
   sc_core::sc_start();
   m.context.leave();
+  m.memory.end_train();
 
   if (shared.error) std::rethrow_exception(std::exchange(shared.error, nullptr));
   return {shared.last_cycle + 1, m.passes, shared.complete, shared.hangs};

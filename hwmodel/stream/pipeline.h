@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "hwmodel/stream/memory_ports.h"
 #include "hwmodel/stream/stages.h"
 #include "kernel/automaton/state/volume.h"
 
@@ -26,9 +27,11 @@ struct Configuration {
   std::uint64_t stall_seed = 0;  // 0: no stalls
   int substeps = 1;              // viscous law: copies of settle and spread in a time step
   bool overlap = true;           // may a pass enter while the last one drains?
+  int tile = 0;                  // cells along x that the memories hold, in whole blocks; 0: the grid
 };
 
-inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024, kMostSubsteps = 64;
+inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024, kMostSubsteps = 64,
+                     kMostTile = 65536;
 
 // A channel: those of the main stream in its order, then the feeds.
 struct ChannelReport {
@@ -52,7 +55,7 @@ struct StageReport {
 // How a train of passes ended.
 struct PassEnd {
   std::int64_t cycles = 0;
-  int passes = 0;         // that began
+  int passes = 0;         // that began; of a grid in tiles, every tile counts
   bool complete = false;  // else it was stopped by the watcher, or it hangs
   bool hangs = false;
 };
@@ -71,6 +74,9 @@ class Pipeline {
   void watch(FifoWatcher<Cell>* watcher);
   void stop();
   std::vector<CellFifo*> channels_behind_stages(int cascade);  // of one time step, for faults to be planted
+  void plant(PortFault* fault);                                // null: none
+  const Books& books() const;                                  // of the pass that has been written last
+  const state::Volume& written() const;                        // where the last token went
   void poll(std::function<void()> poll);  // called now and then during a pass; what it throws ends the pass
 
   // Where a value did not fit its wire, or an address its memory.
@@ -93,11 +99,12 @@ class Pipeline {
     std::int64_t cycle;
   };
 
-  // Streams `volume` once; what the pass does not use is bypassed. `irradiance`: null without radiation.
-  // Throws StageError.
+  // Streams a tile of `volume` once; what the pass does not use is bypassed. `irradiance`: null without
+  // radiation. Throws StageError.
   PassEnd run_pass(const Pass& pass, const state::Field<std::uint16_t>* irradiance, state::Volume& volume);
   // A train: when the last token of a pass has been read, `next` says which pass follows without a gap, if
-  // any. It must not have more steps than the one before, and `passes_overlap` (prediction.h) must hold.
+  // any: the next tile, where `tiles_follow` holds, or behind the last tile the first one of a pass that has
+  // no more steps, where `passes_overlap` does (prediction.h).
   using Next = std::function<std::optional<Pass>()>;
   PassEnd run_train(const Pass& first, const Next& next, const state::Field<std::uint16_t>* irradiance,
                     state::Volume& volume);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -10,14 +11,14 @@ Lag lag_of(StageKind kind, const Design& design) {
   switch (kind) {
     case conduction:  // the face towards +z
     case walls:       // the side towards +z
-      return {1, 0, 0};
+      return {1, 0, 0, 1};
     case edges:           // two axes at most
     case pattern:         // the diagonal towards +x, +z
     case apply:           // the same
     case viscous_spread:  // the same
-      return {1, 1, 0};
+      return {1, 1, 0, 1};
     case corners:
-      return {1, 1, 1};
+      return {1, 1, 1, 1};
     case convection:  // the cell above
       return {0, 0, 1};
     case gravity:  // the cell above; where films hang, also the one above that
@@ -33,6 +34,7 @@ namespace {
 
 struct Flow {
   std::int64_t interval, waits, channels;
+  std::int64_t longest = 0;  // lag of one stage, in tokens
 };
 Flow flow_of(const Design& design, const Configuration& configuration, const Pass& pass) {
   const std::vector<StageKind> stages = stages_of_step(design);
@@ -43,24 +45,52 @@ Flow flow_of(const Design& design, const Configuration& configuration, const Pas
     if (stage == StageKind::settle) ++copy;
     if (!pass.uses(stage, copy)) continue;
     const std::int64_t lag = lag_of(stage, design).tokens(design.shape);
+    flow.longest = std::max(flow.longest, lag);
     flow.waits += pass.steps * (lag < tokens ? interval * lag : interval * (tokens - 1) + lag - tokens + 1);
   }
   flow.channels = configuration.cascade * static_cast<std::int64_t>(stages.size()) + 1;
   return flow;
 }
 
+// The fewest tokens from that with which a cell was read to that with which it is read in the next pass: as
+// the owner read it first, for it writes the cell.
+std::int64_t shortest_return(const Shape& shape) {
+  const std::int64_t tiles = shape.tiles();
+  std::int64_t shortest = tiles * shape.tokens();
+  for (int k = 0; k < tiles; ++k) {
+    const int first = shape.first_block(k), owner = shape.owner(first + shape.blocks() - 1);
+    shortest = std::min(
+        shortest, (tiles + k - owner) * shape.tokens() + (shape.first_block(owner) - first) * shape.column());
+  }
+  return shortest;
+}
+
 }  // namespace
 
 std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, const Pass& first,
-                              std::int64_t passes) {
+                              std::int64_t streams) {
   const Flow flow = flow_of(design, configuration, first);
-  return flow.interval * (passes * design.shape.tokens() - 1) + flow.waits + flow.channels + 1;
+  return flow.interval * (streams * design.shape.tokens() - 1) + flow.waits + flow.channels + 1;
 }
 
 bool passes_overlap(const Design& design, const Configuration& configuration, const Pass& pass) {
   const Flow flow = flow_of(design, configuration, pass);
-  return configuration.overlap && pass.begins() && pass.ends() &&
-         flow.interval * design.shape.tokens() > flow.waits + flow.channels;
+  return configuration.overlap && pass.begins() && pass.ends() && tiles_follow(design, configuration, pass) &&
+         flow.interval * shortest_return(design.shape) > flow.waits + flow.channels;
+}
+
+bool tiles_follow(const Design& design, const Configuration& configuration, const Pass& pass) {
+  return configuration.overlap && flow_of(design, configuration, pass).longest < design.shape.tokens();
+}
+
+std::int64_t predicted_passes(const Design& design, const Configuration& configuration, const Pass& pass,
+                              std::int64_t passes) {
+  const std::int64_t tiles = design.shape.tiles();
+  if (passes_overlap(design, configuration, pass))
+    return predicted_cycles(design, configuration, pass, passes * tiles);
+  if (tiles_follow(design, configuration, pass))
+    return passes * predicted_cycles(design, configuration, pass, tiles);
+  return passes * tiles * predicted_cycles(design, configuration, pass);
 }
 
 }  // namespace voxmelt::hwmodel

@@ -17,17 +17,26 @@ namespace voxmelt::hwmodel {
 //   interval = 1; 2 where channels hold one token only
 //
 // In a train, the tokens of the next pass follow those of the last one: N is that of all of them, and the
-// waits are those of the first pass. Later ones have no more steps. What they leave out, they wait for.
+// waits are those of the first pass. Later ones have no more steps. What they leave out, they wait for. Each
+// tile is streamed like a pass: `streams` counts them.
 std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, const Pass& first,
-                              std::int64_t passes = 1);
+                              std::int64_t streams = 1);
+// Of so many equal passes of the whole grid, one after another.
+std::int64_t predicted_passes(const Design& design, const Configuration& configuration, const Pass& pass,
+                              std::int64_t passes);
 
-// May a pass of as many steps follow this one without a gap? The first token must come back before the reader
+// May a pass of as many steps follow this one without a gap? Every token must come back before the reader
 // asks for it again. Else stages would wait for tokens that wait in them.
 bool passes_overlap(const Design& design, const Configuration& configuration, const Pass& pass);
 
-// How many planes, columns and single tokens a stage must have seen before it can give its first cell.
+// May the next tile of a pass follow without a gap? No tile waits for another one of its pass. But no stage
+// may hold tokens of three tiles.
+bool tiles_follow(const Design& design, const Configuration& configuration, const Pass& pass);
+
+// How many planes, columns and single tokens a stage must have seen before it can give its first cell; and
+// how far along x the cells lie that it looks at.
 struct Lag {
-  int planes = 0, columns = 0, singles = 0;
+  int planes = 0, columns = 0, singles = 0, reach = 0;
   std::int64_t tokens(const Shape& shape) const {
     return planes * shape.plane() + columns * shape.column() + singles;
   }

@@ -7,17 +7,18 @@ namespace voxmelt::hwmodel {
 Stage::Stage(StageKind kind, const Design& design, std::int64_t lag)
     : kind_(kind), design_(design), lag_(lag) {}
 
-void Stage::begin_pass(step::Moment moment, bool bypass) {
-  passes_ = {{moment, bypass}};
+void Stage::begin_pass(step::Moment moment, bool bypass, int tile) {
+  passes_ = {{moment, bypass, tile}};
   coming_ = leaving_ = 0;
   moves_ = filled_ = 0;
-  came_ = left_ = {};
+  came_ = left_ = begin_of(shape(), tile);
   spot_delay_ = 0, spot_lane_ = 0;
 }
 
 Place Stage::place_at(std::int64_t delay) const {
   const std::int64_t tokens = shape().tokens(), ordinal = came_.ordinal - delay;
-  return place_of(shape(), std::clamp<std::int64_t>(ordinal < 0 ? ordinal + tokens : ordinal, 0, tokens - 1));
+  return place_of(shape(), std::clamp<std::int64_t>(ordinal < 0 ? ordinal + tokens : ordinal, 0, tokens - 1),
+                  tile_at(delay));
 }
 
 // All tokens of the pass have come. Where both passes work, the next one pushes the last one out. Where one
@@ -47,7 +48,7 @@ bool Stage::cycle() {
   }
   ++(!takes ? cycles_.fill_drain : bypass ? cycles_.bypassed : cycles_.busy);
 
-  if (next) ++coming_, came_ = {};
+  if (next) ++coming_, came_ = begin_of(shape(), passes_[coming_].tile);
   if (came_.ordinal == 0) {
     if (!overlaps()) filled_ = 0;
     begin_step();
@@ -64,7 +65,7 @@ bool Stage::cycle() {
   left_.next(shape());
   if (left_.ordinal < tokens) return true;
   ++leaving_;
-  left_ = {};
+  if (!done()) left_ = begin_of(shape(), passes_[leaving_].tile);
   moves_ = coming_ == leaving_ ? came_.ordinal : 0;
   return true;
 }

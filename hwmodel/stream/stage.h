@@ -2,7 +2,8 @@
 // only when its input has a token and its output has room (ready/valid). So any stall is harmless.
 //
 // Passes may follow one another without a gap. Then the stage takes tokens of a new pass while it still gives
-// those of the last one, and has two time steps at its two ends.
+// those of the last one, and has two time steps at its two ends. Of a grid in tiles, each tile is such a
+// pass.
 #pragma once
 
 #include <cstddef>
@@ -57,10 +58,11 @@ struct Units {
   int random_blocks = 0;              // per 8 lanes
 };
 
-// One pass, as a stage sees it. In bypass it hands its tokens on, without lag.
+// One pass of one tile, as a stage sees it. In bypass it hands its tokens on, without lag.
 struct StagePass {
   step::Moment moment{0};
   bool bypass = false;
+  int tile = 0;
 };
 
 // What depends on the time step: of the pass that comes, and of the one before it.
@@ -113,10 +115,10 @@ class Stage {
   void connect(CellFifo& in, CellFifo& out) { in_ = &in, out_ = &out; }
   virtual void feed(HeatFifo& /*feed*/) {}  // a second input, of irradiance: `exchange` has one
 
-  // A pass streams the whole grid once. The first one of a train finds the stage empty; those that are added
-  // while it runs follow without a gap.
-  void begin_pass(step::Moment moment, bool bypass);
-  void add_pass(step::Moment moment, bool bypass) { passes_.push_back({moment, bypass}); }
+  // A pass streams one tile once. The first one of a train finds the stage empty; those that are added while
+  // it runs follow without a gap.
+  void begin_pass(step::Moment moment, bool bypass, int tile = 0);
+  void add_pass(step::Moment moment, bool bypass, int tile = 0) { passes_.push_back({moment, bypass, tile}); }
   bool cycle();  // true if the stage moved
   bool done() const { return leaving_ == passes_.size(); }
 
@@ -134,8 +136,10 @@ class Stage {
   const Place& came() const { return came_; }
   const Place& leaving() const { return left_; }
   const StageCycles& cycles() const { return cycles_; }
+  std::int64_t spot_delay() const { return spot_delay_; }
   Spot spot() const { return {place_at(spot_delay_), spot_lane_}; }  // where it computes, or did last
   Place place_at(std::int64_t delay) const;  // of the token that came `delay` moves before the present one
+  int tile_at(std::int64_t delay) const { return passes_[coming_ - (of_last_pass(delay) ? 1 : 0)].tile; }
   virtual int output_bits() const { return design_.cell_bits(); }  // per lane, side bands included
   virtual std::vector<BufferCost> buffers() const { return {}; }
   virtual Units units() const { return {}; }

@@ -15,12 +15,14 @@ using StageMaker = std::function<std::unique_ptr<Stage>(StageKind, const Design&
 
 std::vector<StageKind> stages_of_step(const Design& design);
 
-// What one pass does: whole time steps, or a part of one with more sub-steps than the machine has copies of
-// settle and spread. Then the first pass has the stages before them, and the last one has gravity.
+// What one pass does with one tile: whole time steps, or a part of one with more sub-steps than the machine
+// has copies of settle and spread. Then the first pass has the stages before them, and the last one has
+// gravity.
 struct Pass {
   std::uint32_t first = 0;                   // number of the first time step
   int steps = 1;                             // 1..cascade
   int substep = 0, count = 1, substeps = 1;  // the first sub-step, how many, and of how many
+  int tile = 0;
 
   bool begins() const { return substep == 0; }
   bool ends() const { return substep + count == substeps; }

@@ -77,7 +77,7 @@ class ViscousSpread final : public Stage {
     read(south_.data(), south, lanes(), floor_.tap(blocks), x);
     read(&south_west_, last + end, 1, floor_.tap(blocks + 1) + end, x - 1);
 
-    const Tap* west = x > 0 ? &west_ : nullptr;
+    const Tap* west = came().has_west() ? &west_ : nullptr;
     const Tap* south_west = &south_west_;
     for (const int each : each_lane()) {
       const auto lane = static_cast<std::size_t>(each);

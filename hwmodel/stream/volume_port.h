@@ -29,18 +29,19 @@ inline void read_token(const state::Volume& volume, const Shape& shape, const Pl
   }
 }
 
+inline void write_cell(const Cell& cell, int x, int y, int z, state::Volume& volume) {
+  const state::Slot slot = volume.at(x, y, z);
+  volume.inert.set(x, y, z, cell.state == State::inert);
+  volume.solid.set(x, y, z, cell.state == State::solid);
+  volume.liquid.set(x, y, z, cell.state == State::liquid);
+  volume.amount[slot] = static_cast<std::uint16_t>(cell.amount);
+  volume.energy[slot] = static_cast<std::uint16_t>(cell.energy);
+  volume.heat[slot] = static_cast<std::uint16_t>(cell.heat);
+}
+
 inline void write_token(const Cell* lanes, const Shape& shape, const Place& place, state::Volume& volume) {
-  for (int lane = 0; lane < shape.lanes && place.x + lane < shape.grid.x; ++lane) {
-    const int x = place.x + lane;
-    const Cell& cell = lanes[lane];
-    const state::Slot slot = volume.at(x, place.y, place.z);
-    volume.inert.set(x, place.y, place.z, cell.state == State::inert);
-    volume.solid.set(x, place.y, place.z, cell.state == State::solid);
-    volume.liquid.set(x, place.y, place.z, cell.state == State::liquid);
-    volume.amount[slot] = static_cast<std::uint16_t>(cell.amount);
-    volume.energy[slot] = static_cast<std::uint16_t>(cell.energy);
-    volume.heat[slot] = static_cast<std::uint16_t>(cell.heat);
-  }
+  for (int lane = 0; lane < shape.lanes && place.x + lane < shape.grid.x; ++lane)
+    write_cell(lanes[lane], place.x + lane, place.y, place.z, volume);
 }
 
 }  // namespace voxmelt::hwmodel

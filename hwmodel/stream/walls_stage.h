@@ -42,7 +42,8 @@ class Walls final : public Stage {
     Cell* now = line_.tap(0);
     std::copy(in, in + lanes(), now);
     Cell* south = came().z > 0 ? line_.tap(line_.delay()) : nullptr;
-    Cell* west = came().x > 0 ? line_.tap(static_cast<std::size_t>(shape().column())) + lanes() - 1 : nullptr;
+    Cell* west =
+        came().has_west() ? line_.tap(static_cast<std::size_t>(shape().column())) + lanes() - 1 : nullptr;
     const bool at_north_end = came().z == shape().grid.z - 1;
     for (const int lane : each_lane()) {
       touch(*now, west);

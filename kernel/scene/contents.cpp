@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -71,6 +72,7 @@ void read_mesh_entry(Reader& reader, Entry& entry) {
   if (by_height && by_scale) reader.fail("scale", " and height exclude each other");
   const Range positive = above(0).at_most(kLargestScale);
   const double wanted = reader.number(by_scale ? "scale" : "height", positive);
+  entry.inside = static_cast<Inside>(reader.choice("inside", {"winding", "parity"}, 0));
   const Point at = to_point(reader.vector<3>("at", coordinate(), Vec3{}));
   const Rotation rotation(reader.vector<3>("rotate", within(kFullTurn), Vec3{}));
 
@@ -81,9 +83,10 @@ void read_mesh_entry(Reader& reader, Entry& entry) {
   if (by_height && !(tall > 0)) reader.fail("height", ": " + file.string() + " has no height to scale");
   const double scale = by_scale ? wanted : wanted / tall;
   const Point foot{(box.low.x + box.high.x) / 2, box.low.y, (box.low.z + box.high.z) / 2};
-  for (Point& vertex : mesh.vertices) {
-    vertex = (vertex - foot) * scale + at;
-    if (!(std::max({std::abs(vertex.x), std::abs(vertex.y), std::abs(vertex.z)}) <= kLargestMeshCoordinate))
+  for (Point& vertex : mesh.vertices) vertex = (vertex - foot) * scale + at;
+  for (const std::uint32_t corner : mesh.corners) {
+    const Point& p = mesh.vertices[corner];
+    if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kLargestMeshCoordinate))
       reader.fail("file",
                   fmt::format(": {} reaches farther than {} cells", file.string(), kLargestMeshCoordinate));
   }

@@ -31,7 +31,7 @@ class Build:
         shutil.rmtree(self.folder, ignore_errors=True)
         self.include = self.folder / "include"  # the libraries' headers, without those of this machine's own system
         self.include.mkdir(parents=True)
-        for library in ("xsimd", "gtest", "fmt", "toml++", "tiny_obj_loader.h"):
+        for library in ("xsimd", "gtest", "fmt", "toml++"):
             (self.include / library).symlink_to(HEADERS / library)
         self.own_objects = []
 

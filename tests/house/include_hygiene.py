@@ -34,7 +34,7 @@ TABLE = {
     "cstddef": "byte max_align_t nullptr_t ptrdiff_t size_t",
     "cstdint": "int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t intptr_t uintptr_t",
     "cstdio": "FILE fclose feof ferror fflush fgets fopen fprintf fputc fputs fread fseek fwrite printf puts remove rename snprintf",
-    "cstdlib": "abort abs aligned_alloc atoi atol atoll exit free getenv malloc quick_exit strtod strtol strtoll strtoul strtoull system",
+    "cstdlib": "abort abs aligned_alloc atoi atol atoll exit free getenv malloc quick_exit _Exit strtod strtol strtoll strtoul strtoull system",
     "cstring": "memchr memcmp memcpy memmove memset strchr strcmp strerror strlen strncmp strstr",
     "ctime": "clock clock_t time time_t gmtime strftime",
     "deque": "deque erase erase_if",

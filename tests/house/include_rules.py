@@ -86,7 +86,6 @@ THIRD_PARTY = {
     "tbb/": [CPU],
     "embree3/": ["render/visibility"],
     "toml++/": ["kernel/scene/text"],
-    "tiny_obj_loader": ["kernel/scene/shape"],
     "png.h": ["render/image"],
     "libdeflate": ["render/image"],
     "zstd.h": ["kernel/run/checkpoint"],

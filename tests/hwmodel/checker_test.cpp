@@ -262,7 +262,7 @@ TEST(Checker, AChannelThatChangesAnythingIsNamed) {
     Pipeline pipeline(start.parameters, start.volume.grid, {4, 2, 2, 0});
     Checker checker(pipeline);
     checker.begin_train();
-    checker.add_pass({30, {}, nullptr});
+    checker.add_pass({{.first = 30}, {}, nullptr, {}, nullptr});
     std::vector<Cell> lanes(4);
     checker.entered(2, 0, lanes.data());
     checker.left(2, 0, lanes.data());

@@ -98,6 +98,9 @@ TEST(Lockstep, CropsOfTheShowcase) {
     const Start start = crop(start_of(name, ahead), 24);
     ASSERT_GT(start.volume.liquid.count(), 100) << name;
     for (int i = 0; i < 3; ++i) ASSERT_TRUE(agrees(start, rows[row++ % rows.size()], 10));
+    Configuration tiled{row % 2 == 0 ? 1 : 2, 1, 2, 0};
+    tiled.tile = narrow(start, tiled, static_cast<int>(row % 3));
+    ASSERT_TRUE(agrees(start, tiled, 4));
   }
 }
 

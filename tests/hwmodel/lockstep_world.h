@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hwmodel/lockstep/verify.h"
+#include "hwmodel/stream/tiling.h"
 #include "kernel/scene/scene.h"
 #include "tests/kernel/engine/parallel/equal.h"
 
@@ -84,6 +85,13 @@ inline std::string name_of(const Configuration& c) {
   return "P " + std::to_string(c.lanes) + ", T " + std::to_string(c.cascade) + ", depth " +
          std::to_string(c.fifo_depth) + ", seed " + std::to_string(c.stall_seed) + ", sub-steps " +
          std::to_string(c.substeps);
+}
+
+// The narrowest tile that a configuration can have, and `more` blocks.
+inline int narrow(const Start& start, const Configuration& c, int more) {
+  const Design uncut{start.parameters, {start.volume.grid, c.lanes}, c.substeps};
+  const int halo = (c.cascade * reach_of_step(uncut) + c.lanes - 1) / c.lanes;
+  return (2 * halo + 1 + more) * c.lanes;
 }
 
 inline VerifyReport lockstep(const Start& start, const Configuration& configuration, std::uint32_t steps,

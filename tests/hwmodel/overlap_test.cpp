@@ -74,11 +74,13 @@ TEST(Overlap, ATokenIsReadOnlyWhenItHasBeenWritten) {
   const Shape shape{{1, 3, 1}, 1};
   state::Volume volume(shape.grid);
   for (const bool writer_first : {false, true}) {
-    Writer writer(shape);
-    Reader reader(shape);
+    StateMemory memory(false);
+    Writer writer(shape, memory);
+    Reader reader(shape, memory);
     CellFifo out("out", 0, 1, 8, 0), in("in", 1, 1, 8, 0);
     reader.connect(out, writer), writer.connect(in);
-    reader.begin_pass(volume), writer.begin_pass(volume);
+    memory.begin_train(volume);
+    reader.begin_pass(0), writer.begin_pass(0);
     std::int64_t now = 0;
     const auto cycle = [&](bool comes) {
       if (writer_first) writer.cycle(now);
@@ -92,7 +94,7 @@ TEST(Overlap, ATokenIsReadOnlyWhenItHasBeenWritten) {
     EXPECT_FALSE(cycle(false));
     EXPECT_FALSE(cycle(false));
     EXPECT_TRUE(cycle(false)) << "the last token of the pass";
-    reader.add_pass(), writer.add_pass();
+    reader.add_pass(0), writer.add_pass(0);
     cycle(true);   // a token comes to the writer
     cycle(false);  // it is written
     EXPECT_EQ(reader.cycles().busy, 3);

@@ -99,6 +99,7 @@ inline std::vector<MatrixRun> covering_array() {
 }
 inline std::vector<MatrixRun> full_product() {
   std::vector<MatrixRun> runs;
+  runs.reserve(3 * 3 * 3 * 2 * 2 * 2);
   for (int i = 0; i < 3 * 3 * 3 * 2 * 2 * 2; ++i)
     runs.push_back({i % 3, i / 3 % 3, i / 9 % 3, i / 27 % 2, i / 54 % 2, i / 108});
   return runs;

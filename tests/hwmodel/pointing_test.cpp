@@ -99,10 +99,11 @@ TEST(Pointing, EveryBandIsComparedBehindTheStageThatMakesIt) {
       {"limit", [](Cell& cell) { cell.limit = 1; }},
       {"mobility", [](Cell& cell) { cell.mobility = 1; }},
       {"dead zone", [](Cell& cell) { cell.dead = 1; }}};
-  for (const auto& [field, change] : changes) {
+  for (const auto& one : changes) {
+    const std::string& field = one.first;
     const VerifyReport report =
         verified(start, {4, 1, 2, 0}, 1, with_odd_melt([&](std::int64_t ordinal, Cell* out) {
-                   if (ordinal == 4) change(out[1]);
+                   if (ordinal == 4) one.second(out[1]);
                  }));
     ASSERT_NE(report.mismatch, nullptr) << field;
     EXPECT_EQ(report.mismatch->where, "melt");

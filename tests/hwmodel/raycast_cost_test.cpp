@@ -41,9 +41,10 @@ class Fits : public FifoWatcher<Token> {
       ++checked;
     };
     if constexpr (std::is_same_v<Token, Surface>)
-      wires_of(*token, behind(channel % 100), bits_, check);
-    else
-      wires_of(*token, bits_, check);
+      return wires_of(*token, behind(channel % 100), bits_, check);
+    else if constexpr (std::is_same_v<Token, HitToken>)
+      if (static_cast<Channel>(channel % 100) == Channel::exits) return wires_of_exit(*token, bits_, check);
+    if constexpr (!std::is_same_v<Token, Surface>) wires_of(*token, bits_, check);
   }
   std::set<std::string> wrong;
   std::int64_t checked = 0;
@@ -75,8 +76,8 @@ class Fits : public FifoWatcher<Token> {
 };
 
 struct AllFit {
-  explicit AllFit(const Configuration& c)
-      : bits{bits_for(c.rays - 1), bits_for(c.tiles - 1)},
+  AllFit(const Configuration& c, bool clear)
+      : bits{bits_for(c.rays - 1), bits_for(c.tiles - 1), clear},
         tiles(bits),
         set_up(bits),
         ground(bits),
@@ -87,18 +88,21 @@ struct AllFit {
         met(bits),
         surfaces(bits),
         pressed(bits),
-        pixels(bits) {}
+        pixels(bits),
+        passed(bits),
+        onward(bits) {}
   Watchers watchers() {
     Watchers w;
     w.tiles = &tiles, w.set_up = &set_up, w.ground = &ground, w.asks = &asks, w.levels = &levels;
     w.samples = &samples, w.hits = &hits, w.met = &met, w.surfaces = &surfaces, w.pressed = &pressed;
-    w.pixels = &pixels;
+    w.pixels = &pixels, w.passed = &passed, w.onward = &onward;
     return w;
   }
   template <class Visit>
   void for_each(Visit&& visit) {
     visit(tiles), visit(set_up), visit(ground), visit(asks), visit(levels), visit(samples), visit(hits);
     visit(met), visit(surfaces), visit(pressed), visit(pixels);
+    if (bits.clear) visit(passed), visit(onward);
   }
   ContextBits bits;
   Fits<TileOrder> tiles;
@@ -112,6 +116,8 @@ struct AllFit {
   Fits<Surface> surfaces;
   Fits<PressedToken> pressed;
   Fits<PixelToken> pixels;
+  Fits<PassedToken> passed;
+  Fits<OnwardToken> onward;
 };
 
 // What a hostile picture is drawn from.
@@ -126,18 +132,29 @@ struct Drawn {
   Uploader uploader;
 };
 
-TEST(Cost, EveryNumberFitsItsWire) {
+test::HostilePicture picture_of(std::uint64_t seed, bool clear) {
+  if (clear) return test::hostile_clear_picture(seed, 3000);
+  test::HostilePicture picture = test::hostile_picture(seed, 3000);
+  picture.look.clear = {};
+  return picture;
+}
+
+// Of opaque matter, and of clear matter.
+class CostOf : public testing::TestWithParam<bool> {};
+
+TEST_P(CostOf, EveryNumberFitsItsWire) {
+  const bool clear = GetParam();
   std::int64_t fewest = INT64_MAX;
   Configuration c;
   c.rays = 17, c.tiles = 3;
   std::map<int, std::int64_t> checked;
-  for (std::uint64_t seed = 0; seed < 120; ++seed) {
-    test::HostilePicture picture = test::hostile_picture(seed, 3000);
-    picture.look.clear = {};
-    if (picture.camera.width * picture.camera.height > 4000) continue;
+  for (std::uint64_t seed = 0; seed < (clear ? 60 : 120); ++seed) {
+    const test::HostilePicture picture = picture_of(seed, clear);
+    if (picture.camera.width * picture.camera.height > (clear ? 800 : 4000)) continue;
     Drawn drawn(picture, c);
+    ASSERT_EQ(drawn.uploader.registers().look.clear, clear);
     RayCaster caster(drawn.uploader.registers(), drawn.uploader.memory(), c);
-    AllFit all(c);
+    AllFit all(c, clear);
     caster.watch(all.watchers());
     ASSERT_TRUE(caster.draw_first().complete);
     ASSERT_TRUE(caster.draw_again(8, 16).complete);
@@ -148,13 +165,12 @@ TEST(Cost, EveryNumberFitsItsWire) {
     });
   }
   for (const auto& [which, count] : checked) fewest = std::min(fewest, count);
-  EXPECT_EQ(checked.size(), 11U);
+  EXPECT_EQ(checked.size(), clear ? 13U : 11U);
   EXPECT_GT(fewest, 1000) << "a kind of token was hardly seen";
 }
 
-TEST(Cost, EveryChannelAndStageHasItsRow) {
-  test::HostilePicture picture = test::hostile_picture(3, 3000);
-  picture.look.clear = {};
+TEST_P(CostOf, EveryChannelAndStageHasItsRow) {
+  const test::HostilePicture picture = picture_of(3, GetParam());
   Configuration c;
   c.fifo_depth = 3;
   Drawn drawn(picture, c);
@@ -175,6 +191,9 @@ TEST(Cost, EveryChannelAndStageHasItsRow) {
     EXPECT_GT(one.bits, 0) << one.name;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Matter, CostOf, testing::Bool(),
+                         [](const auto& chosen) { return std::string(chosen.param ? "Clear" : "Opaque"); });
 
 // By hand: two sets of two lines and eight to spare, 12 slots of four bits.
 TEST(Cost, ACacheIsItsLinesTagsAndQueue) {

@@ -115,6 +115,23 @@ TEST(RaycastShade, SidesAreSeenByTheSignOfADirection) {
   EXPECT_EQ(seen({255, 255, 255, 255, 255, 255}, {16500, 0, 300}), 255);  // a little longer than it should be
 }
 
+// A normal of 16385 downwards, and no light from below: 963 x (16384 - 16385) is -1 when it is shifted down.
+// What is scattered of it is -1, too.
+TEST(RaycastShade, ANormalThatIsTooLongMayGetLessThanNoLight) {
+  LookRegisters look = worked_look();
+  look.to_light = {0, 16384, 0};
+  look.from_below = {};
+  Light light;
+  light.open = {255, 255, 255, 255, 255, 255};
+  const Arriving arriving = arriving_of(look, {0, -16385, 0}, light, false);
+  EXPECT_EQ(arriving.lit, 0);
+  EXPECT_EQ(arriving.light, (Rgb{-1, -1, -1}));
+  EXPECT_EQ(scattered_color(arriving, {4096, 1, 1}), (Rgb{-1, -1, -1}));
+  Mixture mixture;
+  mixture.material.diffuse = {4096, 1, 1};
+  EXPECT_EQ(matter_color(arriving, mixture, {}), (Rgb{-1, -1, -1}));
+}
+
 TEST(RaycastShade, TheWorkedPixelsColour) {
   const LookRegisters look = worked_look();
   const Mixture mixture = mixture_of(look, {255, 0, 0});

@@ -288,6 +288,75 @@ TEST(Upload, EveryLayoutHoldsTheFieldAfterEveryStep) {
     }
 }
 
+// Air becomes solid or liquid: matter's bytes are 0 in the one, and not in the other.
+void toggle_cell(state::Volume& volume, int x, int y, int z) {
+  std::uint16_t& amount = volume.amount[volume.at(x, y, z)];
+  const bool fill = amount == 0, liquid = fill && (x + y + z) % 2 == 0;
+  volume.solid.set(x, y, z, fill && !liquid);
+  volume.liquid.set(x, y, z, liquid);
+  amount = fill ? 4096 : 0;
+}
+
+// Bricks of one cell that turn around which comes first: in the second update a brick is stored before the
+// others, whose places in memory change. Where matter keeps its old table, or does not, is seen at once.
+TEST(Upload, AnOldTableOfBricksIsFoundWithItsStep) {
+  scene::Look look;
+  look.smooth = look.smooth_solid = 0;
+  const picture::Camera camera = render::camera_in_integers({});
+  for (const bool planted : {false, true}) {
+    Uploader uploader{Configuration{}};
+    if (planted) uploader.plant({UploadFault::Kind::old_table, 2, {}});
+    state::Volume volume({40, 40, 40});
+    toggle_cell(volume, 20, 20, 20), toggle_cell(volume, 36, 36, 36);
+    render::DensityField field;
+    render::Picture picture;
+    for (int update = 0; update < 3; ++update) {
+      if (update > 0) toggle_cell(volume, 4, 4, 16 * update - 12);
+      field.update(volume, look, {}, 1);
+      const std::vector<std::uint32_t>* changed = update == 0 ? nullptr : &field.refreshed();
+      picture.update(field, look, {}, {}, changed, 1);
+      const render::PictureData data = picture.data(camera, render::Setting::fast);
+      uploader.update(data, changed);
+      const UploadComparison of = compare_upload(uploader.registers(), uploader.memory(), data);
+      ASSERT_EQ(of.first.has_value(), planted && update == 2) << update << ' ' << text(of, update);
+      if (of.first) {
+        EXPECT_EQ(of.first->volume, "matter");
+      }
+    }
+  }
+}
+
+// Bounds of the ground are compared with what each column demands: of each block, each of the three, and of
+// the blocks of 16 x 16 cells.
+TEST(Upload, AWrongBoundOfTheGroundIsFound) {
+  const Melt melt("lava", 0);
+  Uploader uploader{Configuration{}};
+  melt.send(uploader);
+  ASSERT_FALSE(melt.compare(uploader).first) << text(melt.compare(uploader), 0);
+  const Registers right = uploader.registers();
+  const auto found = [&](const Registers& wrong) {
+    const UploadComparison of = compare_upload(wrong, uploader.memory(), melt.data());
+    return of.first ? of.first->volume : "";
+  };
+  const std::size_t fine = right.ground.blocks.fine.size();
+  ASSERT_GT(fine, 50U);
+  for (const std::size_t i : {std::size_t{0}, fine / 2, fine - 1})
+    for (const int by : {-1, 1}) {
+      Registers wrong = right;
+      wrong.ground.blocks.fine[i].highest += by;
+      EXPECT_EQ(found(wrong), "bound of heights");
+      wrong = right;
+      wrong.ground.blocks.fine[i].slope_x += by;
+      EXPECT_EQ(found(wrong), "bound of slopes along x");
+      wrong = right;
+      wrong.ground.blocks.fine[i].slope_z += by;
+      EXPECT_EQ(found(wrong), "bound of slopes along z");
+    }
+  Registers wrong = right;
+  wrong.ground.blocks.coarse.back() -= 1;
+  EXPECT_EQ(found(wrong), "bound of heights, 16 x 16 cells");
+}
+
 // Lone cells at the sides of bricks come and go, without any filter: bricks are stored anew in rooms of
 // others, and an apron holds what no other listed brick has.
 TEST(Upload, LoneCellsThatComeAndGoAreWhereTheyShouldBe) {
@@ -308,10 +377,7 @@ TEST(Upload, LoneCellsThatComeAndGoAreWhereTheyShouldBe) {
       const auto coordinate = [&] {
         return static_cast<int>(8 * (random() % 5) + (random() % 4 < 3 ? 0 : random() % 8));
       };
-      const int x = coordinate(), y = coordinate(), z = coordinate();
-      const bool solid = !volume.solid.test(x, y, z);
-      volume.solid.set(x, y, z, solid);
-      volume.amount[volume.at(x, y, z)] = solid ? 4096 : 0;
+      toggle_cell(volume, coordinate(), coordinate(), coordinate());
     };
     for (int i = 0; i < 20; ++i) toggle();
     for (int step = 0; step < 60; ++step) {

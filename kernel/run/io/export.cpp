@@ -1,48 +1,61 @@
 #include "kernel/run/io/export.h"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <vector>
 
-#include "kernel/run/io/output_folder.h"
+#include "kernel/run/io/file_writer.h"
 
 namespace voxmelt::io {
 namespace {
 
-std::string bytes_of(const state::Field<std::uint16_t>& field, state::Grid g) {
-  std::string bytes;
-  bytes.reserve(g.cells() * sizeof(std::uint16_t));
-  for (int z = 0; z < g.z; ++z)
-    for (int y = 0; y < g.y; ++y)
-      bytes.append(reinterpret_cast<const char*>(field.row(y, z)),
-                   static_cast<std::size_t>(g.x) * sizeof(std::uint16_t));
-  return bytes;
-}
-
-std::string unpacked(const state::BitPlane& plane, state::Grid g) {
-  std::string bytes;
-  bytes.reserve(g.cells());
-  for (int z = 0; z < g.z; ++z)
-    for (int y = 0; y < g.y; ++y)
-      for (int x = 0; x < g.x; ++x) bytes += static_cast<char>(plane.test(x, y, z));
-  return bytes;
-}
-
-struct Field {
+// What a field is called in the files, and how one row of it is written.
+struct Column {
   const char* name;
   const char* npy_type;
   const char* vtk_type;
-  std::string bytes;
+  std::size_t bytes;  // of a cell
+  std::function<void(std::string& rows, int y, int z)> append_row;
 };
 
-// Each field is written in turn, so that only one copy exists at a time.
-void for_each_field(const state::Volume& v, const std::function<void(const Field&)>& visit) {
-  visit({"solid", "|u1", "UInt8", unpacked(v.solid, v.grid)});
-  visit({"liquid", "|u1", "UInt8", unpacked(v.liquid, v.grid)});
-  visit({"inert", "|u1", "UInt8", unpacked(v.inert, v.grid)});
-  visit({"amount", "<u2", "UInt16", bytes_of(v.amount, v.grid)});
-  visit({"energy", "<u2", "UInt16", bytes_of(v.energy, v.grid)});
-  visit({"heat", "<u2", "UInt16", bytes_of(v.heat, v.grid)});
+std::vector<Column> columns_of(const state::Volume& v) {
+  const int width = v.grid.x;
+  const auto mask = [width](const state::BitPlane& plane) {
+    return [width, &plane](std::string& rows, int y, int z) {
+      const std::size_t first = rows.size();
+      rows.resize(first + static_cast<std::size_t>(width));
+      const auto words = plane.row(y, z);
+      for (std::size_t w = 0; w < words.size(); ++w)
+        for (std::uint64_t left = words[w]; left != 0; left &= left - 1)
+          rows[first + 64 * w + static_cast<std::size_t>(std::countr_zero(left))] = 1;
+    };
+  };
+  const auto number = [width](const state::Field<std::uint16_t>& field) {
+    return [width, &field](std::string& rows, int y, int z) {
+      rows.append(reinterpret_cast<const char*>(field.row(y, z)),
+                  static_cast<std::size_t>(width) * sizeof(std::uint16_t));
+    };
+  };
+  return {{"solid", "|u1", "UInt8", 1, mask(v.solid)},      {"liquid", "|u1", "UInt8", 1, mask(v.liquid)},
+          {"inert", "|u1", "UInt8", 1, mask(v.inert)},      {"amount", "<u2", "UInt16", 2, number(v.amount)},
+          {"energy", "<u2", "UInt16", 2, number(v.energy)}, {"heat", "<u2", "UInt16", 2, number(v.heat)}};
+}
+
+// Some rows at a time, so that an export takes no memory to speak of beside the state.
+void write_rows(FileWriter& file, const Column& column, state::Grid g) {
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  std::string rows;
+  for (int z = 0; z < g.z; ++z)
+    for (int y = 0; y < g.y; ++y) {
+      column.append_row(rows, y, z);
+      if (rows.size() < piece) continue;
+      file.write(rows);
+      rows.clear();
+    }
+  file.write(rows);
 }
 
 std::string npy_header(const char* type, state::Grid g) {
@@ -60,32 +73,40 @@ std::string npy_header(const char* type, state::Grid g) {
 }  // namespace
 
 void export_npy(const state::Volume& volume, const std::filesystem::path& folder) {
-  for_each_field(volume, [&](const Field& field) {
-    write_file(folder / (std::string(field.name) + ".npy"),
-               npy_header(field.npy_type, volume.grid) + field.bytes);
-  });
+  for (const Column& column : columns_of(volume)) {
+    FileWriter file(folder / (std::string(column.name) + ".npy"));
+    file.write(npy_header(column.npy_type, volume.grid));
+    write_rows(file, column, volume.grid);
+    file.commit();
+  }
 }
 
 void export_vti(const state::Volume& volume, const std::filesystem::path& folder) {
   const state::Grid g = volume.grid;
   const std::string extent =
       "0 " + std::to_string(g.x) + " 0 " + std::to_string(g.y) + " 0 " + std::to_string(g.z);
-  std::string arrays, data;
-  for_each_field(volume, [&](const Field& field) {
-    arrays += std::string("        <DataArray type=\"") + field.vtk_type + "\" Name=\"" + field.name +
-              "\" format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"/>\n";
-    const std::uint64_t size = field.bytes.size();
-    data.append(reinterpret_cast<const char*>(&size), sizeof size);
-    data += field.bytes;
-  });
-  write_file(
-      folder / "volume.vti",
+  const std::vector<Column> columns = columns_of(volume);
+  std::string arrays;
+  std::uint64_t offset = 0;
+  for (const Column& column : columns) {
+    arrays += std::string("        <DataArray type=\"") + column.vtk_type + "\" Name=\"" + column.name +
+              "\" format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
+    offset += sizeof offset + g.cells() * column.bytes;
+  }
+  FileWriter file(folder / "volume.vti");
+  file.write(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n  <ImageData WholeExtent=\"" +
-          extent + "\" Origin=\"0 0 0\" Spacing=\"1 1 1\">\n    <Piece Extent=\"" + extent +
-          "\">\n      <CellData Scalars=\"amount\">\n" + arrays +
-          "      </CellData>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_" + data +
-          "\n  </AppendedData>\n</VTKFile>\n");
+      extent + "\" Origin=\"0 0 0\" Spacing=\"1 1 1\">\n    <Piece Extent=\"" + extent +
+      "\">\n      <CellData Scalars=\"amount\">\n" + arrays +
+      "      </CellData>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_");
+  for (const Column& column : columns) {
+    const std::uint64_t size = g.cells() * column.bytes;
+    file.write({reinterpret_cast<const char*>(&size), sizeof size});
+    write_rows(file, column, g);
+  }
+  file.write("\n  </AppendedData>\n</VTKFile>\n");
+  file.commit();
 }
 
 }  // namespace voxmelt::io

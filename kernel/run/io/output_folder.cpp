@@ -5,10 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <string>
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <set>
 #include <system_error>
@@ -24,11 +24,6 @@ namespace fs = std::filesystem;
 constexpr const char* kMarker = ".voxmelt-output";
 constexpr const char* kReserve = ".voxmelt-reserve";  // room for report and marker when the disk is full
 constexpr std::size_t kReserved = std::size_t{256} << 10;
-
-[[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
-  throw OutputError(path.string() + ": error: " + what + ": " + std::strerror(error),
-                    error == ENOSPC || error == EDQUOT);
-}
 
 [[noreturn]] void refuse(const fs::path& place, const std::string& why) {
   throw OutputError(place.string() + ": error: " + why, false);
@@ -68,9 +63,6 @@ void check_replaceable(const fs::path& place) {
     if (!written.contains(file) && !made_by_desktops(fs::path(file).filename().string()))
       refuse(place, "holds '" + file + "', which voxmelt did not write; choose another folder");
 }
-
-// A new file or folder beside `place`, for its partial state.
-std::string beside(const fs::path& place) { return place.string() + ".partial-XXXXXX"; }
 
 mode_t with_umask(mode_t mode) {
   const mode_t mask = ::umask(0);
@@ -114,7 +106,7 @@ OutputFolder::OutputFolder(const fs::path& place, bool goes_on)
   for (fs::path above = place_.parent_path(); !fs::exists(above, error); above = above.parent_path())
     first_new_ = above;
   fs::create_directories(place_.parent_path(), error);
-  if (error) fail(place_, "cannot create the output folder", error.value());
+  if (error) fail_output(place_, "cannot create the output folder", error.value());
   const FileLock above = FileLock::wait(place_.parent_path());
   if (clear_leavings(place_, true))
     refuse(place_, "another run is writing there; wait for it, or choose another");
@@ -128,7 +120,7 @@ OutputFolder::OutputFolder(const fs::path& place, bool goes_on)
     clear_leavings(place_);
   }
   std::string partial = beside(place_);
-  if (::mkdtemp(partial.data()) == nullptr) fail(place_, "cannot create the output folder", errno);
+  if (::mkdtemp(partial.data()) == nullptr) fail_output(place_, "cannot create the output folder", errno);
   partial_ = partial;
   lock_ = FileLock::attempt(partial_);
   ::chmod(partial.c_str(), with_umask(0777));
@@ -164,7 +156,7 @@ void OutputFolder::move_to(const fs::path& place) {
   const bool replace = fs::exists(place, error);
   const int why =
       replace ? exchange(partial_, place) : (std::rename(partial_.c_str(), place.c_str()) == 0 ? 0 : errno);
-  if (why != 0) fail(place, "cannot move the finished folder into place", why);
+  if (why != 0) fail_output(place, "cannot move the finished folder into place", why);
   committed_ = true;
   flush_entry(place);
   if (replace) fs::remove_all(partial_, error);  // what stood there before
@@ -176,36 +168,6 @@ fs::path OutputFolder::keep_incomplete() {
   const fs::path place = place_.string() + ".incomplete";
   move_to(place);
   return place;
-}
-
-void write_file(const fs::path& place, const std::string& bytes) {
-  // A device, a pipe or a link (/dev/stdout) is written as it is; a file is replaced whole.
-  std::error_code ignored;
-  const bool replace =
-      !fs::is_symlink(place, ignored) && (!fs::exists(place, ignored) || fs::is_regular_file(place, ignored));
-  std::string partial = replace ? beside(place) : place.string();
-  int descriptor = -1;
-  if (replace) {
-    // Within a partial folder of ours this lock is taken, and nothing was left over.
-    const FileLock above = FileLock::attempt(fs::absolute(place).parent_path());
-    if (above) clear_leavings(fs::absolute(place));
-    descriptor = ::mkostemp(partial.data(), O_CLOEXEC);
-    if (descriptor >= 0) (void)::flock(descriptor, LOCK_EX | LOCK_NB);
-  } else {
-    descriptor = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  }
-  std::FILE* file = descriptor < 0 ? nullptr : ::fdopen(descriptor, "wb");
-  if (file == nullptr) fail(place, "cannot write", errno);
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  int error = written ? 0 : errno;
-  if (std::fflush(file) != 0 && error == 0) error = errno;
-  if (replace && error == 0 && (::fchmod(descriptor, with_umask(0666)) != 0 || ::fsync(descriptor) != 0))
-    error = errno;
-  if (std::fclose(file) != 0 && error == 0) error = errno;
-  if (error == 0 && replace && std::rename(partial.c_str(), place.c_str()) != 0) error = errno;
-  if (error == 0) return;
-  if (replace) std::remove(partial.c_str());
-  fail(place, "cannot write", error);
 }
 
 }  // namespace voxmelt::io

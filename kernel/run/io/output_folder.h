@@ -3,23 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
-#include <string>
 
 #include "kernel/run/io/file_lock.h"
+#include "kernel/run/io/file_writer.h"
 
 namespace voxmelt::io {
-
-// Output cannot be written (exit code 2), or the disk is full (exit code 3).
-class OutputError : public std::runtime_error {
- public:
-  OutputError(const std::string& message, bool out_of_space)
-      : std::runtime_error(message), out_of_space_(out_of_space) {}
-  bool out_of_space() const { return out_of_space_; }
-
- private:
-  bool out_of_space_;
-};
 
 class OutputFolder {
  public:
@@ -52,8 +40,5 @@ class OutputFolder {
   FileLock lock_;  // of `partial_`
   bool committed_ = false;
 };
-
-// Writes a file beside its place, flushes and renames it; a device or pipe is written directly.
-void write_file(const std::filesystem::path& place, const std::string& bytes);
 
 }  // namespace voxmelt::io

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#define TINYOBJLOADER_IMPLEMENTATION
-#include <tiny_obj_loader.h>
-
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
-#include <sstream>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 #include "kernel/scene/text/text_file.h"
 
@@ -17,115 +18,106 @@ namespace voxmelt::scene {
 namespace {
 
 constexpr std::size_t kLargestMeshFile = std::size_t{1} << 30;
+constexpr double kLargestNumber = 1e30;
+constexpr std::string_view kBlanks = " \t\r\v\f";
 
-// tinyobjloader forgives malformed lines and does not say where they are, so each line is checked first.
-class LineCheck {
+// The first word of a line, which loses it; empty at its end.
+std::string_view take_word(std::string_view& line) {
+  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+// The message of an exception ends at a NUL byte.
+std::string quoted(std::string_view word) {
+  std::string text = "'";
+  for (const char c : word.substr(0, 40))
+    text += c >= 0 && c < ' ' ? fmt::format("\\x{:02x}", static_cast<int>(c)) : std::string(1, c);
+  return text + "'";
+}
+
+// A number and nothing else; from_chars knows no sign +.
+template <class Number>
+std::optional<Number> number_in(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  Number number{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  return number;
+}
+
+// What shapes need of the file: materials, normals and texture coordinates can be wrong without harm.
+class ObjReader {
  public:
-  LineCheck(const std::string& file, const Place& place) : file_(file), place_(place) {}
+  ObjReader(const std::string& file, const Place& place) : file_(file), place_(place) {}
 
-  void check(const std::string& text) {
-    std::istringstream lines(text);
-    std::string line, first;
-    while (std::getline(lines, line)) {
-      ++number_;
-      std::istringstream words(line);
-      if (!(words >> first)) continue;
-      if (first == "v") vertex(words);
-      if (first == "f") face(words);
+  Mesh read(std::string_view text) {
+    while (!text.empty()) {
+      ++line_;
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      std::string_view line = text.substr(0, end);
+      text.remove_prefix(std::min(end + 1, text.size()));
+      const std::string_view kind = take_word(line);
+      if (kind == "v") vertex(line);
+      if (kind == "f") face(line);
     }
-    if (vertices_ == 0) fail_at(place_, fmt::format("{}: the mesh has no vertices", file_));
-    if (faces_ == 0) fail_at(place_, fmt::format("{}: the mesh has no faces", file_));
+    if (mesh_.vertices.empty()) fail_at(place_, fmt::format("{}: the mesh has no vertices", file_));
+    if (mesh_.ends.empty()) fail_at(place_, fmt::format("{}: the mesh has no faces", file_));
+    return std::move(mesh_);
   }
 
  private:
   [[noreturn]] void fail(const std::string& message) const {
-    fail_at(place_, fmt::format("{}:{}: {}", file_, number_, message));
+    fail_at(place_, fmt::format("{}:{}: {}", file_, line_, message));
   }
 
-  void vertex(std::istringstream& words) {
-    std::string word;
-    for (int i = 0; i < 3; ++i) {
-      if (!(words >> word)) fail("a vertex needs 3 coordinates: is the file truncated?");
-      char* end = nullptr;
-      const double value = std::strtod(word.c_str(), &end);
-      if (*end != '\0' || !std::isfinite(value) || std::abs(value) > 1e30)
-        fail(fmt::format("'{}' is not a coordinate", word.substr(0, 40)));
-    }
-    ++vertices_;
+  double coordinate(std::string_view& line) const {
+    const std::string_view word = take_word(line);
+    if (word.empty()) fail("a vertex needs 3 coordinates: is the file truncated?");
+    const std::optional<double> value = number_in<double>(word);
+    if (!value || !std::isfinite(*value) || std::abs(*value) > kLargestNumber)
+      fail(fmt::format("{} is not a coordinate", quoted(word)));
+    return *value;
   }
 
-  void face(std::istringstream& words) {
-    std::string word;
+  void vertex(std::string_view line) {
+    const double x = coordinate(line), y = coordinate(line), z = coordinate(line);
+    mesh_.vertices.push_back({x, y, z});
+  }
+
+  void face(std::string_view line) {
+    const auto known = static_cast<std::int64_t>(mesh_.vertices.size());
     int corners = 0;
-    for (; words >> word; ++corners) {
-      char* end = nullptr;
-      const long long index = std::strtoll(word.c_str(), &end, 10);
-      if (end == word.c_str() || (*end != '\0' && *end != '/'))
-        fail(fmt::format("'{}' is not a vertex of a face", word.substr(0, 40)));
-      const bool known = index > 0 ? index <= vertices_ : index < 0 && index >= -vertices_;
-      if (!known)
-        fail(fmt::format("a face names vertex {}, but {} vertices are known here", index, vertices_));
+    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++corners) {
+      const std::optional<std::int64_t> index = number_in<std::int64_t>(word.substr(0, word.find('/')));
+      if (!index) fail(fmt::format("{} is not a vertex of a face", quoted(word)));
+      if (*index == 0 || *index > known || *index < -known)
+        fail(fmt::format("a face names vertex {}, but {} vertices are known here", *index, known));
+      mesh_.corners.push_back(static_cast<std::uint32_t>(*index > 0 ? *index - 1 : known + *index));
     }
     if (corners < 3) fail(fmt::format("a face needs 3 corners, not {}: is the file truncated?", corners));
-    ++faces_;
+    mesh_.ends.push_back(static_cast<std::uint32_t>(mesh_.corners.size()));
   }
 
   const std::string& file_;
   const Place& place_;
-  long long number_ = 0, vertices_ = 0, faces_ = 0;
+  std::int64_t line_ = 0;
+  Mesh mesh_;
 };
-
-// Only what shapes need is checked: materials, normals and texture coordinates can be wrong without harm.
-std::string only_vertices_and_faces(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line, word, result;
-  while (std::getline(lines, line)) {
-    std::istringstream words(line);
-    if (!(words >> word) || (word != "v" && word != "f")) continue;
-    result += word;
-    while (words >> word) result += ' ' + word.substr(0, word.find('/'));
-    result += '\n';
-  }
-  return result;
-}
 
 }  // namespace
 
 Box Mesh::bounds() const {
-  const Point first = vertices[triangles.front()[0]];
+  const Point first = vertices[corners.front()];
   Box box{first, first};
-  for (const auto& triangle : triangles)
-    for (const std::uint32_t vertex : triangle) box.include(vertices[vertex]);
+  for (const std::uint32_t vertex : corners) box.include(vertices[vertex]);
   return box;
 }
 
 Mesh read_mesh(const std::filesystem::path& file, const Place& place) {
   const std::string name = file.string();
-  const std::string text = read_text_file(file, kLargestMeshFile, place.text());
-  LineCheck(name, place).check(text);
-
-  std::istringstream stream(only_vertices_and_faces(text));
-  tinyobj::attrib_t attributes;
-  std::vector<tinyobj::shape_t> shapes;
-  std::vector<tinyobj::material_t> materials;
-  std::string warning, error;
-  if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream, nullptr, true))
-    fail_at(place, fmt::format("{}: {}", name, error));
-
-  Mesh mesh;
-  for (std::size_t i = 0; i + 2 < attributes.vertices.size(); i += 3) {
-    const auto coordinate = [&](std::size_t k) { return static_cast<double>(attributes.vertices[i + k]); };
-    mesh.vertices.push_back({coordinate(0), coordinate(1), coordinate(2)});
-  }
-  for (const tinyobj::shape_t& shape : shapes) {
-    const auto& indices = shape.mesh.indices;
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-      mesh.triangles.push_back({static_cast<std::uint32_t>(indices[i].vertex_index),
-                                static_cast<std::uint32_t>(indices[i + 1].vertex_index),
-                                static_cast<std::uint32_t>(indices[i + 2].vertex_index)});
-  }
-  if (mesh.triangles.empty()) fail_at(place, fmt::format("{}: the mesh has no triangles", name));
-  return mesh;
+  return ObjReader(name, place).read(read_text_file(file, kLargestMeshFile, place.text()));
 }
 
 }  // namespace voxmelt::scene

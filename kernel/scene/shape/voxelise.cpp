@@ -22,10 +22,9 @@ Coverage cover(const Entry& entry, state::Grid grid, std::vector<std::string>& w
   if (entry.shape) {
     coverage = scene::cover(*entry.shape, grid);
   } else {
-    MeshCoverage mesh = scene::cover(entry.mesh, grid);
-    if (mesh.disagreeing > 0)
-      warnings.push_back(fmt::format("{}: mesh leaks: {} of {} columns disagree; majority of three axes used",
-                                     entry.mesh_file, mesh.disagreeing, mesh.columns));
+    MeshCoverage mesh = scene::cover(entry.mesh, entry.inside, grid);
+    for (const std::string& finding : mesh.findings)
+      warnings.push_back(fmt::format("{}: {}", entry.mesh_file, finding));
     coverage = std::move(mesh.coverage);
   }
   if (std::all_of(coverage.samples.begin(), coverage.samples.end(),

@@ -20,6 +20,7 @@ struct Entry {
   bool cut = false;  // taken away from what its list has built so far
   ShapePtr shape;    // or, without it:
   Mesh mesh;         // placed in the grid
+  Inside inside = Inside::winding;
   std::string mesh_file;
   double temperature = 0;         // 0..1
   rule::Temperature wall = 0;     // inert: its heat content as an isothermal wall; 0: it is none

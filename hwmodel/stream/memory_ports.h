@@ -1,0 +1,206 @@
+// The blocks beside the memory, as plain C++: what reader, writer and feeds do in one cycle.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include "hwmodel/stream/stages.h"
+#include "hwmodel/stream/state_memory.h"
+#include "hwmodel/stream/volume_port.h"
+
+namespace voxmelt::hwmodel {
+
+// What the writer sums over the matter that it writes in a pass. Every cell of the grid counts once.
+struct Books {
+  std::int64_t cells = 0, mass = 0, energy = 0, heat = 0;  // heat: of amount x heat
+
+  void add(const Cell& cell) {
+    ++cells;
+    if (!cell.matter()) return;
+    mass += cell.amount;
+    energy += cell.energy;
+    heat += cell.amount * cell.heat;
+  }
+};
+
+// For planted faults: spoils what passes between the memory and the stream.
+class PortFault {
+ public:
+  virtual ~PortFault() = default;
+  // `pass` counts the tiles that have been read, or written, in the present train.
+  virtual void reads(std::int64_t pass, const Place& place, const StateMemory& memory, Cell* lanes) = 0;
+  // A token that another tile owns: the one lane that is written or counted all the same; -1: none.
+  virtual int writes(std::int64_t pass, const Place& place, StateMemory& memory, const Cell* lanes) = 0;
+  virtual int counts(std::int64_t pass, const Place& place) = 0;
+};
+
+// Streams the result into memory, behind the reader: the cells that a tile owns.
+class Writer {
+ public:
+  Writer(const Shape& shape, StateMemory& memory) : shape_(shape), memory_(memory) {}
+  void connect(CellFifo& in) { in_ = &in; }
+  void begin_pass(int tile) {
+    tiles_ = {tile}, place_ = begin_of(shape_, tile);
+    first_ = written_ = tile * shape_.tokens(), last_cycle_ = -1, passes_ = 0;
+  }
+  void add_pass(int tile) { tiles_.push_back(tile); }
+  void cycle(std::int64_t now) {
+    if (done()) {
+      ++cycles_.fill_drain;
+    } else if (!in_->valid()) {
+      ++(written_ == first_ ? cycles_.fill_drain : cycles_.starved);
+    } else {
+      write(in_->get());
+      ++written_, last_cycle_ = now;
+      ++cycles_.busy;
+      place_.next(shape_);
+      if (place_.ordinal == shape_.tokens()) end_tile();
+    }
+  }
+  bool done() const { return tiles_.empty(); }
+  // Tokens of passes, from the begin of that in which the train began, that were written before this cycle:
+  // it must not matter which block runs first.
+  std::int64_t written_before(std::int64_t now) const { return written_ - (last_cycle_ == now ? 1 : 0); }
+  const StageCycles& cycles() const { return cycles_; }
+  // Where the last token went.
+  const state::Volume& written() const { return *last_written_; }
+  const Books& books() const { return closed_; }  // of the last pass whose tiles have all been written
+  void plant(PortFault* fault) { fault_ = fault; }
+
+ private:
+  void write(const Cell* lanes) {
+    const int tile = tiles_.front();
+    last_written_ = &memory_.written();
+    if (tile == 0 && place_.ordinal == 0) open_ = {};
+    if (shape_.owns(tile, place_.x)) {
+      write_token(lanes, shape_, place_, memory_.written());
+      for (int lane = 0; lane < shape_.lanes && place_.x + lane < shape_.grid.x; ++lane)
+        open_.add(lanes[lane]);
+    } else if (fault_ != nullptr) {
+      const int counted = fault_->counts(passes_, place_);
+      if (counted >= 0) open_.add(lanes[counted]);
+      const int written = fault_->writes(passes_, place_, memory_, lanes);
+      if (written >= 0) write_cell(lanes[written], place_.x + written, place_.y, place_.z, memory_.written());
+    }
+  }
+  void end_tile() {
+    if (tiles_.front() + 1 == shape_.tiles()) {
+      memory_.next_to_write();
+      closed_ = open_;
+    }
+    tiles_.pop_front(), ++passes_;
+    if (!done()) place_ = begin_of(shape_, tiles_.front());
+  }
+
+  Shape shape_;
+  StateMemory& memory_;
+  CellFifo* in_ = nullptr;
+  std::deque<int> tiles_;  // that are still to be written
+  Place place_;
+  std::int64_t first_ = 0, written_ = 0, last_cycle_ = -1, passes_ = 0;
+  const state::Volume* last_written_ = nullptr;
+  Books open_, closed_;
+  PortFault* fault_ = nullptr;
+  StageCycles cycles_;
+};
+
+// Streams a volume out of memory. In a pass that follows without a gap, a token may be read only when the
+// writer has written it: the writer gives the reader a credit per token.
+class Reader {
+ public:
+  Reader(const Shape& shape, StateMemory& memory) : shape_(shape), memory_(memory) {}
+  void connect(CellFifo& out, const Writer& writer) { out_ = &out, writer_ = &writer; }
+  void begin_pass(int tile) {
+    place_ = begin_of(shape_, tile);
+    passes_ = grids_before_ = 0;
+  }
+  // True with the last token of a tile: another one may follow now.
+  bool cycle(std::int64_t now) {
+    if (place_.ordinal == shape_.tokens()) {
+      ++cycles_.fill_drain;
+    } else if (!may_read(now)) {
+      ++cycles_.starved;
+    } else if (!out_->ready()) {
+      ++cycles_.blocked;
+    } else {
+      Cell* lanes = out_->put();
+      read_token(memory_.read(), shape_, place_, lanes);
+      if (fault_ != nullptr) fault_->reads(passes_, place_, memory_, lanes);
+      place_.next(shape_);
+      ++cycles_.busy;
+      return place_.ordinal == shape_.tokens();
+    }
+    return false;
+  }
+  void add_pass(int tile) {
+    ++passes_;
+    if (tile == 0) {
+      ++grids_before_;
+      memory_.next_to_read();
+    }
+    place_ = begin_of(shape_, tile);
+  }
+  const StageCycles& cycles() const { return cycles_; }
+  void plant(PortFault* fault) { fault_ = fault; }
+
+ private:
+  bool may_read(std::int64_t now) const {
+    if (grids_before_ == 0) return true;
+    const std::int64_t before = (grids_before_ - 1) * shape_.tiles() * shape_.tokens();
+    return writer_->written_before(now) > before + owned_ordinal(shape_, place_.x, place_.y, place_.z);
+  }
+
+  Shape shape_;
+  StateMemory& memory_;
+  CellFifo* out_ = nullptr;
+  const Writer* writer_ = nullptr;
+  Place place_;
+  std::int64_t passes_ = 0, grids_before_ = 0;  // of the train; the latter: of whole grids
+  PortFault* fault_ = nullptr;
+  StageCycles cycles_;
+};
+
+// Streams irradiance to one time step.
+class Feed {
+ public:
+  Feed(const Shape& shape, HeatFifo& out) : shape_(shape), out_(out) {}
+  // Null: the time step does not work.
+  void begin_pass(const state::Field<std::uint16_t>* field, int tile) {
+    field_ = field, place_ = begin_of(shape_, tile);
+    next_.clear();
+  }
+  // Another tile for which the time step works, with the same irradiance.
+  void add_pass(int tile) { next_.push_back(tile); }
+  void cycle() {
+    if (place_.ordinal == shape_.tokens() && !next_.empty()) {
+      place_ = begin_of(shape_, next_.front());
+      next_.pop_front();
+    }
+    if (field_ == nullptr || place_.ordinal == shape_.tokens()) {
+      ++(field_ == nullptr ? cycles_.bypassed : cycles_.fill_drain);
+      return;
+    }
+    if (!out_.ready()) {
+      ++cycles_.blocked;
+      return;
+    }
+    UInt<16>* lanes = out_.put();
+    for (int lane = 0; lane < shape_.lanes; ++lane) {
+      const int x = place_.x + lane;
+      lanes[lane] = x < shape_.grid.x ? (*field_)[field_->layout().at(x, place_.y, place_.z)] : 0;
+    }
+    place_.next(shape_);
+    ++cycles_.busy;
+  }
+  const StageCycles& cycles() const { return cycles_; }
+
+ private:
+  Shape shape_;
+  HeatFifo& out_;
+  const state::Field<std::uint16_t>* field_ = nullptr;
+  Place place_;
+  std::deque<int> next_;  // tiles
+  StageCycles cycles_;
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,331 @@
+#include "kernel/scene/shape/mesh_layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace voxmelt::scene {
+namespace {
+
+constexpr int kSlabs = 64;
+constexpr std::size_t kChunk = 64;  // samples
+constexpr int kHalfOfSixRays = 3;
+
+template <class T>
+void add_saturated(T& sum, int what) {
+  sum = static_cast<T>(
+      std::clamp<int>(sum + what, std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
+}
+
+std::int16_t short_of(int sum) { return static_cast<std::int16_t>(sum); }
+
+std::size_t at(int axis) { return static_cast<std::size_t>(axis); }
+
+// What the two rays from a sample along an axis cross: `w` towards the low end, all but that to the high end.
+template <Inside inside>
+std::int16_t both_ways(std::int16_t w, std::int16_t total) {
+  return short_of(inside == Inside::winding ? 2 * w - total : (w & 1) + ((w ^ total) & 1));
+}
+
+// Winding numbers of a row of samples, as rays of three axes have them so far, and those of whole rays.
+struct OpenRow {
+  const std::int16_t* so_far_p;
+  std::int16_t *so_far_q, *so_far_s;
+  std::int16_t total_p;
+  const std::int16_t *total_q, *total_s;
+};
+
+// The compiler makes vectors of this loop, because no array overlaps another one.
+template <Inside inside>
+void decide(std::size_t width, const OpenRow& row, const std::int16_t* __restrict across,
+            const std::int8_t* __restrict steps, std::uint16_t* __restrict result) {
+  const std::int16_t* __restrict so_far_p = row.so_far_p;
+  std::int16_t* __restrict so_far_q = row.so_far_q;
+  std::int16_t* __restrict so_far_s = row.so_far_s;
+  const std::int16_t* __restrict total_q = row.total_q;
+  const std::int16_t* __restrict total_s = row.total_s;
+  const std::int16_t total_p = row.total_p;
+  for (std::size_t i = 0; i < width; ++i) {
+    so_far_q[i] = short_of(so_far_q[i] + across[i]);
+    so_far_s[i] = short_of(so_far_s[i] + steps[i]);
+    const std::int16_t sum =
+        short_of(both_ways<inside>(so_far_p[i], total_p) + both_ways<inside>(so_far_q[i], total_q[i]) +
+                 both_ways<inside>(so_far_s[i], total_s[i]));
+    result[i] = sum >= kHalfOfSixRays || sum <= -kHalfOfSixRays ? 1 : 0;
+  }
+}
+
+// Adds up the crossings of a cell's samples, and clears them. Most cells have none.
+void sum_up(std::int16_t* crossings, std::int16_t& w, std::int16_t* so_far) {
+  std::uint64_t any = 0;
+  std::memcpy(&any, crossings, sizeof any);
+  if (any == 0) {
+    for (int i = 0; i < kSamplesPerAxis; ++i) so_far[i] = w;
+    return;
+  }
+  for (int i = 0; i < kSamplesPerAxis; ++i) so_far[i] = w = short_of(w + crossings[i]);
+  std::memset(crossings, 0, sizeof any);
+}
+
+}  // namespace
+
+MeshLayers::MeshLayers(const Surface& surface, Inside inside, Coverage& coverage)
+    : surface_(surface), inside_(inside), coverage_(coverage) {
+  const Window& window = coverage.window;
+  const std::array<int, 3> low{window.x, window.y, window.z},
+      size{window.size.x, window.size.y, window.size.z};
+  for (std::size_t i = 0; i < 3; ++i) {
+    low_[i] = low[i] * kMeshUnit + kSampleOffset[i];
+    count_[i] = size[i] * kSamplesPerAxis;
+  }
+  s_ = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
+  p_ = (s_ + 1) % 3;
+  q_ = (s_ + 2) % 3;
+  width_ = static_cast<std::size_t>(count_[at(p_)]);
+  height_ = static_cast<std::size_t>(count_[at(q_)]);
+  thickness_ = std::max(1, count_[at(s_)] / kSlabs);
+  along_p_.resize(width_ * height_);
+  chunks_ = (width_ + kChunk - 1) / kChunk;
+  touched_.resize(height_ * chunks_);
+  total_p_.resize(height_);
+  plane_.resize(width_ / kSamplesPerAxis * (height_ / kSamplesPerAxis));
+  inside_row_.resize(width_);
+  if (surface.closed) return;
+  along_q_.resize(width_ * height_);
+  along_s_.resize(width_ * height_ * static_cast<std::size_t>(thickness_));
+  so_far_s_.resize(width_ * height_);
+  total_s_.resize(width_ * height_);
+  so_far_q_.resize(width_);
+  total_q_.resize(width_);
+  so_far_p_.resize(width_);
+}
+
+MeshLayers::Range MeshLayers::samples(int axis, std::int64_t first, std::int64_t last) const {
+  if (first > last) return {0, 0};
+  const std::int64_t from = (first - low_[at(axis)] + kSampleSpacing - 1) >> 13,
+                     to = ((last - low_[at(axis)]) >> 13) + 1;
+  static_assert(kSampleSpacing == 1 << 13);
+  return {static_cast<int>(std::clamp<std::int64_t>(from, 0, count_[at(axis)])),
+          static_cast<int>(std::clamp<std::int64_t>(to, 0, count_[at(axis)]))};
+}
+
+// The first sample at or behind a crossing.
+int MeshLayers::sample_at(int axis, double depth) const {
+  const double sample = (depth - static_cast<double>(low_[at(axis)])) / static_cast<double>(kSampleSpacing);
+  if (!(sample > 0)) return 0;
+  if (sample >= count_[at(axis)]) return count_[at(axis)];
+  const int below = static_cast<int>(sample);
+  return below < sample ? below + 1 : below;
+}
+
+void MeshLayers::run() {
+  // Triangles in the order in which layers reach them.
+  std::vector<std::pair<int, std::uint32_t>> order;
+  const auto layers_of = [&](std::size_t i) {
+    const Triangle t = surface_.triangle(i);
+    const auto [low, high] = std::minmax({t[0][at(s_)], t[1][at(s_)], t[2][at(s_)]});
+    return samples(s_, low, high);
+  };
+  for (std::uint32_t i = 0; i < surface_.triangles.size(); ++i) order.emplace_back(layers_of(i).first, i);
+  std::sort(order.begin(), order.end());
+  if (!surface_.closed) total_through_layers();
+
+  std::vector<std::uint32_t> active;
+  std::size_t next = 0;
+  for (Slab slab{0, 0}; slab.first < count_[at(s_)]; slab.first = slab.end) {
+    slab.end = std::min(slab.first + thickness_, count_[at(s_)]);
+    for (; next < order.size() && order[next].first < slab.end; ++next) active.push_back(order[next].second);
+    if (!surface_.closed) {
+      std::fill(along_s_.begin(), along_s_.end(), std::int8_t{0});
+      for (const std::uint32_t i : active) step_through_layers(surface_.triangle(i), slab);
+    }
+    for (int layer = slab.first; layer < slab.end; ++layer) {
+      for (const std::uint32_t i : active) {
+        const Triangle triangle = surface_.triangle(i);
+        cross_p(triangle, layer);
+        if (!surface_.closed) cross_q(triangle, layer);
+      }
+      for (int q = 0; q < count_[at(q_)]; ++q) {
+        const std::int8_t* steps =
+            along_s_.data() +
+            (static_cast<std::size_t>(layer - slab.first) * height_ + static_cast<std::size_t>(q)) * width_;
+        if (surface_.closed)
+          add_closed_row(q);
+        else if (inside_ == Inside::winding)
+          add_open_row<Inside::winding>(q, steps);
+        else
+          add_open_row<Inside::parity>(q, steps);
+      }
+      std::fill(so_far_q_.begin(), so_far_q_.end(), std::int16_t{0});
+      std::fill(total_q_.begin(), total_q_.end(), std::int16_t{0});
+      if (layer % kSamplesPerAxis == kSamplesPerAxis - 1) store(layer);
+    }
+    // A crossing may belong to the layer behind the last one that the triangle has samples in.
+    std::erase_if(active, [&](std::uint32_t i) { return layers_of(i).end < slab.end; });
+  }
+}
+
+void MeshLayers::cross_p(const Triangle& triangle, int layer) {
+  const std::int64_t v = place(s_, layer);
+  const auto [low, high] = std::minmax({triangle[0][at(s_)], triangle[1][at(s_)], triangle[2][at(s_)]});
+  if (v < low || v > high) return;
+  const RayCrossings crossings(triangle, p_, s_);
+  if (crossings.sign() == 0) return;
+  const auto [first, last] = crossings.range_u(v);
+  const Range rows = samples(q_, first, last);
+  RayCrossings::Walk walk(crossings, place(q_, rows.first), v);
+  for (int q = rows.first; q < rows.end; ++q, walk.next()) {
+    const auto to = static_cast<std::size_t>(sample_at(p_, walk.depth())), row = static_cast<std::size_t>(q);
+    add_saturated(total_p_[row], -crossings.sign());
+    if (to >= width_) continue;
+    add_saturated(along_p_[row * width_ + to], -crossings.sign());
+    touched_[row * chunks_ + to / kChunk] = 1;
+  }
+}
+
+void MeshLayers::cross_q(const Triangle& triangle, int layer) {
+  const std::int64_t v = place(s_, layer);
+  const auto [low, high] = std::minmax({triangle[0][at(s_)], triangle[1][at(s_)], triangle[2][at(s_)]});
+  if (v < low || v > high) return;
+  const RayCrossings crossings(triangle, q_, s_);
+  if (crossings.sign() == 0) return;
+  const auto [first, last] = crossings.range_u(v);
+  const Range rays = samples(p_, first, last);
+  RayCrossings::Walk walk(crossings, place(p_, rays.first), v);
+  for (int p = rays.first; p < rays.end; ++p, walk.next()) {
+    const auto to = static_cast<std::size_t>(sample_at(q_, walk.depth())), ray = static_cast<std::size_t>(p);
+    add_saturated(total_q_[ray], -crossings.sign());
+    if (to < height_) add_saturated(along_q_[to * width_ + ray], -crossings.sign());
+  }
+}
+
+// Rays across the layers meet all triangles; what each of them crosses in all is needed from the first layer
+// on.
+void MeshLayers::total_through_layers() {
+  for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+    const RayCrossings crossings(surface_.triangle(i), s_, q_);
+    if (crossings.sign() == 0) continue;
+    const auto [low, high] = crossings.range_v();
+    const Range rows = samples(q_, low, high);
+    for (int q = rows.first; q < rows.end; ++q) {
+      const auto [first, last] = crossings.range_u(place(q_, q));
+      const Range rays = samples(p_, first, last);
+      std::int16_t* row = total_s_.data() + static_cast<std::size_t>(q) * width_;
+      for (int p = rays.first; p < rays.end; ++p) add_saturated(row[p], -crossings.sign());
+    }
+  }
+}
+
+void MeshLayers::step_through_layers(const Triangle& triangle, Slab slab) {
+  const RayCrossings crossings(triangle, s_, q_);
+  if (crossings.sign() == 0) return;
+  const auto [low, high] = crossings.range_v();
+  const Range rows = samples(q_, low, high);
+  for (int q = rows.first; q < rows.end; ++q) {
+    const std::int64_t v = place(q_, q);
+    const auto [first, last] = crossings.range_u(v);
+    const Range rays = within(crossings, samples(p_, first, last), v, slab);
+    RayCrossings::Walk walk(crossings, place(p_, rays.first), v);
+    for (int p = rays.first; p < rays.end; ++p, walk.next()) {
+      const int to = sample_at(s_, walk.depth());
+      if (to < slab.first || to >= slab.end) continue;
+      const std::size_t layer = static_cast<std::size_t>(to - slab.first);
+      add_saturated(
+          along_s_[(layer * height_ + static_cast<std::size_t>(q)) * width_ + static_cast<std::size_t>(p)],
+          -crossings.sign());
+    }
+  }
+}
+
+// Depth grows evenly along a row; so the part of it in a slab is known but for rounding.
+MeshLayers::Range MeshLayers::within(const RayCrossings& crossings, Range rays, std::int64_t v,
+                                     Slab slab) const {
+  constexpr int slack = 2;  // samples
+  if (rays.end - rays.first < 8) return rays;
+  const auto layer_at = [&](int p) {
+    const double depth = crossings.depth(place(p_, p), v);
+    return (depth - static_cast<double>(low_[at(s_)])) / static_cast<double>(kSampleSpacing);
+  };
+  const double from = layer_at(rays.first), to = layer_at(rays.end - 1);
+  const double slope = (to - from) / (rays.end - 1 - rays.first);
+  // The first slab has all that lies before the window, too.
+  const double least = slab.first == 0 ? -1e18 : slab.first - slack, most = slab.end + slack;
+  if (std::abs(slope) < 1e-6)
+    return std::max(from, to) < least || std::min(from, to) > most ? Range{0, 0} : rays;
+  const auto [near, far] = std::minmax((least - from) / slope, (most - from) / slope);
+  const double length = rays.end - rays.first;
+  return {rays.first + static_cast<int>(std::clamp(std::floor(near), 0.0, length)),
+          rays.first + static_cast<int>(std::clamp(std::ceil(far) + 1, 0.0, length))};
+}
+
+void MeshLayers::add_closed_row(int q) {
+  const std::size_t row = static_cast<std::size_t>(q);
+  std::int16_t* crossings = along_p_.data() + row * width_;
+  std::uint8_t* plane = plane_.data() + row / kSamplesPerAxis * (width_ / kSamplesPerAxis);
+  const bool winding = inside_ == Inside::winding;
+  int w = 0;
+  for (std::size_t chunk = 0; chunk < chunks_; ++chunk) {
+    const std::size_t first = chunk * kChunk, end = std::min(first + kChunk, width_);
+    std::uint8_t& touched = touched_[row * chunks_ + chunk];
+    if (touched == 0) {
+      if (winding ? w == 0 : w % 2 == 0) continue;
+      for (std::size_t cell = first / kSamplesPerAxis; cell < end / kSamplesPerAxis; ++cell)
+        plane[cell] = static_cast<std::uint8_t>(plane[cell] + kSamplesPerAxis);
+      continue;
+    }
+    touched = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      w += std::exchange(crossings[i], std::int16_t{0});
+      most_ = std::max(most_, std::abs(w));
+      plane[i / kSamplesPerAxis] =
+          static_cast<std::uint8_t>(plane[i / kSamplesPerAxis] + ((winding ? w != 0 : w % 2 != 0) ? 1 : 0));
+    }
+  }
+}
+
+template <Inside inside>
+void MeshLayers::add_open_row(int q, const std::int8_t* steps) {
+  const std::size_t row = static_cast<std::size_t>(q);
+  const auto total_p = std::exchange(total_p_[row], std::int16_t{0});
+  std::int16_t w = 0;
+  for (std::size_t chunk = 0; chunk < chunks_; ++chunk) {
+    const std::size_t first = chunk * kChunk, end = std::min(first + kChunk, width_);
+    if (std::exchange(touched_[row * chunks_ + chunk], std::uint8_t{0}) != 0) {
+      std::int16_t* crossings = along_p_.data() + row * width_;
+      for (std::size_t i = first; i < end; i += kSamplesPerAxis)
+        sum_up(crossings + i, w, so_far_p_.data() + i);
+    } else {
+      std::fill(so_far_p_.data() + first, so_far_p_.data() + end, w);
+    }
+  }
+
+  std::int16_t* across = along_q_.data() + row * width_;
+  const OpenRow open{so_far_p_.data(), so_far_q_.data(), so_far_s_.data() + row * width_,
+                     total_p,          total_q_.data(),  total_s_.data() + row * width_};
+  decide<inside>(width_, open, across, steps, inside_row_.data());
+  std::fill(across, across + width_, std::int16_t{0});
+  std::uint8_t* plane = plane_.data() + row / kSamplesPerAxis * (width_ / kSamplesPerAxis);
+  for (std::size_t i = 0; i < width_; i += kSamplesPerAxis) {
+    const std::uint16_t* in = inside_row_.data() + i;
+    plane[i / kSamplesPerAxis] =
+        static_cast<std::uint8_t>(plane[i / kSamplesPerAxis] + in[0] + in[1] + in[2] + in[3]);
+  }
+}
+
+// A layer of cells is complete.
+void MeshLayers::store(int layer) {
+  const state::Grid size = coverage_.window.size;
+  const std::array<std::size_t, 3> stride{
+      1, static_cast<std::size_t>(size.x),
+      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)};
+  const std::size_t first = static_cast<std::size_t>(layer / kSamplesPerAxis) * stride[at(s_)];
+  const std::size_t width = width_ / kSamplesPerAxis, height = height_ / kSamplesPerAxis;
+  for (std::size_t q = 0; q < height; ++q)
+    for (std::size_t p = 0; p < width; ++p)
+      coverage_.samples[first + p * stride[at(p_)] + q * stride[at(q_)]] =
+          std::exchange(plane_[q * width + p], std::uint8_t{0});
+}
+
+}  // namespace voxmelt::scene

@@ -1,0 +1,69 @@
+// Winding numbers of the samples in one layer after the other: memory for layers, not for the whole box.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/scene/shape/mesh.h"
+#include "kernel/scene/shape/mesh_scan.h"
+
+namespace voxmelt::scene {
+
+class MeshLayers {
+ public:
+  MeshLayers(const Surface& surface, Inside inside, Coverage& coverage);
+  void run();
+
+  // Whether a sample of a closed mesh is wound around more than once: shells overlap, or one crosses itself.
+  bool overlaps() const { return most_ > 1; }
+
+ private:
+  // The samples of layers `first` .. `end` - 1 along the axis s_.
+  struct Slab {
+    int first, end;
+  };
+  // A range of samples, clipped to the window.
+  struct Range {
+    int first, end;
+  };
+
+  std::int64_t place(int axis, int sample) const {
+    return low_[static_cast<std::size_t>(axis)] + sample * kSampleSpacing;
+  }
+  Range samples(int axis, std::int64_t first, std::int64_t last) const;
+  int sample_at(int axis, double depth) const;
+
+  void total_through_layers();
+  Range within(const RayCrossings& crossings, Range rays, std::int64_t v, Slab slab) const;
+  void step_through_layers(const Triangle& triangle, Slab slab);
+  void cross_p(const Triangle& triangle, int layer);
+  void cross_q(const Triangle& triangle, int layer);
+  void add_closed_row(int q);
+  template <Inside inside>
+  void add_open_row(int q, const std::int8_t* steps);
+  void store(int layer);
+
+  const Surface& surface_;
+  Inside inside_;
+  Coverage& coverage_;
+  int s_, p_, q_;                    // axes: across the layers (the longest one), and in them
+  std::array<std::int64_t, 3> low_;  // first sample of the window
+  std::array<int, 3> count_;         // samples along each axis
+  std::size_t width_, height_;       // samples along p and q
+  int thickness_;                    // layers in a slab
+
+  // What a ray crosses before a sample and not before the one before it, +1 where it enters; [q][p].
+  std::vector<std::int16_t> along_p_, along_q_;
+  std::vector<std::uint8_t> touched_;  // rows of along_p_: where chunks of samples are not all 0
+  std::size_t chunks_;                 // of a row
+  std::vector<std::int8_t> along_s_;   // [layer of the slab][q][p]
+  // Sums of rays: so far, and of a whole ray.
+  std::vector<std::int16_t> so_far_p_, total_p_, so_far_q_, total_q_, so_far_s_, total_s_;
+  std::vector<std::uint16_t> inside_row_;
+  std::vector<std::uint8_t> plane_;  // samples inside of a layer of cells, [q][p]
+  int most_ = 0;
+};
+
+}  // namespace voxmelt::scene

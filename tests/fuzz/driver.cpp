@@ -1,0 +1,129 @@
+// Runs a target without libFuzzer, by any compiler: every file of a corpus, then changed ones for a while.
+//   fuzz_NAME [--seconds N] [--seed S] [--dictionary FILE] FILE|FOLDER...
+// What crashes, hangs, or ends otherwise than by an error of the project's own is written beside: its bytes
+// are in `fuzz-found`, and the file is named. Exit code 1.
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "tests/fuzz/mutate.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace voxmelt::fuzz {
+namespace {
+
+constexpr unsigned kMostSeconds = 20;  // for one input
+
+// What is being tried, for the handler of signals. Nothing allocates there.
+const std::string* g_input = nullptr;
+const char* g_name = "";
+
+void keep(int signal) {
+  std::signal(signal, SIG_DFL);
+  std::FILE* file = std::fopen("fuzz-found", "wb");
+  if (file != nullptr && g_input != nullptr) {
+    std::fwrite(g_input->data(), 1, g_input->size(), file);
+    std::fclose(file);
+  }
+  std::fprintf(stderr, "%s: %s; its bytes are in fuzz-found\n", g_name,
+               signal == SIGALRM ? "an input takes too long" : "an input ends the program");
+  std::_Exit(1);
+}
+
+void try_one(const std::string& input) {
+  g_input = &input;
+  alarm(kMostSeconds);
+  try {
+    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", g_name, error.what());
+    keep(SIGABRT);
+  }
+  alarm(0);
+}
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    std::fprintf(stderr, "%s: cannot be read\n", file.c_str());
+    std::exit(2);
+  }
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> corpus_of(const std::vector<std::filesystem::path>& places) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& place : places) {
+    if (!std::filesystem::is_directory(place)) {
+      files.push_back(place);
+      continue;
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(place))
+      if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<std::string> corpus;
+  for (const auto& file : files) corpus.push_back(contents(file));
+  return corpus;
+}
+
+int run(const std::vector<std::string>& arguments) {
+  double seconds = 0;
+  std::uint64_t seed = 1;
+  std::vector<std::string> words;
+  std::vector<std::filesystem::path> places;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == "--seconds" && i + 1 < arguments.size())
+      seconds = std::stod(arguments[++i]);
+    else if (arguments[i] == "--seed" && i + 1 < arguments.size())
+      seed = std::stoull(arguments[++i]);
+    else if (arguments[i] == "--dictionary" && i + 1 < arguments.size())
+      words = dictionary(contents(arguments[++i]));
+    else
+      places.emplace_back(arguments[i]);
+  }
+  const std::vector<std::string> corpus = corpus_of(places);
+  if (corpus.empty()) {
+    std::fprintf(stderr, "%s: the corpus is empty\n", g_name);
+    return 2;
+  }
+  for (const std::string& input : corpus) try_one(input);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  Mutator mutator(corpus, words, seed);
+  std::int64_t tried = 0;
+  for (; std::chrono::steady_clock::now() < end; ++tried) try_one(mutator.next());
+  std::printf("%s: %zu files, %lld changed ones\n", g_name, corpus.size(), static_cast<long long>(tried));
+  return 0;
+}
+
+}  // namespace
+}  // namespace voxmelt::fuzz
+
+int main(int argc, char** argv) {
+  using namespace voxmelt::fuzz;
+  g_name = argv[0];
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGALRM}) std::signal(signal, keep);
+  // A stack that has run over has no room for a handler: it gets its own.
+  static std::array<char, 1 << 16> stack;
+  stack_t own{};
+  own.ss_sp = stack.data(), own.ss_size = stack.size();
+  sigaltstack(&own, nullptr);
+  struct sigaction action {};
+  action.sa_handler = keep, action.sa_flags = SA_ONSTACK;
+  sigaction(SIGSEGV, &action, nullptr);
+  return run({argv + 1, argv + argc});
+}
