@@ -31,9 +31,8 @@ bool names_a_file(const std::string& from) { return !from.empty() && !is_number(
 
 std::uint32_t steps_of(const std::string& from) {
   std::uint32_t steps = 0;
-  if (from.empty()) return steps;
   const auto [end, error] = std::from_chars(from.data(), from.data() + from.size(), steps);
-  if (error != std::errc() || end != from.data() + from.size())
+  if (from.empty() || error != std::errc() || end != from.data() + from.size())
     throw UsageError(fmt::format("error: --from {}: neither a step nor a checkpoint", from));
   return steps;
 }
@@ -55,7 +54,7 @@ Beginning begin_from(const Common& common, const std::string& from) {
   } else {
     begin.steps = steps_of(from);
     begin.scene = load_scene(common);
-    if (!from.empty()) check_steps(begin.scene, begin.steps);
+    check_steps(begin.scene, begin.steps);
   }
   if (begin.scene.mid_run && begin.steps == 0) begin.steps = begin.scene.mid_run->steps_done;
   return begin;

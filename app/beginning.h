@@ -14,10 +14,10 @@ struct Beginning {
   std::uint32_t steps = 0;  // that are done when the command's own work begins
 };
 
-// `from` is empty, a number of steps, or a checkpoint of the same scene. Throws UsageError.
+// `from` is a number of steps, or a checkpoint of the same scene. Throws UsageError.
 Beginning begin_from(const Common& common, const std::string& from);
 
-// The number that `from` is; throws UsageError where it is neither empty nor a number.
+// The number that `from` is; throws UsageError where it is none.
 std::uint32_t steps_of(const std::string& from);
 bool names_a_file(const std::string& from);
 

@@ -31,7 +31,7 @@ struct BenchOptions {
   Common common;
   std::vector<std::string> parts{"automaton", "picture"};
   std::vector<std::string> scenes;
-  std::string from;  // a step, or a checkpoint
+  std::optional<std::string> from;  // a step, or a checkpoint
   std::string out;
   bool quick = false;
 
@@ -95,13 +95,13 @@ std::vector<std::string> film_scenes(bool quick) {
 
 int run_bench(BenchOptions options) {
   std::optional<std::uint32_t> from;
-  if (names_a_file(options.from)) {
+  if (options.from && names_a_file(*options.from)) {
     if (!options.scenes.empty())
       throw UsageError(fmt::format("error: --from {}: a checkpoint is a scene of its own, without --scenes",
-                                   options.from));
-    options.scenes = {options.from};
-  } else if (!options.from.empty()) {
-    from = steps_of(options.from);
+                                   *options.from));
+    options.scenes = {*options.from};
+  } else if (options.from) {
+    from = steps_of(*options.from);
   }
   const measure::Plan plan = plan_of(options);
   check_report_place(options.common, options.out);
