@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
     app::add_bench(program, chosen);
     app::add_accuracy(program, chosen);
     app::add_verify(program, chosen);
+    app::add_explore(program, chosen);
     app::add_info(program, chosen);
     app::add_list(program, chosen);
     check_no_empty_values(argc, argv);

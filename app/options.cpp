@@ -132,12 +132,16 @@ void keep_inputs(const scene::Scene& scene, const std::vector<Output>& outputs) 
 }
 
 void check_report_place(const Common& common, const std::string& out) {
-  if (common.report.empty()) return;
+  check_place("--report", common.report, out);
+}
+
+void check_place(const std::string& option, const std::string& file, const std::string& out) {
+  if (file.empty()) return;
   const auto fail = [&](const std::string& why) {
-    throw UsageError(fmt::format("--report {}: error: {}", common.report, why));
+    throw UsageError(fmt::format("{} {}: error: {}", option, file, why));
   };
   std::error_code error;
-  const fs::path place = fs::absolute(common.report).lexically_normal();
+  const fs::path place = fs::absolute(file).lexically_normal();
   if (!out.empty()) {
     const fs::path within = place.lexically_relative(fs::absolute(out).lexically_normal());
     if (!within.empty() && *within.begin() != "..")

@@ -58,6 +58,8 @@ struct Output {
   std::string option, place;
 };
 void keep_inputs(const scene::Scene& scene, const std::vector<Output>& outputs);
+// The same of any file that an option names.
+void check_place(const std::string& option, const std::string& file, const std::string& out);
 void check_report_place(const Common& common, const std::string& out);
 void write_report(const Common& common, const std::string& text);  // if --report was given
 

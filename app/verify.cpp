@@ -19,12 +19,15 @@
 #include "app/message.h"
 #include "app/options.h"
 #include "app/resources.h"
+#include "app/run_ahead.h"
 #include "app/shell_word.h"
+#include "app/shrink.h"
 #include "app/verify_machine.h"
 #include "app/verify_picture.h"
 #include "app/visibility.h"
 #include "hwmodel/lockstep/replay.h"
 #include "hwmodel/lockstep/report.h"
+#include "hwmodel/page/page.h"
 #include "hwmodel/presets/presets.h"
 #include "hwmodel/stream/tiling.h"
 #include "kernel/run/io/output_folder.h"
@@ -34,12 +37,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kShrinkSeconds = 40;
+
 struct VerifyCommand {
   Common common;
   std::uint32_t steps = 10, every = 1, from = 0;
   std::string from_text = "0";  // --from: a step, or a checkpoint
   std::optional<std::uint32_t> plant_step;
-  std::string hw, plant, out;
+  std::string hw, plant, out, vcd, shrink;
+  std::optional<std::int64_t> vcd_from;
   PictureChoice picture;
   std::vector<std::string> hw_sets;
 };
@@ -124,33 +130,12 @@ void check_replay_place(const VerifyCommand& command, const scene::Scene& scene)
   if (!command.out.empty()) const io::OutputFolder can_be_written(command.out);
 }
 
-// The software runs alone to the step from which to verify. With radiation it stops at the last step of
-// visibility before.
-run::Simulation run_ahead(scene::Scene& scene, const VerifyCommand& command) {
-  const std::uint64_t asked = std::uint64_t{scene.first_step} + command.from;
-  if (asked + command.steps > 0xFFFFFFFFu)
-    throw UsageError(fmt::format("error: --from {}: step numbers end at {}", command.from, 0xFFFFFFFFu));
-  const rule::Heat& heat = scene.parameters.heat;
-  const std::uint32_t earliest = scene.first_step + (scene.mid_run ? scene.mid_run->steps_done : 0);
-  auto until = static_cast<std::uint32_t>(asked);
-  const std::uint32_t age = heat.visibility_age(until);
-  until = until - age >= earliest || !scene.mid_run ? until - age : until - age + heat.visibility_every;
-  until = std::max(until, scene.first_step);
-  if (!command.common.quiet && until != asked)
-    fmt::print("verifying from step {}, a step of visibility\n", until);
-  run::Simulation simulation = make_simulation(scene, command.common);
-  while (simulation.step_number() < until) {
-    simulation.step();
-    stop_if_interrupted();
-  }
-  return simulation;
-}
-
 void write_replay(const VerifyCommand& command, const scene::Scene& scene,
                   const hwmodel::VerifyReport& report) {
   if (command.from == 0 && report.replay_step == scene.first_step) {
-    fmt::print("the scene itself begins with the state from which it can be seen again:\n  {}\n",
-               again(command, scene.file.string(), report));
+    if (!command.common.quiet)
+      fmt::print("the scene itself begins with the state from which it can be seen again:\n  {}\n",
+                 again(command, scene.file.string(), report));
     return;
   }
   const fs::path place = replay_place(command, scene);
@@ -158,8 +143,9 @@ void write_replay(const VerifyCommand& command, const scene::Scene& scene,
   const std::string typed = again(command, (place / "scene.toml").string(), report);
   hwmodel::write_replay(out.partial(), scene.file, *report.replay, report.replay_step, typed);
   out.commit();
-  fmt::print("the state before step {} is in {}; to see it again:\n  {}\n", report.replay_step,
-             place.string(), typed);
+  if (!command.common.quiet)
+    fmt::print("the state before step {} is in {}; to see it again:\n  {}\n", report.replay_step,
+               place.string(), typed);
 }
 
 // A full disk must not hide a difference that was found.
@@ -188,13 +174,30 @@ void print_plant(const hwmodel::VerifyReport& report) {
                                             : "found, but ELSEWHERE");
 }
 
+// In one line.
+std::string quiet_verdict(const hwmodel::VerifyReport& report) {
+  if (report.mismatch == nullptr)
+    return fmt::format("{} cells compared: no difference; digest {:016x}{}\n", report.compared_cells,
+                       report.digest, report.strike ? "; the planted fault was NOT FOUND" : "");
+  const hwmodel::Mismatch& m = *report.mismatch;
+  return fmt::format("DIFFERS ({}): {}, step {}, cell ({}, {}, {}), {} expected {}, is {}{}\n",
+                     name_of(m.kind), m.where, m.step, m.x, m.y, m.z, m.field.empty() ? "value" : m.field,
+                     m.expected, m.actual,
+                     !report.strike                 ? ""
+                     : report.found_where_planted() ? "; planted there"
+                                                    : "; planted ELSEWHERE");
+}
+
 void print_result(const VerifyCommand& command, const scene::Scene& scene,
                   const hwmodel::VerifyReport& report, const hwmodel::Design& design,
                   const hwmodel::Configuration& c, const std::string& fast) {
+  if (command.common.quiet)
+    return fmt::print("{}: {} cycles, predicted {}\n{}", name_of(scene), report.cycles,
+                      report.predicted_cycles, quiet_verdict(report));
   fmt::print("{}: lanes {}, cascade {}, fifo depth {}, stall seed {}; steps {} to {}\n", name_of(scene),
              c.lanes, c.cascade, c.fifo_depth, c.stall_seed, report.first_step,
              report.first_step + report.steps);
-  if (!command.common.quiet) fmt::print("{}", hwmodel::table_of(report, design, c));
+  fmt::print("{}", hwmodel::table_of(report, design, c));
   const auto stages = std::count_if(
       report.stages.begin(), report.stages.end(),
       [](const hwmodel::StageReport& stage) { return phase_of(stage.kind) && stage.cascade == 0; });
@@ -219,7 +222,7 @@ scene::Scene load_beginning(VerifyCommand& command) {
 int run_picture(VerifyCommand command) {
   scene::Scene scene = load_beginning(command);
   catch_interrupts();
-  const run::Simulation ahead = run_ahead(scene, command);
+  const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
   PictureChoice picture = command.picture;
   picture.again = picture_again(command, scene.file.string());
   return verify_picture(command.common, picture, scene, ahead, find_preset(command.hw), command.hw_sets);
@@ -236,8 +239,9 @@ int run_machine(VerifyCommand command) {
   check_tile(scene, preset.configuration);
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
+  check_html_place(command.common, command.picture, replay_place(command, scene).string());
   catch_interrupts();
-  const run::Simulation ahead = run_ahead(scene, command);
+  const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
   hwmodel::VerifyOptions options;
   options.steps = command.steps;
   options.every = command.every;
@@ -249,8 +253,31 @@ int run_machine(VerifyCommand command) {
   return report.good() ? kDone : kCheckFailed;
 }
 
+// What the pipeline alone can do.
+void check_outputs(const VerifyCommand& command) {
+  const bool pipeline = !command.picture.asked && !command.picture.machine;
+  if (!pipeline && !command.vcd.empty()) throw UsageError("error: --vcd: only of the pipeline alone");
+  if (!pipeline && !command.shrink.empty())
+    throw UsageError("error: --shrink: only of the pipeline alone (--picture finds one pixel by itself)");
+  if (command.vcd_from && command.vcd.empty())
+    throw UsageError("error: --vcd-from: there is no --vcd whose first cycle it would be");
+  if (!command.shrink.empty() && fs::path(command.shrink).extension() != ".toml")
+    throw UsageError(fmt::format("error: --shrink {}: want the name of a scene, FILE.toml", command.shrink));
+}
+
+// Why there are no waves; empty: there are, or nobody asked.
+std::string write_waves(const VerifyCommand& command, const hwmodel::VerifyReport& report) {
+  if (command.vcd.empty()) return {};
+  if (report.waves.empty())
+    return fmt::format("--vcd {}: error: the run ended before cycle {}; nothing was written", command.vcd,
+                       command.vcd_from.value_or(0));
+  io::write_file(command.vcd, report.waves);
+  return {};
+}
+
 int run_verify(VerifyCommand command) {
   split_sets(command);
+  check_outputs(command);
   if (command.picture.machine) return run_machine(command);
   if (command.picture.asked) {
     if (command.plant_step) throw UsageError("error: --plant-step: a picture has no steps (--picture)");
@@ -268,8 +295,13 @@ int run_verify(VerifyCommand command) {
   check_tile(scene, preset.configuration);
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
+  check_html_place(command.common, command.picture, replay_place(command, scene).string());
+  check_place("--vcd", command.vcd, replay_place(command, scene).string());
+  check_place("--shrink", command.shrink, replay_place(command, scene).string());
+  keep_inputs(scene,
+              {{"--html", command.picture.html}, {"--vcd", command.vcd}, {"--shrink", command.shrink}});
   catch_interrupts();
-  const run::Simulation ahead = run_ahead(scene, command);
+  const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
 
   hwmodel::VerifyOptions options;
   options.steps = command.steps;
@@ -278,6 +310,9 @@ int run_verify(VerifyCommand command) {
   if (fault != nullptr) options.fault = fault->fault;
   options.fault_step = command.plant_step.value_or(ahead.step_number() + command.steps / 2);
   options.poll = stop_if_interrupted;
+  options.waves = !command.vcd.empty();
+  options.waves_from = command.vcd_from;
+  options.timeline = !command.common.report.empty() || !command.picture.html.empty();
   step::Tuning tuning;
   tuning.threads = thread_count(command.common);
   const step::Implementation& fast = find_implementation(command.common);
@@ -293,14 +328,36 @@ int run_verify(VerifyCommand command) {
       hwmodel::design_of(scene.parameters, ahead.volume().grid, preset.configuration);
   print_result(command, scene, report, design, options.configuration, fast.name);
   const auto write = [&] {
-    write_report(command.common, hwmodel::json_of(report, design, preset.configuration).dump(2) + '\n');
+    nlohmann::ordered_json json{{"scene", name_of(scene)}};
+    json.update(hwmodel::json_of(
+        report, design, preset.configuration));
+    write_report(command.common, json.dump(2) + '\n');
+    if (!command.picture.html.empty())
+      io::write_file(command.picture.html,
+                     hwmodel::pipeline_page(json, fmt::format("{}, {} steps from step {}", name_of(scene),
+                                                              report.steps, report.first_step)));
   };
   if (verdict == hwmodel::Verdict::good) {
     write();
+    const std::string no_waves = write_waves(command, report);
+    if (!no_waves.empty()) throw UsageError(no_waves);
+    if (!command.shrink.empty() && !command.common.quiet)
+      fmt::print("--shrink: there is no difference to make small\n");
     return kDone;
   }
   try_writing(write);
-  if (report.mismatch != nullptr) try_writing([&] { write_replay(command, scene, report); });
+  try_writing([&] {
+    const std::string no_waves = write_waves(command, report);
+    if (!no_waves.empty()) say(no_waves);
+  });
+  if (report.mismatch == nullptr) return kCheckFailed;
+  try_writing([&] { write_replay(command, scene, report); });
+  if (command.shrink.empty()) return kCheckFailed;
+  try_writing([&] {
+    const std::string small =
+        shrink({command.shrink, kShrinkSeconds, command.common, scene, options, command.plant}, report);
+    if (!command.common.quiet) fmt::print("{}", small);
+  });
   return kCheckFailed;
 }
 
@@ -327,6 +384,13 @@ void add_verify(CLI::App& program, Chosen& chosen) {
                       "plant a fault in the model (`voxmelt list faults`), to see it found");
   command->add_option("--plant-step", options->plant_step,
                       "the first step in which it may strike (default: in the middle)");
+  command->add_option("--shrink", options->shrink,
+                      "make what fails small (grid, steps, machine, matter): a scene FILE.toml");
+  command->add_option("--vcd", options->vcd,
+                      "write the waves of the 64 cycles around the first difference, for a waveform viewer");
+  command
+      ->add_option("--vcd-from", options->vcd_from, "with --vcd: the 64 cycles from this cycle of the run on")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--out", options->out,
                       "folder for the replay of a mismatch (default: out/verify_SCENE)");
   add_picture_choice(*command, options->picture);

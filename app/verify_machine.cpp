@@ -12,7 +12,9 @@
 #include "app/interrupt.h"
 #include "bench/measure/paper.h"
 #include "hwmodel/machine/report_machine.h"
+#include "hwmodel/page/page.h"
 #include "hwmodel/picture/report_picture.h"
+#include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
 #include "render/packet/picture.h"
 
@@ -111,11 +113,16 @@ hwmodel::MachineReport verify_machine(const Common& common, const PictureChoice&
 
   const hwmodel::Configuration& p = steps.configuration;
   const hwmodel::raycast::Configuration& c = preset.caster;
-  fmt::print("{}: pipeline: lanes {}, cascade {}; ray caster: pipes {}; fifo depth {}, stall seed {}\n",
-             scene.name, p.lanes, p.cascade, c.pipes, c.fifo_depth, c.stall_seed);
-  fmt::print("{} x {}, {}; memory: {}\n", camera.width, camera.height, choice.setting,
-             c.dram ? c.dram->name : fmt::format("latency {}, {} bytes a cycle", c.latency, c.bus_bytes));
-  nlohmann::ordered_json json = hwmodel::json_of(report, options);
+  if (common.quiet)
+    fmt::print("{}: {} cycles, overlapped\n", scene.name, report.sum().overlapped());
+  else
+    fmt::print("{}: pipeline: lanes {}, cascade {}; ray caster: pipes {}; fifo depth {}, stall seed {}\n",
+               scene.name, p.lanes, p.cascade, c.pipes, c.fifo_depth, c.stall_seed);
+  if (!common.quiet)
+    fmt::print("{} x {}, {}; memory: {}\n", camera.width, camera.height, choice.setting,
+               c.dram ? c.dram->name : fmt::format("latency {}, {} bytes a cycle", c.latency, c.bus_bytes));
+  nlohmann::ordered_json json{{"scene", scene.name}, {"width", camera.width}, {"height", camera.height}};
+  json.update(hwmodel::json_of(report, options));
   if (report.good()) {
     const Software here =
         measure_software(scene, camera, setting, ahead, fast, steps.steps, steps.steps / frames);
@@ -137,8 +144,11 @@ hwmodel::MachineReport verify_machine(const Common& common, const PictureChoice&
                    row->as, row->gravity, row->spreading, row->update, row->frames());
     }
   }
-  fmt::print("{}", verdict_of(report));
+  fmt::print("{}", common.quiet ? first_line(verdict_of(report)) : verdict_of(report));
   write_report(common, json.dump(2) + '\n');
+  if (!choice.html.empty())
+    io::write_file(choice.html, hwmodel::machine_page(json, fmt::format("{}, {} x {}", scene.name,
+                                                                        camera.width, camera.height)));
   if (!choice.png.empty()) render::write_png(choice.png, report.pictures.image);
   return report;
 }

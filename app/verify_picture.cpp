@@ -10,10 +10,12 @@
 #include "app/film.h"
 #include "app/interrupt.h"
 #include "hwmodel/caster_faults/faults.h"
+#include "hwmodel/page/page.h"
 #include "hwmodel/picture/replay_pixel.h"
 #include "hwmodel/picture/report_picture.h"
 #include "hwmodel/picture/verify_picture.h"
 #include "hwmodel/presets/presets.h"
+#include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
 
 namespace voxmelt::app {
@@ -78,10 +80,13 @@ void add_picture_choice(CLI::App& command, PictureChoice& choice) {
       ->capture_default_str();
   command.add_flag("!--no-compare", choice.compare,
                    "with --picture: compare the bytes alone, not every stage");
+  command.add_option("--html", choice.html, "write the report as a page: one HTML file, with pictures");
   command.add_option("--png", choice.png, "with --picture: write the ray caster's picture");
   command.add_option("--pixel", choice.pixel,
                      "with --picture: draw only pixel X,Y, or X,Y,WxH: so many from there on");
 }
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')) + '\n'; }
 
 scene::Camera camera_of(const PictureChoice& choice, const scene::Scene& scene) {
   scene::Camera camera = scene.camera;
@@ -94,6 +99,15 @@ render::Setting setting_of(const PictureChoice& choice) {
   return choice.setting == "fast"   ? render::Setting::fast
          : choice.setting == "best" ? render::Setting::best
                                     : render::Setting::normal;
+}
+
+void check_html_place(const Common& common, const PictureChoice& choice, const std::string& out) {
+  check_place("--html", choice.html, out);
+  std::error_code none;
+  if (!choice.html.empty() && !common.report.empty() &&
+      (fs::absolute(choice.html).lexically_normal() == fs::absolute(common.report).lexically_normal() ||
+       fs::equivalent(choice.html, common.report, none)))
+    throw UsageError(fmt::format("--html {}: error: --report goes to the same file", choice.html));
 }
 
 int verify_picture(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
@@ -109,6 +123,7 @@ int verify_picture(const Common& common, const PictureChoice& choice, const scen
   if (!choice.plant.empty() && !choice.compare)
     throw UsageError("error: --plant: with --no-compare no stage is compared");
   check_report_place(common, "");
+  check_html_place(common, choice, "");
   hwmodel::raycast::PictureOptions options;
   options.configuration = configured.caster;
   options.compare = choice.compare;
@@ -124,20 +139,33 @@ int verify_picture(const Common& common, const PictureChoice& choice, const scen
     throw UsageError(fmt::format(
         "error: --plant {}: in this picture there is nothing that this fault could change", choice.plant));
 
-  fmt::print("{}: step {}, {} x {}, {}; pipes {}, fifo depth {}, stall seed {}\n", scene.name,
-             state.step_number(), camera.width, camera.height, choice.setting, options.configuration.pipes,
-             options.configuration.fifo_depth, options.configuration.stall_seed);
+  if (common.quiet)
+    fmt::print("{}: {} cycles\n", scene.name, report.all_cycles);
+  else
+    fmt::print("{}: step {}, {} x {}, {}; pipes {}, fifo depth {}, stall seed {}\n", scene.name,
+               state.step_number(), camera.width, camera.height, choice.setting, options.configuration.pipes,
+               options.configuration.fifo_depth, options.configuration.stall_seed);
   if (!common.quiet) fmt::print("{}", hwmodel::raycast::table_of(report, options.configuration));
-  fmt::print("{}", hwmodel::raycast::verdict_text(report));
-  nlohmann::ordered_json json = hwmodel::raycast::json_of(report, options.configuration);
+  fmt::print("{}", common.quiet ? first_line(hwmodel::raycast::verdict_text(report))
+                                : hwmodel::raycast::verdict_text(report));
+  nlohmann::ordered_json json{{"scene", scene.name},
+                              {"step", state.step_number()},
+                              {"width", camera.width},
+                              {"height", camera.height}};
+  json.update(hwmodel::raycast::json_of(report, options.configuration));
   const auto replay = hwmodel::raycast::replay_pixel(input, options, report);
   if (replay) {
     const std::string pixel = text_of(replay->part);
-    fmt::print("{}to see it again:\n  {} --pixel {}\n", hwmodel::raycast::text_of(*replay), choice.again,
-               pixel);
+    if (!common.quiet)
+      fmt::print("{}to see it again:\n  {} --pixel {}\n", hwmodel::raycast::text_of(*replay), choice.again,
+                 pixel);
     json["replay"] = {{"pixel", pixel}, {"fails_alone", replay->fails}};
   }
   write_report(common, json.dump(2) + '\n');
+  if (!choice.html.empty())
+    io::write_file(choice.html, hwmodel::picture_page(
+                                    json, fmt::format("{}, step {}, {} x {}", scene.name, state.step_number(),
+                                                      camera.width, camera.height)));
   if (!choice.png.empty()) render::write_png(choice.png, report.image);
   return report.good() && !report.strike ? kDone : kCheckFailed;
 }

@@ -18,13 +18,20 @@ struct PictureChoice {
   bool machine = false;  // the whole machine is asked for
   std::string view, size, setting = "normal", png, plant, pixel;
   int frames = 1;
+  std::string html;   // of the pipeline's run, too
   std::string again;  // what to type to see the picture again
 };
 void add_picture_choice(CLI::App& command, PictureChoice& choice);
 
+// The verdict of --quiet.
+std::string first_line(const std::string& text);
+
 // The scene's camera as chosen; throws UsageError.
 scene::Camera camera_of(const PictureChoice& choice, const scene::Scene& scene);
 render::Setting setting_of(const PictureChoice& choice);
+
+// Does it fit the other options? Throws UsageError.
+void check_html_place(const Common& common, const PictureChoice& choice, const std::string& out);
 
 int verify_picture(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
                    const run::Simulation& state, const std::filesystem::path& preset,

@@ -14,11 +14,12 @@
 #include "accuracy/report/front_svg.h"
 #include "accuracy/report/front_text.h"
 #include "accuracy/report/report.h"
-#include "accuracy/report/style.h"
-#include "accuracy/report/svg.h"
+#include "render/page/svg.h"
 
 namespace voxmelt::accuracy {
 namespace {
+
+using page::escaped;
 
 using front::Axis;
 using front::Measured;
@@ -217,12 +218,7 @@ std::string html_text(const FrontReport& report) {
       tally(fmt::format("{:.0f} s", report.seconds), "for all of it"), escaped(report.version),
       quick ? "quick" : "full", escaped(report.implementation), front::usual_setting(report.extent).grid,
       picks, scenes, how);
-  return fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
-      "<title>voxmelt: speed against error</title>\n<style>{}{}</style></head>\n"
-      "<body><main>\n{}</main></body></html>\n",
-      kStyle, kFrontStyle, body);
+  return page::document("speed against error", kFrontStyle, body);
 }
 
 }  // namespace voxmelt::accuracy

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/report/axis.h"
-#include "accuracy/report/svg.h"
+#include "render/page/axis.h"
+#include "render/page/svg.h"
 
 namespace voxmelt::accuracy {
 namespace {
@@ -16,14 +16,11 @@ namespace {
 constexpr double kWidth = 440, kHeight = 320, kLeft = 78, kRight = 424, kTop = 18, kBottom = 264;
 constexpr double kLeastError = 1e-10, kRoom = 1.35;
 
-std::string text(double x, double y, const char* anchor, const std::string& what, const char* css) {
-  return fmt::format(R"(<text class="{}" x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", css, x, y,
-                     anchor, escaped(what));
-}
-std::string line(double x1, double y1, double x2, double y2) {
-  return fmt::format(R"(<line class="grid" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)", x1, y1, x2,
-                     y2);
-}
+using page::Axis;
+using page::escaped;
+using page::text;
+
+std::string line(double x1, double y1, double x2, double y2) { return page::line(x1, y1, x2, y2, "grid"); }
 
 double shown(double error) { return 100 * std::max(error, kLeastError); }  // in percent
 

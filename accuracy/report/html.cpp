@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <string>
 
-#include "accuracy/report/style.h"
 #include "accuracy/report/svg.h"
+#include "render/page/svg.h"
 
 namespace voxmelt::accuracy {
 namespace {
+
+using page::escaped;
 
 // With true minus signs.
 std::string typeset(const std::string& number) {
@@ -116,11 +118,7 @@ std::string html_text(const Report& report) {
       body += fmt::format("<h2>{}</h2>\n", escaped(family = found.one->family));
     body += card(found);
   }
-  return fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
-      "<title>voxmelt: accuracy</title>\n<style>{}</style></head>\n<body><main>\n{}</main></body></html>\n",
-      kStyle, body);
+  return page::document("accuracy", "", body);
 }
 
 }  // namespace voxmelt::accuracy

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "accuracy/report/axis.h"
+#include "render/page/axis.h"
+#include "render/page/svg.h"
 
 namespace voxmelt::accuracy {
 namespace {
@@ -14,14 +15,10 @@ namespace {
 constexpr double kWidth = 520, kHeight = 300, kLeft = 68, kRight = 506, kTop = 14, kBottom = 252;
 constexpr std::size_t kJoinUpTo = 30;  // with more points, dots alone make the line
 
-std::string text(double x, double y, const char* anchor, const std::string& what, const char* css = "tick") {
-  return fmt::format(R"(<text class="{}" x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", css, x, y,
-                     anchor, escaped(what));
-}
-std::string line(double x1, double y1, double x2, double y2, const char* css) {
-  return fmt::format(R"(<line class="{}" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)", css, x1, y1, x2,
-                     y2);
-}
+using page::Axis;
+using page::escaped;
+using page::line;
+using page::text;
 
 std::string tick_text(double value) {
   std::string out = fmt::format("{:g}", value);
@@ -52,17 +49,6 @@ Range range(const Chart& chart, double Point::*member) {
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '&'   ? "&amp;"
-           : c == '<' ? "&lt;"
-           : c == '>' ? "&gt;"
-           : c == '"' ? "&quot;"
-                      : std::string(1, c);
-  return out;
-}
 
 std::string chart_svg(const Chart& chart) {
   const Range xs = range(chart, &Point::x);

@@ -15,6 +15,4 @@ std::string chart_svg(const Chart& chart);
 // Every row with a gate: |error| over the gate, on a logarithmic axis with the gate in its middle.
 std::string overview_svg(const Report& report);
 
-std::string escaped(const std::string& text);  // of &, <, > and "
-
 }  // namespace voxmelt::accuracy

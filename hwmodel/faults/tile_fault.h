@@ -2,6 +2,7 @@
 // that is written or counted although another tile owns it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 

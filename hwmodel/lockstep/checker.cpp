@@ -238,7 +238,7 @@ void Checker::report(const Channel& channel, Mismatch::Kind kind, std::size_t pa
       .expected = expected,
       .actual = actual,
   });
-  pipeline_.stop();
+  if (stops_) pipeline_.stop();
 }
 
 }  // namespace voxmelt::hwmodel

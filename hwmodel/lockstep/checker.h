@@ -36,6 +36,8 @@ class Checker final : public FifoWatcher<Cell> {
     std::optional<state::Holdings> held;
     std::shared_ptr<const state::Volume> left;
   };
+  // Unless it stops the pass at the first difference, somebody else must.
+  void stop_at_difference(bool stops) { stops_ = stops; }
   void begin_train();
   void add_pass(Wanted wanted);
 
@@ -89,6 +91,7 @@ class Checker final : public FifoWatcher<Cell> {
   std::deque<Wanted> passes_;             // of the train, without those that have been written
   std::size_t written_ = 0;               // of the train
   Expected read_;                         // what the reader gives
+  bool stops_ = true;
   std::unique_ptr<Mismatch> mismatch_;
   std::int64_t compared_cells_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hwmodel/lockstep/report_details.h"
 #include "hwmodel/stream/tiling.h"
 
 namespace voxmelt::hwmodel {
@@ -230,6 +231,7 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
                          {"step", report.strike->step},
                          {"cell", {report.strike->x, report.strike->y, report.strike->z}},
                          {"found_there", report.found_where_planted()}};
+  add_details(result, report, design, configuration);
   return result;
 }
 

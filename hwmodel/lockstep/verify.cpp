@@ -16,6 +16,7 @@
 #include "hwmodel/faults/tile_fault.h"
 #include "hwmodel/lockstep/checker.h"
 #include "hwmodel/lockstep/diagnosis.h"
+#include "hwmodel/lockstep/waves.h"
 #include "hwmodel/stream/prediction.h"
 #include "kernel/automaton/state/digest.h"
 #include "kernel/automaton/state/ledger.h"
@@ -50,6 +51,12 @@ class Run {
         memory_(start) {
     pipeline_.watch(&checker_);
     pipeline_.poll(options.poll);
+    if (options.waves) {
+      waves_.emplace(pipeline_, options.waves_from);
+      pipeline_.probe(&*waves_);
+      checker_.stop_at_difference(false);
+    }
+    if (options.timeline || options.waves) pipeline_.each_cycle([this] { end_cycle(); });
     report_.first_step = first_step;
   }
 
@@ -60,11 +67,22 @@ class Run {
     report_.compared_cells = checker_.compared_cells();
     report_.software_cells = software_.compared_cells();
     report_.strike = plan_.struck();
+    if (waves_) waves_->end();
+    if (waves_ && !waves_->empty()) report_.waves = waves_->vcd();
+    if (options_.timeline) report_.timeline.end(pipeline_.accounts());
     report_.stages = pipeline_.stages();
     report_.channels = pipeline_.channels();
     report_.digest = state::digest(memory_);
     check_accounts();
     return std::move(report_);
+  }
+
+  void end_cycle() {
+    const std::int64_t cycles = report_.cycles + pipeline_.cycle() + 1;
+    if (options_.timeline && report_.timeline.wants(cycles)) report_.timeline.add(pipeline_.accounts());
+    if (!waves_) return;
+    waves_->end_cycle();
+    if (checker_.mismatch() != nullptr && !waves_->wants_more()) pipeline_.stop();
   }
 
  private:
@@ -221,9 +239,14 @@ class Run {
   bool run_model(const Pass& first, const Pipeline::Next& next, const step::Irradiance* irradiance) {
     const auto begin = std::chrono::steady_clock::now();
     PassEnd end;
+    if (waves_) waves_->begin_train(report_.cycles);
     try {
       end = pipeline_.run_train(first, next, irradiance, memory_);
     } catch (const Pipeline::StageError& error) {
+      if (checker_.mismatch() != nullptr) {  // what follows a difference may be anything
+        report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
+        return false;
+      }
       report_.mismatch = std::make_unique<Mismatch>(Mismatch{
           .kind = error.kind == Pipeline::StageError::Kind::width ? Mismatch::Kind::width
                                                                   : Mismatch::Kind::address,
@@ -247,6 +270,7 @@ class Run {
       const std::int64_t predicted =
           predicted_cycles(pipeline_.design(), options_.configuration, first, end.passes);
       report_.predicted_cycles += predicted;
+      report_.trains.push_back({first.first, end.passes, end.cycles, predicted});
       if (options_.configuration.stall_seed == 0 && end.cycles != predicted)
         report_.mismatch =
             std::make_unique<Mismatch>(cycles_of(pipeline_, first.first, predicted, end.cycles));
@@ -302,6 +326,7 @@ class Run {
   std::vector<std::vector<Expected>> expected_;   // of the pass that the software has run last
   std::shared_ptr<const state::Volume> written_;  // by that pass, where its steps are not compared
   std::unique_ptr<Mismatch> software_mismatch_;
+  std::optional<Waves> waves_;
   std::uint32_t next_step_ = 0;  // after that pass
   int last_tile_ = 0;            // of the last train
   VerifyReport report_;

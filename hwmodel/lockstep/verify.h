@@ -5,10 +5,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hwmodel/faults/faults.h"
 #include "hwmodel/lockstep/mismatch.h"
+#include "hwmodel/lockstep/timeline.h"
 #include "hwmodel/stream/pipeline.h"
 #include "kernel/automaton/step/stepper.h"
 
@@ -26,7 +28,17 @@ struct VerifyOptions {
   // took so far: passes, cycles, stages. No pass reaches beyond. If it gives false, the run ends.
   std::uint32_t visit_every = 0;
   std::function<bool(const state::Volume&, const VerifyReport&)> visit;
-  StageMaker make;  // of the stages; empty: those of `fault`
+  bool waves =
+      false;  // keep the cycles around the first difference or, if that is given, from `waves_from` on
+  std::optional<std::int64_t> waves_from;
+  bool timeline = false;  // note what every stage did when
+  StageMaker make;        // of the stages; empty: those of `fault`
+};
+
+// Passes that followed one another without a gap.
+struct TrainReport {
+  std::uint32_t step = 0;  // its first one
+  std::int64_t passes = 0, cycles = 0, predicted = 0;
 };
 
 struct VerifyReport {
@@ -40,7 +52,10 @@ struct VerifyReport {
   std::optional<FaultPlan::Strike> strike;  // of the planted fault
   std::vector<StageReport> stages;
   std::vector<ChannelReport> channels;
-  std::uint64_t digest = 0;  // of the model's last state
+  std::vector<TrainReport> trains;  // those that ended well
+  std::string waves;                // VCD; empty: there are none
+  Timeline timeline;                // empty, unless it was asked for
+  std::uint64_t digest = 0;         // of the model's last state
   // The state from which the mismatch can be replayed, and its step number: a step of visibility, or
   // the first.
   std::optional<state::Volume> replay;

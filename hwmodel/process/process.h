@@ -64,6 +64,16 @@ class Link final : public sc_core::sc_prim_channel {
   Fifo<Word> fifo_;
 };
 
+// Calls `watch` in the update phase, when every block has run its cycle.
+class AfterCycle final : public sc_core::sc_prim_channel {
+ public:
+  std::function<void()> watch;
+  void tick() { request_update(); }
+
+ private:
+  void update() override { watch(); }
+};
+
 // A block: one process, one cycle of its plain C++ content at every rising edge.
 class Block final : public sc_core::sc_module {
  public:

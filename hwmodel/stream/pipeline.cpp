@@ -82,6 +82,7 @@ struct Pipeline::Machine {
       });
     add("writer", [this] {
       writer.cycle(shared.cycle());
+      if (after.watch) after.tick();
       watch_progress();
     });
   }
@@ -134,6 +135,7 @@ struct Pipeline::Machine {
   std::function<void()> poll;
   bool ran = false;
   Context context;  // first: everything of SystemC lives in it
+  AfterCycle after;
   Shared shared;
   Configuration configuration;
   Design design;
@@ -161,6 +163,12 @@ void Pipeline::watch(FifoWatcher<Cell>* watcher) {
 }
 
 void Pipeline::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
+
+void Pipeline::probe(FifoProbe<Cell>* probe) {
+  machine_->for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.probe(probe); });
+}
+
+void Pipeline::each_cycle(std::function<void()> watch) { machine_->after.watch = std::move(watch); }
 
 void Pipeline::stop() { machine_->shared.end(); }
 
@@ -234,6 +242,23 @@ std::vector<ChannelReport> Pipeline::channels() const {
                        fifo.count(), fifo.entered(), fifo.occupancy()});
   }
   return reports;
+}
+
+std::vector<const Stage*> Pipeline::working_stages() const {
+  std::vector<const Stage*> stages;
+  for (const auto& step : machine_->steps)
+    for (const auto& stage : step->stages()) stages.push_back(stage.get());
+  return stages;
+}
+
+std::vector<StageCycles> Pipeline::accounts() const {
+  const Machine& m = *machine_;
+  std::vector<StageCycles> accounts{m.reader.cycles()};
+  for (const auto& step : m.steps)
+    for (const auto& stage : step->stages()) accounts.push_back(stage->cycles());
+  for (const auto& feed : m.feeds) accounts.push_back(feed->cycles());
+  accounts.push_back(m.writer.cycles());
+  return accounts;
 }
 
 std::vector<StageReport> Pipeline::stages() const {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "accuracy/report/axis.h"
+#include "render/page/axis.h"
 
 namespace voxmelt::accuracy {
 namespace {
@@ -111,10 +111,10 @@ TEST(Report, TablesHaveOneWidth) {
 }
 
 TEST(Axis, TicksAreRoundAndCoverTheRange) {
-  const Axis linear(0.3, 9.7, false, 0, 100);
+  const page::Axis linear(0.3, 9.7, false, 0, 100);
   EXPECT_EQ(linear.ticks(), (std::vector<double>{0, 2, 4, 6, 8, 10}));
   EXPECT_NEAR(linear(5), 50, 1e-9);
-  const Axis logarithmic(1, 1000, true, 100, 0);
+  const page::Axis logarithmic(1, 1000, true, 100, 0);
   EXPECT_EQ(logarithmic.ticks(), (std::vector<double>{1, 10, 100, 1000}));
   EXPECT_NEAR(logarithmic(10), 100.0 * 2 / 3, 1e-9);
 }

@@ -34,6 +34,7 @@ ALLOWED = {
     "kernel/run/checkpoint": [STATE, CPU, "kernel/run/io"],
     PICTURE: [f"{RULE}/fixed_point.h"],
     "render/image": [],
+    "render/page": [],
     "render/frames": ["render/image"],
     "render/density": [RULE, STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU],
     "render/light": [PICTURE, CPU, "render/density"],
@@ -56,9 +57,11 @@ ALLOWED = {
     "hwmodel/picture": ["hwmodel/caster_faults", "hwmodel/memory", "hwmodel/raycast", STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image",
                         "render/density", "render/ground", "render/packet", "render/reference"],
     "hwmodel/presets": ["hwmodel/memory", "hwmodel/raycast", "hwmodel/stream", "kernel/scene/text"],
-    "hwmodel/machine": ["hwmodel/lockstep", "hwmodel/memory", "hwmodel/picture", "hwmodel/raycast", STATE, "render/image", "render/density", "render/packet",
+    "hwmodel/explore": ["hwmodel/lockstep", "hwmodel/machine", "hwmodel/memory", "hwmodel/stream", "kernel/scene/text"],
+    "hwmodel/machine": ["hwmodel/lockstep", "hwmodel/memory", "hwmodel/picture", "hwmodel/raycast", "hwmodel/stream", STATE, "render/image", "render/density", "render/packet",
                         "render/reference", f"{PICTURE}/camera.h"],
     "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
+    "hwmodel/page": ["render/page"],
     "bench": ["accuracy/picture", "bench/measure", "hwmodel/stream", PARAMETERS, STATE, "kernel/scene", CPU, VISIBILITY, "kernel/run",
               "render/density", "render/packet", "render/reference", "render/visibility"],
     "bench/baseline": [PARAMETERS, STATE],
@@ -66,7 +69,7 @@ ALLOWED = {
                       "kernel/run", "render/density", "render/packet", "render/image", "render/frames"],
     # The judge sees states and scenes, never a rule.
     "accuracy": [STATE, STEP, "kernel/scene", "kernel/run", "bench/measure"],
-    "accuracy/report": ["accuracy", "accuracy/front"],
+    "accuracy/report": ["accuracy", "accuracy/front", "render/page"],
     # The twin has rules of its own; with the automaton it shares its choices at random and who follows rays.
     "accuracy/front": ["accuracy", RULE, STATE, "kernel/scene", VISIBILITY, "bench/measure"],
     # The converged picture reads the picture's data, and computes with its own arithmetic.
@@ -76,7 +79,7 @@ ALLOWED = {
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
                 "render/image", "render/packet"],
     "examples": ["include/voxmelt"],
-    "app": [CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/caster_faults", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/picture", "hwmodel/presets", STATE, "kernel/scene", "kernel/run",
+    "app": [CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/caster_faults", "hwmodel/explore", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "hwmodel/presets", "hwmodel/stream", STATE, "kernel/scene", "kernel/run",
             "kernel/run/checkpoint", "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.
@@ -92,8 +95,8 @@ THIRD_PARTY = {
     "xxhash.h": ["kernel/run/checkpoint"],
     "CLI/": ["app"],
     "benchmark/": ["bench"],
-    "nlohmann/": ["accuracy/report", "kernel/run/checkpoint", "kernel/run/io", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/picture", "bench/measure", "app"],
-    "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/picture", "bench/measure", "accuracy",
+    "nlohmann/": ["accuracy/report", "kernel/run/checkpoint", "kernel/run/io", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "bench/measure", "app"],
+    "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "render/page", "bench/measure", "accuracy",
              "accuracy/front", "accuracy/report", "app"],
 }
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")

@@ -1,5 +1,7 @@
 // Grids that are cut into tiles: the bits of the software, the cycles of the closed form, every cell owned by
 // one tile and counted once, and faults of tiles found where they were planted.
+#include <cstddef>
+#include <stdexcept>
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

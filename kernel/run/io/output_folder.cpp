@@ -5,12 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <string>
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
 #include <fstream>
 #include <set>
+#include <string>
 #include <system_error>
 #include <vector>
 

@@ -1,8 +1,8 @@
 // Where the rays along one axis cross a triangle: exact in the plane across the rays, row by row.
 #pragma once
 
-#include <cstddef>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 

@@ -3,9 +3,7 @@
 
 #include <vector>
 
-#include "accuracy/case.h"
-
-namespace voxmelt::accuracy {
+namespace voxmelt::page {
 
 class Axis {
  public:
@@ -24,4 +22,4 @@ class Axis {
   std::vector<double> ticks_;
 };
 
-}  // namespace voxmelt::accuracy
+}  // namespace voxmelt::page

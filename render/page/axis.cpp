@@ -1,8 +1,8 @@
-#include "accuracy/report/axis.h"
+#include "render/page/axis.h"
 
 #include <cmath>
 
-namespace voxmelt::accuracy {
+namespace voxmelt::page {
 namespace {
 
 constexpr int kFewTicks = 6;
@@ -44,4 +44,4 @@ double Axis::along(double value) const {
 
 double Axis::operator()(double value) const { return from_ + (to_ - from_) * along(value); }
 
-}  // namespace voxmelt::accuracy
+}  // namespace voxmelt::page

@@ -1,7 +1,7 @@
 // The page's style sheet: one column of cards, light or dark as the reader's system is.
 #pragma once
 
-namespace voxmelt::accuracy {
+namespace voxmelt::page {
 
 inline constexpr const char* kStyle = R"(
 :root { color-scheme: light dark;
@@ -60,4 +60,4 @@ svg .name { fill: var(--ink); font-size: 13px; }
 .b0 { background: var(--c0); } .b1 { background: var(--c1); } .b2 { background: var(--c2); } .b3 { background: var(--c3); } .b4 { background: var(--c4); } .b5 { background: var(--c5); } .b6 { background: var(--c6); }
 )";
 
-}  // namespace voxmelt::accuracy
+}  // namespace voxmelt::page

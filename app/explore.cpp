@@ -1,0 +1,163 @@
+// voxmelt explore: which hardware is the best for a scene, on a device and a memory.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/options.h"
+#include "app/run_ahead.h"
+#include "app/visibility.h"
+#include "hwmodel/explore/explore_report.h"
+#include "hwmodel/presets/memory_preset.h"
+#include "kernel/run/io/output_folder.h"
+
+namespace voxmelt::app {
+namespace {
+
+namespace explore = hwmodel::explore;
+
+struct ExploreCommand {
+  Common common;
+  std::string device, memory = "ddr4-2400", out;
+  std::uint32_t steps = 32, from = 0, check_steps = 0;
+  std::size_t points = 8;
+  std::vector<std::string> device_sets, hw_sets;
+};
+
+// --set reaches the device, the axes of the sweep, and the scene.
+void split_sets(ExploreCommand& command) {
+  std::vector<std::string> scene;
+  for (std::string& set : command.common.sets) {
+    auto& of = set.starts_with("device.") ? command.device_sets
+               : set.starts_with("hw.")   ? command.hw_sets
+                                          : scene;
+    of.push_back(std::move(set));
+  }
+  command.common.sets = std::move(scene);
+}
+
+std::optional<hwmodel::memory::Parameters> find_memory(const std::string& name) {
+  if (name == "none") return {};
+  std::string known = "none";
+  bool there = name.ends_with(".toml");
+  for (const hwmodel::MemoryFile& file : hwmodel::memory_files()) {
+    there = there || file.name == name;
+    known += ", " + file.name;
+  }
+  if (!there)
+    throw UsageError(fmt::format(
+        "error: --memory {}: no such memory; there are {}, or a file that ends in .toml", name, known));
+  return hwmodel::load_memory(name, "--memory " + name);
+}
+
+// The best design, and others of the front at equal distances, the slowest among them.
+std::vector<std::size_t> chosen_points(const explore::Answer& answer, std::size_t wanted) {
+  std::vector<std::size_t> chosen;
+  const std::size_t n = answer.front.size(), count = std::min(wanted, n);
+  for (std::size_t i = 0; i < count; ++i)
+    chosen.push_back(answer.front[count == 1 ? 0 : i * (n - 1) / (count - 1)]);
+  return chosen;
+}
+
+int run_explore(ExploreCommand command) {
+  split_sets(command);
+  const Common& common = command.common;
+  explore::Question question;
+  question.device = explore::load_device(command.device, command.device_sets);
+  question.memory = find_memory(command.memory);
+  question.steps = command.steps;
+  scene::Scene scene = load_scene(common);
+  keep_inputs(scene, {{"--report", common.report}, {"--out", command.out}});
+  check_report_place(common, command.out);
+  std::optional<io::OutputFolder> out;
+  if (!command.out.empty()) out.emplace(command.out);
+  catch_interrupts();
+  question.parameters = scene.parameters;
+  const std::string name = scene.name;
+  const step::Implementation& fast = find_implementation(common);
+  const run::Simulation ahead =
+      run_ahead(scene, common, command.points == 0 ? 0 : command.from, command.steps);
+  question.grid = ahead.volume().grid;
+  question.first_step = ahead.step_number();
+
+  explore::Axes axes = usual_axes(question);
+  keep_only(axes, command.hw_sets);
+  const explore::Swept swept = sweep(question, axes, stop_if_interrupted);
+  const explore::Answer answer = answer_of(question, axes, swept);
+  std::vector<explore::Checked> checked;
+  step::Tuning tuning;
+  tuning.threads = thread_count(common);
+  const std::vector<std::size_t> points = chosen_points(answer, command.points);
+  for (const std::size_t point : points) {
+    if (!common.quiet) {
+      const hwmodel::Configuration& hw = swept.points[point].hw;
+      fmt::print(stderr, "verifying {} of {}: {} lanes, {} steps\n", checked.size() + 1, points.size(),
+                 hw.lanes, hw.cascade);
+    }
+    checked.push_back(check(question, swept, point, command.check_steps,
+                            {ahead.volume(), fast, tuning, stop_if_interrupted}));
+  }
+  const explore::Explored explored{question, axes, swept, answer, checked, name, command.memory};
+  fmt::print("{}", common.quiet ? sentence_of(explored) + "\n" : text_of(explored));
+  const std::string json = json_of(explored).dump(2) + '\n';
+  write_report(common, json);
+  if (out) {
+    io::write_file(out->partial() / "explore.json", json);
+    io::write_file(out->partial() / "explore.csv", csv_of(explored));
+    io::write_file(out->partial() / "explore.svg", svg_of(explored));
+    out->commit();
+    if (!common.quiet)
+      fmt::print("picture, table and report  {}/\n", std::filesystem::proximate(out->place()).string());
+  }
+  const bool good = std::all_of(checked.begin(), checked.end(), [](const auto& one) { return one.good; });
+  return good ? kDone : kCheckFailed;
+}
+
+}  // namespace
+
+void add_explore(CLI::App& program, Chosen& chosen) {
+  auto options = std::make_shared<ExploreCommand>();
+  CLI::App* command = program.add_subcommand(
+      "explore", "Which hardware is best: all designs by closed form, the best ones simulated and verified");
+  add_scene(*command, options->common);
+  command->add_option("--device", options->device, "a device by name (zu7ev, ecp5-85f), or a TOML file")
+      ->required();
+  command
+      ->add_option("--memory", options->memory,
+                   "ddr4-2400, hbm2, lpddr4-3200, a TOML file, or none: it always answers")
+      ->capture_default_str();
+  command->add_option("--steps", options->steps, "steps of the run whose time is predicted")
+      ->check(CLI::Range(1u, 1000000u))
+      ->capture_default_str();
+  command
+      ->add_option("--from", options->from,
+                   "steps that the software runs before what is simulated (mid-melt)")
+      ->capture_default_str();
+  command->add_option("--points", options->points, "designs of the front that are simulated and verified")
+      ->check(CLI::Range(0u, 1000u))
+      ->capture_default_str();
+  command
+      ->add_option("--check-steps", options->check_steps,
+                   "steps for which they are (default: one pass of the design)")
+      ->check(CLI::Range(1u, 10000u));
+  command->add_option("--out", options->out,
+                      "folder for explore.svg, explore.csv (every design) and explore.json");
+  add_common(*command, options->common);
+  add_visibility(*command, options->common);
+  command->footer(
+      "--set also takes the device's numbers (device.bram=300, device.clock=250), and keeps one value of an\n"
+      "axis: hw.lanes, hw.cascade, hw.substeps, hw.fifo_depth, hw.overlap, hw.clock_mhz.");
+  command->callback([options, &chosen] { chosen = [options] { return run_explore(*options); }; });
+}
+
+}  // namespace voxmelt::app

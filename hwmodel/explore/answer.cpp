@@ -1,0 +1,95 @@
+#include "hwmodel/explore/answer.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+auto order_of(const Point& p) {
+  const Configuration& hw = p.hw;
+  return std::tuple(-p.speed, p.taken.fullest, p.clock_mhz, hw.lanes, hw.cascade, hw.substeps, hw.fifo_depth,
+                    hw.overlap ? 0 : 1);
+}
+
+template <class May>  // may(point): is it a candidate?
+std::optional<std::size_t> best_of(const std::vector<Point>& points, May&& may) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (may(points[i]) && (!best || preferred(points[i], points[*best]))) best = i;
+  return best;
+}
+
+std::vector<std::size_t> front_of(const std::vector<Point>& points, Resource r) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].taken.fits()) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const std::int64_t x = points[a].taken.amounts[r], y = points[b].taken.amounts[r];
+    return x != y ? x < y : preferred(points[a], points[b]);
+  });
+  std::vector<std::size_t> front;
+  for (const std::size_t i : order)
+    if (front.empty() || points[i].speed > points[front.back()].speed) front.push_back(i);
+  return front;
+}
+
+Next next_of(const Question& question, const Swept& swept, std::int64_t speed, Resource r) {
+  Next next;
+  next.limit = speed;
+  const std::int64_t there = question.device.usable()[r];
+  for (std::size_t i = 0; i < swept.points.size(); ++i) {
+    const Point& point = swept.points[i];
+    if (point.speed <= speed) continue;
+    const std::optional<std::int64_t> least =
+        least_of(r, parts_of(swept, point.hw), point.hw, question.device);
+    if (!least) continue;
+    next.limit = std::max(next.limit, point.speed);
+    const std::int64_t more = *least - there;
+    if (!next.point || more < next.more || (more == next.more && preferred(point, swept.points[*next.point])))
+      next.point = i, next.more = more;
+  }
+  return next;
+}
+
+// The best speed that the device allows, if the question were another one.
+std::int64_t best_speed(const Question& question, const Axes& axes) {
+  const Swept swept = sweep(question, axes, {});
+  const auto best = best_of(swept.points, [](const Point& p) { return p.taken.fits(); });
+  return best ? swept.points[*best].speed : 0;
+}
+
+}  // namespace
+
+bool preferred(const Point& a, const Point& b) { return order_of(a) < order_of(b); }
+
+Answer answer_of(const Question& question, const Axes& axes, const Swept& swept) {
+  Answer answer;
+  answer.best = best_of(swept.points, [](const Point& p) { return p.taken.fits(); });
+  const std::int64_t speed = answer.best ? swept.points[*answer.best].speed : 0;
+  for (std::size_t r = 0; r < kResources; ++r) {
+    answer.fronts[r] = front_of(swept.points, static_cast<Resource>(r));
+    answer.front.insert(answer.front.end(), answer.fronts[r].begin(), answer.fronts[r].end());
+    answer.next[r] = next_of(question, swept, speed, static_cast<Resource>(r));
+  }
+  std::sort(answer.front.begin(), answer.front.end(),
+            [&](std::size_t a, std::size_t b) { return preferred(swept.points[a], swept.points[b]); });
+  answer.front.erase(std::unique(answer.front.begin(), answer.front.end()), answer.front.end());
+  if (!answer.best) return answer;
+
+  Axes at_clock = axes;  // the highest is enough: none is slower at a higher clock
+  at_clock.clock_mhz = {*std::max_element(axes.clock_mhz.begin(), axes.clock_mhz.end())};
+  Question other = question;
+  if (question.memory) {
+    other.memory->channels *= 2;
+    answer.with_twice_the_memory = best_speed(other, at_clock);
+    other.memory.reset();
+  }
+  answer.with_any_memory = best_speed(other, at_clock);
+  answer.next_clock_mhz = at_clock.clock_mhz.front() + 25;
+  at_clock.clock_mhz = {answer.next_clock_mhz};
+  answer.with_next_clock = best_speed(question, at_clock);
+  return answer;
+}
+
+}  // namespace voxmelt::hwmodel::explore

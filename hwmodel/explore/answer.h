@@ -1,0 +1,37 @@
+// What a sweep answers: the front, the best design, what bounds it, and what the next unit of each resource
+// would buy.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "hwmodel/explore/sweep.h"
+
+namespace voxmelt::hwmodel::explore {
+
+// The cheapest step to a faster design by one resource alone.
+struct Next {
+  std::optional<std::size_t> point;  // none: however much there is, nothing is faster
+  std::int64_t more = 0;             // units
+  std::int64_t limit = 0;            // speed, with any amount of it
+};
+
+struct Answer {
+  std::optional<std::size_t> best;                          // none: nothing fits
+  std::array<std::vector<std::size_t>, kResources> fronts;  // speed against each resource, slowest first
+  std::vector<std::size_t> front;                           // all of these together, fastest first
+  std::array<Next, kResources> next;
+  std::int64_t with_twice_the_memory = 0, with_any_memory = 0;  // best speeds
+  std::int64_t with_next_clock = 0;
+  int next_clock_mhz = 0;
+};
+
+Answer answer_of(const Question& question, const Axes& axes, const Swept& swept);
+
+// Is `a` to be preferred? The faster one; of equals the one that fills the device less, the lower clock.
+bool preferred(const Point& a, const Point& b);
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hwmodel/explore/sweep.h"
+#include "kernel/scene/text/compose.h"
+#include "kernel/scene/text/reader.h"
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+constexpr int kClockStep = 25;  // MHz
+
+}  // namespace
+
+Axes usual_axes(const Question& question) {
+  Axes axes;
+  for (int p = 1; p <= kMostLanes; p *= 2) axes.lanes.push_back(p);
+  for (int t = 1; t <= kMostCascade; ++t) axes.cascade.push_back(t);
+  axes.substeps = {1};
+  const auto& viscous = question.parameters.flow.viscous;
+  if (question.parameters.flow.law == rule::Law::viscous)
+    for (int n = 2; n <= std::min<int>(viscous.substeps, kMostSubsteps); n *= 2) axes.substeps.push_back(n);
+  axes.fifo_depth = {1, 2, 4, 8};
+  axes.overlap = {0, 1};
+  for (int mhz = kClockStep; mhz < question.device.clock_mhz; mhz += kClockStep)
+    axes.clock_mhz.push_back(mhz);
+  axes.clock_mhz.push_back(question.device.clock_mhz);
+  return axes;
+}
+
+void keep_only(Axes& axes, const std::vector<std::string>& sets) {
+  scene::Value document;
+  for (const std::string& set : sets) scene::apply_override(document, set);
+  scene::Reader root(document, "");
+  std::optional<scene::Reader> hw = root.table("hw");
+  if (!hw) return;
+  const std::array<std::pair<const char*, std::vector<int>*>, 6> keys{{{"lanes", &axes.lanes},
+                                                                       {"cascade", &axes.cascade},
+                                                                       {"substeps", &axes.substeps},
+                                                                       {"fifo_depth", &axes.fifo_depth},
+                                                                       {"overlap", &axes.overlap},
+                                                                       {"clock_mhz", &axes.clock_mhz}}};
+  for (const auto& [key, values] : keys) {
+    if (!hw->has(key)) continue;
+    const auto value = static_cast<int>(hw->integer(key, 0, 1'000'000));
+    const bool clock = values == &axes.clock_mhz;  // need not be one of the list
+    if (clock ? value < 1 || value > values->back()
+              : std::find(values->begin(), values->end(), value) == values->end()) {
+      std::string known;
+      for (const int one : *values) known += (known.empty() ? "" : ", ") + std::to_string(one);
+      hw->fail(key, " = " + std::to_string(value) + " is not among those that are tried: " + known);
+    }
+    *values = {value};
+  }
+  hw->finish();
+}
+
+}  // namespace voxmelt::hwmodel::explore

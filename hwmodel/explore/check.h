@@ -1,0 +1,40 @@
+// Points of a front, simulated: the pipeline in lock-step with the software, and its streams on the DRAM.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/explore/sweep.h"
+#include "hwmodel/lockstep/verify.h"
+
+namespace voxmelt::hwmodel::explore {
+
+struct Checked {
+  std::size_t point = 0;  // in Swept::points
+  std::uint32_t steps = 0;
+  bool good = false;       // no difference
+  std::string difference;  // else what it was
+  std::int64_t compared_cells = 0;
+  std::int64_t cycles = 0, predicted = 0;        // while the memory always answers
+  std::int64_t on_memory = 0, predicted_on = 0;  // with the memory's time
+  double error() const;                          // of the last, relative
+};
+
+struct CheckInput {
+  const state::Volume& start;
+  const step::Implementation& fast;
+  step::Tuning tuning;
+  std::function<void()> poll;
+};
+
+// `steps`: 0 means one whole pass.
+Checked check(const Question& question, const Swept& swept, std::size_t point, std::uint32_t steps,
+              const CheckInput& input);
+
+// The simulated cycles of a run's streams on a DRAM; without one, the cycles of its trains.
+std::int64_t simulated_on(const std::vector<Train>& trains, int clock_mhz, const Question& question);
+
+}  // namespace voxmelt::hwmodel::explore

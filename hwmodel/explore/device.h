@@ -1,0 +1,68 @@
+// A device, and the family whose parts it has: what there is, in which shapes, and what a stage costs. The
+// numbers come from the files in devices/ and families/, which name the source of each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hwmodel/stream/stage_kind.h"
+
+namespace voxmelt::hwmodel::explore {
+
+enum Resource : std::uint8_t { kLut, kFf, kDsp, kBram, kUram, kResources };
+inline constexpr std::array<std::string_view, kResources> kResourceNames{"lut", "ff", "dsp", "bram", "uram"};
+using Amounts = std::array<std::int64_t, kResources>;
+
+struct Widths {
+  int wide = 0, narrow = 0;
+};
+struct MemoryShape {
+  int bits = 0, words = 0;
+};
+// Logic beside memories and products: of a lane of a stage, of a unit, of a channel.
+struct LogicCost {
+  std::int64_t lut = 0, ff = 0;
+  std::string source;  // "synthesised: ...", "counted: ..." or "assumed: ..."
+};
+struct StageCost {
+  LogicCost lane;
+  std::vector<Widths> multipliers;  // the last one stands for all further ones
+};
+
+struct Family {
+  std::string name, title;
+  int bram_parts = 1;  // a block of BRAM has so many halves; the shapes are those of one
+  std::vector<MemoryShape> bram, uram;
+  int lutram_words = 1, lutram_bits = 1, lutram_luts = 1, mux_ways = 2, deepest_lutram = 1;
+  int register_words = 1;
+  Widths product;  // of a DSP, signed
+  LogicCost divider, random_block, channel, port, base;
+  int port_bits = 0, port_words = 0;  // the buffer of a port to the memory
+  std::map<StageKind, StageCost> stages;
+};
+
+struct Device {
+  std::string name, title;
+  Family family;
+  Amounts amounts{};
+  std::int64_t lutram = 0;  // of the LUTs, those that can be memory
+  int clock_mhz = 0;        // the highest
+  double fill = 1;          // the share of LUTs and flip-flops that can be used
+  Amounts usable() const;
+};
+
+struct NamedText {
+  std::string name, text;
+};
+const std::vector<NamedText>& device_files();
+const std::vector<NamedText>& family_files();
+
+// By the name of one of them, or the path of a file that ends in ".toml"; `overrides` are
+// "device.bram=300". Throws scene::InputError, with "--device NAME" in front where there is none.
+Device load_device(const std::string& name, const std::vector<std::string>& overrides);
+
+}  // namespace voxmelt::hwmodel::explore

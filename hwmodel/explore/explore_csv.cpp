@@ -1,0 +1,34 @@
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hwmodel/explore/explore_report.h"
+
+namespace voxmelt::hwmodel::explore {
+
+std::string csv_of(const Explored& of) {
+  std::string text =
+      "lanes,cascade,substeps,fifo_depth,overlap,clock_mhz,cycles,cycles_on_memory,cell_steps_per_second,lut,"
+      "ff,"
+      "dsp,bram,uram,lutram,fullest,fits,on_front,verified,simulated_cycles,simulated_on_memory\n";
+  std::vector<bool> on_front(of.swept.points.size());
+  for (const std::size_t at : of.answer.front) on_front[at] = true;
+  for (std::size_t i = 0; i < of.swept.points.size(); ++i) {
+    const Point& p = of.swept.points[i];
+    text += fmt::format("{},{},{},{},{},{},{},{},{}000", p.hw.lanes, p.hw.cascade, p.hw.substeps,
+                        p.hw.fifo_depth, p.hw.overlap ? 1 : 0, p.clock_mhz, p.cycles, p.on_memory, p.speed);
+    for (const std::int64_t amount : p.taken.amounts) text += fmt::format(",{}", amount);
+    text += fmt::format(",{},{:.6f},{},{}", p.taken.lutram, p.taken.fullest, p.taken.fits() ? 1 : 0,
+                        on_front[i] ? 1 : 0);
+    const Checked* checked = on_front[i] ? checked_at(of, i) : nullptr;
+    text += checked == nullptr
+                ? ",0,,\n"
+                : fmt::format(",{},{},{}\n", checked->good ? 1 : 0, checked->cycles, checked->on_memory);
+  }
+  return text;
+}
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,178 @@
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "hwmodel/explore/explore_report.h"
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json amounts_json(const Amounts& amounts) {
+  json of;
+  for (std::size_t r = 0; r < kResources; ++r) of[std::string(kResourceNames[r])] = amounts[r];
+  return of;
+}
+
+json logic_json(const LogicCost& cost) {
+  return {{"lut", cost.lut}, {"ff", cost.ff}, {"source", cost.source}};
+}
+
+json shapes_json(const std::vector<MemoryShape>& shapes) {
+  json of = json::array();
+  for (const MemoryShape& shape : shapes) of.push_back({shape.bits, shape.words});
+  return of;
+}
+
+json family_json(const Family& f) {
+  json of{{"name", f.name},
+          {"bram_parts", f.bram_parts},
+          {"bram_shapes", shapes_json(f.bram)},
+          {"uram_shapes", shapes_json(f.uram)},
+          {"lutram_words", f.lutram_words},
+          {"lutram_bits", f.lutram_bits},
+          {"lutram_luts", f.lutram_luts},
+          {"mux_ways", f.mux_ways},
+          {"deepest_lutram", f.deepest_lutram},
+          {"register_words", f.register_words},
+          {"product", {f.product.wide, f.product.narrow}},
+          {"port_bits", f.port_bits},
+          {"port_words", f.port_words},
+          {"divider", logic_json(f.divider)},
+          {"random_block", logic_json(f.random_block)},
+          {"channel", logic_json(f.channel)},
+          {"port", logic_json(f.port)},
+          {"base", logic_json(f.base)}};
+  for (const auto& [kind, cost] : f.stages) {
+    json& stage = of["stages"][std::string(name_of(kind))];
+    stage = logic_json(cost.lane);
+    stage["multipliers"] = json::array();
+    for (const Widths& widths : cost.multipliers)
+      stage["multipliers"].push_back({widths.wide, widths.narrow});
+  }
+  return of;
+}
+
+json parts_json(const PartList& parts) {
+  json stages = json::array();
+  for (const StagePart& stage : parts.stages) {
+    json buffers = json::array();
+    for (const BufferCost& b : stage.buffers)
+      buffers.push_back({{"name", b.name}, {"words", b.words}, {"lanes", b.lanes}, {"bits", b.bits}});
+    stages.push_back({{"name", name_of(stage.kind)},
+                      {"lag", stage.lag},
+                      {"output_bits", stage.output_bits},
+                      {"buffers", buffers},
+                      {"multipliers", stage.units.multipliers},
+                      {"dividers", stage.units.dividers},
+                      {"random_blocks_per_8_lanes", stage.units.random_blocks}});
+  }
+  return {{"lanes", parts.design.shape.lanes},     {"substeps", parts.design.substeps},
+          {"cell_bits", parts.design.cell_bits()}, {"fed", parts.fed},
+          {"tokens", parts.design.shape.tokens()}, {"stages", stages}};
+}
+
+json point_json(const Explored& of, std::size_t at) {
+  const Point& p = of.swept.points[at];
+  json result{{"hw",
+               {{"lanes", p.hw.lanes},
+                {"cascade", p.hw.cascade},
+                {"substeps", p.hw.substeps},
+                {"fifo_depth", p.hw.fifo_depth},
+                {"overlap", p.hw.overlap ? 1 : 0},
+                {"clock_mhz", p.clock_mhz}}},
+              {"cycles", p.cycles},
+              {"cycles_on_memory", p.on_memory},
+              {"cell_steps_per_second", p.speed * 1000},
+              {"takes", amounts_json(p.taken.amounts)},
+              {"lutram", p.taken.lutram},
+              {"fullest", std::isfinite(p.taken.fullest) ? json(p.taken.fullest) : json()},
+              {"fullest_of", kResourceNames[p.taken.most]},
+              {"state", "predicted"}};
+  const Checked* checked = checked_at(of, at);
+  if (checked == nullptr) return result;
+  result["state"] = checked->good ? "verified" : "differs";
+  result["simulated"] = {{"steps", checked->steps},
+                         {"compared_cells", checked->compared_cells},
+                         {"cycles", checked->cycles},
+                         {"predicted_cycles", checked->predicted},
+                         {"cycles_on_memory", checked->on_memory},
+                         {"predicted_on_memory", checked->predicted_on},
+                         {"error", checked->error()}};
+  return result;
+}
+
+json next_json(const Explored& of) {
+  const Answer& a = of.answer;
+  json next;
+  for (std::size_t r = 0; r < kResources; ++r) {
+    json& one = next[std::string(kResourceNames[r])];
+    one["limit"] = a.next[r].limit * 1000;
+    one["more"] = a.next[r].point ? json(a.next[r].more) : json();
+    one["design"] = a.next[r].point ? point_json(of, *a.next[r].point) : json();
+  }
+  if (of.question.memory) next["second_memory"] = a.with_twice_the_memory * 1000;
+  next["any_memory"] = a.with_any_memory * 1000;
+  next["clock"] = {{"mhz", a.next_clock_mhz}, {"cell_steps_per_second", a.with_next_clock * 1000}};
+  return next;
+}
+
+}  // namespace
+
+json json_of(const Explored& of) {
+  const Question& q = of.question;
+  const rule::Heat& heat = q.parameters.heat;
+  json front = json::array(), parts = json::array(), fronts;
+  for (const std::size_t at : of.answer.front) front.push_back(point_json(of, at));
+  for (const PartList& one : of.swept.parts) parts.push_back(parts_json(one));
+  for (std::size_t r = 0; r < kResources; ++r) {
+    json& one = fronts[std::string(kResourceNames[r])] = json::array();
+    for (const std::size_t at : of.answer.fronts[r])
+      one.push_back({of.swept.points[at].taken.amounts[r], of.swept.points[at].speed * 1000});
+  }
+  json result{{"scene", of.scene},
+              {"grid", {q.grid.x, q.grid.y, q.grid.z}},
+              {"first_step", q.first_step},
+              {"steps", q.steps},
+              {"visibility_every", heat.radiates() ? heat.visibility_every : 0},
+              {"device", q.device.name},
+              {"memory", of.memory},
+              {"available", amounts_json(q.device.amounts)},
+              {"usable", amounts_json(q.device.usable())},
+              {"lutram", q.device.lutram},
+              {"family", family_json(q.device.family)},
+              {"axes",
+               {{"lanes", of.axes.lanes},
+                {"cascade", of.axes.cascade},
+                {"substeps", of.axes.substeps},
+                {"fifo_depth", of.axes.fifo_depth},
+                {"overlap", of.axes.overlap},
+                {"clock_mhz", of.axes.clock_mhz}}},
+              {"configurations", of.swept.points.size()},
+              {"seconds", of.swept.seconds},
+              {"answer", sentence_of(of)},
+              {"best", of.answer.best ? point_json(of, *of.answer.best) : json()},
+              {"next", next_json(of)},
+              {"front", front},
+              {"fronts", fronts},
+              {"parts", parts}};
+  if (q.memory) {
+    const memory::Parameters& m = *q.memory;
+    result["dram"] = {{"mhz", m.mhz},
+                      {"channels", m.channels},
+                      {"peak_megabytes_per_second", m.peak()},
+                      {"rfc", m.rfc},
+                      {"refi", m.refi},
+                      {"rp_all", m.rp_all},
+                      {"rtp", m.rtp},
+                      {"rcd", m.rcd},
+                      {"cl", m.cl},
+                      {"wtr_s", m.wtr_s},
+                      {"read_to_write", m.read_to_write}};
+  }
+  return result;
+}
+
+}  // namespace voxmelt::hwmodel::explore

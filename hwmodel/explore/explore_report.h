@@ -1,0 +1,31 @@
+// What an exploration says: a table and a sentence, CSV, JSON, a picture.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "hwmodel/explore/answer.h"
+#include "hwmodel/explore/check.h"
+
+namespace voxmelt::hwmodel::explore {
+
+struct Explored {
+  const Question& question;
+  const Axes& axes;
+  const Swept& swept;
+  const Answer& answer;
+  const std::vector<Checked>& checked;
+  std::string scene, memory;
+};
+
+std::string text_of(const Explored& explored);
+std::string sentence_of(const Explored& explored);
+std::string csv_of(const Explored& explored);  // of every configuration
+nlohmann::ordered_json json_of(const Explored& explored);
+std::string svg_of(const Explored& explored);
+
+const Checked* checked_at(const Explored& explored, std::size_t point);  // null: only predicted
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,193 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "hwmodel/explore/explore_report.h"
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+constexpr double kWidth = 470, kHeight = 330;                       // of a panel
+constexpr double kLeft = 62, kRight = 18, kTop = 44, kBottom = 46;  // beside its plot
+
+constexpr const char* kStyle = R"(<style>
+svg { color-scheme: light dark; --paper: #fbfaf7; --ink: #1f2328; --soft: #646a73; --line: #e4e1da; --dot: #b9bec6;
+  --front: #c8571b; --full: #c23b2a; }
+@media (prefers-color-scheme: dark) { svg { --paper: #15171b; --ink: #e6e4df; --soft: #9aa0aa; --line: #31353d;
+  --dot: #4b525d; --front: #ff9a5a; --full: #ff7a66; } }
+text { font: 12px system-ui, "Noto Sans", "DejaVu Sans", sans-serif; fill: var(--soft); }
+.title { font-size: 14px; font-weight: 600; fill: var(--ink); } .head { font-size: 17px; font-weight: 600; fill: var(--ink); }
+.page { fill: var(--paper); } .grid { stroke: var(--line); } .dot { fill: var(--dot); }
+.front { fill: none; stroke: var(--front); stroke-width: 1.5; opacity: .7; }
+.verified { fill: var(--front); } .predicted { fill: var(--paper); stroke: var(--front); stroke-width: 1.5; }
+.differs { fill: var(--full); } .limit { stroke: var(--full); stroke-dasharray: 4 4; } .label { fill: var(--ink); }
+</style>
+)";
+
+// A logarithmic scale from whole decades, or halves of them.
+class Scale {
+ public:
+  Scale(double low, double high, double from, double to)
+      : low_(std::log10(low)), high_(std::log10(std::max(high, low * 1.01))), from_(from), to_(to) {}
+  double operator()(double value) const {
+    return from_ + (to_ - from_) * (std::log10(value) - low_) / (high_ - low_);
+  }
+  std::vector<double> ticks() const {
+    std::vector<double> ticks;
+    for (int decade = static_cast<int>(std::floor(low_)); decade <= std::ceil(high_); ++decade)
+      for (const double step : {1., 2., 5.}) {
+        const double value = step * std::pow(10, decade);
+        if (std::log10(value) >= low_ - 1e-9 && std::log10(value) <= high_ + 1e-9) ticks.push_back(value);
+      }
+    return ticks;
+  }
+
+ private:
+  double low_, high_, from_, to_;
+};
+
+std::string number(double value) {
+  if (value >= 1e6) return fmt::format("{:g} M", value / 1e6);
+  if (value >= 1e4) return fmt::format("{:g} k", value / 1e3);
+  return fmt::format("{:g}", value);
+}
+
+double giga(const Point& p) { return static_cast<double>(p.speed) * 1e-6; }
+
+struct Panel {
+  const Explored& of;
+  Resource r;
+  Scale x, y;
+
+  double amount(const Point& p) const {
+    return static_cast<double>(std::max<std::int64_t>(1, p.taken.amounts[r]));
+  }
+  std::string at(const Point& p) const { return fmt::format("{:.1f},{:.1f}", x(amount(p)), y(giga(p))); }
+
+  std::string axes(const std::string& name) const {
+    std::string text =
+        fmt::format("<text class='title' x='{}' y='22'>cell-steps/s against {}</text>\n", kLeft, name);
+    for (const double tick : x.ticks())
+      text += fmt::format(
+          "<line class='grid' x1='{0:.1f}' x2='{0:.1f}' y1='{1}' y2='{2}'/>"
+          "<text x='{0:.1f}' y='{3}' text-anchor='middle'>{4}</text>\n",
+          x(tick), kTop, kHeight - kBottom, kHeight - kBottom + 17, number(tick));
+    for (const double tick : y.ticks())
+      text += fmt::format(
+          "<line class='grid' x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}'/>"
+          "<text x='{3}' y='{4:.1f}' text-anchor='end'>{5:g} G</text>\n",
+          kLeft, kWidth - kRight, y(tick), kLeft - 7, y(tick) + 4, tick);
+    return text + fmt::format("<text x='{:.1f}' y='{}' text-anchor='middle'>{}</text>\n",
+                              (kLeft + kWidth - kRight) / 2, kHeight - 10, name);
+  }
+
+  std::string all() const {
+    std::set<std::string> seen;  // one dot for designs at one place
+    std::string text = "<g class='dot'>\n";
+    for (const Point& p : of.swept.points)
+      if (p.taken.fits() && seen.insert(at(p)).second)
+        text += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='1.6'/>\n", x(amount(p)), y(giga(p)));
+    return text + "</g>\n";
+  }
+
+  std::string front() const {
+    std::string line, marks;
+    for (const std::size_t i : of.answer.fronts[r]) {
+      const Point& p = of.swept.points[i];
+      line += (line.empty() ? "M" : " L") + at(p);
+      const Checked* checked = checked_at(of, i);
+      const char* state = checked == nullptr ? "predicted" : checked->good ? "verified" : "differs";
+      marks += fmt::format(
+          "<circle class='{0}' cx='{1:.1f}' cy='{2:.1f}' r='4'><title>{3} lanes x {4} steps, {5} MHz: "
+          "{6:.3f} "
+          "Gcell-steps/s, {7} {8}; {0}</title></circle>\n",
+          state, x(amount(p)), y(giga(p)), p.hw.lanes, p.hw.cascade, p.clock_mhz, giga(p), p.taken.amounts[r],
+          kResourceNames[r]);
+    }
+    std::string text = fmt::format("<path class='front' d='{}'/>\n{}", line, marks);
+    if (const auto& front = of.answer.fronts[r]; !front.empty()) {
+      const Point& last = of.swept.points[front.back()];
+      text +=
+          fmt::format("<text class='label' x='{:.1f}' y='{:.1f}' text-anchor='end'>{} x {}, {} MHz</text>\n",
+                      x(amount(last)) - 8, y(giga(last)) - 8, last.hw.lanes, last.hw.cascade, last.clock_mhz);
+    }
+    return text;
+  }
+
+  std::string limit(double usable) const {
+    return fmt::format(
+        "<line class='limit' x1='{0:.1f}' x2='{0:.1f}' y1='{1}' y2='{2}'/>"
+        "<text x='{0:.1f}' y='{3}' text-anchor='end'>there is: {4}</text>\n",
+        x(usable), kTop, kHeight - kBottom, kTop - 5, number(usable));
+  }
+};
+
+std::string escaped(const std::string& text) {
+  std::string of;
+  for (const char c : text)
+    of += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return of;
+}
+
+std::string name_of(Resource r) {
+  std::string name(kResourceNames[r]);
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return name;
+}
+
+// Long lines of a picture are cut at blanks.
+std::string wrapped(const std::string& text, std::size_t most, double x, double y) {
+  std::string of;
+  for (std::size_t from = 0; from < text.size(); y += 17) {
+    std::size_t end = std::min(text.size(), from + most);
+    if (end < text.size()) end = std::max(from + 1, text.rfind(' ', end));
+    of += fmt::format("<text x='{}' y='{}'>{}</text>\n", x, y, escaped(text.substr(from, end - from)));
+    from = end + 1;
+  }
+  return of;
+}
+
+}  // namespace
+
+std::string svg_of(const Explored& of) {
+  const Amounts usable = of.question.device.usable();
+  std::vector<Resource> shown;
+  for (std::size_t r = 0; r < kResources; ++r)
+    if (usable[r] > 0) shown.push_back(static_cast<Resource>(r));
+  double slowest = 1e9, fastest = 0;
+  for (const Point& p : of.swept.points)
+    if (p.taken.fits()) slowest = std::min(slowest, giga(p)), fastest = std::max(fastest, giga(p));
+  constexpr double kHead = 92;
+  const double height = kHead + kHeight * static_cast<double>((shown.size() + 1) / 2);
+  std::string svg = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
+      "role='img'>\n{2}"
+      "<rect class='page' width='{0}' height='{1}'/>\n<text class='head' x='24' y='32'>{3} on {4}, "
+      "{5}</text>\n{6}",
+      2 * kWidth, height, kStyle, escaped(of.scene), escaped(of.question.device.name), escaped(of.memory),
+      wrapped(sentence_of(of), 140, 24, 54));
+  if (fastest > 0)
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      const Resource r = shown[i];
+      const auto most = static_cast<double>(usable[r]);
+      double least = most;
+      for (const std::size_t at : of.answer.fronts[r])
+        least = std::min(
+            least, static_cast<double>(std::max<std::int64_t>(1, of.swept.points[at].taken.amounts[r])));
+      const Panel panel{of, r, Scale(least * 0.8, most * 1.05, kLeft, kWidth - kRight),
+                        Scale(slowest * 0.8, fastest * 1.3, kHeight - kBottom, kTop)};
+      svg += fmt::format("<g transform='translate({} {})'>\n{}{}{}{}</g>\n", i % 2 == 0 ? 0 : kWidth,
+                         kHead + kHeight * static_cast<double>(i / 2), panel.axes(name_of(r)), panel.all(),
+                         panel.limit(most), panel.front());
+    }
+  return svg + "</svg>\n";
+}
+
+}  // namespace voxmelt::hwmodel::explore

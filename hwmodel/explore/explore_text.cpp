@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hwmodel/explore/explore_report.h"
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+double percent(double part, double whole) { return whole == 0 ? 0 : 100 * part / whole; }
+double gain(std::int64_t speed, std::int64_t than) {
+  return percent(static_cast<double>(speed - than), static_cast<double>(than));
+}
+std::string giga(std::int64_t speed) { return fmt::format("{:.3f}", static_cast<double>(speed) * 1e-6); }
+
+std::string design_of(const Point& p) {
+  std::string text = fmt::format("{} lanes x {} steps at {} MHz", p.hw.lanes, p.hw.cascade, p.clock_mhz);
+  if (p.hw.substeps > 1) text += fmt::format(", {} sub-steps", p.hw.substeps);
+  return text;
+}
+
+std::string unit_of(Resource r) {
+  std::string name(kResourceNames[r]);
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return name;
+}
+
+std::string row_of(const Explored& of, std::size_t at) {
+  const Point& p = of.swept.points[at];
+  std::string text =
+      fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>9}", p.hw.lanes, p.hw.cascade, p.hw.substeps,
+                  p.hw.fifo_depth, p.hw.overlap ? "yes" : "no", p.clock_mhz, giga(p.speed));
+  for (const std::int64_t amount : p.taken.amounts) text += fmt::format(" {:>7}", amount);
+  text += fmt::format(" {:>6.1f} {:>7.1f}  ", 100 * p.taken.fullest,
+                      percent(static_cast<double>(p.on_memory - p.cycles), static_cast<double>(p.on_memory)));
+  const Checked* checked = checked_at(of, at);
+  if (checked == nullptr) return text + "predicted\n";
+  if (!checked->good) return text + "DIFFERS\n";
+  return text + fmt::format("verified, {} steps; cycles {:+}, with memory {:+.2f} %\n", checked->steps,
+                            checked->predicted - checked->cycles, 100 * checked->error());
+}
+
+// What would make the best design faster, the greatest gain first.
+std::vector<std::pair<std::int64_t, std::string>> bounds_of(const Explored& of) {
+  const std::int64_t best = of.swept.points[*of.answer.best].speed;
+  std::vector<std::pair<std::int64_t, std::string>> bounds;
+  for (std::size_t r = 0; r < kResources; ++r)
+    if (of.answer.next[r].limit > best)
+      bounds.emplace_back(of.answer.next[r].limit, unit_of(static_cast<Resource>(r)));
+  if (of.answer.with_any_memory > best) bounds.emplace_back(of.answer.with_any_memory, "the memory");
+  if (of.answer.with_next_clock > best) bounds.emplace_back(of.answer.with_next_clock, "the clock");
+  std::stable_sort(bounds.begin(), bounds.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  return bounds;
+}
+
+std::string next_text(const Explored& of) {
+  const std::int64_t best = of.swept.points[*of.answer.best].speed;
+  std::string text;
+  for (std::size_t r = 0; r < kResources; ++r) {
+    const Next& next = of.answer.next[r];
+    const auto unit = unit_of(static_cast<Resource>(r));
+    if (next.point)
+      text += fmt::format("  {} more {} buy {:+.1f} % ({}); any number {:+.1f} %\n", next.more, unit,
+                          gain(of.swept.points[*next.point].speed, best),
+                          design_of(of.swept.points[*next.point]), gain(next.limit, best));
+    else
+      text += fmt::format("  more {} alone buy nothing\n", unit);
+  }
+  if (of.question.memory)
+    text += fmt::format("  a second memory buys {:+.1f} %, any number {:+.1f} %\n",
+                        gain(of.answer.with_twice_the_memory, best), gain(of.answer.with_any_memory, best));
+  return text + fmt::format("  a clock of {} MHz buys {:+.1f} %\n", of.answer.next_clock_mhz,
+                            gain(of.answer.with_next_clock, best));
+}
+
+}  // namespace
+
+const Checked* checked_at(const Explored& of, std::size_t point) {
+  for (const Checked& checked : of.checked)
+    if (checked.point == point) return &checked;
+  return nullptr;
+}
+
+std::string sentence_of(const Explored& of) {
+  const Device& device = of.question.device;
+  if (!of.answer.best)
+    return fmt::format("None of {} designs for {} fits on {}.", of.swept.points.size(), of.scene,
+                       device.name);
+  const Point& p = of.swept.points[*of.answer.best];
+  const auto bounds = bounds_of(of);
+  const Checked* checked = checked_at(of, *of.answer.best);
+  std::string text =
+      fmt::format("The best of {} designs for {} on {} with {} has {}: {} Gcell-steps/s, {}; ",
+                  of.swept.points.size(), of.scene, device.name, of.memory, design_of(p), giga(p.speed),
+                  checked == nullptr ? "predicted"
+                  : checked->good    ? fmt::format("verified, {:+.2f} % off", 100 * checked->error())
+                                     : "but it DIFFERS from the software");
+  if (bounds.empty()) return text + "no resource alone bounds it.";
+  text += bounds.front().second + " bounds it";
+  for (std::size_t i = 1; i < bounds.size(); ++i) text += (i == 1 ? ", then " : ", ") + bounds[i].second;
+  return text + ".";
+}
+
+std::string text_of(const Explored& of) {
+  const Device& device = of.question.device;
+  const Amounts usable = device.usable();
+  std::string text = fmt::format("{}, of which usable:", device.title);
+  for (std::size_t r = 0; r < kResources; ++r)
+    text += fmt::format(" {} {}", usable[r], unit_of(static_cast<Resource>(r)));
+  text +=
+      fmt::format("\nmemory: {}\n{} designs of {} steps in {:.2f} s by the closed forms; {} on the front\n",
+                  of.question.memory ? of.question.memory->title : "always answers", of.swept.points.size(),
+                  of.question.steps, of.swept.seconds, of.answer.front.size());
+  text += fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>9}", "lanes", "cascade", "substeps", "depth",
+                      "overlap", "MHz", "Gcell/s");
+  for (std::size_t r = 0; r < kResources; ++r)
+    text += fmt::format(" {:>7}", unit_of(static_cast<Resource>(r)));
+  text += fmt::format(" {:>6} {:>7}\n", "full %", "waits %");
+  for (const std::size_t at : of.answer.front) text += row_of(of, at);
+  for (const Checked& checked : of.checked)
+    if (!checked.good) text += checked.difference;
+  text += sentence_of(of) + "\n";
+  return of.answer.best ? text + next_text(of) : text;
+}
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,51 @@
+#include "hwmodel/explore/mapping.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+std::int64_t up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
+
+std::int64_t fewest(const std::vector<MemoryShape>& shapes, std::int64_t words, std::int64_t bits) {
+  std::int64_t fewest = -1;
+  for (const MemoryShape& shape : shapes) {
+    const std::int64_t n = up(bits, shape.bits) * up(words, shape.words);
+    if (fewest < 0 || n < fewest) fewest = n;
+  }
+  return fewest;
+}
+
+}  // namespace
+
+std::int64_t luts_to_hold(std::int64_t words, std::int64_t bits, const Family& f) {
+  const std::int64_t deep = up(words, f.lutram_words);
+  return deep * up(bits, f.lutram_bits) * f.lutram_luts + bits * up(deep - 1, f.mux_ways - 1);
+}
+
+std::vector<MemoryUse> ways_to_hold(std::int64_t words, std::int64_t bits, const Family& f) {
+  std::vector<MemoryUse> ways;
+  if (words <= f.deepest_lutram) ways.push_back({luts_to_hold(words, bits, f), 0, 0});
+  if (const std::int64_t n = fewest(f.bram, words, bits); n >= 0) ways.push_back({0, n, 0});
+  if (const std::int64_t n = fewest(f.uram, words, bits); n >= 0) ways.push_back({0, 0, n});
+  return ways;
+}
+
+std::vector<MemoryUse> sums_of(const std::vector<MemoryUse>& a, const std::vector<MemoryUse>& b) {
+  std::vector<MemoryUse> all;
+  for (const MemoryUse& x : a)
+    for (const MemoryUse& y : b) all.push_back(x + y);
+  std::sort(all.begin(), all.end(), [](const MemoryUse& x, const MemoryUse& y) {
+    return std::tie(x.lutram, x.parts, x.uram) < std::tie(y.lutram, y.parts, y.uram);
+  });
+  std::vector<MemoryUse> kept;
+  for (const MemoryUse& x : all)
+    if (std::none_of(kept.begin(), kept.end(), [&](const MemoryUse& y) {
+          return y.lutram <= x.lutram && y.parts <= x.parts && y.uram <= x.uram;
+        }))
+      kept.push_back(x);
+  return kept;
+}
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,33 @@
+// Which kind of memory every buffer goes to. Buffers of the same name have the same kind in every time step
+// of the cascade. All choices are weighed: those that no other beats are kept.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/explore/device.h"
+
+namespace voxmelt::hwmodel::explore {
+
+// What a choice takes. BRAM is counted in parts of a block.
+struct MemoryUse {
+  std::int64_t lutram = 0, parts = 0, uram = 0;
+  friend MemoryUse operator+(const MemoryUse& a, const MemoryUse& b) {
+    return {a.lutram + b.lutram, a.parts + b.parts, a.uram + b.uram};
+  }
+  friend MemoryUse operator*(std::int64_t n, const MemoryUse& a) {
+    return {n * a.lutram, n * a.parts, n * a.uram};
+  }
+};
+
+// The ways to hold `words` of `bits` in memories of a family: LUTs, BRAM, URAM. One that another beats is
+// among them, too.
+std::vector<MemoryUse> ways_to_hold(std::int64_t words, std::int64_t bits, const Family& family);
+
+// LUTs of a memory of LUTs, with what chooses among its parts.
+std::int64_t luts_to_hold(std::int64_t words, std::int64_t bits, const Family& family);
+
+// Every sum of one of each, without those that another one beats.
+std::vector<MemoryUse> sums_of(const std::vector<MemoryUse>& a, const std::vector<MemoryUse>& b);
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,52 @@
+#include "hwmodel/explore/part_list.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "hwmodel/stream/stages.h"
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+// Every piece but the first of a number loses a bit to the sign.
+std::int64_t pieces(int width, int of) { return width <= of ? 1 : 1 + (width - of + of - 2) / (of - 1); }
+
+void add_stage(PartList& list, const StagePart& part, const Family& family) {
+  const StageCost& cost = family.stages.at(part.kind);
+  const std::int64_t lanes = list.design.shape.lanes, blocks = part.units.random_blocks * ((lanes + 7) / 8);
+  list.lut +=
+      lanes * (cost.lane.lut + part.units.dividers * family.divider.lut) + blocks * family.random_block.lut;
+  list.ff +=
+      lanes * (cost.lane.ff + part.units.dividers * family.divider.ff) + blocks * family.random_block.ff;
+  for (int i = 0; i < part.units.multipliers && !cost.multipliers.empty(); ++i) {
+    const auto at = std::min<std::size_t>(static_cast<std::size_t>(i), cost.multipliers.size() - 1);
+    list.dsp += lanes * dsps_of(cost.multipliers[at], family.product);
+  }
+  for (const BufferCost& buffer : part.buffers)
+    if (buffer.words <= family.register_words)
+      list.ff += buffer.total();
+    else
+      list.memories = sums_of(list.memories, ways_to_hold(buffer.words, buffer.lanes * buffer.bits, family));
+}
+
+}  // namespace
+
+std::int64_t dsps_of(const Widths& product, const Widths& dsp) {
+  return std::min(pieces(product.wide, dsp.wide) * pieces(product.narrow, dsp.narrow),
+                  pieces(product.wide, dsp.narrow) * pieces(product.narrow, dsp.wide));
+}
+
+PartList part_list(const Design& design, const Family& family) {
+  PartList list;
+  list.design = design;
+  list.fed = design.hot() && design.parameters.heat.radiation;
+  list.memories = {{}};
+  for (const auto& stage : make_step(list.design)) {
+    list.stages.push_back(
+        {stage->kind(), stage->lag(), stage->output_bits(), stage->buffers(), stage->units()});
+    add_stage(list, list.stages.back(), family);
+  }
+  return list;
+}
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,37 @@
+// What one time step of the cascade is made of, for a number of lanes: the stages' memories and units as the
+// model reports them, and what they cost in the parts of a family.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/explore/device.h"
+#include "hwmodel/explore/mapping.h"
+#include "hwmodel/stream/stage.h"
+
+namespace voxmelt::hwmodel::explore {
+
+struct StagePart {
+  StageKind kind = StageKind::reader;
+  std::int64_t lag = 0;
+  int output_bits = 0;  // of a lane
+  std::vector<BufferCost> buffers;
+  Units units;
+};
+
+struct PartList {
+  Design design;
+  std::vector<StagePart> stages;
+  bool fed = false;  // with irradiance
+
+  // Of a family, a time step without its channels and ports.
+  std::int64_t lut = 0, ff = 0, dsp = 0;
+  std::vector<MemoryUse> memories;  // ways to hold its buffers
+};
+
+PartList part_list(const Design& design, const Family& family);
+
+// DSPs of a product of two signed numbers.
+std::int64_t dsps_of(const Widths& product, const Widths& dsp);
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,23 @@
+// Which passes a run is cut into, and what each train of them takes without stalls: the closed form of
+// hwmodel/stream/prediction.h for a whole run.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/machine/stream_twin.h"
+#include "hwmodel/stream/pipeline.h"
+
+namespace voxmelt::hwmodel::explore {
+
+struct Train {
+  std::int64_t passes = 0, steps = 0;
+  StreamWork work;  // one pass of the twin: the tokens of all passes, one after another
+};
+
+// Of a scene that counts its sub-steps from the state, every step is taken to have as many as the machine has
+// copies.
+std::vector<Train> trains_of(const Design& design, const Configuration& configuration,
+                             std::uint32_t first_step, std::int64_t steps);
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,153 @@
+#include "hwmodel/explore/sweep.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+
+#include "hwmodel/explore/dram_time.h"
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+// All but the memories of stages and ports.
+struct Fixed {
+  Amounts amounts{};
+  std::int64_t lutram = 0, ports = 0;
+};
+
+Fixed fixed_of(const PartList& parts, const Configuration& hw, const Family& f) {
+  const std::int64_t lanes = hw.lanes, steps = hw.cascade, depth = hw.fifo_depth;
+  Fixed fixed;
+  fixed.ports = 2 + (parts.fed ? steps : 0);
+  auto& [lut, ff, dsp, bram, uram] = fixed.amounts;
+  lut = f.base.lut + steps * parts.lut + fixed.ports * f.port.lut;
+  ff = f.base.ff + steps * parts.ff + fixed.ports * f.port.ff;
+  dsp = steps * parts.dsp;
+  const auto channel = [&](std::int64_t times, std::int64_t bits) {
+    lut += times * f.channel.lut, ff += times * f.channel.ff;
+    if (depth <= f.register_words)
+      ff += times * depth * bits * lanes;
+    else
+      fixed.lutram += times * luts_to_hold(depth, bits * lanes, f);
+  };
+  channel(1, parts.design.cell_bits());
+  for (const StagePart& stage : parts.stages) channel(steps, stage.output_bits);
+  if (parts.fed) channel(steps, 16);
+  lut += fixed.lutram;
+  return fixed;
+}
+
+template <class Visit>  // visit(amounts, lutram) for every choice of memories
+void each_choice(const PartList& parts, const Configuration& hw, const Family& f, Visit&& visit) {
+  const Fixed fixed = fixed_of(parts, hw, f);
+  for (const MemoryUse& port : ways_to_hold(f.port_words, f.port_bits, f))
+    for (const MemoryUse& step : parts.memories) {
+      const MemoryUse use = hw.cascade * step + fixed.ports * port;
+      Amounts amounts = fixed.amounts;
+      amounts[kLut] += use.lutram;
+      amounts[kBram] = (use.parts + f.bram_parts - 1) / f.bram_parts;
+      amounts[kUram] = use.uram;
+      visit(amounts, fixed.lutram + use.lutram);
+    }
+}
+
+double share_of(std::int64_t used, std::int64_t there) {
+  if (used == 0) return 0;
+  return there == 0 ? std::numeric_limits<double>::infinity()
+                    : static_cast<double>(used) / static_cast<double>(there);
+}
+
+bool better_choice(const Taken& a, const Taken& b) {
+  return std::tie(a.fullest, a.amounts[kLut], a.amounts[kBram], a.amounts[kUram]) <
+         std::tie(b.fullest, b.amounts[kLut], b.amounts[kBram], b.amounts[kUram]);
+}
+
+}  // namespace
+
+Taken taken_by(const PartList& parts, const Configuration& hw, const Device& device,
+               std::optional<Resource> relaxed) {
+  const Amounts usable = device.usable();
+  Taken best;
+  bool first = true;
+  each_choice(parts, hw, device.family, [&](const Amounts& amounts, std::int64_t lutram) {
+    Taken taken{amounts, lutram, 0, kLut};
+    for (std::size_t r = 0; r < kResources; ++r) {
+      if (relaxed == static_cast<Resource>(r)) continue;
+      double share = share_of(amounts[r], usable[r]);
+      if (r == kLut) share = std::max(share, share_of(lutram, device.lutram));
+      if (share > taken.fullest) taken.fullest = share, taken.most = static_cast<Resource>(r);
+    }
+    if (first || better_choice(taken, best)) best = taken;
+    first = false;
+  });
+  return best;
+}
+
+std::optional<std::int64_t> least_of(Resource resource, const PartList& parts, const Configuration& hw,
+                                     const Device& device) {
+  const Amounts usable = device.usable();
+  std::optional<std::int64_t> least;
+  each_choice(parts, hw, device.family, [&](const Amounts& amounts, std::int64_t lutram) {
+    if (resource != kLut && lutram > device.lutram) return;
+    for (std::size_t r = 0; r < kResources; ++r)
+      if (r != resource && amounts[r] > usable[r]) return;
+    least = std::min(least.value_or(amounts[resource]), amounts[resource]);
+  });
+  return least;
+}
+
+RunTime time_of(const Design& design, const Configuration& hw, int clock_mhz, const Question& question,
+                std::int64_t steps) {
+  RunTime time;
+  for (const Train& train : trains_of(design, hw, question.first_step, steps)) {
+    time.cycles += train.work.cycles;
+    time.on_memory +=
+        question.memory ? cycles_on(train.work, *question.memory, clock_mhz) : train.work.cycles;
+    time.steps += train.steps;
+  }
+  return time;
+}
+
+std::int64_t speed_of(const Question& question, const RunTime& time, int clock_mhz) {
+  const double cell_steps = static_cast<double>(question.grid.cells()) * static_cast<double>(time.steps);
+  return std::llround(cell_steps * clock_mhz * 1e3 / static_cast<double>(time.on_memory));
+}
+
+const PartList& parts_of(const Swept& swept, const Configuration& hw) {
+  for (const PartList& parts : swept.parts)
+    if (parts.design.shape.lanes == hw.lanes && parts.design.substeps == hw.substeps) return parts;
+  throw std::logic_error("no parts for these lanes");
+}
+
+Swept sweep(const Question& question, const Axes& axes, const std::function<void()>& poll) {
+  const auto begin = std::chrono::steady_clock::now();
+  Swept swept;
+  for (const int lanes : axes.lanes)
+    for (const int substeps : axes.substeps) {
+      swept.parts.push_back(
+          part_list({question.parameters, {question.grid, lanes}, substeps}, question.device.family));
+      const PartList& parts = swept.parts.back();
+      for (const int cascade : axes.cascade)
+        for (const int depth : axes.fifo_depth) {
+          if (poll) poll();
+          Configuration hw;
+          hw.lanes = lanes, hw.cascade = cascade, hw.substeps = substeps, hw.fifo_depth = depth;
+          const Taken taken = taken_by(parts, hw, question.device);
+          for (const int overlap : axes.overlap)
+            for (const int mhz : axes.clock_mhz) {
+              hw.overlap = overlap == 1;
+              const RunTime time = time_of(parts.design, hw, mhz, question, question.steps);
+              swept.points.push_back(
+                  {hw, mhz, time.cycles, time.on_memory, speed_of(question, time, mhz), taken});
+            }
+        }
+    }
+  swept.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return swept;
+}
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,79 @@
+// All configurations of some axes by the closed forms: how fast each is, what it takes of a device, and
+// whether it fits.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/explore/part_list.h"
+#include "hwmodel/explore/schedule.h"
+#include "hwmodel/memory/parameters.h"
+
+namespace voxmelt::hwmodel::explore {
+
+// The question.
+struct Question {
+  rule::Parameters parameters;
+  state::Grid grid;
+  std::uint32_t first_step = 0;
+  std::int64_t steps = 32;
+  Device device;
+  std::optional<memory::Parameters> memory;  // none: it always answers
+};
+
+// The values that are tried. A further axis is a list here, with its values and its key in axes.cpp, a loop
+// in `sweep`, and a column of the CSV.
+struct Axes {
+  std::vector<int> lanes, cascade, substeps, fifo_depth, overlap, clock_mhz;
+};
+Axes usual_axes(const Question& question);
+// `sets` are "hw.lanes=8": of that axis this value alone is tried. Throws scene::InputError.
+void keep_only(Axes& axes, const std::vector<std::string>& sets);
+
+// What a configuration takes of a device.
+struct Taken {
+  Amounts amounts{};
+  std::int64_t lutram = 0;  // of the LUTs
+  double fullest = 0;       // the greatest share of what can be used; the choice of memories with the least
+  Resource most = kLut;     // of what
+  bool fits() const { return fullest <= 1; }
+};
+
+struct Point {
+  Configuration hw;
+  int clock_mhz = 0;
+  std::int64_t cycles = 0;     // of the run, while the memory always answers
+  std::int64_t on_memory = 0;  // with the memory's time
+  std::int64_t speed = 0;      // thousand cell-steps a second
+  Taken taken;
+};
+
+struct Swept {
+  std::vector<PartList> parts;  // by lanes and sub-steps
+  std::vector<Point> points;
+  double seconds = 0;
+};
+
+const PartList& parts_of(const Swept& swept, const Configuration& hw);
+
+Swept sweep(const Question& question, const Axes& axes, const std::function<void()>& poll);
+
+// `relaxed`: of this resource there is any amount.
+Taken taken_by(const PartList& parts, const Configuration& hw, const Device& device,
+               std::optional<Resource> relaxed = {});
+// The fewest of one resource with which it fits, if all others suffice.
+std::optional<std::int64_t> least_of(Resource resource, const PartList& parts, const Configuration& hw,
+                                     const Device& device);
+
+// The closed form for a run.
+struct RunTime {
+  std::int64_t cycles = 0, on_memory = 0, steps = 0;
+};
+RunTime time_of(const Design& design, const Configuration& hw, int clock_mhz, const Question& question,
+                std::int64_t steps);
+std::int64_t speed_of(const Question& question, const RunTime& time, int clock_mhz);
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,14 @@
+// The pages of `voxmelt verify --html`: each from the JSON report of its run, and from nothing else.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace voxmelt::hwmodel {
+
+// `title` says which scene and steps.
+std::string pipeline_page(const nlohmann::ordered_json& report, const std::string& title);
+std::string picture_page(const nlohmann::ordered_json& report, const std::string& title);
+std::string machine_page(const nlohmann::ordered_json& report, const std::string& title);
+
+}  // namespace voxmelt::hwmodel

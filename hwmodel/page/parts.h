@@ -1,0 +1,52 @@
+// The parts of the pages of `voxmelt verify`. A page is drawn from the JSON report alone, and every number
+// that is written on it stands there. Only the marks along an axis (class "tick") do not.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace voxmelt::hwmodel::parts {
+
+using Json = nlohmann::ordered_json;
+
+extern const char* const kStyle;  // beside the style sheet of all pages
+
+std::string number(const Json& value, int digits = 2);  // "854,688", "0.93"; digits behind the point of reals
+
+std::string tally(const std::string& number, const std::string& what, const char* css = "");
+// `title` and `about` are HTML.
+std::string card(const std::string& title, const std::string& about, const std::string& body);
+
+struct Key {
+  std::string css, name;  // `css` colours it
+};
+std::string legend(const std::vector<Key>& keys);
+// The classes of a stage's cycles that a report has, in the order in which they are drawn.
+std::vector<Key> classes_of(const Json& cycles);
+
+// Horizontal bars, one below the other, on one scale.
+struct Segment {
+  double value = 0;
+  std::string css, hover;
+};
+struct Bar {
+  std::string name, value;  // on its left and right
+  std::vector<Segment> segments;
+};
+std::string bars(const std::vector<Bar>& rows, const std::string& label);
+std::string bars_of_cycles(const Json& stages);  // with "name", maybe "cascade", and "cycles"
+
+std::string name_of_stage(const Json& stage, bool cascaded);
+bool cascaded(const Json& stages);  // are there several time steps?
+
+// Stacked over time; `timeline` of the report.
+std::string timeline(const Json& timeline);
+// How often a channel held how many tokens.
+std::string histogram(const Json& channel);
+// Cell-steps a cycle against the bytes that a memory moves in a cycle, and the bounds.
+std::string roofline(const Json& bounds);
+// Simulated against predicted cycles; each with "cycles" and "predicted_cycles", and its hover text.
+std::string against_prediction(const Json& trains, const std::vector<std::string>& hover);
+
+}  // namespace voxmelt::hwmodel::parts

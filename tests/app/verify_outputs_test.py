@@ -1,0 +1,334 @@
+#!/usr/bin/env python3
+"""What `voxmelt verify` writes beside its table: the page, the waves, the small scene that still fails.
+
+  verify_outputs_test.py PROGRAM            the quick tests
+  verify_outputs_test.py PROGRAM --faults   every listed fault of the pipeline is made small (slow)
+"""
+import html.parser
+import json
+import re
+import shlex
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from program import SMALL, voxmelt, write
+
+NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?")
+
+
+class Page(html.parser.HTMLParser):
+    """The text of a page without its style sheet and without the marks along axes."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.text, self.skip, self.tags, self.inside = [], 0, set(), []
+        self.feed(page)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.add(tag)
+        if tag == "meta":
+            return
+        skipped = tag == "style" or (tag == "text" and ("class", "tick") in attributes)
+        self.inside.append((tag, skipped))
+        self.skip += skipped
+
+    def handle_startendtag(self, tag, attributes):
+        self.tags.add(tag)
+
+    def handle_endtag(self, tag):
+        opened, skipped = self.inside.pop()
+        assert opened == tag, f"<{opened}> ends with </{tag}>"
+        self.skip -= skipped
+
+    def handle_data(self, data):
+        if not self.skip:
+            self.text.append(data)
+
+    def numbers(self):
+        return [n for text in self.text for n in NUMBER.findall(text)]
+
+
+def numbers_of(report, whole, real):
+    """All numbers of a JSON report, also those within its texts; and the numbers of tokens that a channel held."""
+    if isinstance(report, dict):
+        for key, value in report.items():
+            numbers_of(value, whole, real)
+            if key == "occupancy":
+                whole.update(range(len(value)))
+    elif isinstance(report, list):
+        for value in report:
+            numbers_of(value, whole, real)
+    elif isinstance(report, str):
+        whole.update(int(n) for n in re.findall(r"\d+", report))
+        real.extend(float(n) for n in re.findall(r"\d+\.\d+", report))
+    elif isinstance(report, int):
+        whole.add(int(report))
+    elif isinstance(report, float):
+        real.append(report)
+
+
+def foreign_numbers(page, report):
+    """Those of a page that its report has not."""
+    whole, real = set(), []
+    numbers_of(report, whole, real)
+    rounded = {f"{value:.{digits}f}" for value in real for digits in (1, 2, 3)}
+    rounded |= {f"{value:.{digits}f}" for value in whole for digits in (1, 2, 3)}
+    foreign = []
+    for text in Page(page).numbers():
+        plain = text.replace(",", "").rstrip(",")
+        if (plain not in rounded) if "." in plain else (int(plain) not in whole):
+            foreign.append(text)
+    return foreign
+
+
+class Vcd:
+    """A plain reader of value change dumps: names with their widths, and the values at each time."""
+
+    def __init__(self, text):
+        self.bits, names, scope, values = {}, {}, [], {}
+        self.at = []  # (time, values)
+        head, body = text.split("$enddefinitions $end")
+        for words in (line.split() for line in head.splitlines()):
+            if not words:
+                continue
+            if words[0] == "$scope":
+                scope.append(words[2])
+            elif words[0] == "$upscope":
+                scope.pop()
+            elif words[0] == "$var":
+                name = ".".join([*scope, words[4]])
+                assert name not in self.bits, f"{name} twice"
+                assert words[3] not in names, f"code {words[3]} twice"
+                self.bits[name] = int(words[2])
+                names[words[3]] = name
+        assert not scope
+        time_now = None
+        for line in body.split("\n"):
+            if not line:
+                continue
+            if line[0] == "#":
+                if time_now is not None:
+                    self.at.append((time_now, dict(values)))
+                assert time_now is None or int(line[1:]) > time_now, "time runs backwards"
+                time_now = int(line[1:])
+            else:
+                value, code = line[1:].split() if line[0] == "b" else (line[0], line[1:])
+                assert len(value) <= self.bits[names[code]], f"{line}: more bits than {names[code]} has"
+                values[names[code]] = None if value == "x" else int(value, 2)
+
+    def cycles(self):
+        return [values for when, values in self.at if values["pipeline.clock"] == 1]
+
+
+class Outputs(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        self.scene = write(self.folder, SMALL)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def run_with_page(self, code, *arguments):
+        result = voxmelt("verify", *arguments, "--html", "page.html", "--report", "r.json", cwd=self.folder)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return (self.folder / "page.html").read_text(), json.loads((self.folder / "r.json").read_text())
+
+    def check_page(self, page, report, at_least):
+        self.assertEqual(foreign_numbers(page, report), [])
+        self.assertGreater(len(Page(page).numbers()), at_least)
+        self.assertFalse(Page(page).tags & {"script", "link", "img", "iframe"}, "a page needs nothing else")
+        self.assertNotIn("http", page)
+        self.assertNotIn("nan", page.lower().replace("finance", ""))
+        cycles = f"{report['cycles']:,}"
+        self.assertIn(cycles, page)
+        self.assertEqual(len(foreign_numbers(page.replace(cycles, "987,654,321", 1), report)), 1, "the test is blind")
+
+    def test_every_number_on_the_page_of_the_pipeline_is_in_the_report(self):
+        page, report = self.run_with_page(0, self.scene, "--steps", 9, "--hw", "stalls", "--set", "hw.cascade=2")
+        self.check_page(page, report, 1000)
+        for part in ("Stages over time", "Where the cycles went", "What bounds the rate", "Predicted against simulated",
+                     "Buffers of every stage", "Channels"):
+            self.assertIn(part, page)
+        self.assertEqual(sum(t["cycles"] for t in report["trains"]), report["cycles"])
+        self.assertEqual(sum(t["predicted_cycles"] for t in report["trains"]), report["predicted_cycles"])
+        bounds = report["cell_steps_per_cycle"]
+        self.assertAlmostEqual(bounds["reached"], 12 * 10 * 12 * 9 / report["cycles"])
+        self.assertAlmostEqual(bounds["fill_and_drain"], 12 * 10 * 12 * 9 / report["predicted_cycles"])
+        falling = [bounds[k] for k in ("lanes_and_steps", "lanes_in_the_grid", "steps_with_work", "fill_and_drain", "reached")]
+        self.assertEqual(falling, sorted(falling, reverse=True))
+
+    def test_what_stages_did_over_time_sums_to_their_accounts(self):
+        for more in (["--set", "hw.lanes=16", "--steps", 1], ["--hw", "stalls", "--steps", 12]):
+            _, report = self.run_with_page(0, self.scene, *more)
+            over_time = report["timeline"]
+            ends = [*over_time["begins"][1:], over_time["end"]]
+            lengths = [end - begin for begin, end in zip(over_time["begins"], ends)]
+            self.assertEqual(over_time["end"], report["cycles"])
+            self.assertEqual(set(lengths[:-1]), {over_time["stretch_cycles"]})
+            self.assertGreaterEqual(len(lengths), 100)
+            self.assertLessEqual(len(lengths), 256)
+            for row, stage in zip(over_time["stages"], report["stages"], strict=True):
+                self.assertEqual(row["name"], stage["name"])
+                for kind, cycles in stage["cycles"].items():
+                    self.assertEqual(sum(row[kind]), cycles, f"{stage['name']} {kind}")
+                for i, length in enumerate(lengths):
+                    self.assertEqual(sum(row[kind][i] for kind in stage["cycles"]), length, stage["name"])
+
+    def test_the_page_shows_a_difference(self):
+        page, report = self.run_with_page(1, self.scene, "--steps", 8, "--plant", "gravity-one-more")
+        self.check_page(page, report, 100)
+        self.assertIn("DIFFERS", page)
+        self.assertIn("gravity", page)
+
+    def test_every_number_on_the_page_of_a_picture_is_in_the_report(self):
+        for more in ([], ["--set", "hw.memory=\"ddr4-2400\""]):
+            page, report = self.run_with_page(0, self.scene, "--picture", "--size", "32x24", "--from", 4, *more)
+            self.check_page(page, report, 150)
+            for part in ("Where the cycles went", "Predicted against simulated", "Caches", "Memories of a pipe"):
+                self.assertIn(part, page)
+
+    def test_every_number_on_the_page_of_the_machine_is_in_the_report(self):
+        page, report = self.run_with_page(0, self.scene, "--machine", "--size", "16x16", "--steps", 4, "--frames", 2)
+        report["cycles"] = report["periods"][0]["cycles_overlapped"]
+        self.check_page(page, report, 100)
+        for part in ("Every picture with its steps", "Bounds", "Where the cycles went"):
+            self.assertIn(part, page)
+
+    def test_quiet_keeps_two_lines(self):
+        for more in ([], ["--picture", "--size", "16x16"], ["--machine", "--size", "16x16", "--steps", 1]):
+            result = voxmelt("verify", self.scene, "--quiet", *more, cwd=self.folder)
+            lines = result.stdout.splitlines()
+            self.assertEqual(len(lines), 2, result.stdout)
+            self.assertRegex(lines[0], r"^\S+: \d+ cycles")
+            self.assertIn("no difference", lines[1])
+        result = voxmelt("verify", self.scene, "--quiet", "--plant", "gravity-one-more", "--steps", 8, cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        lines = result.stdout.splitlines()
+        self.assertEqual(len(lines), 2, result.stdout)
+        self.assertIn("DIFFERS (stage): gravity", lines[1])
+
+    def waves(self, code, *arguments):
+        result = voxmelt("verify", *arguments, "--vcd", "w.vcd", "--report", "r.json", cwd=self.folder)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return Vcd((self.folder / "w.vcd").read_text()), json.loads((self.folder / "r.json").read_text())
+
+    def check_waves(self, vcd):
+        """What every channel and stage must obey, whatever it carries."""
+        channels = {name.rsplit(".", 1)[0] for name in vcd.bits if name.endswith(".ready")}
+        stages = {name.rsplit(".", 1)[0] for name in vcd.bits if name.endswith(".starved")}
+        self.assertGreater(len(channels), 4)
+        self.assertGreater(len(stages), 4)
+        cycles = vcd.cycles()
+        moved = 0
+        for now, then in zip(cycles, cycles[1:]):
+            self.assertEqual(then["pipeline.cycle"], now["pipeline.cycle"] + 1)
+            for c in channels:
+                self.assertLessEqual(now[f"{c}.put"], now[f"{c}.ready"], c)
+                self.assertLessEqual(now[f"{c}.get"], now[f"{c}.valid"], c)
+                self.assertEqual(then[f"{c}.count"], now[f"{c}.count"] + now[f"{c}.put"] - now[f"{c}.get"], c)
+                self.assertEqual(now[f"{c}.in.lane_0.state"] is not None, now[f"{c}.put"] == 1, c)
+                self.assertEqual(now[f"{c}.out.lane_0.state"] is not None, now[f"{c}.count"] > 0, c)
+                if now[f"{c}.put"] and now[f"{c}.count"] == now[f"{c}.get"]:  # it is the next one to leave
+                    for field in ("state", "amount", "energy", "heat"):
+                        self.assertEqual(then[f"{c}.out.lane_0.{field}"], now[f"{c}.in.lane_0.{field}"], c)
+                    moved += 1
+            for s in stages:
+                self.assertEqual(sum(now[f"{s}.{k}"] for k in ("busy", "starved", "blocked", "fill_drain", "bypassed")), 1, s)
+        self.assertGreater(moved, 20)
+        return cycles
+
+    def test_the_waves_around_a_difference(self):
+        vcd, report = self.waves(1, "proving_ground", "--steps", 1, "--plant", "gravity-one-more", "--hw", "stalls")
+        cycles = self.check_waves(vcd)
+        self.assertEqual(len(cycles), 64)
+        wrong = report["first_mismatch"]
+        numbers = [values["pipeline.cycle"] for values in cycles]
+        self.assertEqual(numbers.index(wrong["cycle"]), 31)
+        at = cycles[numbers.index(wrong["cycle"])]
+        behind = [c for c in vcd.bits if "_gravity_to_" in c and c.endswith(".put")]
+        self.assertEqual(len(behind), 1)
+        channel = behind[0].rsplit(".", 1)[0]
+        self.assertEqual(at[f"{channel}.put"], 1)
+        self.assertEqual(at[f"{channel}.in.lane_{wrong['lane']}.{wrong['field']}"], wrong["actual"])
+
+    def test_the_waves_from_a_cycle_on(self):
+        vcd, report = self.waves(0, self.scene, "--steps", 3, "--vcd-from", 100, "--set", "hw.lanes=2")
+        cycles = self.check_waves(vcd)
+        self.assertEqual([values["pipeline.cycle"] for values in cycles], list(range(100, 164)))
+        result = voxmelt("verify", self.scene, "--steps", 1, "--vcd", "no.vcd", "--vcd-from", report["cycles"] * 9,
+                         cwd=self.folder)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("the run ended before cycle", result.stderr)
+        self.assertFalse((self.folder / "no.vcd").exists())
+
+    def test_what_does_not_fit_together_is_refused(self):
+        for wrong, why in ((["--vcd-from", 3], "there is no --vcd"), (["--picture", "--vcd", "w.vcd"], "pipeline alone"),
+                           (["--shrink", "small"], "FILE.toml"), (["--machine", "--shrink", "s.toml"], "pipeline alone"),
+                           (["--html", "no/page.html"], "there is no folder"), (["--shrink", "scene.toml"], "reads this file"),
+                           (["--html", "r.json", "--report", "r.json"], "the same file")):
+            result = voxmelt("verify", self.scene, *wrong, cwd=self.folder)
+            self.assertEqual(result.returncode, 2, wrong)
+            self.assertIn(why, result.stderr, wrong)
+
+    def check_small(self, scene, fault):
+        """None where the fault strikes nowhere; else how large the scene is and how long it took."""
+        begin = time.monotonic()
+        result = voxmelt("verify", scene, "--steps", 8, "--hw", "stalls", "--plant", fault, "--shrink", "small.toml",
+                         "--report", "r.json", cwd=self.folder, timeout=600)
+        seconds = time.monotonic() - begin
+        if result.returncode == 2 and "nothing that this fault could change" in result.stderr:
+            return None
+        self.assertEqual(result.returncode, 1, fault + result.stderr)
+        was = json.loads((self.folder / "r.json").read_text())
+        text = (self.folder / "small.toml").read_text()
+        typed = [line.strip() for line in result.stdout.splitlines() if line.startswith("  voxmelt verify small.toml")]
+        self.assertEqual(len(typed), 1, result.stdout)
+        self.assertIn(typed[0], text)
+        size = [int(n) for n in re.search(r"^size = \[(\d+), (\d+), (\d+)\]$", text, re.M).groups()]
+        steps = int(re.search(r"--steps (\d+)", typed[0]).group(1))
+        again = voxmelt(*shlex.split(typed[0])[1:], "--report", "again.json", cwd=self.folder)
+        self.assertEqual(again.returncode, 1, fault + again.stderr)
+        self.assertIn("found there", again.stdout, fault)
+        now = json.loads((self.folder / "again.json").read_text())["first_mismatch"]
+        self.assertEqual((now["kind"], now["where"].split(": ")[-1]),
+                         (was["first_mismatch"]["kind"], was["first_mismatch"]["where"].split(": ")[-1]))
+        self.assertEqual(json.loads((self.folder / "again.json").read_text())["grid"], size)
+        return size, steps, seconds
+
+    def test_a_difference_is_made_small(self):
+        for scene, fault in (("proving_ground", "gravity-room"), ("proving_ground", "fifo-overwrite"),
+                             ("proving_ground_viscous", "viscous-slope")):
+            size, steps, _ = self.check_small(scene, fault)
+            self.assertLessEqual(max(size), 8, fault)
+            self.assertLessEqual(steps, 2, fault)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir() if "partial" in p.name), [])
+
+
+class EveryFault(Outputs):
+    def test_every_fault_is_made_small(self):
+        listed = voxmelt("list", "faults").stdout.split("\n\n")[0]
+        for fault in [line.split()[0] for line in listed.splitlines()]:
+            found = 0
+            for scene in ("proving_ground", "proving_ground_viscous"):
+                small = self.check_small(scene, fault)
+                if small is None:
+                    continue
+                size, steps, seconds = small
+                print(f"{fault:24}{scene:24}{'x'.join(map(str, size)):>8}{steps:3} steps{seconds:7.1f} s", flush=True)
+                with self.subTest(fault=fault, scene=scene):
+                    self.assertLessEqual(max(size), 8)
+                    self.assertLessEqual(steps, 2)
+                    self.assertLess(seconds, 60)
+                found += 1
+            self.assertGreater(found, 0, fault + " strikes nowhere")
+
+
+if __name__ == "__main__":
+    slow = "--faults" in sys.argv
+    only = unittest.TestLoader().loadTestsFromName("test_every_fault_is_made_small", EveryFault) if slow else \
+        unittest.TestLoader().loadTestsFromTestCase(Outputs)
+    sys.exit(not unittest.TextTestRunner(verbosity=2).run(only).wasSuccessful())

@@ -1,0 +1,95 @@
+// The closed forms of hwmodel/explore: time on a DRAM beside its simulation, and memories by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include "hwmodel/explore/check.h"
+#include "hwmodel/explore/dram_time.h"
+#include "hwmodel/explore/part_list.h"
+#include "hwmodel/presets/memory_preset.h"
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+// A train over cells of 50 bits, with irradiance, as of the cello.
+Train train_of(int lanes, int cascade) {
+  Train train;
+  StreamWork& work = train.work;
+  work.passes = 1;
+  work.tokens = 90000 / lanes;
+  work.lag = cascade * std::int64_t{9000} / lanes;
+  work.cycles = work.tokens + work.lag;
+  work.read_bits = work.written_bits = work.tokens * lanes * 50;
+  work.fed_bits = work.tokens * lanes * 16 * cascade;
+  return train;
+}
+
+TEST(Explore, TheTimeOnAMemoryIsThatOfTheSimulation) {
+  int bound = 0;  // by the memory
+  double worst = 0;
+  for (const char* name : {"ddr4-2400", "hbm2", "lpddr4-3200"}) {
+    Question question;
+    question.memory = load_memory(name, "test");
+    for (const int lanes : {4, 8, 16})
+      for (const int cascade : {1, 2, 4, 8})
+        for (const int mhz : {150, 300}) {
+          const Train train = train_of(lanes, cascade);
+          const std::int64_t simulated = simulated_on({train}, mhz, question);
+          const std::int64_t predicted = cycles_on(train.work, *question.memory, mhz);
+          const double error =
+              100. * static_cast<double>(predicted - simulated) / static_cast<double>(simulated);
+          std::printf(
+              "%-12s %2d lanes, %d steps, %d MHz: %lld cycles, without memory %lld, predicted %+.2f %%\n",
+              name, lanes, cascade, mhz, static_cast<long long>(simulated),
+              static_cast<long long>(train.work.cycles), error);
+          EXPECT_LT(std::abs(error), 5) << name << ' ' << lanes << ' ' << cascade << ' ' << mhz;
+          worst = std::max(worst, std::abs(error));
+          bound += simulated > train.work.cycles + train.work.cycles / 10 ? 1 : 0;
+        }
+  }
+  std::printf("worst error %.2f %%, %d of 72 bound by the memory\n", worst, bound);
+  EXPECT_GE(bound, 30);
+}
+
+TEST(Explore, MemoriesTakeTheShapeThatFits) {
+  const Family family = load_device("zu7ev", {}).family;
+  // 127 words of 268 bits: 8 halves of 512 x 36, 4 URAMs of 72 bits; LUTs: 2 deep, 39 wide, 8 each, and a
+  // choice of two per bit.
+  const std::vector<MemoryUse> shallow = ways_to_hold(127, 268, family);
+  ASSERT_EQ(shallow.size(), 3U);
+  EXPECT_EQ(shallow[0].lutram, 2 * 39 * 8 + 268);
+  EXPECT_EQ(shallow[1].parts, 8);
+  EXPECT_EQ(shallow[2].uram, 4);
+  // 3302 words of 268 bits: 7 x 8 halves of 512 x 36; others take 60 and more. 4 URAMs.
+  const std::vector<MemoryUse> deep = ways_to_hold(3302, 268, family);
+  ASSERT_EQ(deep.size(), 2U);  // too deep for LUTs
+  EXPECT_EQ(deep[0].parts, 56);
+  EXPECT_EQ(deep[1].uram, 4);
+  // 2048 words of 8 bits: one half of 2048 x 9.
+  EXPECT_EQ(ways_to_hold(2048, 8, family)[0].parts, 1);
+}
+
+TEST(Explore, ProductsAreCutIntoPieces) {
+  const Widths ultrascale{27, 18}, ecp5{18, 18};
+  EXPECT_EQ(dsps_of({18, 17}, ultrascale), 1);
+  EXPECT_EQ(dsps_of({17, 25}, ultrascale), 1);  // either way round
+  EXPECT_EQ(dsps_of({25, 17}, ecp5), 2);
+  EXPECT_EQ(dsps_of({27, 27}, ultrascale), 2);
+  EXPECT_EQ(dsps_of({27, 27}, ecp5), 4);
+  EXPECT_EQ(dsps_of({35, 18}, ecp5), 2);  // 18 + 17 bits
+  EXPECT_EQ(dsps_of({36, 18}, ecp5), 3);
+}
+
+TEST(Explore, NoSumIsKeptThatAnotherBeats) {
+  const std::vector<MemoryUse> sums = sums_of({{10, 0, 0}, {0, 5, 0}}, {{10, 0, 0}, {0, 5, 0}, {0, 6, 0}});
+  std::vector<std::int64_t> seen;
+  for (const MemoryUse& sum : sums) seen.push_back(1000 * sum.lutram + sum.parts);
+  EXPECT_EQ(seen, (std::vector<std::int64_t>{10, 10005, 20000}));
+}
+
+}  // namespace
+}  // namespace voxmelt::hwmodel::explore
