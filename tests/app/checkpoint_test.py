@@ -14,6 +14,7 @@ import checkpoint_reader
 from program import PROGRAM, SMALL, voxmelt, write
 
 LONG = SMALL.replace("steps = 6", "steps = 2000").replace("frame_every = 3", "frame_every = 250")
+LONG = LONG.replace("temperature = 0.49", "temperature = 0.0").replace("melting_point = 0.5", "melting_point = 0.5\nlatent_heat = 0.45")
 
 
 def report_of(folder):
