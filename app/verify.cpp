@@ -329,8 +329,7 @@ int run_verify(VerifyCommand command) {
   print_result(command, scene, report, design, options.configuration, fast.name);
   const auto write = [&] {
     nlohmann::ordered_json json{{"scene", name_of(scene)}};
-    json.update(hwmodel::json_of(
-        report, design, preset.configuration));
+    json.update(hwmodel::json_of(report, design, preset.configuration));
     write_report(command.common, json.dump(2) + '\n');
     if (!command.picture.html.empty())
       io::write_file(command.picture.html,

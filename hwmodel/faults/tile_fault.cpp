@@ -51,7 +51,12 @@ int TileFault::writes(std::int64_t pass, const Place& place, StateMemory& memory
   if (!plan_.armed(Fault::tile_overwritten, step) || shape.owner(place.x / shape.lanes) > now.tile) return -1;
   std::vector<Cell> owned(static_cast<std::size_t>(shape.lanes));
   read_token(memory.written(), shape, place, owned.data());
-  const auto lane = static_cast<int>(std::mismatch(owned.begin(), owned.end(), lanes).first - owned.begin());
+  // Side bands are not written.
+  const auto same = [](const Cell& a, const Cell& b) {
+    return a.state == b.state && a.amount == b.amount && a.energy == b.energy && a.heat == b.heat;
+  };
+  const auto lane =
+      static_cast<int>(std::mismatch(owned.begin(), owned.end(), lanes, same).first - owned.begin());
   if (lane == shape.lanes) return -1;
   plan_.strike({"writer", step, place.x + lane, place.y, place.z});
   return lane;

@@ -36,8 +36,8 @@ std::string head(const Json& report, const std::string& title) {
   body += "<div class=\"tally\">" +
           tally(good ? "no difference" : "DIFFERS", number(report["compared_cells"]) + " cells compared",
                 good ? "good word" : "bad word") +
-          tally(number(report["cycles"]), "cycles, simulated") +
-          tally(number(report["predicted_cycles"]), "cycles, predicted");
+          tally(number(report["cycles"]), "cycles, simulated");
+  if (good) body += tally(number(report["predicted_cycles"]), "cycles, predicted");
   if (report.contains("cell_steps_per_cycle"))
     body += tally(number(report["cell_steps_per_cycle"]["reached"]), "cell-steps a cycle");
   body += tally(number(report["buffer_bits"]), "bits of buffers") + "</div>\n";
@@ -63,9 +63,10 @@ std::string charts(const Json& report) {
     figures += against_prediction(report["trains"], hover);
   }
   if (figures.empty()) return "";
+  const std::string bounds =
+      "The rate cannot lie above any line; the slope is what a memory of that width allows. ";
   return card("Bounds",
-              "Left: the rate cannot lie above any line. The slope is what a memory of that width allows. "
-              "Right: a dot for each train of passes.",
+              (report.contains("cell_steps_per_cycle") ? bounds : "") + "A dot stands for a train of passes.",
               "<div class=\"charts\">" + figures + "</div>");
 }
 

@@ -77,7 +77,7 @@ class Pipeline {
   void plant(PortFault* fault);                                // null: none
   const Books& books() const;                                  // of the pass that has been written last
   const state::Volume& written() const;                        // where the last token went
-  void probe(FifoProbe<Cell>* probe);  // of the channels of the main stream
+  void probe(FifoProbe<Cell>* probe);                          // of the channels of the main stream
   // Called at the end of every cycle of every block: then the accounts of all stages include this cycle.
   void each_cycle(std::function<void()> watch);
   void poll(std::function<void()> poll);  // called now and then during a pass; what it throws ends the pass
@@ -116,9 +116,9 @@ class Pipeline {
   const Configuration& configuration() const;
   std::int64_t cycle() const;  // of the present train
   std::vector<ChannelReport> channels() const;
-  std::vector<StageReport> stages() const;    // the reader first, the writer last
+  std::vector<StageReport> stages() const;           // the reader first, the writer last
   std::vector<const Stage*> working_stages() const;  // without the reader, the feeds and the writer
-  std::vector<StageCycles> accounts() const;  // of the same
+  std::vector<StageCycles> accounts() const;         // of the same
 
  private:
   struct Machine;

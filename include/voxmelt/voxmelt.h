@@ -87,7 +87,7 @@ class Simulation {
 
   /// One line that says what the scene is.
   const std::string& title() const;
-  /// What is odd about the scene but no error, one line each: leaks of a mesh, fields without effect.
+  /// What is odd about the scene but no error, one line each: faults of a mesh, fields without effect.
   const std::vector<std::string>& warnings() const;
   /// Number of steps that the scene suggests, for callers with no number of their own.
   std::uint32_t scene_steps() const;

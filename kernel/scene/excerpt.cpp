@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <utility>
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "kernel/scene/text/compose.h"
 

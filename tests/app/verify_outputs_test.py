@@ -249,7 +249,7 @@ class Outputs(unittest.TestCase):
         numbers = [values["pipeline.cycle"] for values in cycles]
         self.assertEqual(numbers.index(wrong["cycle"]), 31)
         at = cycles[numbers.index(wrong["cycle"])]
-        behind = [c for c in vcd.bits if "_gravity_to_" in c and c.endswith(".put")]
+        behind = [c for c in vcd.bits if f"_step_{wrong['cascade']}_gravity_to_" in c and c.endswith(".put")]
         self.assertEqual(len(behind), 1)
         channel = behind[0].rsplit(".", 1)[0]
         self.assertEqual(at[f"{channel}.put"], 1)

@@ -81,6 +81,33 @@ TEST(Caster, HostileClearPictures) {
   EXPECT_GT(events, 3 * rays) << "hardly any ray goes through matter";
 }
 
+// An eye in air, and then in clear matter, deeper and deeper: a ray that begins in matter crosses no surface
+// before.
+TEST(Caster, AnEyeInClearMatterCrossesOneSurface) {
+  test::HostilePicture picture;
+  picture.volume = state::Volume(state::Grid{20, 16, 20});
+  worlds::for_each({2, 2, 2, 12, 14, 18}, [&](int x, int y, int z) {
+    picture.volume.solid.set(x, y, z, true);
+    picture.volume.amount[picture.volume.at(x, y, z)] = 4096;
+  });
+  picture.look.clear = {9, 18, 26};
+  picture.camera.azimuth = -90, picture.camera.elevation = 0;  // along x
+  picture.camera.target = {18, 8, 10};
+  picture.camera.width = picture.camera.height = 9;
+  int within = 0;
+  for (int i = 0; i < 24; ++i) {
+    picture.camera.distance = 5 + i / 12.0;  // of the target: the surface is about 6 cells from it
+    const PictureReport report = verify_picture(
+        {picture.volume, picture.look, picture.light, picture.terrain, picture.camera, render::Setting::fast},
+        {});
+    ASSERT_TRUE(report.good()) << i << ": " << text_of(report);
+    for (const StageAccount& stage : report.stages)  // a way, a surface and the background
+      if (stage.name == "passed") within += stage.account.busy == 3 * report.rays ? 1 : 0;
+  }
+  EXPECT_GE(within, 6);
+  EXPECT_LT(within, 24);
+}
+
 // The accounts of all stages sum up (verify_picture throws otherwise), warm caches change no byte, and in the
 // second frame lines are still there.
 TEST(Caster, WarmCachesDrawTheSame) {

@@ -49,7 +49,7 @@ Mismatch mismatch_with_distinct_numbers() {
           "words",
           {"line"}};
 }
-const Configuration kMachine{4, 2, 8, 9};
+const Configuration kMachine{4, 2, 8, 9, 1, true, 12};
 Design design_of(rule::Law law) {
   rule::Parameters parameters;
   parameters.flow.law = law;
@@ -75,7 +75,8 @@ TEST(Report, JsonHoldsEveryNumberUnderItsName) {
   const auto json = json_of(report_with_distinct_numbers(), design_of(rule::Law::viscous), kMachine);
   const auto expected = nlohmann::ordered_json::parse(R"({
     "grid": [10, 5, 2], "law": "viscous",
-    "hw": {"lanes": 4, "cascade": 2, "substeps": 1, "overlap": 1, "fifo_depth": 8, "stall_seed": 9},
+    "hw": {"lanes": 4, "cascade": 2, "substeps": 1, "overlap": 1, "tile": 12, "fifo_depth": 8, "stall_seed": 9},
+    "tiles": {"count": 1, "columns": 10, "halo": 0, "recomputed_cells_per_pass": 0},
     "first_step": 40, "steps": 3, "compared_cells": 501, "software_compared_cells": 502,
     "mismatches": 0, "first_mismatch": null, "digest": "0000000000000abc",
     "passes": 2, "cycles": 200, "predicted_cycles": 160, "buffer_bits": 440, "channel_bits": 4032,
@@ -85,24 +86,38 @@ TEST(Report, JsonHoldsEveryNumberUnderItsName) {
     "stages": [
       {"name": "reader", "phase": "", "cascade": 0, "lag": 0,
        "cycles": {"busy": 100, "starved": 0, "blocked": 90, "fill_drain": 10, "bypassed": 0},
-       "buffers": [], "per_lane": {"multipliers": 0, "dividers": 0}, "random_blocks_per_8_lanes": 0},
+       "buffers": [], "per_lane": {"multipliers": 0, "dividers": 0}, "random_blocks_per_8_lanes": 0,
+       "buffer_bits": 0,
+       "percent": {"busy": 50.0, "starved": 0.0, "blocked": 45.0, "fill_drain": 5.0, "bypassed": 0.0}},
       {"name": "melt", "phase": "melt", "cascade": 0, "lag": 7,
        "cycles": {"busy": 50, "starved": 40, "blocked": 30, "fill_drain": 60, "bypassed": 20},
        "buffers": [{"name": "memory", "words": 5, "lanes": 4, "bits": 11, "total_bits": 220}],
-       "per_lane": {"multipliers": 3, "dividers": 2}, "random_blocks_per_8_lanes": 1},
+       "per_lane": {"multipliers": 3, "dividers": 2}, "random_blocks_per_8_lanes": 1,
+       "buffer_bits": 220,
+       "percent": {"busy": 25.0, "starved": 20.0, "blocked": 15.0, "fill_drain": 30.0, "bypassed": 10.0}},
       {"name": "melt", "phase": "melt", "cascade": 1, "lag": 7,
        "cycles": {"busy": 100, "starved": 20, "blocked": 10, "fill_drain": 70, "bypassed": 0},
        "buffers": [{"name": "memory", "words": 5, "lanes": 4, "bits": 11, "total_bits": 220}],
-       "per_lane": {"multipliers": 3, "dividers": 2}, "random_blocks_per_8_lanes": 1},
+       "per_lane": {"multipliers": 3, "dividers": 2}, "random_blocks_per_8_lanes": 1,
+       "buffer_bits": 220,
+       "percent": {"busy": 50.0, "starved": 10.0, "blocked": 5.0, "fill_drain": 35.0, "bypassed": 0.0}},
       {"name": "feed", "phase": "", "cascade": 0, "lag": 0,
        "cycles": {"busy": 200, "starved": 0, "blocked": 0, "fill_drain": 0, "bypassed": 0},
-       "buffers": [], "per_lane": {"multipliers": 0, "dividers": 0}, "random_blocks_per_8_lanes": 0},
+       "buffers": [], "per_lane": {"multipliers": 0, "dividers": 0}, "random_blocks_per_8_lanes": 0,
+       "buffer_bits": 0,
+       "percent": {"busy": 100.0, "starved": 0.0, "blocked": 0.0, "fill_drain": 0.0, "bypassed": 0.0}},
       {"name": "writer", "phase": "", "cascade": 1, "lag": 0,
        "cycles": {"busy": 100, "starved": 60, "blocked": 0, "fill_drain": 40, "bypassed": 0},
-       "buffers": [], "per_lane": {"multipliers": 0, "dividers": 0}, "random_blocks_per_8_lanes": 0}],
+       "buffers": [], "per_lane": {"multipliers": 0, "dividers": 0}, "random_blocks_per_8_lanes": 0,
+       "buffer_bits": 0,
+       "percent": {"busy": 50.0, "starved": 30.0, "blocked": 0.0, "fill_drain": 20.0, "bypassed": 0.0}}],
     "channels": [{"name": "a", "depth": 8, "bits": 50, "highest": 3, "occupancy": [1, 2, 3, 4]},
                  {"name": "b", "depth": 8, "bits": 60, "highest": 5, "occupancy": [4, 3, 2, 1]},
-                 {"name": "c", "depth": 8, "bits": 16, "highest": 8, "occupancy": [0, 1]}]})");
+                 {"name": "c", "depth": 8, "bits": 16, "highest": 8, "occupancy": [0, 1]}],
+    "trains": [],
+    "cell_steps_per_cycle": {"lanes_and_steps": 8.0, "lanes_in_the_grid": 6.666666666666667,
+                             "steps_with_work": 5.0, "fill_and_drain": 1.875, "reached": 1.5,
+                             "bytes_per_cycle": 26.0, "cell_steps_per_byte": 0.3076923076923077}})");
   EXPECT_EQ(json.dump(1), expected.dump(1));
   EXPECT_EQ(json_of(report_with_distinct_numbers(), design_of(rule::Law::paper), kMachine)["law"], "paper");
 }

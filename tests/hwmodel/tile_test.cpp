@@ -1,11 +1,11 @@
 // Grids that are cut into tiles: the bits of the software, the cycles of the closed form, every cell owned by
 // one tile and counted once, and faults of tiles found where they were planted.
-#include <cstddef>
-#include <stdexcept>
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -113,7 +113,11 @@ void hostile_worlds(std::uint64_t begin, std::uint64_t end) {
               static_cast<int>(end - begin), most);
   EXPECT_GT(cut, static_cast<int>(end - begin) / 3);
 }
+#ifdef VOXMELT_ALL_TILES
+TEST(Tiles, HostileWorlds) { hostile_worlds(0, 200); }
+#else
 TEST(Tiles, HostileWorlds) { hostile_worlds(0, 40); }
+#endif
 
 // Exactly the predicted cycles, with and without overlap, where tiles of shallow grids do not follow too.
 TEST(Tiles, ClosedFormIsExact) {

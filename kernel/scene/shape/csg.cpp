@@ -36,6 +36,66 @@ struct Part {
   Box bounds;
 };
 
+// Parts of a union, halved again and again across the longest side of their box: the nearest boxes come
+// first, and most are never looked at.
+class PartTree {
+ public:
+  explicit PartTree(std::vector<Part> parts) : parts_(std::move(parts)) { build(0, parts_.size()); }
+
+  double distance(Point p) const {
+    double nearest = 1e300;
+    search(0, nodes_[0].bounds.distance(p), p, nearest);
+    return nearest;
+  }
+
+ private:
+  static constexpr std::size_t kLeaf = 4;  // parts
+
+  struct Node {
+    Box bounds;
+    std::size_t first, end, right = 0;  // parts; the left child follows, 0: a leaf
+  };
+
+  std::size_t build(std::size_t first, std::size_t end) {
+    const std::size_t node = nodes_.size();
+    Box bounds = parts_[first].bounds;
+    for (std::size_t i = first; i < end; ++i) bounds = united(bounds, parts_[i].bounds);
+    nodes_.push_back({bounds, first, end});
+    if (end - first <= kLeaf) return node;
+    const Point size = bounds.high - bounds.low;
+    const auto middle_of = [&](const Part& part) {
+      const Point sum = part.bounds.low + part.bounds.high;
+      return size.x >= size.y && size.x >= size.z ? sum.x : size.y >= size.z ? sum.y : sum.z;
+    };
+    const std::size_t half = (first + end) / 2;
+    const auto at = [&](std::size_t i) { return parts_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(first), at(half), at(end),
+                     [&](const Part& a, const Part& b) { return middle_of(a) < middle_of(b); });
+    build(first, half);
+    nodes_[node].right = build(half, end);
+    return node;
+  }
+
+  // A part whose box is farther than the best so far cannot be nearer.
+  void search(std::size_t index, double box_distance, Point p, double& nearest) const {
+    if (box_distance >= nearest) return;
+    const Node& node = nodes_[index];
+    if (node.right == 0) {
+      for (std::size_t i = node.first; i < node.end; ++i)
+        if (parts_[i].bounds.distance(p) < nearest) nearest = std::min(nearest, parts_[i].shape->distance(p));
+      return;
+    }
+    std::pair<double, std::size_t> near{nodes_[index + 1].bounds.distance(p), index + 1},
+        far{nodes_[node.right].bounds.distance(p), node.right};
+    if (far.first < near.first) std::swap(near, far);
+    search(near.second, near.first, p, nearest);
+    search(far.second, far.first, p, nearest);
+  }
+
+  std::vector<Part> parts_;
+  std::vector<Node> nodes_;
+};
+
 }  // namespace
 
 ShapePtr make_placed(ShapePtr shape, const Placement& placement) {
@@ -71,25 +131,8 @@ ShapePtr make_csg(Operation operation, std::vector<ShapePtr> shapes) {
     parts.push_back({std::move(shape), own});
   }
 
-  if (operation == Operation::union_of) {
-    return make_shape(bounds, [parts = std::move(parts)](Point p) {
-      // A part whose box is farther than the best so far cannot be nearer: so the nearest box comes first.
-      const Part* first = parts.data();
-      double nearest = 1e300;
-      for (const Part& part : parts) {
-        const double distance = part.bounds.distance(p);
-        if (distance >= nearest) continue;
-        nearest = distance;
-        first = &part;
-        if (distance == 0) break;
-      }
-      nearest = first->shape->distance(p);
-      for (const Part& part : parts)
-        if (&part != first && part.bounds.distance(p) < nearest)
-          nearest = std::min(nearest, part.shape->distance(p));
-      return nearest;
-    });
-  }
+  if (operation == Operation::union_of)
+    return make_shape(bounds, [tree = PartTree(std::move(parts))](Point p) { return tree.distance(p); });
   const double sign = operation == Operation::difference ? -1 : 1;
   return make_shape(bounds, [parts = std::move(parts), sign](Point p) {
     double farthest = parts.front().shape->distance(p);

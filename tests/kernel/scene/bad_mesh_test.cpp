@@ -95,6 +95,22 @@ TEST_F(BadMesh, ABoxWithoutThreeOfItsSides) {
          {"m.obj: 6 open edges" + kMean, "m.obj: 1 vertex without a face"});
 }
 
+// Open below its two flat sides: rays along y and z meet one surface, so those along x decide.
+TEST_F(BadMesh, AQuarterOfABall) {
+  MeshText mesh;
+  mesh.ball({16, 16, 16}, 11);
+  std::erase_if(mesh.faces, [&](const std::vector<int>& face) {
+    return std::any_of(face.begin(), face.end(), [&](int corner) {
+      const Corner& c = mesh.vertices[static_cast<std::size_t>(corner)];
+      return c[1] > 16.001 || c[2] > 16.001;
+    });
+  });
+  // 16 of 31 rings with 33 of 64 corners are left, and a pole; a half circle along each flat side is open.
+  const Body above = box_body({0, 16, 0}, {32, 16, 32}), behind = box_body({0, 0, 16}, {32, 32, 16});
+  expect(mesh, ball_body({16, 16, 16}, 11) - above - behind,
+         {"m.obj: 64 open edges" + kMean, "m.obj: 1457 vertices without a face"});
+}
+
 TEST_F(BadMesh, Flipped) {
   MeshText mesh;
   mesh.ball({16, 16, 16}, 11);
