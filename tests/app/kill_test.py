@@ -57,6 +57,7 @@ law = "LAW"
 width = 320
 height = 240
 """
+VISCOUS = "[flow.viscous]\nkappa = 0.1\n"
 # What a run costs, and who runs it: not what it gives.
 COSTS = ("seconds", "memory")
 WHO = ("implementation", "threads", "visibility")
@@ -93,7 +94,7 @@ def main():
         folder = Path(temporary)
         whole, length = {}, {}
         for law in ("paper", "viscous"):
-            (folder / f"{law}.toml").write_text(SCENE.replace("LAW", law))
+            (folder / f"{law}.toml").write_text(SCENE.replace("LAW", law) + (VISCOUS if law == "viscous" else ""))
             begin = time.monotonic()
             code, said = run(["run", f"{law}.toml", "--out", "whole", "--quiet"], folder)
             length[law] = time.monotonic() - begin
