@@ -22,11 +22,13 @@
 #include "app/run_ahead.h"
 #include "app/shell_word.h"
 #include "app/shrink.h"
+#include "app/size_fifos.h"
 #include "app/verify_machine.h"
 #include "app/verify_picture.h"
 #include "app/visibility.h"
 #include "hwmodel/lockstep/replay.h"
 #include "hwmodel/lockstep/report.h"
+#include "hwmodel/machine/dram_streams.h"
 #include "hwmodel/page/page.h"
 #include "hwmodel/presets/presets.h"
 #include "hwmodel/stream/tiling.h"
@@ -44,7 +46,7 @@ struct VerifyCommand {
   std::uint32_t steps = 10, every = 1, from = 0;
   std::string from_text = "0";  // --from: a step, or a checkpoint
   std::optional<std::uint32_t> plant_step;
-  std::string hw, plant, out, vcd, shrink;
+  std::string hw, plant, out, vcd, shrink, size_fifos;
   std::optional<std::int64_t> vcd_from;
   PictureChoice picture;
   std::vector<std::string> hw_sets;
@@ -290,20 +292,37 @@ int run_verify(VerifyCommand command) {
         fmt::format("error: --plant {}: unknown; `voxmelt list faults` names them", command.plant));
   if (command.plant_step && command.plant.empty())
     throw UsageError("error: --plant-step: there is no --plant whose step it would be");
-  const hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
+  hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
+  if (!command.size_fifos.empty() && fault != nullptr)
+    throw UsageError("error: --size-fifos: not with --plant; a fault may change the cycles");
   scene::Scene scene = load_beginning(command);
   check_tile(scene, preset.configuration);
+  if (preset.caster.dram && preset.configuration.tile != 0)
+    throw UsageError("error: hw.tile: not with hw.memory; tiles are timed on a memory that always answers");
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
   check_html_place(command.common, command.picture, replay_place(command, scene).string());
   check_place("--vcd", command.vcd, replay_place(command, scene).string());
   check_place("--shrink", command.shrink, replay_place(command, scene).string());
-  keep_inputs(scene,
-              {{"--html", command.picture.html}, {"--vcd", command.vcd}, {"--shrink", command.shrink}});
+  keep_inputs(scene, {{"--html", command.picture.html},
+                      {"--vcd", command.vcd},
+                      {"--shrink", command.shrink},
+                      {"--size-fifos", command.size_fifos}});
   catch_interrupts();
   const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
 
+  const VerifiedStream stream{scene.parameters, ahead.volume().grid, ahead.step_number(), command.steps};
+  check_channels(stream, preset);
+  std::optional<std::int64_t> sized_cycles;
+  if (!command.size_fifos.empty())
+    sized_cycles = size_fifos(stream, command.common, command.size_fifos, preset);
+  const hwmodel::Design design =
+      hwmodel::design_of(scene.parameters, ahead.volume().grid, preset.configuration);
+  std::optional<hwmodel::DramStreams> dram;
+  if (preset.caster.dram)
+    dram.emplace(design, preset.configuration.cascade, *preset.caster.dram, preset.caster.clock_mhz);
   hwmodel::VerifyOptions options;
+  options.memory = dram ? &*dram : nullptr;
   options.steps = command.steps;
   options.every = command.every;
   options.configuration = preset.configuration;
@@ -324,8 +343,6 @@ int run_verify(VerifyCommand command) {
     throw UsageError(fmt::format(
         "error: --plant {}: in these steps of this scene there is nothing that this fault could change",
         command.plant));
-  const hwmodel::Design design =
-      hwmodel::design_of(scene.parameters, ahead.volume().grid, preset.configuration);
   print_result(command, scene, report, design, options.configuration, fast.name);
   const auto write = [&] {
     nlohmann::ordered_json json{{"scene", name_of(scene)}};
@@ -342,7 +359,7 @@ int run_verify(VerifyCommand command) {
     if (!no_waves.empty()) throw UsageError(no_waves);
     if (!command.shrink.empty() && !command.common.quiet)
       fmt::print("--shrink: there is no difference to make small\n");
-    return kDone;
+    return !sized_cycles || check_sized(*sized_cycles, report.cycles) ? kDone : kCheckFailed;
   }
   try_writing(write);
   try_writing([&] {
@@ -352,6 +369,7 @@ int run_verify(VerifyCommand command) {
   if (report.mismatch == nullptr) return kCheckFailed;
   try_writing([&] { write_replay(command, scene, report); });
   if (command.shrink.empty()) return kCheckFailed;
+  options.memory = nullptr;  // what is cut has other streams
   try_writing([&] {
     const std::string small =
         shrink({command.shrink, kShrinkSeconds, command.common, scene, options, command.plant}, report);
@@ -392,13 +410,17 @@ void add_verify(CLI::App& program, Chosen& chosen) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--out", options->out,
                       "folder for the replay of a mismatch (default: out/verify_SCENE)");
+  command
+      ->add_option("--size-fifos", options->size_fifos,
+                   "first find the smallest depth of each channel that loses no cycle; write it to this file")
+      ->type_name("FILE.toml");
   add_picture_choice(*command, options->picture);
   add_common(*command, options->common);
   add_visibility(*command, options->common);
   command->footer(
       "--set also takes hw.lanes (1, 2, 4 .. 32), hw.cascade (1 .. 16), hw.substeps (1 .. 64), "
-      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none), hw.overlap (0, 1), hw.tile (0: none); the ray "
-      "caster's keys are in "
+      "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none), hw.overlap (0, 1), hw.tile (0: none), "
+      "hw.memory (ddr4-2400), hw.clock_mhz; the ray caster's keys are in "
       "docs/hardware-picture.md.");
   command->callback([options, &chosen] { chosen = [options] { return run_verify(*options); }; });
 }

@@ -20,12 +20,12 @@ std::optional<std::size_t> best_of(const std::vector<Point>& points, May&& may) 
   return best;
 }
 
-std::vector<std::size_t> front_of(const std::vector<Point>& points, Resource r) {
+std::vector<std::size_t> front_of(const std::vector<Point>& points, std::size_t number) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].taken.fits()) order.push_back(i);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const std::int64_t x = points[a].taken.amounts[r], y = points[b].taken.amounts[r];
+    const std::int64_t x = amount_of(points[a], number), y = amount_of(points[b], number);
     return x != y ? x < y : preferred(points[a], points[b]);
   });
   std::vector<std::size_t> front;
@@ -61,17 +61,26 @@ std::int64_t best_speed(const Question& question, const Axes& axes) {
 
 }  // namespace
 
+std::string_view front_name(std::size_t front) {
+  return front < kResources ? kResourceNames[front] : "clock";
+}
+
+std::int64_t amount_of(const Point& point, std::size_t front) {
+  return front < kResources ? point.taken.amounts[front] : point.clock_mhz;
+}
+
 bool preferred(const Point& a, const Point& b) { return order_of(a) < order_of(b); }
 
 Answer answer_of(const Question& question, const Axes& axes, const Swept& swept) {
   Answer answer;
   answer.best = best_of(swept.points, [](const Point& p) { return p.taken.fits(); });
   const std::int64_t speed = answer.best ? swept.points[*answer.best].speed : 0;
-  for (std::size_t r = 0; r < kResources; ++r) {
-    answer.fronts[r] = front_of(swept.points, static_cast<Resource>(r));
-    answer.front.insert(answer.front.end(), answer.fronts[r].begin(), answer.fronts[r].end());
-    answer.next[r] = next_of(question, swept, speed, static_cast<Resource>(r));
+  for (std::size_t f = 0; f < kFronts; ++f) {
+    answer.fronts[f] = front_of(swept.points, f);
+    answer.front.insert(answer.front.end(), answer.fronts[f].begin(), answer.fronts[f].end());
   }
+  for (std::size_t r = 0; r < kResources; ++r)
+    answer.next[r] = next_of(question, swept, speed, static_cast<Resource>(r));
   std::sort(answer.front.begin(), answer.front.end(),
             [&](std::size_t a, std::size_t b) { return preferred(swept.points[a], swept.points[b]); });
   answer.front.erase(std::unique(answer.front.begin(), answer.front.end()), answer.front.end());
@@ -86,7 +95,7 @@ Answer answer_of(const Question& question, const Axes& axes, const Swept& swept)
     other.memory.reset();
   }
   answer.with_any_memory = best_speed(other, at_clock);
-  answer.next_clock_mhz = at_clock.clock_mhz.front() + 25;
+  answer.next_clock_mhz = at_clock.clock_mhz.front() + std::max(1, at_clock.clock_mhz.front() / 12);
   at_clock.clock_mhz = {answer.next_clock_mhz};
   answer.with_next_clock = best_speed(question, at_clock);
   return answer;

@@ -6,11 +6,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "hwmodel/explore/sweep.h"
 
 namespace voxmelt::hwmodel::explore {
+
+// Of the resources, and the last one of the clock.
+inline constexpr std::size_t kFronts = kResources + 1;
+std::string_view front_name(std::size_t front);  // "lut", ..., "clock"
+std::int64_t amount_of(const Point& point, std::size_t front);
 
 // The cheapest step to a faster design by one resource alone.
 struct Next {
@@ -20,9 +26,9 @@ struct Next {
 };
 
 struct Answer {
-  std::optional<std::size_t> best;                          // none: nothing fits
-  std::array<std::vector<std::size_t>, kResources> fronts;  // speed against each resource, slowest first
-  std::vector<std::size_t> front;                           // all of these together, fastest first
+  std::optional<std::size_t> best;                       // none: nothing fits
+  std::array<std::vector<std::size_t>, kFronts> fronts;  // speed against each of them, slowest first
+  std::vector<std::size_t> front;                        // all of these together, fastest first
   std::array<Next, kResources> next;
   std::int64_t with_twice_the_memory = 0, with_any_memory = 0;  // best speeds
   std::int64_t with_next_clock = 0;

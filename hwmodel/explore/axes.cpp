@@ -12,7 +12,7 @@
 namespace voxmelt::hwmodel::explore {
 namespace {
 
-constexpr int kClockStep = 25;  // MHz
+constexpr int kClocks = 12;  // equal parts of the highest
 
 }  // namespace
 
@@ -26,9 +26,8 @@ Axes usual_axes(const Question& question) {
     for (int n = 2; n <= std::min<int>(viscous.substeps, kMostSubsteps); n *= 2) axes.substeps.push_back(n);
   axes.fifo_depth = {1, 2, 4, 8};
   axes.overlap = {0, 1};
-  for (int mhz = kClockStep; mhz < question.device.clock_mhz; mhz += kClockStep)
-    axes.clock_mhz.push_back(mhz);
-  axes.clock_mhz.push_back(question.device.clock_mhz);
+  for (int i = 1; i <= kClocks; ++i)
+    if (const int mhz = question.device.clock_mhz * i / kClocks; mhz > 0) axes.clock_mhz.push_back(mhz);
   return axes;
 }
 

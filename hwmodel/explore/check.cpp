@@ -1,5 +1,10 @@
 #include "hwmodel/explore/check.h"
 
+#include <optional>
+
+#include "hwmodel/explore/timing.h"
+#include "hwmodel/machine/dram_streams.h"
+
 namespace voxmelt::hwmodel::explore {
 
 double Checked::error() const {
@@ -30,16 +35,20 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   options.steps = checked.steps;
   options.configuration = point.hw;
   options.poll = input.poll;
+  std::optional<DramStreams> streams;
+  if (question.memory) streams.emplace(design, point.hw.cascade, *question.memory, point.clock_mhz);
+  options.memory = streams ? &*streams : nullptr;
   const VerifyReport report =
       verify(question.parameters, input.start, question.first_step, input.fast, input.tuning, options);
   checked.good = report.mismatch == nullptr;
   if (!checked.good) checked.difference = text_of(*report.mismatch);
   checked.compared_cells = report.compared_cells;
-  checked.cycles = report.cycles;
-  // The twin repeats the passes as they were simulated.
-  std::vector<Train> trains = trains_of(design, point.hw, question.first_step, checked.steps);
-  if (trains.size() == 1) trains.front().work.cycles = report.cycles;
-  checked.on_memory = simulated_on(trains, point.clock_mhz, question);
+  checked.on_memory = report.cycles;
+  checked.cycles = question.memory ? timing_of({question.parameters, question.grid, point.hw,
+                                                question.first_step, checked.steps, input.poll},
+                                               nullptr)
+                                         .cycles
+                                   : report.cycles;
   return checked;
 }
 

@@ -127,10 +127,10 @@ json json_of(const Explored& of) {
   json front = json::array(), parts = json::array(), fronts;
   for (const std::size_t at : of.answer.front) front.push_back(point_json(of, at));
   for (const PartList& one : of.swept.parts) parts.push_back(parts_json(one));
-  for (std::size_t r = 0; r < kResources; ++r) {
-    json& one = fronts[std::string(kResourceNames[r])] = json::array();
-    for (const std::size_t at : of.answer.fronts[r])
-      one.push_back({of.swept.points[at].taken.amounts[r], of.swept.points[at].speed * 1000});
+  for (std::size_t f = 0; f < kFronts; ++f) {
+    json& one = fronts[std::string(front_name(f))] = json::array();
+    for (const std::size_t at : of.answer.fronts[f])
+      one.push_back({amount_of(of.swept.points[at], f), of.swept.points[at].speed * 1000});
   }
   json result{{"scene", of.scene},
               {"grid", {q.grid.x, q.grid.y, q.grid.z}},

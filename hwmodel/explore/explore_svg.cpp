@@ -63,11 +63,11 @@ double giga(const Point& p) { return static_cast<double>(p.speed) * 1e-6; }
 
 struct Panel {
   const Explored& of;
-  Resource r;
+  std::size_t f;  // of Answer::fronts
   Scale x, y;
 
   double amount(const Point& p) const {
-    return static_cast<double>(std::max<std::int64_t>(1, p.taken.amounts[r]));
+    return static_cast<double>(std::max<std::int64_t>(1, amount_of(p, f)));
   }
   std::string at(const Point& p) const { return fmt::format("{:.1f},{:.1f}", x(amount(p)), y(giga(p))); }
 
@@ -99,7 +99,7 @@ struct Panel {
 
   std::string front() const {
     std::string line, marks;
-    for (const std::size_t i : of.answer.fronts[r]) {
+    for (const std::size_t i : of.answer.fronts[f]) {
       const Point& p = of.swept.points[i];
       line += (line.empty() ? "M" : " L") + at(p);
       const Checked* checked = checked_at(of, i);
@@ -108,11 +108,11 @@ struct Panel {
           "<circle class='{0}' cx='{1:.1f}' cy='{2:.1f}' r='4'><title>{3} lanes x {4} steps, {5} MHz: "
           "{6:.3f} "
           "Gcell-steps/s, {7} {8}; {0}</title></circle>\n",
-          state, x(amount(p)), y(giga(p)), p.hw.lanes, p.hw.cascade, p.clock_mhz, giga(p), p.taken.amounts[r],
-          kResourceNames[r]);
+          state, x(amount(p)), y(giga(p)), p.hw.lanes, p.hw.cascade, p.clock_mhz, giga(p), amount_of(p, f),
+          front_name(f));
     }
     std::string text = fmt::format("<path class='front' d='{}'/>\n{}", line, marks);
-    if (const auto& front = of.answer.fronts[r]; !front.empty()) {
+    if (const auto& front = of.answer.fronts[f]; !front.empty()) {
       const Point& last = of.swept.points[front.back()];
       text +=
           fmt::format("<text class='label' x='{:.1f}' y='{:.1f}' text-anchor='end'>{} x {}, {} MHz</text>\n",
@@ -124,8 +124,8 @@ struct Panel {
   std::string limit(double usable) const {
     return fmt::format(
         "<line class='limit' x1='{0:.1f}' x2='{0:.1f}' y1='{1}' y2='{2}'/>"
-        "<text x='{0:.1f}' y='{3}' text-anchor='end'>there is: {4}</text>\n",
-        x(usable), kTop, kHeight - kBottom, kTop - 5, number(usable));
+        "<text x='{3}' y='22' text-anchor='end'>there are {4}</text>\n",
+        x(usable), kTop, kHeight - kBottom, kWidth - kRight, number(usable));
   }
 };
 
@@ -136,10 +136,10 @@ std::string escaped(const std::string& text) {
   return of;
 }
 
-std::string name_of(Resource r) {
-  std::string name(kResourceNames[r]);
+std::string name_of(std::size_t front) {
+  std::string name(front_name(front));
   for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return name;
+  return front < kResources ? name : "clock, MHz";
 }
 
 // Long lines of a picture are cut at blanks.
@@ -158,13 +158,13 @@ std::string wrapped(const std::string& text, std::size_t most, double x, double 
 
 std::string svg_of(const Explored& of) {
   const Amounts usable = of.question.device.usable();
-  std::vector<Resource> shown;
-  for (std::size_t r = 0; r < kResources; ++r)
-    if (usable[r] > 0) shown.push_back(static_cast<Resource>(r));
+  std::vector<std::size_t> shown;
+  for (std::size_t f = 0; f < kFronts; ++f)
+    if (f >= kResources || usable[f] > 0) shown.push_back(f);
   double slowest = 1e9, fastest = 0;
   for (const Point& p : of.swept.points)
     if (p.taken.fits()) slowest = std::min(slowest, giga(p)), fastest = std::max(fastest, giga(p));
-  constexpr double kHead = 92;
+  constexpr double kHead = 104;
   const double height = kHead + kHeight * static_cast<double>((shown.size() + 1) / 2);
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
@@ -175,18 +175,23 @@ std::string svg_of(const Explored& of) {
       wrapped(sentence_of(of), 140, 24, 54));
   if (fastest > 0)
     for (std::size_t i = 0; i < shown.size(); ++i) {
-      const Resource r = shown[i];
-      const auto most = static_cast<double>(usable[r]);
+      const std::size_t f = shown[i];
+      const auto most = static_cast<double>(f < kResources ? usable[f] : of.question.device.clock_mhz);
       double least = most;
-      for (const std::size_t at : of.answer.fronts[r])
-        least = std::min(
-            least, static_cast<double>(std::max<std::int64_t>(1, of.swept.points[at].taken.amounts[r])));
-      const Panel panel{of, r, Scale(least * 0.8, most * 1.05, kLeft, kWidth - kRight),
+      for (const std::size_t at : of.answer.fronts[f])
+        least = std::min(least,
+                         static_cast<double>(std::max<std::int64_t>(1, amount_of(of.swept.points[at], f))));
+      const Panel panel{of, f, Scale(least * 0.8, most * 1.05, kLeft, kWidth - kRight),
                         Scale(slowest * 0.8, fastest * 1.3, kHeight - kBottom, kTop)};
       svg += fmt::format("<g transform='translate({} {})'>\n{}{}{}{}</g>\n", i % 2 == 0 ? 0 : kWidth,
-                         kHead + kHeight * static_cast<double>(i / 2), panel.axes(name_of(r)), panel.all(),
+                         kHead + kHeight * static_cast<double>(i / 2), panel.axes(name_of(f)), panel.all(),
                          panel.limit(most), panel.front());
     }
+  svg += fmt::format(
+      "<circle class='verified' cx='30' cy='88' r='4'/><text x='40' y='92'>verified</text>"
+      "<circle class='predicted' cx='110' cy='88' r='4'/><text x='120' y='92'>predicted</text>"
+      "<circle class='dot' cx='200' cy='88' r='2'/><text x='208' y='92'>every other design that "
+      "fits</text>\n");
   return svg + "</svg>\n";
 }
 

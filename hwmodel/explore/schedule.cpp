@@ -21,6 +21,7 @@ void add_pass(Train& train, const Design& design, const Pass& pass) {
   const Shape& shape = design.shape;
   const std::int64_t cells = shape.tokens() * shape.lanes;
   ++train.passes;
+  train.list.push_back(pass);
   train.work.tokens += shape.tokens();
   train.work.read_bits += cells * design.cell_bits();
   train.work.written_bits += cells * design.cell_bits();

@@ -12,7 +12,8 @@ namespace voxmelt::hwmodel::explore {
 
 struct Train {
   std::int64_t passes = 0, steps = 0;
-  StreamWork work;  // one pass of the twin: the tokens of all passes, one after another
+  std::vector<Pass> list;  // the passes
+  StreamWork work;         // one pass of the twin: the tokens of all passes, one after another
 };
 
 // Of a scene that counts its sub-steps from the state, every step is taken to have as many as the machine has

@@ -57,6 +57,7 @@ class Run {
       checker_.stop_at_difference(false);
     }
     if (options.timeline || options.waves) pipeline_.each_cycle([this] { end_cycle(); });
+    pipeline_.memory(options.memory);
     report_.first_step = first_step;
   }
 
@@ -271,7 +272,7 @@ class Run {
           predicted_cycles(pipeline_.design(), options_.configuration, first, end.passes);
       report_.predicted_cycles += predicted;
       report_.trains.push_back({first.first, end.passes, end.cycles, predicted});
-      if (options_.configuration.stall_seed == 0 && end.cycles != predicted)
+      if (options_.configuration.stall_seed == 0 && options_.memory == nullptr && end.cycles != predicted)
         report_.mismatch =
             std::make_unique<Mismatch>(cycles_of(pipeline_, first.first, predicted, end.cycles));
     }

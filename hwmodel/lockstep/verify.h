@@ -31,8 +31,9 @@ struct VerifyOptions {
   bool waves =
       false;  // keep the cycles around the first difference or, if that is given, from `waves_from` on
   std::optional<std::int64_t> waves_from;
-  bool timeline = false;  // note what every stage did when
-  StageMaker make;        // of the stages; empty: those of `fault`
+  bool timeline = false;           // note what every stage did when
+  StageMaker make;                 // of the stages; empty: those of `fault`
+  StreamMemory* memory = nullptr;  // that the pipeline waits for; the closed form of its cycles does not hold
 };
 
 // Passes that followed one another without a gap.

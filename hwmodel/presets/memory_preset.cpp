@@ -94,10 +94,14 @@ memory::Parameters load_memory(const std::string& name, const std::string& place
   return p;
 }
 
-void read_memory(scene::Reader& hw, raycast::Configuration& c) {
+void read_clock_and_memory(scene::Reader& hw, raycast::Configuration& c) {
   c.clock_mhz = static_cast<int>(hw.integer("clock_mhz", 1, 10000, c.clock_mhz));
   const std::string memory = hw.text("memory", "fixed");
   if (memory != "fixed") c.dram = load_memory(memory, hw.place("memory").text());
+}
+
+void read_memory(scene::Reader& hw, raycast::Configuration& c) {
+  read_clock_and_memory(hw, c);
   c.memory_trace = hw.text("memory_trace", "");
   if (c.memory_trace.empty()) return;
   if (!c.dram) hw.fail("memory_trace", ": hw.memory must be a DRAM");

@@ -19,7 +19,9 @@ const std::vector<MemoryFile>& memory_files();
 // `place` in front where there is no such memory, else with the place in the file.
 memory::Parameters load_memory(const std::string& name, const std::string& place);
 
-// The keys `clock_mhz`, `memory` ("fixed", or as above) and `memory_trace` of [hw].
+// The keys `clock_mhz` and `memory` ("fixed", or as above) of [hw].
+void read_clock_and_memory(scene::Reader& hw, raycast::Configuration& configuration);
+// These, and `memory_trace`.
 void read_memory(scene::Reader& hw, raycast::Configuration& configuration);
 
 }  // namespace voxmelt::hwmodel

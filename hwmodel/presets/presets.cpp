@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "hwmodel/presets/caster_preset.h"
+#include "hwmodel/presets/memory_preset.h"
 #include "kernel/scene/text/compose.h"
 #include "kernel/scene/text/reader.h"
 
@@ -24,6 +25,10 @@ void read_pipeline(scene::Reader& hw, Configuration& c) {
     hw.fail("tile",
             " = " + std::to_string(c.tile) + " is not a multiple of lanes = " + std::to_string(c.lanes));
   c.overlap = hw.integer("overlap", 0, 1, c.overlap ? 1 : 0) == 1;
+  for (scene::Reader& channel : hw.tables("channel")) {
+    c.depths.push_back({channel.text("name"), static_cast<int>(channel.integer("depth", 1, kMostDepth))});
+    channel.finish();
+  }
 }
 
 Preset preset_of(const scene::Value& document, Runs runs) {
@@ -32,7 +37,10 @@ Preset preset_of(const scene::Value& document, Runs runs) {
   preset.title = root.text("title", "");
   if (std::optional<scene::Reader> hw = root.table("hw")) {
     if (runs != Runs::caster) read_pipeline(*hw, preset.configuration);
-    if (runs != Runs::pipeline) read_caster(*hw, preset.caster);
+    if (runs == Runs::pipeline)
+      read_clock_and_memory(*hw, preset.caster);
+    else
+      read_caster(*hw, preset.caster);
     hw->finish();
   }
   root.finish();

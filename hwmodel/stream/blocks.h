@@ -18,13 +18,15 @@ namespace voxmelt::hwmodel {
 // The stages of one time step and the channels between them.
 class StepBlock {
  public:
-  StepBlock(const Design& design, Stages stages, int first_channel, const std::string& prefix, int depth,
-            std::uint64_t stall_seed)
+  template <class DepthOf>  // depth_of(name of a channel)
+  StepBlock(const Design& design, Stages stages, int first_channel, const std::string& prefix,
+            const DepthOf& depth_of, std::uint64_t stall_seed)
       : stages_(std::move(stages)), out_channel_(first_channel) {
-    for (std::size_t i = 0; i + 1 < stages_.size(); ++i)
+    for (std::size_t i = 0; i + 1 < stages_.size(); ++i) {
+      const std::string name = prefix + stages_[i]->name() + " -> " + stages_[i + 1]->name();
       channels_.push_back(
-          std::make_unique<CellFifo>(prefix + stages_[i]->name() + " -> " + stages_[i + 1]->name(),
-                                     out_channel_++, design.shape.lanes, depth, stall_seed));
+          std::make_unique<CellFifo>(name, out_channel_++, design.shape.lanes, depth_of(name), stall_seed));
+    }
   }
 
   const Stages& stages() const { return stages_; }

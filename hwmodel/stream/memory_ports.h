@@ -6,6 +6,7 @@
 
 #include "hwmodel/stream/stages.h"
 #include "hwmodel/stream/state_memory.h"
+#include "hwmodel/stream/stream_memory.h"
 #include "hwmodel/stream/volume_port.h"
 
 namespace voxmelt::hwmodel {
@@ -49,7 +50,10 @@ class Writer {
       ++cycles_.fill_drain;
     } else if (!in_->valid()) {
       ++(written_ == first_ ? cycles_.fill_drain : cycles_.starved);
+    } else if (dram_ != nullptr && !dram_->may_write(now)) {
+      ++cycles_.blocked;
     } else {
+      if (dram_ != nullptr) dram_->written(now);
       write(in_->get());
       ++written_, last_cycle_ = now;
       ++cycles_.busy;
@@ -66,6 +70,7 @@ class Writer {
   const state::Volume& written() const { return *last_written_; }
   const Books& books() const { return closed_; }  // of the last pass whose tiles have all been written
   void plant(PortFault* fault) { fault_ = fault; }
+  void dram(StreamMemory* dram) { dram_ = dram; }
 
  private:
   void write(const Cell* lanes) {
@@ -94,6 +99,7 @@ class Writer {
 
   Shape shape_;
   StateMemory& memory_;
+  StreamMemory* dram_ = nullptr;  // that the writer waits for
   CellFifo* in_ = nullptr;
   std::deque<int> tiles_;  // that are still to be written
   Place place_;
@@ -123,6 +129,7 @@ class Reader {
     } else if (!out_->ready()) {
       ++cycles_.blocked;
     } else {
+      if (dram_ != nullptr) dram_->read(now);
       Cell* lanes = out_->put();
       read_token(memory_.read(), shape_, place_, lanes);
       if (fault_ != nullptr) fault_->reads(passes_, place_, memory_, lanes);
@@ -142,9 +149,11 @@ class Reader {
   }
   const StageCycles& cycles() const { return cycles_; }
   void plant(PortFault* fault) { fault_ = fault; }
+  void dram(StreamMemory* dram) { dram_ = dram; }
 
  private:
   bool may_read(std::int64_t now) const {
+    if (dram_ != nullptr && !dram_->may_read(now)) return false;
     if (grids_before_ == 0) return true;
     const std::int64_t before = (grids_before_ - 1) * shape_.tiles() * shape_.tokens();
     return writer_->written_before(now) > before + owned_ordinal(shape_, place_.x, place_.y, place_.z);
@@ -152,6 +161,7 @@ class Reader {
 
   Shape shape_;
   StateMemory& memory_;
+  StreamMemory* dram_ = nullptr;  // that the reader waits for
   CellFifo* out_ = nullptr;
   const Writer* writer_ = nullptr;
   Place place_;
@@ -171,7 +181,8 @@ class Feed {
   }
   // Another tile for which the time step works, with the same irradiance.
   void add_pass(int tile) { next_.push_back(tile); }
-  void cycle() {
+  void dram(StreamMemory* dram, int t) { dram_ = dram, step_ = t; }
+  void cycle(std::int64_t now) {
     if (place_.ordinal == shape_.tokens() && !next_.empty()) {
       place_ = begin_of(shape_, next_.front());
       next_.pop_front();
@@ -184,6 +195,11 @@ class Feed {
       ++cycles_.blocked;
       return;
     }
+    if (dram_ != nullptr && !dram_->may_feed(step_, now)) {
+      ++cycles_.starved;
+      return;
+    }
+    if (dram_ != nullptr) dram_->fed(step_, now);
     UInt<16>* lanes = out_.put();
     for (int lane = 0; lane < shape_.lanes; ++lane) {
       const int x = place_.x + lane;
@@ -197,6 +213,8 @@ class Feed {
  private:
   Shape shape_;
   HeatFifo& out_;
+  StreamMemory* dram_ = nullptr;  // that the feed waits for
+  int step_ = 0;                  // that it feeds
   const state::Field<std::uint16_t>* field_ = nullptr;
   Place place_;
   std::deque<int> next_;  // tiles

@@ -27,13 +27,14 @@ struct Pipeline::Machine {
         reader(design.shape, memory),
         writer(design.shape, memory) {
     const bool fed = design.hot() && parameters.heat.radiation;
+    const auto depth_of = [this](const std::string& name) { return configuration.depth_of(name); };
     for (int t = 0; t < c.cascade; ++t) {
       const int channel = t == 0 ? 1 : steps.back()->out_channel() + 1;
       steps.push_back(std::make_unique<StepBlock>(design, make_step(design, make), channel, step_name(t),
-                                                  c.fifo_depth, c.stall_seed));
+                                                  depth_of, c.stall_seed));
     }
     const auto link = [&](int channel, const std::string& name) {
-      links.push_back(std::make_unique<Link<Cell>>(name, channel, c.lanes, c.fifo_depth, c.stall_seed));
+      links.push_back(std::make_unique<Link<Cell>>(name, channel, c.lanes, depth_of(name), c.stall_seed));
     };
     link(0, step_name(0) + "reader -> " + steps.front()->stages().front()->name());
     for (int t = 0; t < c.cascade; ++t) {
@@ -46,8 +47,9 @@ struct Pipeline::Machine {
       StepBlock& step = *steps[at(t)];
       step.connect(links[at(t)]->fifo(), links[at(t + 1)]->fifo());
       if (!fed) continue;
-      feed_links.push_back(std::make_unique<Link<UInt<16>>>(step_name(t) + "feed -> exchange", 1000 + t,
-                                                            c.lanes, c.fifo_depth, c.stall_seed));
+      const std::string name = step_name(t) + "feed -> exchange";
+      feed_links.push_back(
+          std::make_unique<Link<UInt<16>>>(name, 1000 + t, c.lanes, depth_of(name), c.stall_seed));
       feeds.push_back(std::make_unique<Feed>(design.shape, feed_links.back()->fifo()));
       step.feed(feed_links.back()->fifo());
     }
@@ -77,11 +79,12 @@ struct Pipeline::Machine {
       });
     for (std::size_t t = 0; t < feeds.size(); ++t)
       add("feed_" + std::to_string(t), [this, t] {
-        feeds[t]->cycle();
+        feeds[t]->cycle(shared.cycle());
         feed_links[t]->tick();
       });
     add("writer", [this] {
       writer.cycle(shared.cycle());
+      if (dram != nullptr) dram->cycle(shared.cycle());
       if (after.watch) after.tick();
       watch_progress();
     });
@@ -98,10 +101,16 @@ struct Pipeline::Machine {
   bool fed(const Pass& pass, std::size_t t) const {
     return static_cast<int>(t) < pass.steps && pass.uses(StageKind::exchange, 0);
   }
+  int fed_steps(const Pass& pass) const {
+    int n = 0;
+    for (std::size_t t = 0; t < feeds.size(); ++t) n += fed(pass, t) ? 1 : 0;
+    return n;
+  }
   // Another pass follows without a gap: its first token may be read in the next cycle.
   void follow(const std::optional<Pass>& pass) {
     if (!pass) return;
     begin(*pass, false);
+    if (dram != nullptr) dram->add_pass(fed_steps(*pass));
     reader.add_pass(pass->tile);
     writer.add_pass(pass->tile);
     for (std::size_t t = 0; t < feeds.size(); ++t)
@@ -132,6 +141,7 @@ struct Pipeline::Machine {
   std::int64_t moves_before = 0, idle = 0;
   int passes = 0;  // of the present train
   Next next;
+  StreamMemory* dram = nullptr;
   std::function<void()> poll;
   bool ran = false;
   Context context;  // first: everything of SystemC lives in it
@@ -160,6 +170,13 @@ Pipeline::~Pipeline() { machine_->context.enter(); }
 
 void Pipeline::watch(FifoWatcher<Cell>* watcher) {
   machine_->for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.watch(watcher); });
+}
+
+void Pipeline::memory(StreamMemory* memory) {
+  Machine& m = *machine_;
+  m.dram = memory;
+  m.reader.dram(memory), m.writer.dram(memory);
+  for (std::size_t t = 0; t < m.feeds.size(); ++t) m.feeds[t]->dram(memory, static_cast<int>(t));
 }
 
 void Pipeline::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
@@ -208,6 +225,7 @@ PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const state::Fie
   m.reader.begin_pass(pass.tile);
   m.writer.begin_pass(pass.tile);
   m.begin(pass, true);
+  if (m.dram != nullptr) m.dram->begin_train(m.design.shape.tokens(), m.fed_steps(pass));
   for (std::size_t t = 0; t < m.feeds.size(); ++t)
     m.feeds[t]->begin_pass(m.fed(pass, t) ? irradiance : nullptr, pass.tile);
 

@@ -16,18 +16,31 @@
 
 #include "hwmodel/stream/memory_ports.h"
 #include "hwmodel/stream/stages.h"
+#include "hwmodel/stream/stream_memory.h"
 #include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::hwmodel {
 
+struct ChannelDepth {
+  std::string name;  // "step 0: gravity -> pattern"
+  int depth = 0;
+};
+
 struct Configuration {
-  int lanes = 4;                 // P: cells per cycle, along x
-  int cascade = 1;               // T: time steps per pass
-  int fifo_depth = 4;            // tokens, of every channel
-  std::uint64_t stall_seed = 0;  // 0: no stalls
-  int substeps = 1;              // viscous law: copies of settle and spread in a time step
-  bool overlap = true;           // may a pass enter while the last one drains?
-  int tile = 0;                  // cells along x that the memories hold, in whole blocks; 0: the grid
+  int lanes = 4;                       // P: cells per cycle, along x
+  int cascade = 1;                     // T: time steps per pass
+  int fifo_depth = 4;                  // tokens, of every channel
+  std::uint64_t stall_seed = 0;        // 0: no stalls
+  int substeps = 1;                    // viscous law: copies of settle and spread in a time step
+  bool overlap = true;                 // may a pass enter while the last one drains?
+  int tile = 0;                        // cells along x that the memories hold, in whole blocks; 0: the grid
+  std::vector<ChannelDepth> depths{};  // of channels that differ from fifo_depth
+
+  int depth_of(const std::string& channel) const {
+    for (const ChannelDepth& one : depths)
+      if (one.name == channel) return one.depth;
+    return fifo_depth;
+  }
 };
 
 inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024, kMostSubsteps = 64,
@@ -80,6 +93,7 @@ class Pipeline {
   void probe(FifoProbe<Cell>* probe);                          // of the channels of the main stream
   // Called at the end of every cycle of every block: then the accounts of all stages include this cycle.
   void each_cycle(std::function<void()> watch);
+  void memory(StreamMemory* memory);      // null: it always answers
   void poll(std::function<void()> poll);  // called now and then during a pass; what it throws ends the pass
 
   // Where a value did not fit its wire, or an address its memory.

@@ -239,7 +239,7 @@ class Explore(unittest.TestCase):
             s = point["simulated"]
             self.assertEqual(s["cycles"], s["predicted_cycles"])
             self.assertGreaterEqual(s["compared_cells"], 48 * 40 * 12 * s["steps"])
-            self.assertLess(abs(s["error"]), 0.05)
+            self.assertLess(abs(s["error"]), 0.1)  # of a run of a thousand cycles: its ends count
         self.assertEqual(sum(int(row["verified"]) for row in rows), 3)
         self.assertEqual(said.count("verified,"), 4)  # with the sentence
         self.assertTrue((self.folder / "out/explore.svg").read_text().startswith("<svg"))
@@ -253,6 +253,52 @@ class Explore(unittest.TestCase):
                 (["--device", "zu7ev", "--set", "hw.clock_mhz=301"], "hw.clock_mhz"),
                 (["--device", "missing.toml"], "missing.toml")):
             result = voxmelt("explore", self.scene, *arguments, "--points", 0, cwd=self.folder)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertIn(message, result.stderr)
+            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+
+
+class SizedChannels(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.scene = write(self.folder, SMALL)
+
+    def verify(self, *arguments):
+        result = voxmelt("verify", self.scene, "--steps", 4, *arguments, "--report", "r.json", cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return json.loads((self.folder / "r.json").read_text()), result.stdout
+
+    def test_depths_lose_no_cycle_and_are_read_again(self):
+        for sets in (["--set", "hw.stall_seed=5"], ["--set", "hw.memory=ddr4-2400", "--set", "hw.lanes=8"]):
+            deep, _ = self.verify(*sets, "--set", "hw.cascade=2", "--set", "hw.fifo_depth=1024")
+            sized, said = self.verify(*sets, "--set", "hw.cascade=2", "--size-fifos", "fifos.toml")
+            self.assertEqual(sized["cycles"], deep["cycles"])
+            self.assertEqual(sized["digest"], deep["digest"])
+            memory = [s for s in sets if "memory" in s]
+            again, _ = self.verify("--hw", "fifos.toml", *(["--set", *memory] if memory else []))
+            self.assertEqual(again["cycles"], deep["cycles"])
+            self.assertEqual([c["depth"] for c in again["channels"]], [c["depth"] for c in sized["channels"]])
+            self.assertLess(max(c["depth"] for c in sized["channels"]), 1024)
+            self.assertIn("one less costs", said)
+
+    def test_a_memory_costs_cycles_and_no_bits(self):
+        free, _ = self.verify("--set", "hw.lanes=16")
+        slow, _ = self.verify("--set", "hw.lanes=16", "--set", "hw.memory=ddr4-2400", "--set", "hw.clock_mhz=600")
+        self.assertGreater(slow["cycles"], free["cycles"])
+        self.assertEqual(slow["digest"], free["digest"])
+        for stage in slow["stages"]:
+            self.assertEqual(sum(stage["cycles"].values()), slow["cycles"])
+
+    def test_bad_files(self):
+        write(self.folder, "[hw]\n[[hw.channel]]\nname = \"reader -> moon\"\ndepth = 3\n", "moon.toml")
+        write(self.folder, "[hw]\n[[hw.channel]]\nname = \"reader -> moon\"\ndepth = 0\n", "zero.toml")
+        for arguments, message in ((["--hw", "moon.toml"], 'no channel "reader -> moon"'),
+                                   (["--hw", "zero.toml"], "depth"),
+                                   (["--set", "hw.memory=sram"], "no memory"),
+                                   (["--size-fifos", "f.toml", "--plant", "gravity-room"], "--size-fifos")):
+            result = voxmelt("verify", self.scene, *arguments, cwd=self.folder)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertIn(message, result.stderr)
             self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)

@@ -1,5 +1,5 @@
-// Runs a target without libFuzzer, by any compiler: every file of a corpus, then changed ones for a while.
-//   fuzz_NAME [--seconds N] [--seed S] [--dictionary FILE] FILE|FOLDER...
+// Runs a target without libFuzzer, by any compiler: every file of a corpus, then changed ones for a while. It takes
+//   [--seconds N] [--seed S] [--dictionary FILE] FILE|FOLDER...
 // What crashes, hangs, or ends otherwise than by an error of the project's own is written beside: its bytes
 // are in `fuzz-found`, and the file is named. Exit code 1.
 #include <unistd.h>

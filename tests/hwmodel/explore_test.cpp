@@ -5,11 +5,15 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "hwmodel/explore/check.h"
 #include "hwmodel/explore/dram_time.h"
 #include "hwmodel/explore/part_list.h"
+#include "hwmodel/explore/size_fifos.h"
+#include "hwmodel/machine/dram_streams.h"
 #include "hwmodel/presets/memory_preset.h"
 
 namespace voxmelt::hwmodel::explore {
@@ -53,6 +57,92 @@ TEST(Explore, TheTimeOnAMemoryIsThatOfTheSimulation) {
   }
   std::printf("worst error %.2f %%, %d of 72 bound by the memory\n", worst, bound);
   EXPECT_GE(bound, 30);
+}
+
+// A scene with heat and radiation, of which only the shape matters.
+TimedRun timed(int lanes, int cascade, std::int64_t steps) {
+  TimedRun run;
+  run.parameters.heat.enabled = run.parameters.heat.radiation = true;
+  run.parameters.heat.visibility_every = 16;
+  run.grid = {64, 24, 40};
+  run.configuration.lanes = lanes, run.configuration.cascade = cascade;
+  run.steps = steps;
+  return run;
+}
+
+TEST(Explore, ThePipelineOnAMemoryTakesTheTimeOfTheClosedForm) {
+  double worst = 0;
+  int bound = 0, runs = 0;
+  for (const char* name : {"ddr4-2400", "hbm2", "lpddr4-3200"}) {
+    const memory::Parameters sheet = load_memory(name, "test");
+    for (const int lanes : {2, 8, 16})
+      for (const int cascade : {1, 2, 4, 8})
+        for (const int mhz : {150, 300}) {
+          const TimedRun run = timed(lanes, cascade, 2 * cascade);
+          const Design design{run.parameters, {run.grid, lanes}, 1};
+          std::int64_t predicted = 0, free = 0;
+          for (const Train& train : trains_of(design, run.configuration, 0, run.steps)) {
+            predicted += cycles_on(train.work, sheet, mhz);
+            free += train.work.cycles;
+          }
+          EXPECT_EQ(timing_of(run, nullptr).cycles, free);
+          DramStreams streams(design, cascade, sheet, mhz);
+          const Timing simulated = timing_of(run, &streams);
+          ASSERT_FALSE(simulated.hangs);
+          const double error = 100. * static_cast<double>(predicted - simulated.cycles) /
+                               static_cast<double>(simulated.cycles);
+          std::printf(
+              "%-12s %2d lanes, %d steps, %d MHz: %lld cycles, without memory %lld, predicted %+.2f %%\n",
+              name, lanes, cascade, mhz, static_cast<long long>(simulated.cycles),
+              static_cast<long long>(free), error);
+          EXPECT_LT(std::abs(error), 5) << name << ' ' << lanes << ' ' << cascade << ' ' << mhz;
+          worst = std::max(worst, std::abs(error));
+          bound += simulated.cycles > free + free / 10 ? 1 : 0;
+          ++runs;
+        }
+  }
+  std::printf("worst error %.2f %% of %d, %d bound by the memory\n", worst, runs, bound);
+  EXPECT_GE(bound, 20);
+}
+
+// Every channel is as shallow as it can be: one token less anywhere costs cycles, with stalls, and on a
+// memory.
+TEST(Explore, OneTokenLessAnywhereCostsCycles) {
+  for (const bool on_memory : {false, true}) {
+    TimedRun run = timed(4, 2, 4);
+    run.grid = {16, 8, 6};
+    run.configuration.stall_seed = on_memory ? 0 : 3;
+    std::optional<SizingMemory> memory;
+    if (on_memory) memory = {load_memory("ddr4-2400", "test"), 300};
+    const Sizing sizing = size_fifos(run, memory);
+    const auto cycles = [&](const Configuration& configuration) {
+      TimedRun one = run;
+      one.configuration = configuration;
+      const Design design{run.parameters, {run.grid, configuration.lanes}, 1};
+      std::optional<DramStreams> streams;
+      if (memory) streams.emplace(design, configuration.cascade, memory->parameters, memory->clock_mhz);
+      const Timing timing = timing_of(one, streams ? &*streams : nullptr);
+      return timing.hangs ? INT64_MAX : timing.cycles;
+    };
+    Configuration deep = run.configuration, sized = run.configuration;
+    deep.fifo_depth = kMostDepth;
+    for (const SizedChannel& channel : sizing.channels) sized.depths.push_back({channel.name, channel.depth});
+    EXPECT_EQ(cycles(sized), cycles(deep));
+    EXPECT_EQ(sizing.cycles, cycles(deep));
+    int deeper = 0;
+    for (ChannelDepth& channel : sized.depths) {
+      if (channel.depth == 1) continue;
+      deeper += channel.depth > 2 ? 1 : 0;
+      --channel.depth;
+      EXPECT_GT(cycles(sized), sizing.cycles) << channel.name;
+      ++channel.depth;
+    }
+    EXPECT_GE(deeper, on_memory ? 0 : 4);  // stalls need room
+    const Design design{run.parameters, {run.grid, 4}, 1};
+    std::vector<std::string> names;
+    for (const SizedChannel& channel : sizing.channels) names.push_back(channel.name);
+    EXPECT_EQ(names, channel_names(design, run.configuration));
+  }
 }
 
 TEST(Explore, MemoriesTakeTheShapeThatFits) {

@@ -1,0 +1,71 @@
+#include "app/size_fifos.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "app/interrupt.h"
+#include "hwmodel/explore/size_fifos.h"
+#include "kernel/run/io/output_folder.h"
+
+namespace voxmelt::app {
+namespace {
+
+namespace explore = hwmodel::explore;
+
+void print_table(const explore::Sizing& sizing, const hwmodel::Configuration& c) {
+  fmt::print("{:<36} {:>6} {:>8} {:>10} {:>20}\n", "channel", "depth", "highest", "bits", "one less costs");
+  std::int64_t bits = 0;
+  for (const explore::SizedChannel& channel : sizing.channels) {
+    const std::int64_t own = std::int64_t{channel.depth} * channel.bits * c.lanes;
+    bits += own;
+    fmt::print("{:<36} {:>6} {:>8} {:>10} {:>20}\n", channel.name, channel.depth, channel.highest, own,
+               channel.depth == 1              ? "-"
+               : channel.one_less == INT64_MAX ? "it hangs"
+                                               : fmt::format("{} cycles", channel.one_less));
+  }
+  fmt::print("{} bits in {} channels; {} cycles as with depth {}; {} runs simulated\n", bits,
+             sizing.channels.size(), sizing.cycles, hwmodel::kMostDepth, sizing.runs);
+}
+
+}  // namespace
+
+void check_channels(const VerifiedStream& stream, const hwmodel::Preset& preset) {
+  const hwmodel::Configuration& c = preset.configuration;
+  const std::vector<std::string> names =
+      explore::channel_names({stream.parameters, {stream.grid, c.lanes}, c.substeps}, c);
+  for (const hwmodel::ChannelDepth& one : c.depths)
+    if (std::find(names.begin(), names.end(), one.name) == names.end())
+      throw UsageError(
+          fmt::format("error: hw.channel: this machine has no channel \"{}\"; it has \"{}\" and {} others",
+                      one.name, names.front(), names.size() - 1));
+}
+
+std::int64_t size_fifos(const VerifiedStream& stream, const Common& common, const std::string& file,
+                        hwmodel::Preset& preset) {
+  hwmodel::Configuration& c = preset.configuration;
+  std::optional<explore::SizingMemory> memory;
+  if (preset.caster.dram) memory = {*preset.caster.dram, preset.caster.clock_mhz};
+  const explore::Sizing sizing = explore::size_fifos(
+      {stream.parameters, stream.grid, c, stream.first_step, stream.steps, stop_if_interrupted}, memory);
+  c.depths.clear();
+  for (const explore::SizedChannel& channel : sizing.channels)
+    c.depths.push_back({channel.name, channel.depth});
+  if (!common.quiet) print_table(sizing, c);
+  std::string title = fmt::format("{} lanes, {} steps, channels as deep as they need", c.lanes, c.cascade);
+  std::string text = explore::toml_of(sizing, c, title);
+  io::write_file(file, text);
+  if (!common.quiet) fmt::print("depths  {}\n", file);
+  return sizing.cycles;
+}
+
+bool check_sized(std::int64_t wanted, std::int64_t cycles) {
+  if (cycles == wanted) return true;
+  fmt::print("the sized machine took {} cycles, and {} with channels of depth {}\n", cycles, wanted,
+             hwmodel::kMostDepth);
+  return false;
+}
+
+}  // namespace voxmelt::app

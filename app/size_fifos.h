@@ -1,0 +1,31 @@
+// voxmelt verify --size-fifos: the depths of channels, found before the run that verifies them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "app/options.h"
+#include "hwmodel/presets/presets.h"
+
+namespace voxmelt::app {
+
+// What is to be verified.
+struct VerifiedStream {
+  const rule::Parameters& parameters;
+  state::Grid grid;
+  std::uint32_t first_step;
+  std::uint32_t steps;
+};
+
+// Throws UsageError where the configuration names a channel that the machine does not have.
+void check_channels(const VerifiedStream& stream, const hwmodel::Preset& preset);
+
+// Finds them, prints them, writes them to `file`, and puts them into the preset. Returns the cycles of the
+// run.
+std::int64_t size_fifos(const VerifiedStream& stream, const Common& common, const std::string& file,
+                        hwmodel::Preset& preset);
+
+// Says whether the verified run took as many.
+bool check_sized(std::int64_t wanted, std::int64_t cycles);
+
+}  // namespace voxmelt::app

@@ -1,0 +1,90 @@
+#include "hwmodel/explore/size_fifos.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+
+#include "hwmodel/machine/dram_streams.h"
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+class Sizer {
+ public:
+  Sizer(const TimedRun& run, const std::optional<SizingMemory>& memory)
+      : run_(run),
+        memory_(memory),
+        design_{run.parameters, {run.grid, run.configuration.lanes}, run.configuration.substeps} {}
+
+  Sizing size() {
+    run_.configuration.depths.clear();
+    run_.configuration.fifo_depth = kMostDepth;
+    const Timing deep = time();
+    if (deep.hangs)
+      throw std::runtime_error("the machine hangs even with channels of depth " + std::to_string(kMostDepth));
+    sizing_.cycles = deep.cycles;
+    for (const ChannelReport& channel : deep.channels) {
+      sizing_.channels.push_back({channel.name, 0, channel.bits, channel.highest, 0});
+      // A channel with room for one token more than it ever held acts as the deep one.
+      run_.configuration.depths.push_back({channel.name, std::min(kMostDepth, channel.highest + 1)});
+    }
+    // More room never costs a cycle. So what was too little once stays too little when others shrink.
+    for (ChannelDepth& channel : run_.configuration.depths) shrink(channel);
+    for (std::size_t i = 0; i < sizing_.channels.size(); ++i) {
+      ChannelDepth& channel = run_.configuration.depths[i];
+      sizing_.channels[i].depth = channel.depth;
+      if (channel.depth == 1) continue;
+      --channel.depth;
+      const Timing less = time();
+      sizing_.channels[i].one_less = less.hangs ? INT64_MAX : less.cycles - sizing_.cycles;
+      ++channel.depth;
+    }
+    return sizing_;
+  }
+
+ private:
+  Timing time() {
+    ++sizing_.runs;
+    if (!memory_) return timing_of(run_, nullptr);
+    DramStreams streams(design_, run_.configuration.cascade, memory_->parameters, memory_->clock_mhz);
+    return timing_of(run_, &streams);
+  }
+  bool loses() {
+    const Timing timing = time();
+    return timing.hangs || timing.cycles != sizing_.cycles;
+  }
+  // By halving: `low` loses, `high` does not.
+  void shrink(ChannelDepth& channel) {
+    int low = 0, high = channel.depth;
+    while (low + 1 < high) {
+      channel.depth = (low + high) / 2;
+      (loses() ? low : high) = channel.depth;
+    }
+    channel.depth = high;
+  }
+
+  TimedRun run_;
+  const std::optional<SizingMemory>& memory_;
+  Design design_;
+  Sizing sizing_;
+};
+
+}  // namespace
+
+Sizing size_fifos(const TimedRun& run, const std::optional<SizingMemory>& memory) {
+  return Sizer(run, memory).size();
+}
+
+std::string toml_of(const Sizing& sizing, const Configuration& c, const std::string& title) {
+  std::string text = fmt::format(
+      "title = \"{}\"\n[hw]\nlanes = {}\ncascade = {}\nsubsteps = {}\noverlap = {}\nstall_seed = {}\n", title,
+      c.lanes, c.cascade, c.substeps, c.overlap ? 1 : 0, c.stall_seed);
+  for (const SizedChannel& channel : sizing.channels)
+    text += fmt::format("[[hw.channel]]\nname = \"{}\"\ndepth = {}\n", channel.name, channel.depth);
+  return text;
+}
+
+}  // namespace voxmelt::hwmodel::explore

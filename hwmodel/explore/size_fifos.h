@@ -1,0 +1,37 @@
+// The smallest depth of each channel that loses no cycle, beside channels that are as deep as they can be.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/explore/timing.h"
+#include "hwmodel/memory/parameters.h"
+
+namespace voxmelt::hwmodel::explore {
+
+struct SizedChannel {
+  std::string name;
+  int depth = 0, bits = 0, highest = 0;  // the most tokens that it held while it was deep
+  std::int64_t one_less = 0;             // cycles that one token less costs; 0: the depth is 1
+};
+
+struct Sizing {
+  std::vector<SizedChannel> channels;
+  std::int64_t cycles = 0;  // of the run, deep or sized
+  int runs = 0;             // that were simulated
+};
+
+struct SizingMemory {
+  memory::Parameters parameters;
+  int clock_mhz = 0;
+};
+
+// The depths of `run` do not count. Throws std::runtime_error if the deep machine hangs.
+Sizing size_fifos(const TimedRun& run, const std::optional<SizingMemory>& memory);
+
+// A file that --hw reads.
+std::string toml_of(const Sizing& sizing, const Configuration& configuration, const std::string& title);
+
+}  // namespace voxmelt::hwmodel::explore

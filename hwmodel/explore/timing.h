@@ -1,0 +1,34 @@
+// The pipeline without its arithmetic: the same channels, lags, stalls, feeds and memory, and so the same
+// cycles in a small part of the time. No cell decides when a stage moves.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/stream/pipeline.h"
+
+namespace voxmelt::hwmodel::explore {
+
+struct TimedRun {
+  rule::Parameters parameters;
+  state::Grid grid;
+  Configuration configuration;
+  std::uint32_t first_step = 0;
+  std::int64_t steps = 0;
+  std::function<void()> poll;
+};
+
+struct Timing {
+  std::int64_t cycles = 0;
+  bool hangs = false;
+  std::vector<ChannelReport> channels;
+};
+
+Timing timing_of(const TimedRun& run, StreamMemory* memory);
+
+// Of the main stream in its order, then the feeds.
+std::vector<std::string> channel_names(const Design& design, const Configuration& configuration);
+
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,76 @@
+#include "hwmodel/machine/dram_streams.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace voxmelt::hwmodel {
+
+DramStreams::DramStreams(const Design& design, int cascade, const memory::Parameters& parameters,
+                         int clock_mhz)
+    : design_(design),
+      parameters_(parameters),
+      clock_mhz_(clock_mhz),
+      feeds_(static_cast<std::size_t>(cascade)) {
+  state_.token = std::int64_t{design.shape.lanes} * design.cell_bits();
+  for (Input& feed : feeds_) feed.token = std::int64_t{16} * design.shape.lanes;
+}
+
+void DramStreams::begin_train(std::int64_t tokens, int fed) {
+  dram_ = std::make_unique<memory::Dram>(parameters_, clock_mhz_);
+  tokens_ = tokens;
+  writer_ = dram_->open_port(nullptr);
+  tokens_written_ = handed_ = 0, last_written_ = -1;
+  unwritten_ = {};
+  // The state at the begin, irradiance behind it, at a row of every bank.
+  const std::int64_t rows =
+      parameters_.row_bytes() * parameters_.banks_of_rank() * parameters_.ranks * parameters_.channels;
+  const std::int64_t base = (burst_bits(tokens * state_.token) / 8 + rows - 1) / rows * rows;
+  const auto begin = [&](Input& input, std::int64_t at) {
+    const std::int64_t token = input.token;
+    input = {};
+    input.token = token, input.base = at, input.pass = tokens * token;
+    input.port = dram_->open_port(nullptr);
+  };
+  begin(state_, 0);
+  for (Input& feed : feeds_) begin(feed, base);
+  add_pass(fed);
+}
+
+void DramStreams::add_pass(int fed) {
+  state_.wanted += burst_bits(state_.pass);
+  for (std::size_t t = 0; t < static_cast<std::size_t>(fed); ++t)
+    feeds_[t].wanted += burst_bits(feeds_[t].pass);
+}
+
+// Takes what has come, and asks for more.
+void DramStreams::fetch(Input& from, std::int64_t limit, std::int64_t now) {
+  std::int64_t come = from.come[static_cast<std::size_t>(now & 1)];
+  while (dram_->reply(from.port) != nullptr) {
+    dram_->take(from.port);
+    come += kBurstBits;
+  }
+  from.come[static_cast<std::size_t>((now + 1) & 1)] = come;
+  limit = std::min(limit, from.wanted);
+  while (from.asked < limit && from.asked - from.used_before(now) < kAhead && dram_->ready(from.port)) {
+    dram_->put(from.port, {from.address(from.asked), 0, false});
+    from.asked += kBurstBits;
+  }
+}
+
+void DramStreams::cycle(std::int64_t now) {
+  // Whole bursts; the last one of a pass may be none. A burst may be read again when it has been handed on:
+  // the memory keeps the order of requests to it.
+  const std::int64_t pass = burst_bits(state_.pass);
+  const std::int64_t written = tokens_written_ - (last_written_ == now ? 1 : 0);
+  const std::int64_t bits = written / tokens_ * pass + written % tokens_ * state_.token;
+  while (handed_ + kBurstBits <= bits && dram_->ready(writer_)) {
+    dram_->put(writer_, {handed_ % pass / 8, 0, true});
+    handed_ += kBurstBits;
+  }
+  unwritten_[static_cast<std::size_t>((now + 1) & 1)] = bits - handed_;
+  fetch(state_, pass + handed_, now);
+  for (Input& feed : feeds_) fetch(feed, feed.wanted, now);
+  dram_->cycle();
+}
+
+}  // namespace voxmelt::hwmodel

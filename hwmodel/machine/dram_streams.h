@@ -1,0 +1,72 @@
+// The streams of the pipeline on a DRAM: words packed into bursts of 64 bytes, a buffer for each stream. A
+// pass reads where the last one wrote, and never ahead of it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hwmodel/memory/dram.h"
+#include "hwmodel/stream/pipeline.h"
+#include "hwmodel/stream/stream_memory.h"
+
+namespace voxmelt::hwmodel {
+
+class DramStreams final : public StreamMemory {
+ public:
+  DramStreams(const Design& design, int cascade, const memory::Parameters& parameters, int clock_mhz);
+
+  void begin_train(std::int64_t tokens, int fed) override;
+  void add_pass(int fed) override;
+  bool may_read(std::int64_t now) const override { return state_.has_token(now); }
+  bool may_feed(int t, std::int64_t now) const override { return feed(t).has_token(now); }
+  bool may_write(std::int64_t now) const override { return unwritten_[now & 1] <= kAhead; }
+  void read(std::int64_t now) override { state_.use(now); }
+  void fed(int t, std::int64_t now) override { feeds_[static_cast<std::size_t>(t)].use(now); }
+  void written(std::int64_t now) override { ++tokens_written_, last_written_ = now; }
+  void cycle(std::int64_t now) override;
+
+  memory::Counts counts() const { return dram_->counts(); }  // of the last train
+
+  static constexpr std::int64_t kBurstBits = 8 * memory::kBurst;
+  static constexpr std::int64_t kAhead = 128 * kBurstBits;  // of a stream's buffer: 8 KiB
+
+ private:
+  static std::int64_t burst_bits(std::int64_t bits) {
+    return (bits + kBurstBits - 1) / kBurstBits * kBurstBits;
+  }
+  // A stream that is read ahead. Counts are bits, and run on over all passes.
+  struct Input {
+    int port = -1;
+    std::int64_t token = 0, base = 0, pass = 0;  // bits of a token; bytes; bits of a pass
+    std::int64_t wanted = 0, asked = 0;
+    std::array<std::int64_t, 2> come{};  // at the begin of even and of odd cycles
+    std::int64_t used = 0, before = 0, last_used = -1;
+
+    bool has_token(std::int64_t now) const { return used + token <= come[static_cast<std::size_t>(now & 1)]; }
+    void use(std::int64_t now) {
+      before = used, last_used = now;
+      used += token;
+      if (used % burst_bits(pass) == pass) used = burst_bits(used);  // a pass ends with its burst
+    }
+    std::int64_t used_before(std::int64_t now) const { return last_used == now ? before : used; }
+    std::int64_t address(std::int64_t bits) const { return base + bits % burst_bits(pass) / 8; }
+  };
+  const Input& feed(int t) const { return feeds_[static_cast<std::size_t>(t)]; }
+  void fetch(Input& from, std::int64_t limit, std::int64_t now);
+
+  const Design& design_;
+  memory::Parameters parameters_;
+  int clock_mhz_;
+  std::unique_ptr<memory::Dram> dram_;
+  Input state_;
+  std::vector<Input> feeds_;
+  int writer_ = -1;
+  std::int64_t tokens_ = 0;                                           // of a pass
+  std::int64_t tokens_written_ = 0, last_written_ = -1, handed_ = 0;  // tokens; bits given to the memory
+  std::array<std::int64_t, 2> unwritten_{};                           // bits, as `come`
+};
+
+}  // namespace voxmelt::hwmodel
