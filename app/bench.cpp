@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/beginning.h"
 #include "app/bench_text.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
@@ -30,7 +31,7 @@ struct BenchOptions {
   Common common;
   std::vector<std::string> parts{"automaton", "picture"};
   std::vector<std::string> scenes;
-  std::optional<std::uint32_t> from;
+  std::optional<std::string> from;  // a step, or a checkpoint
   std::string out;
   bool quick = false;
 
@@ -92,7 +93,16 @@ std::vector<std::string> film_scenes(bool quick) {
                : std::vector<std::string>{"cello", "goblet", "lava"};
 }
 
-int run_bench(const BenchOptions& options) {
+int run_bench(BenchOptions options) {
+  std::optional<std::uint32_t> from;
+  if (options.from && names_a_file(*options.from)) {
+    if (!options.scenes.empty())
+      throw UsageError(fmt::format("error: --from {}: a checkpoint is a scene of its own, without --scenes",
+                                   *options.from));
+    options.scenes = {*options.from};
+  } else if (options.from) {
+    from = steps_of(*options.from);
+  }
   const measure::Plan plan = plan_of(options);
   check_report_place(options.common, options.out);
   std::optional<io::OutputFolder> out;
@@ -116,8 +126,9 @@ int run_bench(const BenchOptions& options) {
   }
   measure::Suite suite(plan, print_workload);
   for (const scene::Scene& scene : scenes) {
-    const std::uint32_t middle = measure::middle_of(scene.name);
-    const std::uint32_t step = options.from.value_or(middle > 0 ? middle : scene.steps / 2);
+    const std::uint32_t middle = scene.mid_run ? scene.mid_run->steps_done : measure::middle_of(scene.name);
+    const std::uint32_t step = from.value_or(middle > 0 ? middle : scene.steps / 2);
+    check_steps(scene, step);
     note(options.common, fmt::format("melting {} to step {}", scene.name, step));
     const int threads = thread_count(options.common);
     auto provider = make_provider(choose_visibility(options.common.visibility), threads);
@@ -126,7 +137,7 @@ int run_bench(const BenchOptions& options) {
     if (picture) print_drawing(suite.run_drawing(workload, scene));
   }
   if (automaton && options.scenes.empty()) suite.run_dense();
-  if (!finer.empty()) print_finer_grids(suite.run_finer_grids(finer, options.from.value_or(0)));
+  if (!finer.empty()) print_finer_grids(suite.run_finer_grids(finer, from.value_or(0)));
   for (const scene::Scene& scene : films) print_film(suite.run_film(scene));
 
   const measure::Findings findings = suite.take();
@@ -164,7 +175,7 @@ void add_bench(CLI::App& program, Chosen& chosen) {
           "these scenes only, with commas between them (default: the showcase scenes, and dense volumes)")
       ->delimiter(',');
   command->add_option("--from", options->from,
-                      "step of the scenes to time (default: the middle of their melt)");
+                      "step of the scenes to time (default: the middle of their melt), or a checkpoint");
   command->add_option("--out", options->out, "folder for bench.json, performance_tables.md and roofline.svg");
   add_common(*command, options->common);
   add_visibility(*command, options->common);

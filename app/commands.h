@@ -16,6 +16,7 @@ void add_bench(CLI::App& program, Chosen& chosen);
 void add_accuracy(CLI::App& program, Chosen& chosen);
 void add_verify(CLI::App& program, Chosen& chosen);
 void add_explore(CLI::App& program, Chosen& chosen);
+void add_info(CLI::App& program, Chosen& chosen);
 void add_list(CLI::App& program, Chosen& chosen);
 
 }  // namespace voxmelt::app

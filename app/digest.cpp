@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "app/beginning.h"
 #include "app/commands.h"
 #include "app/message.h"
 #include "app/options.h"
@@ -36,6 +37,7 @@ int run_digest(const DigestOptions& options) {
   scene::Scene scene = load_scene(options.common);
   keep_inputs(scene, {{"--report", options.common.report}});
   check_report_place(options.common, "");
+  check_steps(scene, options.steps);
   run::Simulation simulation = make_simulation(scene, options.common);
   if (options.every > 0) print_line(simulation);
   while (simulation.steps_done() < options.steps) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "app/beginning.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/options.h"
@@ -28,6 +29,7 @@ int run_export(const ExportOptions& options) {
   scene::Scene scene = load_scene(options.common);
   keep_inputs(scene, {{"--out", options.out}, {"--report", options.common.report}});
   check_report_place(options.common, options.out);
+  check_steps(scene, options.steps);
   io::OutputFolder out(options.out);
   catch_interrupts();
   run::Simulation simulation = make_simulation(scene, options.common);

@@ -17,6 +17,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// A frame that was begun before an interrupt has a second (interrupted_for_long).
+constexpr double kSlow = 0.5;
+constexpr std::size_t kLargePicture = std::size_t{8} << 20;  // of which no frame was timed yet
+
+std::string label_of(std::uint32_t step) { return fmt::format("step {}", step); }
+
 std::size_t frame_bytes(const scene::Camera& camera) {
   return sizeof(render::Rgb) * static_cast<std::size_t>(camera.width) *
          static_cast<std::size_t>(camera.height);
@@ -39,7 +45,7 @@ Film::Film(const scene::Scene& scene, const std::filesystem::path& folder, std::
       threads_(threads),
       frames_(folder, {planned, frame_bytes(scene.camera), threads}),
       drawing_(threads > 1 ? 1 : 0, 1, [this](Shot& shot) { draw(shot); }) {
-  picture_.stop_when(interrupted);
+  picture_.stop_when(interrupted_for_long);
 }
 
 void Film::add_frame(const state::Volume& volume, std::uint32_t step) {
@@ -54,12 +60,27 @@ void Film::add_frame(const state::Volume& volume, std::uint32_t step) {
   drawing_.put({step});
 }
 
+void Film::keep(const std::vector<std::uint32_t>& steps) {
+  for (const std::uint32_t step : steps) frames_.keep(label_of(step));
+  steps_ = steps;
+}
+
+const std::vector<std::uint32_t>& Film::settle() {
+  drawing_.wait();
+  frames_.settle();
+  return steps_;
+}
+
+bool Film::is_slow() const { return slow_ || frame_bytes(scene_.camera) > kLargePicture; }
+
 void Film::draw(const Shot& shot) {
   const auto begin = std::chrono::steady_clock::now();
   try {
     render::Image image = picture_.draw(scene_.camera, render::Setting::normal, threads_);
     seconds_.render += seconds_since(begin);
-    frames_.add(std::move(image), fmt::format("step {}", shot.step));
+    slow_ = seconds_since(begin) > kSlow;
+    frames_.add(std::move(image), label_of(shot.step));
+    steps_.push_back(shot.step);
   } catch (const render::Stopped&) {  // an interrupted run keeps the frames that it has
     seconds_.render += seconds_since(begin);
   }

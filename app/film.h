@@ -1,10 +1,12 @@
 // The pictures of a run, and what is made of them.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/report.h"
 #include "kernel/scene/scene.h"
@@ -27,6 +29,17 @@ class Film {
   // Takes over the state and returns. It waits for the last frame's drawing, because that reads the picture.
   void add_frame(const state::Volume& volume, std::uint32_t step);
 
+  // Frames of these steps are in the folder already, from the part of the run before. Before the first
+  // add_frame().
+  void keep(const std::vector<std::uint32_t>& steps);
+
+  // Waits until every frame is in its file, and gives their steps. After an interrupt the last one may be
+  // missing.
+  const std::vector<std::uint32_t>& settle();
+
+  // A frame takes so long that an interrupt may lose it.
+  bool is_slow() const;
+
   // Throws what stopped a frame. A run that looks often ends soon.
   void check();
 
@@ -46,6 +59,8 @@ class Film {
   int threads_;
   render::Picture picture_;
   render::Frames frames_;
+  std::vector<std::uint32_t> steps_;  // of the frames
+  std::atomic<bool> slow_ = false;
   RunSeconds seconds_;
   render::WorkLine<Shot> drawing_;  // last: its thread uses all of the above
 };

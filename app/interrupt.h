@@ -5,6 +5,7 @@ namespace voxmelt::app {
 
 void catch_interrupts();  // SIGINT, SIGTERM, SIGHUP, SIGQUIT
 bool interrupted();
-void stop_if_interrupted();  // throws Interrupted: nothing is written
+bool interrupted_for_long();  // a second or more ago: what takes longer is given up
+void stop_if_interrupted();   // throws Interrupted: nothing is written
 
 }  // namespace voxmelt::app

@@ -9,6 +9,7 @@
 #include "app/message.h"
 #include "app/options.h"
 #include "app/version.h"
+#include "kernel/run/checkpoint/blocks.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/scene/scene.h"
 #include "render/image/png.h"
@@ -28,6 +29,7 @@ constexpr const char* kIntroduction =
     "software\n"
     "  voxmelt bench --quick                how fast, and how near to what this machine can do\n"
     "  voxmelt accuracy --quick             how well, against what mathematics says\n"
+    "  voxmelt run bunny --checkpoint-every 60s, and after a power cut: voxmelt run --resume out/bunny\n"
     "  voxmelt list scenes\n\n"
     "A scene is a TOML file; docs/scenes.md explains its keys. Exit codes: 0 done, 1 a check failed,\n"
     "2 bad usage or input, 3 out of memory or disk, 4 interrupted.";
@@ -81,6 +83,7 @@ int main(int argc, char** argv) {
     app::add_accuracy(program, chosen);
     app::add_verify(program, chosen);
     app::add_explore(program, chosen);
+    app::add_info(program, chosen);
     app::add_list(program, chosen);
     check_no_empty_values(argc, argv);
     if (argc > 1) check_subcommand(program, argv[1]);
@@ -102,6 +105,8 @@ int main(int argc, char** argv) {
   } catch (const render::Stopped&) {
     return fail(app::Interrupted().what(), app::kInterrupted);
   } catch (const scene::InputError& error) {
+    return fail(error.what(), app::kBadInput);
+  } catch (const checkpoint::Error& error) {
     return fail(error.what(), app::kBadInput);
   } catch (const app::UsageError& error) {
     return fail(error.what(), app::kBadInput);

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/checkpoint_scene.h"
 #include "app/message.h"
 #include "app/resources.h"
 #include "app/visibility.h"
@@ -42,7 +43,8 @@ void say_warnings(const Common& common, const std::vector<std::string>& warnings
 
 void add_scene(CLI::App& command, Common& common) {
   command
-      .add_option("scene", common.scene, "scene file (TOML), or the name of a scene of `voxmelt list scenes`")
+      .add_option("scene", common.scene,
+                  "scene file (TOML), a name of `voxmelt list scenes`, or a checkpoint")
       ->required();
 }
 
@@ -70,9 +72,16 @@ std::vector<fs::path> scene_folders() {
 }
 
 scene::Scene load_scene(const Common& common) {
+  const fs::path file = find_scene(common.scene);
+  if (is_checkpoint(file)) {
+    if (!common.sets.empty() || common.seed)
+      throw UsageError(fmt::format("error: {} is a checkpoint: --set and --seed come too late for its scene",
+                                   common.scene));
+    return scene_of(checkpoint::read(file), file);
+  }
   std::vector<std::string> sets = common.sets;
   if (common.seed) sets.push_back(fmt::format("run.seed={}", *common.seed));
-  scene::Scene scene = scene::load(find_scene(common.scene), sets);
+  scene::Scene scene = scene::load(file, sets);
   say_warnings(common, scene.warnings);
   return scene;
 }
@@ -104,6 +113,7 @@ run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
   run::Simulation simulation(scene.parameters, std::move(scene.initial), implementation, tuning,
                              std::move(provider));
   simulation.begin_at(scene.first_step);
+  if (scene.mid_run) simulation.resume(std::move(*scene.mid_run));
   return simulation;
 }
 

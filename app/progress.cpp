@@ -7,8 +7,8 @@
 
 namespace voxmelt::app {
 
-Progress::Progress(std::uint32_t steps, bool quiet)
-    : steps_(steps), on_(!quiet && isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(std::uint32_t steps, bool quiet, std::uint32_t begun_at)
+    : steps_(steps), begun_at_(begun_at), on_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
   if (shown_) std::fputs("\n", stderr);
@@ -20,7 +20,7 @@ void Progress::show(std::uint32_t done, const state::Volume& volume) {
   last_ = now;
   shown_ = true;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  const double rate = seconds > 0 ? done / seconds : 0;
+  const double rate = seconds > 0 ? (done - begun_at_) / seconds : 0;
   const double left = rate > 0 ? (steps_ - done) / rate : 0;
   const double liquid = static_cast<double>(volume.liquid.count());
   const double matter = liquid + static_cast<double>(volume.solid.count());

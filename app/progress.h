@@ -10,7 +10,7 @@ namespace voxmelt::app {
 
 class Progress {
  public:
-  Progress(std::uint32_t steps, bool quiet);
+  Progress(std::uint32_t steps, bool quiet, std::uint32_t begun_at = 0);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -19,7 +19,7 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::uint32_t steps_;
+  std::uint32_t steps_, begun_at_;
   bool on_, shown_ = false;
   Clock::time_point start_ = Clock::now(), last_{};
 };

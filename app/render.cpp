@@ -11,6 +11,7 @@
 #include <string>
 #include <system_error>
 
+#include "app/beginning.h"
 #include "app/commands.h"
 #include "app/film.h"
 #include "app/interrupt.h"
@@ -103,6 +104,7 @@ int run_render(RenderOptions options) {
                       {"--depth", options.depth},
                       {"--normals", options.normals},
                       {"--report", options.common.report}});
+  check_steps(scene, options.steps);
   if (options.size) set_size(scene.camera, *options.size);
   if (options.azimuth) scene.camera.azimuth = *options.azimuth;
   if (options.elevation) scene.camera.elevation = *options.elevation;

@@ -62,7 +62,7 @@ json seconds_json(const run::Simulation::Seconds& steps, const RunSeconds& run) 
 // Who followed the rays, and how many; rays are not counted by the plain walk.
 json visibility_json(const Common& common, const run::Simulation& simulation) {
   const VisibilityChoice choice = choose_visibility(common.visibility);
-  const visibility::Casts casts = simulation.provider().casts();
+  const visibility::Casts casts = simulation.casts();
   return {{"provider", simulation.provider().name()},
           {"reason", choice.reason},
           {"rays", casts.asked},

@@ -7,7 +7,8 @@
 
 namespace voxmelt::app {
 
-// To step `from` of the scene; with radiation to the last step of visibility before. `steps` follow it.
+// To step `from` of the scene; with radiation to the last step of visibility before, of a checkpoint to the
+// next one. `steps` follow it.
 run::Simulation run_ahead(scene::Scene& scene, const Common& common, std::uint32_t from, std::uint32_t steps);
 
 }  // namespace voxmelt::app

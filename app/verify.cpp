@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/beginning.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/message.h"
@@ -43,6 +44,7 @@ constexpr double kShrinkSeconds = 40;
 struct VerifyCommand {
   Common common;
   std::uint32_t steps = 10, every = 1, from = 0;
+  std::string from_text = "0";  // --from: a step, or a checkpoint
   std::optional<std::uint32_t> plant_step;
   std::string hw, plant, out, vcd, shrink, size_fifos;
   std::optional<std::int64_t> vcd_from;
@@ -212,8 +214,15 @@ void print_result(const VerifyCommand& command, const scene::Scene& scene,
   if (report.strike) print_plant(report);
 }
 
-int run_picture(const VerifyCommand& command) {
-  scene::Scene scene = load_scene(command.common);
+// Reads --from.
+scene::Scene load_beginning(VerifyCommand& command) {
+  Beginning begin = begin_from(command.common, command.from_text);
+  command.from = begin.steps;
+  return std::move(begin.scene);
+}
+
+int run_picture(VerifyCommand command) {
+  scene::Scene scene = load_beginning(command);
   catch_interrupts();
   const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
   PictureChoice picture = command.picture;
@@ -221,14 +230,14 @@ int run_picture(const VerifyCommand& command) {
   return verify_picture(command.common, picture, scene, ahead, find_preset(command.hw), command.hw_sets);
 }
 
-int run_machine(const VerifyCommand& command) {
+int run_machine(VerifyCommand command) {
   if (command.picture.asked) throw UsageError("error: --machine: it draws pictures without --picture");
   if (!command.picture.pixel.empty()) throw UsageError("error: --pixel: --machine draws whole pictures");
   if (!command.plant.empty() || command.plant_step)
     throw UsageError("error: --plant: not with --machine; plant it in one machine alone");
   const hwmodel::Preset preset =
       hwmodel::load_preset(find_preset(command.hw), command.hw_sets, hwmodel::Runs::machine);
-  scene::Scene scene = load_scene(command.common);
+  scene::Scene scene = load_beginning(command);
   check_tile(scene, preset.configuration);
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
@@ -286,7 +295,7 @@ int run_verify(VerifyCommand command) {
   hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
   if (!command.size_fifos.empty() && fault != nullptr)
     throw UsageError("error: --size-fifos: not with --plant; a fault may change the cycles");
-  scene::Scene scene = load_scene(command.common);
+  scene::Scene scene = load_beginning(command);
   check_tile(scene, preset.configuration);
   if (preset.caster.dram && preset.configuration.tile != 0)
     throw UsageError("error: hw.tile: not with hw.memory; tiles are timed on a memory that always answers");
@@ -380,7 +389,9 @@ void add_verify(CLI::App& program, Chosen& chosen) {
   command->add_option("--steps", options->steps, "steps to verify")
       ->check(CLI::Range(1u, 1000000u))
       ->capture_default_str();
-  command->add_option("--from", options->from, "steps that the software runs first (mid-melt)")
+  command
+      ->add_option("--from", options->from_text,
+                   "steps that the software runs first (mid-melt), or a checkpoint of the scene")
       ->capture_default_str();
   command->add_option("--every", options->every, "compare every K-th step, and the last")
       ->check(CLI::Range(1u, 1000000u))

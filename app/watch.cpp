@@ -14,7 +14,7 @@ constexpr int kFull = 4096;  // amount of a full cell
 }  // namespace
 
 void Watch::look(const state::Volume& volume, std::uint32_t step) {
-  largest_ = std::max(largest_, 2 * kFull);
+  seen_.largest = std::max(seen_.largest, 2 * kFull);
   for (int z = 0; z < volume.grid.z; ++z)
     for (std::size_t w = 0; w < volume.solid.row_words(); ++w) {
       std::uint64_t open = ~std::uint64_t{0};  // columns in which nothing blocked has come yet
@@ -23,9 +23,7 @@ void Watch::look(const state::Volume& volume, std::uint32_t step) {
         for (std::uint64_t left = open & volume.liquid.row(y, z)[w]; left != 0; left &= left - 1) {
           const int x = static_cast<int>(64 * w) + std::countr_zero(left);
           const int amount = volume.amount[volume.at(x, y, z)];
-          if (amount <= largest_) continue;
-          largest_ = amount;
-          x_ = x, y_ = y, z_ = z, step_ = step;
+          if (amount > seen_.largest) seen_ = {amount, x, y, z, step};
         }
       }
     }
@@ -33,11 +31,11 @@ void Watch::look(const state::Volume& volume, std::uint32_t step) {
 
 std::vector<std::string> Watch::warnings(const run::Simulation& simulation) const {
   std::vector<std::string> found;
-  if (largest_ > 2 * kFull)
+  if (seen_.largest > 2 * kFull)
     found.push_back(fmt::format(
         "liquid presses against the top of the grid: cell ({}, {}, {}) held {:.2f} cells at step {}; "
         "a vent brings more than flows away, or the grid is too low",
-        x_, y_, z_, largest_ / double{kFull}, step_));
+        seen_.x, seen_.y, seen_.z, seen_.largest / double{kFull}, seen_.step));
   if (const std::int64_t cuts = simulation.irradiance_capped(); cuts > 0)
     found.push_back(fmt::format(
         "irradiance was cut {} time{} (cells at steps of visibility): a cell takes up at most 1/16 of "

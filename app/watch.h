@@ -11,6 +11,16 @@ namespace voxmelt::app {
 
 class Watch {
  public:
+  // What it has seen: the amount of such a cell, or two cells.
+  struct Seen {
+    int largest = 0;
+    int x = 0, y = 0, z = 0;
+    std::uint32_t step = 0;
+  };
+  Watch() = default;
+  explicit Watch(const Seen& seen) : seen_(seen) {}  // by an earlier part of the run
+  const Seen& seen() const { return seen_; }
+
   // Looks for liquid that is compressed in the open: more than two cells in one, and nothing above it but the
   // border. Where a vent brings more than flows away, its column reaches the top of the grid and fills up.
   void look(const state::Volume& volume, std::uint32_t step);
@@ -18,9 +28,7 @@ class Watch {
   std::vector<std::string> warnings(const run::Simulation& simulation) const;
 
  private:
-  int largest_ = 0;  // amount of such a cell, or two cells
-  int x_ = 0, y_ = 0, z_ = 0;
-  std::uint32_t step_ = 0;
+  Seen seen_;
 };
 
 }  // namespace voxmelt::app

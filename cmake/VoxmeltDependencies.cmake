@@ -17,6 +17,12 @@ target_include_directories(voxmelt_toml SYSTEM INTERFACE ${TOMLPLUSPLUS_INCLUDE}
 find_path(DEFLATE_INCLUDE libdeflate.h REQUIRED)
 find_library(DEFLATE_LIBRARY deflate REQUIRED)
 
+# zstd and xxHash have none either: who uses them links `zstd` and `xxhash`.
+find_path(ZSTD_INCLUDE zstd.h REQUIRED)
+find_library(ZSTD_LIBRARY zstd REQUIRED)
+find_path(XXHASH_INCLUDE xxhash.h REQUIRED)
+find_library(XXHASH_LIBRARY xxhash REQUIRED)
+
 # SystemC as Debian builds it: C++17, also for us (else sc_api_version_... does not link).
 pkg_check_modules(SYSTEMC REQUIRED systemc)
 add_library(voxmelt_systemc INTERFACE)

@@ -57,6 +57,7 @@ PURPOSES = {
     "render/frames": "files beside the steps",
     "kernel/run": "the run loop",
     "kernel/run/io": "exports and output folders",
+    "kernel/run/checkpoint": "runs as files",
     "kernel/scene": "what a file says",
     "kernel/scene/text": "documents and their readers",
     "kernel/scene/shape": "solids, meshes, height fields to voxels",

@@ -87,6 +87,7 @@ Workload scene_at(const scene::Scene& scene, std::uint32_t step, int threads,
   tuning.threads = threads;
   run::Simulation simulation(scene.parameters, scene.initial, *run::implementations().find("auto"), tuning,
                              std::move(provider));
+  if (scene.mid_run) simulation.resume(*scene.mid_run);
   while (simulation.steps_done() < step) simulation.step();
   Workload workload;
   workload.name = fmt::format("scene:{}/step:{}", scene.name, step);

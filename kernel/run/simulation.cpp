@@ -77,6 +77,24 @@ void Simulation::change_sources(Sources sources) {
   stepper_->change_sources(parameters_);
 }
 
+void Simulation::resume(state::MidRun run) {
+  steps_done_ = run.steps_done;
+  ledger_ = run.ledger;
+  if (!run.irradiance.empty()) irradiance_ = std::move(run.irradiance);
+  irradiance_capped_ = run.irradiance_capped;
+  casts_before_ = {run.rays, run.rays_cast};
+  if (run.seconds.size() != step::kPhaseCount + 1) return;  // nothing depends on them
+  std::copy_n(run.seconds.begin(), step::kPhaseCount, seconds_.phase.begin());
+  seconds_.visibility = run.seconds.back();
+}
+
+state::MidRun Simulation::mid_run() const {
+  state::MidRun run{steps_done_, ledger(), {}, irradiance_capped_, casts().asked, casts().cast, {}};
+  run.seconds.assign(seconds_.phase.begin(), seconds_.phase.end());
+  run.seconds.push_back(seconds_.visibility);
+  return run;
+}
+
 void Simulation::begin_step() {
   if (device_ != nullptr && !uploaded_) {
     device_->upload(volume_, ledger_);

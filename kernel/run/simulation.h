@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernel/automaton/state/ledger.h"
+#include "kernel/automaton/state/mid_run.h"
 #include "kernel/automaton/step/stepper.h"
 #include "kernel/engine/visibility/visibility.h"
 
@@ -26,6 +27,11 @@ class Simulation {
 
   // The automaton's number of the next step, before the first one; 0 without this call.
   void begin_at(std::uint32_t step) { first_step_ = step; }
+
+  // Goes on with a run that was left between two steps: `initial` was its volume, and its first step has been
+  // set by begin_at(). Before the first step.
+  void resume(state::MidRun run);
+  state::MidRun mid_run() const;  // the same of this run, but without a copy of the irradiance
 
   // Runs one whole step.
   void step();
@@ -68,6 +74,10 @@ class Simulation {
     double visibility = 0;
   };
   const Seconds& seconds() const { return seconds_; }
+  visibility::Casts casts() const {  // of the whole run
+    visibility::Casts all = casts_before_;
+    return all += provider_->casts();
+  }
   const visibility::Provider& provider() const { return *provider_; }
 
  private:
@@ -96,6 +106,7 @@ class Simulation {
   std::uint32_t first_step_ = 0, steps_done_ = 0;
   int substeps_ = 1, substep_ = 0;  // substep_: that of the next phase
   Seconds seconds_;
+  visibility::Casts casts_before_;  // before the run was resumed
 };
 
 }  // namespace voxmelt::run

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "kernel/scene/scene.h"
 #include "kernel/scene/start.h"
 #include "kernel/scene/text/compose.h"
+#include "kernel/scene/text/print.h"
 #include "kernel/scene/text/reader.h"
 #include "kernel/scene/text/text_file.h"
 
@@ -56,6 +58,30 @@ bool can_flow(const Contents& contents, const rule::Parameters& parameters) {
   return false;
 }
 
+// All but what fills the grid. Returns its size.
+state::Grid read_settings(Reader& root, Scene& scene) {
+  scene.title = root.text("title", scene.name);
+  root.text("description", "");
+
+  const state::Grid grid = read_grid(root);
+  read_run(root, scene);
+  scene.parameters.material = read_material(root);
+  scene.parameters.heat = read_heat(root, grid.y, scene.warnings);
+  scene.parameters.vents = read_vents(root);
+  scene.parameters.drains = read_drains(root);
+  scene.parameters.flow = read_flow(root, scene.warnings);
+  scene.camera = read_camera(root, grid);
+  scene.light = read_light(root);
+  scene.look = read_look(root);
+  return grid;
+}
+
+// What load_settings() reads again.
+std::string settings_of(Value document) {
+  for (const char* list : {"solid", "liquid", "inert", "start"}) document.remove(list);
+  return print_document(document);
+}
+
 }  // namespace
 
 std::string title_of(const std::filesystem::path& file) {
@@ -73,19 +99,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   scene.file = file;
   scene.name = file.stem().string();
   Reader root(document, "");
-  scene.title = root.text("title", scene.name);
-  root.text("description", "");
-
-  const state::Grid grid = read_grid(root);
-  read_run(root, scene);
-  scene.parameters.material = read_material(root);
-  scene.parameters.heat = read_heat(root, grid.y, scene.warnings);
-  scene.parameters.vents = read_vents(root);
-  scene.parameters.drains = read_drains(root);
-  scene.parameters.flow = read_flow(root, scene.warnings);
-  scene.camera = read_camera(root, grid);
-  scene.light = read_light(root);
-  scene.look = read_look(root);
+  const state::Grid grid = read_settings(root, scene);
 
   // The fields of an export replace the shapes. The terrain still determines how the ground is drawn.
   Contents contents = read_contents(root, grid, scene.parameters.material, scene.warnings);
@@ -116,6 +130,19 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   scene.initial_digest = state::digest(scene.initial);
   scene.files = read.files();
   scene.terrain = std::move(contents.terrain);
+  scene.settings = settings_of(std::move(document));
+  return scene;
+}
+
+Scene load_settings(const std::string& settings, const std::string& origin) {
+  const Value document = parse_text(settings, std::make_shared<const Origin>(Origin{origin, {}, false}));
+  Scene scene;
+  scene.name = "checkpoint";
+  Reader root(document, "");
+  scene.initial = state::Volume(read_settings(root, scene));
+  root.finish();
+  scene.features = features_of(scene.parameters);
+  scene.settings = settings;
   return scene;
 }
 

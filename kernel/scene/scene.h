@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/mid_run.h"
 #include "kernel/automaton/state/volume.h"
 #include "kernel/scene/look.h"
 #include "kernel/scene/shape/terrain.h"
@@ -31,11 +33,17 @@ struct Scene {
   Light light;
   Look look;
   Terrain terrain;
+  std::string settings;                  // all of the document but what fills the grid: TOML
+  std::optional<state::MidRun> mid_run;  // where a run goes on from `initial`; none where it begins
 };
 
 // Reads a scene file. `overrides` are "path.to.key=value" of --set, applied to the parsed document before it
 // is read, so that they are checked like the file itself. Throws InputError or ResourceError.
 Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+
+// A scene of `settings` that an earlier load() gave, without anything in its grid. `origin` names it in
+// messages. Throws InputError or ResourceError.
+Scene load_settings(const std::string& settings, const std::string& origin);
 
 // The title alone, without reading the rest. Throws InputError.
 std::string title_of(const std::filesystem::path& file);

@@ -16,6 +16,9 @@ namespace voxmelt::scene {
 // the first bad cell.
 state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid, const Place& place);
 
+// The first cell that breaks an invariant of a volume, and which; empty where none does.
+std::string first_broken(const state::Volume& volume);
+
 // Is any inert cell an isothermal wall?
 bool has_walls(const state::Volume& volume);
 

@@ -32,21 +32,32 @@ Frames::Frames(std::filesystem::path folder, const Plan& plan)
     : folder_(std::move(folder)),
       sheet_(plan.count),
       video_(folder_ / "film.mp4", kFramesPerSecond),
-      film_(plan.threads > 1 ? 1 : 0, ahead(plan), [this](Frame& frame) { video_.add(*frame.image); }),
+      film_(
+          plan.threads > 1 ? 1 : 0, ahead(plan),
+          [this](Frame& frame) { video_.add(frame.image ? *frame.image : read_png(file_of(frame.number))); }),
       files_(encoders(plan), ahead(plan), [this](Frame& frame) { write_file(frame); }) {
   std::filesystem::create_directories(folder_ / "frames");
 }
 
-std::filesystem::path Frames::file_of(std::size_t frame) const {
+std::string Frames::file_name(std::size_t frame) {
   char name[32];
   std::snprintf(name, sizeof name, "frame_%05zu.png", frame);
-  return folder_ / "frames" / name;
+  return name;
+}
+
+std::filesystem::path Frames::file_of(std::size_t frame) const {
+  return folder_ / "frames" / file_name(frame);
 }
 
 void Frames::add(Image image, std::string label) {
   const Frame frame{labels_.size(), std::make_shared<const Image>(std::move(image))};
   files_.put(frame);
   film_.put(frame);
+  labels_.push_back(std::move(label));
+}
+
+void Frames::keep(std::string label) {
+  film_.put({labels_.size(), nullptr});
   labels_.push_back(std::move(label));
 }
 

@@ -30,12 +30,19 @@ class Frames {
   // Frames have one size. This waits if encoder or film are far behind. Throws what stopped an earlier frame.
   void add(Image image, std::string label);
 
+  // The next frame is there already, from the part of the run before: sheet and film get it from its file.
+  void keep(std::string label);
+
+  // Waits until every frame's file is written. Throws what stopped one.
+  void settle() { files_.wait(); }
+
   // Throws what stopped a frame.
   void check() { files_.check(); }
 
   // Waits for all, and makes the sheet and the film. Returns why there is no film, or nothing.
   std::string finish();
 
+  static std::string file_name(std::size_t frame);  // frame_00000.png
   std::size_t count() const { return labels_.size(); }
   // Wall-clock time spent in files and the sheet, summed over threads. After finish().
   double encode_seconds() const { return encode_seconds_; }
@@ -43,7 +50,7 @@ class Frames {
  private:
   struct Frame {
     std::size_t number = 0;
-    std::shared_ptr<const Image> image;
+    std::shared_ptr<const Image> image;  // null: it is in its file
   };
   std::filesystem::path file_of(std::size_t frame) const;
   void write_file(const Frame& frame);

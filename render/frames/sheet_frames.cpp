@@ -51,7 +51,8 @@ Image SheetFrames::sheet(const std::vector<std::string>& labels,
   std::vector<std::string> shown_labels;
   for (const std::size_t frame : shown_frames(labels.size())) {
     const auto kept = halves_.find(frame);
-    frames.push_back(kept != halves_.end() ? kept->second : halved(read(frame)));
+    const bool here = kept != halves_.end() && kept->second.width > 0;  // else it was made in an earlier part
+    frames.push_back(here ? kept->second : halved(read(frame)));
     shown_labels.push_back(labels[frame]);
   }
   SheetStyle style;

@@ -2,6 +2,7 @@
 """The disk is full after so many bytes (tests/app/full_disk.cpp): what is complete is kept, what was there stays."""
 import json
 import os
+import shutil
 import sys
 import tempfile
 import unittest
@@ -59,6 +60,43 @@ class FullDisk(unittest.TestCase):
         whole = {p.name: p.read_bytes() for p in (self.folder / "out/scene/frames").iterdir()}
         self.assertEqual(len(whole), 21)
         self.assertEqual({name: whole[name] for name in last}, last, "what was kept is what it would have been")
+
+    # 40 places, most of them within a checkpoint or a frame. The checkpoint before is good, with all its frames.
+    def test_a_run_with_checkpoints_goes_on_from_the_one_before(self):
+        run = ["run", self.scene, "--steps", 24, "--frame-every", 4, "--size", "160x120", "--quiet"]
+        self.assertEqual(voxmelt(*run, "--out", "whole", cwd=self.folder).returncode, 0)
+        whole = {p.relative_to(self.folder / "whole"): p.read_bytes() for p in (self.folder / "whole").rglob("*.png")}
+        digest = json.loads((self.folder / "whole/report.json").read_text())["digest"]
+        stopped = resumed = 0
+        for place in range(40):
+            room = 6000 + 2500 * place
+            with self.subTest(room=room):
+                result = self.with_room(room, *run, "--out", "o", "--checkpoint-every", 1)
+                if result.returncode == 0:
+                    shutil.rmtree(self.folder / "o")
+                    continue
+                stopped += 1
+                self.assertEqual(result.returncode, 3, result.stderr)
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                self.assertIn("No space left on device; the run ended after step", result.stderr)
+                kept = self.folder / "o.incomplete"
+                checkpoints = sorted((kept / "checkpoints").glob("*"))
+                for checkpoint in checkpoints:
+                    self.assertEqual(voxmelt("info", checkpoint, cwd=self.folder).returncode, 0)
+                if "--resume o` goes on" in result.stderr:
+                    resumed += 1
+                    result = voxmelt("run", "--resume", "o", "--quiet", cwd=self.folder)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    self.assertFalse(kept.exists())
+                    self.assertEqual({p.relative_to(self.folder / "o"): p.read_bytes()
+                                      for p in (self.folder / "o").rglob("*.png")}, whole)
+                    self.assertEqual(json.loads((self.folder / "o/report.json").read_text())["digest"], digest)
+                    shutil.rmtree(self.folder / "o")
+                else:
+                    self.assertLess(len(checkpoints), 2)
+                    shutil.rmtree(kept)
+        self.assertGreater(stopped, 20)
+        self.assertGreater(resumed, 15)
 
     def test_other_outputs_leave_nothing(self):
         for arguments in (["export", self.scene, "--out", "e"], ["render", self.scene, "--out", "p.png"],

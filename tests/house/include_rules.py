@@ -31,6 +31,7 @@ ALLOWED = {
     VISIBILITY: [RULE, STATE, CPU],
     "kernel/run": [STATE, STEP, CPU, "kernel/engine/scalar", "kernel/engine/parallel", VISIBILITY],
     "kernel/run/io": [PARAMETERS, STATE],
+    "kernel/run/checkpoint": [STATE, CPU, "kernel/run/io"],
     PICTURE: [f"{RULE}/fixed_point.h"],
     "render/image": [],
     "render/page": [],
@@ -79,7 +80,7 @@ ALLOWED = {
                 "render/image", "render/packet"],
     "examples": ["include/voxmelt"],
     "app": [CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/caster_faults", "hwmodel/explore", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "hwmodel/presets", "hwmodel/stream", STATE, "kernel/scene", "kernel/run",
-            "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
+            "kernel/run/checkpoint", "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.
 THIRD_PARTY = {
@@ -90,9 +91,11 @@ THIRD_PARTY = {
     "toml++/": ["kernel/scene/text"],
     "png.h": ["render/image"],
     "libdeflate": ["render/image"],
+    "zstd.h": ["kernel/run/checkpoint"],
+    "xxhash.h": ["kernel/run/checkpoint"],
     "CLI/": ["app"],
     "benchmark/": ["bench"],
-    "nlohmann/": ["accuracy/report", "kernel/run/io", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "bench/measure", "app"],
+    "nlohmann/": ["accuracy/report", "kernel/run/checkpoint", "kernel/run/io", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "bench/measure", "app"],
     "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "render/page", "bench/measure", "accuracy",
              "accuracy/front", "accuracy/report", "app"],
 }

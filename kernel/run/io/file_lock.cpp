@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "kernel/run/io/checkpoint_files.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::io {
@@ -53,21 +54,28 @@ FileLock FileLock::attempt(const fs::path& path) {
   return none;
 }
 
-bool clear_leavings(const fs::path& place) {
+std::vector<fs::path> leavings_of(const fs::path& place) {
   const std::string begin = place.filename().string() + ".partial-";
   std::error_code ignored;
   std::vector<fs::path> leavings;
   for (const auto& entry : fs::directory_iterator(place.parent_path(), ignored))
-    if (entry.path().filename().string().starts_with(begin)) leavings.push_back(entry.path());
+    if (entry.path().filename().string().starts_with(begin) && !fs::is_symlink(entry.path(), ignored))
+      leavings.push_back(entry.path());
+  return leavings;
+}
+
+bool clear_leavings(const fs::path& place, bool keep_checkpoints) {
+  std::error_code ignored;
   bool alive = false;
-  for (const fs::path& left : leavings) {
-    if (fs::is_symlink(left, ignored)) continue;
+  for (const fs::path& left : leavings_of(place)) {
     const FileLock lock = FileLock::attempt(left);
-    if (lock) fs::remove_all(left, ignored);
+    if (lock && !(keep_checkpoints && !checkpoints_in(left).empty())) fs::remove_all(left, ignored);
     alive = alive || lock.held_by_another();
   }
   return alive;
 }
+
+void flush_file(const fs::path& file) { flush(file); }
 
 void flush_folder(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder))

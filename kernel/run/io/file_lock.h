@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 namespace voxmelt::io {
 
@@ -34,10 +35,16 @@ class FileLock {
   bool held_by_another_ = false;
 };
 
-// Removes "<place>.partial-*" of processes that are no more. Tells whether a living one is at work on
-// `place`. Nothing new of this kind may come to be meanwhile: hold a lock of the folder above.
-bool clear_leavings(const std::filesystem::path& place);
+// "<place>.partial-*", whoever made them.
+std::vector<std::filesystem::path> leavings_of(const std::filesystem::path& place);
 
+// Removes those of processes that are no more, or only those without checkpoints (checkpoint_files.h). Tells
+// whether a living one is at work on `place`. Nothing new of this kind may come to be meanwhile: hold a lock
+// of the folder above.
+bool clear_leavings(const std::filesystem::path& place, bool keep_checkpoints = false);
+
+// One file is on the disk when this returns. Throws OutputError, as those below.
+void flush_file(const std::filesystem::path& file);
 // Everything in the folder is on the disk when this returns. Throws OutputError.
 void flush_folder(const std::filesystem::path& folder);
 // The entry of a file or folder in the folder above it is on the disk.

@@ -12,6 +12,9 @@
 #include <set>
 #include <string>
 #include <system_error>
+#include <vector>
+
+#include "kernel/run/io/checkpoint_files.h"
 
 namespace voxmelt::io {
 namespace {
@@ -53,6 +56,8 @@ void check_replaceable(const fs::path& place) {
     refuse(place, "is the current folder or one above it; choose a folder inside");
   std::ifstream marker(place / kMarker);
   std::set<std::string> written{kMarker};
+  for (const CheckpointFile& one : marker ? checkpoints_in(place) : std::vector<CheckpointFile>{})
+    written.insert(one.file.lexically_relative(place).string());
   for (std::string line; std::getline(marker, line);) written.insert(line);
   for (const std::string& file : files_within(place))
     if (!written.contains(file) && !made_by_desktops(fs::path(file).filename().string()))
@@ -91,7 +96,8 @@ int exchange(const fs::path& fresh, const fs::path& old) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& place) : place_(fs::weakly_canonical(fs::absolute(place))) {
+OutputFolder::OutputFolder(const fs::path& place, bool goes_on)
+    : place_(fs::weakly_canonical(fs::absolute(place))) {
   if (!place_.has_filename()) place_ = place_.parent_path();
   check_replaceable(place_);
 
@@ -102,7 +108,17 @@ OutputFolder::OutputFolder(const fs::path& place) : place_(fs::weakly_canonical(
   fs::create_directories(place_.parent_path(), error);
   if (error) fail_output(place_, "cannot create the output folder", error.value());
   const FileLock above = FileLock::wait(place_.parent_path());
-  if (clear_leavings(place_)) refuse(place_, "another run is writing there; wait for it, or choose another");
+  if (clear_leavings(place_, true))
+    refuse(place_, "another run is writing there; wait for it, or choose another");
+  if (!goes_on) {
+    for (const fs::path& left : leavings_of(place_))
+      if (holds_work(left))
+        refuse(place_, "a run that died left a checkpoint of step " +
+                           std::to_string(checkpoints_in(left).front().step) + " in " +
+                           left.filename().string() + "; `voxmelt run --resume " + place.string() +
+                           "` goes on with it, and who removes it begins anew");
+    clear_leavings(place_);
+  }
   std::string partial = beside(place_);
   if (::mkdtemp(partial.data()) == nullptr) fail_output(place_, "cannot create the output folder", errno);
   partial_ = partial;
@@ -112,7 +128,7 @@ OutputFolder::OutputFolder(const fs::path& place) : place_(fs::weakly_canonical(
 }
 
 OutputFolder::~OutputFolder() {
-  if (committed_) return;
+  if (committed_ || holds_work(partial_)) return;
   std::error_code ignored;
   fs::remove_all(partial_, ignored);
   // Folders that were made in vain are removed too; fs::remove leaves those that are not empty.
@@ -130,8 +146,9 @@ void OutputFolder::release_reserve() {
 void OutputFolder::move_to(const fs::path& place) {
   release_reserve();
   check_replaceable(place);  // once more: somebody may have put a file there meanwhile
-  std::string files;
-  for (const std::string& file : files_within(partial_)) files += file + "\n";
+  std::string files;         // checkpoints are known by their names: they go when the run is complete
+  for (const std::string& file : files_within(partial_))
+    if (!file.starts_with("checkpoints/")) files += file + "\n";
   write_file(partial_ / kMarker, files);
   flush_folder(partial_);
 

@@ -13,11 +13,12 @@ class OutputFolder {
  public:
   // Prepares a fresh "<place>.partial-..." beside `place`; fails at once if that cannot be done. `place` must
   // not exist, or hold nothing but what an earlier commit() wrote there (it is then replaced whole). What
-  // dead processes left beside it is removed; while a living one is at work on it, this throws.
-  explicit OutputFolder(const std::filesystem::path& place);
+  // dead processes left beside it is removed; while a living one is at work on it, this throws. It throws,
+  // too, where a dead one left checkpoints, unless somebody goes on with them: then these stay.
+  explicit OutputFolder(const std::filesystem::path& place, bool goes_on = false);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
-  ~OutputFolder();  // removes the partial folder unless committed
+  ~OutputFolder();  // removes the partial folder unless committed, or checkpoints are in it
 
   const std::filesystem::path& partial() const { return partial_; }  // write here
   const std::filesystem::path& place() const { return place_; }      // it ends up here

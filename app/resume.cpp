@@ -1,0 +1,199 @@
+#include "app/resume.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "app/checkpoint_scene.h"
+#include "kernel/run/checkpoint/blocks.h"
+#include "kernel/run/io/checkpoint_files.h"
+#include "kernel/run/io/file_lock.h"
+
+namespace voxmelt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kIncomplete = ".incomplete";
+
+// The output's place, where a folder beside it was given.
+fs::path place_named(const fs::path& given) {
+  fs::path place = fs::weakly_canonical(fs::absolute(given));
+  if (!place.has_filename()) place = place.parent_path();
+  std::string name = place.filename().string();
+  constexpr std::size_t kRandom = 6;  // letters that mkdtemp chooses
+  const std::size_t partial = name.rfind(".partial-");
+  if (name.ends_with(kIncomplete))
+    name.resize(name.size() - std::string(kIncomplete).size());
+  else if (partial != std::string::npos && partial + 9 + kRandom == name.size())
+    name.resize(partial);
+  return place.parent_path() / name;
+}
+
+bool is_complete(const fs::path& place) {
+  std::ifstream file(place / "report.json");
+  const nlohmann::json report = nlohmann::json::parse(file, nullptr, false);
+  return report.is_object() && report.contains("complete") && report["complete"] == true;
+}
+
+struct Candidate {
+  fs::path folder, file;
+  std::uint32_t step = 0;
+};
+
+// The folder in which somebody wrote last comes first, and its newest checkpoint. Of a complete output
+// nothing need be done, so its checkpoints do not count.
+std::vector<Candidate> candidates_of(const fs::path& place) {
+  std::vector<fs::path> folders = io::leavings_of(place);
+  folders.push_back(place.string() + kIncomplete);
+  if (!is_complete(place)) folders.push_back(place);
+  struct Series {
+    fs::file_time_type last;
+    std::vector<Candidate> candidates;
+  };
+  std::vector<Series> all;
+  for (const fs::path& folder : folders) {
+    Series series{fs::file_time_type::min(), {}};
+    for (const io::CheckpointFile& one : io::checkpoints_in(folder)) {
+      std::error_code ignored;
+      series.last = std::max(series.last, fs::last_write_time(one.file, ignored));
+      series.candidates.push_back({folder, one.file, one.step});
+    }
+    all.push_back(std::move(series));
+  }
+  std::ranges::stable_sort(all, std::greater(), &Series::last);
+  std::vector<Candidate> found;
+  for (const Series& series : all)
+    found.insert(found.end(), series.candidates.begin(), series.candidates.end());
+  return found;
+}
+
+// Another run is at work there.
+bool is_alive(const fs::path& folder) { return io::FileLock::attempt(folder).held_by_another(); }
+
+// The frames are those that the checkpoint names.
+void check_frames(const Candidate& candidate, const RunRecord& record) {
+  for (const checkpoint::FileState& frame : record.frames)
+    if (fs::path(frame.name).has_parent_path() ||
+        checkpoint::state_of(candidate.folder / "frames" / frame.name, frame.name) != frame)
+      checkpoint::fail(candidate.folder / "frames" / frame.name,
+                       fmt::format("is not the frame that {} names", candidate.file.filename().string()));
+}
+
+Resumption load(const Candidate& candidate) {
+  checkpoint::Checkpoint checkpoint = checkpoint::read(candidate.file);
+  Resumption run;
+  run.record = run_record_of(checkpoint.head.command, candidate.file);
+  run.text = checkpoint.head.scene;
+  const std::uint32_t done = checkpoint.head.run.steps_done;
+  const std::size_t before = frames_due_before(run.record, done);
+  const std::size_t now = before + (frame_is_due(run.record, done) ? 1 : 0);
+  if (done != candidate.step || done > run.record.steps || run.record.frames.size() < before ||
+      run.record.frames.size() > now)
+    checkpoint::fail(candidate.file, "its head: the steps done are not those of its name and its frames");
+  check_frames(candidate, run.record);
+  run.scene = scene_of(std::move(checkpoint), candidate.file);
+  return run;
+}
+
+void link_or_copy(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (error) fs::copy_file(from, to, error);
+  if (error)
+    throw io::OutputError(to.string() + ": error: cannot write: " + error.message(),
+                          error == std::errc::no_space_on_device);
+}
+
+// Checkpoints come last: a folder that has some has their frames. Files are replaced whole, never changed, so
+// that two folders can share them.
+void take_over(const Candidate& from, const RunRecord& record, const fs::path& folder) {
+  fs::create_directories(folder / "frames");
+  for (const checkpoint::FileState& frame : record.frames)
+    link_or_copy(from.folder / "frames" / frame.name, folder / "frames" / frame.name);
+  io::flush_folder(folder);
+  fs::create_directories(folder / "checkpoints");
+  for (const io::CheckpointFile& one : io::checkpoints_in(from.folder))
+    if (one.step <= from.step) link_or_copy(one.file, folder / "checkpoints" / one.file.filename());
+  io::flush_folder(folder);
+}
+
+// What has changed since the run began changes nothing of it.
+std::string changed_files(const checkpoint::SceneText& text) {
+  std::string changed;
+  for (const checkpoint::FileState& file : text.files) {
+    std::error_code ignored;
+    const bool same =
+        fs::is_regular_file(file.name, ignored) && checkpoint::state_of(file.name, file.name) == file;
+    if (!same) changed += (changed.empty() ? "" : ", ") + file.name;
+  }
+  if (changed.empty()) return {};
+  return changed + (changed.find(", ") == std::string::npos ? " is" : " are") +
+         " no longer what this run has read; it goes on as it began";
+}
+
+}  // namespace
+
+std::optional<Resumption> find_run(const fs::path& given) {
+  const fs::path place = place_named(given);
+  const std::string shown = given.string();
+  const std::vector<Candidate> candidates = candidates_of(place);
+  if (candidates.empty() && is_complete(place)) {  // it may have died just before it cleared up
+    std::error_code ignored;
+    fs::remove_all(place / "checkpoints", ignored);
+    return std::nullopt;
+  }
+  if (candidates.empty())
+    throw UsageError(fmt::format(
+        "--resume {}: error: there is no checkpoint in it, nor in {}.partial-* or {}.incomplete beside it",
+        shown, place.filename().string(), place.filename().string()));
+
+  std::string note;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& candidate = candidates[i];
+    if (is_alive(candidate.folder))
+      throw UsageError(fmt::format("--resume {}: error: a run is at work in {}", shown,
+                                   candidate.folder.filename().string()));
+    try {
+      Resumption run = load(candidate);
+      if (note.empty()) note = changed_files(run.text);
+      run.note = note;
+      run.place = place;
+      run.folder = std::make_unique<io::OutputFolder>(place, true);
+      take_over(candidate, run.record, run.folder->partial());
+      for (const fs::path& left : io::leavings_of(place))  // all that they have is taken over
+        if (std::error_code ignored; left != run.folder->partial() && !is_alive(left))
+          fs::remove_all(left, ignored);
+      return run;
+    } catch (const checkpoint::Error& error) {
+      if (i + 1 == candidates.size()) throw;
+      if (note.empty()) note = std::string(error.what()) + "; an older checkpoint will do";
+    }
+  }
+  return std::nullopt;  // not reached: the last one throws or returns
+}
+
+void clear_after(const fs::path& place, const std::string& id) {
+  std::error_code ignored;
+  fs::remove_all(place / "checkpoints", ignored);
+  const fs::path incomplete = place.string() + kIncomplete;
+  for (const io::CheckpointFile& one : io::checkpoints_in(incomplete)) {
+    try {
+      if (run_record_of(checkpoint::read_head(one.file).command, one.file).id != id) continue;
+    } catch (const checkpoint::Error&) {
+      continue;  // not known to be of this run
+    }
+    fs::remove_all(incomplete, ignored);
+    break;
+  }
+}
+
+}  // namespace voxmelt::app

@@ -1,0 +1,103 @@
+#include "app/run_record.h"
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+
+#include "kernel/run/checkpoint/blocks.h"
+
+namespace voxmelt::app {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json frames_json(const RunRecord& record) {
+  json frames = json::array();
+  for (std::size_t i = 0; i < record.frames.size(); ++i)
+    frames.push_back({{"file", record.frames[i].name},
+                      {"step", record.frame_steps[i]},
+                      {"bytes", record.frames[i].bytes},
+                      {"xxh3", record.frames[i].digest}});
+  return frames;
+}
+
+// Frames stand in their order, so that none can be missing in the middle.
+void read_frames(const json& frames, RunRecord& record, const std::filesystem::path& file) {
+  for (const json& frame : frames) {
+    record.frames.push_back({frame.at("file").get<std::string>(), frame.at("bytes").get<std::uint64_t>(),
+                             frame.at("xxh3").get<std::uint64_t>()});
+    const auto step = frame.at("step").get<std::uint32_t>();
+    if (!frame_is_due(record, step) || frames_due_before(record, step) != record.frame_steps.size())
+      checkpoint::fail(file, "its head: the frames are not those of the steps before");
+    record.frame_steps.push_back(step);
+  }
+}
+
+}  // namespace
+
+bool frame_is_due(const RunRecord& record, std::uint32_t step) {
+  return step == 0 || (record.frame_every > 0 && (step % record.frame_every == 0 || step == record.steps));
+}
+
+std::size_t frames_due_before(const RunRecord& record, std::uint32_t step) {
+  if (step == 0) return 0;
+  return std::size_t{1} + (record.frame_every == 0 ? 0 : (step - 1) / record.frame_every);
+}
+
+std::string json_of(const RunRecord& record) {
+  const Common& common = record.common;
+  json result{{"steps", record.steps},
+              {"frame_every", record.frame_every},
+              {"size", record.size},
+              {"checkpoint_every", record.checkpoint_every},
+              {"id", record.id},
+              {"out", record.shown_place},
+              {"implementation", common.implementation},
+              {"visibility", common.visibility},
+              {"threads", common.threads},
+              {"sets", common.sets},
+              {"report", common.report},
+              {"quiet", common.quiet},
+              {"frames", frames_json(record)},
+              {"watch", {record.seen.largest, record.seen.x, record.seen.y, record.seen.z, record.seen.step}},
+              {"seconds",
+               {record.seconds.update, record.seconds.render, record.seconds.encode, record.seconds.wait,
+                record.seconds.total}}};
+  if (common.seed) result["seed"] = *common.seed;
+  return result.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+RunRecord run_record_of(const std::string& text, const std::filesystem::path& file) {
+  try {
+    const json object = json::parse(text);
+    RunRecord record;
+    Common& common = record.common;
+    record.steps = object.at("steps").get<std::uint32_t>();
+    record.frame_every = object.at("frame_every").get<std::uint32_t>();
+    record.size = object.at("size").get<std::string>();
+    record.checkpoint_every = object.at("checkpoint_every").get<std::string>();
+    record.id = object.at("id").get<std::string>();
+    record.shown_place = object.at("out").get<std::string>();
+    common.implementation = object.at("implementation").get<std::string>();
+    common.visibility = object.at("visibility").get<std::string>();
+    common.threads = object.at("threads").get<int>();
+    if (common.threads < 0 || common.threads > 1024)
+      checkpoint::fail(file, "its head: command.threads is out of its range");
+    common.sets = object.at("sets").get<std::vector<std::string>>();
+    common.report = object.at("report").get<std::string>();
+    common.quiet = object.at("quiet").get<bool>();
+    if (object.contains("seed")) common.seed = object.at("seed").get<std::uint64_t>();
+    read_frames(object.at("frames"), record, file);
+    const auto seen = object.at("watch").get<std::vector<std::int64_t>>();
+    const auto seconds = object.at("seconds").get<std::vector<double>>();
+    if (seen.size() != 5 || seconds.size() != 5)
+      checkpoint::fail(file, "its head: command.watch or command.seconds is no list of five");
+    record.seen = {static_cast<int>(seen[0]), static_cast<int>(seen[1]), static_cast<int>(seen[2]),
+                   static_cast<int>(seen[3]), static_cast<std::uint32_t>(seen[4])};
+    record.seconds = {seconds[0], seconds[1], seconds[2], seconds[3], seconds[4]};
+    return record;
+  } catch (const json::exception& error) {
+    checkpoint::fail(file, std::string("its head: command: ") + error.what());
+  }
+}
+
+}  // namespace voxmelt::app

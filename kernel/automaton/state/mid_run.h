@@ -1,0 +1,22 @@
+// A run between two steps: what the next ones depend on beside parameters and volume, and what is reported of
+// those before.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel/automaton/state/field.h"
+#include "kernel/automaton/state/ledger.h"
+
+namespace voxmelt::state {
+
+struct MidRun {
+  std::uint32_t steps_done = 0;
+  Ledger ledger;
+  Field<std::uint16_t> irradiance;     // of the last step of visibility; empty without radiation
+  std::int64_t irradiance_capped = 0;  // times that a cell was cut
+  std::int64_t rays = 0, rays_cast = 0;
+  std::vector<double> seconds;  // of each phase, then of visibility
+};
+
+}  // namespace voxmelt::state

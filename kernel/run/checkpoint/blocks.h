@@ -1,0 +1,107 @@
+// A file of blocks: each is packed by zstd, and has a checksum that covers it and its header
+// (docs/checkpoint.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace voxmelt::checkpoint {
+
+// A file that is no checkpoint, or no whole one: exit code 2. The message begins with the file's name.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& why);
+
+using Bytes = std::vector<std::byte>;
+
+struct BlockName {
+  std::string kind;  // at most 8 letters
+  std::uint32_t first = 0, count = 0;
+  friend bool operator==(const BlockName&, const BlockName&) = default;
+};
+
+// XXH3, 64 bits.
+std::uint64_t checksum(std::span<const std::byte> bytes);
+std::uint64_t checksum_of_file(const std::filesystem::path& file);  // throws Error
+
+// A block as it is stored. Zeros alone are stored as nothing.
+struct Packed {
+  std::uint64_t raw_bytes = 0;
+  Bytes stored;
+};
+Packed packed(std::span<const std::byte> raw);
+
+class BlockWriter {
+ public:
+  // Beside `place`, which appears with finish(). Throws io::OutputError, as all that follows.
+  explicit BlockWriter(const std::filesystem::path& place);
+  BlockWriter(const BlockWriter&) = delete;
+  BlockWriter& operator=(const BlockWriter&) = delete;
+  ~BlockWriter();  // without finish() nothing is left
+
+  void put(const BlockName& name, const Packed& block);
+  // The last block. Then the file is on the disk, and in its place.
+  void finish();
+
+ private:
+  void write(const void* bytes, std::size_t count);
+  [[noreturn]] void give_up(int error);
+
+  std::filesystem::path place_;
+  std::string beside_;
+  std::FILE* file_ = nullptr;
+  std::uint32_t blocks_ = 0;
+  Bytes checksums_;
+};
+
+class BlockReader {
+ public:
+  // The version is one that this program reads. Throws Error, as all that follows.
+  explicit BlockReader(const std::filesystem::path& file);
+
+  // The next block: it has this name, and at most so many bytes. It is whole.
+  Bytes next(const BlockName& name, std::uint64_t most);
+  // The same where the number of bytes is known: into `raw`. Returns whether all of it is 0; then `raw` is
+  // not written.
+  bool next_is_empty(const BlockName& name, std::span<std::byte> raw);
+  // The last block, and nothing behind it.
+  void finish();
+
+  // Every block as it stands in the file, each of them whole.
+  struct Listed {
+    BlockName name;
+    std::uint64_t raw_bytes = 0, stored_bytes = 0;
+  };
+  static std::vector<Listed> list(const std::filesystem::path& file);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  struct Header {
+    BlockName name;
+    std::uint64_t raw_bytes = 0;
+    Bytes stored;
+  };
+  void read(void* bytes, std::size_t count);
+  Header take();
+  Header take(const BlockName& name);
+  void unpack(const Header& block, std::span<std::byte> raw) const;
+
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::uint64_t left_ = 0;  // bytes of the file that were not read
+  std::uint32_t blocks_ = 0;
+  Bytes checksums_;
+};
+
+}  // namespace voxmelt::checkpoint

@@ -1,0 +1,19 @@
+// The fields of a volume as blocks: slabs of whole slices, packed by all threads.
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/automaton/state/volume.h"
+#include "kernel/engine/cpu/workers.h"
+#include "kernel/run/checkpoint/blocks.h"
+
+namespace voxmelt::checkpoint {
+
+void put_volume(BlockWriter& writer, cpu::Workers& workers, const state::Volume& volume);
+state::Volume take_volume(BlockReader& reader, state::Grid grid);
+
+void put_field(BlockWriter& writer, cpu::Workers& workers, const char* kind,
+               const state::Field<std::uint16_t>& field, state::Grid grid);
+state::Field<std::uint16_t> take_field(BlockReader& reader, const char* kind, state::Grid grid);
+
+}  // namespace voxmelt::checkpoint

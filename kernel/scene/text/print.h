@@ -1,0 +1,13 @@
+// A document as TOML text, which parse_text() reads as the same values.
+#pragma once
+
+#include <string>
+
+#include "kernel/scene/text/document.h"
+
+namespace voxmelt::scene {
+
+// A line for each key of the document. It holds no dates: no key of a scene is one.
+std::string print_document(const Value& document);
+
+}  // namespace voxmelt::scene
