@@ -7,66 +7,12 @@
 #include <utility>
 
 #include "kernel/scene/text/compose.h"
+#include "kernel/scene/text/print.h"
 
 namespace voxmelt::scene {
 namespace {
 
 constexpr std::array kPlaced{"vent", "drain", "heat_source"};
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      result += c;
-  }
-  return result + '"';
-}
-
-std::string in_line(const Value& value) {
-  std::string text;
-  switch (value.kind) {
-    case Value::Kind::boolean:
-      return value.boolean ? "true" : "false";
-    case Value::Kind::integer:
-      return std::to_string(value.integer);
-    case Value::Kind::real:
-      text = fmt::format("{}", value.real);  // as many digits as give the same number back
-      return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
-    case Value::Kind::array:
-      for (const Value& item : value.items) text += (text.empty() ? "" : ", ") + in_line(item);
-      return "[" + text + "]";
-    case Value::Kind::table:
-      for (std::size_t i = 0; i < value.keys.size(); ++i)
-        text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", quoted(value.keys[i]), in_line(value.items[i]));
-      return "{ " + text + " }";
-    default:
-      return quoted(value.text);
-  }
-}
-
-bool is_tables(const Value& value) {
-  return value.kind == Value::Kind::array && !value.items.empty() &&
-         value.items.front().kind == Value::Kind::table;
-}
-
-// The keys of a table, then its own tables.
-std::string table_text(const Value& table, const std::string& path) {
-  std::string text;
-  for (std::size_t i = 0; i < table.keys.size(); ++i)
-    if (table.items[i].kind != Value::Kind::table && (!path.empty() || !is_tables(table.items[i])))
-      text += fmt::format("{} = {}\n", table.keys[i], in_line(table.items[i]));
-  for (std::size_t i = 0; i < table.keys.size(); ++i) {
-    const Value& item = table.items[i];
-    const std::string name = path.empty() ? table.keys[i] : path + '.' + table.keys[i];
-    if (item.kind == Value::Kind::table) text += fmt::format("\n[{}]\n", name) + table_text(item, name);
-    if (path.empty() && is_tables(item))
-      for (const Value& one : item.items) text += fmt::format("\n[[{}]]\n", name) + table_text(one, name);
-  }
-  return text;
-}
 
 void move(Value& table, const std::array<int, 3>& by) {
   Value* at = table.find("at");
@@ -143,7 +89,7 @@ std::string Excerpt::text(const Part& part, const std::string& fields, std::uint
   Value& start = table_of(document, "start");
   start.put("fields", std::move(folder));
   start.put("step", number(step));
-  return table_text(document, "");
+  return print_document(document);
 }
 
 }  // namespace voxmelt::scene

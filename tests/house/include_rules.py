@@ -60,7 +60,7 @@ ALLOWED = {
     "hwmodel/explore": ["hwmodel/lockstep", "hwmodel/machine", "hwmodel/memory", "hwmodel/stream", "kernel/scene/text"],
     "hwmodel/machine": ["hwmodel/lockstep", "hwmodel/memory", "hwmodel/picture", "hwmodel/raycast", "hwmodel/stream", STATE, "render/image", "render/density", "render/packet",
                         "render/reference", f"{PICTURE}/camera.h"],
-    "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io"],
+    "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io", "kernel/scene/text"],
     "hwmodel/page": ["render/page"],
     "bench": ["accuracy/picture", "bench/measure", "hwmodel/stream", PARAMETERS, STATE, "kernel/scene", CPU, VISIBILITY, "kernel/run",
               "render/density", "render/packet", "render/reference", "render/visibility"],

@@ -16,7 +16,6 @@
 #include <utility>
 
 #include "kernel/run/io/file_lock.h"
-#include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::checkpoint {
 namespace {
@@ -88,32 +87,14 @@ Packed packed(std::span<const std::byte> raw) {
   return {raw.size(), std::move(stored)};
 }
 
-BlockWriter::BlockWriter(const fs::path& place) : place_(place), beside_(place.string() + ".partial-XXXXXX") {
-  const int descriptor = ::mkostemp(beside_.data(), O_CLOEXEC);
-  file_ = descriptor < 0 ? nullptr : ::fdopen(descriptor, "wb");
-  if (file_ == nullptr) {
-    const int why = errno;
-    if (descriptor >= 0) ::close(descriptor);
-    give_up(why);
-  }
+BlockWriter::BlockWriter(const fs::path& place) : place_(place), file_(place) {
   write(kMagic.data(), kMagic.size());
   const std::array<std::uint32_t, 2> version{kVersion, 0};
   write(version.data(), sizeof version);
 }
 
-BlockWriter::~BlockWriter() {
-  if (file_ == nullptr) return;
-  (void)std::fclose(file_);
-  (void)std::remove(beside_.c_str());
-}
-
-void BlockWriter::give_up(int error) {
-  throw io::OutputError(place_.string() + ": error: cannot write: " + std::strerror(error),
-                        error == ENOSPC || error == EDQUOT);
-}
-
 void BlockWriter::write(const void* bytes, std::size_t count) {
-  if (std::fwrite(bytes, 1, count, file_) != count) give_up(errno);
+  file_.write({static_cast<const char*>(bytes), count});
 }
 
 void BlockWriter::put(const BlockName& name, const Packed& block) {
@@ -129,15 +110,7 @@ void BlockWriter::put(const BlockName& name, const Packed& block) {
 
 void BlockWriter::finish() {
   put({kEnd, blocks_, 0}, {0, Bytes(checksums_)});
-  int error = std::fflush(file_) == 0 && ::fchmod(::fileno(file_), 0644) == 0 && ::fsync(::fileno(file_)) == 0
-                  ? 0
-                  : errno;
-  if (std::fclose(std::exchange(file_, nullptr)) != 0 && error == 0) error = errno;
-  if (error == 0 && std::rename(beside_.c_str(), place_.c_str()) != 0) error = errno;
-  if (error != 0) {
-    (void)std::remove(beside_.c_str());
-    give_up(error);
-  }
+  file_.commit();
   io::flush_entry(place_);
 }
 

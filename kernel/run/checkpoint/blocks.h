@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "kernel/run/io/file_writer.h"
+
 namespace voxmelt::checkpoint {
 
 // A file that is no checkpoint, or no whole one: exit code 2. The message begins with the file's name.
@@ -42,11 +44,9 @@ Packed packed(std::span<const std::byte> raw);
 
 class BlockWriter {
  public:
-  // Beside `place`, which appears with finish(). Throws io::OutputError, as all that follows.
+  // Beside `place`, which appears with finish(); without it nothing is left. Throws io::OutputError, as all
+  // that follows.
   explicit BlockWriter(const std::filesystem::path& place);
-  BlockWriter(const BlockWriter&) = delete;
-  BlockWriter& operator=(const BlockWriter&) = delete;
-  ~BlockWriter();  // without finish() nothing is left
 
   void put(const BlockName& name, const Packed& block);
   // The last block. Then the file is on the disk, and in its place.
@@ -54,11 +54,9 @@ class BlockWriter {
 
  private:
   void write(const void* bytes, std::size_t count);
-  [[noreturn]] void give_up(int error);
 
   std::filesystem::path place_;
-  std::string beside_;
-  std::FILE* file_ = nullptr;
+  io::FileWriter file_;
   std::uint32_t blocks_ = 0;
   Bytes checksums_;
 };

@@ -7,7 +7,10 @@
 
 namespace voxmelt::scene {
 
-// A line for each key of the document. It holds no dates: no key of a scene is one.
+// A text as a basic string, in its quotes.
+std::string toml_string(const std::string& text);
+
+// Keys, then tables, in the document's order. It holds no dates: no key of a scene is one.
 std::string print_document(const Value& document);
 
 }  // namespace voxmelt::scene

@@ -50,8 +50,8 @@ TEST(Settings, EveryKindOfValueIsPrinted) {
   const std::string printed = print_document(parse_text(text, origin));
   EXPECT_EQ(print_document(parse_text(printed, origin)), printed);
   EXPECT_EQ(printed,
-            "\"a\" = 1\n\"b\" = -0.1\n\"c\" = 1e+300\n\"d\" = true\n\"e\" = \"q\\\"\\\\ \\u0001\\u000a\"\n"
-            "\"f\" = [1.0, 5e-324, [2]]\n\"g\" = {\"h\" = \"x\", \"i j\" = {}}\n\"k\" = inf\n");
+            "a = 1\nb = -0.1\nc = 1e+300\nd = true\ne = \"q\\\"\\\\ \\u0001\\u000a\"\n"
+            "f = [1.0, 5e-324, [2]]\nk = inf\n\n[g]\nh = \"x\"\n\n[g.\"i j\"]\n");
 }
 
 }  // namespace
