@@ -43,8 +43,7 @@ scene::Scene scene_of(checkpoint::Checkpoint checkpoint, const fs::path& file) {
   if (scene.initial.grid != head.grid) checkpoint::fail(file, "its scene has another grid than its cells");
   if (const std::string broken = scene::first_broken(checkpoint.volume); !broken.empty())
     checkpoint::fail(file, broken);
-  scene.initial = std::move(checkpoint.volume);
-  scene.parameters.heat.walls = scene.parameters.heat.enabled && scene::has_walls(scene.initial);
+  scene::fill(scene, std::move(checkpoint.volume));
   scene.first_step = head.first_step;
   if (parameters_text(scene, head.grid) != text.parameters)
     checkpoint::fail(file, "was written by voxmelt " + head.version +

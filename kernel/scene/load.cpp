@@ -114,19 +114,18 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   if (!start && !can_flow(contents, scene.parameters))
     fail_at(document.place, "nothing can flow: a scene needs a [[solid]], a [[liquid]] or a [[vent]]");
 
-  scene.initial =
+  state::Volume cells =
       start ? read_fields(fields, grid, start->place("fields")) : voxelise(contents, grid, scene.warnings);
   // Fields that the scene does not model are dropped, with a warning.
-  const std::vector<std::string> dropped = drop_unused(scene.initial, scene.parameters);
+  const std::vector<std::string> dropped = drop_unused(cells, scene.parameters);
   if (start) scene.warnings.insert(scene.warnings.end(), dropped.begin(), dropped.end());
-  scene.parameters.heat.walls = scene.parameters.heat.enabled && has_walls(scene.initial);
+  fill(scene, std::move(cells));
   if (start && scene.parameters.heat.visibility_age(scene.first_step) != 0)
     scene.warnings.push_back(
         fmt::format("{}: start.step = {} is no step of visibility: what heat sources light is computed anew, "
                     "and the bits "
                     "differ from those of the run that was exported until the next such step",
                     start->place("step").text(), scene.first_step));
-  scene.features = features_of(scene.parameters);
   scene.initial_digest = state::digest(scene.initial);
   scene.files = read.files();
   scene.terrain = std::move(contents.terrain);
@@ -141,9 +140,14 @@ Scene load_settings(const std::string& settings, const std::string& origin) {
   Reader root(document, "");
   scene.initial = state::Volume(read_settings(root, scene));
   root.finish();
-  scene.features = features_of(scene.parameters);
   scene.settings = settings;
   return scene;
+}
+
+void fill(Scene& scene, state::Volume cells) {
+  scene.initial = std::move(cells);
+  scene.parameters.heat.walls = scene.parameters.heat.enabled && has_walls(scene.initial);
+  scene.features = features_of(scene.parameters);
 }
 
 }  // namespace voxmelt::scene

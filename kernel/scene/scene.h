@@ -44,6 +44,8 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
 // A scene of `settings` that an earlier load() gave, without anything in its grid. `origin` names it in
 // messages. Throws InputError or ResourceError.
 Scene load_settings(const std::string& settings, const std::string& origin);
+// Then these cells are its grid's, and what depends on them is known: walls, features.
+void fill(Scene& scene, state::Volume cells);
 
 // The title alone, without reading the rest. Throws InputError.
 std::string title_of(const std::filesystem::path& file);

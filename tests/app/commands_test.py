@@ -247,7 +247,7 @@ class Commands(unittest.TestCase):
         self.assertIn("compiler:", self.good("--version"))
         told = self.good("--help")
         self.assertIn("voxmelt run cello", told)
-        commands = ["run", "digest", "export", "render", "bench", "accuracy", "verify", "explore", "list"]
+        commands = ["run", "digest", "export", "render", "bench", "accuracy", "verify", "explore", "info", "list"]
         self.assertEqual(re.findall(r"(?m)^  ([a-z]\w*) +\S", told.split("Subcommands:")[1]), commands)
         for command in commands:
             self.assertIn("--", self.good(command, "--help"))

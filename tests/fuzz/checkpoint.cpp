@@ -1,7 +1,7 @@
 // A checkpoint. Checksums refuse nearly every changed byte, so the target makes them fit: behind them lie the
 // readers of blocks, of the head, of cells and of what a run has recorded.
-// The input is a file as it stands, or text that the target packs: a line `KIND FIRST COUNT`, then a line that
-// the block holds; cells are hexadecimal digits.
+// The input is a file as it stands, or text that the target packs: a line `KIND FIRST COUNT`, then a line
+// that the block holds; cells are hexadecimal digits.
 #include <xxhash.h>
 
 #include <algorithm>
@@ -38,7 +38,8 @@ void put_number(std::string& file, std::size_t at, std::uint64_t number) {
   std::memcpy(file.data() + at, &number, sizeof number);
 }
 
-// The blocks get the checksums that they should have, and so does the last one, which holds those of the others.
+// The blocks get the checksums that they should have, and so does the last one, which holds those of the
+// others.
 void make_checksums_fit(std::string& file) {
   std::string sums;
   for (std::size_t at = kBegin; at + kHeader + kSum <= file.size();) {
@@ -52,7 +53,8 @@ void make_checksums_fit(std::string& file) {
       put_number(file, at + 24, stored);
     }
     const std::size_t size = ends ? sums.size() : stored;
-    const std::uint64_t sum = XXH3_64bits((file.substr(at, kHeader) + file.substr(from, size)).data(), kHeader + size);
+    const std::uint64_t sum =
+        XXH3_64bits((file.substr(at, kHeader) + file.substr(from, size)).data(), kHeader + size);
     put_number(file, at + kHeader, sum);
     sums.append(file, at + kHeader, kSum);
     at = from + size;
