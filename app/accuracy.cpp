@@ -1,5 +1,6 @@
 // voxmelt accuracy: how well the automaton does physics, against answers that mathematics gives.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,7 @@
 // voxmelt bench: how fast it is, how near to the machine's limits, and how many times as fast as the
 // paper's program.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdint>

@@ -1,8 +1,11 @@
 // The subcommands. Each adds itself to the program, and `run` of the chosen one gives the exit code.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace voxmelt::app {
 

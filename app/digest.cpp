@@ -1,5 +1,6 @@
 // voxmelt digest: one line per K steps; equal lines mean equal bits.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cerrno>
 #include <cstdint>

@@ -1,5 +1,6 @@
 // voxmelt explore: which hardware is the best for a scene, on a device and a memory.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstddef>

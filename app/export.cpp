@@ -2,6 +2,7 @@
 #include "kernel/run/io/export.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,4 +1,5 @@
 // voxmelt info: what a checkpoint holds.
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // voxmelt list: what this build and its scenes can do.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>

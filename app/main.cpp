@@ -1,4 +1,5 @@
 // voxmelt: melts solid voxel models and lets them flow.
+#include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
 #include <filesystem>

@@ -1,7 +1,6 @@
 // Options that several subcommands share, and how their errors end the program.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -11,6 +10,10 @@
 
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
+
+namespace CLI {
+class App;
+}
 
 namespace voxmelt::app {
 

@@ -1,5 +1,6 @@
 // voxmelt render: one picture, or a turntable.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cctype>
 #include <charconv>

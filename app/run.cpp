@@ -1,5 +1,6 @@
 // voxmelt run: the main job. Steps, frames, a contact sheet, a film, a report.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <cstddef>

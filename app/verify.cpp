@@ -2,6 +2,7 @@
 #include "hwmodel/lockstep/verify.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdint>

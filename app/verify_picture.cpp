@@ -1,6 +1,7 @@
 #include "app/verify_picture.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <charconv>
 #include <cstdint>

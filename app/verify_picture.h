@@ -1,7 +1,6 @@
 // voxmelt verify --picture: the ray caster in lock-step with the software's picture.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,6 +9,10 @@
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
 #include "render/packet/draw_picture.h"
+
+namespace CLI {
+class App;
+}
 
 namespace voxmelt::app {
 

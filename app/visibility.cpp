@@ -1,5 +1,6 @@
 #include "app/visibility.h"
 
+#include <CLI/CLI.hpp>
 #include <utility>
 
 #include "kernel/engine/visibility/kept_rays.h"

@@ -1,12 +1,15 @@
 // Who follows the rays of heat sources: --visibility, or the fastest that was measured.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
 #include "app/options.h"
 #include "kernel/engine/visibility/visibility.h"
+
+namespace CLI {
+class App;
+}
 
 namespace voxmelt::app {
 

@@ -5,6 +5,7 @@
   digest_test.py VOXMELT ORACLE STEPS... --approve  write digests.json, only where both agree
 """
 import json
+import math
 import subprocess
 import sys
 import tempfile
@@ -17,6 +18,13 @@ def output(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
 
 
+def told(steps, *command):
+    """What one run says of each of these numbers of steps."""
+    words = ["--steps", str(max(steps)), "--every", str(math.gcd(*steps))]
+    said = output(*command, *words).splitlines()
+    return {n: line for n in steps for line in said if line.startswith(f"step {n} ")}
+
+
 def main():
     arguments = [a for a in sys.argv[1:] if a != "--approve"]
     voxmelt, oracle, steps = arguments[0], arguments[1], [int(a) for a in arguments[2:]]
@@ -27,12 +35,13 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             start = f"{folder}/start"
             output(voxmelt, "export", scene, "--steps", "0", "--out", start, "--quiet")
+            references, fastest = (told(steps, voxmelt, "digest", scene, "--quiet", "--implementation", i)
+                                  for i in ("reference", "auto"))
+            judges = told(steps, oracle, start)
             for n in steps:
-                mine, fast = (output(voxmelt, "digest", scene, "--steps", str(n), "--quiet", "--implementation", i)
-                              for i in ("reference", "auto"))
+                mine, fast, judge = references[n], fastest[n], judges[n]
                 if fast != mine:
                     problems.append(f"{scene}, {n} steps:\n  reference {mine}\n  auto      {fast}")
-                judge = output(oracle, start, "--steps", str(n))
                 compared += 1
                 if mine != judge:
                     problems.append(f"{scene}, {n} steps:\n  voxmelt {mine}\n  oracle  {judge}")

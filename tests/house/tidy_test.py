@@ -5,8 +5,9 @@
   tidy_test.py ROOT BUILD --changed    those changed since origin/main, or since the commit before, for a minute at most
   tidy_test.py --self-test
 
-A changed header is seen through a source that includes it. What was clean is remembered in BUILD/tidy, by its content
-and that of all it includes. Without clang-tidy, or without a history to compare with: skipped (77).
+A changed header is seen through a source that includes it. Each source is read with its own includes alone, without the
+headers that a build precompiles. What was clean is remembered in BUILD/tidy, by its content and that of all it includes.
+Without clang-tidy, or without a history to compare with: skipped (77).
 """
 import hashlib
 import json
@@ -24,6 +25,7 @@ from pathlib import Path
 TIDY = shutil.which("clang-tidy")
 BUDGET = 60  # seconds for --changed
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+\.h)[">]', re.M)
+PRECOMPILED = re.compile(r"-Winvalid-pch +-include +\S+/cmake_pch\.hxx")
 SKIPPED = 77
 
 
@@ -54,6 +56,10 @@ class Sources:
     def __init__(self, root, build):
         self.root, self.build, self.known, self.all = root, build, {}, {}
         commands = json.loads((build / "compile_commands.json").read_text())
+        for c in commands:
+            c["command"] = PRECOMPILED.sub("", c["command"])
+        (build / "tidy").mkdir(exist_ok=True)
+        (build / "tidy" / "compile_commands.json").write_text(json.dumps(commands))
         self.commands = {os.path.relpath(c["file"], root): c["command"] for c in commands}
         self.commands = {name: command for name, command in self.commands.items()
                          if not name.startswith("..") and not (root / name).is_relative_to(build)}
@@ -99,12 +105,11 @@ class Sources:
             return ""
         try:
             # GCC's own warnings, which a source may switch off, are no findings.
-            command = [TIDY, "--quiet", "--extra-arg=-Wno-unknown-warning-option", "-p", self.build, self.root / name]
+            command = [TIDY, "--quiet", "--extra-arg=-Wno-unknown-warning-option", "-p", self.build / "tidy", self.root / name]
             done = subprocess.run(command, capture_output=True, text=True, timeout=seconds)
         except subprocess.TimeoutExpired:
             return None
         if done.returncode == 0:
-            remembered.parent.mkdir(exist_ok=True)
             remembered.touch()
             return ""
         return done.stdout + ("" if done.stdout else done.stderr)
@@ -138,7 +143,8 @@ def self_test():
             (root / "kernel" / name).write_text(text)
         (root / ".clang-tidy").write_text("Checks: '-*,modernize-use-nullptr'\nWarningsAsErrors: '*'\nHeaderFilterRegex: 'kernel/'\n")
         (build / "compile_commands.json").write_text(json.dumps(
-            [{"directory": folder, "file": str(root / "kernel" / name), "command": shlex.join(["c++", "-I", folder, "-c", str(root / "kernel" / name)])}
+            [{"directory": folder, "file": str(root / "kernel" / name), "command": shlex.join(
+                ["c++", "-I", folder, "-Winvalid-pch", "-include", folder + "/cmake_pch.hxx", "-c", str(root / "kernel" / name)])}
              for name in texts if name.endswith(".cpp")]))
         sources = Sources(root, build)
         assert sorted(sources.commands) == ["kernel/clean.cpp", "kernel/null.cpp", "kernel/other.cpp", "kernel/through.cpp"]
@@ -151,7 +157,7 @@ def self_test():
         def reported():
             return " ".join(check(sources, sorted(sources.commands), None)[0])
         assert "null.cpp:1" in reported() and "null.h:1" in reported() and "other.cpp" not in reported()
-        assert len(list((build / "tidy").iterdir())) == 2, "the clean ones are remembered, the others are not"
+        assert len(list((build / "tidy").iterdir())) == 1 + 2, "the clean ones are remembered, the others are not"
         (root / "kernel/clean.cpp").write_text("int* clean() { return 0; }\n")
         assert "clean.cpp:1" in reported(), "what is remembered holds for one content only"
         assert check(sources, ["kernel/null.cpp"], 0) == ([], ["kernel/null.cpp"])

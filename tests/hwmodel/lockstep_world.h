@@ -106,8 +106,10 @@ inline VerifyReport lockstep(const Start& start, const Configuration& configurat
 }
 
 // No difference, everything compared, and without stalls exactly the predicted cycles. False after a failure.
-inline bool agrees(const Start& start, const Configuration& configuration, std::uint32_t steps) {
+inline bool agrees(const Start& start, const Configuration& configuration, std::uint32_t steps,
+                   std::int64_t* cycles = nullptr) {
   const VerifyReport report = lockstep(start, configuration, steps);
+  if (cycles != nullptr) *cycles = report.cycles;
   const std::string where = start.name + ", " + name_of(configuration);
   EXPECT_EQ(report.mismatch, nullptr) << where << ":\n" << (report.mismatch ? text_of(*report.mismatch) : "");
   const auto cells = static_cast<std::int64_t>(start.volume.grid.cells());

@@ -36,30 +36,36 @@ struct Counts {
   std::size_t rays = 0, seeing = 0;
 };
 
-// Casts all rays of a source at once, and holds every fate.
-inline Counts check_fates(Caster& caster, const Opaque& opaque, const Volume& v, const Shine& shine, int side,
-                          std::uint64_t seed = 1) {
+// Several casters, because the walk, which takes the time, is the same for all.
+using Casters = std::vector<Caster*>;
+
+// Each casts all rays of a source at once, and every fate is held.
+inline Counts check_fates(const Casters& casters, const Opaque& opaque, const Volume& v, const Shine& shine,
+                          int side, std::uint64_t seed = 1) {
   std::vector<Ray> rays;
   for (const PageRay& ray : page_rays(v, shine, side, seed)) rays.push_back(ray.ray);
-  std::vector<Fate> fates(rays.size(), 12345);
-  caster.cast(opaque, rays, fates);
+  std::vector<std::vector<std::size_t>> places;
   Counts counts{rays.size(), 0};
-  std::size_t wrong = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const std::vector<std::size_t> places = met_by(v, rays[i]);
-    counts.seeing += places.empty();
-    const bool right = places.empty() ? fates[i] == kSees
-                                      : std::find(places.begin(), places.end(), fates[i]) != places.end();
-    if (!right) ++wrong;
+  for (const Ray& ray : rays) {
+    places.push_back(met_by(v, ray));
+    counts.seeing += places.back().empty();
   }
-  EXPECT_EQ(wrong, 0u) << caster.name() << ": of " << rays.size() << " rays, grid " << v.grid.x << ' '
-                       << v.grid.y << ' ' << v.grid.z << ", source of kind " << static_cast<int>(shine.kind)
-                       << " at " << shine.key.at.x << ' ' << shine.key.at.y << ' ' << shine.key.at.z;
+  for (Caster* caster : casters) {
+    std::vector<Fate> fates(rays.size(), 12345);
+    caster->cast(opaque, rays, fates);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      wrong += places[i].empty() ? fates[i] != kSees
+                                 : std::find(places[i].begin(), places[i].end(), fates[i]) == places[i].end();
+    EXPECT_EQ(wrong, 0u) << caster->name() << ": of " << rays.size() << " rays, grid " << v.grid.x << ' '
+                         << v.grid.y << ' ' << v.grid.z << ", source of kind " << static_cast<int>(shine.kind)
+                         << " at " << shine.key.at.x << ' ' << shine.key.at.y << ' ' << shine.key.at.z;
+  }
   return counts;
 }
 
-// Random worlds, each with three sources of any kind; while it melts, the caster keeps what it has built.
-inline void check_hostile_worlds(Caster& caster, int worlds, std::uint64_t seed) {
+// Random worlds, each with three sources of any kind; while it melts, a caster keeps what it has built.
+inline void check_hostile_worlds(const Casters& casters, int worlds, std::uint64_t seed) {
   Random random(seed);
   cpu::Workers workers(1);
   Opaque opaque;
@@ -67,9 +73,10 @@ inline void check_hostile_worlds(Caster& caster, int worlds, std::uint64_t seed)
   for (int world = 0; world < worlds && !testing::Test::HasFailure(); ++world) {
     Volume v = hostile_world(random, hostile_grid(random));
     for (int melt = 0; melt < 3; ++melt) {
-      caster.prepare(opaque, opaque.take(v, workers));
+      const auto changes = opaque.take(v, workers);
+      for (Caster* caster : casters) caster->prepare(opaque, changes);
       const Shine shine = awkward_shine(random, v.grid);
-      const Counts counts = check_fates(caster, opaque, v, shine, random.any({1, 2, 4}), seed);
+      const Counts counts = check_fates(casters, opaque, v, shine, random.any({1, 2, 4}), seed);
       all.rays += counts.rays, all.seeing += counts.seeing;
       const std::int32_t part = random.any({2, 5, 50});
       for_each(whole(v.grid), [&](int x, int y, int z) {
@@ -103,19 +110,20 @@ inline Volume ray_scene(int number, const Grid& grid = {48, 40, 44}) {
   return v;
 }
 
-inline void check_scenes(Caster& caster) {
+inline void check_scenes(const Casters& casters) {
   cpu::Workers workers(1);
   for (int number = 0; number < 5; ++number) {
     const Volume v = ray_scene(number);
     Opaque opaque;
-    caster.prepare(opaque, opaque.take(v, workers));
+    const auto changes = opaque.take(v, workers);
+    for (Caster* caster : casters) caster->prepare(opaque, changes);
     Random random(static_cast<std::uint64_t>(1000 + number));
     Counts all;
     for (int n = 0; n < 100 && !testing::Test::HasFailure(); ++n) {
       for (const rule::SourceKind kind : kKinds) {
         if (kind == rule::SourceKind::sky && n > 5) continue;  // one is as the other
         const auto seed = static_cast<std::uint64_t>(n);
-        const Counts counts = check_fates(caster, opaque, v, awkward_shine(random, v.grid, kind), 1, seed);
+        const Counts counts = check_fates(casters, opaque, v, awkward_shine(random, v.grid, kind), 1, seed);
         all.rays += counts.rays, all.seeing += counts.seeing;
       }
     }

@@ -18,14 +18,14 @@ namespace {
 
 TEST(Casters, OfHostileWorldsAgreeWithTheWalk) {
   PlainCaster plain;
-  check_hostile_worlds(plain, 60, 71);
+  check_hostile_worlds({&plain}, 60, 71);
   TwoLevelCaster two_level;
-  check_hostile_worlds(two_level, 200, 72);
+  check_hostile_worlds({&two_level}, 200, 72);
 }
 
 TEST(Casters, OfFiveScenesAndAHundredSourcesAgreeWithTheWalk) {
   TwoLevelCaster two_level;
-  check_scenes(two_level);
+  check_scenes({&two_level});
 }
 
 // Step by step, from brick to brick, and straight into each brick: the same cells as VoxelWalk, in 64 bits
