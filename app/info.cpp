@@ -1,6 +1,6 @@
 // voxmelt info: what a checkpoint holds.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <filesystem>
