@@ -143,6 +143,26 @@ TEST(Caster, RaysLeaveClearMatterWithinTheirFirstStep) {
   EXPECT_GT(at_once, 300);
 }
 
+// Rays of fewer tiles take turns where matter is clear, and of all tiles where it is not.
+TEST(Caster, ClearMatterHasItsOwnNumberOfTiles) {
+  test::HostilePicture picture = bar_along_x();
+  picture.camera.width = picture.camera.height = 40;
+  const auto cycles = [&](int tiles, int clear_tiles) {
+    PictureOptions options;
+    options.configuration.tiles = tiles, options.configuration.clear_tiles = clear_tiles;
+    const PictureReport report = verify_picture(
+        {picture.volume, picture.look, picture.light, picture.terrain, picture.camera, render::Setting::fast},
+        options);
+    EXPECT_TRUE(report.good()) << text_of(report);
+    return report.all_cycles;
+  };
+  EXPECT_EQ(cycles(12, 3), cycles(3, 12));
+  EXPECT_NE(cycles(12, 3), cycles(12, 1));
+  picture.look.clear = {};
+  EXPECT_EQ(cycles(12, 3), cycles(12, 12));
+  EXPECT_NE(cycles(12, 3), cycles(3, 3));
+}
+
 // The accounts of all stages sum up (verify_picture throws otherwise), warm caches change no byte, and in the
 // second frame lines are still there.
 TEST(Caster, WarmCachesDrawTheSame) {
