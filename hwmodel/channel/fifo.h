@@ -84,10 +84,12 @@ class Fifo {
     if (probe_ != nullptr) [[unlikely]]
       probe_->cycle(channel_, {ready(), putting_, valid(), getting_, count_},
                     putting_ ? slot(tail_) : nullptr, count_ > 0 ? slot(head_) : nullptr);
-    if (putting_) end_put();
-    if (getting_) end_get();
-    putting_ = getting_ = false;
-    highest_ = std::max(highest_, count_);
+    if (putting_ || getting_) {
+      if (putting_) end_put();
+      if (getting_) end_get();
+      putting_ = getting_ = false;
+      highest_ = std::max(highest_, count_);
+    }
     ++occupancy_[static_cast<std::size_t>(count_)];
     stall_ = stalls_.next();
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 
 #include "hwmodel/picture/keep.h"
 #include "render/ground/watched_ground.h"
@@ -19,7 +21,7 @@ Expectation::Expectation(const render::PictureScene& scene, const picture::Camer
       spacing_(render::spacing_of(setting, view_)) {
   const picture::Vector cells = scene.levels.cells();
   row_ = static_cast<std::size_t>(cells.x + 1), slice_ = row_ * static_cast<std::size_t>(cells.y + 1);
-  near_matter_.assign(slice_ * static_cast<std::size_t>(cells.z + 1), 0);
+  air_.assign(slice_ * static_cast<std::size_t>(cells.z + 1), 255);
   for (std::int64_t z = 0; z < cells.z; ++z)
     for (std::int64_t y = 0; y < cells.y; ++y)
       for (std::int64_t x = 0; x < cells.x; ++x) {
@@ -28,20 +30,52 @@ Expectation::Expectation(const render::PictureScene& scene, const picture::Camer
                               static_cast<std::size_t>(x);
         for (const std::size_t more : {std::size_t{0}, slice_})
           for (const std::size_t beside : {std::size_t{0}, row_})
-            near_matter_[i + more + beside] = near_matter_[i + more + beside + 1] = 1;
+            air_[i + more + beside] = air_[i + more + beside + 1] = 0;
       }
+  measure_air();
 }
 
-// That of the rule, which looks at every sample.
+// The largest of three distances: one axis after the other, each there and back.
+void Expectation::measure_air() {
+  const std::size_t rows = slice_ / row_, slices = air_.size() / slice_;
+  const auto along = [&](std::size_t stride, std::size_t count, std::size_t from) {
+    // Cell i of a line becomes the least max(its value, distance) of the line.
+    std::vector<std::uint8_t> line(count);
+    for (std::size_t i = 0; i < count; ++i) line[i] = air_[from + i * stride];
+    for (std::size_t i = 0; i < count; ++i) {
+      std::uint8_t least = line[i];
+      for (std::size_t d = 1; d < least && (d <= i || i + d < count); ++d) {
+        const std::uint8_t before = d <= i ? line[i - d] : 255, after = i + d < count ? line[i + d] : 255;
+        least = std::min(least, std::max({std::min(before, after), static_cast<std::uint8_t>(d)}));
+      }
+      air_[from + i * stride] = least;
+    }
+  };
+  for (std::size_t z = 0; z < slices; ++z)
+    for (std::size_t y = 0; y < rows; ++y) along(1, row_, z * slice_ + y * row_);
+  for (std::size_t z = 0; z < slices; ++z)
+    for (std::size_t x = 0; x < row_; ++x) along(row_, rows, z * slice_ + x);
+  for (std::size_t i = 0; i < slice_; ++i) along(slice_, slices, i);
+}
+
+// That of the rule, which looks at every sample: those left out here have air around them.
 picture::Crossing Expectation::first_crossing(const picture::Ray& ray) const {
   const picture::Samples in =
       picture::samples_in(ray, picture::field_low(), picture::field_high(scene_.levels.cells()));
-  picture::Vector at = ray.at(in.first);
-  for (std::int64_t k = in.first; k <= in.last; ++k, at = at + ray.step) {
+  // A sample moves no farther along any axis.
+  const std::int64_t farthest =
+      std::max({std::abs(ray.step.x), std::abs(ray.step.y), std::abs(ray.step.z), std::int64_t{1}});
+  std::int64_t steps = 0;
+  for (std::int64_t k = in.first; k <= in.last; k += steps) {
+    const picture::Vector at = ray.at(k);
+    steps = 1;
     const auto lower = [](std::int64_t p) {
       return static_cast<std::size_t>(((p + picture::kToPlace) >> picture::kPositionBits) + 1);
     };
-    if (near_matter_[lower(at.z) * slice_ + lower(at.y) * row_ + lower(at.x)] == 0) continue;
+    if (const std::int64_t air = air_[lower(at.z) * slice_ + lower(at.y) * row_ + lower(at.x)]; air > 0) {
+      steps = std::max<std::int64_t>(1, (air - 1) * picture::kCell / farthest);
+      continue;
+    }
     if (sample(at) < 0) continue;
     return k == 0 ? picture::Crossing{true, 0, picture::kPlaces, ray.start}
                   : picture::crossing_before(scene_.levels, ray, k);

@@ -66,9 +66,10 @@ class Expectation {
   const render::PictureScene& scene_;
   picture::View view_;
   int spacing_;
-  // Of lower cells -1 .. n - 1: is one of the eight levels around a sample matter? A sample is never outside
-  // the range of its levels.
-  std::vector<std::uint8_t> near_matter_;
+  // Of lower cells -1 .. n - 1: how many cells away, along the farthest axis, is the next one of which one of
+  // the eight levels around a sample is matter? A sample is never outside the range of its levels.
+  void measure_air();
+  std::vector<std::uint8_t> air_;
   std::size_t row_ = 0, slice_ = 0;
 };
 

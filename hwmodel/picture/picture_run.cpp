@@ -148,6 +148,7 @@ void PictureRun::draw(const render::PictureScene& scene, const picture::Camera& 
   caster_.draw_only(first);
   checker.begin_pass(1, 0, memory_.frame, first);
   report_.end = caster_.draw_first();
+  double forecasting = report_.end.forecasting;
   if (options_.compare) checker.end_pass(report_.end);
   report_.all_cycles += report_.end.cycles;
   report_.passes.push_back({false, report_.end.cycles, report_.end.predicted});
@@ -155,6 +156,7 @@ void PictureRun::draw(const render::PictureScene& scene, const picture::Camera& 
     caster_.draw_only(options_.window);
     checker.begin_pass(samples, most, second_frame, options_.window);
     const FrameEnd second = caster_.draw_again(samples, most);
+    forecasting += second.forecasting;
     report_.all_cycles += second.cycles;
     report_.passes.push_back({true, second.cycles, second.predicted});
     if (options_.compare) checker.end_pass(second);
@@ -163,7 +165,7 @@ void PictureRun::draw(const render::PictureScene& scene, const picture::Camera& 
     report_.end.cycles += first_cycles;
   }
   caster_.watch({});
-  report_.seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  report_.seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC - forecasting;
   report_.difference = checker.difference();
   report_.compared += checker.compared();
   report_.under_way = checker.ray_under_way();

@@ -126,6 +126,7 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                            {"fifo_depth", c.fifo_depth},
                            {"stall_seed", c.stall_seed},
                            {"tiles", c.tiles},
+                           {"clear_tiles", c.clear_tiles},
                            {"bands", c.bands},
                            {"clock_mhz", c.clock_mhz},
                            {"memory", c.dram ? c.dram->name : "fixed"},

@@ -45,6 +45,7 @@ void read_caster(scene::Reader& hw, raycast::Configuration& c) {
   c.fifo_depth = number("fifo_depth", 1, 1024, c.fifo_depth);
   c.stall_seed = static_cast<std::uint64_t>(hw.integer("stall_seed", 0, INT64_MAX, 0));
   c.tiles = number("tiles", 1, 64, c.tiles);
+  c.clear_tiles = number("clear_tiles", 1, 64, c.clear_tiles);
   c.bands = number("bands", 1, 64, c.bands);
   c.latency = number("latency", 1, 1000, c.latency);
   c.bus_bytes = number("bus_bytes", 1, 4096, c.bus_bytes);

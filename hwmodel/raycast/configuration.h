@@ -1,6 +1,7 @@
 // The numbers by which a ray caster is configured.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,8 +24,10 @@ struct Configuration {
   int searchers = 4;             // steps over blocks of ground in a cycle of a pipe
   int fifo_depth = 4;            // tokens, of every channel
   std::uint64_t stall_seed = 0;  // 0: no stalls
-  int tiles = 8;                 // tile buffers of a pipe; rays of all of them are made in turn
-  int bands = 16;                // of the picture, from which tiles are dealt in turn
+  int tiles = 12;                // tile buffers of a pipe; rays of all of them are made in turn
+  // As many where matter is clear. There a ray reads far more lines, and rays that are near share them.
+  int clear_tiles = 4;
+  int bands = 16;  // of the picture, from which tiles are dealt in turn
   CacheShape levels{64}, matter{16}, light{32}, ground{64};
   int clock_mhz = 200;
   std::optional<memory::Parameters> dram;  // none: a memory of a fixed latency, as the next two say
@@ -33,6 +36,8 @@ struct Configuration {
   std::string memory_trace;                // file of the requests to a DRAM; empty: none
   bool apron = false;                      // bricks of levels hold their apron: a line is a brick
   int level_bits = 2;  // log2 of the places of a line of levels along an axis, without apron: 2 or 3
+
+  int tiles_in_turn(bool clear) const { return clear ? std::min(tiles, clear_tiles) : tiles; }
 };
 
 inline constexpr int kTileSide = 8;  // pixels

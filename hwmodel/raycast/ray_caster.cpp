@@ -1,6 +1,7 @@
 #include "hwmodel/raycast/ray_caster.h"
 
 #include <cstddef>
+#include <ctime>
 #include <exception>
 #include <memory>
 #include <utility>
@@ -164,7 +165,9 @@ struct RayCaster::Machine {
     if (predicts && end.complete && neighbour == nullptr) {
       const auto caches = pipes.front()->caches();
       for (std::size_t i = 0; i < caches.size(); ++i) counted.line_bytes[i] = caches[i].line_bytes;
+      const std::clock_t begin = std::clock();
       end.predicted = forecast(counted, configuration);
+      end.forecasting = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     }
     return end;
   }

@@ -23,6 +23,7 @@ struct FrameEnd {
   std::int64_t cycles = 0;
   std::int64_t predicted = -1;  // of this pass (forecast.h); -1: not known
   bool complete = false, hangs = false;
+  double forecasting = 0;  // seconds of the processor, for `predicted`
 };
 
 class RayCaster {

@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <string>
 
+#include "hwmodel/picture/expectation.h"
 #include "hwmodel/picture/verify_picture.h"
+#include "render/density/density_field.h"
+#include "render/packet/scene_in_integers.h"
 #include "tests/kernel/worlds.h"
 #include "tests/render/hostile_picture.h"
 
@@ -87,9 +90,8 @@ TEST(Caster, HostileClearPictures) {
   EXPECT_GT(events, 3 * rays) << "hardly any ray goes through matter";
 }
 
-// An eye in air, and then in clear matter, deeper and deeper: a ray that begins in matter crosses no surface
-// before.
-TEST(Caster, AnEyeInClearMatterCrossesOneSurface) {
+// A bar of clear matter, and an eye that looks along it.
+test::HostilePicture bar_along_x() {
   test::HostilePicture picture;
   picture.volume = state::Volume(state::Grid{20, 16, 20});
   worlds::for_each({2, 2, 2, 12, 14, 18}, [&](int x, int y, int z) {
@@ -100,6 +102,13 @@ TEST(Caster, AnEyeInClearMatterCrossesOneSurface) {
   picture.camera.azimuth = -90, picture.camera.elevation = 0;  // along x
   picture.camera.target = {18, 8, 10};
   picture.camera.width = picture.camera.height = 9;
+  return picture;
+}
+
+// An eye in air, and then in clear matter, deeper and deeper: a ray that begins in matter crosses no surface
+// before.
+TEST(Caster, AnEyeInClearMatterCrossesOneSurface) {
+  test::HostilePicture picture = bar_along_x();
   int within = 0;
   for (int i = 0; i < 24; ++i) {
     picture.camera.distance = 5 + i / 12.0;  // of the target: the surface is about 6 cells from it
@@ -112,6 +121,52 @@ TEST(Caster, AnEyeInClearMatterCrossesOneSurface) {
   }
   EXPECT_GE(within, 6);
   EXPECT_LT(within, 24);
+}
+
+// An eye in clear matter less than a step from its surface, which is 6 cells from the target: a ray leaves
+// matter between its first two samples. It crosses the surface there, and not at its start.
+TEST(Caster, RaysLeaveClearMatterWithinTheirFirstStep) {
+  test::HostilePicture picture = bar_along_x();
+  render::DensityField field;
+  field.update(picture.volume, picture.look, picture.terrain, 1);
+  const render::PictureScene scene(field, picture.look, picture.light, picture.terrain);
+  int at_once = 0;
+  for (int i = 1; i <= 8; ++i) {
+    picture.camera.distance = 6 + i / 256.0;
+    const Expectation expectation(scene, render::camera_in_integers(picture.camera), render::Setting::fast);
+    for (int pixel = 0; pixel < 81; ++pixel) {
+      ExpectedRay ray = expectation.ray(64 * (pixel % 9) + 32, 64 * (pixel / 9) + 32);
+      expectation.shade(ray);
+      const picture::Crossing* exit = ray.clear.exit(0);
+      const bool starts_in = ray.matter.found && ray.matter.sample == 0;
+      at_once += starts_in && exit != nullptr && exit->sample == 0 && exit->part < picture::kPlaces ? 1 : 0;
+    }
+    const PictureReport report = verify_picture(
+        {picture.volume, picture.look, picture.light, picture.terrain, picture.camera, render::Setting::fast},
+        {});
+    ASSERT_TRUE(report.good()) << i << ": " << text_of(report);
+  }
+  EXPECT_GT(at_once, 300);
+}
+
+// Rays of fewer tiles take turns where matter is clear, and of all tiles where it is not.
+TEST(Caster, ClearMatterHasItsOwnNumberOfTiles) {
+  test::HostilePicture picture = bar_along_x();
+  picture.camera.width = picture.camera.height = 40;
+  const auto cycles = [&](int tiles, int clear_tiles) {
+    PictureOptions options;
+    options.configuration.tiles = tiles, options.configuration.clear_tiles = clear_tiles;
+    const PictureReport report = verify_picture(
+        {picture.volume, picture.look, picture.light, picture.terrain, picture.camera, render::Setting::fast},
+        options);
+    EXPECT_TRUE(report.good()) << text_of(report);
+    return report.all_cycles;
+  };
+  EXPECT_EQ(cycles(12, 3), cycles(3, 12));
+  EXPECT_NE(cycles(12, 3), cycles(12, 1));
+  picture.look.clear = {};
+  EXPECT_EQ(cycles(12, 3), cycles(12, 12));
+  EXPECT_NE(cycles(12, 3), cycles(3, 3));
 }
 
 // The accounts of all stages sum up (verify_picture throws otherwise), warm caches change no byte, and in the
