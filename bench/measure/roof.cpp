@@ -20,7 +20,10 @@ class Counting {
   void add(std::string what, double multiplies, double others) {
     work_.multiplies += multiplies;
     work_.others += others;
-    work_.counts.push_back({std::move(what), multiplies, others});
+    Count& count = work_.counts.emplace_back();
+    count.what = std::move(what);
+    count.multiplies = multiplies;
+    count.others = others;
   }
   void append(const Work& other) {
     for (const Count& count : other.counts) add(count.what, count.multiplies, count.others);
