@@ -303,7 +303,7 @@ int run_verify(VerifyCommand command) {
   catch_interrupts();
   const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
 
-  const VerifiedStream stream{scene.parameters, ahead.volume().grid, ahead.step_number(), command.steps};
+  const VerifiedStream stream{scene.parameters, ahead.volume(), ahead.step_number(), command.steps};
   check_channels(stream, preset);
   std::optional<std::int64_t> sized_cycles;
   if (!command.size_fifos.empty())

@@ -22,6 +22,7 @@ struct Question {
   std::int64_t steps = 32;
   Device device;
   std::optional<memory::Parameters> memory;  // none: it always answers
+  const Irradiance* irradiance = nullptr;    // of the first step; null: dark
 };
 
 // The values that are tried. A further axis is a list here, with its values and its key in axes.cpp, a loop
@@ -72,7 +73,7 @@ std::optional<std::int64_t> least_of(Resource resource, const PartList& parts, c
 struct RunTime {
   std::int64_t cycles = 0, on_memory = 0, steps = 0;
 };
-RunTime time_of(const Design& design, const Configuration& hw, int clock_mhz, const Question& question,
+RunTime time_of(const PartList& parts, const Configuration& hw, int clock_mhz, const Question& question,
                 std::int64_t steps);
 std::int64_t speed_of(const Question& question, const RunTime& time, int clock_mhz);
 

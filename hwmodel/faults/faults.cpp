@@ -86,6 +86,10 @@ constexpr std::array kFaults{
               "a tile writes a cell of its halo over that of the owner (needs hw.tile)"},
     FaultInfo{tile_counted_twice, "tile-counted-twice", "writer",
               "a cell of a halo is counted in the sums of a pass, too (needs hw.tile)"},
+    FaultInfo{feed_early, "feed-early", "feed",
+              "a count of dark tokens is one too small: irradiance comes a token too early"},
+    FaultInfo{feed_mask, "feed-mask", "feed", "a mask of irradiance is shifted by a lane (needs two lanes)"},
+    FaultInfo{feed_word_lost, "feed-word-lost", "feed", "a feed takes one word too few for a token"},
     FaultInfo{buffer_bit, "buffer-bit", "plane memory", "a bit of an amount flips in the first plane memory"},
     FaultInfo{fifo_overwrite, "fifo-overwrite", "channel",
               "a channel's write pointer stands still: a token takes the place of the one before it (needs "

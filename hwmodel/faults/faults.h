@@ -70,6 +70,10 @@ enum class Fault : std::uint8_t {
   tile_halo_stale,
   tile_overwritten,
   tile_counted_twice,
+  // feeds
+  feed_early,
+  feed_mask,
+  feed_word_lost,
   // buffers and channels
   buffer_bit,
   fifo_overwrite,
@@ -82,6 +86,8 @@ enum class Fault : std::uint8_t {
 inline bool is_of_tiles(Fault fault) {
   return fault >= Fault::tile_vent && fault <= Fault::tile_counted_twice;
 }
+
+inline bool is_of_feeds(Fault fault) { return fault >= Fault::feed_early && fault <= Fault::feed_word_lost; }
 
 struct FaultInfo {
   Fault fault;

@@ -8,11 +8,10 @@ namespace voxmelt::hwmodel {
 DramStreams::DramStreams(const Design& design, int cascade, const memory::Parameters& parameters,
                          int clock_mhz)
     : parameters_(parameters), clock_mhz_(clock_mhz), feeds_(static_cast<std::size_t>(cascade)) {
-  state_.token = std::int64_t{design.shape.lanes} * design.cell_bits();
-  for (Input& feed : feeds_) feed.token = std::int64_t{16} * design.shape.lanes;
+  token_ = std::int64_t{design.shape.lanes} * design.cell_bits();
 }
 
-void DramStreams::begin_train(std::int64_t tokens, int fed) {
+void DramStreams::begin_train(std::int64_t tokens, int fed, std::int64_t irradiance_bits) {
   dram_ = std::make_unique<memory::Dram>(parameters_, clock_mhz_);
   tokens_ = tokens;
   writer_ = dram_->open_port(nullptr);
@@ -21,15 +20,14 @@ void DramStreams::begin_train(std::int64_t tokens, int fed) {
   // The state at the begin, irradiance behind it, at a row of every bank.
   const std::int64_t rows =
       parameters_.row_bytes() * parameters_.banks_of_rank() * parameters_.ranks * parameters_.channels;
-  const std::int64_t base = (burst_bits(tokens * state_.token) / 8 + rows - 1) / rows * rows;
-  const auto begin = [&](Input& input, std::int64_t at) {
-    const std::int64_t token = input.token;
+  const std::int64_t base = (burst_bits(tokens * token_) / 8 + rows - 1) / rows * rows;
+  const auto begin = [&](Input& input, std::int64_t at, std::int64_t bits) {
     input = {};
-    input.token = token, input.base = at, input.pass = tokens * token;
+    input.base = at, input.pass = bits;
     input.port = dram_->open_port(nullptr);
   };
-  begin(state_, 0);
-  for (Input& feed : feeds_) begin(feed, base);
+  begin(state_, 0, tokens * token_);
+  for (Input& feed : feeds_) begin(feed, base, irradiance_bits);
   add_pass(fed);
 }
 
@@ -59,7 +57,7 @@ void DramStreams::cycle(std::int64_t now) {
   // the memory keeps the order of requests to it.
   const std::int64_t pass = burst_bits(state_.pass);
   const std::int64_t written = tokens_written_ - (last_written_ == now ? 1 : 0);
-  const std::int64_t bits = written / tokens_ * pass + written % tokens_ * state_.token;
+  const std::int64_t bits = written / tokens_ * pass + written % tokens_ * token_;
   while (handed_ + kBurstBits <= bits && dram_->ready(writer_)) {
     dram_->put(writer_, {handed_ % pass / 8, 0, true});
     handed_ += kBurstBits;

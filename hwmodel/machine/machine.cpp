@@ -20,14 +20,10 @@ StreamWork work_of(const VerifyReport& report, const Design& design, const Confi
   work.lag = std::max<std::int64_t>(report.predicted_cycles / std::max<std::int64_t>(report.passes, 1) -
                                         interval * shape.tiles() * shape.tokens(),
                                     0);
-  const std::int64_t cell_bits = std::int64_t{design.cell_bits()} * c.lanes;
   for (const StageReport& stage : report.stages) {
-    if (stage.kind == StageKind::reader) work.tokens += stage.cycles.busy;
-    if (stage.kind == StageKind::reader) work.read_bits += stage.cycles.busy * cell_bits;
-    if (stage.kind == StageKind::writer)  // of a tile, what it owns
-      work.written_bits +=
-          stage.cycles.busy * shape.grid_blocks() / (shape.tiles() * shape.blocks()) * cell_bits;
-    if (stage.kind == StageKind::feed) work.fed_bits += stage.cycles.busy * 16 * c.lanes;
+    if (stage.kind == StageKind::reader) work.tokens += stage.cycles.busy, work.read_bits += stage.moved_bits;
+    if (stage.kind == StageKind::writer) work.written_bits += stage.moved_bits;
+    if (stage.kind == StageKind::feed) work.fed_bits += stage.moved_bits;
   }
   return work;
 }

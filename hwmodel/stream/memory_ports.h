@@ -1,4 +1,4 @@
-// The blocks beside the memory, as plain C++: what reader, writer and feeds do in one cycle.
+// The blocks between the memory and the stream, as plain C++: what reader and writer do in one cycle.
 #pragma once
 
 #include <cstdint>
@@ -66,6 +66,7 @@ class Writer {
   // it must not matter which block runs first.
   std::int64_t written_before(std::int64_t now) const { return written_ - (last_cycle_ == now ? 1 : 0); }
   const StageCycles& cycles() const { return cycles_; }
+  std::int64_t stored() const { return stored_; }  // tokens that went to memory: of a tile, what it owns
   // Where the last token went.
   const state::Volume& written() const { return *last_written_; }
   const Books& books() const { return closed_; }  // of the last pass whose tiles have all been written
@@ -78,6 +79,7 @@ class Writer {
     last_written_ = &memory_.written();
     if (tile == 0 && place_.ordinal == 0) open_ = {};
     if (shape_.owns(tile, place_.x)) {
+      ++stored_;
       write_token(lanes, shape_, place_, memory_.written());
       for (int lane = 0; lane < shape_.lanes && place_.x + lane < shape_.grid.x; ++lane)
         open_.add(lanes[lane]);
@@ -103,7 +105,7 @@ class Writer {
   CellFifo* in_ = nullptr;
   std::deque<int> tiles_;  // that are still to be written
   Place place_;
-  std::int64_t first_ = 0, written_ = 0, last_cycle_ = -1, passes_ = 0;
+  std::int64_t first_ = 0, written_ = 0, stored_ = 0, last_cycle_ = -1, passes_ = 0;
   const state::Volume* last_written_ = nullptr;
   Books open_, closed_;
   PortFault* fault_ = nullptr;
@@ -167,57 +169,6 @@ class Reader {
   Place place_;
   std::int64_t passes_ = 0, grids_before_ = 0;  // of the train; the latter: of whole grids
   PortFault* fault_ = nullptr;
-  StageCycles cycles_;
-};
-
-// Streams irradiance to one time step.
-class Feed {
- public:
-  Feed(const Shape& shape, HeatFifo& out) : shape_(shape), out_(out) {}
-  // Null: the time step does not work.
-  void begin_pass(const state::Field<std::uint16_t>* field, int tile) {
-    field_ = field, place_ = begin_of(shape_, tile);
-    next_.clear();
-  }
-  // Another tile for which the time step works, with the same irradiance.
-  void add_pass(int tile) { next_.push_back(tile); }
-  void dram(StreamMemory* dram, int t) { dram_ = dram, step_ = t; }
-  void cycle(std::int64_t now) {
-    if (place_.ordinal == shape_.tokens() && !next_.empty()) {
-      place_ = begin_of(shape_, next_.front());
-      next_.pop_front();
-    }
-    if (field_ == nullptr || place_.ordinal == shape_.tokens()) {
-      ++(field_ == nullptr ? cycles_.bypassed : cycles_.fill_drain);
-      return;
-    }
-    if (!out_.ready()) {
-      ++cycles_.blocked;
-      return;
-    }
-    if (dram_ != nullptr && !dram_->may_feed(step_, now)) {
-      ++cycles_.starved;
-      return;
-    }
-    if (dram_ != nullptr) dram_->fed(step_, now);
-    UInt<16>* lanes = out_.put();
-    for (int lane = 0; lane < shape_.lanes; ++lane) {
-      const int x = place_.x + lane;
-      lanes[lane] = x < shape_.grid.x ? (*field_)[field_->layout().at(x, place_.y, place_.z)] : 0;
-    }
-    place_.next(shape_);
-    ++cycles_.busy;
-  }
-  const StageCycles& cycles() const { return cycles_; }
-
- private:
-  Shape shape_;
-  HeatFifo& out_;
-  StreamMemory* dram_ = nullptr;  // that the feed waits for
-  int step_ = 0;                  // that it feeds
-  const state::Field<std::uint16_t>* field_ = nullptr;
-  Place place_;
-  std::deque<int> next_;  // tiles
   StageCycles cycles_;
 };
 
