@@ -90,6 +90,7 @@ int run_explore(ExploreCommand command) {
   question.first_step = ahead.step_number();
   ahead.begin_step();  // its irradiance
   question.irradiance = ahead.irradiance();
+  question.volume = &ahead.volume();
 
   explore::Axes axes = usual_axes(question);
   keep_only(axes, command.hw_sets);
@@ -157,7 +158,7 @@ void add_explore(CLI::App& program, Chosen& chosen) {
   add_visibility(*command, options->common);
   command->footer(
       "--set also takes the device's numbers (device.bram=300, device.clock=250), and keeps one value of an\n"
-      "axis: hw.lanes, hw.cascade, hw.substeps, hw.fifo_depth, hw.overlap, hw.clock_mhz.");
+      "axis: hw.lanes, hw.cascade, hw.substeps, hw.fifo_depth, hw.overlap, hw.coded, hw.clock_mhz.");
   command->callback([options, &chosen] { chosen = [options] { return run_explore(*options); }; });
 }
 

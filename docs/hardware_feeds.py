@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What ways to feed irradiance cost on the showcase scenes in mid-melt: bits per cycle, and bits of buffers.
+"""What ways to feed irradiance cost on the showcase scenes of the paper law in mid-melt: bits per cycle, and bits of buffers.
 
   hardware_feeds.py PROGRAM           prints a table, at 8 lanes and 8 steps
 
@@ -12,8 +12,7 @@ import tempfile
 from pathlib import Path
 
 LANES = STEPS = 8
-SCENES = {"cello": 1048, "goblet": 1100, "lava": 1200, "bunny": 896,
-          "cello_viscous": 1048, "goblet_viscous": 1100, "lava_viscous": 1200, "bunny_viscous": 896}
+SCENES = {"cello": 1048, "goblet": 1100, "lava": 1200, "bunny": 896}
 
 
 def report_of(program, scene, step):

@@ -17,14 +17,16 @@ int steps_of_pass(const Design& design, const Configuration& c, std::uint32_t st
   return static_cast<int>(steps);
 }
 
-void add_pass(Train& train, const Design& design, const Pass& pass, const Content& content) {
+void add_pass(Train& train, const Design& design, const Configuration& c, const Pass& pass,
+              const Content& content) {
   const Shape& shape = design.shape;
   const std::int64_t cells = shape.tokens() * shape.lanes;
   ++train.passes;
   train.list.push_back(pass);
   train.work.tokens += shape.tokens();
-  train.work.read_bits += cells * design.cell_bits();
-  train.work.written_bits += cells * design.cell_bits();
+  const std::int64_t state_bits = c.coded ? content.coded_bits : cells * design.cell_bits();
+  train.work.read_bits += state_bits;
+  train.work.written_bits += state_bits;
   if (design.hot() && design.parameters.heat.radiation && pass.begins())
     train.work.fed_bits += content.irradiance_bits * pass.steps;
 }
@@ -41,7 +43,7 @@ void add_substeps(std::vector<Train>& trains, const Design& design, const Config
   for (; pass.substep < pass.substeps; pass.substep += pass.count) {
     pass.count = std::min(pass.count, pass.substeps - pass.substep);
     Train& train = trains.emplace_back();
-    add_pass(train, design, pass, content);
+    add_pass(train, design, c, pass, content);
     train.steps = pass.ends() ? 1 : 0;
     end_train(train, design, c, pass);
   }
@@ -67,7 +69,7 @@ std::vector<Train> trains_of(const Design& design, const Configuration& c, std::
     pass.steps = steps_of_pass(design, c, pass.first, steps - done);
     const Pass first = pass;
     while (true) {
-      add_pass(train, design, pass, content);
+      add_pass(train, design, c, pass, content);
       train.steps += pass.steps;
       done += pass.steps;
       const std::uint32_t step = first_step + static_cast<std::uint32_t>(done);

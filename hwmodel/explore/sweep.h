@@ -23,12 +23,13 @@ struct Question {
   Device device;
   std::optional<memory::Parameters> memory;  // none: it always answers
   const Irradiance* irradiance = nullptr;    // of the first step; null: dark
+  const state::Volume* volume = nullptr;     // before it; null: hw.coded is not tried
 };
 
 // The values that are tried. A further axis is a list here, with its values and its key in axes.cpp, a loop
 // in `sweep`, and a column of the CSV.
 struct Axes {
-  std::vector<int> lanes, cascade, substeps, fifo_depth, overlap, clock_mhz;
+  std::vector<int> lanes, cascade, substeps, fifo_depth, overlap, coded, clock_mhz;
 };
 Axes usual_axes(const Question& question);
 // `sets` are "hw.lanes=8": of that axis this value alone is tried. Throws scene::InputError.

@@ -90,6 +90,15 @@ constexpr std::array kFaults{
               "a count of dark tokens is one too small: irradiance comes a token too early"},
     FaultInfo{feed_mask, "feed-mask", "feed", "a mask of irradiance is shifted by a lane (needs two lanes)"},
     FaultInfo{feed_word_lost, "feed-word-lost", "feed", "a feed takes one word too few for a token"},
+    // Faults of the code strike with hw.coded.
+    FaultInfo{code_lane_missed, "code-lane-missed", "writer",
+              "a token is left out as air, though its last lane holds something (needs hw.coded)"},
+    FaultInfo{code_bit_moved, "code-bit-moved", "writer",
+              "the bits that tell which tokens are stored change places (needs hw.coded)"},
+    FaultInfo{code_token_lost, "code-token-lost", "writer",
+              "a stored token takes the place of the one before it (needs hw.coded)"},
+    FaultInfo{code_bit_early, "code-bit-early", "reader",
+              "the reader takes the bit of the next token (needs hw.coded)"},
     FaultInfo{buffer_bit, "buffer-bit", "plane memory", "a bit of an amount flips in the first plane memory"},
     FaultInfo{fifo_overwrite, "fifo-overwrite", "channel",
               "a channel's write pointer stands still: a token takes the place of the one before it (needs "

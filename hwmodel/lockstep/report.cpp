@@ -207,6 +207,7 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
                 {"substeps", configuration.substeps},
                 {"overlap", configuration.overlap ? 1 : 0},
                 {"tile", configuration.tile},
+                {"coded", configuration.coded ? 1 : 0},
                 {"fifo_depth", configuration.fifo_depth},
                 {"stall_seed", configuration.stall_seed}}},
               {"tiles",

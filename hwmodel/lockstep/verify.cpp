@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "hwmodel/faults/channel_fault.h"
+#include "hwmodel/faults/code_fault.h"
 #include "hwmodel/faults/irradiance_fault.h"
 #include "hwmodel/faults/planted_stages.h"
 #include "hwmodel/faults/tile_fault.h"
 #include "hwmodel/lockstep/checker.h"
+#include "hwmodel/lockstep/column_checker.h"
 #include "hwmodel/lockstep/diagnosis.h"
 #include "hwmodel/lockstep/feed_checker.h"
 #include "hwmodel/lockstep/waves.h"
@@ -48,13 +50,16 @@ class Run {
         channel_fault_(plan_, pipeline_),
         tile_fault_(plan_, pipeline_),
         irradiance_fault_(plan_, pipeline_),
+        code_fault_(plan_, pipeline_),
         checker_(pipeline_),
         feed_checker_(pipeline_, checker_),
+        column_checker_(pipeline_, checker_),
         software_(parameters, start, first_step, fast, tuning,
                   stages_of_step({parameters, pipeline_.design().shape})),
         memory_(start) {
     pipeline_.watch(&checker_);
     pipeline_.watch_feeds(&feed_checker_);
+    pipeline_.watch_columns(&column_checker_);
     pipeline_.poll(options.poll);
     if (options.waves) {
       waves_.emplace(pipeline_, options.waves_from);
@@ -192,6 +197,7 @@ class Run {
     channel_fault_.add_pass(pass);
     tile_fault_.add_pass(pass);
     irradiance_fault_.add_pass(pass);
+    code_fault_.add_pass(pass);
     feed_checker_.add_pass(pass);
   }
 
@@ -200,6 +206,7 @@ class Run {
     channel_fault_.begin_train();
     tile_fault_.begin_train();
     irradiance_fault_.begin_train();
+    code_fault_.begin_train();
     feed_checker_.begin_train(software_.irradiance());
     add_pass(first);
     Pass last = first;
@@ -334,8 +341,10 @@ class Run {
   ChannelFault channel_fault_;
   TileFault tile_fault_;
   IrradianceFault irradiance_fault_;
+  PlantedCode code_fault_;
   Checker checker_;
   FeedChecker feed_checker_;
+  ColumnChecker column_checker_;
   Expectation software_;
   state::Volume memory_;
   std::vector<std::vector<Expected>> expected_;   // of the pass that the software has run last

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "hwmodel/machine/coded_port.h"
 #include "hwmodel/memory/dram.h"
 #include "hwmodel/stream/pipeline.h"
 #include "hwmodel/stream/stream_memory.h"
@@ -18,19 +19,28 @@ class DramStreams final : public StreamMemory {
  public:
   DramStreams(const Design& design, int cascade, const memory::Parameters& parameters, int clock_mhz);
 
-  void begin_train(std::int64_t tokens, int fed, std::int64_t irradiance_bits) override;
+  void begin_train(std::int64_t tokens, int fed, std::int64_t irradiance_bits,
+                   const StoredColumns* columns) override;
   void add_pass(int fed) override;
-  bool may_read(std::int64_t now) const override { return state_.has(state_.used_of_pass() + token_, now); }
+  bool may_read(std::int64_t bits, std::int64_t now) const override {
+    return coded_ ? columns_.has(bits, now) : state_.has(state_.used_of_pass() + token_, now);
+  }
   bool may_feed(int t, std::int64_t bits, std::int64_t now) const override { return feed(t).has(bits, now); }
-  bool may_write(std::int64_t now) const override { return unwritten_[now & 1] <= kAhead; }
-  void read(std::int64_t now) override {
+  bool may_write(std::int64_t now) const override {
+    return coded_ ? written_columns_.may_write(now) : unwritten_[now & 1] <= kAhead;
+  }
+  void read(std::int64_t bits, bool ends, std::int64_t now) override {
+    if (coded_) return columns_.use(bits, ends, now);
     const std::int64_t used = state_.used_of_pass() + token_;
     state_.use(used, used == state_.pass, now);
   }
   void fed(int t, std::int64_t bits, bool ends, std::int64_t now) override {
     feeds_[static_cast<std::size_t>(t)].use(bits, ends, now);
   }
-  void written(std::int64_t now) override { ++tokens_written_, last_written_ = now; }
+  void written(std::int64_t bits, bool ends, std::int64_t now) override {
+    if (coded_) return written_columns_.written(bits, ends, now);
+    ++tokens_written_, last_written_ = now;
+  }
   void cycle(std::int64_t now) override;
 
   memory::Counts counts() const { return dram_->counts(); }  // of the last train
@@ -64,13 +74,18 @@ class DramStreams final : public StreamMemory {
     std::int64_t used_before(std::int64_t now) const { return last_used == now ? before : used; }
     std::int64_t address(std::int64_t bits) const { return base + bits % burst_bits(pass) / 8; }
   };
+  void cycle_state(std::int64_t now);
   const Input& feed(int t) const { return feeds_[static_cast<std::size_t>(t)]; }
   void fetch(Input& from, std::int64_t limit, std::int64_t now);
 
   memory::Parameters parameters_;
   int clock_mhz_;
   std::unique_ptr<memory::Dram> dram_;
-  Input state_;
+  CodeLayout layout_;
+  bool coded_ = false;
+  Input state_;                  // unless it is coded
+  CodedInput columns_;           // if it is
+  CodedOutput written_columns_;  // likewise
   std::vector<Input> feeds_;
   int writer_ = -1;
   std::int64_t token_ = 0, tokens_ = 0;                               // bits of a token; tokens of a pass

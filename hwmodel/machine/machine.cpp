@@ -53,7 +53,10 @@ class Run {
     const Shape& shape = design_.shape;
     const std::int64_t words = std::int64_t{shape.grid_blocks()} * shape.lanes * shape.grid.y * shape.grid.z;
     const int copies = shape.tiled() ? 2 : 1;  // tiles overlap: state_memory.h
-    report_.state_bytes = (words * copies * design_.cell_bits() + 7) / 8;
+    const CodeLayout layout(design_);
+    const std::int64_t bits = options_.steps.configuration.coded ? layout.slot_bits() * layout.columns()
+                                                                 : words * design_.cell_bits();
+    report_.state_bytes = (copies * bits + 7) / 8;
     report_.irradiance_bytes = design_.hot() && input_.parameters.heat.radiation ? 2 * words : 0;
     return std::move(report_);
   }

@@ -24,7 +24,7 @@ struct Pipeline::Machine {
       : configuration(c),
         design(design_of(parameters, grid, c)),
         clock("clock", 1, sc_core::SC_NS),
-        memory(design.shape.tiled()),
+        memory(make_memory(design, c)),
         reader(design.shape, memory),
         writer(design.shape, memory) {
     const bool fed = design.hot() && parameters.heat.radiation;
@@ -57,6 +57,11 @@ struct Pipeline::Machine {
     reader.connect(links.front()->fifo(), writer);
     writer.connect(links.back()->fifo());
     make_blocks();
+  }
+
+  static StateMemory make_memory(const Design& design, const Configuration& c) {
+    const CodeLayout layout(design);
+    return StateMemory(design.shape.tiled(), c.coded ? &layout : nullptr);
   }
 
   void make_blocks() {
@@ -128,6 +133,16 @@ struct Pipeline::Machine {
     if (poll && shared.cycle() % kPollEvery == 0) poll();
   }
 
+  using BuffersOf = std::vector<BufferCost> (*)(const CodeLayout&);
+  std::vector<BufferCost> buffers(BuffersOf of) const {
+    return memory.coded() ? of(memory.read_code().layout()) : std::vector<BufferCost>{};
+  }
+  std::int64_t bits_read() const {
+    return memory.coded() ? reader.coded_bits() : reader.cycles().busy * token_bits();
+  }
+  std::int64_t bits_written() const {
+    return memory.coded() ? writer.coded_bits() : writer.stored() * token_bits();
+  }
   std::int64_t token_bits() const { return std::int64_t{design.shape.lanes} * design.cell_bits(); }
 
   static std::size_t at(int t) { return static_cast<std::size_t>(t); }
@@ -205,6 +220,13 @@ void Pipeline::watch_feeds(FifoWatcher<UInt<16>>* watcher) {
   for (const auto& link : machine_->feed_links) link->fifo().watch(watcher);
 }
 
+void Pipeline::plant(CodeFault* fault) {
+  machine_->reader.plant(fault);
+  machine_->writer.plant(fault);
+}
+
+void Pipeline::watch_columns(ColumnWatcher* watcher) { machine_->writer.watch(watcher); }
+
 const Books& Pipeline::books() const { return machine_->writer.books(); }
 const state::Volume& Pipeline::written() const { return machine_->writer.written(); }
 
@@ -239,7 +261,8 @@ PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const Irradiance
   m.begin(pass, true);
   if (m.dram != nullptr)
     m.dram->begin_train(m.design.shape.tokens(), m.fed_steps(pass),
-                        irradiance == nullptr ? 0 : irradiance->bits());
+                        irradiance == nullptr ? 0 : irradiance->bits(),
+                        m.memory.coded() ? &m.memory.read_code() : nullptr);
   for (std::size_t t = 0; t < m.feeds.size(); ++t)
     m.feeds[t]->begin_pass(m.fed(pass, t) ? irradiance : nullptr, pass.tile);
 
@@ -296,7 +319,7 @@ std::vector<StageCycles> Pipeline::accounts() const {
 std::vector<StageReport> Pipeline::stages() const {
   const Machine& m = *machine_;
   std::vector<StageReport> reports{
-      {StageKind::reader, 0, 0, m.reader.cycles(), {}, {}, m.reader.cycles().busy * m.token_bits()}};
+      {StageKind::reader, 0, 0, m.reader.cycles(), m.buffers(reader_buffers), {}, m.bits_read()}};
   for (std::size_t t = 0; t < m.steps.size(); ++t)
     for (const auto& stage : m.steps[t]->stages())
       reports.push_back({stage->kind(), static_cast<int>(t), stage->lag(), stage->cycles(), stage->buffers(),
@@ -308,9 +331,9 @@ std::vector<StageReport> Pipeline::stages() const {
                      m.configuration.cascade - 1,
                      0,
                      m.writer.cycles(),
+                     m.buffers(writer_buffers),
                      {},
-                     {},
-                     m.writer.stored() * m.token_bits()});
+                     m.bits_written()});
   return reports;
 }
 

@@ -35,6 +35,7 @@ struct Configuration {
   int substeps = 1;                    // viscous law: copies of settle and spread in a time step
   bool overlap = true;                 // may a pass enter while the last one drains?
   int tile = 0;                        // cells along x that the memories hold, in whole blocks; 0: the grid
+  bool coded = false;                  // the state in memory has one bit for a token of air
   std::vector<ChannelDepth> depths{};  // of channels that differ from fifo_depth
 
   int depth_of(const std::string& channel) const {
@@ -91,6 +92,8 @@ class Pipeline {
   std::vector<CellFifo*> channels_behind_stages(int cascade);  // of one time step, for faults to be planted
   void plant(PortFault* fault);                                // null: none
   void plant(FeedFault* fault);
+  void plant(CodeFault* fault);
+  void watch_columns(ColumnWatcher* watcher);        // that are written with hw.coded
   void watch_feeds(FifoWatcher<UInt<16>>* watcher);  // their channels: kFirstFeedChannel + time step
   static constexpr int kFirstFeedChannel = 1000;
   const Books& books() const;            // of the pass that has been written last
