@@ -22,6 +22,7 @@ std::string giga(std::int64_t speed) { return fmt::format("{:.3f}", static_cast<
 std::string design_of(const Point& p) {
   std::string text = fmt::format("{} lanes x {} steps at {} MHz", p.hw.lanes, p.hw.cascade, p.clock_mhz);
   if (p.hw.substeps > 1) text += fmt::format(", {} sub-steps", p.hw.substeps);
+  if (p.hw.coded) text += ", coded";
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include "hwmodel/machine/dram_streams.h"
 #include "hwmodel/presets/memory_preset.h"
 #include "hwmodel/stream/feed.h"
+#include "hwmodel/stream/prediction.h"
 #include "hwmodel/stream/volume_port.h"
 #include "tests/hwmodel/lockstep_world.h"
 
@@ -205,6 +206,55 @@ TEST(Code, ADramGivesTheBurstsThatAreCounted) {
     EXPECT_EQ(streams.counts().reads, bursts) << seed;
   }
   EXPECT_GT(fed, 1);
+}
+
+// The blocks alone: the reader waits until the column has been written, whole.
+TEST(Code, AColumnIsReadOnlyWhenItHasBeenWritten) {
+  Design design{{}, {{1, 3, 1}, 1}, 1};
+  const CodeLayout layout(design);
+  state::Volume volume({1, 3, 1});
+  StateMemory memory(false, &layout);
+  Writer writer(design.shape, memory);
+  Reader reader(design.shape, memory);
+  CellFifo out("out", 0, 1, 8, 0), in("in", 1, 1, 8, 0);
+  reader.connect(out, writer), writer.connect(in);
+  memory.begin_train(volume);
+  reader.begin_pass(0), writer.begin_pass(0);
+  std::int64_t now = 0;
+  const auto cycle = [&](bool comes) {
+    reader.cycle(now), writer.cycle(now);
+    if (comes) in.put()[0] = {};
+    in.commit(), out.commit();
+    ++now;
+  };
+  for (int i = 0; i < 3; ++i) cycle(false);
+  reader.add_pass(0), writer.add_pass(0);
+  for (int i = 0; i < 3; ++i) cycle(true);
+  EXPECT_EQ(reader.cycles().starved, 3) << "two of three have been written";
+  cycle(false);
+  EXPECT_EQ(reader.cycles().starved, 4) << "the third one is written in this cycle";
+  cycle(false);
+  EXPECT_EQ(reader.cycles().busy, 4);
+}
+
+// Grids in which the column makes the reader wait, and single tokens would not: passes do not overlap.
+TEST(Code, PassesOverlapIfNobodyWaitsForAColumn) {
+  int apart = 0, overlapped = 0;
+  for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
+    for (int planes = 2; planes < 30; ++planes) {
+      const Start start = hostile_start(static_cast<std::uint64_t>(planes) + 70, law, {2, 9, planes});
+      Configuration c{2, 2, 2, 0};
+      const Design design = design_of(start.parameters, start.volume.grid, c);
+      const Pass pass{.first = 0, .steps = 2};
+      const bool plain = passes_overlap(design, c, pass);
+      c.coded = true;
+      const bool coded = passes_overlap(design, c, pass);
+      ASSERT_TRUE(agrees(start, c, 6)) << planes;
+      apart += plain && !coded;
+      overlapped += coded;
+    }
+  EXPECT_GE(apart, 1);
+  EXPECT_GE(overlapped, 3);
 }
 
 // 8 lanes, 8 steps: a quarter of the 1024 bits of irradiance that were sent at most, and of the cello's
