@@ -86,10 +86,12 @@ int run_explore(ExploreCommand command) {
   question.parameters = scene.parameters;
   const std::string name = scene.name;
   const step::Implementation& fast = find_implementation(common);
-  const run::Simulation ahead =
-      run_ahead(scene, common, command.points == 0 ? 0 : command.from, command.steps);
+  run::Simulation ahead = run_ahead(scene, common, command.from, command.steps);
   question.grid = ahead.volume().grid;
   question.first_step = ahead.step_number();
+  ahead.begin_step();  // its irradiance
+  question.irradiance = ahead.irradiance();
+  question.volume = &ahead.volume();
 
   explore::Axes axes = usual_axes(question);
   keep_only(axes, command.hw_sets);
@@ -142,7 +144,7 @@ void add_explore(CLI::App& program, Chosen& chosen) {
       ->capture_default_str();
   command
       ->add_option("--from", options->from,
-                   "steps that the software runs before what is simulated (mid-melt)")
+                   "steps that the software runs first (mid-melt): what lies in memory then is counted")
       ->capture_default_str();
   command->add_option("--points", options->points, "designs of the front that are simulated and verified")
       ->check(CLI::Range(0u, 1000u))
@@ -157,7 +159,7 @@ void add_explore(CLI::App& program, Chosen& chosen) {
   add_visibility(*command, options->common);
   command->footer(
       "--set also takes the device's numbers (device.bram=300, device.clock=250), and keeps one value of an\n"
-      "axis: hw.lanes, hw.cascade, hw.substeps, hw.fifo_depth, hw.overlap, hw.clock_mhz.");
+      "axis: hw.lanes, hw.cascade, hw.substeps, hw.fifo_depth, hw.overlap, hw.coded, hw.clock_mhz.");
   command->callback([options, &chosen] { chosen = [options] { return run_explore(*options); }; });
 }
 

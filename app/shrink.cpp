@@ -144,6 +144,8 @@ std::string machine_text(const hwmodel::Configuration& is) {
   add("fifo_depth", is.fifo_depth, usual.fifo_depth);
   add("stall_seed", is.stall_seed, usual.stall_seed);
   add("overlap", is.overlap ? 1 : 0, usual.overlap ? 1 : 0);
+  add("tile", is.tile, usual.tile);
+  add("coded", is.coded ? 1 : 0, usual.coded ? 1 : 0);
   return text;
 }
 

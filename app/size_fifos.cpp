@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "app/interrupt.h"
 #include "hwmodel/explore/size_fifos.h"
+#include "hwmodel/stream/tiling.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
@@ -30,12 +34,31 @@ void print_table(const explore::Sizing& sizing, const hwmodel::Configuration& c)
              sizing.channels.size(), sizing.cycles, hwmodel::kMostDepth, sizing.runs);
 }
 
+// What the feeds read in each step of visibility, by the software: on a DRAM it matters.
+using Streams = std::map<std::uint32_t, hwmodel::IrradianceStream>;
+Streams irradiance_of(const VerifiedStream& stream, const Common& common, const hwmodel::Shape& shape) {
+  Streams streams;
+  const rule::Heat& heat = stream.parameters.heat;
+  if (!heat.radiates()) return streams;
+  run::Simulation simulation(stream.parameters, stream.volume, find_implementation(common));
+  simulation.begin_at(stream.first_step);
+  for (std::uint32_t step = 0; step < stream.steps; ++step) {
+    simulation.begin_step();
+    if (streams.empty() || heat.is_visibility_step(simulation.step_number()))
+      streams.emplace(simulation.step_number(), hwmodel::IrradianceStream(*simulation.irradiance(), shape));
+    for (const step::Phase phase : simulation.phases()) simulation.run_phase(phase);
+    simulation.end_step();
+    stop_if_interrupted();
+  }
+  return streams;
+}
+
 }  // namespace
 
 void check_channels(const VerifiedStream& stream, const hwmodel::Preset& preset) {
   const hwmodel::Configuration& c = preset.configuration;
   const std::vector<std::string> names =
-      explore::channel_names({stream.parameters, {stream.grid, c.lanes}, c.substeps}, c);
+      explore::channel_names({stream.parameters, {stream.volume.grid, c.lanes}, c.substeps}, c);
   for (const hwmodel::ChannelDepth& one : c.depths)
     if (std::find(names.begin(), names.end(), one.name) == names.end())
       throw UsageError(
@@ -48,8 +71,13 @@ std::int64_t size_fifos(const VerifiedStream& stream, const Common& common, cons
   hwmodel::Configuration& c = preset.configuration;
   std::optional<explore::SizingMemory> memory;
   if (preset.caster.dram) memory = {*preset.caster.dram, preset.caster.clock_mhz};
-  const explore::Sizing sizing = explore::size_fifos(
-      {stream.parameters, stream.grid, c, stream.first_step, stream.steps, stop_if_interrupted}, memory);
+  const state::Grid grid = stream.volume.grid;
+  explore::TimedRun run{stream.parameters, grid, c, stream.first_step, stream.steps, stop_if_interrupted, {}};
+  Streams streams;
+  if (memory) streams = irradiance_of(stream, common, hwmodel::design_of(stream.parameters, grid, c).shape);
+  if (!streams.empty())
+    run.irradiance = [&](std::uint32_t step) { return &std::prev(streams.upper_bound(step))->second; };
+  const explore::Sizing sizing = explore::size_fifos(run, memory);
   c.depths.clear();
   for (const explore::SizedChannel& channel : sizing.channels)
     c.depths.push_back({channel.name, channel.depth});

@@ -12,7 +12,7 @@ namespace voxmelt::app {
 // What is to be verified.
 struct VerifiedStream {
   const rule::Parameters& parameters;
-  state::Grid grid;
+  const state::Volume& volume;
   std::uint32_t first_step;
   std::uint32_t steps;
 };

@@ -296,6 +296,10 @@ int run_verify(VerifyCommand command) {
   hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
   if (!command.size_fifos.empty() && fault != nullptr)
     throw UsageError("error: --size-fifos: not with --plant; a fault may change the cycles");
+  if (!command.size_fifos.empty() && preset.caster.dram && preset.configuration.coded)
+    throw UsageError(
+        "error: --size-fifos: not with hw.coded on hw.memory; what the memory moves would depend on each "
+        "state");
   scene::Scene scene = load_beginning(command);
   check_tile(scene, preset.configuration);
   if (preset.caster.dram && preset.configuration.tile != 0)
@@ -313,7 +317,7 @@ int run_verify(VerifyCommand command) {
   catch_interrupts();
   const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
 
-  const VerifiedStream stream{scene.parameters, ahead.volume().grid, ahead.step_number(), command.steps};
+  const VerifiedStream stream{scene.parameters, ahead.volume(), ahead.step_number(), command.steps};
   check_channels(stream, preset);
   std::optional<std::int64_t> sized_cycles;
   if (!command.size_fifos.empty())
@@ -422,7 +426,7 @@ void add_verify(CLI::App& program, Chosen& chosen) {
   command->footer(
       "--set also takes hw.lanes (1, 2, 4 .. 32), hw.cascade (1 .. 16), hw.substeps (1 .. 64), "
       "hw.fifo_depth (1 .. 1024), hw.stall_seed (0: none), hw.overlap (0, 1), hw.tile (0: none), "
-      "hw.memory (ddr4-2400), hw.clock_mhz; the ray caster's keys are in "
+      "hw.coded (0, 1), hw.memory (ddr4-2400), hw.clock_mhz; the ray caster's keys are in "
       "docs/hardware-picture.md.");
   command->callback([options, &chosen] { chosen = [options] { return run_verify(*options); }; });
 }

@@ -9,7 +9,7 @@ namespace {
 auto order_of(const Point& p) {
   const Configuration& hw = p.hw;
   return std::tuple(-p.speed, p.taken.fullest, p.clock_mhz, hw.lanes, hw.cascade, hw.substeps, hw.fifo_depth,
-                    hw.overlap ? 0 : 1);
+                    hw.overlap ? 0 : 1, hw.coded ? 1 : 0);
 }
 
 template <class May>  // may(point): is it a candidate?

@@ -26,6 +26,8 @@ Axes usual_axes(const Question& question) {
     for (int n = 2; n <= std::min<int>(viscous.substeps, kMostSubsteps); n *= 2) axes.substeps.push_back(n);
   axes.fifo_depth = {1, 2, 4, 8};
   axes.overlap = {0, 1};
+  axes.coded = {0};
+  if (question.volume != nullptr && question.memory) axes.coded = {0, 1};
   for (int i = 1; i <= kClocks; ++i)
     if (const int mhz = question.device.clock_mhz * i / kClocks; mhz > 0) axes.clock_mhz.push_back(mhz);
   return axes;
@@ -37,11 +39,12 @@ void keep_only(Axes& axes, const std::vector<std::string>& sets) {
   scene::Reader root(document, "");
   std::optional<scene::Reader> hw = root.table("hw");
   if (!hw) return;
-  const std::array<std::pair<const char*, std::vector<int>*>, 6> keys{{{"lanes", &axes.lanes},
+  const std::array<std::pair<const char*, std::vector<int>*>, 7> keys{{{"lanes", &axes.lanes},
                                                                        {"cascade", &axes.cascade},
                                                                        {"substeps", &axes.substeps},
                                                                        {"fifo_depth", &axes.fifo_depth},
                                                                        {"overlap", &axes.overlap},
+                                                                       {"coded", &axes.coded},
                                                                        {"clock_mhz", &axes.clock_mhz}}};
   for (const auto& [key, values] : keys) {
     if (!hw->has(key)) continue;

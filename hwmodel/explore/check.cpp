@@ -24,11 +24,11 @@ std::int64_t simulated_on(const std::vector<Train>& trains, int clock_mhz, const
 Checked check(const Question& question, const Swept& swept, std::size_t at, std::uint32_t steps,
               const CheckInput& input) {
   const Point& point = swept.points[at];
-  const Design& design = parts_of(swept, point.hw).design;
+  const PartList& parts = parts_of(swept, point.hw);
   Checked checked;
   checked.point = at;
   checked.steps = steps == 0 ? static_cast<std::uint32_t>(point.hw.cascade) : steps;
-  const RunTime time = time_of(design, point.hw, point.clock_mhz, question, checked.steps);
+  const RunTime time = time_of(parts, point.hw, point.clock_mhz, question, checked.steps);
   checked.predicted = time.cycles, checked.predicted_on = time.on_memory;
 
   VerifyOptions options;
@@ -36,7 +36,7 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   options.configuration = point.hw;
   options.poll = input.poll;
   std::optional<DramStreams> streams;
-  if (question.memory) streams.emplace(design, point.hw.cascade, *question.memory, point.clock_mhz);
+  if (question.memory) streams.emplace(parts.design, point.hw.cascade, *question.memory, point.clock_mhz);
   options.memory = streams ? &*streams : nullptr;
   const VerifyReport report =
       verify(question.parameters, input.start, question.first_step, input.fast, input.tuning, options);
@@ -44,8 +44,13 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   if (!checked.good) checked.difference = text_of(*report.mismatch);
   checked.compared_cells = report.compared_cells;
   checked.on_memory = report.cycles;
-  checked.cycles = question.memory ? timing_of({question.parameters, question.grid, point.hw,
-                                                question.first_step, checked.steps, input.poll},
+  checked.cycles = question.memory ? timing_of({question.parameters,
+                                                question.grid,
+                                                point.hw,
+                                                question.first_step,
+                                                checked.steps,
+                                                input.poll,
+                                                {}},
                                                nullptr)
                                          .cycles
                                    : report.cycles;

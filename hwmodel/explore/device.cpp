@@ -110,6 +110,7 @@ Family load_family(const std::string& name, const std::string& place) {
   product.finish();
   f.divider = logic_of(root, "divider"), f.random_block = logic_of(root, "random_block");
   f.channel = logic_of(root, "channel"), f.base = logic_of(root, "base");
+  f.coder = logic_of(root, "coder");
   f.port = logic(port);
   f.port_bits = whole(port, "buffer_bits", 1, kWidest),
   f.port_words = whole(port, "buffer_words", 1, kWidest);

@@ -44,6 +44,7 @@ json family_json(const Family& f) {
           {"random_block", logic_json(f.random_block)},
           {"channel", logic_json(f.channel)},
           {"port", logic_json(f.port)},
+          {"coder", logic_json(f.coder)},
           {"base", logic_json(f.base)}};
   for (const auto& [kind, cost] : f.stages) {
     json& stage = of["stages"][std::string(name_of(kind))];
@@ -69,9 +70,10 @@ json parts_json(const PartList& parts) {
                       {"dividers", stage.units.dividers},
                       {"random_blocks_per_8_lanes", stage.units.random_blocks}});
   }
-  return {{"lanes", parts.design.shape.lanes},     {"substeps", parts.design.substeps},
-          {"cell_bits", parts.design.cell_bits()}, {"fed", parts.fed},
-          {"tokens", parts.design.shape.tokens()}, {"stages", stages}};
+  return {{"lanes", parts.design.shape.lanes},      {"substeps", parts.design.substeps},
+          {"cell_bits", parts.design.cell_bits()},  {"fed", parts.fed},
+          {"tokens", parts.design.shape.tokens()},  {"irradiance_bits", parts.content.irradiance_bits},
+          {"coded_bits", parts.content.coded_bits}, {"stages", stages}};
 }
 
 json point_json(const Explored& of, std::size_t at) {
@@ -82,6 +84,7 @@ json point_json(const Explored& of, std::size_t at) {
                 {"substeps", p.hw.substeps},
                 {"fifo_depth", p.hw.fifo_depth},
                 {"overlap", p.hw.overlap ? 1 : 0},
+                {"coded", p.hw.coded ? 1 : 0},
                 {"clock_mhz", p.clock_mhz}}},
               {"cycles", p.cycles},
               {"cycles_on_memory", p.on_memory},
@@ -149,6 +152,7 @@ json json_of(const Explored& of) {
                 {"substeps", of.axes.substeps},
                 {"fifo_depth", of.axes.fifo_depth},
                 {"overlap", of.axes.overlap},
+                {"coded", of.axes.coded},
                 {"clock_mhz", of.axes.clock_mhz}}},
               {"configurations", of.swept.points.size()},
               {"seconds", of.swept.seconds},

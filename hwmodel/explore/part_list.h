@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hwmodel/explore/content.h"
 #include "hwmodel/explore/device.h"
 #include "hwmodel/explore/mapping.h"
 #include "hwmodel/stream/stage.h"
@@ -23,6 +24,7 @@ struct PartList {
   Design design;
   std::vector<StagePart> stages;
   bool fed = false;  // with irradiance
+  Content content;   // of the state with which the run begins
 
   // Of a family, a time step without its channels and ports.
   std::int64_t lut = 0, ff = 0, dsp = 0;

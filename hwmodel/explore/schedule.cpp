@@ -17,16 +17,18 @@ int steps_of_pass(const Design& design, const Configuration& c, std::uint32_t st
   return static_cast<int>(steps);
 }
 
-void add_pass(Train& train, const Design& design, const Pass& pass) {
+void add_pass(Train& train, const Design& design, const Configuration& c, const Pass& pass,
+              const Content& content) {
   const Shape& shape = design.shape;
   const std::int64_t cells = shape.tokens() * shape.lanes;
   ++train.passes;
   train.list.push_back(pass);
   train.work.tokens += shape.tokens();
-  train.work.read_bits += cells * design.cell_bits();
-  train.work.written_bits += cells * design.cell_bits();
+  const std::int64_t state_bits = c.coded ? content.coded_bits : cells * design.cell_bits();
+  train.work.read_bits += state_bits;
+  train.work.written_bits += state_bits;
   if (design.hot() && design.parameters.heat.radiation && pass.begins())
-    train.work.fed_bits += cells * 16 * pass.steps;
+    train.work.fed_bits += content.irradiance_bits * pass.steps;
 }
 
 void end_train(Train& train, const Design& design, const Configuration& c, const Pass& first) {
@@ -36,11 +38,12 @@ void end_train(Train& train, const Design& design, const Configuration& c, const
 }
 
 // One time step with more sub-steps than the machine has copies of settle and spread: pass after pass.
-void add_substeps(std::vector<Train>& trains, const Design& design, const Configuration& c, Pass pass) {
+void add_substeps(std::vector<Train>& trains, const Design& design, const Configuration& c, Pass pass,
+                  const Content& content) {
   for (; pass.substep < pass.substeps; pass.substep += pass.count) {
     pass.count = std::min(pass.count, pass.substeps - pass.substep);
     Train& train = trains.emplace_back();
-    add_pass(train, design, pass);
+    add_pass(train, design, c, pass, content);
     train.steps = pass.ends() ? 1 : 0;
     end_train(train, design, c, pass);
   }
@@ -49,7 +52,7 @@ void add_substeps(std::vector<Train>& trains, const Design& design, const Config
 }  // namespace
 
 std::vector<Train> trains_of(const Design& design, const Configuration& c, std::uint32_t first_step,
-                             std::int64_t steps) {
+                             std::int64_t steps, const Content& content) {
   const rule::Heat& heat = design.parameters.heat;
   const int substeps = design.paper() ? 1 : design.parameters.flow.viscous.substeps;
   std::vector<Train> trains;
@@ -58,7 +61,7 @@ std::vector<Train> trains_of(const Design& design, const Configuration& c, std::
     pass.substeps = substeps == 0 ? c.substeps : substeps;
     pass.count = std::min(pass.substeps, c.substeps);
     if (!pass.ends()) {
-      add_substeps(trains, design, c, pass);
+      add_substeps(trains, design, c, pass, content);
       ++done;
       continue;
     }
@@ -66,7 +69,7 @@ std::vector<Train> trains_of(const Design& design, const Configuration& c, std::
     pass.steps = steps_of_pass(design, c, pass.first, steps - done);
     const Pass first = pass;
     while (true) {
-      add_pass(train, design, pass);
+      add_pass(train, design, c, pass, content);
       train.steps += pass.steps;
       done += pass.steps;
       const std::uint32_t step = first_step + static_cast<std::uint32_t>(done);

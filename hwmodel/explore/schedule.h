@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hwmodel/explore/content.h"
 #include "hwmodel/machine/stream_twin.h"
 #include "hwmodel/stream/pipeline.h"
 
@@ -16,9 +17,9 @@ struct Train {
   StreamWork work;         // one pass of the twin: the tokens of all passes, one after another
 };
 
-// Of a scene that counts its sub-steps from the state, every step is taken to have as many as the machine has
-// copies.
+// Every pass is taken to move what `content` says. Of a scene that counts its sub-steps from the state, every
+// step is taken to have as many as the machine has copies.
 std::vector<Train> trains_of(const Design& design, const Configuration& configuration,
-                             std::uint32_t first_step, std::int64_t steps);
+                             std::uint32_t first_step, std::int64_t steps, const Content& content = {});
 
 }  // namespace voxmelt::hwmodel::explore

@@ -80,8 +80,9 @@ Sizing size_fifos(const TimedRun& run, const std::optional<SizingMemory>& memory
 
 std::string toml_of(const Sizing& sizing, const Configuration& c, const std::string& title) {
   std::string text = fmt::format(
-      "title = \"{}\"\n[hw]\nlanes = {}\ncascade = {}\nsubsteps = {}\noverlap = {}\nstall_seed = {}\n", title,
-      c.lanes, c.cascade, c.substeps, c.overlap ? 1 : 0, c.stall_seed);
+      "title = \"{}\"\n[hw]\nlanes = {}\ncascade = {}\nsubsteps = {}\noverlap = {}\ncoded = {}\nstall_seed = "
+      "{}\n",
+      title, c.lanes, c.cascade, c.substeps, c.overlap ? 1 : 0, c.coded ? 1 : 0, c.stall_seed);
   for (const SizedChannel& channel : sizing.channels)
     text += fmt::format("[[hw.channel]]\nname = \"{}\"\ndepth = {}\n", channel.name, channel.depth);
   return text;

@@ -37,6 +37,16 @@ Fixed fixed_of(const PartList& parts, const Configuration& hw, const Family& f) 
   channel(1, parts.design.cell_bits());
   for (const StagePart& stage : parts.stages) channel(steps, stage.output_bits);
   if (parts.fed) channel(steps, 16);
+  if (hw.coded) {
+    lut += 2 * f.coder.lut, ff += 2 * f.coder.ff;
+    const CodeLayout layout(parts.design);
+    for (const auto& buffers : {reader_buffers(layout), writer_buffers(layout)})
+      for (const BufferCost& one : buffers)
+        if (one.words <= f.register_words)
+          ff += one.total();
+        else
+          fixed.lutram += luts_to_hold(one.words, one.bits, f);
+  }
   lut += fixed.lutram;
   return fixed;
 }
@@ -100,10 +110,10 @@ std::optional<std::int64_t> least_of(Resource resource, const PartList& parts, c
   return least;
 }
 
-RunTime time_of(const Design& design, const Configuration& hw, int clock_mhz, const Question& question,
+RunTime time_of(const PartList& parts, const Configuration& hw, int clock_mhz, const Question& question,
                 std::int64_t steps) {
   RunTime time;
-  for (const Train& train : trains_of(design, hw, question.first_step, steps)) {
+  for (const Train& train : trains_of(parts.design, hw, question.first_step, steps, parts.content)) {
     time.cycles += train.work.cycles;
     time.on_memory +=
         question.memory ? cycles_on(train.work, *question.memory, clock_mhz) : train.work.cycles;
@@ -126,26 +136,33 @@ const PartList& parts_of(const Swept& swept, const Configuration& hw) {
 Swept sweep(const Question& question, const Axes& axes, const std::function<void()>& poll) {
   const auto begin = std::chrono::steady_clock::now();
   Swept swept;
-  for (const int lanes : axes.lanes)
+  for (const int lanes : axes.lanes) {
+    const Content content =
+        content_of({question.parameters, {question.grid, lanes}, 1}, question.irradiance, question.volume);
     for (const int substeps : axes.substeps) {
       swept.parts.push_back(
           part_list({question.parameters, {question.grid, lanes}, substeps}, question.device.family));
+      swept.parts.back().content = content;
       const PartList& parts = swept.parts.back();
       for (const int cascade : axes.cascade)
         for (const int depth : axes.fifo_depth) {
           if (poll) poll();
           Configuration hw;
           hw.lanes = lanes, hw.cascade = cascade, hw.substeps = substeps, hw.fifo_depth = depth;
-          const Taken taken = taken_by(parts, hw, question.device);
-          for (const int overlap : axes.overlap)
-            for (const int mhz : axes.clock_mhz) {
-              hw.overlap = overlap == 1;
-              const RunTime time = time_of(parts.design, hw, mhz, question, question.steps);
-              swept.points.push_back(
-                  {hw, mhz, time.cycles, time.on_memory, speed_of(question, time, mhz), taken});
-            }
+          for (const int coded : axes.coded) {
+            hw.coded = coded == 1;
+            const Taken taken = taken_by(parts, hw, question.device);
+            for (const int overlap : axes.overlap)
+              for (const int mhz : axes.clock_mhz) {
+                hw.overlap = overlap == 1;
+                const RunTime time = time_of(parts, hw, mhz, question, question.steps);
+                swept.points.push_back(
+                    {hw, mhz, time.cycles, time.on_memory, speed_of(question, time, mhz), taken});
+              }
+          }
         }
     }
+  }
   swept.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return swept;
 }

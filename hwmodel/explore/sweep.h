@@ -22,12 +22,14 @@ struct Question {
   std::int64_t steps = 32;
   Device device;
   std::optional<memory::Parameters> memory;  // none: it always answers
+  const Irradiance* irradiance = nullptr;    // of the first step; null: dark
+  const state::Volume* volume = nullptr;     // before it; null: hw.coded is not tried
 };
 
 // The values that are tried. A further axis is a list here, with its values and its key in axes.cpp, a loop
 // in `sweep`, and a column of the CSV.
 struct Axes {
-  std::vector<int> lanes, cascade, substeps, fifo_depth, overlap, clock_mhz;
+  std::vector<int> lanes, cascade, substeps, fifo_depth, overlap, coded, clock_mhz;
 };
 Axes usual_axes(const Question& question);
 // `sets` are "hw.lanes=8": of that axis this value alone is tried. Throws scene::InputError.
@@ -72,7 +74,7 @@ std::optional<std::int64_t> least_of(Resource resource, const PartList& parts, c
 struct RunTime {
   std::int64_t cycles = 0, on_memory = 0, steps = 0;
 };
-RunTime time_of(const Design& design, const Configuration& hw, int clock_mhz, const Question& question,
+RunTime time_of(const PartList& parts, const Configuration& hw, int clock_mhz, const Question& question,
                 std::int64_t steps);
 std::int64_t speed_of(const Question& question, const RunTime& time, int clock_mhz);
 

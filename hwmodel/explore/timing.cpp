@@ -37,7 +37,7 @@ Timing timing_of(const TimedRun& run, StreamMemory* memory) {
   pipeline.memory(memory);
   pipeline.poll(run.poll);
   state::Volume volume(run.grid);
-  const state::Field<std::uint16_t> dark(run.grid);
+  const IrradianceStream dark(Irradiance(run.grid), pipeline.design().shape);
   Timing timing;
   for (const Train& train : trains_of(pipeline.design(), run.configuration, run.first_step, run.steps)) {
     std::size_t at = 0;
@@ -45,7 +45,8 @@ Timing timing_of(const TimedRun& run, StreamMemory* memory) {
       if (++at == train.list.size()) return {};
       return train.list[at];
     };
-    const PassEnd end = pipeline.run_train(train.list.front(), next, &dark, volume);
+    const PassEnd end = pipeline.run_train(
+        train.list.front(), next, run.irradiance ? run.irradiance(train.list.front().first) : &dark, volume);
     timing.cycles += end.cycles;
     timing.hangs |= end.hangs;
     if (end.hangs) break;

@@ -18,6 +18,8 @@ struct TimedRun {
   std::uint32_t first_step = 0;
   std::int64_t steps = 0;
   std::function<void()> poll;
+  // What the feeds read from a step of visibility on, or from the first step; empty: nothing.
+  std::function<const IrradianceStream*(std::uint32_t step)> irradiance;
 };
 
 struct Timing {

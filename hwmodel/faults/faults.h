@@ -70,6 +70,15 @@ enum class Fault : std::uint8_t {
   tile_halo_stale,
   tile_overwritten,
   tile_counted_twice,
+  // feeds
+  feed_early,
+  feed_mask,
+  feed_word_lost,
+  // the occupancy code
+  code_lane_missed,
+  code_bit_moved,
+  code_token_lost,
+  code_bit_early,
   // buffers and channels
   buffer_bit,
   fifo_overwrite,
@@ -81,6 +90,12 @@ enum class Fault : std::uint8_t {
 
 inline bool is_of_tiles(Fault fault) {
   return fault >= Fault::tile_vent && fault <= Fault::tile_counted_twice;
+}
+
+inline bool is_of_feeds(Fault fault) { return fault >= Fault::feed_early && fault <= Fault::feed_word_lost; }
+
+inline bool is_of_the_code(Fault fault) {
+  return fault >= Fault::code_lane_missed && fault <= Fault::code_bit_early;
 }
 
 struct FaultInfo {

@@ -15,7 +15,7 @@ class TileFault final : public PortFault {
  public:
   // Both must outlive it. It does nothing if the plan's fault is not one of these.
   TileFault(FaultPlan& plan, Pipeline& pipeline);
-  ~TileFault() override { pipeline_.plant(nullptr); }
+  ~TileFault() override { pipeline_.plant(static_cast<PortFault*>(nullptr)); }
   TileFault(const TileFault&) = delete;
   TileFault& operator=(const TileFault&) = delete;
 

@@ -221,7 +221,7 @@ void Checker::report(const Channel& channel, Mismatch::Kind kind, std::size_t pa
   const Wanted& wanted = passes_[pass - written_];
   const bool written = kind == Mismatch::Kind::memory || kind == Mismatch::Kind::books,
              in_channel = kind == Mismatch::Kind::channel;
-  mismatch_ = std::make_unique<Mismatch>(Mismatch{
+  report({
       .kind = kind,
       .where =
           in_channel ? channel.name : std::string(name_of(written ? StageKind::writer : channel.producer)),
@@ -238,6 +238,11 @@ void Checker::report(const Channel& channel, Mismatch::Kind kind, std::size_t pa
       .expected = expected,
       .actual = actual,
   });
+}
+
+void Checker::report(Mismatch mismatch) {
+  if (mismatch_ != nullptr) return;
+  mismatch_ = std::make_unique<Mismatch>(std::move(mismatch));
   if (stops_) pipeline_.stop();
 }
 

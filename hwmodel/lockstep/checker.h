@@ -41,6 +41,9 @@ class Checker final : public FifoWatcher<Cell> {
   void begin_train();
   void add_pass(Wanted wanted);
 
+  const Wanted& being_written() const { return passes_.front(); }
+  void report(Mismatch mismatch);  // that somebody else has seen; the first one counts
+
   void entered(int channel, std::int64_t ordinal, const Cell* lanes) override;
   void left(int channel, std::int64_t ordinal, const Cell* lanes) override;
 

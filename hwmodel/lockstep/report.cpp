@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -26,6 +27,7 @@ json stage_json(const StageReport& stage) {
           {"phase", name_of(phase_of(stage.kind))},
           {"cascade", stage.cascade},
           {"lag", stage.lag},
+          {"moved_bits", stage.moved_bits},
           {"cycles",
            {{"busy", stage.cycles.busy},
             {"starved", stage.cycles.starved},
@@ -108,15 +110,23 @@ Units units_of(const VerifyReport& report, int lanes) {
   return sum;
 }
 
-// What the memory has to give and take in every cycle in which nothing stalls.
+// What the memory has to give and take in a cycle in which nothing stalls. What depends on the state is the
+// mean over the run.
 struct Traffic {
-  std::int64_t read = 0, written = 0, irradiance = 0;
-  std::int64_t total() const { return read + written + irradiance; }
+  double read = 0, written = 0, irradiance = 0;
+  double total() const { return read + written + irradiance; }
 };
-Traffic traffic_of(const VerifyReport& report, const Design& design, int lanes) {
-  Traffic bits{std::int64_t{lanes} * design.cell_bits(), std::int64_t{lanes} * design.cell_bits(), 0};
-  for (const StageReport& stage : report.stages)
-    if (stage.kind == StageKind::feed) bits.irradiance += std::int64_t{lanes} * 16;
+Traffic traffic_of(const VerifyReport& report) {
+  Traffic bits;
+  for (const StageReport& stage : report.stages) {
+    if (stage.cycles.busy == 0) continue;
+    const double mean =
+        std::round(100 * static_cast<double>(stage.moved_bits) / static_cast<double>(stage.cycles.busy)) /
+        100;
+    if (stage.kind == StageKind::reader) bits.read = mean;
+    if (stage.kind == StageKind::writer) bits.written = mean;
+    if (stage.kind == StageKind::feed) bits.irradiance += mean;
+  }
   return bits;
 }
 
@@ -124,7 +134,7 @@ Traffic traffic_of(const VerifyReport& report, const Design& design, int lanes) 
 std::string summary(const VerifyReport& report, const Design& design, const Configuration& configuration) {
   const Shape& shape = design.shape;
   const Units units = units_of(report, configuration.lanes);
-  const Traffic traffic = traffic_of(report, design, configuration.lanes);
+  const Traffic traffic = traffic_of(report);
   const int width = shape.tiled() ? shape.blocks() * shape.lanes : shape.grid.x;
   const auto plane = static_cast<double>(width) * shape.grid.y * configuration.cascade;
   std::string text = fmt::format(
@@ -142,9 +152,9 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
   text += fmt::format("channels: {} of depth {}, {} bits; high-water mark {} ({})\n", report.channels.size(),
                       configuration.fifo_depth, channel_bits(report, configuration.lanes), highest, fullest);
   text += fmt::format(
-      "memory traffic, bits per cycle: {} read + {} written + {} irradiance = {}; at 200 MHz {:.1f} GB/s\n",
-      traffic.read, traffic.written, traffic.irradiance, traffic.total(),
-      static_cast<double>(traffic.total()) / 8 * 0.2);
+      "memory traffic, bits per cycle: {:.1f} read + {:.1f} written + {:.1f} irradiance = {:.1f}; at 200 MHz "
+      "{:.1f} GB/s\n",
+      traffic.read, traffic.written, traffic.irradiance, traffic.total(), traffic.total() / 8 * 0.2);
 
   const auto cells = static_cast<double>(shape.grid.cells()) * report.steps;
   const double per_cycle = cells / static_cast<double>(report.cycles);
@@ -188,7 +198,7 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
   const Shape& shape = design.shape;
   const state::Grid g = shape.grid;
   const Units units = units_of(report, configuration.lanes);
-  const Traffic traffic = traffic_of(report, design, configuration.lanes);
+  const Traffic traffic = traffic_of(report);
   json result{{"grid", {g.x, g.y, g.z}},
               {"law", design.paper() ? "paper" : "viscous"},
               {"hw",
@@ -197,6 +207,7 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
                 {"substeps", configuration.substeps},
                 {"overlap", configuration.overlap ? 1 : 0},
                 {"tile", configuration.tile},
+                {"coded", configuration.coded ? 1 : 0},
                 {"fifo_depth", configuration.fifo_depth},
                 {"stall_seed", configuration.stall_seed}}},
               {"tiles",
@@ -226,6 +237,10 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
               {"seconds_model", report.model_seconds},
               {"stages", stages},
               {"channels", channels}};
+  if (report.irradiance)
+    result["irradiance"] = {{"lit_cells", report.irradiance->lit_cells},
+                            {"lit_tokens", report.irradiance->lit_tokens},
+                            {"stored_bits", report.irradiance->bits}};
   if (report.strike)
     result["planted"] = {{"where", report.strike->where},
                          {"step", report.strike->step},

@@ -12,10 +12,14 @@
 #include <vector>
 
 #include "hwmodel/faults/channel_fault.h"
+#include "hwmodel/faults/code_fault.h"
+#include "hwmodel/faults/irradiance_fault.h"
 #include "hwmodel/faults/planted_stages.h"
 #include "hwmodel/faults/tile_fault.h"
 #include "hwmodel/lockstep/checker.h"
+#include "hwmodel/lockstep/column_checker.h"
 #include "hwmodel/lockstep/diagnosis.h"
+#include "hwmodel/lockstep/feed_checker.h"
 #include "hwmodel/lockstep/waves.h"
 #include "hwmodel/stream/prediction.h"
 #include "kernel/automaton/state/digest.h"
@@ -45,11 +49,17 @@ class Run {
                                                  : planted_stages(plan_)),
         channel_fault_(plan_, pipeline_),
         tile_fault_(plan_, pipeline_),
+        irradiance_fault_(plan_, pipeline_),
+        code_fault_(plan_, pipeline_),
         checker_(pipeline_),
+        feed_checker_(pipeline_, checker_),
+        column_checker_(pipeline_, checker_),
         software_(parameters, start, first_step, fast, tuning,
                   stages_of_step({parameters, pipeline_.design().shape})),
         memory_(start) {
     pipeline_.watch(&checker_);
+    pipeline_.watch_feeds(&feed_checker_);
+    pipeline_.watch_columns(&column_checker_);
     pipeline_.poll(options.poll);
     if (options.waves) {
       waves_.emplace(pipeline_, options.waves_from);
@@ -186,12 +196,18 @@ class Run {
     checker_.add_pass(std::move(wanted));
     channel_fault_.add_pass(pass);
     tile_fault_.add_pass(pass);
+    irradiance_fault_.add_pass(pass);
+    code_fault_.add_pass(pass);
+    feed_checker_.add_pass(pass);
   }
 
   bool run_train(const Pass& first) {
     checker_.begin_train();
     channel_fault_.begin_train();
     tile_fault_.begin_train();
+    irradiance_fault_.begin_train();
+    code_fault_.begin_train();
+    feed_checker_.begin_train(software_.irradiance());
     add_pass(first);
     Pass last = first;
     const auto next = [&]() -> std::optional<Pass> {
@@ -241,8 +257,11 @@ class Run {
     const auto begin = std::chrono::steady_clock::now();
     PassEnd end;
     if (waves_) waves_->begin_train(report_.cycles);
+    std::optional<IrradianceStream> stream;
+    if (irradiance != nullptr)
+      report_.irradiance = stream.emplace(*irradiance, pipeline_.design().shape).counts();
     try {
-      end = pipeline_.run_train(first, next, irradiance, memory_);
+      end = pipeline_.run_train(first, next, stream ? &*stream : nullptr, memory_);
     } catch (const Pipeline::StageError& error) {
       if (checker_.mismatch() != nullptr) {  // what follows a difference may be anything
         report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
@@ -321,7 +340,11 @@ class Run {
   Pipeline pipeline_;
   ChannelFault channel_fault_;
   TileFault tile_fault_;
+  IrradianceFault irradiance_fault_;
+  PlantedCode code_fault_;
   Checker checker_;
+  FeedChecker feed_checker_;
+  ColumnChecker column_checker_;
   Expectation software_;
   state::Volume memory_;
   std::vector<std::vector<Expected>> expected_;   // of the pass that the software has run last

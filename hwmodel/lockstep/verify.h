@@ -53,6 +53,8 @@ struct VerifyReport {
   std::optional<FaultPlan::Strike> strike;  // of the planted fault
   std::vector<StageReport> stages;
   std::vector<ChannelReport> channels;
+  std::optional<IrradianceStream::Counts>
+      irradiance;                   // that lies in memory at the end; none without radiation
   std::vector<TrainReport> trains;  // those that ended well
   std::string waves;                // VCD; empty: there are none
   Timeline timeline;                // empty, unless it was asked for

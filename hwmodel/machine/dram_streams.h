@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "hwmodel/machine/coded_port.h"
 #include "hwmodel/memory/dram.h"
 #include "hwmodel/stream/pipeline.h"
 #include "hwmodel/stream/stream_memory.h"
@@ -18,14 +19,28 @@ class DramStreams final : public StreamMemory {
  public:
   DramStreams(const Design& design, int cascade, const memory::Parameters& parameters, int clock_mhz);
 
-  void begin_train(std::int64_t tokens, int fed) override;
+  void begin_train(std::int64_t tokens, int fed, std::int64_t irradiance_bits,
+                   const StoredColumns* columns) override;
   void add_pass(int fed) override;
-  bool may_read(std::int64_t now) const override { return state_.has_token(now); }
-  bool may_feed(int t, std::int64_t now) const override { return feed(t).has_token(now); }
-  bool may_write(std::int64_t now) const override { return unwritten_[now & 1] <= kAhead; }
-  void read(std::int64_t now) override { state_.use(now); }
-  void fed(int t, std::int64_t now) override { feeds_[static_cast<std::size_t>(t)].use(now); }
-  void written(std::int64_t now) override { ++tokens_written_, last_written_ = now; }
+  bool may_read(std::int64_t bits, std::int64_t now) const override {
+    return coded_ ? columns_.has(bits, now) : state_.has(state_.used_of_pass() + token_, now);
+  }
+  bool may_feed(int t, std::int64_t bits, std::int64_t now) const override { return feed(t).has(bits, now); }
+  bool may_write(std::int64_t now) const override {
+    return coded_ ? written_columns_.may_write(now) : unwritten_[now & 1] <= kAhead;
+  }
+  void read(std::int64_t bits, bool ends, std::int64_t now) override {
+    if (coded_) return columns_.use(bits, ends, now);
+    const std::int64_t used = state_.used_of_pass() + token_;
+    state_.use(used, used == state_.pass, now);
+  }
+  void fed(int t, std::int64_t bits, bool ends, std::int64_t now) override {
+    feeds_[static_cast<std::size_t>(t)].use(bits, ends, now);
+  }
+  void written(std::int64_t bits, bool ends, std::int64_t now) override {
+    if (coded_) return written_columns_.written(bits, ends, now);
+    ++tokens_written_, last_written_ = now;
+  }
   void cycle(std::int64_t now) override;
 
   memory::Counts counts() const { return dram_->counts(); }  // of the last train
@@ -37,33 +52,43 @@ class DramStreams final : public StreamMemory {
   static std::int64_t burst_bits(std::int64_t bits) {
     return (bits + kBurstBits - 1) / kBurstBits * kBurstBits;
   }
-  // A stream that is read ahead. Counts are bits, and run on over all passes.
+  // A stream that is read ahead. Counts are bits, and run on over all passes. A pass begins with a burst.
   struct Input {
     int port = -1;
-    std::int64_t token = 0, base = 0, pass = 0;  // bits of a token; bytes; bits of a pass
+    std::int64_t base = 0, pass = 0;  // bytes; bits of a pass, which may be none
     std::int64_t wanted = 0, asked = 0;
     std::array<std::int64_t, 2> come{};  // at the begin of even and of odd cycles
-    std::int64_t used = 0, before = 0, last_used = -1;
+    std::int64_t begun = 0, used = 0, before = 0, last_used = -1;
 
-    bool has_token(std::int64_t now) const { return used + token <= come[static_cast<std::size_t>(now & 1)]; }
-    void use(std::int64_t now) {
+    std::int64_t used_of_pass() const { return used - begun; }
+    // Have the first `bits` of the present pass come?
+    bool has(std::int64_t bits, std::int64_t now) const {
+      return begun + bits <= come[static_cast<std::size_t>(now & 1)];
+    }
+    // They are not needed any more; `ends`: nor is the rest of the pass.
+    void use(std::int64_t bits, bool ends, std::int64_t now) {
       before = used, last_used = now;
-      used += token;
-      if (used % burst_bits(pass) == pass) used = burst_bits(used);  // a pass ends with its burst
+      used = begun + bits;
+      if (ends) used = begun += burst_bits(pass);
     }
     std::int64_t used_before(std::int64_t now) const { return last_used == now ? before : used; }
     std::int64_t address(std::int64_t bits) const { return base + bits % burst_bits(pass) / 8; }
   };
+  void cycle_state(std::int64_t now);
   const Input& feed(int t) const { return feeds_[static_cast<std::size_t>(t)]; }
   void fetch(Input& from, std::int64_t limit, std::int64_t now);
 
   memory::Parameters parameters_;
   int clock_mhz_;
   std::unique_ptr<memory::Dram> dram_;
-  Input state_;
+  CodeLayout layout_;
+  bool coded_ = false;
+  Input state_;                  // unless it is coded
+  CodedInput columns_;           // if it is
+  CodedOutput written_columns_;  // likewise
   std::vector<Input> feeds_;
   int writer_ = -1;
-  std::int64_t tokens_ = 0;                                           // of a pass
+  std::int64_t token_ = 0, tokens_ = 0;                               // bits of a token; tokens of a pass
   std::int64_t tokens_written_ = 0, last_written_ = -1, handed_ = 0;  // tokens; bits given to the memory
   std::array<std::int64_t, 2> unwritten_{};                           // bits, as `come`
 };

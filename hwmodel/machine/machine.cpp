@@ -20,14 +20,10 @@ StreamWork work_of(const VerifyReport& report, const Design& design, const Confi
   work.lag = std::max<std::int64_t>(report.predicted_cycles / std::max<std::int64_t>(report.passes, 1) -
                                         interval * shape.tiles() * shape.tokens(),
                                     0);
-  const std::int64_t cell_bits = std::int64_t{design.cell_bits()} * c.lanes;
   for (const StageReport& stage : report.stages) {
-    if (stage.kind == StageKind::reader) work.tokens += stage.cycles.busy;
-    if (stage.kind == StageKind::reader) work.read_bits += stage.cycles.busy * cell_bits;
-    if (stage.kind == StageKind::writer)  // of a tile, what it owns
-      work.written_bits +=
-          stage.cycles.busy * shape.grid_blocks() / (shape.tiles() * shape.blocks()) * cell_bits;
-    if (stage.kind == StageKind::feed) work.fed_bits += stage.cycles.busy * 16 * c.lanes;
+    if (stage.kind == StageKind::reader) work.tokens += stage.cycles.busy, work.read_bits += stage.moved_bits;
+    if (stage.kind == StageKind::writer) work.written_bits += stage.moved_bits;
+    if (stage.kind == StageKind::feed) work.fed_bits += stage.moved_bits;
   }
   return work;
 }
@@ -57,7 +53,10 @@ class Run {
     const Shape& shape = design_.shape;
     const std::int64_t words = std::int64_t{shape.grid_blocks()} * shape.lanes * shape.grid.y * shape.grid.z;
     const int copies = shape.tiled() ? 2 : 1;  // tiles overlap: state_memory.h
-    report_.state_bytes = (words * copies * design_.cell_bits() + 7) / 8;
+    const CodeLayout layout(design_);
+    const std::int64_t bits = options_.steps.configuration.coded ? layout.slot_bits() * layout.columns()
+                                                                 : words * design_.cell_bits();
+    report_.state_bytes = (copies * bits + 7) / 8;
     report_.irradiance_bytes = design_.hot() && input_.parameters.heat.radiation ? 2 * words : 0;
     return std::move(report_);
   }

@@ -25,6 +25,7 @@ void read_pipeline(scene::Reader& hw, Configuration& c) {
     hw.fail("tile",
             " = " + std::to_string(c.tile) + " is not a multiple of lanes = " + std::to_string(c.lanes));
   c.overlap = hw.integer("overlap", 0, 1, c.overlap ? 1 : 0) == 1;
+  c.coded = hw.integer("coded", 0, 1, c.coded ? 1 : 0) == 1;
   for (scene::Reader& channel : hw.tables("channel")) {
     c.depths.push_back({channel.text("name"), static_cast<int>(channel.integer("depth", 1, kMostDepth))});
     channel.finish();

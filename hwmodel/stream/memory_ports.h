@@ -1,8 +1,10 @@
-// The blocks beside the memory, as plain C++: what reader, writer and feeds do in one cycle.
+// The blocks between the memory and the stream, as plain C++: what reader and writer do in one cycle.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "hwmodel/stream/stages.h"
 #include "hwmodel/stream/state_memory.h"
@@ -35,10 +37,22 @@ class PortFault {
   virtual int counts(std::int64_t pass, const Place& place) = 0;
 };
 
+// Sees columns that have been written with hw.coded, whole.
+class ColumnWatcher {
+ public:
+  virtual ~ColumnWatcher() = default;
+  // `place` is in the column.
+  virtual void column_written(const Place& place, const std::uint64_t* slot) = 0;
+};
+
+inline bool ends_column(const Shape& shape, const Place& place) { return place.y + 1 == shape.grid.y; }
+
 // Streams the result into memory, behind the reader: the cells that a tile owns.
 class Writer {
  public:
-  Writer(const Shape& shape, StateMemory& memory) : shape_(shape), memory_(memory) {}
+  Writer(const Shape& shape, StateMemory& memory) : shape_(shape), memory_(memory) {
+    if (memory.coded()) column_.emplace(memory.written_code().layout());
+  }
   void connect(CellFifo& in) { in_ = &in; }
   void begin_pass(int tile) {
     tiles_ = {tile}, place_ = begin_of(shape_, tile);
@@ -53,8 +67,8 @@ class Writer {
     } else if (dram_ != nullptr && !dram_->may_write(now)) {
       ++cycles_.blocked;
     } else {
-      if (dram_ != nullptr) dram_->written(now);
       write(in_->get());
+      if (dram_ != nullptr) dram_->written(column_ ? column_->bits() : 0, ends_column(shape_, place_), now);
       ++written_, last_cycle_ = now;
       ++cycles_.busy;
       place_.next(shape_);
@@ -66,19 +80,37 @@ class Writer {
   // it must not matter which block runs first.
   std::int64_t written_before(std::int64_t now) const { return written_ - (last_cycle_ == now ? 1 : 0); }
   const StageCycles& cycles() const { return cycles_; }
+  std::int64_t stored() const { return stored_; }  // tokens that went to memory: of a tile, what it owns
   // Where the last token went.
   const state::Volume& written() const { return *last_written_; }
   const Books& books() const { return closed_; }  // of the last pass whose tiles have all been written
+  // With hw.coded: bits that went to memory, whole bursts.
+  std::int64_t coded_bits() const { return coded_bits_; }
   void plant(PortFault* fault) { fault_ = fault; }
+  void plant(CodeFault* fault) { code_fault_ = fault; }
+  void watch(ColumnWatcher* watcher) { watcher_ = watcher; }
   void dram(StreamMemory* dram) { dram_ = dram; }
 
  private:
+  void write_coded(const Cell* lanes) {
+    CodedState& memory = memory_.written_code();
+    std::uint64_t* slot = memory.slot(memory.layout().column_of(place_));
+    column_->put(lanes, std::min(shape_.lanes, shape_.grid.x - place_.x), place_, slot, code_fault_, passes_);
+    if (!ends_column(shape_, place_)) return;
+    coded_bits_ += CodeLayout::up(column_->bits());
+    memory.load(shape_, place_, memory_.written());
+    if (watcher_ != nullptr) watcher_->column_written(place_, slot);
+  }
   void write(const Cell* lanes) {
     const int tile = tiles_.front();
     last_written_ = &memory_.written();
     if (tile == 0 && place_.ordinal == 0) open_ = {};
     if (shape_.owns(tile, place_.x)) {
-      write_token(lanes, shape_, place_, memory_.written());
+      ++stored_;
+      if (column_)
+        write_coded(lanes);
+      else
+        write_token(lanes, shape_, place_, memory_.written());
       for (int lane = 0; lane < shape_.lanes && place_.x + lane < shape_.grid.x; ++lane)
         open_.add(lanes[lane]);
     } else if (fault_ != nullptr) {
@@ -103,18 +135,24 @@ class Writer {
   CellFifo* in_ = nullptr;
   std::deque<int> tiles_;  // that are still to be written
   Place place_;
-  std::int64_t first_ = 0, written_ = 0, last_cycle_ = -1, passes_ = 0;
+  std::int64_t first_ = 0, written_ = 0, stored_ = 0, last_cycle_ = -1, passes_ = 0;
   const state::Volume* last_written_ = nullptr;
   Books open_, closed_;
+  std::optional<ColumnWriter> column_;  // with hw.coded
+  std::int64_t coded_bits_ = 0;
   PortFault* fault_ = nullptr;
+  CodeFault* code_fault_ = nullptr;
+  ColumnWatcher* watcher_ = nullptr;
   StageCycles cycles_;
 };
 
 // Streams a volume out of memory. In a pass that follows without a gap, a token may be read only when the
-// writer has written it: the writer gives the reader a credit per token.
+// writer has written it: the writer gives the reader a credit per token, and with hw.coded per column.
 class Reader {
  public:
-  Reader(const Shape& shape, StateMemory& memory) : shape_(shape), memory_(memory) {}
+  Reader(const Shape& shape, StateMemory& memory) : shape_(shape), memory_(memory) {
+    if (memory.coded()) column_.emplace(memory.read_code().layout());
+  }
   void connect(CellFifo& out, const Writer& writer) { out_ = &out, writer_ = &writer; }
   void begin_pass(int tile) {
     place_ = begin_of(shape_, tile);
@@ -129,9 +167,12 @@ class Reader {
     } else if (!out_->ready()) {
       ++cycles_.blocked;
     } else {
-      if (dram_ != nullptr) dram_->read(now);
       Cell* lanes = out_->put();
-      read_token(memory_.read(), shape_, place_, lanes);
+      if (column_)
+        read_coded(lanes);
+      else
+        read_token(memory_.read(), shape_, place_, lanes);
+      if (dram_ != nullptr) dram_->read(column_ ? column_->used() : 0, ends_column(shape_, place_), now);
       if (fault_ != nullptr) fault_->reads(passes_, place_, memory_, lanes);
       place_.next(shape_);
       ++cycles_.busy;
@@ -148,15 +189,29 @@ class Reader {
     place_ = begin_of(shape_, tile);
   }
   const StageCycles& cycles() const { return cycles_; }
+  // With hw.coded: bits that came from memory, whole bursts.
+  std::int64_t coded_bits() const { return coded_bits_; }
   void plant(PortFault* fault) { fault_ = fault; }
+  void plant(CodeFault* fault) { code_fault_ = fault; }
   void dram(StreamMemory* dram) { dram_ = dram; }
 
  private:
   bool may_read(std::int64_t now) const {
-    if (dram_ != nullptr && !dram_->may_read(now)) return false;
-    if (grids_before_ == 0) return true;
-    const std::int64_t before = (grids_before_ - 1) * shape_.tiles() * shape_.tokens();
-    return writer_->written_before(now) > before + owned_ordinal(shape_, place_.x, place_.y, place_.z);
+    if (grids_before_ > 0) {
+      const std::int64_t before = (grids_before_ - 1) * shape_.tiles() * shape_.tokens();
+      const int y = column_ ? shape_.grid.y - 1 : place_.y;
+      if (writer_->written_before(now) <= before + owned_ordinal(shape_, place_.x, y, place_.z)) return false;
+    }
+    return dram_ == nullptr || dram_->may_read(column_ ? column_->needs(place_, slot()) : 0, now);
+  }
+  const std::uint64_t* slot() const {
+    const CodedState& memory = memory_.read_code();
+    return memory.slot(memory.layout().column_of(place_));
+  }
+  void read_coded(Cell* lanes) {
+    column_->get(lanes, std::min(shape_.lanes, shape_.grid.x - place_.x), place_, slot(), code_fault_,
+                 passes_);
+    if (ends_column(shape_, place_)) coded_bits_ += CodeLayout::up(column_->used());
   }
 
   Shape shape_;
@@ -166,58 +221,10 @@ class Reader {
   const Writer* writer_ = nullptr;
   Place place_;
   std::int64_t passes_ = 0, grids_before_ = 0;  // of the train; the latter: of whole grids
+  std::optional<ColumnReader> column_;          // with hw.coded
+  std::int64_t coded_bits_ = 0;
   PortFault* fault_ = nullptr;
-  StageCycles cycles_;
-};
-
-// Streams irradiance to one time step.
-class Feed {
- public:
-  Feed(const Shape& shape, HeatFifo& out) : shape_(shape), out_(out) {}
-  // Null: the time step does not work.
-  void begin_pass(const state::Field<std::uint16_t>* field, int tile) {
-    field_ = field, place_ = begin_of(shape_, tile);
-    next_.clear();
-  }
-  // Another tile for which the time step works, with the same irradiance.
-  void add_pass(int tile) { next_.push_back(tile); }
-  void dram(StreamMemory* dram, int t) { dram_ = dram, step_ = t; }
-  void cycle(std::int64_t now) {
-    if (place_.ordinal == shape_.tokens() && !next_.empty()) {
-      place_ = begin_of(shape_, next_.front());
-      next_.pop_front();
-    }
-    if (field_ == nullptr || place_.ordinal == shape_.tokens()) {
-      ++(field_ == nullptr ? cycles_.bypassed : cycles_.fill_drain);
-      return;
-    }
-    if (!out_.ready()) {
-      ++cycles_.blocked;
-      return;
-    }
-    if (dram_ != nullptr && !dram_->may_feed(step_, now)) {
-      ++cycles_.starved;
-      return;
-    }
-    if (dram_ != nullptr) dram_->fed(step_, now);
-    UInt<16>* lanes = out_.put();
-    for (int lane = 0; lane < shape_.lanes; ++lane) {
-      const int x = place_.x + lane;
-      lanes[lane] = x < shape_.grid.x ? (*field_)[field_->layout().at(x, place_.y, place_.z)] : 0;
-    }
-    place_.next(shape_);
-    ++cycles_.busy;
-  }
-  const StageCycles& cycles() const { return cycles_; }
-
- private:
-  Shape shape_;
-  HeatFifo& out_;
-  StreamMemory* dram_ = nullptr;  // that the feed waits for
-  int step_ = 0;                  // that it feeds
-  const state::Field<std::uint16_t>* field_ = nullptr;
-  Place place_;
-  std::deque<int> next_;  // tiles
+  CodeFault* code_fault_ = nullptr;
   StageCycles cycles_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "hwmodel/process/process.h"
 #include "hwmodel/stream/blocks.h"
+#include "hwmodel/stream/feed.h"
 #include "hwmodel/stream/tiling.h"
 
 namespace voxmelt::hwmodel {
@@ -23,7 +24,7 @@ struct Pipeline::Machine {
       : configuration(c),
         design(design_of(parameters, grid, c)),
         clock("clock", 1, sc_core::SC_NS),
-        memory(design.shape.tiled()),
+        memory(make_memory(design, c)),
         reader(design.shape, memory),
         writer(design.shape, memory) {
     const bool fed = design.hot() && parameters.heat.radiation;
@@ -48,14 +49,19 @@ struct Pipeline::Machine {
       step.connect(links[at(t)]->fifo(), links[at(t + 1)]->fifo());
       if (!fed) continue;
       const std::string name = step_name(t) + "feed -> exchange";
-      feed_links.push_back(
-          std::make_unique<Link<UInt<16>>>(name, 1000 + t, c.lanes, depth_of(name), c.stall_seed));
-      feeds.push_back(std::make_unique<Feed>(design.shape, feed_links.back()->fifo()));
+      feed_links.push_back(std::make_unique<Link<UInt<16>>>(name, kFirstFeedChannel + t, c.lanes,
+                                                            depth_of(name), c.stall_seed));
+      feeds.push_back(std::make_unique<Feed>(design.shape, t, feed_links.back()->fifo()));
       step.feed(feed_links.back()->fifo());
     }
     reader.connect(links.front()->fifo(), writer);
     writer.connect(links.back()->fifo());
     make_blocks();
+  }
+
+  static StateMemory make_memory(const Design& design, const Configuration& c) {
+    const CodeLayout layout(design);
+    return StateMemory(design.shape.tiled(), c.coded ? &layout : nullptr);
   }
 
   void make_blocks() {
@@ -127,6 +133,18 @@ struct Pipeline::Machine {
     if (poll && shared.cycle() % kPollEvery == 0) poll();
   }
 
+  using BuffersOf = std::vector<BufferCost> (*)(const CodeLayout&);
+  std::vector<BufferCost> buffers(BuffersOf of) const {
+    return memory.coded() ? of(memory.read_code().layout()) : std::vector<BufferCost>{};
+  }
+  std::int64_t bits_read() const {
+    return memory.coded() ? reader.coded_bits() : reader.cycles().busy * token_bits();
+  }
+  std::int64_t bits_written() const {
+    return memory.coded() ? writer.coded_bits() : writer.stored() * token_bits();
+  }
+  std::int64_t token_bits() const { return std::int64_t{design.shape.lanes} * design.cell_bits(); }
+
   static std::size_t at(int t) { return static_cast<std::size_t>(t); }
   static std::string step_name(int t) { return "step " + std::to_string(t) + ": "; }
 
@@ -176,7 +194,7 @@ void Pipeline::memory(StreamMemory* memory) {
   Machine& m = *machine_;
   m.dram = memory;
   m.reader.dram(memory), m.writer.dram(memory);
-  for (std::size_t t = 0; t < m.feeds.size(); ++t) m.feeds[t]->dram(memory, static_cast<int>(t));
+  for (const auto& feed : m.feeds) feed->dram(memory);
 }
 
 void Pipeline::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
@@ -194,6 +212,21 @@ void Pipeline::plant(PortFault* fault) {
   machine_->writer.plant(fault);
 }
 
+void Pipeline::plant(FeedFault* fault) {
+  for (const auto& feed : machine_->feeds) feed->plant(fault);
+}
+
+void Pipeline::watch_feeds(FifoWatcher<UInt<16>>* watcher) {
+  for (const auto& link : machine_->feed_links) link->fifo().watch(watcher);
+}
+
+void Pipeline::plant(CodeFault* fault) {
+  machine_->reader.plant(fault);
+  machine_->writer.plant(fault);
+}
+
+void Pipeline::watch_columns(ColumnWatcher* watcher) { machine_->writer.watch(watcher); }
+
 const Books& Pipeline::books() const { return machine_->writer.books(); }
 const state::Volume& Pipeline::written() const { return machine_->writer.written(); }
 
@@ -205,12 +238,13 @@ std::vector<CellFifo*> Pipeline::channels_behind_stages(int cascade) {
   return channels;
 }
 
-PassEnd Pipeline::run_pass(const Pass& pass, const state::Field<std::uint16_t>* irradiance,
-                           state::Volume& volume) {
-  return run_train(pass, {}, irradiance, volume);
+PassEnd Pipeline::run_pass(const Pass& pass, const Irradiance* irradiance, state::Volume& volume) {
+  if (irradiance == nullptr) return run_train(pass, {}, nullptr, volume);
+  const IrradianceStream stream(*irradiance, design().shape);
+  return run_train(pass, {}, &stream, volume);
 }
 
-PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const state::Field<std::uint16_t>* irradiance,
+PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const IrradianceStream* irradiance,
                             state::Volume& volume) {
   Machine& m = *machine_;
   Shared& shared = m.shared;
@@ -225,7 +259,10 @@ PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const state::Fie
   m.reader.begin_pass(pass.tile);
   m.writer.begin_pass(pass.tile);
   m.begin(pass, true);
-  if (m.dram != nullptr) m.dram->begin_train(m.design.shape.tokens(), m.fed_steps(pass));
+  if (m.dram != nullptr)
+    m.dram->begin_train(m.design.shape.tokens(), m.fed_steps(pass),
+                        irradiance == nullptr ? 0 : irradiance->bits(),
+                        m.memory.coded() ? &m.memory.read_code() : nullptr);
   for (std::size_t t = 0; t < m.feeds.size(); ++t)
     m.feeds[t]->begin_pass(m.fed(pass, t) ? irradiance : nullptr, pass.tile);
 
@@ -281,14 +318,22 @@ std::vector<StageCycles> Pipeline::accounts() const {
 
 std::vector<StageReport> Pipeline::stages() const {
   const Machine& m = *machine_;
-  std::vector<StageReport> reports{{StageKind::reader, 0, 0, m.reader.cycles(), {}, {}}};
+  std::vector<StageReport> reports{
+      {StageKind::reader, 0, 0, m.reader.cycles(), m.buffers(reader_buffers), {}, m.bits_read()}};
   for (std::size_t t = 0; t < m.steps.size(); ++t)
     for (const auto& stage : m.steps[t]->stages())
       reports.push_back({stage->kind(), static_cast<int>(t), stage->lag(), stage->cycles(), stage->buffers(),
                          stage->units()});
   for (std::size_t t = 0; t < m.feeds.size(); ++t)
-    reports.push_back({StageKind::feed, static_cast<int>(t), 0, m.feeds[t]->cycles(), {}, {}});
-  reports.push_back({StageKind::writer, m.configuration.cascade - 1, 0, m.writer.cycles(), {}, {}});
+    reports.push_back(
+        {StageKind::feed, static_cast<int>(t), 0, m.feeds[t]->cycles(), {}, {}, m.feeds[t]->bits()});
+  reports.push_back({StageKind::writer,
+                     m.configuration.cascade - 1,
+                     0,
+                     m.writer.cycles(),
+                     m.buffers(writer_buffers),
+                     {},
+                     m.bits_written()});
   return reports;
 }
 

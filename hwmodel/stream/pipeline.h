@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "hwmodel/stream/irradiance_stream.h"
 #include "hwmodel/stream/memory_ports.h"
 #include "hwmodel/stream/stages.h"
 #include "hwmodel/stream/stream_memory.h"
@@ -34,6 +35,7 @@ struct Configuration {
   int substeps = 1;                    // viscous law: copies of settle and spread in a time step
   bool overlap = true;                 // may a pass enter while the last one drains?
   int tile = 0;                        // cells along x that the memories hold, in whole blocks; 0: the grid
+  bool coded = false;                  // the state in memory has one bit for a token of air
   std::vector<ChannelDepth> depths{};  // of channels that differ from fifo_depth
 
   int depth_of(const std::string& channel) const {
@@ -63,6 +65,7 @@ struct StageReport {
   StageCycles cycles;
   std::vector<BufferCost> buffers;
   Units units;
+  std::int64_t moved_bits = 0;  // between the memory and a reader, writer or feed
 };
 
 // How a train of passes ended.
@@ -88,9 +91,14 @@ class Pipeline {
   void stop();
   std::vector<CellFifo*> channels_behind_stages(int cascade);  // of one time step, for faults to be planted
   void plant(PortFault* fault);                                // null: none
-  const Books& books() const;                                  // of the pass that has been written last
-  const state::Volume& written() const;                        // where the last token went
-  void probe(FifoProbe<Cell>* probe);                          // of the channels of the main stream
+  void plant(FeedFault* fault);
+  void plant(CodeFault* fault);
+  void watch_columns(ColumnWatcher* watcher);        // that are written with hw.coded
+  void watch_feeds(FifoWatcher<UInt<16>>* watcher);  // their channels: kFirstFeedChannel + time step
+  static constexpr int kFirstFeedChannel = 1000;
+  const Books& books() const;            // of the pass that has been written last
+  const state::Volume& written() const;  // where the last token went
+  void probe(FifoProbe<Cell>* probe);    // of the channels of the main stream
   // Called at the end of every cycle of every block: then the accounts of all stages include this cycle.
   void each_cycle(std::function<void()> watch);
   void memory(StreamMemory* memory);      // null: it always answers
@@ -118,12 +126,12 @@ class Pipeline {
 
   // Streams a tile of `volume` once; what the pass does not use is bypassed. `irradiance`: null without
   // radiation. Throws StageError.
-  PassEnd run_pass(const Pass& pass, const state::Field<std::uint16_t>* irradiance, state::Volume& volume);
+  PassEnd run_pass(const Pass& pass, const Irradiance* irradiance, state::Volume& volume);
   // A train: when the last token of a pass has been read, `next` says which pass follows without a gap, if
   // any: the next tile, where `tiles_follow` holds, or behind the last tile the first one of a pass that has
   // no more steps, where `passes_overlap` does (prediction.h).
   using Next = std::function<std::optional<Pass>()>;
-  PassEnd run_train(const Pass& first, const Next& next, const state::Field<std::uint16_t>* irradiance,
+  PassEnd run_train(const Pass& first, const Next& next, const IrradianceStream* irradiance,
                     state::Volume& volume);
 
   const Design& design() const;

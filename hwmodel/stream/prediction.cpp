@@ -65,6 +65,11 @@ std::int64_t shortest_return(const Shape& shape) {
   return shortest;
 }
 
+// Tokens for which the reader waits after that which it reads: with hw.coded, the rest of the column.
+std::int64_t held_back(const Design& design, const Configuration& configuration) {
+  return configuration.coded ? design.shape.column() - 1 : 0;
+}
+
 }  // namespace
 
 std::int64_t predicted_cycles(const Design& design, const Configuration& configuration, const Pass& first,
@@ -76,7 +81,8 @@ std::int64_t predicted_cycles(const Design& design, const Configuration& configu
 bool passes_overlap(const Design& design, const Configuration& configuration, const Pass& pass) {
   const Flow flow = flow_of(design, configuration, pass);
   return configuration.overlap && pass.begins() && pass.ends() && tiles_follow(design, configuration, pass) &&
-         flow.interval * shortest_return(design.shape) > flow.waits + flow.channels;
+         flow.interval * (shortest_return(design.shape) - held_back(design, configuration)) >
+             flow.waits + flow.channels;
 }
 
 bool tiles_follow(const Design& design, const Configuration& configuration, const Pass& pass) {

@@ -32,7 +32,8 @@ def trains(report, parts, hw):
             passes, first, done = passes + 1, first or k, done + k
             lags = sum(s["lag"] if s["lag"] < n else n - 1 + (s["lag"] - n + 1) / interval for s in parts["stages"])
             channels = hw["cascade"] * len(parts["stages"]) + 1
-            overlaps = hw["overlap"] and interval * n > interval * k * lags + channels
+            held = report["grid"][1] - 1 if hw["coded"] else 0
+            overlaps = hw["overlap"] and interval * (n - held) > interval * k * lags + channels
             if done == report["steps"] or not overlaps or (every and (report["first_step"] + done) % every == 0):
                 break
         yield passes, first, done - begin
@@ -61,8 +62,8 @@ def times(report, parts, hw):
         window, cells = interval * passes * n, n * parts["lanes"]
         lag = cycles - window
         alone = min(lag, window)
-        bits = passes * cells * parts["cell_bits"]
-        reads, writes = (bits + (16 * cells * steps if parts["fed"] else 0)) / 512, bits / 512
+        bits = passes * (parts["coded_bits"] if hw["coded"] else cells * parts["cell_bits"])
+        reads, writes = (bits + parts["irradiance_bits"] * steps) / 512, bits / 512
         ratio = hw["clock_mhz"] / DDR4["mhz"]
         memory += round(ratio * (DDR4["rcd"] + DDR4["cl"] + DDR4["beats"] + DDR4["interface"]) + lag - alone
                         + max(alone, ratio * dram(reads * alone / window, 0))
@@ -98,6 +99,12 @@ def fixed_of(report, parts, hw):
             ff += times_ * hw["fifo_depth"] * bits * p
         else:
             lutram += times_ * lutram_of(f, hw["fifo_depth"], bits * p)
+    if hw["coded"]:
+        high = report["grid"][1]
+        for words, bits in ((8, high), (1, high), (ceil(high / 512), 512)):
+            lutram += lutram_of(f, words, bits) if words > f["register_words"] else 0
+            ff += words * bits if words <= f["register_words"] else 0
+        lut, ff = lut + 2 * f["coder"]["lut"], ff + 2 * f["coder"]["ff"]
     return lut + lutram, ff, dsp, lutram, ports
 
 
@@ -176,14 +183,14 @@ class Explore(unittest.TestCase):
         best = (0, 0)
         cells = report["grid"][0] * report["grid"][1] * report["grid"][2]
         for i, row in enumerate(rows):
-            hw = {k: int(row[k]) for k in ("lanes", "cascade", "substeps", "fifo_depth", "overlap", "clock_mhz")}
+            hw = {k: int(row[k]) for k in ("lanes", "cascade", "substeps", "fifo_depth", "overlap", "coded", "clock_mhz")}
             part = parts[hw["lanes"], hw["substeps"]]
             free, memory = times(report, part, hw)
             self.assertEqual(free, int(row["cycles"]), hw)
             self.assertAlmostEqual(memory, int(row["cycles_on_memory"]), delta=len(rows), msg=hw)
             speed = int(row["cell_steps_per_second"])
             self.assertAlmostEqual(cells * report["steps"] * hw["clock_mhz"] * 1e6 / memory / speed, 1, delta=1e-3)
-            key = hw["lanes"], hw["cascade"], hw["substeps"], hw["fifo_depth"]
+            key = hw["lanes"], hw["cascade"], hw["substeps"], hw["fifo_depth"], hw["coded"]
             if (speed > best[0] or i % every == 0) and key not in full:
                 fixed = fixed_of(report, part, hw)
                 full[key] = search(report, fixed, choices_of(report, part, hw))

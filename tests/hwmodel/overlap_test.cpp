@@ -116,8 +116,8 @@ TEST(Overlap, EveryFaultIsFoundWhereItWasPlanted) {
     int here = 0;
     for (std::uint64_t seed = 0; seed < 60 && here < 3; ++seed) {
       const Start start = deep_start(seed + 900, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, 40);
-      const Configuration c{seed % 3 == 0 ? 2 : 4, 1 + static_cast<int>(seed % 2), 2,
-                            seed % 4 == 0 ? 0 : seed};
+      Configuration c{seed % 3 == 0 ? 2 : 4, 1 + static_cast<int>(seed % 2), 2, seed % 4 == 0 ? 0 : seed};
+      c.coded = is_of_the_code(fault.fault);
       const VerifyReport report = lockstep(start, c, 6, fault.fault, 3);
       if (!report.strike) {
         ASSERT_EQ(report.mismatch, nullptr) << fault.name << ": " << text_of(*report.mismatch);

@@ -196,6 +196,7 @@ TEST_P(TileFaults, IsFoundWhereItWasPlanted) {
     Configuration c{random.any({1, 2, 4}), random.between(1, 2), random.any({1, 2, 4}),
                     random.one_in(2) ? 0 : seed};
     c.tile = narrow(start, c, random.between(2, 6));
+    c.coded = is_of_the_code(fault.fault) || seed % 4 == 1;
     const VerifyReport report = lockstep(start, c, 6, fault.fault, 2);
     if (!report.strike) {
       ASSERT_EQ(report.mismatch, nullptr) << where(start, c) << ": " << text_of(*report.mismatch);
