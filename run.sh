@@ -8,5 +8,15 @@ cmake/install-dependencies.sh build
 cmake --preset release -DVOXMELT_TESTS=OFF > build/configure.log || { cat build/configure.log; exit 1; }
 cmake --build --preset release
 
-if [ $# -eq 0 ]; then set -- cello; fi
+# Options alone mean the default scene. All but two of them have a value.
+scene=cello before=
+for word in "$@"; do
+  case "$word" in
+    --resume* | -h | --help*) scene= ;;
+    -*) ;;
+    *) case "$before" in -*=* | --quiet | "" | [!-]*) scene= ;; esac ;;
+  esac
+  before=$word
+done
+if [ -n "$scene" ]; then set -- "$scene" "$@"; fi
 exec build/release/app/voxmelt run "$@"

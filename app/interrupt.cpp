@@ -1,8 +1,12 @@
 #include "app/interrupt.h"
 
+#include <unistd.h>
+
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <string_view>
 
 #include "app/options.h"
 
@@ -19,12 +23,25 @@ void interrupt(int) {
   g_when.compare_exchange_strong(never, Clock::now().time_since_epoch().count());
 }
 
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+
+// Nothing but write() and _exit() may be called in a handler.
+void end_at_once(int) {
+  constexpr std::string_view kWords = "interrupted; nothing was written\n";
+  (void)!::write(STDERR_FILENO, kWords.data(), kWords.size());
+  ::_exit(kInterrupted);
+}
+
+void handle(void (*handler)(int)) {
+  for (const int signal : kSignals)
+    if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);  // as under nohup
+}
+
 }  // namespace
 
-void catch_interrupts() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
-    if (std::signal(signal, interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);  // as under nohup
-}
+void end_at_interrupts() { handle(end_at_once); }
+
+void catch_interrupts() { handle(interrupt); }
 
 bool interrupted() { return g_when != 0; }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
 #include "app/version.h"
@@ -71,6 +72,7 @@ int main(int argc, char** argv) {
   app::open_standard_streams();
   // A file that grows too large and a pipe that is closed are error messages, not ends of the program.
   for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+  app::end_at_interrupts();
   try {
     CLI::App program(kIntroduction, "voxmelt");
     program.set_version_flag("--version", app::version_text());

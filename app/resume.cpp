@@ -16,6 +16,7 @@
 #include "kernel/run/checkpoint/blocks.h"
 #include "kernel/run/io/checkpoint_files.h"
 #include "kernel/run/io/file_lock.h"
+#include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
 namespace {
@@ -146,9 +147,13 @@ std::optional<Resumption> find_run(const fs::path& given) {
   const fs::path place = place_named(given);
   const std::string shown = given.string();
   const std::vector<Candidate> candidates = candidates_of(place);
-  if (candidates.empty() && is_complete(place)) {  // it may have died just before it cleared up
-    std::error_code ignored;
+  const std::vector<fs::path> leavings = io::leavings_of(place);
+  if (std::ranges::any_of(leavings, is_alive))
+    throw UsageError(fmt::format("--resume {}: error: a run is at work there", shown));
+  if (candidates.empty() && is_complete(place) && std::ranges::none_of(leavings, io::is_unfinished)) {
+    std::error_code ignored;  // it may have died just before it cleared up
     fs::remove_all(place / "checkpoints", ignored);
+    io::clear_leavings(place);
     return std::nullopt;
   }
   if (candidates.empty())
@@ -170,8 +175,7 @@ std::optional<Resumption> find_run(const fs::path& given) {
       run.folder = std::make_unique<io::OutputFolder>(place, true);
       take_over(candidate, run.record, run.folder->partial());
       for (const fs::path& left : io::leavings_of(place))  // all that they have is taken over
-        if (std::error_code ignored; left != run.folder->partial() && !is_alive(left))
-          fs::remove_all(left, ignored);
+        if (left != run.folder->partial() && !is_alive(left)) io::remove_output(left);
       return run;
     } catch (const checkpoint::Error& error) {
       if (i + 1 == candidates.size()) throw;
@@ -191,7 +195,11 @@ void clear_after(const fs::path& place, const std::string& id) {
     } catch (const checkpoint::Error&) {
       continue;  // not known to be of this run
     }
-    fs::remove_all(incomplete, ignored);
+    // Who dies here leaves what the next run removes.
+    const fs::path aside = place.string() + ".partial-remove";
+    io::remove_output(aside);
+    fs::rename(incomplete, aside, ignored);
+    io::remove_output(aside);
     break;
   }
 }

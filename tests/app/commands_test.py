@@ -155,6 +155,26 @@ class Commands(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr),
                          (3, "standard output: error: cannot write: Broken pipe\n"))
 
+    def test_a_signal_while_a_mesh_is_read_ends_at_once(self):
+        os.mkfifo(self.folder / "mesh.obj")
+        held = os.open(self.folder / "mesh.obj", os.O_RDWR)  # somebody may yet write
+        text = SMALL.replace('shape = "box"\nsize = [4, 4, 4]', 'shape = "mesh"\nfile = "mesh.obj"\nheight = 4')
+        scene = write(self.folder, text, "mesh.toml")
+        before = sorted(self.folder.iterdir())
+        for arguments in (["run"], ["export", "--out", "e"], ["render", "--out", "p.png"], ["verify"],
+                          ["digest"]):
+            with self.subTest(arguments[0]):
+                process = subprocess.Popen([PROGRAM, arguments[0], scene, *arguments[1:]], cwd=self.folder,
+                                           stderr=subprocess.PIPE, text=True)
+                time.sleep(0.7)
+                begin = time.monotonic()
+                process.terminate()
+                said = process.communicate(timeout=60)[1]
+                self.assertLess(time.monotonic() - begin, 2)
+                self.assertEqual((process.returncode, said), (4, "interrupted; nothing was written\n"))
+                self.assertEqual(sorted(self.folder.iterdir()), before)
+        os.close(held)
+
     def test_an_interrupted_export_leaves_nothing(self):
         process = subprocess.Popen([PROGRAM, "export", self.scene, "--steps", "4000000", "--out", "e"],
                                    cwd=self.folder, stderr=subprocess.DEVNULL)

@@ -15,8 +15,6 @@ import time
 from pathlib import Path
 
 PROGRAM = str(Path(sys.argv[1]).resolve())
-COUNT = int(sys.argv[2])
-SEED = int(sys.argv[3]) if len(sys.argv) > 3 else random.SystemRandom().randrange(10**6)
 
 # Heat moves and lets rays be cast anew, liquid flows in at a vent and leaves: every term of the ledgers moves.
 SCENE = """title = "killed"
@@ -85,8 +83,10 @@ def run(arguments, cwd, seconds=None):
 
 
 def main():
-    chance = random.Random(SEED)
-    print(f"seed {SEED}")
+    count = int(sys.argv[2])
+    seed = int(sys.argv[3]) if len(sys.argv) > 3 else random.SystemRandom().randrange(10**6)
+    chance = random.Random(seed)
+    print(f"seed {seed}")
     known = subprocess.run([PROGRAM, "list", "implementations"], capture_output=True, text=True, check=True).stdout
     implementations = [line.split()[0] for line in known.splitlines() if "not on this" not in line]
     kills = 0
@@ -101,7 +101,7 @@ def main():
             assert code == 0, said
             whole[law] = [outcome(folder / "whole", changed) for changed in (False, True)]
             subprocess.run(["rm", "-r", "whole"], cwd=folder, check=True)
-        for number in range(COUNT):
+        for number in range(count):
             law = chance.choice(["paper", "viscous"])
             every = chance.choice(["1", "2", "5", "17", "1s"])
             changes = number % 4 == 0
@@ -136,7 +136,7 @@ def main():
             subprocess.run(["rm", "-r", "out"], cwd=folder, check=True)
             print(f"run {number}: {law}, a checkpoint every {every}, {parts} parts"
                   f"{', by others' if changes else ''}: equal", flush=True)
-    print(f"{COUNT} runs, {kills} kills")
+    print(f"{count} runs, {kills} kills")
     assert kills > 0, "nothing was killed"
 
 

@@ -49,6 +49,12 @@ bool holds_work(const fs::path& folder) {
   return !files.empty() && files.front().step > 0;
 }
 
+void remove_output(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder / "checkpoints", ignored);
+  fs::remove_all(folder, ignored);
+}
+
 void keep_two_checkpoints(const fs::path& folder) {
   const std::vector<CheckpointFile> files = checkpoints_in(folder);
   std::error_code ignored;

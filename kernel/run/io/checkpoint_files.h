@@ -19,6 +19,9 @@ std::vector<CheckpointFile> checkpoints_in(const std::filesystem::path& folder);
 // Is there one after the first step? A run that ends there can be repeated as well.
 bool holds_work(const std::filesystem::path& folder);
 
+// Its checkpoints go first: where a process dies meanwhile, those that are left have their frames.
+void remove_output(const std::filesystem::path& folder);
+
 // Removes all but the two newest, and what a dead process left half written.
 void keep_two_checkpoints(const std::filesystem::path& folder);
 

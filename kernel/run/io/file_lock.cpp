@@ -65,11 +65,10 @@ std::vector<fs::path> leavings_of(const fs::path& place) {
 }
 
 bool clear_leavings(const fs::path& place, bool keep_checkpoints) {
-  std::error_code ignored;
   bool alive = false;
   for (const fs::path& left : leavings_of(place)) {
     const FileLock lock = FileLock::attempt(left);
-    if (lock && !(keep_checkpoints && !checkpoints_in(left).empty())) fs::remove_all(left, ignored);
+    if (lock && !(keep_checkpoints && !checkpoints_in(left).empty())) remove_output(left);
     alive = alive || lock.held_by_another();
   }
   return alive;

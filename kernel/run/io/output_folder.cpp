@@ -138,6 +138,11 @@ OutputFolder::~OutputFolder() {
   }
 }
 
+bool is_unfinished(const fs::path& partial) {
+  std::error_code ignored;
+  return fs::exists(partial / kReserve, ignored);
+}
+
 void OutputFolder::release_reserve() {
   std::error_code ignored;
   fs::remove(partial_ / kReserve, ignored);
@@ -159,7 +164,7 @@ void OutputFolder::move_to(const fs::path& place) {
   if (why != 0) fail_output(place, "cannot move the finished folder into place", why);
   committed_ = true;
   flush_entry(place);
-  if (replace) fs::remove_all(partial_, error);  // what stood there before
+  if (replace) remove_output(partial_);  // what stood there before
 }
 
 void OutputFolder::commit() { move_to(place_); }

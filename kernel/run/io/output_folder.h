@@ -41,4 +41,7 @@ class OutputFolder {
   bool committed_ = false;
 };
 
+// Does this partial folder hold a run that was not complete yet? Else it is what stood at the place before.
+bool is_unfinished(const std::filesystem::path& partial);
+
 }  // namespace voxmelt::io
