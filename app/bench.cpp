@@ -14,6 +14,7 @@
 
 #include "app/beginning.h"
 #include "app/bench_text.h"
+#include "app/checkpoint_scene.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/message.h"
@@ -97,6 +98,7 @@ std::vector<std::string> film_scenes(bool quick) {
 int run_bench(BenchOptions options) {
   std::optional<std::uint32_t> from;
   if (options.from && names_a_file(*options.from)) {
+    if (!is_checkpoint(*options.from)) steps_of(*options.from);  // says what it is not
     if (!options.scenes.empty())
       throw UsageError(fmt::format("error: --from {}: a checkpoint is a scene of its own, without --scenes",
                                    *options.from));

@@ -171,6 +171,7 @@ class Checkpoints(unittest.TestCase):
         self.assertEqual(*untimed)
         other = write(self.folder, LONG.replace("power = 30", "power = 31"), "other.toml")
         self.refused("verify", other, "--from", self.checkpoint, names="is of another scene")
+        self.refused("bench", "--from", self.scene, names="neither a step nor a checkpoint")
         self.refused("digest", self.checkpoint, "--set", "heat.gamma=0.1", names="come too late")
         self.refused("render", self.checkpoint, "--steps", 3, names=f"is at step {self.step} already")
         self.refused("export", self.checkpoint, "--steps", 3, "--out", "c", names=f"is at step {self.step} already")
@@ -231,7 +232,10 @@ class Checkpoints(unittest.TestCase):
         good = self.crafted()
         self.assertEqual(voxmelt("digest", good).stdout, voxmelt("digest", self.checkpoint).stdout)
         air = next(i for i, kinds in enumerate(zip(*self.masks())) if kinds == (0, 0, 0))
-        matter = next(i for i, kinds in enumerate(zip(*self.masks())) if kinds == (1, 0, 0))
+        # on a busy machine all has melted before the signal comes
+        matter, kinds = next((i, kinds) for i, kinds in enumerate(zip(*self.masks()))
+                             if kinds in ((1, 0, 0), (0, 1, 0)))
+        other = "liquid" if kinds[0] else "solid"
 
         def put(column, cell, value):
             def change(columns):
@@ -241,7 +245,7 @@ class Checkpoints(unittest.TestCase):
                     columns[column][cell] = value
             return change
 
-        for change in (put("liquid", matter, 1), put("inert", matter, 1), put("amount", air, 7), put("energy", air, 7),
+        for change in (put(other, matter, 1), put("inert", matter, 1), put("amount", air, 7), put("energy", air, 7),
                        put("solid", air, 1), put("amount", matter, 0)):
             self.refused("digest", self.crafted(change), names="crafted.vxc: error: ")
 
