@@ -49,8 +49,6 @@ def problems_of(mutant):
         yield f"is of no class: {mutant['class']}"
     if mutant["class"] == "wrong bits" and "stage" not in mutant:
         yield "does not say which stage must be named"
-    if mutant["class"] != "equivalent" and not mutant.get("tests") and mutant["class"] != "wrong bits":
-        yield "names no unit tests"
     file = ROOT / mutant["file"]
     times = file.read_text().count(mutant["before"]) if file.is_file() else -1
     if times != 1:
@@ -79,8 +77,8 @@ def check(mutants):
 class Build:
     """The standing build: how an object is compiled, and how a program is linked."""
 
-    def __init__(self, folder):
-        self.folder = folder.resolve()
+    def __init__(self, folder, compiles):
+        self.folder, self.compiles = folder.resolve(), compiles
         entries = json.loads((self.folder / "compile_commands.json").read_text())
         self.entries = {os.path.relpath(e["file"], ROOT): e for e in entries}
         self.deps = {}  # object -> files of the tree
@@ -118,6 +116,7 @@ class Build:
             name = self.object_of(source)
             part = source.split("/")
             library = part[0] == "hwmodel" and (part[1] in FOLDERS or source == file)
+            library = library and source in self.compiles.get(file, [source])
             if (library or name in own) and file in self.deps.get(name, ()):
                 yield source
 
@@ -229,13 +228,13 @@ def judge(build, mutant, grounds, work, options):
     folder = work / mutant["name"]
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    result = {"name": mutant["name"], "verify": "", "stage_named": False, "cell": "", "tests": "", "error": ""}
+    result = {"name": mutant["name"], "ground": "", "verify": "", "stage_named": False, "cell": "", "tests": "", "error": ""}
     try:
         mutation = Mutation(build, mutant, folder, options.optimise)
         found = verify(mutation.link(VERIFY), grounds, folder)
         if found is not None:
             result["verify"] = f"{found.run}: {found.kind or f'exit code {found.code}'}"
-            result["where"] = found.where
+            result["ground"], result["where"] = found.run, found.where
             result["cell"] = found.cell
             result["stage_named"] = names_stage(mutant, found)
             if not found.kind:
@@ -250,9 +249,20 @@ def judge(build, mutant, grounds, work, options):
     return result
 
 
+def grounds_of(mutant, grounds):
+    full = mutant["class"] in ("wrong bits", "equivalent")
+    return [ground for ground in grounds if full or ground.get("short")]
+
+
 def key_of(mutant, grounds):
+    """What a result rests on: it holds as long as this stays the same. Of the grounds: those that were run."""
     text = json.dumps([mutant, grounds], sort_keys=True) + (ROOT / mutant["file"]).read_text()
     return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def holds(mutant, result, grounds):
+    grounds = grounds_of(mutant, grounds)
+    return bool(result) and not result["error"] and result["key"] == key_of(mutant, grounds[:result["grounds"]])
 
 
 def commit():
@@ -304,7 +314,7 @@ def main():
     parser.add_argument("--check", action="store_true", help="only see that every replacement applies")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release", help="the standing build")
     parser.add_argument("--only", default="", help="mutants whose name holds this regular expression")
-    parser.add_argument("--jobs", type=int, default=1, help="mutants at a time")
+    parser.add_argument("--jobs", type=int, default=2, help="mutants at a time")
     parser.add_argument("--tests", choices=["survivors", "always"], default="survivors",
                         help="when the unit tests run: where verify finds nothing, or always")
     parser.add_argument("--again", action="store_true", help="also run what has a result")
@@ -317,8 +327,10 @@ def main():
     mutants = read_mutants()
     if (code := check(mutants)) != 0 or options.check:
         return code
-    grounds = tomllib.loads((HERE / "grounds.toml").read_text())["ground"]
+    plan = tomllib.loads((HERE / "grounds.toml").read_text())
+    grounds = plan["ground"]
     chosen = [m for m in mutants if re.search(options.only, m["name"])]
+    chosen.sort(key=lambda m: CLASSES.index(m["class"]))
     if not chosen:
         print(f"no mutant's name holds {options.only}")
         return 2
@@ -332,20 +344,20 @@ def main():
     if (found := verify(program, grounds, options.out)) is not None:
         print(f"without any mutant verify fails on the ground {found.run}:\n{found.text}")
         return 1
-    build = Build(options.build)
+    build = Build(options.build, plan["compiles"])
     store = options.out / "results.json"
     results = json.loads(store.read_text()) if store.exists() else {}
     lock, now, begin = threading.Lock(), commit(), time.monotonic()
 
     def one(mutant):
-        key = key_of(mutant, grounds)
-        old = results.get(mutant["name"], {})
-        if old.get("key") == key and not old["error"] and not options.again:
+        if holds(mutant, results.get(mutant["name"]), grounds) and not options.again:
             return
         if options.minutes and time.monotonic() - begin > 60 * options.minutes:
             return
-        result = judge(build, mutant, grounds, options.out / "work", options)
-        result |= {"key": key, "commit": now}
+        of = grounds_of(mutant, grounds)
+        result = judge(build, mutant, of, options.out / "work", options)
+        ran = next((i + 1 for i, g in enumerate(of) if g["name"] == result["ground"]), len(of))
+        result |= {"key": key_of(mutant, of[:ran]), "grounds": ran, "commit": now}
         with lock:
             results[mutant["name"]] = result
             store.write_text(json.dumps(results, indent=1))
@@ -357,7 +369,8 @@ def main():
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         list(pool.map(one, chosen))
     current = {m["name"]: results[m["name"]] for m in mutants
-               if results.get(m["name"], {}).get("key") == key_of(m, grounds)}
+               if m["name"] in results and results[m["name"]]["error"]
+               or holds(m, results.get(m["name"]), grounds)}
     text = table(mutants, current)
     (options.out / "table.md").write_text(text)
     print(text.split("\n\n| mutant")[0])
