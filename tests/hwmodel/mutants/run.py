@@ -65,6 +65,19 @@ def read_mutants():
     return mutants
 
 
+def self_test():
+    """Lists that are spoilt must be refused."""
+    good = next(m for m in read_mutants() if m["class"] == "wrong bits")
+    spoilt = [good | {"before": "no such text"}, good | {"before": "\n"}, good | {"after": good["before"]},
+              good | {"class": "odd"}, good | {"file": "no/such/file.h"}, good | {"further": 1},
+              {k: v for k, v in good.items() if k != "stage"}, {k: v for k, v in good.items() if k != "why"}]
+    missed = [mutant for mutant in spoilt if not list(problems_of(mutant))]
+    missed += [] if check([good]) == 0 else [good]
+    missed += [] if check([good, good]) == 1 and check([]) == 1 else [[good, good]]
+    print(f"self-test: {missed} not refused" if missed else "self-test: every spoilt list is refused")
+    return 1 if missed else 0
+
+
 def check(mutants):
     """Prints what is wrong with the list. Returns an exit code."""
     found = [f"{m.get('name', '?')}: {problem}" for m in mutants for problem in problems_of(m)]
@@ -256,7 +269,7 @@ def grounds_of(mutant, grounds):
 
 def key_of(mutant, grounds):
     """What a result rests on: it holds as long as this stays the same. Of the grounds: those that were run."""
-    text = json.dumps([mutant, grounds], sort_keys=True) + (ROOT / mutant["file"]).read_text()
+    text = json.dumps([mutant, [ground["run"] for ground in grounds]], sort_keys=True) + (ROOT / mutant["file"]).read_text()
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
@@ -312,6 +325,7 @@ def table(mutants, results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="only see that every replacement applies")
+    parser.add_argument("--self-test", action="store_true", help="see that a spoilt list is refused")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release", help="the standing build")
     parser.add_argument("--only", default="", help="mutants whose name holds this regular expression")
     parser.add_argument("--jobs", type=int, default=2, help="mutants at a time")
@@ -324,6 +338,8 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/mutants", help="folder of the results")
     options = parser.parse_args()
 
+    if options.self_test:
+        return self_test()
     mutants = read_mutants()
     if (code := check(mutants)) != 0 or options.check:
         return code
