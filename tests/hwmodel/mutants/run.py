@@ -275,7 +275,10 @@ def key_of(mutant, grounds):
 
 def holds(mutant, result, grounds):
     grounds = grounds_of(mutant, grounds)
-    return bool(result) and not result["error"] and result["key"] == key_of(mutant, grounds[:result["grounds"]])
+    if not result or result["error"]:
+        return False
+    ran = result["grounds"] if result["verify"] else len(grounds)  # what nothing found is run on new grounds, too
+    return result["key"] == key_of(mutant, grounds[:ran])
 
 
 def commit():
