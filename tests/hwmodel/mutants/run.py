@@ -1,0 +1,405 @@
+#!/usr/bin/env python3
+"""Mutants of the hardware model: each is one exact replacement in one file. Is it found, and by what?
+
+    tests/hwmodel/mutants/run.py --check         all of them apply: this is quick, and one of ./test.sh
+    tests/hwmodel/mutants/run.py                 builds and runs each; goes on where it stopped
+    tests/hwmodel/mutants/run.py --only gravity  those whose name holds this expression
+
+It wants a standing build: `cmake --build --preset release --target voxmelt` and the test programs of hwmodel.
+A mutant is an overlay of the one file that it changes. What includes that file is compiled by the commands of
+compile_commands.json, and linked before the libraries of the standing build.
+
+First `voxmelt verify` runs alone, on the grounds of grounds.toml, until one fails. The unit tests of a mutant
+run where verify finds nothing, or with --tests always. The table and what was found lie in --out.
+"""
+import argparse
+import concurrent.futures
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import threading
+import time
+import tomllib
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
+CLASSES = ["wrong bits", "wrong cycles", "wrong account", "checker blind", "equivalent"]
+KEYS = {"name", "file", "before", "after", "class", "stage", "why", "boundary", "tests"}
+# What a run of verify, or a unit test of the pipeline, computes with. Nobody plants a listed fault here, and
+# the ray caster has mutants of its own elsewhere.
+FOLDERS = ["stream", "lockstep", "memory", "machine", "process", "explore", "presets"]
+VERIFY = "app/voxmelt"
+LONGEST = 150  # seconds of one run
+
+
+def problems_of(mutant):
+    """Why a mutant is no good, in words."""
+    if missing := {"name", "file", "before", "after", "class", "why"} - set(mutant):
+        yield f"lacks {', '.join(sorted(missing))}"
+        return
+    if unknown := set(mutant) - KEYS:
+        yield f"has unknown keys: {', '.join(sorted(unknown))}"
+    if mutant["class"] not in CLASSES:
+        yield f"is of no class: {mutant['class']}"
+    if mutant["class"] == "wrong bits" and "stage" not in mutant:
+        yield "does not say which stage must be named"
+    file = ROOT / mutant["file"]
+    times = file.read_text().count(mutant["before"]) if file.is_file() else -1
+    if times != 1:
+        yield f"its text stands {times} times in {mutant['file']}" if times >= 0 else f"no file {file}"
+    if mutant["before"] == mutant["after"]:
+        yield "changes nothing"
+
+
+def read_mutants():
+    mutants = []
+    for path in sorted(HERE.glob("*.toml")):
+        if path.name != "grounds.toml":
+            mutants += tomllib.loads(path.read_text()).get("mutant", [])
+    return mutants
+
+
+def self_test():
+    """Lists that are spoilt must be refused."""
+    good = next(m for m in read_mutants() if m["class"] == "wrong bits")
+    spoilt = [good | {"before": "no such text"}, good | {"before": "\n"}, good | {"after": good["before"]},
+              good | {"class": "odd"}, good | {"file": "no/such/file.h"}, good | {"further": 1},
+              {k: v for k, v in good.items() if k != "stage"}, {k: v for k, v in good.items() if k != "why"}]
+    missed = [mutant for mutant in spoilt if not list(problems_of(mutant))]
+    missed += [] if check([good]) == 0 else [good]
+    missed += [] if check([good, good]) == 1 and check([]) == 1 else [[good, good]]
+    print(f"self-test: {missed} not refused" if missed else "self-test: every spoilt list is refused")
+    return 1 if missed else 0
+
+
+def check(mutants):
+    """Prints what is wrong with the list. Returns an exit code."""
+    found = [f"{m.get('name', '?')}: {problem}" for m in mutants for problem in problems_of(m)]
+    names = [m.get("name") for m in mutants]
+    found += [f"{name}: there are two of this name" for name in {n for n in names if names.count(n) > 1}]
+    print("\n".join(found) if found else f"{len(mutants)} mutants apply")
+    return 1 if found or not mutants else 0
+
+
+class Build:
+    """The standing build: how an object is compiled, and how a program is linked."""
+
+    def __init__(self, folder, compiles):
+        self.folder, self.compiles = folder.resolve(), compiles
+        entries = json.loads((self.folder / "compile_commands.json").read_text())
+        self.entries = {os.path.relpath(e["file"], ROOT): e for e in entries}
+        self.deps = {}  # object -> files of the tree
+        name = None
+        for line in self.ninja("-t", "deps").splitlines():
+            if line and not line[0].isspace():
+                name = line.split(":")[0]
+                self.deps[name] = set()
+            elif name and line.strip():
+                path = os.path.normpath(self.folder / line.strip())
+                if path.startswith(str(ROOT) + "/"):
+                    self.deps[name].add(os.path.relpath(path, ROOT))
+        self.links = {}
+
+    def ninja(self, *arguments):
+        return subprocess.run(["ninja", "-C", str(self.folder), *arguments], check=True, text=True,
+                              capture_output=True).stdout
+
+    def object_of(self, source):
+        words = shlex.split(self.entries[source]["command"])
+        return words[words.index("-o") + 1]
+
+    def link_of(self, program):
+        """The words of its link command, and its own objects among them."""
+        if program not in self.links:
+            line = self.ninja("-t", "commands", program).splitlines()[-1]
+            words = [w for w in shlex.split(line.split("&&")[1])]
+            self.links[program] = words, [w for w in words if w.endswith(".o")]
+        return self.links[program]
+
+    def sources(self, file, program):
+        """What must be compiled anew in a program when a file changes."""
+        own = set(self.link_of(program)[1]) if program != VERIFY else set()
+        for source in self.entries:
+            name = self.object_of(source)
+            part = source.split("/")
+            library = part[0] == "hwmodel" and (part[1] in FOLDERS or source == file)
+            library = library and source in self.compiles.get(file, [source])
+            if (library or name in own) and file in self.deps.get(name, ()):
+                yield source
+
+
+class Found:
+    """What a run of verify says."""
+
+    def __init__(self, run, code, text):
+        self.run, self.code = run, code
+        kind = re.search(r"first mismatch \(([^)]*)\): (.*)", text)
+        self.kind = kind.group(1) if kind else ""
+        self.where = kind.group(2).strip() if kind else ""
+        cell = re.search(r"^  cell \(([-\d, ]*)\)", text, re.M)
+        self.cell = cell.group(1) if cell else ""
+        self.text = text
+
+
+class Mutation:
+    """One mutant on its way: its overlay, its objects, its programs."""
+
+    def __init__(self, build, mutant, folder, optimise):
+        self.build, self.mutant, self.folder, self.optimise = build, mutant, folder, optimise
+        overlay = folder / "overlay" / mutant["file"]
+        overlay.parent.mkdir(parents=True, exist_ok=True)
+        text = (ROOT / mutant["file"]).read_text()
+        overlay.write_text(text.replace(mutant["before"], mutant["after"]))
+        (folder / "bin").mkdir(exist_ok=True)
+        share = folder / "share"
+        if not share.exists():
+            share.symlink_to(build.folder / "share")
+        self.objects = {}
+
+    def compile(self, source):
+        if source in self.objects:
+            return
+        entry = self.build.entries[source]
+        words = shlex.split(entry["command"])
+        target = self.folder / (source.replace("/", "_") + ".o")
+        words[words.index("-o") + 1] = str(target)
+        if source == self.mutant["file"]:
+            words[-1] = str(self.folder / "overlay" / source)
+        words = [w for w in words if w not in ("-Werror", "-O3", "-O2")]
+        words[1:1] = [self.optimise, "-w", f"-I{self.folder / 'overlay'}"]
+        if words[0].endswith("ccache"):
+            words = words[1:]
+        result = subprocess.run(words, cwd=entry["directory"], text=True, capture_output=True)
+        if result.returncode != 0:
+            raise RuntimeError(f"{source} does not compile:\n{result.stderr[:2000]}")
+        self.objects[source] = target
+
+    def link(self, program):
+        sources = list(self.build.sources(self.mutant["file"], program))
+        for source in sources:
+            self.compile(source)
+        words, own = self.build.link_of(program)
+        changed = {self.build.object_of(s): str(self.objects[s]) for s in sources}
+        target = self.folder / "bin" / pathlib.Path(program).name
+        at = words.index("-o")
+        extra = [o for name, o in changed.items() if name not in own]
+        words = [changed.get(w, w) for w in words[:at]] + extra + ["-o", str(target)] + words[at + 2:]
+        result = subprocess.run(words, cwd=self.build.folder, text=True, capture_output=True)
+        if result.returncode != 0:
+            raise RuntimeError(f"{program} does not link:\n{result.stderr[:2000]}")
+        return target
+
+
+def run(words, cwd, seconds=LONGEST):
+    """The exit code and the text; a run that takes too long counts as failed."""
+    try:
+        result = subprocess.run(words, cwd=cwd, text=True, capture_output=True, timeout=seconds, errors="replace")
+        return result.returncode, result.stdout + result.stderr
+    except subprocess.TimeoutExpired:
+        return 124, "takes too long"
+
+
+def verify(program, grounds, folder):
+    """The first ground on which verify fails, or None."""
+    for ground in grounds:
+        code, text = run([str(program), "verify", *shlex.split(ground["run"]), "--out", str(folder / "replay")],
+                         ROOT)
+        if code != 0:
+            return Found(ground["name"], code, text)
+    return None
+
+
+def unit_tests(mutation, tests):
+    """The first unit test that fails, or None. `tests`: "program" or "program filter", one after another."""
+    for each in tests:
+        program, _, chosen = each.partition(" ")
+        target = mutation.link(f"tests/hwmodel/{program}")
+        arguments = [f"--gtest_filter={chosen}"] if chosen else []
+        code, text = run([str(target), "--gtest_brief=1", "--gtest_fail_fast", *arguments], ROOT, 300)
+        if "[  PASSED  ] 0 tests" in text and code == 0:
+            raise RuntimeError(f"{each}: no such test")
+        if code != 0:
+            first = re.search(r"\[  FAILED  \] ([^\s,]*)", text)
+            return f"{program} {first.group(1) if first else f'exit code {code}'}"
+    return None
+
+
+def names_stage(mutant, found):
+    stage = mutant.get("stage", "")
+    return any(found.where == s or s == "channel" and found.kind == "channel" for s in stage.split(" | "))
+
+
+def judge(build, mutant, grounds, work, options):
+    """Builds a mutant and runs what may find it."""
+    begin = time.monotonic()
+    folder = work / mutant["name"]
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    result = {"name": mutant["name"], "ground": "", "verify": "", "stage_named": False, "cell": "", "tests": "", "error": ""}
+    try:
+        mutation = Mutation(build, mutant, folder, options.optimise)
+        found = verify(mutation.link(VERIFY), grounds, folder)
+        if found is not None:
+            result["verify"] = f"{found.run}: {found.kind or f'exit code {found.code}'}"
+            result["ground"], result["where"] = found.run, found.where
+            result["cell"] = found.cell
+            result["stage_named"] = names_stage(mutant, found)
+            if not found.kind:
+                result["text"] = found.text[-600:]
+        if mutant.get("tests") and (found is None or options.tests == "always"):
+            result["tests"] = unit_tests(mutation, mutant["tests"]) or ""
+    except RuntimeError as error:
+        result["error"] = str(error)
+    result["seconds"] = round(time.monotonic() - begin, 1)
+    if not options.keep:
+        shutil.rmtree(folder, ignore_errors=True)
+    return result
+
+
+def grounds_of(mutant, grounds):
+    full = mutant["class"] in ("wrong bits", "equivalent")
+    return [ground for ground in grounds if full or ground.get("short")]
+
+
+def key_of(mutant, grounds):
+    """What a result rests on: it holds as long as this stays the same. Of the grounds: those that were run."""
+    text = json.dumps([mutant, [ground["run"] for ground in grounds]], sort_keys=True) + (ROOT / mutant["file"]).read_text()
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def holds(mutant, result, grounds):
+    grounds = grounds_of(mutant, grounds)
+    if not result or result["error"]:
+        return False
+    ran = result["grounds"] if result["verify"] else len(grounds)  # what nothing found is run on new grounds, too
+    return result["key"] == key_of(mutant, grounds[:ran])
+
+
+def commit():
+    words = ["git", "-C", str(ROOT), "describe", "--always", "--dirty"]
+    return subprocess.run(words, text=True, capture_output=True).stdout.strip() or "unknown"
+
+
+def verdict(mutant, result):
+    if result["error"]:
+        return "not built"
+    if result["verify"]:
+        return "verify"
+    if result["tests"]:
+        return "tests"
+    return "equivalent" if mutant["class"] == "equivalent" else "survives"
+
+
+def table(mutants, results):
+    """The results as Markdown: sums first, then a line for each mutant."""
+    ran = [(m, results[m["name"]]) for m in mutants if m["name"] in results]
+    lines = ["| class | run | killed | by verify alone | by unit tests | proved equivalent | survive | not built |",
+             "|---|--:|--:|--:|--:|--:|--:|--:|"]
+    for kind in CLASSES + [None]:
+        of = [verdict(m, r) for m, r in ran if kind in (None, m["class"])]
+        if not of:
+            continue
+        count = of.count
+        lines.append(f"| {kind or '**sum**'} | {len(of)} | {count('verify') + count('tests')} | {count('verify')} "
+                     f"| {count('tests')} | {count('equivalent')} | {count('survives')} | {count('not built')} |")
+    bits = [(m, r) for m, r in ran if m["class"] == "wrong bits"]
+    alone = [(m, r) for m, r in bits if r["verify"]]
+    named = [(m, r) for m, r in alone if r["stage_named"] and r["cell"]]
+    edge = [m for m, _ in ran if m.get("boundary")]
+    commits = sorted({r["commit"] for _, r in ran})
+    lines += ["", f"{len(ran)} of {len(mutants)} mutants were run, {len(edge)} of them of side bands or boundaries, "
+              f"at {', '.join(commits)}.",
+              f"Of {len(bits)} with wrong bits verify alone finds {len(alone)}. "
+              f"It names the stage and the first wrong cell for {len(named)} of those.", "",
+              "| mutant | class | killed by | says | stage named | cell | seconds |", "|---|---|---|---|---|---|--:|"]
+    for m, r in ran:
+        by = r["verify"] or r["tests"] or ("not built" if r["error"] else verdict(m, r))
+        lines.append(f"| {m['name']} | {m['class']} | {by} | {r.get('where', '')} | "
+                     f"{'yes' if r['stage_named'] else 'no' if r['verify'] else ''} | {r['cell']} | {r['seconds']} |")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="only see that every replacement applies")
+    parser.add_argument("--self-test", action="store_true", help="see that a spoilt list is refused")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release", help="the standing build")
+    parser.add_argument("--only", default="", help="mutants whose name holds this regular expression")
+    parser.add_argument("--jobs", type=int, default=2, help="mutants at a time")
+    parser.add_argument("--tests", choices=["survivors", "always"], default="survivors",
+                        help="when the unit tests run: where verify finds nothing, or always")
+    parser.add_argument("--again", action="store_true", help="also run what has a result")
+    parser.add_argument("--minutes", type=float, default=0, help="begin no mutant after so long; 0: no limit")
+    parser.add_argument("--keep", action="store_true", help="keep what was built, in OUT/work")
+    parser.add_argument("--optimise", default="-O1", help="how the mutants are compiled")
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/mutants", help="folder of the results")
+    options = parser.parse_args()
+
+    if options.self_test:
+        return self_test()
+    mutants = read_mutants()
+    if (code := check(mutants)) != 0 or options.check:
+        return code
+    plan = tomllib.loads((HERE / "grounds.toml").read_text())
+    grounds = plan["ground"]
+    chosen = [m for m in mutants if re.search(options.only, m["name"])]
+    chosen.sort(key=lambda m: CLASSES.index(m["class"]))
+    if not chosen:
+        print(f"no mutant's name holds {options.only}")
+        return 2
+    program = options.build.resolve() / VERIFY
+    if not program.exists():
+        print(f"no standing build: {program} is missing")
+        return 2
+
+    options.out = options.out.resolve()
+    options.out.mkdir(parents=True, exist_ok=True)
+    sound, state = options.out / "sound.txt", f"{program} {program.stat().st_mtime_ns} {grounds}"
+    if not sound.exists() or sound.read_text() != state:
+        if (found := verify(program, grounds, options.out)) is not None:
+            print(f"without any mutant verify fails on the ground {found.run}:\n{found.text}")
+            return 1
+        sound.write_text(state)
+    build = Build(options.build, plan["compiles"])
+    store = options.out / "results.json"
+    results = json.loads(store.read_text()) if store.exists() else {}
+    lock, now, begin = threading.Lock(), commit(), time.monotonic()
+
+    def one(mutant):
+        if holds(mutant, results.get(mutant["name"]), grounds) and not options.again:
+            return
+        if options.minutes and time.monotonic() - begin > 60 * options.minutes:
+            return
+        of = grounds_of(mutant, grounds)
+        result = judge(build, mutant, of, options.out / "work", options)
+        ran = next((i + 1 for i, g in enumerate(of) if g["name"] == result["ground"]), len(of))
+        result |= {"key": key_of(mutant, of[:ran]), "grounds": ran, "commit": now}
+        with lock:
+            results[mutant["name"]] = result
+            store.write_text(json.dumps(results, indent=1))
+            said = result["verify"] or result["tests"] or result["error"]
+            print(f"{mutant['name']}: {verdict(mutant, result)} {said} {result.get('where', '')}"
+                  f"{'' if result['stage_named'] or not result['verify'] else ' (another stage)'}"
+                  f" {result['seconds']} s", flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        list(pool.map(one, chosen))
+    current = {m["name"]: results[m["name"]] for m in mutants
+               if m["name"] in results and results[m["name"]]["error"]
+               or holds(m, results.get(m["name"]), grounds)}
+    text = table(mutants, current)
+    (options.out / "table.md").write_text(text)
+    print(text.split("\n\n| mutant")[0])
+    bad = [m["name"] for m in chosen if m["name"] in current
+           and verdict(m, current[m["name"]]) in ("survives", "not built")]
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
