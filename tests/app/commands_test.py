@@ -374,6 +374,8 @@ kappa = 20
                 if name.startswith("tile-"):  # in a grid that is cut
                     for key in ("lanes=1", "cascade=1", "tile=16"):
                         command += ["--set", "hw." + key]
+                if name.startswith("code-"):
+                    command += ["--set", "hw.coded=1"]
                 result = voxmelt(*command, "--report", "p.json", cwd=self.folder)
                 if result.returncode == 2:
                     self.assertIn("nothing that this fault could change", result.stderr)
