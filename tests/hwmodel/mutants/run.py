@@ -6,7 +6,8 @@
     tests/hwmodel/mutants/run.py --only gravity  those whose name holds this expression
 
 It wants a standing build: `cmake --build --preset release --target voxmelt` and the test programs of hwmodel.
-A mutant is an overlay of the one file that it changes. What includes that file is compiled by the commands of
+With --together most mutants lie in one program, and an environment variable chooses (together.py). Any other
+is an overlay of the one file that it changes. What includes that file is compiled by the commands of
 compile_commands.json, and linked before the libraries of the standing build.
 
 First `voxmelt verify` runs alone, on the grounds of grounds.toml, until one fails. The unit tests of a mutant
@@ -26,6 +27,8 @@ import sys
 import threading
 import time
 import tomllib
+
+import together
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
@@ -160,7 +163,7 @@ class Mutation:
         share = folder / "share"
         if not share.exists():
             share.symlink_to(build.folder / "share")
-        self.objects = {}
+        self.objects, self.chosen = {}, {}
 
     def compile(self, source):
         if source in self.objects:
@@ -196,20 +199,32 @@ class Mutation:
         return target
 
 
-def run(words, cwd, seconds=LONGEST):
+class Chosen:
+    """One mutant of a program that holds many."""
+
+    def __init__(self, built, mutant):
+        self.built = built
+        self.chosen = {"VOXMELT_MUTANT": str(built.numbers[mutant["name"]])}
+
+    def link(self, program):
+        return self.built.program(program)
+
+
+def run(words, seconds=LONGEST, chosen={}):
     """The exit code and the text; a run that takes too long counts as failed."""
     try:
-        result = subprocess.run(words, cwd=cwd, text=True, capture_output=True, timeout=seconds, errors="replace")
+        result = subprocess.run(words, cwd=ROOT, text=True, capture_output=True, timeout=seconds, errors="replace",
+                                env=os.environ | chosen)
         return result.returncode, result.stdout + result.stderr
     except subprocess.TimeoutExpired:
         return 124, "takes too long"
 
 
-def verify(program, grounds, folder):
+def verify(program, grounds, folder, chosen={}):
     """The first ground on which verify fails, or None."""
     for ground in grounds:
         code, text = run([str(program), "verify", *shlex.split(ground["run"]), "--out", str(folder / "replay")],
-                         ROOT)
+                         chosen=chosen)
         if code != 0:
             return Found(ground["name"], code, text)
     return None
@@ -221,7 +236,8 @@ def unit_tests(mutation, tests):
         program, _, chosen = each.partition(" ")
         target = mutation.link(f"tests/hwmodel/{program}")
         arguments = [f"--gtest_filter={chosen}"] if chosen else []
-        code, text = run([str(target), "--gtest_brief=1", "--gtest_fail_fast", *arguments], ROOT, 300)
+        code, text = run([str(target), "--gtest_brief=1", "--gtest_fail_fast", *arguments], 300,
+                         mutation.chosen)
         if "[  PASSED  ] 0 tests" in text and code == 0:
             raise RuntimeError(f"{each}: no such test")
         if code != 0:
@@ -235,16 +251,19 @@ def names_stage(mutant, found):
     return any(found.where == s or s == "channel" and found.kind == "channel" for s in stage.split(" | "))
 
 
-def judge(build, mutant, grounds, work, options):
-    """Builds a mutant and runs what may find it."""
+def judge(build, built, mutant, grounds, work, options):
+    """Builds a mutant, where it is not in the program of many, and runs what may find it."""
     begin = time.monotonic()
     folder = work / mutant["name"]
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     result = {"name": mutant["name"], "ground": "", "verify": "", "stage_named": False, "cell": "", "tests": "", "error": ""}
     try:
-        mutation = Mutation(build, mutant, folder, options.optimise)
-        found = verify(mutation.link(VERIFY), grounds, folder)
+        if built is not None and mutant["name"] in built.numbers:
+            mutation = Chosen(built, mutant)
+        else:
+            mutation = Mutation(build, mutant, folder, options.optimise)
+        found = verify(mutation.link(VERIFY), grounds, folder, mutation.chosen)
         if found is not None:
             result["verify"] = f"{found.run}: {found.kind or f'exit code {found.code}'}"
             result["ground"], result["where"] = found.run, found.where
@@ -332,6 +351,7 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release", help="the standing build")
     parser.add_argument("--only", default="", help="mutants whose name holds this regular expression")
     parser.add_argument("--jobs", type=int, default=2, help="mutants at a time")
+    parser.add_argument("--together", action="store_true", help="build most mutants into one program, once")
     parser.add_argument("--tests", choices=["survivors", "always"], default="survivors",
                         help="when the unit tests run: where verify finds nothing, or always")
     parser.add_argument("--again", action="store_true", help="also run what has a result")
@@ -360,6 +380,12 @@ def main():
 
     options.out = options.out.resolve()
     options.out.mkdir(parents=True, exist_ok=True)
+    built = None
+    if options.together:
+        built = together.Together(ROOT, options.out, mutants)
+        programs = {f"tests/hwmodel/{test.split()[0]}" for m in mutants for test in m.get("tests", [])}
+        built.build([VERIFY, *sorted(programs)], options.optimise, options.jobs)
+        program = built.program(VERIFY)
     sound, state = options.out / "sound.txt", f"{program} {program.stat().st_mtime_ns} {grounds}"
     if not sound.exists() or sound.read_text() != state:
         if (found := verify(program, grounds, options.out)) is not None:
@@ -377,7 +403,7 @@ def main():
         if options.minutes and time.monotonic() - begin > 60 * options.minutes:
             return
         of = grounds_of(mutant, grounds)
-        result = judge(build, mutant, of, options.out / "work", options)
+        result = judge(build, built, mutant, of, options.out / "work", options)
         ran = next((i + 1 for i, g in enumerate(of) if g["name"] == result["ground"]), len(of))
         result |= {"key": key_of(mutant, of[:ran]), "grounds": ran, "commit": now}
         with lock:
