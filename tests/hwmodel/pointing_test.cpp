@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "hwmodel/stream/no_faults.h"
+#include "hwmodel/stream/settle_stage.h"
 #include "tests/hwmodel/lockstep_world.h"
 
 namespace voxmelt::hwmodel {
@@ -139,6 +141,33 @@ TEST(Pointing, ALostCycleIsADifference) {
   EXPECT_NE(late.mismatch->detail.find("melt of time step 0"), std::string::npos);
   const VerifyReport stalled = verified(empty_start(), {4, 2, 2, 9}, 2, with_odd_melt({}, 7));
   EXPECT_EQ(stalled.mismatch, nullptr) << "stalls cost cycles, too";
+}
+
+// Settle's second scan works on a column that has been turned round: its top comes first.
+struct TooWideBehindTheTurn : NoFaults {
+  std::int64_t coming = 0;  // when this token comes
+  void lowered(auto& settle) const {
+    if (settle.came().ordinal == coming) settle.words_[0].heat = 65536;
+  }
+};
+TEST(Pointing, AValueTooWideBehindATurnNamesItsCell) {
+  const Start start = start_with_sides(rule::Law::viscous, false, {6, 3, 3});
+  const std::vector<std::pair<std::int64_t, int>> heights{{7, 2}, {8, 1}, {9, 0}};
+  for (const auto& [coming, y] : heights) {
+    TooWideBehindTheTurn faults;
+    faults.coming = coming;
+    const VerifyReport report =
+        verified(start, {2, 1, 2, 0}, 1, [&](StageKind kind, const Design& design) -> std::unique_ptr<Stage> {
+          if (kind != StageKind::settle) return make_stage(kind, design);
+          return std::make_unique<Settle<TooWideBehindTheTurn>>(design, faults);
+        });
+    ASSERT_NE(report.mismatch, nullptr);
+    EXPECT_EQ(report.mismatch->kind, Mismatch::Kind::width);
+    EXPECT_EQ(report.mismatch->where, "settle");
+    EXPECT_EQ(report.mismatch->x, 3) << "the second column of two cells, its last lane";
+    EXPECT_EQ(report.mismatch->y, y);
+    EXPECT_EQ(report.mismatch->z, 0);
+  }
 }
 
 // Without stalls the writer takes a token when all stages before it have waited for their lags.

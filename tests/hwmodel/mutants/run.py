@@ -28,11 +28,11 @@ import threading
 import time
 import tomllib
 
+import report
 import together
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
-CLASSES = ["wrong bits", "wrong cycles", "wrong account", "checker blind", "equivalent"]
 KEYS = {"name", "file", "before", "after", "class", "stage", "why", "boundary", "tests"}
 # What a run of verify, or a unit test of the pipeline, computes with. Nobody plants a listed fault here, and
 # the ray caster has mutants of its own elsewhere.
@@ -48,7 +48,7 @@ def problems_of(mutant):
         return
     if unknown := set(mutant) - KEYS:
         yield f"has unknown keys: {', '.join(sorted(unknown))}"
-    if mutant["class"] not in CLASSES:
+    if mutant["class"] not in report.CLASSES:
         yield f"is of no class: {mutant['class']}"
     if mutant["class"] == "wrong bits" and "stage" not in mutant:
         yield "does not say which stage must be named"
@@ -66,6 +66,14 @@ def read_mutants():
         if path.name != "grounds.toml":
             mutants += tomllib.loads(path.read_text()).get("mutant", [])
     return mutants
+
+
+def lists():
+    """What the first line of each list says of it, and the names in it."""
+    for path in sorted(HERE.glob("*.toml")):
+        if path.name != "grounds.toml":
+            text = path.read_text()
+            yield text.split("\n")[0].lstrip("# "), [m["name"] for m in tomllib.loads(text).get("mutant", [])]
 
 
 def self_test():
@@ -230,11 +238,35 @@ def verify(program, grounds, folder, chosen={}):
     return None
 
 
+def target_of(test):
+    """The program that a test runs: its own, or that of the user."""
+    program = test.split()[0]
+    if program.endswith(".py"):
+        return VERIFY
+    return f"tests/{program}" if "/" in program else f"tests/hwmodel/{program}"
+
+
+def script_test(mutation, script, chosen):
+    """The first test of a script under tests/ that fails, or None."""
+    folder, module = os.path.split(script)
+    begin = (f"import sys, unittest; sys.path.insert(0, {str(ROOT / 'tests' / folder)!r}); import {module[:-3]};"
+             f"unittest.main(module={module[:-3]}, argv={['test', '-f', *chosen.split()]!r})")
+    code, text = run([sys.executable, "-c", begin, str(mutation.link(VERIFY))], 400, mutation.chosen)
+    if code == 0:
+        return None
+    first = re.search(r"^(?:FAIL|ERROR): (\S+)", text, re.M)
+    return f"{module} {first.group(1) if first else f'exit code {code}'}"
+
+
 def unit_tests(mutation, tests):
     """The first unit test that fails, or None. `tests`: "program" or "program filter", one after another."""
     for each in tests:
         program, _, chosen = each.partition(" ")
-        target = mutation.link(f"tests/hwmodel/{program}")
+        if program.endswith(".py"):
+            if (found := script_test(mutation, program, chosen)) is not None:
+                return found
+            continue
+        target = mutation.link(target_of(each))
         arguments = [f"--gtest_filter={chosen}"] if chosen else []
         code, text = run([str(target), "--gtest_brief=1", "--gtest_fail_fast", *arguments], 300,
                          mutation.chosen)
@@ -282,6 +314,8 @@ def judge(build, built, mutant, grounds, work, options):
 
 
 def grounds_of(mutant, grounds):
+    if mutant["class"] == "wrong tool":
+        return []
     full = mutant["class"] in ("wrong bits", "equivalent")
     return [ground for ground in grounds if full or ground.get("short")]
 
@@ -305,45 +339,6 @@ def commit():
     return subprocess.run(words, text=True, capture_output=True).stdout.strip() or "unknown"
 
 
-def verdict(mutant, result):
-    if result["error"]:
-        return "not built"
-    if result["verify"]:
-        return "verify"
-    if result["tests"]:
-        return "tests"
-    return "equivalent" if mutant["class"] == "equivalent" else "survives"
-
-
-def table(mutants, results):
-    """The results as Markdown: sums first, then a line for each mutant."""
-    ran = [(m, results[m["name"]]) for m in mutants if m["name"] in results]
-    lines = ["| class | run | killed | by verify alone | by unit tests | proved equivalent | survive | not built |",
-             "|---|--:|--:|--:|--:|--:|--:|--:|"]
-    for kind in CLASSES + [None]:
-        of = [verdict(m, r) for m, r in ran if kind in (None, m["class"])]
-        if not of:
-            continue
-        count = of.count
-        lines.append(f"| {kind or '**sum**'} | {len(of)} | {count('verify') + count('tests')} | {count('verify')} "
-                     f"| {count('tests')} | {count('equivalent')} | {count('survives')} | {count('not built')} |")
-    bits = [(m, r) for m, r in ran if m["class"] == "wrong bits"]
-    alone = [(m, r) for m, r in bits if r["verify"]]
-    named = [(m, r) for m, r in alone if r["stage_named"] and r["cell"]]
-    edge = [m for m, _ in ran if m.get("boundary")]
-    commits = sorted({r["commit"] for _, r in ran})
-    lines += ["", f"{len(ran)} of {len(mutants)} mutants were run, {len(edge)} of them of side bands or boundaries, "
-              f"at {', '.join(commits)}.",
-              f"Of {len(bits)} with wrong bits verify alone finds {len(alone)}. "
-              f"It names the stage and the first wrong cell for {len(named)} of those.", "",
-              "| mutant | class | killed by | says | stage named | cell | seconds |", "|---|---|---|---|---|---|--:|"]
-    for m, r in ran:
-        by = r["verify"] or r["tests"] or ("not built" if r["error"] else verdict(m, r))
-        lines.append(f"| {m['name']} | {m['class']} | {by} | {r.get('where', '')} | "
-                     f"{'yes' if r['stage_named'] else 'no' if r['verify'] else ''} | {r['cell']} | {r['seconds']} |")
-    return "\n".join(lines) + "\n"
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="only see that every replacement applies")
@@ -354,6 +349,7 @@ def main():
     parser.add_argument("--together", action="store_true", help="build most mutants into one program, once")
     parser.add_argument("--tests", choices=["survivors", "always"], default="survivors",
                         help="when the unit tests run: where verify finds nothing, or always")
+    parser.add_argument("--docs", type=pathlib.Path, help="a page in which to write the sums, between its two marks")
     parser.add_argument("--again", action="store_true", help="also run what has a result")
     parser.add_argument("--minutes", type=float, default=0, help="begin no mutant after so long; 0: no limit")
     parser.add_argument("--keep", action="store_true", help="keep what was built, in OUT/work")
@@ -369,7 +365,7 @@ def main():
     plan = tomllib.loads((HERE / "grounds.toml").read_text())
     grounds = plan["ground"]
     chosen = [m for m in mutants if re.search(options.only, m["name"])]
-    chosen.sort(key=lambda m: CLASSES.index(m["class"]))
+    chosen.sort(key=lambda m: report.CLASSES.index(m["class"]))
     if not chosen:
         print(f"no mutant's name holds {options.only}")
         return 2
@@ -383,8 +379,8 @@ def main():
     built = None
     if options.together:
         built = together.Together(ROOT, options.out, mutants)
-        programs = {f"tests/hwmodel/{test.split()[0]}" for m in mutants for test in m.get("tests", [])}
-        built.build([VERIFY, *sorted(programs)], options.optimise, options.jobs)
+        programs = {target_of(test) for m in mutants for test in m.get("tests", [])}
+        built.build([VERIFY, *sorted(programs - {VERIFY})], options.optimise, options.jobs)
         program = built.program(VERIFY)
     sound, state = options.out / "sound.txt", f"{program} {program.stat().st_mtime_ns} {grounds}"
     if not sound.exists() or sound.read_text() != state:
@@ -410,7 +406,7 @@ def main():
             results[mutant["name"]] = result
             store.write_text(json.dumps(results, indent=1))
             said = result["verify"] or result["tests"] or result["error"]
-            print(f"{mutant['name']}: {verdict(mutant, result)} {said} {result.get('where', '')}"
+            print(f"{mutant['name']}: {report.verdict(mutant, result)} {said} {result.get('where', '')}"
                   f"{'' if result['stage_named'] or not result['verify'] else ' (another stage)'}"
                   f" {result['seconds']} s", flush=True)
 
@@ -419,11 +415,13 @@ def main():
     current = {m["name"]: results[m["name"]] for m in mutants
                if m["name"] in results and results[m["name"]]["error"]
                or holds(m, results.get(m["name"]), grounds)}
-    text = table(mutants, current)
-    (options.out / "table.md").write_text(text)
-    print(text.split("\n\n| mutant")[0])
+    text = report.sums(mutants, current, list(lists()))
+    (options.out / "table.md").write_text(text + report.every(mutants, current))
+    print(text)
+    if options.docs:
+        report.into_page(options.docs, text + report.notable(mutants, current))
     bad = [m["name"] for m in chosen if m["name"] in current
-           and verdict(m, current[m["name"]]) in ("survives", "not built")]
+           and report.verdict(m, current[m["name"]]) in ("survives", "not built")]
     return 1 if bad else 0
 
 

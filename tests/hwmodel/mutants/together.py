@@ -5,6 +5,7 @@ in a function that the compiler may evaluate, is left to a build of its own.
 import os
 import re
 import subprocess
+import zlib
 
 CHOSEN = """#pragma once
 #include <cstdlib>
@@ -83,14 +84,18 @@ class Together:
     def __init__(self, root, folder, mutants):
         self.root, self.tree = root, folder / "tree"
         self.numbers, files = {}, {}
-        for number, mutant in enumerate(mutants, 1):
+        names = {}
+        for mutant in mutants:
+            number = zlib.crc32(mutant["name"].encode()) >> 1  # the same, whatever the list: objects stay good
+            names[number] = mutant["name"]
             files.setdefault(mutant["file"], []).append((number, mutant))
             self.numbers[mutant["name"]] = number
+        assert len(names) == len(mutants) and 0 not in names
         self.texts = {"mutants_chosen.h": CHOSEN}
         for file, of in files.items():
             self.texts[file], left = combined((root / file).read_text(), of)
             for number in left:
-                del self.numbers[mutants[number - 1]["name"]]
+                del self.numbers[names[number]]
 
     def copy(self):
         """What stands already is not written again: so its objects stay good."""
@@ -105,7 +110,7 @@ class Together:
                 to.write_bytes(content)
 
     def build(self, targets, optimise, jobs):
-        """Only the objects of the model are compiled in another way than in any build."""
+        """Only the objects of the model, and what is mutated, are compiled in another way than in any build."""
         self.copy()
         folder = self.tree / "build/release"
         subprocess.run(["cmake", "--preset", "release", "-DVOXMELT_TESTS=ON", "-DVOXMELT_PRECOMPILE=OFF"], check=True,
@@ -113,7 +118,7 @@ class Together:
         rules, lines, ours = folder / "build.ninja", [], False
         for line in rules.read_text().splitlines():
             if line.startswith("build "):
-                ours = re.match(r"build (tests/)?hwmodel/", line) is not None
+                ours = re.match(r"build (tests/)?hwmodel/", line) or any(f"/{file} " in line for file in self.texts)
             if ours and line.startswith("  FLAGS = "):
                 line = re.sub(r"-O[23]", optimise, line).replace(" -Werror", "") + " -w"
             lines.append(line)
