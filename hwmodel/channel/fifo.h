@@ -90,7 +90,8 @@ class Fifo {
       putting_ = getting_ = false;
       highest_ = std::max(highest_, count_);
     }
-    ++occupancy_[static_cast<std::size_t>(count_)];
+    // A channel that holds too many has overwritten its oldest token: a watcher notices when it leaves.
+    ++occupancy_[static_cast<std::size_t>(std::min(count_, depth_))];
     stall_ = stalls_.next();
   }
 
