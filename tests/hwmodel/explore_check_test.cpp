@@ -1,6 +1,8 @@
 // A point that computes wrong bits is not verified; the file of sized channels says the machine.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "hwmodel/explore/check.h"
 #include "hwmodel/explore/size_fifos.h"
 #include "tests/kernel/engine/parallel/equal.h"
