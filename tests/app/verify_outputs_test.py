@@ -220,12 +220,15 @@ class Outputs(unittest.TestCase):
         """What every channel and stage must obey, whatever it carries."""
         channels = {name.rsplit(".", 1)[0] for name in vcd.bits if name.endswith(".ready")}
         stages = {name.rsplit(".", 1)[0] for name in vcd.bits if name.endswith(".starved")}
+        fields = [(name, *re.match(r"(.*)\.(in|out)\.lane_\d+\.\w+$", name).groups()) for name in vcd.bits if ".lane_" in name]
         self.assertGreater(len(channels), 4)
         self.assertGreater(len(stages), 4)
         cycles = vcd.cycles()
         moved = 0
         for now, then in zip(cycles, cycles[1:]):
             self.assertEqual(then["pipeline.cycle"], now["pipeline.cycle"] + 1)
+            for name, c, side in fields:  # where there is no token, nothing shows
+                self.assertEqual(now[name] is not None, now[f"{c}.put"] == 1 if side == "in" else now[f"{c}.count"] > 0, name)
             for c in channels:
                 self.assertLessEqual(now[f"{c}.put"], now[f"{c}.ready"], c)
                 self.assertLessEqual(now[f"{c}.get"], now[f"{c}.valid"], c)
@@ -264,6 +267,58 @@ class Outputs(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("the run ended before cycle", result.stderr)
         self.assertFalse((self.folder / "no.vcd").exists())
+
+    def test_the_waves_show_what_the_cells_hold(self):
+        scene = write(self.folder, """[grid]
+size = [4, 2, 2]
+[[inert]]
+shape = "box"
+size = [1, 1, 1]
+at = [0.5, 0.5, 0.5]
+[[liquid]]
+shape = "box"
+size = [1, 1, 1]
+at = [2.5, 0.5, 0.5]
+amount = 10
+energy = 2.5
+temperature = 0.25
+[[liquid]]
+shape = "box"
+size = [1, 1, 1]
+at = [3.5, 1.5, 1.5]
+amount = 0.5
+energy = 0.125
+temperature = 0.75
+[[solid]]
+shape = "box"
+size = [1, 1, 1]
+at = [1.5, 1.5, 1.5]
+temperature = 0.5
+[heat]
+gamma = 0.1
+[flow]
+law = "paper"
+""", "few.toml")
+        vcd, _ = self.waves(0, scene, "--steps", 1, "--vcd-from", 0, "--set", "hw.lanes=2", "--set", "hw.cascade=1")
+        first = [name[:-len(".ready")] for name in vcd.bits if ".c00_" in name and name.endswith(".ready")][0]
+        tokens = [now for now in vcd.cycles() if now[f"{first}.put"]]
+        self.assertEqual(len(tokens), 8)
+        wanted = {(0, 0, 0): (3, 2048, 0, 0), (2, 0, 0): (1, 40960, 10240, 0.25), (3, 1, 1): (1, 2048, 512, 0.75),
+                  (1, 1, 1): (2, 4096, 0, 0.5)}
+        for i, now in enumerate(tokens):
+            y, block, z = i % 2, i // 2 % 2, i // 4
+            for lane in range(2):
+                cell = wanted.get((2 * block + lane, y, z), (0, 0, 0, 0))
+                is_ = [now[f"{first}.in.lane_{lane}.{field}"] for field in ("state", "amount", "energy", "heat")]
+                self.assertEqual(tuple(is_[:3]), cell[:3], (block, lane, y, z))
+                self.assertAlmostEqual(is_[3] / 65535, cell[3], delta=1e-4)
+
+    def test_the_waves_of_a_later_train_count_the_cycles_of_the_run(self):
+        vcd, report = self.waves(0, self.scene, "--steps", 3, "--set", "hw.overlap=0", "--set", "hw.cascade=1",
+                                 "--vcd-from", 1200)
+        self.assertGreater(report["cycles"], 1300)
+        self.assertLess(max(train["cycles"] for train in report["trains"]), 1200)
+        self.assertEqual([now["pipeline.cycle"] for now in self.check_waves(vcd)], list(range(1200, 1264)))
 
     def test_what_does_not_fit_together_is_refused(self):
         for wrong, why in ((["--vcd-from", 3], "there is no --vcd"), (["--picture", "--vcd", "w.vcd"], "pipeline alone"),

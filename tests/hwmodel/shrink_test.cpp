@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace voxmelt::hwmodel {
@@ -66,6 +67,64 @@ TEST(Shrinker, KeepsWhatTheFailureNeedsAndNothingElse) {
   EXPECT_EQ(small.configuration.fifo_depth, Configuration{}.fifo_depth);
   EXPECT_EQ(small.without, std::vector<std::string>{"vent.0"});
   EXPECT_EQ(shrinker.tried(), asked);
+}
+
+// One cell of every kind, with all that it can hold, at the corners of a box.
+state::Volume of_every_kind() {
+  state::Volume volume(state::Grid{6, 5, 4});
+  volume.solid.set(1, 1, 1, true), volume.inert.set(3, 2, 1, true), volume.liquid.set(3, 1, 2, true);
+  const auto put = [&](int x, int y, int z, std::uint16_t amount, std::uint16_t energy, std::uint16_t heat) {
+    const state::Slot at = volume.at(x, y, z);
+    volume.amount[at] = amount, volume.energy[at] = energy, volume.heat[at] = heat;
+  };
+  put(1, 1, 1, 4000, 0, 500), put(3, 2, 1, 2048, 0, 700), put(3, 1, 2, 900, 300, 40000);
+  return volume;
+}
+
+TEST(Shrinker, APartHoldsAllThatItsCellsHold) {
+  const state::Volume whole = of_every_kind(), part = part_of(whole, {1, 1, 1}, {3, 2, 2});
+  EXPECT_EQ(part.grid, (state::Grid{3, 2, 2}));
+  EXPECT_TRUE(part.solid.test(0, 0, 0) && part.inert.test(2, 1, 0) && part.liquid.test(2, 0, 1));
+  EXPECT_EQ(part.amount[part.at(0, 0, 0)], 4000), EXPECT_EQ(part.heat[part.at(0, 0, 0)], 500);
+  EXPECT_EQ(part.amount[part.at(2, 1, 0)], 2048), EXPECT_EQ(part.heat[part.at(2, 1, 0)], 700);
+  const state::Slot liquid = part.at(2, 0, 1);
+  EXPECT_EQ(part.amount[liquid], 900), EXPECT_EQ(part.energy[liquid], 300),
+      EXPECT_EQ(part.heat[liquid], 40000);
+  EXPECT_FALSE(part.liquid.test(0, 0, 0) || part.solid.test(1, 1, 1) || part.inert.test(0, 0, 1));
+}
+
+// It fails in the whole grid alone, so nothing can be cut off; then all matter can go.
+TEST(Shrinker, MatterOfEveryKindIsTakenAway) {
+  const state::Volume whole = of_every_kind();
+  Shrinker shrinker(
+      {whole, {}, 0, 1, {}, {}}, {}, [&](const Case& one) { return one.volume.grid == whole.grid; },
+      [] { return true; });
+  EXPECT_EQ(shrinker.shrink({3, 1, 2}).volume, state::Volume(whole.grid));
+}
+
+// The first part that is tried has the cell of the first difference in its middle.
+TEST(Shrinker, BeginsAroundTheFirstDifference) {
+  std::vector<std::pair<Cell3, Cell3>> parts;
+  Shrinker shrinker(
+      {state::Volume(state::Grid{40, 40, 40}), {}, 0, 1, {}, {}}, {},
+      [&](const Case& one) {
+        parts.emplace_back(one.from, one.size());
+        return one.from != Cell3{};
+      },
+      [] { return true; });
+  shrinker.shrink({20, 30, 25});
+  ASSERT_FALSE(parts.empty());
+  EXPECT_EQ(parts.front(), (std::pair{Cell3{16, 26, 21}, Cell3{8, 8, 8}}));
+}
+
+// While the vent is there it fails in the whole grid alone; without it, in any.
+TEST(Shrinker, CutsAgainWhereSourcesAreGone) {
+  const state::Volume whole = filled({9, 9, 9});
+  Shrinker shrinker(
+      {whole, {}, 0, 1, {}, {}}, {"vent.0"},
+      [&](const Case& one) { return !one.without.empty() || one.volume.grid == whole.grid; },
+      [] { return true; });
+  EXPECT_EQ(shrinker.shrink({4, 4, 4}).size(), (Cell3{1, 1, 1}));
 }
 
 TEST(Shrinker, LeavesWhatCannotBeMadeSmaller) {
