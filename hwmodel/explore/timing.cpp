@@ -6,6 +6,7 @@
 
 #include "hwmodel/explore/schedule.h"
 #include "hwmodel/stream/prediction.h"
+#include "hwmodel/stream/stages.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
@@ -15,7 +16,9 @@ class Delay final : public Stage {
  public:
   Delay(StageKind kind, const Design& design)
       : Stage(kind, design, lag_of(kind, design).tokens(design.shape)),
-        fed_(kind == StageKind::exchange && design.hot() && design.parameters.heat.radiation) {}
+        fed_(kind == StageKind::exchange && design.hot() && design.parameters.heat.radiation),
+        bits_(make_stage(kind, design)->output_bits()) {}
+  int output_bits() const override { return bits_; }  // a channel is as wide as behind the stage itself
   void feed(HeatFifo& feed) override { feed_ = fed_ ? &feed : nullptr; }
 
  private:
@@ -25,6 +28,7 @@ class Delay final : public Stage {
   }
 
   bool fed_;
+  int bits_;
   HeatFifo* feed_ = nullptr;
 };
 

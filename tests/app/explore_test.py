@@ -7,6 +7,7 @@ from the parts and coefficients in the report.
 import csv
 import itertools
 import json
+import re
 import tempfile
 import unittest
 from math import ceil, inf
@@ -210,6 +211,29 @@ class Explore(unittest.TestCase):
                 self.compare(report, rows, 97)
                 self.assertIn(report["answer"], said)
 
+    def test_the_front_is_what_nothing_beats(self):
+        report, rows, _ = self.explore(self.scene, "--device", "ecp5-85f", "--memory", "none", "--points", 0,
+                                       "--set", "hw.lanes=4")
+        fits = [row for row in rows if row["fits"] == "1"]
+        speed = lambda row: int(row["cell_steps_per_second"])
+        front = set()
+        for axis in (*NAMES, "clock_mhz"):
+            so_far = -1
+            for amount in sorted({int(row[axis]) for row in fits}):
+                fastest = max(speed(row) for row in fits if int(row[axis]) == amount)
+                if fastest > so_far:
+                    front.add((axis, amount, fastest))
+                    so_far = fastest
+        shown = [row for row in rows if row["on_front"] == "1"]
+        for row in shown:  # on one axis at least
+            self.assertTrue(any((axis, int(row[axis]), speed(row)) in front for axis in (*NAMES, "clock_mhz")), row)
+        for axis, amount, fastest in front:
+            self.assertTrue(any(int(row[axis]) == amount and speed(row) == fastest for row in shown), (axis, amount))
+        best = [row for row in fits if speed(row) == report["best"]["cell_steps_per_second"]]
+        self.assertGreater(len(best), 1, "the least full of several")
+        self.assertAlmostEqual(report["best"]["fullest"], min(float(row["fullest"]) for row in best), delta=1e-6)
+        self.assertLessEqual(len(shown), len(front))
+
     def test_fewer_units_change_the_answer(self):
         tight = ["--device", "ecp5-85f", "--memory", "none", "--points", 0]
         report, rows, _ = self.explore(self.scene, *tight)
@@ -289,6 +313,22 @@ class SizedChannels(unittest.TestCase):
             self.assertEqual([c["depth"] for c in again["channels"]], [c["depth"] for c in sized["channels"]])
             self.assertLess(max(c["depth"] for c in sized["channels"]), 1024)
             self.assertIn("one less costs", said)
+
+    def test_the_table_says_what_the_channels_cost(self):
+        sized, said = self.verify("--set", "hw.stall_seed=5", "--set", "hw.lanes=8", "--size-fifos", "fifos.toml")
+        rows = {row[0]: row for row in re.findall(r"^(step \d+: \S+ -> \S+) +(\d+) +\d+ +(\d+) +(\d+) cycles$", said, re.M)}
+        channels = [c for c in sized["channels"] if c["name"] in rows]
+        self.assertGreater(len(channels), 3)
+        for channel in channels:
+            self.assertEqual(int(rows[channel["name"]][1]), channel["depth"])
+            self.assertEqual(int(rows[channel["name"]][2]), channel["depth"] * channel["bits"] * 8)
+        text = (self.folder / "fifos.toml").read_text()
+        deep = max(channels, key=lambda c: c["depth"])
+        entry = f'name = "{deep["name"]}"\ndepth = '
+        self.assertIn(f'{entry}{deep["depth"]}\n', text)
+        write(self.folder, text.replace(f'{entry}{deep["depth"]}\n', f'{entry}{deep["depth"] - 1}\n'), "less.toml")
+        less, _ = self.verify("--hw", "less.toml")
+        self.assertEqual(less["cycles"] - sized["cycles"], int(rows[deep["name"]][3]))
 
     def test_a_memory_costs_cycles_and_no_bits(self):
         free, _ = self.verify("--set", "hw.lanes=16")
