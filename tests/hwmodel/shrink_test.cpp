@@ -85,11 +85,13 @@ TEST(Shrinker, APartHoldsAllThatItsCellsHold) {
   const state::Volume whole = of_every_kind(), part = part_of(whole, {1, 1, 1}, {3, 2, 2});
   EXPECT_EQ(part.grid, (state::Grid{3, 2, 2}));
   EXPECT_TRUE(part.solid.test(0, 0, 0) && part.inert.test(2, 1, 0) && part.liquid.test(2, 0, 1));
-  EXPECT_EQ(part.amount[part.at(0, 0, 0)], 4000), EXPECT_EQ(part.heat[part.at(0, 0, 0)], 500);
-  EXPECT_EQ(part.amount[part.at(2, 1, 0)], 2048), EXPECT_EQ(part.heat[part.at(2, 1, 0)], 700);
-  const state::Slot liquid = part.at(2, 0, 1);
-  EXPECT_EQ(part.amount[liquid], 900), EXPECT_EQ(part.energy[liquid], 300),
-      EXPECT_EQ(part.heat[liquid], 40000);
+  const auto all_of = [&](int x, int y, int z) {
+    const state::Slot at = part.at(x, y, z);
+    return Cell3{part.amount[at], part.energy[at], part.heat[at]};
+  };
+  EXPECT_EQ(all_of(0, 0, 0), (Cell3{4000, 0, 500}));
+  EXPECT_EQ(all_of(2, 1, 0), (Cell3{2048, 0, 700}));
+  EXPECT_EQ(all_of(2, 0, 1), (Cell3{900, 300, 40000}));
   EXPECT_FALSE(part.liquid.test(0, 0, 0) || part.solid.test(1, 1, 1) || part.inert.test(0, 0, 1));
 }
 
