@@ -187,6 +187,44 @@ class Commands(unittest.TestCase):
         self.assertEqual(process.wait(60), 4)
         self.assertEqual([p.name for p in self.folder.iterdir()], ["scene.toml"])
 
+    # A file of the export has begun to grow.
+    def test_an_export_is_left_while_it_is_written(self):
+        for form, name in (("npy", "amount.npy.partial-*"), ("vti", "volume.vti.partial-*")):
+            with self.subTest(form):
+                process = subprocess.Popen([PROGRAM, "export", self.scene, "--format", form, "--out", "e",
+                                            "--set", "grid.size=[256, 256, 256]"],
+                                           cwd=self.folder, stderr=subprocess.PIPE, text=True)
+                for _ in range(3000):
+                    if list(self.folder.glob(f"e.partial-*/{name}")):
+                        break
+                    time.sleep(0.01)
+                begin = time.monotonic()
+                process.terminate()
+                said = process.communicate(timeout=60)[1]
+                self.assertLess(time.monotonic() - begin, 5)
+                self.assertEqual((process.returncode, said), (4, "interrupted; nothing was written\n"))
+                self.assertEqual([p.name for p in self.folder.iterdir()], ["scene.toml"])
+
+    # Neither asks for the signal in the middle of what it does here for minutes.
+    def test_who_does_not_listen_is_ended(self):
+        for arguments in (["bench", "--scenes", self.scene, "--from", "2000000", "--out", "b", "--parts", "picture"],
+                          ["verify", self.scene, "--set", "grid.size=[384, 384, 384]", "--report", "r.json"]):
+            with self.subTest(arguments[0]):
+                process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder,
+                                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                time.sleep(1.5)
+                begin = time.monotonic()
+                process.terminate()
+                said = process.communicate(timeout=60)[1].splitlines()
+                self.assertLess(time.monotonic() - begin, 5)
+                self.assertEqual((process.returncode, said[-1]), (4, "interrupted; nothing was written"))
+                self.assertEqual([p.name for p in self.folder.iterdir()], ["scene.toml"])
+
+    def test_more_threads_than_the_machine_has_say_nothing(self):
+        for command in (["digest", self.scene], ["render", self.scene, "--out", "p.png"]):
+            result = voxmelt(*command, "--threads", 16, "--quiet", cwd=self.folder)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+
     def test_a_large_picture_is_left_soon(self):
         process = subprocess.Popen([PROGRAM, "render", self.scene, "--size", "8192x8192", "--setting", "best", "--set",
                                     "camera.distance=20", "--out", "p.png"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
