@@ -27,6 +27,7 @@
 #include "app/shell_word.h"
 #include "app/visibility.h"
 #include "app/watch.h"
+#include "kernel/automaton/state/digest.h"
 #include "kernel/run/io/checkpoint_files.h"
 #include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
@@ -183,7 +184,12 @@ int run_on(Prepared run, std::chrono::steady_clock::time_point start) {
   });
   const bool complete = full.empty() && simulation.steps_done() == steps;
   watch.look(simulation.volume(), simulation.steps_done());
-  warn(scene, common, watch.warnings(simulation));
+  std::vector<std::string> warnings = watch.warnings(simulation);
+  if (complete && steps > 0 && state::digest(simulation.volume()) == scene.initial_digest)
+    warnings.push_back(
+        fmt::format("nothing has changed in {} step{}: no liquid can move, and no heat comes to a solid",
+                    steps, steps == 1 ? "" : "s"));
+  warn(scene, common, warnings);
 
   const std::string place = std::filesystem::proximate(out.place()).string();
   if (full.empty()) {

@@ -319,6 +319,27 @@ class Commands(unittest.TestCase):
         self.assertEqual(report["warnings"], said)
         return said, report
 
+    # The box is [4, 8] x [2, 6] x [4, 8] on a floor below y = 2.
+    def test_a_buried_source_is_warned_of(self):
+        for at, buried in (([6, 4, 6], True), ([5.3, 3.7, 4.1], True), ([6, 2, 6], True), ([6, 1, 6], True),
+                           ([6, 6, 6], False), ([4, 4, 6], False), ([4, 2, 4], False), ([6, -1, 6], False),
+                           ([6, -0.3, 6], False), ([14, 12, 14], False)):
+            result = voxmelt("digest", self.scene, "--set", f"heat_source.0.at={at}", cwd=self.folder)
+            self.assertEqual("warning: heat_source.0 stands inside matter at first: there it lights nothing\n"
+                             in result.stderr, buried, at)
+
+    # Without heat the box stays solid.
+    def test_a_run_in_which_nothing_can_happen_says_so(self):
+        still = SMALL.replace('[[heat_source]]\nkind = "point"\nat = [14, 12, 14]\npower = 30\n', "")
+        scene = write(self.folder, still.replace("[heat]\ngamma = 0.15\n", ""), "still.toml")
+        for steps in (1, 6):
+            result = voxmelt("run", scene, "--steps", steps, cwd=self.folder)
+            self.assertEqual(result.returncode, 0)
+            self.assertIn(f"warning: nothing has changed in {steps} step{'s' * (steps > 1)}: no liquid can move, and no "
+                          "heat comes to a solid\n", result.stderr)
+        result = voxmelt("run", self.scene, cwd=self.folder)
+        self.assertNotIn("nothing has changed", result.stderr)
+
     # A vent brings more than flows away. Its column fills to the top of the grid, and then each cell of it. Under
     # a lid the same is a conduit under pressure.
     def test_a_needle_over_a_vent_is_warned_of(self):

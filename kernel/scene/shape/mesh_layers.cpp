@@ -156,12 +156,14 @@ void MeshLayers::run() {
       told_q_ = total_q_;
       begin_rays(told_q_);
       for (int q = 0; q < count_[at(q_)]; ++q) {
+        if (surface_.closed) {
+          add_closed_row(q);
+          continue;
+        }
         const std::int8_t* steps =
             along_s_.data() +
             (static_cast<std::size_t>(layer - slab.first) * height_ + static_cast<std::size_t>(q)) * width_;
-        if (surface_.closed)
-          add_closed_row(q);
-        else if (inside_ == Inside::winding)
+        if (inside_ == Inside::winding)
           add_open_row<Inside::winding>(q, steps);
         else
           add_open_row<Inside::parity>(q, steps);
