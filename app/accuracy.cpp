@@ -94,7 +94,7 @@ int run_accuracy(const AccuracyOptions& options) {
   check_report_place(common, options.out);
   std::optional<io::OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out);
-  catch_interrupts();
+  end_soon_at_interrupts();
 
   accuracy::Report report{.version = "voxmelt " + version_number(),
                           .implementation = conditions.implementation->name,

@@ -65,7 +65,7 @@ int run_front(const Common& common, const FrontOptions& options, const accuracy:
   check_report_place(common, options.out);
   std::optional<io::OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out);
-  catch_interrupts();
+  end_soon_at_interrupts();
 
   const auto start = std::chrono::steady_clock::now();
   const front::Extent extent = options.quick ? front::Extent::quick : front::Extent::full;

@@ -121,7 +121,7 @@ int run_bench(BenchOptions options) {
   const auto finer = options.wants("grids") && options.scenes.empty() ? finer_scenes(options)
                                                                       : scenes_of(options.wants("grids"), {});
   const auto films = scenes_of(options.wants("film"), film_scenes(options.quick));
-  catch_interrupts();
+  end_soon_at_interrupts();
 
   if (automaton) {
     note(options.common, "measuring the machine");

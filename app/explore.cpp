@@ -82,7 +82,7 @@ int run_explore(ExploreCommand command) {
   check_report_place(common, command.out);
   std::optional<io::OutputFolder> out;
   if (!command.out.empty()) out.emplace(command.out);
-  catch_interrupts();
+  end_soon_at_interrupts();
   question.parameters = scene.parameters;
   const std::string name = scene.name;
   const step::Implementation& fast = find_implementation(common);

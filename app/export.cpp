@@ -32,7 +32,7 @@ int run_export(const ExportOptions& options) {
   check_report_place(options.common, options.out);
   check_steps(scene, options.steps);
   io::OutputFolder out(options.out);
-  catch_interrupts();
+  end_soon_at_interrupts();
   run::Simulation simulation = make_simulation(scene, options.common);
   while (simulation.steps_done() < options.steps) {
     simulation.step();
@@ -41,9 +41,9 @@ int run_export(const ExportOptions& options) {
 
   const state::Volume& volume = simulation.volume();
   if (options.format == "npy") {
-    io::export_npy(volume, out.partial());
+    io::export_npy(volume, out.partial(), stop_if_interrupted);
   } else {
-    io::export_vti(volume, out.partial());
+    io::export_vti(volume, out.partial(), stop_if_interrupted);
   }
   io::write_file(out.partial() / "parameters.json",
                  io::parameters_json(simulation.parameters(), volume.grid, simulation.step_number()));

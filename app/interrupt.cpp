@@ -1,5 +1,6 @@
 #include "app/interrupt.h"
 
+#include <semaphore.h>
 #include <unistd.h>
 
 #include <array>
@@ -7,8 +8,10 @@
 #include <chrono>
 #include <csignal>
 #include <string_view>
+#include <thread>
 
 #include "app/options.h"
+#include "kernel/run/io/unfinished.h"
 
 namespace voxmelt::app {
 namespace {
@@ -18,18 +21,31 @@ using Clock = std::chrono::steady_clock;
 std::atomic<Clock::rep> g_when{0};  // 0: never
 static_assert(std::atomic<Clock::rep>::is_always_lock_free, "a signal may come at any moment");
 
+sem_t g_came;  // may be raised in a handler
+
 void interrupt(int) {
   Clock::rep never = 0;
-  g_when.compare_exchange_strong(never, Clock::now().time_since_epoch().count());
+  if (g_when.compare_exchange_strong(never, Clock::now().time_since_epoch().count())) ::sem_post(&g_came);
 }
 
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
 // Nothing but write() and _exit() may be called in a handler.
-void end_at_once(int) {
-  constexpr std::string_view kWords = "interrupted; nothing was written\n";
-  (void)!::write(STDERR_FILENO, kWords.data(), kWords.size());
+void end(std::string_view words) {
+  (void)!::write(STDERR_FILENO, words.data(), words.size());
   ::_exit(kInterrupted);
+}
+
+void end_at_once(int) { end("interrupted; nothing was written\n"); }
+
+// Memory of some gigabytes takes another second to give back.
+constexpr std::chrono::seconds kPatience{2};
+
+void end_when_late() {
+  while (::sem_wait(&g_came) != 0) {
+  }
+  std::this_thread::sleep_for(kPatience);
+  end(io::discard_unfinished() ? "interrupted\n" : "interrupted; nothing was written\n");
 }
 
 void handle(void (*handler)(int)) {
@@ -42,6 +58,12 @@ void handle(void (*handler)(int)) {
 void end_at_interrupts() { handle(end_at_once); }
 
 void catch_interrupts() { handle(interrupt); }
+
+void end_soon_at_interrupts() {
+  ::sem_init(&g_came, 0, 0);
+  std::thread(end_when_late).detach();
+  catch_interrupts();
+}
 
 bool interrupted() { return g_when != 0; }
 

@@ -77,6 +77,13 @@ std::vector<Candidate> candidates_of(const fs::path& place) {
   return found;
 }
 
+// Of a checkpoint that lies where runs write it: ", OUTPUT".
+std::string outputs_folder(const fs::path& file) {
+  const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+  if (file.extension() != ".vxc" || folder.filename() != "checkpoints") return {};
+  return ", " + fs::proximate(place_named(folder.parent_path())).string();
+}
+
 // Another run is at work there.
 bool is_alive(const fs::path& folder) { return io::FileLock::attempt(folder).held_by_another(); }
 
@@ -146,12 +153,16 @@ std::string changed_files(const checkpoint::SceneText& text) {
 std::optional<Resumption> find_run(const fs::path& given) {
   const fs::path place = place_named(given);
   const std::string shown = given.string();
+  std::error_code ignored;
+  if (fs::is_regular_file(given, ignored))
+    throw UsageError(fmt::format("--resume {}: error: is a file; give the folder of the run's output{}",
+                                 shown, outputs_folder(given)));
   const std::vector<Candidate> candidates = candidates_of(place);
   const std::vector<fs::path> leavings = io::leavings_of(place);
   if (std::ranges::any_of(leavings, is_alive))
     throw UsageError(fmt::format("--resume {}: error: a run is at work there", shown));
   if (candidates.empty() && is_complete(place) && std::ranges::none_of(leavings, io::is_unfinished)) {
-    std::error_code ignored;  // it may have died just before it cleared up
+    // It may have died just before it cleared up.
     fs::remove_all(place / "checkpoints", ignored);
     io::clear_leavings(place);
     return std::nullopt;

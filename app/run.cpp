@@ -27,6 +27,7 @@
 #include "app/shell_word.h"
 #include "app/visibility.h"
 #include "app/watch.h"
+#include "kernel/automaton/state/digest.h"
 #include "kernel/run/io/checkpoint_files.h"
 #include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
@@ -165,7 +166,7 @@ int run_on(Prepared run, std::chrono::steady_clock::time_point start) {
   };
   std::string video_note;
   bool resumable = true;
-  const std::string full = until_full([&] {
+  std::string full = until_full([&] {
     if (interval && begun_at == 0) checkpoint();
     if (frame_is_due(record, begun_at) && record.frame_steps.size() == frames_due_before(record, begun_at))
       show(begun_at);
@@ -183,15 +184,27 @@ int run_on(Prepared run, std::chrono::steady_clock::time_point start) {
   });
   const bool complete = full.empty() && simulation.steps_done() == steps;
   watch.look(simulation.volume(), simulation.steps_done());
-  warn(scene, common, watch.warnings(simulation));
+  std::vector<std::string> warnings = watch.warnings(simulation);
+  if (complete && steps > 0 && state::digest(simulation.volume()) == scene.initial_digest)
+    warnings.push_back(
+        fmt::format("nothing has changed in {} step{}: no liquid can move, and no heat comes to a solid",
+                    steps, steps == 1 ? "" : "s"));
+  warn(scene, common, warnings);
 
-  const std::string report =
-      report_json(scene, common, simulation, full.empty() ? seconds_now() : RunSeconds{}, complete);
   const std::string place = std::filesystem::proximate(out.place()).string();
+  if (full.empty()) {
+    full = until_full([&] {
+      const std::string report = report_json(scene, common, simulation, seconds_now(), complete);
+      io::write_file(out.partial() / "report.json", report);
+      write_report(common, report);
+      out.commit();
+    });
+  }
   if (!full.empty()) {
     film.reset();  // nothing is written beside what follows
     out.release_reserve();
-    io::write_file(out.partial() / "report.json", report);
+    io::write_file(out.partial() / "report.json",
+                   report_json(scene, common, simulation, RunSeconds{}, false));
     const bool goes_on = io::holds_work(out.partial());
     const std::string kept = std::filesystem::proximate(out.keep_incomplete()).string();
     say(fmt::format(
@@ -200,9 +213,6 @@ int run_on(Prepared run, std::chrono::steady_clock::time_point start) {
         goes_on ? "; with more room, `voxmelt run --resume " + shell_word(place) + "` goes on" : ""));
     return kOutOfResources;
   }
-  io::write_file(out.partial() / "report.json", report);
-  write_report(common, report);
-  out.commit();
   if (complete) clear_after(out.place(), record.id);
 
   if (!common.quiet) {

@@ -19,6 +19,7 @@
 #include "hwmodel/lockstep/shrink.h"
 #include "kernel/run/io/export.h"
 #include "kernel/run/io/output_folder.h"
+#include "kernel/run/io/unfinished.h"
 #include "kernel/scene/excerpt.h"
 
 namespace voxmelt::app {
@@ -44,18 +45,26 @@ std::string stage_of(const std::string& where) {
 class Workplace {
  public:
   explicit Workplace(const fs::path& beside) : folder_(beside.string() + ".partial") {
+    const auto held = io::changing_places();
     fs::create_directories(folder_);
+    unfinished_.begin([this] { remove(); });
   }
   Workplace(const Workplace&) = delete;
   Workplace& operator=(const Workplace&) = delete;
   ~Workplace() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
+    const auto held = io::changing_places();
+    remove();
   }
   const fs::path& folder() const { return folder_; }
 
  private:
+  void remove() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+
   fs::path folder_;
+  io::Unfinished unfinished_;
 };
 
 class Search {

@@ -224,7 +224,7 @@ scene::Scene load_beginning(VerifyCommand& command) {
 
 int run_picture(VerifyCommand command) {
   scene::Scene scene = load_beginning(command);
-  catch_interrupts();
+  end_soon_at_interrupts();
   const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
   PictureChoice picture = command.picture;
   picture.again = picture_again(command, scene.file.string());
@@ -243,7 +243,7 @@ int run_machine(VerifyCommand command) {
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
   check_html_place(command.common, command.picture, replay_place(command, scene).string());
-  catch_interrupts();
+  end_soon_at_interrupts();
   const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
   hwmodel::VerifyOptions options;
   options.steps = command.steps;
@@ -314,7 +314,7 @@ int run_verify(VerifyCommand command) {
                       {"--vcd", command.vcd},
                       {"--shrink", command.shrink},
                       {"--size-fifos", command.size_fifos}});
-  catch_interrupts();
+  end_soon_at_interrupts();
   const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
 
   const VerifiedStream stream{scene.parameters, ahead.volume(), ahead.step_number(), command.steps};

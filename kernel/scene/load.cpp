@@ -82,6 +82,31 @@ std::string settings_of(Value document) {
   return print_document(document);
 }
 
+// Is every cell that touches this place solid or inert? Outside the grid nothing is.
+bool is_buried(const state::Volume& cells, const rule::Position& at) {
+  constexpr std::int64_t cell = rule::kPositionUnit;
+  const state::Grid g = cells.grid;
+  const auto first = [](std::int64_t a) { return a < 0 || a % cell == 0 ? a / cell - 1 : a / cell; };
+  for (std::int64_t z = first(at.z); z <= at.z / cell; ++z)
+    for (std::int64_t y = first(at.y); y <= at.y / cell; ++y)
+      for (std::int64_t x = first(at.x); x <= at.x / cell; ++x) {
+        if (x < 0 || y < 0 || z < 0 || x >= g.x || y >= g.y || z >= g.z) return false;
+        const int i = static_cast<int>(x), j = static_cast<int>(y), k = static_cast<int>(z);
+        if (!cells.solid.test(i, j, k) && !cells.inert.test(i, j, k)) return false;
+      }
+  return true;
+}
+
+void warn_of_buried_sources(Scene& scene) {
+  const rule::Heat& heat = scene.parameters.heat;
+  if (!heat.radiates()) return;
+  for (std::size_t i = 0; i < heat.sources.size(); ++i)
+    if (heat.sources[i].kind == rule::SourceKind::point &&
+        is_buried(scene.initial, heat.sources[i].keys[0].at))
+      scene.warnings.push_back(
+          fmt::format("heat_source.{} stands inside matter at first: there it lights nothing", i));
+}
+
 }  // namespace
 
 std::string title_of(const std::filesystem::path& file) {
@@ -126,6 +151,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
                     "and the bits "
                     "differ from those of the run that was exported until the next such step",
                     start->place("step").text(), scene.first_step));
+  warn_of_buried_sources(scene);
   scene.initial_digest = state::digest(scene.initial);
   scene.files = read.files();
   scene.terrain = std::move(contents.terrain);

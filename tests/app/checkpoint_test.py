@@ -71,6 +71,13 @@ class Checkpoints(unittest.TestCase):
         self.assertEqual(sorted(p for p in self.folder.rglob("*")), before, "nothing is written")
         return result.stderr
 
+    def test_a_checkpoint_is_not_what_resume_wants(self):
+        file = max((self.folder / "kept/checkpoints").iterdir())
+        for given, hint in ((file, ", kept"), (self.scene, "")):
+            result = voxmelt("run", "--resume", given, cwd=self.folder)
+            self.assertEqual((result.returncode, result.stderr), (
+                2, f"--resume {given}: error: is a file; give the folder of the run's output{hint}\n"))
+
     def test_an_interrupted_run_goes_on(self):
         kept = self.begin_and_end("ended", signal.SIGTERM)
         self.assertIn("voxmelt run --resume ended", self.said)

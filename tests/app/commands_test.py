@@ -187,6 +187,44 @@ class Commands(unittest.TestCase):
         self.assertEqual(process.wait(60), 4)
         self.assertEqual([p.name for p in self.folder.iterdir()], ["scene.toml"])
 
+    # A file of the export has begun to grow.
+    def test_an_export_is_left_while_it_is_written(self):
+        for form, name in (("npy", "amount.npy.partial-*"), ("vti", "volume.vti.partial-*")):
+            with self.subTest(form):
+                process = subprocess.Popen([PROGRAM, "export", self.scene, "--format", form, "--out", "e",
+                                            "--set", "grid.size=[256, 256, 256]"],
+                                           cwd=self.folder, stderr=subprocess.PIPE, text=True)
+                for _ in range(3000):
+                    if list(self.folder.glob(f"e.partial-*/{name}")):
+                        break
+                    time.sleep(0.01)
+                begin = time.monotonic()
+                process.terminate()
+                said = process.communicate(timeout=60)[1]
+                self.assertLess(time.monotonic() - begin, 5)
+                self.assertEqual((process.returncode, said), (4, "interrupted; nothing was written\n"))
+                self.assertEqual([p.name for p in self.folder.iterdir()], ["scene.toml"])
+
+    # Neither asks for the signal in the middle of what it does here for minutes.
+    def test_who_does_not_listen_is_ended(self):
+        for arguments in (["bench", "--scenes", self.scene, "--from", "2000000", "--out", "b", "--parts", "picture"],
+                          ["verify", self.scene, "--set", "grid.size=[384, 384, 384]", "--report", "r.json"]):
+            with self.subTest(arguments[0]):
+                process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder,
+                                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                time.sleep(1.5)
+                begin = time.monotonic()
+                process.terminate()
+                said = process.communicate(timeout=60)[1].splitlines()
+                self.assertLess(time.monotonic() - begin, 5)
+                self.assertEqual((process.returncode, said[-1]), (4, "interrupted; nothing was written"))
+                self.assertEqual([p.name for p in self.folder.iterdir()], ["scene.toml"])
+
+    def test_more_threads_than_the_machine_has_say_nothing(self):
+        for command in (["digest", self.scene], ["render", self.scene, "--out", "p.png"]):
+            result = voxmelt(*command, "--threads", 16, "--quiet", cwd=self.folder)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+
     def test_a_large_picture_is_left_soon(self):
         process = subprocess.Popen([PROGRAM, "render", self.scene, "--size", "8192x8192", "--setting", "best", "--set",
                                     "camera.distance=20", "--out", "p.png"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
@@ -280,6 +318,27 @@ class Commands(unittest.TestCase):
         said = [line[len("warning: "):] for line in result.stderr.splitlines() if line.startswith("warning: ")]
         self.assertEqual(report["warnings"], said)
         return said, report
+
+    # The box is [4, 8] x [2, 6] x [4, 8] on a floor below y = 2.
+    def test_a_buried_source_is_warned_of(self):
+        for at, buried in (([6, 4, 6], True), ([5.3, 3.7, 4.1], True), ([6, 2, 6], True), ([6, 1, 6], True),
+                           ([6, 6, 6], False), ([4, 4, 6], False), ([4, 2, 4], False), ([6, -1, 6], False),
+                           ([6, -0.3, 6], False), ([14, 12, 14], False)):
+            result = voxmelt("digest", self.scene, "--set", f"heat_source.0.at={at}", cwd=self.folder)
+            self.assertEqual("warning: heat_source.0 stands inside matter at first: there it lights nothing\n"
+                             in result.stderr, buried, at)
+
+    # Without heat the box stays solid.
+    def test_a_run_in_which_nothing_can_happen_says_so(self):
+        still = SMALL.replace('[[heat_source]]\nkind = "point"\nat = [14, 12, 14]\npower = 30\n', "")
+        scene = write(self.folder, still.replace("[heat]\ngamma = 0.15\n", ""), "still.toml")
+        for steps in (1, 6):
+            result = voxmelt("run", scene, "--steps", steps, cwd=self.folder)
+            self.assertEqual(result.returncode, 0)
+            self.assertIn(f"warning: nothing has changed in {steps} step{'s' * (steps > 1)}: no liquid can move, and no "
+                          "heat comes to a solid\n", result.stderr)
+        result = voxmelt("run", self.scene, cwd=self.folder)
+        self.assertNotIn("nothing has changed", result.stderr)
 
     # A vent brings more than flows away. Its column fills to the top of the grid, and then each cell of it. Under
     # a lid the same is a conduit under pressure.

@@ -45,7 +45,7 @@ std::vector<Column> columns_of(const state::Volume& v) {
 }
 
 // Some rows at a time, so that an export takes no memory to speak of beside the state.
-void write_rows(FileWriter& file, const Column& column, state::Grid g) {
+void write_rows(FileWriter& file, const Column& column, state::Grid g, const Poll& poll) {
   constexpr std::size_t piece = std::size_t{1} << 20;
   std::string rows;
   for (int z = 0; z < g.z; ++z)
@@ -54,6 +54,7 @@ void write_rows(FileWriter& file, const Column& column, state::Grid g) {
       if (rows.size() < piece) continue;
       file.write(rows);
       rows.clear();
+      if (poll) poll();
     }
   file.write(rows);
 }
@@ -72,16 +73,16 @@ std::string npy_header(const char* type, state::Grid g) {
 
 }  // namespace
 
-void export_npy(const state::Volume& volume, const std::filesystem::path& folder) {
+void export_npy(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll) {
   for (const Column& column : columns_of(volume)) {
     FileWriter file(folder / (std::string(column.name) + ".npy"));
     file.write(npy_header(column.npy_type, volume.grid));
-    write_rows(file, column, volume.grid);
+    write_rows(file, column, volume.grid, poll);
     file.commit();
   }
 }
 
-void export_vti(const state::Volume& volume, const std::filesystem::path& folder) {
+void export_vti(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll) {
   const state::Grid g = volume.grid;
   const std::string extent =
       "0 " + std::to_string(g.x) + " 0 " + std::to_string(g.y) + " 0 " + std::to_string(g.z);
@@ -103,7 +104,7 @@ void export_vti(const state::Volume& volume, const std::filesystem::path& folder
   for (const Column& column : columns) {
     const std::uint64_t size = g.cells() * column.bytes;
     file.write({reinterpret_cast<const char*>(&size), sizeof size});
-    write_rows(file, column, g);
+    write_rows(file, column, g, poll);
   }
   file.write("\n  </AppendedData>\n</VTKFile>\n");
   file.commit();

@@ -32,8 +32,10 @@ FileWriter::FileWriter(const fs::path& place) : place_(place), partial_(place.st
     // Within a partial folder of ours this lock is taken, and nothing was left over.
     const FileLock above = FileLock::attempt(fs::absolute(place).parent_path());
     if (above) clear_leavings(fs::absolute(place));
+    const auto held = changing_places();
     partial_ = beside(place);
     descriptor = ::mkostemp(partial_.data(), O_CLOEXEC);
+    if (descriptor >= 0) unfinished_.begin([this] { std::remove(partial_.c_str()); });
     if (descriptor >= 0) (void)::flock(descriptor, LOCK_EX | LOCK_NB);
   } else {
     descriptor = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -61,8 +63,9 @@ void FileWriter::commit() {
   if (replace_ && error == 0 && (::fchmod(descriptor, 0666 & ~mask) != 0 || ::fsync(descriptor) != 0))
     error = errno;
   if (std::fclose(std::exchange(file_, nullptr)) != 0 && error == 0) error = errno;
+  const auto held = changing_places();
   if (error == 0 && replace_ && std::rename(partial_.c_str(), place_.c_str()) != 0) error = errno;
-  if (error == 0) return;
+  if (error == 0) return unfinished_.complete();
   if (replace_) std::remove(partial_.c_str());
   fail_output(place_, "cannot write", error);
 }

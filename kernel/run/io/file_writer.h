@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "kernel/run/io/unfinished.h"
+
 namespace voxmelt::io {
 
 // Output cannot be written (exit code 2), or the disk is full (exit code 3).
@@ -42,6 +44,7 @@ class FileWriter {
   std::string partial_;  // the name of the file that is open
   bool replace_ = false;
   std::FILE* file_ = nullptr;
+  Unfinished unfinished_;
 };
 
 // All of a file at once.

@@ -119,15 +119,22 @@ OutputFolder::OutputFolder(const fs::path& place, bool goes_on)
                            "` goes on with it, and who removes it begins anew");
     clear_leavings(place_);
   }
+  const auto held = changing_places();
   std::string partial = beside(place_);
   if (::mkdtemp(partial.data()) == nullptr) fail_output(place_, "cannot create the output folder", errno);
   partial_ = partial;
+  unfinished_.begin([this] { discard(); });
   lock_ = FileLock::attempt(partial_);
   ::chmod(partial.c_str(), with_umask(0777));
   reserve(partial_);
 }
 
 OutputFolder::~OutputFolder() {
+  const auto held = changing_places();
+  discard();
+}
+
+void OutputFolder::discard() {
   if (committed_ || holds_work(partial_)) return;
   std::error_code ignored;
   fs::remove_all(partial_, ignored);
@@ -158,11 +165,14 @@ void OutputFolder::move_to(const fs::path& place) {
   flush_folder(partial_);
 
   std::error_code error;
+  auto held = changing_places();
   const bool replace = fs::exists(place, error);
   const int why =
       replace ? exchange(partial_, place) : (std::rename(partial_.c_str(), place.c_str()) == 0 ? 0 : errno);
   if (why != 0) fail_output(place, "cannot move the finished folder into place", why);
   committed_ = true;
+  unfinished_.complete();
+  held.unlock();
   flush_entry(place);
   if (replace) remove_output(partial_);  // what stood there before
 }

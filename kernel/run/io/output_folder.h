@@ -6,6 +6,7 @@
 
 #include "kernel/run/io/file_lock.h"
 #include "kernel/run/io/file_writer.h"
+#include "kernel/run/io/unfinished.h"
 
 namespace voxmelt::io {
 
@@ -33,12 +34,14 @@ class OutputFolder {
 
  private:
   void move_to(const std::filesystem::path& place);
+  void discard();
 
   std::filesystem::path place_, partial_;
   std::filesystem::path
       first_new_;  // the uppermost folder above `partial_` that had to be made; empty for none
   FileLock lock_;  // of `partial_`
   bool committed_ = false;
+  Unfinished unfinished_;
 };
 
 // Does this partial folder hold a run that was not complete yet? Else it is what stood at the place before.

@@ -23,49 +23,51 @@ std::int16_t short_of(int sum) { return static_cast<std::int16_t>(sum); }
 
 std::size_t at(int axis) { return static_cast<std::size_t>(axis); }
 
-// What the two rays from a sample along an axis cross: `w` towards the low end, all but that to the high end.
+// What the two rays from a place along an axis tell: with w crossings towards the low end and the other ones
+// of all `total` towards the high end, 2 w - total; of parities how many are odd. Here w is 0.
 template <Inside inside>
-std::int16_t both_ways(std::int16_t w, std::int16_t total) {
-  return short_of(inside == Inside::winding ? 2 * w - total : (w & 1) + ((w ^ total) & 1));
+std::int16_t at_low_end(int total) {
+  return short_of(inside == Inside::winding ? -total : total & 1);
 }
 
-// Winding numbers of a row of samples, as rays of three axes have them so far, and those of whole rays.
+// The same some crossings farther.
+template <Inside inside>
+std::int16_t behind(std::int16_t told, int crossings) {
+  if (inside == Inside::winding) return short_of(told + 2 * crossings);
+  return short_of((crossings & 1) != 0 ? 2 - told : told);
+}
+
+// What the rays of three axes tell of a row of samples.
 struct OpenRow {
-  const std::int16_t* so_far_p;
-  std::int16_t *so_far_q, *so_far_s;
-  std::int16_t total_p;
-  const std::int16_t *total_q, *total_s;
+  const std::int16_t* told_p;
+  std::int16_t *told_q, *told_s;
 };
 
 // The compiler makes vectors of this loop, because no array overlaps another one.
 template <Inside inside>
 void decide(std::size_t width, const OpenRow& row, const std::int16_t* __restrict across,
             const std::int8_t* __restrict steps, std::uint16_t* __restrict result) {
-  const std::int16_t* __restrict so_far_p = row.so_far_p;
-  std::int16_t* __restrict so_far_q = row.so_far_q;
-  std::int16_t* __restrict so_far_s = row.so_far_s;
-  const std::int16_t* __restrict total_q = row.total_q;
-  const std::int16_t* __restrict total_s = row.total_s;
-  const std::int16_t total_p = row.total_p;
+  const std::int16_t* __restrict told_p = row.told_p;
+  std::int16_t* __restrict told_q = row.told_q;
+  std::int16_t* __restrict told_s = row.told_s;
   for (std::size_t i = 0; i < width; ++i) {
-    so_far_q[i] = short_of(so_far_q[i] + across[i]);
-    so_far_s[i] = short_of(so_far_s[i] + steps[i]);
-    const std::int16_t sum =
-        short_of(both_ways<inside>(so_far_p[i], total_p) + both_ways<inside>(so_far_q[i], total_q[i]) +
-                 both_ways<inside>(so_far_s[i], total_s[i]));
+    told_q[i] = behind<inside>(told_q[i], across[i]);
+    told_s[i] = behind<inside>(told_s[i], steps[i]);
+    const std::int16_t sum = short_of(told_p[i] + told_q[i] + told_s[i]);
     result[i] = sum >= kHalfOfSixRays || sum <= -kHalfOfSixRays ? 1 : 0;
   }
 }
 
 // Adds up the crossings of a cell's samples, and clears them. Most cells have none.
-void sum_up(std::int16_t* crossings, std::int16_t& w, std::int16_t* so_far) {
+template <Inside inside>
+void sum_up(std::int16_t* crossings, std::int16_t& now, std::int16_t* told) {
   std::uint64_t any = 0;
   std::memcpy(&any, crossings, sizeof any);
   if (any == 0) {
-    for (int i = 0; i < kSamplesPerAxis; ++i) so_far[i] = w;
+    for (int i = 0; i < kSamplesPerAxis; ++i) told[i] = now;
     return;
   }
-  for (int i = 0; i < kSamplesPerAxis; ++i) so_far[i] = w = short_of(w + crossings[i]);
+  for (int i = 0; i < kSamplesPerAxis; ++i) told[i] = now = behind<inside>(now, crossings[i]);
   std::memset(crossings, 0, sizeof any);
 }
 
@@ -95,11 +97,10 @@ MeshLayers::MeshLayers(const Surface& surface, Inside inside, Coverage& coverage
   if (surface.closed) return;
   along_q_.resize(width_ * height_);
   along_s_.resize(width_ * height_ * static_cast<std::size_t>(thickness_));
-  so_far_s_.resize(width_ * height_);
-  total_s_.resize(width_ * height_);
-  so_far_q_.resize(width_);
+  told_s_.resize(width_ * height_);
+  told_q_.resize(width_);
   total_q_.resize(width_);
-  so_far_p_.resize(width_);
+  told_p_.resize(width_);
 }
 
 MeshLayers::Range MeshLayers::samples(int axis, std::int64_t first, std::int64_t last) const {
@@ -130,7 +131,12 @@ void MeshLayers::run() {
   };
   for (std::uint32_t i = 0; i < surface_.triangles.size(); ++i) order.emplace_back(layers_of(i).first, i);
   std::sort(order.begin(), order.end());
+  const auto begin_rays = [this](std::vector<std::int16_t>& totals) {
+    for (std::int16_t& of : totals)
+      of = inside_ == Inside::winding ? at_low_end<Inside::winding>(of) : at_low_end<Inside::parity>(of);
+  };
   if (!surface_.closed) total_through_layers();
+  begin_rays(told_s_);
 
   std::vector<std::uint32_t> active;
   std::size_t next = 0;
@@ -147,18 +153,21 @@ void MeshLayers::run() {
         cross_p(triangle, layer);
         if (!surface_.closed) cross_q(triangle, layer);
       }
+      told_q_ = total_q_;
+      begin_rays(told_q_);
       for (int q = 0; q < count_[at(q_)]; ++q) {
+        if (surface_.closed) {
+          add_closed_row(q);
+          continue;
+        }
         const std::int8_t* steps =
             along_s_.data() +
             (static_cast<std::size_t>(layer - slab.first) * height_ + static_cast<std::size_t>(q)) * width_;
-        if (surface_.closed)
-          add_closed_row(q);
-        else if (inside_ == Inside::winding)
+        if (inside_ == Inside::winding)
           add_open_row<Inside::winding>(q, steps);
         else
           add_open_row<Inside::parity>(q, steps);
       }
-      std::fill(so_far_q_.begin(), so_far_q_.end(), std::int16_t{0});
       std::fill(total_q_.begin(), total_q_.end(), std::int16_t{0});
       if (layer % kSamplesPerAxis == kSamplesPerAxis - 1) store(layer);
     }
@@ -212,7 +221,7 @@ void MeshLayers::total_through_layers() {
     for (int q = rows.first; q < rows.end; ++q) {
       const auto [first, last] = crossings.range_u(place(q_, q));
       const Range rays = samples(p_, first, last);
-      std::int16_t* row = total_s_.data() + static_cast<std::size_t>(q) * width_;
+      std::int16_t* row = told_s_.data() + static_cast<std::size_t>(q) * width_;
       for (int p = rays.first; p < rays.end; ++p) add_saturated(row[p], -crossings.sign());
     }
   }
@@ -254,7 +263,7 @@ MeshLayers::Range MeshLayers::within(const RayCrossings& crossings, Range rays, 
   const double least = slab.first == 0 ? -1e18 : slab.first - slack, most = slab.end + slack;
   if (std::abs(slope) < 1e-6)
     return std::max(from, to) < least || std::min(from, to) > most ? Range{0, 0} : rays;
-  const auto [near, far] = std::minmax((least - from) / slope, (most - from) / slope);
+  const auto [near, far] = std::minmax({(least - from) / slope, (most - from) / slope});
   const double length = rays.end - rays.first;
   return {rays.first + static_cast<int>(std::clamp(std::floor(near), 0.0, length)),
           rays.first + static_cast<int>(std::clamp(std::ceil(far) + 1, 0.0, length))};
@@ -288,22 +297,20 @@ void MeshLayers::add_closed_row(int q) {
 template <Inside inside>
 void MeshLayers::add_open_row(int q, const std::int8_t* steps) {
   const std::size_t row = static_cast<std::size_t>(q);
-  const auto total_p = std::exchange(total_p_[row], std::int16_t{0});
-  std::int16_t w = 0;
+  std::int16_t now = at_low_end<inside>(std::exchange(total_p_[row], std::int16_t{0}));
   for (std::size_t chunk = 0; chunk < chunks_; ++chunk) {
     const std::size_t first = chunk * kChunk, end = std::min(first + kChunk, width_);
     if (std::exchange(touched_[row * chunks_ + chunk], std::uint8_t{0}) != 0) {
       std::int16_t* crossings = along_p_.data() + row * width_;
       for (std::size_t i = first; i < end; i += kSamplesPerAxis)
-        sum_up(crossings + i, w, so_far_p_.data() + i);
+        sum_up<inside>(crossings + i, now, told_p_.data() + i);
     } else {
-      std::fill(so_far_p_.data() + first, so_far_p_.data() + end, w);
+      std::fill(told_p_.data() + first, told_p_.data() + end, now);
     }
   }
 
   std::int16_t* across = along_q_.data() + row * width_;
-  const OpenRow open{so_far_p_.data(), so_far_q_.data(), so_far_s_.data() + row * width_,
-                     total_p,          total_q_.data(),  total_s_.data() + row * width_};
+  const OpenRow open{told_p_.data(), told_q_.data(), told_s_.data() + row * width_};
   decide<inside>(width_, open, across, steps, inside_row_.data());
   std::fill(across, across + width_, std::int16_t{0});
   std::uint8_t* plane = plane_.data() + row / kSamplesPerAxis * (width_ / kSamplesPerAxis);

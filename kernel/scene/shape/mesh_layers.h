@@ -56,11 +56,11 @@ class MeshLayers {
 
   // What a ray crosses before a sample and not before the one before it, +1 where it enters; [q][p].
   std::vector<std::int16_t> along_p_, along_q_;
-  std::vector<std::uint8_t> touched_;  // rows of along_p_: where chunks of samples are not all 0
-  std::size_t chunks_;                 // of a row
-  std::vector<std::int8_t> along_s_;   // [layer of the slab][q][p]
-  // Sums of rays: so far, and of a whole ray.
-  std::vector<std::int16_t> so_far_p_, total_p_, so_far_q_, total_q_, so_far_s_, total_s_;
+  std::vector<std::uint8_t> touched_;            // rows of along_p_: where chunks of samples are not all 0
+  std::size_t chunks_;                           // of a row
+  std::vector<std::int8_t> along_s_;             // [layer of the slab][q][p]
+  std::vector<std::int16_t> total_p_, total_q_;  // of whole rays
+  std::vector<std::int16_t> told_p_, told_q_, told_s_;  // by both rays from where the samples are now
   std::vector<std::uint16_t> inside_row_;
   std::vector<std::uint8_t> plane_;  // samples inside of a layer of cells, [q][p]
   int most_ = 0;

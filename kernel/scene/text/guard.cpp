@@ -23,11 +23,17 @@ class Guard {
       if (c == '#') {
         at_ = end_of_line();
       } else if (c == '"' || c == '\'') {
+        if (within_word_) {  // the parser would not take it for a string
+          object(fmt::format("{} within a word", c));
+          break;
+        }
         skip_string(c);
-        fresh_ = false;
+        fresh_ = false, within_word_ = true;
       } else {
         look_at(c);
         ++at_;
+        within_word_ =
+            c == '.' ? in_value_ : std::string_view(" \t\r\n=,[]{}").find(c) == std::string_view::npos;
       }
     }
     return found_;
@@ -39,19 +45,25 @@ class Guard {
     if (c == '\n') {
       dots_ = 0, ++line_, line_begin_ = at_ + 1;
       fresh_ = true;
+      if (brackets_.empty()) in_value_ = false;
       return;
     }
     if (byte >= 0x80) return object("a letter outside ASCII must stand in quotes or in a comment");
     if ((byte < 0x20 && c != '\t' && c != '\r') || byte == 0x7f)
       return object(fmt::format("the control character 0x{:02x}", byte));
-    if (c == '[' && fresh_ && depth_ == 0) return check_header();
+    if (c == '[' && fresh_ && brackets_.empty()) return check_header();
     if (c == '[' || c == '{') {
       dots_ = 0;
-      if (++depth_ > kDeepestBracket) object(fmt::format("more than {} brackets deep", kDeepestBracket));
+      brackets_ += c;
+      in_value_ = c == '[';
+      if (brackets_.size() > kDeepestBracket)
+        object(fmt::format("more than {} brackets deep", kDeepestBracket));
     } else if (c == ']' || c == '}') {
-      if (depth_ > 0) --depth_;
+      if (!brackets_.empty()) brackets_.pop_back();
+      in_value_ = true;
     } else if (c == '=' || c == ',') {
       dots_ = 0;
+      in_value_ = c == '=' || brackets_.ends_with('[');
     } else if (c == '.' && ++dots_ >= kDeepestKey) {
       object(fmt::format("a key of more than {} parts", kDeepestKey));
     }
@@ -91,8 +103,11 @@ class Guard {
 
   std::string_view text_;
   std::size_t at_ = 0, line_ = 1, line_begin_ = 0;
-  std::size_t dots_ = 0, depth_ = 0;
-  bool fresh_ = true;  // nothing but blanks on this line yet
+  std::size_t dots_ = 0;
+  std::string brackets_;      // that are open
+  bool fresh_ = true;         // nothing but blanks on this line yet
+  bool in_value_ = false;     // else in a key, or between lines
+  bool within_word_ = false;  // the character before belongs to a bare word or a string
   Objection found_;
 };
 

@@ -87,6 +87,34 @@ TEST_F(BadMesh, Open) {
           fmt::format("m.obj: {} vertices without a face", unused)});
 }
 
+// Of a lone triangle a sample is inside where the lines through it along all three axes cross the triangle:
+// on its side of the plane their signs agree.
+TEST_F(BadMesh, ALoneTriangle) {
+  const std::array<std::array<Corner, 3>, 4> triangles{{{{{1, 2, 3}, {30, 5, 28}, {4, 31, 17}}},
+                                                        {{{30, 1, 2}, {2, 8, 30}, {9, 30, 1}}},
+                                                        {{{2, 30, 29}, {31, 16, 3}, {5, 1, 8}}},
+                                                        {{{1.5, 9, 30.5}, {16, 30, 1}, {30.25, 1.75, 22}}}}};
+  for (const auto& t : triangles) {
+    MeshText mesh;
+    mesh.vertices.assign(t.begin(), t.end());
+    mesh.faces = {{0, 1, 2}};
+    const Body body = [&](double x, double y, double z) {
+      const Corner p{x, y, z};
+      for (std::size_t u = 0; u < 3; ++u) {
+        const std::size_t v = (u + 1) % 3;
+        int left = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Corner &a = t[i], &b = t[(i + 1) % 3];
+          left += (b[u] - a[u]) * (p[v] - a[v]) > (b[v] - a[v]) * (p[u] - a[u]) ? 1 : 0;
+        }
+        if (left % 3 != 0) return false;
+      }
+      return true;
+    };
+    expect(mesh, body, {"m.obj: 3 open edges" + kMean});
+  }
+}
+
 TEST_F(BadMesh, ABoxWithoutThreeOfItsSides) {
   MeshText mesh;
   mesh.box({6, 4, 8}, {20, 16, 12});

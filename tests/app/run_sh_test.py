@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""What run.sh gives to `voxmelt run`. Nothing is installed or built: programs that do nothing stand in for it."""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(sys.argv[1]).resolve()
+
+GIVEN = {
+    "": "run cello",
+    "goblet": "run goblet",
+    "goblet --steps 500": "run goblet --steps 500",
+    "--steps 120": "run cello --steps 120",
+    "--steps=120": "run cello --steps=120",
+    "--steps 120 goblet": "run --steps 120 goblet",
+    "--steps=120 goblet": "run --steps=120 goblet",
+    "--quiet": "run cello --quiet",
+    "--quiet goblet": "run --quiet goblet",
+    "--steps 120 --quiet --size 64x64": "run cello --steps 120 --quiet --size 64x64",
+    "--set run.seed=3 --threads 2": "run cello --set run.seed=3 --threads 2",
+    "--checkpoint-every 60s": "run cello --checkpoint-every 60s",
+    "--resume out/cello": "run --resume out/cello",
+    "--resume=out/cello --quiet": "run --resume=out/cello --quiet",
+    "--help": "run --help",
+    "-h": "run -h",
+}
+
+
+def script(folder, text):
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    folder.write_text("#!/bin/sh\n" + text)
+    folder.chmod(0o755)
+
+
+class RunSh(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        shutil.copy(ROOT / "run.sh", self.folder)
+        script(self.folder / "cmake/install-dependencies.sh", "")
+        script(self.folder / "bin/cmake", "mkdir -p build")
+        script(self.folder / "build/release/app/voxmelt", 'echo "$@"; exit 7')
+        self.env = dict(os.environ, PATH=f"{self.folder}/bin:{os.environ['PATH']}")
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def test_options_alone_take_the_cello(self):
+        for given, expected in GIVEN.items():
+            with self.subTest(given=given):
+                result = subprocess.run([self.folder / "run.sh", *given.split()], cwd="/", env=self.env,
+                                        capture_output=True, text=True)
+                self.assertEqual((result.stdout, result.stderr), (expected + "\n", ""))
+                self.assertEqual(result.returncode, 7, "the program's own exit code")
+
+    def test_what_fails_before_ends_it(self):
+        script(self.folder / "bin/cmake", "echo no compiler; exit 1")
+        result = subprocess.run([self.folder / "run.sh"], env=self.env, capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stdout), (1, "no compiler\n"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["run_sh_test"], verbosity=1)
