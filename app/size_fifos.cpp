@@ -34,23 +34,31 @@ void print_table(const explore::Sizing& sizing, const hwmodel::Configuration& c)
              sizing.channels.size(), sizing.cycles, hwmodel::kMostDepth, sizing.runs);
 }
 
-// What the feeds read in each step of visibility, by the software: on a DRAM it matters.
-using Streams = std::map<std::uint32_t, hwmodel::IrradianceStream>;
-Streams irradiance_of(const VerifiedStream& stream, const Common& common, const hwmodel::Shape& shape) {
-  Streams streams;
+// What the memory holds, by the software: on a DRAM it matters. Irradiance from each step of visibility on;
+// with hw.coded which tokens are stored before each step, and behind the last one.
+struct Held {
+  std::map<std::uint32_t, hwmodel::IrradianceStream> irradiance;
+  std::map<std::uint32_t, explore::StoredTokens> stored;
+};
+Held held_by(const VerifiedStream& stream, const Common& common, const hwmodel::Design& design, bool coded) {
+  Held held;
   const rule::Heat& heat = stream.parameters.heat;
-  if (!heat.radiates()) return streams;
+  if (!heat.radiates() && !coded) return held;
   run::Simulation simulation(stream.parameters, stream.volume, find_implementation(common));
   simulation.begin_at(stream.first_step);
   for (std::uint32_t step = 0; step < stream.steps; ++step) {
     simulation.begin_step();
-    if (streams.empty() || heat.is_visibility_step(simulation.step_number()))
-      streams.emplace(simulation.step_number(), hwmodel::IrradianceStream(*simulation.irradiance(), shape));
+    const std::uint32_t number = simulation.step_number();
+    if (heat.radiates() && (held.irradiance.empty() || heat.is_visibility_step(number)))
+      held.irradiance.emplace(number, hwmodel::IrradianceStream(*simulation.irradiance(), design.shape));
+    if (coded) held.stored.emplace(number, explore::stored_tokens(design, simulation.volume()));
     for (const step::Phase phase : simulation.phases()) simulation.run_phase(phase);
     simulation.end_step();
     stop_if_interrupted();
   }
-  return streams;
+  if (coded)
+    held.stored.emplace(simulation.step_number(), explore::stored_tokens(design, simulation.volume()));
+  return held;
 }
 
 }  // namespace
@@ -72,13 +80,18 @@ std::int64_t size_fifos(const VerifiedStream& stream, const Common& common, cons
   std::optional<explore::SizingMemory> memory;
   if (preset.caster.dram) memory = {*preset.caster.dram, preset.caster.clock_mhz};
   const state::Grid grid = stream.volume.grid;
-  explore::TimedRun run{stream.parameters, grid, c, stream.first_step, stream.steps, stop_if_interrupted, {}};
-  Streams streams;
-  if (memory) streams = irradiance_of(stream, common, hwmodel::design_of(stream.parameters, grid, c).shape);
-  if (!streams.empty())
-    run.irradiance = [&](std::uint32_t step) { return &std::prev(streams.upper_bound(step))->second; };
+  explore::TimedRun run{stream.parameters,   grid, c, stream.first_step, stream.steps,
+                        stop_if_interrupted, {},   {}};
+  Held held;
+  if (memory) held = held_by(stream, common, hwmodel::design_of(stream.parameters, grid, c), c.coded);
+  if (!held.irradiance.empty())
+    run.irradiance = [&](std::uint32_t step) {
+      return &std::prev(held.irradiance.upper_bound(step))->second;
+    };
+  if (!held.stored.empty()) run.stored = [&](std::uint32_t step) { return &held.stored.at(step); };
   const explore::Sizing sizing = explore::size_fifos(run, memory);
   c.depths.clear();
+  c.fifo_depth = hwmodel::Configuration{}.fifo_depth;  // as --hw reads the file
   for (const explore::SizedChannel& channel : sizing.channels)
     c.depths.push_back({channel.name, channel.depth});
   if (!common.quiet) print_table(sizing, c);

@@ -4,6 +4,7 @@
 
 #include "hwmodel/explore/timing.h"
 #include "hwmodel/machine/dram_streams.h"
+#include "hwmodel/stream/tiling.h"
 
 namespace voxmelt::hwmodel::explore {
 
@@ -36,7 +37,9 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   options.configuration = point.hw;
   options.poll = input.poll;
   std::optional<DramStreams> streams;
-  if (question.memory) streams.emplace(parts.design, point.hw.cascade, *question.memory, point.clock_mhz);
+  if (question.memory)
+    streams.emplace(design_of(question.parameters, question.grid, point.hw), point.hw.cascade,
+                    *question.memory, point.clock_mhz);
   options.memory = streams ? &*streams : nullptr;
   const VerifyReport report =
       verify(question.parameters, input.start, question.first_step, input.fast, input.tuning, options);
@@ -50,6 +53,7 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
                                                 question.first_step,
                                                 checked.steps,
                                                 input.poll,
+                                                {},
                                                 {}},
                                                nullptr)
                                          .cycles

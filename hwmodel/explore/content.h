@@ -1,7 +1,9 @@
 // What a pass moves that no configuration tells: it is counted from the state with which the run begins.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "hwmodel/stream/coded_state.h"
 #include "hwmodel/stream/irradiance_stream.h"
@@ -12,6 +14,13 @@ namespace voxmelt::hwmodel::explore {
 struct Content {
   std::int64_t irradiance_bits = 0;  // that a time step reads
   std::int64_t coded_bits = 0;       // of the state with hw.coded, read or written, in whole bursts
+  // For tiles: the same of all blocks along x before each one, and of all. Empty: none.
+  std::vector<std::int64_t> irradiance_before{}, coded_before{};
+
+  static std::int64_t between(const std::vector<std::int64_t>& before, int first, int end) {
+    if (before.empty()) return 0;
+    return before[static_cast<std::size_t>(end)] - before[static_cast<std::size_t>(first)];
+  }
 };
 
 // Null: there is none.

@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hwmodel/memory/address_map.h"
+
 namespace voxmelt::hwmodel::explore {
 namespace {
 
 // Cycles of the data bus that are lost when the sides turn, there and back.
-double turn_cycles(const memory::Parameters& p) {
+double turn_cycles(const memory::Parameters& p, const Meetings& meetings) {
   const int reads_to_writes = p.read_to_write;
   const int writes_to_reads = p.wtr_s + p.cl + p.read_more;
-  // Where the other side's row lies in the same bank, it must be opened. Rows of streams lie in banks at
-  // random.
+  // Where the other side's row lies in the same bank, it must be opened.
   const int read = p.cl + p.read_more + p.beats() - p.cwl - p.write_more;  // command to command
   const int open = p.rp + p.rcd;
   const int for_writes = std::max(0, p.rtp + open - read - p.read_to_write);
   const int for_reads = std::max(0, p.wr + open - p.wtr_s);
-  return reads_to_writes + writes_to_reads + static_cast<double>(for_writes + for_reads) / p.banks;
+  return reads_to_writes + writes_to_reads + for_writes * meetings.of_writes + for_reads * meetings.of_reads;
 }
 
 // Of every tREFI: the rank closes, is refreshed, and opens a row.
@@ -26,14 +27,35 @@ double refresh_share(const memory::Parameters& p) {
 
 }  // namespace
 
-double burst_cycles(double reads, double writes, const memory::Parameters& p, const memory::Policy& policy) {
+double meeting(double bursts, const memory::Parameters& p) {
+  // All bursts of a stretch lie in one bank of every group.
+  const std::int64_t stretch = p.row_bytes() / memory::kBurst * p.groups * p.channels;
+  const std::int64_t period = std::int64_t{p.banks} * p.ranks * p.banks;  // after which banks repeat
+  const auto whole = static_cast<std::int64_t>(std::floor(bursts / static_cast<double>(stretch)));
+  const auto share = [&](std::int64_t stretches) {
+    std::int64_t met = 0;
+    for (std::int64_t at = 0; at < period; ++at) {
+      const std::int64_t other = at + (stretches % period + period) % period;
+      const memory::Location a = memory::locate(at * stretch * memory::kBurst, p);
+      const memory::Location b = memory::locate(other * stretch * memory::kBurst, p);
+      met += stretches != 0 && a.bank == b.bank && a.rank == b.rank ? 1 : 0;
+    }
+    return static_cast<double>(met) / static_cast<double>(period);
+  };
+  const double part = bursts / static_cast<double>(stretch) - static_cast<double>(whole);
+  return (1 - part) * share(whole) + part * share(whole + 1);
+}
+
+double burst_cycles(double reads, double writes, const Meetings& meetings, const memory::Parameters& p,
+                    const memory::Policy& policy) {
   double cycles = (reads + writes) * p.beats() * p.columns_of_request() / p.channels;
-  if (reads > 0 && writes > 0) cycles += std::min(reads, writes) / p.channels / policy.batch * turn_cycles(p);
+  if (reads > 0 && writes > 0)
+    cycles += std::min(reads, writes) / p.channels / policy.batch * turn_cycles(p, meetings);
   return cycles / (1 - refresh_share(p));
 }
 
 std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& p, int clock_mhz,
-                       const memory::Policy& policy) {
+                       const std::vector<Behind>& behind, const memory::Policy& policy) {
   // While the first tokens are under way it is only read; then both; at last it is only written.
   constexpr double kBurstBits = 8.0 * memory::kBurst;
   const double window = static_cast<double>(work.cycles - work.lag), lag = static_cast<double>(work.lag);
@@ -41,10 +63,21 @@ std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& p, int 
   const double reads = static_cast<double>(work.read_bits + work.fed_bits) / kBurstBits;
   const double writes = static_cast<double>(work.written_bits) / kBurstBits;
   const double ratio = static_cast<double>(clock_mhz) / p.mhz;
+  // A batch of writes begins when as many wait: so far behind lies the first one, and the last one next to
+  // nothing. Bursts of the feeds lie in banks at random.
+  Meetings meetings;
+  const double state = static_cast<double>(work.read_bits) / std::max(1.0, kBurstBits * reads);
+  const double lag_bursts = static_cast<double>(work.read_bits) / kBurstBits * lag / window;
+  for (const Behind& one : behind.empty() ? std::vector<Behind>{{lag_bursts, 1}} : behind) {
+    meetings.of_writes += one.share * meeting(one.bursts + policy.batch, p);
+    meetings.of_reads += one.share * meeting(one.bursts, p);
+  }
+  meetings.of_writes = state * meetings.of_writes + (1 - state) / p.banks;
+  meetings.of_reads = state * meetings.of_reads + (1 - state) / p.banks;
   const auto segment = [&](double cycles, bool reading, bool writing) {
     const double share = cycles / window;
-    return std::max(
-        cycles, ratio * burst_cycles(reading ? reads * share : 0, writing ? writes * share : 0, p, policy));
+    return std::max(cycles, ratio * burst_cycles(reading ? reads * share : 0, writing ? writes * share : 0,
+                                                 meetings, p, policy));
   };
   const double first =
       ratio * (p.rcd + p.cl + p.read_more + p.beats() * p.columns_of_request() + p.interface_cycles);

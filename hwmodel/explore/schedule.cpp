@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hwmodel/machine/column_port.h"
 #include "hwmodel/stream/prediction.h"
 
 namespace voxmelt::hwmodel::explore {
@@ -17,24 +18,58 @@ int steps_of_pass(const Design& design, const Configuration& c, std::uint32_t st
   return static_cast<int>(steps);
 }
 
+// Bits of the state in some blocks along x. Columns of tiles, and coded ones, are whole bursts.
+std::int64_t state_bits(const Design& design, bool coded, const Content& content, int first, int end) {
+  if (coded) return Content::between(content.coded_before, first, end);
+  const Shape& shape = design.shape;
+  const std::int64_t column = shape.column() * shape.lanes * design.cell_bits();
+  return std::int64_t{end - first} * shape.grid.z * (shape.tiled() ? CodeLayout::up(column) : column);
+}
+
+// One tile of a pass.
 void add_pass(Train& train, const Design& design, const Configuration& c, const Pass& pass,
               const Content& content) {
   const Shape& shape = design.shape;
-  const std::int64_t cells = shape.tokens() * shape.lanes;
+  const int first = shape.first_block(pass.tile), end = first + shape.blocks();
   ++train.passes;
   train.list.push_back(pass);
   train.work.tokens += shape.tokens();
-  const std::int64_t state_bits = c.coded ? content.coded_bits : cells * design.cell_bits();
-  train.work.read_bits += state_bits;
-  train.work.written_bits += state_bits;
+  train.work.read_bits += state_bits(design, c.coded, content, first, end);
+  train.work.written_bits +=
+      state_bits(design, c.coded, content, shape.owned_begin(pass.tile), shape.owned_end(pass.tile));
   if (design.hot() && design.parameters.heat.radiation && pass.begins())
-    train.work.fed_bits += content.irradiance_bits * pass.steps;
+    train.work.fed_bits +=
+        pass.steps *
+        (shape.tiled() ? Content::between(content.irradiance_before, first, end) : content.irradiance_bits);
 }
 
-void end_train(Train& train, const Design& design, const Configuration& c, const Pass& first) {
+void end_train(Train& train, const Design& design, const Configuration& c) {
   train.work.passes = 1;
-  train.work.cycles = predicted_cycles(design, c, first, train.passes);
-  train.work.lag = train.work.cycles - (c.fifo_depth == 1 ? 2 : 1) * train.work.tokens;
+  train.work.cycles = predicted_cycles(design, c, train.list.front(), train.passes);
+  train.work.lag = train.work.cycles - c.interval() * train.work.tokens;
+  const Shape& shape = design.shape;
+  if (!c.coded && !shape.tiled()) return;
+  // As many columns behind as the lag has; of tiles in the other copy, of a plane that is as wide as the
+  // grid.
+  const ColumnSlots slots(design, c.coded);
+  const double columns =
+      static_cast<double>(train.work.lag) / static_cast<double>(c.interval() * shape.column());
+  const double of_grid = columns * shape.grid_blocks() / shape.blocks();
+  const double bursts = of_grid * static_cast<double>(slots.slot_bursts);
+  const double copy = static_cast<double>(slots.columns * slots.slot_bursts);
+  if (!shape.tiled())
+    train.behind = {{bursts, 1}};
+  else
+    train.behind = {{bursts - copy, .5}, {bursts + copy, .5}};
+}
+
+// All tiles of a pass, into the last train, or into new ones.
+void add_tiles(std::vector<Train>& trains, const Design& design, const Configuration& c, Pass pass,
+               const Content& content) {
+  for (pass.tile = 0; pass.tile < design.shape.tiles(); ++pass.tile) {
+    if (pass.tile > 0 && !tiles_follow(design, c, pass)) trains.emplace_back();
+    add_pass(trains.back(), design, c, pass, content);
+  }
 }
 
 // One time step with more sub-steps than the machine has copies of settle and spread: pass after pass.
@@ -42,11 +77,10 @@ void add_substeps(std::vector<Train>& trains, const Design& design, const Config
                   const Content& content) {
   for (; pass.substep < pass.substeps; pass.substep += pass.count) {
     pass.count = std::min(pass.count, pass.substeps - pass.substep);
-    Train& train = trains.emplace_back();
-    add_pass(train, design, c, pass, content);
-    train.steps = pass.ends() ? 1 : 0;
-    end_train(train, design, c, pass);
+    trains.emplace_back();
+    add_tiles(trains, design, c, pass, content);
   }
+  trains.back().steps = 1;
 }
 
 }  // namespace
@@ -65,12 +99,11 @@ std::vector<Train> trains_of(const Design& design, const Configuration& c, std::
       ++done;
       continue;
     }
-    Train train;
+    trains.emplace_back();
     pass.steps = steps_of_pass(design, c, pass.first, steps - done);
-    const Pass first = pass;
     while (true) {
-      add_pass(train, design, c, pass, content);
-      train.steps += pass.steps;
+      add_tiles(trains, design, c, pass, content);
+      trains.back().steps += pass.steps;
       done += pass.steps;
       const std::uint32_t step = first_step + static_cast<std::uint32_t>(done);
       if (done == steps || substeps == 0 || !passes_overlap(design, c, pass) ||
@@ -79,9 +112,8 @@ std::vector<Train> trains_of(const Design& design, const Configuration& c, std::
       pass.first = step;
       pass.steps = steps_of_pass(design, c, step, steps - done);
     }
-    end_train(train, design, c, first);
-    trains.push_back(train);
   }
+  for (Train& train : trains) end_train(train, design, c);
   return trains;
 }
 

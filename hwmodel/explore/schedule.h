@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hwmodel/explore/content.h"
+#include "hwmodel/explore/dram_time.h"
 #include "hwmodel/machine/stream_twin.h"
 #include "hwmodel/stream/pipeline.h"
 
@@ -13,8 +14,10 @@ namespace voxmelt::hwmodel::explore {
 
 struct Train {
   std::int64_t passes = 0, steps = 0;
-  std::vector<Pass> list;  // the passes
+  std::vector<Pass> list;  // the passes, tile by tile
   StreamWork work;         // one pass of the twin: the tokens of all passes, one after another
+  // Where it writes behind where it reads, if the state lies there by columns; else empty.
+  std::vector<Behind> behind{};
 };
 
 // Every pass is taken to move what `content` says. Of a scene that counts its sub-steps from the state, every

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "hwmodel/machine/dram_streams.h"
+#include "hwmodel/stream/tiling.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
@@ -15,9 +16,7 @@ namespace {
 class Sizer {
  public:
   Sizer(const TimedRun& run, const std::optional<SizingMemory>& memory)
-      : run_(run),
-        memory_(memory),
-        design_{run.parameters, {run.grid, run.configuration.lanes}, run.configuration.substeps} {}
+      : run_(run), memory_(memory), design_(design_of(run.parameters, run.grid, run.configuration)) {}
 
   Sizing size() {
     run_.configuration.depths.clear();

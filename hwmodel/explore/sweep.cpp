@@ -115,8 +115,8 @@ RunTime time_of(const PartList& parts, const Configuration& hw, int clock_mhz, c
   RunTime time;
   for (const Train& train : trains_of(parts.design, hw, question.first_step, steps, parts.content)) {
     time.cycles += train.work.cycles;
-    time.on_memory +=
-        question.memory ? cycles_on(train.work, *question.memory, clock_mhz) : train.work.cycles;
+    time.on_memory += question.memory ? cycles_on(train.work, *question.memory, clock_mhz, train.behind)
+                                      : train.work.cycles;
     time.steps += train.steps;
   }
   return time;

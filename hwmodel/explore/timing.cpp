@@ -32,7 +32,51 @@ class Delay final : public Stage {
   HeatFifo* feed_ = nullptr;
 };
 
+std::size_t token_at(const CodeLayout& layout, const Place& place) {
+  return static_cast<std::size_t>(layout.column_of(place) * layout.height() + place.y);
+}
+
+// Says which tokens are air, for stages that compute nothing: as they are before the step behind the pass.
+class Told final : public CodeFault {
+ public:
+  Told(const TimedRun& run, const Design& design) : run_(run), layout_(design) {}
+
+  void begin_train(const Train& train) { train_ = &train; }
+  void judged(std::int64_t pass, const Place& place, const Cell* /*lanes*/, bool& air) override {
+    const Pass& done = train_->list[static_cast<std::size_t>(pass)];
+    air = !(*run_.stored(done.first + static_cast<std::uint32_t>(done.steps)))[token_at(layout_, place)];
+  }
+  void stored(std::int64_t, const Place&, const Cell*, std::int64_t&) override {}
+  void ended(std::int64_t, const Place&, std::uint64_t*) override {}
+  void found(std::int64_t, const Place&, const std::uint64_t*, bool&) override {}
+
+  // A volume whose tokens are stored as they are before this step.
+  state::Volume volume(std::uint32_t step, const Shape& shape) const {
+    state::Volume volume(shape.grid);
+    const StoredTokens& tokens = *run_.stored(step);
+    for (int z = 0; z < shape.grid.z; ++z)
+      for (int x = 0; x < shape.grid.x; x += shape.lanes)
+        for (int y = 0; y < shape.grid.y; ++y)
+          volume.solid.set(x, y, z, tokens[token_at(layout_, {x, y, z})]);
+    return volume;
+  }
+
+ private:
+  const TimedRun& run_;
+  CodeLayout layout_;
+  const Train* train_ = nullptr;
+};
+
 }  // namespace
+
+StoredTokens stored_tokens(const Design& design, const state::Volume& volume) {
+  CodedState code{CodeLayout(design)};
+  code.store(volume);
+  StoredTokens stored;
+  for (std::int64_t column = 0; column < code.layout().columns(); ++column)
+    for (int y = 0; y < code.layout().height(); ++y) stored.push_back(bit_of(code.slot(column), y));
+  return stored;
+}
 
 Timing timing_of(const TimedRun& run, StreamMemory* memory) {
   Pipeline pipeline(run.parameters, run.grid, run.configuration, [](StageKind kind, const Design& design) {
@@ -43,7 +87,13 @@ Timing timing_of(const TimedRun& run, StreamMemory* memory) {
   state::Volume volume(run.grid);
   const IrradianceStream dark(Irradiance(run.grid), pipeline.design().shape);
   Timing timing;
+  Told told(run, pipeline.design());
+  if (run.stored) pipeline.plant(&told);
   for (const Train& train : trains_of(pipeline.design(), run.configuration, run.first_step, run.steps)) {
+    if (run.stored) {
+      told.begin_train(train);
+      volume = told.volume(train.list.front().first, pipeline.design().shape);
+    }
     std::size_t at = 0;
     const auto next = [&]() -> std::optional<Pass> {
       if (++at == train.list.size()) return {};

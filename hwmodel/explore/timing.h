@@ -11,6 +11,8 @@
 
 namespace voxmelt::hwmodel::explore {
 
+using StoredTokens = std::vector<bool>;
+
 struct TimedRun {
   rule::Parameters parameters;
   state::Grid grid;
@@ -20,7 +22,11 @@ struct TimedRun {
   std::function<void()> poll;
   // What the feeds read from a step of visibility on, or from the first step; empty: nothing.
   std::function<const IrradianceStream*(std::uint32_t step)> irradiance;
+  // With hw.coded on a memory: which tokens are stored before this step, by column and height; empty: none.
+  std::function<const StoredTokens*(std::uint32_t step)> stored;
 };
+
+StoredTokens stored_tokens(const Design& design, const state::Volume& volume);
 
 struct Timing {
   std::int64_t cycles = 0;

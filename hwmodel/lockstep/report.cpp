@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -23,17 +24,15 @@ json stage_json(const StageReport& stage) {
                        {"lanes", b.lanes},
                        {"bits", b.bits},
                        {"total_bits", b.total()}});
+  json cycles;
+  for (std::size_t i = 0; i < kCycleClasses.size(); ++i)
+    cycles[kCycleClasses[i]] = stage.cycles.*StageCycles::kParts[i];
   return {{"name", name_of(stage.kind)},
           {"phase", name_of(phase_of(stage.kind))},
           {"cascade", stage.cascade},
           {"lag", stage.lag},
           {"moved_bits", stage.moved_bits},
-          {"cycles",
-           {{"busy", stage.cycles.busy},
-            {"starved", stage.cycles.starved},
-            {"blocked", stage.cycles.blocked},
-            {"fill_drain", stage.cycles.fill_drain},
-            {"bypassed", stage.cycles.bypassed}}},
+          {"cycles", cycles},
           {"buffers", buffers},
           {"per_lane", {{"multipliers", stage.units.multipliers}, {"dividers", stage.units.dividers}}},
           {"random_blocks_per_8_lanes", stage.units.random_blocks}};
@@ -82,12 +81,7 @@ std::vector<Row> rows_of(const std::vector<StageReport>& stages) {
       continue;
     }
     ++same->times;
-    StageCycles& sum = same->stage.cycles;
-    sum.busy += stage.cycles.busy;
-    sum.starved += stage.cycles.starved;
-    sum.blocked += stage.cycles.blocked;
-    sum.fill_drain += stage.cycles.fill_drain;
-    sum.bypassed += stage.cycles.bypassed;
+    same->stage.cycles += stage.cycles;
   }
   return rows;
 }
@@ -252,18 +246,18 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
 
 std::string table_of(const VerifyReport& report, const Design& design, const Configuration& configuration) {
   if (report.mismatch != nullptr || report.cycles == 0) return "";  // cycles of half a pass would mislead
-  constexpr const char* kLine = "{:<12} {:>5} {:>8} {:>10} {:>10} {:>13} {:>11} {:>7} {:>12} {:>13}\n";
+  constexpr const char* kLine = "{:<12} {:>5} {:>8} {:>10} {:>10} {:>9} {:>13} {:>11} {:>7} {:>12} {:>13}\n";
   const auto total = static_cast<double>(report.cycles);
-  std::string text = fmt::format(kLine, "stage", "times", "busy %", "starved %", "blocked %", "fill/drain %",
-                                 "bypassed %", "lag", "buffer bits", "mult + div");
+  std::string text = fmt::format(kLine, "stage", "times", "busy %", "starved %", "blocked %", "memory %",
+                                 "fill/drain %", "bypassed %", "lag", "buffer bits", "mult + div");
   for (const Row& row : rows_of(report.stages)) {
     const StageCycles& c = row.stage.cycles;
     const auto share = [&](std::int64_t cycles) {
       return fmt::format("{:.1f}", 100.0 * static_cast<double>(cycles) / (total * row.times));
     };
     text += fmt::format(kLine, name_of(row.stage.kind), row.times, share(c.busy), share(c.starved),
-                        share(c.blocked), share(c.fill_drain), share(c.bypassed), row.stage.lag,
-                        bits_of(row.stage) * row.times,
+                        share(c.blocked), share(c.memory), share(c.fill_drain), share(c.bypassed),
+                        row.stage.lag, bits_of(row.stage) * row.times,
                         fmt::format("{} + {}", row.stage.units.multipliers * configuration.lanes * row.times,
                                     row.stage.units.dividers * configuration.lanes * row.times));
   }

@@ -24,11 +24,8 @@ Json json_of(const Timeline& timeline, const Json& stages) {
     Json row{{"name", stages[stage]["name"]}, {"cascade", stages[stage]["cascade"]}};
     for (std::size_t i = 0; i < timeline.stretches(); ++i) {
       const StageCycles did = timeline.within(i, stage);
-      row["busy"].push_back(did.busy);
-      row["starved"].push_back(did.starved);
-      row["blocked"].push_back(did.blocked);
-      row["fill_drain"].push_back(did.fill_drain);
-      row["bypassed"].push_back(did.bypassed);
+      for (std::size_t k = 0; k < kCycleClasses.size(); ++k)
+        row[kCycleClasses[k]].push_back(did.*StageCycles::kParts[k]);
     }
     rows.push_back(row);
   }

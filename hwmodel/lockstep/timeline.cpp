@@ -19,13 +19,7 @@ void Timeline::end(std::vector<StageCycles> accounts) {
 StageCycles Timeline::within(std::size_t stretch, std::size_t stage) const {
   StageCycles did = ends_[stretch][stage];
   if (stretch == 0) return did;
-  const StageCycles& before = ends_[stretch - 1][stage];
-  did.busy -= before.busy;
-  did.starved -= before.starved;
-  did.blocked -= before.blocked;
-  did.fill_drain -= before.fill_drain;
-  did.bypassed -= before.bypassed;
-  return did;
+  return did -= ends_[stretch - 1][stage];
 }
 
 }  // namespace voxmelt::hwmodel

@@ -291,7 +291,8 @@ class Run {
           predicted_cycles(pipeline_.design(), options_.configuration, first, end.passes);
       report_.predicted_cycles += predicted;
       report_.trains.push_back({first.first, end.passes, end.cycles, predicted});
-      if (options_.configuration.stall_seed == 0 && options_.memory == nullptr && end.cycles != predicted)
+      const Configuration& c = options_.configuration;
+      if (c.stall_seed == 0 && options_.memory == nullptr && c.channels_alike() && end.cycles != predicted)
         report_.mismatch =
             std::make_unique<Mismatch>(cycles_of(pipeline_, first.first, predicted, end.cycles));
     }

@@ -76,8 +76,7 @@ Waves::Waves(Pipeline& pipeline, std::optional<std::int64_t> from)
   for (const StageReport& stage : pipeline.stages()) {
     const std::string scope = fmt::format("stages.s{:02}_step_{}_{}", number++, stage.cascade,
                                           identifier(std::string(name_of(stage.kind))));
-    for (const char* name : {"busy", "starved", "blocked", "fill_drain", "bypassed"})
-      signals_.push_back({scope, name, 1});
+    for (const char* name : kCycleClasses) signals_.push_back({scope, name, 1});
   }
   now_.resize(signals_.size());
   before_ = pipeline.accounts();
@@ -119,10 +118,7 @@ void Waves::end_cycle() {
   const std::vector<StageCycles> accounts = pipeline_.accounts();
   std::size_t at = of_stages_;
   for (std::size_t i = 0; i < accounts.size(); ++i) {
-    const StageCycles &a = accounts[i], &b = before_[i];
-    for (const bool did : {a.busy > b.busy, a.starved > b.starved, a.blocked > b.blocked,
-                           a.fill_drain > b.fill_drain, a.bypassed > b.bypassed})
-      now_[at++] = did;
+    for (const auto part : StageCycles::kParts) now_[at++] = accounts[i].*part > before_[i].*part;
   }
   before_ = accounts;
   is_new_ = true;

@@ -3,76 +3,113 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "hwmodel/stream/irradiance_stream.h"
+
 namespace voxmelt::hwmodel {
 
 DramStreams::DramStreams(const Design& design, int cascade, const memory::Parameters& parameters,
                          int clock_mhz)
-    : parameters_(parameters),
+    : design_(design),
+      parameters_(parameters),
       clock_mhz_(clock_mhz),
-      layout_(design),
-      feeds_(static_cast<std::size_t>(cascade)) {
-  token_ = std::int64_t{design.shape.lanes} * design.cell_bits();
-}
+      token_(std::int64_t{design.shape.lanes} * design.cell_bits()),
+      tokens_(design.shape.tokens()),
+      feeds_(static_cast<std::size_t>(cascade)) {}
 
-void DramStreams::begin_train(std::int64_t tokens, int fed, std::int64_t irradiance_bits,
-                              const StoredColumns* columns) {
+void DramStreams::begin_train(const Train& train) {
   dram_ = std::make_unique<memory::Dram>(parameters_, clock_mhz_);
-  tokens_ = tokens;
-  coded_ = columns != nullptr;
-  if (coded_)
-    written_columns_.begin(layout_, *dram_);
+  coded_ = train.columns[0] != nullptr;
+  slots_.reset();
+  if (coded_ || design_.shape.tiled()) slots_.emplace(design_, coded_);
+  if (slots_)
+    written_columns_.begin(*slots_, *dram_);
   else
     writer_ = dram_->open_port(nullptr);
-  tokens_written_ = handed_ = 0, last_written_ = -1;
+  tokens_written_ = handed_ = wanted_ = tokens_read_ = tokens_put_ = 0, last_written_ = -1;
   unwritten_ = {};
+  if (slots_) {
+    columns_.begin(*slots_, train.columns, *dram_);
+  } else {
+    state_ = {};
+    state_.port = dram_->open_port(nullptr), state_.pass = tokens_ * token_;
+  }
   // The state at the begin, irradiance behind it, at a row of every bank.
   const std::int64_t rows =
       parameters_.row_bytes() * parameters_.banks_of_rank() * parameters_.ranks * parameters_.channels;
-  const std::int64_t all = coded_ ? layout_.slot_bits() * layout_.columns() : burst_bits(tokens * token_);
-  const std::int64_t base = (all / 8 + rows - 1) / rows * rows;
-  const auto begin = [&](Input& input, std::int64_t at, std::int64_t bits) {
-    input = {};
-    input.base = at, input.pass = bits;
-    input.port = dram_->open_port(nullptr);
-  };
-  if (coded_)
-    columns_.begin(layout_, *columns, *dram_);
+  const std::int64_t all = slots_ ? slots_->bytes() : burst_bits(tokens_ * token_) / 8;
+  const std::int64_t base = (all + rows - 1) / rows * rows;
+  irradiance_bits_.clear(), irradiance_at_.clear();
+  std::int64_t at = base;
+  for (int tile = 0; tile < design_.shape.tiles(); ++tile) {
+    irradiance_bits_.push_back(train.irradiance == nullptr ? 0 : train.irradiance->bits(tile));
+    irradiance_at_.push_back(at);
+    at += burst_bits(irradiance_bits_.back()) / 8;
+  }
+  for (Feed& feed : feeds_) {
+    feed = {};
+    feed.port = dram_->open_port(nullptr), feed.bits_of_tile = &irradiance_bits_;
+  }
+  add_pass(train.tile, train.fed);
+}
+
+void DramStreams::add_pass(int tile, int fed) {
+  if (slots_)
+    columns_.add(tile), written_columns_.add(tile);
   else
-    begin(state_, 0, tokens * token_);
-  for (Input& feed : feeds_) begin(feed, base, irradiance_bits);
-  add_pass(fed);
+    wanted_ += burst_bits(state_.pass);
+  for (std::size_t t = 0; t < static_cast<std::size_t>(fed); ++t) feeds_[t].add(tile);
 }
 
-void DramStreams::add_pass(int fed) {
-  columns_.add_pass();
-  state_.wanted += burst_bits(state_.pass);
-  for (std::size_t t = 0; t < static_cast<std::size_t>(fed); ++t)
-    feeds_[t].wanted += burst_bits(feeds_[t].pass);
+void DramStreams::Feed::add(int tile) {
+  tiles.push_back(tile);
+  pass = (*bits_of_tile)[static_cast<std::size_t>(tiles.front())];
 }
 
-// Takes what has come, and asks for more.
-void DramStreams::fetch(Input& from, std::int64_t limit, std::int64_t now) {
+void DramStreams::Feed::use(std::int64_t bits, bool ends, std::int64_t now) {
+  Input::use(bits, ends, now);
+  if (!ends) return;
+  tiles.pop_front();
+  if (asking > 0)
+    --asking;
+  else
+    asked_of_tile = 0;
+  if (!tiles.empty()) pass = (*bits_of_tile)[static_cast<std::size_t>(tiles.front())];
+}
+
+void DramStreams::take(Input& from, std::int64_t now) {
   std::int64_t come = from.come[static_cast<std::size_t>(now & 1)];
   while (dram_->reply(from.port) != nullptr) {
     dram_->take(from.port);
     come += kBurstBits;
   }
   from.come[static_cast<std::size_t>((now + 1) & 1)] = come;
-  limit = std::min(limit, from.wanted);
-  while (from.asked < limit && from.asked - from.used_before(now) < kAhead && dram_->ready(from.port)) {
-    dram_->put(from.port, {from.address(from.asked), 0, false});
-    from.asked += kBurstBits;
+}
+
+void DramStreams::ask(Input& from, std::int64_t address) {
+  dram_->put(from.port, {address, 0, false});
+  from.asked += kBurstBits;
+}
+
+void DramStreams::fetch(Feed& from, std::int64_t now) {
+  take(from, now);
+  for (; from.asking < from.tiles.size(); ++from.asking, from.asked_of_tile = 0) {
+    const auto tile = static_cast<std::size_t>(from.tiles[from.asking]);
+    while (from.asked_of_tile < irradiance_bits_[tile]) {
+      if (!room(from, now)) return;
+      ask(from, irradiance_at_[tile] + from.asked_of_tile / 8);
+      from.asked_of_tile += kBurstBits;
+    }
   }
 }
 
 void DramStreams::cycle(std::int64_t now) {
-  if (coded_) {
+  if (slots_) {
     written_columns_.cycle(now);
-    columns_.cycle(layout_.columns() + written_columns_.handed(), now);
+    columns_.cycle(written_columns_, now);
   } else {
     cycle_state(now);
   }
-  for (Input& feed : feeds_) fetch(feed, feed.wanted, now);
+  for (Feed& feed : feeds_) fetch(feed, now);
   dram_->cycle();
 }
 
@@ -87,7 +124,9 @@ void DramStreams::cycle_state(std::int64_t now) {
     handed_ += kBurstBits;
   }
   unwritten_[static_cast<std::size_t>((now + 1) & 1)] = bits - handed_;
-  fetch(state_, pass + handed_, now);
+  take(state_, now);
+  const std::int64_t limit = std::min(pass + handed_, wanted_);
+  while (state_.asked < limit && room(state_, now)) ask(state_, state_.asked % pass / 8);
 }
 
 }  // namespace voxmelt::hwmodel

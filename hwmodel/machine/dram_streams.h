@@ -5,10 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "hwmodel/machine/coded_port.h"
+#include "hwmodel/machine/column_port.h"
 #include "hwmodel/memory/dram.h"
 #include "hwmodel/stream/pipeline.h"
 #include "hwmodel/stream/stream_memory.h"
@@ -19,18 +21,19 @@ class DramStreams final : public StreamMemory {
  public:
   DramStreams(const Design& design, int cascade, const memory::Parameters& parameters, int clock_mhz);
 
-  void begin_train(std::int64_t tokens, int fed, std::int64_t irradiance_bits,
-                   const StoredColumns* columns) override;
-  void add_pass(int fed) override;
+  void begin_train(const Train& train) override;
+  void add_pass(int tile, int fed) override;
   bool may_read(std::int64_t bits, std::int64_t now) const override {
-    return coded_ ? columns_.has(bits, now) : state_.has(state_.used_of_pass() + token_, now);
+    if (coded_) return columns_.has(bits, now);
+    return slots_ ? columns_.has((tokens_read_ + 1) * token_, now)
+                  : state_.has(state_.used_of_pass() + token_, now);
   }
   bool may_feed(int t, std::int64_t bits, std::int64_t now) const override { return feed(t).has(bits, now); }
   bool may_write(std::int64_t now) const override {
-    return coded_ ? written_columns_.may_write(now) : unwritten_[now & 1] <= kAhead;
+    return slots_ ? written_columns_.may_write(now) : unwritten_[now & 1] <= kAhead;
   }
   void read(std::int64_t bits, bool ends, std::int64_t now) override {
-    if (coded_) return columns_.use(bits, ends, now);
+    if (slots_) return columns_.use(of_column(bits, ends, tokens_read_), ends, now);
     const std::int64_t used = state_.used_of_pass() + token_;
     state_.use(used, used == state_.pass, now);
   }
@@ -38,7 +41,7 @@ class DramStreams final : public StreamMemory {
     feeds_[static_cast<std::size_t>(t)].use(bits, ends, now);
   }
   void written(std::int64_t bits, bool ends, std::int64_t now) override {
-    if (coded_) return written_columns_.written(bits, ends, now);
+    if (slots_) return written_columns_.written(of_column(bits, ends, tokens_put_), ends, now);
     ++tokens_written_, last_written_ = now;
   }
   void cycle(std::int64_t now) override;
@@ -55,8 +58,8 @@ class DramStreams final : public StreamMemory {
   // A stream that is read ahead. Counts are bits, and run on over all passes. A pass begins with a burst.
   struct Input {
     int port = -1;
-    std::int64_t base = 0, pass = 0;  // bytes; bits of a pass, which may be none
-    std::int64_t wanted = 0, asked = 0;
+    std::int64_t pass = 0;  // bits of the present pass, which may be none
+    std::int64_t asked = 0;
     std::array<std::int64_t, 2> come{};  // at the begin of even and of odd cycles
     std::int64_t begun = 0, used = 0, before = 0, last_used = -1;
 
@@ -72,25 +75,53 @@ class DramStreams final : public StreamMemory {
       if (ends) used = begun += burst_bits(pass);
     }
     std::int64_t used_before(std::int64_t now) const { return last_used == now ? before : used; }
-    std::int64_t address(std::int64_t bits) const { return base + bits % burst_bits(pass) / 8; }
+  };
+  // Irradiance: a stretch for each tile of each pass. All of them lie there for good.
+  struct Feed : Input {
+    std::deque<int> tiles;  // the present one, and further ones
+    std::size_t asking = 0;
+    std::int64_t asked_of_tile = 0;
+    const std::vector<std::int64_t>* bits_of_tile = nullptr;
+
+    void add(int tile);
+    void use(std::int64_t bits, bool ends, std::int64_t now);
   };
   void cycle_state(std::int64_t now);
-  const Input& feed(int t) const { return feeds_[static_cast<std::size_t>(t)]; }
-  void fetch(Input& from, std::int64_t limit, std::int64_t now);
+  const Feed& feed(int t) const { return feeds_[static_cast<std::size_t>(t)]; }
+  void take(Input& from, std::int64_t now);
+  bool room(const Input& from, std::int64_t now) const {
+    return from.asked - from.used_before(now) < kAhead && dram_->ready(from.port);
+  }
+  void ask(Input& from, std::int64_t address);
+  void fetch(Feed& from, std::int64_t now);
+  // Bits of a column so far; without the code all tokens take as many.
+  std::int64_t of_column(std::int64_t bits, bool ends, std::int64_t& tokens) const {
+    if (coded_) return bits;
+    const std::int64_t before = tokens;
+    tokens = ends ? 0 : before + 1;
+    return (before + 1) * token_;
+  }
 
+  Design design_;
   memory::Parameters parameters_;
   int clock_mhz_;
   std::unique_ptr<memory::Dram> dram_;
-  CodeLayout layout_;
   bool coded_ = false;
-  Input state_;                  // unless it is coded
-  CodedInput columns_;           // if it is
-  CodedOutput written_columns_;  // likewise
-  std::vector<Input> feeds_;
+  std::int64_t token_ = 0, tokens_ = 0;  // bits of a token; tokens of a pass
+  // A grid that is coded, or in tiles, lies there by columns.
+  std::optional<ColumnSlots> slots_;
+  ColumnInput columns_;
+  ColumnOutput written_columns_;
+  std::int64_t tokens_read_ = 0, tokens_put_ = 0;  // of the present column, without the code
+  // Else in the order of its stream.
+  Input state_;
+  std::int64_t wanted_ = 0;  // bits of all passes
   int writer_ = -1;
-  std::int64_t token_ = 0, tokens_ = 0;                               // bits of a token; tokens of a pass
   std::int64_t tokens_written_ = 0, last_written_ = -1, handed_ = 0;  // tokens; bits given to the memory
   std::array<std::int64_t, 2> unwritten_{};                           // bits, as `come`
+
+  std::vector<Feed> feeds_;
+  std::vector<std::int64_t> irradiance_bits_, irradiance_at_;  // of each tile: bits; its first byte
 };
 
 }  // namespace voxmelt::hwmodel

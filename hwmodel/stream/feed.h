@@ -41,7 +41,7 @@ class Feed {
       return;
     }
     if (dram_ != nullptr && !dram_->may_feed(step_, reader_.needs() * IrradianceStream::kWordBits, now)) {
-      ++cycles_.starved;
+      ++cycles_.memory;
       return;
     }
     const std::int64_t before = reader_.used();

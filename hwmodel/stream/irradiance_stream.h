@@ -29,6 +29,7 @@ class IrradianceStream {
   IrradianceStream(const Irradiance& field, const Shape& shape);
 
   const IrradianceWords& words(int tile) const { return tiles_[static_cast<std::size_t>(tile)]; }
+  std::int64_t bits(int tile) const { return kWordBits * static_cast<std::int64_t>(words(tile).size()); }
   // Of all tiles: cells of a halo count more than once.
   struct Counts {
     std::int64_t bits = 0, lit_cells = 0, lit_tokens = 0;

@@ -64,11 +64,12 @@ class Writer {
       ++cycles_.fill_drain;
     } else if (!in_->valid()) {
       ++(written_ == first_ ? cycles_.fill_drain : cycles_.starved);
-    } else if (dram_ != nullptr && !dram_->may_write(now)) {
-      ++cycles_.blocked;
+    } else if (dram_ != nullptr && owns() && !dram_->may_write(now)) {
+      ++cycles_.memory;
     } else {
       write(in_->get());
-      if (dram_ != nullptr) dram_->written(column_ ? column_->bits() : 0, ends_column(shape_, place_), now);
+      if (dram_ != nullptr && owns())
+        dram_->written(column_ ? column_->bits() : 0, ends_column(shape_, place_), now);
       ++written_, last_cycle_ = now;
       ++cycles_.busy;
       place_.next(shape_);
@@ -92,6 +93,7 @@ class Writer {
   void dram(StreamMemory* dram) { dram_ = dram; }
 
  private:
+  bool owns() const { return shape_.owns(tiles_.front(), place_.x); }
   void write_coded(const Cell* lanes) {
     CodedState& memory = memory_.written_code();
     std::uint64_t* slot = memory.slot(memory.layout().column_of(place_));
@@ -164,6 +166,8 @@ class Reader {
       ++cycles_.fill_drain;
     } else if (!may_read(now)) {
       ++cycles_.starved;
+    } else if (!memory_gives(now)) {
+      ++cycles_.memory;
     } else if (!out_->ready()) {
       ++cycles_.blocked;
     } else {
@@ -196,12 +200,15 @@ class Reader {
   void dram(StreamMemory* dram) { dram_ = dram; }
 
  private:
-  bool may_read(std::int64_t now) const {
+  bool may_read(std::int64_t now) const {  // it has been written
     if (grids_before_ > 0) {
       const std::int64_t before = (grids_before_ - 1) * shape_.tiles() * shape_.tokens();
       const int y = column_ ? shape_.grid.y - 1 : place_.y;
       if (writer_->written_before(now) <= before + owned_ordinal(shape_, place_.x, y, place_.z)) return false;
     }
+    return true;
+  }
+  bool memory_gives(std::int64_t now) const {
     return dram_ == nullptr || dram_->may_read(column_ ? column_->needs(place_, slot()) : 0, now);
   }
   const std::uint64_t* slot() const {

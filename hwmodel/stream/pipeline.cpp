@@ -116,7 +116,7 @@ struct Pipeline::Machine {
   void follow(const std::optional<Pass>& pass) {
     if (!pass) return;
     begin(*pass, false);
-    if (dram != nullptr) dram->add_pass(fed_steps(*pass));
+    if (dram != nullptr) dram->add_pass(pass->tile, fed_steps(*pass));
     reader.add_pass(pass->tile);
     writer.add_pass(pass->tile);
     for (std::size_t t = 0; t < feeds.size(); ++t)
@@ -260,9 +260,7 @@ PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const Irradiance
   m.writer.begin_pass(pass.tile);
   m.begin(pass, true);
   if (m.dram != nullptr)
-    m.dram->begin_train(m.design.shape.tokens(), m.fed_steps(pass),
-                        irradiance == nullptr ? 0 : irradiance->bits(),
-                        m.memory.coded() ? &m.memory.read_code() : nullptr);
+    m.dram->begin_train({pass.tile, m.fed_steps(pass), irradiance, {m.memory.code(0), m.memory.code(1)}});
   for (std::size_t t = 0; t < m.feeds.size(); ++t)
     m.feeds[t]->begin_pass(m.fed(pass, t) ? irradiance : nullptr, pass.tile);
 

@@ -6,6 +6,7 @@
 //                        feed          feed        (irradiance, where the scene has radiation)
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -42,6 +43,13 @@ struct Configuration {
     for (const ChannelDepth& one : depths)
       if (one.name == channel) return one.depth;
     return fifo_depth;
+  }
+  // Channels of depth 1 pass a token every second cycle: if all are so, or any, does the stream.
+  int interval() const { return fifo_depth == 1 || has_single() ? 2 : 1; }
+  // Has every channel room for two tokens, or none? Else the cycles have no closed form.
+  bool channels_alike() const { return depths.empty() || (fifo_depth > 1 && !has_single()); }
+  bool has_single() const {
+    return std::any_of(depths.begin(), depths.end(), [](const ChannelDepth& one) { return one.depth == 1; });
   }
 };
 

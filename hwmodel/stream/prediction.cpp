@@ -38,7 +38,7 @@ struct Flow {
 };
 Flow flow_of(const Design& design, const Configuration& configuration, const Pass& pass) {
   const std::vector<StageKind> stages = stages_of_step(design);
-  Flow flow{configuration.fifo_depth == 1 ? 2 : 1, 0, 0};
+  Flow flow{configuration.interval(), 0, 0};
   const std::int64_t interval = flow.interval, tokens = design.shape.tokens();
   int copy = -1;
   for (const StageKind stage : stages) {

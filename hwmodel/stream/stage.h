@@ -6,6 +6,7 @@
 // pass.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -46,11 +47,26 @@ struct Design {
 
 // Every cycle of a stage is exactly one of these. `fill_drain`: before its first token, after its last
 // one, and while it gives without taking; `bypassed`: handing on a token in a pass that has no time step
-// for the stage.
+// for the stage; `memory`: a reader, feed or writer waits for a DRAM.
 struct StageCycles {
-  std::int64_t busy = 0, starved = 0, blocked = 0, fill_drain = 0, bypassed = 0;
-  std::int64_t total() const { return busy + starved + blocked + fill_drain + bypassed; }
+  std::int64_t busy = 0, starved = 0, blocked = 0, fill_drain = 0, bypassed = 0, memory = 0;
+  std::int64_t total() const { return busy + starved + blocked + fill_drain + bypassed + memory; }
+  StageCycles& operator+=(const StageCycles& more) {
+    for (const auto part : kParts) this->*part += more.*part;
+    return *this;
+  }
+  StageCycles& operator-=(const StageCycles& less) {
+    for (const auto part : kParts) this->*part -= less.*part;
+    return *this;
+  }
+  static const std::array<std::int64_t StageCycles::*, 6> kParts;
 };
+inline constexpr std::array<std::int64_t StageCycles::*, 6> StageCycles::kParts{
+    &StageCycles::busy,   &StageCycles::starved,    &StageCycles::blocked,
+    &StageCycles::memory, &StageCycles::fill_drain, &StageCycles::bypassed};
+// In the same order.
+inline constexpr std::array<const char*, 6> kCycleClasses{"busy",   "starved",    "blocked",
+                                                          "memory", "fill_drain", "bypassed"};
 
 // Arithmetic units of the stage as it is written. A synthesis should find the same.
 struct Units {

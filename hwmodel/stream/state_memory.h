@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -40,6 +41,11 @@ class StateMemory {
   // With hw.coded the machine reads and writes these; the volumes are what the host reads back of them.
   bool coded() const { return codes_[0].has_value(); }
   const CodedState& read_code() const { return *codes_[reads_first_ ? 0 : 1]; }
+  // What the first copy holds that a train reads, and the other one; null: it is not coded.
+  const CodedState* code(int copy) const {
+    const auto& code = codes_[static_cast<std::size_t>(copy)];
+    return code ? &*code : nullptr;
+  }
   CodedState& written_code() { return *codes_[writes_first_ ? 0 : 1]; }
 
   // All tiles of a pass have been read, or written.

@@ -3,25 +3,31 @@
 // order of the blocks cannot matter.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace voxmelt::hwmodel {
 
+class IrradianceStream;
 class StoredColumns;
 
 class StreamMemory {
  public:
   virtual ~StreamMemory() = default;
 
-  // A train begins with one pass of so many tokens, of which `fed` time steps read all of so many bits of
-  // irradiance; more passes are added while it runs. Nothing of an older train is under way. `columns`: what
-  // the memory holds, where the state is coded; else null.
-  virtual void begin_train(std::int64_t tokens, int fed, std::int64_t irradiance_bits,
-                           const StoredColumns* columns) = 0;
-  virtual void add_pass(int fed) = 0;
+  struct Train {
+    int tile = 0;                                   // with which it begins
+    int fed = 0;                                    // time steps that read irradiance
+    const IrradianceStream* irradiance = nullptr;   // that they read; null: it is dark
+    std::array<const StoredColumns*, 2> columns{};  // what the copies of the state hold, where it is coded
+  };
+  // A train begins with a pass, or with a tile of one; more are added while it runs. Nothing of an older
+  // train is under way.
+  virtual void begin_train(const Train& train) = 0;
+  virtual void add_pass(int tile, int fed) = 0;
 
   // May the next token be read, fed to time step `t`, or written? A feed needs the first `bits` of a pass. So
-  // does the reader of a column, where the state is coded.
+  // does the reader of a column, where the state is coded. Only what its tile owns is written.
   virtual bool may_read(std::int64_t bits, std::int64_t now) const = 0;
   virtual bool may_feed(int t, std::int64_t bits, std::int64_t now) const = 0;
   virtual bool may_write(std::int64_t now) const = 0;

@@ -40,11 +40,20 @@ def trains(report, parts, hw):
         yield passes, first, done - begin
 
 
-def dram(reads, writes):
+def meeting(bursts):
+    """How often two streams at this distance need one bank, for two rows: stretches of 128 bursts in 4 groups."""
+    def bank(stretch):
+        return stretch % 4 ^ stretch // 4 % 4
+    whole, part = int(bursts // 512), bursts / 512 % 1
+    shares = [sum(s != 0 and bank(q) == bank(q + s) for q in range(16)) / 16 for s in (whole, whole + 1)]
+    return (1 - part) * shares[0] + part * shares[1]
+
+
+def dram(reads, writes, meetings):
     """Cycles of the memory for so many bursts of 64 bytes."""
     d, turns = DDR4, min(reads, writes) / DDR4["batch"]
-    opened = (d["rtp"] + d["rp"] + d["rcd"] - (d["cl"] + d["beats"] - d["cwl"]) - d["rtw"]
-              + d["wr"] + d["rp"] + d["rcd"] - d["wtr_s"]) / d["banks"]
+    opened = ((d["rtp"] + d["rp"] + d["rcd"] - (d["cl"] + d["beats"] - d["cwl"]) - d["rtw"]) * meetings[0]
+              + (d["wr"] + d["rp"] + d["rcd"] - d["wtr_s"]) * meetings[1])
     bus = (reads + writes) * d["beats"] + turns * (d["rtw"] + d["wtr_s"] + d["cl"] + opened)
     return bus / (1 - (d["rtp"] + d["rp"] + d["rfc"] + d["rcd"]) / d["refi"])
 
@@ -66,10 +75,16 @@ def times(report, parts, hw):
         bits = passes * (parts["coded_bits"] if hw["coded"] else cells * parts["cell_bits"])
         reads, writes = (bits + parts["irradiance_bits"] * steps) / 512, bits / 512
         ratio = hw["clock_mhz"] / DDR4["mhz"]
+        apart = writes * lag / window
+        if hw["coded"]:
+            slot = ceil((report["grid"][1] * (1 + parts["lanes"] * parts["cell_bits"])) / 512)
+            apart = lag / (interval * report["grid"][1]) * slot
+        state = writes / reads
+        meetings = [state * meeting(d) + (1 - state) / DDR4["banks"] for d in (apart + DDR4["batch"], apart)]
         memory += round(ratio * (DDR4["rcd"] + DDR4["cl"] + DDR4["beats"] + DDR4["interface"]) + lag - alone
-                        + max(alone, ratio * dram(reads * alone / window, 0))
-                        + max(window - alone, ratio * dram(reads * (1 - alone / window), writes * (1 - alone / window)))
-                        + max(alone, ratio * dram(0, writes * alone / window)))
+                        + max(alone, ratio * dram(reads * alone / window, 0, meetings))
+                        + max(window - alone, ratio * dram(reads * (1 - alone / window), writes * (1 - alone / window), meetings))
+                        + max(alone, ratio * dram(0, writes * alone / window, meetings)))
     return free, memory
 
 

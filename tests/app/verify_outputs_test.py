@@ -240,7 +240,7 @@ class Outputs(unittest.TestCase):
                         self.assertEqual(then[f"{c}.out.lane_0.{field}"], now[f"{c}.in.lane_0.{field}"], c)
                     moved += 1
             for s in stages:
-                self.assertEqual(sum(now[f"{s}.{k}"] for k in ("busy", "starved", "blocked", "fill_drain", "bypassed")), 1, s)
+                self.assertEqual(sum(now[f"{s}.{k}"] for k in ("busy", "starved", "blocked", "memory", "fill_drain", "bypassed")), 1, s)
         self.assertGreater(moved, 20)
         return cycles
 

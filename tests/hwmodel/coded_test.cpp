@@ -208,6 +208,90 @@ TEST(Code, ADramGivesTheBurstsThatAreCounted) {
   EXPECT_GT(fed, 1);
 }
 
+// Grids in tiles: each tile reads whole columns of its window, and writes those that it owns.
+TEST(Columns, ADramGivesThoseOfEachTile) {
+  const memory::Parameters sheet = load_memory("ddr4-2400", "test");
+  int cut = 0, coded = 0;
+  for (std::uint64_t seed = 0; seed < 16; ++seed) {
+    worlds::Random random(seed + 7);
+    const state::Grid grid{random.between(20, 60), random.any({1, 3, 20}), random.between(3, 20)};
+    Start start = hostile_start(seed + 900, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, grid);
+    if (seed % 3 != 0) start.parameters.heat.radiation = false;  // its words begin with a burst in each tile
+    Configuration c{random.any({1, 2, 4}), random.between(1, 2), random.any({1, 4}), seed % 3};
+    c.coded = seed % 4 < 2;
+    c.tile = narrow(start, c, random.between(0, 4));
+    const Design design = design_of(start.parameters, grid, c);
+    DramStreams streams(design, c.cascade, sheet, random.any({100, 400}));
+    VerifyOptions options;
+    options.steps = static_cast<std::uint32_t>(c.cascade) * 2;
+    options.configuration = c;
+    options.memory = &streams;
+    const VerifyReport report =
+        verify(start.parameters, start.volume, start.step, worlds::implementation("auto"), {}, options);
+    ASSERT_EQ(report.mismatch, nullptr) << seed << ": " << text_of(*report.mismatch);
+    ASSERT_EQ(report.digest, lockstep(start, c, options.steps).digest);
+    if (!design.shape.tiled()) continue;
+    ++cut;
+    // One pass again, whose tiles follow one another.
+    options.steps = 1;
+    const VerifyReport one =
+        verify(start.parameters, start.volume, start.step, worlds::implementation("auto"), {}, options);
+    if (one.trains.size() != 1 || one.passes != 1) continue;
+    const explore::Content content = explore::content_of(design, nullptr, &start.volume);
+    const ColumnSlots slots(design, c.coded);
+    std::int64_t reads = 0;
+    for (int k = 0; k < design.shape.tiles(); ++k) {
+      const int first = design.shape.first_block(k), end = first + design.shape.blocks();
+      reads += c.coded ? explore::Content::between(content.coded_before, first, end) / 512
+                       : std::int64_t{end - first} * grid.z * slots.slot_bursts;
+    }
+    if (start.parameters.heat.radiation) continue;
+    EXPECT_EQ(streams.counts().reads, reads) << seed;
+    if (!c.coded) {
+      const std::int64_t writes = slots.columns * slots.slot_bursts;
+      EXPECT_LE(streams.counts().writes, writes) << seed;
+      EXPECT_GE(streams.counts().writes, writes - 64) << seed << ": more than its queue holds";
+    }
+    coded += c.coded;
+  }
+  EXPECT_GE(cut, 10);
+  EXPECT_GE(coded, 2);
+}
+
+// Two passes over 3 x 2 columns of one burst: those of the second one are asked for when they have been
+// written, in their order.
+TEST(Columns, AreAskedForWhenTheyHaveBeenWritten) {
+  Design design{{}, {{3, 5, 2}, 1}, 1};
+  const ColumnSlots slots(design, false);
+  ASSERT_EQ(slots.columns, 6);
+  ASSERT_EQ(slots.slot_bursts, 1);
+  memory::Dram dram(load_memory("ddr4-2400", "test"), 200);
+  ColumnOutput out;
+  ColumnInput in;
+  out.begin(slots, dram);
+  in.begin(slots, {}, dram);
+  for (int pass = 0; pass < 2; ++pass) in.add(0), out.add(0);
+  std::int64_t now = 0;
+  const auto cycles = [&](int n) {
+    for (int i = 0; i < n; ++i) {
+      out.cycle(now), in.cycle(out, now);
+      dram.cycle();
+      ++now;
+    }
+  };
+  cycles(500);
+  EXPECT_EQ(dram.counts().reads, 6);
+  out.written(100, false, now), cycles(500);
+  EXPECT_EQ(dram.counts().reads, 6) << "half a column";
+  out.written(5 * 34, true, now), cycles(500);
+  EXPECT_EQ(dram.counts().reads, 7);
+  EXPECT_EQ(out.passes(0), 1);
+  for (int column = 1; column < 6; ++column) out.written(5 * 34, true, now), cycles(1);
+  cycles(500);
+  EXPECT_EQ(dram.counts().reads, 12);
+  EXPECT_EQ(dram.counts().writes, 6);
+}
+
 // The blocks alone: the reader waits until the column has been written, whole.
 TEST(Code, AColumnIsReadOnlyWhenItHasBeenWritten) {
   Design design{{}, {{1, 3, 1}, 1}, 1};

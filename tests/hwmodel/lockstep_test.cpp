@@ -2,29 +2,14 @@
 // cascade, depth and stall; the closed form predicts the cycles.
 #include "tests/hwmodel/lockstep_world.h"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <set>
 #include <string>
-#include <vector>
 
 #include "hwmodel/stream/prediction.h"
 
 namespace voxmelt::hwmodel {
 namespace {
-
-TEST(Lockstep, TheCoveringArrayCoversAllPairs) {
-  std::set<std::array<int, 4>> pairs;  // column, value, column, value
-  for (const Configuration& c : covering_array()) {
-    const std::array<int, 4> values{c.lanes, c.cascade, c.fifo_depth, static_cast<int>(c.stall_seed)};
-    for (int a = 0; a < 4; ++a)
-      for (int b = a + 1; b < 4; ++b)
-        pairs.insert({a, values[static_cast<std::size_t>(a)], b, values[static_cast<std::size_t>(b)]});
-  }
-  EXPECT_EQ(pairs.size(), 9u + 6 + 9 + 6 + 9 + 6);
-}
 
 // 100 random hostile worlds, both laws, any configuration.
 TEST(Lockstep, HostileWorlds) {
@@ -88,25 +73,6 @@ TEST(Lockstep, TeachingScenes) {
   }
   EXPECT_GE(scenes, 11);
 }
-
-// A showcase scene in the middle of its melt, a cube of 20 cells of it; one row of the full product each
-// time. The slow test of the matrix has cubes of 24 cells. Both end within a block of 16 lanes.
-class Showcase : public testing::TestWithParam<std::size_t> {};
-
-TEST_P(Showcase, CropsOfIt) {
-  const std::vector<Configuration> rows = covering_array();
-  const auto& [name, ahead] = showcase()[GetParam()];
-  std::size_t row = 3 * GetParam();
-  const Start start = crop(start_of(name, ahead), 20);
-  ASSERT_GT(start.volume.liquid.count(), 100) << name;
-  for (int i = 0; i < 3; ++i) ASSERT_TRUE(agrees(start, rows[row++ % rows.size()], 10));
-  Configuration tiled{row % 2 == 0 ? 1 : 2, 1, 2, 0};
-  tiled.tile = narrow(start, tiled, static_cast<int>(row % 3));
-  ASSERT_TRUE(agrees(start, tiled, 4));
-}
-
-INSTANTIATE_TEST_SUITE_P(Lockstep, Showcase, testing::Range(std::size_t{0}, showcase().size()),
-                         [](const auto& chosen) { return showcase()[chosen.param].first; });
 
 TEST(Lockstep, CyclesOfStagesSumUnderStalls) {
   const Start start = hostile_start(3, rule::Law::paper, {20, 9, 9});

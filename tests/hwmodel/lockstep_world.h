@@ -129,25 +129,4 @@ inline bool agrees(const Start& start, const Configuration& configuration, std::
   return !testing::Test::HasFailure();
 }
 
-// Every pair of values of two parameters occurs: lanes, cascade, depth (minimum, generous), stall seed.
-inline std::vector<Configuration> covering_array() {
-  std::vector<Configuration> rows;
-  constexpr int kLanes[] = {1, 4, 16}, kCascade[] = {1, 2, 4}, kDepth[] = {1, 32};
-  constexpr int kDepthOf[3][3] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      rows.push_back({kLanes[i], kCascade[j], kDepth[kDepthOf[i][j]], static_cast<std::uint64_t>((i + j) % 3),
-                      1 + (i + 2 * j) % 3});
-  return rows;
-}
-
-inline std::vector<Configuration> full_product() {
-  std::vector<Configuration> all;
-  for (const int lanes : {1, 4, 16})
-    for (const int cascade : {1, 2, 4})
-      for (const int depth : {1, 32})
-        for (const std::uint64_t seed : {0u, 1u, 2u}) all.push_back({lanes, cascade, depth, seed});
-  return all;
-}
-
 }  // namespace voxmelt::hwmodel

@@ -85,32 +85,32 @@ TEST(Report, JsonHoldsEveryNumberUnderItsName) {
     "simulated_cell_steps": 1000000, "seconds_model": 0.5,
     "stages": [
       {"name": "reader", "phase": "", "cascade": 0, "lag": 0, "moved_bits": 7200,
-       "cycles": {"busy": 100, "starved": 0, "blocked": 90, "fill_drain": 10, "bypassed": 0},
+       "cycles": {"busy": 100, "starved": 0, "blocked": 90, "memory": 0, "fill_drain": 10, "bypassed": 0},
        "buffers": [], "per_lane": {"multipliers": 0, "dividers": 0}, "random_blocks_per_8_lanes": 0,
        "buffer_bits": 0,
-       "percent": {"busy": 50.0, "starved": 0.0, "blocked": 45.0, "fill_drain": 5.0, "bypassed": 0.0}},
+       "percent": {"busy": 50.0, "starved": 0.0, "blocked": 45.0, "memory": 0.0, "fill_drain": 5.0, "bypassed": 0.0}},
       {"name": "melt", "phase": "melt", "cascade": 0, "lag": 7, "moved_bits": 0,
-       "cycles": {"busy": 50, "starved": 40, "blocked": 30, "fill_drain": 60, "bypassed": 20},
+       "cycles": {"busy": 50, "starved": 40, "blocked": 30, "memory": 0, "fill_drain": 60, "bypassed": 20},
        "buffers": [{"name": "memory", "words": 5, "lanes": 4, "bits": 11, "total_bits": 220}],
        "per_lane": {"multipliers": 3, "dividers": 2}, "random_blocks_per_8_lanes": 1,
        "buffer_bits": 220,
-       "percent": {"busy": 25.0, "starved": 20.0, "blocked": 15.0, "fill_drain": 30.0, "bypassed": 10.0}},
+       "percent": {"busy": 25.0, "starved": 20.0, "blocked": 15.0, "memory": 0.0, "fill_drain": 30.0, "bypassed": 10.0}},
       {"name": "melt", "phase": "melt", "cascade": 1, "lag": 7, "moved_bits": 0,
-       "cycles": {"busy": 100, "starved": 20, "blocked": 10, "fill_drain": 70, "bypassed": 0},
+       "cycles": {"busy": 100, "starved": 20, "blocked": 10, "memory": 0, "fill_drain": 70, "bypassed": 0},
        "buffers": [{"name": "memory", "words": 5, "lanes": 4, "bits": 11, "total_bits": 220}],
        "per_lane": {"multipliers": 3, "dividers": 2}, "random_blocks_per_8_lanes": 1,
        "buffer_bits": 220,
-       "percent": {"busy": 50.0, "starved": 10.0, "blocked": 5.0, "fill_drain": 35.0, "bypassed": 0.0}},
+       "percent": {"busy": 50.0, "starved": 10.0, "blocked": 5.0, "memory": 0.0, "fill_drain": 35.0, "bypassed": 0.0}},
       {"name": "feed", "phase": "", "cascade": 0, "lag": 0, "moved_bits": 12850,
-       "cycles": {"busy": 200, "starved": 0, "blocked": 0, "fill_drain": 0, "bypassed": 0},
+       "cycles": {"busy": 200, "starved": 0, "blocked": 0, "memory": 0, "fill_drain": 0, "bypassed": 0},
        "buffers": [], "per_lane": {"multipliers": 0, "dividers": 0}, "random_blocks_per_8_lanes": 0,
        "buffer_bits": 0,
-       "percent": {"busy": 100.0, "starved": 0.0, "blocked": 0.0, "fill_drain": 0.0, "bypassed": 0.0}},
+       "percent": {"busy": 100.0, "starved": 0.0, "blocked": 0.0, "memory": 0.0, "fill_drain": 0.0, "bypassed": 0.0}},
       {"name": "writer", "phase": "", "cascade": 1, "lag": 0, "moved_bits": 7150,
-       "cycles": {"busy": 100, "starved": 60, "blocked": 0, "fill_drain": 40, "bypassed": 0},
+       "cycles": {"busy": 100, "starved": 60, "blocked": 0, "memory": 0, "fill_drain": 40, "bypassed": 0},
        "buffers": [], "per_lane": {"multipliers": 0, "dividers": 0}, "random_blocks_per_8_lanes": 0,
        "buffer_bits": 0,
-       "percent": {"busy": 50.0, "starved": 30.0, "blocked": 0.0, "fill_drain": 20.0, "bypassed": 0.0}}],
+       "percent": {"busy": 50.0, "starved": 30.0, "blocked": 0.0, "memory": 0.0, "fill_drain": 20.0, "bypassed": 0.0}}],
     "channels": [{"name": "a", "depth": 8, "bits": 50, "highest": 3, "occupancy": [1, 2, 3, 4]},
                  {"name": "b", "depth": 8, "bits": 60, "highest": 5, "occupancy": [4, 3, 2, 1]},
                  {"name": "c", "depth": 8, "bits": 16, "highest": 8, "occupancy": [0, 1]}],
@@ -148,11 +148,13 @@ TEST(Report, TheTableAddsUpTheTimeSteps) {
     EXPECT_NE(table.find(text), std::string::npos) << "'" << text << "' is not in\n" << table;
   };
   holds(
-      "melt             2     37.5       15.0       10.0          32.5         5.0       7          440      "
-      " 24 + 16\n");
+      "melt             2     37.5       15.0       10.0       0.0          32.5         5.0       7         "
+      " "
+      "440       24 + 16\n");
   holds(
-      "reader           1     50.0        0.0       45.0           5.0         0.0       0            0      "
-      "   0 + 0\n");
+      "reader           1     50.0        0.0       45.0       0.0           5.0         0.0       0         "
+      " "
+      "  0         0 + 0\n");
   holds(
       "440 bits of buffers (4.4 per cell of a plane and time step), 24 multipliers, 16 dividers, 2 random "
       "blocks\n");

@@ -1,0 +1,145 @@
+// The state on a DRAM, column by column: with hw.coded, and of grids that are cut into tiles. Each column of
+// a block has a slot of its own, which begins with a burst. So a tile reads and writes whole bursts, and no
+// burst has two owners.
+//
+// With the code (hwmodel/stream/coded_state.h) the begin of a column tells how many bursts follow. So begins
+// are read ahead.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "hwmodel/memory/dram.h"
+#include "hwmodel/stream/coded_state.h"
+
+namespace voxmelt::hwmodel {
+
+inline constexpr std::int64_t kBurstsAhead = 128;  // of a stream's buffer: 8 KiB
+
+// Where the columns of a grid lie. A grid in tiles has two copies, and a pass reads one and writes the other.
+struct ColumnSlots {
+  ColumnSlots(const Design& design, bool coded);
+
+  std::int64_t address(std::int64_t column, std::int64_t copy) const {
+    return (copy % copies * columns + column) * slot_bursts * memory::kBurst;
+  }
+  std::int64_t bytes() const { return copies * columns * slot_bursts * memory::kBurst; }
+
+  Shape shape;
+  bool coded;
+  std::int64_t copies, columns;
+  std::int64_t head_bursts = 0;  // in which the bits of a column's tokens lie
+  std::int64_t slot_bursts = 0;
+};
+
+// The columns of a train in the order of its stream: tile by tile, each all that it reads, or that it owns.
+class ColumnWalk {
+ public:
+  void begin(const ColumnSlots& slots, bool owned);
+  void add(int tile);  // after those that were added before
+
+  struct Column {
+    std::int64_t number = 0, pass = 0;  // in the grid; passes of the whole grid before it
+  };
+  bool done() const { return tiles_.empty(); }
+  Column now() const;
+  void next();
+
+ private:
+  struct Tile {
+    int tile;
+    std::int64_t pass;
+  };
+  void begin_row();  // the columns of a tile at one z
+
+  Shape shape_;
+  bool owned_ = false, any_ = false;
+  std::deque<Tile> tiles_;
+  std::int64_t passes_ = 0;
+  int block_ = 0, end_ = 0, z_ = 0;
+};
+
+class ColumnOutput;
+
+// Reads columns. Cycles are stamps: what happens in a cycle is seen in the next one.
+class ColumnInput {
+ public:
+  // `memory`: what the copies hold, with hw.coded.
+  void begin(const ColumnSlots& slots, std::array<const StoredColumns*, 2> memory, memory::Dram& dram);
+  void add(int tile) { walk_.add(tile); }
+
+  // Have the first `bits` of the present column come?
+  bool has(std::int64_t bits, std::int64_t now) const;
+  // They are not needed any more; `ends`: nor is the column.
+  void use(std::int64_t bits, bool ends, std::int64_t now);
+  // Takes what has come, and asks for more: of columns that have been written.
+  void cycle(const ColumnOutput& written, std::int64_t now);
+
+ private:
+  struct Column {
+    ColumnWalk::Column at;
+    std::int64_t bursts = 0;  // 0: not known yet
+    std::int64_t asked = 0;
+    std::vector<std::int64_t> come{};  // in which cycle each burst came
+  };
+  void take(std::int64_t now);
+  bool room(std::int64_t now) const {
+    return asked_ - (last_used_ == now ? freed_before_ : freed_) < kBurstsAhead && dram_->ready(port_);
+  }
+  void ask(Column& column, std::int64_t number, std::int64_t bursts, std::int64_t now);
+  std::int64_t done_before(std::int64_t now) const { return last_done_ == now ? done_ - 1 : done_; }
+
+  memory::Dram* dram_ = nullptr;
+  std::optional<ColumnSlots> slots_;
+  std::array<const StoredColumns*, 2> memory_{};
+  ColumnWalk walk_;  // of columns that have not been asked for
+  int port_ = -1;
+  std::int64_t done_ = 0, last_done_ = -1;  // columns of the train; the cycle of the last one
+  std::deque<Column> ahead_;                // some that are done, the present one, further ones
+  std::int64_t first_ = 0;                  // number of the first of these
+  std::deque<std::int64_t> under_way_;      // the column of each burst that has been asked for
+  std::int64_t asked_ = 0, freed_ = 0, freed_before_ = 0, freed_of_column_ = 0, last_used_ = -1;  // bursts
+};
+
+// Writes columns. Bursts go when they are full, those with the bits of the tokens when the column ends.
+class ColumnOutput {
+ public:
+  void begin(const ColumnSlots& slots, memory::Dram& dram);
+  void add(int tile) { walk_.add(tile); }
+
+  bool may_write(std::int64_t now) const {
+    return waiting_[static_cast<std::size_t>(now & 1)] <= kBurstsAhead;
+  }
+  void written(std::int64_t bits, bool ends, std::int64_t now) { events_.push_back({bits, ends, now}); }
+  void cycle(std::int64_t now);
+  // In how many passes of the train has all of this column been handed to the memory?
+  std::int64_t passes(std::int64_t column) const { return passes_[static_cast<std::size_t>(column)]; }
+
+ private:
+  struct Event {
+    std::int64_t bits;  // of the present column so far
+    bool ends;
+    std::int64_t cycle;
+  };
+  struct Burst {
+    std::int64_t address;
+    std::int64_t column;  // that ends with it; -1: none
+  };
+  void fill(const Event& event);
+
+  memory::Dram* dram_ = nullptr;
+  std::optional<ColumnSlots> slots_;
+  ColumnWalk walk_;  // the present column, and further ones
+  int port_ = -1;
+  std::int64_t full_ = 0;  // bursts of the present column that are full
+  std::vector<std::int64_t> passes_;
+  std::deque<Event> events_;
+  std::deque<Burst> bursts_;
+  std::array<std::int64_t, 2> waiting_{};  // bursts, at the begin of even and of odd cycles
+};
+
+}  // namespace voxmelt::hwmodel
