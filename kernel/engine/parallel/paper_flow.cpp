@@ -53,9 +53,8 @@ void PaperFlow::gravity(const Job& job, const Tiles& dirty, simd::Books& books) 
     Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
     const int begin = chunks_.begin(chunk), end = chunks_.end(chunk);
     const Slices later = put_off(chunk);
-    worker.ahead =
-        job.ahead && later.begin < later.end &&
-        (!job.sleep || mostly(dirty, begin, end, 0, job.view.tile_rows(), job.view.words));
+    worker.ahead = job.ahead && later.begin < later.end &&
+                   (!job.sleep || mostly(dirty, begin, end, 0, job.view.tile_rows(), all_words(job.view)));
     for (int z = begin; z < end; ++z) {
       const bool waits = worker.ahead && z >= later.begin && z < later.end;
       if (waits)
@@ -111,23 +110,25 @@ bool PaperFlow::awake(const Sweep& sweep, int z) const {
   return !sweep.job.sleep || sweep.dirty.any_near(z) || fallen_.any_near(z) || restless_.any(z);
 }
 
-TileRow PaperFlow::awake(const Sweep& sweep, const Band& band, int z) const {
+[[gnu::always_inline]] inline TileRow PaperFlow::awake(const Sweep& sweep, const Band& band, int z) const {
   const TileRow all = all_words(sweep.job.view);
+  int r = band.begin;
   TileRow work = 0;
-  for (int r = band.begin; r < band.end; ++r)
-    work |= sweep.dirty.near(z, r, all) | fallen_.near(z, r, all) | restless_.slice(z)[r];
+  do work |= sweep.dirty.near(z, r, all) | fallen_.near(z, r, all) | restless_.slice(z)[r];
+  while (++r < band.end);
   return work;
 }
 
 // `given`: the tiles in which the gifts are not empty yet.
-void PaperFlow::find_patterns(const Sweep& sweep, const Band& band, int z, TileRow given,
-                              const std::uint64_t* below, SliceGifts& gifts) {
+[[gnu::always_inline]] inline void PaperFlow::find_patterns(const Sweep& sweep, const Band& band, int z,
+                                                            TileRow given, const std::uint64_t* below,
+                                                            SliceGifts& gifts) {
   const Job& job = sweep.job;
   const TileRow work = job.sleep ? awake(sweep, band, z) : all_words(job.view);
   if ((work | given) == 0) return;
   const TileRow left = job.kernels.pattern(band.view, job.step, z, band.row, work, below, gifts.gifts());
   TileRow* restless = restless_.edit(z);
-  std::fill(restless + band.begin, restless + band.end, left);
+  band.set(restless, left);
 }
 
 // The gifts of the two slices at a cut must be known before either side changes them.
@@ -163,7 +164,7 @@ void PaperFlow::run_chunk(const Sweep& sweep, int chunk) {
   for (int r = 0; r < view.tile_rows();) {
     const int last = bands_.end(r);
     if (worker.ahead || !sweep.job.sleep ||
-        (all_awake && mostly(sweep.dirty, begin, end, r, last, view.words))) {
+        (all_awake && mostly(sweep.dirty, begin, end, r, last, all_words(view)))) {
       run_band(sweep, chunk, bands_.tall(sweep.tall, r), worker.tall_gifts);
       r = last;
     } else {
@@ -185,23 +186,19 @@ void PaperFlow::run_band(const Sweep& sweep, int chunk, const Band& band, std::v
   const bool cut_before = chunk > 0, cut_after = chunk < chunks_.cuts();
   for (SliceGifts& gifts : ring) gifts.gifts().first_row = band.view.tile_begin(band.row);
 
-  const auto saved = [&](int z) -> const SliceGifts* {  // all rows of a slice
-    if (z < 0 || z >= job.view.nz) return &none_;
-    if (cut_before && z <= begin) return &cut_[static_cast<std::size_t>(chunk - 1)].gifts[z == begin ? 1 : 0];
-    if (cut_after && z >= end - 1) return &cut_[static_cast<std::size_t>(chunk)].gifts[z == end ? 1 : 0];
-    return nullptr;
+  const auto saved = [&](int z) -> const SliceGifts& {  // all rows of a slice
+    if (z < 0 || z >= job.view.nz) return none_;
+    if (cut_before && z <= begin) return cut_[static_cast<std::size_t>(chunk - 1)].gifts[z == begin ? 1 : 0];
+    return cut_[static_cast<std::size_t>(chunk)].gifts[z == end ? 1 : 0];
   };
-  const auto of_ring = [&](int z) -> SliceGifts& { return ring[static_cast<std::size_t>(z % 3)]; };
-  const auto gifts = [&](int z) -> const simd::Gifts& {
-    const SliceGifts* rows = saved(z);
-    return (rows != nullptr ? *rows : of_ring(z)).gifts();
+  struct Given {
+    const simd::Gifts* gifts;
+    TileRow tiles;
   };
-  const auto given = [&](int z) {
-    const SliceGifts* rows = saved(z);
-    if (rows == nullptr) return of_ring(z).gifts().tiles(band.view, band.row);
+  const auto given_by = [&](const SliceGifts& rows) {
     TileRow tiles = 0;
-    for (int r = band.begin; r < band.end; ++r) tiles |= rows->gifts().tiles(job.view, r);
-    return tiles;
+    for (int r = band.begin; r < band.end; ++r) tiles |= rows.gifts().tiles(job.view, r);
+    return Given{&rows.gifts(), tiles};
   };
   const auto ceiling = [&](int z) {
     return worker.ceiling.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(job.view.words);
@@ -209,31 +206,33 @@ void PaperFlow::run_band(const Sweep& sweep, int chunk, const Band& band, std::v
 
   // The cuts have done the slices beside them.
   const int pattern_from = cut_before ? begin + 1 : begin, pattern_to = cut_after ? end - 1 : end;
+  const std::uint64_t* last_row = job.view.liquid + job.view.word(0, band.view.tile_end(band.row) - 1, begin);
   Slices falls = worker.ahead ? put_off(chunk) : Slices{0, 0};
-  TileRow below = given(begin - 1), own = 0, above = 0;
+  Given below{nullptr, 0}, own = given_by(saved(begin - 1)), above{nullptr, 0};
   for (int z = begin - 1; z < end; ++z) {
     for (; falls.begin < std::min(z + 3, falls.end); ++falls.begin) fall_band(job, band, falls.begin, worker);
-    above = given(z + 1);
     if (z + 1 >= pattern_from && z + 1 < pattern_to) {
+      SliceGifts& next = ring[static_cast<std::size_t>((z + 1) % 3)];
+      const TileRow& tiles = next.gifts().tiles(band.view, band.row);
       const bool awake_next = worker.awake[static_cast<std::size_t>(z) + 1] != 0;
       if (awake_next && !worker.ahead)
         prefetch(band.view, z + 2, band.row, z + 2 < end ? sweep.dirty.slice(z + 2)[band.begin] : 0);
-      if (awake_next || above != 0) {
-        find_patterns(sweep, band, z + 1, above, band.begin > 0 ? ceiling(z + 1) : nullptr, of_ring(z + 1));
-        above = given(z + 1);
-      }
+      if (awake_next || tiles != 0)
+        find_patterns(sweep, band, z + 1, tiles, band.begin > 0 ? ceiling(z + 1) : nullptr, next);
+      above = {&next.gifts(), tiles};
+    } else {
+      above = given_by(saved(z + 1));
     }
     if (z >= begin) {
-      std::copy_n(job.view.liquid + job.view.word(0, band.view.tile_end(band.row) - 1, z), job.view.words,
-                  ceiling(z));
-      if ((below | own | above) != 0) {
-        const TileRow changed = job.kernels.apply(band.view, job.step, z, band.row, gifts(z - 1), gifts(z),
-                                                  gifts(z + 1), worker.books);
-        TileRow* next = sweep.dirty_next.edit(z);
-        std::fill(next + band.begin, next + band.end, changed);
+      std::copy_n(last_row, job.view.words, ceiling(z));
+      last_row += static_cast<std::size_t>(job.view.words) * static_cast<std::size_t>(job.view.ny);
+      if ((below.tiles | own.tiles | above.tiles) != 0) {
+        const TileRow changed = job.kernels.apply(band.view, job.step, z, band.row, *below.gifts, *own.gifts,
+                                                  *above.gifts, worker.books);
+        band.set(sweep.dirty_next.edit(z), changed);
       }
-      below = own;
     }
+    below = own;
     own = above;
   }
 }

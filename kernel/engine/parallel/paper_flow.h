@@ -1,7 +1,7 @@
 // The flow of the paper's law over all slices: gravity, then spread. The two halves of spread (pattern,
-// apply) are one pass over memory. A chunk of slices is worked on band by band, upwards; a band is a tile row,
-// or several where most tiles are awake. It carries three slices of gifts along z, which fit into the first
-// cache levels.
+// apply) are one pass over memory. A chunk of slices is worked on band by band, upwards; a band is a tile
+// row, or several where most tiles are awake. It carries three slices of gifts along z, which fit into the
+// first cache levels.
 //
 // In a chunk that is mostly awake, gravity joins that pass if nobody looks at the state in between: it is a
 // slice ahead of the patterns that read it, as these are of apply. What lies at a cut falls before.
@@ -39,7 +39,7 @@ class PaperFlow {
     std::vector<SliceGifts>
         gifts;  // of a chunk: a ring of three; at a cut: of the slices before and after it
     std::vector<SliceGifts> tall_gifts;  // of a chunk: the same for tall bands
-    std::vector<std::uint8_t> awake;  // slices in which patterns must be looked for
+    std::vector<std::uint8_t> awake;     // slices in which patterns must be looked for
     // For each slice: the liquid in the last row of the tile row below, before spread.
     std::vector<std::uint64_t> ceiling;
     bool ahead = false;           // gravity of this step has been put off, but for slices at cuts
