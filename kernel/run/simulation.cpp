@@ -121,9 +121,13 @@ std::vector<step::Phase> Simulation::phases() const {
 
 void Simulation::run_phase(step::Phase phase) {
   if (host_ == nullptr) throw std::logic_error("a device stepper runs whole steps only, not one phase");
+  run(phase, moment());
+}
+
+void Simulation::run(step::Phase phase, step::Moment moment) {
   volume_.changed.begin();
   const Stopwatch watch(seconds_.phase[static_cast<std::size_t>(phase)]);
-  host_->run(phase, moment(), irradiance(), volume_, ledger_);
+  host_->run(phase, moment, irradiance(), volume_, ledger_);
   if (phase == step::Phase::spread) ++substep_;
 }
 
@@ -145,7 +149,12 @@ void Simulation::step() {
     device_->run_step(step_number(), irradiance());
     behind_ = true;
   } else {
-    for (const step::Phase phase : phases()) run_phase(phase);
+    const std::vector<step::Phase> all = phases();
+    for (const step::Phase& phase : all) {
+      step::Moment now = moment();
+      now.unseen = &phase != &all.back();
+      run(phase, now);
+    }
   }
   end_step();
 }

@@ -82,6 +82,7 @@ class Simulation {
 
  private:
   void make_irradiance();
+  void run(step::Phase phase, step::Moment moment);
   int count_substeps() const;
   void fetch() const {
     if (behind_) download();

@@ -30,6 +30,7 @@ inline std::vector<Phase> phase_order(rule::Law law, int substeps = 1) {
 struct Moment {
   std::uint32_t step = 0;
   int substep = 0, substeps = 1;
+  bool unseen = false;  // the next phase follows at once: what this one does may be put off into that one
   explicit Moment(std::uint32_t number) : step(number) {}
   Moment(std::uint32_t number, int of, int all) : step(number), substep(of), substeps(all) {}
 };

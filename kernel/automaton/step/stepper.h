@@ -3,6 +3,7 @@
 // an FPGA, another process) runs whole steps in memory of its own, and gives the state back when asked.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -30,7 +31,8 @@ class Stepper {
 class HostStepper : public Stepper {
  public:
   // Runs one phase on `volume` and books it in `ledger`. Between two steps, nothing else changes the volume.
-  // `irradiance` is null when the scene has no radiation.
+  // `irradiance` is null when the scene has no radiation. After a phase with `moment.unseen` the volume and the
+  // books may be those before it, until the next phase has run.
   virtual void run(Phase phase, Moment moment, const Irradiance* irradiance, state::Volume& volume,
                    state::Ledger& ledger) = 0;
 
@@ -61,6 +63,8 @@ struct Tuning {
   int threads = 1;
   bool sleep = true;   // skip what provably stays as it is
   int tile_shift = 3;  // rows of a tile of work: 2^tile_shift, 0..12
+  // Cells of a grid from which on gravity may run a slice ahead of spread (paper law).
+  std::size_t ahead_from = std::size_t{1} << 20;
 };
 
 struct Implementation {

@@ -26,15 +26,19 @@ void prefetch(const simd::View& view, int z, int r, TileRow tiles) {
 
 PaperFlow::PaperFlow(const rule::Parameters& parameters, const simd::View& view, int chunks)
     : chunks_(view.nz, chunks),
+      bands_(view),
       fallen_(view.nz, view.tile_rows()),
       restless_(view.nz, view.tile_rows()),
       chunk_(static_cast<std::size_t>(chunks_.count())),
       cut_(static_cast<std::size_t>(chunks_.cuts())),
       none_(view, view.ny, 1) {
   const int flows = parameters.flow.paper.use_table ? 4 : 2;
-  const int tile = std::min(1 << view.tile_shift, view.ny);
+  const int tile = std::min(1 << view.tile_shift, view.ny), tall = std::min(1 << bands_.shift(), view.ny);
   for (Worker& worker : chunk_) {
     for (int i = 0; i < 3; ++i) worker.gifts.emplace_back(view, tile, flows);
+    for (int i = 0; i < 3; ++i) worker.tall_gifts.emplace_back(view, tall, flows);
+    worker.follow.resize(static_cast<std::size_t>(view.nz));
+    worker.moved.resize(static_cast<std::size_t>(view.tile_rows()) + 1);
     worker.awake.resize(static_cast<std::size_t>(view.nz));
     worker.ceiling.resize(static_cast<std::size_t>(view.nz) * static_cast<std::size_t>(view.words));
   }
@@ -46,16 +50,34 @@ PaperFlow::PaperFlow(const rule::Parameters& parameters, const simd::View& view,
 
 void PaperFlow::gravity(const Job& job, const Tiles& dirty, simd::Books& books) {
   job.workers.run(chunks_.count(), gravity_turns_, [&](int chunk) {
-    for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z)
-      fall(job, dirty, z, chunk_[static_cast<std::size_t>(chunk)]);
+    Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
+    const int begin = chunks_.begin(chunk), end = chunks_.end(chunk);
+    const Slices later = put_off(chunk);
+    worker.ahead = job.ahead && later.begin < later.end &&
+                   (!job.sleep || mostly(dirty, begin, end, 0, job.view.tile_rows(), all_words(job.view)));
+    for (int z = begin; z < end; ++z) {
+      const bool waits = worker.ahead && z >= later.begin && z < later.end;
+      if (waits)
+        fallen_.clear(z), worker.follow[static_cast<std::size_t>(z)] = 0;
+      else
+        fall(job, dirty, z, worker);
+    }
   });
   close(books);
 }
 
+// Patterns at a cut are found before those of the chunks, and they read the slices beside them.
+PaperFlow::Slices PaperFlow::put_off(int chunk) const {
+  return {chunks_.begin(chunk) + (chunk > 0 ? 2 : 0), chunks_.end(chunk) - (chunk < chunks_.cuts() ? 2 : 0)};
+}
+
 void PaperFlow::spread(const Job& job, const Tiles& dirty, Tiles& dirty_next, simd::Books& books) {
-  const Sweep sweep{job, dirty, dirty_next};
+  simd::View tall = job.view;
+  tall.tile_shift = bands_.shift();
+  const Sweep sweep{job, tall, dirty, dirty_next};
   job.workers.run(chunks_.cuts(), cut_turns_, [&](int cut) { run_cut(sweep, cut); });
   job.workers.run(chunks_.count(), chunk_turns_, [&](int chunk) { run_chunk(sweep, chunk); });
+  for (Worker& worker : chunk_) worker.ahead = false;
   close(books);
 }
 
@@ -75,66 +97,108 @@ void PaperFlow::fall(const Job& job, const Tiles& dirty, int z, Worker& worker) 
   fallen_.tidy(z);
 }
 
+void PaperFlow::fall_band(const Job& job, const Band& band, int z, Worker& worker) {
+  TileRow *moved = worker.moved.data() + band.row, *fallen = fallen_.edit(z);
+  moved[0] = moved[1] = 0;
+  job.kernels.gravity(band.view, job.step, z, band.row, all_words(job.view),
+                      worker.follow[static_cast<std::size_t>(z)], worker.moved.data(), worker.books);
+  for (int r = band.begin; r < band.end; ++r) fallen[r] |= moved[0];
+  if (moved[1] != 0) fallen[band.end] |= moved[1];
+}
+
 bool PaperFlow::awake(const Sweep& sweep, int z) const {
   return !sweep.job.sleep || sweep.dirty.any_near(z) || fallen_.any_near(z) || restless_.any(z);
 }
 
-void PaperFlow::find_patterns(const Sweep& sweep, int z, int r, const std::uint64_t* below,
-                              SliceGifts& gifts) {
+[[gnu::always_inline]] inline TileRow PaperFlow::awake(const Sweep& sweep, const Band& band, int z) const {
+  const TileRow all = all_words(sweep.job.view);
+  int r = band.begin;
+  TileRow work = 0;
+  do work |= sweep.dirty.near(z, r, all) | fallen_.near(z, r, all) | restless_.slice(z)[r];
+  while (++r < band.end);
+  return work;
+}
+
+// `given`: the tiles in which the gifts are not empty yet.
+[[gnu::always_inline]] inline void PaperFlow::find_patterns(const Sweep& sweep, const Band& band, int z,
+                                                            TileRow given, const std::uint64_t* below,
+                                                            SliceGifts& gifts) {
   const Job& job = sweep.job;
-  TileRow work = all_words(job.view);
-  TileRow* restless = restless_.edit(z) + r;
-  if (job.sleep) work = sweep.dirty.near(z, r, work) | fallen_.near(z, r, work) | *restless;
-  if ((work | gifts.gifts().tiles(job.view, r)) != 0)
-    *restless = job.kernels.pattern(job.view, job.step, z, r, work, below, gifts.gifts());
+  const TileRow work = job.sleep ? awake(sweep, band, z) : all_words(job.view);
+  if ((work | given) == 0) return;
+  const TileRow left = job.kernels.pattern(band.view, job.step, z, band.row, work, below, gifts.gifts());
+  TileRow* restless = restless_.edit(z);
+  band.set(restless, left);
 }
 
 // The gifts of the two slices at a cut must be known before either side changes them.
 void PaperFlow::run_cut(const Sweep& sweep, int cut) {
+  const simd::View& view = sweep.job.view;
   Worker& worker = cut_[static_cast<std::size_t>(cut)];
   for (int k = 0; k < 2; ++k) {
     const int z = chunks_.cut(cut) - 1 + k;
     SliceGifts& gifts = worker.gifts[static_cast<std::size_t>(k)];
     worker.awake[static_cast<std::size_t>(k)] = awake(sweep, z);
     if (!worker.awake[static_cast<std::size_t>(k)] && gifts.empty()) continue;
-    for (int r = 0; r < sweep.job.view.tile_rows(); ++r) find_patterns(sweep, z, r, nullptr, gifts);
+    for (int r = 0; r < view.tile_rows(); ++r)
+      find_patterns(sweep, Bands::single(view, r), z, gifts.gifts().tiles(view, r), nullptr, gifts);
     restless_.tidy(z);
   }
 }
 
 void PaperFlow::run_chunk(const Sweep& sweep, int chunk) {
+  const simd::View& view = sweep.job.view;
   Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
   const int begin = chunks_.begin(chunk), end = chunks_.end(chunk);
-  bool any_awake = false;
+  bool any_awake = false, all_awake = true;
   for (int z = begin; z < end; ++z) {
     sweep.dirty_next.clear(z);
-    worker.awake[static_cast<std::size_t>(z)] = awake(sweep, z);
-    any_awake = any_awake || worker.awake[static_cast<std::size_t>(z)] != 0;
+    const bool one = worker.ahead || awake(sweep, z);
+    worker.awake[static_cast<std::size_t>(z)] = one;
+    any_awake = any_awake || one;
+    all_awake = all_awake && one;
   }
   const bool beside = (chunk > 0 && !cut_[static_cast<std::size_t>(chunk - 1)].gifts[0].empty()) ||
                       (chunk < chunks_.cuts() && !cut_[static_cast<std::size_t>(chunk)].gifts[1].empty());
   if (!any_awake && !beside) return;
-  for (int r = 0; r < sweep.job.view.tile_rows(); ++r) run_rows(sweep, chunk, r);
+  for (int r = 0; r < view.tile_rows();) {
+    const int last = bands_.end(r);
+    if (worker.ahead || !sweep.job.sleep ||
+        (all_awake && mostly(sweep.dirty, begin, end, r, last, all_words(view)))) {
+      run_band(sweep, chunk, bands_.tall(sweep.tall, r), worker.tall_gifts);
+      r = last;
+    } else {
+      for (; r < last; ++r) run_band(sweep, chunk, Bands::single(view, r), worker.gifts);
+    }
+  }
   for (int z = begin; z < end; ++z) {
+    if (worker.ahead) fallen_.tidy(z);
     sweep.dirty_next.add(z, fallen_.slice(z));
     sweep.dirty_next.tidy(z);
     restless_.tidy(z);
   }
 }
 
-// Tile row r of a chunk's slices.
-void PaperFlow::run_rows(const Sweep& sweep, int chunk, int r) {
+void PaperFlow::run_band(const Sweep& sweep, int chunk, const Band& band, std::vector<SliceGifts>& ring) {
   const Job& job = sweep.job;
   Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
   const int begin = chunks_.begin(chunk), end = chunks_.end(chunk);
   const bool cut_before = chunk > 0, cut_after = chunk < chunks_.cuts();
-  for (SliceGifts& gifts : worker.gifts) gifts.gifts().first_row = job.view.tile_begin(r);
+  for (SliceGifts& gifts : ring) gifts.gifts().first_row = band.view.tile_begin(band.row);
 
-  const auto gifts = [&](int z) -> SliceGifts& {
+  const auto saved = [&](int z) -> const SliceGifts& {  // all rows of a slice
     if (z < 0 || z >= job.view.nz) return none_;
     if (cut_before && z <= begin) return cut_[static_cast<std::size_t>(chunk - 1)].gifts[z == begin ? 1 : 0];
-    if (cut_after && z >= end - 1) return cut_[static_cast<std::size_t>(chunk)].gifts[z == end ? 1 : 0];
-    return worker.gifts[static_cast<std::size_t>(z % 3)];
+    return cut_[static_cast<std::size_t>(chunk)].gifts[z == end ? 1 : 0];
+  };
+  struct Given {
+    const simd::Gifts* gifts;
+    TileRow tiles;
+  };
+  const auto given_by = [&](const SliceGifts& rows) {
+    TileRow tiles = 0;
+    for (int r = band.begin; r < band.end; ++r) tiles |= rows.gifts().tiles(job.view, r);
+    return Given{&rows.gifts(), tiles};
   };
   const auto ceiling = [&](int z) {
     return worker.ceiling.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(job.view.words);
@@ -142,24 +206,33 @@ void PaperFlow::run_rows(const Sweep& sweep, int chunk, int r) {
 
   // The cuts have done the slices beside them.
   const int pattern_from = cut_before ? begin + 1 : begin, pattern_to = cut_after ? end - 1 : end;
-  TileRow below = gifts(begin - 1).gifts().tiles(job.view, r), own = 0, above = 0;
+  const std::uint64_t* last_row = job.view.liquid + job.view.word(0, band.view.tile_end(band.row) - 1, begin);
+  Slices falls = worker.ahead ? put_off(chunk) : Slices{0, 0};
+  Given below{nullptr, 0}, own = given_by(saved(begin - 1)), above{nullptr, 0};
   for (int z = begin - 1; z < end; ++z) {
-    SliceGifts& next = gifts(z + 1);
+    for (; falls.begin < std::min(z + 3, falls.end); ++falls.begin) fall_band(job, band, falls.begin, worker);
     if (z + 1 >= pattern_from && z + 1 < pattern_to) {
+      SliceGifts& next = ring[static_cast<std::size_t>((z + 1) % 3)];
+      const TileRow& tiles = next.gifts().tiles(band.view, band.row);
       const bool awake_next = worker.awake[static_cast<std::size_t>(z) + 1] != 0;
-      if (awake_next) prefetch(job.view, z + 2, r, z + 2 < end ? sweep.dirty.slice(z + 2)[r] : 0);
-      if (awake_next || next.gifts().tiles(job.view, r) != 0)
-        find_patterns(sweep, z + 1, r, r > 0 ? ceiling(z + 1) : nullptr, next);
+      if (awake_next && !worker.ahead)
+        prefetch(band.view, z + 2, band.row, z + 2 < end ? sweep.dirty.slice(z + 2)[band.begin] : 0);
+      if (awake_next || tiles != 0)
+        find_patterns(sweep, band, z + 1, tiles, band.begin > 0 ? ceiling(z + 1) : nullptr, next);
+      above = {&next.gifts(), tiles};
+    } else {
+      above = given_by(saved(z + 1));
     }
-    above = next.gifts().tiles(job.view, r);
     if (z >= begin) {
-      std::copy_n(job.view.liquid + job.view.word(0, job.view.tile_end(r) - 1, z), job.view.words,
-                  ceiling(z));
-      if ((below | own | above) != 0)
-        sweep.dirty_next.edit(z)[r] = job.kernels.apply(job.view, job.step, z, r, gifts(z - 1).gifts(),
-                                                        gifts(z).gifts(), next.gifts(), worker.books);
-      below = own;
+      std::copy_n(last_row, job.view.words, ceiling(z));
+      last_row += static_cast<std::size_t>(job.view.words) * static_cast<std::size_t>(job.view.ny);
+      if ((below.tiles | own.tiles | above.tiles) != 0) {
+        const TileRow changed = job.kernels.apply(band.view, job.step, z, band.row, *below.gifts, *own.gifts,
+                                                  *above.gifts, worker.books);
+        band.set(sweep.dirty_next.edit(z), changed);
+      }
     }
+    below = own;
     own = above;
   }
 }

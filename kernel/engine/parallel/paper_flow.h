@@ -1,6 +1,10 @@
 // The flow of the paper's law over all slices: gravity, then spread. The two halves of spread (pattern,
-// apply) are one pass over memory. A chunk of slices is worked on tile row by tile row, upwards. It carries
-// three slices of gifts along z, which fit into the first cache level.
+// apply) are one pass over memory. A chunk of slices is worked on band by band, upwards; a band is a tile
+// row, or several where most tiles are awake. It carries three slices of gifts along z, which fit into the
+// first cache levels.
+//
+// In a chunk that is mostly awake, gravity joins that pass if nobody looks at the state in between: it is a
+// slice ahead of the patterns that read it, as these are of apply. What lies at a cut falls before.
 //
 // A tile is awake for a phase where something that the phase reads has changed since it last ran there:
 //   gravity  it, or a tile beside it, changed since the last gravity (in it, or since), or melted before it:
@@ -14,6 +18,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/engine/parallel/bands.h"
 #include "kernel/engine/parallel/chunks.h"
 #include "kernel/engine/parallel/gifts.h"
 #include "kernel/engine/parallel/job.h"
@@ -33,26 +38,39 @@ class PaperFlow {
   struct Worker {
     std::vector<SliceGifts>
         gifts;  // of a chunk: a ring of three; at a cut: of the slices before and after it
-    std::vector<std::uint8_t> awake;  // slices in which patterns must be looked for
+    std::vector<SliceGifts> tall_gifts;  // of a chunk: the same for tall bands
+    std::vector<std::uint8_t> awake;     // slices in which patterns must be looked for
     // For each slice: the liquid in the last row of the tile row below, before spread.
     std::vector<std::uint64_t> ceiling;
+    bool ahead = false;           // gravity of this step has been put off, but for slices at cuts
+    std::vector<TileRow> follow;  // ahead, for each slice: tiles that moved the first row of the next band
+    std::vector<TileRow> moved;   // working memory of fall_band
     simd::Books books;
   };
   struct Sweep {
     const Job& job;
+    const simd::View& tall;  // its tile rows are tall bands
     const Tiles& dirty;
     Tiles& dirty_next;
   };
+  struct Slices {
+    int begin, end;
+  };
 
   void fall(const Job& job, const Tiles& dirty, int z, Worker& worker);
+  void fall_band(const Job& job, const Band& band, int z, Worker& worker);
+  Slices put_off(int chunk) const;  // of which gravity may be put off
   bool awake(const Sweep& sweep, int z) const;
-  void find_patterns(const Sweep& sweep, int z, int r, const std::uint64_t* below, SliceGifts& gifts);
+  TileRow awake(const Sweep& sweep, const Band& band, int z) const;
+  void find_patterns(const Sweep& sweep, const Band& band, int z, TileRow given, const std::uint64_t* below,
+                     SliceGifts& gifts);
   void run_cut(const Sweep& sweep, int cut);
   void run_chunk(const Sweep& sweep, int chunk);
-  void run_rows(const Sweep& sweep, int chunk, int r);
+  void run_band(const Sweep& sweep, int chunk, const Band& band, std::vector<SliceGifts>& ring);
   void close(simd::Books& books);
 
   Chunks chunks_;
+  Bands bands_;
   cpu::Turns gravity_turns_, cut_turns_, chunk_turns_;
   Tiles fallen_, restless_;
   std::vector<Worker> chunk_, cut_;

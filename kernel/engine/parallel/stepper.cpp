@@ -104,7 +104,9 @@ void Stepper::run(step::Phase phase, step::Moment moment, const step::Irradiance
                   state::Volume& volume, state::Ledger& ledger) {
   const simd::View view = view_of(volume);
   const simd::Step step = step_of(parameters_, phase, moment, keys_.data(), irradiance);
-  const Job job{view, step, kernels_, workers_, tuning_.sleep};
+  // Gravity that is put off would see what has become of the sides since.
+  const bool ahead = moment.unseen && !sides_ && volume.grid.cells() >= tuning_.ahead_from;
+  const Job job{view, step, kernels_, workers_, tuning_.sleep, ahead};
   simd::Books books;
   switch (phase) {
     case step::Phase::source:

@@ -1,0 +1,47 @@
+// Tile rows that the kernels get as one. Where most tiles are awake, a taller row of work costs less: fewer
+// calls, and fewer batches that are not full.
+#pragma once
+
+#include <algorithm>
+
+#include "kernel/engine/parallel/tiles.h"
+
+namespace voxmelt::parallel {
+
+struct Band {
+  const simd::View& view;                         // of which it is one tile row
+  int row;                                        // which
+  int begin, end;                                 // in tile rows of the sets
+  void set(TileRow* rows, TileRow tiles) const {  // a loop that is never empty, most often of one
+    int r = begin;
+    do rows[r] = tiles;
+    while (++r < end);
+  }
+};
+
+class Bands {
+ public:
+  static constexpr int kTall = 5;  // a tall band has 2^kTall rows, or one tile row if that is more
+
+  explicit Bands(const simd::View& view)
+      : shift_(std::max(view.tile_shift, kTall)), more_(shift_ - view.tile_shift), rows_(view.tile_rows()) {}
+
+  int shift() const { return shift_; }                                        // of a tall band
+  int end(int first) const { return std::min(first + (1 << more_), rows_); }  // of the band that begins there
+  Band tall(const simd::View& view, int first) const { return {view, first >> more_, first, end(first)}; }
+  static Band single(const simd::View& view, int row) { return {view, row, row, row + 1}; }
+
+ private:
+  int shift_, more_, rows_;
+};
+
+// Are three quarters of these tile rows complete? In a thin scene a quarter is soon found to be missing.
+inline bool mostly(const Tiles& tiles, int z_begin, int z_end, int begin, int end, TileRow all) {
+  int may_lack = (z_end - z_begin) * (end - begin) / 4;
+  for (int z = z_begin; z < z_end; ++z)
+    for (int r = begin; r < end; ++r)
+      if (tiles.slice(z)[r] != all && --may_lack < 0) return false;
+  return true;
+}
+
+}  // namespace voxmelt::parallel
