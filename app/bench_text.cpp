@@ -30,22 +30,23 @@ void print_case(const Case& one) {
   const std::string phases = one.subject == Subject::flow
                                  ? fmt::format("{} + {} + {}", phase(gravity), phase(spread), phase(excess))
                                  : fmt::format("{} + {}", phase(heat), phase(melt));
-  fmt::print("  {:<5} {:<9} {:>7}  {:>8}  {:<22} {:>8.0f} {:>8.0f} {:>8} {:>6} {:>6} {:>8} {:>8} {:>6}\n",
-             measure::name_of(one.subject), one.implementation, one.threads,
-             measure::milliseconds(one.seconds), phases, one.cells_per_second() / 1e6,
-             one.active_per_second() / 1e6, measure::three_digits(1e9 / one.active_per_second()),
-             one.bytes_per_cell, measure::or_dash(one.percent_of_roof()),
-             measure::or_dash(one.ratio_to_baseline), measure::or_dash(one.ratio_to_native), one.rounds);
+  fmt::print(
+      "  {:<5} {:<9} {:>7}  {:>8} {:>8}  {:<22} {:>8.0f} {:>8.0f} {:>8} {:>6} {:>6} {:>8} {:>8} {:>6}\n",
+      measure::name_of(one.subject), one.implementation, one.threads, measure::milliseconds(one.seconds),
+      measure::milliseconds(one.median_seconds), phases, one.cells_per_second() / 1e6,
+      one.active_per_second() / 1e6, measure::three_digits(1e9 / one.active_per_second()), one.bytes_per_cell,
+      measure::or_dash(one.percent_of_roof()), measure::or_dash(one.ratio_to_baseline),
+      measure::or_dash(one.ratio_to_native), one.rounds);
 }
 
 }  // namespace
 
 void print_case_heading() {
-  fmt::print("{:<25}{:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8}\n", "", "ms per",
+  fmt::print("{:<25}{:>8} {:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8}\n", "", "ms per", "median",
              "gravity+spread+excess", "Mcells/s", "Mcells/s", "ns per", "bytes", "% of", "times", "times");
-  fmt::print("  {:<5} {:<9} {:>7}  {:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8} {:>6}\n", "", "by",
-             "threads", "step", "or heat+melt", "grid", "active", "active", "/cell", "roof", "baseline",
-             "native", "rounds");
+  fmt::print("  {:<5} {:<9} {:>7}  {:>8} {:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8} {:>6}\n", "",
+             "by", "threads", "step", "round", "or heat+melt", "grid", "active", "active", "/cell", "roof",
+             "baseline", "native", "rounds");
 }
 
 void print_workload(const measure::Workload& workload, const measure::Result& result,

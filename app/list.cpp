@@ -15,6 +15,7 @@
 #include "hwmodel/caster_faults/faults.h"
 #include "hwmodel/faults/faults.h"
 #include "hwmodel/presets/presets.h"
+#include "kernel/run/fastest.h"
 #include "kernel/scene/features.h"
 
 namespace voxmelt::app {
@@ -23,8 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 
 int list_implementations() {
+  const run::Choice& chosen = run::fastest();
   for (const auto& one : run::implementations().all())
     fmt::print("{:<12} {}{}\n", one.name, one.description, one.supported ? "" : " (not on this processor)");
+  fmt::print("{:<12} {}: {}\n", "auto", chosen.implementation->name, chosen.reason);
   return kDone;
 }
 

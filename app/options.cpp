@@ -15,6 +15,7 @@
 #include "app/message.h"
 #include "app/resources.h"
 #include "app/visibility.h"
+#include "kernel/run/fastest.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
@@ -93,6 +94,7 @@ void warn(scene::Scene& scene, const Common& common, const std::vector<std::stri
 }
 
 const step::Implementation& find_implementation(const Common& common) {
+  if (common.implementation == "auto") return *run::fastest().implementation;
   const step::Implementation* implementation = run::implementations().find(common.implementation);
   if (implementation == nullptr) {
     std::string known = "auto";

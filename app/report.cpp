@@ -13,6 +13,7 @@
 #include "app/visibility.h"
 #include "kernel/automaton/state/connectivity.h"
 #include "kernel/automaton/state/digest.h"
+#include "kernel/run/fastest.h"
 #include "kernel/run/io/export.h"
 
 namespace voxmelt::app {
@@ -92,7 +93,8 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"complete", complete},
       {"digest", fmt::format("{:016x}", state::digest(volume))},
       {"initial_digest", fmt::format("{:016x}", scene.initial_digest)},
-      {"implementation", run::implementations().find(common.implementation)->name},
+      {"implementation", find_implementation(common).name},
+      {"implementation_reason", common.implementation == "auto" ? run::fastest().reason : "asked for"},
       {"threads", simulation.threads()},
       {"version", version_number()},
       {"law", simulation.parameters().flow.law == rule::Law::paper ? "paper" : "viscous"},

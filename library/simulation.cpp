@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/automaton/state/digest.h"
+#include "kernel/run/fastest.h"
 #include "kernel/run/io/export.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/simulation.h"
@@ -28,6 +29,7 @@ using library::translated;
 constexpr int kMostThreads = 1024;
 
 const step::Implementation& find_implementation(const std::string& name) {
+  if (name == "auto") return *run::fastest().implementation;
   const step::Implementation* found = run::implementations().find(name);
   if (found == nullptr) {
     std::string known = "auto";

@@ -58,6 +58,7 @@ json case_json(const Case& one) {
           {"active_cells", one.active},
           {"rounds", one.rounds},
           {"milliseconds", one.seconds * 1e3},
+          {"median_milliseconds", one.median_seconds * 1e3},
           {"phase_milliseconds", phases},
           {"cells_per_second", one.cells_per_second()},
           {"active_cells_per_second", one.active_per_second()},

@@ -44,9 +44,22 @@ Seconds mean(const Steps& steps) {
 
 void Fastest::add(const Steps& round) {
   if (rounds_++ == 0) least_ = round;
+  means_.push_back(mean(round));
   for (std::size_t i = 0; i < least_.size(); ++i)
     for (std::size_t p = 0; p < least_[i].phase.size(); ++p)
       least_[i].phase[p] = std::min(least_[i].phase[p], round[i].phase[p]);
+}
+
+Medians Fastest::median() const {
+  const auto of = [&](double (Seconds::*part)() const) {
+    std::vector<double> all;
+    for (const Seconds& one : means_) all.push_back((one.*part)());
+    if (all.empty()) return 0.0;
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end());
+    return *middle;
+  };
+  return {of(&Seconds::flow), of(&Seconds::heat)};
 }
 
 std::uint64_t expected_digest(const Workload& workload) {
@@ -100,7 +113,7 @@ Result measure(const Workload& workload, const std::vector<Candidate>& candidate
   }
 
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    result.timings.push_back({candidates[i], ours[i].step()});
+    result.timings.push_back({candidates[i], ours[i].step(), ours[i].median()});
   if (plain.rounds() > 0) result.plain = plain.step();
   if (native.rounds() > 0) result.native = native.step();
   return result;

@@ -42,6 +42,10 @@ using Steps = std::vector<Seconds>;  // the timed steps of one run, in their ord
 
 Seconds mean(const Steps& steps);
 
+struct Medians {
+  double flow = 0, heat = 0;
+};
+
 // One fresh simulation: workload.lead_steps untimed, then workload.steps timed. Throws Mismatch unless the
 // state has `expected` for a digest afterwards and the ledgers balance.
 Steps timed_run(const Workload& workload, const Candidate& candidate, std::uint64_t expected);
@@ -52,15 +56,18 @@ class Fastest {
   void add(const Steps& round);  // every round has the same steps
   int rounds() const { return rounds_; }
   Seconds step() const { return mean(least_); }  // the mean step of these least times
+  Medians median() const;                        // of the rounds' mean steps: how busy the machine was
 
  private:
   Steps least_;
+  std::vector<Seconds> means_;  // of each round
   int rounds_ = 0;
 };
 
 struct Timing {
   Candidate candidate;
   Seconds step;
+  Medians median;
 };
 
 struct Result {

@@ -100,6 +100,7 @@ std::vector<Case> Suite::cases_of(const Workload& workload, const Result& result
       one.rounds = result.rounds;
       one.step = timing.step;
       one.seconds = seconds_of(subject, timing.step);
+      one.median_seconds = heat ? timing.median.heat : timing.median.flow;
       one.work = work_of(subject, workload.parameters);
       one.bytes_per_cell = one.work.bytes;
       if (!workload.at_rest) one.footprint = footprint(workload, one.active);

@@ -30,6 +30,7 @@ struct Case {
   int rounds = 0;                      // that the minima were taken over
   Seconds step;                        // with all phases
   double seconds = 0;                  // of the subject in that step
+  double median_seconds = 0;           // of the rounds, each with a mean step
   double bytes_per_cell = 0;           // that the definition needs
   Work work;
   std::size_t footprint = 0;  // bytes of the active cells' state

@@ -37,10 +37,11 @@ std::string case_table(const Findings& findings, Subject subject) {
   const bool flow = subject == Subject::flow;
   std::string text = begin(flow ? "flow" : "heat");
   text += fmt::format(
-      "| case | instruction set | threads | {} | Mcells/s, whole grid | Mcells/s, active | ns per active "
+      "| case | instruction set | threads | {} | median | Mcells/s, whole grid | Mcells/s, active | ns per "
+      "active "
       "cell | "
       "bytes per cell | of the roof | x baseline | x native | rounds |\n"
-      "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+      "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
       flow ? "ms per step: gravity + spread + excess" : "ms per step: heat + melt");
   std::string last;
   for (const Case& one : findings.cases) {
@@ -53,12 +54,13 @@ std::string case_table(const Findings& findings, Subject subject) {
         flow ? fmt::format("{} = {} + {} + {}", milliseconds(one.seconds), phase(gravity), phase(spread),
                            phase(excess))
              : fmt::format("{} = {} + {}", milliseconds(one.seconds), phase(heat), phase(melt));
-    text += fmt::format("| {} | {} | {} | {} | {:.0f} | {:.0f} | {} | {} | {} | {} | {} | {} |\n",
+    text += fmt::format("| {} | {} | {} | {} | {} | {:.0f} | {:.0f} | {} | {} | {} | {} | {} | {} |\n",
                         one.workload == last ? std::string() : fmt::format("`{}`", one.workload),
-                        one.implementation, one.threads, phases, one.cells_per_second() / 1e6,
-                        one.active_per_second() / 1e6, three_digits(1e9 / one.active_per_second()),
-                        one.bytes_per_cell, percent_or_dash(one.percent_of_roof()),
-                        or_dash(one.ratio_to_baseline), or_dash(one.ratio_to_native), one.rounds);
+                        one.implementation, one.threads, phases, milliseconds(one.median_seconds),
+                        one.cells_per_second() / 1e6, one.active_per_second() / 1e6,
+                        three_digits(1e9 / one.active_per_second()), one.bytes_per_cell,
+                        percent_or_dash(one.percent_of_roof()), or_dash(one.ratio_to_baseline),
+                        or_dash(one.ratio_to_native), one.rounds);
     last = one.workload;
   }
   return text + "\n";

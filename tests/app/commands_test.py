@@ -10,6 +10,7 @@ import subprocess
 import tempfile
 import time
 import unittest
+import unittest.mock
 from pathlib import Path
 
 from program import PROGRAM, SMALL, voxmelt, write
@@ -88,6 +89,33 @@ class Commands(unittest.TestCase):
             count = json.loads((self.folder / "pools.json").read_text())["limit"]
             self.assertEqual((count["limited_mass"], count["mass"]), (3 * 2 * 4096, 3 * (shallow + 2) * 4096))
             self.assertEqual("5 % of the liquid flows more slowly" in lines, said, shallow)
+
+    # What was remembered is believed, and a folder that cannot be written is no error.
+    def test_auto_says_what_it_chose_and_why(self):
+        folder = self.folder / "caches"
+        supported = [line.split()[0] for line in self.good("list", "implementations").splitlines()
+                     if "(not on this processor)" not in line][1:-1]
+        with unittest.mock.patch.dict(os.environ, XDG_CACHE_HOME=str(folder)):
+            reports = []
+            for asked in ([], ["--implementation", supported[0]]):
+                self.good("digest", self.scene, "--report", "why.json", *asked)
+                reports.append(json.loads((self.folder / "why.json").read_text()))
+            self.assertIn(reports[0]["implementation"], supported)
+            self.assertEqual(reports[1]["implementation"], supported[0])
+            self.assertEqual(reports[1]["implementation_reason"], "asked for")
+            if len(supported) == 1:
+                return
+            file = folder / "voxmelt" / "fastest"
+            machine, chosen, reason = file.read_text().rstrip("\n").split(" ", 2)
+            self.assertRegex(machine, "^[0-9a-f]{16}$")
+            self.assertEqual((chosen, reason), (reports[0]["implementation"], reports[0]["implementation_reason"]))
+            self.assertRegex(reason, r"^([0-9.]+ times as fast as \S+, ){%d}in a trial on this processor$"
+                             % (len(supported) - 1))
+            for name in supported:
+                file.write_text(f"{machine} {name} by hand\n")
+                self.assertIn(f"\nauto         {name}: by hand\n", self.good("list", "implementations"))
+            file.unlink(), file.mkdir()
+            self.assertIn("times as fast as", self.good("list", "implementations"))
 
     def test_the_report_says_how_many_threads_worked(self):
         here = len(os.sched_getaffinity(0))

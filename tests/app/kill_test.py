@@ -58,7 +58,7 @@ height = 240
 VISCOUS = "[flow.viscous]\nkappa = 0.1\n"
 # What a run costs, and who runs it: not what it gives.
 COSTS = ("seconds", "memory")
-WHO = ("implementation", "threads", "visibility")
+WHO = ("implementation", "implementation_reason", "threads", "visibility")
 
 
 def outcome(folder, changed):

@@ -153,6 +153,9 @@ TEST(Measure, EachPhaseOfEachStepCountsWithItsLeastTime) {
   EXPECT_DOUBLE_EQ(fastest.step().flow(), 2.5 + 20);
   EXPECT_DOUBLE_EQ(fastest.step().phase[static_cast<std::size_t>(step::Phase::gravity)], 2.5);
   EXPECT_DOUBLE_EQ(fastest.step().heat(), 0);
+  // The rounds' mean steps: (19 + 93) / 2, (52 + 37) / 2 and (15 + 36) / 2.
+  EXPECT_DOUBLE_EQ(fastest.median().flow, 44.5);
+  EXPECT_DOUBLE_EQ(fastest.median().heat, 0);
 }
 
 TEST(Measure, RoundsEndByNumberAndByTime) {

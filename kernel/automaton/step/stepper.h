@@ -81,7 +81,8 @@ class Registry {
   void add(Implementation implementation) { implementations_.push_back(std::move(implementation)); }
   const std::vector<Implementation>& all() const { return implementations_; }
 
-  // "auto" is the last supported one (the fastest); nullptr for an unknown name.
+  // "auto" is the last supported one, the widest; nullptr for an unknown name. Which one is the fastest is
+  // known to kernel/run/fastest.h.
   const Implementation* find(const std::string& name) const {
     const Implementation* found = nullptr;
     for (const Implementation& candidate : implementations_)

@@ -1,0 +1,120 @@
+#include "kernel/run/fastest.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <fstream>
+#include <system_error>
+
+#include "kernel/run/simulation.h"
+
+namespace voxmelt::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kRemembered = 8;  // builds and processors
+
+// The first processor's lines, less those that change from moment to moment.
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  std::string text, line;
+  while (std::getline(file, line) && !line.empty())
+    if (!line.starts_with("cpu MHz") && !line.starts_with("BogoMIPS") && !line.starts_with("bogomips"))
+      text += line + '\n';
+  return text;
+}
+
+// Program and processor, in 16 hexadecimal digits.
+std::string this_machine() {
+  struct stat program {};
+  stat("/proc/self/exe", &program);
+  const std::string build =
+      fmt::format("{} {} {}", program.st_size, program.st_mtim.tv_sec, program.st_mtim.tv_nsec);
+  const std::string text = build + '\n' + processor();
+  return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
+}
+
+fs::path cache_file() {
+  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder == '/')
+    return fs::path(folder) / "voxmelt" / "fastest";
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/')
+    return fs::path(home) / ".cache" / "voxmelt" / "fastest";
+  return {};
+}
+
+// A line is: machine, name, reason.
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::error_code none;
+  if (file.empty() || !fs::is_regular_file(file, none)) return {};
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; lines.size() < 2 * kRemembered && std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+// Another program may do the same at the same moment: each writes a file of its own, and the last one wins.
+void remember(const fs::path& file, std::vector<std::string> lines) {
+  if (file.empty()) return;
+  if (lines.size() > kRemembered) lines.erase(lines.begin(), lines.end() - kRemembered);
+  std::error_code failed;
+  fs::create_directories(file.parent_path(), failed);
+  const fs::path partial = fmt::format("{}.{}", file.string(), getpid());
+  {
+    std::ofstream out(partial);
+    for (const std::string& line : lines) out << line << '\n';
+    out.close();
+    if (!out) failed = std::make_error_code(std::errc::io_error);
+  }
+  if (!failed) fs::rename(partial, file, failed);
+  if (failed) fs::remove(partial, failed);
+}
+
+Choice best_of(const std::vector<TrialTime>& times) {
+  const auto faster = [](const TrialTime& a, const TrialTime& b) { return a.seconds < b.seconds; };
+  const auto best = std::min_element(times.begin(), times.end(), faster);
+  std::string others;
+  for (const TrialTime& other : times)
+    if (&other != &*best)
+      others += fmt::format("{}{:.2f} times as fast as {}", others.empty() ? "" : ", ",
+                            other.seconds / best->seconds, other.implementation->name);
+  return {best->implementation, others + ", in a trial on this processor"};
+}
+
+}  // namespace
+
+Choice choose(const step::Registry& registry, const fs::path& file, const std::string& machine,
+              const Trial& trial) {
+  std::vector<const step::Implementation*> able;  // the first one is the reference: plain, and slow
+  for (const step::Implementation& one : registry.all())
+    if (one.supported && &one != &registry.all().front()) able.push_back(&one);
+  if (able.empty()) return {&registry.all().front(), "this processor has no other"};
+  if (able.size() == 1) return {able.front(), "the only one for this processor"};
+
+  std::vector<std::string> lines = lines_of(file);
+  for (const std::string& line : lines) {
+    if (!line.starts_with(machine + ' ')) continue;
+    const std::size_t name = machine.size() + 1, end = line.find(' ', name);
+    const auto known = std::find_if(able.begin(), able.end(), [&](const step::Implementation* one) {
+      return end != std::string::npos && line.compare(name, end - name, one->name) == 0;
+    });
+    if (known != able.end()) return {*known, line.substr(end + 1)};
+  }
+  const Choice choice = best_of(trial(able));
+  std::erase_if(lines, [&](const std::string& line) { return line.starts_with(machine + ' '); });
+  lines.push_back(fmt::format("{} {} {}", machine, choice.implementation->name, choice.reason));
+  remember(file, std::move(lines));
+  return choice;
+}
+
+const Choice& fastest() {
+  static const Choice choice = choose(implementations(), cache_file(), this_machine(), trial);
+  return choice;
+}
+
+}  // namespace voxmelt::run

@@ -1,0 +1,82 @@
+#include "kernel/run/trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <ctime>
+#include <limits>
+
+#include "kernel/automaton/state/digest.h"
+#include "kernel/run/simulation.h"
+
+namespace voxmelt::run {
+namespace {
+
+constexpr int kRounds = 6, kSteps = 3;
+
+rule::Parameters melt() {
+  rule::Parameters p;
+  p.flow.paper.threshold = 0;
+  p.flow.paper.share = 8192;
+  p.flow.paper.margin = 64;
+  p.flow.paper.alpha_liquid = 62915;
+  p.flow.paper.alpha_solid = p.flow.paper.alpha_floor = 60293;
+  p.heat.enabled = true;
+  p.heat.weight_face = 2086;
+  p.material.melting_point = 60000;
+  return p;
+}
+
+// Liquid of any height and temperature, `depth` cells deep.
+state::Volume pool(state::Grid grid, int depth) {
+  state::Volume volume(grid);
+  std::uint64_t number = 0;
+  for (int z = 0; z < grid.z; ++z)
+    for (int y = 0; y < depth; ++y)
+      for (int x = 0; x < grid.x; ++x) {
+        const std::uint64_t bits = state::mixed_bits(++number);
+        const state::Slot i = volume.at(x, y, z);
+        volume.amount[i] = static_cast<std::uint16_t>(rule::kOne / 2 + bits % rule::kOne);
+        volume.energy[i] = static_cast<std::uint16_t>(1 + (bits >> 16) % (rule::kOne / 2));
+        volume.heat[i] = static_cast<std::uint16_t>((bits >> 32) % 50000);
+        volume.liquid.set(x, y, z, true);
+      }
+  return volume;
+}
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// The first step is not timed: a fresh stepper does not know what sleeps.
+double timed(const step::Implementation& implementation, const state::Volume& start) {
+  Simulation simulation(melt(), start, implementation);
+  simulation.step();
+  const double begin = thread_seconds();
+  for (int step = 0; step < kSteps; ++step) simulation.step();
+  return thread_seconds() - begin;
+}
+
+}  // namespace
+
+std::vector<TrialTime> trial(const std::vector<const step::Implementation*>& implementations) {
+  const state::Volume dense = pool({64, 24, 48}, 24), thin = pool({128, 24, 64}, 2);
+  struct Least {
+    double dense = std::numeric_limits<double>::infinity(), thin = dense;
+  };
+  std::vector<Least> least(implementations.size());
+  for (int round = 0; round < kRounds; ++round)
+    for (std::size_t i = 0; i < least.size(); ++i) {
+      least[i].dense = std::min(least[i].dense, timed(*implementations[i], dense));
+      least[i].thin = std::min(least[i].thin, timed(*implementations[i], thin));
+    }
+  std::vector<TrialTime> times;
+  for (std::size_t i = 0; i < least.size(); ++i)
+    times.push_back({implementations[i], std::sqrt(least[i].dense * least[i].thin)});
+  return times;
+}
+
+}  // namespace voxmelt::run

@@ -1,0 +1,148 @@
+// `auto`: the fastest of a trial, remembered for the same program on the same processor.
+#include "kernel/run/fastest.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "kernel/run/simulation.h"
+
+namespace voxmelt::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Fastest : public testing::Test {
+ protected:
+  Fastest()
+      : folder_(fs::path(testing::TempDir()) /
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder_);
+    for (const char* name : {"plain", "narrow", "wide", "wider", "alien"})
+      registry_.add({name, "", nullptr, std::string(name) != "alien"});
+  }
+  ~Fastest() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+
+  Choice choice(const std::string& machine = "this") {
+    return choose(registry_, file(), machine, [this](const std::vector<const step::Implementation*>& all) {
+      ++trials_;
+      std::vector<TrialTime> times;
+      for (const step::Implementation* one : all) times.push_back({one, seconds_.at(one->name)});
+      return times;
+    });
+  }
+  fs::path file() const { return folder_ / "voxmelt" / "fastest"; }
+  std::vector<std::string> lines() const {
+    std::ifstream in(file());
+    std::vector<std::string> all;
+    for (std::string line; std::getline(in, line);) all.push_back(line);
+    return all;
+  }
+  void write(const std::string& text) const {
+    fs::create_directories(file().parent_path());
+    std::ofstream(file()) << text;
+  }
+
+  fs::path folder_;
+  step::Registry registry_;
+  std::map<std::string, double> seconds_{
+      {"narrow", 3}, {"wide", 1.5}, {"wider", 1.8}};  // "plain": never tried
+  int trials_ = 0;
+};
+
+TEST_F(Fastest, TheLeastTimeAndByHowMuch) {
+  const Choice chosen = choice();
+  EXPECT_EQ(chosen.implementation->name, "wide");
+  EXPECT_EQ(chosen.reason,
+            "2.00 times as fast as narrow, 1.20 times as fast as wider, in a trial on this processor");
+}
+
+TEST_F(Fastest, RememberedForOneMachine) {
+  const Choice first = choice();
+  seconds_ = {{"narrow", 1}, {"wide", 4}, {"wider", 2}};
+  EXPECT_EQ(choice().implementation->name, "wide") << "no second trial";
+  EXPECT_EQ(choice().reason, first.reason);
+  EXPECT_EQ(trials_, 1);
+  EXPECT_EQ(choice("other").implementation->name, "narrow");
+  EXPECT_EQ(trials_, 2);
+  EXPECT_EQ(choice().implementation->name, "wide") << "and both are remembered";
+  EXPECT_EQ(trials_, 2);
+  EXPECT_EQ(lines().size(), 2U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(file().parent_path()), {}), 1) << "nothing else is left";
+}
+
+TEST_F(Fastest, TheLastEightMachines) {
+  for (int i = 0; i < 20; ++i) choice("machine" + std::to_string(i));
+  ASSERT_EQ(lines().size(), 8U);
+  EXPECT_TRUE(lines().front().starts_with("machine12 wide "));
+  EXPECT_TRUE(lines().back().starts_with("machine19 wide "));
+}
+
+TEST_F(Fastest, NonsenseIsAsNothing) {
+  for (const char* text :
+       {"", "\n\n", "this", "this ", "this  ", "this wide", "this plain fast\n", "this alien fast\n",
+        "this nobody fast\n", "these wide fast\n", "thiswide fast\n", " this wide fast\n"}) {
+    write(text);
+    trials_ = 0;
+    EXPECT_EQ(choice().implementation->name, "wide") << '"' << text << '"';
+    EXPECT_EQ(trials_, 1) << '"' << text << '"';
+    EXPECT_EQ(choice().implementation->name, "wide");
+    EXPECT_EQ(trials_, 1) << "the answer has replaced it";
+  }
+  write("this wider said\n");
+  EXPECT_EQ(choice().implementation->name, "wider");
+  EXPECT_EQ(choice().reason, "said");
+}
+
+TEST_F(Fastest, NoPlaceToRemember) {
+  fs::create_directories(file());  // a folder in its place
+  EXPECT_EQ(choice().implementation->name, "wide");
+  EXPECT_EQ(choice().implementation->name, "wide");
+  EXPECT_EQ(trials_, 2);
+  EXPECT_TRUE(fs::is_directory(file()));
+  const Choice nowhere = choose(registry_, {}, "this", [&](const auto& all) {
+    return std::vector<TrialTime>{{all[0], 1}, {all[1], 2}};
+  });
+  EXPECT_EQ(nowhere.implementation->name, "narrow");
+}
+
+TEST_F(Fastest, OneIsNotTried) {
+  step::Registry one;
+  one.add({"plain", "", nullptr, true});
+  const Trial never = [](const auto&) -> std::vector<TrialTime> { throw std::logic_error("a trial"); };
+  EXPECT_EQ(choose(one, file(), "this", never).implementation->name, "plain");
+  one.add({"alien", "", nullptr, false});
+  EXPECT_EQ(choose(one, file(), "this", never).implementation->name, "plain");
+  one.add({"narrow", "", nullptr, true});
+  EXPECT_EQ(choose(one, file(), "this", never).implementation->name, "narrow");
+  EXPECT_FALSE(fs::exists(file()));
+}
+
+// The trial itself, of every implementation that this processor has, the plain one among them.
+TEST(Trial, TimesWhatItRuns) {
+  std::vector<const step::Implementation*> able;
+  for (const step::Implementation& one : implementations().all())
+    if (one.supported) able.push_back(&one);
+  const std::vector<TrialTime> times = trial(able);
+  ASSERT_EQ(times.size(), able.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_EQ(times[i].implementation, able[i]);
+    EXPECT_GT(times[i].seconds, 1e-5);
+    EXPECT_LT(times[i].seconds, 10);
+  }
+}
+
+}  // namespace
+}  // namespace voxmelt::run
