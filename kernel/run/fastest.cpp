@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <utility>
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
