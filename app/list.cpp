@@ -15,7 +15,7 @@
 #include "hwmodel/caster_faults/faults.h"
 #include "hwmodel/faults/faults.h"
 #include "hwmodel/presets/presets.h"
-#include "kernel/run/fastest.h"
+#include "kernel/run/trial/fastest.h"
 #include "kernel/scene/features.h"
 
 namespace voxmelt::app {

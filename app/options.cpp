@@ -15,8 +15,8 @@
 #include "app/message.h"
 #include "app/resources.h"
 #include "app/visibility.h"
-#include "kernel/run/fastest.h"
 #include "kernel/run/io/output_folder.h"
+#include "kernel/run/trial/fastest.h"
 
 namespace voxmelt::app {
 namespace {

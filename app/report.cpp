@@ -13,7 +13,7 @@
 #include "app/visibility.h"
 #include "kernel/automaton/state/connectivity.h"
 #include "kernel/automaton/state/digest.h"
-#include "kernel/run/fastest.h"
+#include "kernel/run/trial/fastest.h"
 #include "kernel/run/io/export.h"
 
 namespace voxmelt::app {

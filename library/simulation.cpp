@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kernel/automaton/state/digest.h"
-#include "kernel/run/fastest.h"
+#include "kernel/run/trial/fastest.h"
 #include "kernel/run/io/export.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/simulation.h"

@@ -32,6 +32,7 @@ ALLOWED = {
     "kernel/run": [STATE, STEP, CPU, "kernel/engine/scalar", "kernel/engine/parallel", VISIBILITY],
     "kernel/run/io": [PARAMETERS, STATE],
     "kernel/run/checkpoint": [STATE, CPU, "kernel/run/io"],
+    "kernel/run/trial": [STATE, STEP, "kernel/run"],
     PICTURE: [f"{RULE}/fixed_point.h"],
     "render/image": [],
     "render/page": [],
@@ -76,11 +77,11 @@ ALLOWED = {
     "accuracy/picture": ["kernel/scene", CPU, "kernel/run", PICTURE, "render/density", "render/image", "render/reference", "render/packet/scene_in_integers.h"],
     # What strangers include: the standard library only.
     "include/voxmelt": [],
-    "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io",
+    "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io", "kernel/run/trial",
                 "render/image", "render/packet"],
     "examples": ["include/voxmelt"],
     "app": [CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/caster_faults", "hwmodel/explore", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "hwmodel/presets", "hwmodel/stream", STATE, "kernel/scene", "kernel/run",
-            "kernel/run/checkpoint", "kernel/run/io", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
+            "kernel/run/checkpoint", "kernel/run/io", "kernel/run/trial", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.
 THIRD_PARTY = {
@@ -96,7 +97,7 @@ THIRD_PARTY = {
     "CLI/": ["app"],
     "benchmark/": ["bench"],
     "nlohmann/": ["accuracy/report", "kernel/run/checkpoint", "kernel/run/io", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "bench/measure", "app"],
-    "fmt/": ["kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "render/page", "bench/measure", "accuracy",
+    "fmt/": ["kernel/run/trial", "kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "render/page", "bench/measure", "accuracy",
              "accuracy/front", "accuracy/report", "app"],
 }
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")

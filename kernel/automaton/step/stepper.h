@@ -82,7 +82,7 @@ class Registry {
   const std::vector<Implementation>& all() const { return implementations_; }
 
   // "auto" is the last supported one, the widest; nullptr for an unknown name. Which one is the fastest is
-  // known to kernel/run/fastest.h.
+  // known to kernel/run/trial/fastest.h.
   const Implementation* find(const std::string& name) const {
     const Implementation* found = nullptr;
     for (const Implementation& candidate : implementations_)

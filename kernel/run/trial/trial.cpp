@@ -1,4 +1,4 @@
-#include "kernel/run/trial.h"
+#include "kernel/run/trial/trial.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/run/trial.h"
+#include "kernel/run/trial/trial.h"
 
 namespace voxmelt::run {
 

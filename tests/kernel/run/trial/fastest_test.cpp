@@ -1,5 +1,5 @@
 // `auto`: the fastest of a trial, remembered for the same program on the same processor.
-#include "kernel/run/fastest.h"
+#include "kernel/run/trial/fastest.h"
 
 #include <gtest/gtest.h>
 
