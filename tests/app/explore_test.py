@@ -345,6 +345,12 @@ class SizedChannels(unittest.TestCase):
         less, _ = self.verify("--hw", "less.toml")
         self.assertEqual(less["cycles"] - sized["cycles"], int(rows[deep["name"]][3]))
 
+    def test_a_memory_sees_the_irradiance_of_every_step(self):
+        result = voxmelt("verify", "proving_ground", "--steps", 3, "--set", "heat.visibility_every=1", "--set", "hw.lanes=8",
+                         "--set", "hw.memory=ddr4-2400", "--set", "hw.clock_mhz=600", "--size-fifos", "slow.toml",
+                         cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
     def test_a_memory_costs_cycles_and_no_bits(self):
         free, _ = self.verify("--set", "hw.lanes=16")
         slow, _ = self.verify("--set", "hw.lanes=16", "--set", "hw.memory=ddr4-2400", "--set", "hw.clock_mhz=600")

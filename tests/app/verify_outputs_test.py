@@ -313,6 +313,21 @@ law = "paper"
                 self.assertEqual(tuple(is_[:3]), cell[:3], (block, lane, y, z))
                 self.assertAlmostEqual(is_[3] / 65535, cell[3], delta=1e-4)
 
+    def test_the_waves_of_a_whole_run_sum_to_its_accounts(self):
+        scene = write(self.folder, "[grid]\nsize = [4, 2, 1]\n[flow]\nlaw = \"paper\"\n[[liquid]]\nshape = \"box\"\nsize = [1, 1, 1]\nat = [0.5, 0.5, 0.5]\n", "short.toml")
+        vcd, report = self.waves(0, scene, "--steps", 1, "--vcd-from", 0, "--set", "hw.lanes=4", "--set", "hw.fifo_depth=1",
+                                 "--set", "hw.cascade=1", "--set", "hw.stall_seed=3")
+        self.assertEqual(len(vcd.cycles()), report["cycles"])
+        kinds = {"starved": 0, "blocked": 0}
+        for i, stage in enumerate(report["stages"]):
+            scope = [name[:-len(".busy")] for name in vcd.bits if f".stages.s{i:02}_" in name and name.endswith(".busy")][0]
+            for kind, cycles in stage["cycles"].items():
+                if f"{scope}.{kind}" in vcd.bits:
+                    self.assertEqual(sum(now[f"{scope}.{kind}"] for now in vcd.cycles()), cycles, f"{scope} {kind}")
+                    kinds[kind] = kinds.get(kind, 0) + cycles
+        self.assertNotEqual(kinds["starved"], kinds["blocked"])
+        self.assertGreater(kinds["blocked"], 0)
+
     def test_the_waves_of_a_later_train_count_the_cycles_of_the_run(self):
         vcd, report = self.waves(0, self.scene, "--steps", 3, "--set", "hw.overlap=0", "--set", "hw.cascade=1",
                                  "--vcd-from", 1200)

@@ -116,6 +116,25 @@ TEST(Stalls, EachSideRefusesOneCycleInFourApartFromTheOther) {
   EXPECT_EQ(refusals(0, 5).put + refusals(0, 5).get, 0) << "seed 0 stalls";
 }
 
+// However many tokens it holds, a stalled channel refuses each side.
+TEST(Stalls, AChannelRefusesOneCycleInFourHoweverFullItIs) {
+  for (const int tokens : {1, 2, 3}) {
+    Fifo<int> fifo{"channel", 3, 1, 4, 7};
+    while (fifo.count() < tokens) {
+      if (fifo.ready()) fifo.put();
+      fifo.commit();
+    }
+    int refuses_put = 0, refuses_get = 0;
+    for (int cycle = 0; cycle < 4000; ++cycle) {
+      refuses_put += fifo.ready() ? 0 : 1;
+      refuses_get += fifo.valid() ? 0 : 1;
+      fifo.commit();
+    }
+    EXPECT_NEAR(refuses_put, 1000, 120) << tokens;
+    EXPECT_NEAR(refuses_get, 1000, 120) << tokens;
+  }
+}
+
 TEST(Stalls, DifferFromChannelToChannelFromSeedToSeedFromPassToPass) {
   EXPECT_EQ(refusals(1, 5).puts, refusals(1, 5).puts);
   EXPECT_NE(refusals(1, 5).puts, refusals(1, 6).puts);

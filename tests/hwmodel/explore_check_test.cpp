@@ -31,6 +31,21 @@ TEST(ExploreCheck, APointThatFailsIsNotVerified) {
   EXPECT_NE(bad.difference.find("width"), std::string::npos) << bad.difference;
 }
 
+// A single token is never kept waiting.
+TEST(ExploreCheck, ForOneTokenEveryChannelIsAsShallowAsCanBe) {
+  TimedRun run;
+  run.parameters.flow.law = rule::Law::paper;
+  run.grid = {1, 1, 1};
+  run.configuration.lanes = run.configuration.cascade = 1;
+  run.steps = 1;
+  const Sizing sizing = size_fifos(run, {});
+  ASSERT_GT(sizing.channels.size(), 3u);
+  for (const SizedChannel& channel : sizing.channels) {
+    EXPECT_EQ(channel.depth, 1) << channel.name;
+    EXPECT_EQ(channel.one_less, 0) << channel.name;
+  }
+}
+
 TEST(ExploreCheck, TheFileOfDepthsSaysTheMachine) {
   Sizing sizing;
   sizing.channels = {{"reader -> source", 5, 0, 0, 0}, {"melt -> writer", 1, 0, 0, 0}};

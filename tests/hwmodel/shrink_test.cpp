@@ -129,6 +129,14 @@ TEST(Shrinker, CutsAgainWhereSourcesAreGone) {
   EXPECT_EQ(shrinker.shrink({4, 4, 4}).size(), (Cell3{1, 1, 1}));
 }
 
+TEST(Shrinker, MakesTwoStepsOne) {
+  Shrinker shrinker(
+      {filled({3, 3, 3}), {}, 7, 2, {}, {}}, {}, [](const Case&) { return true; }, [] { return true; });
+  const Case& small = shrinker.shrink({1, 1, 1});
+  EXPECT_EQ(small.steps, 1u);
+  EXPECT_EQ(small.first_step, 7u);
+}
+
 TEST(Shrinker, LeavesWhatCannotBeMadeSmaller) {
   Case begin{filled({5, 4, 3}), {}, 0, 1, {}, {}};
   begin.configuration.lanes = 1;

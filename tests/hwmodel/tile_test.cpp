@@ -167,6 +167,24 @@ TEST(Tiles, CyclesOfEqualPasses) {
 }
 
 // What memories of a few columns hold, whatever the width of the grid.
+// The machine holds a few tokens more than a tile has. But the tile that writes the cells which the next pass
+// reads first begins 14 blocks behind them: so no pass waits, and costs its tokens alone.
+TEST(Tiles, APassWaitsOnlyUntilTheOwnerHasWritten) {
+  Start start = hostile_start(0, rule::Law::paper, {40, 6, 6});
+  start.parameters.heat = {};
+  start.parameters.heat.enabled = true;
+  start.parameters.flow.fall.hang = 2000;
+  Configuration c;
+  c.lanes = 1, c.cascade = 2, c.tile = 26;
+  const Shape shape = design_of(start.parameters, start.volume.grid, c).shape;
+  ASSERT_EQ(shape.tiles(), 2);
+  ASSERT_EQ(shape.blocks(), 26);
+  std::int64_t two = 0, four = 0;
+  ASSERT_TRUE(agrees(start, c, 2, &two) && agrees(start, c, 4, &four));
+  EXPECT_GT(two - 2 * 936, 936) << "tokens on their way";
+  EXPECT_EQ(four - two, 2 * 936) << "26 x 6 x 6 tokens of each tile";
+}
+
 TEST(Tiles, BuffersAreThoseOfATile) {
   const auto bits_of = [](int width) {
     const Start start = hostile_start(8, rule::Law::paper, {width, 4, 4});
