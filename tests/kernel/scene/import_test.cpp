@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/kernel/scene/scene_text.h"
@@ -118,6 +119,35 @@ TEST(Heightfield, FlatGroundHasNoOffset) {
   const Scene scene = folder.load_text(kHillScene, {"inert.0.base=3"});
   EXPECT_EQ(scene.initial.inert.count(), 3 * 16 * 16);
   EXPECT_EQ(scene.initial.amount[scene.initial.at(5, 2, 5)], 2048);
+}
+
+// docs/scenes.md: smoothed once, unless somebody says so otherwise.
+TEST(Heightfield, IsSmoothedOnce) {
+  const SceneFolder folder;
+  folder.write("h.asc", "ncols 3\nnrows 3\n0 0 0\n0 8 0\n0 0 0\n");
+  const auto heights = [&](const std::vector<std::string>& sets) {
+    return folder.load_text(kHillScene, sets).terrain.height;
+  };
+  const std::vector<float> usual = heights({});
+  EXPECT_EQ(usual, heights({"inert.0.smooth=1"}));
+  EXPECT_NE(usual, heights({"inert.0.smooth=0"}));
+  EXPECT_NE(usual, heights({"inert.0.smooth=2"}));
+}
+
+TEST(Heightfield, OfTwoGroundsTheHigherOneCounts) {
+  const SceneFolder folder;
+  folder.write("h.asc", "ncols 2\nnrows 2\n7 7\n7 7\n");
+  const std::string hill = kHillScene.substr(kHillScene.find("[[inert]]")),
+                    grid = "[grid]\nsize = [16, 16, 16]\n";
+  for (const auto& [thickness, expected] : {std::pair{3, 5}, std::pair{7, 7}}) {
+    const std::string floor = "[[inert]]\nshape = \"floor\"\nthickness = " + std::to_string(thickness) + "\n";
+    for (const bool first : {false, true}) {
+      const Scene scene = folder.load_text(first ? grid + floor + hill : grid + hill + floor,
+                                           {first ? "inert.1.base=5" : "inert.0.base=5"});
+      EXPECT_FLOAT_EQ(scene.terrain.height[40], static_cast<float>(expected)) << thickness << first;
+      EXPECT_EQ(scene.initial.inert.count(), expected * 16 * 16) << thickness << first;
+    }
+  }
 }
 
 // A surface half a cell below its upper face is offset 0, and as a wall 1: no cell of amount 0 holds heat.
