@@ -31,8 +31,8 @@ class Stepper {
 class HostStepper : public Stepper {
  public:
   // Runs one phase on `volume` and books it in `ledger`. Between two steps, nothing else changes the volume.
-  // `irradiance` is null when the scene has no radiation. After a phase with `moment.unseen` the volume and the
-  // books may be those before it, until the next phase has run.
+  // `irradiance` is null when the scene has no radiation. After a phase with `moment.unseen` the volume and
+  // the books may be those before it, until the next phase has run.
   virtual void run(Phase phase, Moment moment, const Irradiance* irradiance, state::Volume& volume,
                    state::Ledger& ledger) = 0;
 

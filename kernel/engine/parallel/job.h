@@ -19,7 +19,7 @@ struct Job {
   const simd::Step& step;
   const simd::Kernels& kernels;
   cpu::Workers& workers;
-  bool sleep;  // false: every tile is awake in every phase
+  bool sleep;          // false: every tile is awake in every phase
   bool ahead = false;  // spread follows at once, so that gravity may be put off into it
 };
 
