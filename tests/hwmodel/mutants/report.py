@@ -33,9 +33,9 @@ def sums(mutants, results, lists):
     alone = [(m, r) for m, r in bits if r["verify"]]
     named = [(m, r) for m, r in alone if r["stage_named"] and r["cell"]]
     edge = [m for m, _ in ran if m.get("boundary")]
-    commits = sorted({r["commit"] for _, r in ran})
+    commits = sorted({r["commit"].removesuffix("-dirty") for _, r in ran})
     of = lambda part, whole: f"{len(part)} of {len(whole)} ({100 * len(part) / max(1, len(whole)):.1f} %)"
-    lines += ["", f"- {len(ran)} of {len(mutants)} mutants have run, at {', '.join(commits)}.",
+    lines += ["", f"- {len(ran)} of {len(mutants)} mutants have run.", f"- Commits of the runs: {', '.join(commits)}.",
               f"- {len(edge)} of them are faults of side bands or boundaries.",
               f"- Of those with wrong bits `verify` alone finds {of(alone, bits)}.",
               f"- It names the stage and the first wrong cell for {of(named, alone)} of these."]
