@@ -44,9 +44,12 @@ Content content_of(const Design& design, const Irradiance* irradiance, const sta
     content.coded_bits = coded.moved_bits();
     const int blocks = coded.layout().blocks();
     content.coded_before.resize(static_cast<std::size_t>(blocks));
-    for (std::int64_t column = 0; column < coded.layout().columns(); ++column)
+    for (std::int64_t column = 0; column < coded.layout().columns(); ++column) {
+      content.coded_columns.push_back(
+          static_cast<std::int32_t>(CodeLayout::up(coded.bits_of(column)) / CodeLayout::kBurstBits));
       content.coded_before[static_cast<std::size_t>(column % blocks)] +=
           CodeLayout::up(coded.bits_of(column));
+    }
     sum_up(content.coded_before);
   }
   return content;

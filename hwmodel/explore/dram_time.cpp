@@ -55,7 +55,7 @@ double burst_cycles(double reads, double writes, const Meetings& meetings, const
 }
 
 std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& p, int clock_mhz,
-                       const std::vector<Behind>& behind, const memory::Policy& policy) {
+                       const Placement& placement, const memory::Policy& policy) {
   // While the first tokens are under way it is only read; then both; at last it is only written.
   constexpr double kBurstBits = 8.0 * memory::kBurst;
   const double window = static_cast<double>(work.cycles - work.lag), lag = static_cast<double>(work.lag);
@@ -68,12 +68,21 @@ std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& p, int 
   Meetings meetings;
   const double state = static_cast<double>(work.read_bits) / std::max(1.0, kBurstBits * reads);
   const double lag_bursts = static_cast<double>(work.read_bits) / kBurstBits * lag / window;
-  for (const Behind& one : behind.empty() ? std::vector<Behind>{{lag_bursts, 1}} : behind) {
+  const std::vector<Behind> as_lag{{lag_bursts, 1}};
+  for (const Behind& one : placement.behind.empty() ? as_lag : placement.behind) {
     meetings.of_writes += one.share * meeting(one.bursts + policy.batch, p);
     meetings.of_reads += one.share * meeting(one.bursts, p);
   }
   meetings.of_writes = state * meetings.of_writes + (1 - state) / p.banks;
   meetings.of_reads = state * meetings.of_reads + (1 - state) / p.banks;
+  if (!placement.work.columns.empty()) {
+    const double burst = burst_cycles(1, 0, meetings, p, policy), turn = turn_cycles(p, meetings);
+    return cycles_by_columns(
+        placement.work,
+        {ratio * burst, ratio * (burst + turn / policy.batch / (1 - refresh_share(p))),
+         ratio * (p.rcd + p.cl + p.read_more + p.beats() * p.columns_of_request() + p.interface_cycles)},
+        policy);
+  }
   const auto segment = [&](double cycles, bool reading, bool writing) {
     const double share = cycles / window;
     return std::max(cycles, ratio * burst_cycles(reading ? reads * share : 0, writing ? writes * share : 0,

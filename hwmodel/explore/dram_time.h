@@ -30,8 +30,31 @@ struct Behind {
   double share = 1;  // of the time
 };
 
-// Cycles of the machine for one pass of the twin. `behind`: empty: as many bursts as its lag has.
+// A state that lies there by columns: with hw.coded they are uneven. In the order of the stream.
+struct ColumnBursts {
+  std::int32_t reads = 0, writes = 0;
+};
+struct ColumnWork {
+  std::vector<ColumnBursts> columns;
+  double column_cycles = 0, lag = 0;  // of the machine, without waits
+  double fed = 0;                     // bursts of irradiance in the time of a column
+  bool coded = false;
+};
+// Cycles of the machine.
+struct BusTimes {
+  double read = 0, write = 0;  // a burst on the bus; the writes bear the turns
+  double latency = 0;          // of a read
+};
+std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, const memory::Policy& policy);
+
+// How the state lies there, unless it is one stream: no columns, and as many bursts behind as the lag has.
+struct Placement {
+  std::vector<Behind> behind{};
+  ColumnWork work{};
+};
+
+// Cycles of the machine for one pass of the twin.
 std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& parameters, int clock_mhz,
-                       const std::vector<Behind>& behind = {}, const memory::Policy& policy = {});
+                       const Placement& placement = {}, const memory::Policy& policy = {});
 
 }  // namespace voxmelt::hwmodel::explore

@@ -70,10 +70,15 @@ json parts_json(const PartList& parts) {
                       {"dividers", stage.units.dividers},
                       {"random_blocks_per_8_lanes", stage.units.random_blocks}});
   }
-  return {{"lanes", parts.design.shape.lanes},      {"substeps", parts.design.substeps},
-          {"cell_bits", parts.design.cell_bits()},  {"fed", parts.fed},
-          {"tokens", parts.design.shape.tokens()},  {"irradiance_bits", parts.content.irradiance_bits},
-          {"coded_bits", parts.content.coded_bits}, {"stages", stages}};
+  return {{"lanes", parts.design.shape.lanes},
+          {"substeps", parts.design.substeps},
+          {"cell_bits", parts.design.cell_bits()},
+          {"fed", parts.fed},
+          {"tokens", parts.design.shape.tokens()},
+          {"irradiance_bits", parts.content.irradiance_bits},
+          {"coded_bits", parts.content.coded_bits},
+          {"coded_columns", parts.content.coded_columns},
+          {"stages", stages}};
 }
 
 json point_json(const Explored& of, std::size_t at) {

@@ -1,6 +1,7 @@
 #include "hwmodel/explore/schedule.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "hwmodel/machine/column_port.h"
 #include "hwmodel/stream/prediction.h"
@@ -43,7 +44,21 @@ void add_pass(Train& train, const Design& design, const Configuration& c, const 
         (shape.tiled() ? Content::between(content.irradiance_before, first, end) : content.irradiance_bits);
 }
 
-void end_train(Train& train, const Design& design, const Configuration& c) {
+// In the order of the stream: what each column of each tile reads, and writes if the tile owns it.
+void add_columns(Train& train, const Shape& shape, const Content& content) {
+  for (const Pass& pass : train.list) {
+    const int first = shape.first_block(pass.tile);
+    for (int z = 0; z < shape.grid.z; ++z)
+      for (int block = first; block < first + shape.blocks(); ++block) {
+        const auto at = static_cast<std::size_t>(z * shape.grid_blocks() + block);
+        const std::int32_t bursts = content.coded_columns[at];
+        const bool owned = shape.owns(pass.tile, block * shape.lanes);
+        train.placement.work.columns.push_back({bursts, owned ? bursts : 0});
+      }
+  }
+}
+
+void end_train(Train& train, const Design& design, const Configuration& c, const Content& content) {
   train.work.passes = 1;
   train.work.cycles = predicted_cycles(design, c, train.list.front(), train.passes);
   train.work.lag = train.work.cycles - c.interval() * train.work.tokens;
@@ -58,9 +73,17 @@ void end_train(Train& train, const Design& design, const Configuration& c) {
   const double bursts = of_grid * static_cast<double>(slots.slot_bursts);
   const double copy = static_cast<double>(slots.columns * slots.slot_bursts);
   if (!shape.tiled())
-    train.behind = {{bursts, 1}};
+    train.placement.behind = {{bursts, 1}};
   else
-    train.behind = {{bursts - copy, .5}, {bursts + copy, .5}};
+    train.placement.behind = {{bursts - copy, .5}, {bursts + copy, .5}};
+  if (!c.coded || content.coded_columns.empty()) return;  // plain columns are even
+  add_columns(train, shape, content);
+  ColumnWork& work = train.placement.work;
+  work.coded = true;
+  work.column_cycles = static_cast<double>(c.interval() * shape.column());
+  work.lag = static_cast<double>(train.work.lag);
+  work.fed = static_cast<double>(train.work.fed_bits) / CodeLayout::kBurstBits /
+             static_cast<double>(std::max<std::size_t>(1, work.columns.size()));
 }
 
 // All tiles of a pass, into the last train, or into new ones.
@@ -113,7 +136,7 @@ std::vector<Train> trains_of(const Design& design, const Configuration& c, std::
       pass.steps = steps_of_pass(design, c, step, steps - done);
     }
   }
-  for (Train& train : trains) end_train(train, design, c);
+  for (Train& train : trains) end_train(train, design, c, content);
   return trains;
 }
 

@@ -16,8 +16,7 @@ struct Train {
   std::int64_t passes = 0, steps = 0;
   std::vector<Pass> list;  // the passes, tile by tile
   StreamWork work;         // one pass of the twin: the tokens of all passes, one after another
-  // Where it writes behind where it reads, if the state lies there by columns; else empty.
-  std::vector<Behind> behind{};
+  Placement placement{};   // of the state on a DRAM
 };
 
 // Every pass is taken to move what `content` says. Of a scene that counts its sub-steps from the state, every

@@ -1,10 +1,12 @@
 #include "hwmodel/explore/sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <tuple>
 
@@ -110,16 +112,27 @@ std::optional<std::int64_t> least_of(Resource resource, const PartList& parts, c
   return least;
 }
 
+namespace {
+
+std::vector<RunTime> times_of(const PartList& parts, const Configuration& hw, const std::vector<int>& clocks,
+                              const Question& question, std::int64_t steps) {
+  std::vector<RunTime> times(clocks.size());
+  for (const Train& train : trains_of(parts.design, hw, question.first_step, steps, parts.content))
+    for (std::size_t i = 0; i < clocks.size(); ++i) {
+      times[i].cycles += train.work.cycles;
+      times[i].on_memory += question.memory
+                                ? cycles_on(train.work, *question.memory, clocks[i], train.placement)
+                                : train.work.cycles;
+      times[i].steps += train.steps;
+    }
+  return times;
+}
+
+}  // namespace
+
 RunTime time_of(const PartList& parts, const Configuration& hw, int clock_mhz, const Question& question,
                 std::int64_t steps) {
-  RunTime time;
-  for (const Train& train : trains_of(parts.design, hw, question.first_step, steps, parts.content)) {
-    time.cycles += train.work.cycles;
-    time.on_memory += question.memory ? cycles_on(train.work, *question.memory, clock_mhz, train.behind)
-                                      : train.work.cycles;
-    time.steps += train.steps;
-  }
-  return time;
+  return times_of(parts, hw, {clock_mhz}, question, steps).front();
 }
 
 std::int64_t speed_of(const Question& question, const RunTime& time, int clock_mhz) {
@@ -144,7 +157,8 @@ Swept sweep(const Question& question, const Axes& axes, const std::function<void
           part_list({question.parameters, {question.grid, lanes}, substeps}, question.device.family));
       swept.parts.back().content = content;
       const PartList& parts = swept.parts.back();
-      for (const int cascade : axes.cascade)
+      for (const int cascade : axes.cascade) {
+        std::map<std::array<int, 3>, std::vector<RunTime>> known;  // deeper channels take the same time
         for (const int depth : axes.fifo_depth) {
           if (poll) poll();
           Configuration hw;
@@ -152,15 +166,17 @@ Swept sweep(const Question& question, const Axes& axes, const std::function<void
           for (const int coded : axes.coded) {
             hw.coded = coded == 1;
             const Taken taken = taken_by(parts, hw, question.device);
-            for (const int overlap : axes.overlap)
-              for (const int mhz : axes.clock_mhz) {
-                hw.overlap = overlap == 1;
-                const RunTime time = time_of(parts, hw, mhz, question, question.steps);
-                swept.points.push_back(
-                    {hw, mhz, time.cycles, time.on_memory, speed_of(question, time, mhz), taken});
-              }
+            for (const int overlap : axes.overlap) {
+              hw.overlap = overlap == 1;
+              std::vector<RunTime>& times = known[{hw.interval(), coded, overlap}];
+              if (times.empty()) times = times_of(parts, hw, axes.clock_mhz, question, question.steps);
+              for (std::size_t i = 0; i < times.size(); ++i)
+                swept.points.push_back({hw, axes.clock_mhz[i], times[i].cycles, times[i].on_memory,
+                                        speed_of(question, times[i], axes.clock_mhz[i]), taken});
+            }
           }
         }
+      }
     }
   }
   swept.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -10,7 +10,7 @@ import json
 import re
 import tempfile
 import unittest
-from math import ceil, inf
+from math import ceil, floor, inf
 from pathlib import Path
 
 from program import SMALL, voxmelt, write
@@ -58,6 +58,48 @@ def dram(reads, writes, meetings):
     return bus / (1 - (d["rtp"] + d["rp"] + d["rfc"] + d["rcd"]) / d["refi"])
 
 
+def by_columns(report, parts, hw, passes, steps, lag, interval):
+    """The coded state: the bus serves column after column, the pipeline takes each when it has come."""
+    d, high = DDR4, report["grid"][1]
+    ratio = hw["clock_mhz"] / d["mhz"]
+    run = 1 - (d["rtp"] + d["rp"] + d["rfc"] + d["rcd"]) / d["refi"]
+    columns = parts["coded_columns"] * passes
+    bits, fed = sum(columns) * 512, parts["irradiance_bits"] * steps
+    apart = lag / (interval * high) * ceil(high * (1 + parts["lanes"] * parts["cell_bits"]) / 512)
+    state = bits / (bits + fed)
+    of_writes, of_reads = (state * meeting(at) + (1 - state) / d["banks"] for at in (apart + d["batch"], apart))
+    turn = (d["rtw"] + d["wtr_s"] + d["cl"]
+            + (d["rtp"] + d["rp"] + d["rcd"] - (d["cl"] + d["beats"] - d["cwl"]) - d["rtw"]) * of_writes
+            + (d["wr"] + d["rp"] + d["rcd"] - d["wtr_s"]) * of_reads)
+    read, write = ratio * d["beats"] / run, ratio * (d["beats"] + turn / d["batch"]) / run
+    latency = ratio * (d["rcd"] + d["cl"] + d["beats"] + d["interface"])
+    taken, behind = interval * high, floor(lag / (interval * high) + .5)
+    fed = fed / 512 / len(columns)
+    done, bus, waiting, asked, freed, written, most = [], 0, 0, 0, 0, 0, 128 + 64
+    for c, own in enumerate(columns):
+        asked += own
+        while freed < c and asked > 128:
+            asked, freed = asked - columns[freed], freed + 1
+        gate = max(done[freed - 1] if freed else 0, done[c - 8] if c >= 8 else 0)
+        start = max(bus, gate)
+        while written + behind < c and done[written + behind] <= start:
+            waiting, written = waiting + columns[written], written + 1
+        waiting -= min(waiting, (start - bus) / write)
+        served = max(min(waiting, own), waiting - most)
+        waiting -= served
+        bus = start + (own + fed) * read + served * write
+        come = max(bus, gate + 2 * latency + own * read)
+        done.append(max((done[-1] if done else 0) + taken, come + taken / max(own, 1)))
+    end, left = done[-1], lag
+    while left > 0:
+        step, left = min(left, taken), left - taken
+        end += step
+        waiting, written = waiting + (columns[written] if written < len(columns) else 0), written + 1
+        waiting -= min(waiting, step / write)
+        end, waiting = end + max(waiting - most, 0) * write, min(waiting, most)
+    return floor(end + .5)
+
+
 def times(report, parts, hw):
     free = memory = 0
     n, stages = parts["tokens"], parts["stages"]
@@ -70,15 +112,15 @@ def times(report, parts, hw):
             memory += cycles
             continue
         window, cells = interval * passes * n, n * parts["lanes"]
+        if hw["coded"]:
+            memory += by_columns(report, parts, hw, passes, steps, cycles - window, interval)
+            continue
         lag = cycles - window
         alone = min(lag, window)
-        bits = passes * (parts["coded_bits"] if hw["coded"] else cells * parts["cell_bits"])
+        bits = passes * cells * parts["cell_bits"]
         reads, writes = (bits + parts["irradiance_bits"] * steps) / 512, bits / 512
         ratio = hw["clock_mhz"] / DDR4["mhz"]
         apart = writes * lag / window
-        if hw["coded"]:
-            slot = ceil((report["grid"][1] * (1 + parts["lanes"] * parts["cell_bits"])) / 512)
-            apart = lag / (interval * report["grid"][1]) * slot
         state = writes / reads
         meetings = [state * meeting(d) + (1 - state) / DDR4["banks"] for d in (apart + DDR4["batch"], apart)]
         memory += round(ratio * (DDR4["rcd"] + DDR4["cl"] + DDR4["beats"] + DDR4["interface"]) + lag - alone
@@ -317,7 +359,8 @@ class SizedChannels(unittest.TestCase):
         return json.loads((self.folder / "r.json").read_text()), result.stdout
 
     def test_depths_lose_no_cycle_and_are_read_again(self):
-        for sets in (["--set", "hw.stall_seed=5"], ["--set", "hw.memory=ddr4-2400", "--set", "hw.lanes=8"]):
+        coded = ["--set", "hw.memory=hbm2", "--set", "hw.coded=1"]
+        for sets in (["--set", "hw.stall_seed=5"], ["--set", "hw.memory=ddr4-2400", "--set", "hw.lanes=8"], coded):
             deep, _ = self.verify(*sets, "--set", "hw.cascade=2", "--set", "hw.fifo_depth=1024")
             sized, said = self.verify(*sets, "--set", "hw.cascade=2", "--size-fifos", "fifos.toml")
             self.assertEqual(sized["cycles"], deep["cycles"])
@@ -356,8 +399,14 @@ class SizedChannels(unittest.TestCase):
         slow, _ = self.verify("--set", "hw.lanes=16", "--set", "hw.memory=ddr4-2400", "--set", "hw.clock_mhz=600")
         self.assertGreater(slow["cycles"], free["cycles"])
         self.assertEqual(slow["digest"], free["digest"])
-        for stage in slow["stages"]:
-            self.assertEqual(sum(stage["cycles"].values()), slow["cycles"])
+        tiles, _ = self.verify("--set", "hw.lanes=1", "--set", "hw.memory=ddr4-2400", "--set", "hw.tile=9")
+        self.assertGreater(tiles["tiles"]["count"], 1)
+        self.assertEqual(tiles["digest"], free["digest"])
+        for report in (slow, tiles):
+            for stage in report["stages"]:
+                self.assertEqual(sum(stage["cycles"].values()), report["cycles"])
+            self.assertGreater(report["stages"][0]["cycles"]["memory"], 0)
+        self.assertEqual(free["stages"][0]["cycles"]["memory"], 0)
 
     def test_bad_files(self):
         write(self.folder, "[hw]\n[[hw.channel]]\nname = \"reader -> moon\"\ndepth = 3\n", "moon.toml")

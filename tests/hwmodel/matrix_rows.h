@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -59,8 +60,7 @@ inline std::vector<MatrixRow> covering_rows() {
       MatrixRow row{};
       for (std::size_t c = 0; c < kColumns; ++c) row[c] = random.below(kValues[c]);
       if (!missing.empty()) {
-        const auto must =
-            std::next(missing.begin(), random.below(static_cast<std::int32_t>(missing.size())));
+        const auto must = std::next(missing.begin(), random.below(static_cast<std::int32_t>(missing.size())));
         row[static_cast<std::size_t>((*must)[0])] = (*must)[1];
         row[static_cast<std::size_t>((*must)[2])] = (*must)[3];
       }
