@@ -45,6 +45,7 @@ const Case kCases[] = {
     {"capsule", "shape='capsule'\nfrom=[14,24,24]\nto=[34,24,24]\nradius=8", kPi * 64 * (20 + 4.0 / 3 * 8),
      0.003},
     {"tube", "shape='tube'\npath=[[10,24,24,5],[38,24,24,5]]", kPi * 25 * (28 + 4.0 / 3 * 5), 0.006},
+    {"tube_of_one_place", "shape='tube'\npath=[[24,24,24,4],[24,24,24,10]]", 4.0 / 3 * kPi * 1000, 0.003},
     {"torus", "shape='torus'\nradius=14\ntube=5\nat=[24,24,24]", 2 * kPi* kPi * 14 * 25, 0.003},
     {"revolve", "shape='revolve'\nprofile=[[5,0],[15,0],[15,20],[5,20]]\nat=[24,10,24]", kPi * 200 * 20,
      0.003},
