@@ -52,8 +52,10 @@ def notable(mutants, results):
         if by in ("survives", "not built") or by == "tests" and m["class"] == "wrong bits" or elsewhere:
             said = f"{r['verify']} {r.get('where', '')}".strip() if elsewhere else r["tests"] or by
             lines.append(f"| {m['name']} | {m['why']} | {said} |")
-    lines += ["", "| equivalent | why |", "|---|---|"]
-    lines += [f"| {m['name']} | {m['why']} |" for m, r in ran if verdict(m, r) == "equivalent"]
+    run = {m["name"] for m, _ in ran}
+    lines += ["", "| equivalent | why | run on all grounds |", "|---|---|---|"]
+    lines += [f"| {m['name']} | {m['why']} | {'yes' if m['name'] in run else 'no'} |" for m in mutants
+              if m["class"] == "equivalent"]
     return "\n".join(lines) + "\n"
 
 
