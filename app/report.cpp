@@ -13,8 +13,8 @@
 #include "app/visibility.h"
 #include "kernel/automaton/state/connectivity.h"
 #include "kernel/automaton/state/digest.h"
-#include "kernel/run/trial/fastest.h"
 #include "kernel/run/io/export.h"
+#include "kernel/run/trial/fastest.h"
 
 namespace voxmelt::app {
 namespace {

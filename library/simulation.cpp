@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "kernel/automaton/state/digest.h"
-#include "kernel/run/trial/fastest.h"
 #include "kernel/run/io/export.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/simulation.h"
+#include "kernel/run/trial/fastest.h"
 #include "kernel/scene/scene.h"
 #include "library/ledgers.h"
 #include "library/sources.h"

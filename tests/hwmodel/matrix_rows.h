@@ -1,7 +1,6 @@
 // The columns of the pipeline's matrix, a pairwise covering array of them, and one run of a row.
 #pragma once
 
-#include <iterator>
 #include <algorithm>
 #include <array>
 #include <cstddef>
