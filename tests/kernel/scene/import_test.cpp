@@ -142,8 +142,9 @@ TEST(Heightfield, OfTwoGroundsTheHigherOneCounts) {
   for (const auto& [thickness, expected] : {std::pair{3, 5}, std::pair{7, 7}}) {
     const std::string floor = "[[inert]]\nshape = \"floor\"\nthickness = " + std::to_string(thickness) + "\n";
     for (const bool first : {false, true}) {
-      const Scene scene = folder.load_text(first ? grid + floor + hill : grid + hill + floor,
-                                           {first ? "inert.1.base=5" : "inert.0.base=5"});
+      std::string text = grid;
+      text.append(first ? floor : hill).append(first ? hill : floor);
+      const Scene scene = folder.load_text(text, {first ? "inert.1.base=5" : "inert.0.base=5"});
       EXPECT_FLOAT_EQ(scene.terrain.height[40], static_cast<float>(expected)) << thickness << first;
       EXPECT_EQ(scene.initial.inert.count(), expected * 16 * 16) << thickness << first;
     }

@@ -38,6 +38,7 @@ class Fastest : public testing::Test {
     return choose(registry_, file(), machine, [this](const std::vector<const step::Implementation*>& all) {
       ++trials_;
       std::vector<TrialTime> times;
+      times.reserve(all.size());
       for (const step::Implementation* one : all) times.push_back({one, seconds_.at(one->name)});
       return times;
     });
