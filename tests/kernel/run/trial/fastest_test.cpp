@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -84,8 +85,10 @@ TEST_F(Fastest, RememberedForOneMachine) {
 }
 
 TEST_F(Fastest, TheLastEightMachines) {
-  for (int i = 0; i < 20; ++i) choice("machine" + std::to_string(i));
-  ASSERT_EQ(lines().size(), 8U);
+  for (std::size_t i = 0; i < 20; ++i) {
+    choice("machine" + std::to_string(i));
+    ASSERT_EQ(lines().size(), std::min(i + 1, std::size_t{8}));
+  }
   EXPECT_TRUE(lines().front().starts_with("machine12 wide "));
   EXPECT_TRUE(lines().back().starts_with("machine19 wide "));
 }
