@@ -188,6 +188,11 @@ inline __m512i shuffle_epi8(__m512i a, __m512i which) {
 inline __m512i permutexvar_epi16(__m512i which, __m512i a) {
   return lanes<U16>([x = (U16)a, w = (U16)which](int i) { return x[w[i] % 32]; });
 }
+inline __m512i permutex2var_epi16(__m512i a, __m512i which, __m512i b) {
+  return lanes<U16>([x = (U16)a, y = (U16)b, w = (U16)which](int i) {
+    return w[i] % 64 < 32 ? x[w[i] % 32] : y[w[i] % 32];
+  });
+}
 
 // Masks: bit i for lane i.
 template <class V>
@@ -277,6 +282,7 @@ inline __m512i blend(Mask<V> k, __m512i no, __m512i yes) {
 #define _mm512_mullo_epi32 emulated::mullo<emulated::U32>
 #define _mm512_or_si512 emulated::bitwise_or
 #define _mm512_packus_epi32 emulated::packus_epi32
+#define _mm512_permutex2var_epi16 emulated::permutex2var_epi16
 #define _mm512_permutexvar_epi16 emulated::permutexvar_epi16
 #define _mm512_rol_epi32 emulated::rol_epi32
 #define _mm512_ror_epi32 emulated::ror_epi32

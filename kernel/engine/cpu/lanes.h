@@ -71,6 +71,8 @@ struct LanesOf {
   static constexpr int kCount = static_cast<int>(V::size);
   static constexpr int kParts = 64 / kCount;
   static constexpr int kTwins = kParts / 2;  // pairs of vectors in a word
+  // Does a sum under a mask cost no more than a sum?
+  static constexpr bool kMaskedSums = std::is_same_v<Arch, xsimd::avx512bw>;
 
   // Does the word have a bit among the lanes of the part? Most words of a scene are empty but for one or two
   // parts, so asking is cheaper than computing.
@@ -81,6 +83,16 @@ struct LanesOf {
   VOXMELT_LANES V load(const std::uint16_t* at) { return V::load_aligned(at); }  // 64-byte aligned rows
   VOXMELT_LANES V load_any(const std::uint16_t* at) { return V::load_unaligned(at); }
   VOXMELT_LANES void store(std::uint16_t* at, V v) { v.store_aligned(at); }
+  // The lanes at + dx, for an aligned address and dx from -1 to 1; bytes as lanes.
+  template <int dx>
+  VOXMELT_LANES V load_beside(const std::uint16_t* at) {
+    if constexpr (dx == 0) return load(at);
+    return load_any(at + dx);
+  }
+  template <int dx>
+  VOXMELT_LANES V widen_beside(const std::uint8_t* at) {
+    return Lanes<Arch>::widen_bytes(at + dx);
+  }
   VOXMELT_LANES V set(int value) { return V(static_cast<std::uint16_t>(value)); }
   VOXMELT_LANES V zero() { return V(std::uint16_t{0}); }
 

@@ -72,6 +72,32 @@ struct Lanes<xsimd::avx512bw> : LanesOf<xsimd::avx512bw> {
   VOXMELT_LANES V widen_bytes(const std::uint8_t* at) {
     return V(_mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at))));
   }
+  // Beside a whole line of the cache, every vector lies across two. So aligned ones are put together.
+  template <int dx>
+  VOXMELT_LANES V load_beside(const std::uint16_t* at) {
+    if constexpr (dx == 0) return load(at);
+    // Lane i comes from lane i + dx; from 32 on it is one of the other vector's.
+    const __m512i right = _mm512_setr_epi32(
+        0x00020001, 0x00040003, 0x00060005, 0x00080007, 0x000A0009, 0x000C000B, 0x000E000D, 0x0010000F,
+        0x00120011, 0x00140013, 0x00160015, 0x00180017, 0x001A0019, 0x001C001B, 0x001E001D, 0x0020001F);
+    const __m512i left = _mm512_setr_epi32(
+        0x0000003F, 0x00020001, 0x00040003, 0x00060005, 0x00080007, 0x000A0009, 0x000C000B, 0x000E000D,
+        0x0010000F, 0x00120011, 0x00140013, 0x00160015, 0x00180017, 0x001A0019, 0x001C001B, 0x001E001D);
+    return V(_mm512_permutex2var_epi16(load(at), dx > 0 ? right : left, load(at + 32 * dx)));
+  }
+  template <int dx>
+  VOXMELT_LANES V widen_beside(const std::uint8_t* at) {
+    const auto half = [](const std::uint8_t* from) VOXMELT_LAMBDA {
+      return _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
+    };
+    const __m256i own = half(at);
+    if constexpr (dx == 0) return V(_mm512_cvtepu8_epi16(own));
+    const __m256i other = half(at + 32 * dx);
+    const __m256i middle =
+        dx > 0 ? _mm256_permute2x128_si256(own, other, 0x21) : _mm256_permute2x128_si256(other, own, 0x21);
+    return V(_mm512_cvtepu8_epi16(dx > 0 ? _mm256_alignr_epi8(middle, own, 1)
+                                         : _mm256_alignr_epi8(own, middle, 15)));
+  }
   VOXMELT_LANES M has(V v, int bits) {
     return M(_mm512_test_epi16_mask(v, _mm512_set1_epi16(static_cast<short>(bits))));
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 
 #include "kernel/engine/parallel/tiles.h"
 
@@ -21,10 +22,14 @@ struct Band {
 
 class Bands {
  public:
-  static constexpr int kTall = 5;  // a tall band has 2^kTall rows, or one tile row if that is more
+  // A tall band of a slice has 32 rows or more, up to these cells: what three slices of it hold and give fits
+  // into the second cache level.
+  static constexpr std::size_t kCells = 16384;
 
-  explicit Bands(const simd::View& view)
-      : shift_(std::max(view.tile_shift, kTall)), more_(shift_ - view.tile_shift), rows_(view.tile_rows()) {}
+  explicit Bands(const simd::View& view) : shift_(view.tile_shift), rows_(view.tile_rows()) {
+    while (shift_ < 5 || (shift_ < 12 && view.row << (shift_ + 1) <= kCells)) ++shift_;
+    more_ = shift_ - view.tile_shift;
+  }
 
   int shift() const { return shift_; }                                        // of a tall band
   int end(int first) const { return std::min(first + (1 << more_), rows_); }  // of the band that begins there
@@ -32,7 +37,7 @@ class Bands {
   static Band single(const simd::View& view, int row) { return {view, row, row, row + 1}; }
 
  private:
-  int shift_, more_, rows_;
+  int shift_, more_ = 0, rows_;
 };
 
 // Are three quarters of these tile rows complete? In a thin scene a quarter is soon found to be missing.

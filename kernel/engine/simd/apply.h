@@ -18,6 +18,8 @@ class Apply {
   using V = typename L::V;
   using M = typename L::M;
   static constexpr int kDirections = kFeatures.eight ? 8 : 4;
+  // A gift to a diagonal is a quarter of the one that is stored.
+  static constexpr bool kQuarters = kFeatures.eight && !kFeatures.general && !L::kMaskedSums;
 
  public:
   [[gnu::always_inline]] Apply(const View& view, const Step& step, int z, const Gifts& below,
@@ -59,6 +61,7 @@ class Apply {
       }
       process(count);
     }
+    flush();
     return changed;
   }
 
@@ -120,7 +123,7 @@ class Apply {
   [[gnu::always_inline]] void process(int count) {
     if (count == 0) return;
     for (int i = 0; i < count; ++i) vectors(items_[i]);
-    flush();
+    if ((++batches_ & 255) == 0) flush();  // sums hold 32,768 vectors
   }
 
   [[gnu::always_inline]] void vectors(Item item) {
@@ -147,23 +150,30 @@ class Apply {
     }
 
     V in = L::zero(), energy_in = L::zero();
+    V diagonal_in = L::zero(), diagonal_energy = L::zero();  // with kQuarters: four times these
     typename L::Wide content{};
     V taken, heats;
     cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
       // The neighbour there gives in the opposite direction.
       constexpr int opposite = d ^ (d < 4 ? 1 : 3);
-      constexpr std::ptrdiff_t dx = d < 4 ? (d == 0) - (d == 1) : (d < 6 ? 1 : -1);
+      constexpr int dx = d < 4 ? (d == 0) - (d == 1) : (d < 6 ? 1 : -1);
       const Gifts& giver = d < 2 ? own_ : (d % 2 == 0 ? above_ : below_);
       const std::size_t row_at = d < 2 ? own_at_ : (d % 2 == 0 ? above_at_ : below_at_);
-      const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(row_at + at(item)) + dx;  // it may be -1
-      const M takes = L::has(L::widen_bytes(giver.pattern + from), 1 << opposite);
-      energy_in = L::add_if(takes, energy_in, energy_flow<opposite>(giver, from));
-      if constexpr (!kFeatures.hot) {
-        in = L::add_if(takes, in, flow<opposite>(giver, from));
+      const std::size_t here = row_at + at(item);
+      const M takes = L::has(L::template widen_beside<dx>(giver.pattern + here), 1 << opposite);
+      if constexpr (kQuarters && d >= 4) {
+        const V whole = L::keep(takes, L::set(0xFFFC));
+        diagonal_energy = diagonal_energy + (whole & L::template load_beside<dx>(giver.energy[0] + here));
+        if constexpr (!kFeatures.hot)
+          diagonal_in = diagonal_in + (whole & L::template load_beside<dx>(giver.flow[0] + here));
       } else {
-        const V given = L::keep(takes, flow<opposite>(giver, from));
+        energy_in = L::add_if(takes, energy_in, energy_flow<opposite, dx>(giver, here));
+        if constexpr (!kFeatures.hot) in = L::add_if(takes, in, flow<opposite, dx>(giver, here));
+      }
+      if constexpr (kFeatures.hot) {
+        const V given = L::keep(takes, flow<opposite, dx>(giver, here));
         in = in + given;
-        const V heat = L::load_any(giver.heat + from);
+        const V heat = L::template load_beside<dx>(giver.heat + here);
         if constexpr (d % 2 == 0) {
           taken = given;
           heats = heat;
@@ -172,6 +182,11 @@ class Apply {
         }
       }
     });
+
+    if constexpr (kQuarters) {
+      in = in + L::template shift_right<2>(diagonal_in);
+      energy_in = energy_in + L::template shift_right<2>(diagonal_energy);
+    }
 
     const V kept = amount - out, now = kept + in;
     L::store(v_.amount + cell, now);
@@ -206,13 +221,20 @@ class Apply {
   }
 
   // Lean: one flow for the axes and one for the diagonals.
-  template <int d>
-  [[gnu::always_inline]] static V flow(const Gifts& gifts, auto at) {
-    return L::load_any(gifts.flow[kFeatures.general ? d : d / 4 * 4] + at);
+  template <int d, int dx = 0>
+  [[gnu::always_inline]] static V flow(const Gifts& gifts, std::size_t at) {
+    return given<d, dx>(gifts.flow, at);
   }
-  template <int d>
-  [[gnu::always_inline]] static V energy_flow(const Gifts& gifts, auto at) {
-    return L::load_any(gifts.energy[kFeatures.general ? d : d / 4 * 4] + at);
+  template <int d, int dx = 0>
+  [[gnu::always_inline]] static V energy_flow(const Gifts& gifts, std::size_t at) {
+    return given<d, dx>(gifts.energy, at);
+  }
+  template <int d, int dx>
+  [[gnu::always_inline]] static V given(std::uint16_t* const* planes, std::size_t at) {
+    if constexpr (kQuarters && d >= 4)
+      return L::template shift_right<2>(L::template load_beside<dx>(planes[0] + at));
+    else
+      return L::template load_beside<dx>(planes[kFeatures.general ? d : d / 4 * 4] + at);
   }
 
   // (alpha e + D) >> 16. Under the printed reading the giver has paid already.
@@ -247,6 +269,7 @@ class Apply {
   Mix<Arch> mix_;
   // With eight neighbours, a cell gives or takes at most 5 ONE; with four, 8 ONE.
   std::conditional_t<kFeatures.eight, typename L::SmallSums, typename L::Sums> dissipated_, capped_;
+  int batches_ = 0;
   Item items_[kBatch];
 };
 

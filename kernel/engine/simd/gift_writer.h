@@ -40,12 +40,13 @@ class GiftWriter {
     return capped(amount, share);
   }
 
-  // One gift for all directions of an axis, one for all diagonals.
+  // One gift for all directions of an axis. That of a diagonal is its quarter, which `apply` takes when it
+  // reads the gift, unless sums under a mask are free.
   [[gnu::always_inline]] void write(std::size_t at, V flow, V share) const {
     const V warm = L::min(flow, L::high(L::load(energy_ + at), share));
     L::store(gifts_.flow[0] + at, flow);
     L::store(gifts_.energy[0] + at, warm);
-    if constexpr (kFeatures.eight) {
+    if constexpr (kFeatures.eight && L::kMaskedSums) {
       L::store(gifts_.flow[4] + at, L::template shift_right<2>(flow));
       L::store(gifts_.energy[4] + at, L::template shift_right<2>(warm));
     }

@@ -148,6 +148,15 @@ struct LaneLoops {
       L::store(out + i, L::after(L::load(previous + i), L::load(current + i)));
   }
 
+  static void beside(In at, Out left, Out right) {
+    L::store(left, L::template load_beside<-1>(at));
+    L::store(right, L::template load_beside<1>(at));
+  }
+  static void bytes_beside(const std::uint8_t* at, Out left, Out right) {
+    L::store(left, L::template widen_beside<-1>(at));
+    L::store(right, L::template widen_beside<1>(at));
+  }
+
   template <class Sums>
   static std::uint64_t total(std::size_t size, In a) {
     Sums sums;
@@ -215,6 +224,8 @@ struct LaneLoops {
             pair_product,
             pair_sums,
             after,
+            beside,
+            bytes_beside,
             total<typename L::Sums>,
             total<typename L::SmallSums>,
             mix,

@@ -56,6 +56,9 @@ struct Operations {
   void (*pair_sums)(std::size_t size, const std::uint16_t* a, const std::uint16_t* b, std::int32_t* out);
   void (*after)(std::size_t size, const std::uint16_t* previous, const std::uint16_t* current,
                 std::uint16_t* out);
+  // Vectors beginning at `at` - 1 and at `at` + 1; of bytes, too.
+  void (*beside)(const std::uint16_t* at, std::uint16_t* left, std::uint16_t* right);
+  void (*bytes_beside)(const std::uint8_t* at, std::uint16_t* left, std::uint16_t* right);
   std::uint64_t (*total)(std::size_t size, const std::uint16_t* a);
   std::uint64_t (*small_total)(std::size_t size, const std::uint16_t* a);  // of lanes below 32,768
   // The mean heat of two parts. Returns what was rounded, in lanes with a1 > 0.

@@ -76,6 +76,28 @@ TEST_P(Vectors, LanesMoveUpByOne) {
     EXPECT_EQ(got[i], i % count == 0 ? previous[i + count - 1] : current[i - 1]) << i;
 }
 
+TEST_P(Vectors, VectorsBesideAnAlignedOne) {
+  Row<192> values;
+  alignas(64) std::uint8_t bytes[192];
+  Numbers random(8);
+  fill(values, random);
+  for (std::size_t i = 0; i < 192; ++i) bytes[i] = static_cast<std::uint8_t>(values[i] >> 5);
+  const auto count = static_cast<std::size_t>(own_.count);
+  for (std::size_t at = 64; at < 128; at += count) {
+    Row<64> left, right;
+    own_.beside(values.data() + at, left.data(), right.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(left[i], values[at + i - 1]) << at << " " << i;
+      EXPECT_EQ(right[i], values[at + i + 1]) << at << " " << i;
+    }
+    own_.bytes_beside(bytes + at, left.data(), right.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(left[i], bytes[at + i - 1]) << at << " " << i;
+      EXPECT_EQ(right[i], bytes[at + i + 1]) << at << " " << i;
+    }
+  }
+}
+
 TEST_P(Vectors, SignedProductsAddUpInPairs) {
   Row<64> a, b, c, d, low, high;
   alignas(64) std::int32_t sums[32];

@@ -41,6 +41,8 @@ bool same_whole_steps(const Parameters& parameters, const Volume& start, const s
                       const step::Tuning& tuning, int count, Random& random) {
   run::Simulation expected(parameters, start, implementation("reference"));
   run::Simulation actual(parameters, start, implementation(name), tuning);
+  Volume before = start;
+  state::ChangedBricks::Seen seen = actual.volume().changed.now();
   for (int step = 0; step < count; ++step) {
     expected.step();
     if (random.one_in(4)) {  // somebody looks in between
@@ -50,7 +52,11 @@ bool same_whole_steps(const Parameters& parameters, const Volume& start, const s
     } else {
       actual.step();
     }
-    const std::string found = difference(expected.volume(), actual.volume());
+    std::string found = difference(expected.volume(), actual.volume());
+    if (const std::string change = untold(before, seen, actual.volume()); !change.empty())
+      found += " untold: " + change;
+    before = actual.volume();
+    seen = actual.volume().changed.now();
     if (found.empty() && expected.ledger() == actual.ledger()) continue;
     ADD_FAILURE() << name << ", threads " << tuning.threads << ", tile_shift " << tuning.tile_shift
                   << ", sleep " << tuning.sleep << ", step " << step << ": "
