@@ -39,6 +39,15 @@ json machine_json(const Findings& findings) {
           {"lanes_16_bit", rates}};
 }
 
+json needed_json(const Case& one) {
+  if (!one.needed) return nullptr;
+  return {{"gravity_vectors", one.needed->gravity},
+          {"spread_vectors", one.needed->spread},
+          {"heat_vectors", one.needed->heat},
+          {"milliseconds_at_full_volume_speed",
+           one.least_seconds ? json(*one.least_seconds * 1e3) : json(nullptr)}};
+}
+
 json case_json(const Case& one) {
   json phases;
   for (std::size_t p = 0; p < step::kPhaseCount; ++p)
@@ -46,7 +55,8 @@ json case_json(const Case& one) {
   json roof = nullptr;
   if (one.roof)
     roof = {{"operations_cells_per_second", one.roof->operations},
-            {"bytes_cells_per_second", one.roof->bytes}};
+            {"bytes_cells_per_second", one.roof->bytes},
+            {"multiply_rate_cells_per_second", one.roof->multiplies}};
   return {{"name", one.name},
           {"subject", name_of(one.subject)},
           {"workload", one.workload},
@@ -66,6 +76,7 @@ json case_json(const Case& one) {
           {"bytes_per_cell", one.bytes_per_cell},
           {"multiplies_per_cell", one.work.multiplies},
           {"other_operations_per_cell", one.work.others},
+          {"needed", needed_json(one)},
           {"roof", roof},
           {"percent_of_roof", number(one.percent_of_roof())},
           {"ratio_to_baseline", number(one.ratio_to_baseline)},

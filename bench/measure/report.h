@@ -13,7 +13,7 @@ namespace voxmelt::measure {
 std::string bench_json(const Findings& findings, const std::string& version);
 
 // Tables in Markdown, each after a line "<!-- table: NAME -->".
-std::string short_tables(const Findings& findings);    // machine, scenes, dense, picture
+std::string short_tables(const Findings& findings);    // machine, scenes, dense, bounds, densebounds, picture
 std::string full_tables(const Findings& findings);     // memory, rates, flow, heat, scaling, roofs
 std::string picture_tables(const Findings& findings);  // drawing, drawings, grids, films
 

@@ -191,7 +191,7 @@ Work work_of(Subject subject, const rule::Parameters& parameters) {
 Roof roof_of(const Work& work, const LaneRates& rates, const Bandwidth& bandwidth) {
   // Multiplies have a limit of their own, besides that of all operations.
   return {std::min(rates.multiply / work.multiplies, rates.add / work.operations()),
-          bandwidth.best() / work.bytes};
+          bandwidth.best() / work.bytes, rates.multiply / work.operations()};
 }
 
 }  // namespace voxmelt::measure

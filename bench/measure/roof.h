@@ -37,6 +37,7 @@ Work work_of(Subject subject, const rule::Parameters& parameters);
 
 struct Roof {
   double operations = 0, bytes = 0;  // cells per second
+  double multiplies = 0;             // likewise, if every operation were as slow as a multiply
   double cells() const { return operations < bytes ? operations : bytes; }
 };
 Roof roof_of(const Work& work, const LaneRates& rates, const Bandwidth& bandwidth);

@@ -1,4 +1,4 @@
-// The three tables of docs/performance.md: the widest instruction set on all threads.
+// The tables of docs/performance.md: most show the widest instruction set on all threads.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -75,6 +75,45 @@ std::string dense_table(const Findings& findings) {
   return text + "\n";
 }
 
+// Of flow and heat in the scenes that are bounded: what they take, and the least.
+std::string bound_table(const Findings& findings) {
+  const std::vector<const Case*> flows = widest(findings, "scene:", Subject::flow);
+  std::string text = "<!-- table: bounds -->\n" + caption(flows);
+  text +=
+      "| scene | subject | vectors that change | ms per step | least, ms | "
+      "x baseline | at most |\n"
+      "|---|---|--:|--:|--:|--:|--:|\n";
+  for (const Subject subject : {Subject::flow, Subject::heat})
+    for (const Case* one : widest(findings, "scene:", subject)) {
+      if (!one->least_seconds) continue;
+      const Needed& needed = *one->needed;
+      const std::string vectors = subject == Subject::heat
+                                      ? fmt::format("{:.0f}", needed.heat)
+                                      : fmt::format("{:.0f}, {:.0f}", needed.gravity, needed.spread);
+      text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n",
+                          one->workload.substr(std::string_view("scene:").size()), name_of(subject), vectors,
+                          milliseconds(one->seconds), milliseconds(*one->least_seconds),
+                          or_dash(one->ratio_to_baseline), or_dash(one->least_ratio_to_baseline()));
+    }
+  return text + "\n";
+}
+
+// Flow of full volumes under the paper's law on one thread, nanoseconds a cell.
+std::string dense_bound_table(const Findings& findings) {
+  std::string text = "<!-- table: densebounds -->\n";
+  text +=
+      "| volume | instruction set | ns a cell | every operation at the rate of multiplies | counted roof |\n"
+      "|---|---|--:|--:|--:|\n";
+  const auto nanoseconds = [](double per_second) { return three_digits(1e9 / per_second); };
+  for (const Case& one : findings.cases)
+    if (one.threads == 1 && one.subject == Subject::flow && one.law == rule::Law::paper && one.roof &&
+        one.workload.starts_with("dense:"))
+      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", one.workload, one.implementation,
+                          nanoseconds(one.active_per_second()), nanoseconds(one.roof->multiplies),
+                          nanoseconds(one.roof->cells()));
+  return text + "\n";
+}
+
 std::string picture_table(const Findings& findings) {
   std::string text = "<!-- table: picture -->\n";
   text +=
@@ -90,7 +129,8 @@ std::string picture_table(const Findings& findings) {
 }  // namespace
 
 std::string short_tables(const Findings& findings) {
-  return machine_text(findings) + scene_table(findings) + dense_table(findings) + picture_table(findings);
+  return machine_text(findings) + scene_table(findings) + dense_table(findings) + bound_table(findings) +
+         dense_bound_table(findings) + picture_table(findings);
 }
 
 }  // namespace voxmelt::measure

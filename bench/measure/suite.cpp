@@ -57,6 +57,28 @@ std::vector<Scaling> scaling_of(const std::vector<Case>& cases) {
   return result;
 }
 
+void bound_scenes(std::vector<Case>& cases) {
+  const auto full = [&](const Case& scene, Subject subject, const std::string& workload) {
+    std::optional<FullVolume> found;
+    for (const Case& one : cases)
+      if (one.workload == workload && one.subject == subject && one.threads == 1 &&
+          one.implementation == scene.implementation)
+        found = FullVolume{one.step, static_cast<double>(one.cells)};
+    return found;
+  };
+  for (Case& one : cases) {
+    const std::optional<cpu::InstructionSet> set = set_named(one.implementation);
+    if (!one.needed || !set) continue;
+    const auto flow = full(one, Subject::flow,
+                           fmt::format("dense:{}/law:paper/heat:{}", kFullSide, one.hot ? "on" : "off"));
+    const auto heat =
+        full(one, Subject::heat, fmt::format("dense:{}/solid/neighbours:{}", kFullSide, one.heat_neighbours));
+    if (!flow) continue;
+    const LeastSeconds least = least_seconds(*one.needed, lanes_of(*set), one.threads, *flow, heat);
+    one.least_seconds = one.subject == Subject::heat ? least.heat : least.flow;
+  }
+}
+
 Suite::Suite(Plan plan, Tell tell) : plan_(std::move(plan)), tell_(std::move(tell)) {
   findings_.machine_text = describe_machine();
   findings_.load_before = load_average();
@@ -96,6 +118,8 @@ std::vector<Case> Suite::cases_of(const Workload& workload, const Result& result
       one.judge = workload.judge;
       one.grid = workload.start.grid;
       one.cells = static_cast<std::int64_t>(workload.start.grid.cells());
+      one.hot = workload.parameters.heat.enabled;
+      one.heat_neighbours = workload.parameters.heat.neighbours;
       one.active = active_cells(workload, heat);
       one.rounds = result.rounds;
       one.step = timing.step;
@@ -137,9 +161,21 @@ void Suite::run(const Workload& workload, bool baseline) {
   }
 }
 
+void Suite::count_needed(const Workload& workload) {
+  if (workload.parameters.flow.law != rule::Law::paper) return;
+  std::vector<int> lanes;
+  for (const cpu::InstructionSetRow& row : cpu::kInstructionSets) lanes.push_back(lanes_of(row.set));
+  const std::vector<Needed> needed = needed_vectors(workload, lanes);
+  for (Case& one : findings_.cases) {
+    const std::optional<cpu::InstructionSet> set = set_named(one.implementation);
+    if (one.workload == workload.name && set) one.needed = needed[static_cast<std::size_t>(*set)];
+  }
+}
+
 void Suite::run_scene(const Workload& workload, const scene::Scene& scene) {
   const std::size_t rows = findings_.table_1.size();
   run(workload);
+  count_needed(workload);
   if (findings_.table_1.size() == rows) return;  // not one of the paper's
   const std::string as = findings_.table_1.back().scene;
   for (const int threads : plan_.threads) {
@@ -158,8 +194,11 @@ void Suite::run_scene(const Workload& workload, const scene::Scene& scene) {
 }
 
 void Suite::run_dense() {
-  const int n = plan_.quick ? 64 : 128;
-  for (const bool heat : {false, true}) run(dense_paper(n, heat));
+  for (const bool heat : {false, true}) run(dense_paper(kFullSide, heat));
+  if (!plan_.quick) run(dense_heat(kFullSide, 6));
+  const int n = plan_.quick ? kFullSide : 128;
+  if (!plan_.quick)
+    for (const bool heat : {false, true}) run(dense_paper(n, heat));
   for (const bool heat : {false, true}) run(dense_viscous(n, heat));
   if (!plan_.quick) run(dense_paper(256, false));
   run(dense_heat(n, 6));
@@ -202,6 +241,7 @@ const MeltFilm& Suite::run_film(const scene::Scene& scene) {
 Findings Suite::take() {
   findings_.machine.refresh_all();
   for (Case& one : findings_.cases) one.roof = roof_of_case(one);
+  bound_scenes(findings_.cases);
   findings_.scaling = scaling_of(findings_.cases);
   findings_.load_after = load_average();
   return std::move(findings_);

@@ -13,6 +13,7 @@
 #include "bench/measure/machine.h"
 #include "bench/measure/measure.h"
 #include "bench/measure/melt_film.h"
+#include "bench/measure/needed.h"
 #include "bench/measure/roof.h"
 
 namespace voxmelt::measure {
@@ -27,22 +28,35 @@ struct Case {
   std::string judge;
   state::Grid grid;
   std::int64_t cells = 0, active = 0;  // of the grid; that have to do with the subject
-  int rounds = 0;                      // that the minima were taken over
-  Seconds step;                        // with all phases
-  double seconds = 0;                  // of the subject in that step
-  double median_seconds = 0;           // of the rounds, each with a mean step
-  double bytes_per_cell = 0;           // that the definition needs
+  bool hot = false;                    // the state has heat
+  int heat_neighbours = 0;
+  int rounds = 0;             // that the minima were taken over
+  Seconds step;               // with all phases
+  double seconds = 0;         // of the subject in that step
+  double median_seconds = 0;  // of the rounds, each with a mean step
+  double bytes_per_cell = 0;  // that the definition needs
   Work work;
   std::size_t footprint = 0;  // bytes of the active cells' state
   std::optional<Roof> roof;   // none at rest, and for the reference
   std::optional<double> ratio_to_baseline, ratio_to_native;
+  std::optional<Needed> needed;         // of a scene under the paper's law
+  std::optional<double> least_seconds;  // what they take at the speed of a full volume
 
   double cells_per_second() const { return static_cast<double>(cells) / seconds; }
   double active_per_second() const { return static_cast<double>(active) / seconds; }
   std::optional<double> percent_of_roof() const {
     return roof ? std::optional(100 * active_per_second() / roof->cells()) : std::nullopt;
   }
+  std::optional<double> least_ratio_to_baseline() const {
+    return least_seconds && ratio_to_baseline ? std::optional(*ratio_to_baseline * seconds / *least_seconds)
+                                              : std::nullopt;
+  }
 };
+
+// The full volume of kFullSide cells a side whose speed bounds scenes: it fits a second-level cache.
+inline constexpr int kFullSide = 64;
+// Sets least_seconds where the cases hold what it needs: full volumes on one thread, by the same kernels.
+void bound_scenes(std::vector<Case>& cases);
 
 // A row of the paper's Table 1 beside ours, milliseconds.
 struct TableRow {
@@ -113,6 +127,7 @@ class Suite {
   void run_large(Workload large);  // one implementation, judged by another
   std::vector<Case> cases_of(const Workload& workload, const Result& result);
   std::optional<Roof> roof_of_case(const Case& one);
+  void count_needed(const Workload& workload);
 
   Plan plan_;
   Tell tell_;

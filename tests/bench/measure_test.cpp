@@ -14,6 +14,7 @@
 
 #include "bench/measure/baseline_run.h"
 #include "bench/measure/machine.h"
+#include "bench/measure/needed.h"
 #include "bench/measure/report.h"
 #include "bench/measure/roof.h"
 #include "bench/measure/suite.h"
@@ -134,6 +135,7 @@ TEST(Measure, TheRoofIsTheLowestOfThreeLimits) {
   EXPECT_DOUBLE_EQ(roof_of(work, {1000, 8000}, {1e6, 0}).cells(), 100);
   EXPECT_DOUBLE_EQ(roof_of(work, {8000, 2000}, {1e6, 0}).cells(), 50);
   EXPECT_DOUBLE_EQ(roof_of(work, {8000, 8000}, {160, 80}).cells(), 20);
+  EXPECT_DOUBLE_EQ(roof_of(work, {1000, 8000}, {1e6, 0}).multiplies, 25) << "40 operations, each a multiply";
 }
 
 Seconds seconds(double gravity, double spread) {
@@ -257,6 +259,80 @@ TEST(Measure, ThePageShowsTheWidestSetOnAllThreads) {
   EXPECT_NE(text.find("| `cello/step:1050` | 1.50 | 2.0 % | 0.500 | 12.0 | – | – |"), std::string::npos)
       << text;
   EXPECT_EQ(text.find("1.00 |"), std::string::npos) << "another set or fewer threads\n" << text;
+}
+
+// One cell of liquid hangs in the air, 17 cells from the wall: it falls each step, and changes two vectors,
+// above and below. A vector holds 8, 16 or 32 cells, and there are no others that change.
+TEST(Needed, AFallingCellChangesTwoVectors) {
+  Workload workload;
+  workload.start = state::Volume(state::Grid{40, 12, 3});
+  workload.start.amount[workload.start.at(17, 10, 1)] = rule::kOne;
+  workload.start.liquid.set(17, 10, 1, true);
+  workload.lead_steps = 1;
+  workload.steps = 3;
+  for (const Needed& needed : needed_vectors(workload, {8, 16, 32})) {
+    EXPECT_DOUBLE_EQ(needed.gravity, 2);
+    EXPECT_DOUBLE_EQ(needed.heat, 0);
+  }
+}
+
+// A row of 33 cells falls as one: it lies in five vectors of 8, three of 16, two of 32; each in two rows.
+TEST(Needed, VectorsAreThoseOfTheInstructionSet) {
+  Workload workload;
+  workload.start = state::Volume(state::Grid{33, 8, 1});
+  for (int x = 0; x < 33; ++x) {
+    workload.start.amount[workload.start.at(x, 6, 0)] = rule::kOne;
+    workload.start.liquid.set(x, 6, 0, true);
+  }
+  workload.lead_steps = 0;
+  workload.steps = 2;
+  const std::vector<Needed> needed = needed_vectors(workload, {8, 16, 32});
+  EXPECT_DOUBLE_EQ(needed[0].gravity, 10);
+  EXPECT_DOUBLE_EQ(needed[1].gravity, 6);
+  EXPECT_DOUBLE_EQ(needed[2].gravity, 4);
+}
+
+// 100 vectors of gravity and 50 of spread, of 16 cells, on two threads. A full volume of 1000 cells takes 2
+// and 6 ms: (1600 x 2 us + 800 x 6 us) / 2. Heat: 10 x 16 cells at 5 us, halved.
+TEST(Needed, TheLeastTimeIsThatOfFullVectors) {
+  Seconds solid;
+  solid.phase[static_cast<std::size_t>(step::Phase::heat)] = 4e-3;
+  solid.phase[static_cast<std::size_t>(step::Phase::melt)] = 1e-3;
+  const LeastSeconds least =
+      least_seconds({100, 50, 10}, 16, 2, {seconds(2e-3, 6e-3), 1000}, FullVolume{solid, 1000});
+  EXPECT_DOUBLE_EQ(least.flow, 4e-3);
+  EXPECT_DOUBLE_EQ(*least.heat, 0.4e-3);
+}
+
+// Only the full volume with heat, by the same set on one thread, bounds a scene with heat.
+TEST(Needed, AScenesBoundIsThatOfItsSet) {
+  std::vector<Case> cases;
+  const auto add = [&](const char* workload, const char* set, int threads, double spread) -> Case& {
+    Case& one = cases.emplace_back();
+    one.workload = workload;
+    one.implementation = set;
+    one.threads = threads;
+    one.cells = 1 << 18;
+    one.step = seconds(0, spread);
+    one.seconds = spread;
+    one.hot = true;
+    return one;
+  };
+  const std::string first(cpu::kInstructionSets.front().name);
+  const double per_cell = 1e-9 * (1 << 18);
+  add("dense:64/law:paper/heat:off", first.c_str(), 1, 1 * per_cell);
+  add("dense:64/law:paper/heat:on", first.c_str(), 1, 3 * per_cell);
+  add("dense:64/law:paper/heat:on", first.c_str(), 2, 2 * per_cell);
+  add("dense:64/law:paper/heat:on", "reference", 1, 100 * per_cell);
+  Case& scene = add("scene:cello/step:1050", first.c_str(), 2, 1e-3);
+  scene.needed = Needed{0, 1000, 0};
+  scene.ratio_to_baseline = 20;
+  bound_scenes(cases);
+  // 1000 vectors of 8 cells at 3 ns, on two threads.
+  ASSERT_TRUE(cases.back().least_seconds);
+  EXPECT_DOUBLE_EQ(*cases.back().least_seconds, 12e-6);
+  EXPECT_DOUBLE_EQ(*cases.back().least_ratio_to_baseline(), 20 * 1e-3 / 12e-6);
+  EXPECT_FALSE(cases.front().least_seconds);
 }
 
 TEST(Machine, MoreThreadsAreNeverAWorseBound) {
