@@ -1,5 +1,6 @@
 #include "bench/measure/needed.h"
 
+#include <cstdint>
 #include <algorithm>
 #include <cstddef>
 #include <span>
