@@ -27,6 +27,9 @@
 #include "app/verify_machine.h"
 #include "app/verify_picture.h"
 #include "app/visibility.h"
+#include "hwmodel/explore/content.h"
+#include "hwmodel/explore/dram_time.h"
+#include "hwmodel/explore/schedule.h"
 #include "hwmodel/lockstep/replay.h"
 #include "hwmodel/lockstep/report.h"
 #include "hwmodel/machine/dram_streams.h"
@@ -256,6 +259,22 @@ int run_machine(VerifyCommand command) {
   return report.good() ? kDone : kCheckFailed;
 }
 
+// What the closed form says of each train on the DRAM, for a run that moves what the state holds at its
+// begin.
+void predict_on_memory(hwmodel::VerifyReport& report, const hwmodel::Design& design,
+                       const hwmodel::Preset& preset, run::Simulation& ahead) {
+  ahead.begin_step();  // its irradiance
+  const hwmodel::Configuration& c = preset.configuration;
+  const hwmodel::Design uncut{design.parameters, {ahead.volume().grid, c.lanes}, 1};
+  const std::vector<hwmodel::explore::Train> trains =
+      trains_of(design, c, report.first_step, report.steps,
+                hwmodel::explore::content_of(uncut, ahead.irradiance(), &ahead.volume()));
+  if (trains.size() != report.trains.size()) return;  // the state decides on sub-steps
+  for (std::size_t i = 0; i < trains.size(); ++i)
+    report.trains[i].predicted_on_memory = hwmodel::explore::cycles_on(
+        trains[i].work, *preset.caster.dram, preset.caster.clock_mhz, trains[i].placement);
+}
+
 // What the pipeline alone can do.
 void check_outputs(const VerifyCommand& command) {
   const bool pipeline = !command.picture.asked && !command.picture.machine;
@@ -314,7 +333,7 @@ int run_verify(VerifyCommand command) {
                       {"--shrink", command.shrink},
                       {"--size-fifos", command.size_fifos}});
   end_soon_at_interrupts();
-  const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
+  run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
 
   const VerifiedStream stream{scene.parameters, ahead.volume(), ahead.step_number(), command.steps};
   check_channels(stream, preset);
@@ -340,8 +359,9 @@ int run_verify(VerifyCommand command) {
   step::Tuning tuning;
   tuning.threads = thread_count(command.common);
   const step::Implementation& fast = find_implementation(command.common);
-  const hwmodel::VerifyReport report =
+  hwmodel::VerifyReport report =
       hwmodel::verify(scene.parameters, ahead.volume(), ahead.step_number(), fast, tuning, options);
+  if (preset.caster.dram) predict_on_memory(report, design, preset, ahead);
 
   const hwmodel::Verdict verdict = hwmodel::verdict_of(report, fault != nullptr);
   if (verdict == hwmodel::Verdict::never_struck)

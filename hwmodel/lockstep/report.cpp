@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "hwmodel/lockstep/report_details.h"
@@ -124,6 +126,13 @@ Traffic traffic_of(const VerifyReport& report) {
   return bits;
 }
 
+// The prediction, and by how much more cycles there are.
+std::string beside_prediction(std::int64_t cycles, std::int64_t predicted) {
+  return fmt::format("{} ({:+.2f} %)", predicted,
+                     100.0 * static_cast<double>(cycles - predicted) /
+                         static_cast<double>(std::max<std::int64_t>(1, predicted)));
+}
+
 // The text below the table: the whole machine, its bounds, and what it reached.
 std::string summary(const VerifyReport& report, const Design& design, const Configuration& configuration) {
   const Shape& shape = design.shape;
@@ -150,6 +159,7 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
       "{:.1f} GB/s\n",
       traffic.read, traffic.written, traffic.irradiance, traffic.total(), traffic.total() / 8 * 0.2);
 
+  const std::optional<std::int64_t> on_memory = report.predicted_on_memory();
   const auto cells = static_cast<double>(shape.grid.cells()) * report.steps;
   const double per_cycle = cells / static_cast<double>(report.cycles);
   const int bound = configuration.lanes * configuration.cascade;
@@ -162,13 +172,11 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
         shape.tiles(), width, shape.halo * shape.lanes,
         100.0 * twice / static_cast<double>(shape.grid.cells()));
   text += fmt::format(
-      "cycles: {} in {} passes; predicted without stalls {} ({:+.2f} %)\n{:.3f} cell-steps per cycle, {:.1f} "
-      "% of the "
+      "cycles: {} in {} passes; predicted without stalls {}{}\n{:.3f} cell-steps per cycle, {:.1f} % of the "
       "bound {} (lanes x cascade); lanes beyond the grid {:.1f} %, time steps without work {:.1f} %\n",
-      report.cycles, report.passes, report.predicted_cycles,
-      100.0 * static_cast<double>(report.cycles - report.predicted_cycles) /
-          static_cast<double>(std::max<std::int64_t>(1, report.predicted_cycles)),
-      per_cycle, 100.0 * per_cycle / bound, bound,
+      report.cycles, report.passes, beside_prediction(report.cycles, report.predicted_cycles),
+      on_memory ? ", on this memory " + beside_prediction(report.cycles, *on_memory) : "", per_cycle,
+      100.0 * per_cycle / bound, bound,
       100.0 * (1 - (static_cast<double>(shape.grid.cells()) + twice) / offered),
       100.0 * (1 - static_cast<double>(report.steps) /
                        static_cast<double>(report.passes * configuration.cascade)));
@@ -178,6 +186,15 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
 }
 
 }  // namespace
+
+std::optional<std::int64_t> VerifyReport::predicted_on_memory() const {
+  std::int64_t all = 0;
+  for (const TrainReport& train : trains) {
+    if (!train.predicted_on_memory) return std::nullopt;
+    all += *train.predicted_on_memory;
+  }
+  return trains.empty() ? std::nullopt : std::optional(all);
+}
 
 json json_of(const VerifyReport& report, const Design& design, const Configuration& configuration) {
   const bool complete = report.mismatch == nullptr;  // else some numbers would be of half a pass
@@ -231,6 +248,8 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
               {"seconds_model", report.model_seconds},
               {"stages", stages},
               {"channels", channels}};
+  if (const auto on_memory = report.predicted_on_memory(); complete && on_memory)
+    result["predicted_cycles_on_memory"] = *on_memory;
   if (report.irradiance)
     result["irradiance"] = {{"lit_cells", report.irradiance->lit_cells},
                             {"lit_tokens", report.irradiance->lit_tokens},

@@ -69,11 +69,14 @@ void add_details(Json& json, const VerifyReport& report, const Design& design,
     for (const auto& [name, cycles] : stage["cycles"].items()) stage["percent"][name] = percent(cycles, all);
   }
   json["trains"] = Json::array();
-  for (const TrainReport& train : report.trains)
+  for (const TrainReport& train : report.trains) {
     json["trains"].push_back({{"first_step", train.step},
                               {"passes", train.passes},
                               {"cycles", train.cycles},
                               {"predicted_cycles", train.predicted}});
+    if (train.predicted_on_memory)
+      json["trains"].back()["predicted_cycles_on_memory"] = *train.predicted_on_memory;
+  }
   if (report.mismatch == nullptr) json["cell_steps_per_cycle"] = bounds(json, report, design, configuration);
   if (report.timeline.stretches() > 0) json["timeline"] = json_of(report.timeline, json["stages"]);
 }

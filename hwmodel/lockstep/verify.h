@@ -40,6 +40,7 @@ struct VerifyOptions {
 struct TrainReport {
   std::uint32_t step = 0;  // its first one
   std::int64_t passes = 0, cycles = 0, predicted = 0;
+  std::optional<std::int64_t> predicted_on_memory{};  // by the closed form of a DRAM, if someone has asked it
 };
 
 struct VerifyReport {
@@ -64,6 +65,9 @@ struct VerifyReport {
   std::optional<state::Volume> replay;
   std::uint32_t replay_step = 0;
   std::uint32_t pass_end = 0;  // the step after the last one of the last pass
+
+  // Of all trains, where each has one.
+  std::optional<std::int64_t> predicted_on_memory() const;
 
   // Did the checker find the planted fault, and where it was planted?
   bool found_where_planted() const;

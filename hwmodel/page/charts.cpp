@@ -190,9 +190,13 @@ std::string roofline(const Json& of) {
 
 std::string against_prediction(const Json& trains, const std::vector<std::string>& hover) {
   double low = 0, high = 0;
+  const auto predicted = [](const Json& train) {
+    return train[train.contains("predicted_cycles_on_memory") ? "predicted_cycles_on_memory"
+                                                              : "predicted_cycles"]
+        .get<double>();
+  };
   for (const Json& train : trains)
-    for (const char* key : {"cycles", "predicted_cycles"}) {
-      const double value = train[key].get<double>();
+    for (const double value : {train["cycles"].get<double>(), predicted(train)}) {
       low = low == 0 ? value : std::min(low, value), high = std::max(high, value);
     }
   const bool wide = high > 20 * low;
@@ -204,8 +208,7 @@ std::string against_prediction(const Json& trains, const std::vector<std::string
   svg +=
       fmt::format(R"(<path class="exact" d="M{:.1f} {:.1f}L{:.1f} {:.1f}"/>)", kLeft, kBottom, kRight, kTop);
   for (std::size_t i = 0; i < trains.size(); ++i)
-    svg += dot(x(trains[i]["predicted_cycles"].get<double>()), y(trains[i]["cycles"].get<double>()), "f3",
-               hover[i]);
+    svg += dot(x(predicted(trains[i])), y(trains[i]["cycles"].get<double>()), "f3", hover[i]);
   return "<figure><figcaption>Predicted against simulated</figcaption>" + svg + "</svg>" +
          legend({{"b3", "simulated"}, {"line", "as predicted"}}) + "</figure>";
 }

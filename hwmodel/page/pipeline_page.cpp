@@ -37,7 +37,10 @@ std::string head(const Json& report, const std::string& title) {
           tally(good ? "no difference" : "DIFFERS", number(report["compared_cells"]) + " cells compared",
                 good ? "good word" : "bad word") +
           tally(number(report["cycles"]), "cycles, simulated");
-  if (good) body += tally(number(report["predicted_cycles"]), "cycles, predicted");
+  if (report.contains("predicted_cycles_on_memory"))
+    body += tally(number(report["predicted_cycles_on_memory"]), "cycles, predicted on this memory");
+  else if (good)
+    body += tally(number(report["predicted_cycles"]), "cycles, predicted");
   if (report.contains("cell_steps_per_cycle"))
     body += tally(number(report["cell_steps_per_cycle"]["reached"]), "cell-steps a cycle");
   body += tally(number(report["buffer_bits"]), "bits of buffers") + "</div>\n";
@@ -56,10 +59,13 @@ std::string charts(const Json& report) {
   if (report.contains("cell_steps_per_cycle")) figures += roofline(report["cell_steps_per_cycle"]);
   if (!report["trains"].empty()) {
     std::vector<std::string> hover;
-    for (const Json& train : report["trains"])
+    for (const Json& train : report["trains"]) {
       hover.push_back(fmt::format("from step {}, {} passes\nsimulated {}\npredicted {}",
                                   train["first_step"].dump(), train["passes"].dump(), number(train["cycles"]),
                                   number(train["predicted_cycles"])));
+      if (train.contains("predicted_cycles_on_memory"))
+        hover.back() += " without stalls, " + number(train["predicted_cycles_on_memory"]) + " on this memory";
+    }
     figures += against_prediction(report["trains"], hover);
   }
   if (figures.empty()) return "";

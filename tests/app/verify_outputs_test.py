@@ -161,6 +161,22 @@ class Outputs(unittest.TestCase):
         falling = [bounds[k] for k in ("lanes_and_steps", "lanes_in_the_grid", "steps_with_work", "fill_and_drain", "reached")]
         self.assertEqual(falling, sorted(falling, reverse=True))
 
+    def test_on_a_dram_the_prediction_knows_the_memory(self):
+        page, report = self.run_with_page(0, self.scene, "--steps", 9, "--set", "hw.lanes=16", "--set", "hw.cascade=3",
+                                          "--set", "hw.memory=ddr4-2400")
+        self.check_page(page, report, 1000)
+        on_memory = report["predicted_cycles_on_memory"]
+        self.assertEqual(sum(t["predicted_cycles_on_memory"] for t in report["trains"]), on_memory)
+        self.assertGreater(report["cycles"], 1.1 * report["predicted_cycles"], "the memory made nobody wait")
+        self.assertLess(abs(on_memory / report["cycles"] - 1), 0.1)
+        self.assertIn(f"{on_memory:,}", page)
+        said = voxmelt("verify", self.scene, "--steps", 9, "--set", "hw.lanes=16", "--set", "hw.cascade=3",
+                       "--set", "hw.memory=ddr4-2400").stdout
+        more = 100 * (report["cycles"] / on_memory - 1)
+        self.assertIn(f", on this memory {on_memory} ({more:+.2f} %)", said)
+        _, fixed = self.run_with_page(0, self.scene, "--steps", 9, "--set", "hw.lanes=16")
+        self.assertNotIn("predicted_cycles_on_memory", fixed)
+
     def test_what_stages_did_over_time_sums_to_their_accounts(self):
         for more in (["--set", "hw.lanes=16", "--steps", 1], ["--hw", "stalls", "--steps", 12]):
             _, report = self.run_with_page(0, self.scene, *more)
