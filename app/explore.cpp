@@ -96,6 +96,11 @@ int run_explore(ExploreCommand command) {
   explore::Axes axes = usual_axes(question);
   keep_only(axes, command.hw_sets);
   const explore::Swept swept = sweep(question, axes, stop_if_interrupted);
+  if (swept.points.empty())
+    throw UsageError(
+        fmt::format("error: hw.tile = {}: no lanes and steps that are tried can have such tiles: "
+                    "a multiple of the lanes, and wider than two halos",
+                    axes.tile.value_or(0)));
   const explore::Answer answer = answer_of(question, axes, swept);
   std::vector<explore::Checked> checked;
   step::Tuning tuning;
@@ -159,7 +164,7 @@ void add_explore(CLI::App& program, Chosen& chosen) {
   add_visibility(*command, options->common);
   command->footer(
       "--set also takes the device's numbers (device.bram=300, device.clock=250), and keeps one value of an\n"
-      "axis: hw.lanes, hw.cascade, hw.substeps, hw.fifo_depth, hw.overlap, hw.coded, hw.clock_mhz.");
+      "axis: hw.lanes, hw.cascade, hw.substeps, hw.fifo_depth, hw.overlap, hw.coded, hw.tile, hw.clock_mhz.");
   command->callback([options, &chosen] { chosen = [options] { return run_explore(*options); }; });
 }
 

@@ -9,7 +9,7 @@ namespace {
 auto order_of(const Point& p) {
   const Configuration& hw = p.hw;
   return std::tuple(-p.speed, p.taken.fullest, p.clock_mhz, hw.lanes, hw.cascade, hw.substeps, hw.fifo_depth,
-                    hw.overlap ? 0 : 1, hw.coded ? 1 : 0);
+                    hw.overlap ? 0 : 1, hw.coded ? 1 : 0, hw.tile);
 }
 
 template <class May>  // may(point): is it a candidate?
@@ -42,7 +42,7 @@ Next next_of(const Question& question, const Swept& swept, std::int64_t speed, R
     const Point& point = swept.points[i];
     if (point.speed <= speed) continue;
     const std::optional<std::int64_t> least =
-        least_of(r, parts_of(swept, point.hw), point.hw, question.device);
+        least_of(r, swept.parts[point.parts], point.hw, question.device);
     if (!least) continue;
     next.limit = std::max(next.limit, point.speed);
     const std::int64_t more = *least - there;

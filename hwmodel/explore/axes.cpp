@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hwmodel/explore/sweep.h"
+#include "hwmodel/stream/tiling.h"
 #include "kernel/scene/text/compose.h"
 #include "kernel/scene/text/reader.h"
 
@@ -28,9 +29,27 @@ Axes usual_axes(const Question& question) {
   axes.overlap = {0, 1};
   axes.coded = {0};
   if (question.volume != nullptr && question.memory) axes.coded = {0, 1};
+  axes.tiles = {1, 2, 4, 8, 16};
   for (int i = 1; i <= kClocks; ++i)
     if (const int mhz = question.device.clock_mhz * i / kClocks; mhz > 0) axes.clock_mhz.push_back(mhz);
   return axes;
+}
+
+std::vector<int> tiles_of(const Axes& axes, const Question& question, const Configuration& hw) {
+  Configuration tried = hw;
+  if (axes.tile) {
+    tried.tile = *axes.tile;
+    const bool possible =
+        tried.tile % hw.lanes == 0 && tile_problem(question.parameters, question.grid, tried).empty();
+    return possible ? std::vector<int>{tried.tile} : std::vector<int>{};
+  }
+  std::vector<int> widths;
+  for (const int tiles : axes.tiles)
+    if (tiles == 1)
+      widths.push_back(0);
+    else if (const auto width = narrowest_tile(question.parameters, question.grid, hw, tiles))
+      widths.push_back(*width);
+  return widths;
 }
 
 void keep_only(Axes& axes, const std::vector<std::string>& sets) {
@@ -58,6 +77,7 @@ void keep_only(Axes& axes, const std::vector<std::string>& sets) {
     }
     *values = {value};
   }
+  if (hw->has("tile")) axes.tile = static_cast<int>(hw->integer("tile", 0, kMostTile));
   hw->finish();
 }
 

@@ -25,7 +25,7 @@ std::int64_t simulated_on(const std::vector<Train>& trains, int clock_mhz, const
 Checked check(const Question& question, const Swept& swept, std::size_t at, std::uint32_t steps,
               const CheckInput& input) {
   const Point& point = swept.points[at];
-  const PartList& parts = parts_of(swept, point.hw);
+  const PartList& parts = swept.parts[point.parts];
   Checked checked;
   checked.point = at;
   checked.steps = steps == 0 ? static_cast<std::uint32_t>(point.hw.cascade) : steps;

@@ -8,47 +8,79 @@
 #include "hwmodel/machine/column_port.h"
 
 namespace voxmelt::hwmodel::explore {
+namespace {
+
+// What feeds still fetch at the begin, side by side with bursts of the state.
+class FirstOfFeeds {
+ public:
+  explicit FirstOfFeeds(const std::vector<double>& bursts) : left_(bursts) {}
+
+  double beside(double bursts) {
+    if (left_.empty()) return 0;
+    double fetched = 0;
+    for (double& left : left_) {
+      const double some = std::min(left, bursts);
+      left -= some, fetched += some;
+    }
+    if (*std::max_element(left_.begin(), left_.end()) <= 0) left_.clear();
+    return fetched;
+  }
+  std::size_t feeds() const { return left_.size(); }
+
+ private:
+  std::vector<double> left_;
+};
+
+}  // namespace
 
 // The bus serves columns in their order, each as soon as there is room for it; the pipeline takes a column
-// when it has come. All times are cycles of the machine.
-std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, const memory::Policy& policy) {
+// when it has come. Feeds ask for little, and in turn with the state: they get it at once. So only the
+// state's buffer outlasts a stretch with much irradiance. All times are cycles of the machine.
+std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, const memory::Policy& policy,
+                               bool& waits) {
   const std::vector<ColumnBursts>& columns = work.columns;
   const auto ahead = static_cast<std::size_t>(work.coded ? kColumnsAhead : kBurstsAhead);
   const auto lag = static_cast<std::size_t>(std::llround(work.lag / work.column_cycles));
   const auto most = static_cast<double>(kBurstsAhead + policy.writes);  // that wait to be written
-  std::vector<double> done(columns.size());                             // when the pipeline has taken it
-  double bus = 0, waiting = 0;
-  std::int64_t asked = 0;  // bursts, less those of columns before `freed`
+  const double latency =
+      (work.coded ? 2 : 1) * times.latency;        // the begin of a column tells what else to ask
+  std::vector<double> done(columns.size() + lag);  // when the pipeline has taken it
+  FirstOfFeeds first(work.fed_first);
+  double bus = 0, waiting = 0, last = 0;
+  bool waited = false;
+  double asked = 0;  // bursts, less those of columns before `freed`
   std::size_t freed = 0, written = 0;
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    asked += columns[c].reads;
-    while (freed < c && asked > kBurstsAhead) asked -= columns[freed++].reads;
+  for (std::size_t c = 0; c < done.size(); ++c) {
+    const bool reads = c < columns.size();  // else the pipeline drains
+    const double own = reads ? columns[c].reads : 0;
+    asked += own;
+    while (freed < std::min(c, columns.size()) && asked > kBurstsAhead) asked -= columns[freed++].reads;
     double gate = freed > 0 ? done[freed - 1] : 0;
     if (c >= ahead) gate = std::max(gate, done[c - ahead]);
-    const double start = std::max(bus, gate);
+    const double start = std::max(bus, reads ? gate : last);
     for (; written + lag < c && done[written + lag] <= start; ++written) waiting += columns[written].writes;
-    waiting -= std::min(waiting, (start - bus) / times.write);  // while it has nothing to read
+    // While it has no state to read.
+    const double idle = start - bus, wrote = std::min(waiting, idle / times.write);
+    waiting -= wrote;
+    if (first.feeds() > 0)
+      first.beside((idle - wrote * times.write) / times.read / static_cast<double>(first.feeds()));
+    const double fed = (c < work.fed.size() ? work.fed[c] : 0) + first.beside(std::max(own, 1.0));
     // While both wait, each gets as many; writes that find no room go first.
-    const double own = columns[c].reads;
-    const double served = std::max(std::min(waiting, own), waiting - most);
+    const double served = std::max(std::min(waiting, own + fed), waiting - most);
     waiting -= served;
-    bus = start + (own + work.fed) * times.read + served * times.write;
-    // The begin of a coded column tells what else to ask for.
-    const double come = std::max(bus, gate + (work.coded ? 2 : 1) * times.latency + own * times.read);
-    done[c] = std::max((c > 0 ? done[c - 1] : 0) + work.column_cycles,
-                       come + work.column_cycles / std::max(own, 1.0));
+    bus = start + (own + fed) * times.read + served * times.write;
+    const double come =
+        reads ? std::max(bus, gate + latency + own * times.read) + work.column_cycles / std::max(own, 1.0)
+              : bus;
+    const double next = last + work.column_cycles;
+    done[c] = last = std::max(next, come);
+    if (c == 0 && !waits)
+      return std::llround(last + work.column_cycles * static_cast<double>(done.size() - 1));
+    waited = waited || (c > 0 && last > next);
   }
-  double end = columns.empty() ? 0 : done.back();
-  for (double left = work.lag; left > 0; left -= work.column_cycles) {
-    const double step = std::min(left, work.column_cycles);
-    end += step;
-    if (written < columns.size()) waiting += columns[written++].writes;
-    waiting -= std::min(waiting, step / times.write);
-    if (waiting <= most) continue;
-    end += (waiting - most) * times.write;
-    waiting = most;
-  }
-  return std::llround(end);
+  for (; written < columns.size(); ++written) waiting += columns[written].writes;
+  waits = waited || waiting > most;
+  return std::llround(last + std::max(0.0, waiting - most) * times.write);
 }
 
 }  // namespace voxmelt::hwmodel::explore

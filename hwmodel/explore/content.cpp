@@ -12,9 +12,10 @@ void sum_up(std::vector<std::int64_t>& of_blocks) {
   of_blocks.push_back(sum);
 }
 
-// Of each block: bits of its lit tokens.
-std::vector<std::int64_t> lit_bits(const Irradiance& field, const Shape& shape) {
-  std::vector<std::int64_t> bits(static_cast<std::size_t>(shape.grid_blocks()));
+// Of each column: bits of its lit tokens.
+std::vector<std::int32_t> lit_bits(const Irradiance& field, const Shape& shape) {
+  const auto blocks = static_cast<std::size_t>(shape.grid_blocks());
+  std::vector<std::int32_t> bits(blocks * static_cast<std::size_t>(shape.grid.z));
   for (int z = 0; z < shape.grid.z; ++z)
     for (int y = 0; y < shape.grid.y; ++y) {
       const std::uint16_t* row = field.row(y, z);
@@ -22,8 +23,8 @@ std::vector<std::int64_t> lit_bits(const Irradiance& field, const Shape& shape) 
         const auto dark = std::count(row + x, row + std::min(x + shape.lanes, shape.grid.x), 0);
         const std::int64_t lit = std::min(shape.lanes, shape.grid.x - x) - dark;
         if (lit > 0)
-          bits[static_cast<std::size_t>(x / shape.lanes)] +=
-              IrradianceStream::kWordBits * (1 + mask_words(shape.lanes) + lit);
+          bits[static_cast<std::size_t>(z) * blocks + static_cast<std::size_t>(x / shape.lanes)] +=
+              static_cast<std::int32_t>(IrradianceStream::kWordBits * (1 + mask_words(shape.lanes) + lit));
       }
     }
   return bits;
@@ -35,7 +36,11 @@ Content content_of(const Design& design, const Irradiance* irradiance, const sta
   Content content;
   if (irradiance != nullptr) {
     content.irradiance_bits = IrradianceStream(*irradiance, design.shape).bits();
-    content.irradiance_before = lit_bits(*irradiance, design.shape);
+    content.lit_columns = lit_bits(*irradiance, design.shape);
+    const auto blocks = static_cast<std::size_t>(design.shape.grid_blocks());
+    content.irradiance_before.resize(blocks);
+    for (std::size_t column = 0; column < content.lit_columns.size(); ++column)
+      content.irradiance_before[column % blocks] += content.lit_columns[column];
     sum_up(content.irradiance_before);
   }
   if (volume != nullptr) {

@@ -17,7 +17,8 @@ struct Content {
   // For tiles: the same of all blocks along x before each one, and of all. Empty: none.
   std::vector<std::int64_t> irradiance_before{}, coded_before{};
 
-  std::vector<std::int32_t> coded_columns{};  // bursts of each column of the grid
+  std::vector<std::int32_t> lit_columns{};    // bits of irradiance of each column of the grid
+  std::vector<std::int32_t> coded_columns{};  // bursts of the state
 
   static std::int64_t between(const std::vector<std::int64_t>& before, int first, int end) {
     if (before.empty()) return 0;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "hwmodel/memory/address_map.h"
 
@@ -54,8 +57,10 @@ double burst_cycles(double reads, double writes, const Meetings& meetings, const
   return cycles / (1 - refresh_share(p));
 }
 
-std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& p, int clock_mhz,
-                       const Placement& placement, const memory::Policy& policy) {
+namespace {
+
+std::int64_t cycles_at(const StreamWork& work, const memory::Parameters& p, int clock_mhz,
+                       const Placement& placement, const memory::Policy& policy, bool& waits) {
   // While the first tokens are under way it is only read; then both; at last it is only written.
   constexpr double kBurstBits = 8.0 * memory::kBurst;
   const double window = static_cast<double>(work.cycles - work.lag), lag = static_cast<double>(work.lag);
@@ -79,9 +84,9 @@ std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& p, int 
     const double burst = burst_cycles(1, 0, meetings, p, policy), turn = turn_cycles(p, meetings);
     return cycles_by_columns(
         placement.work,
-        {ratio * burst, ratio * (burst + turn / policy.batch / (1 - refresh_share(p))),
+        {ratio * burst, ratio * (burst + turn / p.channels / policy.batch / (1 - refresh_share(p))),
          ratio * (p.rcd + p.cl + p.read_more + p.beats() * p.columns_of_request() + p.interface_cycles)},
-        policy);
+        policy, waits);
   }
   const auto segment = [&](double cycles, bool reading, bool writing) {
     const double share = cycles / window;
@@ -92,6 +97,23 @@ std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& p, int 
       ratio * (p.rcd + p.cl + p.read_more + p.beats() * p.columns_of_request() + p.interface_cycles);
   return std::llround(first + segment(alone, true, false) + segment(both, true, true) + rest +
                       segment(alone, false, true));
+}
+
+}  // namespace
+
+std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& p, int clock_mhz,
+                       const Placement& placement, const memory::Policy& policy) {
+  bool waits = true;
+  return cycles_at(work, p, clock_mhz, placement, policy, waits);
+}
+
+std::vector<std::int64_t> cycles_on(const StreamWork& work, const memory::Parameters& p,
+                                    const std::vector<int>& clocks, const Placement& placement) {
+  std::vector<std::int64_t> cycles(clocks.size());
+  bool waits = true;
+  for (std::size_t i = clocks.size(); i-- > 0;)
+    cycles[i] = cycles_at(work, p, clocks[i], placement, {}, waits);
+  return cycles;
 }
 
 }  // namespace voxmelt::hwmodel::explore

@@ -30,14 +30,16 @@ struct Behind {
   double share = 1;  // of the time
 };
 
-// A state that lies there by columns: with hw.coded they are uneven. In the order of the stream.
+// Columns are uneven: with hw.coded the state, and irradiance anyway. In the order of the stream, bursts.
 struct ColumnBursts {
-  std::int32_t reads = 0, writes = 0;
+  double reads = 0, writes = 0;
 };
 struct ColumnWork {
   std::vector<ColumnBursts> columns;
   double column_cycles = 0, lag = 0;  // of the machine, without waits
-  double fed = 0;                     // bursts of irradiance in the time of a column
+  // Irradiance. A feed asks at once for as much as it has used: in the time of each column, of all feeds
+  // together, until the pipeline is empty. At the begin it fills its buffer.
+  std::vector<double> fed{}, fed_first{};
   bool coded = false;
 };
 // Cycles of the machine.
@@ -45,7 +47,9 @@ struct BusTimes {
   double read = 0, write = 0;  // a burst on the bus; the writes bear the turns
   double latency = 0;          // of a read
 };
-std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, const memory::Policy& policy);
+// `waits`: false if the pipeline is known never to wait behind its first column. It says whether it does.
+std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, const memory::Policy& policy,
+                               bool& waits);
 
 // How the state lies there, unless it is one stream: no columns, and as many bursts behind as the lag has.
 struct Placement {
@@ -56,5 +60,8 @@ struct Placement {
 // Cycles of the machine for one pass of the twin.
 std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& parameters, int clock_mhz,
                        const Placement& placement = {}, const memory::Policy& policy = {});
+// At several clocks, the lowest first. Where the pipeline never waits, it does not at a lower clock either.
+std::vector<std::int64_t> cycles_on(const StreamWork& work, const memory::Parameters& parameters,
+                                    const std::vector<int>& clocks, const Placement& placement);
 
 }  // namespace voxmelt::hwmodel::explore

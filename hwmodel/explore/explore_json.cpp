@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hwmodel/explore/explore_report.h"
@@ -74,11 +75,25 @@ json parts_json(const PartList& parts) {
           {"substeps", parts.design.substeps},
           {"cell_bits", parts.design.cell_bits()},
           {"fed", parts.fed},
+          {"tile", parts.design.shape.tiled() ? parts.design.shape.blocks() * parts.design.shape.lanes : 0},
           {"tokens", parts.design.shape.tokens()},
-          {"irradiance_bits", parts.content.irradiance_bits},
-          {"coded_bits", parts.content.coded_bits},
-          {"coded_columns", parts.content.coded_columns},
           {"stages", stages}};
+}
+
+// Of the state with which the run begins, once for each number of lanes.
+json contents_json(const std::vector<PartList>& parts) {
+  json of = json::array();
+  int last = 0;
+  for (const PartList& one : parts) {
+    const int lanes = one.design.shape.lanes;
+    if (lanes == std::exchange(last, lanes)) continue;
+    of.push_back({{"lanes", lanes},
+                  {"irradiance_bits", one.content->irradiance_bits},
+                  {"lit_columns", one.content->lit_columns},
+                  {"coded_bits", one.content->coded_bits},
+                  {"coded_columns", one.content->coded_columns}});
+  }
+  return of;
 }
 
 json point_json(const Explored& of, std::size_t at) {
@@ -90,6 +105,7 @@ json point_json(const Explored& of, std::size_t at) {
                 {"fifo_depth", p.hw.fifo_depth},
                 {"overlap", p.hw.overlap ? 1 : 0},
                 {"coded", p.hw.coded ? 1 : 0},
+                {"tile", p.hw.tile},
                 {"clock_mhz", p.clock_mhz}}},
               {"cycles", p.cycles},
               {"cycles_on_memory", p.on_memory},
@@ -158,6 +174,8 @@ json json_of(const Explored& of) {
                 {"fifo_depth", of.axes.fifo_depth},
                 {"overlap", of.axes.overlap},
                 {"coded", of.axes.coded},
+                {"tiles", of.axes.tiles},
+                {"tile", of.axes.tile ? json(*of.axes.tile) : json()},
                 {"clock_mhz", of.axes.clock_mhz}}},
               {"configurations", of.swept.points.size()},
               {"seconds", of.swept.seconds},
@@ -166,6 +184,7 @@ json json_of(const Explored& of) {
               {"next", next_json(of)},
               {"front", front},
               {"fronts", fronts},
+              {"contents", contents_json(of.swept.parts)},
               {"parts", parts}};
   if (q.memory) {
     const memory::Parameters& m = *q.memory;

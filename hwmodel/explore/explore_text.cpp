@@ -23,6 +23,7 @@ std::string design_of(const Point& p) {
   std::string text = fmt::format("{} lanes x {} steps at {} MHz", p.hw.lanes, p.hw.cascade, p.clock_mhz);
   if (p.hw.substeps > 1) text += fmt::format(", {} sub-steps", p.hw.substeps);
   if (p.hw.coded) text += ", coded";
+  if (p.hw.tile > 0) text += fmt::format(", tiles of {} columns", p.hw.tile);
   return text;
 }
 
@@ -35,9 +36,10 @@ std::string unit_of(Resource r) {
 
 std::string row_of(const Explored& of, std::size_t at) {
   const Point& p = of.swept.points[at];
-  std::string text = fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>9}", p.hw.lanes, p.hw.cascade,
-                                 p.hw.substeps, p.hw.fifo_depth, p.hw.overlap ? "yes" : "no",
-                                 p.hw.coded ? "yes" : "no", p.clock_mhz, giga(p.speed));
+  std::string text =
+      fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>5} {:>9}", p.hw.lanes, p.hw.cascade,
+                  p.hw.substeps, p.hw.fifo_depth, p.hw.overlap ? "yes" : "no", p.hw.coded ? "yes" : "no",
+                  p.hw.tile == 0 ? "-" : std::to_string(p.hw.tile), p.clock_mhz, giga(p.speed));
   for (const std::int64_t amount : p.taken.amounts) text += fmt::format(" {:>7}", amount);
   text += fmt::format(" {:>6.1f} {:>7.1f}  ", 100 * p.taken.fullest,
                       percent(static_cast<double>(p.on_memory - p.cycles), static_cast<double>(p.on_memory)));
@@ -120,8 +122,8 @@ std::string text_of(const Explored& of) {
       fmt::format("\nmemory: {}\n{} designs of {} steps in {:.2f} s by the closed forms; {} on the front\n",
                   of.question.memory ? of.question.memory->title : "always answers", of.swept.points.size(),
                   of.question.steps, of.swept.seconds, of.answer.front.size());
-  text += fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>9}", "lanes", "cascade", "substeps",
-                      "depth", "overlap", "coded", "MHz", "Gcell/s");
+  text += fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>5} {:>9}", "lanes", "cascade", "substeps",
+                      "depth", "overlap", "coded", "tile", "MHz", "Gcell/s");
   for (std::size_t r = 0; r < kResources; ++r)
     text += fmt::format(" {:>7}", unit_of(static_cast<Resource>(r)));
   text += fmt::format(" {:>6} {:>7}\n", "full %", "waits %");

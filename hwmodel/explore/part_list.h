@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "hwmodel/explore/content.h"
@@ -23,8 +24,8 @@ struct StagePart {
 struct PartList {
   Design design;
   std::vector<StagePart> stages;
-  bool fed = false;  // with irradiance
-  Content content;   // of the state with which the run begins
+  bool fed = false;                                                      // with irradiance
+  std::shared_ptr<const Content> content = std::make_shared<Content>();  // of the state at the begin
 
   // Of a family, a time step without its channels and ports.
   std::int64_t lut = 0, ff = 0, dsp = 0;

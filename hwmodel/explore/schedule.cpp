@@ -1,7 +1,10 @@
 #include "hwmodel/explore/schedule.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <tuple>
+#include <utility>
 
 #include "hwmodel/machine/column_port.h"
 #include "hwmodel/stream/prediction.h"
@@ -45,16 +48,68 @@ void add_pass(Train& train, const Design& design, const Configuration& c, const 
 }
 
 // In the order of the stream: what each column of each tile reads, and writes if the tile owns it.
-void add_columns(Train& train, const Shape& shape, const Content& content) {
+void add_columns(Train& train, const Design& design, const Configuration& c, const Content& content) {
+  const Shape& shape = design.shape;
+  const double all = static_cast<double>(state_bits(design, false, content, 0, 1)) / shape.grid.z;
   for (const Pass& pass : train.list) {
     const int first = shape.first_block(pass.tile);
     for (int z = 0; z < shape.grid.z; ++z)
       for (int block = first; block < first + shape.blocks(); ++block) {
         const auto at = static_cast<std::size_t>(z * shape.grid_blocks() + block);
-        const std::int32_t bursts = content.coded_columns[at];
+        const double bursts = c.coded ? content.coded_columns[at] : all / CodeLayout::kBurstBits;
         const bool owned = shape.owns(pass.tile, block * shape.lanes);
         train.placement.work.columns.push_back({bursts, owned ? bursts : 0});
       }
+  }
+}
+
+// How many columns after the reader each time step takes irradiance.
+std::vector<std::size_t> feed_delays(const Train& train, const Design& design, const Configuration& c) {
+  const Pass& pass = train.list.front();
+  const std::int64_t tokens = design.shape.tokens();
+  std::int64_t step = 0, before = 1;  // cycles of a step, of its stages before the exchange
+  bool reached = false;
+  for (const StageKind stage : stages_of_step(design)) {
+    reached |= stage == StageKind::exchange;
+    const std::int64_t lag = lag_of(stage, design).tokens(design.shape);
+    const std::int64_t wait =
+        1 + (lag < tokens ? c.interval() * lag : c.interval() * (tokens - 1) + lag - tokens + 1);
+    step += wait;
+    if (!reached) before += wait;
+  }
+  std::vector<std::size_t> delays;
+  const auto column = static_cast<double>(c.interval() * design.shape.column());
+  for (int t = 0; t < pass.steps; ++t)
+    delays.push_back(static_cast<std::size_t>(std::llround(static_cast<double>(t * step + before) / column)));
+  return delays;
+}
+
+// What feeds fetch: as much as they have used, but for what they fetched at the begin.
+void add_feeds(Train& train, const Design& design, const Configuration& c, const Content& content) {
+  const Shape& shape = design.shape;
+  ColumnWork& work = train.placement.work;
+  const std::vector<std::size_t> delays = feed_delays(train, design, c);
+  work.fed.resize(work.columns.size() + delays.back() + 1);
+  for (std::size_t t = 0; t < delays.size(); ++t) {
+    std::vector<double> used;
+    double all = 0;
+    for (const Pass& pass : train.list) {
+      const int first = shape.first_block(pass.tile);
+      for (int z = 0; z < shape.grid.z; ++z)
+        for (int block = first; block < first + shape.blocks(); ++block) {
+          const auto at = static_cast<std::size_t>(z * shape.grid_blocks() + block);
+          const bool works = static_cast<int>(t) < pass.steps;
+          used.push_back(works ? static_cast<double>(content.lit_columns[at]) / CodeLayout::kBurstBits : 0);
+          all += used.back();
+        }
+    }
+    const double begin = std::min(all, static_cast<double>(kBurstsAhead));
+    work.fed_first.push_back(begin);
+    double left = all - begin;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      const double fetched = std::min(left, used[i]);
+      work.fed[i + delays[t]] += fetched, left -= fetched;
+    }
   }
 }
 
@@ -63,7 +118,8 @@ void end_train(Train& train, const Design& design, const Configuration& c, const
   train.work.cycles = predicted_cycles(design, c, train.list.front(), train.passes);
   train.work.lag = train.work.cycles - c.interval() * train.work.tokens;
   const Shape& shape = design.shape;
-  if (!c.coded && !shape.tiled()) return;
+  const bool lit = train.work.fed_bits > 0;
+  if (!c.coded && !shape.tiled() && !lit) return;  // a stream that is even
   // As many columns behind as the lag has; of tiles in the other copy, of a plane that is as wide as the
   // grid.
   const ColumnSlots slots(design, c.coded);
@@ -72,18 +128,17 @@ void end_train(Train& train, const Design& design, const Configuration& c, const
   const double of_grid = columns * shape.grid_blocks() / shape.blocks();
   const double bursts = of_grid * static_cast<double>(slots.slot_bursts);
   const double copy = static_cast<double>(slots.columns * slots.slot_bursts);
-  if (!shape.tiled())
-    train.placement.behind = {{bursts, 1}};
-  else
+  if (shape.tiled())
     train.placement.behind = {{bursts - copy, .5}, {bursts + copy, .5}};
-  if (!c.coded || content.coded_columns.empty()) return;  // plain columns are even
-  add_columns(train, shape, content);
+  else if (c.coded)
+    train.placement.behind = {{bursts, 1}};
+  if (c.coded ? content.coded_columns.empty() : !lit) return;  // plain columns are even
+  add_columns(train, design, c, content);
   ColumnWork& work = train.placement.work;
-  work.coded = true;
+  work.coded = c.coded;
   work.column_cycles = static_cast<double>(c.interval() * shape.column());
   work.lag = static_cast<double>(train.work.lag);
-  work.fed = static_cast<double>(train.work.fed_bits) / CodeLayout::kBurstBits /
-             static_cast<double>(std::max<std::size_t>(1, work.columns.size()));
+  if (lit) add_feeds(train, design, c, content);
 }
 
 // All tiles of a pass, into the last train, or into new ones.
@@ -106,10 +161,8 @@ void add_substeps(std::vector<Train>& trains, const Design& design, const Config
   trains.back().steps = 1;
 }
 
-}  // namespace
-
-std::vector<Train> trains_of(const Design& design, const Configuration& c, std::uint32_t first_step,
-                             std::int64_t steps, const Content& content) {
+std::vector<Train> lists_of(const Design& design, const Configuration& c, std::uint32_t first_step,
+                            std::int64_t steps, const Content& content) {
   const rule::Heat& heat = design.parameters.heat;
   const int substeps = design.paper() ? 1 : design.parameters.flow.viscous.substeps;
   std::vector<Train> trains;
@@ -136,8 +189,40 @@ std::vector<Train> trains_of(const Design& design, const Configuration& c, std::
       pass.steps = steps_of_pass(design, c, step, steps - done);
     }
   }
+  return trains;
+}
+
+// But for the number of their first step.
+bool alike(const Train& a, const Train& b) {
+  const auto form = [](const Pass& pass) {
+    return std::tuple(pass.steps, pass.substep, pass.count, pass.substeps, pass.tile);
+  };
+  return a.steps == b.steps && std::equal(a.list.begin(), a.list.end(), b.list.begin(), b.list.end(),
+                                          [&](const Pass& x, const Pass& y) { return form(x) == form(y); });
+}
+
+}  // namespace
+
+std::vector<Train> trains_of(const Design& design, const Configuration& c, std::uint32_t first_step,
+                             std::int64_t steps, const Content& content) {
+  std::vector<Train> trains = lists_of(design, c, first_step, steps, content);
   for (Train& train : trains) end_train(train, design, c, content);
   return trains;
+}
+
+std::vector<Train> kinds_of_trains(const Design& design, const Configuration& c, std::uint32_t first_step,
+                                   std::int64_t steps, const Content& content) {
+  std::vector<Train> kinds;
+  for (Train& train : lists_of(design, c, first_step, steps, content)) {
+    const auto known =
+        std::find_if(kinds.begin(), kinds.end(), [&](const Train& kind) { return alike(kind, train); });
+    if (known == kinds.end())
+      kinds.push_back(std::move(train));
+    else
+      ++known->times;
+  }
+  for (Train& train : kinds) end_train(train, design, c, content);
+  return kinds;
 }
 
 }  // namespace voxmelt::hwmodel::explore

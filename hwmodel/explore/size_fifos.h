@@ -1,4 +1,5 @@
-// The smallest depth of each channel that loses no cycle, beside channels that are as deep as they can be.
+// Depths of channels with which the machine takes no more cycles than with channels that are as deep as they
+// can be, and of which none can be smaller: one token less anywhere costs cycles.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,8 @@ struct SizedChannel {
 
 struct Sizing {
   std::vector<SizedChannel> channels;
-  std::int64_t cycles = 0;  // of the run, deep or sized
+  std::int64_t cycles = 0;       // of the run with these depths
+  std::int64_t deep_cycles = 0;  // with deep channels: as many, but on a DRAM it may be more
   int runs = 0;             // that were simulated
 };
 

@@ -7,10 +7,11 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <stdexcept>
+#include <memory>
 #include <tuple>
 
 #include "hwmodel/explore/dram_time.h"
+#include "hwmodel/stream/tiling.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
@@ -117,14 +118,16 @@ namespace {
 std::vector<RunTime> times_of(const PartList& parts, const Configuration& hw, const std::vector<int>& clocks,
                               const Question& question, std::int64_t steps) {
   std::vector<RunTime> times(clocks.size());
-  for (const Train& train : trains_of(parts.design, hw, question.first_step, steps, parts.content))
+  const Design design = design_of(question.parameters, question.grid, hw);
+  for (const Train& train : kinds_of_trains(design, hw, question.first_step, steps, *parts.content)) {
+    std::vector<std::int64_t> on_memory(clocks.size(), train.work.cycles);
+    if (question.memory) on_memory = cycles_on(train.work, *question.memory, clocks, train.placement);
     for (std::size_t i = 0; i < clocks.size(); ++i) {
-      times[i].cycles += train.work.cycles;
-      times[i].on_memory += question.memory
-                                ? cycles_on(train.work, *question.memory, clocks[i], train.placement)
-                                : train.work.cycles;
-      times[i].steps += train.steps;
+      times[i].cycles += train.times * train.work.cycles;
+      times[i].on_memory += train.times * on_memory[i];
+      times[i].steps += train.times * train.steps;
     }
+  }
   return times;
 }
 
@@ -140,41 +143,52 @@ std::int64_t speed_of(const Question& question, const RunTime& time, int clock_m
   return std::llround(cell_steps * clock_mhz * 1e3 / static_cast<double>(time.on_memory));
 }
 
-const PartList& parts_of(const Swept& swept, const Configuration& hw) {
-  for (const PartList& parts : swept.parts)
-    if (parts.design.shape.lanes == hw.lanes && parts.design.substeps == hw.substeps) return parts;
-  throw std::logic_error("no parts for these lanes");
+namespace {
+
+// All values of the other axes.
+void add_points(Swept& swept, std::size_t at, Configuration hw, const Question& question, const Axes& axes) {
+  const PartList& parts = swept.parts[at];
+  std::map<std::array<int, 3>, std::vector<RunTime>> known;  // deeper channels take the same time
+  for (const int depth : axes.fifo_depth) {
+    hw.fifo_depth = depth;
+    for (const int coded : axes.coded) {
+      hw.coded = coded == 1;
+      const Taken taken = taken_by(parts, hw, question.device);
+      for (const int overlap : axes.overlap) {
+        hw.overlap = overlap == 1;
+        std::vector<RunTime>& times = known[{hw.interval(), coded, overlap}];
+        if (times.empty()) times = times_of(parts, hw, axes.clock_mhz, question, question.steps);
+        for (std::size_t i = 0; i < times.size(); ++i)
+          swept.points.push_back({hw, at, axes.clock_mhz[i], times[i].cycles, times[i].on_memory,
+                                  speed_of(question, times[i], axes.clock_mhz[i]), taken});
+      }
+    }
+  }
 }
+
+}  // namespace
 
 Swept sweep(const Question& question, const Axes& axes, const std::function<void()>& poll) {
   const auto begin = std::chrono::steady_clock::now();
   Swept swept;
   for (const int lanes : axes.lanes) {
-    const Content content =
-        content_of({question.parameters, {question.grid, lanes}, 1}, question.irradiance, question.volume);
+    const auto content = std::make_shared<Content>(
+        content_of({question.parameters, {question.grid, lanes}, 1}, question.irradiance, question.volume));
     for (const int substeps : axes.substeps) {
-      swept.parts.push_back(
-          part_list({question.parameters, {question.grid, lanes}, substeps}, question.device.family));
-      swept.parts.back().content = content;
-      const PartList& parts = swept.parts.back();
+      std::map<int, std::size_t> parts_of;  // by the blocks of a tile
       for (const int cascade : axes.cascade) {
-        std::map<std::array<int, 3>, std::vector<RunTime>> known;  // deeper channels take the same time
-        for (const int depth : axes.fifo_depth) {
-          if (poll) poll();
-          Configuration hw;
-          hw.lanes = lanes, hw.cascade = cascade, hw.substeps = substeps, hw.fifo_depth = depth;
-          for (const int coded : axes.coded) {
-            hw.coded = coded == 1;
-            const Taken taken = taken_by(parts, hw, question.device);
-            for (const int overlap : axes.overlap) {
-              hw.overlap = overlap == 1;
-              std::vector<RunTime>& times = known[{hw.interval(), coded, overlap}];
-              if (times.empty()) times = times_of(parts, hw, axes.clock_mhz, question, question.steps);
-              for (std::size_t i = 0; i < times.size(); ++i)
-                swept.points.push_back({hw, axes.clock_mhz[i], times[i].cycles, times[i].on_memory,
-                                        speed_of(question, times[i], axes.clock_mhz[i]), taken});
-            }
+        Configuration hw;
+        hw.lanes = lanes, hw.cascade = cascade, hw.substeps = substeps;
+        for (const int tile : tiles_of(axes, question, hw)) {
+          hw.tile = tile;
+          const Design design = design_of(question.parameters, question.grid, hw);
+          const auto [known, added] = parts_of.try_emplace(design.shape.blocks(), swept.parts.size());
+          if (added) {
+            swept.parts.push_back(part_list(design, question.device.family));
+            swept.parts.back().content = content;
           }
+          if (poll) poll();
+          add_points(swept, known->second, hw, question, axes);
         }
       }
     }

@@ -2,6 +2,7 @@
 // whether it fits.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -27,11 +28,14 @@ struct Question {
 };
 
 // The values that are tried. A further axis is a list here, with its values and its key in axes.cpp, a loop
-// in `sweep`, and a column of the CSV.
+// in `sweep`, and a column of the CSV. Of tiles there is a number: hw.tile is the narrowest that gives it.
 struct Axes {
-  std::vector<int> lanes, cascade, substeps, fifo_depth, overlap, coded, clock_mhz;
+  std::vector<int> lanes, cascade, substeps, fifo_depth, overlap, coded, tiles{1}, clock_mhz;
+  std::optional<int> tile{};  // this hw.tile alone, whatever `tiles` says
 };
 Axes usual_axes(const Question& question);
+// The values of hw.tile for these lanes and steps.
+std::vector<int> tiles_of(const Axes& axes, const Question& question, const Configuration& hw);
 // `sets` are "hw.lanes=8": of that axis this value alone is tried. Throws scene::InputError.
 void keep_only(Axes& axes, const std::vector<std::string>& sets);
 
@@ -46,6 +50,7 @@ struct Taken {
 
 struct Point {
   Configuration hw;
+  std::size_t parts = 0;  // in Swept::parts
   int clock_mhz = 0;
   std::int64_t cycles = 0;     // of the run, while the memory always answers
   std::int64_t on_memory = 0;  // with the memory's time
@@ -54,12 +59,10 @@ struct Point {
 };
 
 struct Swept {
-  std::vector<PartList> parts;  // by lanes and sub-steps
+  std::vector<PartList> parts;  // by lanes, sub-steps and width of a tile
   std::vector<Point> points;
   double seconds = 0;
 };
-
-const PartList& parts_of(const Swept& swept, const Configuration& hw);
 
 Swept sweep(const Question& question, const Axes& axes, const std::function<void()>& poll);
 

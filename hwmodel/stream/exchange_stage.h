@@ -43,6 +43,9 @@ class Exchange final : public Stage {
   bool side_input_ready() override { return !radiation_ || feed_->valid(); }
 
   void advance(const Cell* in, Cell* out) override {
+    compute_at(0, 0);
+    if (radiation_ && feed_->count() == 0)
+      throw ModelError("the channel \"" + feed_->name() + "\" holds no token to take");
     const UInt<16>* irradiance = radiation_ ? feed_->get() : nullptr;
     const UInt<16> ambient = air_ ? looked_up(air_temperature_, came().y) : UInt<16>{};
     for (const int lane : each_lane()) {

@@ -78,7 +78,7 @@ struct Pipeline::Machine {
           shared.moves += steps[t]->cycle();
         } catch (const WidthError& error) {
           fail(error, StageError::Kind::width, t);
-        } catch (const AddressError& error) {
+        } catch (const ModelError& error) {  // an address, or a token that is not there
           fail(error, StageError::Kind::address, t);
         }
         links[t + 1]->tick();

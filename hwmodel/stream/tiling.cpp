@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +15,11 @@ namespace {
 int halo_of(const Design& uncut, const Configuration& configuration) {
   const int cells = configuration.cascade * reach_of_step(uncut);
   return (cells + configuration.lanes - 1) / configuration.lanes;
+}
+
+// In blocks: so that all tiles of this number are alike.
+int width_of(int blocks, int halo, int tiles) {
+  return (blocks + 2 * halo * (tiles - 1) + tiles - 1) / tiles;
 }
 
 }  // namespace
@@ -33,8 +39,7 @@ Design design_of(const rule::Parameters& parameters, state::Grid grid, const Con
     throw std::invalid_argument(problem);
   shape.halo = halo_of(design, configuration);
   shape.tile = widest;
-  const int tiles = shape.tiles();
-  shape.tile = (blocks + 2 * shape.halo * (tiles - 1) + tiles - 1) / tiles;  // no wider than before
+  shape.tile = width_of(blocks, shape.halo, shape.tiles());  // no wider than before
   return design;
 }
 
@@ -50,6 +55,16 @@ std::string tile_problem(const rule::Parameters& parameters, state::Grid grid,
          " columns is too narrow: " + std::to_string(configuration.cascade) + " time steps reach " +
          std::to_string(configuration.cascade * reach_of_step(uncut)) +
          " cells beyond each cut; it needs at least " + std::to_string(least);
+}
+
+std::optional<int> narrowest_tile(const rule::Parameters& parameters, state::Grid grid,
+                                  const Configuration& configuration, int tiles) {
+  const Design uncut{parameters, {grid, configuration.lanes}, configuration.substeps};
+  Shape shape = uncut.shape;
+  shape.halo = halo_of(uncut, configuration);
+  shape.tile = width_of(shape.grid_blocks(), shape.halo, tiles);
+  if (shape.tile <= 2 * shape.halo || !shape.tiled() || shape.tiles() != tiles) return {};
+  return shape.tile * configuration.lanes;
 }
 
 std::int64_t recomputed_cells(const Shape& shape) {

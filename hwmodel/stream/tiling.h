@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "hwmodel/stream/pipeline.h"
@@ -20,6 +21,10 @@ Design design_of(const rule::Parameters& parameters, state::Grid grid, const Con
 // Why the tiles of a configuration would be too narrow; empty: they are not.
 std::string tile_problem(const rule::Parameters& parameters, state::Grid grid,
                          const Configuration& configuration);
+
+// The narrowest tile, in cells, with which a grid goes through in so many tiles; none: no width cuts it so.
+std::optional<int> narrowest_tile(const rule::Parameters& parameters, state::Grid grid,
+                                  const Configuration& configuration, int tiles);
 
 // Cells of the grid that a pass computes more than once.
 std::int64_t recomputed_cells(const Shape& shape);

@@ -21,23 +21,56 @@ DDR4 = {"mhz": 1200, "beats": 4, "banks": 4, "cl": 17, "cwl": 12, "rcd": 17, "rp
         "wtr_s": 3, "rtw": 2, "rfc": 420, "refi": 9360, "interface": 24, "batch": 48}
 
 
-def trains(report, parts, hw):
-    """(passes, steps of the first pass, steps) of each train."""
-    done, n, every = 0, parts["tokens"], report["visibility_every"]
+REACHING = {"conduction", "edges", "corners", "walls", "pattern", "apply", "spread"}  # a cell along x
+
+
+class Tiles:
+    """How the blocks of a grid are cut: of each tile, the blocks that it reads, and those that it owns."""
+    def __init__(self, report, parts, hw):
+        self.blocks = ceil(report["grid"][0] / parts["lanes"])
+        self.halo = ceil(hw["cascade"] * sum(s["name"] in REACHING for s in parts["stages"]) / parts["lanes"])
+        self.width, count = hw["tile"] // parts["lanes"] or self.blocks, 1
+        if self.width < self.blocks:
+            count = self.count(self.width)
+            self.width = next(w for w in itertools.count(2 * self.halo + 1) if self.count(w) == count)
+        begins = [min(k * (self.width - 2 * self.halo), self.blocks - self.width) for k in range(count)]
+        cuts = [0] + [k * (self.width - 2 * self.halo) + self.halo for k in range(1, count)] + [self.blocks]
+        self.read = [range(b, b + self.width) for b in begins]
+        self.owned = [range(a, b) for a, b in zip(cuts, cuts[1:])]
+
+    def count(self, width):
+        """Tiles of this width that cover the grid."""
+        return ceil((self.blocks - 2 * self.halo) / (width - 2 * self.halo))
+
+    def shortest_return(self, n, high):
+        """Tokens from that with which a block's owner reads it to that with which any tile reads it again."""
+        tiles = len(self.read)
+        return min((tiles + k - j) * n + (self.read[j][0] - self.read[k][0]) * high
+                   for k in range(tiles) for j in range(tiles) if set(self.read[k]) & set(self.owned[j]))
+
+
+def trains(report, parts, hw, tiles):
+    """The (tile, steps) of all streams of each train, and its steps."""
+    done, n, every, high = 0, parts["tokens"], report["visibility_every"], report["grid"][1]
     interval = 2 if hw["fifo_depth"] == 1 else 1
+    follow = hw["overlap"] and all(s["lag"] < n for s in parts["stages"])
+    back = tiles.shortest_return(n, high) - (high - 1 if hw["coded"] else 0)
+    found = []
     while done < report["steps"]:
-        passes, first, begin = 0, 0, done
+        found.append([])
         while True:
             step = report["first_step"] + done
             k = min(hw["cascade"], report["steps"] - done, every - step % every if every else inf)
-            passes, first, done = passes + 1, first or k, done + k
-            lags = sum(s["lag"] if s["lag"] < n else n - 1 + (s["lag"] - n + 1) / interval for s in parts["stages"])
-            channels = hw["cascade"] * len(parts["stages"]) + 1
-            held = report["grid"][1] - 1 if hw["coded"] else 0
-            overlaps = hw["overlap"] and interval * (n - held) > interval * k * lags + channels
+            for tile in range(len(tiles.read)):
+                if tile and not follow:
+                    found.append([])
+                found[-1].append((tile, k))
+            done += k
+            lags = sum(s["lag"] for s in parts["stages"])
+            overlaps = follow and interval * back > interval * k * lags + hw["cascade"] * len(parts["stages"]) + 1
             if done == report["steps"] or not overlaps or (every and (report["first_step"] + done) % every == 0):
                 break
-        yield passes, first, done - begin
+    return found
 
 
 def meeting(bursts):
@@ -58,76 +91,128 @@ def dram(reads, writes, meetings):
     return bus / (1 - (d["rtp"] + d["rp"] + d["rfc"] + d["rcd"]) / d["refi"])
 
 
-def by_columns(report, parts, hw, passes, steps, lag, interval):
-    """The coded state: the bus serves column after column, the pipeline takes each when it has come."""
-    d, high = DDR4, report["grid"][1]
+def distances(report, tiles, columns, slot):
+    """Bursts by which the writer is behind the reader: in the other copy, where there are tiles."""
+    apart = columns * tiles.blocks / tiles.width * slot
+    copy = tiles.blocks * report["grid"][2] * slot if len(tiles.read) > 1 else 0
+    return apart - copy, apart + copy
+
+
+def feed_bursts(parts, tiles, content, streams, deep, interval, high):
+    """Bursts that feeds fetch in the time of each column, and of each feed those that it fetches at the begin."""
+    lit, n = content["lit_columns"], parts["tokens"]
+    waits = [1 + (interval * s["lag"] if s["lag"] < n else interval * (n - 1) + s["lag"] - n + 1) for s in parts["stages"]]
+    before = 1 + sum(waits[:[s["name"] for s in parts["stages"]].index("exchange")])
+    delays = [floor((t * sum(waits) + before) / (interval * high) + .5) for t in range(streams[0][1])]
+    columns = [(z * tiles.blocks + block, steps) for tile, steps in streams
+               for z in range(deep) for block in tiles.read[tile]]
+    fetched, first = [0] * (len(columns) + delays[-1] + 1), []
+    for t, delay in enumerate(delays):
+        used = [lit[at] / 512 if t < steps else 0 for at, steps in columns]
+        first.append(min(sum(used), 128))
+        left = sum(used) - first[-1]
+        for at, bursts in enumerate(used):
+            fetched[at + delay] += min(left, bursts)
+            left -= min(left, bursts)
+    return fetched, first
+
+
+def by_columns(report, parts, content, hw, tiles, streams, fed, lag, interval):
+    """The bus serves column after column, the pipeline takes each when it has come."""
+    d, (_, high, deep), tiled = DDR4, report["grid"], len(tiles.read) > 1
     ratio = hw["clock_mhz"] / d["mhz"]
     run = 1 - (d["rtp"] + d["rp"] + d["rfc"] + d["rcd"]) / d["refi"]
-    columns = parts["coded_columns"] * passes
-    bits, fed = sum(columns) * 512, parts["irradiance_bits"] * steps
-    apart = lag / (interval * high) * ceil(high * (1 + parts["lanes"] * parts["cell_bits"]) / 512)
-    state = bits / (bits + fed)
-    of_writes, of_reads = (state * meeting(at) + (1 - state) / d["banks"] for at in (apart + d["batch"], apart))
+    plain = high * parts["lanes"] * parts["cell_bits"] / 512
+    slot = ceil(high * (hw["coded"] + parts["lanes"] * parts["cell_bits"]) / 512)
+    columns, puts = [], []
+    for tile, _ in streams:
+        for z, block in itertools.product(range(deep), tiles.read[tile]):
+            columns.append(content["coded_columns"][z * tiles.blocks + block] if hw["coded"] else slot if tiled else plain)
+            puts.append(columns[-1] if block in tiles.owned[tile] else 0)
+    taken, behind = interval * high, floor(lag / (interval * high) + .5)
+    aparts = distances(report, tiles, lag / taken, slot) if tiled or hw["coded"] else 2 * (lag / taken * plain,)
+    state = sum(columns) * 512 / (sum(columns) * 512 + fed)
+    of_writes, of_reads = (state * sum(meeting(apart + more) for apart in aparts) / 2 + (1 - state) / d["banks"]
+                           for more in (d["batch"], 0))
     turn = (d["rtw"] + d["wtr_s"] + d["cl"]
             + (d["rtp"] + d["rp"] + d["rcd"] - (d["cl"] + d["beats"] - d["cwl"]) - d["rtw"]) * of_writes
             + (d["wr"] + d["rp"] + d["rcd"] - d["wtr_s"]) * of_reads)
     read, write = ratio * d["beats"] / run, ratio * (d["beats"] + turn / d["batch"]) / run
-    latency = ratio * (d["rcd"] + d["cl"] + d["beats"] + d["interface"])
-    taken, behind = interval * high, floor(lag / (interval * high) + .5)
-    fed = fed / 512 / len(columns)
+    latency = ratio * (d["rcd"] + d["cl"] + d["beats"] + d["interface"]) * (1 + hw["coded"])
+    feeds, first = feed_bursts(parts, tiles, content, streams, deep, interval, high) if fed else ([], [])
+
+    def fill(bursts):
+        """Feeds fill their buffers side by side, each by so many."""
+        some = [min(left, bursts) for left in first]
+        first[:] = [left - one for left, one in zip(first, some)]
+        return sum(some)
+
     done, bus, waiting, asked, freed, written, most = [], 0, 0, 0, 0, 0, 128 + 64
-    for c, own in enumerate(columns):
+    ahead = 8 if hw["coded"] else 128
+    for c in range(len(columns) + behind):
+        own = columns[c] if c < len(columns) else 0
         asked += own
-        while freed < c and asked > 128:
+        while freed < min(c, len(columns)) and asked > 128:
             asked, freed = asked - columns[freed], freed + 1
-        gate = max(done[freed - 1] if freed else 0, done[c - 8] if c >= 8 else 0)
-        start = max(bus, gate)
+        gate = max(done[freed - 1] if freed else 0, done[c - ahead] if c >= ahead else 0)
+        start = max(bus, gate if c < len(columns) else done[-1])
         while written + behind < c and done[written + behind] <= start:
-            waiting, written = waiting + columns[written], written + 1
-        waiting -= min(waiting, (start - bus) / write)
-        served = max(min(waiting, own), waiting - most)
+            waiting, written = waiting + puts[written], written + 1
+        idle = (start - bus) / write
+        wrote = min(waiting, idle)
+        waiting -= wrote
+        if first:
+            fill((idle - wrote) * write / read / len(first))
+        reads = own + (feeds[c] if c < len(feeds) else 0) + fill(max(own, 1))
+        served = max(min(waiting, reads), waiting - most)
         waiting -= served
-        bus = start + (own + fed) * read + served * write
-        come = max(bus, gate + 2 * latency + own * read)
-        done.append(max((done[-1] if done else 0) + taken, come + taken / max(own, 1)))
-    end, left = done[-1], lag
-    while left > 0:
-        step, left = min(left, taken), left - taken
-        end += step
-        waiting, written = waiting + (columns[written] if written < len(columns) else 0), written + 1
-        waiting -= min(waiting, step / write)
-        end, waiting = end + max(waiting - most, 0) * write, min(waiting, most)
-    return floor(end + .5)
+        bus = start + reads * read + served * write
+        come = max(bus, gate + latency + own * read) + taken / max(own, 1) if c < len(columns) else bus
+        done.append(max((done[-1] if done else 0) + taken, come))
+    waiting += sum(puts[written:])
+    return floor(done[-1] + max(waiting - most, 0) * write + .5)
 
 
 def times(report, parts, hw):
-    free = memory = 0
+    """Cycles while the memory always answers, and on it. Trains that are alike take the same time."""
+    tiles, known, sums = Tiles(report, parts, hw), {}, [0, 0]
     n, stages = parts["tokens"], parts["stages"]
     interval = 2 if hw["fifo_depth"] == 1 else 1
-    for passes, first, steps in trains(report, parts, hw):
-        wait = sum(interval * s["lag"] if s["lag"] < n else interval * (n - 1) + s["lag"] - n + 1 for s in stages)
-        cycles = interval * (passes * n - 1) + first * wait + hw["cascade"] * len(stages) + 2
-        free += cycles
-        if report["memory"] == "none":
-            memory += cycles
-            continue
-        window, cells = interval * passes * n, n * parts["lanes"]
-        if hw["coded"]:
-            memory += by_columns(report, parts, hw, passes, steps, cycles - window, interval)
-            continue
-        lag = cycles - window
-        alone = min(lag, window)
-        bits = passes * cells * parts["cell_bits"]
-        reads, writes = (bits + parts["irradiance_bits"] * steps) / 512, bits / 512
-        ratio = hw["clock_mhz"] / DDR4["mhz"]
-        apart = writes * lag / window
-        state = writes / reads
-        meetings = [state * meeting(d) + (1 - state) / DDR4["banks"] for d in (apart + DDR4["batch"], apart)]
-        memory += round(ratio * (DDR4["rcd"] + DDR4["cl"] + DDR4["beats"] + DDR4["interface"]) + lag - alone
-                        + max(alone, ratio * dram(reads * alone / window, 0, meetings))
-                        + max(window - alone, ratio * dram(reads * (1 - alone / window), writes * (1 - alone / window), meetings))
-                        + max(alone, ratio * dram(0, writes * alone / window, meetings)))
-    return free, memory
+    for streams in trains(report, parts, hw, tiles):
+        if tuple(streams) not in known:
+            wait = sum(interval * s["lag"] if s["lag"] < n else interval * (n - 1) + s["lag"] - n + 1 for s in stages)
+            cycles = interval * (len(streams) * n - 1) + streams[0][1] * wait + hw["cascade"] * len(stages) + 2
+            slow = cycles if report["memory"] == "none" else on_memory(report, parts, hw, tiles, streams, cycles)
+            known[tuple(streams)] = cycles, slow
+        sums = [a + b for a, b in zip(sums, known[tuple(streams)])]
+    return sums
+
+
+def on_memory(report, parts, hw, tiles, streams, cycles):
+    """Of a train that takes so many cycles without waiting."""
+    d, (_, high, deep) = DDR4, report["grid"]
+    content = next(c for c in report["contents"] if c["lanes"] == parts["lanes"])
+    interval, tiled = 2 if hw["fifo_depth"] == 1 else 1, len(tiles.read) > 1
+    window, fed = interval * len(streams) * parts["tokens"], 0
+    for tile, steps in streams if parts["fed"] else ():
+        of_tile = sum(sum(content["lit_columns"][block::tiles.blocks]) for block in tiles.read[tile])
+        fed += steps * (of_tile if tiled else content["irradiance_bits"])
+    lag = cycles - window
+    if hw["coded"] or fed:
+        return by_columns(report, parts, content, hw, tiles, streams, fed, lag, interval)
+    column = high * parts["lanes"] * parts["cell_bits"]
+    slot = ceil(column / 512)
+    column, alone, ratio = slot * 512 if tiled else column, min(lag, window), hw["clock_mhz"] / d["mhz"]
+    state = sum(len(tiles.read[tile]) for tile, _ in streams) * deep * column
+    reads, writes = (state + fed) / 512, sum(len(tiles.owned[tile]) for tile, _ in streams) * deep * column / 512
+    aparts = distances(report, tiles, lag / (interval * high), slot) if tiled else 2 * (state / 512 * lag / window,)
+    share = state / (state + fed)
+    meetings = [share * sum(meeting(apart + more) for apart in aparts) / 2 + (1 - share) / d["banks"]
+                for more in (d["batch"], 0)]
+    return floor(ratio * (d["rcd"] + d["cl"] + d["beats"] + d["interface"]) + lag - alone
+                 + max(alone, ratio * dram(reads * alone / window, 0, meetings))
+                 + max(window - alone, ratio * dram(reads * (1 - alone / window), writes * (1 - alone / window), meetings))
+                 + max(alone, ratio * dram(0, writes * alone / window, meetings)) + .5)
 
 
 def pieces(width, of):
@@ -236,19 +321,23 @@ class Explore(unittest.TestCase):
 
     def compare(self, report, rows, every):
         """Times of every configuration, and resources of every so many; the best of all."""
-        parts = {(p["lanes"], p["substeps"]): p for p in report["parts"]}
-        full = {}
+        parts = {(p["lanes"], p["substeps"], p["tile"]): p for p in report["parts"]}
+        full, known, tried = {}, {}, set()
         best = (0, 0)
         cells = report["grid"][0] * report["grid"][1] * report["grid"][2]
         for i, row in enumerate(rows):
-            hw = {k: int(row[k]) for k in ("lanes", "cascade", "substeps", "fifo_depth", "overlap", "coded", "clock_mhz")}
-            part = parts[hw["lanes"], hw["substeps"]]
-            free, memory = times(report, part, hw)
+            hw = {k: int(row[k]) for k in ("lanes", "cascade", "substeps", "fifo_depth", "overlap", "coded", "tile", "clock_mhz")}
+            part = parts[hw["lanes"], hw["substeps"], hw["tile"]]
+            tried.add((hw["lanes"], hw["cascade"], hw["tile"]))
+            # Channels of depth 2 and more take the same time.
+            same = tuple(v if k != "fifo_depth" else v == 1 for k, v in hw.items())
+            known[same] = known.get(same) or times(report, part, hw)
+            free, memory = known[same]
             self.assertEqual(free, int(row["cycles"]), hw)
             self.assertAlmostEqual(memory, int(row["cycles_on_memory"]), delta=len(rows), msg=hw)
             speed = int(row["cell_steps_per_second"])
             self.assertAlmostEqual(cells * report["steps"] * hw["clock_mhz"] * 1e6 / memory / speed, 1, delta=1e-3)
-            key = hw["lanes"], hw["cascade"], hw["substeps"], hw["fifo_depth"], hw["coded"]
+            key = hw["lanes"], hw["cascade"], hw["substeps"], hw["fifo_depth"], hw["coded"], hw["tile"]
             if (speed > best[0] or i % every == 0) and key not in full:
                 fixed = fixed_of(report, part, hw)
                 full[key] = search(report, fixed, choices_of(report, part, hw))
@@ -256,6 +345,13 @@ class Explore(unittest.TestCase):
                 self.assertAlmostEqual(min(full[key], 1e300), min(float(row["fullest"]), 1e300), delta=1e-6, msg=hw)
                 if full[key] <= 1 and speed > best[0]:
                     best = speed, hw
+        for (lanes, cascade), widths in itertools.groupby(sorted(tried), lambda one: one[:2]):
+            any_part = next(p for p in report["parts"] if p["lanes"] == lanes)
+            uncut = Tiles(report, any_part, {"cascade": cascade, "tile": 0})
+            every_width = range(uncut.blocks - 1, 2 * uncut.halo, -1)  # the narrowest last
+            narrowest = {uncut.count(width): width * lanes for width in every_width}
+            wanted = {0} | {narrowest[n] for n in report["axes"]["tiles"] if n > 1 and n in narrowest}
+            self.assertEqual({tile for _, _, tile in widths}, wanted, (lanes, cascade))
         self.assertEqual(report["configurations"], len(rows))
         self.assertEqual(report["best"]["cell_steps_per_second"], best[0])
         return best
@@ -332,8 +428,28 @@ class Explore(unittest.TestCase):
         self.assertEqual(said.count("verified,"), 4)  # with the sentence
         self.assertTrue((self.folder / "out/explore.svg").read_text().startswith("<svg"))
 
+    def test_tiles_where_no_plane_fits(self):
+        """A plane of 512 x 40 cells takes more than all the memories of this device."""
+        wide = write(self.folder, SMALL.replace("[12, 10, 12]", "[512, 40, 4]"), "wide.toml")
+        some = ["--device", "ecp5-85f", "--set", "hw.cascade=1", "--set", "hw.clock_mhz=100", "--set", "hw.fifo_depth=2"]
+        report, rows, said = self.explore(wide, *some, "--points", 2)
+        self.compare(report, rows, 1)
+        self.assertEqual({row["fits"] for row in rows if row["tile"] == "0"}, {"0"})
+        best = report["best"]
+        self.assertGreater(best["hw"]["tile"], 0)
+        self.assertEqual(best["state"], "verified")
+        self.assertEqual(best["simulated"]["cycles"], best["simulated"]["predicted_cycles"])
+        self.assertLess(abs(best["simulated"]["error"]), 0.05)
+        self.assertIn(f"tiles of {best['hw']['tile']} columns", said)
+        none, _, said = self.explore(wide, *some, "--points", 0, "--set", "hw.tile=0")
+        self.assertIsNone(none["best"])
+        one, rows, _ = self.explore(wide, *some, "--points", 0, "--set", "hw.tile=128")
+        self.assertEqual({row["tile"] for row in rows}, {"128"})
+        self.assertEqual(one["axes"]["tile"], 128)
+
     def test_bad_usage(self):
         for arguments, message in (
+                (["--device", "zu7ev", "--set", "hw.tile=1", "--set", "hw.lanes=2"], "hw.tile = 1: no lanes and steps"),
                 (["--device", "zu9eg"], 'no device "zu9eg"; there are ecp5-85f, zu7ev'),
                 (["--device", "zu7ev", "--memory", "sram"], "there are none, ddr4-2400, hbm2, lpddr4-3200"),
                 (["--device", "zu7ev", "--set", "device.brams=3"], "device.brams"),
@@ -363,11 +479,11 @@ class SizedChannels(unittest.TestCase):
         for sets in (["--set", "hw.stall_seed=5"], ["--set", "hw.memory=ddr4-2400", "--set", "hw.lanes=8"], coded):
             deep, _ = self.verify(*sets, "--set", "hw.cascade=2", "--set", "hw.fifo_depth=1024")
             sized, said = self.verify(*sets, "--set", "hw.cascade=2", "--size-fifos", "fifos.toml")
-            self.assertEqual(sized["cycles"], deep["cycles"])
-            self.assertEqual(sized["digest"], deep["digest"])
             memory = [s for s in sets if "memory" in s]
+            (self.assertLessEqual if memory else self.assertEqual)(sized["cycles"], deep["cycles"])
+            self.assertEqual(sized["digest"], deep["digest"])
             again, _ = self.verify("--hw", "fifos.toml", *(["--set", *memory] if memory else []))
-            self.assertEqual(again["cycles"], deep["cycles"])
+            self.assertEqual(again["cycles"], sized["cycles"])
             self.assertEqual([c["depth"] for c in again["channels"]], [c["depth"] for c in sized["channels"]])
             self.assertLess(max(c["depth"] for c in sized["channels"]), 1024)
             self.assertIn("one less costs", said)
