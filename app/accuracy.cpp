@@ -17,6 +17,7 @@
 #include "app/accuracy_front.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/options.h"
 #include "app/version.h"
 #include "kernel/run/io/output_folder.h"
@@ -121,7 +122,7 @@ int run_accuracy(const AccuracyOptions& options) {
     io::write_file(out->partial() / "accuracy.md", accuracy::markdown_text(report));
     io::write_file(out->partial() / "accuracy.html", accuracy::html_text(report));
     out->commit();
-    if (!common.quiet) fmt::print("page, tables and report  {}/\n", fs::proximate(out->place()).string());
+    if (!common.quiet) fmt::print("page, tables and report  {}/\n", seen_from_here(out->place()));
   }
   return report.passed() ? kDone : kCheckFailed;
 }

@@ -14,6 +14,7 @@
 #include "accuracy/report/front.h"
 #include "accuracy/report/report.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/version.h"
 #include "kernel/run/io/output_folder.h"
 
@@ -92,8 +93,7 @@ int run_front(const Common& common, const FrontOptions& options, const accuracy:
     io::write_file(out->partial() / "front.md", accuracy::markdown_text(report));
     io::write_file(out->partial() / "front.html", accuracy::html_text(report));
     out->commit();
-    if (!common.quiet)
-      fmt::print("page, tables and report  {}/\n", std::filesystem::proximate(out->place()).string());
+    if (!common.quiet) fmt::print("page, tables and report  {}/\n", seen_from_here(out->place()));
   }
   return kDone;
 }

@@ -153,8 +153,7 @@ int run_bench(BenchOptions options) {
         measure::short_tables(findings) + measure::full_tables(findings) + measure::picture_tables(findings));
     if (automaton) io::write_file(out->partial() / "roofline.svg", measure::roofline_svg(findings));
     out->commit();
-    if (!options.common.quiet)
-      fmt::print("tables, plot and report  {}/\n", std::filesystem::proximate(out->place()).string());
+    if (!options.common.quiet) fmt::print("tables, plot and report  {}/\n", seen_from_here(out->place()));
   }
   return kDone;
 }

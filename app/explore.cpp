@@ -15,6 +15,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/options.h"
 #include "app/run_ahead.h"
 #include "app/visibility.h"
@@ -124,8 +125,7 @@ int run_explore(ExploreCommand command) {
     io::write_file(out->partial() / "explore.csv", csv_of(explored));
     io::write_file(out->partial() / "explore.svg", svg_of(explored));
     out->commit();
-    if (!common.quiet)
-      fmt::print("picture, table and report  {}/\n", std::filesystem::proximate(out->place()).string());
+    if (!common.quiet) fmt::print("picture, table and report  {}/\n", seen_from_here(out->place()));
   }
   const bool good = std::all_of(checked.begin(), checked.end(), [](const auto& one) { return one.good; });
   return good ? kDone : kCheckFailed;

@@ -12,6 +12,7 @@
 #include "app/beginning.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/options.h"
 #include "app/report.h"
 #include "app/visibility.h"
@@ -50,8 +51,7 @@ int run_export(const ExportOptions& options) {
   write_report(options.common, report_json(scene, options.common, simulation, {}));
   out.commit();
   if (!options.common.quiet)
-    fmt::print("step {} written to {}\n", simulation.step_number(),
-               std::filesystem::proximate(out.place()).string());
+    fmt::print("step {} written to {}\n", simulation.step_number(), seen_from_here(out.place()));
   return kDone;
 }
 

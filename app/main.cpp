@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail("error: out of memory", app::kOutOfResources);
   } catch (const std::filesystem::filesystem_error& error) {  // a place that cannot be used
-    return fail(std::string("error: ") + error.what(), app::kBadInput);
+    return fail(app::place_message(error), app::kBadInput);
   } catch (const std::exception& error) {
     return fail(std::string("error: ") + error.what(), app::kCheckFailed);
   }

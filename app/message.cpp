@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <system_error>
 
 namespace voxmelt::app {
 namespace {
@@ -29,6 +30,19 @@ std::string one_line(std::string_view text) {
     }
   }
   return line;
+}
+
+std::string place_message(const std::filesystem::filesystem_error& error) {
+  std::error_code here;
+  (void)std::filesystem::current_path(here);
+  const std::string name = error.path1().empty() ? "" : error.path1().string() + ": ";
+  return name + "error: " + (here ? "the current folder was removed" : error.code().message());
+}
+
+std::string seen_from_here(const std::filesystem::path& place) {
+  std::error_code error;
+  const std::filesystem::path here = std::filesystem::current_path(error);
+  return (error ? place : std::filesystem::proximate(place, here)).string();
 }
 
 void say(std::string_view text) { fmt::print(stderr, "{}\n", one_line(text)); }

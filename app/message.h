@@ -1,6 +1,7 @@
 // What the program says when something is wrong: one line, whatever stands in it.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,12 @@ namespace voxmelt::app {
 
 // Line breaks become blanks; other control characters are written as \x1b.
 std::string one_line(std::string_view text);
+
+// A place that cannot be used: its name, and why.
+std::string place_message(const std::filesystem::filesystem_error& error);
+
+// A path as a reader in the current folder would write it; whole where that folder was removed.
+std::string seen_from_here(const std::filesystem::path& place);
 
 // To standard error.
 void say(std::string_view text);

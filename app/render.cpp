@@ -86,18 +86,35 @@ std::string write_surface(const RenderOptions& options, const render::Picture& p
   return text;
 }
 
-// A picture's name does not promise another kind of picture.
-void check_is_png(const std::string& option, const std::string& file) {
+std::string suffix_of(const std::string& file) {
   std::string suffix = std::filesystem::path(file).extension().string();
   for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return suffix;
+}
+
+// A picture's name does not promise another kind of picture.
+void check_is_png(const std::string& option, const std::string& file) {
+  const std::string suffix = suffix_of(file);
   if (!file.empty() && !suffix.empty() && suffix != ".png")
     throw UsageError(
         fmt::format("{} {}: error: pictures are written as PNG, not as {}", option, file, suffix));
 }
 
+// Views go into a folder; who names a picture or a film would look for that.
+void check_is_folder(const std::string& file) {
+  for (const char* const suffix : {".png", ".jpg", ".jpeg", ".gif", ".webp", ".mp4"})
+    if (suffix_of(file) == suffix)
+      throw UsageError(fmt::format(
+          "--out {}: error: --turntable writes its views into a folder, and {} is no folder's name", file,
+          suffix));
+}
+
 int run_render(RenderOptions options) {
   if (options.out.empty()) options.out = options.turntable > 0 ? "turntable" : "picture.png";
-  if (options.turntable == 0) check_is_png("--out", options.out);
+  if (options.turntable == 0)
+    check_is_png("--out", options.out);
+  else
+    check_is_folder(options.out);
   check_is_png("--depth", options.depth);
   check_is_png("--normals", options.normals);
   scene::Scene scene = load_scene(options.common);
@@ -182,10 +199,11 @@ void add_render(CLI::App& program, Chosen& chosen) {
       ->check(finite_within(-360, 360));
   command->add_option("--elevation", options->elevation, "degrees above the horizon, instead of the scene's")
       ->check(finite_within(-89, 89));
-  CLI::Option* turntable = command
-                               ->add_option("--turntable", options->turntable,
-                                            "this many views around the scene, into the folder --out")
-                               ->check(CLI::Range(1, 3600));
+  CLI::Option* turntable =
+      command
+          ->add_option("--turntable", options->turntable,
+                       "this many views around the scene, into the folder --out (a name without .png)")
+          ->check(CLI::Range(1, 3600));
   command
       ->add_option("--trace", options->trace,
                    "print all numbers of pixel X,Y, from the upper left, instead of drawing")

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/checkpoint_scene.h"
+#include "app/message.h"
 #include "kernel/run/checkpoint/blocks.h"
 #include "kernel/run/io/checkpoint_files.h"
 #include "kernel/run/io/file_lock.h"
@@ -81,7 +82,7 @@ std::vector<Candidate> candidates_of(const fs::path& place) {
 std::string outputs_folder(const fs::path& file) {
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
   if (file.extension() != ".vxc" || folder.filename() != "checkpoints") return {};
-  return ", " + fs::proximate(place_named(folder.parent_path())).string();
+  return ", " + seen_from_here(place_named(folder.parent_path()));
 }
 
 // Another run is at work there.

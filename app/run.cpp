@@ -192,7 +192,7 @@ int run_on(Prepared run, std::chrono::steady_clock::time_point start) {
                     steps, steps == 1 ? "" : "s"));
   warn(scene, common, warnings);
 
-  const std::string place = std::filesystem::proximate(out.place()).string();
+  const std::string place = seen_from_here(out.place());
   if (full.empty()) {
     full = until_full([&] {
       const std::string report = report_json(scene, common, simulation, seconds_now(), complete);
@@ -207,7 +207,7 @@ int run_on(Prepared run, std::chrono::steady_clock::time_point start) {
     io::write_file(out.partial() / "report.json",
                    report_json(scene, common, simulation, RunSeconds{}, false));
     const bool goes_on = io::holds_work(out.partial());
-    const std::string kept = std::filesystem::proximate(out.keep_incomplete()).string();
+    const std::string kept = seen_from_here(out.keep_incomplete());
     say(fmt::format(
         "{}; the run ended after step {} of {}, and what was made is kept in {}/{}", full,
         simulation.steps_done(), steps, kept,

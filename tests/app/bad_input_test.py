@@ -83,6 +83,14 @@ ARGUMENTS = [
     (["run", "scene.toml", "--set", ".".join("a" * 30000) + "=1"], "a key of more than 64 parts", 2),
     (["run", "scene.toml", "--set", "title=" + "[" * 100], "more than 64 brackets deep", 2),
     (["run", "n" * 300 + ".toml"], "File name too long", 2),
+    *[([*command, long], f"{long}: error: {why}", 2) for long in ("n" * 300, "a/" + "n" * 300, "n" * 300 + "/a")
+      for command, why in ((["run", "scene.toml", "--out"], ""), (["export", "scene.toml", "--out"], ""),
+                           (["render", "scene.toml", "--turntable", "2", "--out"], ""),
+                           (["render", "scene.toml", "--out"], "cannot be written: "),
+                           (["run", "--resume"], ""), (["info"], "there is no such file"))],
+    (["render", "scene.toml", "--turntable", "2", "--out", "picture.png"],
+     "--out picture.png: error: --turntable writes its views into a folder", 2),
+    (["render", "scene.toml", "--turntable", "2", "--out", "film.MP4"], "--out film.MP4: error: --turntable writes", 2),
     (["melt", "scene.toml"], "melt", 2),
     ([], "subcommand", 2),
     (["run", "nosuchscene"], "nosuchscene", 2),
@@ -192,7 +200,40 @@ class BadInput(unittest.TestCase):
 
     def test_a_pipe_without_a_writer_is_not_waited_for(self):
         os.mkfifo(self.folder / "pipe")
-        self.refused(["digest", "./pipe"], "nothing came through this pipe", 2)
+        for command in (["digest", "./pipe"], ["run", "./pipe"], ["run", "--resume", "pipe"], ["info", "pipe"]):
+            begin = time.monotonic()
+            self.refused(command, "pipe", 2)
+            self.assertLess(time.monotonic() - begin, 2, command)
+        self.refused(["digest", "./pipe"], "./pipe: error: cannot read ./pipe: nobody writes into this pipe", 2)
+
+    def test_a_pipe_whose_writer_thinks_is_waited_for(self):
+        write(self.folder, SMALL)
+        piped = f"'{PROGRAM}' digest --steps 1 <(sleep 1.5; cat scene.toml)"
+        result = subprocess.run(["bash", "-c", piped], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        piped = f"mkfifo p; exec 7<>p; '{PROGRAM}' digest ./p"
+        result = subprocess.run(["bash", "-c", piped], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr),
+                         (2, "./p: error: cannot read ./p: nothing came through this pipe for 5 seconds\n"))
+
+    # What has a whole path is written all the same.
+    def test_a_current_folder_that_was_removed(self):
+        scene = write(self.folder, SMALL)
+        gone = f"mkdir gone; cd gone; rmdir ../gone; exec '{PROGRAM}' "
+        for arguments, name in (("run ../scene.toml", "../scene.toml"), (f"run '{scene}'", "out/scene"),
+                                (f"run '{scene}' --out o", "o"), (f"export '{scene}' --out e", "e"),
+                                (f"render '{scene}' --turntable 2", "turntable"), ("run --resume x", "x"),
+                                (f"digest '{scene}' --report r.json", "r.json")):
+            with self.subTest(arguments):
+                result = subprocess.run(["bash", "-c", gone + arguments], cwd=self.folder, capture_output=True, text=True)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertEqual(result.stderr, f"{name}: error: the current folder was removed\n")
+        for command in ("run", "export"):
+            result = subprocess.run(["bash", "-c", f"{gone} {command} '{scene}' --out '{self.folder}/{command}'"],
+                                    cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f"{self.folder}/{command}", result.stdout)
+            self.assertTrue((self.folder / command).is_dir())
 
     def test_a_scene_may_come_through_a_pipe(self):
         write(self.folder, SMALL)

@@ -1,16 +1,23 @@
 #!/usr/bin/env python3
-"""An export takes little memory beside the run, whatever the size of the grid, which is nearly empty here.
+"""An export takes little memory beside the run, whatever the size of the grid, which is nearly empty here. Its
+checkpoint is small, too.
 
-  export_memory_test.py VOXMELT
+  export_memory_test.py VOXMELT [--large]
 """
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
-SCENE = '[grid]\nsize = [512, 128, 256]\n[[solid]]\nshape = "box"\nsize = [4, 4, 4]\nat = [256, 60, 128]\n'
-MOST = 32 << 10  # KiB above the run; the fields have 144 MiB
+LARGE = "--large" in sys.argv
+SIZE = (1024, 256, 1024) if LARGE else (512, 128, 256)
+CELLS = SIZE[0] * SIZE[1] * SIZE[2]
+SCENE = f'[grid]\nsize = {list(SIZE)}\n[[solid]]\nshape = "box"\nsize = [4, 4, 4]\nat = [256, 60, 128]\n'
+MOST = (256 if LARGE else 32) << 10  # KiB above the run; the fields have 2304 or 144 MiB
+LARGEST_CHECKPOINT = 20_000_000
 
 
 def peak(*arguments):
@@ -18,6 +25,18 @@ def peak(*arguments):
     _, status, usage = os.wait4(process.pid, 0)
     assert status == 0, arguments
     return usage.ru_maxrss
+
+
+def checkpoint_of(scene, out):
+    """Of a run that a signal ends behind its first checkpoint."""
+    process = subprocess.Popen([sys.argv[1], "run", scene, "--out", out, "--steps", "4000000", "--frame-every", "0", "--size",
+                                "64x48", "--checkpoint-every", "1", "--quiet"], stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 300
+    while not list(out.parent.glob(f"{out.name}.partial-*/checkpoints/*.vxc")) and time.monotonic() < deadline:
+        time.sleep(0.1)
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(600) == 4, process.returncode
+    return max((out / "checkpoints").iterdir())
 
 
 with tempfile.TemporaryDirectory() as folder:
@@ -28,9 +47,18 @@ with tempfile.TemporaryDirectory() as folder:
     for form in ("npy", "vti"):
         out = Path(folder) / form
         above = peak("export", str(scene), "--steps", "1", "--format", form, "--out", str(out)) - run
-        written = sum(file.stat().st_size for file in out.iterdir())
-        print(f"{form}: {written >> 20} MiB written, {above >> 10} MiB above the run")
-        if above > MOST or written < 512 * 128 * 256 * 9:
+        written = 0
+        for file in out.iterdir():
+            written += file.stat().st_size
+            file.unlink()
+        print(f"{form}: {written >> 20} MiB written, {above >> 10} MiB above the run's {run >> 10} MiB")
+        if above > MOST or written < CELLS * 9:
             problems.append(f"{form}: at most {MOST >> 10} MiB of memory, all of the fields written")
+    checkpoint = checkpoint_of(scene, Path(folder) / "out")
+    size = checkpoint.stat().st_size
+    print(f"checkpoint: {size} bytes")
+    subprocess.run([sys.argv[1], "info", checkpoint], check=True, stdout=subprocess.DEVNULL)
+    if size > LARGEST_CHECKPOINT:
+        problems.append(f"a checkpoint has at most {LARGEST_CHECKPOINT} bytes")
 print("\n".join(problems))
 sys.exit(1 if problems else 0)

@@ -106,7 +106,12 @@ OutputFolder::OutputFolder(const fs::path& place, bool goes_on)
   for (fs::path above = place_.parent_path(); !fs::exists(above, error); above = above.parent_path())
     first_new_ = above;
   fs::create_directories(place_.parent_path(), error);
-  if (error) fail_output(place_, "cannot create the output folder", error.value());
+  const auto refuse_to_create = [&](int why) {
+    partial_ = place_;
+    remove_new_folders();
+    fail_output(place_, "cannot create the output folder", why);
+  };
+  if (error) refuse_to_create(error.value());
   const FileLock above = FileLock::wait(place_.parent_path());
   if (clear_leavings(place_, true))
     refuse(place_, "another run is writing there; wait for it, or choose another");
@@ -121,7 +126,7 @@ OutputFolder::OutputFolder(const fs::path& place, bool goes_on)
   }
   const auto held = changing_places();
   std::string partial = beside(place_);
-  if (::mkdtemp(partial.data()) == nullptr) fail_output(place_, "cannot create the output folder", errno);
+  if (::mkdtemp(partial.data()) == nullptr) refuse_to_create(errno);
   partial_ = partial;
   unfinished_.begin([this] { discard(); });
   lock_ = FileLock::attempt(partial_);
@@ -138,7 +143,12 @@ void OutputFolder::discard() {
   if (committed_ || holds_work(partial_)) return;
   std::error_code ignored;
   fs::remove_all(partial_, ignored);
-  // Folders that were made in vain are removed too; fs::remove leaves those that are not empty.
+  remove_new_folders();
+}
+
+// Folders that were made in vain; fs::remove leaves those that are not empty.
+void OutputFolder::remove_new_folders() {
+  std::error_code ignored;
   for (fs::path folder = partial_; !first_new_.empty() && folder != first_new_;) {
     folder = folder.parent_path();
     fs::remove(folder, ignored);

@@ -35,6 +35,7 @@ class OutputFolder {
  private:
   void move_to(const std::filesystem::path& place);
   void discard();
+  void remove_new_folders();
 
   std::filesystem::path place_, partial_;
   std::filesystem::path

@@ -15,7 +15,8 @@
 namespace voxmelt::scene {
 namespace {
 
-constexpr int kPatience = 5000;  // milliseconds, for the next bytes of a pipe
+// Milliseconds, for the next bytes of a pipe. Whoever has it open for writing may think for a while.
+constexpr int kPatience = 5000, kPatienceWithoutWriter = 1000;
 
 thread_local FilesRead* innermost = nullptr;
 
@@ -58,9 +59,11 @@ std::string read_text_file(const std::filesystem::path& file, std::size_t limit,
   std::array<char, 65536> piece;
   for (;;) {
     pollfd waiting{open.value(), POLLIN, 0};
-    if (pipe && ::poll(&waiting, 1, kPatience) == 0)
-      fail(fmt::format("nothing came through this pipe for {} seconds", kPatience / 1000));
+    const bool silent = pipe && ::poll(&waiting, 1, kPatienceWithoutWriter) == 0;
     const ssize_t count = ::read(open.value(), piece.data(), piece.size());
+    if (silent && count == 0) fail("nobody writes into this pipe");
+    if (silent && count < 0 && ::poll(&waiting, 1, kPatience - kPatienceWithoutWriter) == 0)
+      fail(fmt::format("nothing came through this pipe for {} seconds", kPatience / 1000));
     if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (count < 0) fail(std::strerror(errno));
     if (count == 0) return text;
