@@ -1,8 +1,8 @@
 #include "bench/measure/needed.h"
 
-#include <cstdint>
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "kernel/run/simulation.h"
