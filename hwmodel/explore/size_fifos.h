@@ -22,7 +22,7 @@ struct Sizing {
   std::vector<SizedChannel> channels;
   std::int64_t cycles = 0;       // of the run with these depths
   std::int64_t deep_cycles = 0;  // with deep channels: as many, but on a DRAM it may be more
-  int runs = 0;             // that were simulated
+  int runs = 0;                  // that were simulated
 };
 
 struct SizingMemory {
