@@ -216,6 +216,38 @@ class BadInput(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr),
                          (2, "./p: error: cannot read ./p: nothing came through this pipe for 5 seconds\n"))
 
+    def test_an_output_is_not_replaced_from_within(self):
+        scene = write(self.folder, SMALL)
+        self.assertEqual(voxmelt("run", scene, "--steps", 0, "--out", "o", cwd=self.folder).returncode, 0)
+        for place in (".", "..", self.folder / "o"):
+            here = self.folder / ("o/frames" if place == ".." else "o")
+            result = voxmelt("run", scene, "--steps", 0, "--out", place, cwd=here)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn("is the current folder or one above it; choose a folder inside", result.stderr)
+
+    # Eight scenes above the first, and no more.
+    def test_how_deep_a_scene_extends(self):
+        write(self.folder, SMALL, "s0.toml")
+        for i in range(1, 10):
+            write(self.folder, f'extends = "s{i - 1}.toml"\n', f"s{i}.toml")
+        self.assertEqual(voxmelt("digest", "s8.toml", "--steps", 0, cwd=self.folder).returncode, 0)
+        self.refused(["digest", "s9.toml", "--steps", 0], "extends is nested more than 8 deep", 2)
+
+    def test_the_largest_scene_file(self):
+        filled = SMALL + "#" * ((16 << 20) - len(SMALL) - 1) + "\n"
+        write(self.folder, filled)
+        self.assertEqual(voxmelt("digest", "scene.toml", "--steps", 0, cwd=self.folder).returncode, 0)
+        write(self.folder, filled + "\n")
+        self.refused(["digest", "scene.toml", "--steps", 0], "larger than 16777216 bytes", 2)
+
+    def test_fields_whose_numbers_lie_the_other_way_round(self):
+        write(self.folder, SMALL)
+        self.assertEqual(voxmelt("export", "scene.toml", "--steps", 0, "--out", "at0", cwd=self.folder).returncode, 0)
+        write(self.folder, SMALL + '[start]\nfields = "at0"\n', "from.toml")
+        file = self.folder / "at0/amount.npy"
+        file.write_bytes(file.read_bytes().replace(b"'fortran_order': False", b"'fortran_order': True "))
+        self.refused(["digest", "from.toml"], "at0/amount.npy: not in C order", 2)
+
     # What has a whole path is written all the same.
     def test_a_current_folder_that_was_removed(self):
         scene = write(self.folder, SMALL)

@@ -90,6 +90,8 @@ class Checkpoints(unittest.TestCase):
 
     def test_a_killed_run_is_found_by_its_name_and_kept_from_others(self):
         partial = self.begin_and_end("died", signal.SIGKILL)
+        steps = [int(p.stem[5:]) for p in (partial / "checkpoints").glob("*.vxc")]
+        self.assertEqual({step % 7 for step in steps}, {0}, "every seventh step, as it was asked for")
         said = self.refused("run", self.scene, "--out", "died", names="died.partial-")
         self.assertIn("voxmelt run --resume died", said)
         for old in sorted((partial / "checkpoints").glob("*.vxc"))[-1:]:  # the newest one is damaged

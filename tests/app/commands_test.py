@@ -54,6 +54,12 @@ class Commands(unittest.TestCase):
         self.assertGreater(report["mass"]["liquid"], 0, "nothing melted: the test would prove nothing")
         self.assertEqual([p.name for p in (self.folder / "out").iterdir()], ["scene"], "no partial folder is left")
 
+    # A box of 4-cubed full cells, of 4096 each. Before the first step nothing has melted.
+    def test_the_report_says_what_is_solid(self):
+        self.good("run", self.scene, "--steps", 0)
+        mass = json.loads((self.folder / "out/scene/report.json").read_text())["mass"]
+        self.assertEqual((mass["solid"], mass["liquid"]), (64 * 4096, 0))
+
     def test_the_report_repeats_the_run(self):
         self.good("run", self.scene, "--set", "heat.gamma=0.1", "--seed", "7", "--report", "r.json")
         report = json.loads((self.folder / "r.json").read_text())
@@ -298,6 +304,30 @@ class Commands(unittest.TestCase):
         there = self.good("digest", self.scene, "--steps", "4").split()[3]
         self.assertEqual(start, there)
 
+    # A default is the value that it says, and differs from the one beside it.
+    def test_defaults_of_steps(self):
+        def digest(*more):
+            return self.good("digest", "from.toml", "--steps", "24", *(a for m in more for a in ("--set", m))).split()[3]
+        self.good("export", self.scene, "--steps", "0", "--out", "at0")
+        write(self.folder, SMALL + '[start]\nfields = "at0"\n', "from.toml")
+        for key, default, other in (("heat.visibility_every", 8, 16), ("start.step", 0, 8)):
+            self.assertEqual(digest(), digest(f"{key}={default}"))
+            self.assertNotEqual(digest(), digest(f"{key}={other}"), f"{key} does nothing here: the test would prove nothing")
+
+    # A row has 16 words, and a plane is more than what is written at once.
+    def test_an_export_of_wide_planes(self):
+        cubes = [f'[[solid]]\nshape = "box"\nsize = [1, 1, 1]\nat = [{x}.5, 700.5, {z}.5]\n' for x, z in ((100, 0), (1023, 1))]
+        scene = write(self.folder, "[grid]\nsize = [1024, 1024, 2]\n" + "".join(cubes), "wide.toml")
+        self.good("export", scene, "--steps", "0", "--out", "wide")
+        cells = 2 << 20
+        for name, size, full in (("solid", 1, b"\1"), ("amount", 2, struct.pack("<H", 4096))):
+            data = (self.folder / f"wide/{name}.npy").read_bytes()
+            self.assertTrue(0 < len(data) - cells * size <= 128, len(data))
+            expected = bytearray(cells * size)
+            for at in (700 * 1024 + 100, (1024 + 700) * 1024 + 1023):
+                expected[at * size:(at + 1) * size] = full
+            self.assertTrue(data.endswith(expected), name)
+
     def test_export_vti_is_one_vtk_image(self):
         self.good("export", self.scene, "--steps", "2", "--out", "v", "--format", "vti")
         data = (self.folder / "v/volume.vti").read_bytes()
@@ -383,7 +413,7 @@ law = "viscous"
 kappa = 20
 """
         lid = "[[inert]]\nshape = \"box\"\nsize = [9, 1, 9]\nat = [4.5, 15.5, 4.5]\n"
-        for more, expected in (("", 1), (lid, 0)):
+        for more, expected in (("", 1), (lid.replace("inert", "solid"), 0), (lid, 0)):
             scene = write(self.folder, vent + more, "vent.toml")
             said, _ = self.warnings(scene, "--steps", 120)
             self.assertEqual(len(said), expected, said)

@@ -119,39 +119,6 @@ class Frames(unittest.TestCase):
                       for y in range(12, 24) for x in range(32) for c in range(3)]
             self.assertEqual(shown, halved, f"frame {i}, below its label")
 
-    def test_the_film_of_a_resumed_run_has_all_frames(self):
-        run = ["run", self.scene, "--out", "r", "--frame-every", "1", "--checkpoint-every", "1", "--quiet", "--steps"]
-        process = subprocess.Popen([PROGRAM, *run, "300"], cwd=self.folder, env=self.with_ffmpeg("cat > /dev/null"))
-        for _ in range(1000):
-            if len(list(self.folder.glob("r.partial*/frames/*.png"))) > 3:
-                break
-            time.sleep(0.01)
-        process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.wait(60), 4)
-        kept = len(list((self.folder / "r/frames").iterdir()))
-        self.assertTrue(3 < kept < 301, kept)
-        result = voxmelt("run", "--resume", "r", cwd=self.folder, env=self.with_ffmpeg(CAT))
-        self.assertEqual(result.returncode, 0, result.stderr)
-        frames = sorted((self.folder / "r/frames").iterdir())
-        self.assertEqual(len(frames), 301)
-        self.assertEqual((self.folder / "r/film.mp4").read_bytes(), b"".join(bytes(picture(f)[3]) for f in frames))
-
-    # Two rows, of four and three. Each frame is 64 x 48 and shown by halves, so columns are 32 + 6 pixels apart and
-    # rows 24 + 6, and the sheet has 6 more on either side: 4 * 38 + 6 by 2 * 30 + 6.
-    def test_the_contact_sheet_of_seven_frames(self):
-        for steps, columns, size in ((6, 4, (158, 66)), (5, 3, (120, 66))):
-            self.run_scene(f"s{steps}", "--steps", steps, "--frame-every", 1)
-            width, height, channels, sheet = picture(self.folder / f"s{steps}/contact_sheet.png")
-            self.assertEqual((width, height, channels), (*size, 3))
-            self.assertEqual(set(sheet[:6 * width * 3]), {255}, "the edge above")
-            for k in range(steps + 1):
-                numbers = picture(self.folder / f"s{steps}/frames/frame_{k:05}.png")[3]
-                for y in (12, 23):  # below the label
-                    for x in range(32):
-                        at = ((6 + k // columns * 30 + y) * width + 6 + k % columns * 38 + x) * 3
-                        four = [numbers[((2 * y + b) * 64 + 2 * x + a) * 3:][:3] for a in (0, 1) for b in (0, 1)]
-                        self.assertEqual(sheet[at:at + 3], [(sum(c) + 2) // 4 for c in zip(*four)], (k, x, y))
-
     # It ends after the steps it was asked for, not after those of the scene.
     def test_the_film_of_a_resumed_run_has_all_frames(self):
         process = subprocess.Popen([PROGRAM, "run", self.scene, "--out", "r", "--steps", "3000", "--frame-every", "500",

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kSlabs = 64;
 constexpr std::size_t kChunk = 64;  // samples
+constexpr int kBand = 64;           // samples, whole cells: what a band needs fits the processor's caches
 constexpr int kHalfOfSixRays = 3;
 
 template <class T>
@@ -88,18 +89,20 @@ MeshLayers::MeshLayers(const Surface& surface, Inside inside, Coverage& coverage
   width_ = static_cast<std::size_t>(count_[at(p_)]);
   height_ = static_cast<std::size_t>(count_[at(q_)]);
   thickness_ = std::max(1, count_[at(s_)] / kSlabs);
-  along_p_.resize(width_ * height_);
+  static_assert(kBand % kSamplesPerAxis == 0);
+  band_ = std::min(kBand, std::max(count_[at(q_)], kSamplesPerAxis));
+  const std::size_t in_band = static_cast<std::size_t>(band_);
+  along_p_.resize(width_ * in_band);
   chunks_ = (width_ + kChunk - 1) / kChunk;
-  touched_.resize(height_ * chunks_);
-  total_p_.resize(height_);
+  touched_.resize(in_band * chunks_);
+  total_p_.resize(in_band);
   plane_.resize(width_ / kSamplesPerAxis * (height_ / kSamplesPerAxis));
   inside_row_.resize(width_);
   if (surface.closed) return;
-  along_q_.resize(width_ * height_);
-  along_s_.resize(width_ * height_ * static_cast<std::size_t>(thickness_));
+  along_q_.resize(width_ * in_band);
+  along_s_.resize(width_ * in_band * static_cast<std::size_t>(thickness_));
   told_s_.resize(width_ * height_);
-  told_q_.resize(width_);
-  total_q_.resize(width_);
+  told_q_.resize(width_ * static_cast<std::size_t>(thickness_));
   told_p_.resize(width_);
 }
 
@@ -110,6 +113,11 @@ MeshLayers::Range MeshLayers::samples(int axis, std::int64_t first, std::int64_t
   static_assert(kSampleSpacing == 1 << 13);
   return {static_cast<int>(std::clamp<std::int64_t>(from, 0, count_[at(axis)])),
           static_cast<int>(std::clamp<std::int64_t>(to, 0, count_[at(axis)]))};
+}
+
+MeshLayers::Range MeshLayers::common(Range a, Range b) {
+  const int first = std::max(a.first, b.first);
+  return {first, std::max(first, std::min(a.end, b.end))};
 }
 
 // The first sample at or behind a crossing.
@@ -144,49 +152,53 @@ void MeshLayers::run() {
     slab.end = std::min(slab.first + thickness_, count_[at(s_)]);
     for (; next < order.size() && order[next].first < slab.end; ++next) active.push_back(order[next].second);
     if (!surface_.closed) {
-      std::fill(along_s_.begin(), along_s_.end(), std::int8_t{0});
-      for (const std::uint32_t i : active) step_through_layers(surface_.triangle(i), slab);
-    }
-    for (int layer = slab.first; layer < slab.end; ++layer) {
-      for (const std::uint32_t i : active) {
-        const Triangle triangle = surface_.triangle(i);
-        cross_p(triangle, layer);
-        if (!surface_.closed) cross_q(triangle, layer);
-      }
-      told_q_ = total_q_;
+      std::fill(told_q_.begin(), told_q_.end(), std::int16_t{0});
+      for (const std::uint32_t i : active) total_in_layers(surface_.triangle(i), slab);
       begin_rays(told_q_);
-      for (int q = 0; q < count_[at(q_)]; ++q) {
-        if (surface_.closed) {
-          add_closed_row(q);
-          continue;
-        }
-        const std::int8_t* steps =
-            along_s_.data() +
-            (static_cast<std::size_t>(layer - slab.first) * height_ + static_cast<std::size_t>(q)) * width_;
-        if (inside_ == Inside::winding)
-          add_open_row<Inside::winding>(q, steps);
-        else
-          add_open_row<Inside::parity>(q, steps);
-      }
-      std::fill(total_q_.begin(), total_q_.end(), std::int16_t{0});
-      if (layer % kSamplesPerAxis == kSamplesPerAxis - 1) store(layer);
+    }
+    for (Range band{0, 0}; band.first < count_[at(q_)]; band.first = band.end) {
+      band.end = std::min(band.first + band_, count_[at(q_)]);
+      decide_band(active, slab, band);
     }
     // A crossing may belong to the layer behind the last one that the triangle has samples in.
     std::erase_if(active, [&](std::uint32_t i) { return layers_of(i).end < slab.end; });
   }
 }
 
-void MeshLayers::cross_p(const Triangle& triangle, int layer) {
+void MeshLayers::decide_band(const std::vector<std::uint32_t>& active, Slab slab, Range band) {
+  std::vector<Triangle> triangles;
+  for (const std::uint32_t i : active) {
+    const Triangle t = surface_.triangle(i);
+    const auto [low, high] = std::minmax({t[0][at(q_)], t[1][at(q_)], t[2][at(q_)]});
+    const Range rows = samples(q_, low, high);  // and a crossing may belong to the row behind them
+    if (rows.first < band.end && rows.end >= band.first) triangles.push_back(t);
+  }
+  if (!surface_.closed) {
+    std::fill(along_s_.begin(), along_s_.end(), std::int8_t{0});
+    for (const Triangle& triangle : triangles) step_through_layers(triangle, slab, band);
+  }
+  for (int layer = slab.first; layer < slab.end; ++layer) {
+    for (const Triangle& triangle : triangles) {
+      cross_p(triangle, layer, band);
+      if (!surface_.closed) cross_q(triangle, layer, band);
+    }
+    for (int q = band.first; q < band.end; ++q) add_row(q, q - band.first, layer - slab.first);
+    if (layer % kSamplesPerAxis == kSamplesPerAxis - 1) store(layer, band);
+  }
+}
+
+void MeshLayers::cross_p(const Triangle& triangle, int layer, Range band) {
   const std::int64_t v = place(s_, layer);
   const auto [low, high] = std::minmax({triangle[0][at(s_)], triangle[1][at(s_)], triangle[2][at(s_)]});
   if (v < low || v > high) return;
   const RayCrossings crossings(triangle, p_, s_);
   if (crossings.sign() == 0) return;
   const auto [first, last] = crossings.range_u(v);
-  const Range rows = samples(q_, first, last);
+  const Range rows = common(samples(q_, first, last), band);
   RayCrossings::Walk walk(crossings, place(q_, rows.first), v);
   for (int q = rows.first; q < rows.end; ++q, walk.next()) {
-    const auto to = static_cast<std::size_t>(sample_at(p_, walk.depth())), row = static_cast<std::size_t>(q);
+    const auto to = static_cast<std::size_t>(sample_at(p_, walk.depth())),
+               row = static_cast<std::size_t>(q - band.first);
     add_saturated(total_p_[row], -crossings.sign());
     if (to >= width_) continue;
     add_saturated(along_p_[row * width_ + to], -crossings.sign());
@@ -194,19 +206,34 @@ void MeshLayers::cross_p(const Triangle& triangle, int layer) {
   }
 }
 
-void MeshLayers::cross_q(const Triangle& triangle, int layer) {
+void MeshLayers::cross_q(const Triangle& triangle, int layer, Range band) {
   const std::int64_t v = place(s_, layer);
   const auto [low, high] = std::minmax({triangle[0][at(s_)], triangle[1][at(s_)], triangle[2][at(s_)]});
   if (v < low || v > high) return;
   const RayCrossings crossings(triangle, q_, s_);
   if (crossings.sign() == 0) return;
   const auto [first, last] = crossings.range_u(v);
-  const Range rays = samples(p_, first, last);
+  const Range rays = within(crossings, samples(p_, first, last), v, q_, band);
   RayCrossings::Walk walk(crossings, place(p_, rays.first), v);
   for (int p = rays.first; p < rays.end; ++p, walk.next()) {
-    const auto to = static_cast<std::size_t>(sample_at(q_, walk.depth())), ray = static_cast<std::size_t>(p);
-    add_saturated(total_q_[ray], -crossings.sign());
-    if (to < height_) add_saturated(along_q_[to * width_ + ray], -crossings.sign());
+    const int to = sample_at(q_, walk.depth());
+    if (to < band.first || to >= band.end) continue;
+    add_saturated(along_q_[static_cast<std::size_t>(to - band.first) * width_ + static_cast<std::size_t>(p)],
+                  -crossings.sign());
+  }
+}
+
+// What rays along q cross in all, in each layer of the slab.
+void MeshLayers::total_in_layers(const Triangle& triangle, Slab slab) {
+  const RayCrossings crossings(triangle, q_, s_);
+  if (crossings.sign() == 0) return;
+  const auto [low, high] = crossings.range_v();
+  const Range layers = common(samples(s_, low, high), {slab.first, slab.end});
+  for (int layer = layers.first; layer < layers.end; ++layer) {
+    const auto [first, last] = crossings.range_u(place(s_, layer));
+    const Range rays = samples(p_, first, last);
+    std::int16_t* totals = told_q_.data() + static_cast<std::size_t>(layer - slab.first) * width_;
+    for (int p = rays.first; p < rays.end; ++p) add_saturated(totals[p], -crossings.sign());
   }
 }
 
@@ -227,40 +254,39 @@ void MeshLayers::total_through_layers() {
   }
 }
 
-void MeshLayers::step_through_layers(const Triangle& triangle, Slab slab) {
+void MeshLayers::step_through_layers(const Triangle& triangle, Slab slab, Range band) {
   const RayCrossings crossings(triangle, s_, q_);
   if (crossings.sign() == 0) return;
   const auto [low, high] = crossings.range_v();
-  const Range rows = samples(q_, low, high);
+  const Range rows = common(samples(q_, low, high), band);
   for (int q = rows.first; q < rows.end; ++q) {
     const std::int64_t v = place(q_, q);
     const auto [first, last] = crossings.range_u(v);
-    const Range rays = within(crossings, samples(p_, first, last), v, slab);
+    const Range rays = within(crossings, samples(p_, first, last), v, s_, {slab.first, slab.end});
     RayCrossings::Walk walk(crossings, place(p_, rays.first), v);
     for (int p = rays.first; p < rays.end; ++p, walk.next()) {
       const int to = sample_at(s_, walk.depth());
       if (to < slab.first || to >= slab.end) continue;
-      const std::size_t layer = static_cast<std::size_t>(to - slab.first);
-      add_saturated(
-          along_s_[(layer * height_ + static_cast<std::size_t>(q)) * width_ + static_cast<std::size_t>(p)],
-          -crossings.sign());
+      const auto row = static_cast<std::size_t>((to - slab.first) * band_ + q - band.first);
+      add_saturated(along_s_[row * width_ + static_cast<std::size_t>(p)], -crossings.sign());
     }
   }
 }
 
-// Depth grows evenly along a row; so the part of it in a slab is known but for rounding.
-MeshLayers::Range MeshLayers::within(const RayCrossings& crossings, Range rays, std::int64_t v,
-                                     Slab slab) const {
+// Depth grows evenly along a row; so the rays whose crossings lie in a part of the axis are known but for
+// rounding.
+MeshLayers::Range MeshLayers::within(const RayCrossings& crossings, Range rays, std::int64_t v, int axis,
+                                     Range part) const {
   constexpr int slack = 2;  // samples
   if (rays.end - rays.first < 8) return rays;
-  const auto layer_at = [&](int p) {
+  const auto sample_of = [&](int p) {
     const double depth = crossings.depth(place(p_, p), v);
-    return (depth - static_cast<double>(low_[at(s_)])) / static_cast<double>(kSampleSpacing);
+    return (depth - static_cast<double>(low_[at(axis)])) / static_cast<double>(kSampleSpacing);
   };
-  const double from = layer_at(rays.first), to = layer_at(rays.end - 1);
+  const double from = sample_of(rays.first), to = sample_of(rays.end - 1);
   const double slope = (to - from) / (rays.end - 1 - rays.first);
-  // The first slab has all that lies before the window, too.
-  const double least = slab.first == 0 ? -1e18 : slab.first - slack, most = slab.end + slack;
+  // The first part has all that lies before the window, too.
+  const double least = part.first == 0 ? -1e18 : part.first - slack, most = part.end + slack;
   if (std::abs(slope) < 1e-6)
     return std::max(from, to) < least || std::min(from, to) > most ? Range{0, 0} : rays;
   const auto [near, far] = std::minmax({(least - from) / slope, (most - from) / slope});
@@ -269,10 +295,18 @@ MeshLayers::Range MeshLayers::within(const RayCrossings& crossings, Range rays, 
           rays.first + static_cast<int>(std::clamp(std::ceil(far) + 1, 0.0, length))};
 }
 
-void MeshLayers::add_closed_row(int q) {
-  const std::size_t row = static_cast<std::size_t>(q);
+void MeshLayers::add_row(int q, int row, int layer) {
+  if (surface_.closed)
+    add_closed_row(q, static_cast<std::size_t>(row));
+  else if (inside_ == Inside::winding)
+    add_open_row<Inside::winding>(q, static_cast<std::size_t>(row), layer);
+  else
+    add_open_row<Inside::parity>(q, static_cast<std::size_t>(row), layer);
+}
+
+void MeshLayers::add_closed_row(int q, std::size_t row) {
   std::int16_t* crossings = along_p_.data() + row * width_;
-  std::uint8_t* plane = plane_.data() + row / kSamplesPerAxis * (width_ / kSamplesPerAxis);
+  std::uint8_t* plane = plane_.data() + at(q) / kSamplesPerAxis * (width_ / kSamplesPerAxis);
   const bool winding = inside_ == Inside::winding;
   int w = 0;
   for (std::size_t chunk = 0; chunk < chunks_; ++chunk) {
@@ -295,8 +329,7 @@ void MeshLayers::add_closed_row(int q) {
 }
 
 template <Inside inside>
-void MeshLayers::add_open_row(int q, const std::int8_t* steps) {
-  const std::size_t row = static_cast<std::size_t>(q);
+void MeshLayers::add_open_row(int q, std::size_t row, int layer) {
   std::int16_t now = at_low_end<inside>(std::exchange(total_p_[row], std::int16_t{0}));
   for (std::size_t chunk = 0; chunk < chunks_; ++chunk) {
     const std::size_t first = chunk * kChunk, end = std::min(first + kChunk, width_);
@@ -310,10 +343,11 @@ void MeshLayers::add_open_row(int q, const std::int8_t* steps) {
   }
 
   std::int16_t* across = along_q_.data() + row * width_;
-  const OpenRow open{told_p_.data(), told_q_.data(), told_s_.data() + row * width_};
+  const OpenRow open{told_p_.data(), told_q_.data() + at(layer) * width_, told_s_.data() + at(q) * width_};
+  const std::int8_t* steps = along_s_.data() + (at(layer) * at(band_) + row) * width_;
   decide<inside>(width_, open, across, steps, inside_row_.data());
   std::fill(across, across + width_, std::int16_t{0});
-  std::uint8_t* plane = plane_.data() + row / kSamplesPerAxis * (width_ / kSamplesPerAxis);
+  std::uint8_t* plane = plane_.data() + at(q) / kSamplesPerAxis * (width_ / kSamplesPerAxis);
   for (std::size_t i = 0; i < width_; i += kSamplesPerAxis) {
     const std::uint16_t* in = inside_row_.data() + i;
     plane[i / kSamplesPerAxis] =
@@ -321,15 +355,15 @@ void MeshLayers::add_open_row(int q, const std::int8_t* steps) {
   }
 }
 
-// A layer of cells is complete.
-void MeshLayers::store(int layer) {
+// A band of a layer of cells is complete.
+void MeshLayers::store(int layer, Range band) {
   const state::Grid size = coverage_.window.size;
   const std::array<std::size_t, 3> stride{
       1, static_cast<std::size_t>(size.x),
       static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)};
   const std::size_t first = static_cast<std::size_t>(layer / kSamplesPerAxis) * stride[at(s_)];
-  const std::size_t width = width_ / kSamplesPerAxis, height = height_ / kSamplesPerAxis;
-  for (std::size_t q = 0; q < height; ++q)
+  const std::size_t width = width_ / kSamplesPerAxis, end = at(band.end) / kSamplesPerAxis;
+  for (std::size_t q = at(band.first) / kSamplesPerAxis; q < end; ++q)
     for (std::size_t p = 0; p < width; ++p)
       coverage_.samples[first + p * stride[at(p_)] + q * stride[at(q_)]] =
           std::exchange(plane_[q * width + p], std::uint8_t{0});

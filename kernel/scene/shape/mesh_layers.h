@@ -1,4 +1,6 @@
 // Winding numbers of the samples in one layer after the other: memory for layers, not for the whole box.
+// Some layers are a slab, and are decided band by band: crossings that follow one another lie far apart, and
+// in a whole slab most of the time went into finding their memory.
 #pragma once
 
 #include <array>
@@ -24,7 +26,7 @@ class MeshLayers {
   struct Slab {
     int first, end;
   };
-  // A range of samples, clipped to the window.
+  // A range of samples, clipped to the window. A band is a range along q_.
   struct Range {
     int first, end;
   };
@@ -33,17 +35,21 @@ class MeshLayers {
     return low_[static_cast<std::size_t>(axis)] + sample * kSampleSpacing;
   }
   Range samples(int axis, std::int64_t first, std::int64_t last) const;
+  static Range common(Range a, Range b);
   int sample_at(int axis, double depth) const;
 
   void total_through_layers();
-  Range within(const RayCrossings& crossings, Range rays, std::int64_t v, Slab slab) const;
-  void step_through_layers(const Triangle& triangle, Slab slab);
-  void cross_p(const Triangle& triangle, int layer);
-  void cross_q(const Triangle& triangle, int layer);
-  void add_closed_row(int q);
+  void total_in_layers(const Triangle& triangle, Slab slab);
+  Range within(const RayCrossings& crossings, Range rays, std::int64_t v, int axis, Range part) const;
+  void decide_band(const std::vector<std::uint32_t>& active, Slab slab, Range band);
+  void step_through_layers(const Triangle& triangle, Slab slab, Range band);
+  void cross_p(const Triangle& triangle, int layer, Range band);
+  void cross_q(const Triangle& triangle, int layer, Range band);
+  void add_row(int q, int row, int layer);
+  void add_closed_row(int q, std::size_t row);
   template <Inside inside>
-  void add_open_row(int q, const std::int8_t* steps);
-  void store(int layer);
+  void add_open_row(int q, std::size_t row, int layer);
+  void store(int layer, Range band);
 
   const Surface& surface_;
   Inside inside_;
@@ -53,14 +59,17 @@ class MeshLayers {
   std::array<int, 3> count_;         // samples along each axis
   std::size_t width_, height_;       // samples along p and q
   int thickness_;                    // layers in a slab
+  int band_;                         // samples in a band, along q
 
-  // What a ray crosses before a sample and not before the one before it, +1 where it enters; [q][p].
+  // Of a band. What a ray crosses before a sample and not before the one before it, +1 where it enters;
+  // [q][p].
   std::vector<std::int16_t> along_p_, along_q_;
-  std::vector<std::uint8_t> touched_;            // rows of along_p_: where chunks of samples are not all 0
-  std::size_t chunks_;                           // of a row
-  std::vector<std::int8_t> along_s_;             // [layer of the slab][q][p]
-  std::vector<std::int16_t> total_p_, total_q_;  // of whole rays
-  std::vector<std::int16_t> told_p_, told_q_, told_s_;  // by both rays from where the samples are now
+  std::vector<std::uint8_t> touched_;  // rows of along_p_: where chunks of samples are not all 0
+  std::size_t chunks_;                 // of a row
+  std::vector<std::int8_t> along_s_;   // [layer of the slab][q][p]
+  std::vector<std::int16_t> total_p_;  // of whole rays
+  // By both rays from where the samples are now; told_q_ of each layer of the slab.
+  std::vector<std::int16_t> told_p_, told_q_, told_s_;
   std::vector<std::uint16_t> inside_row_;
   std::vector<std::uint8_t> plane_;  // samples inside of a layer of cells, [q][p]
   int most_ = 0;
