@@ -51,6 +51,7 @@ class Run {
     report_.pictures = screen_.report();
     report_.different_beside = screen_.different_beside();
     const Shape& shape = design_.shape;
+    report_.cells = shape.grid.cells();
     const std::int64_t words = std::int64_t{shape.grid_blocks()} * shape.lanes * shape.grid.y * shape.grid.z;
     const int copies = shape.tiled() ? 2 : 1;  // tiles overlap: state_memory.h
     const CodeLayout layout(design_);

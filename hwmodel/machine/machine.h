@@ -48,6 +48,7 @@ struct MachineReport {
   raycast::UploadReport first_upload;  // of everything
   std::int64_t first_frame = 0;        // its cycles: caches are cold
   std::vector<Period> periods;
+  std::int64_t cells = 0;                              // of the grid
   std::int64_t state_bytes = 0, irradiance_bytes = 0;  // in memory, beside what the ray caster has there
 
   bool good() const { return steps.mismatch == nullptr && pictures.good() && different_beside == 0; }

@@ -23,12 +23,6 @@ double rate(double times, std::int64_t cycles, int clock_mhz) {
 
 std::int64_t upload_bytes(const Period& of) { return of.upload.bursts * raycast::kBurst; }
 
-// That the memory could move at most.
-double bytes_a_cycle(const MachineOptions& options) {
-  const raycast::Configuration& c = options.picture.configuration;
-  return c.dram ? static_cast<double>(c.dram->peak()) / c.clock_mhz : c.bus_bytes;
-}
-
 Json json_of(const Period& of) {
   return {{"step", of.step},
           {"steps",
@@ -51,6 +45,27 @@ Json json_of(const Period& of) {
           {"host_seconds", of.host_seconds}};
 }
 
+// Upper bounds of cell-steps a cycle, each below the one before, and what the pipeline reached: alone on the
+// memory, and with the upload and the ray caster on it.
+Json rate_of_cells(const MachineReport& report, const MachineOptions& options) {
+  const Period sum = report.sum();
+  const Configuration& c = options.steps.configuration;
+  const double cells = static_cast<double>(report.cells) * report.steps.steps;
+  const auto a_cycle = [](double amount, std::int64_t cycles) {
+    return ratio(amount, static_cast<double>(cycles));
+  };
+  const auto own = static_cast<double>(sum.work.bytes());
+  const double all = own + static_cast<double>(sum.frame_read + sum.frame_written + upload_bytes(sum));
+  return {{"lanes_and_steps", static_cast<double>(c.lanes * c.cascade)},
+          {"always_answered", a_cycle(cells, sum.work.cycles)},
+          {"alone", a_cycle(cells, sum.stream)},
+          {"reached", a_cycle(cells, sum.overlapped())},
+          {"bytes_per_cycle_alone", a_cycle(own, sum.stream)},
+          {"bytes_per_cycle", a_cycle(all, sum.overlapped())},
+          {"most_bytes_per_cycle", raycast::most_bytes_per_cycle(options.picture.configuration)},
+          {"cell_steps_per_byte", ratio(cells, own)}};
+}
+
 }  // namespace
 
 std::vector<Bound> bounds_of(const MachineReport& report, const MachineOptions& options) {
@@ -64,8 +79,9 @@ std::vector<Bound> bounds_of(const MachineReport& report, const MachineOptions& 
   if (busiest != nullptr)
     bounds.push_back({"stage " + busiest->name + " of the ray caster",
                       ratio(busiest->account.busy, busiest->account.total()) * ratio(sum.frame, all)});
-  const double bus = static_cast<double>(sum.frame_bus) +
-                     static_cast<double>(sum.work.bytes() + upload_bytes(sum)) / bytes_a_cycle(options);
+  const double bus =
+      static_cast<double>(sum.frame_bus) + static_cast<double>(sum.work.bytes() + upload_bytes(sum)) /
+                                               raycast::most_bytes_per_cycle(options.picture.configuration);
   bounds.push_back({"bytes on the memory's bus", ratio(bus, static_cast<double>(all))});
   bounds.push_back({"upload, while both wait", ratio(sum.upload.cycles, all)});
   std::stable_sort(bounds.begin(), bounds.end(),
@@ -144,6 +160,7 @@ Json json_of(const MachineReport& report, const MachineOptions& options) {
   json["a_second"]["caster_alone"] = rate(n, sum.frame, options.clock_mhz());
   for (const Bound& bound : bounds_of(report, options))
     json["bounds"].push_back({{"name", bound.name}, {"share", bound.share}});
+  if (report.good() && !report.periods.empty()) json["cell_steps_per_cycle"] = rate_of_cells(report, options);
   json["caster"] = raycast::json_of(report.pictures, options.picture.configuration);
   return json;
 }

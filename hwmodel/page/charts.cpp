@@ -151,40 +151,54 @@ std::string histogram(const Json& channel) {
       number(channel["bits"]), svg);
 }
 
-std::string roofline(const Json& of) {
-  const double bytes = of["bytes_per_cycle"].get<double>(), compute = of["lanes_and_steps"].get<double>();
-  const double per_byte = of["cell_steps_per_byte"].get<double>(), reached = of["reached"].get<double>();
-  const double bottom = std::min(reached / 3, compute / 16);
-  const Axis x(bottom / per_byte, bytes * 8, true, kLeft, kRight),
-      y(bottom, compute * 2, true, kBottom, kTop);
-  std::string svg = begin("bounds of the rate") +
-                    frame(x, y, "bytes that the memory moves in a cycle", "cell-steps a cycle");
-  svg += fmt::format(R"(<path class="roof" d="M{:.1f} {:.1f}L{:.1f} {:.1f}H{:.1f}"><title>{}</title></path>)",
-                     kLeft, kBottom, x(bytes), y(compute), kRight,
-                     escaped(fmt::format("{} cell-steps a byte, up to {} a cycle",
-                                         number(of["cell_steps_per_byte"]), number(of["lanes_and_steps"]))));
-  std::vector<Key> keys{
-      {"line", fmt::format("bandwidth, {} cell-steps a byte; compute, {} a cycle",
-                           number(of["cell_steps_per_byte"]), number(of["lanes_and_steps"]))}};
-  const struct {
-    const char *key, *colour, *what;
-  } bounds[] = {{"lanes_in_the_grid", "1", "lanes beyond the grid"},
-                {"steps_with_work", "2", "time steps without work"},
-                {"fill_and_drain", "0", "fill and drain"}};
-  for (const auto& bound : bounds) {
-    const double value = of[bound.key].get<double>();
-    svg += fmt::format(R"(<path class="dashed k{}" d="M{:.1f} {:.1f}H{:.1f}"><title>{}</title></path>)",
-                       bound.colour, x(value / per_byte), y(value), kRight,
-                       escaped(fmt::format("less {}: {}", bound.what, number(of[bound.key]))));
-    keys.push_back(
-        {std::string("b") + bound.colour, fmt::format("less {}: {}", bound.what, number(of[bound.key]))});
+std::string roofline(const Roof& roof) {
+  const auto real = [](const Json& value) { return value.get<double>(); };
+  const auto amount = [&](const Json& value) { return number(value, real(value) < 0.1 ? 3 : 2); };
+  const double compute = real(roof.compute), per_byte = real(roof.per_byte);
+  double bottom = compute / 16, right = compute / per_byte * 8;
+  for (const Roof::Reached& one : roof.reached) {
+    bottom = std::min(bottom, real(one.rate) / 3);
+    right = std::max(right, real(one.bytes) * 2);
   }
-  svg += dot(x(bytes), y(reached), "f3",
-             fmt::format("reached: {} cell-steps a cycle, with {} bytes a cycle", number(of["reached"]),
-                         number(of["bytes_per_cycle"])));
-  keys.push_back({"b3", fmt::format("reached: {}; it asks for {} bytes a cycle", number(of["reached"]),
-                                    number(of["bytes_per_cycle"]))});
-  return "<figure><figcaption>What bounds the rate</figcaption>" + svg + "</svg>" + legend(keys) +
+  const Axis x(bottom / per_byte, right, true, kLeft, kRight), y(bottom, compute * 2, true, kBottom, kTop);
+  std::string svg = begin("bounds of the rate") +
+                    frame(x, y, "bytes that the memory moves in a cycle", roof.unit + " a cycle");
+  const double low = std::max(y.low(), x.low() * per_byte);  // the slope's end within the frame
+  svg += fmt::format(R"(<path class="roof" d="M{:.1f} {:.1f}L{:.1f} {:.1f}H{:.1f}"><title>{}</title></path>)",
+                     x(low / per_byte), y(low), x(compute / per_byte), y(compute), kRight,
+                     escaped(fmt::format("{} {} a byte, up to {} a cycle", amount(roof.per_byte), roof.unit,
+                                         amount(roof.compute))));
+  std::vector<Key> keys{{"line", fmt::format("bandwidth, {} {} a byte; compute, {} a cycle",
+                                             amount(roof.per_byte), roof.unit, amount(roof.compute))}};
+  const char* const colours[] = {"1", "2", "0"};
+  for (std::size_t i = 0; i < roof.bounds.size(); ++i) {
+    const Roof::Bound& bound = roof.bounds[i];
+    const double value = real(bound.value);
+    const std::string colour = colours[i % 3], name = fmt::format("{}: {}", bound.name, amount(bound.value));
+    svg += fmt::format(R"(<path class="dashed k{}" d="M{:.1f} {:.1f}H{:.1f}"><title>{}</title></path>)",
+                       colour, x(std::max(value / per_byte, x.low())), y(value), kRight, escaped(name));
+    keys.push_back({"b" + colour, name});
+  }
+  if (!roof.most_bytes.is_null()) {
+    const double most = real(roof.most_bytes);
+    const std::string name =
+        fmt::format("the memory moves at most {} bytes a cycle", amount(roof.most_bytes));
+    if (most < x.high())
+      svg += fmt::format(R"(<path class="dashed k4" d="M{:.1f} {:.1f}V{:.1f}"><title>{}</title></path>)",
+                         x(most), kBottom, kTop, escaped(name));
+    keys.push_back({"b4", name});
+  }
+  const char* const dots[] = {"3", "5", "6"};
+  for (std::size_t i = 0; i < roof.reached.size(); ++i) {
+    const Roof::Reached& one = roof.reached[i];
+    const std::string colour = dots[i % 3];
+    svg += dot(x(real(one.bytes)), y(real(one.rate)), ("f" + colour).c_str(),
+               fmt::format("{}: {} {} a cycle, with {} bytes a cycle", one.name, amount(one.rate), roof.unit,
+                           amount(one.bytes)));
+    keys.push_back({"b" + colour, fmt::format("{}: {}; it asks for {} bytes a cycle", one.name,
+                                              amount(one.rate), amount(one.bytes))});
+  }
+  return "<figure><figcaption>" + roof.caption + "</figcaption>" + svg + "</svg>" + legend(keys) +
          "</figure>";
 }
 

@@ -45,6 +45,19 @@ std::string bounds(const Json& all) {
   return bars(rows, "bounds");
 }
 
+std::string one_memory(const Json& of) {
+  return "<div class=\"charts\">" +
+         roofline({.caption = "What bounds the steps",
+                   .unit = "cell-steps",
+                   .compute = of["lanes_and_steps"],
+                   .per_byte = of["cell_steps_per_byte"],
+                   .bounds = {{of["always_answered"], "the pipeline on a memory that always answers"}},
+                   .reached = {{of["alone"], of["bytes_per_cycle_alone"], "the pipeline alone on the memory"},
+                               {of["reached"], of["bytes_per_cycle"], "with upload and ray caster"}},
+                   .most_bytes = of["most_bytes_per_cycle"]}) +
+         "</div>";
+}
+
 }  // namespace
 
 std::string machine_page(const Json& report, const std::string& title) {
@@ -68,6 +81,11 @@ std::string machine_page(const Json& report, const std::string& title) {
     body += card("Bounds", "What share of the overlapped cycles each of these takes at least.",
                  bounds(report["bounds"]));
   }
+  if (report.contains("cell_steps_per_cycle"))
+    body += card("Two machines on one memory",
+                 "The rate of steps cannot lie above any line. The slope is what the bytes of the pipeline "
+                 "allow; the ray caster's are beside them.",
+                 one_memory(report["cell_steps_per_cycle"]));
   return page::document(title, parts::kStyle, body + caster_cards(report["caster"]));
 }
 

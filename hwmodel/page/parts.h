@@ -44,8 +44,23 @@ bool cascaded(const Json& stages);  // are there several time steps?
 std::string timeline(const Json& timeline);
 // How often a channel held how many tokens.
 std::string histogram(const Json& channel);
-// Cell-steps a cycle against the bytes that a memory moves in a cycle, and the bounds.
-std::string roofline(const Json& bounds);
+// Work a cycle against the bytes that a memory moves in a cycle, and the bounds.
+struct Roof {
+  std::string caption, unit;  // what is counted: "cell-steps"
+  Json compute, per_byte;     // of the work: at most in a cycle; with the bytes that it takes
+  struct Bound {
+    Json value;
+    std::string name;
+  };
+  std::vector<Bound> bounds;  // each below the one before
+  struct Reached {
+    Json rate, bytes;  // a cycle
+    std::string name;
+  };
+  std::vector<Reached> reached;
+  Json most_bytes{};  // of the memory in a cycle; null: it is not drawn
+};
+std::string roofline(const Roof& roof);
 // Simulated against predicted cycles; each with "cycles" and "predicted_cycles", and its hover text.
 std::string against_prediction(const Json& trains, const std::vector<std::string>& hover);
 

@@ -34,6 +34,19 @@ std::string passes(const Json& report) {
   return list + "<div class=\"charts\">" + against_prediction(known, hover) + "</div>";
 }
 
+std::string bounds(const Json& of) {
+  return "<div class=\"charts\">" +
+         roofline({.caption = "What bounds the rays",
+                   .unit = "rays",
+                   .compute = of["pipes"],
+                   .per_byte = of["rays_per_byte"],
+                   .bounds = {{of["busiest_stage"], "stage " + text(of["busiest"]) + ", if always busy"},
+                              {of["fill_and_drain"], "less its fill and drain"}},
+                   .reached = {{of["reached"], of["bytes_per_cycle"], "reached"}},
+                   .most_bytes = of["most_bytes_per_cycle"]}) +
+         "</div>";
+}
+
 std::string caches(const Json& all) {
   std::vector<Bar> rows;
   for (const Json& cache : all) {
@@ -112,6 +125,11 @@ std::string caster_cards(const Json& report) {
   if (report.contains("passes"))
     body += card("Predicted against simulated", "The queue model's cycles beside those of the simulation.",
                  passes(report));
+  if (report.contains("rays_per_cycle"))
+    body += card("Bounds of the ray caster",
+                 "The rate cannot lie above any line. Each pipe takes a ray a cycle; the slope is what a "
+                 "memory of that width allows.",
+                 bounds(report["rays_per_cycle"]));
   if (report.contains("caches"))
     body += card("Caches", "Lookups, on the right, that hit or missed.", caches(report["caches"]));
   if (report.contains("dram"))

@@ -54,9 +54,20 @@ std::string head(const Json& report, const std::string& title) {
              number(report["passes"]));
 }
 
+std::string bounds_of_rate(const Json& of) {
+  return roofline({.caption = "What bounds the rate",
+                   .unit = "cell-steps",
+                   .compute = of["lanes_and_steps"],
+                   .per_byte = of["cell_steps_per_byte"],
+                   .bounds = {{of["lanes_in_the_grid"], "less lanes beyond the grid"},
+                              {of["steps_with_work"], "less time steps without work"},
+                              {of["fill_and_drain"], "less fill and drain"}},
+                   .reached = {{of["reached"], of["bytes_per_cycle"], "reached"}}});
+}
+
 std::string charts(const Json& report) {
   std::string figures;
-  if (report.contains("cell_steps_per_cycle")) figures += roofline(report["cell_steps_per_cycle"]);
+  if (report.contains("cell_steps_per_cycle")) figures += bounds_of_rate(report["cell_steps_per_cycle"]);
   if (!report["trains"].empty()) {
     std::vector<std::string> hover;
     for (const Json& train : report["trains"]) {

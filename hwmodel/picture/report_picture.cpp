@@ -50,7 +50,31 @@ nlohmann::ordered_json json_of(const PipeCost& cost) {
   return json;
 }
 
+// Upper bounds of rays a cycle, each below the one before, and what the run reached.
+nlohmann::ordered_json bounds(const PictureReport& report, const Configuration& c) {
+  const auto share = [](const Account& a, std::int64_t cycles) { return ratio(cycles, a.total()); };
+  const auto busiest = std::max_element(
+      report.stages.begin(), report.stages.end(), [&](const StageAccount& a, const StageAccount& b) {
+        return share(a.account, a.account.busy) < share(b.account, b.account.busy);
+      });
+  const Account& a = busiest->account;
+  const double reached = ratio(report.rays, report.all_cycles);
+  const double bytes = ratio(report.memory.read_bytes + report.memory.written_bytes, report.all_cycles);
+  return {{"pipes", c.pipes},
+          {"busiest", busiest->name},
+          {"busiest_stage", reached / share(a, a.busy)},
+          {"fill_and_drain", reached / share(a, a.busy + a.fill + a.drain)},
+          {"reached", reached},
+          {"bytes_per_cycle", bytes},
+          {"most_bytes_per_cycle", most_bytes_per_cycle(c)},
+          {"rays_per_byte", reached / bytes}};
+}
+
 }  // namespace
+
+double most_bytes_per_cycle(const Configuration& c) {
+  return c.dram ? static_cast<double>(c.dram->peak()) / c.clock_mhz : c.bus_bytes;
+}
 
 nlohmann::ordered_json json_of(const UploadReport& upload) {
   nlohmann::ordered_json json{{"whole", upload.whole},
@@ -175,6 +199,7 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                               {"lookups", cache.counts.lookups},
                               {"misses", cache.counts.misses},
                               {"line_bytes", cache.line_bytes}});
+  if (report.good() && !report.stages.empty()) json["rays_per_cycle"] = bounds(report, c);
   if (report.difference) {
     const Difference& d = *report.difference;
     json["difference"] = {{"stage", d.stage},       {"x", d.x},          {"y", d.y},

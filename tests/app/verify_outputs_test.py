@@ -204,15 +204,50 @@ class Outputs(unittest.TestCase):
         for more in ([], ["--set", "hw.memory=\"ddr4-2400\""]):
             page, report = self.run_with_page(0, self.scene, "--picture", "--size", "32x24", "--from", 4, *more)
             self.check_page(page, report, 150)
-            for part in ("Where the cycles went", "Predicted against simulated", "Caches", "Memories of a pipe"):
+            for part in ("Where the cycles went", "Predicted against simulated", "Caches", "Memories of a pipe",
+                         "What bounds the rays"):
                 self.assertIn(part, page)
+            self.check_bounds_of_rays(report)
 
     def test_every_number_on_the_page_of_the_machine_is_in_the_report(self):
         page, report = self.run_with_page(0, self.scene, "--machine", "--size", "16x16", "--steps", 4, "--frames", 2)
         report["cycles"] = report["periods"][0]["cycles_overlapped"]
         self.check_page(page, report, 100)
-        for part in ("Every picture with its steps", "Bounds", "Where the cycles went"):
+        for part in ("Every picture with its steps", "Bounds", "Where the cycles went", "What bounds the steps"):
             self.assertIn(part, page)
+        self.check_bounds_of_rays(report["caster"])
+        bounds, periods = report["cell_steps_per_cycle"], report["periods"]
+        done = 12 * 10 * 12 * 4
+        sums = {k: sum(p["steps"][k] for p in periods) for k in ("cycles", "cycles_on_memory", "read_bytes", "irradiance_bytes", "written_bytes")}
+        own = sums["read_bytes"] + sums["irradiance_bytes"] + sums["written_bytes"]
+        beside = sum(p["upload"]["bytes"] + p["frame"]["read_bytes"] + p["frame"]["written_bytes"] for p in periods)
+        overlapped = sum(p["cycles_overlapped"] for p in periods)
+        self.assertAlmostEqual(bounds["always_answered"], done / sums["cycles"])
+        self.assertAlmostEqual(bounds["alone"], done / sums["cycles_on_memory"])
+        self.assertAlmostEqual(bounds["reached"], done / overlapped)
+        falling = [bounds[k] for k in ("lanes_and_steps", "always_answered", "alone", "reached")]
+        self.assertEqual(falling, sorted(falling, reverse=True))
+        # Bytes are rounded up from bits, in each period.
+        self.assertAlmostEqual(bounds["bytes_per_cycle_alone"] * sums["cycles_on_memory"] / own, 1, delta=1e-3)
+        self.assertAlmostEqual(bounds["bytes_per_cycle"] * overlapped / (own + beside), 1, delta=1e-3)
+        self.assertAlmostEqual(bounds["cell_steps_per_byte"] * own / done, 1, delta=1e-3)
+        self.assertLess(bounds["bytes_per_cycle"], bounds["most_bytes_per_cycle"])
+
+    def check_bounds_of_rays(self, report):
+        bounds, memory = report["rays_per_cycle"], report["memory"]
+        self.assertAlmostEqual(bounds["reached"], report["rays"] / report["cycles"])
+        falling = [bounds[k] for k in ("pipes", "busiest_stage", "fill_and_drain", "reached")]
+        self.assertEqual(falling, sorted(falling, reverse=True))
+        kinds = ("busy", "starved", "blocked", "memory", "fill", "drain")
+        shares = {s["name"]: s["busy"] / sum(s[k] for k in kinds) for s in report["stages"]}
+        self.assertEqual(shares[bounds["busiest"]], max(shares.values()))
+        self.assertAlmostEqual(bounds["reached"] / bounds["busiest_stage"], max(shares.values()))
+        moved = memory["read_bytes"] + memory["written_bytes"]
+        self.assertAlmostEqual(bounds["bytes_per_cycle"], moved / report["cycles"])
+        self.assertAlmostEqual(bounds["rays_per_byte"], report["rays"] / moved)
+        peak = {"fixed": report["configuration"]["bus_bytes"], "ddr4-2400": 19200 / report["configuration"]["clock_mhz"]}
+        self.assertAlmostEqual(bounds["most_bytes_per_cycle"], peak[report["configuration"]["memory"]])
+        self.assertLess(bounds["bytes_per_cycle"], bounds["most_bytes_per_cycle"])
 
     def test_quiet_keeps_two_lines(self):
         for more in ([], ["--picture", "--size", "16x16"], ["--machine", "--size", "16x16", "--steps", 1]):
