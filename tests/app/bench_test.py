@@ -61,6 +61,13 @@ class Bench(unittest.TestCase):
         for case in report["cases"]:
             self.assertEqual(case["roof"] is None, case["workload"].startswith("asleep"))
 
+        # A scene under the paper's law is bounded by a full volume that this run has timed.
+        bounded = [case for case in report["cases"] if case["needed"]]
+        self.assertEqual({case["workload"].split("/")[0] for case in bounded}, {"scene:bunny_small"})
+        for case in bounded:
+            self.assertGreater(case["needed"]["milliseconds_at_full_volume_speed"], 0)
+            self.assertGreater(case["needed"]["gravity_vectors"], 0)
+
         # The table: every number stands in a column of its own.
         lines = [line.split() for line in text.splitlines() if re.match(r"  (flow|heat) ", line)]
         self.assertEqual(len(lines), len(names))
@@ -68,7 +75,7 @@ class Bench(unittest.TestCase):
             self.assertEqual(len(line), 18 if line[0] == "flow" else 16, line)
 
         tables = (self.folder / "out/performance_tables.md").read_text()
-        for name in ("machine", "scenes", "dense", "picture", "memory", "rates", "flow", "heat", "scaling", "roofs", "drawing",
+        for name in ("machine", "scenes", "dense", "bounds", "densebounds", "picture", "memory", "rates", "flow", "heat", "scaling", "roofs", "drawing",
                      "drawings", "grids", "films"):
             self.assertIn(f"<!-- table: {name} -->", tables)
         for block in re.findall(r"(?:^\|.*\n)+", tables, re.M):
