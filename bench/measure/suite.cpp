@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -163,8 +164,9 @@ void Suite::run(const Workload& workload, bool baseline) {
 
 void Suite::count_needed(const Workload& workload) {
   if (workload.parameters.flow.law != rule::Law::paper) return;
-  std::vector<int> lanes;
-  for (const cpu::InstructionSetRow& row : cpu::kInstructionSets) lanes.push_back(lanes_of(row.set));
+  std::vector<int> lanes(cpu::kInstructionSets.size());
+  std::ranges::transform(cpu::kInstructionSets, lanes.begin(),
+                         [](const cpu::InstructionSetRow& row) { return lanes_of(row.set); });
   const std::vector<Needed> needed = needed_vectors(workload, lanes);
   for (Case& one : findings_.cases) {
     const std::optional<cpu::InstructionSet> set = set_named(one.implementation);
