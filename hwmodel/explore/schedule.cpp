@@ -78,6 +78,7 @@ std::vector<std::size_t> feed_delays(const Train& train, const Design& design, c
     if (!reached) before += wait;
   }
   std::vector<std::size_t> delays;
+  delays.reserve(static_cast<std::size_t>(pass.steps));
   const auto column = static_cast<double>(c.interval() * design.shape.column());
   for (int t = 0; t < pass.steps; ++t)
     delays.push_back(static_cast<std::size_t>(std::llround(static_cast<double>(t * step + before) / column)));
