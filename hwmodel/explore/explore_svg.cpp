@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <utility>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hwmodel/explore/explore_report.h"
@@ -25,6 +27,7 @@ svg { color-scheme: light dark; --paper: #fbfaf7; --ink: #1f2328; --soft: #646a7
 text { font: 12px system-ui, "Noto Sans", "DejaVu Sans", sans-serif; fill: var(--soft); }
 .title { font-size: 14px; font-weight: 600; fill: var(--ink); } .head { font-size: 17px; font-weight: 600; fill: var(--ink); }
 .page { fill: var(--paper); } .grid { stroke: var(--line); } .dot { fill: var(--dot); }
+.dots { stroke: var(--dot); stroke-width: 3.2; stroke-linecap: round; fill: none; }
 .front { fill: none; stroke: var(--front); stroke-width: 1.5; opacity: .7; }
 .verified { fill: var(--front); } .predicted { fill: var(--paper); stroke: var(--front); stroke-width: 1.5; }
 .differs { fill: var(--full); } .limit { stroke: var(--full); stroke-dasharray: 4 4; } .label { fill: var(--ink); }
@@ -89,12 +92,13 @@ struct Panel {
   }
 
   std::string all() const {
-    std::set<std::string> seen;  // one dot for designs at one place
-    std::string text = "<g class='dot'>\n";
+    std::set<std::pair<int, int>> seen;  // one dot for designs at one place
     for (const Point& p : of.swept.points)
-      if (p.taken.fits() && seen.insert(at(p)).second)
-        text += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='1.6'/>\n", x(amount(p)), y(giga(p)));
-    return text + "</g>\n";
+      if (p.taken.fits())
+        seen.emplace(static_cast<int>(std::lround(x(amount(p)))), static_cast<int>(std::lround(y(giga(p)))));
+    std::string path;
+    for (const auto& [across, down] : seen) path += fmt::format("M{} {}h0", across, down);
+    return fmt::format("<path class='dots' d='{}'/>\n", path);
   }
 
   std::string front() const {
