@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <utility>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
