@@ -292,6 +292,27 @@ TEST(Needed, VectorsAreThoseOfTheInstructionSet) {
   EXPECT_DOUBLE_EQ(needed[2].gravity, 4);
 }
 
+// Two solid cells side by side, cold and warm: their heats change, and nothing else does. Cells 7 and 8 lie
+// in two vectors of 8, and in one of 16.
+TEST(Needed, HeatAloneCountsAsAChange) {
+  Workload workload;
+  workload.parameters.heat.enabled = true;
+  workload.parameters.heat.weight_face = 2086;
+  workload.parameters.material.melting_point = 50000;
+  workload.start = state::Volume(state::Grid{32, 2, 2});
+  for (const int x : {7, 8}) {
+    workload.start.amount[workload.start.at(x, 0, 0)] = rule::kOne;
+    workload.start.heat[workload.start.at(x, 0, 0)] = static_cast<std::uint16_t>(x == 7 ? 1000 : 20000);
+    workload.start.solid.set(x, 0, 0, true);
+  }
+  workload.lead_steps = 0;
+  workload.steps = 1;
+  const std::vector<Needed> needed = needed_vectors(workload, {8, 16});
+  EXPECT_DOUBLE_EQ(needed[0].heat, 2);
+  EXPECT_DOUBLE_EQ(needed[1].heat, 1);
+  EXPECT_DOUBLE_EQ(needed[0].gravity + needed[0].spread, 0);
+}
+
 // 100 vectors of gravity and 50 of spread, of 16 cells, on two threads. A full volume of 1000 cells takes 2
 // and 6 ms: (1600 x 2 us + 800 x 6 us) / 2. Heat: 10 x 16 cells at 5 us, halved.
 TEST(Needed, TheLeastTimeIsThatOfFullVectors) {
