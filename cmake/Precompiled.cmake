@@ -1,10 +1,10 @@
 # Headers that nearly every source includes, compiled once: a build from nothing takes a third less.
 #
-# A source may lack an include and still build here. So only g++ does this; clang and the sanitizers compile every
-# source with its own includes, as does a build with ccache, which knows an old source faster than any header.
+# A source may lack an include and still build here. So the preset `clang` does without: there every source has only
+# its own includes. So does a build with ccache, which knows an old source faster than any header.
 # Only small headers are in it: of CLI11 and nlohmann/json each source would get code of which it has no need.
 set(precompile OFF)
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT VOXMELT_SANITIZE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+if((CMAKE_CXX_COMPILER_ID STREQUAL GNU OR VOXMELT_SANITIZE) AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(precompile ON)
 endif()
 option(VOXMELT_PRECOMPILE "Compile the headers that many sources include once" ${precompile})
