@@ -47,6 +47,26 @@ bool holds(const render::FieldData& field, picture::Vector at) {
          field.low.z <= at.z && at.z < field.high.z;
 }
 
+// By hand: the eye stands 100 cells before the origin and looks along -z, and the picture is 200 pixels of 64
+// places high. Half its height is 100 tan 45 cells at the origin: 64 places to a cell there.
+TEST(Projection, OfABoxBeforeTheEyeByHand) {
+  const picture::Camera camera{.target = {},
+                               .distance = std::int64_t{100} << 12,
+                               .half_field = 45 * picture::kDegree,
+                               .width = 300,
+                               .height = 200};
+  const render::Projection projection(picture::view_of(camera, {8, 8, 8}));
+  const std::int64_t cell = picture::kCell;
+  const render::VisibleArea area =
+      projection.of({10 * cell, 20 * cell, -40 * cell}, {30 * cell, 25 * cell, -11 * cell});
+  // With a cell around it the box is 9 to 31 across, 19 to 26 high, and 110 to 141 before the eye.
+  const double places = 6400, middle = 9600;
+  EXPECT_NEAR(area.left, middle + places * 9 / 141 - 1, 0.1);
+  EXPECT_NEAR(area.right, middle + places * 31 / 110 + 1, 0.1);
+  EXPECT_NEAR(area.top, places - places * 26 / 110 - 1, 0.1);
+  EXPECT_NEAR(area.bottom, places - places * 19 / 141 + 1, 0.1);
+}
+
 TEST(TileBoxes, HoldAllMatterThatTheirRaysMeet) {
   int met = 0, empty = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {

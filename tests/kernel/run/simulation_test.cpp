@@ -183,6 +183,46 @@ TEST(Simulation, VisibilityIsKeptBetweenItsSteps) {
   EXPECT_EQ(s.irradiance_capped(), 3 * 3) << "three steps of visibility, with three cuts each";
 }
 
+// Rays end at places of a lamp that the seed of the run chooses (docs/automaton.md, section 5).
+TEST(Simulation, RaysToALampGoByTheSeedOfTheRun) {
+  Parameters p = hot_parameters(Law::paper);
+  p.heat.sources = {{{{.at = {16 * 20, 16 * 14, 16 * 8}, .power = std::uint64_t{1} << 31, .radius = 60}},
+                     rule::SourceKind::sphere}};
+  p.heat.rays_per_face = 4;
+  p.seed = 77;
+  Simulation s = simulate(p, block());
+  s.begin_step();
+  const auto cast_with = [&](std::uint64_t seed) {
+    rule::Heat heat = p.heat;
+    heat.ray_seed = seed;
+    step::Irradiance light(s.volume().grid);
+    visibility::VoxelWalkProvider().irradiance(s.volume(), heat, 0, light);
+    return light;
+  };
+  EXPECT_TRUE(*s.irradiance() == cast_with(77));
+  EXPECT_FALSE(*s.irradiance() == cast_with(1)) << "the seed does not matter";
+}
+
+// What has melted since the last step of visibility is not seen before the next one.
+TEST(Simulation, ResumedBetweenStepsOfVisibilityItKeepsTheLight) {
+  Parameters p = hot_parameters(Law::viscous);
+  p.heat.visibility_every = 20;
+  Simulation through = simulate(p, block());
+  steps(through, 55);
+  state::MidRun left = through.mid_run();
+  left.irradiance = *through.irradiance();
+  Simulation resumed = simulate(p, through.volume());
+  resumed.begin_at(through.step_number() - left.steps_done);
+  resumed.resume(std::move(left));
+  Simulation anew = simulate(p, through.volume());
+  through.begin_step();
+  resumed.begin_step();
+  anew.begin_step();
+  EXPECT_TRUE(*resumed.irradiance() == *through.irradiance());
+  EXPECT_FALSE(*anew.irradiance() == *through.irradiance()) << "nothing has melted: this shows nothing";
+  EXPECT_EQ(resumed.casts().asked, through.casts().asked);
+}
+
 TEST(Melting, AtExactlyTheMeltingPoint) {
   for (const Law law : {Law::paper, Law::viscous})
     for (const int latent : {0, 1, 5000})

@@ -27,6 +27,7 @@ const std::vector<Case>& cases() {
       {"[grid]\nsize = [8, 8, 8]\nsize = [8, 8, 8]\n", "scene.toml:3:8: error: "},
       {std::string("\xff\xfe\x00junk", 7), "scene.toml:1:1: error: "},
       {kGrid, "scene.toml:1:1: error: nothing can flow"},
+      {kBox + "cut = true\n", "scene.toml:1:1: error: nothing can flow"},
       {kGrid + "solid = []\n", "scene.toml:3:1: error: unknown key grid.solid"},
       {kBox + "extends = 3\n", "scene.toml:7:1: error: unknown key solid.0.extends"},
       {"extends = 3\n" + kBox, "scene.toml:1:11: error: extends must be the name of a scene file"},

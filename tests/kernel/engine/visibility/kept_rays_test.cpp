@@ -152,5 +152,23 @@ TEST(KeptRays, AnotherResultIsWrittenWhole) {
   EXPECT_EQ(one, other);
 }
 
+// A lamp that grows where it is has other shadows, also where nothing else has changed.
+TEST(KeptRays, AnotherRadiusIsCastAnew) {
+  Volume v(Grid{24, 24, 24});
+  for_each({0, 0, 0, 24, 2, 24}, [&](int x, int y, int z) { put_solid(v, x, y, z, kOne, 0); });
+  for_each({10, 8, 10, 14, 9, 14}, [&](int x, int y, int z) { put_solid(v, x, y, z, kOne, 0); });
+  Kept kept;
+  std::vector<state::Field<std::uint16_t>> lights;
+  for (const std::int64_t radius : {10, 80, 10}) {
+    const Shine lamp{rule::SourceKind::sphere,
+                     {.at = {16 * 12, 16 * 18, 16 * 12}, .power = kRayPower, .radius = radius}};
+    ASSERT_NO_FATAL_FAILURE(
+        expect_all_cast(kept, v, shone_by({lamp}, 16, 7), 0, "radius " + std::to_string(radius)));
+    lights.push_back(kept.result);
+  }
+  EXPECT_TRUE(lights[0] == lights[2]);
+  EXPECT_FALSE(lights[0] == lights[1]) << "the radius does not matter";
+}
+
 }  // namespace
 }  // namespace voxmelt::visibility
