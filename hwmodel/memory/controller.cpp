@@ -59,16 +59,8 @@ std::int64_t Controller::step(std::int64_t now, Done& done) {
   if (refresh(now, next)) return now + 1;
   choose_side(now, next);
   if (empty()) return next;
-  bool issued = false;
-  if (active().empty()) {
-    issued = row(now, next);
-  } else if (starves(active().front(), now)) {
-    issued = row(now, next);
-    issued |= column(now, next, done);
-  } else {
-    issued = column(now, next, done);
-    issued |= row(now, next);
-  }
+  bool issued = !active().empty() && column(now, next, done);
+  issued |= row(now, next);
   return issued ? now + 1 : next;
 }
 
