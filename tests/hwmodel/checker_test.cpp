@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -258,25 +259,27 @@ TEST(Checker, AChannelThatChangesAnythingIsNamed) {
       {"side band", [](Cell& cell) { cell.pattern = 1; }},
       {"side band", [](Cell& cell) { cell.beside_wall = 1; }},
       {"side band", [](Cell& cell) { cell.head = 1; }}};
-  for (const auto& [field, change] : changes) {
-    Pipeline pipeline(start.parameters, start.volume.grid, {4, 2, 2, 0});
-    Checker checker(pipeline);
-    checker.begin_train();
-    checker.add_pass({{.first = 30}, {}, nullptr, {}, nullptr});
-    std::vector<Cell> lanes(4);
-    checker.entered(2, 0, lanes.data());
-    checker.left(2, 0, lanes.data());
-    EXPECT_EQ(checker.mismatch(), nullptr);
-    checker.entered(2, 1, lanes.data());
-    change(lanes[3]);
-    checker.left(2, 1, lanes.data());
-    ASSERT_NE(checker.mismatch(), nullptr) << field;
-    EXPECT_EQ(checker.mismatch()->kind, Mismatch::Kind::channel);
-    EXPECT_EQ(checker.mismatch()->where, pipeline.channels()[2].name);
-    EXPECT_EQ(checker.mismatch()->field, field);
-    EXPECT_EQ(checker.mismatch()->lane, 3);
-    EXPECT_EQ(checker.mismatch()->y, 1);
-  }
+  for (const auto& [field, change] : changes)
+    for (const bool last : {false, true}) {  // the last one is before the writer
+      Pipeline pipeline(start.parameters, start.volume.grid, {4, 2, 2, 0});
+      const int channel = last ? static_cast<int>(pipeline.channels().size()) - 1 : 2;
+      Checker checker(pipeline);
+      checker.begin_train();
+      checker.add_pass({{.first = 30}, {}, nullptr, {}, nullptr});
+      std::vector<Cell> lanes(4);
+      checker.entered(channel, 0, lanes.data());
+      checker.left(channel, 0, lanes.data());
+      EXPECT_EQ(checker.mismatch(), nullptr);
+      checker.entered(channel, 1, lanes.data());
+      change(lanes[3]);
+      checker.left(channel, 1, lanes.data());
+      ASSERT_NE(checker.mismatch(), nullptr) << field;
+      EXPECT_EQ(checker.mismatch()->kind, Mismatch::Kind::channel) << field;
+      EXPECT_EQ(checker.mismatch()->where, pipeline.channels()[static_cast<std::size_t>(channel)].name);
+      EXPECT_EQ(checker.mismatch()->field, field);
+      EXPECT_EQ(checker.mismatch()->lane, 3);
+      EXPECT_EQ(checker.mismatch()->y, 1);
+    }
 }
 
 }  // namespace

@@ -12,9 +12,11 @@
 #include "hwmodel/explore/check.h"
 #include "hwmodel/explore/dram_time.h"
 #include "hwmodel/explore/part_list.h"
+#include "hwmodel/explore/schedule.h"
 #include "hwmodel/explore/size_fifos.h"
 #include "hwmodel/machine/dram_streams.h"
 #include "hwmodel/presets/memory_preset.h"
+#include "hwmodel/stream/prediction.h"
 #include "hwmodel/stream/tiling.h"
 #include "tests/kernel/worlds.h"
 
@@ -199,6 +201,21 @@ TEST(Explore, OneTokenLessAnywhereCostsCycles) {
     for (const SizedChannel& channel : sizing.channels) names.push_back(channel.name);
     EXPECT_EQ(names, channel_names(design, run.configuration));
   }
+}
+
+// Where sub-steps are counted from the state, a step is known when the one before it has been written.
+TEST(Explore, PassesOverlapWhereTheirStepsAreKnown) {
+  Design design{{}, {{8, 8, 8}, 4}};
+  design.parameters.flow.law = rule::Law::viscous;
+  Configuration c;
+  c.lanes = 4;
+  const auto trains = [&](std::uint16_t substeps) {
+    design.parameters.flow.viscous.substeps = substeps;
+    EXPECT_TRUE(passes_overlap(design, c, {}));
+    return trains_of(design, c, 0, 6).size();
+  };
+  EXPECT_EQ(trains(1), 1u);
+  EXPECT_EQ(trains(0), 6u);
 }
 
 TEST(Explore, MemoriesTakeTheShapeThatFits) {

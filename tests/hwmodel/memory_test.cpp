@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "hwmodel/memory/address_map.h"
+#include "hwmodel/memory/bus_account.h"
+#include "hwmodel/memory/counts.h"
 #include "hwmodel/memory/dram.h"
 #include "hwmodel/memory/timing_checker.h"
 #include "hwmodel/memory/trace.h"
@@ -39,6 +41,22 @@ struct Served final : RequestListener {
 };
 
 constexpr std::int64_t kNextGroup = 64, kNextColumn = 4 * 64, kNextRow = 64LL * 4 * 128 * 4;
+
+// Data end at 4, and those of a write come at 20, eight cycles after their command, for which a row was
+// opened. The request has waited since 2: of 16 cycles without data 6 are idle, and the turn is to blame for
+// the rest.
+TEST(Memory, ATurnIsToBlameBeforeARow) {
+  BusAccount account;
+  Counts counts;
+  account.column(0, 4, 0, false, 0, false, counts);
+  account.first_waits(2);
+  account.column(20, 4, 8, true, 0, true, counts);
+  EXPECT_EQ(counts.busy, 8);
+  EXPECT_EQ(counts.idle, 6);
+  EXPECT_EQ(counts.turnaround, 10);
+  EXPECT_EQ(counts.row, 0);
+  EXPECT_EQ(counts.read_to_write, 1);
+}
 
 TEST(Memory, WhereABurstLies) {
   const Parameters p = sheet("ddr4-2400");

@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <memory>
 
+#include "hwmodel/stream/feed.h"
+#include "hwmodel/stream/irradiance_stream.h"
+#include "hwmodel/stream/stages.h"
 #include "tests/hwmodel/stage_run.h"
 
 namespace voxmelt::hwmodel {
@@ -82,6 +85,59 @@ TEST(StageAccount, EveryCycleIsCountedAsWhatItWas) {
   cycle(false, false), expect(3, 1, 2, 2);  // gives the third
   EXPECT_TRUE(stage.done());
   cycle(false, false), expect(3, 1, 2, 3);  // nothing is left to do
+}
+
+// In bypass it hands on without lag: three cycles with a token, and one before and behind them.
+TEST(StageAccount, ABypassedPassIsCountedAsSuch) {
+  const Design design{{}, {{1, 3, 1}, 1}};
+  Late stage(design, 1);
+  CellFifo in("in", 0, 1, 2, 0), out("out", 1, 1, 2, 0);
+  stage.connect(in, out);
+  stage.begin_pass(step::Moment(0), true);
+  for (int cycle = 0; cycle < 5; ++cycle) {
+    stage.cycle();
+    if (cycle < 3) in.put()[0] = {};
+    if (out.valid()) out.get();
+    in.commit();
+    out.commit();
+  }
+  EXPECT_TRUE(stage.done());
+  EXPECT_EQ(stage.cycles().bypassed, 3);
+  EXPECT_EQ(stage.cycles().busy, 0);
+  EXPECT_EQ(stage.cycles().fill_drain, 2);
+  EXPECT_EQ(stage.cycles().total(), 5);
+}
+
+// A feed of a time step that does not work is bypassed; one that has fed all of its tokens drains.
+TEST(StageAccount, AFeedIsBypassedOrDrains) {
+  const Shape shape{{1, 2, 1}};
+  HeatFifo out("feed", 0, 1, 4, 0);
+  Feed feed(shape, 0, out);
+  std::int64_t now = 0;
+  const auto cycles = [&](int n) {
+    while (n-- > 0) feed.cycle(now++), out.commit();
+  };
+  feed.begin_pass(nullptr, 0);
+  cycles(3);
+  EXPECT_EQ(feed.cycles().bypassed, 3);
+  const IrradianceStream dark(Irradiance(shape.grid), shape);
+  feed.begin_pass(&dark, 0);
+  cycles(6);
+  EXPECT_EQ(feed.cycles().bypassed, 3);
+  EXPECT_EQ(feed.cycles().busy, 2);
+  EXPECT_EQ(feed.cycles().fill_drain, 4);
+}
+
+// Counted from docs/automaton.md, by hand. Settle of cold liquid multiplies for a depth squared and for the
+// two parts of a mobility, and divides for the limit and the dead zone.
+TEST(StageAccount, UnitsOfSettle) {
+  Design design{{}, {{4, 4, 4}, 1}};
+  design.parameters.flow.law = rule::Law::viscous;
+  const auto units = [&] { return make_stage(StageKind::settle, design)->units(); };
+  EXPECT_EQ(units().multipliers, 3);
+  EXPECT_EQ(units().dividers, 2);
+  design.parameters.flow.thermal_viscosity = true;  // the table between two of its temperatures
+  EXPECT_EQ(units().multipliers, 4);
 }
 
 }  // namespace
