@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -159,7 +161,8 @@ TEST(Checker, AMismatchHasItsLaneItsCycleAndTheStateBefore) {
   EXPECT_EQ(m.neighbourhood, neighbourhood(before.volume(), m.x, m.y, m.z));
 }
 
-// The lines around a mismatch show the state that its stage was given.
+// The lines around a mismatch show the state that its stage was given. Where waves are kept the pipeline goes
+// on, and what it computes from there is wrong, too: the lines stay those of the first cell.
 TEST(Checker, TheCellsAroundAMismatchAreThoseBeforeItsStage) {
   const auto verified = [](const Start& start) {
     return lockstep(start, {4, 1, 2, 0}, 1, Fault::gravity_one_more, start.step);
@@ -177,6 +180,17 @@ TEST(Checker, TheCellsAroundAMismatchAreThoseBeforeItsStage) {
   before.run_phase(step::Phase::gravity);
   ASSERT_NE(around, neighbourhood(before.volume(), m.x, m.y, m.z)) << "before and after look alike";
   EXPECT_EQ(m.neighbourhood, around);
+
+  VerifyOptions options;
+  options.steps = 1;
+  options.configuration = {4, 1, 2, 0};
+  options.fault = Fault::gravity_one_more;
+  options.fault_step = start.step;
+  options.waves = true;
+  const VerifyReport kept =
+      verify(start.parameters, start.volume, start.step, worlds::implementation("auto"), {}, options);
+  ASSERT_TRUE(kept.mismatch != nullptr && !kept.waves.empty());
+  EXPECT_EQ(kept.mismatch->neighbourhood, around);
 }
 
 // In steps that are not compared behind the stages, the written volume still is.
@@ -280,6 +294,62 @@ TEST(Checker, AChannelThatChangesAnythingIsNamed) {
       EXPECT_EQ(checker.mismatch()->lane, 3);
       EXPECT_EQ(checker.mismatch()->y, 1);
     }
+}
+
+// What a checker says of one step of the pipeline, which is right, where it wants something else.
+std::unique_ptr<Mismatch> said_of(void (*spoil)(state::Volume& left, state::Holdings& held), bool coded) {
+  const Start start = hostile_start(4, rule::Law::paper, {6, 7, 5});
+  run::Simulation software(start.parameters, start.volume, worlds::implementation("reference"));
+  software.step();
+  auto left = std::make_shared<state::Volume>(software.volume());
+  state::Holdings held = state::holdings(*left);
+  spoil(*left, held);
+  Configuration configuration{4, 1, 2, 0};
+  configuration.coded = coded;
+  Pipeline pipeline(start.parameters, start.volume.grid, configuration);
+  Checker checker(pipeline);
+  pipeline.watch(&checker);
+  const Pass pass{.first = 0};
+  checker.begin_train();
+  checker.add_pass({pass, {{}}, nullptr, held, left});
+  state::Volume volume = start.volume;
+  std::optional<IrradianceStream> light;
+  if (software.irradiance() != nullptr) light.emplace(*software.irradiance(), pipeline.design().shape);
+  pipeline.run_train(
+      pass, [] { return std::nullopt; }, light ? &*light : nullptr, volume);
+  return checker.mismatch() == nullptr ? nullptr : std::make_unique<Mismatch>(*checker.mismatch());
+}
+
+TEST(Checker, EachOfTheBooksIsCompared) {
+  EXPECT_EQ(said_of([](state::Volume&, state::Holdings&) {}, false), nullptr);
+  const std::vector<std::pair<std::string, void (*)(state::Volume&, state::Holdings&)>> wrong{
+      {"mass", [](state::Volume&, state::Holdings& held) { ++held.liquid; }},
+      {"mass", [](state::Volume&, state::Holdings& held) { --held.solid; }},
+      {"energy", [](state::Volume&, state::Holdings& held) { ++held.energy; }},
+      {"heat", [](state::Volume&, state::Holdings& held) { ++held.heat; }}};
+  for (const auto& [field, spoil] : wrong) {
+    const auto mismatch = said_of(spoil, false);
+    ASSERT_NE(mismatch, nullptr) << field;
+    EXPECT_EQ(mismatch->kind, Mismatch::Kind::books);
+    EXPECT_EQ(mismatch->field, field);
+    EXPECT_EQ(std::abs(mismatch->expected - mismatch->actual), 1);
+  }
+}
+
+// A coded column arrives as a whole, and is compared later. The cycle named is that of its token all the
+// same.
+TEST(Checker, AWrongMemoryNamesTheCycleOfItsToken) {
+  const auto spoil = [](state::Volume& left, state::Holdings&) { ++left.amount[left.at(5, 3, 1)]; };
+  const auto plain = said_of(spoil, false), coded = said_of(spoil, true);
+  ASSERT_TRUE(plain != nullptr && coded != nullptr);
+  for (const auto* mismatch : {plain.get(), coded.get()}) {
+    EXPECT_EQ(mismatch->kind, Mismatch::Kind::memory);
+    EXPECT_EQ(mismatch->field, "amount");
+    EXPECT_EQ(mismatch->x, 5);
+    EXPECT_EQ(mismatch->y, 3);
+    EXPECT_EQ(mismatch->z, 1);
+  }
+  EXPECT_EQ(coded->cycle, plain->cycle);
 }
 
 }  // namespace
