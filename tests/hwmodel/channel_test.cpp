@@ -156,6 +156,13 @@ TEST(LineBuffer, ANewTokenIsBlankAndTapsSeeTheOldOnes) {
   }
 }
 
+TEST(LineBuffer, NobodyLooksBehindItsEnd) {
+  TapLine<int> line(2, 3);
+  EXPECT_NO_THROW(line.tap(3));
+  EXPECT_THROW(line.tap(4), AddressError);
+  EXPECT_THROW(line.tap(5), AddressError);
+}
+
 TEST(LineBuffer, CostsWordsTimesLanesTimesBits) {
   EXPECT_EQ((BufferCost{"memory", 3, 4, 5}).total(), 60);
   const BufferCost cost = ColumnReverser<int>(4, 9).cost("column", 7);

@@ -226,6 +226,17 @@ TEST(Report, TheFirstDifferenceOfEveryField) {
   expect(solid, "state", 1, 2);
 }
 
+// As a stream would meet them: x before y before z.
+TEST(Report, OfManyDifferencesTheFirstIsNamed) {
+  const state::Volume base({4, 3, 2});
+  state::Volume other = base;
+  for (const auto& [x, y, z] : {std::array{0, 0, 1}, {1, 2, 0}, {0, 1, 0}, {3, 0, 0}}) {
+    worlds::put(other, x, y, z, 7, 0, 0);
+    const Difference d = first_difference(base, other);
+    EXPECT_EQ((std::array{d.x, d.y, d.z}), (std::array{x, y, z}));
+  }
+}
+
 TEST(Report, AFaultIsFoundWhereItWasPlantedOrNot) {
   VerifyReport report;
   EXPECT_FALSE(report.found_where_planted());
