@@ -1,7 +1,12 @@
 #include "app/run_record.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "kernel/run/checkpoint/blocks.h"
 
@@ -9,6 +14,16 @@ namespace voxmelt::app {
 namespace {
 
 using json = nlohmann::ordered_json;
+
+// The library would cut or turn a number that its type does not hold.
+template <class Whole>
+Whole whole(const json& value, const char* name, const std::filesystem::path& file) {
+  const bool fits = value.is_number_unsigned()  ? std::in_range<Whole>(value.get<std::uint64_t>())
+                    : value.is_number_integer() ? std::in_range<Whole>(value.get<std::int64_t>())
+                                                : false;
+  if (!fits) checkpoint::fail(file, std::string("its head: command.") + name + " is out of its range");
+  return value.get<Whole>();
+}
 
 json frames_json(const RunRecord& record) {
   json frames = json::array();
@@ -23,9 +38,10 @@ json frames_json(const RunRecord& record) {
 // Frames stand in their order, so that none can be missing in the middle.
 void read_frames(const json& frames, RunRecord& record, const std::filesystem::path& file) {
   for (const json& frame : frames) {
-    record.frames.push_back({frame.at("file").get<std::string>(), frame.at("bytes").get<std::uint64_t>(),
-                             frame.at("xxh3").get<std::uint64_t>()});
-    const auto step = frame.at("step").get<std::uint32_t>();
+    record.frames.push_back({frame.at("file").get<std::string>(),
+                             whole<std::uint64_t>(frame.at("bytes"), "frames.bytes", file),
+                             whole<std::uint64_t>(frame.at("xxh3"), "frames.xxh3", file)});
+    const auto step = whole<std::uint32_t>(frame.at("step"), "frames.step", file);
     if (!frame_is_due(record, step) || frames_due_before(record, step) != record.frame_steps.size())
       checkpoint::fail(file, "its head: the frames are not those of the steps before");
     record.frame_steps.push_back(step);
@@ -71,28 +87,28 @@ RunRecord run_record_of(const std::string& text, const std::filesystem::path& fi
     const json object = json::parse(text);
     RunRecord record;
     Common& common = record.common;
-    record.steps = object.at("steps").get<std::uint32_t>();
-    record.frame_every = object.at("frame_every").get<std::uint32_t>();
+    record.steps = whole<std::uint32_t>(object.at("steps"), "steps", file);
+    record.frame_every = whole<std::uint32_t>(object.at("frame_every"), "frame_every", file);
     record.size = object.at("size").get<std::string>();
     record.checkpoint_every = object.at("checkpoint_every").get<std::string>();
     record.id = object.at("id").get<std::string>();
     record.shown_place = object.at("out").get<std::string>();
     common.implementation = object.at("implementation").get<std::string>();
     common.visibility = object.at("visibility").get<std::string>();
-    common.threads = object.at("threads").get<int>();
+    common.threads = whole<int>(object.at("threads"), "threads", file);
     if (common.threads < 0 || common.threads > 1024)
       checkpoint::fail(file, "its head: command.threads is out of its range");
     common.sets = object.at("sets").get<std::vector<std::string>>();
     common.report = object.at("report").get<std::string>();
     common.quiet = object.at("quiet").get<bool>();
-    if (object.contains("seed")) common.seed = object.at("seed").get<std::uint64_t>();
+    if (object.contains("seed")) common.seed = whole<std::uint64_t>(object.at("seed"), "seed", file);
     read_frames(object.at("frames"), record, file);
-    const auto seen = object.at("watch").get<std::vector<std::int64_t>>();
+    const json& seen = object.at("watch");
     const auto seconds = object.at("seconds").get<std::vector<double>>();
     if (seen.size() != 5 || seconds.size() != 5)
       checkpoint::fail(file, "its head: command.watch or command.seconds is no list of five");
-    record.seen = {static_cast<int>(seen[0]), static_cast<int>(seen[1]), static_cast<int>(seen[2]),
-                   static_cast<int>(seen[3]), static_cast<std::uint32_t>(seen[4])};
+    const auto place = [&](std::size_t i) { return whole<int>(seen.at(i), "watch", file); };
+    record.seen = {place(0), place(1), place(2), place(3), whole<std::uint32_t>(seen.at(4), "watch", file)};
     record.seconds = {seconds[0], seconds[1], seconds[2], seconds[3], seconds[4]};
     return record;
   } catch (const json::exception& error) {

@@ -281,6 +281,19 @@ class Checkpoints(unittest.TestCase):
             with self.subTest(names):
                 self.refused("digest", self.crafted(head_change=change), names=names)
 
+    def test_a_run_is_not_resumed_by_numbers_that_do_not_fit(self):
+        head, _ = checkpoint_reader.read(self.checkpoint)
+        crafted = self.folder / "crafted"
+        (crafted / "checkpoints").mkdir(parents=True)
+        for key, value in (("steps", 1e19), ("steps", 2.5), ("steps", 2**32 + 5), ("steps", -1), ("frame_every", True),
+                           ("threads", 2**31), ("seed", 1e19), ("watch", [0, 0, 0, 0, -1]), ("watch", [2**31, 0, 0, 0, 0])):
+            with self.subTest(f"{key} {value}"):
+                command = json.loads(head["command"])
+                command[key] = value
+                file = self.crafted(head_change=lambda head: head.update(command=json.dumps(command)))
+                file.rename(crafted / "checkpoints" / self.checkpoint.name)
+                self.refused("run", "--resume", "crafted", names=f"command.{key} is out of its range")
+
     def masks(self):
         _, columns = checkpoint_reader.read(self.checkpoint)
         return columns["solid"], columns["liquid"], columns["inert"]
