@@ -74,7 +74,7 @@ TABLE = {
                    "remove_cvref_t remove_reference_t true_type type_identity_t underlying_type_t void_t",
     "unordered_map": "unordered_map erase_if",
     "unordered_set": "unordered_set",
-    "utility": "as_const cmp_equal cmp_greater cmp_less exchange forward get in_place index_sequence index_sequence_for integer_sequence "
+    "utility": "as_const cmp_equal cmp_greater cmp_less exchange forward get in_place in_range index_sequence index_sequence_for integer_sequence "
                "make_index_sequence make_integer_sequence make_pair move pair swap to_underlying tuple_size",
     "variant": "get get_if holds_alternative monostate variant visit",
     "vector": "erase erase_if vector",
