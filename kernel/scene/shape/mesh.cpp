@@ -32,8 +32,10 @@ std::string_view take_word(std::string_view& line) {
 // The message of an exception ends at a NUL byte.
 std::string quoted(std::string_view word) {
   std::string text = "'";
-  for (const char c : word.substr(0, 40))
-    text += c >= 0 && c < ' ' ? fmt::format("\\x{:02x}", static_cast<int>(c)) : std::string(1, c);
+  for (const char c : word.substr(0, 40)) {
+    const auto byte = static_cast<unsigned char>(c);
+    text += byte < ' ' ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  }
   return text + "'";
 }
 
