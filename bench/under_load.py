@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Two threads beside as many busy programs as there are processors: how do they compare with one?
 
-  bench/under_load.py [VOXMELT] [--scenes cello,goblet,lava] [--steps 600] [--rounds 7] [--foreign N]
+  bench/under_load.py [VOXMELT] [--scenes cello,goblet,lava] [--steps 3000] [--rounds 7] [--foreign N]
 
 While N other processes count, it runs the first steps of each scene on one thread and on all, in turn, by the clock
 on the wall, less the time of loading. It prints the medians. Nothing is gated: it prints what it has measured.
@@ -34,7 +34,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("voxmelt", nargs="?", default=ROOT / "build/release/app/voxmelt")
     parser.add_argument("--scenes", default="cello,goblet,lava")
-    parser.add_argument("--steps", type=int, default=600)
+    parser.add_argument("--steps", type=int, default=3000)
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--foreign", type=int, default=os.cpu_count())
     options = parser.parse_args()
