@@ -73,7 +73,7 @@ class Run {
 
   VerifyReport run() {
     while (report_.steps < options_.steps && report_.mismatch == nullptr && !stopped_) advance();
-    if (report_.mismatch == nullptr && options_.steps > 0 && checker_.compared_cells() == 0)
+    if (report_.mismatch == nullptr && !stopped_ && options_.steps > 0 && checker_.compared_cells() == 0)
       throw std::logic_error("lock-step compared nothing");
     report_.compared_cells = checker_.compared_cells();
     report_.software_cells = software_.compared_cells();

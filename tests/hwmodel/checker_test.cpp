@@ -216,6 +216,19 @@ TEST(Checker, TheWrittenVolumeIsComparedAfterEveryPass) {
       << "the digest is the model's, not the software's";
 }
 
+// Who visits may end the run before any step has been compared behind its stages.
+TEST(Checker, AVisitorMayEndTheRunEarly) {
+  const Start start = warm_start();
+  VerifyOptions options;
+  options.steps = options.every = 6;
+  options.visit_every = 2;
+  options.visit = [](const state::Volume&, const VerifyReport&) { return false; };
+  const VerifyReport report =
+      verify(start.parameters, start.volume, start.step, worlds::implementation("auto"), {}, options);
+  EXPECT_EQ(report.mismatch, nullptr);
+  EXPECT_EQ(report.steps, 2u);
+}
+
 // A vent that brings more energy than a cell can hold: no scene file can say so, but the wire would notice.
 TEST(Checker, AValueTooWideForItsWireIsReportedWithItsStage) {
   Start start = hostile_start(3, rule::Law::paper, {4, 4, 4});

@@ -85,17 +85,17 @@ inline int tile_width(const Start& start, const Configuration& c, int n) {
   return width < blocks ? width * c.lanes : 0;
 }
 
-// The smallest channels that lose no cycle, of a small grid with the same parameters and stalls.
+// The smallest channels that lose no cycle, of a small grid with the same parameters and memory. A machine is
+// built for no seed of stalls: they are sized without.
 inline const std::vector<ChannelDepth>& sized_depths(const Start& start, const Configuration& c, int memory) {
-  static std::map<std::tuple<std::string, int, int, std::uint64_t, int, bool>, std::vector<ChannelDepth>>
-      known;
-  auto& depths = known[{start.name, c.lanes, c.cascade, c.stall_seed, memory, c.overlap}];
+  static std::map<std::tuple<std::string, int, int, int, bool>, std::vector<ChannelDepth>> known;
+  auto& depths = known[{start.name, c.lanes, c.cascade, memory, c.overlap}];
   if (!depths.empty()) return depths;
   explore::TimedRun run;
   run.parameters = start.parameters;
   run.grid = {2 * std::max(c.lanes, 2), 5, 5};
   run.configuration = c;
-  run.configuration.tile = 0, run.configuration.coded = false;
+  run.configuration.tile = 0, run.configuration.coded = false, run.configuration.stall_seed = 0;
   run.first_step = start.step;
   run.steps = c.cascade;
   std::optional<explore::SizingMemory> dram;
