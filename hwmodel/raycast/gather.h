@@ -84,6 +84,8 @@ class Gather final : public LineClient {
 
   void arrived(const LineReply& reply, const std::uint8_t* bytes) override {
     const auto slot = static_cast<std::size_t>(reply.slot);
+    // It may be meant for another cache, which a checker tells. Here may be no such line, or none at all.
+    if (slot >= arrived_.size() || store_.empty()) return;
     if (faults_.keeps_old_line()) [[unlikely]] {
       arrived_[slot] = 1;
       return;
