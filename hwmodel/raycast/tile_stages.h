@@ -2,6 +2,7 @@
 // return to memory (docs/picture.md, section 10).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -191,7 +192,9 @@ class PixelStage final : public Stage {
     PixelToken& pixel = *out_->put();
     pixel.id = token.id;
     for (std::size_t c = 0; c < 3; ++c) {
-      const int light = (buffer.sums[at][c] + buffer.samples / 2) / buffer.samples;
+      // All light is the most there is, unless a ray came twice, which a checker tells.
+      const int light = std::min((buffer.sums[at][c] + buffer.samples / 2) / buffer.samples,
+                                 static_cast<int>(registers_.look.bytes.size()) - 1);
       pixel.bytes[c] = registers_.look.bytes[static_cast<std::size_t>(light)];
     }
     faults_.totalled(registers_.look, buffer.sums[at], buffer.samples, pixel);
