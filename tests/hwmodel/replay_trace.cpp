@@ -26,7 +26,8 @@ std::vector<Request> requests_of(const std::string& file) {
   std::vector<Request> requests;
   std::string address, kind;
   while (stream >> address >> kind) {
-    if (kind != "R" && kind != "W") throw std::runtime_error(file + ": neither R nor W: " + kind);
+    if (kind != "R" && kind != "W")
+      throw std::runtime_error(fmt::format("{}: neither R nor W: {}", file, kind));
     requests.push_back(
         {std::stoll(address, nullptr, 16), static_cast<std::uint32_t>(requests.size()), kind == "W"});
   }
