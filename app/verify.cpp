@@ -35,6 +35,7 @@
 #include "hwmodel/lockstep/report.h"
 #include "hwmodel/machine/dram_streams.h"
 #include "hwmodel/page/page.h"
+#include "hwmodel/picture/report_picture.h"
 #include "hwmodel/presets/presets.h"
 #include "hwmodel/stream/tiling.h"
 #include "kernel/run/io/output_folder.h"
@@ -260,10 +261,11 @@ int run_machine(VerifyCommand command) {
   return report.good() ? kDone : kCheckFailed;
 }
 
-// What the closed form says of each train on the DRAM, for a run that moves what the state holds at its
-// begin.
+// What the DRAM gives at most, and what the closed form says of each train on it, for a run that moves what
+// the state holds at its begin.
 void predict_on_memory(hwmodel::VerifyReport& report, const hwmodel::Design& design,
                        const hwmodel::Preset& preset, run::Simulation& ahead) {
+  report.most_bytes_per_cycle = hwmodel::raycast::most_bytes_per_cycle(preset.caster);
   ahead.begin_step();  // its irradiance
   const hwmodel::Configuration& c = preset.configuration;
   const hwmodel::Design uncut{design.parameters, {ahead.volume().grid, c.lanes}, 1};

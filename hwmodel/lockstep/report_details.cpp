@@ -33,7 +33,8 @@ Json json_of(const Timeline& timeline, const Json& stages) {
       {"stretch_cycles", timeline.width()}, {"begins", begins}, {"end", timeline.cycles()}, {"stages", rows}};
 }
 
-// Upper bounds of cell-steps a cycle, each below the one before, and what the run reached.
+// Upper bounds of cell-steps a cycle, each below the one before, and what the run reached. On a DRAM also
+// what it moves, and what it could move at most.
 Json bounds(const Json& json, const VerifyReport& report, const Design& design,
             const Configuration& configuration) {
   const Shape& shape = design.shape;
@@ -47,13 +48,21 @@ Json bounds(const Json& json, const VerifyReport& report, const Design& design,
   const double bytes = (traffic["read"].get<double>() + traffic["written"].get<double>() +
                         traffic["irradiance"].get<double>()) /
                        8;
-  return {{"lanes_and_steps", lanes_and_steps},
-          {"lanes_in_the_grid", in_grid},
-          {"steps_with_work", with_work},
-          {"fill_and_drain", ratio(done, static_cast<double>(report.predicted_cycles))},
-          {"reached", ratio(done, static_cast<double>(report.cycles))},
-          {"bytes_per_cycle", bytes},
-          {"cell_steps_per_byte", ratio(lanes_and_steps, bytes)}};
+  Json all{{"lanes_and_steps", lanes_and_steps},
+           {"lanes_in_the_grid", in_grid},
+           {"steps_with_work", with_work},
+           {"fill_and_drain", ratio(done, static_cast<double>(report.predicted_cycles))},
+           {"reached", ratio(done, static_cast<double>(report.cycles))},
+           {"bytes_per_cycle", bytes},
+           {"cell_steps_per_byte", ratio(lanes_and_steps, bytes)}};
+  if (!report.most_bytes_per_cycle) return all;
+  std::int64_t bits = 0;
+  for (const StageReport& stage : report.stages) bits += stage.moved_bits;
+  const double moved = ratio(static_cast<double>(bits), 8 * static_cast<double>(report.cycles));
+  all["most_bytes_per_cycle"] = *report.most_bytes_per_cycle;
+  all["moved_bytes_per_cycle"] = moved;
+  all["cell_steps_per_moved_byte"] = ratio(all["reached"].get<double>(), moved);
+  return all;
 }
 
 }  // namespace

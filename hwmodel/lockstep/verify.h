@@ -55,11 +55,12 @@ struct VerifyReport {
   std::vector<StageReport> stages;
   std::vector<ChannelReport> channels;
   std::optional<IrradianceStream::Counts>
-      irradiance;                   // that lies in memory at the end; none without radiation
-  std::vector<TrainReport> trains;  // those that ended well
-  std::string waves;                // VCD; empty: there are none
-  Timeline timeline;                // empty, unless it was asked for
-  std::uint64_t digest = 0;         // of the model's last state
+      irradiance;                                // that lies in memory at the end; none without radiation
+  std::vector<TrainReport> trains;               // those that ended well
+  std::optional<double> most_bytes_per_cycle{};  // of the DRAM, if someone has said it
+  std::string waves;                             // VCD; empty: there are none
+  Timeline timeline;                             // empty, unless it was asked for
+  std::uint64_t digest = 0;                      // of the model's last state
   // The state from which the mismatch can be replayed, and its step number: a step of visibility, or
   // the first.
   std::optional<state::Volume> replay;

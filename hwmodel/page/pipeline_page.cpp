@@ -54,15 +54,19 @@ std::string head(const Json& report, const std::string& title) {
              number(report["passes"]));
 }
 
+// On a DRAM the slope is that of the bytes which have moved, and the dot lies there.
 std::string bounds_of_rate(const Json& of) {
-  return roofline({.caption = "What bounds the rate",
-                   .unit = "cell-steps",
-                   .compute = of["lanes_and_steps"],
-                   .per_byte = of["cell_steps_per_byte"],
-                   .bounds = {{of["lanes_in_the_grid"], "less lanes beyond the grid"},
-                              {of["steps_with_work"], "less time steps without work"},
-                              {of["fill_and_drain"], "less fill and drain"}},
-                   .reached = {{of["reached"], of["bytes_per_cycle"], "reached"}}});
+  const bool dram = of.contains("most_bytes_per_cycle");
+  return roofline(
+      {.caption = "What bounds the rate",
+       .unit = "cell-steps",
+       .compute = of["lanes_and_steps"],
+       .per_byte = of[dram ? "cell_steps_per_moved_byte" : "cell_steps_per_byte"],
+       .bounds = {{of["lanes_in_the_grid"], "less lanes beyond the grid"},
+                  {of["steps_with_work"], "less time steps without work"},
+                  {of["fill_and_drain"], "less fill and drain"}},
+       .reached = {{of["reached"], of[dram ? "moved_bytes_per_cycle" : "bytes_per_cycle"], "reached"}},
+       .most_bytes = dram ? of["most_bytes_per_cycle"] : Json{}});
 }
 
 std::string charts(const Json& report) {

@@ -170,6 +170,16 @@ class Outputs(unittest.TestCase):
         self.assertGreater(report["cycles"], 1.1 * report["predicted_cycles"], "the memory made nobody wait")
         self.assertLess(abs(on_memory / report["cycles"] - 1), 0.1)
         self.assertIn(f"{on_memory:,}", page)
+        # 2400 million transfers of 8 bytes a second, at 200 MHz. Three passes of 120 tokens are read and written, 16 lanes each.
+        bounds, traffic = report["cell_steps_per_cycle"], report["traffic_bits_per_cycle"]
+        self.assertAlmostEqual(bounds["most_bytes_per_cycle"], 2400 * 8 / 200)
+        self.assertIn("the memory moves at most 96.00 bytes a cycle", page)
+        state = 3 * 120 * (traffic["read"] + traffic["written"]) / 8
+        fed = sum(stage["moved_bits"] for stage in report["stages"] if stage["name"] == "feed") / 8
+        moved = bounds["moved_bytes_per_cycle"]
+        self.assertAlmostEqual(moved * report["cycles"], state + fed)
+        self.assertLess(moved, bounds["most_bytes_per_cycle"])
+        self.assertAlmostEqual(bounds["cell_steps_per_moved_byte"] * moved, 12 * 10 * 12 * 9 / report["cycles"])
         said = voxmelt("verify", self.scene, "--steps", 9, "--set", "hw.lanes=16", "--set", "hw.cascade=3",
                        "--set", "hw.memory=ddr4-2400").stdout
         more = 100 * (report["cycles"] / on_memory - 1)
