@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/measure/baseline_run.h"
+#include "measure/baseline_run.h"
 
 namespace voxmelt::accuracy {
 namespace {

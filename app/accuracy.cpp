@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "accuracy/case.h"
-#include "accuracy/report/report.h"
 #include "app/accuracy_front.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
@@ -21,6 +20,7 @@
 #include "app/options.h"
 #include "app/version.h"
 #include "kernel/run/io/output_folder.h"
+#include "report/accuracy/report.h"
 
 namespace voxmelt::app {
 namespace {

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "accuracy/front/sweep.h"
-#include "accuracy/report/front.h"
-#include "accuracy/report/report.h"
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/version.h"
 #include "kernel/run/io/output_folder.h"
+#include "report/accuracy/front.h"
+#include "report/accuracy/report.h"
 
 namespace voxmelt::app {
 namespace {

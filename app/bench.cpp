@@ -21,10 +21,10 @@
 #include "app/options.h"
 #include "app/version.h"
 #include "app/visibility.h"
-#include "bench/measure/report.h"
-#include "bench/measure/suite.h"
 #include "kernel/engine/cpu/instruction_set.h"
 #include "kernel/run/io/output_folder.h"
+#include "measure/suite.h"
+#include "report/bench/report.h"
 
 namespace voxmelt::app {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/interrupt.h"
-#include "bench/measure/report.h"
+#include "measure/texts.h"
 
 namespace voxmelt::app {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "bench/measure/suite.h"
+#include "measure/suite.h"
 
 namespace voxmelt::app {
 

@@ -19,7 +19,7 @@
 #include "app/run_ahead.h"
 #include "app/visibility.h"
 #include "hwmodel/explore/explore_report.h"
-#include "hwmodel/presets/memory_preset.h"
+#include "hwmodel/memory/sheet.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {

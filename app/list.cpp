@@ -12,9 +12,9 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/resources.h"
-#include "hwmodel/caster_faults/faults.h"
-#include "hwmodel/faults/faults.h"
-#include "hwmodel/presets/presets.h"
+#include "hwmodel/caster/faults/faults.h"
+#include "hwmodel/machine/presets/presets.h"
+#include "hwmodel/pipeline/faults/faults.h"
 #include "kernel/run/trial/fastest.h"
 #include "kernel/scene/features.h"
 

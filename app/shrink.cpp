@@ -16,7 +16,7 @@
 
 #include "app/interrupt.h"
 #include "app/shell_word.h"
-#include "hwmodel/lockstep/shrink.h"
+#include "hwmodel/pipeline/check/shrink.h"
 #include "kernel/run/io/export.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/io/unfinished.h"

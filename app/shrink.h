@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/options.h"
-#include "hwmodel/lockstep/verify.h"
+#include "hwmodel/pipeline/check/verify.h"
 #include "kernel/scene/scene.h"
 
 namespace voxmelt::app {

@@ -11,7 +11,7 @@
 
 #include "app/interrupt.h"
 #include "hwmodel/explore/size_fifos.h"
-#include "hwmodel/stream/tiling.h"
+#include "hwmodel/pipeline/model/tiling.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/options.h"
-#include "hwmodel/presets/presets.h"
+#include "hwmodel/machine/presets/presets.h"
 
 namespace voxmelt::app {
 

@@ -1,5 +1,5 @@
 // voxmelt verify: the hardware model in lock-step with the software.
-#include "hwmodel/lockstep/verify.h"
+#include "hwmodel/pipeline/check/verify.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -28,17 +28,17 @@
 #include "app/verify_machine.h"
 #include "app/verify_picture.h"
 #include "app/visibility.h"
+#include "hwmodel/caster/report/report_picture.h"
 #include "hwmodel/explore/content.h"
 #include "hwmodel/explore/dram_time.h"
 #include "hwmodel/explore/schedule.h"
-#include "hwmodel/lockstep/replay.h"
-#include "hwmodel/lockstep/report.h"
 #include "hwmodel/machine/dram_streams.h"
-#include "hwmodel/page/page.h"
-#include "hwmodel/picture/report_picture.h"
-#include "hwmodel/presets/presets.h"
-#include "hwmodel/stream/tiling.h"
+#include "hwmodel/machine/presets/presets.h"
+#include "hwmodel/pipeline/check/replay.h"
+#include "hwmodel/pipeline/model/tiling.h"
+#include "hwmodel/pipeline/report/report.h"
 #include "kernel/run/io/output_folder.h"
+#include "report/hardware/page.h"
 
 namespace voxmelt::app {
 namespace {

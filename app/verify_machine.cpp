@@ -10,13 +10,13 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
-#include "bench/measure/paper.h"
+#include "hwmodel/caster/report/report_picture.h"
 #include "hwmodel/machine/report_machine.h"
-#include "hwmodel/page/page.h"
-#include "hwmodel/picture/report_picture.h"
 #include "kernel/run/io/output_folder.h"
+#include "measure/paper.h"
 #include "render/image/png.h"
 #include "render/packet/picture.h"
+#include "report/hardware/page.h"
 
 namespace voxmelt::app {
 namespace {

@@ -4,7 +4,7 @@
 #include "app/options.h"
 #include "app/verify_picture.h"
 #include "hwmodel/machine/machine.h"
-#include "hwmodel/presets/presets.h"
+#include "hwmodel/machine/presets/presets.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
 

@@ -10,14 +10,14 @@
 #include "app/commands.h"
 #include "app/film.h"
 #include "app/interrupt.h"
-#include "hwmodel/caster_faults/faults.h"
-#include "hwmodel/page/page.h"
-#include "hwmodel/picture/replay_pixel.h"
-#include "hwmodel/picture/report_picture.h"
-#include "hwmodel/picture/verify_picture.h"
-#include "hwmodel/presets/presets.h"
+#include "hwmodel/caster/check/replay_pixel.h"
+#include "hwmodel/caster/check/verify_picture.h"
+#include "hwmodel/caster/faults/faults.h"
+#include "hwmodel/caster/report/report_picture.h"
+#include "hwmodel/machine/presets/presets.h"
 #include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
+#include "report/hardware/page.h"
 
 namespace voxmelt::app {
 namespace {

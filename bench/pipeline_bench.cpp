@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "hwmodel/stream/pipeline.h"
+#include "hwmodel/pipeline/model/pipeline.h"
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"

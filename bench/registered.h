@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "bench/measure/measure.h"
-#include "bench/measure/roof.h"
+#include "measure/measure.h"
+#include "measure/roof.h"
 
 namespace voxmelt::bench {
 

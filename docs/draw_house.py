@@ -3,9 +3,12 @@
 
   draw_house.py ROOT             writes docs/house.svg
   draw_house.py ROOT --check     says whether it is old
+  draw_house.py ROOT --inside    how many rooms, floors and arrows hwmodel has
   draw_house.py --self-test
 
 Arrows are taken from the includes. An arrow that follows from two others through a floor between is left out.
+No folders may include each other in a circle, at no level, and hwmodel may not become larger inside than
+house_arrows.py says.
 """
 import re
 import sys
@@ -22,27 +25,25 @@ PURPOSES = {
     "library": "what it is made of",
     "examples": "programs of a page",
     "app": "the voxmelt program, one file per subcommand",
-    "bench": "how fast it is, and how fast this machine could be",
-    "bench/baseline": "the paper's program, plainly written",
-    "bench/measure": "what `voxmelt bench` times and checks",
+    "bench": "benchmarks and their scripts",
+    "measure": "what `voxmelt bench` times and checks",
+    "measure/baseline": "the paper's program, plainly written",
     "accuracy": "how well it does physics, against analytic answers",
     "accuracy/front": "speed against error",
-    "accuracy/report": "the pages and the tables",
+    "accuracy/formats": "the same in other numbers",
     "accuracy/picture": "picture in double",
+    "report": "what these print: SVG, HTML, tables",
+    "report/svg": "axes, marks, pages",
+    "report/hardware": "pages of the hardware",
+    "report/accuracy": "pages and tables of errors",
+    "report/bench": "tables and plot of speeds",
     "hwmodel": "the hardware in SystemC: a pipeline, a ray caster",
-    "hwmodel/channel": "FIFOs, line buffers, wires of a declared width",
+    "hwmodel/fabric": "clock, channels, line buffers, wires",
     "hwmodel/memory": "when a DRAM gives and takes",
-    "hwmodel/process": "what a machine needs of SystemC",
-    "hwmodel/stream": "one stage per phase, with its own arithmetic",
-    "hwmodel/faults": "planted, to be found",
-    "hwmodel/presets": "hardware configurations",
-    "hwmodel/raycast": "draws pictures, with its own arithmetic",
-    "hwmodel/caster_faults": "planted in it, to be found",
-    "hwmodel/picture": "its host; holds it against the software",
-    "hwmodel/explore": "which hardware is best for a device",
+    "hwmodel/pipeline": "the automaton's stream, a stage per phase",
+    "hwmodel/caster": "draws pictures, from bricks",
     "hwmodel/machine": "both machines on one memory",
-    "hwmodel/page": "reports as pages",
-    "hwmodel/lockstep": "holds the model against the software, bit for bit",
+    "hwmodel/explore": "which hardware is best for a device",
     "render": "the pictures",
     "render/rule": "the picture in integers",
     "render/density": "amounts to a filtered field",
@@ -52,7 +53,6 @@ PURPOSES = {
     "render/packet": "rays in packets, and pictures by them",
     "render/reference": "the picture, in plain loops",
     "render/image": "PNG, sheet, film",
-    "render/page": "what pages are made of",
     "render/visibility": "rays by Embree",
     "render/frames": "files beside the steps",
     "kernel/run": "the run loop",
@@ -76,7 +76,8 @@ PURPOSES = {
 # From the roof to the ground: the rooms of each floor, from left to right, with their widths.
 FLOORS = [
     [("app", 1)],
-    [("door", 3), ("accuracy", 3), ("bench", 4)],
+    [("door", 3), ("report", 4), ("bench", 2)],
+    [("accuracy", 4), ("measure", 2)],
     [("hwmodel", 5), ("render", 4)],
     [("kernel/run", 3), ("kernel/scene", 5)],
     [("kernel/engine", 1)],
@@ -101,20 +102,37 @@ def box_of(folder, room):
     return "/".join(folder.split("/")[:room.count("/") + 2])
 
 
+def sources(root):
+    """Folder and text of each."""
+    tops = [p for p in root.iterdir() if p.is_dir() and p.name not in NOT_DRAWN and not p.name.startswith(".")]
+    for path in sorted(p for top in tops for p in top.rglob("*") if p.suffix in (".h", ".cpp")):
+        yield path.relative_to(root).parent.as_posix(), path.read_text()
+
+
+def included_folders(text):
+    return [Path(f"include/{included}" if included.startswith("voxmelt/") else included).parent.as_posix()
+            for included in INCLUDE.findall(text)]
+
+
+def folders_and_includes(root):
+    """All folders with code, and the pairs of which the first includes the second."""
+    texts = list(sources(root))
+    return ({folder for folder, _ in texts},
+            {(folder, other) for folder, text in texts for other in included_folders(text)
+             if room_of(other) is not None and other != folder})
+
+
 def survey(root):
     """Lines of code per box, and the pairs of rooms of which the first includes the second."""
     lines, arrows, problems = {}, set(), []
-    tops = [p for p in root.iterdir() if p.is_dir() and p.name not in NOT_DRAWN and not p.name.startswith(".")]
-    for path in sorted(p for top in tops for p in top.rglob("*") if p.suffix in (".h", ".cpp")):
-        folder = path.relative_to(root).parent.as_posix()
-        room, text = room_of(folder), path.read_text()
+    for folder, text in sources(root):
+        room = room_of(folder)
         if room is None:
             problems.append(f"{folder}: on no floor; FLOORS in docs/draw_house.py gives it a place")
             continue
         for counted in {box_of(folder, room), room}:
             lines[counted] = lines.get(counted, 0) + text.count("\n")
-        for included in INCLUDE.findall(text):
-            other = room_of(Path(f"include/{included}" if included.startswith("voxmelt/") else included).parent.as_posix())
+        for other in map(room_of, included_folders(text)):
             if other not in (None, room):
                 arrows.add((room, other))
     problems += [f"{box}: has no purpose; PURPOSES in docs/draw_house.py gives it one" for box in sorted(set(lines) - set(PURPOSES))]
@@ -183,7 +201,7 @@ def self_test():
         assert any("floor above" in problem for problem in survey(root)[2])
     chain = {("app", "render"), ("render", "kernel/scene"), ("app", "kernel/scene"), ("app", "kernel/run")}
     assert needed(chain) == [("app", "kernel/run"), ("app", "render"), ("render", "kernel/scene")], needed(chain)
-    print("planted folders, arrows and counts are noticed")
+    print("planted folders, arrows, circles and counts are noticed")
 
 
 if __name__ == "__main__":
@@ -191,6 +209,10 @@ if __name__ == "__main__":
         self_test()
         sys.exit(0)
     house = Path(sys.argv[1])
+    if sys.argv[2:] == ["--inside"]:
+        for name in house_arrows.MOST:
+            print("{}: {} rooms, {} floors, {} arrows".format(name, *house_arrows.inside(name, *folders_and_includes(house))))
+        sys.exit(0)
     found_lines, found_arrows, wrong = survey(house)
     if wrong:
         sys.exit("\n".join(wrong))

@@ -13,20 +13,20 @@ text { font-family: -apple-system, "Segoe UI", "Noto Sans", "DejaVu Sans", Helve
 .page { fill: #ffffff; } .walls { fill: #f6f8fa; stroke: #afb8c1; stroke-width: 1.5; }
 .box { fill: #ffffff; fill-opacity: 0.75; } .title { font-size: 15px; font-weight: 600; } .name { font-size: 12.5px; font-weight: 600; }
 .what, .count { font-size: 12px; fill: #57606a; } .house { font-size: 25px; font-weight: 600; }
-.app { fill: #ddeaf8; stroke: #2f6fb3; } .bench { fill: #e9ebee; stroke: #6b7683; } .door { fill: #e3e4fa; stroke: #5d5bb8; }
+.app { fill: #ddeaf8; stroke: #2f6fb3; } .bench, .measure { fill: #e9ebee; stroke: #6b7683; } .report { fill: #f3efd2; stroke: #8a7a1c; } .door { fill: #e3e4fa; stroke: #5d5bb8; }
 .accuracy { fill: #fbe3e6; stroke: #b5435a; }
 .hwmodel { fill: #fbead0; stroke: #b3701c; } .render { fill: #f2e2f3; stroke: #95489c; } .kernel { fill: #d9f0e6; stroke: #1a7f64; }
 .arrow { fill: none; stroke-width: 1.9; } .tip { stroke: none; }
-.tip.app { fill: #2f6fb3; } .tip.bench { fill: #6b7683; } .tip.door { fill: #5d5bb8; } .tip.accuracy { fill: #b5435a; }
+.tip.app { fill: #2f6fb3; } .tip.bench, .tip.measure { fill: #6b7683; } .tip.report { fill: #8a7a1c; } .tip.door { fill: #5d5bb8; } .tip.accuracy { fill: #b5435a; }
 .tip.hwmodel { fill: #b3701c; } .tip.render { fill: #95489c; } .tip.kernel { fill: #1a7f64; }
 """
 DARK = """
 text { fill: #e6edf3; } .page { fill: #0d1117; } .walls { fill: #161b22; stroke: #484f58; }
 .box { fill: #0d1117; fill-opacity: 0.55; } .what, .count { fill: #a9b4c0; }
-.app { fill: #152a42; stroke: #6aa9ee; } .bench { fill: #23282f; stroke: #8b949e; } .door { fill: #22224a; stroke: #9a98f0; }
+.app { fill: #152a42; stroke: #6aa9ee; } .bench, .measure { fill: #23282f; stroke: #8b949e; } .report { fill: #322d0e; stroke: #d3c25a; } .door { fill: #22224a; stroke: #9a98f0; }
 .accuracy { fill: #3a1a22; stroke: #ee8499; }
 .hwmodel { fill: #38270f; stroke: #e0a04a; } .render { fill: #331d36; stroke: #cf86d6; } .kernel { fill: #10332a; stroke: #4fc3a1; }
-.tip.app { fill: #6aa9ee; } .tip.bench { fill: #8b949e; } .tip.door { fill: #9a98f0; } .tip.accuracy { fill: #ee8499; }
+.tip.app { fill: #6aa9ee; } .tip.bench, .tip.measure { fill: #8b949e; } .tip.report { fill: #d3c25a; } .tip.door { fill: #9a98f0; } .tip.accuracy { fill: #ee8499; }
 .tip.hwmodel { fill: #e0a04a; } .tip.render { fill: #cf86d6; } .tip.kernel { fill: #4fc3a1; }
 """
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "accuracy/front/twin.h"
+#include "accuracy/formats/twin.h"
 #include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::accuracy::front {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/formats/twin.h"
 #include "accuracy/front/curves.h"
-#include "accuracy/front/twin.h"
 
 namespace voxmelt::accuracy::front {
 

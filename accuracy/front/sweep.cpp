@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include "accuracy/front/twin.h"
+#include "accuracy/formats/twin.h"
 #include "accuracy/trial.h"
-#include "bench/measure/baseline_run.h"
-#include "bench/measure/clocks.h"
 #include "kernel/scene/scene.h"
+#include "measure/baseline_run.h"
+#include "measure/clocks.h"
 
 namespace voxmelt::accuracy::front {
 namespace {

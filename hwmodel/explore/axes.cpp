@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hwmodel/explore/sweep.h"
-#include "hwmodel/stream/tiling.h"
+#include "hwmodel/pipeline/model/tiling.h"
 #include "kernel/scene/text/compose.h"
 #include "kernel/scene/text/reader.h"
 

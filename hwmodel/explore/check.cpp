@@ -4,7 +4,7 @@
 
 #include "hwmodel/explore/timing.h"
 #include "hwmodel/machine/dram_streams.h"
-#include "hwmodel/stream/tiling.h"
+#include "hwmodel/pipeline/model/tiling.h"
 
 namespace voxmelt::hwmodel::explore {
 

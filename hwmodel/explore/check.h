@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hwmodel/explore/sweep.h"
-#include "hwmodel/lockstep/verify.h"
+#include "hwmodel/pipeline/check/verify.h"
 
 namespace voxmelt::hwmodel::explore {
 

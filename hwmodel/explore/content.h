@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "hwmodel/stream/coded_state.h"
-#include "hwmodel/stream/irradiance_stream.h"
-#include "hwmodel/stream/stage.h"
+#include "hwmodel/pipeline/model/coded_state.h"
+#include "hwmodel/pipeline/model/irradiance_stream.h"
+#include "hwmodel/pipeline/model/stage.h"
 
 namespace voxmelt::hwmodel::explore {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hwmodel/stream/stage_kind.h"
+#include "hwmodel/pipeline/model/stage_kind.h"
 
 namespace voxmelt::hwmodel::explore {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "hwmodel/stream/stages.h"
+#include "hwmodel/pipeline/model/stages.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {

@@ -9,7 +9,7 @@
 #include "hwmodel/explore/content.h"
 #include "hwmodel/explore/device.h"
 #include "hwmodel/explore/mapping.h"
-#include "hwmodel/stream/stage.h"
+#include "hwmodel/pipeline/model/stage.h"
 
 namespace voxmelt::hwmodel::explore {
 

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "hwmodel/machine/column_port.h"
-#include "hwmodel/stream/prediction.h"
+#include "hwmodel/pipeline/model/lag.h"
+#include "hwmodel/pipeline/time/prediction.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {

@@ -1,5 +1,5 @@
 // Which passes a run is cut into, and what each train of them takes without stalls: the closed form of
-// hwmodel/stream/prediction.h for a whole run.
+// hwmodel/pipeline/time/prediction.h for a whole run.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include "hwmodel/explore/content.h"
 #include "hwmodel/explore/dram_time.h"
 #include "hwmodel/machine/stream_twin.h"
-#include "hwmodel/stream/pipeline.h"
+#include "hwmodel/pipeline/model/pipeline.h"
 
 namespace voxmelt::hwmodel::explore {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "hwmodel/machine/dram_streams.h"
-#include "hwmodel/stream/tiling.h"
+#include "hwmodel/pipeline/model/tiling.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {

@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "hwmodel/explore/dram_time.h"
-#include "hwmodel/stream/tiling.h"
+#include "hwmodel/pipeline/model/tiling.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "hwmodel/explore/schedule.h"
-#include "hwmodel/stream/prediction.h"
-#include "hwmodel/stream/stages.h"
+#include "hwmodel/pipeline/model/lag.h"
+#include "hwmodel/pipeline/model/stages.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {

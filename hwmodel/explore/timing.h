@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hwmodel/stream/pipeline.h"
+#include "hwmodel/pipeline/model/pipeline.h"
 
 namespace voxmelt::hwmodel::explore {
 

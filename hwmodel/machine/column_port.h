@@ -2,8 +2,8 @@
 // a block has a slot of its own, which begins with a burst. So a tile reads and writes whole bursts, and no
 // burst has two owners.
 //
-// With the code (hwmodel/stream/coded_state.h) the begin of a column tells how many bursts follow. So begins
-// are read ahead.
+// With the code (hwmodel/pipeline/model/coded_state.h) the begin of a column tells how many bursts follow. So
+// begins are read ahead.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "hwmodel/memory/dram.h"
-#include "hwmodel/stream/coded_state.h"
+#include "hwmodel/pipeline/model/coded_state.h"
 
 namespace voxmelt::hwmodel {
 

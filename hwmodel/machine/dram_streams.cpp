@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "hwmodel/stream/irradiance_stream.h"
+#include "hwmodel/pipeline/model/irradiance_stream.h"
 
 namespace voxmelt::hwmodel {
 

@@ -12,8 +12,8 @@
 
 #include "hwmodel/machine/column_port.h"
 #include "hwmodel/memory/dram.h"
-#include "hwmodel/stream/pipeline.h"
-#include "hwmodel/stream/stream_memory.h"
+#include "hwmodel/pipeline/model/pipeline.h"
+#include "hwmodel/pipeline/model/stream_memory.h"
 
 namespace voxmelt::hwmodel {
 

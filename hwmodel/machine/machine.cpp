@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "hwmodel/machine/screen.h"
-#include "hwmodel/stream/tiling.h"
+#include "hwmodel/pipeline/model/tiling.h"
 
 namespace voxmelt::hwmodel {
 namespace {

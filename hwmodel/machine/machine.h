@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "hwmodel/lockstep/verify.h"
+#include "hwmodel/caster/check/verify_picture.h"
 #include "hwmodel/machine/stream_twin.h"
-#include "hwmodel/picture/verify_picture.h"
+#include "hwmodel/pipeline/check/verify.h"
 
 namespace voxmelt::hwmodel {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hwmodel/picture/report_picture.h"
+#include "hwmodel/caster/report/report_picture.h"
 
 namespace voxmelt::hwmodel {
 namespace {

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "hwmodel/caster/check/picture_run.h"
+#include "hwmodel/caster/check/verify_picture.h"
+#include "hwmodel/caster/host/uploader.h"
 #include "hwmodel/machine/stream_twin.h"
-#include "hwmodel/picture/picture_run.h"
-#include "hwmodel/picture/uploader.h"
-#include "hwmodel/picture/verify_picture.h"
 #include "kernel/automaton/state/volume.h"
 #include "render/density/density_field.h"
 #include "render/image/image.h"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "hwmodel/caster/model/layout.h"
 #include "hwmodel/memory/dram.h"
-#include "hwmodel/raycast/layout.h"
 
 namespace voxmelt::hwmodel {
 namespace {

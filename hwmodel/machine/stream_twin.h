@@ -8,8 +8,8 @@
 
 #include <cstdint>
 
-#include "hwmodel/raycast/configuration.h"
-#include "hwmodel/raycast/line_memory.h"
+#include "hwmodel/caster/model/configuration.h"
+#include "hwmodel/caster/model/line_memory.h"
 
 namespace voxmelt::hwmodel {
 

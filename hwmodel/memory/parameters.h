@@ -1,5 +1,5 @@
 // The numbers of a memory: its shape, and the rules of its data sheet in cycles of its clock. They come from
-// the files in hwmodel/presets/memories, which name the source of each.
+// the files in hwmodel/memory/sheets, which name the source of each.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // What is written: gates decide, numbers are those of the rows, and each text can be read back.
-#include "accuracy/report/report.h"
+#include "report/accuracy/report.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/page/axis.h"
+#include "report/svg/axis.h"
 
 namespace voxmelt::accuracy {
 namespace {

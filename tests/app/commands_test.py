@@ -582,7 +582,7 @@ kappa = 20
                 break
             if found == 0:
                 never.add(name)
-        # Pictures that are made for these: tests/hwmodel/caster_faults_test.cpp.
+        # Pictures that are made for these: tests/hwmodel/caster/faults/caster_faults_test.cpp.
         self.assertEqual(never, nowhere)
 
     def test_verify_does_what_its_options_say(self):

@@ -3,7 +3,7 @@ in its report. tests/app/explore_test.py compares the two."""
 import itertools
 from math import ceil, floor, inf
 
-# Of the memory's sheet (hwmodel/presets/memories/ddr4-2400.toml), in its cycles.
+# Of the memory's sheet (hwmodel/memory/sheets/ddr4-2400.toml), in its cycles.
 DDR4 = {"mhz": 1200, "beats": 4, "banks": 4, "cl": 17, "cwl": 12, "rcd": 17, "rp": 17, "rtp": 9, "wr": 18,
         "wtr_s": 3, "rtw": 2, "rfc": 420, "refi": 9360, "interface": 24, "batch": 48}
 

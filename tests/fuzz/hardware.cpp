@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "hwmodel/presets/presets.h"
+#include "hwmodel/machine/presets/presets.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

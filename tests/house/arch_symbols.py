@@ -47,7 +47,7 @@ def avx_offences(disassembly):
             function = match.group(1)
         elif AVX.match(line):
             if "baseline::Variant)1" in function:
-                continue  # the baseline for this processor: run only where it was built for (bench/measure/native_needs.h)
+                continue  # the baseline for this processor: run only where it was built for (measure/native_needs.h)
             if "xsimd::avx" in function:
                 kernels += 1
             else:

@@ -15,6 +15,7 @@ RULE, STATE, STEP = "kernel/automaton/rule", "kernel/automaton/state", "kernel/a
 PARAMETERS = f"{RULE}/parameters.h"  # numbers that describe a scene; no rule
 PICTURE = "render/rule"
 CPU, VISIBILITY = "kernel/engine/cpu", "kernel/engine/visibility"
+FABRIC, PIPELINE, CASTER = "hwmodel/fabric", "hwmodel/pipeline/model", "hwmodel/caster/model"
 
 # Folder -> folders, or single headers, of ours that it may include (besides itself).
 ALLOWED = {
@@ -35,7 +36,7 @@ ALLOWED = {
     "kernel/run/trial": [STATE, STEP, "kernel/run"],
     PICTURE: [f"{RULE}/fixed_point.h"],
     "render/image": [],
-    "render/page": [],
+    "report/svg": [],
     "render/frames": ["render/image"],
     "render/density": [RULE, STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU],
     "render/light": [PICTURE, CPU, "render/density"],
@@ -46,33 +47,40 @@ ALLOWED = {
     "render/reference": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", f"{STATE}/volume.h", PICTURE, "render/image", "render/density", "render/light",
                        "render/ground", "render/packet"],
     "render/visibility": [VISIBILITY],
-    # The model computes with its own arithmetic: of the kernel it sees data only.
-    "hwmodel/channel": [],
-    "hwmodel/memory": [],
-    "hwmodel/process": ["hwmodel/channel"],
-    "hwmodel/stream": ["hwmodel/channel", "hwmodel/process", PARAMETERS, STATE, f"{STEP}/phase.h"],
-    "hwmodel/faults": ["hwmodel/channel", "hwmodel/stream"],
-    # The ray caster sees nothing of the software at all: the host's part is in hwmodel/picture.
-    "hwmodel/raycast": ["hwmodel/channel", "hwmodel/memory", "hwmodel/process"],
-    "hwmodel/caster_faults": ["hwmodel/raycast"],
-    "hwmodel/picture": ["hwmodel/caster_faults", "hwmodel/memory", "hwmodel/raycast", STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image",
-                        "render/density", "render/ground", "render/packet", "render/reference"],
-    "hwmodel/presets": ["hwmodel/memory", "hwmodel/raycast", "hwmodel/stream", "kernel/scene/text"],
-    "hwmodel/explore": ["hwmodel/lockstep", "hwmodel/machine", "hwmodel/memory", "hwmodel/stream", "kernel/scene/text"],
-    "hwmodel/machine": ["hwmodel/lockstep", "hwmodel/memory", "hwmodel/picture", "hwmodel/raycast", "hwmodel/stream", STATE, "render/image", "render/density", "render/packet",
-                        "render/reference", f"{PICTURE}/camera.h"],
-    "hwmodel/lockstep": ["hwmodel/faults", "hwmodel/stream", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io", "kernel/scene/text"],
-    "hwmodel/page": ["render/page"],
-    "bench": ["accuracy/picture", "bench/measure", "hwmodel/stream", PARAMETERS, STATE, "kernel/scene", CPU, VISIBILITY, "kernel/run",
+    # A model computes with its own arithmetic: of the kernel the pipeline sees data only.
+    FABRIC: [],
+    "hwmodel/memory": ["kernel/scene/text"],
+    PIPELINE: [FABRIC, PARAMETERS, STATE, f"{STEP}/phase.h"],
+    "hwmodel/pipeline/time": [PIPELINE],
+    "hwmodel/pipeline/faults": [FABRIC, PIPELINE],
+    "hwmodel/pipeline/check": [PIPELINE, "hwmodel/pipeline/faults", "hwmodel/pipeline/time", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io", "kernel/scene/text"],
+    "hwmodel/pipeline/report": [PIPELINE, "hwmodel/pipeline/check"],
+    # The ray caster sees nothing of the software at all: the host's part stands beside it.
+    CASTER: [FABRIC, "hwmodel/caster/time", "hwmodel/memory"],
+    "hwmodel/caster/time": [CASTER],
+    "hwmodel/caster/faults": [CASTER],
+    "hwmodel/caster/host": [CASTER, STATE, PICTURE, "render/ground", "render/packet"],
+    "hwmodel/caster/check": [CASTER, "hwmodel/caster/faults", "hwmodel/caster/host", STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image",
+                             "render/density", "render/ground", "render/packet", "render/reference"],
+    "hwmodel/caster/report": ["hwmodel/caster/check", "hwmodel/memory"],
+    "hwmodel/machine": [PIPELINE, "hwmodel/pipeline/check", CASTER, "hwmodel/caster/host", "hwmodel/caster/check", "hwmodel/caster/report", "hwmodel/memory", STATE, "render/image",
+                        "render/density", "render/packet", "render/reference", f"{PICTURE}/camera.h"],
+    "hwmodel/machine/presets": [PIPELINE, CASTER, "hwmodel/memory", "kernel/scene/text"],
+    "hwmodel/explore": [PIPELINE, "hwmodel/pipeline/check", "hwmodel/pipeline/time", "hwmodel/machine", "hwmodel/memory", "kernel/scene/text"],
+    "report/svg": [],
+    "report/hardware": ["report/svg"],
+    "report/accuracy": ["accuracy", "accuracy/front", "report/svg"],
+    "report/bench": ["measure"],
+    "bench": ["accuracy/picture", "measure", PIPELINE, PARAMETERS, STATE, "kernel/scene", CPU, VISIBILITY, "kernel/run",
               "render/density", "render/packet", "render/reference", "render/visibility"],
-    "bench/baseline": [PARAMETERS, STATE],
-    "bench/measure": ["bench/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
-                      "kernel/run", "render/density", "render/packet", "render/image", "render/frames"],
+    "measure": ["measure/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
+                "kernel/run", "render/density", "render/packet", "render/image", "render/frames"],
+    "measure/baseline": [PARAMETERS, STATE],
     # The judge sees states and scenes, never a rule.
-    "accuracy": [STATE, STEP, "kernel/scene", "kernel/run", "bench/measure"],
-    "accuracy/report": ["accuracy", "accuracy/front", "render/page"],
+    "accuracy": [STATE, STEP, "kernel/scene", "kernel/run", "measure"],
     # The twin has rules of its own; with the automaton it shares its choices at random and who follows rays.
-    "accuracy/front": ["accuracy", RULE, STATE, "kernel/scene", VISIBILITY, "bench/measure"],
+    "accuracy/formats": [RULE, STATE, VISIBILITY],
+    "accuracy/front": ["accuracy", "accuracy/formats", STATE, "kernel/scene", "measure"],
     # The converged picture reads the picture's data, and computes with its own arithmetic.
     "accuracy/picture": ["kernel/scene", CPU, "kernel/run", PICTURE, "render/density", "render/image", "render/reference", "render/packet/scene_in_integers.h"],
     # What strangers include: the standard library only.
@@ -80,12 +88,14 @@ ALLOWED = {
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io", "kernel/run/trial",
                 "render/image", "render/packet"],
     "examples": ["include/voxmelt"],
-    "app": [CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "accuracy/report", "bench/measure", "hwmodel/caster_faults", "hwmodel/explore", "hwmodel/faults", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "hwmodel/presets", "hwmodel/stream", STATE, "kernel/scene", "kernel/run",
-            "kernel/run/checkpoint", "kernel/run/io", "kernel/run/trial", "render/image", "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
+    "app": [CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/check",
+            "hwmodel/pipeline/faults", "hwmodel/pipeline/report", "hwmodel/caster/check", "hwmodel/caster/faults", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine",
+            "hwmodel/machine/presets", "hwmodel/memory", STATE, "kernel/scene", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/trial", "render/image",
+            "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.
 THIRD_PARTY = {
-    "systemc": ["hwmodel/process"],
+    "systemc": [FABRIC],
     "xsimd/": [CPU],
     "tbb/": [CPU],
     "embree3/": ["render/visibility"],
@@ -96,14 +106,16 @@ THIRD_PARTY = {
     "xxhash.h": ["kernel/run/checkpoint"],
     "CLI/": ["app"],
     "benchmark/": ["bench"],
-    "nlohmann/": ["accuracy/report", "kernel/run/checkpoint", "kernel/run/io", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "bench/measure", "app"],
-    "fmt/": ["kernel/run/trial", "kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/explore", "hwmodel/lockstep", "hwmodel/machine", "hwmodel/page", "hwmodel/picture", "render/page", "bench/measure", "accuracy",
-             "accuracy/front", "accuracy/report", "app"],
+    "nlohmann/": ["kernel/run/checkpoint", "kernel/run/io", "hwmodel/pipeline/report", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "report/accuracy",
+                  "report/bench", "report/hardware", "app"],
+    "fmt/": ["kernel/run/trial", "kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/pipeline/check", "hwmodel/pipeline/report", "hwmodel/caster/check",
+             "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "measure", "accuracy", "accuracy/front", "report/svg", "report/accuracy", "report/bench",
+             "report/hardware", "app"],
 }
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
-TOPS = ("kernel", "render", "hwmodel", "app", "bench", "accuracy", "include", "library", "examples")
+TOPS = ("kernel", "render", "hwmodel", "app", "bench", "measure", "accuracy", "report", "include", "library", "examples")
 STANDARD_ONLY = (RULE, PICTURE, "include/voxmelt")
 
 
@@ -141,8 +153,8 @@ def offences(root):
             found.append(f"{name}: folder {folder} is not in the rules")
             continue
         for number, line in enumerate(lines, 1):
-            if folder == "hwmodel/stream" and RULE_CALL.search(line):
-                found.append(f"{name}:{number}: hwmodel/stream has its own arithmetic and calls no rule")
+            if folder == PIPELINE and RULE_CALL.search(line):
+                found.append(f"{name}:{number}: hwmodel/pipeline/model has its own arithmetic and calls no rule")
             match = INCLUDE.match(line)
             if match and (wrong := offence_of(folder, *match.groups(), used)):
                 found.append(f"{name}:{number}: {wrong}")
@@ -167,11 +179,11 @@ def self_test():
         "kernel/run/io/i.cpp": '#include "app/options.h"\n',
         "kernel/other/j.h": "\n",
         "app/k.cpp": "\n" * (LONGEST + 1),
-        "hwmodel/stream/l.cpp": f'#include "{RULE}/heat.h"\n',
-        "hwmodel/stream/m.cpp": "const int f = rule::scaled(1, 2);\n",
-        "hwmodel/stream/n.cpp": '#include "kernel/engine/scalar/reference.h"\n',
-        "hwmodel/raycast/m2.h": f'#include "{PICTURE}/sample.h"\n',
-        "hwmodel/channel/o.h": '#include "hwmodel/stream/cell.h"\n',
+        "hwmodel/pipeline/model/l.cpp": f'#include "{RULE}/heat.h"\n',
+        "hwmodel/pipeline/model/m.cpp": "const int f = rule::scaled(1, 2);\n",
+        "hwmodel/pipeline/model/n.cpp": '#include "kernel/engine/scalar/reference.h"\n',
+        "hwmodel/caster/model/m2.h": f'#include "{PICTURE}/sample.h"\n',
+        "hwmodel/fabric/o.h": '#include "hwmodel/pipeline/model/cell.h"\n',
         "app/p.cpp": "#include <systemc>\n",
         "kernel/engine/parallel/q.cpp": "#include <tbb/parallel_for.h>\n",
         "include/voxmelt/s.h": "#include <fmt/format.h>\n",
@@ -183,8 +195,8 @@ def self_test():
     }
     fine = {"kernel/engine/scalar/ok.cpp": f'#include "{RULE}/heat.h"\n#include <vector>\n',
             "examples/ok.cpp": '#include <voxmelt/voxmelt.h>\n',
-            "hwmodel/stream/ok.cpp": f'#include "{PARAMETERS}"\n',
-            "hwmodel/process/ok.cpp": "#include <systemc>\n"}
+            "hwmodel/pipeline/model/ok.cpp": f'#include "{PARAMETERS}"\n',
+            "hwmodel/fabric/ok.cpp": "#include <systemc>\n"}
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         for name, text in {**planted, **fine}.items():
@@ -198,12 +210,12 @@ def self_test():
     if missed or wrong:
         sys.exit(f"missed: {sorted(missed)}; wrongly reported: {sorted(wrong)}")
     for expected in (f"kernel/engine/scalar: may include {STEP}, and never does",
-                     "hwmodel/stream: may include hwmodel/channel, and never does",
+                     "hwmodel/pipeline/model: may include hwmodel/fabric, and never does",
                      "app: may include <CLI/...>, and never does"):
         if expected not in unused:
             sys.exit(f"missed: {expected}")
-    for used in (f"kernel/engine/scalar: may include {RULE}, ", f"hwmodel/stream: may include {PARAMETERS}, ",
-                 "hwmodel/process: may include <systemc"):
+    for used in (f"kernel/engine/scalar: may include {RULE}, ", f"hwmodel/pipeline/model: may include {PARAMETERS}, ",
+                 "hwmodel/fabric: may include <systemc"):
         if any(offence.startswith(used) for offence in unused):
             sys.exit(f"wrongly reported: {used}")
     print(f"all {len(planted)} planted offences caught, and allowances that nobody uses")

@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-TOPS = ("kernel", "render", "hwmodel", "app", "bench", "accuracy", "library", "include", "examples", "tests", "cmake", "docs", "scenes")
+TOPS = ("kernel", "render", "hwmodel", "app", "bench", "measure", "accuracy", "report", "library", "include", "examples", "tests", "cmake", "docs", "scenes")
 CPP = (".h", ".cpp")
 HASHED = (".py", ".sh", ".cmake", ".txt", ".toml", ".yml")
 # Pages whose names in backticks are not looked for in the code: they tell of times past, of trials and of tests.

@@ -59,7 +59,7 @@ class Install(unittest.TestCase):
         names = {line.split()[0] for line in output(program, "list", "scenes", cwd=self.folder).splitlines()}
         self.assertEqual(names, {p.stem for p in (root / "scenes").glob("*.toml")})
         presets = {line.split()[0] for line in output(program, "list", "presets", cwd=self.folder).splitlines()}
-        self.assertEqual(presets, {p.stem for p in (root / "hwmodel/presets").glob("*.toml")})
+        self.assertEqual(presets, {p.stem for p in (root / "hwmodel/machine/presets").glob("*.toml")})
         for scene in ("bunny_small", "bunny_small_viscous"):  # one with a mesh, one that extends it
             line = output(program, "digest", scene, "--steps", 10, cwd=self.folder).strip()
             self.assertEqual(line, APPROVED[scene]["10"])

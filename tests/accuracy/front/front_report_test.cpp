@@ -1,5 +1,5 @@
 // What is written of a front: every number can be read back, and the page stands alone.
-#include "accuracy/report/front.h"
+#include "report/accuracy/front.h"
 
 #include <gtest/gtest.h>
 

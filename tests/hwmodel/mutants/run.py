@@ -36,7 +36,8 @@ ROOT = HERE.parents[2]
 KEYS = {"name", "file", "before", "after", "class", "stage", "why", "boundary", "tests"}
 # What a run of verify, or a unit test of the pipeline, computes with. Nobody plants a listed fault here, and
 # the ray caster has mutants of its own elsewhere.
-FOLDERS = ["stream", "lockstep", "memory", "machine", "process", "explore", "presets"]
+FOLDERS = tuple(f"hwmodel/{folder}/" for folder in ("fabric", "memory", "pipeline/model", "pipeline/time", "pipeline/check", "pipeline/report", "machine",
+                                                     "explore"))
 VERIFY = "app/voxmelt"
 BITS = ("wrong bits", "equivalent")
 LONGEST = 150  # seconds of one run
@@ -139,8 +140,7 @@ class Build:
         own = set(self.link_of(program)[1]) if program != VERIFY else set()
         for source in self.entries:
             name = self.object_of(source)
-            part = source.split("/")
-            library = part[0] == "hwmodel" and (part[1] in FOLDERS or source == file)
+            library = source.startswith(FOLDERS) or (source.startswith("hwmodel/") and source == file)
             library = library and source in self.compiles.get(file, [source])
             if (library or name in own) and file in self.deps.get(name, ()):
                 yield source

@@ -1,8 +1,0 @@
-#include "bench/baseline/phases.h"
-
-namespace voxmelt::baseline {
-
-template class Baseline<float, Variant::plain>;
-template class Baseline<double, Variant::plain>;
-
-}  // namespace voxmelt::baseline

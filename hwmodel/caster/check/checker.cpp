@@ -1,0 +1,355 @@
+#include "hwmodel/caster/check/checker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "hwmodel/caster/check/compare.h"
+#include "hwmodel/caster/host/keep.h"
+#include "render/packet/tables.h"
+#include "render/rule/antialias.h"
+
+namespace voxmelt::hwmodel::raycast {
+std::string text_of(const Difference& d) {
+  const std::string place = d.address < 0 ? fmt::format("pixel ({}, {}), sample {}", d.x, d.y, d.sample)
+                                          : fmt::format("the line at address {}", d.address);
+  std::string text = fmt::format("DIFFERENCE behind stage {}: {}, cycle {}\n  {}: expected {}, actual {}\n",
+                                 d.stage, place, d.cycle, d.name, d.expected, d.actual);
+  if (d.has_position) {
+    const Vec q = to_lattice(d.position) >> (kCellBits + kBrickBits);
+    text += fmt::format("  position {} {} {}, brick ({}, {}, {})\n", d.position.x, d.position.y, d.position.z,
+                        q.x, q.y, q.z);
+  }
+  return text;
+}
+
+Checker::Checker(const Expectation& expectation, RayCaster& caster, int width, int height)
+    : expectation_(expectation),
+      caster_(caster),
+      width_(static_cast<std::size_t>(width)),
+      height_(height),
+      transit_(caster, [this](Difference of) { tell(std::move(of)); }),
+      tile_check_(width, height, [this](Difference of) { tell(std::move(of)); }),
+      memory_check_([this](Difference of) { tell(std::move(of)); }) {
+  bytes_.resize(static_cast<std::size_t>(frame_bytes(width, height)));
+  tiles_x_ = (width + kTileSide - 1) / kTileSide;
+}
+
+Watchers Checker::watchers() {
+  return transit_.around({this, this, this, this, this, this, this, this, this, this, this, this,
+                          &tile_check_, &memory_check_, &memory_check_, this});
+}
+
+void Checker::begin_pass(int samples, int most, std::int64_t frame, const Window& window) {
+  samples_ = samples, most_ = most, frame_ = frame, window_ = window;
+  ended_.reset();
+  transit_.begin_pass(), tile_check_.begin_pass(window), memory_check_.begin_pass();
+  if (samples == 1)
+    std::fill(bytes_.begin(), bytes_.end(), std::uint8_t{0});
+  else
+    first_ = bytes_;
+  const std::size_t pixels = width_ * static_cast<std::size_t>(height_);
+  places_.assign(pixels * static_cast<std::size_t>(samples), -1);
+  sums_.assign(pixels, {});
+  rays_.clear();
+  free_.clear();
+}
+
+void Checker::end_pass(const FrameEnd& end) {
+  if (difference_ || !(end.complete || end.hangs)) return;
+  ended_ = end.cycles;
+  tile_check_.end_pass(end.hangs);
+  if (end.hangs) transit_.look_for_lost();
+}
+
+std::optional<RayId> Checker::ray_under_way() const {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (places_[i] < 0) continue;
+    const std::size_t pixel = i / static_cast<std::size_t>(samples_);
+    return RayId{static_cast<std::int32_t>(pixel % width_), static_cast<std::int32_t>(pixel / width_),
+                 static_cast<std::int16_t>(i % static_cast<std::size_t>(samples_)), 0};
+  }
+  return {};
+}
+
+// A line that arrives is read in the same cycle, and a channel behind it may be looked at first: a
+// difference of the memory comes before all others of its cycle.
+void Checker::tell(Difference difference) {
+  const bool before = difference.stage == "memory" && !ended_ && difference_ &&
+                      difference_->stage != "memory" && difference_->cycle == caster_.cycle();
+  if (difference_ && !before) return;
+  difference.cycle = ended_.value_or(0);
+  if (!ended_) {
+    difference.cycle = caster_.cycle();
+    caster_.stop();
+  }
+  difference_ = std::move(difference);
+}
+
+std::size_t Checker::index_of(const RayId& id) const {
+  return (static_cast<std::size_t>(id.y) * width_ + static_cast<std::size_t>(id.x)) *
+             static_cast<std::size_t>(samples_) +
+         static_cast<std::size_t>(id.sample);
+}
+
+std::size_t Checker::byte_of(int x, int y) const {
+  const int tile = y / kTileSide * tiles_x_ + x / kTileSide;
+  return static_cast<std::size_t>(tile * kTileBytes + 3 * (y % kTileSide * kTileSide + x % kTileSide));
+}
+
+bool Checker::drawn_again(int x, int y) const {
+  const int width = static_cast<int>(width_);
+  const auto at = [&](int px, int py) {
+    const std::uint8_t* bytes = first_.data() + byte_of(px, py);
+    return std::array<std::uint8_t, 3>{bytes[0], bytes[1], bytes[2]};
+  };
+  const auto from = [&](int nx, int ny) {
+    return nx >= 0 && ny >= 0 && nx < width && ny < height_ && picture::differ(at(x, y), at(nx, ny), most_);
+  };
+  return from(x - 1, y) || from(x + 1, y) || from(x, y - 1) || from(x, y + 1);
+}
+
+ExpectedRay& Checker::ray(const RayId& id) {
+  std::int32_t& place = places_[index_of(id)];
+  if (place < 0) {
+    if (free_.empty()) {
+      free_.push_back(static_cast<std::int32_t>(rays_.size()));
+      rays_.emplace_back();
+    }
+    place = free_.back();
+    free_.pop_back();
+    const Sub sub = sub_of(samples_, id.sample);
+    rays_[static_cast<std::size_t>(place)] =
+        expectation_.ray(64 * std::int64_t{id.x} + sub.across, 64 * std::int64_t{id.y} + sub.down);
+  }
+  return rays_[static_cast<std::size_t>(place)];
+}
+ExpectedRay& Checker::shaded(const RayId& id) {
+  ExpectedRay& of = ray(id);
+  if (!of.shaded) expectation_.shade(of);
+  return of;
+}
+
+void Checker::entered(int, std::int64_t, const TileOrder* token) {
+  tile_check_.ordered(*token);
+  for (int i = 0; i < kTilePixels; ++i) {
+    const int x = token->x + i % kTileSide, y = token->y + i / kTileSide;
+    const bool in = x < static_cast<int>(width_) && y < height_ && window_.holds(x, y);
+    compare("tiles", {x, y, 0, 0}, "to be drawn", in && (samples_ == 1 || drawn_again(x, y)),
+            (token->pixels >> i & 1) != 0);
+  }
+}
+
+void Checker::entered(int, std::int64_t, const RayToken* token) {
+  const ExpectedRay& of = ray(token->id);
+  compare("set-up", token->id, "start", vec_of(of.ray.start), token->ray.start);
+  compare("set-up", token->id, "step", vec_of(of.ray.step), token->ray.step);
+}
+
+void Checker::entered(int, std::int64_t, const GroundedRay* token) {
+  const ExpectedRay& of = ray(token->id);
+  const Vec position = vec_of(of.ground.position);
+  compare("ground", token->id, "found", of.ground.found, token->ground.found);
+  if (!of.ground.found) return;
+  compare("ground", token->id, "part", of.ground.part, token->ground.part, &position);
+  compare("ground", token->id, "crossing", position, token->ground.position, &position);
+  compare("ground", token->id, "face", static_cast<Face>(of.ground.face), token->ground.face, &position);
+}
+
+void Checker::entered(int, std::int64_t, const LevelRequest* token) {
+  if (token->asker != Asker::walk && token->asker != Asker::stretch) return;
+  const ExpectedRay& of = ray(token->id);
+  const Vec position = from_lattice(token->at);
+  compare(token->asker == Asker::walk ? "walk" : "stretch", token->id, "position",
+          vec_of(expectation_.at(of, token->k)), position, &position);
+  if (expectation_.clear()) return;
+  if (of.matter.found && token->k > of.matter.sample)
+    compare("walk", token->id, "k, beyond the first sample in matter", of.matter.sample, token->k, &position);
+}
+
+void Checker::entered(int, std::int64_t, const Levels* token) {
+  const Places places = token->request.places();
+  const auto side = static_cast<std::size_t>(places.side);
+  const Vec position = from_lattice(token->request.at);
+  std::array<std::int16_t, 27> expected{};
+  std::array<std::int16_t, 27> actual{};
+  std::size_t i = 0;
+  for (std::size_t z = 0; z < side; ++z)
+    for (std::size_t y = 0; y < side; ++y)
+      for (std::size_t x = 0; x < side; ++x, ++i) {
+        expected[i] = static_cast<std::int16_t>(expectation_.level(
+            places.x[x] - kLatticeBorder, places.y[y] - kLatticeBorder, places.z[z] - kLatticeBorder));
+        actual[i] = token->words[i];
+      }
+  compare("levels", token->request.id, "fetched", expected, actual, &position);
+}
+
+void Checker::entered(int, std::int64_t, const LevelToken* token) {
+  const Vec position = from_lattice(token->request.at);
+  compare("sample", token->request.id, "level", expectation_.sample(vector_of(position)),
+          std::int32_t{token->level}, &position);
+}
+
+void Checker::entered(int, std::int64_t, const HitToken* token) {
+  if (expectation_.clear()) return compare_clear(*token);
+  const ExpectedRay& of = ray(token->ray.id);
+  const Vec position = from_lattice(token->at);
+  compare("walk", token->ray.id, "the first sample in matter", of.matter.found ? of.matter.sample : -1,
+          token->k, &position);
+}
+
+void Checker::entered(int, std::int64_t, const MetToken* token) {
+  if (expectation_.clear()) return compare_clear(*token);
+  const ExpectedRay& of = ray(token->id);
+  if (!token->matter.found) {
+    const bool hidden = of.matter.found && of.ground.found && of.matter.sample > (of.ground.part >> 8) + 1;
+    compare("walk", token->id, "matter found", of.matter.found && !hidden, false);
+    return;
+  }
+  compare_crossing(token->id, of.matter, token->matter);
+}
+
+void Checker::compare_crossing(const RayId& id, const picture::Crossing& expected, const Crossing& actual) {
+  const Vec position = vec_of(expected.position);
+  compare("crossing", id, "sample", expected.sample, actual.sample, &position);
+  compare("crossing", id, "part", std::int64_t{expected.part}, actual.part, &position);
+  compare("crossing", id, "crossing", position, actual.position, &position);
+}
+
+void Checker::entered(int channel, std::int64_t, const Surface* token) {
+  const auto behind = static_cast<Channel>(channel % 100);
+  if (expectation_.clear()) return compare_clear(behind, *token);
+  const ExpectedRay& of = shaded(token->id);
+  compare_surface(behind, of.surface, *token, of);
+}
+
+void Checker::compare_surface(Channel behind, const Surface& e, const Surface& a, const ExpectedRay& ray) {
+  const bool matter = e.kind == Surface::Kind::matter, ground = e.kind == Surface::Kind::ground;
+  const bool clear = expectation_.clear(), way = e.kind == Surface::Kind::way;
+  const char* stage = "";
+  const auto same = [&](const char* name, const auto& expected, const auto& actual) {
+    compare(stage, a.id, name, expected, actual, &e.position);
+  };
+  switch (behind) {
+    case Channel::met:
+      stage = clear ? "stretch" : "met";
+      same("on ground", e.kind, a.kind);
+      if (clear) same("leaves", e.clear.leaves, a.clear.leaves), same("d", e.clear.way, a.clear.way);
+      if (!matter && !ground && !way) return;
+      same("position", e.position, a.position);
+      if (!clear) same("depth", e.depth, a.depth);
+      same("to_eye", e.to_eye, a.to_eye);
+      return;
+    case Channel::normal:
+      stage = "normal";
+      if (matter) same("normal", e.normal, a.normal);
+      return;
+    case Channel::paint:
+      stage = "paint";
+      if (ground) same("normal", vec_of(ray.ground_normal), a.normal);
+      if (ground && e.face != Face::top) same("color", e.color, a.color);  // rock may still come
+      return;
+    case Channel::texture:
+      stage = "texture";
+      if (ground) same("color", e.color, a.color), same("normal", e.normal, a.normal);
+      return;
+    case Channel::matter:
+      stage = "matter";
+      if (!matter && !way) return;
+      same("liquid", e.matter.liquid, a.matter.liquid);
+      same("heat", e.matter.heat, a.matter.heat);
+      same("obstacle", e.matter.obstacle, a.matter.obstacle);
+      return;
+    case Channel::light:
+      stage = "light";
+      if (!matter && !ground && !way) return;
+      same("lamp", e.light.lamp, a.light.lamp);
+      same("open", e.light.open, a.light.open);
+      same("glow", e.light.glow, a.light.glow);
+      return;
+    case Channel::arriving:
+      stage = "arriving";
+      if (way) {
+        same("inner", e.arriving.light, a.arriving.light);
+        stage = "material";
+        same("l", e.mixture.l, a.mixture.l);
+        same("w", e.mixture.w, a.mixture.w);
+        same("diffuse", e.mixture.material.diffuse, a.mixture.material.diffuse);
+        return;
+      }
+      if (!matter && !ground) return;
+      same("lamp", e.arriving.lamp, a.arriving.lamp);
+      same("facing", e.arriving.facing, a.arriving.facing);
+      same("lit", e.arriving.lit, a.arriving.lit);
+      same("arriving", e.arriving.light, a.arriving.light);
+      if (!matter) return;
+      stage = "material";
+      same("l", e.mixture.l, a.mixture.l);
+      same("w", e.mixture.w, a.mixture.w);
+      same("diffuse", e.mixture.material.diffuse, a.mixture.material.diffuse);
+      same("mirror", e.mixture.material.mirror, a.mixture.material.mirror);
+      same("highlight", e.mixture.material.highlight, a.mixture.material.highlight);
+      same("gloss", e.mixture.material.gloss, a.mixture.material.gloss);
+      same("emission", e.mixture.emission, a.mixture.emission);
+      return;
+    case Channel::mirror:
+      stage = "mirror";
+      if (!matter) return;
+      same("peak", e.mirrored.peak, a.mirrored.peak);
+      same("eye", e.mirrored.eye, a.mirrored.eye);
+      same("more", e.mirrored.more, a.mirrored.more);
+      same("r", e.mirrored.reflected, a.mirrored.reflected);
+      same("around", e.mirrored.around, a.mirrored.around);
+      same("free", e.mirrored.free, a.mirrored.free);
+      return;
+    case Channel::colour:
+      stage = "colour";
+      same("colour", e.sum, a.sum);
+      if (clear && matter) same("gleam", e.clear.gleam, a.clear.gleam);
+      return;
+    default:
+      return;
+  }
+}
+
+void Checker::entered(int, std::int64_t, const PressedToken* token) {
+  const ExpectedRay& of = shaded(token->id);
+  compare("press", token->id, "pressed", of.pressed, token->pressed);
+  const std::size_t i = index_of(token->id);
+  for (std::size_t c = 0; c < 3; ++c) sums_[i / static_cast<std::size_t>(samples_)][c] += of.pressed[c];
+  free_.push_back(places_[i]);  // the ray has come to its end
+  places_[i] = -1;
+}
+
+void Checker::entered(int, std::int64_t, const PixelToken* token) {
+  RayId id = token->id;
+  id.sample = 0;
+  const Rgb& sum = sums_[index_of(id) / static_cast<std::size_t>(samples_)];
+  std::array<std::uint8_t, 3> expected{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    // More than all light is the sum where a ray came twice: its channel has told that.
+    const std::int32_t light = std::min<std::int32_t>((sum[c] + samples_ / 2) / samples_, picture::kLight);
+    expected[c] = render::byte_table()[static_cast<std::size_t>(light)];
+  }
+  compare("pixel", token->id, "bytes", expected, token->bytes);
+  std::copy(expected.begin(), expected.end(),
+            bytes_.begin() + static_cast<std::ptrdiff_t>(byte_of(id.x, id.y)));
+}
+
+// Beyond the edges of the picture, a tile holds zeros.
+void Checker::entered(int, std::int64_t, const LineRequest* token) {
+  const std::int64_t from = token->address - frame_;
+  if (from < 0 || from + kBurst > static_cast<std::int64_t>(bytes_.size()))
+    return compare("write", {}, "address in the frame", std::int64_t{0}, from);
+  const auto tile = static_cast<int>(from / kTileBytes);
+  const RayId first{tile % tiles_x_ * kTileSide, tile / tiles_x_ * kTileSide, 0, 0};
+  tile_check_.written(tile, static_cast<int>(from % kTileBytes / kBurst));
+  std::array<std::uint8_t, kBurst> expected{};
+  std::copy_n(bytes_.begin() + from, kBurst, expected.begin());
+  compare("write", first, "bytes of the tile", expected, token->data);
+}
+
+}  // namespace voxmelt::hwmodel::raycast

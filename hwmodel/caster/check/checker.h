@@ -1,0 +1,113 @@
+// Compares every token that leaves a stage of the ray caster with the reference. The first difference ends
+// the run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "hwmodel/caster/check/difference.h"
+#include "hwmodel/caster/check/expectation.h"
+#include "hwmodel/caster/check/memory_check.h"
+#include "hwmodel/caster/check/tile_check.h"
+#include "hwmodel/caster/check/transit.h"
+#include "hwmodel/caster/model/ray_caster.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+class Checker final : FifoWatcher<TileOrder>,
+                      FifoWatcher<RayToken>,
+                      FifoWatcher<GroundedRay>,
+                      FifoWatcher<LevelRequest>,
+                      FifoWatcher<Levels>,
+                      FifoWatcher<LevelToken>,
+                      FifoWatcher<HitToken>,
+                      FifoWatcher<MetToken>,
+                      FifoWatcher<Surface>,
+                      FifoWatcher<PressedToken>,
+                      FifoWatcher<PixelToken>,
+                      FifoWatcher<LineRequest>,
+                      FifoWatcher<PassedToken> {
+ public:
+  Checker(const Expectation& expectation, RayCaster& caster, int width, int height);
+
+  Watchers watchers();
+  // The first pass has one sample of a pixel. The second one has several, of the pixels that differ from a
+  // neighbour by more than `most`. `frame`: where it is written.
+  void begin_pass(int samples, int most, std::int64_t frame, const Window& window = {});
+  // After it: looks for what never came.
+  void end_pass(const FrameEnd& end);
+  const std::optional<Difference>& difference() const { return difference_; }
+  std::int64_t compared() const { return compared_; }  // numbers
+  // Of the first ray in the picture that has not come to its end. (All have, in a pass that is complete.)
+  std::optional<RayId> ray_under_way() const;
+
+ private:
+  void entered(int channel, std::int64_t ordinal, const TileOrder* token) override;
+  void entered(int channel, std::int64_t ordinal, const RayToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const GroundedRay* token) override;
+  void entered(int channel, std::int64_t ordinal, const LevelRequest* token) override;
+  void entered(int channel, std::int64_t ordinal, const Levels* token) override;
+  void entered(int channel, std::int64_t ordinal, const LevelToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const HitToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const MetToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const Surface* token) override;
+  void entered(int channel, std::int64_t ordinal, const PressedToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const PixelToken* token) override;
+  void entered(int channel, std::int64_t ordinal, const LineRequest* token) override;
+  void entered(int channel, std::int64_t ordinal, const PassedToken* token) override;
+  void left(int, std::int64_t, const TileOrder*) override {}
+  void left(int, std::int64_t, const RayToken*) override {}
+  void left(int, std::int64_t, const GroundedRay*) override {}
+  void left(int, std::int64_t, const LevelRequest*) override {}
+  void left(int, std::int64_t, const Levels*) override {}
+  void left(int, std::int64_t, const LevelToken*) override {}
+  void left(int, std::int64_t, const HitToken*) override {}
+  void left(int, std::int64_t, const MetToken*) override {}
+  void left(int, std::int64_t, const Surface*) override {}
+  void left(int, std::int64_t, const PressedToken*) override {}
+  void left(int, std::int64_t, const PixelToken* token) override {
+    tile_check_.pixel_complete(token->id.x, token->id.y);
+  }
+  void left(int, std::int64_t, const LineRequest*) override {}
+  void left(int, std::int64_t, const PassedToken*) override {}
+
+  void tell(Difference difference);
+  ExpectedRay& ray(const RayId& id);
+  ExpectedRay& shaded(const RayId& id);
+  std::size_t index_of(const RayId& id) const;
+  std::size_t byte_of(int x, int y) const;  // in a frame
+  bool drawn_again(int x, int y) const;
+  template <class Value>
+  void compare(const char* stage, const RayId& id, const char* name, const Value& expected,
+               const Value& actual, const Vec* position = nullptr);
+  void compare_surface(Channel behind, const Surface& expected, const Surface& actual,
+                       const ExpectedRay& ray);
+  // Of rays through clear matter: checker_clear.cpp.
+  void compare_clear(const HitToken& token);
+  void compare_clear(const MetToken& token);
+  void compare_clear(Channel behind, const Surface& token);
+  void compare_crossing(const RayId& id, const picture::Crossing& expected, const Crossing& actual);
+
+  const Expectation& expectation_;
+  RayCaster& caster_;
+  std::size_t width_;
+  int height_, samples_ = 1;
+  std::vector<std::int32_t> places_;  // of rays in `rays_`, by pixel and sample; -1: not there
+  std::vector<ExpectedRay> rays_;
+  std::vector<std::int32_t> free_;
+  std::vector<Rgb> sums_;                    // of pressed light, by pixel
+  std::vector<std::uint8_t> bytes_, first_;  // expected, tile by tile; of the first pass
+  int most_ = 0, tiles_x_ = 0;
+  std::int64_t frame_ = 0;
+  Window window_;
+  std::optional<std::int64_t> ended_;  // the cycles of the pass
+  Transit transit_;
+  TileCheck tile_check_;
+  MemoryCheck memory_check_;
+  std::optional<Difference> difference_;
+  std::int64_t compared_ = 0;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,111 @@
+// A ray caster in lock-step: one picture after the other, each checked behind every stage and by its bytes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/caster/check/checker.h"
+#include "hwmodel/caster/faults/faults.h"
+#include "hwmodel/caster/host/uploader.h"
+#include "hwmodel/caster/model/cost.h"
+#include "hwmodel/caster/model/ray_caster.h"
+#include "hwmodel/caster/model/registers.h"
+#include "render/image/image.h"
+#include "render/packet/draw_picture.h"
+#include "render/reference/picture_scene.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+// A pass of a frame.
+struct PassCycles {
+  bool second = false;
+  std::int64_t cycles = 0, predicted = -1;  // -1: not known (forecast.h)
+  double error() const {                    // of the prediction, in parts of the cycles
+    return static_cast<double>(predicted - cycles) / static_cast<double>(cycles);
+  }
+};
+
+struct PictureOptions {
+  Configuration configuration;
+  Fault fault = Fault::none;
+  std::string fault_channel;  // of a fault of channels; empty: a usual one
+  Window window;              // draw and compare only these pixels
+  bool compare = true;        // behind every stage; the bytes are always compared
+  bool predict = true;        // forecast the cycles of each pass
+  int frames = 1;             // the same one again and again: later ones find the caches warm
+  std::function<void()> poll;
+};
+
+struct StageAccount {
+  std::string name;
+  Account account;
+};
+struct CacheAccount {
+  std::string name;
+  CacheCounts counts;
+  int line_bytes = 0;
+};
+
+struct PictureReport {
+  std::optional<Difference> difference;
+  std::string hang;                               // what is full and what is empty, if nothing moved any more
+  std::vector<std::string> waiting;               // then: stages that wait for the memory
+  std::vector<std::string> jammed;                // then: channels that have room and take nothing
+  std::optional<RayId> under_way;                 // then: a ray that has not come to its end
+  std::optional<FaultPlan::Strike> strike;        // of the planted fault
+  std::int64_t different_bytes = 0;               // of the pictures
+  std::optional<RayId> different;                 // the first pixel among them
+  std::int64_t compared = 0;                      // numbers; pixels, if no stage is compared
+  FrameEnd end;                                   // of the last frame
+  double seconds = 0;                             // of the simulation, comparing included
+  std::int64_t rays = 0, samples = 0, leaps = 0;  // of the walk
+  std::int64_t sampled = 0;                       // by the sampler, those of crossings, too
+  MemoryCounts memory;
+  std::vector<StageAccount> stages;  // all pipes together
+  std::vector<CacheAccount> caches;
+  PipeCost cost;  // of one pipe; empty where it draws clear matter, which is not counted yet
+  std::int64_t memory_bytes = 0;
+  std::int64_t all_cycles = 0;  // of all frames
+  std::vector<PassCycles> passes;
+  std::vector<UploadReport> uploads;  // before each frame; without their lists
+  render::Image image;
+  // At the stage, pixel and sample that the fault left wrong; what got lost there is found as a hang.
+  bool found_where_planted() const;
+  bool good() const {
+    return !difference && hang.empty() && different_bytes == 0 && end.complete && compared > 0;
+  }
+};
+
+class PictureRun {
+ public:
+  // Registers and memory are the host's, who may change both between two pictures.
+  PictureRun(const Registers& registers, Memory& memory, const PictureOptions& options);
+
+  // The lines that were sent are not those in the caches.
+  void forget(const UploadReport& upload);
+  void share(Neighbour* neighbour) { caster_.share(neighbour); }
+  void wait_for_neighbour() { caster_.wait_for_neighbour(); }
+  // Draws what registers and memory say. `scene` and `camera` are the same for the software; `expected` is
+  // its picture.
+  void draw(const render::PictureScene& scene, const picture::Camera& camera, render::Setting setting,
+            const render::Image& expected);
+
+  // What was found so far; after a failure nothing more can be drawn.
+  bool good() const { return report_.good(); }
+  const FrameEnd& last() const { return report_.end; }
+  MemoryCounts memory_counts() const { return caster_.memory_counts(); }
+  PictureReport report();
+
+ private:
+  const Registers& registers_;
+  const Memory& memory_;
+  PictureOptions options_;
+  FaultPlan plan_;
+  RayCaster caster_;
+  PictureReport report_;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,12 @@
+// Pipes in which faults are planted.
+#pragma once
+
+#include "hwmodel/caster/faults/faults.h"
+#include "hwmodel/caster/model/pipe.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+// Makes pipes that all heed `plan`, which must outlive them.
+PipeMaker planted_pipes(FaultPlan& plan);
+
+}  // namespace voxmelt::hwmodel::raycast

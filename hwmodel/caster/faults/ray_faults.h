@@ -1,0 +1,122 @@
+// Rays that begin, step, cross or compare wrongly. The walk's faults strike only where they leave out the
+// first sample in matter: elsewhere they make no difference.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "hwmodel/caster/faults/planted.h"
+#include "hwmodel/caster/model/walk_stage.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+class RayFaults : public Planted {
+ public:
+  using Planted::Planted;
+
+  void set_up(const CameraRegisters& camera, int samples, RayToken& token) {
+    const std::int64_t x = 64 * std::int64_t{token.id.x}, y = 64 * std::int64_t{token.id.y};
+    if (armed(Fault::set_up_sample)) {
+      const Sub next = sub_of(samples, (token.id.sample + 1) % samples);
+      const Ray wrong = ray_of(camera, x + next.across, y + next.down);
+      if (wrong.start == token.ray.start && wrong.step == token.ray.step) return;
+      token.ray = wrong;
+      strike("set-up", token.id);
+    }
+    if (armed(Fault::set_up_floor)) {
+      const Sub sub = sub_of(samples, token.id.sample);
+      const std::int64_t high = 32 * std::int64_t{camera.height};
+      const Vec direction = camera.forward * high + camera.high * (high - y - sub.down) +
+                            camera.wide * (x + sub.across - 32 * std::int64_t{camera.width});
+      const int shift = bits_of(largest(direction) - 1) - kCellBits + camera.spacing;
+      replace("set-up", token.id, token.ray.step, direction >> shift);
+    }
+  }
+
+  void passes_blocks(const GroundedRay& ray, std::int64_t part, std::optional<std::int64_t>& samples) {
+    if (!armed(Fault::ground_bound) || samples || !in_ground(at_part(ray.ray, part))) return;
+    samples = 0;
+    strike("ground", ray.id);
+  }
+  void grounded(GroundedRay& ray) {
+    GroundHit& ground = ray.ground;
+    if (!ground.found) return;
+    if (armed(Fault::ground_lost)) {
+      ground.found = false;
+      strike("ground", ray.id);
+    }
+    if (armed(Fault::ground_part)) {
+      ++ground.part;
+      strike("ground", ray.id);
+    }
+    if (armed(Fault::ground_face) && (ground.face == Face::low_x || ground.face == Face::low_z)) {
+      ground.face = ground.face == Face::low_x ? Face::high_x : Face::high_z;
+      strike("ground", ray.id);
+    }
+  }
+
+  template <class Context>
+  void begun(Context& of) {
+    if (!armed(Fault::walk_first_sample) || level_at(of.walker.at) < 0) return;
+    of.k = 1;
+    of.walker.at = of.walker.at + of.walker.step;
+    strike("walk", of.ray.id);
+  }
+  template <class Context>
+  void leaps(const Context& of, Leap leap, std::int64_t& steps) {
+    const Fault fault = leap == Leap::to_box         ? Fault::walk_box
+                        : leap == Leap::out_of_block ? Fault::walk_block
+                                                     : Fault::walk_rise;
+    if (!armed(fault) || of.k + steps > of.most) return;
+    if (level_at(of.walker.at + of.walker.step * steps) < 0) return;
+    ++steps;
+    strike("walk", of.ray.id);
+  }
+  template <class Context>
+  void asked(const Context& of, LevelRequest& request) {
+    if (!armed(Fault::walk_stale_position)) return;
+    request.at = request.at - of.walker.step;
+    strike("walk", of.ray.id);
+  }
+  template <class Context>
+  void judged(const Context& of, bool& matter) {
+    if (!matter || !armed(Fault::walk_passes)) return;
+    matter = false;
+    strike("walk", of.ray.id);
+  }
+
+  void crossed(const HitToken& hit, const Bracket& bracket, Crossing& met) {
+    if (hit.k == 0 || hit.leaves) return;
+    const RayId& id = hit.ray.id;
+    if (armed(Fault::crossing_halvings)) {
+      const Vec before = hit.at - hit.ray.ray.step;
+      Bracket of{before, hit.at, level_at(before), hit.level, 0};
+      for (int halved = 0; halved < 2; ++halved) halve(of, level_at(middle_of(of)));
+      const Crossing wrong = crossing_of(of, hit.k);
+      if (wrong.part == met.part && wrong.position == met.position) return;
+      met = wrong;
+      strike("crossing", id);
+    }
+    if (armed(Fault::crossing_quotient)) {
+      ++met.part;
+      strike("crossing", id);
+    }
+    if (armed(Fault::crossing_ends)) {
+      const std::int64_t f = met.part & 255;
+      const Vec wrong = bracket.inside + (((bracket.outside - bracket.inside) * f) >> 8);
+      replace("crossing", id, met.position, from_lattice(wrong));
+    }
+  }
+
+  void compared(const MetToken& met, bool& ground) {
+    if (!armed(Fault::met_compare) || !met.ground.found || !met.matter.found) return;
+    ground = !ground;
+    strike("met", met.id);
+  }
+  void met(Surface& of) {
+    if (armed(Fault::met_depth)) replace("met", of.id, of.depth, of.depth + 1);
+    if (armed(Fault::met_eye)) replace("met", of.id, of.to_eye, Vec{} - of.to_eye);
+  }
+};
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,14 @@
+// The host's part of the ray caster: what it writes into registers and memory before a picture. It takes the
+// data of the software's picture as they are, and lays them out as docs/hardware.md says.
+#pragma once
+
+#include "hwmodel/caster/model/configuration.h"
+#include "hwmodel/caster/model/layout.h"
+#include "hwmodel/caster/model/registers.h"
+#include "render/packet/picture_data.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+Registers registers_of(const render::PictureData& data);
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,123 @@
+// The crossing between a sample in air and the next one in matter: three middles, and a straight line
+// (docs/picture.md, section 7). A ray that leaves clear matter has them in the other order. Many rays are
+// under way. The level of sample k - 1 is asked for only where it is needed and not known.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "hwmodel/caster/model/field.h"
+#include "hwmodel/caster/model/no_faults.h"
+#include "hwmodel/caster/model/stage.h"
+#include "hwmodel/caster/model/tokens.h"
+#include "hwmodel/caster/model/walk_stage.h"
+#include "hwmodel/fabric/fifo.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+template <class Faults = NoFaults>
+class CrossingStage final : public Stage {
+ public:
+  CrossingStage(WalkStage<Faults>& walk, int rays, Faults faults = {})
+      : Stage("crossing"), walk_(walk), faults_(faults), rays_(static_cast<std::size_t>(rays)) {}
+  void connect(Fifo<HitToken>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<MetToken>& out) {
+    in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
+  }
+  void connect_exits(Fifo<HitToken>& exits) { exits_ = &exits; }
+
+ private:
+  struct Context {
+    HitToken hit;
+    Bracket bracket;
+    int halved = 0;
+  };
+  Context& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
+
+  Did cycle() override {
+    bool moved = false, blocked = false;
+    if (!done_.empty()) {
+      if (out_->ready()) {
+        finish(done_.front());
+        done_.pop_front();
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    if (!asking_.empty()) {
+      if (ask_->ready()) {
+        const int i = asking_.front();
+        asking_.pop_front();
+        const Context& of = at(i);
+        *ask_->put() = {Asker::crossing, static_cast<std::int16_t>(i), of.hit.ray.id, of.hit.k,
+                        on_wires<32>(of.halved < 3 ? middle_of(of.bracket) : of.bracket.outside)};
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    if (answer_->valid()) {
+      const LevelToken& token = *answer_->get();
+      take(token.request.context, token.level);
+      moved = true;
+    }
+    if (in_->valid()) {
+      begin(*in_->get());
+      moved = true;
+    }
+    if (exits_ != nullptr && exits_->valid()) {
+      begin(*exits_->get());
+      moved = true;
+    }
+    if (moved) return Did::busy;
+    if (blocked) return Did::blocked;
+    return waiting_ == 0 ? Did::starved : Did::memory;
+  }
+
+  void begin(const HitToken& hit) {
+    Context& of = at(hit.context);
+    of.hit = hit;
+    ++waiting_;
+    const Vec& step = hit.ray.ray.step;
+    of.bracket = {hit.leaves ? hit.at + step : hit.at - step, hit.at, hit.before, hit.level, 0};
+    of.halved = 0;
+    (begins_in_matter(hit) ? done_ : asking_).push_back(hit.context);
+  }
+  void take(int i, std::int64_t level) {
+    Context& of = at(i);
+    if (of.halved == 3) {
+      of.bracket.a = level;
+      return done_.push_back(i);
+    }
+    halve(of.bracket, level);
+    const bool needs_before = ++of.halved == 3 && of.bracket.e == 0 && !of.hit.knows_before;
+    (of.halved < 3 || needs_before ? asking_ : done_).push_back(i);
+  }
+  void finish(int i) {
+    const Context& of = at(i);
+    const GroundedRay& ray = of.hit.ray;
+    Crossing met = begins_in_matter(of.hit) ? Crossing{true, 0, 2048, on_wires<32>(ray.ray.start)}
+                                            : crossing_of(of.bracket, of.hit.k);
+    faults_.crossed(of.hit, of.bracket, met);
+    *out_->put() = {ray.id,      ray.ray,       ray.ground,   met,      of.hit.context,
+                    of.hit.span, of.hit.leaves, of.hit.level, of.hit.at};
+    walk_.crossed(i);
+    --waiting_;
+  }
+  static bool begins_in_matter(const HitToken& hit) { return hit.k == 0 && !hit.leaves; }
+
+  WalkStage<Faults>& walk_;
+  [[no_unique_address]] Faults faults_;
+  std::vector<Context> rays_;
+  int waiting_ = 0;
+  std::deque<int> asking_, done_;
+  Fifo<HitToken>* in_ = nullptr;
+  Fifo<HitToken>* exits_ = nullptr;
+  Fifo<LevelRequest>* ask_ = nullptr;
+  Fifo<LevelToken>* answer_ = nullptr;
+  Fifo<MetToken>* out_ = nullptr;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

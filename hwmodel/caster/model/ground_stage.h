@@ -1,0 +1,197 @@
+// Where rays meet the ground (docs/picture-ground.md, section 4). Many rays are under way. In each cycle some
+// of them take a step over blocks that they pass above, and one looks at sixteen columns. A step is a quarter
+// of a cell at most, so they serve its height, its eight halvings by a row of eight units, and the normal
+// where it ends. Without ground the stage hands rays on.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "hwmodel/caster/model/ground.h"
+#include "hwmodel/caster/model/ground_blocks.h"
+#include "hwmodel/caster/model/no_faults.h"
+#include "hwmodel/caster/model/pass_counts.h"
+#include "hwmodel/caster/model/registers.h"
+#include "hwmodel/caster/model/stage.h"
+#include "hwmodel/caster/model/tokens.h"
+#include "hwmodel/fabric/fifo.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+// Rays that the unit works on, by their numbers; each is in one of the queues.
+template <class Faults = NoFaults>
+class GroundStage final : public Stage {
+ public:
+  GroundStage(const Registers& registers, int rays, int searchers, Faults faults = {})
+      : Stage("ground"),
+        registers_(registers),
+        faults_(faults),
+        searchers_(searchers),
+        rays_(static_cast<std::size_t>(rays)) {
+    for (int i = rays - 1; i >= 0; --i) free_.push_back(i);
+  }
+  void connect(Fifo<RayToken>& in, Fifo<ClampedRequest>& ask, Fifo<ColumnGather::Out>& answer,
+               Fifo<GroundedRay>& out) {
+    in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
+  }
+  void count(PipeCounts* counts) { counts_ = counts; }
+
+ private:
+  struct Search {
+    GroundedRay ray;
+    Searcher searcher;
+    Parts parts;
+    std::int64_t part = 0;  // that is looked at
+    int steps = 0;          // over blocks, since the last look
+  };
+  Search& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
+
+  Did cycle() override {
+    bool moved = false, blocked = false;
+    if (answer_->valid()) {
+      const ColumnGather::Out& answer = *answer_->get();
+      decide(answer.request.context, answer);
+      moved = true;
+    }
+    if (!done_.empty()) {
+      if (out_->ready()) {
+        GroundedRay& ray = *out_->put();
+        ray = at(done_.front()).ray;
+        if (counts_ != nullptr) counts_->steps_before(ray.id, Asked::ground_end, at(done_.front()).steps);
+        faults_.grounded(ray);
+        free_.push_back(done_.front());
+        done_.pop_front();
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    const int passing = std::min(searchers_, static_cast<int>(passing_.size()));
+    for (int i = 0; i < passing; ++i) {
+      const int ray = passing_.front();
+      passing_.pop_front();
+      pass(ray);
+      moved = true;
+    }
+    if (!ready_.empty()) {
+      if (ask_->ready()) {
+        look(ready_.front());
+        ready_.pop_front();
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    if (in_->valid() && !free_.empty()) {
+      begin(*in_->get());
+      moved = true;
+    }
+    if (moved) return Did::busy;
+    if (blocked) return Did::blocked;
+    return free_.size() == rays_.size() ? Did::starved : Did::memory;
+  }
+
+  void begin(const RayToken& token) {
+    const int i = free_.back();
+    free_.pop_back();
+    Search& of = at(i);
+    of = {};
+    of.ray.id = token.id;
+    of.ray.ray = token.ray;
+    if (registers_.ground.any) of.parts = parts_of(registers_, token.ray);
+    of.part = of.parts.first;
+    of.searcher = searcher_of(token.ray);
+    (of.parts.first > of.parts.last ? done_ : passing_).push_back(i);
+  }
+
+  // A step over the blocks below, or none: then the ray must look at columns.
+  void pass(int i) {
+    Search& of = at(i);
+    ++of.steps;
+    auto samples = samples_above(registers_.ground.blocks, of.searcher, at_part(of.ray.ray, of.part));
+    faults_.passes_blocks(of.ray, of.part, samples);
+    if (!samples) return ready_.push_back(i);
+    go_on(i, *samples);
+  }
+  // To the sample behind those that are left out.
+  void go_on(int i, std::int64_t samples) {
+    Search& of = at(i);
+    if (of.part == of.parts.last) return done_.push_back(i);
+    of.part = std::min(((of.part >> 8) + 1 + samples) << 8, of.parts.last);
+    passing_.push_back(i);
+  }
+
+  // A part out of the ground, before this one: the bisection would begin there.
+  std::int64_t part_before(const Search& of) const {
+    return of.part == of.parts.first ? of.part - 1 : std::max(of.parts.first, ((of.part - 1) >> 8) << 8);
+  }
+  // Asks for all columns that the step up to the part may need.
+  void look(int i) {
+    Search& of = at(i);
+    const Vec a = at_part(of.ray.ray, part_before(of)), b = at_part(of.ray.ray, of.part);
+    ClampedRequest& ask = *ask_->put();
+    ask.at = {spot_of(std::min(a.x, b.x) - kCell / 2), {}, spot_of(std::min(a.z, b.z) - kCell / 2)};
+    ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1,
+                 static_cast<std::int32_t>(registers_.cells.z)};
+    ask.asker = 0;
+    ask.context = static_cast<std::int16_t>(i);
+    ask.side = NearColumns::kSide;
+    ask.id = of.ray.id;
+    ask.kind = Asked::look;
+    if (counts_ != nullptr) counts_->steps_before(of.ray.id, Asked::look, of.steps);
+    of.steps = 0;
+  }
+
+  void decide(int i, const ColumnGather::Out& answer) {
+    Search& of = at(i);
+    const NearColumns columns{answer.request.at.x.cell, answer.request.at.z.cell, answer.words};
+    const Vec p = at_part(of.ray.ray, of.part);
+    const std::int64_t above = (p.y >> 8) - columns.height(&Column::drawn, p.x, p.z);
+    if (above < 0) return bisect(i, columns);
+    go_on(i, samples_over_slopes(registers_.ground.blocks, of.searcher, p, above));
+  }
+  void bisect(int i, const NearColumns& columns) {
+    Search& of = at(i);
+    std::int64_t outside = part_before(of), inside = of.part;
+    while (inside - outside > 1) {
+      const std::int64_t middle = (inside + outside) >> 1;
+      const Vec p = at_part(of.ray.ray, middle);
+      const bool in = in_slab(registers_, p) && (p.y >> 8) < columns.height(&Column::drawn, p.x, p.z);
+      (in ? inside : outside) = middle;
+    }
+    GroundHit& hit = of.ray.ground;
+    hit.found = true;
+    hit.part = UInt<36>(inside);
+    hit.position = on_wires<31>(at_part(of.ray.ray, inside));
+    hit.face = inside == 0 ? Face::none : face_of(registers_, at_part(of.ray.ray, outside));
+    if (hit.face == Face::top) hit.normal = normal_at(hit.position, columns);
+    done_.push_back(i);
+  }
+
+  Vec normal_at(const Vec& p, const NearColumns& columns) const {
+    const auto bare = [&](std::int64_t x, std::int64_t z) {
+      return std::int64_t{columns.height(&Column::bare, x, z)};
+    };
+    constexpr std::int64_t kHalf = kCell / 2;
+    return top_normal(
+        registers_, p,
+        {bare(p.x - kHalf, p.z), bare(p.x + kHalf, p.z), bare(p.x, p.z - kHalf), bare(p.x, p.z + kHalf)});
+  }
+
+  const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
+  int searchers_;
+  std::vector<Search> rays_;
+  std::vector<int> free_;
+  std::deque<int> passing_, ready_, done_;
+  PipeCounts* counts_ = nullptr;
+  Fifo<RayToken>* in_ = nullptr;
+  Fifo<ClampedRequest>* ask_ = nullptr;
+  Fifo<ColumnGather::Out>* answer_ = nullptr;
+  Fifo<GroundedRay>* out_ = nullptr;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

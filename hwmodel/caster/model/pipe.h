@@ -1,0 +1,129 @@
+// A pipe of the ray caster. One SystemC process evaluates all of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hwmodel/caster/model/configuration.h"
+#include "hwmodel/caster/model/memory_port.h"
+#include "hwmodel/caster/model/pass_counts.h"
+#include "hwmodel/caster/model/tile_stages.h"
+#include "hwmodel/caster/model/walk_stage.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+// The channels of a pipe, by what fills them.
+enum class Channel : std::uint8_t {
+  tiles,
+  set_up,
+  ground,
+  walk_asks,
+  crossing_asks,
+  normal_asks,
+  level_asks,
+  levels,
+  normal_levels,
+  walk_levels,
+  crossing_levels,
+  hits,
+  missed,
+  crossed,
+  met,
+  normal,
+  height_asks,
+  heights,
+  paint,
+  texel_asks,
+  texels,
+  texture,
+  matter_asks,
+  matter_words,
+  matter,
+  light_asks,
+  light_cells,
+  light,
+  arriving,
+  mirror,
+  colour,
+  pressed,
+  pixels,
+  to_memory,
+  // of clear matter
+  stretch_asks,
+  stretch_levels,
+  exits,
+  onward,
+  passed
+};
+
+// Who listens to what leaves a stage. Null: nobody.
+struct Watchers {
+  FifoWatcher<TileOrder>* tiles = nullptr;
+  FifoWatcher<RayToken>* set_up = nullptr;
+  FifoWatcher<GroundedRay>* ground = nullptr;
+  FifoWatcher<LevelRequest>* asks = nullptr;
+  FifoWatcher<Levels>* levels = nullptr;
+  FifoWatcher<LevelToken>* samples = nullptr;
+  FifoWatcher<HitToken>* hits = nullptr;
+  FifoWatcher<MetToken>* met = nullptr;
+  FifoWatcher<Surface>* surfaces = nullptr;
+  FifoWatcher<PressedToken>* pressed = nullptr;
+  FifoWatcher<PixelToken>* pixels = nullptr;
+  FifoWatcher<LineRequest>* written = nullptr;
+  // The channels of a pipe to dealer and memory.
+  FifoWatcher<TileJob>* jobs = nullptr;
+  FifoWatcher<LineRequest>* requests = nullptr;
+  FifoWatcher<LineReply>* replies = nullptr;
+  // Of clear matter.
+  FifoWatcher<PassedToken>* passed = nullptr;
+  FifoWatcher<OnwardToken>* onward = nullptr;
+};
+
+class Pipe {
+ public:
+  Pipe() = default;
+  virtual ~Pipe() = default;
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  virtual void connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory, Fifo<LineReply>& replies) = 0;
+  virtual void watch(const Watchers& watchers) = 0;
+  // One cycle: how many stages moved.
+  virtual int cycle() = 0;
+  virtual void end_pass() = 0;
+
+  virtual const std::vector<Stage*>& stages() const = 0;
+  virtual const Stage& running() const = 0;
+  virtual const WalkCounts& walked() const = 0;
+  // Of the next pass: what each ray costs. Null: nobody counts.
+  virtual void count(PipeCounts* counts) = 0;
+  struct CacheReport {
+    std::string name;
+    CacheCounts counts;
+    int line_bytes;
+  };
+  virtual std::vector<CacheReport> caches() const = 0;
+  // Between two pictures: the memory has other lines of volume i, in the order of `caches`; or all is new.
+  virtual void forget(std::size_t i, const std::vector<std::int64_t>& lines) = 0;
+  virtual void forget_all() = 0;
+  struct ChannelState {
+    std::string name;
+    int number, count, depth;
+    bool ready;  // takes a token
+    std::int64_t entered;
+  };
+  virtual std::vector<ChannelState> channels() const = 0;
+};
+
+// Makes pipe number `number`.
+using PipeMaker = std::function<std::unique_ptr<Pipe>(const Registers&, const FrameRegisters&, const Memory&,
+                                                      const Configuration&, int number)>;
+// One without faults.
+std::unique_ptr<Pipe> make_pipe(const Registers& registers, const FrameRegisters& frame, const Memory& memory,
+                                const Configuration& c, int number);
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,78 @@
+// The brick ray caster: tiles are dealt to W pipes, which share a memory. One SystemC process per pipe, one
+// for the memory and one for the tiles; inside, plain two-phase channels.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hwmodel/caster/model/configuration.h"
+#include "hwmodel/caster/model/layout.h"
+#include "hwmodel/caster/model/line_memory.h"
+#include "hwmodel/caster/model/pipe.h"
+#include "hwmodel/caster/model/registers.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+struct FrameEnd {
+  std::int64_t cycles = 0;
+  std::int64_t predicted = -1;  // of this pass (forecast.h); -1: not known
+  bool complete = false, hangs = false;
+  double forecasting = 0;  // seconds of the processor, for `predicted`
+};
+
+class RayCaster {
+ public:
+  // Registers and memory belong to the host, who may change both between two frames.
+  RayCaster(const Registers& registers, Memory& memory, const Configuration& configuration,
+            const PipeMaker& make = make_pipe);
+  ~RayCaster();
+  RayCaster(const RayCaster&) = delete;
+  RayCaster& operator=(const RayCaster&) = delete;
+
+  void watch(const Watchers& watchers);
+  void stop();  // after the present cycle
+  void poll(std::function<void()> poll);
+  // Of the memory, while it draws; null: with nobody.
+  void share(Neighbour* neighbour);
+  void wait_for_neighbour();  // without drawing, until it is done
+  void predict(bool wanted);  // counts what each ray costs, and forecasts each pass
+
+  // Where a value did not fit its wire.
+  class StageError : public std::runtime_error {
+   public:
+    StageError(const std::string& what, std::string failed)
+        : std::runtime_error(what), stage(std::move(failed)) {}
+    std::string stage;
+  };
+
+  // From now on; other pixels keep bytes of no meaning.
+  void draw_only(const Window& window);
+  // Draws every pixel with one sample: into the frame at Memory::frame.
+  FrameEnd draw_first();
+  // Draws those that differ by more than `most` with so many samples: into the frame behind it.
+  FrameEnd draw_again(int samples, int most);
+
+  // After an upload: lines of volume i (Pipe::caches) are others; or all is new.
+  void forget(std::size_t i, const std::vector<std::int64_t>& lines);
+  void forget_all();
+
+  std::int64_t cycle() const;  // of the present frame
+  int pipes() const;
+  const Pipe& pipe(int i) const;
+  MemoryCounts memory_counts() const;
+
+ private:
+  struct Machine;
+  std::unique_ptr<Machine> machine_;
+};
+
+// Bytes of a frame in memory.
+std::int64_t frame_bytes(int width, int height);
+
+}  // namespace voxmelt::hwmodel::raycast

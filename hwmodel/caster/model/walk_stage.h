@@ -1,0 +1,241 @@
+// The walk: rays under way look for their first sample in matter. In each cycle some of them take a step
+// through air, one is sampled and one may begin. So no ray waits for another one's memory.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "hwmodel/caster/model/no_faults.h"
+#include "hwmodel/caster/model/pass_counts.h"
+#include "hwmodel/caster/model/registers.h"
+#include "hwmodel/caster/model/stage.h"
+#include "hwmodel/caster/model/tokens.h"
+#include "hwmodel/caster/model/walk.h"
+#include "hwmodel/fabric/fifo.h"
+
+namespace voxmelt::hwmodel::raycast {
+
+// A ray in matter, on its way to the crossing. Its place in the walk stays taken until then.
+struct HitToken {
+  std::int16_t context = 0;
+  GroundedRay ray;
+  std::int64_t k = 0;
+  Vec at;                     // of sample k, in the lattice
+  std::int16_t level = 0;     // there
+  bool knows_before = false;  // the level of sample k - 1
+  std::int16_t before = 0;
+  // In clear matter: how often the ray has entered it before; here it leaves it, and `before` is the level of
+  // sample k + 1.
+  std::int16_t span = 0;
+  bool leaves = false;
+};
+
+// Why samples are left out.
+enum class Leap : std::uint8_t { to_box, out_of_block, through_air };
+
+struct WalkCounts {
+  std::int64_t rays = 0, samples = 0, leaps = 0;
+};
+
+template <class Faults = NoFaults>
+class WalkStage final : public Stage {
+ public:
+  WalkStage(const Registers& registers, int rays, int walkers, Faults faults = {})
+      : Stage("walk"),
+        registers_(registers),
+        faults_(faults),
+        walkers_(walkers),
+        rays_(static_cast<std::size_t>(rays)) {
+    for (int i = rays - 1; i >= 0; --i) free_.push_back(i);
+  }
+  void connect(Fifo<GroundedRay>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<HitToken>& hit,
+               Fifo<MetToken>& missed) {
+    in_ = &in, ask_ = &ask, answer_ = &answer, hit_ = &hit, missed_ = &missed;
+  }
+  // Rays go on through clear matter: they return from there, and keep their places until they end.
+  void connect_onward(Fifo<OnwardToken>& onward) { onward_ = &onward; }
+  // The crossing is done with a ray.
+  void crossed(int context) {
+    if (onward_ == nullptr) give_back(context);
+  }
+  void give_back(int context) { free_.push_back(context); }
+  const WalkCounts& counts() const { return counts_; }
+  void count(PipeCounts* rays) { ray_counts_ = rays; }
+
+ private:
+  struct Context {
+    GroundedRay ray;
+    Walker walker;
+    std::int64_t k = 0, most = 0;
+    std::int64_t slope = 0;
+    std::int64_t known = -2;  // the last sample whose level is known
+    std::int16_t level = 0;
+    std::int16_t span = 0;
+    int steps = 0;  // since the last sample
+  };
+  Context& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
+
+  Did cycle() override {
+    bool moved = false, blocked = false;
+    if (!lost_.empty()) {
+      if (missed_->ready()) {
+        const int i = lost_.front();
+        const Context& of = at(i);
+        told(of, Asked::walk_end);
+        *missed_->put() = {of.ray.id, of.ray.ray, of.ray.ground, {}, static_cast<std::int16_t>(i), of.span};
+        crossed(i);
+        lost_.pop_front();
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    if (!sampled_.empty()) {
+      if (ask_->ready()) {
+        ask(sampled_.front());
+        sampled_.pop_front();
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    const int walking = std::min(walkers_, static_cast<int>(walking_.size()));
+    for (int i = 0; i < walking; ++i) {
+      const int ray = walking_.front();
+      walking_.pop_front();
+      step(ray);
+      moved = true;
+    }
+    if (answer_->valid() && hit_->ready()) {
+      decide(*answer_->get());
+      moved = true;
+    }
+    if (onward_ != nullptr && onward_->valid()) {
+      go_on(*onward_->get());
+      moved = true;
+    }
+    if (in_->valid() && !free_.empty()) {
+      begin(*in_->get());
+      moved = true;
+    }
+    if (moved) return Did::busy;
+    if (blocked) return Did::blocked;
+    if (onward_ != nullptr) return asked_ > 0 ? Did::memory : in_->valid() ? Did::blocked : Did::starved;
+    return free_.size() == rays_.size() ? Did::starved : Did::memory;
+  }
+
+  void begin(const GroundedRay& ray) {
+    const int i = free_.back();
+    free_.pop_back();
+    Context& of = at(i);
+    of.ray = ray;
+    of.walker = walker_of(ray.ray);
+    of.k = 0;
+    of.steps = 0;
+    of.known = -2;
+    of.span = 0;
+    // Matter that is not behind the ground is met by the sample after it, at the latest.
+    of.most = ray.ground.found ? (ray.ground.part >> 8) + 1 : kMostSamples;
+    ++counts_.rays;
+    faults_.begun(of);
+    walking_.push_back(i);
+  }
+
+  void go_on(const OnwardToken& token) {
+    Context& of = at(token.context);
+    of.walker.at = token.at;
+    of.k = of.known = token.k;
+    of.level = token.level;
+    ++of.span;
+    walking_.push_back(token.context);
+  }
+
+  void advance(Context& of, Leap leap, std::int64_t steps) {
+    faults_.leaps(of, leap, steps);
+    of.k += steps;
+    of.walker.at = of.walker.at + of.walker.step * steps;
+  }
+
+  void step(int i) {
+    Context& of = at(i);
+    ++counts_.leaps;
+    ++of.steps;
+    if (of.k > of.most) return lost_.push_back(i);
+    const SkipMap& skip = registers_.skip;
+    const auto to_box = steps_to_box(of.walker, skip.low, skip.high);
+    if (!to_box) return lost_.push_back(i);
+    if (*to_box > 0) {
+      advance(of, Leap::to_box, *to_box);
+      return walking_.push_back(i);
+    }
+    const Vec& q = of.walker.at;
+    const std::uint16_t word = skip.at(q.x >> kBlockBits, q.y >> kBlockBits, q.z >> kBlockBits);
+    if (word >= 256) {
+      advance(of, Leap::out_of_block, steps_out(of.walker, word - 256));
+      return walking_.push_back(i);
+    }
+    of.slope = word;
+    if (of.known == of.k) return through_air(i);
+    sampled_.push_back(i);
+  }
+
+  void told(const Context& of, Asked kind) {
+    if (ray_counts_ != nullptr) ray_counts_->steps_before(of.ray.id, kind, of.steps);
+  }
+  void ask(int i) {
+    Context& of = at(i);
+    told(of, Asked::sample);
+    of.steps = 0;
+    LevelRequest& request = *ask_->put();
+    request = {Asker::walk, static_cast<std::int16_t>(i), of.ray.id, UInt<27>(of.k),
+               on_wires<32>(of.walker.at)};
+    faults_.asked(of, request);
+    ++counts_.samples;
+    ++asked_;
+  }
+
+  void decide(const LevelToken& token) {
+    const int i = token.request.context;
+    Context& of = at(i);
+    --asked_;
+    bool matter = token.level >= 0;
+    faults_.judged(of, matter);
+    if (matter) {
+      told(of, Asked::hit);
+      *hit_->put() = {token.request.context, of.ray,   of.k,   of.walker.at, token.level,
+                      of.known == of.k - 1,  of.level, of.span};
+      return;
+    }
+    of.known = of.k;
+    of.level = token.level;
+    through_air(i);
+  }
+  // From a sample whose level is known.
+  void through_air(int i) {
+    Context& of = at(i);
+    const std::int64_t rise = steps_to_rise(of.level, of.slope, registers_.camera.spacing);
+    advance(of, Leap::through_air, std::min(rise, steps_out(of.walker, 1)));
+    walking_.push_back(i);
+  }
+
+  const Registers& registers_;
+  [[no_unique_address]] Faults faults_;
+  int walkers_;
+  std::vector<Context> rays_;
+  std::vector<int> free_;
+  std::deque<int> walking_, sampled_, lost_;
+  int asked_ = 0;  // samples under way
+  WalkCounts counts_;
+  PipeCounts* ray_counts_ = nullptr;
+  Fifo<GroundedRay>* in_ = nullptr;
+  Fifo<LevelRequest>* ask_ = nullptr;
+  Fifo<LevelToken>* answer_ = nullptr;
+  Fifo<HitToken>* hit_ = nullptr;
+  Fifo<MetToken>* missed_ = nullptr;
+  Fifo<OnwardToken>* onward_ = nullptr;
+};
+
+}  // namespace voxmelt::hwmodel::raycast

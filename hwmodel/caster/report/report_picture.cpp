@@ -1,0 +1,236 @@
+#include "hwmodel/caster/report/report_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "hwmodel/caster/report/report_memory.h"
+
+namespace voxmelt::hwmodel::raycast {
+namespace {
+
+double ratio(std::int64_t a, std::int64_t b) {
+  return b == 0 ? 0 : static_cast<double>(a) / static_cast<double>(b);
+}
+
+constexpr std::array kVolumeNames{"levels", "matter", "light", "heights", "texels"};
+static_assert(kVolumeNames.size() == kSentVolumes);
+
+std::string text_of(const UploadReport& upload) {
+  std::string text =
+      fmt::format("upload{}: {} bytes in {} bursts (", upload.whole ? " of everything" : " of what changed",
+                  upload.bursts * kBurst, upload.bursts);
+  for (std::size_t i = 0; i < kSentVolumes; ++i)
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", kVolumeNames[i], upload.bytes[i]);
+  return text + fmt::format("), {} words of registers; {} cycles\n", upload.words, upload.cycles);
+}
+
+std::string place_of(const FaultPlan::Strike& of) {
+  if (of.address >= 0) return fmt::format("the line at address {}", of.address);
+  return fmt::format("pixel ({}, {}), sample {}", of.x, of.y, of.sample);
+}
+
+nlohmann::ordered_json json_of(const PipeCost& cost) {
+  nlohmann::ordered_json json;
+  for (const ChannelCost& of : cost.channels)
+    json["channels"].push_back({{"name", of.name}, {"bits", of.bits}, {"depth", of.depth}});
+  for (const MemoryCost& of : cost.memories)
+    json["memories"].push_back(
+        {{"stage", of.stage}, {"name", of.name}, {"words", of.words}, {"bits", of.bits}});
+  for (const UnitCost& of : cost.units)
+    json["units"].push_back(
+        {{"stage", of.stage}, {"multipliers", of.multipliers}, {"dividers", of.dividers}});
+  json["channel_bits"] = cost.channel_bits();
+  json["memory_bits"] = cost.memory_bits();
+  json["multipliers"] = cost.all_units().multipliers;
+  json["dividers"] = cost.all_units().dividers;
+  return json;
+}
+
+// Upper bounds of rays a cycle, each below the one before, and what the run reached.
+nlohmann::ordered_json bounds(const PictureReport& report, const Configuration& c) {
+  const auto share = [](const Account& a, std::int64_t cycles) { return ratio(cycles, a.total()); };
+  const auto busiest = std::max_element(
+      report.stages.begin(), report.stages.end(), [&](const StageAccount& a, const StageAccount& b) {
+        return share(a.account, a.account.busy) < share(b.account, b.account.busy);
+      });
+  const Account& a = busiest->account;
+  const double reached = ratio(report.rays, report.all_cycles);
+  const double bytes = ratio(report.memory.read_bytes + report.memory.written_bytes, report.all_cycles);
+  return {{"pipes", c.pipes},
+          {"busiest", busiest->name},
+          {"busiest_stage", reached / share(a, a.busy)},
+          {"fill_and_drain", reached / share(a, a.busy + a.fill + a.drain)},
+          {"reached", reached},
+          {"bytes_per_cycle", bytes},
+          {"most_bytes_per_cycle", most_bytes_per_cycle(c)},
+          {"rays_per_byte", reached / bytes}};
+}
+
+}  // namespace
+
+double most_bytes_per_cycle(const Configuration& c) {
+  return c.dram ? static_cast<double>(c.dram->peak()) / c.clock_mhz : c.bus_bytes;
+}
+
+nlohmann::ordered_json json_of(const UploadReport& upload) {
+  nlohmann::ordered_json json{{"whole", upload.whole},
+                              {"bytes", upload.bursts * kBurst},
+                              {"bursts", upload.bursts},
+                              {"words", upload.words},
+                              {"cycles", upload.cycles}};
+  for (std::size_t i = 0; i < kSentVolumes; ++i) json["volumes"][kVolumeNames[i]] = upload.bytes[i];
+  const Account& a = upload.account;
+  json["stage"] = {{"busy", a.busy},     {"starved", a.starved}, {"blocked", a.blocked},
+                   {"memory", a.memory}, {"fill", a.fill},       {"drain", a.drain}};
+  return json;
+}
+
+std::string table_of(const PictureReport& report, const Configuration& c) {
+  std::string text = fmt::format("{:<16}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}   in % of {} cycles\n", "stage",
+                                 "busy", "starved", "blocked", "memory", "fill", "drain", report.all_cycles);
+  for (const StageAccount& stage : report.stages) {
+    const Account& a = stage.account;
+    const auto part = [&](std::int64_t cycles) { return 100 * ratio(cycles, a.total()); };
+    text += fmt::format("{:<16}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}\n", stage.name,
+                        part(a.busy), part(a.starved), part(a.blocked), part(a.memory), part(a.fill),
+                        part(a.drain));
+  }
+  text +=
+      fmt::format("{:<16}{:>12}{:>12}{:>10}{:>12}\n", "cache", "lookups", "misses", "hits, %", "line, bytes");
+  for (const CacheAccount& cache : report.caches)
+    text += fmt::format("{:<16}{:>12}{:>12}{:>10.2f}{:>12}\n", cache.name, cache.counts.lookups,
+                        cache.counts.misses, 100 - 100 * ratio(cache.counts.misses, cache.counts.lookups),
+                        cache.line_bytes);
+  text += fmt::format("{} rays; per ray {:.2f} steps of the walk, {:.2f} samples of it, {:.2f} cycles\n",
+                      report.rays, ratio(report.leaps, report.rays), ratio(report.samples, report.rays),
+                      ratio(report.all_cycles * c.pipes, report.rays));
+  text += fmt::format("memory: {} reads, {} bytes read, {} written, bus busy {:.1f} %; {} bytes stored\n",
+                      report.memory.reads, report.memory.read_bytes, report.memory.written_bytes,
+                      100 * ratio(report.memory.bus_cycles, report.all_cycles), report.memory_bytes);
+  for (std::size_t i = 0; i < std::min<std::size_t>(report.uploads.size(), 2); ++i)
+    text += text_of(report.uploads[i]);
+  if (report.memory.dram) text += memory_text(*report.memory.dram, *c.dram);
+  if (!report.cost.channels.empty())
+    text += fmt::format("a pipe: {} bits of memories, {} of channels, {} multipliers, {} dividers\n",
+                        report.cost.memory_bits(), report.cost.channel_bits(),
+                        report.cost.all_units().multipliers, report.cost.all_units().dividers);
+  for (const PassCycles& pass : report.passes) {
+    const char* name = pass.second ? "second" : "first";
+    if (pass.predicted < 0)
+      text += fmt::format("{} pass: {} cycles\n", name, pass.cycles);
+    else
+      text += fmt::format("{} pass: {} cycles, predicted {} ({:+.2f} %)\n", name, pass.cycles, pass.predicted,
+                          100 * pass.error());
+  }
+  text += fmt::format("the last frame: {} cycles, {:.1f} frames a second at {} MHz\n", report.end.cycles,
+                      1e6 * c.clock_mhz / static_cast<double>(std::max<std::int64_t>(report.end.cycles, 1)),
+                      c.clock_mhz);
+  text +=
+      fmt::format("simulated in {:.2f} s: {:.2f} million cycles a second, {:.2f} million samples a second\n",
+                  report.seconds, static_cast<double>(report.all_cycles) / report.seconds / 1e6,
+                  static_cast<double>(report.sampled) / report.seconds / 1e6);
+  return text;
+}
+
+nlohmann::ordered_json json_of(const PictureReport& report, const Configuration& c) {
+  using Json = nlohmann::ordered_json;
+  const auto cache_shape = [](const CacheShape& cache) {
+    return Json{{"sets", cache.sets}, {"ways", cache.ways}, {"spare", cache.spare}, {"queue", cache.queue}};
+  };
+  Json json;
+  json["good"] = report.good();
+  json["configuration"] = {{"pipes", c.pipes},
+                           {"rays", c.rays},
+                           {"walkers", c.walkers},
+                           {"searchers", c.searchers},
+                           {"fifo_depth", c.fifo_depth},
+                           {"stall_seed", c.stall_seed},
+                           {"tiles", c.tiles},
+                           {"clear_tiles", c.clear_tiles},
+                           {"bands", c.bands},
+                           {"clock_mhz", c.clock_mhz},
+                           {"memory", c.dram ? c.dram->name : "fixed"},
+                           {"latency", c.latency},
+                           {"bus_bytes", c.bus_bytes},
+                           {"apron", c.apron},
+                           {"level_bits", c.level_bits},
+                           {"levels", cache_shape(c.levels)},
+                           {"matter", cache_shape(c.matter)},
+                           {"light", cache_shape(c.light)},
+                           {"ground", cache_shape(c.ground)}};
+  json["cycles"] = report.all_cycles;
+  json["cycles_of_last_frame"] = report.end.cycles;
+  for (const PassCycles& pass : report.passes) {
+    Json of{{"second", pass.second}, {"cycles", pass.cycles}};
+    if (pass.predicted >= 0) of["predicted"] = pass.predicted, of["error"] = pass.error();
+    json["passes"].push_back(of);
+  }
+  json["compared_numbers"] = report.compared;
+  json["different_pixels"] = report.different_bytes;
+  json["rays"] = report.rays;
+  json["walk_steps"] = report.leaps;
+  json["walk_samples"] = report.samples;
+  json["samples"] = report.sampled;
+  json["memory"] = {{"reads", report.memory.reads},
+                    {"read_bytes", report.memory.read_bytes},
+                    {"written_bytes", report.memory.written_bytes},
+                    {"bus_cycles", report.memory.bus_cycles},
+                    {"stored_bytes", report.memory_bytes}};
+  if (report.memory.dram) json["dram"] = memory_json(*report.memory.dram, *c.dram);
+  if (!report.cost.channels.empty()) json["pipe"] = json_of(report.cost);
+  json["uploads"] = Json::array();
+  for (const UploadReport& upload : report.uploads) json["uploads"].push_back(json_of(upload));
+  for (const StageAccount& stage : report.stages) {
+    const Account& a = stage.account;
+    json["stages"].push_back({{"name", stage.name},
+                              {"busy", a.busy},
+                              {"starved", a.starved},
+                              {"blocked", a.blocked},
+                              {"memory", a.memory},
+                              {"fill", a.fill},
+                              {"drain", a.drain}});
+  }
+  for (const CacheAccount& cache : report.caches)
+    json["caches"].push_back({{"name", cache.name},
+                              {"lookups", cache.counts.lookups},
+                              {"misses", cache.counts.misses},
+                              {"line_bytes", cache.line_bytes}});
+  if (report.good() && !report.stages.empty()) json["rays_per_cycle"] = bounds(report, c);
+  if (report.difference) {
+    const Difference& d = *report.difference;
+    json["difference"] = {{"stage", d.stage},       {"x", d.x},          {"y", d.y},
+                          {"sample", d.sample},     {"cycle", d.cycle},  {"name", d.name},
+                          {"expected", d.expected}, {"actual", d.actual}};
+    if (d.address >= 0) json["difference"]["address"] = d.address;
+    if (d.address >= 0) json["difference"]["address"] = d.address;
+  }
+  if (report.strike)
+    json["planted"] = {{"stage", report.strike->stage},
+                       {"x", report.strike->x},
+                       {"y", report.strike->y},
+                       {"sample", report.strike->sample},
+                       {"found_there", report.found_where_planted()}};
+  return json;
+}
+
+std::string verdict_text(const PictureReport& report) {
+  std::string text;
+  if (report.difference) text += text_of(*report.difference);
+  text += report.hang;
+  if (report.strike)
+    text += fmt::format("planted: {}, {}; {}\n", report.strike->stage, place_of(*report.strike),
+                        report.good()                  ? "NOT FOUND"
+                        : report.found_where_planted() ? "found there"
+                                                       : "found, but ELSEWHERE");
+  if (report.good())
+    return text +
+           fmt::format("{} numbers compared, and the bytes of the picture: no difference\n", report.compared);
+  if (!report.difference) text += fmt::format("{} pixels of the picture differ\n", report.different_bytes);
+  return text;
+}
+
+}  // namespace voxmelt::hwmodel::raycast

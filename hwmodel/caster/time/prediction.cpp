@@ -1,0 +1,56 @@
+#include "hwmodel/caster/time/prediction.h"
+
+#include <algorithm>
+
+#include "hwmodel/caster/model/layout.h"
+#include "hwmodel/caster/model/tile_stages.h"
+
+namespace voxmelt::hwmodel::raycast {
+namespace {
+
+constexpr int kBeforeRays = 2;  // cycles: the dealer's channel, and the one from tiles to set-up
+constexpr int kAskedFor = 5;    // tiles: in the second pass, the tile itself and those beside it
+constexpr int kBurstsOfTile = kTileBytes / kBurst;
+
+std::int64_t divided_up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
+
+KnownPass of_rays(int width, int height, std::int64_t rays, const Configuration& c) {
+  KnownPass of;
+  of.tiles = divided_up(width, kTileSide) * divided_up(height, kTileSide);
+  of.rays = rays;
+  of.written_bytes = of.tiles * kTileBytes;
+  of.bus_cycles = of.tiles * kBurstsOfTile * divided_up(kBurst, c.bus_bytes);
+  // The memory takes a burst a cycle, and set-up gives a ray a cycle and pipe.
+  of.least_cycles = std::max(divided_up(rays, c.pipes), of.tiles * kBurstsOfTile);
+  return of;
+}
+
+}  // namespace
+
+KnownPass known_first(int width, int height, const Configuration& c) {
+  KnownPass of = of_rays(width, height, std::int64_t{width} * height, c);
+  of.tiles_busy = of.tiles;
+  // Pipe i gets its first tile in cycle i.
+  if (of.tiles >= c.pipes && c.stall_seed == 0)
+    of.set_up_fill = std::int64_t{c.pipes} * kBeforeRays + std::int64_t{c.pipes} * (c.pipes - 1) / 2;
+  return of;
+}
+
+KnownPass known_second(int width, int height, std::int64_t pixels, int samples, const Configuration& c) {
+  KnownPass of = of_rays(width, height, pixels * samples, c);
+  of.tiles_busy = of.tiles * (kAskedFor + 1);
+  // A tile at a side of the picture has nothing beside it there.
+  of.tiles_read = of.tiles * kAskedFor - 2 * (divided_up(width, kTileSide) + divided_up(height, kTileSide));
+  of.bus_cycles += of.tiles_read * divided_up(kTileBytes, c.bus_bytes);
+  return of;
+}
+
+std::int64_t known_upload(std::int64_t words, std::int64_t bursts, const Configuration& c) {
+  if (bursts == 0) return words;
+  // A channel of depth 1 takes a burst every second cycle. The last one leaves it a cycle later.
+  const std::int64_t apart =
+      std::max<std::int64_t>(divided_up(kBurst, c.bus_bytes), c.fifo_depth == 1 ? 2 : 1);
+  return words + (bursts - 1) * apart + 2;
+}
+
+}  // namespace voxmelt::hwmodel::raycast

@@ -1,0 +1,96 @@
+#include "hwmodel/memory/sheet.h"
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+#include <optional>
+
+#include "kernel/scene/text/document.h"
+#include "kernel/scene/text/error.h"
+#include "kernel/scene/text/reader.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+constexpr int kMostBanks = 64;  // of a channel: the controller keeps a bit of each
+
+int power_of_two(scene::Reader& from, const char* key, int high) {
+  const auto value = static_cast<int>(from.integer(key, 1, high));
+  if (!std::has_single_bit(static_cast<unsigned>(value)))
+    from.fail(key, " = " + std::to_string(value) + " is not a power of 2");
+  return value;
+}
+
+void read_shape(scene::Reader& from, memory::Parameters& p) {
+  p.channels = power_of_two(from, "channels", 64);
+  p.ranks = power_of_two(from, "ranks", 8);
+  p.groups = power_of_two(from, "groups", 16);
+  p.banks = power_of_two(from, "banks", 32);
+  p.rows = power_of_two(from, "rows", 1 << 20);
+  p.columns = power_of_two(from, "columns", 1 << 14);
+  p.width_bits = power_of_two(from, "width_bits", 512);
+  p.transfers = power_of_two(from, "transfers", 64);
+  if (p.ranks * p.groups * p.banks > kMostBanks)
+    from.fail("banks", ": a channel has more than " + std::to_string(kMostBanks) + " banks");
+  if (p.width_bits < 8 || p.transfers < 2 || p.column_bytes() > memory::kBurst)
+    from.fail("transfers", ": a burst must have whole bytes, and 64 of them at most");
+  if (p.row_bytes() < memory::kBurst) from.fail("columns", ": a row must have 64 bytes");
+}
+
+void read_cycles(scene::Reader& from, memory::Parameters& p) {
+  const auto cycles = [&](const char* key, int low, int high) {
+    return static_cast<int>(from.integer(key, low, high));
+  };
+  constexpr int kMost = 10000;
+  p.cl = cycles("cl", 1, kMost), p.cwl = cycles("cwl", 1, kMost);
+  p.read_more = cycles("read_more", 0, kMost), p.write_more = cycles("write_more", 0, kMost);
+  p.rcd = cycles("rcd", 1, kMost), p.rp = cycles("rp", 1, kMost), p.rp_all = cycles("rp_all", 1, kMost);
+  p.ras = cycles("ras", 1, kMost), p.rc = cycles("rc", 1, kMost);
+  p.ccd_s = cycles("ccd_s", p.beats(), kMost), p.ccd_l = cycles("ccd_l", p.ccd_s, kMost);
+  p.rrd_s = cycles("rrd_s", 1, kMost), p.rrd_l = cycles("rrd_l", p.rrd_s, kMost);
+  p.faw = cycles("faw", 1, kMost), p.wr = cycles("wr", 1, kMost);
+  p.wtr_s = cycles("wtr_s", 1, kMost), p.wtr_l = cycles("wtr_l", p.wtr_s, kMost);
+  p.rtp = cycles("rtp", 1, kMost);
+  p.read_to_write = cycles("read_to_write", 0, kMost), p.rank_switch = cycles("rank_switch", 0, kMost);
+  // A refresh must leave time for requests.
+  p.rfc = cycles("rfc", 1, kMost);
+  p.refi = cycles("refi", 2 * (p.rfc + p.ras + p.rp_all), 1000 * kMost);
+  p.act_slots = cycles("act_slots", 1, 16), p.column_slots = cycles("column_slots", 1, 16);
+  p.pre_slots = cycles("pre_slots", 1, 16), p.ref_slots = cycles("ref_slots", 1, 16);
+  p.two_buses = from.flag("two_buses", false);
+  p.interface_cycles = cycles("interface_cycles", 0, kMost);
+}
+
+scene::Value document_of(const std::string& name, const std::string& place) {
+  if (name.ends_with(".toml")) return scene::parse_file(name);
+  const std::vector<MemoryFile>& files = memory_files();
+  const auto at =
+      std::find_if(files.begin(), files.end(), [&](const MemoryFile& file) { return file.name == name; });
+  if (at != files.end())
+    return scene::parse_text(at->text, std::make_shared<const scene::Origin>(scene::Origin{
+                                           "hwmodel/memory/sheets/" + name + ".toml", {}, false}));
+  std::string known = "fixed";
+  for (const MemoryFile& file : files) known += ", " + file.name;
+  throw scene::InputError(place + ": error: no memory \"" + name + "\"; there are " + known +
+                          ", or a file that ends in .toml");
+}
+
+}  // namespace
+
+memory::Parameters load_memory(const std::string& name, const std::string& place) {
+  const scene::Value document = document_of(name, place);
+  memory::Parameters p;
+  p.name = name;
+  scene::Reader root(document, "");
+  p.title = root.text("title", "");
+  std::optional<scene::Reader> from = root.table("memory");
+  if (!from) root.fail("memory", ": the file has no such table");
+  p.mhz = static_cast<int>(from->integer("mhz", 1, 100000));
+  read_shape(*from, p);
+  read_cycles(*from, p);
+  from->finish();
+  root.finish();
+  return p;
+}
+
+}  // namespace voxmelt::hwmodel

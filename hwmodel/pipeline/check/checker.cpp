@@ -1,0 +1,250 @@
+#include "hwmodel/pipeline/check/checker.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "hwmodel/pipeline/check/wanted_cell.h"
+#include "hwmodel/pipeline/model/lag.h"
+
+namespace voxmelt::hwmodel {
+
+Checker::Checker(Pipeline& pipeline)
+    : pipeline_(pipeline),
+      shape_(pipeline.design().shape),
+      stages_(stages_of_step(pipeline.design())),
+      written_in_(static_cast<std::size_t>(shape_.tokens() * shape_.tiles())) {
+  int cascade = -1;
+  std::size_t stage = 0;
+  for (const ChannelReport& report : pipeline.channels()) {
+    if (report.producer == StageKind::feed) continue;
+    Channel channel{report.name, report.producer, report.cascade, 0, false, 0, 0, {}, {}, SIZE_MAX, {}, {}};
+    if (report.producer != StageKind::reader) {
+      stage = report.cascade == cascade ? stage + 1 : 0;
+      cascade = report.cascade;
+      channel.stage = stage;
+      channel.behind_stage = true;
+    }
+    channels_.push_back(std::move(channel));
+  }
+}
+
+void Checker::begin_train() {
+  passes_.clear();
+  written_ = 0;
+  for (Channel& channel : channels_) {
+    channel.entering = channel.leaving = 0;
+    channel.spanned = SIZE_MAX;
+    channel.place = channel.left = {};
+    channel.in_flight.clear();
+  }
+}
+
+void Checker::add_pass(Wanted wanted) {
+  if (written_ == 0 && passes_.empty())
+    for (Channel& channel : channels_) channel.place = channel.left = begin_of(shape_, wanted.pass.tile);
+  passes_.push_back(std::move(wanted));
+}
+
+Checker::Span Checker::span_of(const Channel& channel, const Pass& pass) const {
+  int copy = -1, step = 0, before = 0;  // what all stages of a time step spoil; those up to the producer
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    if (stages_[i] == StageKind::settle) ++copy;
+    if (pass.uses(stages_[i], copy)) step += lag_of(stages_[i], pipeline_.design()).reach;
+    if (channel.behind_stage && i == channel.stage) before = step;
+  }
+  const int spoilt = channel.cascade * step + before;
+  const int left = shape_.first_block(pass.tile) * shape_.lanes, end = left + shape_.blocks() * shape_.lanes;
+  const int own = shape_.owned_begin(pass.tile) * shape_.lanes,
+            own_end = shape_.owned_end(pass.tile) * shape_.lanes;
+  return {left == 0 ? 0 : std::min(left + spoilt, own),
+          end >= shape_.grid.x ? shape_.grid.x : std::max(end - spoilt, own_end)};
+}
+
+void Checker::next_pass(std::size_t& pass, Place& place) const {
+  ++pass;
+  const std::size_t at = pass - written_;
+  if (at < passes_.size()) place = begin_of(shape_, passes_[at].pass.tile);
+}
+
+const Expected* Checker::expected_of(const Channel& channel) {
+  const auto& steps = passes_[channel.entering - written_].steps;
+  const auto step = static_cast<std::size_t>(channel.cascade);
+  if (step >= steps.size() || steps[step].empty()) return nullptr;
+  const Expected& expected = steps[step].at(channel.stage);
+  if (channel.behind_stage) return &expected;
+  read_ = {expected.before, expected.before, {}};  // before the first stage
+  return &read_;
+}
+
+void Checker::entered(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
+  Channel& channel = channels_[static_cast<std::size_t>(number)];
+  if (channel.spanned != channel.entering) {
+    channel.spanned = channel.entering;
+    channel.span = span_of(channel, passes_[channel.entering - written_].pass);
+  }
+  if (mismatch_ == nullptr) compare(channel, lanes);
+  channel.in_flight.insert(channel.in_flight.end(), lanes, lanes + shape_.lanes);
+  channel.place.next(shape_);
+  if (channel.place.ordinal == shape_.tokens()) next_pass(channel.entering, channel.place);
+}
+
+void Checker::compare(const Channel& channel, const Cell* lanes) {
+  const Expected* expected = expected_of(channel);
+  if (expected == nullptr) return;
+  const Place& place = channel.place;
+  const Pass& pass = passes_[channel.entering - written_].pass;
+  const int cells = std::min(shape_.lanes, shape_.grid.x - place.x);
+  for (int lane = 0; lane < cells; ++lane) {
+    const int x = place.x + lane;
+    if (x < channel.span.begin || x >= channel.span.end) continue;
+    const Cell wanted = wanted_cell(*expected, x, place.y, place.z);
+    if (!compare(channel, *expected, wanted, lanes[lane], lane)) return;
+    if (channel.behind_stage && shape_.owns(pass.tile, x)) ++compared_cells_;
+  }
+  for (int lane = cells; lane < shape_.lanes; ++lane) {
+    Cell border;
+    border.beside_wall = lanes[lane].beside_wall;  // nobody asks which sides the border has
+    if (!compare(channel, *expected, border, lanes[lane], lane)) return;
+  }
+}
+
+bool Checker::compare(const Channel& channel, const Expected& expected, const Cell& wanted, const Cell& is,
+                      int lane) {
+  const Place& place = channel.place;
+  const auto same = [&](const char* field, std::int64_t a, std::int64_t b) {
+    if (a == b) return true;
+    report(channel, Mismatch::Kind::stage, channel.entering, place, lane, field, a, b);
+    mismatch_->neighbourhood = neighbourhood(*expected.before, place.x + lane, place.y, place.z);
+    return false;
+  };
+  return same("state", static_cast<int>(wanted.state), static_cast<int>(is.state)) &&
+         same("amount", wanted.amount, is.amount) && same("energy", wanted.energy, is.energy) &&
+         same("heat", wanted.heat, is.heat) && same("pattern", wanted.pattern, is.pattern) &&
+         same("exposed axes", wanted.exposed_axes, is.exposed_axes) &&
+         same("beside a wall", wanted.beside_wall, is.beside_wall) &&
+         same("in a run", wanted.in_run, is.in_run) && same("head", wanted.head, is.head) &&
+         same("limit", wanted.limit, is.limit) && same("mobility", wanted.mobility, usable_mobility(is)) &&
+         same("dead zone", wanted.dead, is.dead);
+}
+
+void Checker::left(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
+  Channel& channel = channels_[static_cast<std::size_t>(number)];
+  if (mismatch_ != nullptr) return;
+  const bool writes = &channel == &channels_.back();
+  if (writes) {
+    const std::int64_t streamed = passes_[channel.leaving - written_].pass.tile * shape_.tokens();
+    written_in_[static_cast<std::size_t>(streamed + channel.left.ordinal)] = pipeline_.cycle();
+  }
+  for (int lane = 0; lane < shape_.lanes; ++lane) {
+    const Cell entered = channel.in_flight.empty() ? Cell{} : channel.in_flight.front();
+    if (!channel.in_flight.empty()) channel.in_flight.pop_front();
+    const Cell& is = lanes[lane];
+    if (entered == is) continue;
+    const auto differs = [&](const char* field, std::int64_t a, std::int64_t b) {
+      if (a != b && mismatch_ == nullptr)
+        report(channel, Mismatch::Kind::channel, channel.leaving, channel.left, lane, field, a, b);
+    };
+    differs("state", static_cast<int>(entered.state), static_cast<int>(is.state));
+    differs("amount", entered.amount, is.amount);
+    differs("energy", entered.energy, is.energy);
+    differs("heat", entered.heat, is.heat);
+    differs("side band", 0, 1);
+    return;
+  }
+  if (writes) compare_written(channel, lanes);
+  if (writes && channel.left.ordinal + 1 == shape_.tokens()) compare_pass(channel);
+  channel.left.next(shape_);
+  if (channel.left.ordinal < shape_.tokens()) return;
+  next_pass(channel.leaving, channel.left);
+  if (!writes) return;
+  passes_.pop_front();
+  ++written_;
+}
+
+void Checker::compare_written(const Channel& channel, const Cell* lanes) {
+  const Wanted& wanted = passes_[channel.leaving - written_];
+  const Place& place = channel.left;
+  const int cells = std::min(shape_.lanes, shape_.grid.x - place.x);
+  if (wanted.written != nullptr && shape_.owns(wanted.pass.tile, place.x))
+    for (int lane = 0; lane < cells; ++lane) compare_memory(channel, *wanted.written, lane, lanes[lane]);
+  // What has been written must have arrived, and stay. (With hw.coded a column arrives as a whole.)
+  const int arrived = wanted.pass.tile + (pipeline_.configuration().coded ? 0 : 1);
+  if (wanted.left != nullptr && shape_.owner(place.x / shape_.lanes) < arrived)
+    for (int lane = 0; lane < cells; ++lane)
+      compare_memory(channel, *wanted.left, lane,
+                     wanted_cell(pipeline_.written(), place.x + lane, place.y, place.z));
+}
+
+void Checker::compare_memory(const Channel& channel, const state::Volume& volume, int lane, const Cell& is) {
+  const Place& place = channel.left;
+  const Cell wanted = wanted_cell(volume, place.x + lane, place.y, place.z);
+  const auto differs = [&](const char* field, std::int64_t a, std::int64_t b) {
+    if (a != b && mismatch_ == nullptr)
+      report(channel, Mismatch::Kind::memory, channel.leaving, place, lane, field, a, b);
+  };
+  differs("state", static_cast<int>(wanted.state), static_cast<int>(is.state));
+  differs("amount", wanted.amount, is.amount);
+  differs("energy", wanted.energy, is.energy);
+  differs("heat", wanted.heat, is.heat);
+}
+
+void Checker::compare_pass(const Channel& channel) {
+  const Wanted& wanted = passes_[channel.leaving - written_];
+  if (wanted.pass.tile + 1 < shape_.tiles()) return;
+  if (wanted.left != nullptr && mismatch_ == nullptr && !(*wanted.left == pipeline_.written())) {
+    const Difference d = first_difference(*wanted.left, pipeline_.written());
+    if (!d.field.empty()) {
+      const int lane = d.x % shape_.lanes;
+      report(channel, Mismatch::Kind::memory, channel.leaving, {d.x - lane, d.y, d.z}, lane, "", d.expected,
+             d.actual);
+      mismatch_->field = d.field;
+      mismatch_->cycle = written_in(owned_ordinal(shape_, d.x, d.y, d.z));
+    }
+  }
+  const std::optional<state::Holdings>& held = wanted.held;
+  if (!held) return;
+  const Books& books = pipeline_.books();
+  const auto differs = [&](const char* field, std::int64_t a, std::int64_t b) {
+    if (a != b && mismatch_ == nullptr)
+      report(channel, Mismatch::Kind::books, channel.leaving, channel.left, 0, field, a, b);
+  };
+  differs("cells", static_cast<std::int64_t>(shape_.grid.cells()), books.cells);
+  differs("mass", static_cast<std::int64_t>(held->solid + held->liquid), books.mass);
+  differs("energy", static_cast<std::int64_t>(held->energy), books.energy);
+  differs("heat", static_cast<std::int64_t>(held->heat), books.heat);
+}
+
+void Checker::report(const Channel& channel, Mismatch::Kind kind, std::size_t pass, const Place& place,
+                     int lane, const char* field, std::int64_t expected, std::int64_t actual) {
+  const Wanted& wanted = passes_[pass - written_];
+  const bool written = kind == Mismatch::Kind::memory || kind == Mismatch::Kind::books,
+             in_channel = kind == Mismatch::Kind::channel;
+  report({
+      .kind = kind,
+      .where =
+          in_channel ? channel.name : std::string(name_of(written ? StageKind::writer : channel.producer)),
+      .phase = written ? std::nullopt : phase_of(channel.producer),
+      .step = wanted.pass.first + (written ? static_cast<std::uint32_t>(wanted.steps.size()) - 1
+                                           : static_cast<std::uint32_t>(channel.cascade)),
+      .cascade = channel.cascade,
+      .lane = lane,
+      .cycle = pipeline_.cycle(),
+      .x = place.x + lane,
+      .y = place.y,
+      .z = place.z,
+      .field = field,
+      .expected = expected,
+      .actual = actual,
+  });
+}
+
+void Checker::report(Mismatch mismatch) {
+  if (mismatch_ != nullptr) return;
+  mismatch_ = std::make_unique<Mismatch>(std::move(mismatch));
+  if (stops_) pipeline_.stop();
+}
+
+}  // namespace voxmelt::hwmodel

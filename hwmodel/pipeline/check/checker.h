@@ -1,0 +1,102 @@
+// Watches every token of the pipeline. Behind each stage, and behind the reader, it must equal the
+// reference's, side bands included. Lanes beyond the grid must hold the border. What leaves a channel must be
+// what entered it. What the writer sums over a pass must be what the reference holds. The first difference
+// stops the pass.
+//
+// Beside a cut of a tile, each stage spoils as many cells as it reaches. They are not compared, unless the
+// tile owns them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/pipeline/check/expectation.h"
+#include "hwmodel/pipeline/check/mismatch.h"
+#include "hwmodel/pipeline/model/pipeline.h"
+#include "kernel/automaton/state/ledger.h"
+
+namespace voxmelt::hwmodel {
+
+class Checker final : public FifoWatcher<Cell> {
+ public:
+  explicit Checker(Pipeline& pipeline);
+
+  // What a pass has to give, of one tile: `steps` has an entry per cascaded step; an empty one is not
+  // compared. `written` is what it leaves in memory; null: not compared. `left` is the state that the whole
+  // pass leaves, or null; `held`, of the last tile alone, what it holds.
+  struct Wanted {
+    Pass pass;
+    std::vector<std::vector<Expected>> steps;
+    std::shared_ptr<const state::Volume> written;
+    std::optional<state::Holdings> held;
+    std::shared_ptr<const state::Volume> left;
+  };
+  // Unless it stops the pass at the first difference, somebody else must.
+  void stop_at_difference(bool stops) { stops_ = stops; }
+  void begin_train();
+  void add_pass(Wanted wanted);
+
+  const Wanted& being_written() const { return passes_.front(); }
+  void report(Mismatch mismatch);  // that somebody else has seen; the first one counts
+
+  void entered(int channel, std::int64_t ordinal, const Cell* lanes) override;
+  void left(int channel, std::int64_t ordinal, const Cell* lanes) override;
+
+  const std::unique_ptr<Mismatch>& mismatch() const { return mismatch_; }
+  std::int64_t compared_cells() const { return compared_cells_; }  // behind stages; of each cell its owner's
+  // The cycle in which the writer took this token last, of all tiles of a pass.
+  std::int64_t written_in(std::int64_t ordinal) const {
+    return written_in_[static_cast<std::size_t>(ordinal)];
+  }
+
+ private:
+  struct Span {  // along x
+    int begin = 0, end = 0;
+  };
+  struct Channel {
+    std::string name;
+    StageKind producer = StageKind::reader;
+    int cascade = 0;
+    std::size_t stage = 0;  // number of the producer in its time step
+    bool behind_stage = false;
+    std::size_t entering = 0, leaving = 0;  // the passes of the next token to enter, and to leave
+    Place place, left;                      // of these tokens
+    std::size_t spanned = SIZE_MAX;         // the pass to which `span` belongs
+    Span span;                              // what must be right of the tokens that enter
+    std::deque<Cell> in_flight;             // copies, apart from the channel's own memory
+  };
+
+  // The cells behind a channel's producer that must be right.
+  Span span_of(const Channel& channel, const Pass& pass) const;
+  void next_pass(std::size_t& pass, Place& place) const;
+
+  // Behind the producer of a channel in one pass; null: not compared.
+  const Expected* expected_of(const Channel& channel);
+  void compare(const Channel& channel, const Cell* lanes);
+  void compare_written(const Channel& channel, const Cell* lanes);
+  void compare_memory(const Channel& channel, const state::Volume& volume, int lane, const Cell& is);
+  void compare_pass(const Channel& channel);  // when its last tile has been written
+  bool compare(const Channel& channel, const Expected& expected, const Cell& wanted, const Cell& is,
+               int lane);  // false: they differ
+  void report(const Channel& channel, Mismatch::Kind kind, std::size_t pass, const Place& place, int lane,
+              const char* field, std::int64_t expected, std::int64_t actual);
+
+  Pipeline& pipeline_;
+  const Shape shape_;
+  const std::vector<StageKind> stages_;  // of a time step
+  std::vector<Channel> channels_;
+  std::vector<std::int64_t> written_in_;  // by ordinal
+  std::deque<Wanted> passes_;             // of the train, without those that have been written
+  std::size_t written_ = 0;               // of the train
+  Expected read_;                         // what the reader gives
+  bool stops_ = true;
+  std::unique_ptr<Mismatch> mismatch_;
+  std::int64_t compared_cells_ = 0;
+};
+
+}  // namespace voxmelt::hwmodel

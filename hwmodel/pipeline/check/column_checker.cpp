@@ -1,0 +1,83 @@
+#include "hwmodel/pipeline/check/column_checker.h"
+
+#include <algorithm>
+#include <string>
+
+#include "hwmodel/pipeline/check/wanted_cell.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+// Some bits of a slot, the lowest first.
+class Bits {
+ public:
+  explicit Bits(const std::uint64_t* words) : words_(words) {}
+
+  bool at(std::int64_t bit) const { return (words_[bit >> 6] & std::uint64_t{1} << (bit & 63)) != 0; }
+  void go_to(std::int64_t bit) { next_ = bit; }
+  std::int64_t take(int count) {
+    std::int64_t value = 0;
+    for (int i = 0; i < count; ++i) value |= std::int64_t{at(next_++)} << i;
+    return value;
+  }
+
+ private:
+  const std::uint64_t* words_;
+  std::int64_t next_ = 0;
+};
+
+bool holds_something(const Cell& cell) {
+  return !cell.air() || cell.amount > 0 || cell.energy > 0 || cell.heat > 0;
+}
+
+}  // namespace
+
+bool ColumnChecker::differs(const Place& place, int lane, const char* field, std::int64_t expected,
+                            std::int64_t actual) {
+  if (expected == actual) return false;
+  const Checker::Wanted& wanted = checker_.being_written();
+  checker_.report({
+      .kind = Mismatch::Kind::memory,
+      .where = std::string(name_of(StageKind::writer)),
+      .step = wanted.pass.first + static_cast<std::uint32_t>(wanted.pass.steps) - 1,
+      .cascade = pipeline_.configuration().cascade - 1,
+      .lane = lane,
+      .cycle = pipeline_.cycle(),
+      .x = place.x + lane,
+      .y = place.y,
+      .z = place.z,
+      .field = field,
+      .expected = expected,
+      .actual = actual,
+  });
+  return true;
+}
+
+void ColumnChecker::column_written(const Place& last, const std::uint64_t* slot) {
+  const auto& left = checker_.being_written().left;
+  if (checker_.mismatch() != nullptr || left == nullptr) return;
+  const Design& design = pipeline_.design();
+  const int lanes = design.shape.lanes, cells = std::min(lanes, design.shape.grid.x - last.x);
+  Bits bits(slot);
+  std::int64_t stored = 0;
+  Place place = last;
+  for (place.y = 0; place.y <= last.y; ++place.y) {
+    bool holds = false;
+    for (int lane = 0; lane < cells; ++lane)
+      holds |= holds_something(wanted_cell(*left, place.x + lane, place.y, place.z));
+    if (differs(place, 0, "is stored", holds ? 1 : 0, bits.at(place.y) ? 1 : 0)) return;
+    if (!holds) continue;
+    for (int lane = 0; lane < cells; ++lane) {
+      const Cell wanted = wanted_cell(*left, place.x + lane, place.y, place.z);
+      bits.go_to(design.shape.grid.y + (stored * lanes + lane) * design.cell_bits());
+      if (differs(place, lane, "state", static_cast<int>(wanted.state), bits.take(2)) ||
+          differs(place, lane, "amount", wanted.amount, bits.take(16)) ||
+          (design.paper() && differs(place, lane, "energy", wanted.energy, bits.take(16))) ||
+          (design.hot() && differs(place, lane, "heat", wanted.heat, bits.take(16))))
+        return;
+    }
+    ++stored;
+  }
+}
+
+}  // namespace voxmelt::hwmodel

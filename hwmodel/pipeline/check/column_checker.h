@@ -1,0 +1,24 @@
+// Compares every column that is written with hw.coded, as soon as it is complete: which tokens are stored,
+// and what they hold. It reads the slot with code of its own.
+#pragma once
+
+#include <cstdint>
+
+#include "hwmodel/pipeline/check/checker.h"
+
+namespace voxmelt::hwmodel {
+
+class ColumnChecker final : public ColumnWatcher {
+ public:
+  ColumnChecker(Pipeline& pipeline, Checker& checker) : pipeline_(pipeline), checker_(checker) {}
+
+  void column_written(const Place& place, const std::uint64_t* slot) override;
+
+ private:
+  bool differs(const Place& place, int lane, const char* field, std::int64_t expected, std::int64_t actual);
+
+  Pipeline& pipeline_;
+  Checker& checker_;
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,18 @@
+// What is wrong with a train of passes as a whole: it hangs, or it takes the wrong number of cycles.
+#pragma once
+
+#include <cstdint>
+
+#include "hwmodel/pipeline/check/mismatch.h"
+#include "hwmodel/pipeline/model/pipeline.h"
+
+namespace voxmelt::hwmodel {
+
+// Finds where everything waits: the first empty channel behind a full one, and the cell that should enter it.
+Mismatch hang_of(const Pipeline& pipeline, const Pass& first, std::int64_t cycle);
+
+// Nothing stalled, and it took other cycles than the closed form says.
+Mismatch cycles_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_t predicted,
+                   std::int64_t cycles);
+
+}  // namespace voxmelt::hwmodel

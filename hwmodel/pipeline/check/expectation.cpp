@@ -1,0 +1,174 @@
+#include "hwmodel/pipeline/check/expectation.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace voxmelt::hwmodel {
+
+Expectation::Expectation(const rule::Parameters& parameters, const state::Volume& start,
+                         std::uint32_t first_step, const step::Implementation& fast,
+                         const step::Tuning& tuning, std::vector<StageKind> stages)
+    : parameters_(parameters),
+      reference_(parameters, start, *run::implementations().find("reference")),
+      fast_(parameters, start, fast, tuning),
+      fast_name_(fast.name),
+      stages_(std::move(stages)) {
+  reference_.begin_at(first_step);
+  fast_.begin_at(first_step);
+}
+
+void Expectation::begin_step() {
+  if (begun_) return;
+  reference_.begin_step();
+  fast_.begin_step();
+  begun_ = true;
+}
+
+Expectation::Step Expectation::step(bool keep) {
+  begin_step();
+  around_ = nullptr;
+  Step result;
+  Snapshot before = keep ? std::make_shared<state::Volume>(reference_.volume()) : nullptr;
+  for (const step::Phase phase : reference_.phases()) {
+    const bool staged =
+        std::any_of(stages_.begin(), stages_.end(), [&](StageKind one) { return phase_of(one) == phase; });
+    const step::Moment moment = reference_.moment();
+    reference_.run_phase(phase);
+    fast_.run_phase(phase);
+    if ((result.mismatch = compare_software(phase))) return result;
+    compared_cells_ += static_cast<std::int64_t>(volume().grid.cells());
+    if (!keep) continue;
+    if (!staged) {
+      const Difference changed = first_difference(*before, volume());
+      if (changed.field.empty()) continue;
+      result.mismatch = std::make_unique<Mismatch>(Mismatch{
+          .kind = Mismatch::Kind::missing,
+          .where = "no stage for this phase",
+          .phase = phase,
+          .step = step_number(),
+          .x = changed.x,
+          .y = changed.y,
+          .z = changed.z,
+          .field = changed.field,
+          .expected = changed.actual,
+          .actual = changed.expected,
+      });
+      return result;
+    }
+    const auto after = std::make_shared<const state::Volume>(volume());
+    expect_inside(phase, moment, before, after, result.stages);
+    before = after;
+  }
+  reference_.end_step();
+  fast_.end_step();
+  begun_ = false;
+  return result;
+}
+
+std::unique_ptr<Mismatch> Expectation::compare_software(step::Phase phase) const {
+  if (reference_.volume() == fast_.volume() && reference_.ledger() == fast_.ledger()) return nullptr;
+  Mismatch found{.kind = Mismatch::Kind::software,
+                 .where = fast_name_,
+                 .phase = phase,
+                 .step = step_number(),
+                 .field = "ledger"};
+  const Difference d = first_difference(reference_.volume(), fast_.volume());
+  if (!d.field.empty()) {
+    found.x = d.x, found.y = d.y, found.z = d.z;
+    found.field = d.field;
+    found.expected = d.expected, found.actual = d.actual;
+  }
+  return std::make_unique<Mismatch>(std::move(found));
+}
+
+void Expectation::expect_inside(step::Phase phase, step::Moment moment, const Snapshot& before,
+                                const Snapshot& after, std::vector<Expected>& stages) {
+  std::vector<StageKind> kinds;
+  for (const StageKind stage : stages_)
+    if (phase_of(stage) == phase) kinds.push_back(stage);
+  Snapshot last = before;
+  for (const StageKind kind : kinds) {
+    Expected expected{last, after, bands_behind(kind, moment, *before)};
+    if (kind != kinds.back())  // inside the phase
+      expected.after = phase == step::Phase::heat ? heat_up_to(kind, *before) : last;
+    last = expected.after;
+    stages.push_back(std::move(expected));
+  }
+}
+
+SideBands Expectation::bands_behind(StageKind stage, step::Moment moment, const state::Volume& before) {
+  using enum StageKind;
+  const bool paper = parameters_.flow.law == rule::Law::paper;
+  SideBands bands;
+  const auto look_around = [&] {
+    if (around_ == nullptr) around_ = std::make_shared<const Surroundings>(before);
+    return around_;
+  };
+  switch (stage) {
+    case conduction:
+    case edges:
+    case corners:
+    case convection:
+      if (parameters_.heat.air) bands.axes = look_around();
+      [[fallthrough]];
+    case exchange:
+    case melt:  // the paper law's sides are older than what melts
+    case walls:
+      if (paper && falls_by_sides()) bands.sides = look_around();
+      bands.sides_of_blocked = true;
+      break;
+    case pattern:
+      bands.pattern = patterns(before);
+      break;
+    case settle:
+      bands.runs = shown_ = runs(moment, before);
+      bands.shown = true;
+      if (moment.substep == 0) around_ = nullptr;  // the viscous law's sides are those after melt
+      break;
+    case viscous_spread:  // no sub-step melts anything
+      bands.runs = shown_;
+      if (falls_by_sides()) bands.sides = look_around();
+      break;
+    default:
+      break;
+  }
+  return bands;
+}
+
+bool Expectation::falls_by_sides() const {
+  const rule::Fall& fall = parameters_.flow.fall;
+  return fall.hang > 0 || fall.factor != fall.wall_factor;
+}
+
+Expectation::Snapshot Expectation::heat_up_to(StageKind stage, const state::Volume& before) {
+  rule::Parameters cut = parameters_;
+  rule::Heat& heat = cut.heat;
+  heat.radiation = heat.air = false;
+  if (stage != StageKind::convection) heat.convection = 0;
+  if (stage == StageKind::conduction) heat.neighbours = 6;
+  if (stage == StageKind::edges) heat.neighbours = 18;
+  auto result = std::make_shared<state::Volume>(before);
+  state::Ledger ledger;
+  scalar::Reference(cut, before.grid)
+      .run(step::Phase::heat, step::Moment(step_number()), nullptr, *result, ledger);
+  return result;
+}
+
+std::shared_ptr<const state::Field<std::uint8_t>> Expectation::patterns(const state::Volume& before) {
+  state::Volume scratch = before;
+  state::Ledger ledger;
+  scalar::Reference reference(parameters_, before.grid);
+  reference.run(step::Phase::spread, step::Moment(step_number()), nullptr, scratch, ledger);
+  return std::make_shared<const state::Field<std::uint8_t>>(reference.pattern());
+}
+
+std::shared_ptr<const ShownRuns> Expectation::runs(step::Moment moment, const state::Volume& before) {
+  state::Volume scratch = before;
+  state::Ledger ledger;
+  scalar::Reference reference(parameters_, before.grid);
+  reference.run(step::Phase::excess, moment, nullptr, scratch, ledger);
+  return std::make_shared<const ShownRuns>(reference, before.grid);
+}
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,47 @@
+// Watches what the feeds give: every token must hold the irradiance of its cells, and leave its channel as it
+// entered. The field is the software's, and not what lies in the memory of the machine.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "hwmodel/pipeline/check/checker.h"
+
+namespace voxmelt::hwmodel {
+
+class FeedChecker final : public FifoWatcher<UInt<16>> {
+ public:
+  FeedChecker(Pipeline& pipeline, Checker& checker);
+
+  // Before each train of passes, and then before each of its passes. `field`: null without radiation.
+  void begin_train(const Irradiance* field);
+  void add_pass(const Pass& pass) { passes_.push_back(pass); }
+
+  void entered(int channel, std::int64_t ordinal, const UInt<16>* lanes) override;
+  void left(int channel, std::int64_t ordinal, const UInt<16>* lanes) override;
+
+ private:
+  struct Seen {  // of one feed
+    std::deque<std::int64_t> in_flight;
+  };
+  // Of a token of the train.
+  const Pass& pass_of(std::int64_t ordinal) const {
+    return passes_[static_cast<std::size_t>(ordinal / shape_.tokens())];
+  }
+  Place place_of_token(std::int64_t ordinal) const {
+    return place_of(shape_, ordinal % shape_.tokens(), pass_of(ordinal).tile);
+  }
+  void report(Mismatch::Kind kind, int t, std::int64_t ordinal, int lane, std::int64_t expected,
+              std::int64_t actual);
+
+  Pipeline& pipeline_;
+  Checker& checker_;
+  const Shape shape_;
+  const Irradiance* field_ = nullptr;
+  std::vector<Pass> passes_;  // of the train
+  std::vector<Seen> feeds_;
+};
+
+}  // namespace voxmelt::hwmodel

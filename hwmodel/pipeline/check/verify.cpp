@@ -1,0 +1,375 @@
+#include "hwmodel/pipeline/check/verify.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hwmodel/pipeline/check/checker.h"
+#include "hwmodel/pipeline/check/column_checker.h"
+#include "hwmodel/pipeline/check/diagnosis.h"
+#include "hwmodel/pipeline/check/feed_checker.h"
+#include "hwmodel/pipeline/check/waves.h"
+#include "hwmodel/pipeline/faults/channel_fault.h"
+#include "hwmodel/pipeline/faults/code_fault.h"
+#include "hwmodel/pipeline/faults/irradiance_fault.h"
+#include "hwmodel/pipeline/faults/planted_stages.h"
+#include "hwmodel/pipeline/faults/tile_fault.h"
+#include "hwmodel/pipeline/time/prediction.h"
+#include "kernel/automaton/state/digest.h"
+#include "kernel/automaton/state/ledger.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+// The number of steps of a pass. No pass reaches beyond a step of visibility, where irradiance changes.
+int steps_of_pass(const Design& design, const Configuration& configuration, std::uint32_t step,
+                  std::uint32_t left) {
+  std::uint32_t steps = std::min(left, static_cast<std::uint32_t>(configuration.cascade));
+  const rule::Heat& heat = design.parameters.heat;
+  if (heat.radiates()) steps = std::min(steps, heat.visibility_every - heat.visibility_age(step));
+  return static_cast<int>(steps);
+}
+
+class Run {
+ public:
+  Run(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
+      const step::Implementation& fast, const step::Tuning& tuning, const VerifyOptions& options)
+      : options_(options),
+        plan_(options.fault, options.fault_step),
+        pipeline_(parameters, start.grid, options.configuration,
+                  options.make                   ? options.make
+                  : options.fault == Fault::none ? StageMaker(make_stage)
+                                                 : planted_stages(plan_)),
+        channel_fault_(plan_, pipeline_),
+        tile_fault_(plan_, pipeline_),
+        irradiance_fault_(plan_, pipeline_),
+        code_fault_(plan_, pipeline_),
+        checker_(pipeline_),
+        feed_checker_(pipeline_, checker_),
+        column_checker_(pipeline_, checker_),
+        software_(parameters, start, first_step, fast, tuning,
+                  stages_of_step({parameters, pipeline_.design().shape})),
+        memory_(start) {
+    pipeline_.watch(&checker_);
+    pipeline_.watch_feeds(&feed_checker_);
+    pipeline_.watch_columns(&column_checker_);
+    pipeline_.poll(options.poll);
+    if (options.waves) {
+      waves_.emplace(pipeline_, options.waves_from);
+      pipeline_.probe(&*waves_);
+      checker_.stop_at_difference(false);
+    }
+    if (options.timeline || options.waves) pipeline_.each_cycle([this] { end_cycle(); });
+    pipeline_.memory(options.memory);
+    report_.first_step = first_step;
+  }
+
+  VerifyReport run() {
+    while (report_.steps < options_.steps && report_.mismatch == nullptr && !stopped_) advance();
+    if (report_.mismatch == nullptr && !stopped_ && options_.steps > 0 && checker_.compared_cells() == 0)
+      throw std::logic_error("lock-step compared nothing");
+    report_.compared_cells = checker_.compared_cells();
+    report_.software_cells = software_.compared_cells();
+    report_.strike = plan_.struck();
+    if (waves_) waves_->end();
+    if (waves_ && !waves_->empty()) report_.waves = waves_->vcd();
+    if (options_.timeline) report_.timeline.end(pipeline_.accounts());
+    report_.stages = pipeline_.stages();
+    report_.channels = pipeline_.channels();
+    report_.digest = state::digest(memory_);
+    check_accounts();
+    return std::move(report_);
+  }
+
+  void end_cycle() {
+    const std::int64_t cycles = report_.cycles + pipeline_.cycle() + 1;
+    if (options_.timeline && report_.timeline.wants(cycles)) report_.timeline.add(pipeline_.accounts());
+    if (!waves_) return;
+    waves_->end_cycle();
+    if (checker_.mismatch() != nullptr && !waves_->wants_more()) pipeline_.stop();
+  }
+
+ private:
+  // A train of passes over several time steps each, or several passes over one with many sub-steps.
+  void advance() {
+    const std::uint32_t step = next_step_ = report_.first_step + report_.steps;
+    if (starts_replay(step)) {
+      report_.replay = memory_;
+      report_.replay_step = step;
+    }
+    software_.begin_step();
+    Pass pass{.first = step, .substeps = software_.substeps()};
+    pass.count = std::min(pass.substeps, options_.configuration.substeps);
+    if (pass.ends() && substeps_are_known()) pass.steps = steps_of(step);
+    if (!run_software(pass)) {
+      report_.mismatch = std::move(software_mismatch_);
+      return;
+    }
+    const std::uint32_t done = report_.steps;
+    for (; pass.substep < pass.substeps; pass.substep += pass.count) {
+      pass.count = std::min(pass.count, pass.substeps - pass.substep);
+      for (pass.tile = 0; pass.tile < pipeline_.design().shape.tiles(); pass.tile = last_tile_ + 1)
+        if (!run_train(pass)) return;
+    }
+    report_.steps = done + (next_step_ - step);
+    report_.mismatch = std::move(software_mismatch_);
+    if (report_.mismatch != nullptr || options_.visit_every == 0 || report_.steps % options_.visit_every != 0)
+      return;
+    report_.stages = pipeline_.stages();
+    stopped_ = !options_.visit(memory_, report_);
+  }
+
+  // How many sub-steps a step has is known when it begins, unless the scene says so.
+  bool substeps_are_known() const {
+    return pipeline_.design().paper() || !pipeline_.design().parameters.flow.viscous.counts_substeps();
+  }
+  // No pass reaches beyond a step at which somebody visits.
+  int steps_of(std::uint32_t step) const {
+    const std::uint32_t done = step - report_.first_step, every = options_.visit_every;
+    const std::uint32_t left = options_.steps - done;
+    return steps_of_pass(pipeline_.design(), options_.configuration, step,
+                         every == 0 ? left : std::min(left, every - done % every));
+  }
+
+  // Runs the software over the steps of a pass. False if its kernels differ.
+  bool run_software(const Pass& pass) {
+    report_.pass_end = pass.first + static_cast<std::uint32_t>(pass.steps);
+    expected_.clear();
+    for (int t = 0; t < pass.steps; ++t) {
+      const std::uint32_t done = pass.first + static_cast<std::uint32_t>(t) + 1 - report_.first_step;
+      Expectation::Step one = software_.step(done % options_.every == 0 || done == options_.steps);
+      if (options_.poll) options_.poll();
+      expected_.push_back(std::move(one.stages));
+      if ((software_mismatch_ = std::move(one.mismatch))) return false;
+    }
+    next_step_ = report_.pass_end;
+    return true;
+  }
+
+  bool is_visited(std::uint32_t step) const {
+    return options_.visit_every != 0 && (step - report_.first_step) % options_.visit_every == 0;
+  }
+
+  bool is_last_tile(const Pass& pass) const { return pass.tile + 1 == pipeline_.design().shape.tiles(); }
+
+  // The next tile, or the pass that follows without a gap: only a step of visibility needs the whole state
+  // before it begins.
+  std::optional<Pass> next_pass(Pass last) {
+    if (checker_.mismatch() != nullptr) return {};
+    if (!is_last_tile(last)) {
+      if (!tiles_follow(pipeline_.design(), options_.configuration, last)) return {};
+      ++last.tile;
+      add_pass(last);
+      return last;
+    }
+    const std::uint32_t step = last.first + static_cast<std::uint32_t>(last.steps);
+    const Design& design = pipeline_.design();
+    const rule::Heat& heat = design.parameters.heat;
+    if (!passes_overlap(design, options_.configuration, last) || !substeps_are_known() ||
+        step == report_.first_step + options_.steps || is_visited(step) ||
+        (heat.radiates() && heat.visibility_age(step) == 0))
+      return {};
+    last.first = step;
+    last.tile = 0;
+    last.steps = steps_of(step);
+    if (!run_software(last)) return {};  // what is under way can still be compared
+    add_pass(last);
+    return last;
+  }
+
+  void add_pass(const Pass& pass) {
+    Checker::Wanted wanted{pass, {}, nullptr, {}, nullptr};
+    for (const std::vector<Expected>& step : expected_) wanted.steps.push_back(expected_of(pass, step));
+    if (pass.ends() && wanted.steps.back().empty()) {
+      if (pass.tile == 0) written_ = std::make_shared<const state::Volume>(software_.volume());
+      wanted.written = written_;
+    }
+    wanted.left = wanted.steps.back().empty() ? wanted.written : wanted.steps.back().back().after;
+    if (is_last_tile(pass) && wanted.left != nullptr) wanted.held = state::holdings(*wanted.left);
+    checker_.add_pass(std::move(wanted));
+    channel_fault_.add_pass(pass);
+    tile_fault_.add_pass(pass);
+    irradiance_fault_.add_pass(pass);
+    code_fault_.add_pass(pass);
+    feed_checker_.add_pass(pass);
+  }
+
+  bool run_train(const Pass& first) {
+    checker_.begin_train();
+    channel_fault_.begin_train();
+    tile_fault_.begin_train();
+    irradiance_fault_.begin_train();
+    code_fault_.begin_train();
+    feed_checker_.begin_train(software_.irradiance());
+    add_pass(first);
+    Pass last = first;
+    const auto next = [&]() -> std::optional<Pass> {
+      std::optional<Pass> pass = next_pass(last);
+      if (pass) last = *pass;
+      return pass;
+    };
+    if (!run_model(first, next, software_.irradiance())) return false;
+    last_tile_ = last.tile;
+    if (!is_last_tile(last)) return true;
+    report_.cell_steps +=
+        first.ends() ? static_cast<std::int64_t>(memory_.grid.cells()) * (next_step_ - first.first) : 0;
+    const std::uint32_t step = last.first + static_cast<std::uint32_t>(last.steps) - 1;
+    if (software_mismatch_ != nullptr) return true;
+    if (last.ends())
+      compare_memory(step, software_.volume());
+    else if (!expected_.front().empty())
+      compare_memory(step, *expected_of(last, expected_.front()).back().after);
+    return report_.mismatch == nullptr;
+  }
+
+  // What one pass has to give behind every stage, from what the sub-steps of a time step give.
+  std::vector<Expected> expected_of(const Pass& pass, const std::vector<Expected>& step) const {
+    if (pipeline_.design().paper() || step.empty()) return step;
+    const std::vector<StageKind> stages = stages_of_step(pipeline_.design());
+    const auto before =
+        static_cast<std::size_t>(std::find(stages.begin(), stages.end(), StageKind::settle) - stages.begin());
+    std::vector<Expected> expected;
+    std::size_t next = before + 2 * static_cast<std::size_t>(pass.substep);  // in `step`, of the sub-steps
+    std::shared_ptr<const state::Volume> now = pass.begins() ? step.front().before : step[next - 1].after;
+    SideBands bands;
+    int copy = -1;
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      if (stages[i] == StageKind::settle) ++copy;
+      if (!pass.uses(stages[i], copy))
+        expected.push_back({now, now, bands});  // it hands on what came
+      else
+        expected.push_back(i < before ? step[i] : step[next++]);
+      now = expected.back().after;
+      bands = expected.back().bands;
+    }
+    return expected;
+  }
+
+  // False when a mismatch was found.
+  bool run_model(const Pass& first, const Pipeline::Next& next, const step::Irradiance* irradiance) {
+    const auto begin = std::chrono::steady_clock::now();
+    PassEnd end;
+    if (waves_) waves_->begin_train(report_.cycles);
+    std::optional<IrradianceStream> stream;
+    if (irradiance != nullptr)
+      report_.irradiance = stream.emplace(*irradiance, pipeline_.design().shape).counts();
+    try {
+      end = pipeline_.run_train(first, next, stream ? &*stream : nullptr, memory_);
+    } catch (const Pipeline::StageError& error) {
+      if (checker_.mismatch() != nullptr) {  // what follows a difference may be anything
+        report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
+        return false;
+      }
+      report_.mismatch = std::make_unique<Mismatch>(Mismatch{
+          .kind = error.kind == Pipeline::StageError::Kind::width ? Mismatch::Kind::width
+                                                                  : Mismatch::Kind::address,
+          .where = std::string(name_of(error.stage)),
+          .phase = phase_of(error.stage),
+          .step = error.step,
+          .cascade = error.cascade,
+          .lane = error.spot.lane,
+          .cycle = error.cycle,
+          .x = error.spot.token.x + error.spot.lane,
+          .y = error.spot.token.y,
+          .z = error.spot.token.z,
+          .detail = error.what(),
+      });
+      return false;
+    }
+    report_.model_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    report_.passes += (first.tile + end.passes) / pipeline_.design().shape.tiles();
+    report_.cycles += end.cycles;
+    if (end.complete) {
+      const std::int64_t predicted =
+          predicted_cycles(pipeline_.design(), options_.configuration, first, end.passes);
+      report_.predicted_cycles += predicted;
+      report_.trains.push_back({first.first, end.passes, end.cycles, predicted});
+      const Configuration& c = options_.configuration;
+      if (c.stall_seed == 0 && options_.memory == nullptr && c.channels_alike() && end.cycles != predicted)
+        report_.mismatch =
+            std::make_unique<Mismatch>(cycles_of(pipeline_, first.first, predicted, end.cycles));
+    }
+    if (checker_.mismatch() != nullptr) report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
+    if (report_.mismatch == nullptr && end.hangs)
+      report_.mismatch = std::make_unique<Mismatch>(hang_of(pipeline_, first, end.cycles));
+    return report_.mismatch == nullptr;
+  }
+
+  void compare_memory(std::uint32_t step, const state::Volume& wanted) {
+    const Difference d = first_difference(wanted, memory_);
+    if (d.field.empty()) return;
+    const Shape& shape = pipeline_.design().shape;
+    report_.mismatch = std::make_unique<Mismatch>(Mismatch{
+        .kind = Mismatch::Kind::memory,
+        .where = std::string(name_of(StageKind::writer)),
+        .step = step,
+        .cascade = options_.configuration.cascade - 1,
+        .lane = d.x % shape.lanes,
+        .cycle = checker_.written_in(owned_ordinal(shape, d.x, d.y, d.z)),
+        .x = d.x,
+        .y = d.y,
+        .z = d.z,
+        .field = d.field,
+        .expected = d.expected,
+        .actual = d.actual,
+    });
+  }
+
+  // A replay must begin where visibility is computed, or where this run began.
+  bool starts_replay(std::uint32_t step) const {
+    return step == report_.first_step || pipeline_.design().parameters.heat.visibility_age(step) == 0;
+  }
+
+  // Every cycle of every stage is accounted for exactly once.
+  void check_accounts() const {
+    for (const StageReport& stage : report_.stages)
+      if (stage.cycles.total() != report_.cycles && report_.mismatch == nullptr)
+        throw std::logic_error("cycles of stage " + std::string(name_of(stage.kind)) + ": " +
+                               std::to_string(stage.cycles.total()) + " are accounted for, " +
+                               std::to_string(report_.cycles) + " have passed");
+  }
+
+  const VerifyOptions& options_;
+  FaultPlan plan_;
+  Pipeline pipeline_;
+  ChannelFault channel_fault_;
+  TileFault tile_fault_;
+  IrradianceFault irradiance_fault_;
+  PlantedCode code_fault_;
+  Checker checker_;
+  FeedChecker feed_checker_;
+  ColumnChecker column_checker_;
+  Expectation software_;
+  state::Volume memory_;
+  std::vector<std::vector<Expected>> expected_;   // of the pass that the software has run last
+  std::shared_ptr<const state::Volume> written_;  // by that pass, where its steps are not compared
+  std::unique_ptr<Mismatch> software_mismatch_;
+  std::optional<Waves> waves_;
+  std::uint32_t next_step_ = 0;  // after that pass
+  int last_tile_ = 0;            // of the last train
+  VerifyReport report_;
+  bool stopped_ = false;  // by who visits
+};
+
+}  // namespace
+
+bool VerifyReport::found_where_planted() const {
+  if (!strike || mismatch == nullptr) return false;
+  return mismatch->where == strike->where && mismatch->step == strike->step && mismatch->x == strike->x &&
+         mismatch->y == strike->y && mismatch->z == strike->z;
+}
+
+VerifyReport verify(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
+                    const step::Implementation& fast, const step::Tuning& tuning,
+                    const VerifyOptions& options) {
+  return Run(parameters, start, first_step, fast, tuning, options).run();
+}
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,45 @@
+// Faults of the occupancy code (hw.coded): a token that holds something is left out, a bit of the wrong
+// token, a stored token too few, and a reader that looks at the wrong bit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/pipeline/faults/faults.h"
+#include "hwmodel/pipeline/model/pipeline.h"
+
+namespace voxmelt::hwmodel {
+
+class PlantedCode final : public CodeFault {
+ public:
+  // Both must outlive it. It does nothing if the plan's fault is not one of these.
+  PlantedCode(FaultPlan& plan, Pipeline& pipeline);
+  ~PlantedCode() override { pipeline_.plant(static_cast<CodeFault*>(nullptr)); }
+  PlantedCode(const PlantedCode&) = delete;
+  PlantedCode& operator=(const PlantedCode&) = delete;
+
+  // Must be called before each train of passes, and then before each of its passes.
+  void begin_train() { passes_.clear(); }
+  void add_pass(const Pass& pass) { passes_.push_back(pass); }
+
+  void judged(std::int64_t pass, const Place& place, const Cell* lanes, bool& air) override;
+  void stored(std::int64_t pass, const Place& place, const Cell* lanes, std::int64_t& at) override;
+  void ended(std::int64_t pass, const Place& place, std::uint64_t* slot) override;
+  void found(std::int64_t pass, const Place& place, const std::uint64_t* slot, bool& stored) override;
+
+ private:
+  const Pass& pass_at(std::int64_t pass) const { return passes_[static_cast<std::size_t>(pass)]; }
+  bool armed_at_writer(Fault fault, std::int64_t pass) const;
+  int cells_of(const Place& place) const;
+  void strike_writer(std::int64_t pass, const Place& place, int lane);
+
+  FaultPlan& plan_;
+  Pipeline& pipeline_;
+  CodeLayout layout_;
+  std::vector<Pass> passes_;  // of the train
+  std::vector<Cell> before_;  // the token that was stored last
+  Place before_at_;
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,40 @@
+// Faults of what a feed makes of the words of irradiance: too few dark tokens, a mask of the wrong lanes, a
+// word too few.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/pipeline/faults/faults.h"
+#include "hwmodel/pipeline/model/pipeline.h"
+
+namespace voxmelt::hwmodel {
+
+class IrradianceFault final : public FeedFault {
+ public:
+  // Both must outlive it. It does nothing if the plan's fault is not one of these.
+  IrradianceFault(FaultPlan& plan, Pipeline& pipeline);
+  ~IrradianceFault() override { pipeline_.plant(static_cast<FeedFault*>(nullptr)); }
+  IrradianceFault(const IrradianceFault&) = delete;
+  IrradianceFault& operator=(const IrradianceFault&) = delete;
+
+  // Must be called before each train of passes, and then before each of its passes.
+  void begin_train() { passes_.clear(); }
+  void add_pass(const Pass& pass) { passes_.push_back(pass); }
+
+  void counted(int t, std::int64_t pass, const Place& place, std::uint32_t mask, std::int64_t& dark) override;
+  void masked(int t, std::int64_t pass, const Place& place, std::uint32_t& mask, bool& last_lost) override;
+
+ private:
+  std::uint32_t step_of(int t, std::int64_t pass) const {
+    return passes_[static_cast<std::size_t>(pass)].first + static_cast<std::uint32_t>(t);
+  }
+  void strike(std::uint32_t step, const Place& place, int lane);
+
+  FaultPlan& plan_;
+  Pipeline& pipeline_;
+  std::vector<Pass> passes_;  // of the train
+};
+
+}  // namespace voxmelt::hwmodel

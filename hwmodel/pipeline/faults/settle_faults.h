@@ -1,0 +1,179 @@
+// Runs that end too early, lose a bit of their sum, do not mix or show something wrong, and columns that
+// leave upside down.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <vector>
+
+#include "hwmodel/pipeline/faults/planted.h"
+#include "hwmodel/pipeline/model/run_reader.h"
+#include "hwmodel/pipeline/model/settle_stage.h"
+
+namespace voxmelt::hwmodel {
+
+class SettleFaults : public Planted {
+ public:
+  using Faulty = Settle<SettleFaults>;
+
+  SettleFaults(FaultPlan& plan, const Design& design)
+      : Planted(plan), column_(design.shape.lanes, static_cast<std::size_t>(design.shape.column())) {}
+
+  void summed(Faulty& stage, const Cell* in) {
+    if (!armed(stage, Fault::settle_run_broken)) return;
+    column_.shift();
+    if (in != nullptr) std::copy_n(in, stage.lanes(), column_.tap(0));
+    if (stage.filled() == 0) return;
+    for (std::size_t lane = 0; lane < stage.size(); ++lane) {
+      const SettleWord& word = stage.words_[lane];
+      if (word.kind != SettleKind::top) continue;
+      std::vector<Cell> cells;  // of the run, from its bottom
+      for (auto below = static_cast<std::size_t>(word.last) + 1; below > 0; --below)
+        cells.push_back(column_.tap(below)[lane]);
+      const Cell top = cells.back();
+      const std::vector<Held> right = settled(stage, cells).cells;
+      cells.pop_back();
+      Outcome broken = settled(stage, cells);
+      broken.cells.push_back({std::int64_t{top.amount}, std::int64_t{top.heat}});
+      const auto wrong =
+          std::mismatch(right.begin(), right.end(), broken.cells.begin()).first - right.begin();
+      if (wrong == std::ssize(right)) continue;
+      return part(stage, lane, top, broken.record,
+                  show_alike(stage, word, broken.record) ? static_cast<int>(wrong) : 0);
+    }
+  }
+
+  // The records that have come to the first cells of their runs.
+  void lowered(Faulty& stage) {
+    const bool carry = armed(stage, Fault::settle_sum_carry);
+    if (!carry && !armed(stage, Fault::settle_mix)) return;
+    for (std::size_t lane = 0; lane < stage.size(); ++lane) {
+      SettleWord& word = stage.words_[lane];
+      if (word.kind != SettleKind::first) continue;
+      if (!carry) {
+        if (word.heat == stage.turned_[lane].heat) continue;
+        word.heat = stage.turned_[lane].heat;
+        return strike_turned(stage, lane, 0);
+      }
+      const std::int64_t sum =
+          std::int64_t{word.sum} -
+          static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(word.sum)));
+      const SettleWord right = word;
+      word.sum = sum;
+      int k = 0;
+      if (show_alike(stage, right, word))
+        while (settled_amount(sum, word.last, k) == settled_amount(right.sum, word.last, k)) ++k;
+      return strike_turned(stage, lane, k);
+    }
+  }
+
+  // Reads the column that is to leave as it lies, from the top, if that makes a difference.
+  void turned(Faulty& stage) {
+    if (stage.leaving().y != 0 || !armed(stage, Fault::settle_reversal)) return;
+    std::vector<ShowScan> right = stage.shows_, wrong = stage.shows_;
+    for (std::int64_t y = 0; y < stage.height_; ++y)
+      for (std::size_t lane = 0; lane < stage.size(); ++lane) {
+        Cell expected, found;
+        const auto show = [&](ShowScan& scan, std::int64_t from, Cell& cell) {
+          scan.next(stage.upwards_.will_give(from)[lane], static_cast<int>(y), stage.flow_, stage.pace_,
+                    stage.widths_, cell);
+        };
+        show(right[lane], y, expected);
+        show(wrong[lane], stage.height_ - 1 - y, found);
+        if (alike(expected, found)) continue;
+        strike(stage, stage.leaving().x + static_cast<int>(lane), static_cast<int>(y), stage.leaving().z);
+        return stage.upwards_.miss_turn();
+      }
+  }
+
+  // A cell of a run, with what the run shows. Every change is seen behind the smaller of two limits.
+  void shown(const Faulty& stage, int lane, Cell& cell) {
+    if (cell.in_run == 0) return;
+    if (armed(stage, Fault::settle_run_untold))
+      cell.in_run = 0;
+    else if (armed(stage, Fault::settle_head))
+      cell.head = cell.head - 1;
+    else if (armed(stage, Fault::settle_mobility) && cell.mobility > 0)
+      cell.mobility = cell.mobility >> 1;
+    else if (armed(stage, Fault::settle_limit) && cell.limit > 1)
+      cell.limit = cell.limit - 1;
+    else if (armed(stage, Fault::settle_dead_zone))
+      cell.dead = cell.dead - 1;
+    else
+      return;
+    strike_lane(stage, stage.leaving(), lane);
+  }
+
+ private:
+  struct Held {
+    std::int64_t amount, heat;
+    bool operator==(const Held&) const = default;
+  };
+  struct Outcome {
+    std::vector<Held> cells;
+    SettleWord record;  // in the word of the uppermost cell
+  };
+
+  // What the next stage can tell apart: mobilities are never used without a limit.
+  static bool alike(Cell a, Cell b) {
+    const auto limited = [](const RunPace& pace) { return std::array{pace.limited(), pace.exposed()}; };
+    const bool same_pace = limited({a.mobility, a.limit, a.dead}) == limited({b.mobility, b.limit, b.dead});
+    a.mobility = b.mobility;
+    return same_pace && a == b;
+  }
+  static bool show_alike(const Faulty& stage, const SettleWord& one, const SettleWord& other) {
+    const auto cell = [&](const SettleWord& record) {
+      const RunShow show = hwmodel::shown(record.sum, record.last, 0, record.mobility, stage.flow_,
+                                          stage.pace_, stage.widths_);
+      Cell shows;
+      shows.head = show.head, shows.mobility = show.mobility, shows.limit = show.limit,
+      shows.dead = show.dead;
+      return shows;
+    };
+    return alike(cell(one), cell(other));
+  }
+
+  // What a run of these cells comes to.
+  static Outcome settled(const Faulty& stage, const std::vector<Cell>& cells) {
+    SumScan up;
+    RecordScan down;
+    Outcome outcome;
+    std::vector<SettleWord> words;
+    words.reserve(cells.size() + 1);
+    for (const Cell& cell : cells) words.push_back(up.next(cell, words.empty(), stage.hot_, stage.dither_));
+    words.erase(words.begin());  // of the cell before the first one
+    words.push_back(outcome.record = up.next(Cell{}, false, stage.hot_, stage.dither_));
+    outcome.cells.resize(cells.size());
+    for (std::size_t k = cells.size(); k-- > 0;) {
+      const SettleWord& record = outcome.record;
+      const std::int64_t heat = down.next(words[k], stage.dither_).heat;
+      const std::int64_t amount = settled_amount(record.sum, record.last, static_cast<std::int64_t>(k));
+      outcome.cells[k] = {amount, amount > 0 ? heat : 0};
+    }
+    return outcome;
+  }
+
+  // The record belongs to the cell below, and this one is outside. `wrong`: the first cell that this leaves
+  // wrong.
+  void part(Faulty& stage, std::size_t lane, const Cell& top, const SettleWord& record, int wrong) {
+    SettleWord& word = stage.words_[lane];
+    const Place place = stage.place_at(1);
+    strike(stage, place.x + static_cast<int>(lane), place.y - static_cast<int>(word.last) + wrong, place.z);
+    stage.downwards_.newest()[lane] = record;
+    word = {SettleKind::outside, std::int64_t{top.amount}, 0, top.heat, 0, 0, 0};
+  }
+
+  // `above`: the cell that has come on its way down.
+  void strike_turned(const Faulty& stage, std::size_t lane, int above) {
+    const Place place = stage.place_at(stage.turned_delay());
+    strike(stage, place.x + static_cast<int>(lane), place.y + above, place.z);
+  }
+
+  TapLine<Cell> column_;  // what has come lately
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,65 @@
+// Flows inside the dead zone, with the dither of the next axis, sub-step or layer, as on a level bed, by the
+// giver's amount alone, or lost on their way. Cells that leave without their side bands.
+#pragma once
+
+#include <cstdint>
+
+#include "hwmodel/pipeline/faults/planted.h"
+#include "hwmodel/pipeline/model/viscous_spread_stage.h"
+
+namespace voxmelt::hwmodel {
+
+class ViscousSpreadFaults : public Planted {
+ public:
+  using Planted::Planted;
+  using Faulty = ViscousSpread<ViscousSpreadFaults>;
+
+  void wanted(Faulty& stage, const SeenCell& from, const SeenCell& to, int axis, UInt<16>& amount) {
+    const bool rests = stage.rests(from, to, axis);
+    UInt<16> wrong = amount;
+    if (rests && armed(stage, Fault::viscous_dead_zone))
+      wrong = stage.wanted(from, to, axis, stage.dither_of_axis(axis));
+    if (!rests && armed(stage, Fault::viscous_dither))
+      wrong = stage.wanted(from, to, axis, stage.dither_of_axis((axis + 1) % 4));
+    if (!rests && armed(stage, Fault::viscous_substep))
+      wrong = stage.wanted(from, to, axis, dither(stage, axis, 0, 1));
+    if (!rests && armed(stage, Fault::viscous_layer))
+      wrong = stage.wanted(from, to, axis, dither(stage, axis, 1, 0));
+    if (!rests && armed(stage, Fault::viscous_slope)) {
+      SeenCell level = from;
+      level.bed = to.bed;
+      wrong = stage.wanted(level, to, axis, stage.dither_of_axis(axis));
+    }
+    if (!rests && armed(stage, Fault::viscous_mean) && from.bed == to.bed) {
+      SeenCell without_bed = to;  // the factor of the slope is that of a level bed, too
+      without_bed.bed = kNoBed;
+      wrong = stage.wanted(from, without_bed, axis, stage.dither_of_axis(axis));
+    }
+    if (wrong == amount) return;
+    amount = wrong;
+    strike_first_word(stage, stage.line_, *from.word, *to.word);
+  }
+
+  void moved(Faulty& stage, const SeenCell& from, const SeenCell& to, std::int64_t amount) {
+    if (!armed(stage, Fault::viscous_flow_lost)) return;
+    to.word->present = to.word->present - amount;
+    if (stage.hot_) to.word->content = to.word->content - amount * from.word->heat;
+    strike_word(stage, stage.line_, *to.word);
+  }
+
+  void gave(const Faulty& stage, int lane, Cell& cell) {
+    miss_side(stage, Fault::viscous_side_missed, lane, cell);
+    if (cell.in_run == 0 || !armed(stage, Fault::viscous_run_forgotten)) return;
+    cell.in_run = 0;
+    strike_lane(stage, stage.leaving(), lane);
+  }
+
+ private:
+  // Of so many layers up, and so many sub-steps later.
+  static std::int64_t dither(const Faulty& stage, int axis, int up, int later) {
+    const std::int64_t layer = dither_of(static_cast<std::uint32_t>(stage.came().y + up));
+    return stage.pair_dither(axis, layer, stage.moment().substep + later);
+  }
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,142 @@
+// The state in memory with an occupancy code (hw.coded): one bit for a token of air, and nothing else.
+//
+// Every column of a block has a slot of its own, which begins with a burst. There lie a bit for each of its
+// tokens, the lowest token first: is the token stored? Then the stored tokens, one behind another, each as
+// wide as without the code. So a column may be written without knowing the others, and its place does not
+// depend on what it holds. Only bursts that hold something move. Lanes beyond the grid are stored with
+// their token, and mean nothing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/pipeline/model/stage.h"
+#include "kernel/automaton/state/volume.h"
+
+namespace voxmelt::hwmodel {
+
+// Where the parts of a slot lie, in bits.
+class CodeLayout {
+ public:
+  static constexpr std::int64_t kBurstBits = 512;
+
+  explicit CodeLayout(const Design& design);
+
+  int lanes() const { return lanes_; }
+  int height() const { return height_; }
+  int blocks() const { return blocks_; }  // of the grid, along x
+  std::int64_t columns() const { return columns_; }
+  std::int64_t token_bits() const { return std::int64_t{lanes_} * cell_bits_; }
+  std::int64_t head_bits() const { return height_; }
+  std::int64_t slot_bits() const { return up(head_bits() + height_ * token_bits()); }
+  std::int64_t column_of(const Place& place) const {
+    return std::int64_t{place.z} * blocks_ + place.x / lanes_;
+  }
+  // The lane of a stored token, as many tokens into its column.
+  std::int64_t at(std::int64_t stored, int lane) const {
+    return head_bits() + stored * token_bits() + std::int64_t{lane} * cell_bits_;
+  }
+  static std::int64_t up(std::int64_t bits) { return (bits + kBurstBits - 1) / kBurstBits * kBurstBits; }
+
+  void put(const Cell& cell, std::uint64_t* slot, std::int64_t at) const;
+  Cell get(const std::uint64_t* slot, std::int64_t at) const;
+
+ private:
+  int lanes_, height_, blocks_, cell_bits_;
+  std::int64_t columns_;
+  bool paper_, hot_;
+};
+
+inline constexpr int kColumnsAhead = 8;  // whose bits the reader asks for before it needs them
+
+// Memories that the reader needs for it, and the writer: bits of columns ahead; those of the present column,
+// and the bursts in which they lie.
+std::vector<BufferCost> reader_buffers(const CodeLayout& layout);
+std::vector<BufferCost> writer_buffers(const CodeLayout& layout);
+
+inline bool bit_of(const std::uint64_t* slot, std::int64_t at) {
+  return (slot[at / 64] >> (at % 64) & 1) != 0;
+}
+inline void set_bit(std::uint64_t* slot, std::int64_t at, bool on) {
+  const std::uint64_t bit = std::uint64_t{1} << (at % 64);
+  slot[at / 64] = on ? slot[at / 64] | bit : slot[at / 64] & ~bit;
+}
+
+// What the memory tells of a column that lies in it.
+class StoredColumns {
+ public:
+  virtual ~StoredColumns() = default;
+  virtual std::int64_t bits_of(std::int64_t column) const = 0;  // without what fills up the last burst
+};
+
+// The slots of all columns.
+class CodedState final : public StoredColumns {
+ public:
+  explicit CodedState(const CodeLayout& layout);
+
+  const CodeLayout& layout() const { return layout_; }
+  std::uint64_t* slot(std::int64_t column) { return words_.data() + slot_words_ * column; }
+  const std::uint64_t* slot(std::int64_t column) const { return words_.data() + slot_words_ * column; }
+  std::int64_t bits_of(std::int64_t column) const override;
+
+  std::int64_t moved_bits() const;  // of all columns, whole bursts
+
+  void store(const state::Volume& volume);  // as the host does it
+  // A column, read back as the host does it.
+  void load(const Shape& shape, const Place& place, state::Volume& volume) const;
+
+ private:
+  CodeLayout layout_;
+  std::int64_t slot_words_;
+  std::vector<std::uint64_t> words_;
+};
+
+// For planted faults.
+class CodeFault {
+ public:
+  virtual ~CodeFault() = default;
+  // Writing a column of a pass: is this token air? Where does the next stored one go? The column is complete.
+  virtual void judged(std::int64_t pass, const Place& place, const Cell* lanes, bool& air) = 0;
+  virtual void stored(std::int64_t pass, const Place& place, const Cell* lanes, std::int64_t& at) = 0;
+  virtual void ended(std::int64_t pass, const Place& place, std::uint64_t* slot) = 0;
+  // Reading one: is the token stored?
+  virtual void found(std::int64_t pass, const Place& place, const std::uint64_t* slot, bool& stored) = 0;
+};
+
+// Puts the tokens of a column into its slot, one a cycle. Its bits are kept until the column is complete.
+class ColumnWriter {
+ public:
+  explicit ColumnWriter(const CodeLayout& layout)
+      : layout_(layout), head_(static_cast<std::size_t>(layout.height()) / 64 + 1) {}
+
+  // Of a token with so many lanes in the grid.
+  void put(const Cell* lanes, int cells, const Place& place, std::uint64_t* slot, CodeFault* fault,
+           std::int64_t pass);
+  std::int64_t bits() const { return layout_.at(stored_, 0); }  // of the present column
+
+ private:
+  CodeLayout layout_;
+  std::vector<std::uint64_t> head_;
+  std::int64_t stored_ = 0;  // tokens of the present column
+};
+
+// Makes tokens of a column, one a cycle.
+class ColumnReader {
+ public:
+  explicit ColumnReader(const CodeLayout& layout) : layout_(layout) {}
+
+  // Bits of the slot that must be there before the token at `place` can be made.
+  std::int64_t needs(const Place& place, const std::uint64_t* slot) const {
+    return layout_.at((place.y == 0 ? 0 : stored_) + (bit_of(slot, place.y) ? 1 : 0), 0);
+  }
+  std::int64_t used() const { return layout_.at(stored_, 0); }
+  void get(Cell* lanes, int cells, const Place& place, const std::uint64_t* slot, CodeFault* fault,
+           std::int64_t pass);
+
+ private:
+  CodeLayout layout_;
+  std::int64_t stored_ = 0;  // tokens of the present column that have been taken
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,24 @@
+// Conduction with 18 or 26 neighbours: a pass for those across an edge, another for those across a corner.
+#pragma once
+
+#include "hwmodel/pipeline/model/conduction_pass.h"
+
+namespace voxmelt::hwmodel {
+
+template <class Faults>
+class EdgeConduction final : public ConductionPass<kEdgePairs, Faults> {
+ public:
+  explicit EdgeConduction(const Design& design, Faults faults = {})
+      : ConductionPass<kEdgePairs, Faults>(StageKind::edges, design, design.parameters.heat.weight_edge,
+                                           faults) {}
+};
+
+template <class Faults>
+class CornerConduction final : public ConductionPass<kCornerPairs, Faults> {
+ public:
+  explicit CornerConduction(const Design& design, Faults faults = {})
+      : ConductionPass<kCornerPairs, Faults>(StageKind::corners, design, design.parameters.heat.weight_corner,
+                                             faults) {}
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,81 @@
+// What a cell takes from outside the volume: radiation, from the feed of irradiance that runs beside the
+// stream, and the air at its exposed axes.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/pipeline/model/stage.h"
+
+namespace voxmelt::hwmodel {
+
+template <class Faults>
+class Exchange final : public Stage {
+ public:
+  explicit Exchange(const Design& design, Faults faults = {})
+      : Stage(StageKind::exchange, design, 0),
+        faults_(faults),
+        material_(design.parameters.material),
+        radiation_(design.parameters.heat.radiation),
+        air_(design.parameters.heat.air) {
+    const rule::Heat& heat = design.parameters.heat;
+    for (std::size_t axes = 0; axes < air_weight_.size(); ++axes)
+      air_weight_[axes] = (heat.air_exchange * kAxisWeight[axes]) >> 12;
+    if (air_) air_temperature_.assign(heat.air_temperature.begin(), heat.air_temperature.end());
+  }
+
+  void feed(HeatFifo& feed) override { feed_ = &feed; }
+
+  int output_bits() const override { return design().cell_bits() + (design().walls_in_conduction() ? 1 : 0); }
+  std::vector<BufferCost> buffers() const override {
+    if (!air_) return {};
+    return {{"air temperatures", shape().grid.y, 1, 16}};
+  }
+  Units units() const override { return {.multipliers = air_ ? 1 : 0}; }
+
+ private:
+  friend Faults;
+
+  void begin_step() override { dither_ = dither_of(step()); }
+  bool side_input_ready() override { return !radiation_ || feed_->valid(); }
+
+  void advance(const Cell* in, Cell* out) override {
+    compute_at(0, 0);
+    if (radiation_ && feed_->count() == 0)
+      throw ModelError("the channel \"" + feed_->name() + "\" holds no token to take");
+    const UInt<16>* irradiance = radiation_ ? feed_->get() : nullptr;
+    const UInt<16> ambient = air_ ? looked_up(air_temperature_, came().y) : UInt<16>{};
+    for (const int lane : each_lane()) {
+      out[lane] = in[lane];
+      Cell& cell = out[lane];
+      cell.exposed_axes = 0;
+      if (!cell.matter()) continue;
+      const std::int64_t received = radiation_ ? std::int64_t{irradiance[lane]} : 0;
+      const std::int64_t axes = in[lane].exposed_axes;
+      cell.heat = exchanged(in[lane], received, ambient, axes);
+      faults_.exchanged(*this, in[lane], irradiance, ambient, lane, cell);
+    }
+  }
+
+  UInt<16> exchanged(const Cell& cell, std::int64_t received, std::int64_t ambient, std::int64_t axes) const {
+    std::int64_t h = cell.heat;
+    if (cell.state == State::solid) h = raised(h, UInt<13>((4096 * received + dither_) >> 16));
+    if (axes == 0) return h;
+    const SInt<17> excess = ambient - temperature_of(h, material_);
+    return raised(h, scale(excess, looked_up(air_weight_, axes), dither_));
+  }
+  static UInt<16> raised(std::int64_t h, std::int64_t gain) { return h + std::min(gain, kHeatMax - h); }
+
+  [[no_unique_address]] Faults faults_;
+  HeatFifo* feed_ = nullptr;
+  const rule::Material material_;
+  const bool radiation_, air_;
+  std::array<UInt<16>, 4> air_weight_;  // by exposed axes
+  std::vector<UInt<16>> air_temperature_;
+  UInt<16> dither_;
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,61 @@
+// The word that conduction and convection keep of a cell: what it was when it came, and its heat so far. A
+// pass is synchronous, so every flux is computed from the temperatures at its begin. The heat takes the
+// fluxes one by one and stays within 16 bits after each. The reason is that what any subset of the neighbours
+// takes or gives is within the bound of docs/proofs.md, "Heat: 0 <= h <= 65535".
+#pragma once
+
+#include <cstdint>
+
+#include "hwmodel/pipeline/model/stage.h"
+
+namespace voxmelt::hwmodel {
+
+struct HeatWord {
+  UInt<16> amount = kFlatBed;
+  UInt<16> energy;
+  UInt<16> temperature;  // at the begin of the pass
+  UInt<16> heat;         // with the fluxes computed so far
+  State state = State::inert;
+  UInt<3> exposed;  // faces: a bit per axis on which a face neighbour is air; later: their number
+  UInt<1> beside_wall;
+
+  bool blocked() const { return state == State::solid || state == State::inert; }
+  bool matter() const { return state == State::solid || state == State::liquid; }
+  bool wall() const { return state == State::inert && heat > 0; }  // it keeps its temperature
+  bool conducts() const { return matter() || wall(); }
+  bool air() const { return state == State::air; }
+  bool liquid() const { return state == State::liquid; }
+};
+
+inline void take_cell(const Cell& cell, const rule::Material& material, HeatWord& word) {
+  word.amount = cell.amount;
+  word.energy = cell.energy;
+  word.heat = cell.heat;
+  word.temperature = temperature_of(cell.heat, material);
+  word.state = cell.state;
+  word.exposed = std::int64_t{cell.exposed_axes};
+  word.beside_wall = cell.beside_wall;
+}
+
+inline Cell give_cell(const HeatWord& word, std::int64_t exposed_axes) {
+  Cell cell;
+  cell.amount = word.amount;
+  cell.energy = word.energy;
+  cell.heat = word.heat;
+  cell.state = word.state;
+  cell.exposed_axes = exposed_axes;
+  cell.beside_wall = word.beside_wall;
+  return cell;
+}
+
+// Bits of a word that a design needs; `exposed` bits where air exchange counts axes.
+inline int heat_word_bits(const Design& design, int exposed) {
+  return design.cell_bits() + 16 + (design.parameters.heat.air ? exposed : 0) +
+         (design.walls_in_conduction() ? 1 : 0);
+}
+// Bits of a cell that leaves conduction or convection, side bands included.
+inline int heated_cell_bits(const Design& design) {
+  return design.cell_bits() + (design.parameters.heat.air ? 2 : 0) + (design.walls_in_conduction() ? 1 : 0);
+}
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,118 @@
+// Irradiance as it lies in memory. Few cells have any: only tokens that hold some are stored. The host writes
+// this at a step of visibility, for each tile in the order in which it is streamed. Each time step of the
+// cascade reads it for itself.
+//
+// It consists of words of 16 bits. A lit token has one that counts the dark tokens before it, then its mask
+// (a bit per lane, the lowest lane lowest), then a word for each bit of the mask, in the order of the lanes.
+// Behind the last word all tokens are dark. A count that does not fit is followed by an empty mask.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/fabric/wires.h"
+#include "hwmodel/pipeline/model/shape.h"
+#include "kernel/automaton/state/field.h"
+
+namespace voxmelt::hwmodel {
+
+using Irradiance = state::Field<std::uint16_t>;
+using IrradianceWords = std::vector<std::uint16_t>;
+
+constexpr int mask_words(int lanes) { return (lanes + 15) / 16; }
+
+class IrradianceStream {
+ public:
+  IrradianceStream() = default;
+  IrradianceStream(const Irradiance& field, const Shape& shape);
+
+  const IrradianceWords& words(int tile) const { return tiles_[static_cast<std::size_t>(tile)]; }
+  std::int64_t bits(int tile) const { return kWordBits * static_cast<std::int64_t>(words(tile).size()); }
+  // Of all tiles: cells of a halo count more than once.
+  struct Counts {
+    std::int64_t bits = 0, lit_cells = 0, lit_tokens = 0;
+  };
+  const Counts& counts() const { return counts_; }
+  std::int64_t bits() const { return counts_.bits; }
+  static constexpr std::int64_t kWordBits = 16;
+
+ private:
+  IrradianceWords words_of(const Irradiance& field, const Shape& shape, int tile);
+
+  std::vector<IrradianceWords> tiles_;
+  Counts counts_;
+};
+
+// For planted faults: spoils what the machine makes of the words.
+class FeedFault {
+ public:
+  virtual ~FeedFault() = default;
+  // Time step `t` of a pass has read how many dark tokens come from `place` on, or the mask of the token
+  // there. `pass` counts the tiles of the train. `last_lost`: the last word of this mask is not there.
+  virtual void counted(int t, std::int64_t pass, const Place& place, std::uint32_t mask,
+                       std::int64_t& dark) = 0;
+  virtual void masked(int t, std::int64_t pass, const Place& place, std::uint32_t& mask, bool& last_lost) = 0;
+};
+
+// Makes tokens of the words: one a cycle, if the words are there.
+class IrradianceReader {
+ public:
+  explicit IrradianceReader(int lanes) : lanes_(lanes) {}
+
+  void begin(const IrradianceWords& words) { words_ = &words, at_ = 0, dark_ = 0, open_ = false; }
+
+  // Words from the begin of the stream that must be there before the next token can be made.
+  std::int64_t needs() const {
+    if (!open_ && at_ == words_->size()) return used();
+    std::size_t end = at_;
+    std::uint32_t mask = mask_;
+    std::int64_t dark = dark_;
+    if (!open_) dark = word(at_), mask = mask_at(at_ + 1), end += 1 + static_cast<std::size_t>(head_words());
+    if (dark == 0) end += static_cast<std::size_t>(std::popcount(mask));
+    return static_cast<std::int64_t>(end);
+  }
+  std::int64_t used() const { return static_cast<std::int64_t>(at_); }
+
+  // The next token, at `place`.
+  void next(UInt<16>* lanes, const Place& place, FeedFault* fault, int t, std::int64_t pass) {
+    for (int lane = 0; lane < lanes_; ++lane) lanes[lane] = 0;
+    if (!open_) {
+      if (at_ >= words_->size()) return;
+      dark_ = word(at_), mask_ = mask_at(at_ + 1), open_ = true;
+      at_ += 1 + static_cast<std::size_t>(head_words());
+      if (fault != nullptr) [[unlikely]]
+        fault->counted(t, pass, place, mask_, dark_);
+    }
+    if (dark_-- > 0) return;
+    open_ = false;
+    bool last_lost = false;
+    if (fault != nullptr) [[unlikely]]
+      fault->masked(t, pass, place, mask_, last_lost);
+    for (std::uint32_t left = mask_; left != 0; left &= left - 1) {
+      if (last_lost && std::has_single_bit(left)) return;
+      lanes[std::countr_zero(left)] = word(at_++);
+    }
+  }
+
+ private:
+  int head_words() const { return mask_words(lanes_); }
+  // Behind the last word a memory holds anything; here 0.
+  std::int64_t word(std::size_t at) const { return at < words_->size() ? (*words_)[at] : 0; }
+  std::uint32_t mask_at(std::size_t at) const {
+    std::uint32_t mask = 0;
+    for (int i = 0; i < head_words(); ++i)
+      mask |= static_cast<std::uint32_t>(word(at + static_cast<std::size_t>(i))) << (16 * i);
+    return mask;
+  }
+
+  int lanes_;
+  const IrradianceWords* words_ = nullptr;
+  std::size_t at_ = 0;  // words that have been taken
+  std::int64_t dark_ = 0;
+  std::uint32_t mask_ = 0;
+  bool open_ = false;  // has the head of the next lit token been taken?
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,22 @@
+// How far behind its input a stage gives its cells, and how far along x it looks.
+#pragma once
+
+#include <cstdint>
+
+#include "hwmodel/pipeline/model/shape.h"
+#include "hwmodel/pipeline/model/stage.h"
+#include "hwmodel/pipeline/model/stage_kind.h"
+
+namespace voxmelt::hwmodel {
+
+// How many planes, columns and single tokens a stage must have seen before it can give its first cell; and
+// how far along x the cells lie that it looks at.
+struct Lag {
+  int planes = 0, columns = 0, singles = 0, reach = 0;
+  std::int64_t tokens(const Shape& shape) const {
+    return planes * shape.plane() + columns * shape.column() + singles;
+  }
+};
+Lag lag_of(StageKind kind, const Design& design);
+
+}  // namespace voxmelt::hwmodel

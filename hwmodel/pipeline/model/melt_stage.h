@@ -1,0 +1,47 @@
+// Melting: hot solids become liquid; with the extra `reheat` hot liquid gains energy.
+#pragma once
+
+#include <cstdint>
+
+#include "hwmodel/pipeline/model/stage.h"
+
+namespace voxmelt::hwmodel {
+
+template <class Faults>
+class Melt final : public Stage {
+ public:
+  explicit Melt(const Design& design, Faults faults = {})
+      : Stage(StageKind::melt, design, 0),
+        faults_(faults),
+        melts_at_(design.parameters.material.melting_point + design.parameters.material.latent_heat),
+        paper_(design.paper()),
+        reheat_(design.paper() ? design.parameters.flow.paper.reheat : 0) {}
+
+  int output_bits() const override { return design().cell_bits() + (design().walls_in_conduction() ? 1 : 0); }
+  Units units() const override { return {.multipliers = reheat_ > 0 ? 1 : 0}; }
+
+ private:
+  friend Faults;
+
+  void advance(const Cell* in, Cell* out) override {
+    for (const int lane : each_lane()) {
+      Cell& cell = out[lane];
+      cell = in[lane];
+      if (!cell.matter() || cell.heat < melts_at_) continue;
+      if (cell.state == State::solid) {
+        cell.state = State::liquid;
+        if (paper_) cell.energy = cell.amount;
+        faults_.melted(*this, in[lane], lane, cell);
+      } else if (reheat_ > 0) {
+        cell.energy = cell.energy + scale(cell.amount - cell.energy, reheat_);
+      }
+    }
+  }
+
+  [[no_unique_address]] Faults faults_;
+  const UInt<16> melts_at_;
+  const bool paper_;
+  const std::int64_t reheat_;
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,338 @@
+#include "hwmodel/pipeline/model/pipeline.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <utility>
+
+#include "hwmodel/fabric/process.h"
+#include "hwmodel/pipeline/model/blocks.h"
+#include "hwmodel/pipeline/model/feed.h"
+#include "hwmodel/pipeline/model/tiling.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+constexpr std::int64_t kHangAfter = 1000;  // cycles in which no stage moves
+constexpr std::int64_t kPollEvery = 4096;  // cycles
+
+}  // namespace
+
+struct Pipeline::Machine {
+  Machine(const rule::Parameters& parameters, state::Grid grid, const Configuration& c,
+          const StageMaker& make)
+      : configuration(c),
+        design(design_of(parameters, grid, c)),
+        clock("clock", 1, sc_core::SC_NS),
+        memory(make_memory(design, c)),
+        reader(design.shape, memory),
+        writer(design.shape, memory) {
+    const bool fed = design.hot() && parameters.heat.radiation;
+    const auto depth_of = [this](const std::string& name) { return configuration.depth_of(name); };
+    for (int t = 0; t < c.cascade; ++t) {
+      const int channel = t == 0 ? 1 : steps.back()->out_channel() + 1;
+      steps.push_back(std::make_unique<StepBlock>(design, make_step(design, make), channel, step_name(t),
+                                                  depth_of, c.stall_seed));
+    }
+    const auto link = [&](int channel, const std::string& name) {
+      links.push_back(std::make_unique<Link<Cell>>(name, channel, c.lanes, depth_of(name), c.stall_seed));
+    };
+    link(0, step_name(0) + "reader -> " + steps.front()->stages().front()->name());
+    for (int t = 0; t < c.cascade; ++t) {
+      const StepBlock& step = *steps[at(t)];
+      link(step.out_channel(),
+           step_name(t) + step.stages().back()->name() + " -> " +
+               (t + 1 == c.cascade ? "writer" : steps[at(t + 1)]->stages().front()->name()));
+    }
+    for (int t = 0; t < c.cascade; ++t) {
+      StepBlock& step = *steps[at(t)];
+      step.connect(links[at(t)]->fifo(), links[at(t + 1)]->fifo());
+      if (!fed) continue;
+      const std::string name = step_name(t) + "feed -> exchange";
+      feed_links.push_back(std::make_unique<Link<UInt<16>>>(name, kFirstFeedChannel + t, c.lanes,
+                                                            depth_of(name), c.stall_seed));
+      feeds.push_back(std::make_unique<Feed>(design.shape, t, feed_links.back()->fifo()));
+      step.feed(feed_links.back()->fifo());
+    }
+    reader.connect(links.front()->fifo(), writer);
+    writer.connect(links.back()->fifo());
+    make_blocks();
+  }
+
+  static StateMemory make_memory(const Design& design, const Configuration& c) {
+    const CodeLayout layout(design);
+    return StateMemory(design.shape.tiled(), c.coded ? &layout : nullptr);
+  }
+
+  void make_blocks() {
+    const auto add = [&](const std::string& name, std::function<void()> cycle) {
+      blocks.push_back(std::make_unique<Block>(name.c_str(), clock, shared, std::move(cycle)));
+    };
+    add("reader", [this] {
+      if (reader.cycle(shared.cycle()) && next) follow(next());
+      links.front()->tick();
+    });
+    for (std::size_t t = 0; t < steps.size(); ++t)
+      add("step_" + std::to_string(t), [this, t] {
+        try {
+          shared.moves += steps[t]->cycle();
+        } catch (const WidthError& error) {
+          fail(error, StageError::Kind::width, t);
+        } catch (const ModelError& error) {  // an address, or a token that is not there
+          fail(error, StageError::Kind::address, t);
+        }
+        links[t + 1]->tick();
+      });
+    for (std::size_t t = 0; t < feeds.size(); ++t)
+      add("feed_" + std::to_string(t), [this, t] {
+        feeds[t]->cycle(shared.cycle());
+        feed_links[t]->tick();
+      });
+    add("writer", [this] {
+      writer.cycle(shared.cycle());
+      if (dram != nullptr) dram->cycle(shared.cycle());
+      if (after.watch) after.tick();
+      watch_progress();
+    });
+  }
+
+  [[noreturn]] void fail(const ModelError& error, StageError::Kind kind, std::size_t t) const {
+    throw StageError(error.what(), kind, steps[t]->running(), static_cast<int>(t), shared.cycle());
+  }
+
+  void begin(const Pass& pass, bool first) {
+    for (std::size_t t = 0; t < steps.size(); ++t) steps[t]->begin_pass(pass, static_cast<int>(t), first);
+    ++passes;
+  }
+  bool fed(const Pass& pass, std::size_t t) const {
+    return static_cast<int>(t) < pass.steps && pass.uses(StageKind::exchange, 0);
+  }
+  int fed_steps(const Pass& pass) const {
+    int n = 0;
+    for (std::size_t t = 0; t < feeds.size(); ++t) n += fed(pass, t) ? 1 : 0;
+    return n;
+  }
+  // Another pass follows without a gap: its first token may be read in the next cycle.
+  void follow(const std::optional<Pass>& pass) {
+    if (!pass) return;
+    begin(*pass, false);
+    if (dram != nullptr) dram->add_pass(pass->tile, fed_steps(*pass));
+    reader.add_pass(pass->tile);
+    writer.add_pass(pass->tile);
+    for (std::size_t t = 0; t < feeds.size(); ++t)
+      if (fed(*pass, t)) feeds[t]->add_pass(pass->tile);
+  }
+
+  // Runs once a cycle.
+  void watch_progress() {
+    idle = shared.moves == moves_before ? idle + 1 : 0;
+    moves_before = shared.moves;
+    shared.hangs = idle > kHangAfter;
+    shared.complete = writer.done();
+    if (shared.complete || shared.hangs) shared.end();
+    if (poll && shared.cycle() % kPollEvery == 0) poll();
+  }
+
+  using BuffersOf = std::vector<BufferCost> (*)(const CodeLayout&);
+  std::vector<BufferCost> buffers(BuffersOf of) const {
+    return memory.coded() ? of(memory.read_code().layout()) : std::vector<BufferCost>{};
+  }
+  std::int64_t bits_read() const {
+    return memory.coded() ? reader.coded_bits() : reader.cycles().busy * token_bits();
+  }
+  std::int64_t bits_written() const {
+    return memory.coded() ? writer.coded_bits() : writer.stored() * token_bits();
+  }
+  std::int64_t token_bits() const { return std::int64_t{design.shape.lanes} * design.cell_bits(); }
+
+  static std::size_t at(int t) { return static_cast<std::size_t>(t); }
+  static std::string step_name(int t) { return "step " + std::to_string(t) + ": "; }
+
+  template <class Visit>  // visit(fifo, producer stage or null: the reader, cascade position)
+  void for_each_channel(Visit&& visit) const {
+    visit(links.front()->fifo(), static_cast<const Stage*>(nullptr), 0);
+    for (std::size_t t = 0; t < steps.size(); ++t)
+      steps[t]->for_each_output(
+          [&](CellFifo& fifo, const Stage& producer) { visit(fifo, &producer, static_cast<int>(t)); });
+  }
+
+  std::int64_t moves_before = 0, idle = 0;
+  int passes = 0;  // of the present train
+  Next next;
+  StreamMemory* dram = nullptr;
+  std::function<void()> poll;
+  bool ran = false;
+  Context context;  // first: everything of SystemC lives in it
+  AfterCycle after;
+  Shared shared;
+  Configuration configuration;
+  Design design;
+  sc_core::sc_clock clock;
+  StateMemory memory;
+  Reader reader;
+  Writer writer;
+  std::vector<std::unique_ptr<StepBlock>> steps;
+  std::vector<std::unique_ptr<Link<Cell>>> links;
+  std::vector<std::unique_ptr<Link<UInt<16>>>> feed_links;
+  std::vector<std::unique_ptr<Feed>> feeds;
+  std::vector<std::unique_ptr<Block>> blocks;
+};
+
+Pipeline::Pipeline(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration,
+                   const StageMaker& make)
+    : machine_(std::make_unique<Machine>(parameters, grid, configuration, make)) {
+  machine_->context.leave();
+}
+
+Pipeline::~Pipeline() { machine_->context.enter(); }
+
+void Pipeline::watch(FifoWatcher<Cell>* watcher) {
+  machine_->for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.watch(watcher); });
+}
+
+void Pipeline::memory(StreamMemory* memory) {
+  Machine& m = *machine_;
+  m.dram = memory;
+  m.reader.dram(memory), m.writer.dram(memory);
+  for (const auto& feed : m.feeds) feed->dram(memory);
+}
+
+void Pipeline::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
+
+void Pipeline::probe(FifoProbe<Cell>* probe) {
+  machine_->for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.probe(probe); });
+}
+
+void Pipeline::each_cycle(std::function<void()> watch) { machine_->after.watch = std::move(watch); }
+
+void Pipeline::stop() { machine_->shared.end(); }
+
+void Pipeline::plant(PortFault* fault) {
+  machine_->reader.plant(fault);
+  machine_->writer.plant(fault);
+}
+
+void Pipeline::plant(FeedFault* fault) {
+  for (const auto& feed : machine_->feeds) feed->plant(fault);
+}
+
+void Pipeline::watch_feeds(FifoWatcher<UInt<16>>* watcher) {
+  for (const auto& link : machine_->feed_links) link->fifo().watch(watcher);
+}
+
+void Pipeline::plant(CodeFault* fault) {
+  machine_->reader.plant(fault);
+  machine_->writer.plant(fault);
+}
+
+void Pipeline::watch_columns(ColumnWatcher* watcher) { machine_->writer.watch(watcher); }
+
+const Books& Pipeline::books() const { return machine_->writer.books(); }
+const state::Volume& Pipeline::written() const { return machine_->writer.written(); }
+
+std::vector<CellFifo*> Pipeline::channels_behind_stages(int cascade) {
+  std::vector<CellFifo*> channels;
+  machine_->steps.at(static_cast<std::size_t>(cascade))->for_each_output([&](CellFifo& fifo, const Stage&) {
+    channels.push_back(&fifo);
+  });
+  return channels;
+}
+
+PassEnd Pipeline::run_pass(const Pass& pass, const Irradiance* irradiance, state::Volume& volume) {
+  if (irradiance == nullptr) return run_train(pass, {}, nullptr, volume);
+  const IrradianceStream stream(*irradiance, design().shape);
+  return run_train(pass, {}, &stream, volume);
+}
+
+PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const IrradianceStream* irradiance,
+                            state::Volume& volume) {
+  Machine& m = *machine_;
+  Shared& shared = m.shared;
+  shared.complete = shared.hangs = false;
+  shared.last_cycle = kNever;
+  m.idle = 0;
+  m.passes = 0;
+  m.next = next;
+  m.for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.begin_pass(pass.first); });
+  for (const auto& link : m.feed_links) link->fifo().begin_pass(pass.first);
+  m.memory.begin_train(volume);
+  m.reader.begin_pass(pass.tile);
+  m.writer.begin_pass(pass.tile);
+  m.begin(pass, true);
+  if (m.dram != nullptr)
+    m.dram->begin_train({pass.tile, m.fed_steps(pass), irradiance, {m.memory.code(0), m.memory.code(1)}});
+  for (std::size_t t = 0; t < m.feeds.size(); ++t)
+    m.feeds[t]->begin_pass(m.fed(pass, t) ? irradiance : nullptr, pass.tile);
+
+  m.context.enter();
+  shared.first_cycle = m.ran ? Shared::now() + 1 : 0;
+  m.ran = true;
+  sc_core::sc_start();
+  m.context.leave();
+  m.memory.end_train();
+
+  if (shared.error) std::rethrow_exception(std::exchange(shared.error, nullptr));
+  return {shared.last_cycle + 1, m.passes, shared.complete, shared.hangs};
+}
+
+// It is called only within a pass, where the context is entered.
+std::int64_t Pipeline::cycle() const { return machine_->shared.cycle(); }
+const Design& Pipeline::design() const { return machine_->design; }
+const Configuration& Pipeline::configuration() const { return machine_->configuration; }
+
+std::vector<ChannelReport> Pipeline::channels() const {
+  std::vector<ChannelReport> reports;
+  const Machine& m = *machine_;
+  m.for_each_channel([&](const CellFifo& fifo, const Stage* producer, int cascade) {
+    const bool behind_stage = producer != nullptr;
+    reports.push_back({fifo.name(), behind_stage ? producer->kind() : StageKind::reader, cascade,
+                       fifo.depth(), behind_stage ? producer->output_bits() : m.design.cell_bits(),
+                       fifo.highest(), fifo.count(), fifo.entered(), fifo.occupancy()});
+  });
+  for (std::size_t t = 0; t < m.feed_links.size(); ++t) {
+    const HeatFifo& fifo = m.feed_links[t]->fifo();
+    reports.push_back({fifo.name(), StageKind::feed, static_cast<int>(t), fifo.depth(), 16, fifo.highest(),
+                       fifo.count(), fifo.entered(), fifo.occupancy()});
+  }
+  return reports;
+}
+
+std::vector<const Stage*> Pipeline::working_stages() const {
+  std::vector<const Stage*> stages;
+  for (const auto& step : machine_->steps)
+    for (const auto& stage : step->stages()) stages.push_back(stage.get());
+  return stages;
+}
+
+std::vector<StageCycles> Pipeline::accounts() const {
+  const Machine& m = *machine_;
+  std::vector<StageCycles> accounts{m.reader.cycles()};
+  for (const auto& step : m.steps)
+    for (const auto& stage : step->stages()) accounts.push_back(stage->cycles());
+  for (const auto& feed : m.feeds) accounts.push_back(feed->cycles());
+  accounts.push_back(m.writer.cycles());
+  return accounts;
+}
+
+std::vector<StageReport> Pipeline::stages() const {
+  const Machine& m = *machine_;
+  std::vector<StageReport> reports{
+      {StageKind::reader, 0, 0, m.reader.cycles(), m.buffers(reader_buffers), {}, m.bits_read()}};
+  for (std::size_t t = 0; t < m.steps.size(); ++t)
+    for (const auto& stage : m.steps[t]->stages())
+      reports.push_back({stage->kind(), static_cast<int>(t), stage->lag(), stage->cycles(), stage->buffers(),
+                         stage->units()});
+  for (std::size_t t = 0; t < m.feeds.size(); ++t)
+    reports.push_back(
+        {StageKind::feed, static_cast<int>(t), 0, m.feeds[t]->cycles(), {}, {}, m.feeds[t]->bits()});
+  reports.push_back({StageKind::writer,
+                     m.configuration.cascade - 1,
+                     0,
+                     m.writer.cycles(),
+                     m.buffers(writer_buffers),
+                     {},
+                     m.bits_written()});
+  return reports;
+}
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,43 @@
+// Random bits in logic: the block cipher Speck64/128 cut to 10 rounds. A round is one 32-bit adder and two
+// rows of exclusive-or gates; rotations are wires. One block serves 8 neighbours along x, a byte each.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "hwmodel/fabric/wires.h"
+
+namespace voxmelt::hwmodel {
+
+inline constexpr std::size_t kSpeckRounds = 10;
+using SpeckKeys = std::array<std::uint32_t, kSpeckRounds>;
+
+// Constant while a scene runs: registers, filled once.
+inline SpeckKeys speck_keys(std::uint64_t seed) {
+  SpeckKeys keys{static_cast<std::uint32_t>(seed & 0xFFFFFFFFu)};
+  std::array<std::uint32_t, 3> ring{static_cast<std::uint32_t>(seed >> 32), 0x766F786Du, 0x656C7421u};
+  for (std::uint32_t i = 0; i + 1 < kSpeckRounds; ++i) {
+    std::uint32_t& word = ring[i % 3];  // l[i], which becomes l[i + 3]
+    word = (keys[i] + std::rotr(word, 8)) ^ i;
+    keys[i + 1] = std::rotl(keys[i], 3) ^ word;
+  }
+  return keys;
+}
+
+inline std::uint64_t speck_block(const SpeckKeys& keys, std::uint32_t step, std::uint32_t block) {
+  std::uint32_t high = step, low = block;
+  for (const std::uint32_t key : keys) {
+    high = (std::rotr(high, 8) + low) ^ key;
+    low = std::rotl(low, 3) ^ high;
+  }
+  return std::uint64_t{high} << 32 | low;
+}
+
+// The byte of the cell at x in the block of its eight.
+inline UInt<8> speck_byte(std::uint64_t block, int x) {
+  return static_cast<std::int64_t>(block >> (8 * (x & 7)) & 0xFF);
+}
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,113 @@
+// What travels through the memories of viscous spread, and its reading. What a run shows is the same for all
+// of its cells, so it is stored once per run and read back as the column passes a tap, bottom first: the head
+// in the word of the run's first cell, the rest in the word of the blocked cell below it (which holds no
+// arrivals and has room for it), or, for a run on the grid's floor, in a word per column beside the planes.
+// What a cell outside a run shows (docs/automaton.md, end of section 10) follows from its column, too.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "hwmodel/pipeline/model/viscous_run.h"
+
+namespace voxmelt::hwmodel {
+
+enum class Ground : std::uint8_t { solid, inert, outside, run };
+
+inline constexpr std::int64_t kNoBed = -1;  // of a cell in the air
+
+struct RunPace {      // of a run: how fast, and from which difference on, it flows
+  UInt<22> mobility;  // not limited yet
+  UInt<14> limit;     // 0: no run
+  UInt<25> dead;
+  static constexpr int kBits = 22 + 14 + 25;
+
+  std::int64_t limited() const { return std::min<std::int64_t>(mobility, limit << 8); }  // to a run
+  std::int64_t exposed() const { return std::min<std::int64_t>(mobility, 1 << 21); }     // to a bare flank
+};
+
+struct SpreadWord {
+  Ground ground = Ground::inert;
+  UInt<1> beside_wall;
+  UInt<16> amount = kFlatBed, heat;  // as they came: what a pair looks at
+  // Not blocked:
+  UInt<16> present;  // amount after the pairs done so far
+  UInt<32> content;  // amount x heat after them
+  SInt<30> head;     // of the run, in its first cell
+  // Blocked:
+  RunPace above;  // of the run that begins in the next cell up
+
+  bool blocked() const { return ground == Ground::solid || ground == Ground::inert; }
+  bool runs() const { return ground == Ground::run; }
+
+  // The two kinds share their bits.
+  static int bits(int head_bits, bool hot, bool walls) {
+    const int blocked = kDoneBits + (hot ? 16 : 0) + RunPace::kBits;
+    const int open = kDoneBits + 16 + (hot ? 16 + 32 : 0) + (walls ? 1 : 0) + head_bits;
+    return std::max(blocked, open);
+  }
+  // What is kept once all pairs of a cell are done: ground, amount, heat, wall.
+  static int done_bits(bool hot, bool walls) { return kDoneBits + (hot ? 16 : 0) + (walls ? 1 : 0); }
+
+ private:
+  static constexpr int kDoneBits = 2 + 16;
+};
+
+// A cell in the window: its word, where it lies along x, and what it shows.
+struct SeenCell {
+  SpreadWord* word = nullptr;
+  int x = 0;
+  SInt<30> head;
+  RunPace pace;
+  SInt<18> bed = kNoBed;  // 1/16 cell
+};
+
+// One lane of one tap: the registers that hold the run being read.
+class RunReader {
+ public:
+  // Does a run begin with this cell, if it is in one?
+  bool above_blocked(int y) const { return y == 0 || below_ == Below::blocked; }
+  // At the tap where cells come, the pace comes with the run's first cell.
+  void bring(const RunPace& pace) { next_ = pace; }
+  void bring_floor(const RunPace& pace) {
+    below_ = Below::blocked, bed_ = kFlatBed;
+    next_ = pace;
+  }
+
+  // Reads the next cell upwards.
+  void read(SeenCell& seen, int y) {
+    const SpreadWord& word = *seen.word;
+    if (word.blocked()) {
+      below_ = Below::blocked;
+      bed_ = word.ground == Ground::inert ? std::int64_t{word.amount} : kFlatBed;
+      next_ = word.above;
+      return;
+    }
+    if (word.runs()) {
+      if (below_ == Below::blocked) head_ = word.head, pace_ = next_, run_bed_ = bed_head(y, bed_) >> 5;
+      below_ = Below::run;
+      seen.head = head_, seen.pace = pace_, seen.bed = run_bed_;
+      return;
+    }
+    seen.pace = {};
+    seen.head = 512 * (y - 2);
+    seen.bed = kNoBed;
+    if (below_ == Below::blocked) seen.head = bed_head(y, bed_), seen.bed = seen.head >> 5;
+    if (below_ == Below::run) {
+      seen.head = head_, seen.bed = run_bed_;
+      seen.pace.mobility = pace_.mobility, seen.pace.limit = pace_.limit;
+    }
+    below_ = Below::outside;
+  }
+
+ private:
+  enum class Below : std::uint8_t { blocked, run, outside };
+
+  Below below_ = Below::blocked;
+  UInt<16> bed_ = kFlatBed;  // of the blocked cell below
+  SInt<30> head_;
+  SInt<18> run_bed_;
+  RunPace pace_, next_;
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,204 @@
+// The three scans of settling, one lane each: up the column to sum each run, down to bring the sums to its
+// first cell, and up again to share them out. On the first two ways heat moves with what moves. Between two
+// scans a ColumnReverser turns the column round.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "hwmodel/pipeline/model/viscous_run.h"
+
+namespace voxmelt::hwmodel {
+
+// Of a cell between two scans. A run's record lies in one of its words: the uppermost one's after the first
+// scan, the lowest one's after the second. The other words of a run hold the cell's heat, and after the first
+// scan its amount.
+enum class SettleKind : std::uint8_t { solid, inert, outside, inner, first, top, single };
+inline constexpr int kSettleKindBits = 3;
+
+struct SettleWord {
+  SettleKind kind = SettleKind::inert;
+  UInt<28> sum = kFlatBed;  // of the record; other words: the cell's amount
+  UInt<12> last;            // of the record: the number of cells less one
+  UInt<16> heat;            // of the cell; uppermost one of a run that mixes: the mixture's
+  // Of the record, with heat:
+  UInt<1> ordered;   // the run keeps its order (not after the second scan)
+  UInt<16> top;      // amount of the uppermost cell of such a run (not after the second scan)
+  UInt<5> mobility;  // entry of the mobility table, with thermal viscosity
+
+  bool blocked() const { return kind == SettleKind::solid || kind == SettleKind::inert; }
+
+  // After the second scan.
+  static int bits(const RunWidths& widths, bool hot, bool thermal) {
+    return kSettleKindBits + widths.sum + widths.count + (hot ? 16 + (thermal ? 5 : 0) : 0);
+  }
+  static int bits_upwards(const RunWidths& widths, bool hot, bool thermal) {
+    return bits(widths, hot, thermal) + (hot ? 1 + 16 : 0);
+  }
+};
+
+// What comes through a face of a run to the next cell of a scan.
+struct SettleFlow {
+  UInt<16> amount, heat;
+
+  // The heat of a cell to which this comes.
+  UInt<16> into(std::int64_t held, std::int64_t own, std::int64_t dither) const {
+    if (amount == 0) return own;
+    return mix(held * own + std::int64_t{amount} * heat, held + amount, dither);
+  }
+};
+
+// First scan, upwards: sums each run, and moves up what is too much below. A cell's part is known when the
+// next one comes: one token of look-ahead.
+class SumScan {
+ public:
+  // Takes the next cell (`bottom`: of another column) and gives the word of the one before.
+  SettleWord next(const Cell& cell, bool bottom, bool hot, std::int64_t dither) {
+    const bool was_in_run = held_.kind == SettleKind::first || held_.kind == SettleKind::inner;
+    const SettleKind kind = kind_of(cell, bottom, was_in_run);
+    const SInt<29> excess = std::int64_t{sum_} - (last_ + 1) * kOne;  // at the face between the two cells
+    SettleFlow up;
+    SettleWord done = held_;
+    if (kind == SettleKind::inner) {
+      // No cell may hold more than kAmountMax: else the excess at its upper face is beyond its range, too, or
+      // there is no such face and the run is under pressure.
+      ordered_ =
+          ordered_ && excess >= -kOverMax && cell.amount + std::max<std::int64_t>(0, excess) <= kAmountMax;
+      if (hot && ordered_) up = {std::max<std::int64_t>(0, excess), held_.heat};
+      done.sum = done.sum - up.amount;
+    } else if (was_in_run) {
+      done = record(excess, hot, dither);
+    }
+    held_ = {kind, cell.amount + up.amount, 0, up.into(cell.amount, cell.heat, dither), 0, 0, 0};
+    add(cell, kind, hot);
+    return done;
+  }
+
+ private:
+  SettleKind kind_of(const Cell& cell, bool bottom, bool was_in_run) const {
+    if (cell.blocked()) return cell.state == State::solid ? SettleKind::solid : SettleKind::inert;
+    if (bottom || held_.blocked()) return cell.amount > 0 ? SettleKind::first : SettleKind::outside;
+    const bool crowded = sum_ > (last_ + 1) * kOne;
+    const bool joined = amount_ >= kOne / 2 && cell.amount > 0;
+    return was_in_run && (crowded || joined) ? SettleKind::inner : SettleKind::outside;
+  }
+
+  SettleWord record(std::int64_t excess, bool hot, std::int64_t dither) const {
+    const bool ordered = hot && ordered_ && excess <= 0;
+    SettleWord word{
+        held_.kind == SettleKind::first ? SettleKind::single : SettleKind::top, sum_, last_, 0, 0, 0, 0};
+    if (!hot) return word;
+    word.heat = ordered ? held_.heat : mix(content_, sum_, dither);
+    word.ordered = ordered;
+    word.top = ordered ? std::int64_t{held_.sum} : 0;
+    word.mobility = mix(content_, sum_, 0) >> 11;  // the same division, not rounded
+    return word;
+  }
+
+  void add(const Cell& cell, SettleKind kind, bool hot) {
+    amount_ = cell.amount;
+    if (kind == SettleKind::first)
+      sum_ = 0, content_ = 0, last_ = 0, ordered_ = 1;
+    else if (kind == SettleKind::inner)
+      last_ = last_ + 1;
+    else
+      return;
+    sum_ = sum_ + cell.amount;
+    if (hot) content_ = content_ + cell.amount * cell.heat;
+  }
+
+  SettleWord held_;
+  UInt<16> amount_;  // of the cell held, as it came
+  UInt<28> sum_;
+  UInt<12> last_;
+  UInt<44> content_;
+  UInt<1> ordered_;  // so far
+};
+
+// Second scan, downwards: takes the record along to the first cell, and moves down what is missing below.
+class RecordScan {
+ public:
+  SettleWord next(const SettleWord& word, std::int64_t dither) {
+    switch (word.kind) {
+      case SettleKind::top:
+        record_ = word;
+        flow_ = {};
+        level_ = std::int64_t{word.sum} - word.last * kOne;
+        return {SettleKind::inner, 0, 0, lower(word.top, word.heat, dither), 0, 0, 0};
+      case SettleKind::inner:
+        return {SettleKind::inner, 0, 0, lower(word.sum, word.heat, dither), 0, 0, 0};
+      case SettleKind::first:
+        return {SettleKind::first, record_.sum, record_.last, lower(word.sum, word.heat, dither), 0, 0,
+                record_.mobility};
+      case SettleKind::single:
+        return {SettleKind::first, word.sum, word.last, word.heat, 0, 0, word.mobility};
+      default:
+        return word;
+    }
+  }
+
+ private:
+  // A cell of the run takes what comes from above, keeps its settled amount and gives the rest.
+  UInt<16> lower(std::int64_t amount, std::int64_t heat, std::int64_t dither) {
+    if (!record_.ordered) return record_.heat;
+    const UInt<16> own = flow_.into(amount, heat, dither);
+    flow_ = {amount + flow_.amount - std::clamp<std::int64_t>(level_, 0, kOne), std::int64_t{own}};
+    level_ = level_ + kOne;
+    return own;
+  }
+
+  SettleWord record_;
+  SettleFlow flow_;
+  SInt<29> level_;  // of the run's amount, less ONE for each cell below
+};
+
+// Third scan, upwards: gives every cell its amount and its heat, and cells in a run what they show. (What
+// cells outside runs show, the readers of the next stage work out: see run_reader.h.)
+class ShowScan {
+ public:
+  void next(const SettleWord& word, int y, const rule::Flow& flow, std::int64_t pace, const RunWidths& widths,
+            Cell& cell) {
+    if (y == 0) bed_ = kFlatBed;
+    cell = {};
+    if (word.blocked()) {
+      cell.state = word.kind == SettleKind::solid ? State::solid : State::inert;
+      cell.amount = std::int64_t{word.sum};
+      cell.heat = word.heat;
+      bed_ = word.kind == SettleKind::inert ? std::int64_t{word.sum} : kFlatBed;
+      return;
+    }
+    cell.amount = 0;
+    if (word.kind == SettleKind::outside)
+      cell.amount = std::int64_t{word.sum}, cell.heat = word.heat;
+    else
+      settle(word, y, flow, pace, widths, cell);
+    cell.state = State::liquid;
+    cell.settle_state();
+    if (!cell.in_run) return;
+    cell.head = show_.head, cell.dead = show_.dead;
+    cell.mobility = show_.mobility, cell.limit = show_.limit;
+  }
+
+ private:
+  void settle(const SettleWord& word, int y, const rule::Flow& flow, std::int64_t pace,
+              const RunWidths& widths, Cell& cell) {
+    if (word.kind == SettleKind::first) {
+      show_ = shown(word.sum, word.last, bed_head(y, bed_), word.mobility, flow, pace, widths);
+      level_ = word.sum;
+      // x 61439 is two shifts and two subtractions
+      spare_ = std::min(over_of(word.sum, word.last) - kOverMax * word.last, kOverMax);
+    }
+    cell.amount = std::min<std::int64_t>(level_, kOne) + std::max<std::int64_t>(spare_, 0);
+    cell.heat = word.heat;
+    cell.in_run = cell.amount > 0;  // an emptied cell has left the run
+    level_ = std::max<std::int64_t>(0, level_ - kOne);
+    spare_ = std::min(spare_ + kOverMax, kOverMax);
+  }
+
+  UInt<16> bed_ = kFlatBed;  // of the blocked cell below
+  RunShow show_;
+  UInt<28> level_;  // of the run's amount, less ONE for each cell below
+  SInt<30> spare_;  // of the amount beyond ONE per cell, less what the cells above can hold
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,123 @@
+// Phase `excess` of the viscous law (docs/automaton.md, section 10). A run's sums are known at its uppermost
+// cell, and are needed at its lowest one: so the column is turned round twice.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/fabric/column_reverser.h"
+#include "hwmodel/pipeline/model/settle_scans.h"
+#include "hwmodel/pipeline/model/stage.h"
+
+namespace voxmelt::hwmodel {
+
+template <class Faults>
+class Settle final : public Stage {
+ public:
+  explicit Settle(const Design& design, Faults faults = {})
+      : Stage(StageKind::settle, design, 2 * design.shape.column() + 1),
+        faults_(faults),
+        hot_(design.hot()),
+        flow_(design.parameters.flow),
+        widths_(design),
+        height_(design.shape.column()),
+        sums_(size()),
+        records_(size()),
+        shows_(size()),
+        words_(size()),
+        turned_(size()),
+        downwards_(lanes(), height_),
+        upwards_(lanes(), height_) {}
+
+  int output_bits() const override {  // in_run, head, mobility, limit, dead
+    return design().cell_bits() + 1 + widths_.head + 22 + 14 + 25;
+  }
+  std::vector<BufferCost> buffers() const override {
+    const bool thermal = flow_.thermal_viscosity;
+    return {downwards_.cost("column reverser down", SettleWord::bits_upwards(widths_, hot_, thermal)),
+            upwards_.cost("column reverser up", SettleWord::bits(widths_, hot_, thermal))};
+  }
+
+  // Depth squared, the mobility in two parts, its table. With heat: amount x heat and the mixture's rounding;
+  // flow x heat and rounding on the way up; amount x heat, flow x heat and rounding on the way down.
+  // Dividers: the limit and the dead zone, and the mixture; each is used once per run, at most every second
+  // cycle. With heat: one on each way, used every cycle.
+  Units units() const override {
+    return {3 + (flow_.thermal_viscosity ? 1 : 0) + (hot_ ? 2 + 2 + 3 : 0), 2 + (hot_ ? 1 + 2 : 0), 0};
+  }
+
+ protected:
+  void begin_step() override {
+    // Mixtures of no two sub-steps round alike.
+    dithers_.next(UInt<16>::truncated(dither_of(moment().step) +
+                                      dither_of(static_cast<std::uint32_t>(moment().substep))));
+    paces_.next((static_cast<std::int64_t>(flow_.viscous.mobility) + moment().substeps / 2) /
+                moment().substeps);
+    if (overlaps()) return;  // columns are whole
+    downwards_.restart();
+    upwards_.restart();
+    std::fill(sums_.begin(), sums_.end(), SumScan{});
+  }
+
+  void advance(const Cell* in, Cell* out) override {
+    const Cell border;
+    const bool bottom = came().y == 0;
+    dither_ = at(dithers_, 1);
+    pace_ = at(paces_, lag());
+    for (const int each : each_lane(1)) {  // a cell's word is known when the next cell comes
+      const auto lane = static_cast<std::size_t>(each);
+      words_[lane] = sums_[lane].next(in != nullptr ? in[lane] : border, bottom, hot_, dither_);
+    }
+    faults_.summed(*this, in);
+    if (filled() == 0) return;  // the scan looks one token ahead
+    downwards_.exchange(words_.data(), turned_.data());
+    if (filled() <= height_) return;
+    dither_ = at(dithers_, turned_delay());
+    for (const int each : each_lane(turned_delay())) {
+      const auto lane = static_cast<std::size_t>(each);
+      words_[lane] = records_[lane].next(turned_[lane], dither_);
+    }
+    faults_.lowered(*this);
+
+    compute_at(lag(), 0);
+    if (out != nullptr) faults_.turned(*this);
+    upwards_.exchange(words_.data(), turned_.data());
+    if (out == nullptr) return;
+    for (const int each : each_lane(lag())) {
+      const auto lane = static_cast<std::size_t>(each);
+      shows_[lane].next(turned_[lane], leaving().y, flow_, pace_, widths_, out[lane]);
+      faults_.shown(*this, each, out[lane]);
+    }
+  }
+
+ private:
+  friend Faults;
+
+  // How long ago the token came that has been turned round once: its column is the one before, top first.
+  std::int64_t turned_delay() const {
+    const std::int64_t above =
+        (came().ordinal + height_ - 1) % height_;  // tokens of the column that lie above it
+    return 2 * (above + 1);
+  }
+
+  std::size_t size() const { return static_cast<std::size_t>(lanes()); }
+
+  [[no_unique_address]] Faults faults_;
+  bool hot_;
+  const rule::Flow& flow_;
+  RunWidths widths_;
+  std::int64_t height_;
+  OfTwoPasses<UInt<16>> dithers_;
+  OfTwoPasses<UInt<36>> paces_;  // the mobility parameter of one sub-step; the host divides
+  UInt<16> dither_;              // of the words in work
+  UInt<36> pace_;
+  std::vector<SumScan> sums_;
+  std::vector<RecordScan> records_;
+  std::vector<ShowScan> shows_;
+  std::vector<SettleWord> words_, turned_;
+  ColumnReverser<SettleWord> downwards_, upwards_;
+};
+
+}  // namespace voxmelt::hwmodel

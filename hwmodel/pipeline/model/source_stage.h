@@ -1,0 +1,111 @@
+// Vents and drains. All open ones act on a cell, one after another, while it passes.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "hwmodel/pipeline/model/stage.h"
+
+namespace voxmelt::hwmodel {
+
+// A vent or a drain that is open in this step.
+struct Opening {
+  rule::Region region;
+  bool vent;
+  UInt<16> rate, temperature;
+  UInt<13> energy;          // per kOne of amount
+  std::int64_t reach2 = 0;  // what the squared distance along x may still be at the token's height and depth
+};
+
+template <class Faults>
+class Source final : public Stage {
+ public:
+  explicit Source(const Design& design, Faults faults = {})
+      : Stage(StageKind::source, design, 0), faults_(faults), paper_(design.paper()), hot_(design.hot()) {
+    open_.reserve(design.parameters.vents.size() + design.parameters.drains.size());
+  }
+
+  // Each has a square of the distance along x. A vent also has energy, two products and the dither of
+  // the mixture.
+  Units units() const override {
+    const int vents = static_cast<int>(design().parameters.vents.size());
+    const int drains = static_cast<int>(design().parameters.drains.size());
+    return {.multipliers = vents * (1 + (paper_ ? 1 : 0) + (hot_ ? 3 : 0)) + drains,
+            .dividers = hot_ ? vents : 0};
+  }
+
+ private:
+  friend Faults;
+
+  void begin_step() override {
+    dither_ = dither_of(step());
+    open_.clear();
+    for (const rule::Vent& vent : design().parameters.vents)
+      if (vent.from <= step() && step() < vent.until)
+        open_.push_back({vent.region, true, vent.rate, vent.temperature, vent.energy});
+    for (const rule::Drain& drain : design().parameters.drains)
+      if (drain.from <= step() && step() < drain.until)
+        open_.push_back({drain.region, false, drain.rate, 0, 0});
+  }
+
+  void advance(const Cell* in, Cell* out) override {
+    std::copy_n(in, lanes(), out);
+    bool any = false;
+    for (Opening& opening : open_) {
+      const std::int64_t radius = opening.region.radius;
+      opening.reach2 =
+          radius * radius - square(came().y, opening.region.at.y) - square(came().z, opening.region.at.z);
+      any |= opening.reach2 >= 0;
+    }
+    if (!any) return;
+    for (const int lane : each_lane()) {
+      if (in[lane].blocked()) continue;
+      out[lane] = treated(in[lane], lane);
+      faults_.treated(*this, in[lane], lane, out[lane]);
+    }
+  }
+
+  // The square of the distance along one axis, in sixteenths of a cell, from a cell's centre.
+  static std::int64_t square(int cell, std::int64_t at) {
+    const SInt<26> distance = 16 * std::int64_t{cell} + 8 - at;
+    return distance * distance;
+  }
+
+  Cell treated(Cell cell, int lane) const {
+    for (const Opening& opening : open_) {
+      if (!reaches(opening, lane)) continue;
+      opening.vent ? vent(opening, cell) : drain(opening, cell);
+    }
+    cell.settle_state();
+    return cell;
+  }
+
+  bool reaches(const Opening& opening, int lane) const {
+    return opening.reach2 >= 0 && square(came().x + lane, opening.region.at.x) <= opening.reach2;
+  }
+
+  void vent(const Opening& opening, Cell& cell) const {
+    const UInt<16> before = cell.amount;
+    const UInt<16> added = std::min<std::int64_t>(opening.rate, kAmountMax - before);
+    if (added == 0) return;
+    cell.amount = before + added;
+    if (paper_) cell.energy = cell.energy + ((added * opening.energy) >> 12);
+    if (!hot_) return;
+    const UInt<32> content = before * cell.heat + added * opening.temperature;
+    cell.heat = mix(content, cell.amount, dither_);
+  }
+
+  static void drain(const Opening& opening, Cell& cell) {
+    const UInt<16> left = cell.amount - std::min<std::int64_t>(opening.rate, cell.amount);
+    cell.energy = std::min<std::int64_t>(cell.energy, left);
+    cell.amount = left;
+  }
+
+  [[no_unique_address]] Faults faults_;
+  const bool paper_, hot_;
+  UInt<16> dither_;
+  std::vector<Opening> open_;
+};
+
+}  // namespace voxmelt::hwmodel

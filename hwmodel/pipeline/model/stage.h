@@ -1,0 +1,210 @@
+// A stage of the pipeline takes one token per cycle and gives one per cycle, `lag` tokens later. It moves
+// only when its input has a token and its output has room (ready/valid). So any stall is harmless.
+//
+// Passes may follow one another without a gap. Then the stage takes tokens of a new pass while it still gives
+// those of the last one, and has two time steps at its two ends. Of a grid in tiles, each tile is such a
+// pass.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hwmodel/fabric/fifo.h"
+#include "hwmodel/fabric/tap_line.h"
+#include "hwmodel/pipeline/model/arithmetic.h"
+#include "hwmodel/pipeline/model/cell.h"
+#include "hwmodel/pipeline/model/no_faults.h"
+#include "hwmodel/pipeline/model/shape.h"
+#include "hwmodel/pipeline/model/stage_kind.h"
+#include "kernel/automaton/rule/parameters.h"
+
+namespace voxmelt::hwmodel {
+
+using CellFifo = Fifo<Cell>;
+using HeatFifo = Fifo<UInt<16>>;  // irradiance, 1/16 temperature unit per step
+
+// What all stages of a design share.
+struct Design {
+  rule::Parameters parameters;
+  Shape shape;
+  int substeps = 1;  // copies of settle and spread in a time step of the viscous law
+
+  bool paper() const { return parameters.flow.law == rule::Law::paper; }
+  bool hot() const { return parameters.heat.enabled; }
+  bool needs_walls() const {  // does falling depend on the four sides of a cell?
+    const rule::Fall& fall = parameters.flow.fall;
+    return fall.hang > 0 || fall.wall_factor != fall.factor;
+  }
+  // The paper law uses the sides before melt, which conduction has in its window. Without heat nothing melts,
+  // and a separate stage finds them.
+  bool walls_in_conduction() const { return paper() && hot() && needs_walls(); }
+  // Bits of a cell between two stages without side-bands.
+  int cell_bits() const { return 2 + 16 + (paper() ? 16 : 0) + (hot() ? 16 : 0); }
+};
+
+// Every cycle of a stage is exactly one of these. `fill_drain`: before its first token, after its last
+// one, and while it gives without taking; `bypassed`: handing on a token in a pass that has no time step
+// for the stage; `memory`: a reader, feed or writer waits for a DRAM.
+struct StageCycles {
+  std::int64_t busy = 0, starved = 0, blocked = 0, fill_drain = 0, bypassed = 0, memory = 0;
+  std::int64_t total() const { return busy + starved + blocked + fill_drain + bypassed + memory; }
+  StageCycles& operator+=(const StageCycles& more) {
+    for (const auto part : kParts) this->*part += more.*part;
+    return *this;
+  }
+  StageCycles& operator-=(const StageCycles& less) {
+    for (const auto part : kParts) this->*part -= less.*part;
+    return *this;
+  }
+  static const std::array<std::int64_t StageCycles::*, 6> kParts;
+};
+inline constexpr std::array<std::int64_t StageCycles::*, 6> StageCycles::kParts{
+    &StageCycles::busy,   &StageCycles::starved,    &StageCycles::blocked,
+    &StageCycles::memory, &StageCycles::fill_drain, &StageCycles::bypassed};
+// In the same order.
+inline constexpr std::array<const char*, 6> kCycleClasses{"busy",   "starved",    "blocked",
+                                                          "memory", "fill_drain", "bypassed"};
+
+// Arithmetic units of the stage as it is written. A synthesis should find the same.
+struct Units {
+  int multipliers = 0, dividers = 0;  // per lane
+  int random_blocks = 0;              // per 8 lanes
+};
+
+// One pass of one tile, as a stage sees it. In bypass it hands its tokens on, without lag.
+struct StagePass {
+  step::Moment moment{0};
+  bool bypass = false;
+  int tile = 0;
+};
+
+// What depends on the time step: of the pass that comes, and of the one before it.
+template <class T>
+struct OfTwoPasses {
+  T now{}, last{};
+  void next(const T& value) { last = now, now = value; }
+};
+
+// Where a stage computes: a cell, and the lane of the token in which it lies.
+struct Spot {
+  Place token;
+  int lane = 0;
+};
+
+// The lanes of a token, one after another. The one that is worked on is noted, for messages.
+class Lanes {
+ public:
+  class Iterator {
+   public:
+    Iterator(int lane, int& noted) : lane_(lane), noted_(&noted) {}
+    int operator*() const { return *noted_ = lane_; }
+    Iterator& operator++() {
+      ++lane_;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return lane_ != other.lane_; }
+
+   private:
+    int lane_;
+    int* noted_;
+  };
+  Lanes(int end, int& noted) : end_(end), noted_(noted) {}
+  Iterator begin() const { return {0, noted_}; }
+  Iterator end() const { return {end_, noted_}; }
+
+ private:
+  int end_;
+  int& noted_;
+};
+
+class Stage {
+ public:
+  // `lag` in tokens.
+  Stage(StageKind kind, const Design& design, std::int64_t lag);
+  virtual ~Stage() = default;
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  void connect(CellFifo& in, CellFifo& out) { in_ = &in, out_ = &out; }
+  virtual void feed(HeatFifo& /*feed*/) {}  // a second input, of irradiance: `exchange` has one
+
+  // A pass streams one tile once. The first one of a train finds the stage empty; those that are added while
+  // it runs follow without a gap.
+  void begin_pass(step::Moment moment, bool bypass, int tile = 0);
+  void add_pass(step::Moment moment, bool bypass, int tile = 0) { passes_.push_back({moment, bypass, tile}); }
+  bool cycle();  // true if the stage moved
+  bool done() const { return leaving_ == passes_.size(); }
+
+  StageKind kind() const { return kind_; }
+  std::string name() const { return std::string(name_of(kind_)); }
+  const Design& design() const { return design_; }
+  const Shape& shape() const { return design_.shape; }
+  int lanes() const { return design_.shape.lanes; }
+  std::int64_t lag() const { return lag_; }
+  std::uint32_t step() const { return moment().step; }
+  const step::Moment& moment() const { return passes_[coming_].moment; }  // of the pass that comes
+  std::uint32_t working_step() const { return step_at(spot_delay_); }     // where it computes
+  // The places of the token that comes and of the one that leaves; came() runs on beyond the last plane, into
+  // the border.
+  const Place& came() const { return came_; }
+  const Place& leaving() const { return left_; }
+  const StageCycles& cycles() const { return cycles_; }
+  std::int64_t spot_delay() const { return spot_delay_; }
+  Spot spot() const { return {place_at(spot_delay_), spot_lane_}; }  // where it computes, or did last
+  Place place_at(std::int64_t delay) const;  // of the token that came `delay` moves before the present one
+  int tile_at(std::int64_t delay) const { return passes_[coming_ - (of_last_pass(delay) ? 1 : 0)].tile; }
+  virtual int output_bits() const { return design_.cell_bits(); }  // per lane, side bands included
+  virtual std::vector<BufferCost> buffers() const { return {}; }
+  virtual Units units() const { return {}; }
+
+ protected:
+  // One move. `in` is the token that comes; it is null after the last one, and then the border comes. `out`
+  // is the token that leaves, to be filled; it is null while the stage fills.
+  virtual void advance(const Cell* in, Cell* out) = 0;
+  virtual void begin_step() {}  // moment() has changed; memories hold an old pass, or still the last one
+  virtual bool side_input_ready() { return true; }  // of a stage with a second input
+
+  // Does the token that came `delay` moves ago belong to the pass before the one that comes?
+  bool of_last_pass(std::int64_t delay) const { return coming_ > 0 && came_.ordinal < delay; }
+  template <class T>
+  const T& at(const OfTwoPasses<T>& value, std::int64_t delay) const {
+    return of_last_pass(delay) ? value.last : value.now;
+  }
+  std::uint32_t step_at(std::int64_t delay) const {
+    return passes_[coming_ - (of_last_pass(delay) ? 1 : 0)].moment.step;
+  }
+  // Are tokens of the last pass still in the memories?
+  bool overlaps() const { return leaving_ != coming_; }
+  // The plane that came before is the last one of its pass. For it, what comes now is the border.
+  bool ends_last_pass() const { return overlaps() && came_.z == 0; }
+  std::int64_t filled() const { return filled_; }  // moves since the memories were empty
+
+  // What is computed next belongs to a lane of the token that came `delay` moves ago.
+  Lanes each_lane(std::int64_t delay = 0) {
+    spot_delay_ = delay;
+    return {lanes(), spot_lane_};
+  }
+  void compute_at(std::int64_t delay, int lane) { spot_delay_ = delay, spot_lane_ = lane; }
+
+ private:
+  StageKind kind_;
+  const Design& design_;
+  std::int64_t lag_;
+  CellFifo* in_ = nullptr;
+  CellFifo* out_ = nullptr;
+  bool may_take_next() const;
+
+  std::vector<StagePass> passes_;
+  std::size_t coming_ = 0, leaving_ = 0;  // the passes at its two ends
+  std::int64_t moves_ = 0;                // since the first token came of the pass that leaves
+  std::int64_t filled_ = 0;
+  Place came_, left_;
+  std::int64_t spot_delay_ = 0;
+  int spot_lane_ = 0;
+  StageCycles cycles_;
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,41 @@
+// The stages of one time step, in the order of the stream. A scene gets only those that it uses.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "hwmodel/pipeline/model/stage.h"
+
+namespace voxmelt::hwmodel {
+
+using Stages = std::vector<std::unique_ptr<Stage>>;
+using StageMaker = std::function<std::unique_ptr<Stage>(StageKind, const Design&)>;
+
+std::vector<StageKind> stages_of_step(const Design& design);
+
+// What one pass does with one tile: whole time steps, or a part of one with more sub-steps than the machine
+// has copies of settle and spread. Then the first pass has the stages before them, and the last one has
+// gravity.
+struct Pass {
+  std::uint32_t first = 0;                   // number of the first time step
+  int steps = 1;                             // 1..cascade
+  int substep = 0, count = 1, substeps = 1;  // the first sub-step, how many, and of how many
+  int tile = 0;
+
+  bool begins() const { return substep == 0; }
+  bool ends() const { return substep + count == substeps; }
+  // Does a stage, of settle and spread the copy of this number, work in this pass?
+  bool uses(StageKind kind, int copy) const {
+    if (kind == StageKind::settle || kind == StageKind::viscous_spread) return copy < count;
+    return kind == StageKind::gravity ? ends() : begins();
+  }
+};
+
+// Makes a stage without faults. Throws std::logic_error for a kind that is no stage of a time step.
+std::unique_ptr<Stage> make_stage(StageKind kind, const Design& design);
+
+Stages make_step(const Design& design, const StageMaker& make = make_stage);
+
+}  // namespace voxmelt::hwmodel

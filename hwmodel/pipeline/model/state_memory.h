@@ -1,0 +1,62 @@
+// The state in memory, as a train of passes sees it. A grid in one tile is replaced in place, behind the
+// reader. Tiles overlap: what one writes, its neighbours still have to read as it was. So there are two
+// copies, and each pass reads one and writes the other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "hwmodel/pipeline/model/coded_state.h"
+#include "kernel/automaton/state/volume.h"
+
+namespace voxmelt::hwmodel {
+
+class StateMemory {
+ public:
+  // `coded`: how the state lies in memory; null: as it is.
+  explicit StateMemory(bool tiled, const CodeLayout* coded = nullptr) : tiled_(tiled) {
+    if (coded == nullptr) return;
+    codes_[0].emplace(*coded);
+    if (tiled) codes_[1].emplace(*coded);
+  }
+
+  // The state lies in `volume` before a train, and after it.
+  void begin_train(state::Volume& volume) {
+    if (tiled_ && !second_) second_ = volume;
+    first_ = &volume;
+    reads_first_ = true, writes_first_ = !tiled_;
+    if (codes_[0]) codes_[0]->store(volume);
+  }
+  void end_train() {
+    if (tiled_ && writes_first_) std::swap(*first_, *second_);
+  }
+
+  const state::Volume& read() const { return reads_first_ ? *first_ : *second_; }
+  state::Volume& written() { return writes_first_ ? *first_ : *second_; }
+  // What the copy that is not read holds: of the pass before, as long as this one has not written it.
+  const state::Volume& stale() const { return reads_first_ && tiled_ ? *second_ : *first_; }
+
+  // With hw.coded the machine reads and writes these; the volumes are what the host reads back of them.
+  bool coded() const { return codes_[0].has_value(); }
+  const CodedState& read_code() const { return *codes_[reads_first_ ? 0 : 1]; }
+  // What the first copy holds that a train reads, and the other one; null: it is not coded.
+  const CodedState* code(int copy) const {
+    const auto& code = codes_[static_cast<std::size_t>(copy)];
+    return code ? &*code : nullptr;
+  }
+  CodedState& written_code() { return *codes_[writes_first_ ? 0 : 1]; }
+
+  // All tiles of a pass have been read, or written.
+  void next_to_read() { reads_first_ = reads_first_ != tiled_; }
+  void next_to_write() { writes_first_ = writes_first_ != tiled_; }
+
+ private:
+  bool tiled_, reads_first_ = true, writes_first_ = true;
+  state::Volume* first_ = nullptr;
+  std::optional<state::Volume> second_;
+  std::array<std::optional<CodedState>, 2> codes_;
+};
+
+}  // namespace voxmelt::hwmodel

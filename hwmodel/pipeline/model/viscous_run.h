@@ -1,0 +1,78 @@
+// A run of liquid under the viscous law (docs/automaton.md, section 10): its record (the sums over its
+// cells), the amounts it settles to, and what it shows to its neighbours.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "hwmodel/pipeline/model/stage.h"
+
+namespace voxmelt::hwmodel {
+
+// Head of a bed below height y, in 1/512 cell. `amount`: of the inert cell there, else kFlatBed.
+inline std::int64_t bed_head(std::int64_t y, std::int64_t amount) {
+  return 512 * y + ((amount - kFlatBed) >> 3);
+}
+
+inline constexpr std::int64_t kOverMax = kAmountMax - kOne;  // a cell under pressure holds this beyond ONE
+
+// Widths that depend on the height of the grid.
+struct RunWidths {
+  int count;  // of cells of a run, less one
+  int sum;    // of their amounts
+  int head;   // signed
+
+  explicit RunWidths(const Design& design) {
+    const std::int64_t height = design.shape.grid.y, stiffness = design.parameters.flow.viscous.stiffness;
+    count = bits_for(height - 1);
+    sum = bits_for(kAmountMax * height);
+    const std::int64_t highest_bed = bed_head(height - 1, kAmountMax);
+    head =
+        1 + bits_for(highest_bed + (kAmountMax * height >> 3) + (stiffness - 1) * (kOverMax * height >> 3));
+  }
+};
+
+// `last`: the number of cells less one.
+inline std::int64_t over_of(std::int64_t sum, std::int64_t last) {
+  return std::max<std::int64_t>(0, sum - (last + 1) * kOne);
+}
+
+// Settled amount of cell k, from scratch; the hardware steps from cell to cell (SettleScan).
+inline std::int64_t settled_amount(std::int64_t sum, std::int64_t last, std::int64_t k) {
+  const std::int64_t spare = over_of(sum, last) - kOverMax * (last - k);
+  return std::clamp<std::int64_t>(sum - k * kOne, 0, kOne) + std::clamp<std::int64_t>(spare, 0, kOverMax);
+}
+
+// What all cells of a run show: computed once, at its first cell.
+struct RunShow {
+  SInt<30> head;
+  UInt<22> mobility;  // not limited yet, but cut above every limit
+  UInt<14> limit;
+  UInt<25> dead;
+};
+
+// `entry`: of the mobility table, by the run's mean heat. `pace`: the mobility parameter of one sub-step.
+inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std::int64_t entry,
+                     const rule::Flow& flow, std::int64_t pace, const RunWidths& widths) {
+  const rule::ViscousLaw& law = flow.viscous;
+  const std::int64_t over = over_of(wire(sum, widths.sum), wire(last, widths.count)), cells = (sum >> 12) + 1;
+  const UInt<24> depth = std::max<std::int64_t>(1, sum >> 4);
+  const UInt<19> capped = std::min<std::int64_t>(sum, 1 << 18);
+  const UInt<29> square = (std::int64_t{capped} * capped) >> 8;
+  // The product has 64 bits: in two parts of 18 x 29.
+  const UInt<47> low = (wire(pace, 36) & 0x3FFFF) * square + (1 << 23);
+  const UInt<47> high = (pace >> 18) * square + (low >> 18);
+  UInt<41> raw = high >> 6;
+  if (flow.thermal_viscosity)
+    raw = (std::min<std::int64_t>(raw, std::int64_t{1} << 36) * looked_up(flow.mobility_table, entry)) >> 15;
+
+  RunShow show;
+  show.head = signed_wire(bed + (sum >> 3) + (law.stiffness - 1) * (over >> 3), widths.head);
+  // floor(floor(13107 / cells) / stiffness) is one division by the product, and that three shifts and adds.
+  show.limit = std::max<std::int64_t>(1, 13107 / (over > 0 ? cells * law.stiffness : cells));
+  show.mobility = std::min<std::int64_t>(raw, (1 << 22) - 1);
+  show.dead = std::max<std::int64_t>(1, (2 * std::int64_t{law.yield} + (std::int64_t{depth} >> 1)) / depth);
+  return show;
+}
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,273 @@
+// Phase `spread` of the viscous law (docs/automaton.md, section 11). When a cell q comes, the four pairs
+// whose last cell (of the two and, for a diagonal, its two corners) it is are done: q with the cells W and S
+// beside it, q with SW, and W with S. Each pair is computed once and booked at both cells, in the taps.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "hwmodel/pipeline/model/run_reader.h"
+#include "hwmodel/pipeline/model/stage.h"
+
+namespace voxmelt::hwmodel {
+
+template <class Faults>
+class ViscousSpread final : public Stage {
+ public:
+  explicit ViscousSpread(const Design& design, Faults faults = {})
+      : Stage(StageKind::viscous_spread, design, design.shape.plane() + design.shape.column()),
+        faults_(faults),
+        hot_(design.hot()),
+        walls_(design.needs_walls()),
+        head_bits_(RunWidths(design).head),
+        line_(lanes(), static_cast<std::size_t>(lag())),
+        floor_(lanes(), static_cast<std::size_t>(design.shape.blocks()) + 1),
+        now_(static_cast<std::size_t>(lanes())),
+        south_(now_) {}
+
+  // Only the last lane of a token has a pair left (its diagonal to the next block) after one plane.
+  int output_bits() const override { return design().cell_bits() + 1 + (walls_ ? 1 : 0); }
+  std::vector<BufferCost> buffers() const override {
+    const std::int64_t open = SpreadWord::bits(head_bits_, hot_, walls_);
+    const std::int64_t done = SpreadWord::done_bits(hot_, walls_);
+    const std::int64_t column = shape().column(), between = shape().plane() - column;
+    std::vector<BufferCost> costs{{"column memory", column, lanes(), open}};
+    if (between > 0) costs.push_back({"plane memory", between, lanes(), open});
+    if (lanes() > 1) costs.push_back({"column memory, done", column, lanes() - 1, done});
+    costs.push_back({"column memory, last lane", column, 1, open});
+    costs.push_back({"floor memory", shape().blocks(), lanes(), RunPace::kBits});
+    costs.push_back({"floor memory, last lane", 1, 1, RunPace::kBits});
+    return costs;
+  }
+
+  // Per pair: (g + mobility) a, slope x drop (the slope's factor is read from 17 words) and c drive; with
+  // heat f h, and per cell A h and the mixture's rounding.
+  Units units() const override { return {13 + (hot_ ? 4 + 2 : 0), hot_ ? 1 : 0, 0}; }
+
+ protected:
+  void begin_step() override {
+    const int k = moment().substep;
+    dithers_.next(UInt<16>::truncated(dither_of(step()) + dither_of(static_cast<std::uint32_t>(k))));
+    substep_ = Reciprocal(moment().substeps);
+    for (int axis = 0; axis < 4; ++axis)
+      step_dither_[static_cast<std::size_t>(axis)] = dither_of(step(), axis, 4);
+  }
+
+  void advance(const Cell* in, Cell* out) override {
+    line_.shift();
+    if (came().y == 0) floor_.shift();
+    const UInt<16> layer = dither_of(static_cast<std::uint32_t>(came().y));
+    for (int axis = 0; axis < 4; ++axis)
+      axis_dither_[static_cast<std::size_t>(axis)] = pair_dither(axis, layer, moment().substep);
+    const auto column = static_cast<std::size_t>(shape().column());
+    const auto plane = static_cast<std::size_t>(shape().plane());
+    const auto blocks = static_cast<std::size_t>(shape().blocks());
+    const int end = lanes() - 1, x = came().x, z = came().z;
+    SpreadWord* now = line_.tap(0);
+    SpreadWord* south = line_.tap(plane);
+    SpreadWord* last = line_.tap(plane + column);
+    if (in != nullptr)
+      for (const int lane : each_lane()) take(in[lane], lane, now[lane]);
+    read(now_.data(), now, lanes(), floor_.tap(0), x);
+    read(&west_, line_.tap(column) + end, 1, floor_.tap(1) + end, x - 1);
+    read(south_.data(), south, lanes(), floor_.tap(blocks), x);
+    read(&south_west_, last + end, 1, floor_.tap(blocks + 1) + end, x - 1);
+
+    const Tap* west = came().has_west() ? &west_ : nullptr;
+    const Tap* south_west = &south_west_;
+    for (const int each : each_lane()) {
+      const auto lane = static_cast<std::size_t>(each);
+      const bool corner = west != nullptr && z > 0;
+      look(now_[lane].seen, west != nullptr ? &west->seen : nullptr, z > 0 ? &south_[lane].seen : nullptr,
+           corner ? &south_west->seen : nullptr);
+      west = &now_[lane];
+      south_west = &south_[lane];
+    }
+
+    dither_ = at(dithers_, shape().plane());
+    if (z > 0 || ends_last_pass())
+      for (int lane = 0; lane < end; ++lane) {
+        compute_at(shape().plane(), lane);
+        finish(south[lane]);
+      }
+    if (out == nullptr) return;
+    dither_ = at(dithers_, lag());
+    compute_at(lag(), end);
+    finish(last[end]);
+    for (int lane = 0; lane < lanes(); ++lane) {
+      give(last[lane], out[lane]);
+      faults_.gave(*this, lane, out[lane]);
+    }
+  }
+
+ private:
+  friend Faults;
+
+  struct Tap {
+    RunReader reader;
+    SeenCell seen;
+  };
+
+  void take(const Cell& cell, int lane, SpreadWord& word) {
+    word.amount = cell.amount;
+    if (hot_) word.heat = cell.heat;
+    if (cell.blocked()) {
+      word.ground = cell.state == State::solid ? Ground::solid : Ground::inert;
+      return;
+    }
+    word.ground = cell.in_run ? Ground::run : Ground::outside;
+    word.present = cell.amount;
+    if (hot_) word.content = cell.amount * cell.heat;
+    RunReader& reader = now_[static_cast<std::size_t>(lane)].reader;
+    if (!cell.in_run || !reader.above_blocked(came().y)) return;
+    word.head = signed_wire(cell.head, head_bits_);
+    const RunPace pace{cell.mobility, cell.limit, cell.dead};
+    reader.bring(pace);
+    if (came().y == 0)
+      floor_.tap(0)[lane] = pace;
+    else
+      line_.tap(1)[lane].above = pace;
+  }
+
+  void read(Tap* taps, SpreadWord* words, int count, const RunPace* floor, int x) {
+    for (int lane = 0; lane < count; ++lane) {
+      Tap& tap = taps[lane];
+      if (came().y == 0) tap.reader.bring_floor(floor[lane]);
+      tap.seen.word = words + lane;
+      tap.seen.x = x + lane;
+      tap.reader.read(tap.seen, came().y);
+    }
+  }
+
+  // q has come; null: outside of the grid.
+  void look(const SeenCell& q, const SeenCell* w, const SeenCell* s, const SeenCell* sw) {
+    if (walls_) note_walls(*q.word, w != nullptr ? w->word : nullptr, s != nullptr ? s->word : nullptr, q.x);
+    const bool any = q.word->runs() || (w != nullptr && w->word->runs()) ||
+                     (s != nullptr && s->word->runs()) || (sw != nullptr && sw->word->runs());
+    if (!any) return;
+    if (w != nullptr) pair(q, *w, 0);
+    if (s != nullptr) pair(q, *s, 1);
+    if (sw == nullptr) return;
+    if (!w->word->blocked() || !s->word->blocked()) pair(q, *sw, 2);
+    if (!q.word->blocked() || !sw->word->blocked()) pair(*w, *s, 3);
+  }
+
+  void note_walls(SpreadWord& q, SpreadWord* w, SpreadWord* s, int x) const {
+    if (w == nullptr || w->blocked() || s == nullptr || s->blocked() || x == shape().grid.x - 1 ||
+        came().z == shape().grid.z - 1)
+      q.beside_wall = 1;
+    if (!q.blocked()) return;
+    if (w != nullptr) w->beside_wall = 1;
+    if (s != nullptr) s->beside_wall = 1;
+  }
+
+  void pair(const SeenCell& a, const SeenCell& b, int axis) {
+    if (a.word->blocked() || b.word->blocked() || a.head == b.head) return;
+    a.head > b.head ? flow(a, b, axis) : flow(b, a, axis);
+  }
+
+  // Of sub-step k, in the layer with this dither; the lanes of a token share it.
+  UInt<16> pair_dither(int axis, std::int64_t layer, int k) const {
+    const int n = moment().substeps;
+    const UInt<16> offset = UInt<16>::truncated(step_dither_[static_cast<std::size_t>(axis)] + layer);
+    return substep_.times(offset + 65536 * std::int64_t{(k + axis * n / 4) % n});
+  }
+  static bool is_diagonal(int axis) { return axis >= 2; }
+  std::int64_t dither_of_axis(int axis) const { return axis_dither_[static_cast<std::size_t>(axis)]; }
+
+  // From the one with the higher head.
+  void flow(const SeenCell& from, const SeenCell& to, int axis) {
+    if (!from.word->runs()) return;
+    UInt<16> amount = rests(from, to, axis) ? 0 : wanted(from, to, axis, dither_of_axis(axis));
+    faults_.wanted(*this, from, to, axis, amount);
+    if (amount == 0) return;
+    move(*from.word, *to.word, amount);
+    faults_.moved(*this, from, to, amount);
+  }
+
+  // Inside the dead zone.
+  static bool rests(const SeenCell& from, const SeenCell& to, int axis) {
+    const std::int64_t dead = from.pace.dead;
+    return from.head - to.head <= (is_diagonal(axis) ? (11 * dead) >> 3 : dead);
+  }
+
+  // By the difference of the beds, in 1/16 cell: two tables of 17 words.
+  static std::int64_t slope_factor(const SeenCell& from, const SeenCell& to, bool diagonal) {
+    if (from.bed == kNoBed || to.bed == kNoBed) return 16384;
+    const UInt<5> steps = std::min<std::int64_t>(16, std::abs(std::int64_t{from.bed} - to.bed));
+    const std::int64_t square = steps * steps, root = 65536 + 256 * square + square * square;
+    const std::int64_t divisor = diagonal ? root * root : 256 + 2 * square;
+    return ((std::int64_t{1} << (diagonal ? 46 : 22)) + divisor / 2) / divisor;
+  }
+
+  // The face lies between the columns; on a slope the giver's amount alone counts.
+  static UInt<16> flowing(const SeenCell& from, const SeenCell& to) {
+    if (from.bed == kNoBed || from.bed != to.bed) return from.word->amount;
+    return (from.word->amount + to.word->amount + 1) >> 1;
+  }
+
+  static std::int64_t wanted(const SeenCell& from, const SeenCell& to, int axis, std::int64_t dither) {
+    const bool diagonal = is_diagonal(axis);
+    const std::int64_t drop = from.head - to.head;
+    const SpreadWord& giver = *from.word;
+    const SpreadWord& taker = *to.word;
+    const UInt<10> capped = std::min<std::int64_t>(drop, diagonal ? 724 : 512);
+    std::int64_t mobility = (taker.runs() ? from.pace.limited() : from.pace.exposed()) + to.pace.limited();
+    if (to.pace.limit > 0) mobility = std::min<std::int64_t>(mobility, from.pace.limit << 9);
+    const UInt<39> conducted = UInt<23>(mobility) * flowing(from, to);
+    const UInt<24> conductance = std::min<std::int64_t>((1 << 24) - 1, conducted >> 12);
+    const UInt<14> drive = (slope_factor(from, to, diagonal) * std::int64_t{capped}) >> 10;
+    const UInt<38> product = std::int64_t{conductance} * drive;
+    const std::int64_t flows = diagonal ? (product + (dither << 12)) >> 28 : (product + (dither << 10)) >> 26;
+    const std::int64_t room = std::max<std::int64_t>(0, (taker.runs() ? kAmountMax : kOne) - taker.amount);
+    const std::int64_t most = (std::min(std::int64_t{giver.amount}, room) * 13107) >> 16;
+    return std::min(flows, diagonal ? most >> 2 : most);
+  }
+
+  void move(SpreadWord& giver, SpreadWord& taker, std::int64_t amount) const {
+    giver.present = giver.present - amount;
+    taker.present = taker.present + amount;
+    if (!hot_) return;
+    giver.content = giver.content - amount * giver.heat;
+    taker.content = taker.content + amount * giver.heat;
+  }
+
+  // All pairs of this cell are done. A cell that took nothing mixes to its own heat again: it needs no flag.
+  void finish(SpreadWord& word) const {
+    if (word.blocked()) return;
+    word.amount = word.present;
+    if (!hot_) return;
+    word.heat = 0;
+    if (word.present > 0) word.heat = mix(word.content, word.present, dither_);
+  }
+
+  void give(const SpreadWord& word, Cell& cell) const {
+    cell = {};
+    cell.amount = word.amount;
+    cell.heat = word.heat;
+    cell.state = word.ground == Ground::solid ? State::solid : State::inert;
+    if (word.blocked()) return;
+    cell.state = State::liquid;
+    cell.settle_state();
+    cell.in_run = word.runs();
+    cell.beside_wall = word.beside_wall;
+  }
+
+  [[no_unique_address]] Faults faults_;
+  bool hot_, walls_;
+  int head_bits_;
+  OfTwoPasses<UInt<16>> dithers_;
+  UInt<16> dither_;                                    // of the cells that are finished
+  Reciprocal substep_{1};                              // the part of a step that one takes
+  std::array<UInt<16>, 4> step_dither_, axis_dither_;  // of the step; of the token's pairs
+  TapLine<SpreadWord> line_;
+  TapLine<RunPace> floor_;  // of runs on the grid's floor; moves once per column
+  std::vector<Tap> now_, south_;
+  Tap west_, south_west_;  // of the last lane
+};
+
+}  // namespace voxmelt::hwmodel

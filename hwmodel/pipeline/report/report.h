@@ -1,0 +1,16 @@
+// What `voxmelt verify` reports: a table for people, JSON for programs.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "hwmodel/pipeline/check/verify.h"
+
+namespace voxmelt::hwmodel {
+
+nlohmann::ordered_json json_of(const VerifyReport& report, const Design& design,
+                               const Configuration& configuration);
+// Cycles of every stage, its buffers, the channels; bounds beside the result.
+std::string table_of(const VerifyReport& report, const Design& design, const Configuration& configuration);
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,65 @@
+// What a picture of a scene costs, part by part: the field that is drawn, light and bricks, the drawing, and
+// the PNG file. The bytes of every instruction set are checked before it is timed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernel/engine/cpu/instruction_set.h"
+#include "kernel/scene/scene.h"
+#include "measure/rounds.h"
+#include "measure/workloads.h"
+#include "render/packet/draw_picture.h"
+
+namespace voxmelt::measure {
+
+inline constexpr int kPictureSide = 512;  // pixels
+inline constexpr int kPictureSteps = 3;   // between two pictures
+inline constexpr std::array kSettings{render::Setting::fast, render::Setting::normal, render::Setting::best};
+inline constexpr std::array<const char*, kSettings.size()> kSettingNames{"fast", "normal", "best"};
+using PerSetting = std::array<double, kSettings.size()>;
+
+// Who draws: the packets, and the loops of a processor that has this set.
+struct Drawer {
+  cpu::InstructionSet set;
+  const render::Packets* packets;
+};
+Drawer drawer_of(cpu::InstructionSet set);
+
+// Seconds. Processor time on one thread, time of the clock on more.
+struct DrawingTiming {
+  cpu::InstructionSet set{};
+  int threads = 1;
+  double field = 0, light = 0;  // after kPictureSteps steps; light: and bricks
+  double unchanged = 0;         // both, after none
+  PerSetting draw{};
+};
+
+struct Drawing {
+  std::string workload;
+  state::Grid grid;
+  int rounds = 0;
+  int bricks = 0;                                     // of the field that an update filters
+  std::array<std::int64_t, kSettings.size()> rays{};  // of a picture, as far as they may meet something
+  double encode = 0;                                  // seconds, for the picture at `normal`
+  std::size_t png_bytes = 0;
+  std::vector<DrawingTiming> timings;
+
+  double nanoseconds_per_ray(const DrawingTiming& timing, std::size_t setting) const {
+    return 1e9 * timing.draw[setting] / static_cast<double>(rays[setting]);
+  }
+};
+
+// The scene's camera, for a square picture.
+scene::Camera square_camera(scene::Camera camera, int side);
+
+// Throws Mismatch if an updated field is not that of a fresh one, or if a picture differs from another one of
+// the same state, or, at a quarter of the size, from that of the plain painter.
+Drawing measure_drawing(const Workload& workload, const scene::Scene& scene,
+                        const std::vector<Drawer>& drawers, const std::vector<int>& threads,
+                        const Rounds& rounds);
+
+}  // namespace voxmelt::measure

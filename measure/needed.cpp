@@ -1,0 +1,70 @@
+#include "measure/needed.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "kernel/run/simulation.h"
+
+namespace voxmelt::measure {
+namespace {
+
+using Cells = std::span<const std::uint16_t>;
+
+bool differ(Cells a, Cells b, std::size_t begin, std::size_t count) {
+  if (a.empty()) return false;  // what the scene does not use
+  return !std::ranges::equal(a.subspan(begin, count), b.subspan(begin, count));
+}
+
+// Rows begin at multiples of 64 stored cells, so no vector holds cells of two rows.
+std::int64_t changed_vectors(const state::Volume& before, const state::Volume& after, std::size_t lanes) {
+  std::int64_t changed = 0;
+  for (std::size_t begin = 0; begin < before.amount.layout().cells(); begin += lanes)
+    changed += differ(before.amount.stored(), after.amount.stored(), begin, lanes) ||
+               differ(before.energy.stored(), after.energy.stored(), begin, lanes) ||
+               differ(before.heat.stored(), after.heat.stored(), begin, lanes);
+  return changed;
+}
+
+double& part_of(Needed& needed, step::Phase phase) {
+  using enum step::Phase;
+  return phase == gravity ? needed.gravity : phase == spread || phase == excess ? needed.spread : needed.heat;
+}
+
+}  // namespace
+
+std::vector<Needed> needed_vectors(const Workload& workload, const std::vector<int>& lanes) {
+  run::Simulation simulation(workload.parameters, workload.start, run::implementations().all().front());
+  std::vector<Needed> result(lanes.size());
+  for (int i = 0; i < workload.lead_steps; ++i) simulation.step();
+  for (int i = 0; i < workload.steps; ++i) {
+    simulation.begin_step();
+    for (const step::Phase phase : simulation.phases()) {
+      const state::Volume before = simulation.volume();
+      simulation.run_phase(phase);
+      if (phase == step::Phase::source) continue;
+      for (std::size_t k = 0; k < lanes.size(); ++k)
+        part_of(result[k], phase) += static_cast<double>(changed_vectors(
+                                         before, simulation.volume(), static_cast<std::size_t>(lanes[k]))) /
+                                     workload.steps;
+    }
+    simulation.end_step();
+  }
+  return result;
+}
+
+LeastSeconds least_seconds(const Needed& needed, int lanes, int threads, const FullVolume& flow,
+                           const std::optional<FullVolume>& heat) {
+  const auto of = [&](double vectors, double seconds, double cells) {
+    return vectors * lanes * seconds / cells / threads;
+  };
+  const double gravity = flow.step.phase[static_cast<std::size_t>(step::Phase::gravity)];
+  LeastSeconds least;
+  least.flow =
+      of(needed.gravity, gravity, flow.cells) + of(needed.spread, flow.step.flow() - gravity, flow.cells);
+  if (heat) least.heat = of(needed.heat, heat->step.heat(), heat->cells);
+  return least;
+}
+
+}  // namespace voxmelt::measure

@@ -1,0 +1,259 @@
+// The closed forms of hwmodel/explore: time on a DRAM beside its simulation, and memories by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/explore/check.h"
+#include "hwmodel/explore/dram_time.h"
+#include "hwmodel/explore/part_list.h"
+#include "hwmodel/explore/schedule.h"
+#include "hwmodel/explore/size_fifos.h"
+#include "hwmodel/machine/dram_streams.h"
+#include "hwmodel/memory/sheet.h"
+#include "hwmodel/pipeline/model/tiling.h"
+#include "hwmodel/pipeline/time/prediction.h"
+#include "tests/kernel/worlds.h"
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+// A train over cells of 50 bits, with irradiance, as of the cello.
+Train train_of(int lanes, int cascade) {
+  Train train;
+  StreamWork& work = train.work;
+  work.passes = 1;
+  work.tokens = 90000 / lanes;
+  work.lag = cascade * std::int64_t{9000} / lanes;
+  work.cycles = work.tokens + work.lag;
+  work.read_bits = work.written_bits = work.tokens * lanes * 50;
+  work.fed_bits = work.tokens * lanes * 16 * cascade;
+  return train;
+}
+
+TEST(Explore, TheTimeOnAMemoryIsThatOfTheSimulation) {
+  int bound = 0;  // by the memory
+  double worst = 0;
+  for (const char* name : {"ddr4-2400", "hbm2", "lpddr4-3200"}) {
+    Question question;
+    question.memory = load_memory(name, "test");
+    for (const int lanes : {4, 8, 16})
+      for (const int cascade : {1, 2, 4, 8})
+        for (const int mhz : {150, 300}) {
+          const Train train = train_of(lanes, cascade);
+          const std::int64_t simulated = simulated_on({train}, mhz, question);
+          const std::int64_t predicted = cycles_on(train.work, *question.memory, mhz);
+          const double error =
+              100. * static_cast<double>(predicted - simulated) / static_cast<double>(simulated);
+          std::printf(
+              "%-12s %2d lanes, %d steps, %d MHz: %lld cycles, without memory %lld, predicted %+.2f %%\n",
+              name, lanes, cascade, mhz, static_cast<long long>(simulated),
+              static_cast<long long>(train.work.cycles), error);
+          EXPECT_LT(std::abs(error), 5) << name << ' ' << lanes << ' ' << cascade << ' ' << mhz;
+          worst = std::max(worst, std::abs(error));
+          bound += simulated > train.work.cycles + train.work.cycles / 10 ? 1 : 0;
+        }
+  }
+  std::printf("worst error %.2f %%, %d of 72 bound by the memory\n", worst, bound);
+  EXPECT_GE(bound, 30);
+}
+
+// A scene with heat and radiation, of which only the shape matters.
+TimedRun timed(int lanes, int cascade, std::int64_t steps) {
+  TimedRun run;
+  run.parameters.heat.enabled = run.parameters.heat.radiation = true;
+  run.parameters.heat.visibility_every = 16;
+  run.grid = {64, 24, 40};
+  run.configuration.lanes = lanes, run.configuration.cascade = cascade;
+  run.steps = steps;
+  return run;
+}
+
+// What the memory holds, and how.
+enum class Kind { lit, dark, coded, tiles };
+
+// A ball of matter, lit all over.
+state::Volume ball(state::Grid grid) {
+  state::Volume volume(grid);
+  worlds::for_each(worlds::whole(grid), [&](int x, int y, int z) {
+    const int a = 2 * x - grid.x, b = 2 * y - grid.y, c = 2 * z - grid.z;
+    if (a * a / 4 + b * b + c * c < 600) worlds::put_solid(volume, x, y, z);
+  });
+  return volume;
+}
+
+void expect_predicted(Kind kind, int least_bound) {
+  double worst = 0;
+  int bound = 0, runs = 0;
+  for (const int lanes : {2, 8, 16})
+    for (const int cascade : {1, 2, 4, 8}) {
+      TimedRun run = timed(lanes, cascade, 2 * cascade);
+      const state::Volume volume = ball(run.grid);
+      if (kind == Kind::tiles) run.configuration.tile = 48;
+      if (!tile_problem(run.parameters, run.grid, run.configuration).empty()) continue;
+      const Design design = design_of(run.parameters, run.grid, run.configuration);
+      Irradiance field(run.grid);
+      worlds::for_each(worlds::whole(run.grid), [&](int x, int y, int z) {
+        if (kind != Kind::dark && (kind == Kind::lit || volume.solid.test(x, y, z)))
+          field[field.layout().at(x, y, z)] = 7;
+      });
+      const IrradianceStream stream(field, design.shape);
+      run.irradiance = [&](std::uint32_t) { return &stream; };
+      run.configuration.coded = kind == Kind::coded;
+      const StoredTokens stored = stored_tokens(design, volume);
+      if (kind == Kind::coded) run.stored = [&](std::uint32_t) { return &stored; };
+      const Content content = content_of(design, &field, &volume);
+      if (kind == Kind::lit || kind == Kind::dark) {
+        EXPECT_EQ(content.irradiance_bits, kind == Kind::lit ? 16 * design.shape.tokens() * (lanes + 2) : 0);
+      }
+      const std::int64_t simulated_free = timing_of(run, nullptr).cycles;
+      for (const char* name : {"ddr4-2400", "hbm2", "lpddr4-3200"}) {
+        const memory::Parameters sheet = load_memory(name, "test");
+        for (const int mhz : {150, 300}) {
+          std::int64_t predicted = 0, free = 0;
+          for (const Train& train : trains_of(design, run.configuration, 0, run.steps, content)) {
+            predicted += cycles_on(train.work, sheet, mhz, train.placement);
+            free += train.work.cycles;
+          }
+          EXPECT_EQ(simulated_free, free);
+          DramStreams streams(design, cascade, sheet, mhz);
+          const Timing simulated = timing_of(run, &streams);
+          ASSERT_FALSE(simulated.hangs);
+          const double error = 100. * static_cast<double>(predicted - simulated.cycles) /
+                               static_cast<double>(simulated.cycles);
+          std::printf(
+              "%-12s %2d lanes, %d steps, %d MHz: %lld cycles, without memory %lld, predicted %+.2f %%\n",
+              name, lanes, cascade, mhz, static_cast<long long>(simulated.cycles),
+              static_cast<long long>(free), error);
+          EXPECT_LT(std::abs(error), 5) << name << ' ' << lanes << ' ' << cascade << ' ' << mhz;
+          worst = std::max(worst, std::abs(error));
+          bound += simulated.cycles > free + free / 10 ? 1 : 0;
+          ++runs;
+        }
+      }
+    }
+  std::printf("worst error %.2f %% of %d, %d bound by the memory\n", worst, runs, bound);
+  EXPECT_GE(bound, least_bound);
+}
+TEST(Explore, ThePipelineOnAMemoryTakesTheTimeOfTheClosedForm) { expect_predicted(Kind::lit, 20); }
+TEST(Explore, ThePipelineWithoutIrradianceOnAMemory) { expect_predicted(Kind::dark, 20); }
+TEST(Explore, TheCodedPipelineOnAMemory) { expect_predicted(Kind::coded, 10); }
+TEST(Explore, ThePipelineInTilesOnAMemory) { expect_predicted(Kind::tiles, 10); }
+
+// Streams so many stretches apart: one bank of the row after 16, for its number is added to the bank; the
+// four banks of a row are different ones.
+TEST(Explore, StreamsMeetInABank) {
+  const memory::Parameters hbm = load_memory("hbm2", "test");  // a stretch: 4 groups, 16 bursts each
+  EXPECT_EQ(meeting(0, hbm), 0) << "one row";
+  EXPECT_EQ(meeting(16 * 64, hbm), 1);
+  EXPECT_EQ(meeting(-16 * 64, hbm), 1);
+  // Rows 0 to 3 lie in the banks 0123, 1032, 2301, 3210, and then again.
+  EXPECT_EQ(meeting(64, hbm), 2 / 16.);
+  EXPECT_EQ(meeting(2 * 64, hbm), 0);
+  EXPECT_EQ(meeting(3 * 64, hbm), 6 / 16.);
+  EXPECT_EQ(meeting(2.5 * 64, hbm), 3 / 16.);
+}
+
+// Every channel is as shallow as it can be: one token less anywhere costs cycles, with stalls, and on a
+// memory.
+TEST(Explore, OneTokenLessAnywhereCostsCycles) {
+  for (const bool on_memory : {false, true}) {
+    TimedRun run = timed(4, 2, 4);
+    run.grid = {16, 8, 6};
+    run.configuration.stall_seed = on_memory ? 0 : 3;
+    std::optional<SizingMemory> memory;
+    if (on_memory) memory = {load_memory("ddr4-2400", "test"), 300};
+    const Sizing sizing = size_fifos(run, memory);
+    const auto cycles = [&](const Configuration& configuration) {
+      TimedRun one = run;
+      one.configuration = configuration;
+      const Design design{run.parameters, {run.grid, configuration.lanes}, 1};
+      std::optional<DramStreams> streams;
+      if (memory) streams.emplace(design, configuration.cascade, memory->parameters, memory->clock_mhz);
+      const Timing timing = timing_of(one, streams ? &*streams : nullptr);
+      return timing.hangs ? INT64_MAX : timing.cycles;
+    };
+    Configuration deep = run.configuration, sized = run.configuration;
+    deep.fifo_depth = kMostDepth;
+    for (const SizedChannel& channel : sizing.channels) sized.depths.push_back({channel.name, channel.depth});
+    EXPECT_EQ(sizing.deep_cycles, cycles(deep));
+    EXPECT_EQ(sizing.cycles, cycles(sized));
+    EXPECT_LE(sizing.cycles, sizing.deep_cycles);
+    if (!on_memory) {
+      EXPECT_EQ(sizing.cycles, sizing.deep_cycles);
+    }
+    int deeper = 0;
+    for (ChannelDepth& channel : sized.depths) {
+      if (channel.depth == 1) continue;
+      deeper += channel.depth > 2 ? 1 : 0;
+      --channel.depth;
+      EXPECT_GT(cycles(sized), sizing.cycles) << channel.name;
+      ++channel.depth;
+    }
+    EXPECT_GE(deeper, on_memory ? 0 : 4);  // stalls need room
+    const Design design{run.parameters, {run.grid, 4}, 1};
+    std::vector<std::string> names;
+    for (const SizedChannel& channel : sizing.channels) names.push_back(channel.name);
+    EXPECT_EQ(names, channel_names(design, run.configuration));
+  }
+}
+
+// Where sub-steps are counted from the state, a step is known when the one before it has been written.
+TEST(Explore, PassesOverlapWhereTheirStepsAreKnown) {
+  Design design{{}, {{8, 8, 8}, 4}};
+  design.parameters.flow.law = rule::Law::viscous;
+  Configuration c;
+  c.lanes = 4;
+  const auto trains = [&](std::uint16_t substeps) {
+    design.parameters.flow.viscous.substeps = substeps;
+    EXPECT_TRUE(passes_overlap(design, c, {}));
+    return trains_of(design, c, 0, 6).size();
+  };
+  EXPECT_EQ(trains(1), 1u);
+  EXPECT_EQ(trains(0), 6u);
+}
+
+TEST(Explore, MemoriesTakeTheShapeThatFits) {
+  const Family family = load_device("zu7ev", {}).family;
+  // 127 words of 268 bits: 8 halves of 512 x 36, 4 URAMs of 72 bits; LUTs: 2 deep, 39 wide, 8 each, and a
+  // choice of two per bit.
+  const std::vector<MemoryUse> shallow = ways_to_hold(127, 268, family);
+  ASSERT_EQ(shallow.size(), 3U);
+  EXPECT_EQ(shallow[0].lutram, 2 * 39 * 8 + 268);
+  EXPECT_EQ(shallow[1].parts, 8);
+  EXPECT_EQ(shallow[2].uram, 4);
+  // 3302 words of 268 bits: 7 x 8 halves of 512 x 36; others take 60 and more. 4 URAMs.
+  const std::vector<MemoryUse> deep = ways_to_hold(3302, 268, family);
+  ASSERT_EQ(deep.size(), 2U);  // too deep for LUTs
+  EXPECT_EQ(deep[0].parts, 56);
+  EXPECT_EQ(deep[1].uram, 4);
+  // 2048 words of 8 bits: one half of 2048 x 9.
+  EXPECT_EQ(ways_to_hold(2048, 8, family)[0].parts, 1);
+}
+
+TEST(Explore, ProductsAreCutIntoPieces) {
+  const Widths ultrascale{27, 18}, ecp5{18, 18};
+  EXPECT_EQ(dsps_of({18, 17}, ultrascale), 1);
+  EXPECT_EQ(dsps_of({17, 25}, ultrascale), 1);  // either way round
+  EXPECT_EQ(dsps_of({25, 17}, ecp5), 2);
+  EXPECT_EQ(dsps_of({27, 27}, ultrascale), 2);
+  EXPECT_EQ(dsps_of({27, 27}, ecp5), 4);
+  EXPECT_EQ(dsps_of({35, 18}, ecp5), 2);  // 18 + 17 bits
+  EXPECT_EQ(dsps_of({36, 18}, ecp5), 3);
+}
+
+TEST(Explore, NoSumIsKeptThatAnotherBeats) {
+  const std::vector<MemoryUse> sums = sums_of({{10, 0, 0}, {0, 5, 0}}, {{10, 0, 0}, {0, 5, 0}, {0, 6, 0}});
+  std::vector<std::int64_t> seen;
+  seen.reserve(sums.size());
+  for (const MemoryUse& sum : sums) seen.push_back(1000 * sum.lutram + sum.parts);
+  EXPECT_EQ(seen, (std::vector<std::int64_t>{10, 10005, 20000}));
+}
+
+}  // namespace
+}  // namespace voxmelt::hwmodel::explore

@@ -1,0 +1,258 @@
+// The pipeline and the ray caster on one memory: bits, bytes, and the sums of cycles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hwmodel/machine/machine.h"
+#include "hwmodel/machine/report_machine.h"
+#include "hwmodel/memory/dram.h"
+#include "hwmodel/memory/sheet.h"
+#include "kernel/automaton/state/digest.h"
+#include "kernel/run/simulation.h"
+#include "kernel/scene/scene.h"
+#include "render/packet/picture.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+// A neighbour on a bus with room in every n-th cycle; how many bytes it moved in which.
+std::vector<std::int64_t> moved_by(StreamTwin& twin, int room_every = 1) {
+  std::vector<std::int64_t> moved;
+  for (int cycle = 0; !twin.done(); ++cycle) moved.push_back(twin.cycle(cycle % room_every == 0));
+  return moved;
+}
+std::int64_t sum_of(const std::vector<std::int64_t>& of) {
+  return std::accumulate(of.begin(), of.end(), std::int64_t{0});
+}
+
+// One pass of four tokens of 16 bits, whose first one is written three cycles after it was read.
+StreamWork four_tokens() { return {1, 7, 3, 4, 64, 0, 64}; }
+
+TEST(StreamTwin, ReadsAndWritesInTheCyclesOfThePass) {
+  StreamTwin twin(2);
+  twin.begin(four_tokens());
+  EXPECT_EQ(moved_by(twin), (std::vector<std::int64_t>{0, 0, 2, 2, 2, 4, 2, 2, 2}));
+  EXPECT_EQ(twin.cycles(), 9);
+  EXPECT_EQ(twin.waited(), 0);
+}
+
+TEST(StreamTwin, WaitsAsAWholeWhereTheBusHasNoRoom) {
+  StreamTwin twin(0);
+  twin.begin(four_tokens());
+  EXPECT_EQ(moved_by(twin, 2), (std::vector<std::int64_t>{2, 0, 2, 0, 2, 0, 4, 0, 2, 0, 2, 0, 2}));
+  EXPECT_EQ(twin.waited(), 6);
+}
+
+TEST(StreamTwin, MovesEveryByteOfUnevenPasses) {
+  const StreamWork work{3, 1000, 77, 700, 12345, 4321, 12345};
+  StreamTwin twin(40);
+  twin.begin(work);
+  EXPECT_EQ(sum_of(moved_by(twin)), (12345 + 4321 + 12345 + 7) / 8);
+  EXPECT_EQ(twin.cycles(), 1000 + 3 * 40);
+}
+
+TEST(StreamTwin, TakesWhatTheBusLetsThrough) {
+  const StreamWork work{2, 20000, 100, 19800, 19800 * 8 * 10, 0, 19800 * 8 * 10};  // 20 bytes a token
+  raycast::Configuration memory;
+  memory.latency = 10;
+  for (const auto& [bus, cycles] : {std::pair{64, 20020}, std::pair{20, 20020}, std::pair{10, 39600}}) {
+    memory.bus_bytes = bus;
+    const std::int64_t took = cycles_alone(work, memory);
+    EXPECT_GE(took, cycles - 64) << bus;  // the last bytes are promised, and come later
+    EXPECT_LE(took, cycles + 200) << bus;
+  }
+}
+
+// A pass on a DRAM: every word is read, and every word written, in whole bursts.
+TEST(StreamTwin, GivesADramWholeBursts) {
+  const memory::Parameters parameters = load_memory("ddr4-2400", "");
+  memory::Dram dram(parameters, 200);
+  StreamTwin twin(0);
+  const StreamWork work{2, 9000, 500, 8000, 2 * 4000 * 200, 2 * 4000 * 64, 2 * 4000 * 200};
+  for (int time = 1; time <= 2; ++time) {
+    twin.begin(work);
+    while (!twin.done()) {
+      twin.cycle(dram, 0);
+      dram.cycle();
+    }
+    // A pass: 4000 tokens of 25 bytes, and as many of 8 bytes.
+    EXPECT_EQ(dram.counts().reads, time * 2 * ((100000 + 63) / 64 + 32000 / 64));
+    EXPECT_GE(twin.cycles(), 9000);
+    EXPECT_LE(twin.cycles(), 9000 + 2 * 200);  // 58 bytes of 96 a cycle: it waits for the first bursts alone
+  }
+  while (!dram.idle()) dram.cycle();
+  EXPECT_EQ(dram.counts().writes, 2 * 2 * ((100000 + 63) / 64));
+}
+
+// 200 bytes a cycle where the bus gives 96.
+TEST(StreamTwin, WaitsForADram) {
+  raycast::Configuration memory;
+  memory.dram = load_memory("ddr4-2400", "");
+  const std::int64_t bits = 4000 * 8 * 100;
+  const std::int64_t cycles = cycles_alone({1, 4100, 100, 4000, bits, 0, bits}, memory);
+  EXPECT_GT(cycles, 2 * bits / 8 / 96);
+  EXPECT_LT(cycles, 2 * bits / 8 / 96 * 5 / 4);  // at least four fifths of the peak
+}
+
+struct Melt {
+  explicit Melt(const std::string& name, std::uint32_t ahead)
+      : scene(scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), {})),
+        before(scene.parameters, std::move(scene.initial), *run::implementations().find("reference")) {
+    ahead -= scene.parameters.heat.visibility_age(ahead);
+    while (before.step_number() < ahead) before.step();
+    scene.camera.width = 40, scene.camera.height = 32;
+  }
+  MachineReport verify(const MachineOptions& options) const {
+    return verify_machine({scene.parameters,
+                           before.step_number(),
+                           *run::implementations().find("reference"),
+                           {},
+                           {before.volume(), scene.look, scene.light, scene.terrain, scene.camera, setting}},
+                          options);
+  }
+
+  scene::Scene scene;
+  run::Simulation before;
+  render::Setting setting = render::Setting::normal;
+};
+
+MachineOptions small_machine() {
+  MachineOptions options;
+  options.steps.steps = 6;
+  options.steps.configuration.cascade = 2;
+  options.picture.frames = 3;
+  return options;
+}
+
+TEST(Machine, StatesAndPicturesAreThoseOfTheSoftware) {
+  for (const char* name : {"bunny_small", "bunny_small_viscous", "lesson_piling"}) {
+    const Melt melt(name, 24);
+    MachineOptions options = small_machine();
+    options.picture.configuration.pipes = 2;
+    const MachineReport report = melt.verify(options);
+    ASSERT_TRUE(report.good()) << name;
+    ASSERT_EQ(report.periods.size(), 3U);
+
+    run::Simulation software(melt.scene.parameters, melt.before.volume(),
+                             *run::implementations().find("auto"));
+    software.begin_at(melt.before.step_number());
+    for (int i = 0; i < 6; ++i) software.step();
+    EXPECT_EQ(report.steps.digest, state::digest(software.volume())) << name;
+    EXPECT_EQ(report.periods.back().step, software.step_number());
+    render::Picture picture;
+    picture.update(software.volume(), melt.scene.look, melt.scene.light, melt.scene.terrain, 1);
+    const render::Image expected = picture.draw(melt.scene.camera, melt.setting, 1);
+    int different = 0;
+    for (int y = 0; y < expected.height; ++y)
+      for (int x = 0; x < expected.width; ++x)
+        different += expected.at(x, y) != report.pictures.image.at(x, y) ? 1 : 0;
+    EXPECT_EQ(different, 0) << name;
+  }
+}
+
+TEST(Machine, CyclesAndBytesSumUp) {
+  const Melt melt("bunny_small", 300);
+  MachineOptions options = small_machine();
+  options.picture.configuration.bus_bytes = 96;
+  const MachineReport report = melt.verify(options);
+  ASSERT_TRUE(report.good());
+  const state::Grid g = melt.before.volume().grid;
+  const std::int64_t tokens = std::int64_t{(g.x + 3) / 4} * g.y * g.z;
+  std::int64_t cycles = 0, frames = report.first_frame, read = 0;
+  for (const Period& of : report.periods) {
+    EXPECT_EQ(of.work.passes, 1);  // two steps, T = 2
+    EXPECT_EQ(of.work.tokens, tokens);
+    EXPECT_EQ(of.work.read_bits, tokens * 4 * 50);
+    EXPECT_EQ(of.work.written_bits, tokens * 4 * 50);
+    EXPECT_EQ(of.work.cycles, tokens + of.work.lag);
+    EXPECT_EQ(of.stream, of.work.cycles + options.picture.configuration.latency);
+    EXPECT_GE(of.together, std::max(of.stream, of.frame_beside));
+    EXPECT_LE(of.together, of.stream + of.frame + of.frame / 2);
+    EXPECT_EQ(of.frame_written, 2 * 5 * 4 * 192);  // two passes, tiles of 192 bytes
+    EXPECT_GT(of.upload.bursts, 0);
+    EXPECT_LT(of.upload.bursts, report.first_upload.bursts);
+    cycles += of.work.cycles, frames += of.frame, read += of.frame_read;
+  }
+  EXPECT_EQ(cycles, report.steps.cycles);
+  EXPECT_EQ(frames, report.pictures.all_cycles);
+  EXPECT_LT(read, report.pictures.memory.read_bytes);  // the first frame reads, too
+  EXPECT_EQ(report.state_bytes, (tokens * 4 * 50 + 7) / 8);
+
+  const nlohmann::ordered_json json = json_of(report, options);
+  const Period sum = report.sum();
+  EXPECT_DOUBLE_EQ(json["a_second"]["overlapped"]["frames"].get<double>(),
+                   3 * 2e8 / static_cast<double>(sum.overlapped()));
+  EXPECT_DOUBLE_EQ(json["a_second"]["in_turn"]["steps"].get<double>(),
+                   6 * 2e8 / static_cast<double>(sum.in_turn()));
+  for (const Bound& bound : bounds_of(report, options)) {
+    EXPECT_GE(bound.share, 0) << bound.name;
+    EXPECT_LE(bound.share, 1) << bound.name;
+  }
+}
+
+// The same picture, drawn alone and beside the pipeline: on a wide bus the neighbour costs next to nothing,
+// on a narrow one both wait.
+TEST(Machine, BothWaitForANarrowBus) {
+  const Melt melt("bunny_small", 300);
+  for (const bool narrow : {false, true}) {
+    MachineOptions options = small_machine();
+    options.picture.configuration.bus_bytes = narrow ? 60 : 4096;
+    const MachineReport report = melt.verify(options);
+    ASSERT_TRUE(report.good());
+    for (std::size_t i = 1; i < 3; ++i) {
+      const Period &before = report.periods[i - 1], &of = report.periods[i];
+      if (narrow) {
+        EXPECT_GT(of.frame_beside, before.frame + before.frame / 20);
+        EXPECT_GT(of.stream_beside, of.work.cycles + 100);
+      } else {
+        EXPECT_LT(std::abs(of.frame_beside - before.frame), before.frame / 50);
+        EXPECT_EQ(of.stream_beside, of.work.cycles + options.picture.configuration.latency);
+        EXPECT_EQ(of.together, std::max(of.stream_beside, of.frame_beside));
+      }
+    }
+  }
+}
+
+TEST(Machine, BothAreClientsOfOneDram) {
+  const Melt melt("bunny_small", 300);
+  MachineOptions options = small_machine();
+  options.picture.configuration.dram = load_memory("ddr4-2400", "");
+  const MachineReport report = melt.verify(options);
+  ASSERT_TRUE(report.good());
+  for (std::size_t i = 1; i < 3; ++i) {
+    const Period &before = report.periods[i - 1], &of = report.periods[i];
+    EXPECT_GT(of.stream, of.work.cycles);
+    EXPECT_GE(of.stream_beside, of.stream - of.stream / 50);
+    EXPECT_GT(of.frame_beside, before.frame);
+    EXPECT_EQ(of.together, std::max(of.stream_beside, of.frame_beside));
+  }
+}
+
+// A wrong pixel, or a wrong cell, ends the run.
+TEST(Machine, ADifferenceEndsTheRun) {
+  const Melt melt("bunny_small", 300);
+  MachineOptions options = small_machine();
+  options.picture.fault = raycast::Fault::pixel_byte;
+  const MachineReport report = melt.verify(options);
+  EXPECT_FALSE(report.good());
+  EXPECT_TRUE(report.periods.empty());
+  EXPECT_EQ(report.steps.steps, 0U);
+  options.picture.fault = raycast::Fault::none;
+  options.steps.fault = Fault::conduction_sign;
+  options.steps.fault_step = melt.before.step_number() + 2;
+  const MachineReport wrong_step = melt.verify(options);
+  EXPECT_FALSE(wrong_step.good());
+  EXPECT_NE(wrong_step.steps.mismatch, nullptr);
+  EXPECT_LT(wrong_step.periods.size(), 3U);
+}
+
+}  // namespace
+}  // namespace voxmelt::hwmodel

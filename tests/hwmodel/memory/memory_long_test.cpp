@@ -1,0 +1,31 @@
+// A hundred million commands, and no rule of a sheet is broken.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "hwmodel/memory/dram.h"
+#include "hwmodel/memory/timing_checker.h"
+#include "tests/hwmodel/memory/memory_traffic.h"
+
+namespace voxmelt::hwmodel::memory {
+namespace {
+
+TEST(MemoryLong, AHundredMillionCommandsKeepTheRules) {
+  std::int64_t commands = 0;
+  for (std::uint64_t seed = 0; commands < 100'000'000; ++seed) {
+    for (const Parameters& p : {sheet("ddr4-2400"), two_ranks(), sheet("hbm2"), sheet("lpddr4-3200")}) {
+      Dram dram(p, seed % 2 == 0 ? 200 : 400);
+      TimingChecker checker(p);
+      dram.listen(&checker);
+      Traffic traffic(dram, 1 + static_cast<int>(seed % 5), seed);
+      traffic.run(4'000'000);
+      ASSERT_TRUE(traffic.drain());
+      checker.finish(dram.memory_cycles());
+      ASSERT_EQ(checker.violations(), 0) << p.name << " seed " << seed << ": " << checker.first();
+      commands += checker.commands();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace voxmelt::hwmodel::memory

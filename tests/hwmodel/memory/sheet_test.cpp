@@ -1,0 +1,83 @@
+// Files of memories: what they say arrives, and what is wrong in them is refused at its place.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "hwmodel/memory/sheet.h"
+#include "kernel/scene/text/error.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string& text_of(const std::string& name) {
+  for (const MemoryFile& file : memory_files())
+    if (file.name == name) return file.text;
+  throw std::logic_error("no file " + name);
+}
+// What `load_memory` says of the file with one text in place of another.
+std::string complaint(const std::string& old, const std::string& now) {
+  std::string text = text_of("ddr4-2400");
+  const std::size_t at = text.find(old);
+  if (at == std::string::npos) return "the file has no " + old;
+  text.replace(at, old.size(), now);
+  const fs::path file = fs::path(testing::TempDir()) / "voxmelt_memory.toml";
+  std::ofstream(file) << text;
+  std::string said;
+  try {
+    load_memory(file.string(), "test");
+  } catch (const scene::InputError& error) {
+    said = error.what();
+    if (said.find(file.string() + ":") != 0) said = "without its place: " + said;
+  }
+  fs::remove(file);
+  return said.substr(std::min(said.size(), said.find("error:")));
+}
+
+TEST(MemoryPreset, SaysWhatTheSheetSays) {
+  const memory::Parameters ddr4 = load_memory("ddr4-2400", "test");
+  EXPECT_EQ(ddr4.peak(), 19200);
+  EXPECT_EQ(ddr4.bytes(), std::int64_t{8} << 30);
+  EXPECT_EQ(ddr4.row_bytes(), 8192);
+  EXPECT_EQ(ddr4.columns_of_request(), 1);
+  EXPECT_EQ(ddr4.rc, ddr4.ras + ddr4.rp);
+  const memory::Parameters hbm2 = load_memory("hbm2", "test");
+  EXPECT_EQ(hbm2.peak(), 16000);
+  EXPECT_EQ(hbm2.columns_of_request(), 2);
+  EXPECT_TRUE(hbm2.two_buses);
+  const memory::Parameters lpddr4 = load_memory("lpddr4-3200", "test");
+  EXPECT_EQ(lpddr4.peak(), 25600);
+  EXPECT_EQ(lpddr4.bytes(), std::int64_t{2} << 30);
+  EXPECT_EQ(memory_files().size(), 3u);
+}
+
+TEST(MemoryPreset, RefusesWhatCannotBe) {
+  EXPECT_EQ(complaint("title", "title"), "");
+  EXPECT_NE(complaint("groups = 4", "groups = 3").find("3 is not a power of 2"), std::string::npos);
+  EXPECT_NE(complaint("ranks = 1", "ranks = 8").find("more than 64 banks"), std::string::npos);
+  EXPECT_NE(complaint("transfers = 8", "transfers = 16").find("64 of them at most"), std::string::npos);
+  EXPECT_NE(complaint("columns = 1024", "columns = 4").find("a row must have 64 bytes"), std::string::npos);
+  EXPECT_NE(complaint("ccd_s = 4", "ccd_s = 3").find("ccd_s"), std::string::npos);
+  EXPECT_NE(complaint("refi = 9360", "refi = 500").find("refi"), std::string::npos);
+  EXPECT_NE(complaint("cl = 17", "latency = 17").find("cl"), std::string::npos);
+  EXPECT_NE(complaint("rtp = 9", "rtp = 9\nrtq = 9").find("rtq"), std::string::npos);
+  EXPECT_NE(complaint("[memory]", "[dram]").find("no such table"), std::string::npos);
+  try {
+    load_memory("ddr5", "--set hw.memory=ddr5");
+    ADD_FAILURE();
+  } catch (const scene::InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "--set hw.memory=ddr5: error: no memory \"ddr5\"; there are fixed, ddr4-2400, hbm2, "
+              "lpddr4-3200, or a file that ends in .toml");
+  }
+}
+
+}  // namespace
+}  // namespace voxmelt::hwmodel

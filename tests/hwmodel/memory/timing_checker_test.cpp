@@ -1,0 +1,185 @@
+// The checker of command timing: each rule by two streams written by hand, one that just keeps it and one
+// that is a cycle too early; and controllers with one number shortened.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/memory/dram.h"
+#include "hwmodel/memory/timing_checker.h"
+#include "tests/hwmodel/memory/memory_traffic.h"
+
+namespace voxmelt::hwmodel::memory {
+namespace {
+
+using Kind = Command::Kind;
+
+struct At {
+  int rank, group, bank, row;
+};
+Command command(std::int64_t cycle, Kind kind, const At& at) {
+  return {cycle, kind, 0, at.rank, at.group, at.bank, at.row, 0};
+}
+std::string verdict(const Parameters& p, const std::vector<Command>& stream) {
+  TimingChecker checker(p);
+  for (const Command& of : stream) checker.issued(of);
+  if (checker.violations() == 0) return "";
+  std::string rules;
+  for (const auto& [rule, count] : checker.by_rule()) rules += (rules.empty() ? "" : ", ") + rule;
+  return rules;
+}
+
+constexpr At kA{0, 0, 0, 5}, kOtherRow{0, 0, 0, 6}, kSameGroup{0, 0, 1, 5}, kOtherGroup{0, 1, 0, 5},
+    kThird{0, 2, 0, 5}, kFourth{0, 3, 0, 5}, kFifth{0, 0, 2, 5}, kOtherRank{1, 0, 0, 5};
+
+// The last command may come in cycle `from`, and not a cycle before. All cycles are worked by hand from the
+// sheet of DDR4-2400 (17-17-17).
+struct Case {
+  const char* rule;
+  std::vector<Command> before;
+  Kind kind;
+  At at;
+  std::int64_t from;
+};
+
+TEST(TimingChecker, EveryRuleOfTheSheetToTheCycle) {
+  const auto act = [](std::int64_t cycle, const At& at) { return command(cycle, Kind::activate, at); };
+  const auto read = [](std::int64_t cycle, const At& at) { return command(cycle, Kind::read, at); };
+  const auto write = [](std::int64_t cycle, const At& at) { return command(cycle, Kind::write, at); };
+  const auto pre = [](std::int64_t cycle, const At& at) { return command(cycle, Kind::precharge, at); };
+  const auto ref = [](std::int64_t cycle, const At& at) { return command(cycle, Kind::refresh, at); };
+  const std::vector<Case> cases{
+      {"tRCD", {act(100, kA)}, Kind::read, kA, 117},
+      {"tRCD", {act(100, kA)}, Kind::write, kA, 117},
+      {"tRAS", {act(100, kA)}, Kind::precharge, kA, 139},
+      {"tRP", {act(100, kA), pre(150, kA)}, Kind::activate, kOtherRow, 167},
+      {"tRTP", {act(100, kA), read(140, kA)}, Kind::precharge, kA, 149},
+      {"tWR", {act(100, kA), write(140, kA)}, Kind::precharge, kA, 140 + 12 + 4 + 18},
+      {"tRRD_S", {act(100, kA)}, Kind::activate, kOtherGroup, 104},
+      {"tRRD_L", {act(100, kA)}, Kind::activate, kSameGroup, 106},
+      {"tFAW",
+       {act(100, kA), act(104, kOtherGroup), act(108, kThird), act(112, kFourth)},
+       Kind::activate,
+       kFifth,
+       126},
+      {"tCCD_L", {act(100, kA), act(106, kSameGroup), read(140, kA)}, Kind::read, kSameGroup, 146},
+      {"tCCD_L", {act(100, kA), act(106, kSameGroup), write(140, kA)}, Kind::write, kSameGroup, 146},
+      {"data bus, tCCD_S",
+       {act(100, kA), act(106, kOtherGroup), read(140, kA)},
+       Kind::read,
+       kOtherGroup,
+       144},
+      {"tWTR_L", {act(100, kA), write(140, kA)}, Kind::read, kA, 140 + 12 + 4 + 9},
+      {"tWTR_S",
+       {act(100, kA), act(106, kOtherGroup), write(140, kA)},
+       Kind::read,
+       kOtherGroup,
+       140 + 12 + 4 + 3},
+      // Read data lie at 157 .. 160; written data may follow from 163 on, 12 cycles behind their command.
+      {"read to write", {act(100, kA), read(140, kA)}, Kind::write, kA, 151},
+      {"rank switch", {act(100, kA), act(101, kOtherRank), read(140, kA)}, Kind::read, kOtherRank, 146},
+      // Written data lie at 152 .. 155; read data of the other rank from 158 on.
+      {"command bus, rank switch",
+       {act(100, kA), act(101, kOtherRank), write(140, kA)},
+       Kind::read,
+       kOtherRank,
+       141},
+      {"tRFC", {ref(100, kA)}, Kind::activate, kA, 520},
+      {"tRP before REF", {act(100, kA), pre(160, kA)}, Kind::refresh, kA, 177},
+      {"tRP before REF", {act(100, kA), command(160, Kind::precharge_all, kA)}, Kind::refresh, kA, 177},
+      {"command bus", {act(100, kA)}, Kind::activate, kOtherRank, 101},
+      {"tREFI: the gap", {}, Kind::refresh, kA, -9 * 9360},
+  };
+  for (const Case& of : cases) {
+    std::vector<Command> stream = of.before;
+    const bool late = of.from < 0;  // the rule holds until then, not from then on
+    stream.push_back(command(late ? -of.from : of.from, of.kind, of.at));
+    EXPECT_EQ(verdict(two_ranks(), stream), "") << of.rule;
+    stream.back().cycle += late ? 1 : -1;
+    EXPECT_EQ(verdict(two_ranks(), stream), of.rule);
+  }
+  // This sheet's tRC is tRAS + tRP. A longer one shows by itself.
+  Parameters longer = two_ranks();
+  longer.rc = 60;
+  EXPECT_EQ(verdict(longer, {act(100, kA), pre(139, kA), act(160, kOtherRow)}), "");
+  EXPECT_EQ(verdict(longer, {act(100, kA), pre(139, kA), act(159, kOtherRow)}), "tRC");
+}
+
+TEST(TimingChecker, StatesOfBanks) {
+  const Parameters p = two_ranks();
+  const Command opens = command(100, Kind::activate, kA);
+  EXPECT_EQ(verdict(p, {opens, command(900, Kind::activate, kOtherRow)}), "ACT of an open bank");
+  EXPECT_EQ(verdict(p, {opens, command(900, Kind::read, kOtherRow)}), "column of another row");
+  EXPECT_EQ(verdict(p, {opens, command(900, Kind::read, kSameGroup)}), "column of a closed bank");
+  EXPECT_EQ(verdict(p, {opens, command(900, Kind::refresh, kA)}), "REF with an open bank");
+  EXPECT_EQ(verdict(p, {opens, command(900, Kind::precharge_all, kA), command(950, Kind::read, kA)}),
+            "column of a closed bank");
+  EXPECT_EQ(verdict(p, {command(100, Kind::activate, {0, 0, 0, 65536})}), "row");
+  Command beyond = command(900, Kind::read, kA);
+  beyond.column = 1020;
+  EXPECT_EQ(verdict(p, {opens, beyond}), "column");
+}
+
+TEST(TimingChecker, RefreshesThatNeverComeAreMissed) {
+  TimingChecker checker(sheet("ddr4-2400"));
+  checker.finish(8 * 9360 + 9359);
+  EXPECT_EQ(checker.violations(), 0);
+  checker.finish(9 * 9360);
+  EXPECT_EQ(checker.violations(), 1);
+}
+
+// A controller that believes in a number that is shorter than the sheet's.
+struct Planted {
+  const char* rule;
+  std::function<void(Parameters&)> plant;
+};
+
+TEST(TimingChecker, FindsEveryPlantedTimingError) {
+  Parameters ddr4 = two_ranks(), lpddr4 = sheet("lpddr4-3200"), hbm = sheet("hbm2");
+  ddr4.rc = 60;      // else it follows from tRAS and tRP
+  ddr4.rp_all = 19;  // likewise from tRP
+  const std::vector<Planted> planted{
+      {"tRCD", [](Parameters& p) { --p.rcd; }},
+      {"tRP", [](Parameters& p) { --p.rp; }},
+      {"tRP before REF", [](Parameters& p) { --p.rp_all; }},
+      {"tRAS", [](Parameters& p) { --p.ras; }},
+      {"tRC", [](Parameters& p) { --p.rc; }},
+      {"tCCD_S", [](Parameters& p) { --p.ccd_s; }},
+      {"tCCD_L", [](Parameters& p) { --p.ccd_l; }},
+      {"tRRD_S", [](Parameters& p) { --p.rrd_s; }},
+      {"tRRD_L", [](Parameters& p) { --p.rrd_l; }},
+      {"tFAW", [](Parameters& p) { --p.faw; }},
+      {"tWR", [](Parameters& p) { --p.wr; }},
+      {"tWTR_S", [](Parameters& p) { --p.wtr_s; }},
+      {"tWTR_L", [](Parameters& p) { --p.wtr_l; }},
+      {"tRTP", [](Parameters& p) { --p.rtp; }},
+      {"read to write", [](Parameters& p) { --p.read_to_write; }},
+      {"rank switch", [](Parameters& p) { --p.rank_switch; }},
+      {"tRFC", [](Parameters& p) { --p.rfc; }},
+      {"tREFI: how many", [](Parameters& p) { p.refi += p.refi / 4; }},
+  };
+  const auto found = [](const Parameters& right, const Parameters& believed) {
+    Dram dram(believed, 400);
+    TimingChecker checker(right);
+    dram.listen(&checker);
+    Traffic(dram, 4, 11).run(200000);
+    return checker.by_rule();
+  };
+  EXPECT_TRUE(found(ddr4, ddr4).empty());
+  for (const Planted& of : planted) {
+    Parameters believed = ddr4;
+    of.plant(believed);
+    EXPECT_TRUE(found(ddr4, believed).contains(of.rule)) << of.rule;
+  }
+  for (const Parameters& of : {lpddr4, hbm}) {
+    EXPECT_TRUE(found(of, of).empty());
+    Parameters believed = of;
+    --believed.act_slots;
+    EXPECT_TRUE(found(of, believed).contains("command bus")) << of.name;
+  }
+}
+
+}  // namespace
+}  // namespace voxmelt::hwmodel::memory

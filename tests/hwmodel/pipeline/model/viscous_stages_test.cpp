@@ -1,0 +1,232 @@
+// Settle and viscous spread against the reference. Spread reads what settle shows, so the two run together.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "kernel/automaton/rule/viscous.h"
+#include "tests/hwmodel/pipeline/model/viscous_worlds.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+using step::Phase;
+
+void make_excess(const Design& design, const StageMaker& make, Stages& stages) {
+  stages.push_back(make(StageKind::settle, design));
+}
+void make_both(const Design& design, const StageMaker& make, Stages& stages) {
+  make_excess(design, make, stages);
+  stages.push_back(make(StageKind::viscous_spread, design));
+}
+
+TEST(ViscousStages, SettleIsTheReferences) {
+  for (const std::uint64_t seed : {0u, 1'000'000u, 2'000'000u})
+    expect_phase(rule::Law::viscous, Phase::excess, make_excess, 200, 3, seed);
+}
+
+// Tall columns: some keep the order of their heat, others beside them do not.
+TEST(ViscousStages, SettleIsTheReferencesInLayers) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    worlds::Random random(seed);
+    const state::Grid grid{random.between(1, 9), random.any({4, 31, 32, 40}), 2};
+    Design design{worlds::hostile_parameters(random, rule::Law::viscous, grid),
+                  {grid, random.any({1, 2, 4})}};
+    design.parameters.vents.clear();
+    state::Volume start(grid);
+    for (int z = 0; z < grid.z; ++z)
+      for (int x = 0; x < grid.x; ++x) {
+        worlds::put_layers(random, start, x, z, design.hot());
+        if (random.one_in(8)) worlds::put_inert(start, x, random.below(grid.y), z);
+      }
+    ViscousWorld world(design, start);
+    Stages stages;
+    make_excess(design, make_stage, stages);
+    StageRun run;
+    for (std::uint32_t step = 0; step < 4; ++step)
+      world.step([&](Phase phase, const state::Volume& before) {
+        if (phase != Phase::excess) return;
+        ASSERT_EQ(worlds::difference(world.simulation.volume(),
+                                     run_stages(design, stages, world.moment, nullptr, before, run)),
+                  "")
+            << "seed " << seed << ", step " << step;
+      });
+  }
+}
+
+TEST(ViscousStages, SpreadIsTheReferences) {
+  for (const std::uint64_t seed : {0u, 3'000'000u, 4'000'000u})
+    expect_phases(rule::Law::viscous, Phase::excess, Phase::spread, make_both, 200, 3, seed);
+}
+
+// Both stages on a given world, `count` steps.
+void expect_steps(ViscousWorld& world, int count, std::uint64_t stall_seed) {
+  Stages stages;
+  make_both(world.design, make_stage, stages);
+  StageRun run{2, stall_seed};
+  for (int i = 0; i < count; ++i) {
+    state::Volume start = world.simulation.volume();
+    world.step([&](Phase phase, const state::Volume& before) {
+      if (phase == Phase::excess) start = before;
+      if (phase != Phase::spread) return;
+      const state::Volume found = run_stages(world.design, stages, world.moment, nullptr, start, run);
+      const state::Grid g = before.grid;
+      ASSERT_EQ(worlds::difference(world.simulation.volume(), found), "")
+          << g.x << " x " << g.y << " x " << g.z << ", " << world.design.shape.lanes << " lanes, step " << i;
+    });
+  }
+}
+
+TEST(ViscousStages, EverySizeOfAnAxis) {
+  worlds::Random random(5);
+  int sizes = 0;
+  for (const int n : {1, 2, 3, 63, 64, 65})
+    for (const int lanes : {1, 2, 4, 8, 16})
+      for (const state::Grid grid : {state::Grid{n, 4, 3}, state::Grid{5, n, 3}, state::Grid{5, 4, n}}) {
+        ViscousWorld world(random, grid, lanes);
+        expect_steps(world, 2, random.one_in(2) ? 0 : 1 + random.bits() % 1000);
+        ++sizes;
+      }
+  EXPECT_EQ(sizes, 90);
+}
+
+// Sums that are whole cells, top cells at ONE / 2, beds higher than a scene may have, and columns so deep
+// that the mobility's depth is cut: what random amounts never hit.
+TEST(ViscousStages, BoundsOfTheRules) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    worlds::Random random(seed);
+    const bool deep = random.one_in(4);
+    const state::Grid grid{random.between(2, 6), deep ? random.between(64, 90) : random.between(2, 8),
+                           random.between(1, 3)};
+    rule::Parameters parameters = worlds::hostile_parameters(random, rule::Law::viscous, grid);
+    parameters.flow.viscous.mobility = random.any<std::uint64_t>({4096, 28672, 126976, 19088744, 1908874400});
+    parameters.flow.viscous.yield = static_cast<std::uint32_t>(random.any({0, 131, 40000}));
+    parameters.vents.clear();
+    parameters.heat.radiation = false;
+    state::Volume start(grid);
+    worlds::for_each(worlds::whole(grid), [&](int x, int y, int z) {
+      const std::int32_t heat = parameters.heat.enabled ? random.below(65536) : 0;
+      if (random.one_in(deep ? 400 : 6))
+        worlds::put_inert(start, x, y, z, random.any({0, 2048, 4095, 4200, 65535}));
+      else if (const std::int32_t amount =
+                   deep && y < 65 ? 4096 : random.any({0, 2047, 2048, 2049, 4095, 4096, 6144, 6145, 8191});
+               amount > 0)
+        worlds::put(start, x, y, z, amount, 0, heat);
+    });
+    ViscousWorld world(Design{parameters, {grid, random.any({1, 2, 4})}}, start);
+    expect_steps(world, 2, 0);
+  }
+}
+
+// The tallest grid, as full as can be: every width at its limit. An overflow would throw.
+TEST(ViscousStages, WidestNumbers) {
+  for (const int stiffness : {1, 8})
+    for (const int height : {1, 2, 255, 256, 4096}) {
+      worlds::Random random(static_cast<std::uint64_t>(height));
+      const state::Grid grid{3, height, 2};
+      rule::Parameters parameters = worlds::hostile_parameters(random, rule::Law::viscous, grid);
+      parameters.heat.enabled = parameters.flow.thermal_viscosity = true;
+      parameters.heat.radiation = parameters.heat.air = false;
+      parameters.flow.mobility_table.fill(65535);
+      parameters.flow.viscous = {(std::uint64_t{1} << 36) - 1, (1 << 24) - 1,
+                                 static_cast<std::uint8_t>(stiffness)};
+      state::Volume full(grid);
+      worlds::fill(full, worlds::whole(grid), 65535, 0, 65535);
+      worlds::put_inert(full, 1, 0, 0, 65535);
+      for (int y = 1; y < height; ++y) worlds::put(full, 2, y, 1, 0);
+      const Design design{parameters, {grid, 2}};
+      run::Simulation simulation(parameters, full, worlds::implementation("reference"));
+      simulation.begin_step();
+      simulation.run_phase(Phase::excess);
+      Stages settle, both;
+      make_excess(design, make_stage, settle);
+      make_both(design, make_stage, both);
+      StageRun run;
+      ASSERT_EQ(worlds::difference(simulation.volume(),
+                                   run_stages(design, settle, step::Moment(0), nullptr, full, run)),
+                "");
+      simulation.run_phase(Phase::spread);
+      ASSERT_EQ(worlds::difference(simulation.volume(),
+                                   run_stages(design, both, step::Moment(0), nullptr, full, run)),
+                "");
+    }
+}
+
+// Keeps what passes.
+class Tap final : public Stage {
+ public:
+  Tap(const Design& design) : Stage(StageKind::viscous_spread, design, 0) {}
+  const Cell& at(int x, int y, int z) const {
+    return cells_[static_cast<std::size_t>(stream_order(shape(), x, y, z))];
+  }
+
+ protected:
+  void begin_step() override { cells_.clear(); }
+  void advance(const Cell* in, Cell* out) override {
+    std::copy_n(in, lanes(), out);
+    cells_.insert(cells_.end(), in, in + lanes());
+  }
+
+ private:
+  std::vector<Cell> cells_;
+};
+
+bool blocked(const state::Volume& v, int x, int y, int z) {
+  return !v.grid.contains(x, y, z) || v.solid.test(x, y, z) || v.inert.test(x, y, z);
+}
+
+// Cells that settling leaves in a run, counted cell by cell.
+std::vector<bool> in_runs(const state::Volume& v) {
+  std::vector<bool> result(v.grid.cells());
+  worlds::for_each({0, 0, 0, v.grid.x, v.grid.y, v.grid.z}, [&](int x, int bottom, int z) {
+    const auto amount = [&](int y) -> std::int32_t { return v.amount[v.at(x, y, z)]; };
+    if (blocked(v, x, bottom, z) || !blocked(v, x, bottom - 1, z) || amount(bottom) == 0) return;
+    std::int64_t sum = amount(bottom);
+    std::int32_t n = 1;
+    while (!blocked(v, x, bottom + n, z) &&
+           rule::run_continues(sum, n, amount(bottom + n - 1), amount(bottom + n)))
+      sum += amount(bottom + n++);
+    for (int k = 0; k < n; ++k) result[v.grid.index(x, bottom + k, z)] = rule::settled(sum, n, k) > 0;
+  });
+  return result;
+}
+
+TEST(ViscousStages, SpreadHandsOnRunsAndWallsAndNothingElse) {
+  int runs = 0, walls = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    worlds::Random random(seed);
+    ViscousWorld world(random, small_grid(random), random.any({1, 2, 4, 8, 16}));
+    Stages stages;
+    make_both(world.design, make_stage, stages);
+    auto tap = std::make_unique<Tap>(world.design);
+    const Tap& seen = *tap;
+    stages.push_back(std::move(tap));
+    StageRun run;
+    world.step([&](Phase phase, const state::Volume& before) {
+      if (phase != Phase::excess) return;
+      run_stages(world.design, stages, world.moment, nullptr, before, run);
+      const std::vector<bool> expected = in_runs(before);
+      worlds::for_each(worlds::whole(before.grid), [&](int x, int y, int z) {
+        const Cell& cell = seen.at(x, y, z);
+        const bool in_run = cell.in_run, beside_wall = cell.beside_wall;
+        const bool wall = blocked(before, x - 1, y, z) || blocked(before, x + 1, y, z) ||
+                          blocked(before, x, y, z - 1) || blocked(before, x, y, z + 1);
+        ASSERT_EQ(in_run, expected[before.grid.index(x, y, z)]);
+        ASSERT_EQ(beside_wall, wall && !blocked(before, x, y, z) && world.design.needs_walls());
+        Cell plain = cell;
+        plain.in_run = plain.beside_wall = 0;
+        Cell state_only;
+        state_only.state = cell.state, state_only.amount = cell.amount, state_only.heat = cell.heat;
+        ASSERT_EQ(plain, state_only);
+        runs += in_run, walls += beside_wall;
+      });
+    });
+  }
+  EXPECT_GT(runs, 500);
+  EXPECT_GT(walls, 500);
+}
+
+}  // namespace
+}  // namespace voxmelt::hwmodel

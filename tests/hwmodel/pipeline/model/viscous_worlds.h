@@ -1,0 +1,39 @@
+// Worlds of the viscous law for single stages: a hostile volume of a given size, phase by phase.
+#pragma once
+
+#include "tests/hwmodel/pipeline/model/stage_run.h"
+
+namespace voxmelt::hwmodel {
+
+struct ViscousWorld {
+  Design design;
+  run::Simulation simulation;
+  step::Moment moment{0};  // of the last phase
+
+  ViscousWorld(worlds::Random& random, const state::Grid& grid, int lanes)
+      : design{worlds::hostile_parameters(random, rule::Law::viscous, grid), {grid, lanes}},
+        simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
+                   worlds::implementation("reference")) {}
+
+  ViscousWorld(const Design& of, const state::Volume& start)
+      : design(of), simulation(design.parameters, start, worlds::implementation("reference")) {}
+
+  // Runs a whole step of the reference; at(phase, state before it) after each phase.
+  template <class At>
+  void step(At&& at) {
+    simulation.begin_step();
+    for (const step::Phase phase : simulation.phases()) {
+      const state::Volume before = simulation.volume();
+      moment = simulation.moment();
+      simulation.run_phase(phase);
+      at(phase, before);
+    }
+    simulation.end_step();
+  }
+};
+
+inline state::Grid small_grid(worlds::Random& random) {
+  return {random.between(1, 20), random.between(1, 9), random.between(1, 6)};
+}
+
+}  // namespace voxmelt::hwmodel
