@@ -16,6 +16,7 @@ import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import house_arrows  # noqa: E402
 from house_picture import picture  # noqa: E402
 
 # One row per folder with a box: what it is for. A folder below takes part in the count of the box above it.
@@ -140,6 +141,7 @@ def survey(root):
                  if FLOOR_OF[one] > FLOOR_OF[other]]
     problems += [f"{one} includes {other}, which is on its floor, but not next to it" for one, other in sorted(arrows)
                  if FLOOR_OF[one] == FLOOR_OF[other] and abs(ROOMS.index(one) - ROOMS.index(other)) != 1]
+    problems += house_arrows.problems(*folders_and_includes(root))
     return lines, arrows, sorted(set(problems))
 
 
@@ -201,6 +203,7 @@ def self_test():
         assert any("floor above" in problem for problem in survey(root)[2])
     chain = {("app", "render"), ("render", "kernel/scene"), ("app", "kernel/scene"), ("app", "kernel/run")}
     assert needed(chain) == [("app", "kernel/run"), ("app", "render"), ("render", "kernel/scene")], needed(chain)
+    house_arrows.self_test()
     print("planted folders, arrows, circles and counts are noticed")
 
 

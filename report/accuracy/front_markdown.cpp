@@ -7,8 +7,8 @@
 #include "accuracy/front/words.h"
 #include "report/accuracy/front.h"
 #include "report/accuracy/front_text.h"
-#include "report/accuracy/wrapped.h"
 #include "report/accuracy/report.h"
+#include "report/accuracy/wrapped.h"
 
 namespace voxmelt::accuracy {
 namespace {

@@ -5,8 +5,8 @@
 #include <sstream>
 #include <string>
 
-#include "report/accuracy/wrapped.h"
 #include "report/accuracy/report.h"
+#include "report/accuracy/wrapped.h"
 
 namespace voxmelt::accuracy {
 namespace {

@@ -18,20 +18,11 @@ namespace {
 std::string text(const Json& value) { return value.get<std::string>(); }
 
 std::string passes(const Json& report) {
-  Json known = Json::array();
-  std::vector<std::string> hover;
   std::string list;
-  for (const Json& pass : report["passes"]) {
-    const char* name = pass["second"].get<bool>() ? "second pass" : "first pass";
-    list += fmt::format("<p class=\"soft\">{}: {} cycles{}</p>", name, number(pass["cycles"]),
-                        pass.contains("predicted") ? ", predicted " + number(pass["predicted"]) : "");
-    if (!pass.contains("predicted")) continue;
-    known.push_back({{"cycles", pass["cycles"]}, {"predicted_cycles", pass["predicted"]}});
-    hover.push_back(fmt::format("{}\nsimulated {}\npredicted {}", name, number(pass["cycles"]),
-                                number(pass["predicted"])));
-  }
-  if (known.empty()) return list;
-  return list + "<div class=\"charts\">" + against_prediction(known, hover) + "</div>";
+  for (const Json& pass : report["passes"])
+    list += fmt::format("<p class=\"soft\">{}: {} cycles</p>",
+                        pass["second"].get<bool>() ? "second pass" : "first pass", number(pass["cycles"]));
+  return list;
 }
 
 std::string bounds(const Json& of) {

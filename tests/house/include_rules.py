@@ -56,8 +56,7 @@ ALLOWED = {
     "hwmodel/pipeline/check": [PIPELINE, "hwmodel/pipeline/faults", "hwmodel/pipeline/time", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io", "kernel/scene/text"],
     "hwmodel/pipeline/report": [PIPELINE, "hwmodel/pipeline/check"],
     # The ray caster sees nothing of the software at all: the host's part stands beside it.
-    CASTER: [FABRIC, "hwmodel/caster/time", "hwmodel/memory"],
-    "hwmodel/caster/time": [CASTER],
+    CASTER: [FABRIC, "hwmodel/memory"],
     "hwmodel/caster/faults": [CASTER],
     "hwmodel/caster/host": [CASTER, STATE, PICTURE, "render/ground", "render/packet"],
     "hwmodel/caster/check": [CASTER, "hwmodel/caster/faults", "hwmodel/caster/host", STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/image",

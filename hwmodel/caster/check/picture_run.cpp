@@ -123,8 +123,6 @@ PictureRun::PictureRun(const Registers& registers, Memory& memory, const Picture
       caster_(registers, memory, options_.configuration,
               options.fault == Fault::none ? PipeMaker(make_pipe) : planted_pipes(plan_)) {
   caster_.poll(options.poll);
-  // Of rays through clear matter, and of a part of a picture, nothing is foretold.
-  caster_.predict(options.predict && !registers.look.clear && options.window.whole());
 }
 
 void PictureRun::forget(const UploadReport& upload) {
@@ -148,24 +146,22 @@ void PictureRun::draw(const render::PictureScene& scene, const picture::Camera& 
   caster_.draw_only(first);
   checker.begin_pass(1, 0, memory_.frame, first);
   report_.end = caster_.draw_first();
-  double forecasting = report_.end.forecasting;
   if (options_.compare) checker.end_pass(report_.end);
   report_.all_cycles += report_.end.cycles;
-  report_.passes.push_back({false, report_.end.cycles, report_.end.predicted});
+  report_.passes.push_back({false, report_.end.cycles});
   if (!fast && !checker.difference() && report_.end.complete) {
     caster_.draw_only(options_.window);
     checker.begin_pass(samples, most, second_frame, options_.window);
     const FrameEnd second = caster_.draw_again(samples, most);
-    forecasting += second.forecasting;
     report_.all_cycles += second.cycles;
-    report_.passes.push_back({true, second.cycles, second.predicted});
+    report_.passes.push_back({true, second.cycles});
     if (options_.compare) checker.end_pass(second);
     const std::int64_t first_cycles = report_.end.cycles;
     report_.end = second;
     report_.end.cycles += first_cycles;
   }
   caster_.watch({});
-  report_.seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC - forecasting;
+  report_.seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   report_.difference = checker.difference();
   report_.compared += checker.compared();
   report_.under_way = checker.ray_under_way();

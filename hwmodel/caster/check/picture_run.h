@@ -22,10 +22,7 @@ namespace voxmelt::hwmodel::raycast {
 // A pass of a frame.
 struct PassCycles {
   bool second = false;
-  std::int64_t cycles = 0, predicted = -1;  // -1: not known (forecast.h)
-  double error() const {                    // of the prediction, in parts of the cycles
-    return static_cast<double>(predicted - cycles) / static_cast<double>(cycles);
-  }
+  std::int64_t cycles = 0;
 };
 
 struct PictureOptions {
@@ -34,7 +31,6 @@ struct PictureOptions {
   std::string fault_channel;  // of a fault of channels; empty: a usual one
   Window window;              // draw and compare only these pixels
   bool compare = true;        // behind every stage; the bytes are always compared
-  bool predict = true;        // forecast the cycles of each pass
   int frames = 1;             // the same one again and again: later ones find the caches warm
   std::function<void()> poll;
 };

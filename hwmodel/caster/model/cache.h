@@ -49,7 +49,6 @@ class Cache {
     return -1;
   }
   bool has_room() const { return !free_.empty(); }
-  int free_lines() const { return static_cast<int>(free_.size()); }
   // A miss takes a free slot.
   Found look_up(std::int64_t line) {
     Tag* set = set_of(line);

@@ -16,7 +16,6 @@
 #include "hwmodel/caster/model/configuration.h"
 #include "hwmodel/caster/model/layout.h"
 #include "hwmodel/caster/model/no_faults.h"
-#include "hwmodel/caster/model/pass_counts.h"
 #include "hwmodel/caster/model/stage.h"
 #include "hwmodel/fabric/fifo.h"
 
@@ -95,9 +94,6 @@ class Gather final : public LineClient {
     arrived_[slot] = 1;
   }
   const CacheCounts& counts() const { return cache_.counts(); }
-  void count(PipeCounts* counts) { ray_counts_ = counts; }  // null: nobody counts
-  // Lines that hold nothing.
-  int free_lines() const { return cache_.free_lines(); }
   // Host: the memory has new contents.
   void forget_all() { cache_.clear(); }
   void forget(std::int64_t line) { cache_.forget(line); }
@@ -199,7 +195,6 @@ class Gather final : public LineClient {
       entry.slots[i] = found.slot;
       if (found.hit) continue;
       missed = true;
-      ++misses_;
       if (found.lost >= 0 && faults_.releases_early()) [[unlikely]]
         cache_.release(found.lost);
       else
@@ -211,7 +206,6 @@ class Gather final : public LineClient {
       ask.client = client_, ask.slot = found.slot, ask.address = layout_.address(line);
       ask.bytes = layout_.line_bytes, ask.write = false;
     }
-    tell(entry);
     in_->get();
     next_ = 0;
     tail_ = after(tail_);
@@ -219,16 +213,6 @@ class Gather final : public LineClient {
     return Did::busy;
   }
 
-  void tell(const Entry& entry) {
-    if constexpr (requires { entry.request.asked(); }) {
-      if (ray_counts_ != nullptr) {
-        int lost = 0;
-        for (int i = 0; i < next_; ++i) lost += entry.lost[static_cast<std::size_t>(i)] >= 0 ? 1 : 0;
-        ray_counts_->looked_up(entry.request.id, entry.request.asked(), misses_, lost);
-      }
-    }
-    misses_ = 0;
-  }
   void begin(Entry& entry) {
     entry.request = *in_->oldest();
     entry.places = entry.request.places();
@@ -277,8 +261,7 @@ class Gather final : public LineClient {
   std::vector<std::uint8_t> store_;
   std::vector<Entry> queue_;
   std::size_t head_ = 0, tail_ = 0, count_ = 0;
-  int next_ = 0, misses_ = 0, reading_ = 0;
-  PipeCounts* ray_counts_ = nullptr;
+  int next_ = 0, reading_ = 0;
   Fifo<Request>* in_ = nullptr;
   Fifo<LineRequest>* to_memory_ = nullptr;
   std::vector<Fifo<Out>*> out_;

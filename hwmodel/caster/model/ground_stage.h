@@ -13,7 +13,6 @@
 #include "hwmodel/caster/model/ground.h"
 #include "hwmodel/caster/model/ground_blocks.h"
 #include "hwmodel/caster/model/no_faults.h"
-#include "hwmodel/caster/model/pass_counts.h"
 #include "hwmodel/caster/model/registers.h"
 #include "hwmodel/caster/model/stage.h"
 #include "hwmodel/caster/model/tokens.h"
@@ -37,7 +36,6 @@ class GroundStage final : public Stage {
                Fifo<GroundedRay>& out) {
     in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
   }
-  void count(PipeCounts* counts) { counts_ = counts; }
 
  private:
   struct Search {
@@ -45,7 +43,6 @@ class GroundStage final : public Stage {
     Searcher searcher;
     Parts parts;
     std::int64_t part = 0;  // that is looked at
-    int steps = 0;          // over blocks, since the last look
   };
   Search& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
 
@@ -60,7 +57,6 @@ class GroundStage final : public Stage {
       if (out_->ready()) {
         GroundedRay& ray = *out_->put();
         ray = at(done_.front()).ray;
-        if (counts_ != nullptr) counts_->steps_before(ray.id, Asked::ground_end, at(done_.front()).steps);
         faults_.grounded(ray);
         free_.push_back(done_.front());
         done_.pop_front();
@@ -110,7 +106,6 @@ class GroundStage final : public Stage {
   // A step over the blocks below, or none: then the ray must look at columns.
   void pass(int i) {
     Search& of = at(i);
-    ++of.steps;
     auto samples = samples_above(registers_.ground.blocks, of.searcher, at_part(of.ray.ray, of.part));
     faults_.passes_blocks(of.ray, of.part, samples);
     if (!samples) return ready_.push_back(i);
@@ -140,9 +135,6 @@ class GroundStage final : public Stage {
     ask.context = static_cast<std::int16_t>(i);
     ask.side = NearColumns::kSide;
     ask.id = of.ray.id;
-    ask.kind = Asked::look;
-    if (counts_ != nullptr) counts_->steps_before(of.ray.id, Asked::look, of.steps);
-    of.steps = 0;
   }
 
   void decide(int i, const ColumnGather::Out& answer) {
@@ -187,7 +179,6 @@ class GroundStage final : public Stage {
   std::vector<Search> rays_;
   std::vector<int> free_;
   std::deque<int> passing_, ready_, done_;
-  PipeCounts* counts_ = nullptr;
   Fifo<RayToken>* in_ = nullptr;
   Fifo<ClampedRequest>* ask_ = nullptr;
   Fifo<ColumnGather::Out>* answer_ = nullptr;

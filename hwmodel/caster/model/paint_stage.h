@@ -52,7 +52,6 @@ class TextureStage final : public AttachStage<ClampedRequest, TexelGather::Out> 
     ask.at = {spot_of(of.position.x << q), {}, spot_of(of.position.z << q)};
     ask.count = {static_cast<std::int32_t>(registers_.cells.x << q), 1,
                  static_cast<std::int32_t>(registers_.cells.z << q)};
-    ask.kind = Asked::texel;
     return ask;
   }
   void take(Surface& of, int, const TexelGather::Out& answer) override {

@@ -10,7 +10,6 @@
 
 #include "hwmodel/caster/model/configuration.h"
 #include "hwmodel/caster/model/memory_port.h"
-#include "hwmodel/caster/model/pass_counts.h"
 #include "hwmodel/caster/model/tile_stages.h"
 #include "hwmodel/caster/model/walk_stage.h"
 
@@ -99,8 +98,6 @@ class Pipe {
   virtual const std::vector<Stage*>& stages() const = 0;
   virtual const Stage& running() const = 0;
   virtual const WalkCounts& walked() const = 0;
-  // Of the next pass: what each ray costs. Null: nobody counts.
-  virtual void count(PipeCounts* counts) = 0;
   struct CacheReport {
     std::string name;
     CacheCounts counts;

@@ -65,7 +65,6 @@ class PipeOf final : public Pipe {
   const std::vector<Stage*>& stages() const override { return stages_; }
   const Stage& running() const override { return *running_; }
   const WalkCounts& walked() const override { return walk_.counts(); }
-  void count(PipeCounts* counts) override;
   std::vector<CacheReport> caches() const override;
   void forget(std::size_t i, const std::vector<std::int64_t>& lines) override;
   void forget_all() override;
@@ -324,17 +323,6 @@ int PipeOf<Faults>::cycle() {
   }
   for (std::size_t i = 0; i < commits_.size(); ++i) commits_[i](committed_[i]);
   return moved;
-}
-
-template <class Faults>
-void PipeOf<Faults>::count(PipeCounts* counts) {
-  tiles_.count(counts), ground_.count(counts), walk_.count(counts);
-  levels_.count(counts), matter_words_.count(counts), light_cells_.count(counts);
-  columns_.count(counts), texels_.count(counts);
-  if (counts == nullptr) return;
-  *counts = {};
-  counts->free = {levels_.free_lines(), matter_words_.free_lines(), light_cells_.free_lines(),
-                  columns_.free_lines(), texels_.free_lines()};
 }
 
 template <class Faults>

@@ -1,7 +1,6 @@
 #include "hwmodel/caster/model/ray_caster.h"
 
 #include <cstddef>
-#include <ctime>
 #include <exception>
 #include <memory>
 #include <utility>
@@ -9,7 +8,6 @@
 
 #include "hwmodel/caster/model/line_memory.h"
 #include "hwmodel/caster/model/tile_order.h"
-#include "hwmodel/caster/time/forecast.h"
 #include "hwmodel/fabric/process.h"
 
 namespace voxmelt::hwmodel::raycast {
@@ -146,14 +144,6 @@ struct RayCaster::Machine {
     idle = 0;
     memory_block->begin();
 
-    ForecastInput counted;
-    if (predicts) {
-      counted.pipes.resize(pipes.size());
-      counted.second = second;
-      counted.samples = samples;
-    }
-    for (std::size_t i = 0; i < pipes.size(); ++i) pipes[i]->count(predicts ? &counted.pipes[i] : nullptr);
-
     context.enter();
     shared.first_cycle = ran ? Shared::now() + 1 : 0;
     ran = true;
@@ -161,19 +151,10 @@ struct RayCaster::Machine {
     context.leave();
     for (const auto& pipe : pipes) pipe->end_pass();
     if (shared.error) std::rethrow_exception(std::exchange(shared.error, nullptr));
-    FrameEnd end{shared.last_cycle + 1, -1, shared.complete, shared.hangs};
-    if (predicts && end.complete && neighbour == nullptr) {
-      const auto caches = pipes.front()->caches();
-      for (std::size_t i = 0; i < caches.size(); ++i) counted.line_bytes[i] = caches[i].line_bytes;
-      const std::clock_t begin = std::clock();
-      end.predicted = forecast(counted, configuration);
-      end.forecasting = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-    }
-    return end;
+    return {shared.last_cycle + 1, shared.complete, shared.hangs};
   }
 
   std::function<void()> poll;
-  bool predicts = false;
   std::int64_t moves_before = 0, idle = 0, bytes_at_end = 0;
   bool ran = false;
   Context context;  // first: everything of SystemC lives in it
@@ -220,7 +201,6 @@ void RayCaster::wait_for_neighbour() {
 }
 
 void RayCaster::draw_only(const Window& window) { machine_->window = window; }
-void RayCaster::predict(bool wanted) { machine_->predicts = wanted; }
 
 FrameEnd RayCaster::draw_first() { return machine_->run_pass(false, 1, 0); }
 FrameEnd RayCaster::draw_again(int samples, int most) { return machine_->run_pass(true, samples, most); }

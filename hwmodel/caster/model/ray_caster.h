@@ -21,9 +21,7 @@ namespace voxmelt::hwmodel::raycast {
 
 struct FrameEnd {
   std::int64_t cycles = 0;
-  std::int64_t predicted = -1;  // of this pass (forecast.h); -1: not known
   bool complete = false, hangs = false;
-  double forecasting = 0;  // seconds of the processor, for `predicted`
 };
 
 class RayCaster {
@@ -41,7 +39,6 @@ class RayCaster {
   // Of the memory, while it draws; null: with nobody.
   void share(Neighbour* neighbour);
   void wait_for_neighbour();  // without drawing, until it is done
-  void predict(bool wanted);  // counts what each ray costs, and forecasts each pass
 
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {

@@ -28,7 +28,6 @@ class SetupStage final : public Stage {
     TileOrder tile;
     std::uint64_t left = 0;  // 0: there is no tile
     int sample = 0;
-    std::int32_t rays = 0;
   };
 
   Did cycle() override {
@@ -49,7 +48,7 @@ class SetupStage final : public Stage {
     const auto place = std::find_if(open_.begin(), open_.end(), [](const Open& of) { return of.left == 0; });
     if (place == open_.end()) return;
     const TileOrder& tile = *in_->get();
-    *place = {tile, tile.pixels, 0, 0};
+    *place = {tile, tile.pixels, 0};
   }
   void make_ray(Open& of) {
     const TileOrder& tile = of.tile;
@@ -57,8 +56,7 @@ class SetupStage final : public Stage {
     const std::int32_t x = tile.x + at % kTileSide, y = tile.y + at / kTileSide;
     const Sub sub = sub_of(tile.samples, of.sample);
     RayToken& token = *out_->put();
-    token.id = {x, y, static_cast<std::int16_t>(of.sample), static_cast<std::int16_t>(tile.buffer),
-                tile.first_ray + of.rays++};
+    token.id = {x, y, static_cast<std::int16_t>(of.sample), static_cast<std::int16_t>(tile.buffer)};
     token.ray = ray_of(registers_.camera, 64 * std::int64_t{x} + sub.across, 64 * std::int64_t{y} + sub.down);
     faults_.set_up(registers_.camera, tile.samples, token);
     if (++of.sample < tile.samples) return;

@@ -13,7 +13,6 @@
 
 #include "hwmodel/caster/model/gather.h"
 #include "hwmodel/caster/model/no_faults.h"
-#include "hwmodel/caster/model/pass_counts.h"
 #include "hwmodel/caster/model/registers.h"
 #include "hwmodel/caster/model/stage.h"
 #include "hwmodel/caster/model/tokens.h"
@@ -70,7 +69,6 @@ class TileStage final : public Stage, public LineClient {
   void connect(Fifo<TileJob>& in, Fifo<LineRequest>& ask, Fifo<TileOrder>& out) {
     in_ = &in, ask_ = &ask, out_ = &out;
   }
-  void count(PipeCounts* counts) { counts_ = counts; }
   void arrived(const LineReply& reply, const std::uint8_t* bytes) override {
     std::memcpy(around_[static_cast<std::size_t>(reply.slot)].data(), bytes, kTileBytes);
     --missing_;
@@ -87,7 +85,6 @@ class TileStage final : public Stage, public LineClient {
         return Did::busy;
       }
       if (!ask_->ready()) return Did::memory;
-      reads_ = static_cast<std::uint8_t>(reads_ | 1u << asked_);
       *ask_->put() = {client_, asked_++, frame_.address(frame_.read, x, y), kTileBytes, false, {}};
       ++missing_;
       return Did::busy;
@@ -106,16 +103,13 @@ class TileStage final : public Stage, public LineClient {
     buffer.sums.fill({});
     buffer.counts.fill(0);
     buffer.bytes = job.second ? around_[0] : TileBytes{};
-    const TileCount counted{buffer.left * buffer.samples, reads_};
-    const std::int32_t first_ray = counts_ == nullptr ? 0 : counts_->begin_tile(counted);
     if (pixels == 0)
       buffers_.complete.push_back(i);
     else
-      *out_->put() = {
-          job.x,  job.y,    static_cast<std::int16_t>(i), static_cast<std::int16_t>(buffer.samples),
-          pixels, first_ray};
+      *out_->put() = {job.x, job.y, static_cast<std::int16_t>(i), static_cast<std::int16_t>(buffer.samples),
+                      pixels};
     in_->get();
-    asked_ = 0, reads_ = 0;
+    asked_ = 0;
     return Did::busy;
   }
 
@@ -163,9 +157,7 @@ class TileStage final : public Stage, public LineClient {
   [[no_unique_address]] Faults faults_;
   TileBuffers& buffers_;
   int client_, asked_ = 0, missing_ = 0;
-  std::uint8_t reads_ = 0;
   std::array<TileBytes, 5> around_{};
-  PipeCounts* counts_ = nullptr;
   Fifo<TileJob>* in_ = nullptr;
   Fifo<LineRequest>* ask_ = nullptr;
   Fifo<TileOrder>* out_ = nullptr;

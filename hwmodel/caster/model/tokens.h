@@ -26,7 +26,6 @@ struct TileOrder {
   std::int32_t x = 0, y = 0;
   std::int16_t buffer = 0, samples = 1;
   std::uint64_t pixels = 0;
-  std::int32_t first_ray = 0;  // its number, where rays are counted
 };
 
 // Places of samples in a pixel, in 64ths (docs/picture.md, section 10).
@@ -83,9 +82,6 @@ struct LevelRequest {
   Vec at;              // in the lattice
 
   std::size_t kind_index() const { return asker == Asker::normal ? 1 : 0; }
-  Asked asked() const {
-    return asker == Asker::walk ? Asked::sample : asker == Asker::crossing ? Asked::crossing : Asked::normal;
-  }
   Places places() const {
     Places of;
     const auto place = [](std::int64_t q) { return static_cast<std::int32_t>(q >> kCellBits); };
@@ -119,7 +115,6 @@ struct MatterRequest {
   Spots at;
   RayId id;
   std::size_t kind_index() const { return 0; }
-  Asked asked() const { return Asked::matter; }
   Places places() const {
     const auto two = [](const Spot& s) {
       const auto low = static_cast<std::int32_t>(s.cell + kLatticeBorder);
@@ -139,10 +134,8 @@ struct ClampedRequest {
   std::int16_t asker = 0, context = 0;
   int side = 2;
   RayId id;
-  Asked kind = Asked::light;
 
   std::size_t kind_index() const { return static_cast<std::size_t>(asker); }
-  Asked asked() const { return kind; }
   Places places() const {
     const auto along = [](const Spot& s, std::int32_t n) {
       const auto inside = [&](std::int64_t i) {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "hwmodel/caster/model/no_faults.h"
-#include "hwmodel/caster/model/pass_counts.h"
 #include "hwmodel/caster/model/registers.h"
 #include "hwmodel/caster/model/stage.h"
 #include "hwmodel/caster/model/tokens.h"
@@ -63,7 +62,6 @@ class WalkStage final : public Stage {
   }
   void give_back(int context) { free_.push_back(context); }
   const WalkCounts& counts() const { return counts_; }
-  void count(PipeCounts* rays) { ray_counts_ = rays; }
 
  private:
   struct Context {
@@ -74,7 +72,6 @@ class WalkStage final : public Stage {
     std::int64_t known = -2;  // the last sample whose level is known
     std::int16_t level = 0;
     std::int16_t span = 0;
-    int steps = 0;  // since the last sample
   };
   Context& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
 
@@ -84,7 +81,6 @@ class WalkStage final : public Stage {
       if (missed_->ready()) {
         const int i = lost_.front();
         const Context& of = at(i);
-        told(of, Asked::walk_end);
         *missed_->put() = {of.ray.id, of.ray.ray, of.ray.ground, {}, static_cast<std::int16_t>(i), of.span};
         crossed(i);
         lost_.pop_front();
@@ -134,7 +130,6 @@ class WalkStage final : public Stage {
     of.ray = ray;
     of.walker = walker_of(ray.ray);
     of.k = 0;
-    of.steps = 0;
     of.known = -2;
     of.span = 0;
     // Matter that is not behind the ground is met by the sample after it, at the latest.
@@ -162,7 +157,6 @@ class WalkStage final : public Stage {
   void step(int i) {
     Context& of = at(i);
     ++counts_.leaps;
-    ++of.steps;
     if (of.k > of.most) return lost_.push_back(i);
     const SkipMap& skip = registers_.skip;
     const auto to_box = steps_to_box(of.walker, skip.low, skip.high);
@@ -182,13 +176,8 @@ class WalkStage final : public Stage {
     sampled_.push_back(i);
   }
 
-  void told(const Context& of, Asked kind) {
-    if (ray_counts_ != nullptr) ray_counts_->steps_before(of.ray.id, kind, of.steps);
-  }
   void ask(int i) {
     Context& of = at(i);
-    told(of, Asked::sample);
-    of.steps = 0;
     LevelRequest& request = *ask_->put();
     request = {Asker::walk, static_cast<std::int16_t>(i), of.ray.id, UInt<27>(of.k),
                on_wires<32>(of.walker.at)};
@@ -204,7 +193,6 @@ class WalkStage final : public Stage {
     bool matter = token.level >= 0;
     faults_.judged(of, matter);
     if (matter) {
-      told(of, Asked::hit);
       *hit_->put() = {token.request.context, of.ray,   of.k,   of.walker.at, token.level,
                       of.known == of.k - 1,  of.level, of.span};
       return;
@@ -229,7 +217,6 @@ class WalkStage final : public Stage {
   std::deque<int> walking_, sampled_, lost_;
   int asked_ = 0;  // samples under way
   WalkCounts counts_;
-  PipeCounts* ray_counts_ = nullptr;
   Fifo<GroundedRay>* in_ = nullptr;
   Fifo<LevelRequest>* ask_ = nullptr;
   Fifo<LevelToken>* answer_ = nullptr;

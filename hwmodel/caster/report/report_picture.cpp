@@ -118,14 +118,8 @@ std::string table_of(const PictureReport& report, const Configuration& c) {
     text += fmt::format("a pipe: {} bits of memories, {} of channels, {} multipliers, {} dividers\n",
                         report.cost.memory_bits(), report.cost.channel_bits(),
                         report.cost.all_units().multipliers, report.cost.all_units().dividers);
-  for (const PassCycles& pass : report.passes) {
-    const char* name = pass.second ? "second" : "first";
-    if (pass.predicted < 0)
-      text += fmt::format("{} pass: {} cycles\n", name, pass.cycles);
-    else
-      text += fmt::format("{} pass: {} cycles, predicted {} ({:+.2f} %)\n", name, pass.cycles, pass.predicted,
-                          100 * pass.error());
-  }
+  for (const PassCycles& pass : report.passes)
+    text += fmt::format("{} pass: {} cycles\n", pass.second ? "second" : "first", pass.cycles);
   text += fmt::format("the last frame: {} cycles, {:.1f} frames a second at {} MHz\n", report.end.cycles,
                       1e6 * c.clock_mhz / static_cast<double>(std::max<std::int64_t>(report.end.cycles, 1)),
                       c.clock_mhz);
@@ -164,11 +158,8 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                            {"ground", cache_shape(c.ground)}};
   json["cycles"] = report.all_cycles;
   json["cycles_of_last_frame"] = report.end.cycles;
-  for (const PassCycles& pass : report.passes) {
-    Json of{{"second", pass.second}, {"cycles", pass.cycles}};
-    if (pass.predicted >= 0) of["predicted"] = pass.predicted, of["error"] = pass.error();
-    json["passes"].push_back(of);
-  }
+  for (const PassCycles& pass : report.passes)
+    json["passes"].push_back(Json{{"second", pass.second}, {"cycles", pass.cycles}});
   json["compared_numbers"] = report.compared;
   json["different_pixels"] = report.different_bytes;
   json["rays"] = report.rays;

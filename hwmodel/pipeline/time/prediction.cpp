@@ -1,11 +1,12 @@
+#include "hwmodel/pipeline/time/prediction.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
-#include "hwmodel/pipeline/time/prediction.h"
+#include "hwmodel/pipeline/model/lag.h"
 
 namespace voxmelt::hwmodel {
-
 namespace {
 
 struct Flow {

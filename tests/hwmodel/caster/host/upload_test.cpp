@@ -19,12 +19,12 @@
 #include "hwmodel/caster/check/picture_run.h"
 #include "hwmodel/caster/host/uploader.h"
 #include "hwmodel/caster/model/ray_caster.h"
-#include "hwmodel/caster/time/prediction.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
 #include "render/density/density_field.h"
 #include "render/packet/picture.h"
 #include "render/packet/scene_in_integers.h"
+#include "tests/hwmodel/caster/model/known_cycles.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {

@@ -1,4 +1,4 @@
-#include "hwmodel/caster/time/prediction.h"
+#include "tests/hwmodel/caster/model/known_cycles.h"
 
 #include <algorithm>
 
