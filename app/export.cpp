@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/beginning.h"
 #include "app/commands.h"
@@ -23,7 +24,7 @@ namespace {
 struct ExportOptions {
   Common common;
   std::uint32_t steps = 0;
-  std::string out, format = "npy";
+  std::string out, format{io::formats().front().name};
 };
 
 int run_export(const ExportOptions& options) {
@@ -40,11 +41,7 @@ int run_export(const ExportOptions& options) {
   }
 
   const state::Volume& volume = simulation.volume();
-  if (options.format == "npy") {
-    io::export_npy(volume, out.partial(), stop_if_interrupted);
-  } else {
-    io::export_vti(volume, out.partial(), stop_if_interrupted);
-  }
+  io::find_format(options.format)->write(volume, out.partial(), stop_if_interrupted);
   io::write_file(out.partial() / "parameters.json",
                  io::parameters_json(simulation.parameters(), volume.grid, simulation.step_number()));
   write_report(options.common, report_json(scene, options.common, simulation, {}));
@@ -63,9 +60,13 @@ void add_export(CLI::App& program, Chosen& chosen) {
   add_scene(*command, options->common);
   command->add_option("--steps", options->steps, "steps to run first")->capture_default_str();
   command->add_option("--out", options->out, "folder to write")->required();
-  command->add_option("--format", options->format, "npy: NumPy arrays (z, y, x); vti: one VTK image")
-      ->check(CLI::IsMember({"npy", "vti"}))
-      ->capture_default_str();
+  std::vector<std::string> names;
+  std::string help;
+  for (const io::Format& format : io::formats()) {
+    names.emplace_back(format.name);
+    help += fmt::format("{}{}: {}", help.empty() ? "" : "; ", format.name, format.description);
+  }
+  command->add_option("--format", options->format, help)->check(CLI::IsMember(names))->capture_default_str();
   add_common(*command, options->common);
   add_visibility(*command, options->common);
   command->callback([options, &chosen] { chosen = [options] { return run_export(*options); }; });

@@ -41,6 +41,13 @@ const step::Implementation& find_implementation(const std::string& name) {
   return *found;
 }
 
+const io::Format& find_format(const std::string& name) {
+  if (const io::Format* found = io::find_format(name)) return *found;
+  std::string known;
+  for (const io::Format& one : io::formats()) known += (known.empty() ? "" : ", ") + std::string(one.name);
+  throw InputError("export_state: error: format = \"" + name + "\" is not one of " + known);
+}
+
 int checked_threads(int threads) {
   if (threads < 0 || threads > kMostThreads)
     throw InputError("Options: error: threads = " + std::to_string(threads) + " is outside 0.." +
@@ -86,6 +93,13 @@ std::vector<Implementation> implementations() {
   std::vector<Implementation> all;
   for (const step::Implementation& one : run::implementations().all())
     all.push_back({one.name, one.description, one.supported});
+  return all;
+}
+
+std::vector<Format> formats() {
+  std::vector<Format> all;
+  for (const io::Format& one : io::formats())
+    all.push_back({std::string(one.name), std::string(one.description)});
   return all;
 }
 
@@ -195,14 +209,12 @@ void Simulation::set_drains(const std::vector<Drain>& drains) {
   translated([&] { parts_->change_sources([&](auto& all) { all.drains = library::to_rules(drains); }); });
 }
 
-void Simulation::export_state(const std::filesystem::path& folder, Format format) const {
+void Simulation::export_state(const std::filesystem::path& folder, const std::string& format) const {
+  const io::Format& chosen = find_format(format);
   translated([&] {
     const run::Simulation& simulation = parts_->simulation;
     io::OutputFolder out(folder);
-    if (format == Format::npy)
-      io::export_npy(simulation.volume(), out.partial());
-    else
-      io::export_vti(simulation.volume(), out.partial());
+    chosen.write(simulation.volume(), out.partial(), {});
     io::write_file(
         out.partial() / "parameters.json",
         io::parameters_json(simulation.parameters(), simulation.volume().grid, simulation.step_number()));

@@ -64,11 +64,14 @@ struct Picture {
   Quality quality = Quality::normal;  ///< how carefully it is drawn
 };
 
-/// Formats of an exported state.
-enum class Format {
-  npy,  ///< one NumPy array per field, axes (z, y, x); a scene can start from it (key `start.fields`)
-  vti,  ///< one VTK image, for ParaView
+/// A format of an exported state.
+struct Format {
+  std::string name;         ///< "npy", "vti", ...
+  std::string description;  ///< a few words
 };
+
+/// All formats of this build. The first one, "npy", is what a scene can start from (key `start.fields`).
+std::vector<Format> formats();
 
 /// A scene that melts and flows, step by step.
 ///
@@ -131,10 +134,11 @@ class Simulation {
   void set_drains(const std::vector<Drain>& drains);
 
   /// Writes the state and parameters.json into a folder. The folder is made, or replaced whole if it holds
-  /// nothing but an earlier export; it is never half-written.
+  /// nothing but an earlier export; it is never half-written. `format` is a name from formats().
+  /// @throws InputError for an unknown format
   /// @throws OutputError where that cannot be done
   /// @throws ResourceError when the disk is full
-  void export_state(const std::filesystem::path& folder, Format format = Format::npy) const;
+  void export_state(const std::filesystem::path& folder, const std::string& format = "npy") const;
 
   /// Draws the state into a PNG file, with the scene's camera, light and look.
   /// @throws InputError for numbers out of their range

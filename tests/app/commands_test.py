@@ -341,6 +341,16 @@ class Commands(unittest.TestCase):
         cells = 12 * 10 * 12
         self.assertEqual(sizes, [cells] * 3 + [2 * cells] * 3)
 
+    def test_export_writes_every_format_that_its_help_names(self):
+        help_text = re.sub(r"\s+", " ", self.good("export", "--help"))
+        formats = re.search(r"--format TEXT:\{([\w,]+)\}", help_text)[1].split(",")
+        self.assertEqual(formats[:2], ["npy", "vti"])
+        for name in formats:
+            self.good("export", self.scene, "--out", f"all_{name}", "--format", name)
+            written = {path.name for path in (self.folder / f"all_{name}").iterdir()}
+            self.assertGreater(len(written - {"parameters.json"}), 0, name)
+            self.assertIn("parameters.json", written, name)
+
     def test_render_one_picture_and_a_turntable(self):
         self.good("render", self.scene, "--steps", "1", "--out", "p.png", "--size", "80x60", "--setting", "fast")
         self.assertEqual(struct.unpack(">II", (self.folder / "p.png").read_bytes()[16:24]), (80, 60))

@@ -153,8 +153,14 @@ TEST_F(Library, AnExportGoesOnTheSame) {
   simulation.step(8);
   simulation.export_state(folder / "there");
   simulation.export_state(folder / "there");  // over itself
-  simulation.export_state(folder / "vti", Format::vti);
+  simulation.export_state(folder / "vti", "vti");
   EXPECT_TRUE(std::filesystem::exists(folder / "vti/volume.vti"));
+  EXPECT_EQ(message_of<InputError>([&] { simulation.export_state(folder / "none", "stl"); }),
+            "export_state: error: format = \"stl\" is not one of npy, vti");
+  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+  std::vector<std::string> names;
+  for (const Format& format : formats()) names.push_back(format.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"npy", "vti"}));
   Options options;
   options.overrides = {"start={fields=\"" + (folder / "there").string() + "\", step=8}"};
   Simulation again(file, options);

@@ -1,5 +1,7 @@
 #include "kernel/run/io/export.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -71,17 +73,7 @@ std::string npy_header(const char* type, state::Grid g) {
   return header + text;
 }
 
-}  // namespace
-
-void export_npy(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll) {
-  for (const Column& column : columns_of(volume)) {
-    FileWriter file(folder / (std::string(column.name) + ".npy"));
-    file.write(npy_header(column.npy_type, volume.grid));
-    write_rows(file, column, volume.grid, poll);
-    file.commit();
-  }
-}
-
+// All fields as cell data of one VTK image: volume.vti (raw appended, little endian).
 void export_vti(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll) {
   const state::Grid g = volume.grid;
   const std::string extent =
@@ -108,6 +100,29 @@ void export_vti(const state::Volume& volume, const std::filesystem::path& folder
   }
   file.write("\n  </AppendedData>\n</VTKFile>\n");
   file.commit();
+}
+
+constexpr std::array kFormats{
+    Format{"npy", "NumPy arrays (z, y, x)", export_npy},
+    Format{"vti", "one VTK image", export_vti},
+};
+
+}  // namespace
+
+std::span<const Format> formats() { return kFormats; }
+
+const Format* find_format(std::string_view name) {
+  const auto found = std::ranges::find(kFormats, name, &Format::name);
+  return found != kFormats.end() ? &*found : nullptr;
+}
+
+void export_npy(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll) {
+  for (const Column& column : columns_of(volume)) {
+    FileWriter file(folder / (std::string(column.name) + ".npy"));
+    file.write(npy_header(column.npy_type, volume.grid));
+    write_rows(file, column, volume.grid, poll);
+    file.commit();
+  }
 }
 
 }  // namespace voxmelt::io

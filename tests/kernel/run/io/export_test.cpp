@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string>
 #include <system_error>
 #include <tuple>
@@ -80,7 +81,7 @@ TEST_F(Export, NpyIsCOrderZYXLittleEndian) {
 }
 
 TEST_F(Export, VtiHoldsTheSameBytes) {
-  export_vti(sample(), folder_);
+  find_format("vti")->write(sample(), folder_, {});
   const std::string vti = read("volume.vti");
   EXPECT_NE(vti.find("WholeExtent=\"0 3 0 2 0 2\""), std::string::npos);
   const std::size_t start = vti.find("encoding=\"raw\">\n_") + 17;
@@ -91,6 +92,23 @@ TEST_F(Export, VtiHoldsTheSameBytes) {
   std::memcpy(&size, vti.data() + start + 3 * 20, 8);
   EXPECT_EQ(size, 24u) << "fourth amount";
   EXPECT_EQ(vti.substr(start + 3 * 20 + 8 + 2, 2), "\x34\x12");
+}
+
+// Into a folder that holds nothing else, so that no two formats can be one.
+TEST_F(Export, EveryFormatHasANameOfItsOwnAndWrites) {
+  std::set<std::string> all;
+  for (const Format& format : formats()) {
+    EXPECT_TRUE(all.emplace(format.name).second) << format.name << " is there twice";
+    EXPECT_EQ(find_format(format.name), &format);
+    EXPECT_FALSE(format.description.empty()) << format.name;
+    const fs::path folder = folder_ / std::string(format.name);
+    fs::create_directories(folder);
+    format.write(sample(), folder, {});
+    EXPECT_FALSE(fs::is_empty(folder)) << format.name;
+  }
+  EXPECT_EQ(formats().front().name, "npy");
+  EXPECT_EQ(find_format("stl"), nullptr);
+  EXPECT_EQ(find_format(""), nullptr);
 }
 
 bool names(const std::string& json, const std::string& key) {
