@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -75,8 +74,7 @@ std::vector<std::uint32_t> Trial::samples(std::uint32_t from, std::uint32_t end)
 Speed Trial::speed(Books books) const {
   if (books == Books::must_balance && !simulation_->drift().none())
     throw std::runtime_error("the ledgers do not balance");
-  const run::Simulation::Seconds& seconds = simulation_->seconds();
-  const double total = std::accumulate(seconds.phase.begin(), seconds.phase.end(), seconds.visibility);
+  const double total = simulation_->seconds().total();
   const rule::Parameters& p = simulation_->parameters();
   Speed speed;
   speed.cells_per_second =

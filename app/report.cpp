@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -47,11 +46,9 @@ json limit_json(const state::LimitCounts<Sum>& limit) {
           {"limited_mass", integer(limit.limited_mass)}};
 }
 
-json seconds_json(const run::Simulation::Seconds& steps, const RunSeconds& run) {
+json seconds_json(const state::Seconds& steps, const RunSeconds& run) {
   json result;
-  for (std::size_t p = 0; p < step::kPhaseCount; ++p)
-    result[std::string(step::kPhaseNames[p])] = steps.phase[p];
-  result["visibility"] = steps.visibility;
+  for (const auto& row : state::Seconds::table()) result[std::string(row.name)] = steps.*row.value;
   result["update"] = run.update;
   result["render"] = run.render;
   result["encode"] = run.encode;

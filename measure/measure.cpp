@@ -74,10 +74,13 @@ Steps timed_run(const Workload& workload, const Candidate& candidate, std::uint6
   for (int i = 0; i < workload.lead_steps; ++i) simulation.step();
   Steps steps;
   for (int i = 0; i < workload.steps; ++i) {
-    const auto before = simulation.seconds().phase;
+    const state::Seconds before = simulation.seconds();
     simulation.step();
     Seconds& step = steps.emplace_back();
-    for (std::size_t p = 0; p < before.size(); ++p) step.phase[p] = simulation.seconds().phase[p] - before[p];
+    for (std::size_t p = 0; p < step.phase.size(); ++p) {
+      const auto time = step::time_of(static_cast<step::Phase>(p));
+      step.phase[p] = simulation.seconds().*time - before.*time;
+    }
   }
 
   const auto fail = [&](const std::string& what) {

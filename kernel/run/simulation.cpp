@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -83,16 +82,11 @@ void Simulation::resume(state::MidRun run) {
   if (!run.irradiance.empty()) irradiance_ = std::move(run.irradiance);
   irradiance_capped_ = run.irradiance_capped;
   casts_before_ = {run.rays, run.rays_cast};
-  if (run.seconds.size() != step::kPhaseCount + 1) return;  // nothing depends on them
-  std::copy_n(run.seconds.begin(), step::kPhaseCount, seconds_.phase.begin());
-  seconds_.visibility = run.seconds.back();
+  seconds_ = run.seconds;
 }
 
 state::MidRun Simulation::mid_run() const {
-  state::MidRun run{steps_done_, ledger(), {}, irradiance_capped_, casts().asked, casts().cast, {}};
-  run.seconds.assign(seconds_.phase.begin(), seconds_.phase.end());
-  run.seconds.push_back(seconds_.visibility);
-  return run;
+  return {steps_done_, ledger(), {}, irradiance_capped_, casts().asked, casts().cast, seconds_};
 }
 
 void Simulation::begin_step() {
@@ -126,7 +120,7 @@ void Simulation::run_phase(step::Phase phase) {
 
 void Simulation::run(step::Phase phase, step::Moment moment) {
   volume_.changed.begin();
-  const Stopwatch watch(seconds_.phase[static_cast<std::size_t>(phase)]);
+  const Stopwatch watch(seconds_.*step::time_of(phase));
   host_->run(phase, moment, irradiance(), volume_, ledger_);
   if (phase == step::Phase::spread) ++substep_;
 }

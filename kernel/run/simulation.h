@@ -4,7 +4,6 @@
 // at most once a step; visibility fetches the two masks that it needs.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -69,12 +68,8 @@ class Simulation {
   state::Volume& mutable_volume() { return touch(), volume_; }
   state::Ledger& mutable_ledger() { return touch(), ledger_; }
 
-  struct Seconds {
-    std::array<double, step::kPhaseCount> phase{};  // by step::Phase; all 0 with a device stepper
-    double visibility = 0;
-  };
-  const Seconds& seconds() const { return seconds_; }
-  visibility::Casts casts() const {  // of the whole run
+  const state::Seconds& seconds() const { return seconds_; }  // with a device stepper, none of a phase
+  visibility::Casts casts() const {                           // of the whole run
     visibility::Casts all = casts_before_;
     return all += provider_->casts();
   }
@@ -106,7 +101,7 @@ class Simulation {
   int threads_;
   std::uint32_t first_step_ = 0, steps_done_ = 0;
   int substeps_ = 1, substep_ = 0;  // substep_: that of the next phase
-  Seconds seconds_;
+  state::Seconds seconds_;
   visibility::Casts casts_before_;  // before the run was resumed
 };
 

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "kernel/automaton/state/field.h"
 #include "kernel/automaton/state/ledger.h"
+#include "kernel/automaton/state/seconds.h"
 
 namespace voxmelt::state {
 
@@ -16,7 +16,7 @@ struct MidRun {
   Field<std::uint16_t> irradiance;     // of the last step of visibility; empty without radiation
   std::int64_t irradiance_capped = 0;  // times that a cell was cut
   std::int64_t rays = 0, rays_cast = 0;
-  std::vector<double> seconds;  // of each phase, then of visibility
+  Seconds seconds;
 };
 
 }  // namespace voxmelt::state

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/seconds.h"
 
 namespace voxmelt::step {
 
@@ -14,6 +16,18 @@ enum class Phase { source, heat, melt, gravity, spread, excess };
 inline constexpr int kPhaseCount = 6;
 inline constexpr std::array<std::string_view, kPhaseCount> kPhaseNames{"source",  "heat",   "melt",
                                                                        "gravity", "spread", "excess"};
+
+// Where the times of a run have that of a phase: `seconds.*time_of(phase)`.
+constexpr double state::Seconds::*time_of(Phase phase) {
+  return state::Seconds::table()[static_cast<std::size_t>(phase)].value;
+}
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < kPhaseNames.size(); ++i)
+        if (state::Seconds::table()[i].name != kPhaseNames[i]) return false;
+      return true;
+    }(),
+    "state::Seconds has the phases in the order of Phase");
 
 // Paper law: gravity and excess are one ascending sweep, run as `gravity`; `excess` is empty.
 // Viscous law: settle (`excess`) and spread, so often as the step has sub-steps, then fall (`gravity`).

@@ -127,6 +127,24 @@ state::LedgerOf<Terms> ledger_of(const Object& object) {
   return ledger;
 }
 
+json seconds_json(const state::Seconds& seconds) {
+  json result = json::array();
+  for (const auto& row : state::Seconds::table()) result.push_back(seconds.*row.value);
+  return result;
+}
+
+state::Seconds seconds_of(const Object& object) {
+  constexpr auto rows = state::Seconds::table();
+  const json& list = object.array("seconds");
+  if (list.size() != rows.size()) object.wrong("seconds", "are not those of six phases and visibility");
+  state::Seconds seconds;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!list[i].is_number()) object.wrong("seconds", "are no numbers");
+    seconds.*rows[i].value = list[i].get<double>();
+  }
+  return seconds;
+}
+
 json run_json(const state::MidRun& run) {
   const state::LimitCounts<Sum>& limit = run.ledger.limit;
   return {{"steps_done", run.steps_done},
@@ -141,7 +159,7 @@ json run_json(const state::MidRun& run) {
             {"limited_cells", state::to_string(limit.limited_cells)},
             {"mass", state::to_string(limit.mass)},
             {"limited_mass", state::to_string(limit.limited_mass)}}},
-          {"seconds", run.seconds}};
+          {"seconds", seconds_json(run.seconds)}};
 }
 
 state::MidRun run_of(const Object& object) {
@@ -158,10 +176,7 @@ state::MidRun run_of(const Object& object) {
   run.ledger.limit.limited_cells = limit.sum("limited_cells");
   run.ledger.limit.mass = limit.sum("mass");
   run.ledger.limit.limited_mass = limit.sum("limited_mass");
-  for (const json& seconds : object.array("seconds")) {
-    if (!seconds.is_number()) object.wrong("seconds", "are no numbers");
-    run.seconds.push_back(seconds.get<double>());
-  }
+  run.seconds = seconds_of(object);
   return run;
 }
 

@@ -75,7 +75,7 @@ Head sample_head() {
   head.run.ledger.heat.rounded = -(state::Sum{1} << 100);
   head.run.ledger.energy.capped = 5;
   head.run.ledger.limit.limited_mass = 9;
-  head.run.seconds = {0.1, 1e-300};
+  head.run.seconds = {.source = 0.1, .excess = 1e-300, .visibility = 2.5};
   head.command = "{\"steps\":9}";
   return head;
 }
