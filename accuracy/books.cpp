@@ -8,6 +8,7 @@
 
 #include "accuracy/cells.h"
 #include "accuracy/trial.h"
+#include "kernel/automaton/state/difference.h"
 
 namespace voxmelt::accuracy {
 namespace {
@@ -23,11 +24,7 @@ std::int64_t differing_cells(const state::Volume& a, const state::Volume& b) {
   const state::Grid g = a.grid;
   for (int z = 0; z < g.z; ++z)
     for (int y = 0; y < g.y; ++y)
-      for (int x = 0; x < g.x; ++x) {
-        const state::Slot c = a.at(x, y, z);
-        count += a.amount[c] != b.amount[c] || a.energy[c] != b.energy[c] || a.heat[c] != b.heat[c] ||
-                 a.solid.test(x, y, z) != b.solid.test(x, y, z);
-      }
+      for (int x = 0; x < g.x; ++x) count += !state::same_cell(a, b, x, y, z);
   return count;
 }
 

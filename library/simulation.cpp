@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/automaton/state/digest.h"
+#include "kernel/automaton/state/fields.h"
 #include "kernel/run/io/export.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/simulation.h"
@@ -81,8 +82,19 @@ scene::Camera camera_of(scene::Camera camera, const Picture& picture) {
   return camera;
 }
 
-FieldView view_of(const state::Field<std::uint16_t>& field, Grid grid) {
+template <class Number>
+NumberView<Number> view_of(const state::Field<Number>& field, Grid grid) {
   return {field.data(), grid, field.layout().row(), field.layout().slice()};
+}
+MaskView view_of(const state::BitPlane& plane, Grid grid) { return {plane.data(), grid}; }
+
+std::vector<NamedField> fields_of(const state::Volume& volume, Grid grid) {
+  std::vector<NamedField> fields;
+  state::for_each_field([&](const auto& row) {
+    const auto& column = volume.*row.column;
+    if (!column.empty()) fields.push_back({row.name, row.unit, view_of(column, grid)});
+  });
+  return fields;
 }
 
 }  // namespace
@@ -162,12 +174,13 @@ State Simulation::state() const {
   const state::Volume& v = parts_->simulation.volume();
   const Grid g = grid();
   return {g,
-          {v.solid.data(), g},
-          {v.liquid.data(), g},
-          {v.inert.data(), g},
+          view_of(v.solid, g),
+          view_of(v.liquid, g),
+          view_of(v.inert, g),
           view_of(v.amount, g),
           view_of(v.energy, g),
-          view_of(v.heat, g)};
+          view_of(v.heat, g),
+          fields_of(v, g)};
 }
 
 std::uint64_t Simulation::digest() const { return state::digest(parts_->simulation.volume()); }

@@ -3,27 +3,31 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
+#include "kernel/automaton/state/fields.h"
 #include "kernel/run/simulation.h"
 
 namespace voxmelt::measure {
 namespace {
 
-using Cells = std::span<const std::uint16_t>;
-
-bool differ(Cells a, Cells b, std::size_t begin, std::size_t count) {
+template <class T>
+bool differ(const state::Field<T>& a, const state::Field<T>& b, std::size_t begin, std::size_t count) {
   if (a.empty()) return false;  // what the scene does not use
-  return !std::ranges::equal(a.subspan(begin, count), b.subspan(begin, count));
+  return !std::ranges::equal(a.stored().subspan(begin, count), b.stored().subspan(begin, count));
+}
+bool differ(const state::BitPlane&, const state::BitPlane&, std::size_t, std::size_t) {
+  return false;  // masks are no vectors of numbers
 }
 
 // Rows begin at multiples of 64 stored cells, so no vector holds cells of two rows.
 std::int64_t changed_vectors(const state::Volume& before, const state::Volume& after, std::size_t lanes) {
   std::int64_t changed = 0;
-  for (std::size_t begin = 0; begin < before.amount.layout().cells(); begin += lanes)
-    changed += differ(before.amount.stored(), after.amount.stored(), begin, lanes) ||
-               differ(before.energy.stored(), after.energy.stored(), begin, lanes) ||
-               differ(before.heat.stored(), after.heat.stored(), begin, lanes);
+  for (std::size_t begin = 0; begin < before.amount.layout().cells(); begin += lanes) {
+    bool any = false;
+    state::for_each_field(
+        [&](const auto& row) { any = any || differ(before.*row.column, after.*row.column, begin, lanes); });
+    changed += any;
+  }
   return changed;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "kernel/automaton/state/changed_bricks.h"
+#include "kernel/automaton/state/fields.h"
 #include "kernel/run/simulation.h"
 
 namespace voxmelt::measure {
@@ -36,12 +37,7 @@ TwoStates::TwoStates(const Workload& workload, int steps) {
 }
 
 void TwoStates::take(const state::Volume& from) {
-  volume_.solid = from.solid;
-  volume_.liquid = from.liquid;
-  volume_.inert = from.inert;
-  volume_.amount = from.amount;
-  volume_.energy = from.energy;
-  volume_.heat = from.heat;
+  state::copy_fields(from, volume_);
   volume_.changed.new_version();
   if (all_) volume_.changed.mark_all();
   for (const Mark& mark : marks_)

@@ -1,5 +1,5 @@
 /// @file
-/// The state of a volume, to be read in place: views of three masks and three fields, without a copy.
+/// The state of a volume, to be read in place: views of masks and of fields of numbers, without a copy.
 ///
 /// x is fastest, y points up (gravity acts along -y), z is outermost. Rows are contiguous. Between rows and
 /// slices lies padding, so a whole field is not one span. docs/automaton.md, section 1, defines all values.
@@ -9,6 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 namespace voxmelt {
 
@@ -25,31 +28,37 @@ struct Grid {
   friend bool operator==(const Grid&, const Grid&) = default;  ///< all three sides are equal
 };
 
-/// One unsigned 16-bit number per cell. Coordinates are not checked: 0 <= x < grid.x, and so on.
-class FieldView {
+/// One unsigned number per cell. Coordinates are not checked: 0 <= x < grid.x, and so on.
+template <class Number>
+class NumberView {
  public:
   /// `row` and `slice`: the distance from (x, y, z) to (x, y + 1, z) and to (x, y, z + 1), in numbers.
-  FieldView(const std::uint16_t* data, Grid grid, std::size_t row, std::size_t slice)
+  NumberView(const Number* data, Grid grid, std::size_t row, std::size_t slice)
       : data_(data), grid_(grid), row_(row), slice_(slice) {}
 
   /// The grid.x numbers of one row, contiguous.
-  std::span<const std::uint16_t> row(int y, int z) const {
+  std::span<const Number> row(int y, int z) const {
     return {data_ + static_cast<std::size_t>(z) * slice_ + static_cast<std::size_t>(y) * row_,
             static_cast<std::size_t>(grid_.x)};
   }
   /// The number of one cell.
-  std::uint16_t at(int x, int y, int z) const { return row(y, z)[static_cast<std::size_t>(x)]; }
+  Number at(int x, int y, int z) const { return row(y, z)[static_cast<std::size_t>(x)]; }
 
-  const std::uint16_t* data() const { return data_; }  ///< the cell (0, 0, 0)
+  const Number* data() const { return data_; }         ///< the cell (0, 0, 0)
   std::size_t row_stride() const { return row_; }      ///< numbers from a row to the next along y
   std::size_t slice_stride() const { return slice_; }  ///< numbers from a row to the next along z
   Grid grid() const { return grid_; }                  ///< the size of the volume
 
  private:
-  const std::uint16_t* data_;
+  const Number* data_;
   Grid grid_;
   std::size_t row_, slice_;
 };
+
+/// 16 bits per cell: amount, energy, heat.
+using FieldView = NumberView<std::uint16_t>;
+/// 8 bits per cell.
+using ByteView = NumberView<std::uint8_t>;
 
 /// One bit per cell, 64 cells to a word along x. Coordinates are not checked: 0 <= x < grid.x, and so on.
 class MaskView {
@@ -85,6 +94,20 @@ class MaskView {
   Grid grid_;
 };
 
+/// One field of a state by its name, for programs that go over all of them.
+struct NamedField {
+  std::string_view name;  ///< "solid", "amount", ...: as in the files of an export
+  std::string_view unit;  ///< of its numbers; empty for a mask
+  std::variant<MaskView, ByteView, FieldView> cells;  ///< by their width: 1, 8 or 16 bits
+
+  /// The number of one cell; of a mask 0 or 1.
+  std::uint32_t at(int x, int y, int z) const {
+    if (const auto* mask = std::get_if<MaskView>(&cells)) return mask->test(x, y, z);
+    if (const auto* bytes = std::get_if<ByteView>(&cells)) return bytes->at(x, y, z);
+    return std::get<FieldView>(cells).at(x, y, z);
+  }
+};
+
 /// Everything that the automaton knows of a volume. The views point into a Simulation: they are valid until
 /// it steps, is moved from or ends. At most one of the three masks is set in a cell.
 struct State {
@@ -100,6 +123,8 @@ struct State {
   /// Heat content: 0..65535 for 0..1 of the scene's range of temperatures, latent heat included (section 6).
   /// It is 0 in air, in inert cells that are no isothermal wall, and in scenes without [heat].
   FieldView heat;
+  /// The same fields again, and those that only some scenes have, in the order of an export.
+  std::vector<NamedField> fields;
 };
 
 }  // namespace voxmelt

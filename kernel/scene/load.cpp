@@ -143,7 +143,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   state::Volume cells =
       start ? read_fields(fields, grid, start->place("fields")) : voxelise(contents, grid, scene.warnings);
   // Fields that the scene does not model are dropped, with a warning.
-  const std::vector<std::string> dropped = drop_unused(cells, scene.parameters);
+  const std::vector<std::string> dropped = fit_fields(cells, scene.parameters);
   if (start) scene.warnings.insert(scene.warnings.end(), dropped.begin(), dropped.end());
   fill(scene, std::move(cells));
   if (start && scene.parameters.heat.visibility_age(scene.first_step) != 0)

@@ -7,17 +7,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "kernel/automaton/rule/fixed_point.h"
+#include "kernel/automaton/state/fields.h"
 #include "kernel/scene/npy.h"
 
 namespace voxmelt::scene {
 namespace {
 
-state::BitPlane read_mask(const std::filesystem::path& file, state::Grid grid, const Place& place) {
-  const std::vector<std::uint16_t> cells = read_npy(file, 1, grid, place);
-  state::BitPlane mask(grid);
+using Cells = std::vector<std::uint16_t>;
+
+void take(const Cells& cells, state::Grid grid, state::BitPlane& mask, const std::filesystem::path& file,
+          const Place& place) {
   for (int z = 0; z < grid.z; ++z)
     for (int y = 0; y < grid.y; ++y)
       for (int x = 0; x < grid.x; ++x) {
@@ -27,35 +31,43 @@ state::BitPlane read_mask(const std::filesystem::path& file, state::Grid grid, c
                   fmt::format("{}: cell ({}, {}, {}) is {}, not 0 or 1", file.string(), x, y, z, value));
         mask.set(x, y, z, value == 1);
       }
-  return mask;
 }
-
-state::Field<std::uint16_t> read_field(const std::filesystem::path& file, state::Grid grid,
-                                       const Place& place) {
-  const std::vector<std::uint16_t> cells = read_npy(file, 2, grid, place);
-  state::Field<std::uint16_t> field(grid);
+template <class T>
+void take(const Cells& cells, state::Grid grid, state::Field<T>& field,
+          const std::filesystem::path& /*any number is one*/, const Place& /*likewise*/) {
   for (int z = 0; z < grid.z; ++z)
     for (int y = 0; y < grid.y; ++y)
-      for (int x = 0; x < grid.x; ++x)
-        if (const std::uint16_t value = cells[grid.index(x, y, z)]; value != 0)
-          field[field.layout().at(x, y, z)] = value;
-  return field;
+      for (int x = 0; x < grid.x; ++x) state::set_value(field, x, y, z, cells[grid.index(x, y, z)]);
 }
 
-// Exports of version 0.1 call the field `temperature`.
-std::filesystem::path heat_file(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "heat.npy", old = folder / "temperature.npy";
-  return !std::filesystem::exists(file) && std::filesystem::exists(old) ? old : file;
+// Exports of version 0.1 call `heat` `temperature`.
+std::filesystem::path file_of(const std::filesystem::path& folder, std::string_view field) {
+  const std::filesystem::path file = folder / fmt::format("{}.npy", field), old = folder / "temperature.npy";
+  const bool is_old = field == "heat" && !std::filesystem::exists(file) && std::filesystem::exists(old);
+  return is_old ? old : file;
+}
+
+bool is_empty_row(const state::BitPlane& mask, int y, int z, int /*padding is 0*/) {
+  return std::ranges::all_of(mask.row(y, z), [](std::uint64_t word) { return word == 0; });
+}
+template <class T>
+bool is_empty_row(const state::Field<T>& field, int y, int z, int width) {
+  return std::all_of(field.row(y, z), field.row(y, z) + width, [](T value) { return value == 0; });
 }
 
 bool is_empty(const state::Volume& volume, int y, int z) {
-  const auto zero = [](std::uint64_t value) { return value == 0; };
-  const auto row = static_cast<std::size_t>(volume.grid.x);
-  for (const state::BitPlane* mask : {&volume.solid, &volume.liquid, &volume.inert})
-    if (!std::ranges::all_of(mask->row(y, z), zero)) return false;
-  for (const auto* field : {&volume.amount, &volume.energy, &volume.heat})
-    if (!std::all_of(field->row(y, z), field->row(y, z) + row, zero)) return false;
-  return true;
+  bool empty = true;
+  state::for_each_field([&](const auto& row) {
+    const auto& column = volume.*row.column;
+    empty = empty && (column.empty() || is_empty_row(column, y, z, volume.grid.x));
+  });
+  return empty;
+}
+
+std::int64_t cells_with_something(const state::BitPlane& mask) { return mask.count(); }
+template <class T>
+std::int64_t cells_with_something(const state::Field<T>& field) {
+  return std::ranges::count_if(field.stored(), [](T value) { return value != 0; });
 }
 
 // The first invariant that a cell breaks, or nothing.
@@ -80,12 +92,13 @@ const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
 
 state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid, const Place& place) {
   state::Volume volume(grid);
-  volume.solid = read_mask(folder / "solid.npy", grid, place);
-  volume.liquid = read_mask(folder / "liquid.npy", grid, place);
-  volume.inert = read_mask(folder / "inert.npy", grid, place);
-  volume.amount = read_field(folder / "amount.npy", grid, place);
-  volume.energy = read_field(folder / "energy.npy", grid, place);
-  volume.heat = read_field(heat_file(folder), grid, place);
+  state::for_each_field([&](const auto& row) {
+    const std::filesystem::path file = file_of(folder, row.name);
+    if (row.optional && !std::filesystem::exists(file)) return;
+    auto& column = volume.*row.column;
+    if (row.optional) column = std::remove_reference_t<decltype(column)>(grid);
+    take(read_npy(file, row.bits > 8 ? 2 : 1, grid, place), grid, column, file, place);
+  });
   if (const std::string broken = first_broken(volume); !broken.empty())
     fail_at(place, folder.string() + ": " + broken);
   return volume;
@@ -115,18 +128,25 @@ bool has_walls(const state::Volume& volume) {
   return false;
 }
 
-std::vector<std::string> drop_unused(state::Volume& volume, const rule::Parameters& parameters) {
+std::vector<std::string> fit_fields(state::Volume& volume, const rule::Parameters& parameters) {
   std::vector<std::string> dropped;
-  const auto drop = [&](state::Field<std::uint16_t>& field, const char* what, const char* why) {
-    const auto cells = std::ranges::count_if(field.stored(), [](std::uint16_t value) { return value != 0; });
-    if (cells > 0)
-      dropped.push_back(
-          fmt::format("start.fields: {} of {} cell{} dropped: {}", what, cells, cells == 1 ? "" : "s", why));
-    field.clear();
-  };
-  if (parameters.flow.law == rule::Law::viscous)
-    drop(volume.energy, "energy", "the viscous law has no energy");
-  if (!parameters.heat.enabled) drop(volume.heat, "heat", "the scene has no [heat]");
+  state::for_each_field([&](const auto& row) {
+    if (row.present == nullptr) return;
+    auto& column = volume.*row.column;
+    using Column = std::remove_reference_t<decltype(column)>;
+    if (row.present(parameters)) {
+      if (column.empty()) column = Column(volume.grid);
+      return;
+    }
+    if (column.empty()) return;
+    if (const std::int64_t cells = cells_with_something(column); cells > 0)
+      dropped.push_back(fmt::format("start.fields: {} of {} cell{} dropped: {}", row.name, cells,
+                                    cells == 1 ? "" : "s", row.missing));
+    if (row.optional)
+      column = {};
+    else
+      column.clear();
+  });
   return dropped;
 }
 

@@ -11,9 +11,9 @@
 
 namespace voxmelt::scene {
 
-// Reads solid, liquid, inert (u8, 0 or 1), amount, energy, heat (u16) from FOLDER/<field>.npy and checks the
-// invariants of a volume (kernel/automaton/state/volume.h). Throws InputError naming `place`, the file and
-// the first bad cell.
+// Reads every field (kernel/automaton/state/fields.h) from FOLDER/<field>.npy: masks as u8, 0 or 1, numbers
+// as u8 or u16. An optional field may be missing. Checks the invariants of a volume
+// (kernel/automaton/state/volume.h). Throws InputError naming `place`, the file and the first bad cell.
 state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid, const Place& place);
 
 // The first cell that breaks an invariant of a volume, and which; empty where none does.
@@ -22,8 +22,8 @@ std::string first_broken(const state::Volume& volume);
 // Is any inert cell an isothermal wall?
 bool has_walls(const state::Volume& volume);
 
-// Clears the fields that the scene does not model: energy under the viscous law, heat without [heat]. Returns
-// one line for each field that held something.
-std::vector<std::string> drop_unused(state::Volume& volume, const rule::Parameters& parameters);
+// The volume gets the optional fields of the scene, and what the scene does not have becomes 0: energy under
+// the viscous law, heat without [heat]. Returns one line for each field that held something.
+std::vector<std::string> fit_fields(state::Volume& volume, const rule::Parameters& parameters);
 
 }  // namespace voxmelt::scene

@@ -20,7 +20,7 @@ FABRIC, PIPELINE, CASTER = "hwmodel/fabric", "hwmodel/pipeline/model", "hwmodel/
 # Folder -> folders, or single headers, of ours that it may include (besides itself).
 ALLOWED = {
     RULE: [],
-    STATE: [],
+    STATE: [PARAMETERS],
     STEP: [PARAMETERS, STATE],
     "kernel/scene/text": [RULE],
     "kernel/scene/shape": [STATE, "kernel/scene/text"],

@@ -4,51 +4,18 @@
 #include <cstddef>
 #include <utility>
 
+#include "kernel/automaton/state/part.h"
+
 namespace voxmelt::hwmodel {
 namespace {
 
 constexpr int kSmall = 8;  // cells: no grid is cut below this before everything else was tried
 
-bool holds_something(const state::Volume& volume, const std::array<int, 3>& from,
-                     const std::array<int, 3>& size) {
-  for (int z = from[2]; z < from[2] + size[2]; ++z)
-    for (int y = from[1]; y < from[1] + size[1]; ++y)
-      for (int x = from[0]; x < from[0] + size[0]; ++x)
-        if (volume.solid.test(x, y, z) || volume.liquid.test(x, y, z) || volume.inert.test(x, y, z))
-          return true;
-  return false;
-}
-
-void clear(state::Volume& volume, const std::array<int, 3>& from, const std::array<int, 3>& size) {
-  for (int z = from[2]; z < from[2] + size[2]; ++z)
-    for (int y = from[1]; y < from[1] + size[1]; ++y)
-      for (int x = from[0]; x < from[0] + size[0]; ++x) {
-        volume.solid.set(x, y, z, false);
-        volume.liquid.set(x, y, z, false);
-        volume.inert.set(x, y, z, false);
-        const state::Slot at = volume.at(x, y, z);
-        volume.amount[at] = volume.energy[at] = volume.heat[at] = 0;
-      }
-}
-
 }  // namespace
 
 state::Volume part_of(const state::Volume& volume, const std::array<int, 3>& from,
                       const std::array<int, 3>& size) {
-  state::Volume part(state::Grid{size[0], size[1], size[2]});
-  for (int z = 0; z < size[2]; ++z)
-    for (int y = 0; y < size[1]; ++y)
-      for (int x = 0; x < size[0]; ++x) {
-        const int fx = from[0] + x, fy = from[1] + y, fz = from[2] + z;
-        if (volume.solid.test(fx, fy, fz)) part.solid.set(x, y, z, true);
-        if (volume.liquid.test(fx, fy, fz)) part.liquid.set(x, y, z, true);
-        if (volume.inert.test(fx, fy, fz)) part.inert.set(x, y, z, true);
-        const state::Slot at = volume.at(fx, fy, fz), to = part.at(x, y, z);
-        if (volume.amount[at] != 0) part.amount[to] = volume.amount[at];
-        if (volume.energy[at] != 0) part.energy[to] = volume.energy[at];
-        if (volume.heat[at] != 0) part.heat[to] = volume.heat[at];
-      }
-  return part;
+  return state::part_of(volume, {from, size});
 }
 
 Shrinker::Shrinker(Case begin, std::vector<std::string> removable, Fails fails, std::function<bool()> goes_on)
@@ -163,9 +130,9 @@ void Shrinker::remove_matter() {
           const std::array<int, 3> from{x, y, z};
           const std::array<int, 3> size{std::min(side, all[0] - x), std::min(side, all[1] - y),
                                         std::min(side, all[2] - z)};
-          if (!holds_something(best_.volume, from, size)) continue;
+          if (!holds_something(best_.volume, {from, size})) continue;
           Case one = best_;
-          clear(one.volume, from, size);
+          clear(one.volume, {from, size});
           try_case(std::move(one));
         }
 }

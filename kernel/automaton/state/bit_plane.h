@@ -22,6 +22,7 @@ class BitPlane {
         pages_(row_words_ * static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(grid.z) *
                sizeof(std::uint64_t)) {}
 
+  bool empty() const { return row_words_ == 0; }
   bool test(int x, int y, int z) const { return (data()[word_index(x, y, z)] >> (x & 63)) & 1u; }
 
   void set(int x, int y, int z, bool value) {

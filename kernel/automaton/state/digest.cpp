@@ -1,15 +1,52 @@
 #include "kernel/automaton/state/digest.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+
+#include "kernel/automaton/state/fields.h"
 
 namespace voxmelt::state {
 namespace {
 
-bool any_of(const std::uint16_t* cells, int count) {
+constexpr bool every_bit_has_its_place() {
+  std::uint64_t taken = 0;
+  bool fits = true;
+  for_each_field([&](const auto& row) {
+    const std::uint64_t bits = ((std::uint64_t{1} << row.bits) - 1) << row.digest_bit;
+    fits = fits && row.digest_bit + row.bits <= 64 && (taken & bits) == 0;
+    taken |= bits;
+  });
+  return fits;
+}
+static_assert(every_bit_has_its_place(), "two fields share a bit of a cell's word");
+
+// 64 cells along x, or those up to the end of the row.
+struct Chunk {
+  std::size_t word;
+  int first, count;
+};
+using Packed = std::array<std::uint64_t, 64>;
+
+bool any_in(const BitPlane& plane, int y, int z, const Chunk& chunk) {
+  return plane.row(y, z)[chunk.word] != 0;
+}
+template <class T>
+bool any_in(const Field<T>& field, int y, int z, const Chunk& chunk) {
+  const T* cells = field.row(y, z) + chunk.first;
   unsigned bits = 0;
-  for (int i = 0; i < count; ++i) bits |= cells[i];
+  for (int i = 0; i < chunk.count; ++i) bits |= cells[i];
   return bits != 0;
+}
+
+void pack(const BitPlane& plane, int y, int z, const Chunk& chunk, int at, Packed& packed) {
+  const std::uint64_t word = plane.row(y, z)[chunk.word];
+  for (std::size_t i = 0; i < packed.size(); ++i) packed[i] |= (word >> i & 1u) << at;
+}
+template <class T>
+void pack(const Field<T>& field, int y, int z, const Chunk& chunk, int at, Packed& packed) {
+  const T* cells = field.row(y, z) + chunk.first;  // rows end at multiples of 64 cells
+  for (std::size_t i = 0; i < packed.size(); ++i) packed[i] |= std::uint64_t{cells[i]} << at;
 }
 
 }  // namespace
@@ -18,25 +55,23 @@ std::uint64_t digest(const Volume& volume) {
   const Grid g = volume.grid;
   std::uint64_t sum = 0;
   for (int z = 0; z < g.z; ++z)
-    for (int y = 0; y < g.y; ++y) {
-      const auto solid = volume.solid.row(y, z), liquid = volume.liquid.row(y, z),
-                 inert = volume.inert.row(y, z);
-      const std::uint16_t *amount = volume.amount.row(y, z), *energy = volume.energy.row(y, z),
-                          *heat = volume.heat.row(y, z);
-      for (std::size_t w = 0; w < solid.size(); ++w) {
-        const int first = static_cast<int>(64 * w), count = std::min(64, g.x - first);
-        if ((solid[w] | liquid[w] | inert[w]) == 0 && !any_of(amount + first, count) &&
-            !any_of(energy + first, count) && !any_of(heat + first, count))
-          continue;
-        for (int bit = 0; bit < count; ++bit) {
-          const int x = first + bit;
-          const std::uint64_t packed = std::uint64_t{amount[x]} | std::uint64_t{energy[x]} << 16 |
-                                       std::uint64_t{heat[x]} << 32 | (solid[w] >> bit & 1u) << 48 |
-                                       (liquid[w] >> bit & 1u) << 49 | (inert[w] >> bit & 1u) << 50;
-          sum += cell_digest(g.index(x, y, z), packed);
-        }
+    for (int y = 0; y < g.y; ++y)
+      for (int first = 0; first < g.x; first += 64) {
+        const Chunk chunk{static_cast<std::size_t>(first) / 64, first, std::min(64, g.x - first)};
+        bool any = false;
+        for_each_field([&](const auto& row) {
+          const auto& column = volume.*row.column;
+          any = any || (!column.empty() && any_in(column, y, z, chunk));
+        });
+        if (!any) continue;
+        Packed packed{};
+        for_each_field([&](const auto& row) {
+          const auto& column = volume.*row.column;
+          if (!column.empty()) pack(column, y, z, chunk, row.digest_bit, packed);
+        });
+        for (int i = 0; i < chunk.count; ++i)
+          sum += cell_digest(g.index(first + i, y, z), packed[static_cast<std::size_t>(i)]);
       }
-    }
   return sum;
 }
 

@@ -23,21 +23,18 @@ namespace voxmelt::state {
 
 struct Volume {
   Volume() = default;
-  explicit Volume(Grid size)
-      : grid(size), solid(size), liquid(size), inert(size), amount(size), energy(size), heat(size) {}
+  explicit Volume(Grid size);  // 0 everywhere; without the optional fields
 
   Slot at(int x, int y, int z) const { return amount.layout().at(x, y, z); }
 
   Grid grid;
+  // Each with a row in fields.h.
   BitPlane solid, liquid, inert;
   Field<std::uint16_t> amount, energy, heat;
 
   ChangedBricks changed;
 
-  friend bool operator==(const Volume& a, const Volume& b) {
-    return a.grid == b.grid && a.solid == b.solid && a.liquid == b.liquid && a.inert == b.inert &&
-           a.amount == b.amount && a.energy == b.energy && a.heat == b.heat;
-  }
+  friend bool operator==(const Volume& a, const Volume& b);
 };
 
 }  // namespace voxmelt::state

@@ -196,6 +196,15 @@ bool BlockReader::next_is_empty(const BlockName& name, std::span<std::byte> raw)
   return false;
 }
 
+bool BlockReader::next_is(std::string_view kind) {
+  if (left_ < sizeof(RawHeader)) return false;
+  RawHeader header;
+  const long at = std::ftell(file_.get());
+  if (std::fread(&header, sizeof header, 1, file_.get()) != 1 || std::fseek(file_.get(), at, SEEK_SET) != 0)
+    fail(path_, "cannot be read");
+  return kind == std::string_view(header.kind.data(), ::strnlen(header.kind.data(), header.kind.size()));
+}
+
 void BlockReader::finish() {
   const std::uint32_t blocks = blocks_;
   const Header block = take();

@@ -10,6 +10,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/run/io/file_writer.h"
@@ -71,6 +72,8 @@ class BlockReader {
   // The same where the number of bytes is known: into `raw`. Returns whether all of it is 0; then `raw` is
   // not written.
   bool next_is_empty(const BlockName& name, std::span<std::byte> raw);
+  // Is the next block of this kind? It is not read.
+  bool next_is(std::string_view kind);
   // The last block, and nothing behind it.
   void finish();
 

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <string>
+#include <type_traits>
 #include <vector>
+
+#include "kernel/automaton/state/fields.h"
 
 namespace voxmelt::checkpoint {
 namespace {
@@ -13,8 +17,9 @@ constexpr std::size_t kSlab = std::size_t{4} << 20;  // bytes that a block has a
 std::size_t row_bytes(const state::BitPlane& plane, state::Grid) {
   return plane.row_words() * sizeof(std::uint64_t);
 }
-std::size_t row_bytes(const state::Field<std::uint16_t>&, state::Grid grid) {
-  return static_cast<std::size_t>(grid.x) * sizeof(std::uint16_t);
+template <class T>
+std::size_t row_bytes(const state::Field<T>&, state::Grid grid) {
+  return static_cast<std::size_t>(grid.x) * sizeof(T);
 }
 template <class Column>
 auto* row_of(Column& column, int y, int z) {
@@ -33,8 +38,8 @@ int slices_of_a_slab(std::size_t row, state::Grid grid) {
 // A column's slabs: first slices, and how many.
 struct Slab {
   int first = 0, count = 0;
-  BlockName name(const char* kind) const {
-    return {kind, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
+  BlockName name(std::string_view kind) const {
+    return {std::string(kind), static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
   }
 };
 std::vector<Slab> slabs_of(std::size_t row, state::Grid grid) {
@@ -65,7 +70,7 @@ Packed pack(const Column& column, state::Grid grid, const Slab& slab) {
 }
 
 template <class Column>
-void put(BlockWriter& writer, cpu::Workers& workers, const char* kind, const Column& column,
+void put(BlockWriter& writer, cpu::Workers& workers, std::string_view kind, const Column& column,
          state::Grid grid) {
   const std::vector<Slab> slabs = slabs_of(row_bytes(column, grid), grid);
   const auto at_once = static_cast<std::size_t>(2 * workers.threads());
@@ -81,7 +86,7 @@ void put(BlockWriter& writer, cpu::Workers& workers, const char* kind, const Col
 }
 
 template <class Column>
-Column take(BlockReader& reader, const char* kind, state::Grid grid) {
+Column take(BlockReader& reader, std::string_view kind, state::Grid grid) {
   Column column(grid);
   const std::size_t row = row_bytes(column, grid);
   Bytes raw;
@@ -101,32 +106,29 @@ Column take(BlockReader& reader, const char* kind, state::Grid grid) {
 }  // namespace
 
 void put_volume(BlockWriter& writer, cpu::Workers& workers, const state::Volume& volume) {
-  put(writer, workers, "solid", volume.solid, volume.grid);
-  put(writer, workers, "liquid", volume.liquid, volume.grid);
-  put(writer, workers, "inert", volume.inert, volume.grid);
-  put(writer, workers, "amount", volume.amount, volume.grid);
-  put(writer, workers, "energy", volume.energy, volume.grid);
-  put(writer, workers, "heat", volume.heat, volume.grid);
+  state::for_each_field([&](const auto& row) {
+    const auto& column = volume.*row.column;
+    if (!column.empty()) put(writer, workers, row.name, column, volume.grid);
+  });
 }
 
 state::Volume take_volume(BlockReader& reader, state::Grid grid) {
   state::Volume volume;
   volume.grid = grid;
-  volume.solid = take<state::BitPlane>(reader, "solid", grid);
-  volume.liquid = take<state::BitPlane>(reader, "liquid", grid);
-  volume.inert = take<state::BitPlane>(reader, "inert", grid);
-  volume.amount = take<state::Field<std::uint16_t>>(reader, "amount", grid);
-  volume.energy = take<state::Field<std::uint16_t>>(reader, "energy", grid);
-  volume.heat = take<state::Field<std::uint16_t>>(reader, "heat", grid);
+  state::for_each_field([&](const auto& row) {
+    if (row.optional && !reader.next_is(row.name)) return;
+    auto& column = volume.*row.column;
+    column = take<std::remove_reference_t<decltype(column)>>(reader, row.name, grid);
+  });
   return volume;
 }
 
-void put_field(BlockWriter& writer, cpu::Workers& workers, const char* kind,
+void put_field(BlockWriter& writer, cpu::Workers& workers, std::string_view kind,
                const state::Field<std::uint16_t>& field, state::Grid grid) {
   put(writer, workers, kind, field, grid);
 }
 
-state::Field<std::uint16_t> take_field(BlockReader& reader, const char* kind, state::Grid grid) {
+state::Field<std::uint16_t> take_field(BlockReader& reader, std::string_view kind, state::Grid grid) {
   return take<state::Field<std::uint16_t>>(reader, kind, grid);
 }
 

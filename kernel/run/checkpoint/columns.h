@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "kernel/automaton/state/volume.h"
 #include "kernel/engine/cpu/workers.h"
@@ -9,11 +10,12 @@
 
 namespace voxmelt::checkpoint {
 
+// Every field that the volume has, in the order of their table; of the optional ones those that are there.
 void put_volume(BlockWriter& writer, cpu::Workers& workers, const state::Volume& volume);
 state::Volume take_volume(BlockReader& reader, state::Grid grid);
 
-void put_field(BlockWriter& writer, cpu::Workers& workers, const char* kind,
+void put_field(BlockWriter& writer, cpu::Workers& workers, std::string_view kind,
                const state::Field<std::uint16_t>& field, state::Grid grid);
-state::Field<std::uint16_t> take_field(BlockReader& reader, const char* kind, state::Grid grid);
+state::Field<std::uint16_t> take_field(BlockReader& reader, std::string_view kind, state::Grid grid);
 
 }  // namespace voxmelt::checkpoint

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/automaton/state/fields.h"
 #include "kernel/run/io/file_writer.h"
 
 namespace voxmelt::io {
@@ -16,34 +17,40 @@ namespace {
 
 // What a field is called in the files, and how one row of it is written.
 struct Column {
-  const char* name;
+  std::string name;
   const char* npy_type;
   const char* vtk_type;
   std::size_t bytes;  // of a cell
   std::function<void(std::string& rows, int y, int z)> append_row;
 };
 
-std::vector<Column> columns_of(const state::Volume& v) {
-  const int width = v.grid.x;
-  const auto mask = [width](const state::BitPlane& plane) {
-    return [width, &plane](std::string& rows, int y, int z) {
-      const std::size_t first = rows.size();
-      rows.resize(first + static_cast<std::size_t>(width));
-      const auto words = plane.row(y, z);
-      for (std::size_t w = 0; w < words.size(); ++w)
-        for (std::uint64_t left = words[w]; left != 0; left &= left - 1)
-          rows[first + 64 * w + static_cast<std::size_t>(std::countr_zero(left))] = 1;
-    };
-  };
-  const auto number = [width](const state::Field<std::uint16_t>& field) {
-    return [width, &field](std::string& rows, int y, int z) {
-      rows.append(reinterpret_cast<const char*>(field.row(y, z)),
-                  static_cast<std::size_t>(width) * sizeof(std::uint16_t));
-    };
-  };
-  return {{"solid", "|u1", "UInt8", 1, mask(v.solid)},      {"liquid", "|u1", "UInt8", 1, mask(v.liquid)},
-          {"inert", "|u1", "UInt8", 1, mask(v.inert)},      {"amount", "<u2", "UInt16", 2, number(v.amount)},
-          {"energy", "<u2", "UInt16", 2, number(v.energy)}, {"heat", "<u2", "UInt16", 2, number(v.heat)}};
+void append_row(std::string& rows, const state::BitPlane& plane, int y, int z, std::size_t width) {
+  const std::size_t first = rows.size();
+  rows.resize(first + width);
+  const auto words = plane.row(y, z);
+  for (std::size_t w = 0; w < words.size(); ++w)
+    for (std::uint64_t left = words[w]; left != 0; left &= left - 1)
+      rows[first + 64 * w + static_cast<std::size_t>(std::countr_zero(left))] = 1;
+}
+template <class T>
+void append_row(std::string& rows, const state::Field<T>& field, int y, int z, std::size_t width) {
+  rows.append(reinterpret_cast<const char*>(field.row(y, z)), width * sizeof(T));
+}
+
+// Masks have a byte for each cell.
+std::vector<Column> columns_of(const state::Volume& volume) {
+  const auto width = static_cast<std::size_t>(volume.grid.x);
+  std::vector<Column> columns;
+  state::for_each_field([&](const auto& row) {
+    const auto& cells = volume.*row.column;
+    if (cells.empty()) return;
+    const bool wide = row.bits > 8;
+    columns.push_back(
+        {std::string(row.name), wide ? "<u2" : "|u1", wide ? "UInt16" : "UInt8",
+         wide ? std::size_t{2} : std::size_t{1},
+         [&cells, width](std::string& rows, int y, int z) { append_row(rows, cells, y, z, width); }});
+  });
+  return columns;
 }
 
 // Some rows at a time, so that an export takes no memory to speak of beside the state.
@@ -118,7 +125,7 @@ const Format* find_format(std::string_view name) {
 
 void export_npy(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll) {
   for (const Column& column : columns_of(volume)) {
-    FileWriter file(folder / (std::string(column.name) + ".npy"));
+    FileWriter file(folder / (column.name + ".npy"));
     file.write(npy_header(column.npy_type, volume.grid));
     write_rows(file, column, volume.grid, poll);
     file.commit();

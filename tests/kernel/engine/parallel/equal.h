@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "kernel/automaton/state/difference.h"
+#include "kernel/automaton/state/fields.h"
 #include "tests/kernel/engine/scalar/hostile.h"
 
 namespace voxmelt::worlds {
@@ -14,23 +16,8 @@ namespace voxmelt::worlds {
 // The first difference of two states, with both values; empty where there is none.
 inline std::string difference(const Volume& expected, const Volume& actual) {
   if (expected == actual) return {};
-  std::string found;
-  for_each(whole(expected.grid), [&](int x, int y, int z) {
-    if (!found.empty()) return;
-    const state::Slot i = expected.at(x, y, z);
-    const auto check = [&](const char* field, int a, int b) {
-      if (a != b && found.empty())
-        found = std::string(field) + " at " + std::to_string(x) + ", " + std::to_string(y) + ", " +
-                std::to_string(z) + ": expected " + std::to_string(a) + ", is " + std::to_string(b);
-    };
-    check("solid", expected.solid.test(x, y, z), actual.solid.test(x, y, z));
-    check("inert", expected.inert.test(x, y, z), actual.inert.test(x, y, z));
-    check("amount", expected.amount[i], actual.amount[i]);
-    check("energy", expected.energy[i], actual.energy[i]);
-    check("heat", expected.heat[i], actual.heat[i]);
-    check("liquid", expected.liquid.test(x, y, z), actual.liquid.test(x, y, z));
-  });
-  return found.empty() ? "the padding, which must stay 0" : found;
+  const auto found = state::first_difference(expected, actual);
+  return found ? text_of(*found) : "the padding, which must stay 0";
 }
 
 // A cell that is not what it was, in a brick that is not told to have changed; empty where there is none.
@@ -40,14 +27,13 @@ inline std::string untold(const Volume& before, const state::ChangedBricks::Seen
   std::string found;
   for_each(whole(after.grid), [&](int x, int y, int z) {
     const std::size_t brick = bricks.index(x / 8, y / 8, z / 8);
-    const state::Slot i = after.at(x, y, z);
     if (after.changed.since(state::ChangedBricks::kMatter, seen, brick) || !found.empty()) return;
-    for (const auto field : {&Volume::amount, &Volume::energy})
-      if ((before.*field)[i] != (after.*field)[i]) found = "a field";
-    if (before.heat[i] != after.heat[i] && !after.changed.since(state::ChangedBricks::kHeat, seen, brick))
-      found = "heat";
-    for (const auto mask : {&Volume::solid, &Volume::liquid, &Volume::inert})
-      if ((before.*mask).test(x, y, z) != (after.*mask).test(x, y, z)) found = "a mask";
+    const bool heat_is_told = after.changed.since(state::ChangedBricks::kHeat, seen, brick);
+    state::for_each_field([&](const auto& row) {
+      const auto &was = before.*row.column, &is = after.*row.column;
+      if (was.empty() || (row.name == "heat" && heat_is_told)) return;
+      if (value_at(was, x, y, z) != value_at(is, x, y, z)) found = row.name;
+    });
     if (!found.empty())
       found += " at " + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z);
   });

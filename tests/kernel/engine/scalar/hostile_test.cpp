@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/automaton/state/difference.h"
 #include "kernel/engine/scalar/cells.h"
 #include "tests/kernel/engine/scalar/hostile.h"
 
@@ -45,15 +46,11 @@ void expect_only_near_changed(const Volume& before, const Volume& after, Phase p
   const std::vector<bool> near = near_matter(before, columns);
   const ActiveRows rows = columns ? ActiveRows::columns(before) : ActiveRows(before);
   for_each(whole(before.grid), [&](int x, int y, int z) {
-    const state::Slot i = before.at(x, y, z);
     const bool active = rows(y, z).begin <= x && x < rows(y, z).end;
     ASSERT_TRUE(active || !near[before.grid.index(x, y, z)])
         << "ActiveRows misses " << x << ' ' << y << ' ' << z;
     if (active && near[before.grid.index(x, y, z)]) return;
-    ASSERT_TRUE(before.amount[i] == after.amount[i] && before.energy[i] == after.energy[i] &&
-                before.heat[i] == after.heat[i] &&
-                before.liquid.test(x, y, z) == after.liquid.test(x, y, z) &&
-                before.solid.test(x, y, z) == after.solid.test(x, y, z))
+    ASSERT_TRUE(state::same_cell(before, after, x, y, z))
         << "changed far from matter: " << x << ' ' << y << ' ' << z;
   });
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "kernel/automaton/state/difference.h"
 #include "tests/kernel/engine/scalar/hostile.h"
 #include "tests/kernel/engine/simd/heat_driver.h"
 
@@ -25,19 +26,8 @@ inline step::Irradiance hostile_irradiance(Random& random, const Volume& v, bool
 }
 
 inline std::string difference(const Volume& a, const Volume& b) {
-  std::string text;
-  for_each(whole(a.grid), [&](int x, int y, int z) {
-    const state::Slot i = a.at(x, y, z);
-    if (!text.empty() ||
-        (a.amount[i] == b.amount[i] && a.energy[i] == b.energy[i] && a.heat[i] == b.heat[i] &&
-         a.solid.test(x, y, z) == b.solid.test(x, y, z) && a.liquid.test(x, y, z) == b.liquid.test(x, y, z)))
-      return;
-    text = "at " + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ": A " +
-           std::to_string(a.amount[i]) + " and " + std::to_string(b.amount[i]) + ", E " +
-           std::to_string(a.energy[i]) + " and " + std::to_string(b.energy[i]) + ", h " +
-           std::to_string(a.heat[i]) + " and " + std::to_string(b.heat[i]);
-  });
-  return text.empty() ? "in the padding, or a mask" : text;
+  const auto found = state::first_difference(a, b);
+  return found ? text_of(*found) : "in the padding";
 }
 
 inline std::string terms(const state::Ledger& ledger) {
@@ -62,10 +52,7 @@ inline std::string terms(const Books& books) {
 inline TileSet tiles_between(const View& view, const Volume& a, const Volume& b) {
   TileSet set(view, false);
   for_each(whole(a.grid), [&](int x, int y, int z) {
-    const state::Slot i = a.at(x, y, z);
-    if (a.amount[i] != b.amount[i] || a.energy[i] != b.energy[i] || a.heat[i] != b.heat[i] ||
-        a.solid.test(x, y, z) != b.solid.test(x, y, z) || a.liquid.test(x, y, z) != b.liquid.test(x, y, z))
-      set.slice(z)[y >> view.tile_shift] |= TileRow{1} << (x / 64);
+    if (!state::same_cell(a, b, x, y, z)) set.slice(z)[y >> view.tile_shift] |= TileRow{1} << (x / 64);
   });
   return set;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/automaton/state/difference.h"
 #include "tests/kernel/engine/scalar/hostile.h"
 #include "tests/kernel/engine/simd/viscous_driver.h"
 
@@ -28,22 +29,9 @@ std::vector<cpu::InstructionSet> sets() {
 }
 
 std::string difference(const Volume& expected, const Volume& actual) {
-  std::string found;
-  worlds::for_each(worlds::whole(expected.grid), [&](int x, int y, int z) {
-    if (!found.empty()) return;
-    const state::Slot i = expected.at(x, y, z);
-    const auto check = [&](const char* field, int a, int b) {
-      if (a == b || !found.empty()) return;
-      found = std::string(field) + " at " + std::to_string(x) + ", " + std::to_string(y) + ", " +
-              std::to_string(z) + ": expected " + std::to_string(a) + ", is " + std::to_string(b);
-    };
-    check("solid", expected.solid.test(x, y, z), actual.solid.test(x, y, z));
-    check("amount", expected.amount[i], actual.amount[i]);
-    check("heat", expected.heat[i], actual.heat[i]);
-    check("liquid", expected.liquid.test(x, y, z), actual.liquid.test(x, y, z));
-  });
-  if (found.empty() && !(expected == actual)) found = "the padding, or what no phase may change";
-  return found;
+  if (expected == actual) return {};
+  const auto found = state::first_difference(expected, actual);
+  return found ? text_of(*found) : "the padding";
 }
 
 std::string digits(state::Sum value) { return state::to_string(value); }
