@@ -1,9 +1,9 @@
 #include "library/sources.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "kernel/scene/parameter_readers.h"
@@ -15,11 +15,13 @@ namespace {
 
 using scene::Value;
 
-// By HeatSourceKind, which has the order of rule::SourceKind.
-const char* name_of(HeatSourceKind kind) {
-  constexpr std::array<const char*, 4> names{"point", "sphere", "directional", "sky"};
+// HeatSourceKind has the order of rule::SourceKind. A number beyond both has no name and no keys: it is
+// refused.
+static_assert(kHeatSourceKinds == rule::kSourceKinds.size());
+rule::SourceKindRow row_of(HeatSourceKind kind) {
   const auto number = static_cast<std::size_t>(kind);
-  return number < names.size() ? names[number] : "none";
+  if (number < rule::kSourceKinds.size()) return rule::kSourceKinds[number];
+  return {.kind = {}, .name = "none"};
 }
 
 // The document that a scene file with these tables would be.
@@ -51,7 +53,7 @@ class Document {
     integer.real = step;
     return integer;
   }
-  Value text(const char* text) const {
+  Value text(std::string_view text) const {
     Value string = value(Value::Kind::text);
     string.text = text;
     return string;
@@ -105,18 +107,18 @@ double to_part(rule::Amount amount) { return static_cast<double>(amount) / rule:
 
 std::vector<rule::HeatSource> to_rules(const std::vector<HeatSource>& sources) {
   const Document document("set_heat_sources");
-  using enum HeatSourceKind;
   const Value root = document.list("heat_source", sources, [&](const HeatSource& source) {
+    const rule::SourceKindRow kind = row_of(source.kind);
     Value table = document.list("keyframes", source.keyframes, [&](const Keyframe& keyframe) {
       Value frame = document.table();
       frame.put("step", document.step(keyframe.step));
-      if (source.kind == point || source.kind == sphere) frame.put("at", document.position(keyframe.at));
-      if (source.kind == sphere) frame.put("radius", document.number(keyframe.radius));
-      if (source.kind == directional) frame.put("direction", document.position(keyframe.direction));
+      if (kind.at) frame.put("at", document.position(keyframe.at));
+      if (kind.radius) frame.put("radius", document.number(keyframe.radius));
+      if (kind.direction) frame.put("direction", document.position(keyframe.direction));
       frame.put("power", document.number(keyframe.power));
       return frame;
     });
-    table.put("kind", document.text(name_of(source.kind)));
+    table.put("kind", document.text(kind.name));
     return table;
   });
   return checked(root, scene::read_heat_sources);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +23,7 @@ enum class HeatSourceKind : std::uint8_t {
   directional,  ///< a sun
   sky,          ///< everything above the horizon, equally bright
 };
+inline constexpr std::size_t kHeatSourceKinds = 4;  ///< how many kinds there are
 
 /// Where a heat source is at a step, and how strong it is. What its kind does not have is not used.
 struct Keyframe {
@@ -39,7 +41,7 @@ struct Keyframe {
 /// after the last they are constant.
 struct HeatSource {
   std::vector<Keyframe> keyframes;              ///< at least one, steps ascending
-  HeatSourceKind kind = HeatSourceKind::point;  ///< point, sphere, directional or sky
+  HeatSourceKind kind = HeatSourceKind::point;  ///< what it is
 
   /// A point source that stays where it is.
   static HeatSource fixed(const Position& at, double power) { return {{{0, at, power}}}; }

@@ -68,12 +68,11 @@ int read_rays(Reader& reader) {
 }
 
 // What a key of a source says, as far as its kind has it.
-rule::SourceKey read_source_key(Reader& reader, rule::SourceKind kind, std::uint32_t step) {
-  using enum rule::SourceKind;
+rule::SourceKey read_source_key(Reader& reader, const rule::SourceKindRow& kind, std::uint32_t step) {
   rule::SourceKey key{.step = step};
-  if (kind == point || kind == sphere) key.at = to_position(reader.vector<3>("at", coordinate()));
-  if (kind == sphere) key.radius = to_position(reader.number("radius", at_most(kLargestRadius)));
-  if (kind == directional) {
+  if (kind.at) key.at = to_position(reader.vector<3>("at", coordinate()));
+  if (kind.radius) key.radius = to_position(reader.number("radius", at_most(kLargestRadius)));
+  if (kind.direction) {
     const std::array<double, 3> direction = reader.vector<3>("direction", within(kLargestDirection));
     if (std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])}) < kLeastDirection)
       reader.fail("direction", " has no length");
@@ -84,11 +83,12 @@ rule::SourceKey read_source_key(Reader& reader, rule::SourceKind kind, std::uint
 }
 
 rule::HeatSource read_source(Reader& reader) {
-  rule::HeatSource source;
-  source.kind =
-      static_cast<rule::SourceKind>(reader.choice("kind", {"point", "sphere", "directional", "sky"}, 0));
+  std::vector<std::string> kinds;
+  for (const rule::SourceKindRow& row : rule::kSourceKinds) kinds.emplace_back(row.name);
+  const rule::SourceKindRow& kind = rule::kSourceKinds[reader.choice("kind", kinds, 0)];
+  rule::HeatSource source{.keys = {}, .kind = kind.kind};
   if (!reader.has("keyframes")) {
-    source.keys.push_back(read_source_key(reader, source.kind, 0));
+    source.keys.push_back(read_source_key(reader, kind, 0));
   } else {
     for (const char* key : {"at", "radius", "direction", "power"})
       if (reader.has(key))
@@ -100,7 +100,7 @@ rule::HeatSource read_source(Reader& reader) {
       if (!source.keys.empty() && step <= source.keys.back().step)
         frame.fail("step",
                    fmt::format(" = {} must be after the keyframe before, {}", step, source.keys.back().step));
-      source.keys.push_back(read_source_key(frame, source.kind, step));
+      source.keys.push_back(read_source_key(frame, kind, step));
       frame.finish();
     }
   }

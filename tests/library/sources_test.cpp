@@ -178,8 +178,9 @@ TEST_F(Sources, WhatASceneMayNotSayIsRefusedAndNothingChanges) {
   EXPECT_NE(lamps({{{{.radius = 8193}}, sphere}}).find("heat_source.0.keyframes.0.radius"),
             std::string::npos);
   EXPECT_NE(lamps({{{{.power = 1}}, directional}}).find("has no length"), std::string::npos);
-  EXPECT_NE(lamps({{{{.power = 1}}, static_cast<HeatSourceKind>(4)}}).find("heat_source.0.kind"),
-            std::string::npos);
+  EXPECT_NE(
+      lamps({{{{.power = 1}}, static_cast<HeatSourceKind>(kHeatSourceKinds)}}).find("heat_source.0.kind"),
+      std::string::npos);
   EXPECT_NE(lamps({HeatSource{{{4, {}, 1}, {4, {}, 2}}}}).find("must be after"), std::string::npos);
   EXPECT_EQ(simulation.heat_sources()[0].keyframes[0].power, 4);
 

@@ -1,6 +1,8 @@
 """KEYS: the range of every key of a scene that a rule reads, for foreign_scenes.py."""
 import math
 
+from foreign_sources import KEYS_OF
+
 TINY = 1e-9  # the lowest value of a range that leaves out 0
 LAST_STEP, LAST_START = 2**32 - 1, 2**31 - 1
 
@@ -60,7 +62,7 @@ KEYS = {
     "heat.air.exchange": Key(TINY, 0.57735, 0.01, 0.5, 1 / 65536),
     "heat.air.bottom": TEMPERATURE,
     "heat.air.top": TEMPERATURE,
-    "heat_source.kind": Choice("point", "sphere", "directional", "sky"),
+    "heat_source.kind": Choice(*KEYS_OF),
     "heat_source.at": POSITION,
     "heat_source.radius": RADIUS,
     "heat_source.direction": DIRECTION,

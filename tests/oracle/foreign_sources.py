@@ -1,5 +1,18 @@
 """Heat sources for foreign_scenes.py: of every kind, near and far, inside matter, on planes, oblique, with keys."""
-KEYS_OF = {"point": ("at",), "sphere": ("at", "radius"), "directional": ("direction",), "sky": ()}
+import re
+from pathlib import Path
+
+PAGE = (Path(__file__).resolve().parents[2] / "docs/scenes.md").read_text()
+
+
+def keys_of_kinds(page):
+    """The kinds that docs/scenes.md names, each with its keys but power: {"sphere": ("at", "radius"), ...}."""
+    kinds = re.findall(r'"(\w+)"', re.search(r"^\| `\[\[heat_source\]\] kind` \|[^|]*\|([^|]*)\|", page, re.M)[1])
+    rows = re.findall(r"^\| `(\w+)` \(([\w, ]+)\) \|", page, re.M)
+    return {kind: tuple(key for key, having in rows if kind in having.split(", ")) for kind in kinds}
+
+
+KEYS_OF = keys_of_kinds(PAGE)
 MOST_POWER, MOST_DIRECTION = 4194303, 10**6
 BRIGHT = 30  # cells: most powers that are drawn light a cell so far away, without being cut
 

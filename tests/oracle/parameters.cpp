@@ -1,6 +1,8 @@
 // docs/automaton.md section 14: parameters.json and the ranges a scene may use.
 #include "parameters.h"
 
+#include "kinds.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -85,42 +87,31 @@ std::vector<Region> read_regions(const Json& json, bool vents) {
 }
 
 // A source without `kind` is a point.
-Kind kind_of(const Json& json) {
-  if (!json.contains("kind")) return Kind::point;
-  const Json& name = json.at("kind");
-  if (name == "sphere") return Kind::sphere;
-  if (name == "directional") return Kind::directional;
-  require(name == "sky", "the kind of a source is neither sphere, directional nor sky");
-  return Kind::sky;
+const Kind& read_kind(const Json& json) {
+  const Kind* kind = kind_named(json.contains("kind") ? json.at("kind").get<std::string>() : "point");
+  require(kind != nullptr, "no source is of this kind");
+  require(!json.contains("kind") || json.at("kind") != "point", "a point does not say its kind");
+  return *kind;
 }
 
 // Keys have only what their kind has.
-Key read_key(const Json& json, Kind kind) {
+Key read_key(const Json& json, const Kind& kind) {
   Key key;
-  std::size_t members = 2;
   key.step = integer(json, "step", 0, LAST_STEP);
   key.power = integer(json, "power", 0, (Int{1} << 50) - 1);
-  if (kind == Kind::point || kind == Kind::sphere) {
-    key.at = point(json, "at", -FAR, FAR);
-    ++members;
-  }
-  if (kind == Kind::sphere) {
-    key.radius = integer(json, "radius", 0, FAR);
-    ++members;
-  }
-  if (kind == Kind::directional) {
-    key.direction = point(json, "direction", -65536, 65536);
-    ++members;
-  }
+  if (kind.at) key.at = point(json, "at", -FAR, FAR);
+  if (kind.radius) key.radius = integer(json, "radius", 0, FAR);
+  if (kind.direction) key.direction = point(json, "direction", -65536, 65536);
+  const std::size_t members = 2 + kind.at + kind.radius + kind.direction;
   require(json.size() == members, "a key of a source has what its kind has not");
   return key;
 }
 
 RadiationSource read_radiation_source(const Json& json) {
   RadiationSource source;
-  source.kind = kind_of(json);
+  source.kind = &read_kind(json);
   for (const Json& entry : member(json, "keys")) {
-    const Key key = read_key(entry, source.kind);
+    const Key key = read_key(entry, *source.kind);
     require(source.keys.empty() || source.keys.back().step < key.step, "keys do not ascend");
     source.keys.push_back(key);
   }

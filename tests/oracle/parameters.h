@@ -11,18 +11,18 @@ namespace oracle {
 
 using Point = std::array<Int, 3>;  // x, y, z in sixteenths of a cell
 
-enum class Kind { point, sphere, directional, sky };
+struct Kind;  // kinds.h
 
 struct Key {
   Int step = 0;
-  Point at{};         // points and spheres
-  Int radius = 0;     // spheres
-  Point direction{};  // directional sources
+  Point at{};
+  Int radius = 0;
+  Point direction{};
   Int power = 0;
 };
 
 struct RadiationSource {
-  Kind kind = Kind::point;
+  const Kind* kind = nullptr;  // never null once it is read
   std::vector<Key> keys;
 };
 

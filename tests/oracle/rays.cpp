@@ -1,4 +1,4 @@
-// docs/automaton.md section 5: keys, faces, and where rays start and end.
+// docs/automaton.md section 5: keys, faces, where rays start, and how they are turned.
 #include "rays.h"
 
 #include <cstddef>
@@ -23,61 +23,6 @@ Int reversed(Int n, Int R) {
     n /= 2;
   }
   return result;
-}
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-// 2^20 v / floor(sqrt(4096 |v|^2)), each component rounded down.
-Point unit(const Point& v) {
-  const Int length = square_root(4096 * squared_length(v));
-  Point result{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    result[axis] = floor_divide<Int>(v[axis] * (Int{1} << 20), length);
-  return result;
-}
-
-// P + k D for the least whole k > 0 with which it has left the grid.
-Point leaving(const Point& start, const Point& D, const std::array<Int, 3>& grid) {
-  std::optional<Int> k;
-  for (std::size_t b = 0; b < 3; ++b) {
-    if (D[b] == 0) continue;
-    // The steps to the border ahead, rounded up; at least one.
-    const Int way = D[b] > 0 ? 16 * grid[b] - start[b] : start[b];
-    const Int pace = D[b] > 0 ? D[b] : -D[b];
-    const Int steps = larger(1, (way + pace - 1) / pace);
-    if (!k || steps < *k) k = steps;
-  }
-  Point end = start;
-  for (std::size_t axis = 0; axis < 3; ++axis) end[axis] += *k * D[axis];
-  return end;
-}
-
-Point on_disc(const Key& sphere, const Point& delta, const OnDisc& place) {
-  const auto magnitude = [&](std::size_t axis) { return delta[axis] < 0 ? -delta[axis] : delta[axis]; };
-  std::size_t e = 0;
-  for (std::size_t axis = 1; axis < 3; ++axis)
-    if (magnitude(axis) < magnitude(e)) e = axis;
-  const std::size_t e1 = (e + 1) % 3, e2 = (e + 2) % 3;
-  Point g{};
-  g[e1] = delta[e2];
-  g[e2] = -delta[e1];
-  const Point G = unit(g), F = unit(delta), product = cross(F, G);
-  Point end{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Int V = product[axis] >> 14;
-    end[axis] = sphere.at[axis] + ((sphere.radius * (place.p * G[axis] + place.q * V)) >> 28);
-  }
-  return end;
-}
-
-Point sky_direction(const Face& face, const OnDisc& place) {
-  Point H{};
-  H[face.axis] = face.side * square_root((Int{1} << 28) - place.rho * place.rho);
-  H[(face.axis + 1) % 3] = place.p;
-  H[(face.axis + 2) % 3] = place.q;
-  return H;
 }
 
 }  // namespace
@@ -147,35 +92,6 @@ OnDisc Turns::place(const RayNumber& ray) const {
     place.q = p;
   }
   return place;
-}
-
-std::optional<Cast> cast_from(const Point& start, const Face& face, const Light& light, const Turns& turns,
-                              const RayNumber& ray, const std::array<Int, 3>& grid) {
-  const Key& now = light.now;
-  switch (light.kind) {
-    case Kind::directional: {
-      const Int w = face.side * now.direction[face.axis];
-      if (w <= 0) return std::nullopt;
-      return Cast{leaving(start, now.direction, grid), w};
-    }
-    case Kind::sky: {
-      const Point H = sky_direction(face, turns.place(ray));
-      if (H[1] <= 0) return std::nullopt;
-      return Cast{leaving(start, H, grid), 1};
-    }
-    case Kind::point:
-    case Kind::sphere:
-      break;
-  }
-  Point end = now.at;
-  if (light.kind == Kind::sphere) {
-    const Point delta = difference(now.at, face.cell);
-    if (squared_length(delta) == 0) return std::nullopt;  // its disc is turned nowhere
-    end = on_disc(now, delta, turns.place(ray));
-  }
-  const Int w = face.side * (end[face.axis] - face.cell[face.axis]);
-  if (w <= 8) return std::nullopt;
-  return Cast{end, w};
 }
 
 }  // namespace oracle

@@ -6,15 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 namespace oracle {
-
-// A source at one step.
-struct Light {
-  Kind kind = Kind::point;
-  Key now;
-};
 
 Key key_at(const RadiationSource& source, Int s);
 
@@ -46,13 +39,5 @@ class Turns {
  private:
   RandomWords words;
 };
-
-struct Cast {
-  Point end{};
-  Int weight = 0;
-};
-// Nothing where the table says that the ray is not cast.
-std::optional<Cast> cast_from(const Point& start, const Face& face, const Light& light, const Turns& turns,
-                              const RayNumber& ray, const std::array<Int, 3>& grid);
 
 }  // namespace oracle

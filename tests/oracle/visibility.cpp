@@ -4,7 +4,7 @@
 // one of them is tested by itself: the ray, as the set of t in (0, 1) with start + t delta, and the cell's
 // interior, as an open interval of t per axis, have a point in common. All numbers are exact fractions.
 // A ray may start on the border of a cell; the test needs no exception for that, nor for the ray's own cell.
-#include "rays.h"
+#include "kinds.h"
 
 #include <array>
 #include <cstddef>
@@ -126,6 +126,12 @@ Ray ray_between(const Point& from, const Point& to) {
   return ray;
 }
 
+// A source at one step.
+struct Light {
+  const Kind& kind;
+  Key now;
+};
+
 // N of section 5: the sum of w over all rays of the cell that see the source.
 Int seen(const State& state, const Opaque& opaque, const Light& light, const Turns& turns, Int cell) {
   const Place p = state.place(cell);
@@ -135,32 +141,12 @@ Int seen(const State& state, const Opaque& opaque, const Light& light, const Tur
     const Face face = face_of(p, f);
     if (opaque.at(face.beyond)) continue;  // not free
     for (Int n = 0; n < R; ++n) {
-      const Point from = start_of(face, n, R);
-      const std::optional<Cast> cast = cast_from(from, face, light, turns, {cell, f, n, R}, opaque.size);
-      if (cast && sees(opaque, ray_between(from, cast->end))) N += cast->weight;
+      const Look look{start_of(face, n, R), face, light.now, turns, {cell, f, n, R}, opaque.size};
+      const std::optional<Cast> cast = light.kind.cast(look);
+      if (cast && sees(opaque, ray_between(look.start, cast->end))) N += cast->weight;
     }
   }
   return N;
-}
-
-// What the cell gets from a source whose N is given.
-Sum received(const Light& light, const Point& centre, Int N, Int R) {
-  if (N == 0) return 0;
-  const Key& now = light.now;
-  const Sum product = Sum{now.power} * N;
-  switch (light.kind) {
-    case Kind::directional:
-      return 64 * product / (Sum{256} * R * square_root(4096 * squared_length(now.direction)));
-    case Kind::sky:
-      return product / (256 * R);
-    case Kind::point:
-    case Kind::sphere:
-      break;
-  }
-  const Int radius = light.kind == Kind::sphere ? now.radius : 0;
-  const Int distance = squared_length(difference(now.at, centre));
-  const Int d2 = larger(larger(distance, radius * radius), 256);
-  return 64 * product / (Sum{R} * d2 * square_root(4096 * d2));
 }
 
 }  // namespace
@@ -171,14 +157,15 @@ void find_irradiance(State& state) {
   const Int R = state.parameters.heat.rays_per_face;
   std::vector<Light> lights;
   for (const RadiationSource& source : state.parameters.heat.sources)
-    lights.push_back({source.kind, key_at(source, state.step)});
+    lights.push_back({*source.kind, key_at(source, state.step)});
   for (Int& irradiance : state.irradiance) irradiance = 0;
   for (const Int i : state.list) {
     if (state.cells[i].solid == 0) continue;
     const Point centre = centre_of(state.place(i));
     for (const Light& light : lights) {
       const Int N = seen(state, opaque, light, turns, i);
-      const Sum sum = state.irradiance[i] + received(light, centre, N, R);
+      if (N == 0) continue;
+      const Sum sum = state.irradiance[i] + light.kind.received(light.now, centre, N, R);
       state.irradiance[i] = sum > 65535 ? 65535 : static_cast<Int>(sum);
     }
   }

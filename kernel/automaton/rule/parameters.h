@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "kernel/automaton/rule/fixed_point.h"
@@ -22,6 +24,23 @@ struct Position {
 };
 
 enum class SourceKind : std::uint8_t { point, sphere, directional, sky };
+
+// What a kind is called in scenes and exports, and what its keys have beside step and power.
+struct SourceKindRow {
+  SourceKind kind;
+  std::string_view name;
+  bool at = false, radius = false, direction = false;
+};
+// By SourceKind; the first one is what a source without a kind is. Their rays are in source_kinds.h.
+inline constexpr std::array kSourceKinds{
+    SourceKindRow{.kind = SourceKind::point, .name = "point", .at = true},
+    SourceKindRow{.kind = SourceKind::sphere, .name = "sphere", .at = true, .radius = true},
+    SourceKindRow{.kind = SourceKind::directional, .name = "directional", .direction = true},
+    SourceKindRow{.kind = SourceKind::sky, .name = "sky"},
+};
+constexpr const SourceKindRow& row_of(SourceKind kind) {
+  return kSourceKinds[static_cast<std::size_t>(kind)];
+}
 
 // Between two keys, all numbers of a source change linearly in the step. Those that its kind lacks are 0.
 struct SourceKey {

@@ -13,17 +13,15 @@ using json = nlohmann::ordered_json;
 json position(rule::Position p) { return {p.x, p.y, p.z}; }
 
 json source_json(const rule::HeatSource& source) {
-  using enum rule::SourceKind;
+  const rule::SourceKindRow& kind = rule::row_of(source.kind);
   json json_of_source = json::object();
-  if (source.kind == sphere) json_of_source["kind"] = "sphere";
-  if (source.kind == directional) json_of_source["kind"] = "directional";
-  if (source.kind == sky) json_of_source["kind"] = "sky";
+  if (source.kind != rule::SourceKind::point) json_of_source["kind"] = kind.name;
   json keys = json::array();
   for (const rule::SourceKey& key : source.keys) {
     json json_of_key = {{"step", key.step}};
-    if (source.kind == point || source.kind == sphere) json_of_key["at"] = position(key.at);
-    if (source.kind == sphere) json_of_key["radius"] = key.radius;
-    if (source.kind == directional) json_of_key["direction"] = position(key.direction);
+    if (kind.at) json_of_key["at"] = position(key.at);
+    if (kind.radius) json_of_key["radius"] = key.radius;
+    if (kind.direction) json_of_key["direction"] = position(key.direction);
     json_of_key["power"] = key.power;
     keys.push_back(json_of_key);
   }

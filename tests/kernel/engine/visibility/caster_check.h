@@ -120,7 +120,8 @@ inline void check_scenes(const Casters& casters) {
     Random random(static_cast<std::uint64_t>(1000 + number));
     Counts all;
     for (int n = 0; n < 100 && !testing::Test::HasFailure(); ++n) {
-      for (const rule::SourceKind kind : kKinds) {
+      for (const rule::SourceKindRow& row : rule::kSourceKinds) {
+        const rule::SourceKind kind = row.kind;
         if (kind == rule::SourceKind::sky && n > 5) continue;  // one is as the other
         const auto seed = static_cast<std::uint64_t>(n);
         const Counts counts = check_fates(casters, opaque, v, awkward_shine(random, v.grid, kind), 1, seed);

@@ -48,7 +48,8 @@ inline void check_kinds_in_hostile_worlds(const std::vector<Provider*>& provider
   std::size_t lit = 0, cells = 0;
   for (int world = 0; world < 200 && !testing::Test::HasFailure(); ++world) {
     Volume v = hostile_world(random, hostile_grid(random));
-    const rule::SourceKind kind = kKinds.at(static_cast<std::size_t>(world % 4));
+    const std::size_t number = static_cast<std::size_t>(world) % rule::kSourceKinds.size();
+    const rule::SourceKind kind = rule::kSourceKinds.at(number).kind;
     std::vector<Shine> shines{awkward_shine(random, v.grid, kind)};
     if (random.one_in(2)) shines.push_back(awkward_shine(random, v.grid));
     const int side = random.any({1, 2, 4});
@@ -81,18 +82,18 @@ inline void check_places_of_every_kind(const std::vector<Provider*>& providers, 
   Random random(seed);
   std::vector<state::Field<std::uint16_t>> results;
   for (std::size_t n = 0; n < providers.size(); ++n) results.emplace_back(kGrid);
-  for (const rule::SourceKind kind : kKinds)
+  for (const rule::SourceKindRow& row : rule::kSourceKinds)
     for (int place = 0; place < 100 && !testing::Test::HasFailure(); ++place) {
       const Volume v = ray_scene(place % 5, kGrid);
-      const Shine shine = awkward_shine(random, v.grid, kind);
+      const Shine shine = awkward_shine(random, v.grid, row.kind);
       const int side = random.any({1, 2, 4});
       const auto ray_seed = static_cast<std::uint64_t>(place);
       const std::vector<std::uint16_t> expected = received_by_the_page(v, {shine}, side, ray_seed);
       for (std::size_t n = 0; n < providers.size(); ++n) {
         providers[n]->irradiance(v, shone_by({shine}, side * side, ray_seed), 0, results[n]);
         expect_page(v, expected, results[n],
-                    std::string(providers[n]->name()) + ", kind " + std::to_string(static_cast<int>(kind)) +
-                        ", place " + std::to_string(place));
+                    std::string(providers[n]->name()) + ", " + std::string(row.name) + ", place " +
+                        std::to_string(place));
       }
     }
 }

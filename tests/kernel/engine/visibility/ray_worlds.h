@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -90,11 +89,11 @@ inline Position awkward_source(Random& random, const Grid& g) {
 
 // A sphere from nothing to larger than its distance, a sun along axes and nearly along them, or a sky.
 inline Shine awkward_shine(Random& random, const Grid& g, rule::SourceKind kind) {
-  using enum rule::SourceKind;
+  const rule::SourceKindRow& row = rule::row_of(kind);
   Shine shine{kind, {.power = kRayPower}};
-  if (kind == point || kind == sphere) shine.key.at = awkward_source(random, g);
-  if (kind == sphere) shine.key.radius = random.any({0, 1, 7, 30, 100, 400, 3000, 1 << 17, 1 << 24});
-  if (kind == directional) {
+  if (row.at) shine.key.at = awkward_source(random, g);
+  if (row.radius) shine.key.radius = random.any({0, 1, 7, 30, 100, 400, 3000, 1 << 17, 1 << 24});
+  if (row.direction) {
     const auto part = [&]() -> std::int64_t {
       const std::int32_t most = random.any({0, 1, 5, 40, 1000, 32768, 65536});
       return random.one_in(3) ? most : random.between(-most, most);
@@ -103,10 +102,9 @@ inline Shine awkward_shine(Random& random, const Grid& g, rule::SourceKind kind)
   }
   return shine;
 }
-inline constexpr std::array<rule::SourceKind, 4> kKinds{rule::SourceKind::point, rule::SourceKind::sphere,
-                                                        rule::SourceKind::directional, rule::SourceKind::sky};
 inline Shine awkward_shine(Random& random, const Grid& g) {
-  return awkward_shine(random, g, kKinds.at(static_cast<std::size_t>(random.below(4))));
+  const auto kinds = static_cast<std::int32_t>(rule::kSourceKinds.size());
+  return awkward_shine(random, g, rule::kSourceKinds.at(static_cast<std::size_t>(random.below(kinds))).kind);
 }
 
 inline rule::Heat shone_by(const std::vector<Shine>& shines, int rays, std::uint64_t seed) {
