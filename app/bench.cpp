@@ -29,6 +29,8 @@
 namespace voxmelt::app {
 namespace {
 
+constexpr const char* kEvery = "all";  // of --implementation
+
 struct BenchOptions {
   Common common;
   std::vector<std::string> parts{"automaton", "picture"};
@@ -48,7 +50,8 @@ measure::Plan plan_of(const BenchOptions& options) {
   measure::Plan plan;
   plan.quick = options.quick;
   if (options.quick) plan.rounds = {.fewest = 3, .seconds = 1};
-  if (options.common.implementation == "auto") {
+  const bool every = options.common.implementation == kEvery;
+  if (every) {
     for (const auto& one : run::implementations().all())
       if (one.supported && one.name != "reference") plan.implementations.push_back(&one);
     if (plan.implementations.empty()) plan.implementations.push_back(&run::implementations().all().front());
@@ -62,8 +65,7 @@ measure::Plan plan_of(const BenchOptions& options) {
     plan.threads = {1, all};
   plan.automaton = options.wants("automaton");
   for (const cpu::InstructionSetRow& row : cpu::kInstructionSets)
-    if (row.supported() &&
-        (options.common.implementation == "auto" || options.common.implementation == row.name))
+    if (row.supported() && (every || options.common.implementation == row.name))
       plan.drawers.push_back(measure::drawer_of(row.set));
   // The automaton's reference draws no pictures.
   if (plan.drawers.empty()) plan.drawers.push_back(measure::drawer_of(cpu::widest()));
@@ -179,7 +181,10 @@ void add_bench(CLI::App& program, Chosen& chosen) {
   command->add_option("--from", options->from,
                       "step of the scenes to time (default: the middle of their melt), or a checkpoint");
   command->add_option("--out", options->out, "folder for bench.json, performance_tables.md and roofline.svg");
+  options->common.implementation = kEvery;
   add_common(*command, options->common);
+  command->get_option("--implementation")
+      ->description("who computes: all but the reference, auto, or a name of `voxmelt list implementations`");
   add_visibility(*command, options->common);
   command->footer(
       "Without --implementation it times every instruction set of this processor, without --threads one\n"

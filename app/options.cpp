@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -94,18 +95,11 @@ void warn(scene::Scene& scene, const Common& common, const std::vector<std::stri
 }
 
 const step::Implementation& find_implementation(const Common& common) {
-  if (common.implementation == "auto") return *run::fastest().implementation;
-  const step::Implementation* implementation = run::implementations().find(common.implementation);
-  if (implementation == nullptr) {
-    std::string known = "auto";
-    for (const auto& one : run::implementations().all()) known += ", " + one.name;
-    throw UsageError(
-        fmt::format("--implementation {}: error: unknown; this build has {}", common.implementation, known));
+  try {
+    return *run::chosen(common.implementation).implementation;
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--implementation {}: error: {}", common.implementation, error.what()));
   }
-  if (!implementation->supported)
-    throw UsageError(
-        fmt::format("--implementation {}: error: this processor does not have it", common.implementation));
-  return *implementation;
 }
 
 run::Simulation make_simulation(scene::Scene& scene, const Common& common) {

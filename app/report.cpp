@@ -91,7 +91,7 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"digest", fmt::format("{:016x}", state::digest(volume))},
       {"initial_digest", fmt::format("{:016x}", scene.initial_digest)},
       {"implementation", find_implementation(common).name},
-      {"implementation_reason", common.implementation == "auto" ? run::fastest().reason : "asked for"},
+      {"implementation_reason", run::chosen(common.implementation).reason},
       {"threads", simulation.threads()},
       {"version", version_number()},
       {"law", simulation.parameters().flow.law == rule::Law::paper ? "paper" : "viscous"},

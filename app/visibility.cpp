@@ -1,37 +1,53 @@
 #include "app/visibility.h"
 
 #include <CLI/CLI.hpp>
-#include <utility>
+#include <algorithm>
+#include <vector>
 
-#include "kernel/engine/visibility/kept_rays.h"
-#include "render/visibility/embree_caster.h"
+#include "kernel/engine/visibility/providers.h"
+#include "render/visibility/providers.h"
 
 namespace voxmelt::app {
+namespace {
+
+const visibility::Providers& all_providers() {
+  static const visibility::Providers all = [] {
+    visibility::Providers rows;
+    visibility::add_providers(rows);
+    visibility::add_embree(rows);
+    return rows;
+  }();
+  return all;
+}
+
+const visibility::ProviderRow& row_of(const std::string& name) {
+  return *std::ranges::find(all_providers(), name, &visibility::ProviderRow::name);
+}
+
+}  // namespace
+
 void add_visibility(CLI::App& command, Common& common) {
+  std::vector<std::string> names{"auto"};
+  for (const visibility::ProviderRow& row : all_providers()) names.emplace_back(row.name);
   command
       .add_option("--visibility", common.visibility,
                   "who follows the rays of heat sources; no result depends on it")
-      ->check(CLI::IsMember({"auto", "walk", "two-level", "embree"}))
+      ->check(CLI::IsMember(names))
       ->capture_default_str();
 }
 
 VisibilityChoice choose_visibility(const std::string& asked) {
-  if (asked == "embree" && !visibility::EmbreeCaster::built_in())
-    throw UsageError("--visibility embree: error: this build has no Embree; it has walk and two-level");
-  if (asked != "auto") return {asked, "asked for"};
-  // bench/visibility_bench.cpp, from 64 to 1024 cells along a side: docs/decisions/rays-only-what-changed.md
-  return {"two-level", "no slower than embree at any size of grid that was measured"};
+  if (asked == "auto")
+    return {std::string(visibility::kUsual), "no slower than embree at any size of grid that was measured"};
+  if (row_of(asked).built_in) return {asked, "asked for"};
+  std::string others;
+  for (const visibility::ProviderRow& row : all_providers())
+    if (row.built_in) others += (others.empty() ? "" : ", ") + std::string(row.name);
+  throw UsageError("--visibility " + asked + ": error: this build does not have it; it has " + others);
 }
 
 std::unique_ptr<visibility::Provider> make_provider(const VisibilityChoice& choice, int threads) {
-  if (choice.name == "walk") return std::make_unique<visibility::VoxelWalkProvider>(threads);
-  std::unique_ptr<visibility::Caster> caster;
-  if (choice.name == "embree") {
-    caster = std::make_unique<visibility::EmbreeCaster>();
-  } else {
-    caster = std::make_unique<visibility::TwoLevelCaster>();
-  }
-  return std::make_unique<visibility::KeptRays>(std::move(caster), threads);
+  return row_of(choice.name).create(threads);
 }
 
 }  // namespace voxmelt::app

@@ -1,4 +1,4 @@
-// Who follows the rays of heat sources: --visibility, or the fastest that was measured.
+// Who follows the rays of heat sources: --visibility, out of the providers of all rooms.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ class App;
 namespace voxmelt::app {
 
 struct VisibilityChoice {
-  std::string name;    // walk, two-level or embree
+  std::string name;    // of a provider
   std::string reason;  // for the report
 };
 

@@ -37,7 +37,7 @@ Prepared prepare(const MidMelt& at) {
   scene::Scene scene =
       scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (std::string(at.scene) + ".toml"), {});
   const step::Registry& registry = run::implementations();
-  run::Simulation ahead(scene.parameters, std::move(scene.initial), *registry.find("auto"));
+  run::Simulation ahead(scene.parameters, std::move(scene.initial), registry.widest());
   while (ahead.steps_done() < at.step) ahead.step();
 
   Prepared prepared{scene.parameters, ahead.volume(), {}, 0};

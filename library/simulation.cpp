@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -30,16 +31,11 @@ using library::translated;
 constexpr int kMostThreads = 1024;
 
 const step::Implementation& find_implementation(const std::string& name) {
-  if (name == "auto") return *run::fastest().implementation;
-  const step::Implementation* found = run::implementations().find(name);
-  if (found == nullptr) {
-    std::string known = "auto";
-    for (const step::Implementation& one : run::implementations().all()) known += ", " + one.name;
-    throw InputError("Options: error: implementation = \"" + name + "\" is not one of " + known);
+  try {
+    return *run::chosen(name).implementation;
+  } catch (const std::invalid_argument& error) {
+    throw InputError("Options: error: implementation = \"" + name + "\": " + error.what());
   }
-  if (!found->supported)
-    throw InputError("Options: error: implementation = \"" + name + "\": this processor does not have it");
-  return *found;
 }
 
 const io::Format& find_format(const std::string& name) {

@@ -26,7 +26,7 @@ struct Round {
 Round film_once(const scene::Scene& scene, int frames, int threads) {
   step::Tuning tuning;
   tuning.threads = threads;
-  run::Simulation simulation(scene.parameters, scene.initial, *run::implementations().find("auto"), tuning);
+  run::Simulation simulation(scene.parameters, scene.initial, run::implementations().widest(), tuning);
   const scene::Camera camera = square_camera(scene.camera, kPictureSide);
   render::Picture picture;
   render::Image last;

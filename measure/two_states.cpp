@@ -16,7 +16,7 @@ constexpr int kWordBricks = 64 / state::kBrickSide;
 }  // namespace
 
 TwoStates::TwoStates(const Workload& workload, int steps) {
-  run::Simulation simulation(workload.parameters, workload.start, *run::implementations().find("auto"));
+  run::Simulation simulation(workload.parameters, workload.start, run::implementations().widest());
   for (int i = 0; i < workload.lead_steps; ++i) simulation.step();
   before_ = simulation.volume();
   const ChangedBricks::Seen seen = simulation.volume().changed.now();

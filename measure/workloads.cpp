@@ -85,7 +85,7 @@ Workload scene_at(const scene::Scene& scene, std::uint32_t step, int threads,
                   std::unique_ptr<visibility::Provider> provider) {
   step::Tuning tuning;
   tuning.threads = threads;
-  run::Simulation simulation(scene.parameters, scene.initial, *run::implementations().find("auto"), tuning,
+  run::Simulation simulation(scene.parameters, scene.initial, run::implementations().widest(), tuning,
                              std::move(provider));
   if (scene.mid_run) simulation.resume(*scene.mid_run);
   while (simulation.steps_done() < step) simulation.step();

@@ -143,8 +143,7 @@ struct Worst {
 void measure(const MidMelt& which, const Options& options, std::map<std::string, Worst>& worst) {
   scene::Scene scene =
       scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (std::string(which.scene) + ".toml"), {});
-  run::Simulation simulation(scene.parameters, std::move(scene.initial),
-                             *run::implementations().find("auto"));
+  run::Simulation simulation(scene.parameters, std::move(scene.initial), run::implementations().widest());
   while (simulation.steps_done() < which.steps) simulation.step();
   render::DensityField density;
   density.update(simulation.volume(), scene.look, scene.terrain, options.threads);

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
-#include "kernel/engine/cpu/instruction_set.h"
 #include "kernel/engine/cpu/workers.h"
-#include "kernel/engine/parallel/stepper.h"
-#include "kernel/engine/scalar/reference.h"
 #include "kernel/engine/scalar/substeps.h"
-#include "kernel/engine/visibility/kept_rays.h"
+#include "kernel/engine/visibility/providers.h"
 
 namespace voxmelt::run {
 namespace {
@@ -30,20 +26,6 @@ class Stopwatch {
 
 }  // namespace
 
-const step::Registry& implementations() {
-  static const step::Registry registry = [] {
-    step::Registry r;
-    r.add({"reference", "plain loops over kernel/automaton/rule, one thread", scalar::create_reference});
-    cpu::for_each_instruction_set([&]<cpu::InstructionSet kSet>() {
-      const cpu::InstructionSetRow& row = cpu::row_of(kSet);
-      r.add({std::string(row.name), std::string(row.description) + ", threads", parallel::create<kSet>,
-             row.supported()});
-    });
-    return r;
-  }();
-  return registry;
-}
-
 Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
                        const step::Implementation& implementation, const step::Tuning& tuning,
                        std::unique_ptr<visibility::Provider> provider)
@@ -52,9 +34,7 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
       stepper_(implementation.create(parameters_, volume_.grid, tuning)),
       host_(dynamic_cast<step::HostStepper*>(stepper_.get())),
       device_(dynamic_cast<step::DeviceStepper*>(stepper_.get())),
-      provider_(provider != nullptr ? std::move(provider)
-                                    : std::make_unique<visibility::KeptRays>(
-                                          std::make_unique<visibility::TwoLevelCaster>(), tuning.threads)),
+      provider_(provider != nullptr ? std::move(provider) : visibility::usual_provider(tuning.threads)),
       ledger_(state::Ledger::open(volume_)),
       threads_(std::min(tuning.threads, cpu::Workers::most())) {
   parameters_.heat.ray_seed = parameters_.seed;  // providers of irradiance see heat alone
@@ -126,14 +106,14 @@ void Simulation::run(step::Phase phase, step::Moment moment) {
 }
 
 // Told when somebody asks for the volume: until then everything counts as changed. So it does after a change
-// by hand, and after a download.
+// by hand.
 void Simulation::tell_changes() const {
   if (!untold_) return;
   untold_ = false;
   state::ChangedBricks& changed = volume_.changed;
   if (!changed.followed()) changed.follow(volume_.grid);
   changed.new_version();
-  if (host_ != nullptr) host_->tell_changes(changed);
+  stepper_->tell_changes(changed);
   changed.end();
 }
 
@@ -155,7 +135,6 @@ void Simulation::step() {
 
 void Simulation::download() const {
   device_->download(volume_, ledger_);
-  volume_.changed.follow(volume_.grid);
   behind_ = false;
 }
 

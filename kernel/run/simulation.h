@@ -12,17 +12,15 @@
 #include "kernel/automaton/state/mid_run.h"
 #include "kernel/automaton/step/stepper.h"
 #include "kernel/engine/visibility/visibility.h"
+#include "kernel/run/implementations.h"
 
 namespace voxmelt::run {
-
-// All implementations linked into this program, the reference first.
-const step::Registry& implementations();
 
 class Simulation {
  public:
   Simulation(rule::Parameters parameters, state::Volume initial, const step::Implementation& implementation,
              const step::Tuning& tuning = {},
-             std::unique_ptr<visibility::Provider> provider = nullptr);  // null: two levels
+             std::unique_ptr<visibility::Provider> provider = nullptr);  // null: the usual one
 
   // The automaton's number of the next step, before the first one; 0 without this call.
   void begin_at(std::uint32_t step) { first_step_ = step; }

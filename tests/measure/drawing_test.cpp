@@ -84,7 +84,7 @@ TEST(Drawing, NanosecondsPerRayAreTheTimeOverTheRays) {
 TEST(TwoStates, GoThereAndBackAndTellEveryChange) {
   const scene::Scene scene = drop_scene();
   const Workload workload = middle_of_drop(scene);
-  run::Simulation simulation(workload.parameters, workload.start, *run::implementations().find("auto"));
+  run::Simulation simulation(workload.parameters, workload.start, run::implementations().widest());
   for (int i = 0; i < workload.lead_steps; ++i) simulation.step();
   const state::Volume before = simulation.volume();
   for (int i = 0; i < 3; ++i) simulation.step();

@@ -106,7 +106,7 @@ void expect_judge_agrees(const Shown& shown, const scene::Camera& camera, Settin
 
 void draw_scene(const std::string& name, int steps, const Digests& approved, bool approve, Digests& found) {
   scene::Scene scene = scene::load(VOXMELT_SCENES_FOLDER "/" + name + ".toml", {});
-  run::Simulation simulation(scene.parameters, scene.initial, *run::implementations().find("auto"), {});
+  run::Simulation simulation(scene.parameters, scene.initial, run::implementations().widest(), {});
   for (int i = 0; i < steps; ++i) simulation.step();
   render::Picture picture;
   picture.update(simulation.volume(), scene.look, scene.light, scene.terrain, 2);

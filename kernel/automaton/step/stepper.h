@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,12 @@ class Stepper {
  public:
   virtual ~Stepper() = default;
 
+  // Marks the bricks in which its steps may have changed the volume since the last call. The run loop asks
+  // where somebody wants to see the volume: of a host stepper after a phase, of a device after a download,
+  // for all steps up to it. A stepper that does not know better says: everywhere. Then whoever follows the
+  // volume, as a picture does, scans all of it.
+  virtual void tell_changes(state::ChangedBricks& changed) { changed.mark_all(); }
+
   // From the next step on, point sources, vents and drains are those of `parameters`. All else in it is as it
   // was when the stepper was created, but `heat.radiation` may become true.
   virtual void change_sources(const rule::Parameters& parameters) = 0;
@@ -35,9 +42,6 @@ class HostStepper : public Stepper {
   // the books may be those before it, until the next phase has run.
   virtual void run(Phase phase, Moment moment, const Irradiance* irradiance, state::Volume& volume,
                    state::Ledger& ledger) = 0;
-
-  // Marks the bricks in which its phases may have changed the volume since the last call.
-  virtual void tell_changes(state::ChangedBricks& changed) { changed.mark_all(); }
 };
 
 class DeviceStepper : public Stepper {
@@ -54,7 +58,8 @@ class DeviceStepper : public Stepper {
   // Copies `solid` and `inert` into the volume, which has the grid's size. Visibility needs no more.
   virtual void download_masks(state::Volume& volume) = 0;
 
-  // Copies the whole state and the books, every term booked until now.
+  // Copies the whole state and the books, every term booked until now. Of the volume it writes the fields
+  // (state::copy_fields): what is known of its changes stays, and the next tell_changes adds to it.
   virtual void download(state::Volume& volume, state::Ledger& ledger) = 0;
 };
 
@@ -75,19 +80,26 @@ struct Implementation {
   bool supported = true;  // by this processor
 };
 
-// The code that links the implementations (kernel/run) fills a registry, never their headers.
+// Every room of kernel/engine/ with implementations has an add_implementations(registry). kernel/run/ calls
+// them, the reference first.
 class Registry {
  public:
   void add(Implementation implementation) { implementations_.push_back(std::move(implementation)); }
   const std::vector<Implementation>& all() const { return implementations_; }
 
-  // "auto" is the last supported one, the widest; nullptr for an unknown name. Which one is the fastest is
-  // known to kernel/run/trial/fastest.h.
-  const Implementation* find(const std::string& name) const {
-    const Implementation* found = nullptr;
+  // Null for an unknown name. What users call `auto` is known to kernel/run/trial/fastest.h alone.
+  const Implementation* find(std::string_view name) const {
     for (const Implementation& candidate : implementations_)
-      if (name == "auto" ? candidate.supported : candidate.name == name) found = &candidate;
-    return found;
+      if (candidate.name == name) return &candidate;
+    return nullptr;
+  }
+
+  // The last one that this processor supports. No trial, so it is the same every time: for tests.
+  const Implementation& widest() const {
+    const Implementation* found = &implementations_.front();
+    for (const Implementation& candidate : implementations_)
+      if (candidate.supported) found = &candidate;
+    return *found;
   }
 
  private:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <utility>
 
 #include "kernel/engine/simd/source.h"
@@ -218,6 +220,18 @@ void Stepper::tell(Tiles& tiles, state::ChangedBricks::Part part, state::Changed
 
 void Stepper::settle(const Job& job, simd::Books& books) {
   if (viscous_) viscous_->settle(job, books);
+}
+
+void add_implementations(step::Registry& registry) {
+  cpu::for_each_instruction_set([&]<cpu::InstructionSet kSet>() {
+    const cpu::InstructionSetRow& row = cpu::row_of(kSet);
+    registry.add({std::string(row.name), std::string(row.description) + ", threads",
+                  [](const rule::Parameters& parameters, state::Grid grid,
+                     const step::Tuning& tuning) -> std::unique_ptr<step::Stepper> {
+                    return std::make_unique<Stepper>(kSet, parameters, grid, tuning);
+                  },
+                  row.supported()});
+  });
 }
 
 }  // namespace voxmelt::parallel

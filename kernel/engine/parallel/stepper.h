@@ -55,10 +55,6 @@ class Stepper final : public step::HostStepper {
   Tiles freed_;                 // their sides have gone since the last gravity began
 };
 
-template <cpu::InstructionSet kSet>
-std::unique_ptr<step::Stepper> create(const rule::Parameters& parameters, state::Grid grid,
-                                      const step::Tuning& tuning) {
-  return std::make_unique<Stepper>(kSet, parameters, grid, tuning);
-}
+void add_implementations(step::Registry& registry);  // one for each instruction set, the narrowest first
 
 }  // namespace voxmelt::parallel

@@ -1,5 +1,7 @@
 #include "kernel/engine/scalar/reference.h"
 
+#include <memory>
+
 namespace voxmelt::scalar {
 
 Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
@@ -39,9 +41,12 @@ void Reference::run(step::Phase phase, step::Moment moment, const step::Irradian
   }
 }
 
-std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid,
-                                                const step::Tuning& /*one thread, nothing sleeps*/) {
-  return std::make_unique<Reference>(parameters, grid);
+void add_implementations(step::Registry& registry) {
+  registry.add({"reference", "plain loops over kernel/automaton/rule, one thread",
+                [](const rule::Parameters& parameters, state::Grid grid,
+                   const step::Tuning& /*one thread, nothing sleeps*/) -> std::unique_ptr<step::Stepper> {
+                  return std::make_unique<Reference>(parameters, grid);
+                }});
 }
 
 }  // namespace voxmelt::scalar

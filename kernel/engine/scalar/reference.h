@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "kernel/automaton/rule/random.h"
@@ -53,7 +52,6 @@ class Reference final : public step::HostStepper {
   Volume next_;  // the result of a phase while it is computed
 };
 
-std::unique_ptr<step::Stepper> create_reference(const rule::Parameters& parameters, state::Grid grid,
-                                                const step::Tuning& tuning);
+void add_implementations(step::Registry& registry);  // the reference
 
 }  // namespace voxmelt::scalar

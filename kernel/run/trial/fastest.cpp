@@ -9,10 +9,11 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
-#include "kernel/run/simulation.h"
+#include "kernel/run/implementations.h"
 
 namespace voxmelt::run {
 namespace {
@@ -115,6 +116,18 @@ Choice choose(const step::Registry& registry, const fs::path& file, const std::s
 const Choice& fastest() {
   static const Choice choice = choose(implementations(), cache_file(), this_machine(), trial);
   return choice;
+}
+
+Choice chosen(const std::string& name) {
+  if (name == "auto") return fastest();
+  const step::Implementation* found = implementations().find(name);
+  if (found == nullptr) {
+    std::string known = "auto";
+    for (const step::Implementation& one : implementations().all()) known += ", " + one.name;
+    throw std::invalid_argument("unknown; this build has " + known);
+  }
+  if (!found->supported) throw std::invalid_argument("this processor does not have it");
+  return {found, "asked for"};
 }
 
 }  // namespace voxmelt::run

@@ -21,6 +21,10 @@ struct Choice {
 
 const Choice& fastest();  // of implementations(); decided once in a program
 
+// What a user has asked for: `auto`, which is fastest(), or a name. Throws std::invalid_argument where this
+// build, or this processor, does not have it: "unknown; this build has auto, reference, avx2".
+Choice chosen(const std::string& name);
+
 using Trial = std::function<std::vector<TrialTime>(const std::vector<const step::Implementation*>&)>;
 
 // The same for any registry, file (empty: none) and trial. `machine` says for what an answer holds, in one

@@ -20,7 +20,7 @@ using namespace worlds;
 
 void expect_engine_bits(const Parameters& parameters, const Volume& start, int steps,
                         const std::string& what) {
-  run::Simulation engine(parameters, start, *run::implementations().find("auto"));
+  run::Simulation engine(parameters, start, run::implementations().widest());
   const std::unique_ptr<Twin> twin = make_twin(kEngine, parameters, start);
   for (int s = 0; s < steps; ++s) {
     engine.step();

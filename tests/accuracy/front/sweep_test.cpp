@@ -45,7 +45,7 @@ Curves in_double(const Setting& setting) {
 const Swept& quick() {
   static const Swept swept = [] {
     Conditions conditions;
-    conditions.implementation = run::implementations().find("auto");
+    conditions.implementation = &run::implementations().widest();
     conditions.threads = 2;
     conditions.scenes = VOXMELT_SCENES_FOLDER;
     return sweep(bunny(), Extent::quick, conditions, [](const Choice&) {});

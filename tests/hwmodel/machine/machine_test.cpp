@@ -141,8 +141,7 @@ TEST(Machine, StatesAndPicturesAreThoseOfTheSoftware) {
     ASSERT_TRUE(report.good()) << name;
     ASSERT_EQ(report.periods.size(), 3U);
 
-    run::Simulation software(melt.scene.parameters, melt.before.volume(),
-                             *run::implementations().find("auto"));
+    run::Simulation software(melt.scene.parameters, melt.before.volume(), run::implementations().widest());
     software.begin_at(melt.before.step_number());
     for (int i = 0; i < 6; ++i) software.step();
     EXPECT_EQ(report.steps.digest, state::digest(software.volume())) << name;

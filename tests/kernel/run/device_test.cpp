@@ -2,6 +2,7 @@
 // behind a wall: it hides its state, and counts what is asked of it.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -11,11 +12,14 @@
 #include <string>
 #include <utility>
 
+#include "kernel/automaton/state/difference.h"
 #include "kernel/automaton/state/digest.h"
+#include "kernel/automaton/state/fields.h"
 #include "kernel/engine/scalar/reference.h"
 #include "kernel/engine/scalar/substeps.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
+#include "tests/kernel/engine/parallel/equal.h"
 #include "tests/kernel/worlds.h"
 
 namespace voxmelt::run {
@@ -27,7 +31,7 @@ struct Traffic {
   int uploads = 0, steps = 0, mask_downloads = 0, downloads = 0;
 };
 
-class HiddenReference final : public step::DeviceStepper {
+class HiddenReference : public step::DeviceStepper {
  public:
   HiddenReference(const Parameters& parameters, Grid grid)
       : parameters_(parameters), reference_(parameters, grid) {
@@ -57,23 +61,51 @@ class HiddenReference final : public step::DeviceStepper {
   }
   void download(Volume& volume, state::Ledger& ledger) override {
     ++traffic.downloads;
-    volume = volume_;
+    state::copy_fields(volume_, volume);
     ledger = ledger_;
   }
 
   static inline Traffic traffic;
 
+ protected:
+  Volume volume_;
+
  private:
   Parameters parameters_;
   scalar::Reference reference_;
-  Volume volume_;
   state::Ledger ledger_;
+};
+
+// One that knows which rows of bricks it has changed since it was last asked.
+class TellingReference final : public HiddenReference {
+ public:
+  using HiddenReference::HiddenReference;
+  void upload(const Volume& volume, const state::Ledger& ledger) override {
+    HiddenReference::upload(volume, ledger);
+    told_ = volume_;
+  }
+  void tell_changes(state::ChangedBricks& changed) override {
+    for_each(whole(volume_.grid), [&](int x, int y, int z) {
+      if (state::same_cell(told_, volume_, x, y, z)) return;
+      changed.mark(state::ChangedBricks::kMatter, std::uint64_t{1} << (x / 64), y / 8, z / 8);
+    });
+    told_ = volume_;
+  }
+
+ private:
+  Volume told_;
 };
 
 const step::Implementation kHidden{
     "hidden", "",
     [](const Parameters& parameters, Grid grid, const step::Tuning&) -> std::unique_ptr<step::Stepper> {
       return std::make_unique<HiddenReference>(parameters, grid);
+    }};
+
+const step::Implementation kTelling{
+    "telling", "",
+    [](const Parameters& parameters, Grid grid, const step::Tuning&) -> std::unique_ptr<step::Stepper> {
+      return std::make_unique<TellingReference>(parameters, grid);
     }};
 
 // "step 10 digest 38ec6dd4b2ee9cb7 mass ..." of the approved digests; the oracle agrees with them.
@@ -146,6 +178,37 @@ TEST(Device, GoesOnFromWhatTheHostHasChanged) {
   EXPECT_TRUE(hidden.volume() == reference.volume());
   EXPECT_TRUE(hidden.ledger() == reference.ledger());
   EXPECT_EQ(HiddenReference::traffic.uploads, 2);
+}
+
+// The block melts in the bricks z < 16. What follows the volume of a device that tells need not look beyond.
+TEST(Device, TellsItsChangesThroughTheOneInterface) {
+  Volume start(Grid{16, 12, 64});
+  for_each({5, 2, 5, 11, 10, 11}, [&](int x, int y, int z) { put_solid(start, x, y, z, kOne, 25000); });
+  const std::size_t far = state::brick_grid(start.grid).index(0, 0, 6);
+  for (const auto& [device, tells] : {std::pair(&kHidden, false), {&kTelling, true}}) {
+    Simulation simulation(melting_parameters(), start, *device);
+    Volume before = simulation.volume();
+    state::ChangedBricks::Seen seen = simulation.volume().changed.now();
+    int changed = 0;
+    for (int step = 0; step < 30; ++step) {
+      simulation.step();
+      if (step % 3 == 1) continue;  // changes of several steps add up
+      const Volume& after = simulation.volume();
+      ASSERT_FALSE(after.changed.all_since(seen)) << "a download does not begin the account anew";
+      ASSERT_EQ(untold(before, seen, after), "") << "step " << step;
+      EXPECT_EQ(after.changed.since(state::ChangedBricks::kMatter, seen, far), !tells) << "step " << step;
+      changed += !(before == after);
+      before = after;
+      seen = after.changed.now();
+      EXPECT_TRUE(simulation.volume().changed.none_since(seen)) << "nothing was done in between";
+    }
+    EXPECT_GT(changed, 15);
+
+    Volume& edited = simulation.mutable_volume();
+    edited.amount[edited.at(8, 1, 60)] = 0;
+    simulation.step();
+    EXPECT_TRUE(simulation.volume().changed.all_since(seen)) << "nobody tells of an edit by hand";
+  }
 }
 
 TEST(Device, HasNoPhases) {

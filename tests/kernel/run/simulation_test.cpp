@@ -259,9 +259,18 @@ TEST(Melting, NeedsHeat) {
   EXPECT_FALSE(warm.volume().solid.test(1, 1, 1)) << "0 reaches 0";
 }
 
+TEST(Implementations, WidestIsTheLastThatTheProcessorHas) {
+  step::Registry registry;
+  for (const auto& [name, supported] :
+       {std::pair("plain", true), {"narrow", true}, {"wide", true}, {"alien", false}})
+    registry.add({name, "", nullptr, supported});
+  EXPECT_EQ(registry.widest().name, "wide");
+}
+
 TEST(Implementations, AreFoundByNameAndReferenceIsFirst) {
   EXPECT_EQ(implementations().all().front().name, "reference");
-  EXPECT_NE(implementations().find("auto"), nullptr);
+  EXPECT_EQ(implementations().find("auto"), nullptr) << "that is for kernel/run/trial to say";
+  EXPECT_TRUE(implementations().widest().supported);
   EXPECT_EQ(implementations().find("no such"), nullptr);
 }
 

@@ -34,7 +34,7 @@ class MidMelt {
  public:
   explicit MidMelt(const SceneStep& which)
       : scene_(scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (which.first + ".toml"), {})),
-        simulation_(scene_.parameters, std::move(scene_.initial), *run::implementations().find("auto")) {
+        simulation_(scene_.parameters, std::move(scene_.initial), run::implementations().widest()) {
     while (simulation_.steps_done() < which.second) simulation_.step();
   }
   const state::Volume& volume() const { return simulation_.volume(); }

@@ -38,7 +38,7 @@ class Melt {
       : scene_(scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), overrides)) {
     scene_.camera.width = 24, scene_.camera.height = 16;
     simulation_ = std::make_unique<run::Simulation>(scene_.parameters, std::move(scene_.initial),
-                                                    *run::implementations().find("auto"));
+                                                    run::implementations().widest());
     while (simulation_->step_number() < ahead) simulation_->step();
     take_over();
   }

@@ -97,7 +97,7 @@ TEST(Checker, AMissingStageIsNamed) {
   const Start start = warm_start();
   std::vector<StageKind> stages = stages_of_step({start.parameters, {start.volume.grid, 4}});
   std::erase_if(stages, [](StageKind stage) { return phase_of(stage) == step::Phase::heat; });
-  Expectation expectation(start.parameters, start.volume, start.step, worlds::implementation("auto"), {},
+  Expectation expectation(start.parameters, start.volume, start.step, run::implementations().widest(), {},
                           stages);
   const std::unique_ptr<Mismatch> found = expectation.step(true).mismatch;
   ASSERT_NE(found, nullptr);
@@ -114,7 +114,7 @@ TEST(Checker, EverySecondStepAndTheLastAreCompared) {
   int polls = 0;
   options.poll = [&] { ++polls; };
   const VerifyReport report =
-      verify(start.parameters, start.volume, start.step, worlds::implementation("auto"), {}, options);
+      verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
   ASSERT_EQ(report.mismatch, nullptr);
   const auto cells = static_cast<std::int64_t>(start.volume.grid.cells());
   const std::int64_t stages =
@@ -188,7 +188,7 @@ TEST(Checker, TheCellsAroundAMismatchAreThoseBeforeItsStage) {
   options.fault_step = start.step;
   options.waves = true;
   const VerifyReport kept =
-      verify(start.parameters, start.volume, start.step, worlds::implementation("auto"), {}, options);
+      verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
   ASSERT_TRUE(kept.mismatch != nullptr && !kept.waves.empty());
   EXPECT_EQ(kept.mismatch->neighbourhood, around);
 }
@@ -201,7 +201,7 @@ TEST(Checker, TheWrittenVolumeIsComparedAfterEveryPass) {
   options.fault = Fault::apply_flow_lost;
   options.fault_step = 2;
   const auto verified = [&](const Start& start) {
-    return verify(start.parameters, start.volume, start.step, worlds::implementation("auto"), {}, options);
+    return verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
   };
   const Start start = warm_start([&](const Start& s) { return verified(s).strike.has_value(); });
   const VerifyReport report = verified(start);
@@ -224,7 +224,7 @@ TEST(Checker, AVisitorMayEndTheRunEarly) {
   options.visit_every = 2;
   options.visit = [](const state::Volume&, const VerifyReport&) { return false; };
   const VerifyReport report =
-      verify(start.parameters, start.volume, start.step, worlds::implementation("auto"), {}, options);
+      verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
   EXPECT_EQ(report.mismatch, nullptr);
   EXPECT_EQ(report.steps, 2u);
 }

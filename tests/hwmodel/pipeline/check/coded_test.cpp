@@ -184,7 +184,7 @@ TEST(Code, ADramGivesTheBurstsThatAreCounted) {
     options.configuration = c;
     options.memory = &streams;
     const VerifyReport report =
-        verify(start.parameters, start.volume, start.step, worlds::implementation("auto"), {}, options);
+        verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
     ASSERT_EQ(report.mismatch, nullptr) << seed << ": " << text_of(*report.mismatch);
     ASSERT_EQ(report.digest, lockstep(start, c, options.steps).digest);
     if (report.trains.size() != 1 || report.passes != 1) continue;
@@ -227,7 +227,7 @@ TEST(Columns, ADramGivesThoseOfEachTile) {
     options.configuration = c;
     options.memory = &streams;
     const VerifyReport report =
-        verify(start.parameters, start.volume, start.step, worlds::implementation("auto"), {}, options);
+        verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
     ASSERT_EQ(report.mismatch, nullptr) << seed << ": " << text_of(*report.mismatch);
     ASSERT_EQ(report.digest, lockstep(start, c, options.steps).digest);
     if (!design.shape.tiled()) continue;
@@ -235,7 +235,7 @@ TEST(Columns, ADramGivesThoseOfEachTile) {
     // One pass again, whose tiles follow one another.
     options.steps = 1;
     const VerifyReport one =
-        verify(start.parameters, start.volume, start.step, worlds::implementation("auto"), {}, options);
+        verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
     if (one.trains.size() != 1 || one.passes != 1) continue;
     const explore::Content content = explore::content_of(design, nullptr, &start.volume);
     const ColumnSlots slots(design, c.coded);
@@ -349,7 +349,7 @@ TEST(Code, TrafficOfTheShowcase) {
     if (name != "cello") continue;
 #endif
     const Start start = start_of(name, step);
-    run::Simulation simulation(start.parameters, start.volume, worlds::implementation("auto"));
+    run::Simulation simulation(start.parameters, start.volume, run::implementations().widest());
     simulation.begin_at(start.step);
     simulation.begin_step();
     const Design design{start.parameters, {start.volume.grid, 8}, 1};

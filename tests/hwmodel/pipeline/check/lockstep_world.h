@@ -26,8 +26,7 @@ struct Start {
 
 inline Start start_of(const std::string& scene_name, std::uint32_t ahead) {
   scene::Scene scene = scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (scene_name + ".toml"), {});
-  run::Simulation simulation(scene.parameters, std::move(scene.initial),
-                             *run::implementations().find("auto"));
+  run::Simulation simulation(scene.parameters, std::move(scene.initial), run::implementations().widest());
   ahead -= scene.parameters.heat.visibility_age(ahead);
   while (simulation.steps_done() < ahead) simulation.step();
   return {scene_name, scene.parameters, simulation.volume(), simulation.step_number()};
@@ -101,8 +100,7 @@ inline VerifyReport lockstep(const Start& start, const Configuration& configurat
   options.configuration = configuration;
   options.fault = fault;
   options.fault_step = fault_step;
-  return verify(start.parameters, start.volume, start.step, *run::implementations().find("auto"), {},
-                options);
+  return verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
 }
 
 // No difference, everything compared, and without stalls exactly the predicted cycles. False after a failure.

@@ -135,7 +135,7 @@ inline VerifyReport run_row(const Start& start, const MatrixRow& row, const Conf
                     load_memory(kMemoryOf[static_cast<std::size_t>(row[kMemory])], "test"), kMatrixClock);
   options.memory = streams ? &*streams : nullptr;
   VerifyReport report =
-      verify(start.parameters, start.volume, start.step, *run::implementations().find("auto"), {}, options);
+      verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
   const std::string where = start.name + " | " + text_of(row, c);
   EXPECT_EQ(report.mismatch, nullptr) << where << ":\n" << (report.mismatch ? text_of(*report.mismatch) : "");
   if (report.mismatch) return report;

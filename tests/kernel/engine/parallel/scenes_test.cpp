@@ -81,7 +81,7 @@ TEST_P(Scenes, FromTheStart) {
 
 TEST_P(Scenes, InTheMiddleOfTheMelt) {
   const scene::Scene scene = load();
-  run::Simulation fast(scene.parameters, scene.initial, implementation("auto"), {.threads = 2});
+  run::Simulation fast(scene.parameters, scene.initial, run::implementations().widest(), {.threads = 2});
   steps(fast, static_cast<int>(scene.steps) / 3);
   compare(scene.parameters, fast.volume(), kSteps / 5);
 }

@@ -133,6 +133,20 @@ TEST_F(Fastest, OneIsNotTried) {
   EXPECT_FALSE(fs::exists(file()));
 }
 
+TEST(Chosen, IsTheFastestOrHasTheName) {
+  EXPECT_EQ(chosen("auto").implementation, fastest().implementation);
+  EXPECT_EQ(chosen("auto").reason, fastest().reason);
+  EXPECT_EQ(chosen("reference").implementation, &implementations().all().front());
+  EXPECT_EQ(chosen("reference").reason, "asked for");
+  try {
+    chosen("abacus");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("unknown; this build has auto, reference, "))
+        << error.what();
+  }
+}
+
 // The trial itself, of every implementation that this processor has, the plain one among them.
 TEST(Trial, TimesWhatItRuns) {
   std::vector<const step::Implementation*> able;

@@ -1,0 +1,18 @@
+#include "kernel/run/implementations.h"
+
+#include "kernel/engine/parallel/stepper.h"
+#include "kernel/engine/scalar/reference.h"
+
+namespace voxmelt::run {
+
+const step::Registry& implementations() {
+  static const step::Registry all = [] {
+    step::Registry registry;
+    scalar::add_implementations(registry);
+    parallel::add_implementations(registry);
+    return registry;
+  }();
+  return all;
+}
+
+}  // namespace voxmelt::run
