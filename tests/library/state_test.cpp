@@ -24,6 +24,17 @@ TEST(FieldView, StepsOverThePadding) {
     }
 }
 
+TEST(NamedField, GivesTheNumberOfAnyWidth) {
+  const std::vector<std::uint64_t> bits{4};
+  const std::vector<std::uint8_t> bytes{0, 1, 255};
+  const std::vector<std::uint16_t> words{0, 1, 65535};
+  const Grid grid{3, 1, 1};
+  EXPECT_EQ((NamedField{"a", "", MaskView(bits.data(), grid)}.at(2, 0, 0)), 1u);
+  EXPECT_EQ((NamedField{"a", "", MaskView(bits.data(), grid)}.at(1, 0, 0)), 0u);
+  EXPECT_EQ((NamedField{"b", "", ByteView(bytes.data(), grid, 3, 3)}.at(2, 0, 0)), 255u);
+  EXPECT_EQ((NamedField{"c", "", FieldView(words.data(), grid, 3, 3)}.at(2, 0, 0)), 65535u);
+}
+
 TEST(MaskView, HasSixtyFourCellsAWord) {
   // 70 x 2 x 2 cells: two words a row. Set are (0, 0, 0), (69, 1, 0), (64, 0, 1) and (3, 1, 1).
   const std::vector<std::uint64_t> data{1, 0, 0, 32, 0, 1, 8, 0};

@@ -3,7 +3,6 @@
 // and sleeping.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "kernel/automaton/rule/random.h"

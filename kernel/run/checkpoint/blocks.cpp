@@ -199,8 +199,8 @@ bool BlockReader::next_is_empty(const BlockName& name, std::span<std::byte> raw)
 bool BlockReader::next_is(std::string_view kind) {
   if (left_ < sizeof(RawHeader)) return false;
   RawHeader header;
-  const long at = std::ftell(file_.get());
-  if (std::fread(&header, sizeof header, 1, file_.get()) != 1 || std::fseek(file_.get(), at, SEEK_SET) != 0)
+  const bool is_read = std::fread(&header, sizeof header, 1, file_.get()) == 1;
+  if (!is_read || std::fseek(file_.get(), -static_cast<long>(sizeof header), SEEK_CUR) != 0)
     fail(path_, "cannot be read");
   return kind == std::string_view(header.kind.data(), ::strnlen(header.kind.data(), header.kind.size()));
 }
