@@ -1,8 +1,9 @@
 #include "kernel/automaton/state/digest.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <tuple>
+#include <utility>
 
 #include "kernel/automaton/state/fields.h"
 
@@ -21,57 +22,64 @@ constexpr bool every_bit_has_its_place() {
 }
 static_assert(every_bit_has_its_place(), "two fields share a bit of a cell's word");
 
-// 64 cells along x, or those up to the end of the row.
-struct Chunk {
-  std::size_t word;
-  int first, count;
-};
-using Packed = std::array<std::uint64_t, 64>;
-
-bool any_in(const BitPlane& plane, int y, int z, const Chunk& chunk) {
-  return plane.row(y, z)[chunk.word] != 0;
+// The cells of a row from its first one on; null for an optional field that the volume lacks.
+const std::uint64_t* row_of(const BitPlane& plane, int y, int z) {
+  return plane.empty() ? nullptr : plane.row(y, z).data();
 }
 template <class T>
-bool any_in(const Field<T>& field, int y, int z, const Chunk& chunk) {
-  const T* cells = field.row(y, z) + chunk.first;
+const T* row_of(const Field<T>& field, int y, int z) {
+  return field.empty() ? nullptr : field.row(y, z);
+}
+
+// Is any of `count` cells from x = 64 w on not 0?
+bool any_of(const std::uint64_t* mask, std::size_t w, int /*bits past the grid are 0*/) {
+  return mask[w] != 0;
+}
+template <class T>
+bool any_of(const T* numbers, std::size_t w, int count) {
   unsigned bits = 0;
-  for (int i = 0; i < chunk.count; ++i) bits |= cells[i];
+  for (int i = 0; i < count; ++i) bits |= numbers[64 * w + static_cast<std::size_t>(i)];
   return bits != 0;
 }
 
-void pack(const BitPlane& plane, int y, int z, const Chunk& chunk, int at, Packed& packed) {
-  const std::uint64_t word = plane.row(y, z)[chunk.word];
-  for (std::size_t i = 0; i < packed.size(); ++i) packed[i] |= (word >> i & 1u) << at;
-}
+std::uint64_t value_of(const std::uint64_t* mask, std::size_t w, int bit) { return mask[w] >> bit & 1u; }
 template <class T>
-void pack(const Field<T>& field, int y, int z, const Chunk& chunk, int at, Packed& packed) {
-  const T* cells = field.row(y, z) + chunk.first;  // rows end at multiples of 64 cells
-  for (std::size_t i = 0; i < packed.size(); ++i) packed[i] |= std::uint64_t{cells[i]} << at;
+std::uint64_t value_of(const T* numbers, std::size_t w, int bit) {
+  return numbers[64 * w + static_cast<std::size_t>(bit)];
+}
+
+template <std::size_t i>
+constexpr bool kOptional = std::get<i>(kFields).optional;
+
+template <std::size_t... i>
+std::uint64_t row_digest(const Volume& volume, int y, int z, std::index_sequence<i...>) {
+  const Grid g = volume.grid;
+  const std::tuple rows{row_of(volume.*std::get<i>(kFields).column, y, z)...};
+  std::uint64_t sum = 0;
+  for (int first = 0; first < g.x; first += 64) {
+    const std::size_t w = static_cast<std::size_t>(first) / 64;
+    const int count = std::min(64, g.x - first);
+    const auto any = [&]<std::size_t k>() {
+      return (!kOptional<k> || std::get<k>(rows) != nullptr) && any_of(std::get<k>(rows), w, count);
+    };
+    if (!(any.template operator()<i>() || ...)) continue;
+    const auto bits = [&]<std::size_t k>(int bit) {
+      if (kOptional<k> && std::get<k>(rows) == nullptr) return std::uint64_t{0};
+      return value_of(std::get<k>(rows), w, bit) << std::get<k>(kFields).digest_bit;
+    };
+    for (int bit = 0; bit < count; ++bit)
+      sum += cell_digest(g.index(first + bit, y, z), (bits.template operator()<i>(bit) | ...));
+  }
+  return sum;
 }
 
 }  // namespace
 
 std::uint64_t digest(const Volume& volume) {
-  const Grid g = volume.grid;
+  constexpr std::make_index_sequence<std::tuple_size_v<decltype(kFields)>> all;
   std::uint64_t sum = 0;
-  for (int z = 0; z < g.z; ++z)
-    for (int y = 0; y < g.y; ++y)
-      for (int first = 0; first < g.x; first += 64) {
-        const Chunk chunk{static_cast<std::size_t>(first) / 64, first, std::min(64, g.x - first)};
-        bool any = false;
-        for_each_field([&](const auto& row) {
-          const auto& column = volume.*row.column;
-          any = any || (!column.empty() && any_in(column, y, z, chunk));
-        });
-        if (!any) continue;
-        Packed packed{};
-        for_each_field([&](const auto& row) {
-          const auto& column = volume.*row.column;
-          if (!column.empty()) pack(column, y, z, chunk, row.digest_bit, packed);
-        });
-        for (int i = 0; i < chunk.count; ++i)
-          sum += cell_digest(g.index(first + i, y, z), packed[static_cast<std::size_t>(i)]);
-      }
+  for (int z = 0; z < volume.grid.z; ++z)
+    for (int y = 0; y < volume.grid.y; ++y) sum += row_digest(volume, y, z, all);
   return sum;
 }
 
