@@ -77,10 +77,11 @@ Volume sample() {
 }
 
 TEST(Part, HasTheCellsOfItsBox) {
-  const Volume part = part_of(sample(), {{65, 1, 1}, {3, 2, 2}});
-  Volume expected(Grid{3, 2, 2});
-  worlds::put(expected, 1, 0, 0, 0x1234, 0x0102, 0xFFFE);
-  worlds::put_solid(expected, 2, 1, 0, 4096, 7);
+  const Volume part =
+      part_of(sample(), {{65, 1, 0}, {3, 2, 3}});  // no two numbers that a bug could take for each other
+  Volume expected(Grid{3, 2, 3});
+  worlds::put(expected, 1, 0, 1, 0x1234, 0x0102, 0xFFFE);
+  worlds::put_solid(expected, 2, 1, 1, 4096, 7);
   EXPECT_TRUE(part == expected);
 }
 
