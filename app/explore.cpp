@@ -161,9 +161,13 @@ void add_explore(CLI::App& program, Chosen& chosen) {
                       "folder for explore.svg, explore.csv (every design) and explore.json");
   add_common(*command, options->common);
   add_visibility(*command, options->common);
+  std::string axes;
+  for (const hwmodel::HwKey& key : hwmodel::kHwKeys)
+    if (key.chosen()) axes += fmt::format("hw.{}, ", key.name);
   command->footer(
-      "--set also takes the device's numbers (device.bram=300, device.clock=250), and keeps one value of an\n"
-      "axis: hw.lanes, hw.cascade, hw.substeps, hw.fifo_depth, hw.overlap, hw.coded, hw.tile, hw.clock_mhz.");
+      fmt::format("--set also takes the device's numbers (device.bram=300, device.clock=250), and keeps one "
+                  "value of an\naxis: {}hw.clock_mhz.",
+                  axes));
   command->callback([options, &chosen] { chosen = [options] { return run_explore(*options); }; });
 }
 

@@ -1,6 +1,6 @@
-#include "app/verify_machine.h"
-
+// voxmelt verify --machine: the pipeline and the ray caster on one memory, in lock-step with the software.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -10,8 +10,16 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/run_ahead.h"
+#include "app/verify_command.h"
+#include "app/verify_picture.h"
+#include "app/visibility.h"
+#include "hwmodel/caster/faults/faults.h"
 #include "hwmodel/caster/report/report_picture.h"
+#include "hwmodel/machine/machine.h"
+#include "hwmodel/machine/presets/presets.h"
 #include "hwmodel/machine/report_machine.h"
+#include "hwmodel/pipeline/faults/faults.h"
 #include "kernel/run/io/output_folder.h"
 #include "measure/paper.h"
 #include "render/image/png.h"
@@ -73,9 +81,6 @@ const measure::PaperRow* paper_row(std::string_view scene) {
 std::string verdict_of(const hwmodel::MachineReport& report) {
   std::string text;
   if (report.steps.mismatch != nullptr) text += hwmodel::text_of(*report.steps.mismatch);
-  if (report.different_beside > 0)
-    text +=
-        fmt::format("{} pixels differ that were drawn while the pipeline worked\n", report.different_beside);
   if (report.steps.mismatch == nullptr && report.steps.steps > 0)
     text +=
         fmt::format("{} cells compared behind the stages of the pipeline: no difference; digest {:016x}\n",
@@ -83,74 +88,127 @@ std::string verdict_of(const hwmodel::MachineReport& report) {
   return text + hwmodel::raycast::verdict_text(report.pictures);
 }
 
-}  // namespace
-
-hwmodel::MachineReport verify_machine(const Common& common, const PictureChoice& choice,
-                                      const scene::Scene& scene, const run::Simulation& ahead,
-                                      const hwmodel::Preset& preset, const hwmodel::VerifyOptions& steps) {
-  const scene::Camera camera = camera_of(choice, scene);
-  const render::Setting setting = setting_of(choice);
-  const auto frames = static_cast<std::uint32_t>(choice.frames);
-  if (steps.steps % frames != 0)
+// The planted fault, of either machine.
+void plant(hwmodel::MachineOptions& options, const VerifyCommand& command, std::uint32_t first_step) {
+  if (command.plant.empty()) return;
+  const hwmodel::FaultInfo* stream = hwmodel::find_fault(command.plant);
+  const hwmodel::raycast::FaultInfo* caster = hwmodel::raycast::find_fault(command.plant);
+  if (stream == nullptr && caster == nullptr)
     throw UsageError(
-        fmt::format("error: --frames {}: --steps {} is no multiple of it (--machine)", frames, steps.steps));
+        fmt::format("error: --plant {}: unknown; `voxmelt list faults` names them", command.plant));
+  if (caster != nullptr && command.plant_step)
+    throw UsageError("error: --plant-step: a picture has no steps");
+  if (stream != nullptr) options.steps.fault = stream->fault;
+  if (caster != nullptr) options.picture.fault = caster->fault;
+  options.steps.fault_step = plant_step(command, first_step);
+}
+
+hwmodel::MachineOptions options_of(const VerifyCommand& command, const hwmodel::Preset& preset,
+                                   std::uint32_t first_step) {
+  const PictureChoice& choice = command.picture;
   hwmodel::MachineOptions options;
-  options.steps = steps;
+  options.steps.steps = command.steps;
+  options.steps.every = command.every;
+  options.steps.configuration = preset.configuration;
+  options.steps.poll = options.picture.poll = stop_if_interrupted;
   options.picture.configuration = preset.caster;
   options.picture.compare = choice.compare;
   options.picture.frames = choice.frames;
-  options.picture.poll = stop_if_interrupted;
-  const step::Implementation& fast = find_implementation(common);
-  step::Tuning tuning;
-  tuning.threads = thread_count(common);
-  hwmodel::MachineReport report =
-      hwmodel::verify_machine({scene.parameters,
-                               ahead.step_number(),
-                               fast,
-                               tuning,
-                               {ahead.volume(), scene.look, scene.light, scene.terrain, camera, setting}},
-                              options);
+  plant(options, command, first_step);
+  return options;
+}
 
-  const hwmodel::Configuration& p = steps.configuration;
+void print_machine(const VerifyCommand& command, const scene::Scene& scene, const scene::Camera& camera,
+                   const hwmodel::MachineReport& report, const hwmodel::Preset& preset) {
+  const hwmodel::Configuration& p = preset.configuration;
   const hwmodel::raycast::Configuration& c = preset.caster;
-  if (common.quiet)
-    fmt::print("{}: {} cycles, overlapped\n", scene.name, report.sum().overlapped());
-  else
-    fmt::print("{}: pipeline: lanes {}, cascade {}; ray caster: pipes {}; fifo depth {}, stall seed {}\n",
-               scene.name, p.lanes, p.cascade, c.pipes, c.fifo_depth, c.stall_seed);
-  if (!common.quiet)
-    fmt::print("{} x {}, {}; memory: {}\n", camera.width, camera.height, choice.setting,
-               c.dram ? c.dram->name : fmt::format("latency {}, {} bytes a cycle", c.latency, c.bus_bytes));
+  if (command.common.quiet)
+    return fmt::print("{}: {} cycles, overlapped\n", scene.name, report.sum().overlapped());
+  fmt::print("{}: pipeline: lanes {}, cascade {}; ray caster: pipes {}; fifo depth {}, stall seed {}\n",
+             scene.name, p.lanes, p.cascade, c.pipes, c.fifo_depth, c.stall_seed);
+  fmt::print("{} x {}, {}; memory: {}\n", camera.width, camera.height, command.picture.setting,
+             c.dram ? c.dram->name : fmt::format("latency {}, {} bytes a cycle", c.latency, c.bus_bytes));
+}
+
+// Measures the software beside it, for the report and for people.
+nlohmann::ordered_json beside_software(const VerifyCommand& command, const scene::Scene& scene,
+                                       const scene::Camera& camera, const run::Simulation& ahead,
+                                       const hwmodel::MachineReport& report,
+                                       const hwmodel::MachineOptions& options) {
+  const step::Implementation& fast = find_implementation(command.common);
+  const std::uint32_t steps = command.steps, frames = static_cast<std::uint32_t>(command.picture.frames);
+  const Software here =
+      measure_software(scene, camera, setting_of(command.picture), ahead, fast, steps, steps / frames);
+  const double n = frames;
+  if (!command.common.quiet) {
+    fmt::print("{}", hwmodel::table_of(report, options));
+    fmt::print(
+        "the software here, one thread, {}: {:.1f} steps, {:.1f} updates, {:.1f} pictures a second; "
+        "{:.1f} frames\n",
+        fast.name, steps / here.steps, n / here.update, n / here.draw, n / here.total());
+    if (const measure::PaperRow* row = paper_row(scene.name))
+      fmt::print("the paper, 2003, {}: gravity {:.1f} ms, spreading {:.1f}, update {:.1f}: {:.1f} frames\n",
+                 row->as, row->gravity, row->spreading, row->update, row->frames());
+  }
+  return {{"implementation", fast.name},          {"threads", 1},
+          {"steps_a_second", steps / here.steps}, {"updates_a_second", n / here.update},
+          {"pictures_a_second", n / here.draw},   {"frames_a_second", n / here.total()}};
+}
+
+bool struck(const hwmodel::MachineReport& report) { return report.steps.strike || report.pictures.strike; }
+
+// Simulates, prints and writes what came of it.
+hwmodel::MachineReport run_machine(const VerifyCommand& command, const scene::Scene& scene,
+                                   const run::Simulation& ahead, const hwmodel::Preset& preset) {
+  const PictureChoice& choice = command.picture;
+  const scene::Camera camera = camera_of(choice, scene);
+  const hwmodel::MachineOptions options = options_of(command, preset, ahead.step_number());
+  step::Tuning tuning;
+  tuning.threads = thread_count(command.common);
+  hwmodel::MachineReport report = hwmodel::verify_machine(
+      {scene.parameters,
+       ahead.step_number(),
+       find_implementation(command.common),
+       tuning,
+       {ahead.volume(), scene.look, scene.light, scene.terrain, camera, setting_of(choice)}},
+      options);
+  if (!command.plant.empty() && report.good() && !struck(report))
+    throw UsageError(fmt::format(
+        "error: --plant {}: in these steps and pictures there is nothing that this fault could change",
+        command.plant));
+  print_machine(command, scene, camera, report, preset);
   nlohmann::ordered_json json{{"scene", scene.name}, {"width", camera.width}, {"height", camera.height}};
   json.update(hwmodel::json_of(report, options));
-  if (report.good()) {
-    const Software here =
-        measure_software(scene, camera, setting, ahead, fast, steps.steps, steps.steps / frames);
-    const double n = frames;
-    json["software"] = {{"implementation", fast.name},
-                        {"threads", 1},
-                        {"steps_a_second", steps.steps / here.steps},
-                        {"updates_a_second", n / here.update},
-                        {"pictures_a_second", n / here.draw},
-                        {"frames_a_second", n / here.total()}};
-    if (!common.quiet) {
-      fmt::print("{}", hwmodel::table_of(report, options));
-      fmt::print(
-          "the software here, one thread, {}: {:.1f} steps, {:.1f} updates, {:.1f} pictures a second; "
-          "{:.1f} frames\n",
-          fast.name, steps.steps / here.steps, n / here.update, n / here.draw, n / here.total());
-      if (const measure::PaperRow* row = paper_row(scene.name))
-        fmt::print("the paper, 2003, {}: gravity {:.1f} ms, spreading {:.1f}, update {:.1f}: {:.1f} frames\n",
-                   row->as, row->gravity, row->spreading, row->update, row->frames());
-    }
-  }
-  fmt::print("{}", common.quiet ? first_line(verdict_of(report)) : verdict_of(report));
-  write_report(common, json.dump(2) + '\n');
+  if (report.good()) json["software"] = beside_software(command, scene, camera, ahead, report, options);
+  fmt::print("{}", command.common.quiet ? first_line(verdict_of(report)) : verdict_of(report));
+  if (report.steps.strike && !command.common.quiet) print_plant(report.steps);
+  write_report(command.common, json.dump(2) + '\n');
   if (!choice.html.empty())
     io::write_file(choice.html, hwmodel::machine_page(json, fmt::format("{}, {} x {}", scene.name,
                                                                         camera.width, camera.height)));
   if (!choice.png.empty()) render::write_png(choice.png, report.pictures.image);
   return report;
+}
+
+}  // namespace
+
+int verify_whole_machine(VerifyCommand command) {
+  const PictureChoice& choice = command.picture;
+  if (command.steps % static_cast<std::uint32_t>(choice.frames) != 0)
+    throw UsageError(fmt::format("error: --frames {}: --steps {} is no multiple of it (--machine)",
+                                 choice.frames, command.steps));
+  const hwmodel::Preset preset =
+      hwmodel::load_preset(find_preset(command.hw), command.hw_sets, hwmodel::Runs::machine);
+  scene::Scene scene = load_beginning(command);
+  check_tile(scene, preset.configuration);
+  check_replay_place(command, scene);
+  check_report_place(command.common, replay_place(command, scene).string());
+  check_html_place(command.common, choice, replay_place(command, scene).string());
+  end_soon_at_interrupts();
+  const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
+  const hwmodel::MachineReport report = run_machine(command, scene, ahead, preset);
+  if (report.steps.mismatch != nullptr) try_writing([&] { write_replay(command, scene, report.steps); });
+  return report.good() && !struck(report) ? kDone : kCheckFailed;
 }
 
 }  // namespace voxmelt::app

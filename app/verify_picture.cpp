@@ -111,9 +111,9 @@ void check_html_place(const Common& common, const PictureChoice& choice, const s
     throw UsageError(fmt::format("--html {}: error: --report goes to the same file", choice.html));
 }
 
-int verify_picture(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
-                   const run::Simulation& state, const fs::path& preset,
-                   const std::vector<std::string>& hw_sets) {
+int verify_caster(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
+                  const run::Simulation& state, const fs::path& preset,
+                  const std::vector<std::string>& hw_sets) {
   const scene::Camera camera = camera_of(choice, scene);
   const render::Setting setting = setting_of(choice);
   const hwmodel::Preset configured = hwmodel::load_preset(preset, hw_sets, hwmodel::Runs::caster);

@@ -36,8 +36,8 @@ render::Setting setting_of(const PictureChoice& choice);
 // Does it fit the other options? Throws UsageError.
 void check_html_place(const Common& common, const PictureChoice& choice, const std::string& out);
 
-int verify_picture(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
-                   const run::Simulation& state, const std::filesystem::path& preset,
-                   const std::vector<std::string>& hw_sets);
+int verify_caster(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
+                  const run::Simulation& state, const std::filesystem::path& preset,
+                  const std::vector<std::string>& hw_sets);
 
 }  // namespace voxmelt::app

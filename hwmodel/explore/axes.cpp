@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "hwmodel/explore/sweep.h"
@@ -58,14 +56,9 @@ void keep_only(Axes& axes, const std::vector<std::string>& sets) {
   scene::Reader root(document, "");
   std::optional<scene::Reader> hw = root.table("hw");
   if (!hw) return;
-  const std::array<std::pair<const char*, std::vector<int>*>, 7> keys{{{"lanes", &axes.lanes},
-                                                                       {"cascade", &axes.cascade},
-                                                                       {"substeps", &axes.substeps},
-                                                                       {"fifo_depth", &axes.fifo_depth},
-                                                                       {"overlap", &axes.overlap},
-                                                                       {"coded", &axes.coded},
-                                                                       {"clock_mhz", &axes.clock_mhz}}};
-  for (const auto& [key, values] : keys) {
+  for (const Axis& axis : kAxes) {
+    const std::string key(axis.key);
+    std::vector<int>* values = &(axes.*axis.values);
     if (!hw->has(key)) continue;
     const auto value = static_cast<int>(hw->integer(key, 0, 1'000'000));
     const bool clock = values == &axes.clock_mhz;  // need not be one of the list

@@ -3,23 +3,13 @@
 #include <optional>
 
 #include "hwmodel/explore/timing.h"
-#include "hwmodel/machine/dram_streams.h"
 #include "hwmodel/pipeline/model/tiling.h"
+#include "hwmodel/pipeline/streams/memory_streams.h"
 
 namespace voxmelt::hwmodel::explore {
 
 double Checked::error() const {
   return on_memory == 0 ? 0 : static_cast<double>(predicted_on - on_memory) / static_cast<double>(on_memory);
-}
-
-std::int64_t simulated_on(const std::vector<Train>& trains, int clock_mhz, const Question& question) {
-  raycast::Configuration memory;
-  memory.clock_mhz = clock_mhz;
-  memory.dram = question.memory;
-  std::int64_t cycles = 0;
-  for (const Train& train : trains)
-    cycles += question.memory ? cycles_alone(train.work, memory) : train.work.cycles;
-  return cycles;
 }
 
 Checked check(const Question& question, const Swept& swept, std::size_t at, std::uint32_t steps,
@@ -36,7 +26,7 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   options.steps = checked.steps;
   options.configuration = point.hw;
   options.poll = input.poll;
-  std::optional<DramStreams> streams;
+  std::optional<MemoryStreams> streams;
   if (question.memory)
     streams.emplace(design_of(question.parameters, question.grid, point.hw), point.hw.cascade,
                     *question.memory, point.clock_mhz);

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "hwmodel/explore/sweep.h"
 #include "hwmodel/pipeline/check/verify.h"
@@ -33,8 +32,5 @@ struct CheckInput {
 // `steps`: 0 means one whole pass.
 Checked check(const Question& question, const Swept& swept, std::size_t point, std::uint32_t steps,
               const CheckInput& input);
-
-// The simulated cycles of a run's streams on a DRAM; without one, the cycles of its trains.
-std::int64_t simulated_on(const std::vector<Train>& trains, int clock_mhz, const Question& question);
 
 }  // namespace voxmelt::hwmodel::explore

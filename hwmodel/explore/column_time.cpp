@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hwmodel/explore/dram_time.h"
-#include "hwmodel/machine/column_port.h"
+#include "hwmodel/pipeline/streams/column_port.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {

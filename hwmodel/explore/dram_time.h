@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "hwmodel/machine/stream_twin.h"
 #include "hwmodel/memory/parameters.h"
+#include "hwmodel/pipeline/time/stream_work.h"
 
 namespace voxmelt::hwmodel::explore {
 

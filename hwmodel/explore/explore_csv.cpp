@@ -10,18 +10,19 @@
 namespace voxmelt::hwmodel::explore {
 
 std::string csv_of(const Explored& of) {
-  std::string text =
-      "lanes,cascade,substeps,fifo_depth,overlap,coded,tile,clock_mhz,cycles,cycles_on_memory,cell_steps_per_"
-      "second,lut,"
-      "ff,"
-      "dsp,bram,uram,lutram,fullest,fits,on_front,verified,simulated_cycles,simulated_on_memory\n";
+  std::string text;
+  for (const HwKey& key : kHwKeys)
+    if (key.chosen()) text += std::string(key.name) + ',';
+  text +=
+      "clock_mhz,cycles,cycles_on_memory,cell_steps_per_second,lut,ff,dsp,bram,uram,lutram,fullest,fits,"
+      "on_front,verified,simulated_cycles,simulated_on_memory\n";
   std::vector<bool> on_front(of.swept.points.size());
   for (const std::size_t at : of.answer.front) on_front[at] = true;
   for (std::size_t i = 0; i < of.swept.points.size(); ++i) {
     const Point& p = of.swept.points[i];
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}000", p.hw.lanes, p.hw.cascade, p.hw.substeps,
-                        p.hw.fifo_depth, p.hw.overlap ? 1 : 0, p.hw.coded ? 1 : 0, p.hw.tile, p.clock_mhz,
-                        p.cycles, p.on_memory, p.speed);
+    for (const HwKey& key : kHwKeys)
+      if (key.chosen()) text += fmt::format("{},", key.get(p.hw));
+    text += fmt::format("{},{},{},{}000", p.clock_mhz, p.cycles, p.on_memory, p.speed);
     for (const std::int64_t amount : p.taken.amounts) text += fmt::format(",{}", amount);
     text += fmt::format(",{},{:.6f},{},{}", p.taken.lutram, p.taken.fullest, p.taken.fits() ? 1 : 0,
                         on_front[i] ? 1 : 0);

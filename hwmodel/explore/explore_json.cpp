@@ -96,17 +96,21 @@ json contents_json(const std::vector<PartList>& parts) {
   return of;
 }
 
+json axes_json(const Axes& axes) {
+  json of;
+  for (const Axis& axis : kAxes) of[std::string(axis.key)] = axes.*axis.values;
+  of["tiles"] = axes.tiles;
+  of["tile"] = axes.tile ? json(*axes.tile) : json();
+  return of;
+}
+
 json point_json(const Explored& of, std::size_t at) {
   const Point& p = of.swept.points[at];
-  json result{{"hw",
-               {{"lanes", p.hw.lanes},
-                {"cascade", p.hw.cascade},
-                {"substeps", p.hw.substeps},
-                {"fifo_depth", p.hw.fifo_depth},
-                {"overlap", p.hw.overlap ? 1 : 0},
-                {"coded", p.hw.coded ? 1 : 0},
-                {"tile", p.hw.tile},
-                {"clock_mhz", p.clock_mhz}}},
+  json hw;
+  for (const HwKey& key : kHwKeys)
+    if (key.chosen()) hw[std::string(key.name)] = key.get(p.hw);
+  hw["clock_mhz"] = p.clock_mhz;
+  json result{{"hw", hw},
               {"cycles", p.cycles},
               {"cycles_on_memory", p.on_memory},
               {"cell_steps_per_second", p.speed * 1000},
@@ -167,16 +171,7 @@ json json_of(const Explored& of) {
               {"usable", amounts_json(q.device.usable())},
               {"lutram", q.device.lutram},
               {"family", family_json(q.device.family)},
-              {"axes",
-               {{"lanes", of.axes.lanes},
-                {"cascade", of.axes.cascade},
-                {"substeps", of.axes.substeps},
-                {"fifo_depth", of.axes.fifo_depth},
-                {"overlap", of.axes.overlap},
-                {"coded", of.axes.coded},
-                {"tiles", of.axes.tiles},
-                {"tile", of.axes.tile ? json(*of.axes.tile) : json()},
-                {"clock_mhz", of.axes.clock_mhz}}},
+              {"axes", axes_json(of.axes)},
               {"configurations", of.swept.points.size()},
               {"seconds", of.swept.seconds},
               {"answer", sentence_of(of)},

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "hwmodel/machine/column_port.h"
 #include "hwmodel/pipeline/model/lag.h"
+#include "hwmodel/pipeline/streams/column_port.h"
 #include "hwmodel/pipeline/time/prediction.h"
 
 namespace voxmelt::hwmodel::explore {

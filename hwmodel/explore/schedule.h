@@ -7,15 +7,15 @@
 
 #include "hwmodel/explore/content.h"
 #include "hwmodel/explore/dram_time.h"
-#include "hwmodel/machine/stream_twin.h"
 #include "hwmodel/pipeline/model/pipeline.h"
+#include "hwmodel/pipeline/time/stream_work.h"
 
 namespace voxmelt::hwmodel::explore {
 
 struct Train {
   std::int64_t passes = 0, steps = 0;
   std::vector<Pass> list;  // the passes, tile by tile
-  StreamWork work;         // one pass of the twin: the tokens of all passes, one after another
+  StreamWork work;         // as of one pass: the tokens of all passes, one after another
   Placement placement{};   // of the state on a DRAM
   std::int64_t times = 1;  // so many of them
 };

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "hwmodel/machine/dram_streams.h"
 #include "hwmodel/pipeline/model/tiling.h"
+#include "hwmodel/pipeline/streams/memory_streams.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
@@ -42,7 +42,7 @@ class Sizer {
   Timing time() {
     ++sizing_.runs;
     if (!memory_) return timing_of(run_, nullptr);
-    DramStreams streams(design_, run_.configuration.cascade, memory_->parameters, memory_->clock_mhz);
+    MemoryStreams streams(design_, run_.configuration.cascade, memory_->parameters, memory_->clock_mhz);
     return timing_of(run_, &streams);
   }
   bool loses() {
@@ -95,10 +95,9 @@ Sizing size_fifos(const TimedRun& run, const std::optional<SizingMemory>& memory
 }
 
 std::string toml_of(const Sizing& sizing, const Configuration& c, const std::string& title) {
-  std::string text = fmt::format(
-      "title = \"{}\"\n[hw]\nlanes = {}\ncascade = {}\nsubsteps = {}\noverlap = {}\ncoded = {}\nstall_seed = "
-      "{}\n",
-      title, c.lanes, c.cascade, c.substeps, c.overlap ? 1 : 0, c.coded ? 1 : 0, c.stall_seed);
+  std::string text = fmt::format("title = \"{}\"\n[hw]\n", title);
+  for (const HwKey& key : kHwKeys)
+    if (key.get(c) != key.usual()) text += fmt::format("{} = {}\n", key.name, key.get(c));
   for (const SizedChannel& channel : sizing.channels)
     text += fmt::format("[[hw.channel]]\nname = \"{}\"\ndepth = {}\n", channel.name, channel.depth);
   return text;

@@ -2,11 +2,13 @@
 // whether it fits.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hwmodel/explore/part_list.h"
@@ -27,12 +29,21 @@ struct Question {
   const state::Volume* volume = nullptr;     // before it; null: hw.coded is not tried
 };
 
-// The values that are tried. A further axis is a list here, with its values and its key in axes.cpp, a loop
-// in `sweep`, and a column of the CSV. Of tiles there is a number: hw.tile is the narrowest that gives it.
+// The values that are tried. A further axis is a list here and a row below, with its values in axes.cpp and a
+// loop in `sweep`. Of tiles there is a number: hw.tile is the narrowest that gives it.
 struct Axes {
   std::vector<int> lanes, cascade, substeps, fifo_depth, overlap, coded, tiles{1}, clock_mhz;
   std::optional<int> tile{};  // this hw.tile alone, whatever `tiles` says
 };
+// The axes that are keys of [hw].
+struct Axis {
+  std::string_view key;
+  std::vector<int> Axes::*values;
+};
+inline constexpr std::array kAxes{Axis{"lanes", &Axes::lanes},        Axis{"cascade", &Axes::cascade},
+                                  Axis{"substeps", &Axes::substeps},  Axis{"fifo_depth", &Axes::fifo_depth},
+                                  Axis{"overlap", &Axes::overlap},    Axis{"coded", &Axes::coded},
+                                  Axis{"clock_mhz", &Axes::clock_mhz}};
 Axes usual_axes(const Question& question);
 // The values of hw.tile for these lanes and steps.
 std::vector<int> tiles_of(const Axes& axes, const Question& question, const Configuration& hw);

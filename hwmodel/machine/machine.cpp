@@ -1,25 +1,24 @@
 #include "hwmodel/machine/machine.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
+#include <vector>
 
+#include "hwmodel/fabric/simulation.h"
 #include "hwmodel/machine/screen.h"
+#include "hwmodel/memory/chosen_memory.h"
 #include "hwmodel/pipeline/model/tiling.h"
+#include "hwmodel/pipeline/streams/memory_streams.h"
 
 namespace voxmelt::hwmodel {
 namespace {
 
-// What the pipeline did so far.
-StreamWork work_of(const VerifyReport& report, const Design& design, const Configuration& c) {
+// What the pipeline did so far. Its cycles are those on a memory that always answers.
+StreamWork work_of(const VerifyReport& report) {
   StreamWork work;
   work.passes = report.passes;
-  work.cycles = report.cycles;
-  const std::int64_t interval = c.fifo_depth == 1 ? 2 : 1;
-  const Shape& shape = design.shape;
-  work.lag = std::max<std::int64_t>(report.predicted_cycles / std::max<std::int64_t>(report.passes, 1) -
-                                        interval * shape.tiles() * shape.tokens(),
-                                    0);
+  work.cycles = report.predicted_cycles;
   for (const StageReport& stage : report.stages) {
     if (stage.kind == StageKind::reader) work.tokens += stage.cycles.busy, work.read_bits += stage.moved_bits;
     if (stage.kind == StageKind::writer) work.written_bits += stage.moved_bits;
@@ -28,28 +27,77 @@ StreamWork work_of(const VerifyReport& report, const Design& design, const Confi
   return work;
 }
 
+memory::Choice untraced(memory::Choice choice) {
+  choice.trace.clear();
+  return choice;
+}
+
+// The pipeline alone on a memory, to tell what the ray caster beside it costs: it repeats the trains of the
+// machine, and nobody checks it.
+class StreamAlone {
+ public:
+  StreamAlone(const MachineInput& input, const MachineOptions& options)
+      : memory_(untraced(options.picture.configuration.memory())),
+        pipeline_(input.parameters, input.picture.volume.grid, options.steps.configuration, make_stage,
+                  &simulation_),
+        streams_(pipeline_.design(), options.steps.configuration.cascade, memory_.memory(), 0),
+        volume_(input.picture.volume) {
+    simulation_.after_blocks([this] { memory_.memory().cycle(); });
+    pipeline_.memory(&streams_);
+    pipeline_.poll(options.steps.poll);
+  }
+
+  void run(const std::vector<Pass>& passes, const IrradianceStream* irradiance) {
+    std::size_t begun = 1;
+    const auto next = [&] { return begun < passes.size() ? std::optional(passes[begun++]) : std::nullopt; };
+    cycles_ += pipeline_.run_train(passes.front(), next, irradiance, volume_).cycles;
+  }
+  std::int64_t cycles() const { return cycles_; }  // of all trains
+
+ private:
+  Simulation simulation_;
+  memory::ChosenMemory memory_;
+  Pipeline pipeline_;
+  MemoryStreams streams_;
+  state::Volume volume_;
+  std::int64_t cycles_ = 0;
+};
+
 class Run {
  public:
   Run(const MachineInput& input, const MachineOptions& options)
       : input_(input),
         options_(options),
         design_(design_of(input.parameters, input.picture.volume.grid, options.steps.configuration)),
-        screen_(input.picture, options.picture) {}
+        screen_(input.picture, options.picture),
+        memory_(options.picture.configuration.memory()),
+        streams_(design_, options.steps.configuration.cascade, memory_.memory(), 0),
+        alone_(input, options),
+        lockstep_(input.parameters, input.picture.volume, input.first_step, input.fast, input.tuning,
+                  steps_) {
+    // The state lies at the begin, and what the ray caster reads behind it.
+    const std::int64_t align = memory_.memory().alignment(),
+                       bytes = stream_bytes(design_, options.steps.configuration.coded);
+    screen_.connect({simulation_, memory_.memory(), (bytes + align - 1) / align * align});
+    simulation_.after_blocks([this] { memory_.memory().cycle(); });
+  }
 
   MachineReport run() {
-    report_.first_upload = screen_.take_over(input_.picture.volume);
-    screen_.draw();
+    report_.first_upload = screen_.upload();
+    screen_.draw_alone();
     report_.first_frame = screen_.alone().last().cycles;
-    VerifyOptions steps = options_.steps;
-    steps.visit_every = steps.steps / static_cast<std::uint32_t>(options_.picture.frames);
-    steps.visit = [this](const state::Volume& volume, const VerifyReport& done) {
-      return visit(volume, done);
-    };
-    if (screen_.good())
-      report_.steps = verify(input_.parameters, input_.picture.volume, input_.first_step, input_.fast,
-                             input_.tuning, steps);
+    if (options_.picture.fault == raycast::Fault::none) {  // which may strike while both machines work
+      screen_.begin();
+      screen_.finish();  // from now on the caches are warm
+    }
+    if (screen_.good()) {
+      begin_period();
+      report_.steps = lockstep_.run();
+      screen_.finish();  // after a difference, or the picture of the last state
+    }
     report_.pictures = screen_.report();
-    report_.different_beside = screen_.different_beside();
+    report_.pictures.memory.dram = memory_.dram_counts();  // of both machines
+    report_.pictures.memory.bus_cycles = memory_.bus_cycles();
     const Shape& shape = design_.shape;
     report_.cells = shape.grid.cells();
     const std::int64_t words = std::int64_t{shape.grid_blocks()} * shape.lanes * shape.grid.y * shape.grid.z;
@@ -63,36 +111,68 @@ class Run {
   }
 
  private:
+  // The pipeline is part of the simulation, and on the memory.
+  VerifyOptions steps() {
+    VerifyOptions steps = options_.steps;
+    steps.simulation = &simulation_;
+    steps.memory = &streams_;
+    steps.visit_every = steps.steps / static_cast<std::uint32_t>(options_.picture.frames);
+    steps.visit = [this](const state::Volume& volume, const VerifyReport& done) {
+      return visit(volume, done);
+    };
+    steps.streamed = [this](const std::vector<Pass>& passes, const IrradianceStream* irradiance) {
+      alone_.run(passes, irradiance);
+    };
+    return steps;
+  }
+
+  // The pipeline computes the next steps while the ray caster draws the present state.
+  void begin_period() {
+    began_ = simulation_.cycle();
+    screen_.begin();
+  }
+
   bool visit(const state::Volume& volume, const VerifyReport& done) {
     Period of;
     of.step = done.first_step + done.steps;
-    const StreamWork all = work_of(done, design_, options_.steps.configuration);
+    of.stream_beside = done.cycles - before_cycles_;
+    before_cycles_ = done.cycles;
+    screen_.finish();
+    if (!screen_.good()) return false;
+    of.frame_beside = screen_.beside().last().cycles;
+    of.together = simulation_.cycle() - began_;
+
+    const StreamWork all = work_of(done);
     of.work = all - before_;
     before_ = all;
-    of.stream = cycles_alone(of.work, options_.picture.configuration);
-    screen_.draw_beside(of.work);
-    of.frame_beside = screen_.beside().last().cycles;
-    of.stream_beside = screen_.twin().cycles();
-    of.together = std::max(of.frame_beside, of.stream_beside);
-
+    of.stream = alone_.cycles() - before_alone_;
+    before_alone_ = alone_.cycles();
     of.upload = screen_.take_over(volume);
     of.host_seconds = screen_.host_seconds();
     const raycast::MemoryCounts counts = screen_.alone().memory_counts();
-    screen_.draw();
+    screen_.draw_alone();
     const raycast::MemoryCounts now = screen_.alone().memory_counts();
     of.frame = screen_.alone().last().cycles;
     of.frame_read = now.read_bytes - counts.read_bytes;
     of.frame_written = now.written_bytes - counts.written_bytes;
     of.frame_bus = now.bus_cycles - counts.bus_cycles;
     report_.periods.push_back(std::move(of));
+    if (screen_.good()) begin_period();
     return screen_.good();
   }
 
   const MachineInput& input_;
   const MachineOptions& options_;
   Design design_;
+  Simulation simulation_;  // of both machines
   Screen screen_;
+  memory::ChosenMemory memory_;
+  MemoryStreams streams_;
+  StreamAlone alone_;
+  VerifyOptions steps_ = steps();
+  Lockstep lockstep_;
   StreamWork before_;
+  std::int64_t began_ = 0, before_cycles_ = 0, before_alone_ = 0;
   MachineReport report_;
 };
 

@@ -1,14 +1,15 @@
 // One machine, whole: the pipeline computes steps, the host sends what changed, the ray caster draws, and all
-// lie on one memory. Both machines run in lock-step with the software. Their cycles are counted in turn and
-// overlapped: then the pipeline computes the next steps while the ray caster draws the present state.
+// lie on one memory. Both machines run in one simulation, each in lock-step with the software: the pipeline
+// computes the next steps while the ray caster draws the present state. Beside it each repeats its work alone
+// on a memory of its own: this tells what they cost each other, and what they would take in turn.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "hwmodel/caster/check/verify_picture.h"
-#include "hwmodel/machine/stream_twin.h"
 #include "hwmodel/pipeline/check/verify.h"
+#include "hwmodel/pipeline/time/stream_work.h"
 
 namespace voxmelt::hwmodel {
 
@@ -29,9 +30,10 @@ struct MachineOptions {
 struct Period {
   std::uint32_t step = 0;  // that it ends with
   StreamWork work;
-  std::int64_t stream = 0;  // of the pipeline, on the memory alone
+  std::int64_t stream =
+      0;  // of the pipeline, on the memory alone; `work` has those on one that always answers
   raycast::UploadReport upload;
-  std::int64_t frame = 0;  // of the ray caster, on the memory alone
+  std::int64_t frame = 0;  // of the ray caster, on the memory alone: the state that these steps gave
   std::int64_t frame_read = 0, frame_written = 0, frame_bus = 0;
   std::int64_t together = 0;                         // of both: these steps, and the picture before them
   std::int64_t stream_beside = 0, frame_beside = 0;  // how long each of them took then
@@ -43,15 +45,14 @@ struct Period {
 
 struct MachineReport {
   VerifyReport steps;
-  raycast::PictureReport pictures;     // of the machines in turn
-  std::int64_t different_beside = 0;   // pixels, drawn while the pipeline worked
+  raycast::PictureReport pictures;     // that were drawn while the pipeline worked, and the last one
   raycast::UploadReport first_upload;  // of everything
-  std::int64_t first_frame = 0;        // its cycles: caches are cold
+  std::int64_t first_frame = 0;        // its cycles, alone: caches are cold
   std::vector<Period> periods;
   std::int64_t cells = 0;                              // of the grid
   std::int64_t state_bytes = 0, irradiance_bytes = 0;  // in memory, beside what the ray caster has there
 
-  bool good() const { return steps.mismatch == nullptr && pictures.good() && different_beside == 0; }
+  bool good() const { return steps.mismatch == nullptr && pictures.good(); }
   Period sum() const;  // of all periods
 };
 

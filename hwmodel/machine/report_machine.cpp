@@ -62,7 +62,7 @@ Json rate_of_cells(const MachineReport& report, const MachineOptions& options) {
           {"reached", a_cycle(cells, sum.overlapped())},
           {"bytes_per_cycle_alone", a_cycle(own, sum.stream)},
           {"bytes_per_cycle", a_cycle(all, sum.overlapped())},
-          {"most_bytes_per_cycle", raycast::most_bytes_per_cycle(options.picture.configuration)},
+          {"most_bytes_per_cycle", options.picture.configuration.memory().most_bytes_per_cycle()},
           {"cell_steps_per_byte", ratio(cells, own)}};
 }
 
@@ -71,17 +71,17 @@ Json rate_of_cells(const MachineReport& report, const MachineOptions& options) {
 std::vector<Bound> bounds_of(const MachineReport& report, const MachineOptions& options) {
   const Period sum = report.sum();
   const std::int64_t all = sum.overlapped();
-  // The accounts are those of all frames, the first one among them; the share of a stage is nearly the same.
+  // The accounts are those of all frames; the share of a stage is nearly the same in each.
   const raycast::StageAccount* busiest = nullptr;
   for (const raycast::StageAccount& stage : report.pictures.stages)
     if (busiest == nullptr || stage.account.busy > busiest->account.busy) busiest = &stage;
   std::vector<Bound> bounds{{"tokens of the pipeline", ratio(sum.work.tokens, all)}};
   if (busiest != nullptr)
     bounds.push_back({"stage " + busiest->name + " of the ray caster",
-                      ratio(busiest->account.busy, busiest->account.total()) * ratio(sum.frame, all)});
+                      ratio(busiest->account.busy, busiest->account.total()) * ratio(sum.frame_beside, all)});
   const double bus =
       static_cast<double>(sum.frame_bus) + static_cast<double>(sum.work.bytes() + upload_bytes(sum)) /
-                                               raycast::most_bytes_per_cycle(options.picture.configuration);
+                                               options.picture.configuration.memory().most_bytes_per_cycle();
   bounds.push_back({"bytes on the memory's bus", ratio(bus, static_cast<double>(all))});
   bounds.push_back({"upload, while both wait", ratio(sum.upload.cycles, all)});
   std::stable_sort(bounds.begin(), bounds.end(),
@@ -141,7 +141,6 @@ Json json_of(const MachineReport& report, const MachineOptions& options) {
             {"frames", report.periods.size()},
             {"compared_cells", report.steps.compared_cells},
             {"digest", fmt::format("{:016x}", report.steps.digest)},
-            {"different_pixels_beside", report.different_beside},
             {"state_bytes", report.state_bytes},
             {"irradiance_bytes", report.irradiance_bytes},
             {"first_upload", raycast::json_of(report.first_upload)},

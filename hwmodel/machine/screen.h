@@ -1,14 +1,12 @@
 // The picture's side of the whole machine: the host takes over a state and sends what changed, and the ray
-// caster draws it, once alone and once while the pipeline uses the same memory.
+// caster draws it, beside whatever else the simulation does.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "hwmodel/caster/check/picture_run.h"
 #include "hwmodel/caster/check/verify_picture.h"
 #include "hwmodel/caster/host/uploader.h"
-#include "hwmodel/machine/stream_twin.h"
 #include "kernel/automaton/state/volume.h"
 #include "render/density/density_field.h"
 #include "render/image/image.h"
@@ -20,25 +18,27 @@ namespace voxmelt::hwmodel {
 
 class Screen {
  public:
-  // Draws as `input` says, whatever its volume is.
+  // Draws as `input` says, and begins with its volume, which is sent whole.
   Screen(const raycast::PictureInput& input, const raycast::PictureOptions& options);
 
-  // The first state is sent whole, of later ones what changed. The upload is without its lists.
-  raycast::UploadReport take_over(const state::Volume& volume);
-  // Draws the state that was taken over last; checked.
-  void draw();
-  // Draws it again, by a ray caster that shares the memory with the pipeline; its bytes are checked.
-  // Ends when both are done.
-  void draw_beside(const StreamWork& work);
+  // What the machine's own ray caster shares with the pipeline.
+  void connect(const raycast::Shares& shares);
+
+  // The next state: what changed is sent. The upload is without its lists.
+  const raycast::UploadReport& take_over(const state::Volume& volume);
+  const raycast::UploadReport& upload() const { return upload_; }  // the last one
+
+  // Draws the state that was taken over last: `begin` in the next cycle, `finish` what is left; checked.
+  void begin();
+  void finish();
+  // The same, by a ray caster that has a memory of its own; its bytes are checked.
+  void draw_alone();
 
   bool good() const { return good_; }
   double host_seconds() const { return host_seconds_; }  // of the last state: field, light, comparing lines
-  const raycast::PictureRun& alone() const { return *alone_; }
   const raycast::PictureRun& beside() const { return *beside_; }
-  const StreamTwin& twin() const { return twin_; }
-  raycast::PictureReport report() { return alone_->report(); }
-  std::int64_t different_beside();  // pixels
-  const raycast::Memory& memory() { return uploader_.memory(); }
+  const raycast::PictureRun& alone() const { return *alone_; }
+  raycast::PictureReport report() { return beside_->report(); }
 
  private:
   raycast::PictureInput input_;
@@ -49,9 +49,9 @@ class Screen {
   std::optional<render::PictureScene> scene_;
   render::Image expected_;
   raycast::Uploader uploader_;
-  std::optional<raycast::PictureRun> alone_, beside_;
-  StreamTwin twin_;  // of the pipeline, on the memory of `beside_`
-  bool good_ = true;
+  raycast::UploadReport upload_;
+  std::optional<raycast::PictureRun> beside_, alone_;
+  bool good_ = true, draws_ = false;
   double host_seconds_ = 0;
 };
 

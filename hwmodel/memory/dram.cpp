@@ -107,7 +107,7 @@ bool Dram::take_request(std::size_t channel) {
 void Dram::finish(const Controller::Done& done) {
   const Entry& entry = done.entry;
   Port& port = ports_[static_cast<std::size_t>(entry.port)];
-  const Request request{entry.address, entry.id, entry.write};
+  const Request request{entry.address, entry.id, entry.write, kBurst};
   if (port.client != nullptr) port.client->performed(request);
   const std::int64_t took = done.at - entry.put;
   if (entry.write) {

@@ -1,8 +1,5 @@
 // The timing of a DRAM, for machines that run at a clock of their own. A machine opens ports, and asks for
-// bursts of 64 bytes. Bytes stay with the machine: the model says when they move.
-//
-// One block of the machine owns a Dram: it takes requests from its channels, puts them, takes replies, and
-// then calls cycle() once a cycle of the machine. What was put is seen by the memory from then on.
+// bursts of 64 bytes.
 #pragma once
 
 #include <cstddef>
@@ -10,26 +7,13 @@
 #include <deque>
 #include <vector>
 
+#include "hwmodel/fabric/memory_port.h"
 #include "hwmodel/memory/command.h"
 #include "hwmodel/memory/controller.h"
 #include "hwmodel/memory/counts.h"
 #include "hwmodel/memory/parameters.h"
 
 namespace voxmelt::hwmodel::memory {
-
-struct Request {
-  std::int64_t address = 0;  // a multiple of 64
-  std::uint32_t id = 0;      // whatever the machine likes
-  bool write = false;
-};
-
-// Told at the memory's column command. Requests of one burst come here in the order in which they were taken
-// from their ports. So whoever moves the bytes here sees every write before it.
-class PortClient {
- public:
-  virtual ~PortClient() = default;
-  virtual void performed(const Request& request) = 0;
-};
 
 // Told of every request when a controller takes it.
 class RequestListener {
@@ -38,20 +22,24 @@ class RequestListener {
   virtual void taken(std::int64_t memory_cycle, const Request& request) = 0;
 };
 
-class Dram {
+class Dram final : public Memory {
  public:
   Dram(const Parameters& parameters, int machine_mhz, const Policy& policy = {});
 
-  // The client may be null.
-  int open_port(PortClient* client);
-  bool ready(int port) const;
-  void put(int port, const Request& request);  // only where it is ready; more than one in a cycle, too
-  // Of reads alone, in the order of a port's requests: the oldest one if its bytes have come, else null.
-  const Request* reply(int port) const;
-  void take(int port);
+  // The client is told at the memory's column command.
+  int open_port(PortClient* client) override;
+  bool ready(int port) const override;
+  void put(int port, const Request& request) override;
+  const Request* reply(int port) const override;
+  void take(int port) override;
 
-  bool cycle();       // ends a cycle of the machine; tells whether a request, a burst or a reply moved
-  bool idle() const;  // every write is done, every reply is taken
+  bool cycle() override;
+  bool idle() const override;
+
+  int most_bytes() const override { return kBurst; }
+  std::int64_t alignment() const override {  // a row of every bank
+    return parameters_.row_bytes() * parameters_.banks_of_rank() * parameters_.ranks * parameters_.channels;
+  }
 
   std::int64_t memory_cycles() const { return now_; }
   Counts counts() const;  // of all channels

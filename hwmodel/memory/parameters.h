@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
-namespace voxmelt::hwmodel::memory {
+#include "hwmodel/fabric/memory_port.h"
 
-inline constexpr int kBurst = 64;  // bytes of a request
+namespace voxmelt::hwmodel::memory {
 
 struct Parameters {
   std::string name, title;

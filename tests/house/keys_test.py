@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The docs explain every key: those of scene files in docs/scenes.md, those of parameters.json in docs/automaton.md.
+"""The docs explain every key: those of scene files in docs/scenes.md, those of parameters.json in docs/automaton.md,
+and those of the pipeline in docs/hardware.md.
 
   keys_test.py ROOT
   keys_test.py --self-test
@@ -12,6 +13,7 @@ from pathlib import Path
 ASKED = re.compile(r'(?:\.|->)(?:number|integer|flag|text|choice|file|rows|tables?|vector<\d>)\(\s*"(\w+)"')
 WRITTEN = re.compile(r'\{"(\w+)",|\["(\w+)"\]')
 JSON = "kernel/run/io/parameters_json.cpp"
+HW = "hwmodel/pipeline/model/configuration.h"
 
 
 def of_scenes(root):
@@ -31,9 +33,16 @@ def of_parameters(root):
     return written, set(re.findall(r"\w+", section[1] if section else ""))
 
 
+def of_pipeline(root):
+    """Rows of the table of [hw]; and all words of docs/hardware.md that stand as `hw.word`."""
+    rows = {key: HW for key in re.findall(r'hw_key<[^>]+>\(\s*"(\w+)"', (root / HW).read_text())}
+    return rows, set(re.findall(r"`hw\.(\w+)`", (root / "docs/hardware.md").read_text()))
+
+
 def offences(root):
     found = []
-    for page, (keys, explained) in (("docs/scenes.md", of_scenes(root)), ("docs/automaton.md", of_parameters(root))):
+    for page, (keys, explained) in (("docs/scenes.md", of_scenes(root)), ("docs/automaton.md", of_parameters(root)),
+                                    ("docs/hardware.md", of_pipeline(root))):
         found += [f"{path}: {page} does not explain the key `{key}`" for key, path in keys.items() if key not in explained]
         found += [] if keys else [f"{page}: no key was found in the code: wrong folder, or wrong check"]
     return found
@@ -44,10 +53,11 @@ def self_test():
     fine = {"docs/scenes.md": "`gamma` in `[heat.air]`, and power.\n```toml\nmargin = 1\n```\n",
             reader: 'reader.number("gamma", x); reader->table("air"); frame.vector<3>("margin", y);\n',
             "docs/automaton.md": "## 13. Digest\nfrom\n## 14. Parameters\nheat.{radius}, `grid`\n## 15. Proofs\nuntil\n",
-            json: 'json["grid"] = {{"radius", 3}};\n'}
+            json: 'json["grid"] = {{"radius", 3}};\n',
+            "docs/hardware.md": "`hw.lanes`, lanes and `tile`\n", HW: 'hw_key<&C::lanes>("lanes", 1),\n'}
     planted = [(reader, 'r.number("delta", x);'), (reader, 'r->integer("delta", 1);'), (reader, 'r.vector<3>("delta");'),
                (reader, 'r.tables(\n    "delta");'), (reader, 'r.flag("power", true);'), (reader, "\n"),
-               (json, '{"until", 1}'), (json, '{"from", 1}'), (json, "\n"), ("docs/automaton.md", "## 14. Parameters\ngrid\n")]
+               (json, '{"until", 1}'), (json, '{"from", 1}'), (json, "\n"), (HW, "\n"), (HW, 'hw_key<&C::tile>(\n    "tile", 1)'), ("docs/automaton.md", "## 14. Parameters\ngrid\n")]
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         for changed in [None, *planted]:

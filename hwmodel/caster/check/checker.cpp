@@ -226,90 +226,113 @@ void Checker::entered(int channel, std::int64_t, const Surface* token) {
   compare_surface(behind, of.surface, *token, of);
 }
 
+// Compares what one stage, or two, made of a surface.
+class Checker::SurfacePair {
+ public:
+  SurfacePair(Checker& checker, const Surface& expected, const Surface& actual)
+      : checker_(checker), e(expected), a(actual) {}
+
+  template <class Value>
+  void same(const char* stage, const char* name, const Value& expected, const Value& actual) {
+    checker_.compare(stage, a.id, name, expected, actual, &e.position);
+  }
+  bool matter() const { return e.kind == Surface::Kind::matter; }
+  bool ground() const { return e.kind == Surface::Kind::ground; }
+  bool way() const { return e.kind == Surface::Kind::way; }
+
+  void met(bool clear) {
+    const char* stage = clear ? "stretch" : "met";
+    same(stage, "on ground", e.kind, a.kind);
+    if (clear)
+      same(stage, "leaves", e.clear.leaves, a.clear.leaves), same(stage, "d", e.clear.way, a.clear.way);
+    if (!matter() && !ground() && !way()) return;
+    same(stage, "position", e.position, a.position);
+    if (!clear) same(stage, "depth", e.depth, a.depth);
+    same(stage, "to_eye", e.to_eye, a.to_eye);
+  }
+  void paint(const ExpectedRay& ray) {
+    if (!ground()) return;
+    same("paint", "normal", vec_of(ray.ground_normal), a.normal);
+    if (e.face != Face::top) same("paint", "color", e.color, a.color);  // rock may still come
+  }
+  void texture() {
+    if (ground()) same("texture", "color", e.color, a.color), same("texture", "normal", e.normal, a.normal);
+  }
+  void matter_words() {
+    if (!matter() && !way()) return;
+    same("matter", "liquid", e.matter.liquid, a.matter.liquid);
+    same("matter", "heat", e.matter.heat, a.matter.heat);
+    same("matter", "obstacle", e.matter.obstacle, a.matter.obstacle);
+  }
+  void light() {
+    if (!matter() && !ground() && !way()) return;
+    same("light", "lamp", e.light.lamp, a.light.lamp);
+    same("light", "open", e.light.open, a.light.open);
+    same("light", "glow", e.light.glow, a.light.glow);
+  }
+  void arriving() {
+    if (way()) same("arriving", "inner", e.arriving.light, a.arriving.light);
+    if (matter() || ground()) {
+      same("arriving", "lamp", e.arriving.lamp, a.arriving.lamp);
+      same("arriving", "facing", e.arriving.facing, a.arriving.facing);
+      same("arriving", "lit", e.arriving.lit, a.arriving.lit);
+      same("arriving", "arriving", e.arriving.light, a.arriving.light);
+    }
+    if (matter() || way()) material();
+  }
+  void mirror() {
+    if (!matter()) return;
+    same("mirror", "peak", e.mirrored.peak, a.mirrored.peak);
+    same("mirror", "eye", e.mirrored.eye, a.mirrored.eye);
+    same("mirror", "more", e.mirrored.more, a.mirrored.more);
+    same("mirror", "r", e.mirrored.reflected, a.mirrored.reflected);
+    same("mirror", "around", e.mirrored.around, a.mirrored.around);
+    same("mirror", "free", e.mirrored.free, a.mirrored.free);
+  }
+  void colour(bool clear) {
+    same("colour", "colour", e.sum, a.sum);
+    if (clear && matter()) same("colour", "gleam", e.clear.gleam, a.clear.gleam);
+  }
+
+ private:
+  void material() {
+    same("material", "l", e.mixture.l, a.mixture.l);
+    same("material", "w", e.mixture.w, a.mixture.w);
+    same("material", "diffuse", e.mixture.material.diffuse, a.mixture.material.diffuse);
+    if (way()) return;
+    same("material", "mirror", e.mixture.material.mirror, a.mixture.material.mirror);
+    same("material", "highlight", e.mixture.material.highlight, a.mixture.material.highlight);
+    same("material", "gloss", e.mixture.material.gloss, a.mixture.material.gloss);
+    same("material", "emission", e.mixture.emission, a.mixture.emission);
+  }
+
+  Checker& checker_;
+  const Surface &e, &a;
+};
+
 void Checker::compare_surface(Channel behind, const Surface& e, const Surface& a, const ExpectedRay& ray) {
-  const bool matter = e.kind == Surface::Kind::matter, ground = e.kind == Surface::Kind::ground;
-  const bool clear = expectation_.clear(), way = e.kind == Surface::Kind::way;
-  const char* stage = "";
-  const auto same = [&](const char* name, const auto& expected, const auto& actual) {
-    compare(stage, a.id, name, expected, actual, &e.position);
-  };
+  SurfacePair pair(*this, e, a);
+  const bool clear = expectation_.clear();
   switch (behind) {
     case Channel::met:
-      stage = clear ? "stretch" : "met";
-      same("on ground", e.kind, a.kind);
-      if (clear) same("leaves", e.clear.leaves, a.clear.leaves), same("d", e.clear.way, a.clear.way);
-      if (!matter && !ground && !way) return;
-      same("position", e.position, a.position);
-      if (!clear) same("depth", e.depth, a.depth);
-      same("to_eye", e.to_eye, a.to_eye);
-      return;
+      return pair.met(clear);
     case Channel::normal:
-      stage = "normal";
-      if (matter) same("normal", e.normal, a.normal);
+      if (pair.matter()) pair.same("normal", "normal", e.normal, a.normal);
       return;
     case Channel::paint:
-      stage = "paint";
-      if (ground) same("normal", vec_of(ray.ground_normal), a.normal);
-      if (ground && e.face != Face::top) same("color", e.color, a.color);  // rock may still come
-      return;
+      return pair.paint(ray);
     case Channel::texture:
-      stage = "texture";
-      if (ground) same("color", e.color, a.color), same("normal", e.normal, a.normal);
-      return;
+      return pair.texture();
     case Channel::matter:
-      stage = "matter";
-      if (!matter && !way) return;
-      same("liquid", e.matter.liquid, a.matter.liquid);
-      same("heat", e.matter.heat, a.matter.heat);
-      same("obstacle", e.matter.obstacle, a.matter.obstacle);
-      return;
+      return pair.matter_words();
     case Channel::light:
-      stage = "light";
-      if (!matter && !ground && !way) return;
-      same("lamp", e.light.lamp, a.light.lamp);
-      same("open", e.light.open, a.light.open);
-      same("glow", e.light.glow, a.light.glow);
-      return;
+      return pair.light();
     case Channel::arriving:
-      stage = "arriving";
-      if (way) {
-        same("inner", e.arriving.light, a.arriving.light);
-        stage = "material";
-        same("l", e.mixture.l, a.mixture.l);
-        same("w", e.mixture.w, a.mixture.w);
-        same("diffuse", e.mixture.material.diffuse, a.mixture.material.diffuse);
-        return;
-      }
-      if (!matter && !ground) return;
-      same("lamp", e.arriving.lamp, a.arriving.lamp);
-      same("facing", e.arriving.facing, a.arriving.facing);
-      same("lit", e.arriving.lit, a.arriving.lit);
-      same("arriving", e.arriving.light, a.arriving.light);
-      if (!matter) return;
-      stage = "material";
-      same("l", e.mixture.l, a.mixture.l);
-      same("w", e.mixture.w, a.mixture.w);
-      same("diffuse", e.mixture.material.diffuse, a.mixture.material.diffuse);
-      same("mirror", e.mixture.material.mirror, a.mixture.material.mirror);
-      same("highlight", e.mixture.material.highlight, a.mixture.material.highlight);
-      same("gloss", e.mixture.material.gloss, a.mixture.material.gloss);
-      same("emission", e.mixture.emission, a.mixture.emission);
-      return;
+      return pair.arriving();
     case Channel::mirror:
-      stage = "mirror";
-      if (!matter) return;
-      same("peak", e.mirrored.peak, a.mirrored.peak);
-      same("eye", e.mirrored.eye, a.mirrored.eye);
-      same("more", e.mirrored.more, a.mirrored.more);
-      same("r", e.mirrored.reflected, a.mirrored.reflected);
-      same("around", e.mirrored.around, a.mirrored.around);
-      same("free", e.mirrored.free, a.mirrored.free);
-      return;
+      return pair.mirror();
     case Channel::colour:
-      stage = "colour";
-      same("colour", e.sum, a.sum);
-      if (clear && matter) same("gleam", e.clear.gleam, a.clear.gleam);
-      return;
+      return pair.colour(clear);
     default:
       return;
   }

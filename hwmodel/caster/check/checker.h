@@ -82,6 +82,7 @@ class Checker final : FifoWatcher<TileOrder>,
   template <class Value>
   void compare(const char* stage, const RayId& id, const char* name, const Value& expected,
                const Value& actual, const Vec* position = nullptr);
+  class SurfacePair;
   void compare_surface(Channel behind, const Surface& expected, const Surface& actual,
                        const ExpectedRay& ray);
   // Of rays through clear matter: checker_clear.cpp.

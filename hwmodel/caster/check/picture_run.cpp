@@ -115,14 +115,16 @@ bool PictureReport::found_where_planted() const {
          difference->sample == strike->sample && difference->address == strike->address;
 }
 
-PictureRun::PictureRun(const Registers& registers, Memory& memory, const PictureOptions& options)
+PictureRun::PictureRun(const Registers& registers, Memory& memory, const PictureOptions& options,
+                       const std::optional<Shares>& shares)
     : registers_(registers),
       memory_(memory),
       options_(options),
       plan_(options.fault, options.fault_channel),
       caster_(registers, memory, options_.configuration,
-              options.fault == Fault::none ? PipeMaker(make_pipe) : planted_pipes(plan_)) {
+              options.fault == Fault::none ? PipeMaker(make_pipe) : planted_pipes(plan_), shares) {
   caster_.poll(options.poll);
+  caster_.when_ended([this](const FrameEnd& end) { end_pass(end); });
 }
 
 void PictureRun::forget(const UploadReport& upload) {
@@ -132,43 +134,51 @@ void PictureRun::forget(const UploadReport& upload) {
 
 void PictureRun::draw(const render::PictureScene& scene, const picture::Camera& camera,
                       render::Setting setting, const render::Image& expected) {
-  const bool fast = setting == render::Setting::fast;
-  const int samples = fast ? 1 : setting == render::Setting::normal ? 8 : 32;
-  const int most = setting == render::Setting::best ? 8 : 16;
-  const int width = expected.width, height = expected.height;
-  const std::int64_t second_frame = memory_.frame + frame_bytes(width, height);
-  const Expectation expectation(scene, camera, setting);
-  Checker checker(expectation, caster_, width, height);
-  caster_.watch(options_.compare ? checker.watchers() : Watchers{});
+  begin(scene, camera, setting, expected);
+  finish();
+}
 
-  const std::clock_t begin = std::clock();  // of the processor: the machine may have other work
-  const Window first = fast ? options_.window : with_neighbours(options_.window);
+void PictureRun::begin(const render::PictureScene& scene, const picture::Camera& camera,
+                       render::Setting setting, const render::Image& expected) {
+  begun_ = std::clock();  // of the processor: the machine may have other work
+  drawing_ = std::make_unique<Drawing>(scene, camera, setting, expected, caster_);
+  caster_.watch(options_.compare ? drawing_->checker.watchers() : Watchers{});
+  const Window first = drawing_->fast() ? options_.window : with_neighbours(options_.window);
   caster_.draw_only(first);
-  checker.begin_pass(1, 0, memory_.frame, first);
-  report_.end = caster_.draw_first();
-  if (options_.compare) checker.end_pass(report_.end);
-  report_.all_cycles += report_.end.cycles;
-  report_.passes.push_back({false, report_.end.cycles});
-  if (!fast && !checker.difference() && report_.end.complete) {
-    caster_.draw_only(options_.window);
-    checker.begin_pass(samples, most, second_frame, options_.window);
-    const FrameEnd second = caster_.draw_again(samples, most);
-    report_.all_cycles += second.cycles;
-    report_.passes.push_back({true, second.cycles});
-    if (options_.compare) checker.end_pass(second);
-    const std::int64_t first_cycles = report_.end.cycles;
-    report_.end = second;
-    report_.end.cycles += first_cycles;
-  }
+  drawing_->checker.begin_pass(1, 0, memory_.frame, first);
+  caster_.begin_first();
+}
+
+// Called between two cycles.
+void PictureRun::end_pass(const FrameEnd& end) {
+  Drawing& of = *drawing_;
+  if (options_.compare) of.checker.end_pass(end);
+  report_.all_cycles += end.cycles;
+  report_.passes.push_back({of.second, end.cycles});
+  const std::int64_t before = of.second ? report_.end.cycles : 0;
+  report_.end = end;
+  report_.end.cycles += before;
+  if (of.fast() || of.second || of.checker.difference() || !end.complete) return;
+  of.second = true;
+  caster_.draw_only(options_.window);
+  of.checker.begin_pass(of.samples(), of.most(), of.second_frame(memory_), options_.window);
+  caster_.begin_again(of.samples(), of.most());
+}
+
+void PictureRun::finish() {
+  caster_.run();
   caster_.watch({});
-  report_.seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  const Checker& checker = drawing_->checker;
+  report_.seconds += static_cast<double>(std::clock() - begun_) / CLOCKS_PER_SEC;
   report_.difference = checker.difference();
   report_.compared += checker.compared();
   report_.under_way = checker.ray_under_way();
   if (report_.end.hangs) tell_hang(report_, caster_);
   if (options_.compare && checker.compared() == 0) throw std::logic_error("lock-step compared nothing");
 
-  report_.image = image_of(memory_, fast ? memory_.frame : second_frame, width, height);
+  const render::Image& expected = drawing_->expected;
+  report_.image = image_of(memory_, drawing_->fast() ? memory_.frame : drawing_->second_frame(memory_),
+                           expected.width, expected.height);
   const std::int64_t pixels = compare_bytes(report_, expected, options_.window);
   if (!options_.compare) report_.compared += pixels;
 }

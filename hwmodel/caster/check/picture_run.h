@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <ctime>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hwmodel/caster/check/checker.h"
+#include "hwmodel/caster/check/expectation.h"
 #include "hwmodel/caster/faults/faults.h"
 #include "hwmodel/caster/host/uploader.h"
 #include "hwmodel/caster/model/cost.h"
@@ -77,17 +80,22 @@ struct PictureReport {
 
 class PictureRun {
  public:
-  // Registers and memory are the host's, who may change both between two pictures.
-  PictureRun(const Registers& registers, Memory& memory, const PictureOptions& options);
+  // Registers and memory are the host's, who may change both between two pictures. `shares`: with other
+  // machines; none: it has a simulation and a memory of its own.
+  PictureRun(const Registers& registers, Memory& memory, const PictureOptions& options,
+             const std::optional<Shares>& shares = {});
 
   // The lines that were sent are not those in the caches.
   void forget(const UploadReport& upload);
-  void share(Neighbour* neighbour) { caster_.share(neighbour); }
-  void wait_for_neighbour() { caster_.wait_for_neighbour(); }
   // Draws what registers and memory say. `scene` and `camera` are the same for the software; `expected` is
   // its picture.
   void draw(const render::PictureScene& scene, const picture::Camera& camera, render::Setting setting,
             const render::Image& expected);
+  // The same in two parts. Between them other machines of the simulation may run, and the picture is drawn
+  // meanwhile. What is given to `begin` must live until `finish`, which draws what is left of it.
+  void begin(const render::PictureScene& scene, const picture::Camera& camera, render::Setting setting,
+             const render::Image& expected);
+  void finish();
 
   // What was found so far; after a failure nothing more can be drawn.
   bool good() const { return report_.good(); }
@@ -96,11 +104,35 @@ class PictureRun {
   PictureReport report();
 
  private:
+  struct Drawing {
+    Drawing(const render::PictureScene& scene, const picture::Camera& camera, render::Setting quality,
+            const render::Image& by_software, RayCaster& caster)
+        : setting(quality),
+          expected(by_software),
+          expectation(scene, camera, quality),
+          checker(expectation, caster, by_software.width, by_software.height) {}
+    bool fast() const { return setting == render::Setting::fast; }
+    int samples() const { return setting == render::Setting::normal ? 8 : 32; }  // of the second pass
+    int most() const { return setting == render::Setting::best ? 8 : 16; }
+    std::int64_t second_frame(const Memory& memory) const {
+      return memory.frame + frame_bytes(expected.width, expected.height);
+    }
+
+    render::Setting setting;
+    const render::Image& expected;
+    Expectation expectation;
+    Checker checker;
+    bool second = false;  // pass
+  };
+  void end_pass(const FrameEnd& end);
+
   const Registers& registers_;
   const Memory& memory_;
   PictureOptions options_;
   FaultPlan plan_;
   RayCaster caster_;
+  std::unique_ptr<Drawing> drawing_;
+  std::clock_t begun_ = 0;
   PictureReport report_;
 };
 

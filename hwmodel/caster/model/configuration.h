@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "hwmodel/memory/chosen_memory.h"
 #include "hwmodel/memory/parameters.h"
 
 namespace voxmelt::hwmodel::raycast {
@@ -37,6 +38,7 @@ struct Configuration {
   bool apron = false;                      // bricks of levels hold their apron: a line is a brick
   int level_bits = 2;  // log2 of the places of a line of levels along an axis, without apron: 2 or 3
 
+  memory::Choice memory() const { return {dram, latency, bus_bytes, clock_mhz, memory_trace}; }
   int tiles_in_turn(bool clear) const { return clear ? std::min(tiles, clear_tiles) : tiles; }
 };
 

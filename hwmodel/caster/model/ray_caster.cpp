@@ -1,20 +1,20 @@
 #include "hwmodel/caster/model/ray_caster.h"
 
 #include <cstddef>
-#include <exception>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "hwmodel/caster/model/line_memory.h"
+#include "hwmodel/caster/model/line_block.h"
 #include "hwmodel/caster/model/tile_order.h"
-#include "hwmodel/fabric/process.h"
+#include "hwmodel/fabric/simulation.h"
+#include "hwmodel/memory/chosen_memory.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
 constexpr std::int64_t kHangAfter = 4000;  // cycles in which nothing moves
-constexpr std::int64_t kPollEvery = 4096;
 
 int tiles_along(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 
@@ -61,12 +61,14 @@ std::int64_t frame_bytes(int width, int height) {
 }
 
 struct RayCaster::Machine {
-  Machine(const Registers& r, Memory& m, const Configuration& c, const PipeMaker& make)
-      : registers(r),
-        memory(m),
-        configuration(c),
-        clock("clock", 1, sc_core::SC_NS),
-        memory_block(make_line_memory(m, c)) {
+  Machine(const Registers& r, Memory& m, const Configuration& c, const PipeMaker& make, Simulation& in,
+          const std::optional<Shares>& shares)
+      : simulation(in), part(in), registers(r), memory(m), configuration(c) {
+    if (!shares) own_memory.emplace(c.memory());
+    lines.emplace(m, shares ? shares->memory : own_memory->memory(), c.bus_bytes, shares ? shares->base : 0);
+    part.hang_after = kHangAfter;
+    part.done = [this] { return lines->counts().written_bytes == bytes_at_end; };
+    part.ended = [this] { end_pass(); };
     const auto count = static_cast<std::size_t>(c.pipes);
     for (std::size_t i = 0; i < count; ++i) {
       const std::string pipe = "pipe " + std::to_string(i) + ": ";
@@ -82,42 +84,33 @@ struct RayCaster::Machine {
       pipes.push_back(make(registers, frame, memory, configuration, static_cast<int>(i)));
       pipes.back()->connect(jobs.back()->fifo(), requests.back()->fifo(), replies.back()->fifo());
       dealer.connect(jobs.back()->fifo());
-      memory_block->connect(requests.back()->fifo(), replies.back()->fifo());
+      lines->connect(requests.back()->fifo(), replies.back()->fifo());
     }
     make_blocks();
   }
 
   void make_blocks() {
     const auto add = [&](const std::string& name, std::function<void()> cycle) {
-      blocks.push_back(std::make_unique<Block>(name.c_str(), clock, shared, std::move(cycle)));
+      blocks.push_back(std::make_unique<Block>(name.c_str(), simulation, part, std::move(cycle)));
     };
     add("dealer", [this] {
-      shared.moves += dealer.cycle() ? 1 : 0;
+      part.moves += dealer.cycle() ? 1 : 0;
       for (const auto& link : jobs) link->tick();
     });
     for (std::size_t i = 0; i < pipes.size(); ++i)
       add("pipe_" + std::to_string(i), [this, i] {
         try {
-          shared.moves += pipes[i]->cycle();
+          part.moves += pipes[i]->cycle();
         } catch (const WidthError& error) {
           throw StageError(error.what(), pipes[i]->running().name());
         }
         requests[i]->tick();
       });
     add("memory", [this] {
-      shared.moves += memory_block->cycle(shared.cycle()) ? 1 : 0;
+      part.moves += lines->cycle() ? 1 : 0;
+      if (own_memory) part.moves += own_memory->memory().cycle() ? 1 : 0;
       for (const auto& link : replies) link->tick();
-      watch_progress();
     });
-  }
-
-  void watch_progress() {
-    idle = shared.moves == moves_before ? idle + 1 : 0;
-    moves_before = shared.moves;
-    shared.complete = memory_block->counts().written_bytes == bytes_at_end;
-    shared.hangs = idle > kHangAfter;
-    if (shared.complete || shared.hangs) shared.end();
-    if (poll && shared.cycle() % kPollEvery == 0) poll();
   }
 
   std::int64_t bytes_dealt() const {
@@ -128,7 +121,7 @@ struct RayCaster::Machine {
     return tiles * kTileBytes;
   }
 
-  FrameEnd run_pass(bool second, int samples, int most) {
+  void begin_pass(bool second, int samples, int most) {
     const std::int64_t bytes = frame_bytes(registers.camera.width, registers.camera.height);
     frame = {second ? memory.frame : 0,
              second ? memory.frame + bytes : memory.frame,
@@ -138,36 +131,29 @@ struct RayCaster::Machine {
              most,
              window};
     dealer.begin(frame, configuration.bands, second);
-    bytes_at_end = memory_block->counts().written_bytes + bytes_dealt();
-    shared.complete = shared.hangs = false;
-    shared.last_cycle = kNever;
-    idle = 0;
-    memory_block->begin();
-
-    context.enter();
-    shared.first_cycle = ran ? Shared::now() + 1 : 0;
-    ran = true;
-    sc_core::sc_start();
-    context.leave();
-    for (const auto& pipe : pipes) pipe->end_pass();
-    if (shared.error) std::rethrow_exception(std::exchange(shared.error, nullptr));
-    return {shared.last_cycle + 1, shared.complete, shared.hangs};
+    bytes_at_end = lines->counts().written_bytes + bytes_dealt();
+    if (own_memory) own_memory->begin_job();
+    simulation.begin(part);
   }
 
-  std::function<void()> poll;
-  std::int64_t moves_before = 0, idle = 0, bytes_at_end = 0;
-  bool ran = false;
-  Context context;  // first: everything of SystemC lives in it
-  Shared shared;
+  FrameEnd last() const { return {part.end().cycles, part.end().complete, part.end().hangs}; }
+  void end_pass() {
+    for (const auto& pipe : pipes) pipe->end_pass();
+    if (when_ended) when_ended(last());
+  }
+
+  Simulation& simulation;
+  Part part;
+  std::function<void(const FrameEnd&)> when_ended;
+  std::int64_t bytes_at_end = 0;
   const Registers& registers;
   Memory& memory;
   Configuration configuration;
   FrameRegisters frame;
   Window window;
-  sc_core::sc_clock clock;
   Dealer dealer;
-  std::unique_ptr<LineMemory> memory_block;
-  Neighbour* neighbour = nullptr;
+  std::optional<memory::ChosenMemory> own_memory;  // none: it is somebody else's
+  std::optional<LineBlock> lines;
   std::vector<std::unique_ptr<Link<TileJob>>> jobs;
   std::vector<std::unique_ptr<Link<LineRequest>>> requests;
   std::vector<std::unique_ptr<Link<LineReply>>> replies;
@@ -176,11 +162,16 @@ struct RayCaster::Machine {
 };
 
 RayCaster::RayCaster(const Registers& registers, Memory& memory, const Configuration& configuration,
-                     const PipeMaker& make)
-    : machine_(std::make_unique<Machine>(registers, memory, configuration, make)) {
-  machine_->context.leave();
+                     const PipeMaker& make, const std::optional<Shares>& shares)
+    : own_(shares ? nullptr : std::make_unique<Simulation>()),
+      simulation_(shares ? shares->simulation : *own_) {
+  const Simulation::Scope scope(simulation_);
+  machine_ = std::make_unique<Machine>(registers, memory, configuration, make, simulation_, shares);
 }
-RayCaster::~RayCaster() { machine_->context.enter(); }
+RayCaster::~RayCaster() {
+  const Simulation::Scope scope(simulation_);
+  machine_.reset();
+}
 
 void RayCaster::watch(const Watchers& watchers) {
   for (const auto& pipe : machine_->pipes) pipe->watch(watchers);
@@ -188,22 +179,30 @@ void RayCaster::watch(const Watchers& watchers) {
   for (const auto& link : machine_->requests) link->fifo().watch(watchers.requests);
   for (const auto& link : machine_->replies) link->fifo().watch(watchers.replies);
 }
-void RayCaster::stop() { machine_->shared.end(); }
-void RayCaster::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
-
-void RayCaster::share(Neighbour* neighbour) {
-  machine_->neighbour = neighbour;
-  machine_->memory_block->share(neighbour);
-}
-void RayCaster::wait_for_neighbour() {
-  machine_->memory_block->begin();
-  for (std::int64_t now = 0; !machine_->neighbour->done(); ++now) machine_->memory_block->cycle(now);
-}
+void RayCaster::stop() { machine_->part.stop(); }
+void RayCaster::poll(std::function<void()> poll) { machine_->part.poll = std::move(poll); }
 
 void RayCaster::draw_only(const Window& window) { machine_->window = window; }
 
-FrameEnd RayCaster::draw_first() { return machine_->run_pass(false, 1, 0); }
-FrameEnd RayCaster::draw_again(int samples, int most) { return machine_->run_pass(true, samples, most); }
+void RayCaster::begin_first() { machine_->begin_pass(false, 1, 0); }
+void RayCaster::begin_again(int samples, int most) { machine_->begin_pass(true, samples, most); }
+void RayCaster::when_ended(std::function<void(const FrameEnd&)> call) {
+  machine_->when_ended = std::move(call);
+}
+FrameEnd RayCaster::draw_first() {
+  begin_first();
+  run();
+  return machine_->last();
+}
+FrameEnd RayCaster::draw_again(int samples, int most) {
+  begin_again(samples, most);
+  run();
+  return machine_->last();
+}
+void RayCaster::run() {
+  while (machine_->part.works()) simulation_.run(machine_->part);
+  machine_->part.rethrow();
+}
 
 void RayCaster::forget(std::size_t i, const std::vector<std::int64_t>& lines) {
   for (const auto& pipe : machine_->pipes) pipe->forget(i, lines);
@@ -212,17 +211,15 @@ void RayCaster::forget_all() {
   for (const auto& pipe : machine_->pipes) pipe->forget_all();
 }
 
-std::int64_t RayCaster::cycle() const { return machine_->shared.cycle(); }
+std::int64_t RayCaster::cycle() const { return machine_->part.cycle(); }
 int RayCaster::pipes() const { return machine_->configuration.pipes; }
 const Pipe& RayCaster::pipe(int i) const { return *machine_->pipes[static_cast<std::size_t>(i)]; }
 MemoryCounts RayCaster::memory_counts() const {
-  MemoryCounts counts = machine_->memory_block->counts();
-  counts.dram = machine_->memory_block->dram_counts();
-  if (counts.dram) {  // in cycles of the machine, as of the other memory
-    const memory::Parameters& p = *machine_->configuration.dram;
-    counts.bus_cycles =
-        counts.dram->busy * machine_->configuration.clock_mhz / (std::int64_t{p.mhz} * p.channels);
-  }
+  const LineCounts& lines = machine_->lines->counts();
+  MemoryCounts counts{lines.reads, lines.read_bytes, lines.written_bytes, lines.bus_cycles, {}};
+  if (!machine_->own_memory) return counts;  // what else the memory does is its owner's to tell
+  counts.dram = machine_->own_memory->dram_counts();
+  if (counts.dram) counts.bus_cycles = machine_->own_memory->bus_cycles();
   return counts;
 }
 

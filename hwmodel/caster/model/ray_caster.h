@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -13,9 +14,14 @@
 
 #include "hwmodel/caster/model/configuration.h"
 #include "hwmodel/caster/model/layout.h"
-#include "hwmodel/caster/model/line_memory.h"
 #include "hwmodel/caster/model/pipe.h"
 #include "hwmodel/caster/model/registers.h"
+#include "hwmodel/fabric/memory_port.h"
+#include "hwmodel/memory/counts.h"
+
+namespace voxmelt::hwmodel {
+class Simulation;
+}
 
 namespace voxmelt::hwmodel::raycast {
 
@@ -24,11 +30,24 @@ struct FrameEnd {
   bool complete = false, hangs = false;
 };
 
+struct MemoryCounts {
+  std::int64_t reads = 0, read_bytes = 0, written_bytes = 0, bus_cycles = 0;
+  std::optional<memory::Counts> dram;
+};
+
+// What a ray caster shares with other machines: a simulation, and a memory in which its bytes begin at
+// `base`.
+struct Shares {
+  Simulation& simulation;
+  memory::Memory& memory;
+  std::int64_t base;
+};
+
 class RayCaster {
  public:
   // Registers and memory belong to the host, who may change both between two frames.
   RayCaster(const Registers& registers, Memory& memory, const Configuration& configuration,
-            const PipeMaker& make = make_pipe);
+            const PipeMaker& make = make_pipe, const std::optional<Shares>& shares = {});
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
@@ -36,9 +55,6 @@ class RayCaster {
   void watch(const Watchers& watchers);
   void stop();  // after the present cycle
   void poll(std::function<void()> poll);
-  // Of the memory, while it draws; null: with nobody.
-  void share(Neighbour* neighbour);
-  void wait_for_neighbour();  // without drawing, until it is done
 
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {
@@ -50,9 +66,15 @@ class RayCaster {
 
   // From now on; other pixels keep bytes of no meaning.
   void draw_only(const Window& window);
-  // Draws every pixel with one sample: into the frame at Memory::frame.
+  // Begins to draw every pixel with one sample: into the frame at Memory::frame.
+  void begin_first();
+  // Those that differ by more than `most` with so many samples: into the frame behind it.
+  void begin_again(int samples, int most);
+  // Called when a pass has ended; it may begin another one, from the next cycle on.
+  void when_ended(std::function<void(const FrameEnd&)> call);
+  void run();  // until a pass has ended and begun no other; throws what a stage has thrown
+  // One pass alone.
   FrameEnd draw_first();
-  // Draws those that differ by more than `most` with so many samples: into the frame behind it.
   FrameEnd draw_again(int samples, int most);
 
   // After an upload: lines of volume i (Pipe::caches) are others; or all is new.
@@ -66,6 +88,8 @@ class RayCaster {
 
  private:
   struct Machine;
+  std::unique_ptr<Simulation> own_;  // none: it is in somebody else's
+  Simulation& simulation_;
   std::unique_ptr<Machine> machine_;
 };
 

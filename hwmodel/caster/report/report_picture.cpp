@@ -66,15 +66,11 @@ nlohmann::ordered_json bounds(const PictureReport& report, const Configuration& 
           {"fill_and_drain", reached / share(a, a.busy + a.fill + a.drain)},
           {"reached", reached},
           {"bytes_per_cycle", bytes},
-          {"most_bytes_per_cycle", most_bytes_per_cycle(c)},
+          {"most_bytes_per_cycle", c.memory().most_bytes_per_cycle()},
           {"rays_per_byte", reached / bytes}};
 }
 
 }  // namespace
-
-double most_bytes_per_cycle(const Configuration& c) {
-  return c.dram ? static_cast<double>(c.dram->peak()) / c.clock_mhz : c.bus_bytes;
-}
 
 nlohmann::ordered_json json_of(const UploadReport& upload) {
   nlohmann::ordered_json json{{"whole", upload.whole},
@@ -130,32 +126,59 @@ std::string table_of(const PictureReport& report, const Configuration& c) {
   return text;
 }
 
-nlohmann::ordered_json json_of(const PictureReport& report, const Configuration& c) {
-  using Json = nlohmann::ordered_json;
-  const auto cache_shape = [](const CacheShape& cache) {
-    return Json{{"sets", cache.sets}, {"ways", cache.ways}, {"spare", cache.spare}, {"queue", cache.queue}};
-  };
-  Json json;
-  json["good"] = report.good();
-  json["configuration"] = {{"pipes", c.pipes},
-                           {"rays", c.rays},
-                           {"walkers", c.walkers},
-                           {"searchers", c.searchers},
-                           {"fifo_depth", c.fifo_depth},
-                           {"stall_seed", c.stall_seed},
-                           {"tiles", c.tiles},
-                           {"clear_tiles", c.clear_tiles},
-                           {"bands", c.bands},
-                           {"clock_mhz", c.clock_mhz},
-                           {"memory", c.dram ? c.dram->name : "fixed"},
-                           {"latency", c.latency},
-                           {"bus_bytes", c.bus_bytes},
-                           {"apron", c.apron},
-                           {"level_bits", c.level_bits},
-                           {"levels", cache_shape(c.levels)},
-                           {"matter", cache_shape(c.matter)},
-                           {"light", cache_shape(c.light)},
-                           {"ground", cache_shape(c.ground)}};
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const CacheShape& cache) {
+  return {{"sets", cache.sets}, {"ways", cache.ways}, {"spare", cache.spare}, {"queue", cache.queue}};
+}
+
+Json json_of(const Configuration& c) {
+  return {{"pipes", c.pipes},
+          {"rays", c.rays},
+          {"walkers", c.walkers},
+          {"searchers", c.searchers},
+          {"fifo_depth", c.fifo_depth},
+          {"stall_seed", c.stall_seed},
+          {"tiles", c.tiles},
+          {"clear_tiles", c.clear_tiles},
+          {"bands", c.bands},
+          {"clock_mhz", c.clock_mhz},
+          {"memory", c.dram ? c.dram->name : "fixed"},
+          {"latency", c.latency},
+          {"bus_bytes", c.bus_bytes},
+          {"apron", c.apron},
+          {"level_bits", c.level_bits},
+          {"levels", json_of(c.levels)},
+          {"matter", json_of(c.matter)},
+          {"light", json_of(c.light)},
+          {"ground", json_of(c.ground)}};
+}
+
+Json json_of(const StageAccount& stage) {
+  const Account& a = stage.account;
+  return {{"name", stage.name}, {"busy", a.busy}, {"starved", a.starved}, {"blocked", a.blocked},
+          {"memory", a.memory}, {"fill", a.fill}, {"drain", a.drain}};
+}
+
+Json json_of(const CacheAccount& cache) {
+  return {{"name", cache.name},
+          {"lookups", cache.counts.lookups},
+          {"misses", cache.counts.misses},
+          {"line_bytes", cache.line_bytes}};
+}
+
+Json json_of(const Difference& d) {
+  Json json{{"stage", d.stage},       {"x", d.x},          {"y", d.y},
+            {"sample", d.sample},     {"cycle", d.cycle},  {"name", d.name},
+            {"expected", d.expected}, {"actual", d.actual}};
+  if (d.address >= 0) json["address"] = d.address;
+  return json;
+}
+
+// What the machine did: cycles, and what moved.
+void add_counts(Json& json, const PictureReport& report) {
   json["cycles"] = report.all_cycles;
   json["cycles_of_last_frame"] = report.end.cycles;
   for (const PassCycles& pass : report.passes)
@@ -171,34 +194,21 @@ nlohmann::ordered_json json_of(const PictureReport& report, const Configuration&
                     {"written_bytes", report.memory.written_bytes},
                     {"bus_cycles", report.memory.bus_cycles},
                     {"stored_bytes", report.memory_bytes}};
+}
+
+}  // namespace
+
+Json json_of(const PictureReport& report, const Configuration& c) {
+  Json json{{"good", report.good()}, {"configuration", json_of(c)}};
+  add_counts(json, report);
   if (report.memory.dram) json["dram"] = memory_json(*report.memory.dram, *c.dram);
   if (!report.cost.channels.empty()) json["pipe"] = json_of(report.cost);
   json["uploads"] = Json::array();
   for (const UploadReport& upload : report.uploads) json["uploads"].push_back(json_of(upload));
-  for (const StageAccount& stage : report.stages) {
-    const Account& a = stage.account;
-    json["stages"].push_back({{"name", stage.name},
-                              {"busy", a.busy},
-                              {"starved", a.starved},
-                              {"blocked", a.blocked},
-                              {"memory", a.memory},
-                              {"fill", a.fill},
-                              {"drain", a.drain}});
-  }
-  for (const CacheAccount& cache : report.caches)
-    json["caches"].push_back({{"name", cache.name},
-                              {"lookups", cache.counts.lookups},
-                              {"misses", cache.counts.misses},
-                              {"line_bytes", cache.line_bytes}});
+  for (const StageAccount& stage : report.stages) json["stages"].push_back(json_of(stage));
+  for (const CacheAccount& cache : report.caches) json["caches"].push_back(json_of(cache));
   if (report.good() && !report.stages.empty()) json["rays_per_cycle"] = bounds(report, c);
-  if (report.difference) {
-    const Difference& d = *report.difference;
-    json["difference"] = {{"stage", d.stage},       {"x", d.x},          {"y", d.y},
-                          {"sample", d.sample},     {"cycle", d.cycle},  {"name", d.name},
-                          {"expected", d.expected}, {"actual", d.actual}};
-    if (d.address >= 0) json["difference"]["address"] = d.address;
-    if (d.address >= 0) json["difference"]["address"] = d.address;
-  }
+  if (report.difference) json["difference"] = json_of(*report.difference);
   if (report.strike)
     json["planted"] = {{"stage", report.strike->stage},
                        {"x", report.strike->x},

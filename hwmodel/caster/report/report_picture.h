@@ -11,7 +11,6 @@ namespace voxmelt::hwmodel::raycast {
 std::string table_of(const PictureReport& report, const Configuration& configuration);
 nlohmann::ordered_json json_of(const PictureReport& report, const Configuration& configuration);
 nlohmann::ordered_json json_of(const UploadReport& upload);
-double most_bytes_per_cycle(const Configuration& configuration);  // that its memory could move
 std::string verdict_text(const PictureReport& report);
 
 }  // namespace voxmelt::hwmodel::raycast

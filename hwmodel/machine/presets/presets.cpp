@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "hwmodel/machine/presets/caster_preset.h"
 #include "kernel/scene/text/compose.h"
@@ -12,19 +13,16 @@ namespace voxmelt::hwmodel {
 namespace {
 
 void read_pipeline(scene::Reader& hw, Configuration& c) {
-  c.lanes = static_cast<int>(hw.integer("lanes", 1, kMostLanes, c.lanes));
-  if (!std::has_single_bit(static_cast<unsigned>(c.lanes)))
-    hw.fail("lanes", " = " + std::to_string(c.lanes) + " is not one of 1, 2, 4, 8, 16, 32");
-  c.cascade = static_cast<int>(hw.integer("cascade", 1, kMostCascade, c.cascade));
-  c.fifo_depth = static_cast<int>(hw.integer("fifo_depth", 1, kMostDepth, c.fifo_depth));
-  c.stall_seed = static_cast<std::uint64_t>(hw.integer("stall_seed", 0, INT64_MAX, 0));
-  c.substeps = static_cast<int>(hw.integer("substeps", 1, kMostSubsteps, c.substeps));
-  c.tile = static_cast<int>(hw.integer("tile", 0, kMostTile, c.tile));
+  for (const HwKey& key : kHwKeys) {
+    const std::string name(key.name);
+    const std::int64_t value = hw.integer(name, key.low, key.high, key.get(c));
+    if (key.power_of_two && !std::has_single_bit(static_cast<std::uint64_t>(value)))
+      hw.fail(name, " = " + std::to_string(value) + " is not a power of 2: " + std::string(key.values));
+    key.set(c, value);
+  }
   if (c.tile % c.lanes != 0)
     hw.fail("tile",
             " = " + std::to_string(c.tile) + " is not a multiple of lanes = " + std::to_string(c.lanes));
-  c.overlap = hw.integer("overlap", 0, 1, c.overlap ? 1 : 0) == 1;
-  c.coded = hw.integer("coded", 0, 1, c.coded ? 1 : 0) == 1;
   for (scene::Reader& channel : hw.tables("channel")) {
     c.depths.push_back({channel.text("name"), static_cast<int>(channel.integer("depth", 1, kMostDepth))});
     channel.finish();

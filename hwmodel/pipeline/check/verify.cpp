@@ -37,7 +37,9 @@ int steps_of_pass(const Design& design, const Configuration& configuration, std:
   return static_cast<int>(steps);
 }
 
-class Run {
+}  // namespace
+
+class Lockstep::Run {
  public:
   Run(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
       const step::Implementation& fast, const step::Tuning& tuning, const VerifyOptions& options)
@@ -46,7 +48,8 @@ class Run {
         pipeline_(parameters, start.grid, options.configuration,
                   options.make                   ? options.make
                   : options.fault == Fault::none ? StageMaker(make_stage)
-                                                 : planted_stages(plan_)),
+                                                 : planted_stages(plan_),
+                  options.simulation),
         channel_fault_(plan_, pipeline_),
         tile_fault_(plan_, pipeline_),
         irradiance_fault_(plan_, pipeline_),
@@ -209,13 +212,14 @@ class Run {
     code_fault_.begin_train();
     feed_checker_.begin_train(software_.irradiance());
     add_pass(first);
-    Pass last = first;
+    std::vector<Pass> passes{first};
     const auto next = [&]() -> std::optional<Pass> {
-      std::optional<Pass> pass = next_pass(last);
-      if (pass) last = *pass;
+      std::optional<Pass> pass = next_pass(passes.back());
+      if (pass) passes.push_back(*pass);
       return pass;
     };
-    if (!run_model(first, next, software_.irradiance())) return false;
+    if (!run_model(passes, next, software_.irradiance())) return false;
+    const Pass& last = passes.back();
     last_tile_ = last.tile;
     if (!is_last_tile(last)) return true;
     report_.cell_steps +=
@@ -253,7 +257,9 @@ class Run {
   }
 
   // False when a mismatch was found.
-  bool run_model(const Pass& first, const Pipeline::Next& next, const step::Irradiance* irradiance) {
+  bool run_model(const std::vector<Pass>& passes, const Pipeline::Next& next,
+                 const step::Irradiance* irradiance) {
+    const Pass first = passes.front();
     const auto begin = std::chrono::steady_clock::now();
     PassEnd end;
     if (waves_) waves_->begin_train(report_.cycles);
@@ -299,6 +305,7 @@ class Run {
     if (checker_.mismatch() != nullptr) report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
     if (report_.mismatch == nullptr && end.hangs)
       report_.mismatch = std::make_unique<Mismatch>(hang_of(pipeline_, first, end.cycles));
+    if (options_.streamed) options_.streamed(passes, stream ? &*stream : nullptr);
     return report_.mismatch == nullptr;
   }
 
@@ -358,7 +365,11 @@ class Run {
   bool stopped_ = false;  // by who visits
 };
 
-}  // namespace
+Lockstep::Lockstep(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
+                   const step::Implementation& fast, const step::Tuning& tuning, const VerifyOptions& options)
+    : run_(std::make_unique<Run>(parameters, start, first_step, fast, tuning, options)) {}
+Lockstep::~Lockstep() = default;
+VerifyReport Lockstep::run() { return run_->run(); }
 
 bool VerifyReport::found_where_planted() const {
   if (!strike || mismatch == nullptr) return false;
@@ -369,7 +380,7 @@ bool VerifyReport::found_where_planted() const {
 VerifyReport verify(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
                     const step::Implementation& fast, const step::Tuning& tuning,
                     const VerifyOptions& options) {
-  return Run(parameters, start, first_step, fast, tuning, options).run();
+  return Lockstep(parameters, start, first_step, fast, tuning, options).run();
 }
 
 }  // namespace voxmelt::hwmodel

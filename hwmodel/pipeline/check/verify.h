@@ -34,6 +34,9 @@ struct VerifyOptions {
   bool timeline = false;           // note what every stage did when
   StageMaker make;                 // of the stages; empty: those of `fault`
   StreamMemory* memory = nullptr;  // that the pipeline waits for; the closed form of its cycles does not hold
+  Simulation* simulation = nullptr;  // in which other machines may run, too; null: one of its own
+  // Called after every train, with its passes.
+  std::function<void(const std::vector<Pass>& passes, const IrradianceStream* irradiance)> streamed;
 };
 
 // Passes that followed one another without a gap.
@@ -82,6 +85,22 @@ inline Verdict verdict_of(const VerifyReport& report, bool planted) {
   if (!planted) return Verdict::good;
   return report.strike ? Verdict::failed : Verdict::never_struck;
 }
+
+// The same in two parts: the constructor makes the pipeline, as long as its simulation has not run yet. All
+// that is given must live as long.
+class Lockstep {
+ public:
+  Lockstep(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,
+           const step::Implementation& fast, const step::Tuning& tuning, const VerifyOptions& options);
+  Lockstep(const Lockstep&) = delete;
+  Lockstep& operator=(const Lockstep&) = delete;
+  ~Lockstep();
+  VerifyReport run();
+
+ private:
+  class Run;
+  std::unique_ptr<Run> run_;
+};
 
 // Verifies from `start`, the state before step number `first_step`. With radiation that must be a step of
 // visibility. Throws std::logic_error if nothing was compared.

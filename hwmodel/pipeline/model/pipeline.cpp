@@ -2,10 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <utility>
 
-#include "hwmodel/fabric/process.h"
+#include "hwmodel/fabric/simulation.h"
 #include "hwmodel/pipeline/model/blocks.h"
 #include "hwmodel/pipeline/model/feed.h"
 #include "hwmodel/pipeline/model/tiling.h"
@@ -14,16 +13,16 @@ namespace voxmelt::hwmodel {
 namespace {
 
 constexpr std::int64_t kHangAfter = 1000;  // cycles in which no stage moves
-constexpr std::int64_t kPollEvery = 4096;  // cycles
 
 }  // namespace
 
 struct Pipeline::Machine {
   Machine(const rule::Parameters& parameters, state::Grid grid, const Configuration& c,
-          const StageMaker& make)
-      : configuration(c),
+          const StageMaker& make, Simulation& in)
+      : simulation(in),
+        part(in),
+        configuration(c),
         design(design_of(parameters, grid, c)),
-        clock("clock", 1, sc_core::SC_NS),
         memory(make_memory(design, c)),
         reader(design.shape, memory),
         writer(design.shape, memory) {
@@ -65,17 +64,19 @@ struct Pipeline::Machine {
   }
 
   void make_blocks() {
+    part.hang_after = kHangAfter;
+    part.done = [this] { return writer.done() && (dram == nullptr || dram->settled()); };
     const auto add = [&](const std::string& name, std::function<void()> cycle) {
-      blocks.push_back(std::make_unique<Block>(name.c_str(), clock, shared, std::move(cycle)));
+      blocks.push_back(std::make_unique<Block>(name.c_str(), simulation, part, std::move(cycle)));
     };
     add("reader", [this] {
-      if (reader.cycle(shared.cycle()) && next) follow(next());
+      if (reader.cycle(part.cycle()) && next) follow(next());
       links.front()->tick();
     });
     for (std::size_t t = 0; t < steps.size(); ++t)
       add("step_" + std::to_string(t), [this, t] {
         try {
-          shared.moves += steps[t]->cycle();
+          part.moves += steps[t]->cycle();
         } catch (const WidthError& error) {
           fail(error, StageError::Kind::width, t);
         } catch (const ModelError& error) {  // an address, or a token that is not there
@@ -85,19 +86,17 @@ struct Pipeline::Machine {
       });
     for (std::size_t t = 0; t < feeds.size(); ++t)
       add("feed_" + std::to_string(t), [this, t] {
-        feeds[t]->cycle(shared.cycle());
+        feeds[t]->cycle(part.cycle());
         feed_links[t]->tick();
       });
     add("writer", [this] {
-      writer.cycle(shared.cycle());
-      if (dram != nullptr) dram->cycle(shared.cycle());
-      if (after.watch) after.tick();
-      watch_progress();
+      writer.cycle(part.cycle());
+      if (dram != nullptr) dram->cycle(part.cycle());
     });
   }
 
   [[noreturn]] void fail(const ModelError& error, StageError::Kind kind, std::size_t t) const {
-    throw StageError(error.what(), kind, steps[t]->running(), static_cast<int>(t), shared.cycle());
+    throw StageError(error.what(), kind, steps[t]->running(), static_cast<int>(t), part.cycle());
   }
 
   void begin(const Pass& pass, bool first) {
@@ -123,16 +122,6 @@ struct Pipeline::Machine {
       if (fed(*pass, t)) feeds[t]->add_pass(pass->tile);
   }
 
-  // Runs once a cycle.
-  void watch_progress() {
-    idle = shared.moves == moves_before ? idle + 1 : 0;
-    moves_before = shared.moves;
-    shared.hangs = idle > kHangAfter;
-    shared.complete = writer.done();
-    if (shared.complete || shared.hangs) shared.end();
-    if (poll && shared.cycle() % kPollEvery == 0) poll();
-  }
-
   using BuffersOf = std::vector<BufferCost> (*)(const CodeLayout&);
   std::vector<BufferCost> buffers(BuffersOf of) const {
     return memory.coded() ? of(memory.read_code().layout()) : std::vector<BufferCost>{};
@@ -156,18 +145,13 @@ struct Pipeline::Machine {
           [&](CellFifo& fifo, const Stage& producer) { visit(fifo, &producer, static_cast<int>(t)); });
   }
 
-  std::int64_t moves_before = 0, idle = 0;
   int passes = 0;  // of the present train
   Next next;
   StreamMemory* dram = nullptr;
-  std::function<void()> poll;
-  bool ran = false;
-  Context context;  // first: everything of SystemC lives in it
-  AfterCycle after;
-  Shared shared;
+  Simulation& simulation;
+  Part part;
   Configuration configuration;
   Design design;
-  sc_core::sc_clock clock;
   StateMemory memory;
   Reader reader;
   Writer writer;
@@ -179,12 +163,17 @@ struct Pipeline::Machine {
 };
 
 Pipeline::Pipeline(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration,
-                   const StageMaker& make)
-    : machine_(std::make_unique<Machine>(parameters, grid, configuration, make)) {
-  machine_->context.leave();
+                   const StageMaker& make, Simulation* simulation)
+    : own_(simulation == nullptr ? std::make_unique<Simulation>() : nullptr),
+      simulation_(simulation == nullptr ? *own_ : *simulation) {
+  const Simulation::Scope scope(simulation_);
+  machine_ = std::make_unique<Machine>(parameters, grid, configuration, make, simulation_);
 }
 
-Pipeline::~Pipeline() { machine_->context.enter(); }
+Pipeline::~Pipeline() {
+  const Simulation::Scope scope(simulation_);
+  machine_.reset();
+}
 
 void Pipeline::watch(FifoWatcher<Cell>* watcher) {
   machine_->for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.watch(watcher); });
@@ -197,15 +186,15 @@ void Pipeline::memory(StreamMemory* memory) {
   for (const auto& feed : m.feeds) feed->dram(memory);
 }
 
-void Pipeline::poll(std::function<void()> poll) { machine_->poll = std::move(poll); }
+void Pipeline::poll(std::function<void()> poll) { machine_->part.poll = std::move(poll); }
 
 void Pipeline::probe(FifoProbe<Cell>* probe) {
   machine_->for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.probe(probe); });
 }
 
-void Pipeline::each_cycle(std::function<void()> watch) { machine_->after.watch = std::move(watch); }
+void Pipeline::each_cycle(std::function<void()> watch) { machine_->part.each_cycle = std::move(watch); }
 
-void Pipeline::stop() { machine_->shared.end(); }
+void Pipeline::stop() { machine_->part.stop(); }
 
 void Pipeline::plant(PortFault* fault) {
   machine_->reader.plant(fault);
@@ -247,10 +236,6 @@ PassEnd Pipeline::run_pass(const Pass& pass, const Irradiance* irradiance, state
 PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const IrradianceStream* irradiance,
                             state::Volume& volume) {
   Machine& m = *machine_;
-  Shared& shared = m.shared;
-  shared.complete = shared.hangs = false;
-  shared.last_cycle = kNever;
-  m.idle = 0;
   m.passes = 0;
   m.next = next;
   m.for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.begin_pass(pass.first); });
@@ -264,19 +249,15 @@ PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const Irradiance
   for (std::size_t t = 0; t < m.feeds.size(); ++t)
     m.feeds[t]->begin_pass(m.fed(pass, t) ? irradiance : nullptr, pass.tile);
 
-  m.context.enter();
-  shared.first_cycle = m.ran ? Shared::now() + 1 : 0;
-  m.ran = true;
-  sc_core::sc_start();
-  m.context.leave();
+  simulation_.begin(m.part);
+  simulation_.run(m.part);
   m.memory.end_train();
-
-  if (shared.error) std::rethrow_exception(std::exchange(shared.error, nullptr));
-  return {shared.last_cycle + 1, m.passes, shared.complete, shared.hangs};
+  m.part.rethrow();
+  const Part::End& end = m.part.end();
+  return {end.cycles, m.passes, end.complete, end.hangs};
 }
 
-// It is called only within a pass, where the context is entered.
-std::int64_t Pipeline::cycle() const { return machine_->shared.cycle(); }
+std::int64_t Pipeline::cycle() const { return machine_->part.cycle(); }
 const Design& Pipeline::design() const { return machine_->design; }
 const Configuration& Pipeline::configuration() const { return machine_->configuration; }
 

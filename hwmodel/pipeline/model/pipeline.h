@@ -6,7 +6,6 @@
 //                        feed          feed        (irradiance, where the scene has radiation)
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -15,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "hwmodel/pipeline/model/configuration.h"
 #include "hwmodel/pipeline/model/irradiance_stream.h"
 #include "hwmodel/pipeline/model/memory_ports.h"
 #include "hwmodel/pipeline/model/stages.h"
@@ -22,39 +22,6 @@
 #include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::hwmodel {
-
-struct ChannelDepth {
-  std::string name;  // "step 0: gravity -> pattern"
-  int depth = 0;
-};
-
-struct Configuration {
-  int lanes = 4;                       // P: cells per cycle, along x
-  int cascade = 1;                     // T: time steps per pass
-  int fifo_depth = 4;                  // tokens, of every channel
-  std::uint64_t stall_seed = 0;        // 0: no stalls
-  int substeps = 1;                    // viscous law: copies of settle and spread in a time step
-  bool overlap = true;                 // may a pass enter while the last one drains?
-  int tile = 0;                        // cells along x that the memories hold, in whole blocks; 0: the grid
-  bool coded = false;                  // the state in memory has one bit for a token of air
-  std::vector<ChannelDepth> depths{};  // of channels that differ from fifo_depth
-
-  int depth_of(const std::string& channel) const {
-    for (const ChannelDepth& one : depths)
-      if (one.name == channel) return one.depth;
-    return fifo_depth;
-  }
-  // Channels of depth 1 pass a token every second cycle: if all are so, or any, does the stream.
-  int interval() const { return fifo_depth == 1 || has_single() ? 2 : 1; }
-  // Has every channel room for two tokens, or none? Else the cycles have no closed form.
-  bool channels_alike() const { return depths.empty() || (fifo_depth > 1 && !has_single()); }
-  bool has_single() const {
-    return std::any_of(depths.begin(), depths.end(), [](const ChannelDepth& one) { return one.depth == 1; });
-  }
-};
-
-inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024, kMostSubsteps = 64,
-                     kMostTile = 65536;
 
 // A channel: those of the main stream in its order, then the feeds.
 struct ChannelReport {
@@ -84,11 +51,14 @@ struct PassEnd {
   bool hangs = false;
 };
 
+class Simulation;
+
 class Pipeline {
  public:
-  // `make` makes its stages, which may have planted faults.
+  // `make` makes its stages, which may have planted faults. `simulation`: with other machines in it, which go
+  // on while a train runs; null: one of its own.
   Pipeline(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration,
-           const StageMaker& make = make_stage);
+           const StageMaker& make = make_stage, Simulation* simulation = nullptr);
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
@@ -152,6 +122,8 @@ class Pipeline {
 
  private:
   struct Machine;
+  std::unique_ptr<Simulation> own_;  // none: it is in somebody else's
+  Simulation& simulation_;
   std::unique_ptr<Machine> machine_;
 };
 

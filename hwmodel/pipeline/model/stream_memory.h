@@ -38,6 +38,8 @@ class StreamMemory {
   virtual void written(std::int64_t bits, bool ends, std::int64_t now) = 0;
 
   virtual void cycle(std::int64_t now) = 0;  // once in every cycle of the machine
+  // Has the memory all that was written? A train ends no sooner.
+  virtual bool settled() const { return true; }
 };
 
 }  // namespace voxmelt::hwmodel

@@ -18,6 +18,12 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+json hw_json(const Configuration& configuration) {
+  json of;
+  for (const HwKey& key : kHwKeys) of[std::string(key.name)] = key.get(configuration);
+  return of;
+}
+
 json stage_json(const StageReport& stage) {
   json buffers = json::array();
   for (const BufferCost& b : stage.buffers)
@@ -212,15 +218,7 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
   const Traffic traffic = traffic_of(report);
   json result{{"grid", {g.x, g.y, g.z}},
               {"law", design.paper() ? "paper" : "viscous"},
-              {"hw",
-               {{"lanes", configuration.lanes},
-                {"cascade", configuration.cascade},
-                {"substeps", configuration.substeps},
-                {"overlap", configuration.overlap ? 1 : 0},
-                {"tile", configuration.tile},
-                {"coded", configuration.coded ? 1 : 0},
-                {"fifo_depth", configuration.fifo_depth},
-                {"stall_seed", configuration.stall_seed}}},
+              {"hw", hw_json(configuration)},
               {"tiles",
                {{"count", shape.tiles()},
                 {"columns", shape.tiled() ? shape.blocks() * shape.lanes : g.x},

@@ -14,54 +14,14 @@
 #include "hwmodel/explore/part_list.h"
 #include "hwmodel/explore/schedule.h"
 #include "hwmodel/explore/size_fifos.h"
-#include "hwmodel/machine/dram_streams.h"
 #include "hwmodel/memory/sheet.h"
 #include "hwmodel/pipeline/model/tiling.h"
+#include "hwmodel/pipeline/streams/memory_streams.h"
 #include "hwmodel/pipeline/time/prediction.h"
 #include "tests/kernel/worlds.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
-
-// A train over cells of 50 bits, with irradiance, as of the cello.
-Train train_of(int lanes, int cascade) {
-  Train train;
-  StreamWork& work = train.work;
-  work.passes = 1;
-  work.tokens = 90000 / lanes;
-  work.lag = cascade * std::int64_t{9000} / lanes;
-  work.cycles = work.tokens + work.lag;
-  work.read_bits = work.written_bits = work.tokens * lanes * 50;
-  work.fed_bits = work.tokens * lanes * 16 * cascade;
-  return train;
-}
-
-TEST(Explore, TheTimeOnAMemoryIsThatOfTheSimulation) {
-  int bound = 0;  // by the memory
-  double worst = 0;
-  for (const char* name : {"ddr4-2400", "hbm2", "lpddr4-3200"}) {
-    Question question;
-    question.memory = load_memory(name, "test");
-    for (const int lanes : {4, 8, 16})
-      for (const int cascade : {1, 2, 4, 8})
-        for (const int mhz : {150, 300}) {
-          const Train train = train_of(lanes, cascade);
-          const std::int64_t simulated = simulated_on({train}, mhz, question);
-          const std::int64_t predicted = cycles_on(train.work, *question.memory, mhz);
-          const double error =
-              100. * static_cast<double>(predicted - simulated) / static_cast<double>(simulated);
-          std::printf(
-              "%-12s %2d lanes, %d steps, %d MHz: %lld cycles, without memory %lld, predicted %+.2f %%\n",
-              name, lanes, cascade, mhz, static_cast<long long>(simulated),
-              static_cast<long long>(train.work.cycles), error);
-          EXPECT_LT(std::abs(error), 5) << name << ' ' << lanes << ' ' << cascade << ' ' << mhz;
-          worst = std::max(worst, std::abs(error));
-          bound += simulated > train.work.cycles + train.work.cycles / 10 ? 1 : 0;
-        }
-  }
-  std::printf("worst error %.2f %%, %d of 72 bound by the memory\n", worst, bound);
-  EXPECT_GE(bound, 30);
-}
 
 // A scene with heat and radiation, of which only the shape matters.
 TimedRun timed(int lanes, int cascade, std::int64_t steps) {
@@ -121,7 +81,7 @@ void expect_predicted(Kind kind, int least_bound) {
             free += train.work.cycles;
           }
           EXPECT_EQ(simulated_free, free);
-          DramStreams streams(design, cascade, sheet, mhz);
+          MemoryStreams streams(design, cascade, sheet, mhz);
           const Timing simulated = timing_of(run, &streams);
           ASSERT_FALSE(simulated.hangs);
           const double error = 100. * static_cast<double>(predicted - simulated.cycles) /
@@ -173,7 +133,7 @@ TEST(Explore, OneTokenLessAnywhereCostsCycles) {
       TimedRun one = run;
       one.configuration = configuration;
       const Design design{run.parameters, {run.grid, configuration.lanes}, 1};
-      std::optional<DramStreams> streams;
+      std::optional<MemoryStreams> streams;
       if (memory) streams.emplace(design, configuration.cascade, memory->parameters, memory->clock_mhz);
       const Timing timing = timing_of(one, streams ? &*streams : nullptr);
       return timing.hangs ? INT64_MAX : timing.cycles;

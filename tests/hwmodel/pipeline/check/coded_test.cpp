@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "hwmodel/explore/content.h"
-#include "hwmodel/machine/dram_streams.h"
 #include "hwmodel/memory/sheet.h"
 #include "hwmodel/pipeline/model/feed.h"
 #include "hwmodel/pipeline/model/volume_port.h"
+#include "hwmodel/pipeline/streams/memory_streams.h"
 #include "hwmodel/pipeline/time/prediction.h"
 #include "tests/hwmodel/pipeline/check/lockstep_world.h"
 
@@ -178,7 +178,7 @@ TEST(Code, ADramGivesTheBurstsThatAreCounted) {
     Configuration c{random.any({1, 4, 16}), random.between(1, 3), 4, 0};
     c.coded = seed % 3 != 0;
     const Design design = design_of(start.parameters, grid, c);
-    DramStreams streams(design, c.cascade, sheet, 200);
+    MemoryStreams streams(design, c.cascade, sheet, 200);
     VerifyOptions options;
     options.steps = static_cast<std::uint32_t>(c.cascade);  // one pass, unless sub-steps take more
     options.configuration = c;
@@ -221,7 +221,7 @@ TEST(Columns, ADramGivesThoseOfEachTile) {
     c.coded = seed % 4 < 2;
     c.tile = narrow(start, c, random.between(0, 4));
     const Design design = design_of(start.parameters, grid, c);
-    DramStreams streams(design, c.cascade, sheet, random.any({100, 400}));
+    MemoryStreams streams(design, c.cascade, sheet, random.any({100, 400}));
     VerifyOptions options;
     options.steps = static_cast<std::uint32_t>(c.cascade) * 2;
     options.configuration = c;

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "hwmodel/explore/size_fifos.h"
-#include "hwmodel/machine/dram_streams.h"
 #include "hwmodel/memory/sheet.h"
+#include "hwmodel/pipeline/streams/memory_streams.h"
 #include "tests/hwmodel/pipeline/check/lockstep_world.h"
 
 namespace voxmelt::hwmodel {
@@ -129,7 +129,7 @@ inline VerifyReport run_row(const Start& start, const MatrixRow& row, const Conf
   VerifyOptions options;
   options.steps = steps;
   options.configuration = c;
-  std::optional<DramStreams> streams;
+  std::optional<MemoryStreams> streams;
   if (row[kMemory] > 0)
     streams.emplace(design_of(start.parameters, start.volume.grid, c), c.cascade,
                     load_memory(kMemoryOf[static_cast<std::size_t>(row[kMemory])], "test"), kMatrixClock);

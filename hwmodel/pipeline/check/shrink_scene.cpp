@@ -1,39 +1,23 @@
-#include "app/shrink.h"
+#include "hwmodel/pipeline/check/shrink_scene.h"
 
-#include <fmt/format.h>
-
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <optional>
-#include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
-#include "app/interrupt.h"
-#include "app/shell_word.h"
-#include "hwmodel/pipeline/check/shrink.h"
 #include "kernel/run/io/export.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/io/unfinished.h"
+#include "kernel/run/simulation.h"
 #include "kernel/scene/excerpt.h"
+#include "kernel/scene/text/error.h"
 
-namespace voxmelt::app {
+namespace voxmelt::hwmodel {
 namespace {
 
 namespace fs = std::filesystem;
-using hwmodel::Case;
-using hwmodel::Mismatch;
-
-std::vector<std::string> overrides_of(const Common& common) {
-  std::vector<std::string> sets = common.sets;
-  if (common.seed) sets.push_back(fmt::format("run.seed={}", *common.seed));
-  return sets;
-}
 
 // Without "step 3: " of a channel: a machine with fewer time steps has other numbers.
 std::string stage_of(const std::string& where) {
@@ -69,12 +53,11 @@ class Workplace {
 
 class Search {
  public:
-  Search(const ShrinkRequest& request, const hwmodel::VerifyReport& report)
+  Search(const ShrinkRequest& request, const VerifyReport& report)
       : request_(request),
         report_(report),
-        excerpt_(request.scene.file, overrides_of(request.common)),
-        fast_(find_implementation(request.common)),
-        workplace_(fields_folder(request.file)) {}
+        excerpt_(request.scene.file, request.overrides),
+        workplace_(request.fields) {}
 
   std::vector<std::string> removable() const { return excerpt_.removable(); }
 
@@ -84,7 +67,7 @@ class Search {
 
   // Every case is written and loaded as its user will do it. So what is left in the end can be seen again.
   bool fails(const Case& one) {
-    stop_if_interrupted();
+    if (request_.poll) request_.poll();
     const fs::path& folder = workplace_.folder();
     std::unique_ptr<scene::Scene> scene;
     try {
@@ -94,14 +77,14 @@ class Search {
     } catch (const scene::InputError&) {
       return false;  // this part is no scene of its own
     }
-    hwmodel::VerifyOptions options = request_.options;
+    VerifyOptions options = request_.options;
     options.steps = one.steps;
     options.every = 1;
     options.configuration = one.configuration;
     options.fault_step = one.first_step;
     options.timeline = options.waves = false;
-    const hwmodel::VerifyReport again =
-        hwmodel::verify(scene->parameters, scene->initial, one.first_step, fast_, {}, options);
+    const VerifyReport again =
+        verify(scene->parameters, scene->initial, one.first_step, request_.fast, {}, options);
     if (again.mismatch == nullptr) return false;
     const Mismatch &was = *report_.mismatch, &is = *again.mismatch;
     if (is.kind != was.kind || stage_of(is.where) != stage_of(was.where)) return false;
@@ -111,23 +94,21 @@ class Search {
 
  private:
   const ShrinkRequest& request_;
-  const hwmodel::VerifyReport& report_;
+  const VerifyReport& report_;
   const scene::Excerpt excerpt_;
-  const step::Implementation& fast_;
   Workplace workplace_;
 };
 
 // The state before the step that differs: one step shows it. If it does not, the state from which all of it
 // can be seen again.
-std::optional<Case> first_case(const ShrinkRequest& request, const hwmodel::VerifyReport& report,
-                               Search& search) {
+std::optional<Case> first_case(const ShrinkRequest& request, const VerifyReport& report, Search& search) {
   Case one{*report.replay,
            {},
            report.replay_step,
            report.pass_end - report.replay_step,
            request.options.configuration,
            {}};
-  run::Simulation simulation(request.scene.parameters, one.volume, find_implementation(request.common), {});
+  run::Simulation simulation(request.scene.parameters, one.volume, request.fast, {});
   simulation.begin_at(one.first_step);
   const std::uint32_t step = report.mismatch->step;
   while (simulation.step_number() < step) simulation.step();
@@ -141,23 +122,6 @@ std::optional<Case> first_case(const ShrinkRequest& request, const hwmodel::Veri
   return {};
 }
 
-std::string machine_text(const hwmodel::Configuration& is) {
-  const hwmodel::Configuration usual;
-  std::string text;
-  const auto add = [&](const char* key, auto value, auto standard) {
-    if (value != standard) text += fmt::format(" --set hw.{}={}", key, value);
-  };
-  add("lanes", is.lanes, usual.lanes);
-  add("cascade", is.cascade, usual.cascade);
-  add("substeps", is.substeps, usual.substeps);
-  add("fifo_depth", is.fifo_depth, usual.fifo_depth);
-  add("stall_seed", is.stall_seed, usual.stall_seed);
-  add("overlap", is.overlap ? 1 : 0, usual.overlap ? 1 : 0);
-  add("tile", is.tile, usual.tile);
-  add("coded", is.coded ? 1 : 0, usual.coded ? 1 : 0);
-  return text;
-}
-
 int cells_with_something(const state::Volume& volume) {
   int cells = 0;
   for (int z = 0; z < volume.grid.z; ++z)
@@ -169,45 +133,20 @@ int cells_with_something(const state::Volume& volume) {
 
 }  // namespace
 
-std::string fields_folder(const std::string& file) {
-  fs::path folder(file);
-  folder.replace_extension();
-  return folder.string() + "_fields";
-}
-
-std::string shrink(const ShrinkRequest& request, const hwmodel::VerifyReport& report) {
+std::optional<SmallScene> shrink_to_scene(const ShrinkRequest& request, const VerifyReport& report) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                    std::chrono::duration<double>(request.seconds));
   Search search(request, report);
   std::optional<Case> first = first_case(request, report, search);
-  if (!first)
-    return "--shrink: the difference is not seen again from the state before it; nothing was written\n";
+  if (!first) return {};
   const Mismatch& m = *report.mismatch;
-  hwmodel::Shrinker shrinker(
+  Shrinker shrinker(
       std::move(*first), search.removable(), [&](const Case& one) { return search.fails(one); },
       [&] { return Clock::now() < end; });
   const Case& small = shrinker.shrink({m.x, m.y, m.z});
-
-  const fs::path folder = fields_folder(request.file);
-  io::OutputFolder fields(folder);
-  io::export_npy(small.volume, fields.partial());
-  fields.commit();
-  std::string typed = fmt::format("voxmelt verify {} --steps {}", shell_word(request.file), small.steps) +
-                      machine_text(small.configuration);
-  if (request.common.implementation != "auto") typed += " --implementation " + request.common.implementation;
-  if (!request.plant.empty())
-    typed += fmt::format(" --plant {} --plant-step {}", request.plant, small.first_step);
-  io::write_file(
-      request.file,
-      fmt::format("# A hardware model that differs from the software ({}), made small.\n#   {}\n{}",
-                  stage_of(m.where), typed, search.text_of(small, folder.filename().string())));
-  const std::array<int, 3> size = small.size();
-  return fmt::format(
-      "{} holds {} x {} x {} cells, {} of them not air, which fail in {} step{} ({} runs were tried); "
-      "to see it:\n  {}\n",
-      request.file, size[0], size[1], size[2], cells_with_something(small.volume), small.steps,
-      small.steps == 1 ? "" : "s", shrinker.tried(), typed);
+  return SmallScene{small, cells_with_something(small.volume), shrinker.tried(), stage_of(m.where),
+                    search.text_of(small, request.fields.filename().string())};
 }
 
-}  // namespace voxmelt::app
+}  // namespace voxmelt::hwmodel

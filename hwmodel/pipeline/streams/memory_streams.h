@@ -1,4 +1,4 @@
-// The streams of the pipeline on a DRAM: words packed into bursts of 64 bytes, a buffer for each stream. A
+// The streams of the pipeline on a memory: words packed into bursts of 64 bytes, a buffer for each stream. A
 // pass reads where the last one wrote, and never ahead of it.
 #pragma once
 
@@ -10,16 +10,23 @@
 #include <optional>
 #include <vector>
 
-#include "hwmodel/machine/column_port.h"
+#include "hwmodel/fabric/memory_port.h"
 #include "hwmodel/memory/dram.h"
 #include "hwmodel/pipeline/model/pipeline.h"
 #include "hwmodel/pipeline/model/stream_memory.h"
+#include "hwmodel/pipeline/streams/column_port.h"
 
 namespace voxmelt::hwmodel {
 
-class DramStreams final : public StreamMemory {
+// Bytes that the state and irradiance take at most.
+std::int64_t stream_bytes(const Design& design, bool coded);
+
+class MemoryStreams final : public StreamMemory {
  public:
-  DramStreams(const Design& design, int cascade, const memory::Parameters& parameters, int clock_mhz);
+  // A DRAM of its own, which is new with each train.
+  MemoryStreams(const Design& design, int cascade, const memory::Parameters& parameters, int clock_mhz);
+  // A memory that others use, too, from `base` of its addresses on. Its owner ends its cycles.
+  MemoryStreams(const Design& design, int cascade, memory::Memory& shared, std::int64_t base);
 
   void begin_train(const Train& train) override;
   void add_pass(int tile, int fed) override;
@@ -46,7 +53,11 @@ class DramStreams final : public StreamMemory {
   }
   void cycle(std::int64_t now) override;
 
-  memory::Counts counts() const { return dram_->counts(); }  // of the last train
+  // Of a shared memory: all that was written has been handed to it, and all that was asked for has come. So
+  // the next train finds nothing of this one under way.
+  bool settled() const override;
+
+  memory::Counts counts() const { return own_->counts(); }  // of the last train, on a DRAM of its own
 
   static constexpr std::int64_t kBurstBits = 8 * memory::kBurst;
   static constexpr std::int64_t kAhead = 128 * kBurstBits;  // of a stream's buffer: 8 KiB
@@ -86,11 +97,13 @@ class DramStreams final : public StreamMemory {
     void add(int tile);
     void use(std::int64_t bits, bool ends, std::int64_t now);
   };
+  void open_ports();
   void cycle_state(std::int64_t now);
+  bool has_come(const Input& from) const;
   const Feed& feed(int t) const { return feeds_[static_cast<std::size_t>(t)]; }
   void take(Input& from, std::int64_t now);
   bool room(const Input& from, std::int64_t now) const {
-    return from.asked - from.used_before(now) < kAhead && dram_->ready(from.port);
+    return from.asked - from.used_before(now) < kAhead && memory_->ready(from.port);
   }
   void ask(Input& from, std::int64_t address);
   void fetch(Feed& from, std::int64_t now);
@@ -103,9 +116,14 @@ class DramStreams final : public StreamMemory {
   }
 
   Design design_;
-  memory::Parameters parameters_;
-  int clock_mhz_;
-  std::unique_ptr<memory::Dram> dram_;
+  memory::Parameters parameters_;  // of a DRAM of its own
+  int clock_mhz_ = 0;
+  std::unique_ptr<memory::Dram> own_;
+  memory::Memory* memory_ = nullptr;
+  std::int64_t base_ = 0;
+  bool opened_ = false;            // the ports of a memory that is shared
+  int reader_ = -1, writer_ = -1;  // ports
+  std::vector<int> feed_ports_;
   bool coded_ = false;
   std::int64_t token_ = 0, tokens_ = 0;  // bits of a token; tokens of a pass
   // A grid that is coded, or in tiles, lies there by columns.
@@ -115,8 +133,7 @@ class DramStreams final : public StreamMemory {
   std::int64_t tokens_read_ = 0, tokens_put_ = 0;  // of the present column, without the code
   // Else in the order of its stream.
   Input state_;
-  std::int64_t wanted_ = 0;  // bits of all passes
-  int writer_ = -1;
+  std::int64_t wanted_ = 0;                                           // bits of all passes
   std::int64_t tokens_written_ = 0, last_written_ = -1, handed_ = 0;  // tokens; bits given to the memory
   std::array<std::int64_t, 2> unwritten_{};                           // bits, as `come`
 

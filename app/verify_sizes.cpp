@@ -1,15 +1,15 @@
-#include "app/size_fifos.h"
+#include "app/verify_sizes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
-#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/interrupt.h"
+#include "hwmodel/explore/held.h"
 #include "hwmodel/explore/size_fifos.h"
 #include "hwmodel/pipeline/model/tiling.h"
 #include "kernel/run/io/output_folder.h"
@@ -37,33 +37,6 @@ void print_table(const explore::Sizing& sizing, const hwmodel::Configuration& c)
              sizing.runs);
 }
 
-// What the memory holds, by the software: on a DRAM it matters. Irradiance from each step of visibility on;
-// with hw.coded which tokens are stored before each step, and behind the last one.
-struct Held {
-  std::map<std::uint32_t, hwmodel::IrradianceStream> irradiance;
-  std::map<std::uint32_t, explore::StoredTokens> stored;
-};
-Held held_by(const VerifiedStream& stream, const Common& common, const hwmodel::Design& design, bool coded) {
-  Held held;
-  const rule::Heat& heat = stream.parameters.heat;
-  if (!heat.radiates() && !coded) return held;
-  run::Simulation simulation(stream.parameters, stream.volume, find_implementation(common));
-  simulation.begin_at(stream.first_step);
-  for (std::uint32_t step = 0; step < stream.steps; ++step) {
-    simulation.begin_step();
-    const std::uint32_t number = simulation.step_number();
-    if (heat.radiates() && (held.irradiance.empty() || heat.is_visibility_step(number)))
-      held.irradiance.emplace(number, hwmodel::IrradianceStream(*simulation.irradiance(), design.shape));
-    if (coded) held.stored.emplace(number, explore::stored_tokens(design, simulation.volume()));
-    for (const step::Phase phase : simulation.phases()) simulation.run_phase(phase);
-    simulation.end_step();
-    stop_if_interrupted();
-  }
-  if (coded)
-    held.stored.emplace(simulation.step_number(), explore::stored_tokens(design, simulation.volume()));
-  return held;
-}
-
 }  // namespace
 
 void check_channels(const VerifiedStream& stream, const hwmodel::Preset& preset) {
@@ -77,30 +50,29 @@ void check_channels(const VerifiedStream& stream, const hwmodel::Preset& preset)
                       one.name, names.front(), names.size() - 1));
 }
 
-std::int64_t size_fifos(const VerifiedStream& stream, const Common& common, const std::string& file,
-                        hwmodel::Preset& preset) {
+std::int64_t size_channels(const VerifiedStream& stream, const Common& common, const std::string& file,
+                           hwmodel::Preset& preset) {
   hwmodel::Configuration& c = preset.configuration;
-  std::optional<explore::SizingMemory> memory;
-  if (preset.caster.dram) memory = {*preset.caster.dram, preset.caster.clock_mhz};
   const state::Grid grid = stream.volume.grid;
   explore::TimedRun run{stream.parameters,   grid, c, stream.first_step, stream.steps,
                         stop_if_interrupted, {},   {}};
-  Held held;
-  if (memory) held = held_by(stream, common, hwmodel::design_of(stream.parameters, grid, c), c.coded);
-  if (!held.irradiance.empty())
-    run.irradiance = [&](std::uint32_t step) {
-      return &std::prev(held.irradiance.upper_bound(step))->second;
-    };
-  if (!held.stored.empty()) run.stored = [&](std::uint32_t step) { return &held.stored.at(step); };
+  std::optional<explore::SizingMemory> memory;
+  std::optional<explore::Held> held;
+  if (preset.caster.dram) {
+    memory = {*preset.caster.dram, preset.caster.clock_mhz};
+    held.emplace(run, hwmodel::design_of(stream.parameters, grid, c), stream.volume,
+                 find_implementation(common), stop_if_interrupted);
+    held->give_to(run);
+  }
   const explore::Sizing sizing = explore::size_fifos(run, memory);
   c.depths.clear();
   c.fifo_depth = hwmodel::Configuration{}.fifo_depth;  // as --hw reads the file
   for (const explore::SizedChannel& channel : sizing.channels)
     c.depths.push_back({channel.name, channel.depth});
   if (!common.quiet) print_table(sizing, c);
-  std::string title = fmt::format("{} lanes, {} steps, channels as deep as they need", c.lanes, c.cascade);
-  std::string text = explore::toml_of(sizing, c, title);
-  io::write_file(file, text);
+  const std::string title =
+      fmt::format("{} lanes, {} steps, channels as deep as they need", c.lanes, c.cascade);
+  io::write_file(file, explore::toml_of(sizing, c, title));
   if (!common.quiet) fmt::print("depths  {}\n", file);
   return sizing.cycles;
 }

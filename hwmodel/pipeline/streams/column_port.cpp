@@ -1,4 +1,4 @@
-#include "hwmodel/machine/column_port.h"
+#include "hwmodel/pipeline/streams/column_port.h"
 
 #include <algorithm>
 
@@ -9,8 +9,8 @@ std::int64_t bursts_of(std::int64_t bits) { return CodeLayout::up(bits) / CodeLa
 
 }  // namespace
 
-ColumnSlots::ColumnSlots(const Design& design, bool is_coded)
-    : shape(design.shape), coded(is_coded), copies(design.shape.tiled() ? 2 : 1) {
+ColumnSlots::ColumnSlots(const Design& design, bool is_coded, std::int64_t first)
+    : shape(design.shape), coded(is_coded), base(first), copies(design.shape.tiled() ? 2 : 1) {
   const CodeLayout layout(design);
   columns = layout.columns();
   head_bursts = coded ? bursts_of(layout.head_bits()) : 0;
@@ -48,11 +48,11 @@ void ColumnWalk::next() {
   if (!tiles_.empty()) begin_row();
 }
 
-void ColumnInput::begin(const ColumnSlots& slots, std::array<const StoredColumns*, 2> memory,
-                        memory::Dram& dram) {
+void ColumnInput::begin(const ColumnSlots& slots, std::array<const StoredColumns*, 2> stored,
+                        memory::Memory& memory, int port) {
   *this = {};
-  dram_ = &dram, memory_ = memory;
-  port_ = dram.open_port(nullptr);
+  memory_ = &memory, stored_ = stored;
+  port_ = port;
   slots_ = slots;
   walk_.begin(slots, false);
 }
@@ -76,21 +76,21 @@ void ColumnInput::use(std::int64_t bits, bool ends, std::int64_t now) {
 }
 
 void ColumnInput::take(std::int64_t now) {
-  while (dram_->reply(port_) != nullptr) {
-    dram_->take(port_);
+  while (memory_->reply(port_) != nullptr) {
+    memory_->take(port_);
     Column& column = ahead_[static_cast<std::size_t>(under_way_.front() - first_)];
     under_way_.pop_front();
     column.come.push_back(now);
     if (slots_->coded && static_cast<std::int64_t>(column.come.size()) == slots_->head_bursts)
       column.bursts = bursts_of(
-          memory_[static_cast<std::size_t>(column.at.pass % slots_->copies)]->bits_of(column.at.number));
+          stored_[static_cast<std::size_t>(column.at.pass % slots_->copies)]->bits_of(column.at.number));
   }
 }
 
 void ColumnInput::ask(Column& column, std::int64_t number, std::int64_t bursts, std::int64_t now) {
   const std::int64_t slot = slots_->address(column.at.number, column.at.pass);
   while (column.asked < bursts && room(now)) {
-    dram_->put(port_, {slot + column.asked * memory::kBurst, 0, false});
+    memory_->put(port_, {slot + column.asked * memory::kBurst, 0, false, memory::kBurst});
     ++column.asked, ++asked_;
     under_way_.push_back(number);
   }
@@ -120,10 +120,10 @@ void ColumnInput::cycle(const ColumnOutput& written, std::int64_t now) {
   }
 }
 
-void ColumnOutput::begin(const ColumnSlots& slots, memory::Dram& dram) {
+void ColumnOutput::begin(const ColumnSlots& slots, memory::Memory& memory, int port) {
   *this = {};
-  dram_ = &dram;
-  port_ = dram.open_port(nullptr);
+  memory_ = &memory;
+  port_ = port;
   slots_ = slots;
   walk_.begin(slots, true);
   passes_.resize(static_cast<std::size_t>(slots.columns));
@@ -148,8 +148,8 @@ void ColumnOutput::cycle(std::int64_t now) {
     fill(events_.front());
     events_.pop_front();
   }
-  while (!bursts_.empty() && dram_->ready(port_)) {
-    dram_->put(port_, {bursts_.front().address, 0, true});
+  while (!bursts_.empty() && memory_->ready(port_)) {
+    memory_->put(port_, {bursts_.front().address, 0, true, memory::kBurst});
     if (bursts_.front().column >= 0) ++passes_[static_cast<std::size_t>(bursts_.front().column)];
     bursts_.pop_front();
   }

@@ -22,8 +22,8 @@ void check_channels(const VerifiedStream& stream, const hwmodel::Preset& preset)
 
 // Finds them, prints them, writes them to `file`, and puts them into the preset. Returns the cycles of the
 // run.
-std::int64_t size_fifos(const VerifiedStream& stream, const Common& common, const std::string& file,
-                        hwmodel::Preset& preset);
+std::int64_t size_channels(const VerifiedStream& stream, const Common& common, const std::string& file,
+                           hwmodel::Preset& preset);
 
 // Says whether the verified run took as many.
 bool check_sized(std::int64_t wanted, std::int64_t cycles);

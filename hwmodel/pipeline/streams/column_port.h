@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "hwmodel/memory/dram.h"
+#include "hwmodel/fabric/memory_port.h"
 #include "hwmodel/pipeline/model/coded_state.h"
 
 namespace voxmelt::hwmodel {
@@ -22,15 +22,17 @@ inline constexpr std::int64_t kBurstsAhead = 128;  // of a stream's buffer: 8 Ki
 
 // Where the columns of a grid lie. A grid in tiles has two copies, and a pass reads one and writes the other.
 struct ColumnSlots {
-  ColumnSlots(const Design& design, bool coded);
+  // `base`: its first byte.
+  ColumnSlots(const Design& design, bool coded, std::int64_t base);
 
   std::int64_t address(std::int64_t column, std::int64_t copy) const {
-    return (copy % copies * columns + column) * slot_bursts * memory::kBurst;
+    return base + (copy % copies * columns + column) * slot_bursts * memory::kBurst;
   }
   std::int64_t bytes() const { return copies * columns * slot_bursts * memory::kBurst; }
 
   Shape shape;
   bool coded;
+  std::int64_t base;
   std::int64_t copies, columns;
   std::int64_t head_bursts = 0;  // in which the bits of a column's tokens lie
   std::int64_t slot_bursts = 0;
@@ -68,8 +70,9 @@ class ColumnOutput;
 // Reads columns. Cycles are stamps: what happens in a cycle is seen in the next one.
 class ColumnInput {
  public:
-  // `memory`: what the copies hold, with hw.coded.
-  void begin(const ColumnSlots& slots, std::array<const StoredColumns*, 2> memory, memory::Dram& dram);
+  // `stored`: what the copies hold, with hw.coded.
+  void begin(const ColumnSlots& slots, std::array<const StoredColumns*, 2> stored, memory::Memory& memory,
+             int port);
   void add(int tile) { walk_.add(tile); }
 
   // Have the first `bits` of the present column come?
@@ -78,6 +81,7 @@ class ColumnInput {
   void use(std::int64_t bits, bool ends, std::int64_t now);
   // Takes what has come, and asks for more: of columns that have been written.
   void cycle(const ColumnOutput& written, std::int64_t now);
+  bool settled() const { return under_way_.empty(); }  // all that was asked for has come
 
  private:
   struct Column {
@@ -88,14 +92,14 @@ class ColumnInput {
   };
   void take(std::int64_t now);
   bool room(std::int64_t now) const {
-    return asked_ - (last_used_ == now ? freed_before_ : freed_) < kBurstsAhead && dram_->ready(port_);
+    return asked_ - (last_used_ == now ? freed_before_ : freed_) < kBurstsAhead && memory_->ready(port_);
   }
   void ask(Column& column, std::int64_t number, std::int64_t bursts, std::int64_t now);
   std::int64_t done_before(std::int64_t now) const { return last_done_ == now ? done_ - 1 : done_; }
 
-  memory::Dram* dram_ = nullptr;
+  memory::Memory* memory_ = nullptr;
   std::optional<ColumnSlots> slots_;
-  std::array<const StoredColumns*, 2> memory_{};
+  std::array<const StoredColumns*, 2> stored_{};
   ColumnWalk walk_;  // of columns that have not been asked for
   int port_ = -1;
   std::int64_t done_ = 0, last_done_ = -1;  // columns of the train; the cycle of the last one
@@ -108,7 +112,7 @@ class ColumnInput {
 // Writes columns. Bursts go when they are full, those with the bits of the tokens when the column ends.
 class ColumnOutput {
  public:
-  void begin(const ColumnSlots& slots, memory::Dram& dram);
+  void begin(const ColumnSlots& slots, memory::Memory& memory, int port);
   void add(int tile) { walk_.add(tile); }
 
   bool may_write(std::int64_t now) const {
@@ -116,6 +120,7 @@ class ColumnOutput {
   }
   void written(std::int64_t bits, bool ends, std::int64_t now) { events_.push_back({bits, ends, now}); }
   void cycle(std::int64_t now);
+  bool settled() const { return events_.empty() && bursts_.empty(); }  // all was handed to the memory
   // In how many passes of the train has all of this column been handed to the memory?
   std::int64_t passes(std::int64_t column) const { return passes_[static_cast<std::size_t>(column)]; }
 
@@ -131,7 +136,7 @@ class ColumnOutput {
   };
   void fill(const Event& event);
 
-  memory::Dram* dram_ = nullptr;
+  memory::Memory* memory_ = nullptr;
   std::optional<ColumnSlots> slots_;
   ColumnWalk walk_;  // the present column, and further ones
   int port_ = -1;

@@ -1,5 +1,5 @@
 // The streams of the pipeline on a DRAM, token by token: which bursts move, when, and where they lie.
-#include "hwmodel/machine/dram_streams.h"
+#include "hwmodel/pipeline/streams/memory_streams.h"
 
 #include <gtest/gtest.h>
 
@@ -40,12 +40,12 @@ class Streams {
   memory::Counts counts() const { return streams_.counts(); }
 
  private:
-  DramStreams streams_;
+  MemoryStreams streams_;
   std::int64_t now_ = 0;
   int read_ = 0;
 };
 
-TEST(DramStreams, HandOnBurstsThatAreFull) {
+TEST(MemoryStreams, HandOnBurstsThatAreFull) {
   Streams one(1);
   one.run(0, 15);
   EXPECT_EQ(one.counts().writes, 0);
@@ -57,7 +57,7 @@ TEST(DramStreams, HandOnBurstsThatAreFull) {
   EXPECT_EQ(one.counts().writes, 3) << "the last one is padded";
 }
 
-TEST(DramStreams, NoPassReadsWhatTheOneBeforeHasNotWritten) {
+TEST(MemoryStreams, NoPassReadsWhatTheOneBeforeHasNotWritten) {
   Streams two(2);
   two.run(2 * kTokens, 0);
   EXPECT_EQ(two.read(), kTokens) << "nothing has been written";
@@ -70,7 +70,7 @@ TEST(DramStreams, NoPassReadsWhatTheOneBeforeHasNotWritten) {
 }
 
 // The state's bursts lie in three bank groups, and irradiance in a row of its own.
-TEST(DramStreams, IrradianceLiesBehindTheState) {
+TEST(MemoryStreams, IrradianceLiesBehindTheState) {
   Irradiance field(small().shape.grid);
   field.row(3, 2)[0] = 5;
   const IrradianceStream light(field, small().shape);

@@ -1,0 +1,69 @@
+// What a user asks of `voxmelt verify`, for each of its three machines: the pipeline, the ray caster
+// (--picture), and both on one memory (--machine).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/message.h"
+#include "app/options.h"
+#include "app/verify_picture.h"
+#include "hwmodel/pipeline/check/verify.h"
+#include "hwmodel/pipeline/model/configuration.h"
+#include "kernel/run/io/output_folder.h"
+#include "kernel/scene/scene.h"
+
+namespace voxmelt::app {
+
+struct VerifyCommand {
+  Common common;
+  std::uint32_t steps = 10, every = 1, from = 0;
+  std::string from_text = "0";  // --from: a step, or a checkpoint
+  std::optional<std::uint32_t> plant_step;
+  std::string hw, plant, out, vcd, shrink, size_fifos;
+  std::optional<std::int64_t> vcd_from;
+  PictureChoice picture;
+  std::vector<std::string> hw_sets;
+};
+
+int verify_pipeline(VerifyCommand command);
+int verify_whole_machine(VerifyCommand command);
+
+// The file of --hw.
+std::filesystem::path find_preset(const std::string& given);
+// Reads --from.
+scene::Scene load_beginning(VerifyCommand& command);
+// Throws UsageError where its tiles are too narrow for the scene.
+void check_tile(const scene::Scene& scene, const hwmodel::Configuration& configuration);
+// The first step in which a planted fault may strike, where the user says none.
+std::uint32_t plant_step(const VerifyCommand& command, std::uint32_t first_step);
+
+std::string name_of(const scene::Scene& scene);
+// What must be typed to see a picture again, but for its pixel.
+std::string picture_again(const VerifyCommand& command, const std::string& scene);
+
+// The folder of a replay; a replay extends its scene, so it must not take that scene's place.
+std::filesystem::path replay_place(const VerifyCommand& command, const scene::Scene& scene);
+void check_replay_place(const VerifyCommand& command, const scene::Scene& scene);
+void write_replay(const VerifyCommand& command, const scene::Scene& scene,
+                  const hwmodel::VerifyReport& report);
+
+// What came of the planted fault.
+void print_plant(const hwmodel::VerifyReport& report);
+
+// A full disk must not hide a difference that was found.
+template <class Write>
+bool try_writing(Write&& write) {
+  try {
+    write();
+    return true;
+  } catch (const io::OutputError& error) {
+    say(error.what());
+    return false;
+  }
+}
+
+}  // namespace voxmelt::app

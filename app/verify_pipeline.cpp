@@ -1,0 +1,216 @@
+// voxmelt verify of the pipeline: simulates, prints, and writes what came of it.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "app/interrupt.h"
+#include "app/run_ahead.h"
+#include "app/verify_command.h"
+#include "app/verify_shrink.h"
+#include "app/verify_sizes.h"
+#include "app/visibility.h"
+#include "hwmodel/explore/predict_run.h"
+#include "hwmodel/machine/presets/presets.h"
+#include "hwmodel/pipeline/model/tiling.h"
+#include "hwmodel/pipeline/report/report.h"
+#include "hwmodel/pipeline/streams/memory_streams.h"
+#include "report/hardware/page.h"
+
+namespace voxmelt::app {
+
+// What came of the planted fault.
+void print_plant(const hwmodel::VerifyReport& report) {
+  const auto& at = *report.strike;
+  fmt::print("planted: {}, step {}, cell ({}, {}, {}); {}\n", at.where, at.step, at.x, at.y, at.z,
+             report.mismatch == nullptr     ? "NOT FOUND"
+             : report.found_where_planted() ? "found there"
+                                            : "found, but ELSEWHERE");
+}
+
+namespace {
+
+// In one line.
+std::string quiet_verdict(const hwmodel::VerifyReport& report) {
+  if (report.mismatch == nullptr)
+    return fmt::format("{} cells compared: no difference; digest {:016x}{}\n", report.compared_cells,
+                       report.digest, report.strike ? "; the planted fault was NOT FOUND" : "");
+  const hwmodel::Mismatch& m = *report.mismatch;
+  return fmt::format("DIFFERS ({}): {}, step {}, cell ({}, {}, {}), {} expected {}, is {}{}\n",
+                     name_of(m.kind), m.where, m.step, m.x, m.y, m.z, m.field.empty() ? "value" : m.field,
+                     m.expected, m.actual,
+                     !report.strike                 ? ""
+                     : report.found_where_planted() ? "; planted there"
+                                                    : "; planted ELSEWHERE");
+}
+
+void print_result(const VerifyCommand& command, const scene::Scene& scene,
+                  const hwmodel::VerifyReport& report, const hwmodel::Design& design,
+                  const hwmodel::Configuration& c, const std::string& fast) {
+  if (command.common.quiet)
+    return fmt::print("{}: {} cycles, predicted {}\n{}", name_of(scene), report.cycles,
+                      report.predicted_cycles, quiet_verdict(report));
+  fmt::print("{}: lanes {}, cascade {}, fifo depth {}, stall seed {}; steps {} to {}\n", name_of(scene),
+             c.lanes, c.cascade, c.fifo_depth, c.stall_seed, report.first_step,
+             report.first_step + report.steps);
+  fmt::print("{}", hwmodel::table_of(report, design, c));
+  const auto stages = std::count_if(
+      report.stages.begin(), report.stages.end(),
+      [](const hwmodel::StageReport& stage) { return phase_of(stage.kind) && stage.cascade == 0; });
+  if (report.mismatch == nullptr)
+    fmt::print(
+        "{} cells compared behind {} stages of a time step, {} of the software ({}): no difference; digest "
+        "{:016x}\n",
+        report.compared_cells, stages, report.software_cells,
+        fast == "reference" ? "the reference itself" : fast, report.digest);
+  else
+    fmt::print("{}", hwmodel::text_of(*report.mismatch));
+  if (report.strike) print_plant(report);
+}
+
+// Why there are no waves; empty: there are, or nobody asked.
+std::string write_waves(const VerifyCommand& command, const hwmodel::VerifyReport& report) {
+  if (command.vcd.empty()) return {};
+  if (report.waves.empty())
+    return fmt::format("--vcd {}: error: the run ended before cycle {}; nothing was written", command.vcd,
+                       command.vcd_from.value_or(0));
+  io::write_file(command.vcd, report.waves);
+  return {};
+}
+
+// What is verified, and where what comes of it goes.
+struct Job {
+  const VerifyCommand& command;
+  hwmodel::Preset preset;
+  scene::Scene scene;
+  hwmodel::Fault fault = hwmodel::Fault::none;
+};
+
+Job job_of(VerifyCommand& command) {
+  const hwmodel::FaultInfo* fault = hwmodel::find_fault(command.plant);
+  if (!command.plant.empty() && fault == nullptr)
+    throw UsageError(
+        fmt::format("error: --plant {}: unknown; `voxmelt list faults` names them", command.plant));
+  hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
+  Job job{command, std::move(preset), load_beginning(command),
+          fault == nullptr ? hwmodel::Fault::none : fault->fault};
+  check_tile(job.scene, job.preset.configuration);
+  if (!command.size_fifos.empty() && job.preset.caster.dram && job.preset.configuration.coded &&
+      job.scene.parameters.flow.law == rule::Law::viscous && job.scene.parameters.flow.viscous.substeps != 1)
+    throw UsageError(
+        "error: --size-fifos: not with hw.coded on hw.memory for a scene with sub-steps; what the memory "
+        "moves would depend on the state between them");
+  return job;
+}
+
+void check_places(const Job& job) {
+  const VerifyCommand& command = job.command;
+  check_replay_place(command, job.scene);
+  const std::string replay = replay_place(command, job.scene).string();
+  check_report_place(command.common, replay);
+  check_html_place(command.common, command.picture, replay);
+  check_place("--vcd", command.vcd, replay);
+  check_place("--shrink", command.shrink, replay);
+  check_place("--size-fifos", command.size_fifos, replay);
+  keep_inputs(job.scene, {{"--html", command.picture.html},
+                          {"--vcd", command.vcd},
+                          {"--shrink", command.shrink},
+                          {"--size-fifos", command.size_fifos}});
+}
+
+hwmodel::VerifyOptions options_of(const Job& job, std::uint32_t first_step, hwmodel::StreamMemory* memory) {
+  const VerifyCommand& command = job.command;
+  hwmodel::VerifyOptions options;
+  options.memory = memory;
+  options.steps = command.steps;
+  options.every = command.every;
+  options.configuration = job.preset.configuration;
+  options.fault = job.fault;
+  options.fault_step = plant_step(command, first_step);
+  options.poll = stop_if_interrupted;
+  options.waves = !command.vcd.empty();
+  options.waves_from = command.vcd_from;
+  options.timeline = !command.common.report.empty() || !command.picture.html.empty();
+  return options;
+}
+
+void write_reports(const Job& job, const hwmodel::VerifyReport& report, const hwmodel::Design& design) {
+  const VerifyCommand& command = job.command;
+  nlohmann::ordered_json json{{"scene", name_of(job.scene)}};
+  json.update(hwmodel::json_of(report, design, job.preset.configuration));
+  write_report(command.common, json.dump(2) + '\n');
+  if (!command.picture.html.empty())
+    io::write_file(command.picture.html,
+                   hwmodel::pipeline_page(json, fmt::format("{}, {} steps from step {}", name_of(job.scene),
+                                                            report.steps, report.first_step)));
+}
+
+// Of a difference: what of it can be seen again, and how.
+void write_difference(const Job& job, hwmodel::VerifyOptions options, const hwmodel::VerifyReport& report) {
+  try_writing([&] { write_replay(job.command, job.scene, report); });
+  if (job.command.shrink.empty()) return;
+  options.memory = nullptr;  // what is cut has other streams
+  try_writing([&] {
+    const std::string small = make_small(job.command, job.scene, options, report);
+    if (!job.command.common.quiet) fmt::print("{}", small);
+  });
+}
+
+}  // namespace
+
+int verify_pipeline(VerifyCommand command) {
+  Job job = job_of(command);
+  check_places(job);
+  end_soon_at_interrupts();
+  run::Simulation ahead = run_ahead(job.scene, command.common, command.from, command.steps);
+
+  const VerifiedStream stream{job.scene.parameters, ahead.volume(), ahead.step_number(), command.steps};
+  check_channels(stream, job.preset);
+  std::optional<std::int64_t> sized_cycles;
+  if (!command.size_fifos.empty())
+    sized_cycles = size_channels(stream, command.common, command.size_fifos, job.preset);
+
+  const hwmodel::Configuration& c = job.preset.configuration;
+  const hwmodel::Design design = hwmodel::design_of(job.scene.parameters, ahead.volume().grid, c);
+  const hwmodel::memory::Choice memory = job.preset.caster.memory();
+  std::optional<hwmodel::MemoryStreams> dram;
+  if (memory.dram) dram.emplace(design, c.cascade, *memory.dram, memory.clock_mhz);
+  const hwmodel::VerifyOptions options = options_of(job, ahead.step_number(), dram ? &*dram : nullptr);
+  step::Tuning tuning;
+  tuning.threads = thread_count(command.common);
+  const step::Implementation& fast = find_implementation(command.common);
+  hwmodel::VerifyReport report =
+      hwmodel::verify(job.scene.parameters, ahead.volume(), ahead.step_number(), fast, tuning, options);
+  if (memory.dram) {
+    ahead.begin_step();  // its irradiance
+    hwmodel::explore::predict_on_memory(report, design, c, memory, ahead.volume(), ahead.irradiance());
+  }
+
+  const hwmodel::Verdict verdict = hwmodel::verdict_of(report, job.fault != hwmodel::Fault::none);
+  if (verdict == hwmodel::Verdict::never_struck)
+    throw UsageError(fmt::format(
+        "error: --plant {}: in these steps of this scene there is nothing that this fault could change",
+        command.plant));
+  print_result(command, job.scene, report, design, options.configuration, fast.name);
+  if (verdict == hwmodel::Verdict::good) {
+    write_reports(job, report, design);
+    const std::string no_waves = write_waves(command, report);
+    if (!no_waves.empty()) throw UsageError(no_waves);
+    if (!command.shrink.empty() && !command.common.quiet)
+      fmt::print("--shrink: there is no difference to make small\n");
+    return !sized_cycles || check_sized(*sized_cycles, report.cycles) ? kDone : kCheckFailed;
+  }
+  try_writing([&] { write_reports(job, report, design); });
+  try_writing([&] {
+    const std::string no_waves = write_waves(command, report);
+    if (!no_waves.empty()) say(no_waves);
+  });
+  if (report.mismatch != nullptr) write_difference(job, options, report);
+  return kCheckFailed;
+}
+
+}  // namespace voxmelt::app

@@ -1,0 +1,76 @@
+#include "app/verify_shrink.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/interrupt.h"
+#include "app/shell_word.h"
+#include "hwmodel/pipeline/check/shrink_scene.h"
+#include "kernel/run/io/export.h"
+#include "kernel/run/io/output_folder.h"
+
+namespace voxmelt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSeconds = 40;  // of the search
+
+std::vector<std::string> overrides_of(const Common& common) {
+  std::vector<std::string> sets = common.sets;
+  if (common.seed) sets.push_back(fmt::format("run.seed={}", *common.seed));
+  return sets;
+}
+
+// What a user types to see it.
+std::string typed(const VerifyCommand& command, const hwmodel::Case& small) {
+  std::string text = fmt::format("voxmelt verify {} --steps {}", shell_word(command.shrink), small.steps);
+  for (const hwmodel::HwKey& key : hwmodel::kHwKeys)
+    if (key.get(small.configuration) != key.usual())
+      text += fmt::format(" --set hw.{}={}", key.name, key.get(small.configuration));
+  if (command.common.implementation != "auto") text += " --implementation " + command.common.implementation;
+  if (!command.plant.empty())
+    text += fmt::format(" --plant {} --plant-step {}", command.plant, small.first_step);
+  return text;
+}
+
+fs::path fields_folder(const std::string& file) {
+  fs::path folder(file);
+  folder.replace_extension();
+  return folder.string() + "_fields";
+}
+
+}  // namespace
+
+std::string make_small(const VerifyCommand& command, const scene::Scene& scene,
+                       const hwmodel::VerifyOptions& options, const hwmodel::VerifyReport& report) {
+  const fs::path folder = fields_folder(command.shrink);
+  const std::optional<hwmodel::SmallScene> made =
+      hwmodel::shrink_to_scene({folder, kSeconds, scene, overrides_of(command.common),
+                                find_implementation(command.common), options, stop_if_interrupted},
+                               report);
+  if (!made)
+    return "--shrink: the difference is not seen again from the state before it; nothing was written\n";
+  const hwmodel::Case& small = made->small;
+  io::OutputFolder fields(folder);
+  io::export_npy(small.volume, fields.partial());
+  fields.commit();
+  const std::string to_type = typed(command, small);
+  io::write_file(
+      command.shrink,
+      fmt::format("# A hardware model that differs from the software ({}), made small.\n#   {}\n{}",
+                  made->stage, to_type, made->text));
+  const std::array<int, 3> size = small.size();
+  return fmt::format(
+      "{} holds {} x {} x {} cells, {} of them not air, which fail in {} step{} ({} runs were tried); "
+      "to see it:\n  {}\n",
+      command.shrink, size[0], size[1], size[2], made->cells, small.steps, small.steps == 1 ? "" : "s",
+      made->tried, to_type);
+}
+
+}  // namespace voxmelt::app

@@ -1,0 +1,15 @@
+// voxmelt verify --shrink: a run that fails, made small, as a scene file.
+#pragma once
+
+#include <string>
+
+#include "app/verify_command.h"
+
+namespace voxmelt::app {
+
+// Writes the scene, and a folder with its fields beside it. Gives what is left in one sentence, and what to
+// type to see it fail.
+std::string make_small(const VerifyCommand& command, const scene::Scene& scene,
+                       const hwmodel::VerifyOptions& options, const hwmodel::VerifyReport& report);
+
+}  // namespace voxmelt::app

@@ -1,0 +1,34 @@
+// What the memory holds in a run, by the software: on a DRAM it decides what moves.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+
+#include "hwmodel/explore/content.h"
+#include "hwmodel/explore/timing.h"
+#include "hwmodel/pipeline/model/irradiance_stream.h"
+#include "kernel/automaton/state/volume.h"
+#include "kernel/automaton/step/stepper.h"
+
+namespace voxmelt::hwmodel::explore {
+
+class Held {
+ public:
+  // Runs the steps of `run` from `start`, by `software`. `poll` is called after each of them.
+  Held(const TimedRun& run, const Design& design, const state::Volume& start,
+       const step::Implementation& software, const std::function<void()>& poll);
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+
+  // The run asks this object from now on.
+  void give_to(TimedRun& run) const;
+
+ private:
+  // Irradiance from each step of visibility on; with hw.coded which tokens are stored before each step, and
+  // behind the last one.
+  std::map<std::uint32_t, IrradianceStream> irradiance_;
+  std::map<std::uint32_t, StoredTokens> stored_;
+};
+
+}  // namespace voxmelt::hwmodel::explore

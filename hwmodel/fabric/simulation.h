@@ -1,0 +1,152 @@
+// What machines need of SystemC: one simulation with one clock, in which one machine runs or several beside
+// each other; channels that commit in the update phase; blocks with one process each. Only the file that
+// assembles a machine includes this one.
+//
+//   Simulation simulation;
+//   Part part(simulation);                  // a machine
+//   part.done = [&] { return writer.done(); };
+//   Block block("writer", simulation, part, [&] { writer.cycle(part.cycle()); });
+//   simulation.begin(part);                 // a job: one train of passes, one pass of a picture
+//   simulation.run(part);                   // until its job has ended; other machines with jobs go on
+//   part.rethrow();                         // what a block has thrown
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "hwmodel/fabric/fifo.h"
+
+namespace voxmelt::hwmodel {
+
+class Simulation;
+
+// A machine: it works through jobs, one after another. Its cycles count from 0 in each of them. Whatever ends
+// a job, the cycle in which it happened is finished by all of its blocks.
+class Part {
+ public:
+  explicit Part(Simulation& simulation);
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+  ~Part();
+
+  // Set once. All are called between two cycles, when every block has run and every channel has committed.
+  std::function<bool()> done;        // is the job done?
+  std::function<void()> each_cycle;  // of a job; may be empty, as the others
+  std::function<void()> poll;        // now and then; what it throws ends the job
+  std::function<void()> ended;       // a job has; it may begin another one, from the next cycle on
+  std::int64_t hang_after = 1000;    // cycles in which nothing moves
+
+  std::int64_t moves = 0;  // of stages and of whatever else shows that the machine does not hang
+
+  bool works() const { return works_; }
+  std::int64_t cycle() const;            // of the present job
+  void stop() { stops_ = true; }         // the job, after the present cycle
+  void fail(std::exception_ptr error) {  // the same
+    if (!error_) error_ = std::move(error);
+  }
+
+  // Of the last job.
+  struct End {
+    std::int64_t cycles = 0;
+    bool complete = false, hangs = false;
+  };
+  const End& end() const { return end_; }
+  // Throws what a block, or `poll`, has thrown in it.
+  void rethrow();
+
+ private:
+  friend class Simulation;
+  bool ends();  // called between two cycles of a job
+
+  Simulation& simulation_;
+  bool works_ = false, stops_ = false;
+  std::int64_t first_cycle_ = 0, moves_before_ = 0, idle_ = 0;
+  End end_;
+  std::exception_ptr error_;
+};
+
+// One SystemC context and one clock. A program can run many simulations, one after another, or in turn.
+class Simulation {
+ public:
+  Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+  ~Simulation();
+
+  // Everything of SystemC is made, and destroyed, within one.
+  class Scope {
+   public:
+    explicit Scope(Simulation& simulation) : of_(simulation) { of_.enter(); }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+    ~Scope() { of_.leave(); }
+
+   private:
+    Simulation& of_;
+  };
+
+  // What no machine owns, and all may use: it runs its cycle when all blocks have run theirs.
+  void after_blocks(std::function<void()> cycle) { after_blocks_.push_back(std::move(cycle)); }
+
+  void begin(Part& part);
+  void run(Part& part);  // until its job has ended
+  void run();            // until no machine has a job
+
+  std::int64_t cycle() const;  // since the begin
+
+ private:
+  friend class Part;
+  friend class Block;
+  struct Clock;
+
+  void enter();
+  void leave();
+  void start();
+  void between_cycles();
+
+  sc_core::sc_simcontext* outer_ = nullptr;
+  sc_core::sc_simcontext* outer_default_ = nullptr;
+  sc_core::sc_simcontext* own_;
+  int depth_ = 0;  // of scopes
+  std::unique_ptr<Clock> clock_;
+  std::vector<Part*> parts_;
+  std::vector<std::function<void()>> after_blocks_;
+  const Part* awaited_ = nullptr;  // null: all
+  bool ran_ = false;
+};
+
+// A channel between blocks: it commits in the update phase, after every process of the cycle has run.
+template <class Word>
+class Link final : public sc_core::sc_prim_channel {
+ public:
+  Link(std::string name, int channel, int lanes, int depth, std::uint64_t stall_seed)
+      : fifo_(std::move(name), channel, lanes, depth, stall_seed) {}
+  Fifo<Word>& fifo() { return fifo_; }
+  void tick() { request_update(); }
+
+ private:
+  void update() override { fifo_.commit(); }
+
+  Fifo<Word> fifo_;
+};
+
+// A block: one process, one cycle of its plain C++ content at every rising edge, while its machine works.
+class Block final : public sc_core::sc_module {
+ public:
+  SC_HAS_PROCESS(Block);
+  Block(sc_core::sc_module_name name, Simulation& simulation, Part& part, std::function<void()> cycle);
+
+ private:
+  void run();
+
+  Part& part_;
+  std::function<void()> cycle_;
+};
+
+}  // namespace voxmelt::hwmodel

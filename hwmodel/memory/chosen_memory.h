@@ -1,0 +1,51 @@
+// The memory that a configuration chooses: a DRAM, or one of a fixed latency.
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "hwmodel/fabric/memory_port.h"
+#include "hwmodel/memory/counts.h"
+#include "hwmodel/memory/dram.h"
+#include "hwmodel/memory/fixed_latency.h"
+#include "hwmodel/memory/parameters.h"
+#include "hwmodel/memory/trace.h"
+
+namespace voxmelt::hwmodel::memory {
+
+struct Choice {
+  std::optional<Parameters> dram;    // none: a fixed latency, as the next two say
+  int latency = 40, bus_bytes = 64;  // cycles of the machine; bytes in each of them
+  int clock_mhz = 200;               // of the machine
+  std::string trace;                 // file of the requests to a DRAM; empty: none
+
+  double most_bytes_per_cycle() const {  // of the machine
+    return dram ? static_cast<double>(dram->peak()) / clock_mhz : bus_bytes;
+  }
+};
+
+class ChosenMemory {
+ public:
+  // Throws std::runtime_error if the trace cannot be written.
+  explicit ChosenMemory(const Choice& choice);
+
+  Memory& memory() { return dram_ ? static_cast<Memory&>(*dram_) : *fixed_; }
+  // A job begins whose cycles count from 0, and nobody else uses the memory.
+  void begin_job() {
+    if (fixed_) fixed_->begin_job();
+  }
+  std::optional<Counts> dram_counts() const { return dram_ ? std::optional(dram_->counts()) : std::nullopt; }
+  // Cycles of the machine in which the data bus carried bytes.
+  std::int64_t bus_cycles() const;
+
+ private:
+  Choice choice_;
+  std::optional<Dram> dram_;
+  std::optional<FixedLatency> fixed_;
+  std::ofstream trace_file_;
+  std::optional<TraceWriter> trace_;
+};
+
+}  // namespace voxmelt::hwmodel::memory

@@ -1,0 +1,66 @@
+// A memory that answers after so many cycles, over a bus of so many bytes a cycle.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <vector>
+
+#include "hwmodel/fabric/memory_port.h"
+
+namespace voxmelt::hwmodel::memory {
+
+// Requests take the bus in the order in which they were put: of one cycle, in the order of their ports. What
+// a client asks for takes whole cycles of the bus. It returns in the order in which the client asked at all
+// of its ports, one reply a cycle. Ports without a client are streams: their bytes are packed on the bus.
+class FixedLatency final : public Memory {
+ public:
+  FixedLatency(int latency, int bus_bytes) : latency_(latency), bus_bytes_(bus_bytes) {}
+
+  int open_port(PortClient* client) override;
+  bool ready(int port) const override;
+  void put(int port, const Request& request) override;
+  const Request* reply(int port) const override;
+  void take(int port) override;
+  bool cycle() override;
+  bool idle() const override;
+
+  int most_bytes() const override { return std::numeric_limits<int>::max(); }
+  std::int64_t alignment() const override { return kBurst; }
+
+  std::int64_t bus_cycles() const { return bus_cycles_; }  // that carried bytes
+  // What was promised of the bus is forgotten: a job begins that counts from 0.
+  void begin_job() { bus_free_ = now_; }
+
+ private:
+  static constexpr std::size_t kMostUnderWay = 256;  // reads of a way back
+  static constexpr std::int64_t kMostAhead = 64;     // cycles of the bus that a stream may claim
+  struct UnderWay {
+    Request request;
+    int port = 0;
+    std::int64_t done = 0;
+  };
+  struct Way {  // back to a client
+    PortClient* client = nullptr;
+    std::deque<UnderWay> reads;
+    std::size_t waiting = 0;       // that were put in this cycle
+    std::int64_t last_reply = -1;  // the cycle in which it was taken
+  };
+  struct Port {
+    std::size_t way = 0;
+    std::deque<Request> inbox;  // of this cycle
+  };
+
+  const Way& way_of(int port) const { return ways_[ports_[static_cast<std::size_t>(port)].way]; }
+  Way& way_of(int port) { return ways_[ports_[static_cast<std::size_t>(port)].way]; }
+  void serve(int port, const Request& request);
+
+  int latency_, bus_bytes_;
+  std::vector<Way> ways_;
+  std::vector<Port> ports_;
+  std::int64_t now_ = 0, bus_free_ = 0, bus_cycles_ = 0;
+  std::int64_t owed_ = 0;  // bytes of streams that fill no cycle yet
+};
+
+}  // namespace voxmelt::hwmodel::memory

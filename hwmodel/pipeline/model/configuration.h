@@ -1,0 +1,87 @@
+// The numbers by which a pipeline is configured, and the table of their keys in [hw]: presets, `--set`, the
+// reports, `explore` and the files that the program writes follow from it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace voxmelt::hwmodel {
+
+struct ChannelDepth {
+  std::string name;  // "step 0: gravity -> pattern"
+  int depth = 0;
+};
+
+struct Configuration {
+  int lanes = 4;                       // P: cells per cycle, along x
+  int cascade = 1;                     // T: time steps per pass
+  int fifo_depth = 4;                  // tokens, of every channel
+  std::uint64_t stall_seed = 0;        // 0: no stalls
+  int substeps = 1;                    // viscous law: copies of settle and spread in a time step
+  bool overlap = true;                 // may a pass enter while the last one drains?
+  int tile = 0;                        // cells along x that the memories hold, in whole blocks; 0: the grid
+  bool coded = false;                  // the state in memory has one bit for a token of air
+  std::vector<ChannelDepth> depths{};  // of channels that differ from fifo_depth
+
+  int depth_of(const std::string& channel) const {
+    for (const ChannelDepth& one : depths)
+      if (one.name == channel) return one.depth;
+    return fifo_depth;
+  }
+  // Channels of depth 1 pass a token every second cycle: if all are so, or any, does the stream.
+  int interval() const { return fifo_depth == 1 || has_single() ? 2 : 1; }
+  // Has every channel room for two tokens, or none? Else the cycles have no closed form.
+  bool channels_alike() const { return depths.empty() || (fifo_depth > 1 && !has_single()); }
+  bool has_single() const {
+    return std::any_of(depths.begin(), depths.end(), [](const ChannelDepth& one) { return one.depth == 1; });
+  }
+};
+
+inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024, kMostSubsteps = 64,
+                     kMostTile = 65536;
+
+struct HwKey {
+  std::string_view name;    // of [hw], --set, JSON and CSV
+  std::int64_t low, high;   // its range
+  std::string_view values;  // the same for people
+  bool power_of_two;
+  std::int64_t (*get)(const Configuration&);
+  void (*set)(Configuration&, std::int64_t);
+
+  std::int64_t usual() const { return get(Configuration{}); }
+  bool chosen() const { return name != "stall_seed"; }  // by a designer: it is no test of the channels
+};
+
+template <auto Member>
+constexpr HwKey hw_key(std::string_view name, std::int64_t low, std::int64_t high, std::string_view values,
+                       bool power_of_two = false) {
+  return {name,
+          low,
+          high,
+          values,
+          power_of_two,
+          [](const Configuration& c) { return static_cast<std::int64_t>(c.*Member); },
+          [](Configuration& c, std::int64_t value) {
+            c.*Member = static_cast<std::remove_reference_t<decltype(c.*Member)>>(value);
+          }};
+}
+
+// A multiple of the lanes must be read behind them: hw.tile.
+inline constexpr std::array kHwKeys{
+    hw_key<&Configuration::lanes>("lanes", 1, kMostLanes, "1, 2, 4 .. 32", true),
+    hw_key<&Configuration::cascade>("cascade", 1, kMostCascade, "1 .. 16"),
+    hw_key<&Configuration::substeps>("substeps", 1, kMostSubsteps, "1 .. 64"),
+    hw_key<&Configuration::overlap>("overlap", 0, 1, "0, 1"),
+    hw_key<&Configuration::tile>("tile", 0, kMostTile, "0: none"),
+    hw_key<&Configuration::coded>("coded", 0, 1, "0, 1"),
+    hw_key<&Configuration::fifo_depth>("fifo_depth", 1, kMostDepth, "1 .. 1024"),
+    hw_key<&Configuration::stall_seed>("stall_seed", 0, std::numeric_limits<std::int64_t>::max(), "0: none"),
+};
+
+}  // namespace voxmelt::hwmodel

@@ -1,0 +1,25 @@
+// What the pipeline moves to and from its memory.
+#pragma once
+
+#include <cstdint>
+
+namespace voxmelt::hwmodel {
+
+// Passes one after the other, as they were simulated. Words are packed: the stream is read and written in its
+// order, so that only its last burst is not full.
+struct StreamWork {
+  std::int64_t passes = 0, cycles = 0;
+  std::int64_t lag = 0;  // of a pass: cycles between its first token read and its first one written
+  std::int64_t tokens = 0;
+  std::int64_t read_bits = 0, fed_bits = 0, written_bits = 0;
+
+  std::int64_t bytes() const { return (read_bits + 7) / 8 + (fed_bits + 7) / 8 + (written_bits + 7) / 8; }
+  friend StreamWork operator-(const StreamWork& a, const StreamWork& b) {
+    StreamWork of = a;
+    of.passes -= b.passes, of.cycles -= b.cycles, of.tokens -= b.tokens;
+    of.read_bits -= b.read_bits, of.fed_bits -= b.fed_bits, of.written_bits -= b.written_bits;
+    return of;
+  }
+};
+
+}  // namespace voxmelt::hwmodel
