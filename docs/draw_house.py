@@ -40,6 +40,7 @@ PURPOSES = {
     "report/bench": "tables and plot of speeds",
     "hwmodel": "the hardware in SystemC: a pipeline, a ray caster",
     "hwmodel/fabric": "clock, channels, line buffers, wires",
+    "hwmodel/check": "what checks any machine",
     "hwmodel/memory": "when a DRAM gives and takes",
     "hwmodel/pipeline": "the automaton's stream, a stage per phase",
     "hwmodel/caster": "draws pictures, from bricks",

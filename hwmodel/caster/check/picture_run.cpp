@@ -120,7 +120,7 @@ PictureRun::PictureRun(const Registers& registers, Memory& memory, const Picture
     : registers_(registers),
       memory_(memory),
       options_(options),
-      plan_(options.fault, options.fault_channel),
+      plan_(options.fault, 0, options.fault_channel.empty() ? kUsualChannel : options.fault_channel),
       caster_(registers, memory, options_.configuration,
               options.fault == Fault::none ? PipeMaker(make_pipe) : planted_pipes(plan_), shares) {
   caster_.poll(options.poll);

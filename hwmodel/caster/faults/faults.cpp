@@ -1,16 +1,11 @@
 #include "hwmodel/caster/faults/faults.h"
 
-#include <algorithm>
 #include <array>
-#include <cstddef>
-#include <string>
-#include <utility>
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
 using enum Fault;
-constexpr const char* kChannel = "texture -> matter";  // that every ray passes, halfway
 constexpr std::array kFaults{
     FaultInfo{tiles_threshold, "tiles-threshold", "tiles",
               "a pixel is drawn again whose bytes differ by just the most that is allowed"},
@@ -82,11 +77,11 @@ constexpr std::array kFaults{
     FaultInfo{write_place, "write-place", "write", "a burst is written to the next tile's place"},
     FaultInfo{write_burst, "write-burst", "write", "the next burst of the tile is written"},
     FaultInfo{write_early, "write-early", "write", "a tile is written before its last pixel has come"},
-    FaultInfo{channel_lost, "channel-lost", kChannel, "a token is lost in a channel"},
-    FaultInfo{channel_twice, "channel-twice", kChannel, "a token comes again in place of the next one"},
-    FaultInfo{channel_swap, "channel-swap", kChannel, "two tokens of a channel change places"},
-    FaultInfo{channel_bit, "channel-bit", kChannel, "a bit of a surface's normal changes in a channel"},
-    FaultInfo{channel_never_ready, "channel-never-ready", kChannel,
+    FaultInfo{channel_lost, "channel-lost", kUsualChannel, "a token is lost in a channel"},
+    FaultInfo{channel_twice, "channel-twice", kUsualChannel, "a token comes again in place of the next one"},
+    FaultInfo{channel_swap, "channel-swap", kUsualChannel, "two tokens of a channel change places"},
+    FaultInfo{channel_bit, "channel-bit", kUsualChannel, "a bit of a surface's normal changes in a channel"},
+    FaultInfo{channel_never_ready, "channel-never-ready", kUsualChannel,
               "a channel takes no token any more: everything hangs"},
     FaultInfo{dealer_twice, "dealer-twice", "dealer", "a tile is dealt again in place of the next one"},
     FaultInfo{dealer_never, "dealer-never", "dealer", "a tile is never dealt: everything hangs"},
@@ -108,26 +103,12 @@ constexpr std::array kFaults{
     FaultInfo{press_nothing, "press-nothing", "press", "nothing is seen behind clear matter"},
 };
 
-// A fault that the table lacks would never be tested.
-constexpr bool has_all_in_order() {
-  auto expected = static_cast<std::size_t>(none);
-  for (const FaultInfo& one : kFaults)
-    if (static_cast<std::size_t>(one.fault) != ++expected) return false;
-  return ++expected == static_cast<std::size_t>(end);
-}
-static_assert(has_all_in_order(), "a row for each fault, in the order of the enumerators");
+static_assert(check::lists_all(kFaults), "a row for each fault, in the order of the enumerators");
 
 }  // namespace
 
-FaultPlan::FaultPlan(Fault fault, std::string channel)
-    : fault_(fault), channel_(channel.empty() ? kChannel : std::move(channel)) {}
-
 std::span<const FaultInfo> all_faults() { return kFaults; }
 
-const FaultInfo* find_fault(std::string_view name) {
-  const auto found =
-      std::find_if(kFaults.begin(), kFaults.end(), [&](const FaultInfo& one) { return one.name == name; });
-  return found == kFaults.end() ? nullptr : &*found;
-}
+const FaultInfo* find_fault(std::string_view name) { return check::find_fault(all_faults(), name); }
 
 }  // namespace voxmelt::hwmodel::raycast

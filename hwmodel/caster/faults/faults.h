@@ -1,16 +1,13 @@
 // Faults that can be planted in the ray caster, to see that the lock-step checker finds them: `voxmelt list
-// faults`, `voxmelt verify SCENE --picture --plant NAME`. A fault strikes once, at the first place where it
-// makes a difference, and notes the stage that it leaves wrong, the pixel and the sample.
+// faults`, `voxmelt verify SCENE --picture --plant NAME`.
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
+
+#include "hwmodel/check/fault_plan.h"
 
 namespace voxmelt::hwmodel::raycast {
 
@@ -109,39 +106,21 @@ enum class Fault : std::uint8_t {
   end,  // no fault, but the end of the list
 };
 
-struct FaultInfo {
-  Fault fault;
-  std::string_view name, stage, what;
+// The stage that a fault leaves wrong.
+struct StruckPixel {
+  std::string stage;
+  std::int32_t x = 0, y = 0;  // of the pixel; of a tile that is written, its first one
+  int sample = 0;
+  std::int64_t address = -1;  // of a line in memory
 };
+
+using FaultInfo = check::FaultInfo<Fault>;
+using FaultPlan = check::FaultPlan<Fault, StruckPixel>;
 
 std::span<const FaultInfo> all_faults();
 const FaultInfo* find_fault(std::string_view name);  // null: unknown
 
-class FaultPlan {
- public:
-  FaultPlan() = default;
-  // `channel`: in which a channel's fault strikes; else the one of the table.
-  explicit FaultPlan(Fault fault, std::string channel = {});
-
-  Fault fault() const { return fault_; }
-  bool armed(Fault fault) const { return fault == fault_ && !struck_; }
-  const std::string& channel() const { return channel_; }
-
-  struct Strike {
-    std::string stage;
-    std::int32_t x, y;  // of the pixel; of a tile that is written, its first one
-    int sample;
-    std::int64_t address = -1;  // of a line in memory
-  };
-  void strike(Strike strike) { struck_ = std::move(strike); }
-  const std::optional<Strike>& struck() const { return struck_; }
-  void keep(std::shared_ptr<void> part) { kept_.push_back(std::move(part)); }  // of it, as long as it lives
-
- private:
-  Fault fault_ = Fault::none;
-  std::string channel_;
-  std::vector<std::shared_ptr<void>> kept_;
-  std::optional<Strike> struck_;
-};
+// A fault of channels strikes in this one, unless another is named: every ray passes it, halfway.
+inline constexpr const char* kUsualChannel = "texture -> matter";
 
 }  // namespace voxmelt::hwmodel::raycast

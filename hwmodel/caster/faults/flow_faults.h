@@ -113,22 +113,22 @@ class FlowFaults : public Planted {
  public:
   FlowFaults(FaultPlan& plan, const Registers& registers, const Memory& memory,
              std::shared_ptr<LastReply> last_reply)
-      : Planted(plan, registers, memory), to_(&plan), last_reply_(std::move(last_reply)) {}
+      : Planted(plan, registers, memory), last_reply_(std::move(last_reply)) {}
 
   template <class Word>
   void made(Fifo<Word>& channel) {
     if constexpr (OfRay<Word> || OfTile<Word>) {
-      if (channel.name() != to_->channel()) return;
+      if (channel.name() != plan().channel()) return;
       if (armed(Fault::channel_lost) || armed(Fault::channel_twice) || armed(Fault::channel_swap) ||
           armed(Fault::channel_bit) || armed(Fault::channel_never_ready))
-        channel.plant(kept(std::make_shared<TokenFault<Word>>(*to_, channel)));
+        channel.plant(kept(std::make_shared<TokenFault<Word>>(plan(), channel)));
     }
   }
   void connected(int pipe, Fifo<TileJob>& tiles, Fifo<LineReply>& replies, int columns, int texels) {
     if (armed(Fault::dealer_twice) || armed(Fault::dealer_never))
-      tiles.plant(kept(std::make_shared<TileFault>(*to_)));
+      tiles.plant(kept(std::make_shared<TileFault>(plan())));
     if (armed(Fault::memory_client) || armed(Fault::memory_pipe))
-      replies.plant(kept(std::make_shared<ReplyFault>(*to_, last_reply_, pipe, columns, texels)));
+      replies.plant(kept(std::make_shared<ReplyFault>(plan(), last_reply_, pipe, columns, texels)));
   }
 
   bool writes_early(bool at_once, const TileBuffer& tile) {
@@ -141,11 +141,10 @@ class FlowFaults : public Planted {
   template <class Made>
   Made* kept(std::shared_ptr<Made> made) {
     Made* of = made.get();
-    to_->keep(std::move(made));
+    plan().keep(std::move(made));
     return of;
   }
 
-  FaultPlan* to_;
   std::shared_ptr<LastReply> last_reply_;
 };
 

@@ -17,14 +17,14 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-class Planted {
+class Planted : public check::Planted<FaultPlan> {
  public:
   Planted(FaultPlan& plan, const Registers& registers, const Memory& memory)
-      : plan_(&plan), registers_(&registers), memory_(&memory) {}
+      : check::Planted<FaultPlan>(plan), registers_(&registers), memory_(&memory) {}
 
  protected:
-  bool armed(Fault fault) const { return plan_->armed(fault); }
-  void strike(const char* stage, const RayId& id) { plan_->strike({stage, id.x, id.y, id.sample}); }
+  bool armed(Fault fault) const { return plan().armed(fault); }
+  void strike(const char* stage, const RayId& id) { plan().strike({stage, id.x, id.y, id.sample}); }
   // Strikes if the wrong value is another one.
   template <class Value>
   void replace(const char* stage, const RayId& id, Value& value, const Value& wrong) {
@@ -82,7 +82,6 @@ class Planted {
     return word;
   }
 
-  FaultPlan* plan_;
   const Registers* registers_;
   const Memory* memory_;
 };

@@ -1,8 +1,6 @@
 #include "hwmodel/pipeline/faults/faults.h"
 
-#include <algorithm>
 #include <array>
-#include <cstddef>
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -109,23 +107,12 @@ constexpr std::array kFaults{
               "a channel is never ready again: everything hangs"},
 };
 
-// A fault that the table lacks would never be tested.
-constexpr bool has_all_in_order() {
-  auto expected = static_cast<std::size_t>(none);
-  for (const FaultInfo& one : kFaults)
-    if (static_cast<std::size_t>(one.fault) != ++expected) return false;
-  return ++expected == static_cast<std::size_t>(end);
-}
-static_assert(has_all_in_order(), "a row for each fault, in the order of the enumerators");
+static_assert(check::lists_all(kFaults), "a row for each fault, in the order of the enumerators");
 
 }  // namespace
 
 std::span<const FaultInfo> all_faults() { return kFaults; }
 
-const FaultInfo* find_fault(std::string_view name) {
-  const auto found =
-      std::find_if(kFaults.begin(), kFaults.end(), [&](const FaultInfo& one) { return one.name == name; });
-  return found == kFaults.end() ? nullptr : &*found;
-}
+const FaultInfo* find_fault(std::string_view name) { return check::find_fault(all_faults(), name); }
 
 }  // namespace voxmelt::hwmodel

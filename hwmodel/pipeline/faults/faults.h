@@ -1,14 +1,13 @@
 // Faults that can be planted in the model, to see that the lock-step checker finds them: `voxmelt list
-// faults`, `voxmelt verify SCENE --plant NAME`. A fault strikes once, at the first place where it makes a
-// difference, and notes the first cell that leaves its stage wrong.
+// faults`, `voxmelt verify SCENE --plant NAME`.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
+
+#include "hwmodel/check/fault_plan.h"
 
 namespace voxmelt::hwmodel {
 
@@ -98,37 +97,17 @@ inline bool is_of_the_code(Fault fault) {
   return fault >= Fault::code_lane_missed && fault <= Fault::code_bit_early;
 }
 
-struct FaultInfo {
-  Fault fault;
-  std::string_view name, stage, what;
+// The first cell that leaves a stage, or a channel, wrong.
+struct StruckCell {
+  std::string where;
+  std::uint32_t step = 0;
+  int x = 0, y = 0, z = 0;
 };
+
+using FaultInfo = check::FaultInfo<Fault>;
+using FaultPlan = check::FaultPlan<Fault, StruckCell>;
 
 std::span<const FaultInfo> all_faults();
 const FaultInfo* find_fault(std::string_view name);  // null: unknown
-
-class FaultPlan {
- public:
-  FaultPlan() = default;
-  FaultPlan(Fault fault, std::uint32_t first_step) : fault_(fault), first_step_(first_step) {}
-
-  Fault fault() const { return fault_; }
-  std::uint32_t first_step() const { return first_step_; }
-  bool armed(Fault fault, std::uint32_t step) const {
-    return fault == fault_ && !struck_ && step >= first_step_;
-  }
-
-  struct Strike {
-    std::string where;  // stage or channel
-    std::uint32_t step;
-    int x, y, z;  // the first cell that leaves it wrong
-  };
-  void strike(Strike strike) { struck_ = std::move(strike); }
-  const std::optional<Strike>& struck() const { return struck_; }
-
- private:
-  Fault fault_ = Fault::none;
-  std::uint32_t first_step_ = 0;
-  std::optional<Strike> struck_;
-};
 
 }  // namespace voxmelt::hwmodel

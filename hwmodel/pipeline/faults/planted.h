@@ -13,20 +13,20 @@
 
 namespace voxmelt::hwmodel {
 
-class Planted {
+class Planted : public check::Planted<FaultPlan> {
  public:
-  explicit Planted(FaultPlan& plan) : plan_(&plan) {}
+  using check::Planted<FaultPlan>::Planted;
 
  protected:
   // Beside a cut, a tile computes cells that another tile owns, and some of them it spoils. A fault strikes
   // where all that it could change is owned by the tile: those are compared.
   bool armed(const Stage& stage, Fault fault) const {
-    return plan_->armed(fault, stage.working_step()) && deep_within(stage);
+    return plan().armed(fault, stage.working_step()) && deep_within(stage);
   }
 
   // The fault strikes; the first cell that leaves the stage wrong is the one at x, y, z ...
   void strike(const Stage& stage, int x, int y, int z) {
-    plan_->strike({stage.name(), stage.working_step(), x, y, z});
+    plan().strike({stage.name(), stage.working_step(), x, y, z});
   }
   // ... in this lane of a token ...
   void strike_lane(const Stage& stage, const Place& place, int lane) {
@@ -72,8 +72,6 @@ class Planted {
     while (&word < line.tap(delay) || &word >= line.tap(delay) + stage.lanes()) ++delay;
     return {-static_cast<std::int64_t>(delay), static_cast<int>(&word - line.tap(delay))};
   }
-
-  FaultPlan* plan_;
 };
 
 }  // namespace voxmelt::hwmodel

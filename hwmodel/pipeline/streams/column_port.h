@@ -23,7 +23,7 @@ inline constexpr std::int64_t kBurstsAhead = 128;  // of a stream's buffer: 8 Ki
 // Where the columns of a grid lie. A grid in tiles has two copies, and a pass reads one and writes the other.
 struct ColumnSlots {
   // `base`: its first byte.
-  ColumnSlots(const Design& design, bool coded, std::int64_t base);
+  ColumnSlots(const Design& design, bool coded, std::int64_t base = 0);
 
   std::int64_t address(std::int64_t column, std::int64_t copy) const {
     return base + (copy % copies * columns + column) * slot_bursts * memory::kBurst;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hwmodel/caster/check/verify_picture.h"
-#include "hwmodel/caster/model/dram_lines.h"
+#include "hwmodel/caster/model/line_block.h"
 #include "hwmodel/caster/model/upload_stage.h"
 #include "hwmodel/caster/report/report_memory.h"
 #include "hwmodel/memory/sheet.h"
@@ -89,12 +89,12 @@ TEST(CasterMemory, TwoShareADram) {
   std::vector<Memory> memories(2);
   struct Side {
     Side(Memory& memory, memory::Dram& dram_of_both, std::int64_t base)
-        : lines(memory, dram_of_both, base),
+        : lines(memory, dram_of_both, 64, base),
           requests("requests", 0, 1, 4, 0),
           replies("replies", 1, 1, 4, 0) {
       lines.connect(requests, replies);
     }
-    DramLines lines;
+    LineBlock lines;
     Fifo<LineRequest> requests;
     Fifo<LineReply> replies;
     int asked = 0, replied = 0;
@@ -114,7 +114,7 @@ TEST(CasterMemory, TwoShareADram) {
       if (side->replies.valid()) {
         EXPECT_EQ(side->replies.get()->slot, side->replied++);
       }
-      side->lines.cycle(cycle);
+      side->lines.cycle();
       ++mark;
     }
     dram.cycle();

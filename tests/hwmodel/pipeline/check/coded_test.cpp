@@ -268,8 +268,8 @@ TEST(Columns, AreAskedForWhenTheyHaveBeenWritten) {
   memory::Dram dram(load_memory("ddr4-2400", "test"), 200);
   ColumnOutput out;
   ColumnInput in;
-  out.begin(slots, dram);
-  in.begin(slots, {}, dram);
+  out.begin(slots, dram, dram.open_port(nullptr));
+  in.begin(slots, {}, dram, dram.open_port(nullptr));
   for (int pass = 0; pass < 2; ++pass) in.add(0), out.add(0);
   std::int64_t now = 0;
   const auto cycles = [&](int n) {
