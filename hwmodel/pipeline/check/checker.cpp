@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "hwmodel/pipeline/check/wanted_cell.h"
+#include "hwmodel/pipeline/model/cell_wires.h"
 #include "hwmodel/pipeline/model/lag.h"
 
 namespace voxmelt::hwmodel {
@@ -113,21 +116,18 @@ void Checker::compare(const Channel& channel, const Cell* lanes) {
 
 bool Checker::compare(const Channel& channel, const Expected& expected, const Cell& wanted, const Cell& is,
                       int lane) {
+  if (wanted == is) return true;
   const Place& place = channel.place;
-  const auto same = [&](const char* field, std::int64_t a, std::int64_t b) {
+  const auto same = [&](std::string_view field, std::int64_t a, std::int64_t b) {
     if (a == b) return true;
     report(channel, Mismatch::Kind::stage, channel.entering, place, lane, field, a, b);
     mismatch_->neighbourhood = neighbourhood(*expected.before, place.x + lane, place.y, place.z);
     return false;
   };
-  return same("state", static_cast<int>(wanted.state), static_cast<int>(is.state)) &&
-         same("amount", wanted.amount, is.amount) && same("energy", wanted.energy, is.energy) &&
-         same("heat", wanted.heat, is.heat) && same("pattern", wanted.pattern, is.pattern) &&
-         same("exposed axes", wanted.exposed_axes, is.exposed_axes) &&
-         same("beside a wall", wanted.beside_wall, is.beside_wall) &&
-         same("in a run", wanted.in_run, is.in_run) && same("head", wanted.head, is.head) &&
-         same("limit", wanted.limit, is.limit) && same("mobility", wanted.mobility, usable_mobility(is)) &&
-         same("dead zone", wanted.dead, is.dead);
+  return std::all_of(kCellWires.begin(), kCellWires.end(), [&](const CellWire& row) {
+    const std::int64_t actual = row.wire == Wire::mobility ? usable_mobility(is) : row.get(is);
+    return same(row.label, row.get(wanted), actual);
+  });
 }
 
 void Checker::left(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
@@ -143,15 +143,11 @@ void Checker::left(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
     if (!channel.in_flight.empty()) channel.in_flight.pop_front();
     const Cell& is = lanes[lane];
     if (entered == is) continue;
-    const auto differs = [&](const char* field, std::int64_t a, std::int64_t b) {
+    const auto differs = [&](std::string_view field, std::int64_t a, std::int64_t b) {
       if (a != b && mismatch_ == nullptr)
         report(channel, Mismatch::Kind::channel, channel.leaving, channel.left, lane, field, a, b);
     };
-    differs("state", static_cast<int>(entered.state), static_cast<int>(is.state));
-    differs("amount", entered.amount, is.amount);
-    differs("energy", entered.energy, is.energy);
-    differs("heat", entered.heat, is.heat);
-    differs("side band", 0, 1);
+    for (const CellWire& row : kCellWires) differs(row.label, row.get(entered), row.get(is));
     return;
   }
   if (writes) compare_written(channel, lanes);
@@ -181,14 +177,12 @@ void Checker::compare_written(const Channel& channel, const Cell* lanes) {
 void Checker::compare_memory(const Channel& channel, const state::Volume& volume, int lane, const Cell& is) {
   const Place& place = channel.left;
   const Cell wanted = wanted_cell(volume, place.x + lane, place.y, place.z);
-  const auto differs = [&](const char* field, std::int64_t a, std::int64_t b) {
+  const auto differs = [&](std::string_view field, std::int64_t a, std::int64_t b) {
     if (a != b && mismatch_ == nullptr)
       report(channel, Mismatch::Kind::memory, channel.leaving, place, lane, field, a, b);
   };
-  differs("state", static_cast<int>(wanted.state), static_cast<int>(is.state));
-  differs("amount", wanted.amount, is.amount);
-  differs("energy", wanted.energy, is.energy);
-  differs("heat", wanted.heat, is.heat);
+  for (const CellWire& row : kCellWires)
+    if (row.in_memory) differs(row.label, row.get(wanted), row.get(is));
 }
 
 void Checker::compare_pass(const Channel& channel) {
@@ -207,7 +201,7 @@ void Checker::compare_pass(const Channel& channel) {
   const std::optional<state::Holdings>& held = wanted.held;
   if (!held) return;
   const Books& books = pipeline_.books();
-  const auto differs = [&](const char* field, std::int64_t a, std::int64_t b) {
+  const auto differs = [&](std::string_view field, std::int64_t a, std::int64_t b) {
     if (a != b && mismatch_ == nullptr)
       report(channel, Mismatch::Kind::books, channel.leaving, channel.left, 0, field, a, b);
   };
@@ -218,7 +212,7 @@ void Checker::compare_pass(const Channel& channel) {
 }
 
 void Checker::report(const Channel& channel, Mismatch::Kind kind, std::size_t pass, const Place& place,
-                     int lane, const char* field, std::int64_t expected, std::int64_t actual) {
+                     int lane, std::string_view field, std::int64_t expected, std::int64_t actual) {
   const Wanted& wanted = passes_[pass - written_];
   const bool written = kind == Mismatch::Kind::memory || kind == Mismatch::Kind::books,
              in_channel = kind == Mismatch::Kind::channel;
@@ -235,7 +229,7 @@ void Checker::report(const Channel& channel, Mismatch::Kind kind, std::size_t pa
       .x = place.x + lane,
       .y = place.y,
       .z = place.z,
-      .field = field,
+      .field = std::string(field),
       .expected = expected,
       .actual = actual,
   });

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hwmodel/pipeline/check/expectation.h"
@@ -84,7 +85,7 @@ class Checker final : public FifoWatcher<Cell> {
   bool compare(const Channel& channel, const Expected& expected, const Cell& wanted, const Cell& is,
                int lane);  // false: they differ
   void report(const Channel& channel, Mismatch::Kind kind, std::size_t pass, const Place& place, int lane,
-              const char* field, std::int64_t expected, std::int64_t actual);
+              std::string_view field, std::int64_t expected, std::int64_t actual);
 
   Pipeline& pipeline_;
   const Shape shape_;

@@ -32,7 +32,7 @@ bool holds_something(const Cell& cell) {
 
 }  // namespace
 
-bool ColumnChecker::differs(const Place& place, int lane, const char* field, std::int64_t expected,
+bool ColumnChecker::differs(const Place& place, int lane, std::string_view field, std::int64_t expected,
                             std::int64_t actual) {
   if (expected == actual) return false;
   const Checker::Wanted& wanted = checker_.being_written();
@@ -46,7 +46,7 @@ bool ColumnChecker::differs(const Place& place, int lane, const char* field, std
       .x = place.x + lane,
       .y = place.y,
       .z = place.z,
-      .field = field,
+      .field = std::string(field),
       .expected = expected,
       .actual = actual,
   });
@@ -70,11 +70,10 @@ void ColumnChecker::column_written(const Place& last, const std::uint64_t* slot)
     for (int lane = 0; lane < cells; ++lane) {
       const Cell wanted = wanted_cell(*left, place.x + lane, place.y, place.z);
       bits.go_to(design.shape.grid.y + (stored * lanes + lane) * design.cell_bits());
-      if (differs(place, lane, "state", static_cast<int>(wanted.state), bits.take(2)) ||
-          differs(place, lane, "amount", wanted.amount, bits.take(16)) ||
-          (design.paper() && differs(place, lane, "energy", wanted.energy, bits.take(16))) ||
-          (design.hot() && differs(place, lane, "heat", wanted.heat, bits.take(16))))
-        return;
+      for (const CellWire& row : kCellWires)
+        if (is_in_memory(row, design.paper(), design.hot()) &&
+            differs(place, lane, row.label, row.get(wanted), bits.take(row.bits)))
+          return;
     }
     ++stored;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "hwmodel/pipeline/check/checker.h"
 
@@ -15,7 +16,8 @@ class ColumnChecker final : public ColumnWatcher {
   void column_written(const Place& place, const std::uint64_t* slot) override;
 
  private:
-  bool differs(const Place& place, int lane, const char* field, std::int64_t expected, std::int64_t actual);
+  bool differs(const Place& place, int lane, std::string_view field, std::int64_t expected,
+               std::int64_t actual);
 
   Pipeline& pipeline_;
   Checker& checker_;

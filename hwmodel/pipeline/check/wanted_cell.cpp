@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "hwmodel/pipeline/model/volume_port.h"
+
 namespace voxmelt::hwmodel {
 namespace {
 
@@ -34,9 +36,7 @@ Cell wanted_cell(const state::Volume& volume, int x, int y, int z) {
     cell.state = State::liquid;
   else if (!volume.inert.test(x, y, z))
     cell.state = State::air;
-  cell.amount = volume.amount[at];
-  cell.energy = volume.energy[at];
-  cell.heat = volume.heat[at];
+  read_numbers(volume, at, cell);
   return cell;
 }
 

@@ -3,32 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstddef>
 
 namespace voxmelt::hwmodel {
 namespace {
-
-struct Field {
-  const char* name;
-  int bits;
-  std::int64_t (*of)(const Cell&);
-};
-constexpr std::array kFields{
-    Field{"state", 2, [](const Cell& c) { return static_cast<std::int64_t>(c.state); }},
-    Field{"amount", 16, [](const Cell& c) { return std::int64_t{c.amount}; }},
-    Field{"energy", 16, [](const Cell& c) { return std::int64_t{c.energy}; }},
-    Field{"heat", 16, [](const Cell& c) { return std::int64_t{c.heat}; }},
-    Field{"exposed_axes", 2, [](const Cell& c) { return std::int64_t{c.exposed_axes}; }},
-    Field{"pattern", 8, [](const Cell& c) { return std::int64_t{c.pattern}; }},
-    Field{"beside_wall", 1, [](const Cell& c) { return std::int64_t{c.beside_wall}; }},
-    Field{"in_run", 1, [](const Cell& c) { return std::int64_t{c.in_run}; }},
-    Field{"head", 30, [](const Cell& c) { return std::int64_t{c.head}; }},
-    Field{"mobility", 22, [](const Cell& c) { return std::int64_t{c.mobility}; }},
-    Field{"limit", 14, [](const Cell& c) { return std::int64_t{c.limit}; }},
-    Field{"dead", 25, [](const Cell& c) { return std::int64_t{c.dead}; }},
-};
 
 // A name that every viewer takes.
 std::string identifier(const std::string& text) {
@@ -90,8 +69,9 @@ void Waves::add_channel(const ChannelReport& channel) {
   signals_.push_back({scope, "count", 11});
   for (const char* side : {"in", "out"})
     for (int lane = 0; lane < lanes_; ++lane)
-      for (const Field& field : kFields)
-        signals_.push_back({fmt::format("{}.{}.lane_{}", scope, side, lane), field.name, field.bits});
+      for (const CellWire& row : kCellWires)
+        signals_.push_back(
+            {fmt::format("{}.{}.lane_{}", scope, side, lane), std::string(row.name), row.bits});
 }
 
 void Waves::cycle(int channel, const Sides& sides, const Cell* in, const Cell* out) {
@@ -103,8 +83,8 @@ void Waves::cycle(int channel, const Sides& sides, const Cell* in, const Cell* o
   now_[at++] = sides.count;
   for (const Cell* token : {in, out})
     for (int lane = 0; lane < lanes_; ++lane)
-      for (const Field& field : kFields)
-        now_[at++] = token != nullptr ? std::optional(field.of(token[lane])) : std::nullopt;
+      for (const CellWire& row : kCellWires)
+        now_[at++] = token != nullptr ? std::optional(row.get(token[lane])) : std::nullopt;
 }
 
 void Waves::begin_train(std::int64_t cycles_before) {

@@ -50,31 +50,24 @@ CodeLayout::CodeLayout(const Design& design)
       hot_(design.hot()) {}
 
 void CodeLayout::put(const Cell& cell, std::uint64_t* slot, std::int64_t at) const {
-  auto value = static_cast<std::uint64_t>(cell.state);
-  int bits = 2;
-  const auto add = [&](std::int64_t field) {
-    value |= static_cast<std::uint64_t>(field) << bits;
-    bits += 16;
-  };
-  add(cell.amount);
-  if (paper_) add(cell.energy);
-  if (hot_) add(cell.heat);
+  std::uint64_t value = 0;
+  int bits = 0;
+  for (const CellWire& row : kCellWires) {
+    if (!is_in_memory(row, paper_, hot_)) continue;
+    value |= static_cast<std::uint64_t>(row.get(cell)) << bits;
+    bits += row.bits;
+  }
   put_bits(slot, at, bits, value);
 }
 
 Cell CodeLayout::get(const std::uint64_t* slot, std::int64_t at) const {
   std::uint64_t value = get_bits(slot, at, cell_bits_);
   Cell cell;
-  cell.state = static_cast<State>(value & 3);
-  value >>= 2;
-  const auto next = [&] {
-    const auto field = static_cast<std::int64_t>(value & 0xFFFF);
-    value >>= 16;
-    return field;
-  };
-  cell.amount = next();
-  if (paper_) cell.energy = next();
-  if (hot_) cell.heat = next();
+  for (const CellWire& row : kCellWires) {
+    if (!is_in_memory(row, paper_, hot_)) continue;
+    row.set(cell, static_cast<std::int64_t>(value & ((std::uint64_t{1} << row.bits) - 1)));
+    value >>= row.bits;
+  }
   return cell;
 }
 

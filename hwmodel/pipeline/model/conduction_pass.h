@@ -63,7 +63,7 @@ class ConductionPass : public Stage {
         weight_(weight),
         line_(lanes(), static_cast<std::size_t>(lag())) {}
 
-  int output_bits() const override { return heated_cell_bits(design()); }
+  Wires side_bands() const override { return heated_bands(design()); }
   std::vector<BufferCost> buffers() const override { return heat_buffers(design(), kPairs, 2); }
   Units units() const override { return {.multipliers = static_cast<int>(kParts)}; }
 

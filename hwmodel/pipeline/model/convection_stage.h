@@ -19,7 +19,7 @@ class Convection final : public Stage {
         weight_(design.parameters.heat.convection),
         line_(lanes(), 1) {}
 
-  int output_bits() const override { return heated_cell_bits(design()); }
+  Wires side_bands() const override { return heated_bands(design()); }
   std::vector<BufferCost> buffers() const override {
     return {{"token register", 1, lanes(), heat_word_bits(design(), 2)}};
   }

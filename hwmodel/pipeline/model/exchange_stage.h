@@ -29,7 +29,7 @@ class Exchange final : public Stage {
 
   void feed(HeatFifo& feed) override { feed_ = &feed; }
 
-  int output_bits() const override { return design().cell_bits() + (design().walls_in_conduction() ? 1 : 0); }
+  Wires side_bands() const override { return Wires().add(Wire::beside_wall, design().walls_in_conduction()); }
   std::vector<BufferCost> buffers() const override {
     if (!air_) return {};
     return {{"air temperatures", shape().grid.y, 1, 16}};

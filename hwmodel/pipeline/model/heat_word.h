@@ -53,9 +53,11 @@ inline int heat_word_bits(const Design& design, int exposed) {
   return design.cell_bits() + 16 + (design.parameters.heat.air ? exposed : 0) +
          (design.walls_in_conduction() ? 1 : 0);
 }
-// Bits of a cell that leaves conduction or convection, side bands included.
-inline int heated_cell_bits(const Design& design) {
-  return design.cell_bits() + (design.parameters.heat.air ? 2 : 0) + (design.walls_in_conduction() ? 1 : 0);
+// Of a cell that leaves conduction or convection.
+inline Wires heated_bands(const Design& design) {
+  return Wires()
+      .add(Wire::exposed_axes, design.parameters.heat.air)
+      .add(Wire::beside_wall, design.walls_in_conduction());
 }
 
 }  // namespace voxmelt::hwmodel

@@ -17,7 +17,7 @@ class Melt final : public Stage {
         paper_(design.paper()),
         reheat_(design.paper() ? design.parameters.flow.paper.reheat : 0) {}
 
-  int output_bits() const override { return design().cell_bits() + (design().walls_in_conduction() ? 1 : 0); }
+  Wires side_bands() const override { return Wires().add(Wire::beside_wall, design().walls_in_conduction()); }
   Units units() const override { return {.multipliers = reheat_ > 0 ? 1 : 0}; }
 
  private:

@@ -39,7 +39,10 @@ class Pattern final : public Stage {
         line_(design.shape.lanes, static_cast<std::size_t>(lag())) {}
 
   // The directions decided: to the south; in the east memory also to the north and west.
-  int output_bits() const override { return design().cell_bits() + law_.neighbours; }
+  Wires side_bands() const override { return {Wire::pattern}; }
+  int width_of(Wire wire) const override {
+    return wire == Wire::pattern ? static_cast<int>(law_.neighbours) : Stage::width_of(wire);
+  }
   std::vector<BufferCost> buffers() const override {
     const int cell = design().cell_bits(), limit = bits_for(flow_.limit());
     if (!flow_.eight()) return window_buffers(shape(), {cell + 1, cell + 1, cell + 3 + limit, cell + 4});

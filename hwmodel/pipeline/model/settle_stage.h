@@ -31,9 +31,10 @@ class Settle final : public Stage {
         downwards_(lanes(), height_),
         upwards_(lanes(), height_) {}
 
-  int output_bits() const override {  // in_run, head, mobility, limit, dead
-    return design().cell_bits() + 1 + widths_.head + 22 + 14 + 25;
+  Wires side_bands() const override {
+    return {Wire::in_run, Wire::head, Wire::mobility, Wire::limit, Wire::dead};
   }
+  int width_of(Wire wire) const override { return wire == Wire::head ? widths_.head : Stage::width_of(wire); }
   std::vector<BufferCost> buffers() const override {
     const bool thermal = flow_.thermal_viscosity;
     return {downwards_.cost("column reverser down", SettleWord::bits_upwards(widths_, hot_, thermal)),

@@ -16,6 +16,7 @@
 #include "hwmodel/fabric/tap_line.h"
 #include "hwmodel/pipeline/model/arithmetic.h"
 #include "hwmodel/pipeline/model/cell.h"
+#include "hwmodel/pipeline/model/cell_wires.h"
 #include "hwmodel/pipeline/model/no_faults.h"
 #include "hwmodel/pipeline/model/shape.h"
 #include "hwmodel/pipeline/model/stage_kind.h"
@@ -42,7 +43,7 @@ struct Design {
   // and a separate stage finds them.
   bool walls_in_conduction() const { return paper() && hot() && needs_walls(); }
   // Bits of a cell between two stages without side-bands.
-  int cell_bits() const { return 2 + 16 + (paper() ? 16 : 0) + (hot() ? 16 : 0); }
+  int cell_bits() const { return bits_in_memory(paper(), hot()); }
 };
 
 // Every cycle of a stage is exactly one of these. `fill_drain`: before its first token, after its last
@@ -156,7 +157,15 @@ class Stage {
   Spot spot() const { return {place_at(spot_delay_), spot_lane_}; }  // where it computes, or did last
   Place place_at(std::int64_t delay) const;  // of the token that came `delay` moves before the present one
   int tile_at(std::int64_t delay) const { return passes_[coming_ - (of_last_pass(delay) ? 1 : 0)].tile; }
-  virtual int output_bits() const { return design_.cell_bits(); }  // per lane, side bands included
+  // What it tells later stages beside the cell.
+  virtual Wires side_bands() const { return {}; }
+  virtual int width_of(Wire wire) const { return row_of(wire).bits; }
+  // Of a lane that leaves it, side bands included.
+  virtual int output_bits() const {
+    int bits = design_.cell_bits();
+    for (const CellWire& row : kCellWires) bits += side_bands().has(row.wire) ? width_of(row.wire) : 0;
+    return bits;
+  }
   virtual std::vector<BufferCost> buffers() const { return {}; }
   virtual Units units() const { return {}; }
 

@@ -30,7 +30,7 @@ class ViscousSpread final : public Stage {
         south_(now_) {}
 
   // Only the last lane of a token has a pair left (its diagonal to the next block) after one plane.
-  int output_bits() const override { return design().cell_bits() + 1 + (walls_ ? 1 : 0); }
+  Wires side_bands() const override { return Wires{Wire::in_run}.add(Wire::beside_wall, walls_); }
   std::vector<BufferCost> buffers() const override {
     const std::int64_t open = SpreadWord::bits(head_bits_, hot_, walls_);
     const std::int64_t done = SpreadWord::done_bits(hot_, walls_);

@@ -2,12 +2,34 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
+#include <type_traits>
 
 #include "hwmodel/pipeline/model/cell.h"
 #include "hwmodel/pipeline/model/shape.h"
 #include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::hwmodel {
+
+// The numbers of a state that a word in memory holds, each with its wire.
+template <auto kOfCell, auto kOfVolume>
+struct MemoryNumber {
+  static void read(const state::Volume& volume, state::Slot slot, Cell& cell) {
+    cell.*kOfCell = (volume.*kOfVolume)[slot];
+  }
+  static void write(const Cell& cell, state::Volume& volume, state::Slot slot) {
+    auto& number = (volume.*kOfVolume)[slot];
+    number = static_cast<std::remove_reference_t<decltype(number)>>(cell.*kOfCell);
+  }
+};
+inline constexpr std::tuple<MemoryNumber<&Cell::amount, &state::Volume::amount>,
+                            MemoryNumber<&Cell::energy, &state::Volume::energy>,
+                            MemoryNumber<&Cell::heat, &state::Volume::heat>>
+    kMemoryNumbers;
+
+inline void read_numbers(const state::Volume& volume, state::Slot slot, Cell& cell) {
+  std::apply([&](const auto&... number) { (number.read(volume, slot, cell), ...); }, kMemoryNumbers);
+}
 
 inline State state_at(const state::Volume& volume, int x, int y, int z) {
   if (volume.inert.test(x, y, z)) return State::inert;
@@ -23,9 +45,7 @@ inline void read_token(const state::Volume& volume, const Shape& shape, const Pl
     if (x >= shape.grid.x) continue;
     const state::Slot slot = volume.at(x, place.y, place.z);
     lanes[lane].state = state_at(volume, x, place.y, place.z);
-    lanes[lane].amount = volume.amount[slot];
-    lanes[lane].energy = volume.energy[slot];
-    lanes[lane].heat = volume.heat[slot];
+    read_numbers(volume, slot, lanes[lane]);
   }
 }
 
@@ -34,9 +54,7 @@ inline void write_cell(const Cell& cell, int x, int y, int z, state::Volume& vol
   volume.inert.set(x, y, z, cell.state == State::inert);
   volume.solid.set(x, y, z, cell.state == State::solid);
   volume.liquid.set(x, y, z, cell.state == State::liquid);
-  volume.amount[slot] = static_cast<std::uint16_t>(cell.amount);
-  volume.energy[slot] = static_cast<std::uint16_t>(cell.energy);
-  volume.heat[slot] = static_cast<std::uint16_t>(cell.heat);
+  std::apply([&](const auto&... number) { (number.write(cell, volume, slot), ...); }, kMemoryNumbers);
 }
 
 inline void write_token(const Cell* lanes, const Shape& shape, const Place& place, state::Volume& volume) {

@@ -21,9 +21,9 @@ class Walls final : public Stage {
 
   // A cell waits for its east and its north side. Between them, and in lane P - 1 before them, it holds one
   // bit more than a cell.
-  int output_bits() const override { return design().cell_bits() + 1; }
+  Wires side_bands() const override { return {Wire::beside_wall}; }
   std::vector<BufferCost> buffers() const override {
-    return {{"plane memory", shape().plane(), lanes(), design().cell_bits() + 1}};
+    return {{"plane memory", shape().plane(), lanes(), output_bits()}};
   }
 
  protected:

@@ -283,9 +283,9 @@ TEST(Checker, AChannelThatChangesAnythingIsNamed) {
       {"amount", [](Cell& cell) { cell.amount = 1; }},
       {"energy", [](Cell& cell) { cell.energy = 1; }},
       {"heat", [](Cell& cell) { cell.heat = 1; }},
-      {"side band", [](Cell& cell) { cell.pattern = 1; }},
-      {"side band", [](Cell& cell) { cell.beside_wall = 1; }},
-      {"side band", [](Cell& cell) { cell.head = 1; }}};
+      {"pattern", [](Cell& cell) { cell.pattern = 1; }},
+      {"beside a wall", [](Cell& cell) { cell.beside_wall = 1; }},
+      {"head", [](Cell& cell) { cell.head = 1; }}};
   for (const auto& [field, change] : changes)
     for (const bool last : {false, true}) {  // the last one is before the writer
       Pipeline pipeline(start.parameters, start.volume.grid, {4, 2, 2, 0});

@@ -1,0 +1,114 @@
+// The wires of a token: one row for each field of a cell. Widths of channels, words in memory, what the
+// checker compares and what a waveform shows follow from this table.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string_view>
+
+#include "hwmodel/pipeline/model/cell.h"
+
+namespace voxmelt::hwmodel {
+
+// In the order of the table.
+enum class Wire : std::uint8_t {
+  state,
+  amount,
+  energy,
+  heat,
+  exposed_axes,
+  pattern,
+  beside_wall,
+  in_run,
+  head,
+  mobility,
+  limit,
+  dead,
+};
+
+struct CellWire {
+  Wire wire;
+  std::string_view name;   // in a waveform
+  std::string_view label;  // for people
+  int bits;                // at most: Stage::width_of says what a scene needs
+  bool in_memory;          // or a side band, from the stage that makes it to the last that reads it
+  std::int64_t (*get)(const Cell&);
+  void (*set)(Cell&, std::int64_t);
+};
+
+template <class Field>
+Field type_of(Field Cell::*member);
+
+template <auto Member>
+constexpr CellWire cell_wire(Wire wire, std::string_view name, std::string_view label, bool in_memory) {
+  using Field = decltype(type_of(Member));
+  return {wire,
+          name,
+          label,
+          Field::kBits,
+          in_memory,
+          [](const Cell& cell) { return static_cast<std::int64_t>(cell.*Member); },
+          [](Cell& cell, std::int64_t value) { cell.*Member = value; }};
+}
+
+inline constexpr std::array kCellWires{
+    CellWire{Wire::state, "state", "state", 2, true,
+             [](const Cell& cell) { return static_cast<std::int64_t>(cell.state); },
+             [](Cell& cell, std::int64_t value) { cell.state = static_cast<State>(value); }},
+    cell_wire<&Cell::amount>(Wire::amount, "amount", "amount", true),
+    cell_wire<&Cell::energy>(Wire::energy, "energy", "energy", true),  // under the paper's law
+    cell_wire<&Cell::heat>(Wire::heat, "heat", "heat", true),          // of scenes with heat
+    // conduction -> exchange
+    cell_wire<&Cell::exposed_axes>(Wire::exposed_axes, "exposed_axes", "exposed axes", false),
+    // pattern -> apply
+    cell_wire<&Cell::pattern>(Wire::pattern, "pattern", "pattern", false),
+    // conduction, walls or viscous spread -> gravity
+    cell_wire<&Cell::beside_wall>(Wire::beside_wall, "beside_wall", "beside a wall", false),
+    // settle -> viscous spread -> gravity
+    cell_wire<&Cell::in_run>(Wire::in_run, "in_run", "in a run", false),
+    // settle -> viscous spread
+    cell_wire<&Cell::head>(Wire::head, "head", "head", false),
+    cell_wire<&Cell::mobility>(Wire::mobility, "mobility", "mobility", false),
+    cell_wire<&Cell::limit>(Wire::limit, "limit", "limit", false),
+    cell_wire<&Cell::dead>(Wire::dead, "dead", "dead zone", false),
+};
+inline constexpr const CellWire& row_of(Wire wire) { return kCellWires[static_cast<std::size_t>(wire)]; }
+
+constexpr bool wires_are_in_order() {
+  for (std::size_t i = 0; i < kCellWires.size(); ++i)
+    if (static_cast<std::size_t>(kCellWires[i].wire) != i) return false;
+  return true;
+}
+static_assert(wires_are_in_order());
+
+// Some of them.
+class Wires {
+ public:
+  constexpr Wires(std::initializer_list<Wire> wires = {}) {
+    for (const Wire wire : wires) add(wire);
+  }
+  constexpr Wires& add(Wire wire, bool really = true) {
+    if (really) bits_ |= 1u << static_cast<unsigned>(wire);
+    return *this;
+  }
+  constexpr bool has(Wire wire) const { return (bits_ >> static_cast<unsigned>(wire) & 1u) != 0; }
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+// What a cell has in memory, and in every channel.
+constexpr bool is_in_memory(const CellWire& row, bool paper, bool hot) {
+  if (row.wire == Wire::energy) return paper;
+  if (row.wire == Wire::heat) return hot;
+  return row.in_memory;
+}
+constexpr int bits_in_memory(bool paper, bool hot) {
+  int bits = 0;
+  for (const CellWire& row : kCellWires) bits += is_in_memory(row, paper, hot) ? row.bits : 0;
+  return bits;
+}
+
+}  // namespace voxmelt::hwmodel
