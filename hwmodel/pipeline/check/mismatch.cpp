@@ -4,6 +4,7 @@
 
 #include "hwmodel/pipeline/model/stage_kind.h"
 #include "hwmodel/pipeline/model/volume_port.h"
+#include "kernel/automaton/state/difference.h"
 
 namespace voxmelt::hwmodel {
 
@@ -78,24 +79,13 @@ std::vector<std::string> neighbourhood(const state::Volume& volume, int x, int y
 }
 
 Difference first_difference(const state::Volume& expected, const state::Volume& actual) {
-  const state::Grid g = expected.grid;
-  for (int z = 0; z < g.z; ++z)
-    for (int y = 0; y < g.y; ++y)
-      for (int x = 0; x < g.x; ++x) {
-        const state::Slot i = expected.at(x, y, z);
-        const auto differs = [&](const char* field, int a, int b) {
-          return Difference{x, y, z, field, a, b};
-        };
-        const int a = static_cast<int>(state_at(expected, x, y, z)),
-                  b = static_cast<int>(state_at(actual, x, y, z));
-        if (a != b) return differs("state", a, b);
-        if (expected.amount[i] != actual.amount[i])
-          return differs("amount", expected.amount[i], actual.amount[i]);
-        if (expected.energy[i] != actual.energy[i])
-          return differs("energy", expected.energy[i], actual.energy[i]);
-        if (expected.heat[i] != actual.heat[i]) return differs("heat", expected.heat[i], actual.heat[i]);
-      }
-  return {};
+  const std::optional<state::Difference> found = state::first_difference(expected, actual);
+  if (!found) return {};
+  const auto [x, y, z, field, wanted, is] = *found;
+  const auto a = static_cast<int>(state_at(expected, x, y, z)),
+             b = static_cast<int>(state_at(actual, x, y, z));
+  if (a != b) return {x, y, z, "state", a, b};
+  return {x, y, z, std::string(field), wanted, is};
 }
 
 }  // namespace voxmelt::hwmodel

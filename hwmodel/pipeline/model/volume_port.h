@@ -1,7 +1,6 @@
 // Between the memory that holds a volume and the stream: a token read, a token written.
 #pragma once
 
-#include <cstdint>
 #include <tuple>
 #include <type_traits>
 
