@@ -48,6 +48,34 @@ struct ClearStages {
   ClearPressStage<Faults> press;
 };
 
+// The channels of a pipe by what enters them. The last five are there for clear matter alone.
+struct PipeChannels {
+  Fifo<TileOrder>* orders;
+  Fifo<RayToken>* set_up;
+  Fifo<GroundedRay>* ground;
+  Fifo<LevelRequest>*walk_asks, *crossing_asks, *normal_asks, *level_asks;
+  Fifo<Levels>*levels, *normal_levels;
+  Fifo<LevelToken>*walk_levels, *crossing_levels;
+  Fifo<HitToken>* hits;
+  Fifo<MetToken>*missed, *crossed;
+  Fifo<Surface>*met, *normal, *paint, *texture, *matter, *light, *arriving, *mirror, *colour;
+  Fifo<ClampedRequest>*height_asks, *texel_asks, *light_asks;
+  Fifo<ColumnGather::Out>* heights;
+  Fifo<TexelGather::Out>* texels;
+  Fifo<MatterRequest>* matter_asks;
+  Fifo<MatterGather::Out>* matter_words;
+  Fifo<LightGather::Out>* light_cells;
+  Fifo<PressedToken>* pressed;
+  Fifo<PixelToken>* pixels;
+  Fifo<LineRequest>*level_lines, *matter_lines, *light_lines, *column_lines, *texel_lines, *tile_lines,
+      *written;
+  Fifo<LevelRequest>* stretch_asks = nullptr;
+  Fifo<LevelToken>* stretch_levels = nullptr;
+  Fifo<HitToken>* exits = nullptr;
+  Fifo<OnwardToken>* onward = nullptr;
+  Fifo<PassedToken>* passed = nullptr;
+};
+
 template <class Faults>
 class PipeOf final : public Pipe {
  public:
@@ -77,6 +105,11 @@ class PipeOf final : public Pipe {
   template <class Word>
   Fifo<Word>& channel(Channel which, const char* name, int depth = 0);
   void list_stages();
+  PipeChannels make_channels();
+  void connect_rays(const PipeChannels& c, Fifo<TileJob>& tiles);
+  void connect_levels(const PipeChannels& c);
+  void connect_surfaces(const PipeChannels& c);
+  static void watch_channels(const PipeChannels& c, const Watchers& w);
 
   const Configuration& configuration_;
   const Memory& memory_;
@@ -195,123 +228,151 @@ Fifo<Word>& PipeOf<Faults>::channel(Channel which, const char* name, int depth) 
 }
 
 template <class Faults>
+PipeChannels PipeOf<Faults>::make_channels() {
+  const int rays = configuration_.rays;  // of queues in which every ray has a place
+  PipeChannels c{};
+  c.orders = &channel<TileOrder>(Channel::tiles, "tiles -> set-up");
+  c.set_up = &channel<RayToken>(Channel::set_up, "set-up -> ground");
+  c.ground = &channel<GroundedRay>(Channel::ground, "ground -> walk");
+  c.walk_asks = &channel<LevelRequest>(Channel::walk_asks, "walk -> ask");
+  c.crossing_asks = &channel<LevelRequest>(Channel::crossing_asks, "crossing -> ask");
+  c.normal_asks = &channel<LevelRequest>(Channel::normal_asks, "normal -> ask");
+  c.level_asks = &channel<LevelRequest>(Channel::level_asks, "ask -> levels");
+  c.levels = &channel<Levels>(Channel::levels, "levels -> sample");
+  c.normal_levels = &channel<Levels>(Channel::normal_levels, "levels -> normal");
+  c.walk_levels = &channel<LevelToken>(Channel::walk_levels, "sample -> walk");
+  c.crossing_levels = &channel<LevelToken>(Channel::crossing_levels, "sample -> crossing");
+  c.hits = &channel<HitToken>(Channel::hits, "walk -> crossing", rays);
+  c.missed = &channel<MetToken>(Channel::missed, clear_ ? "walk -> stretch" : "walk -> met");
+  c.crossed = &channel<MetToken>(Channel::crossed, clear_ ? "crossing -> stretch" : "crossing -> met");
+  c.met = &channel<Surface>(Channel::met, clear_ ? "stretch -> normal" : "met -> normal");
+  c.normal = &channel<Surface>(Channel::normal, "normal -> paint");
+  c.height_asks = &channel<ClampedRequest>(Channel::height_asks, "ground -> heights");
+  c.heights = &channel<ColumnGather::Out>(Channel::heights, "heights -> ground");
+  c.paint = &channel<Surface>(Channel::paint, "paint -> texture");
+  c.texel_asks = &channel<ClampedRequest>(Channel::texel_asks, "texture -> texels");
+  c.texels = &channel<TexelGather::Out>(Channel::texels, "texels -> texture");
+  c.texture = &channel<Surface>(Channel::texture, "texture -> matter");
+  c.matter_asks = &channel<MatterRequest>(Channel::matter_asks, "matter -> matter words");
+  c.matter_words = &channel<MatterGather::Out>(Channel::matter_words, "matter words -> matter");
+  c.matter = &channel<Surface>(Channel::matter, "matter -> light");
+  c.light_asks = &channel<ClampedRequest>(Channel::light_asks, "light -> light cells");
+  c.light_cells = &channel<LightGather::Out>(Channel::light_cells, "light cells -> light");
+  c.light = &channel<Surface>(Channel::light, "light -> arriving");
+  c.arriving = &channel<Surface>(Channel::arriving, "arriving -> mirror");
+  c.mirror = &channel<Surface>(Channel::mirror, "mirror -> colour");
+  c.colour = &channel<Surface>(Channel::colour, clear_ ? "colour -> passed" : "colour -> press");
+  c.pressed = &channel<PressedToken>(Channel::pressed, "press -> pixel");
+  c.pixels = &channel<PixelToken>(Channel::pixels, "pixel -> write");
+  const auto line = [&](const char* name) { return &channel<LineRequest>(Channel::to_memory, name); };
+  c.level_lines = line("levels -> memory port");
+  c.matter_lines = line("matter words -> memory port");
+  c.light_lines = line("light cells -> memory port");
+  c.column_lines = line("heights -> memory port");
+  c.texel_lines = line("texels -> memory port");
+  c.tile_lines = line("tiles -> memory port");
+  c.written = line("write -> memory port");
+  if (!clear_) return c;
+  c.stretch_asks = &channel<LevelRequest>(Channel::stretch_asks, "stretch -> ask");
+  c.stretch_levels = &channel<LevelToken>(Channel::stretch_levels, "sample -> stretch");
+  c.exits = &channel<HitToken>(Channel::exits, "stretch -> crossing", rays);
+  c.onward = &channel<OnwardToken>(Channel::onward, "stretch -> walk", rays);
+  c.passed = &channel<PassedToken>(Channel::passed, "passed -> press");
+  return c;
+}
+
+template <class Faults>
 void PipeOf<Faults>::connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory, Fifo<LineReply>& replies) {
   faults_.connected(number_, tiles, replies, kColumns, kTexels);
-  const int rays = configuration_.rays;  // of queues in which every ray has a place
-  auto& orders = channel<TileOrder>(Channel::tiles, "tiles -> set-up");
-  auto& set_up = channel<RayToken>(Channel::set_up, "set-up -> ground");
-  auto& ground = channel<GroundedRay>(Channel::ground, "ground -> walk");
-  auto& walk_asks = channel<LevelRequest>(Channel::walk_asks, "walk -> ask");
-  auto& crossing_asks = channel<LevelRequest>(Channel::crossing_asks, "crossing -> ask");
-  auto& normal_asks = channel<LevelRequest>(Channel::normal_asks, "normal -> ask");
-  auto& level_asks = channel<LevelRequest>(Channel::level_asks, "ask -> levels");
-  auto& levels = channel<Levels>(Channel::levels, "levels -> sample");
-  auto& normal_levels = channel<Levels>(Channel::normal_levels, "levels -> normal");
-  auto& walk_levels = channel<LevelToken>(Channel::walk_levels, "sample -> walk");
-  auto& crossing_levels = channel<LevelToken>(Channel::crossing_levels, "sample -> crossing");
-  auto& hits = channel<HitToken>(Channel::hits, "walk -> crossing", rays);
-  auto& missed = channel<MetToken>(Channel::missed, clear_ ? "walk -> stretch" : "walk -> met");
-  auto& crossed = channel<MetToken>(Channel::crossed, clear_ ? "crossing -> stretch" : "crossing -> met");
-  auto& met = channel<Surface>(Channel::met, clear_ ? "stretch -> normal" : "met -> normal");
-  auto& normal = channel<Surface>(Channel::normal, "normal -> paint");
-  auto& height_asks = channel<ClampedRequest>(Channel::height_asks, "ground -> heights");
-  auto& heights = channel<ColumnGather::Out>(Channel::heights, "heights -> ground");
-  auto& paint = channel<Surface>(Channel::paint, "paint -> texture");
-  auto& texel_asks = channel<ClampedRequest>(Channel::texel_asks, "texture -> texels");
-  auto& texels = channel<TexelGather::Out>(Channel::texels, "texels -> texture");
-  auto& texture = channel<Surface>(Channel::texture, "texture -> matter");
-  auto& matter_asks = channel<MatterRequest>(Channel::matter_asks, "matter -> matter words");
-  auto& matter_words = channel<MatterGather::Out>(Channel::matter_words, "matter words -> matter");
-  auto& matter = channel<Surface>(Channel::matter, "matter -> light");
-  auto& light_asks = channel<ClampedRequest>(Channel::light_asks, "light -> light cells");
-  auto& light_cells = channel<LightGather::Out>(Channel::light_cells, "light cells -> light");
-  auto& light = channel<Surface>(Channel::light, "light -> arriving");
-  auto& arriving = channel<Surface>(Channel::arriving, "arriving -> mirror");
-  auto& mirror = channel<Surface>(Channel::mirror, "mirror -> colour");
-  auto& colour = channel<Surface>(Channel::colour, clear_ ? "colour -> passed" : "colour -> press");
-  auto& pressed = channel<PressedToken>(Channel::pressed, "press -> pixel");
-  auto& pixels = channel<PixelToken>(Channel::pixels, "pixel -> write");
-  const auto line = [&](const char* name) -> Fifo<LineRequest>& {
-    return channel<LineRequest>(Channel::to_memory, name);
-  };
-  auto& level_lines = line("levels -> memory port");
-  auto& matter_lines = line("matter words -> memory port");
-  auto& light_lines = line("light cells -> memory port");
-  auto& column_lines = line("heights -> memory port");
-  auto& texel_lines = line("texels -> memory port");
-  auto& tile_lines = line("tiles -> memory port");
-  auto& written = line("write -> memory port");
-
-  tiles_.connect(tiles, tile_lines, orders);
-  set_up_.connect(orders, set_up);
-  ground_.connect(set_up, height_asks, heights, ground);
-  columns_.connect(height_asks, column_lines);
-  columns_.connect_out({&heights});
-  walk_.connect(ground, walk_asks, walk_levels, hits, missed);
-  crossing_.connect(hits, crossing_asks, crossing_levels, crossed);
-  levels_.connect(level_asks, level_lines);
-  levels_.connect_out({&levels, &normal_levels});
-  sample_.connect(levels, walk_levels, crossing_levels);
-  std::vector<Fifo<LevelRequest>*> askers{&normal_asks, &crossing_asks, &walk_asks};
-  Fifo<LevelToken>* stretch_levels = nullptr;
-  Fifo<HitToken>* exits = nullptr;
-  Fifo<PassedToken>* passed = nullptr;
-  Fifo<OnwardToken>* onward = nullptr;
-  if (clear_) {
-    auto& stretch_asks = channel<LevelRequest>(Channel::stretch_asks, "stretch -> ask");
-    stretch_levels = &channel<LevelToken>(Channel::stretch_levels, "sample -> stretch");
-    exits = &channel<HitToken>(Channel::exits, "stretch -> crossing", rays);
-    onward = &channel<OnwardToken>(Channel::onward, "stretch -> walk", rays);
-    passed = &channel<PassedToken>(Channel::passed, "passed -> press");
-    askers.insert(askers.end() - 1, &stretch_asks);
-    sample_.connect_stretch(*stretch_levels);
-    crossing_.connect_exits(*exits);
-    walk_.connect_onward(*onward);
-    clear_->stretch.connect(missed, crossed, stretch_asks, *stretch_levels, *exits, *onward, met);
-    clear_->passed.connect(colour, *passed);
-    clear_->press.connect(*passed, pressed);
-  } else {
-    opaque_->met.connect(missed, crossed, met);
-    opaque_->press.connect(colour, pressed);
-  }
-  ask_.connect(std::move(askers), level_asks);
-  normal_.connect(met, normal_asks, normal_levels, normal);
-  paint_.connect(normal, paint);
-  texture_.connect(paint, texel_asks, texels, texture);
-  texels_.connect(texel_asks, texel_lines);
-  texels_.connect_out({&texels});
-  matter_.connect(texture, matter_asks, matter_words, matter);
-  matter_words_.connect(matter_asks, matter_lines);
-  matter_words_.connect_out({&matter_words});
-  light_.connect(matter, light_asks, light_cells, light);
-  light_cells_.connect(light_asks, light_lines);
-  light_cells_.connect_out({&light_cells});
-  arriving_.connect(light, arriving);
-  mirror_.connect(arriving, mirror);
-  colour_.connect(mirror, colour);
-  pixel_.connect(pressed, pixels);
-  write_.connect(pixels, written);
+  const PipeChannels c = make_channels();
+  connect_rays(c, tiles);
+  connect_levels(c);
+  connect_surfaces(c);
   port_.connect(
-      {&level_lines, &matter_lines, &light_lines, &column_lines, &texel_lines, &tile_lines, &written},
+      {c.level_lines, c.matter_lines, c.light_lines, c.column_lines, c.texel_lines, c.tile_lines, c.written},
       to_memory, replies, {&levels_, &matter_words_, &light_cells_, &columns_, &texels_, &tiles_});
+  watch_ = [c](const Watchers& watchers) { watch_channels(c, watchers); };
+}
 
-  watch_ = [orders = &orders, written = &written, set_up = &set_up, ground = &ground, asks = &level_asks,
-            levels = &levels, normal_levels = &normal_levels, walk_levels = &walk_levels,
-            crossing_levels = &crossing_levels, hits = &hits, missed = &missed, crossed = &crossed,
-            surfaces =
-                std::vector{&met, &normal, &paint, &texture, &matter, &light, &arriving, &mirror, &colour},
-            pressed = &pressed, pixels = &pixels, stretch_levels, exits, passed, onward](const Watchers& w) {
-    orders->watch(w.tiles), written->watch(w.written), set_up->watch(w.set_up), ground->watch(w.ground),
-        asks->watch(w.asks);
-    levels->watch(w.levels), normal_levels->watch(w.levels);
-    walk_levels->watch(w.samples), crossing_levels->watch(w.samples);
-    hits->watch(w.hits), missed->watch(w.met), crossed->watch(w.met);
-    for (Fifo<Surface>* fifo : surfaces) fifo->watch(w.surfaces);
-    pressed->watch(w.pressed), pixels->watch(w.pixels);
-    if (passed == nullptr) return;
-    stretch_levels->watch(w.samples), exits->watch(w.hits), passed->watch(w.passed);
-    onward->watch(w.onward);
-  };
+template <class Faults>
+void PipeOf<Faults>::connect_rays(const PipeChannels& c, Fifo<TileJob>& tiles) {
+  tiles_.connect(tiles, *c.tile_lines, *c.orders);
+  set_up_.connect(*c.orders, *c.set_up);
+  ground_.connect(*c.set_up, *c.height_asks, *c.heights, *c.ground);
+  columns_.connect(*c.height_asks, *c.column_lines);
+  columns_.connect_out({c.heights});
+  walk_.connect(*c.ground, *c.walk_asks, *c.walk_levels, *c.hits, *c.missed);
+  crossing_.connect(*c.hits, *c.crossing_asks, *c.crossing_levels, *c.crossed);
+  if (clear_) {
+    crossing_.connect_exits(*c.exits);
+    walk_.connect_onward(*c.onward);
+    clear_->stretch.connect(*c.missed, *c.crossed, *c.stretch_asks, *c.stretch_levels, *c.exits, *c.onward,
+                            *c.met);
+  } else {
+    opaque_->met.connect(*c.missed, *c.crossed, *c.met);
+  }
+}
+
+// The levels of cells, which three or four stages ask for.
+template <class Faults>
+void PipeOf<Faults>::connect_levels(const PipeChannels& c) {
+  if (clear_)
+    ask_.connect({c.normal_asks, c.crossing_asks, c.stretch_asks, c.walk_asks}, *c.level_asks);
+  else
+    ask_.connect({c.normal_asks, c.crossing_asks, c.walk_asks}, *c.level_asks);
+  levels_.connect(*c.level_asks, *c.level_lines);
+  levels_.connect_out({c.levels, c.normal_levels});
+  sample_.connect(*c.levels, *c.walk_levels, *c.crossing_levels);
+  if (clear_) sample_.connect_stretch(*c.stretch_levels);
+}
+
+template <class Faults>
+void PipeOf<Faults>::connect_surfaces(const PipeChannels& c) {
+  normal_.connect(*c.met, *c.normal_asks, *c.normal_levels, *c.normal);
+  paint_.connect(*c.normal, *c.paint);
+  texture_.connect(*c.paint, *c.texel_asks, *c.texels, *c.texture);
+  texels_.connect(*c.texel_asks, *c.texel_lines);
+  texels_.connect_out({c.texels});
+  matter_.connect(*c.texture, *c.matter_asks, *c.matter_words, *c.matter);
+  matter_words_.connect(*c.matter_asks, *c.matter_lines);
+  matter_words_.connect_out({c.matter_words});
+  light_.connect(*c.matter, *c.light_asks, *c.light_cells, *c.light);
+  light_cells_.connect(*c.light_asks, *c.light_lines);
+  light_cells_.connect_out({c.light_cells});
+  arriving_.connect(*c.light, *c.arriving);
+  mirror_.connect(*c.arriving, *c.mirror);
+  colour_.connect(*c.mirror, *c.colour);
+  if (clear_) {
+    clear_->passed.connect(*c.colour, *c.passed);
+    clear_->press.connect(*c.passed, *c.pressed);
+  } else {
+    opaque_->press.connect(*c.colour, *c.pressed);
+  }
+  pixel_.connect(*c.pressed, *c.pixels);
+  write_.connect(*c.pixels, *c.written);
+}
+
+template <class Faults>
+void PipeOf<Faults>::watch_channels(const PipeChannels& c, const Watchers& w) {
+  c.orders->watch(w.tiles);
+  c.written->watch(w.written);
+  c.set_up->watch(w.set_up);
+  c.ground->watch(w.ground);
+  c.level_asks->watch(w.asks);
+  for (auto* levels : {c.levels, c.normal_levels}) levels->watch(w.levels);
+  for (auto* samples : {c.walk_levels, c.crossing_levels}) samples->watch(w.samples);
+  c.hits->watch(w.hits);
+  for (auto* met : {c.missed, c.crossed}) met->watch(w.met);
+  for (auto* surfaces :
+       {c.met, c.normal, c.paint, c.texture, c.matter, c.light, c.arriving, c.mirror, c.colour})
+    surfaces->watch(w.surfaces);
+  c.pressed->watch(w.pressed);
+  c.pixels->watch(w.pixels);
+  if (c.passed == nullptr) return;
+  c.stretch_levels->watch(w.samples);
+  c.exits->watch(w.hits);
+  c.passed->watch(w.passed);
+  c.onward->watch(w.onward);
 }
 
 template <class Faults>
