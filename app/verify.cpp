@@ -69,6 +69,8 @@ int run_picture(VerifyCommand command) {
   end_soon_at_interrupts();
   const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
   PictureChoice picture = command.picture;
+  picture.vcd = command.vcd;
+  picture.vcd_from = command.vcd_from;
   picture.again = picture_again(command, scene.file.string());
   return verify_caster(command.common, picture, scene, ahead, find_preset(command.hw), command.hw_sets);
 }
@@ -81,7 +83,10 @@ void check_asked(const VerifyCommand& command) {
   };
   refuse(machine && picture, "--machine", "it draws pictures without --picture");
   refuse(machine && !command.picture.pixel.empty(), "--pixel", "--machine draws whole pictures");
-  refuse((picture || machine) && !command.vcd.empty(), "--vcd", "only of the pipeline alone");
+  refuse(machine && !command.vcd.empty(), "--vcd",
+         "of one machine: the pipeline, or with --picture the caster");
+  refuse(picture && !command.vcd.empty() && !command.vcd_from && !command.picture.compare, "--vcd",
+         "with --no-compare no stage is compared; --vcd-from says which cycles");
   refuse((picture || machine) && !command.shrink.empty(), "--shrink",
          "only of the pipeline alone (--picture finds one pixel by itself)");
   refuse((picture || machine) && !command.size_fifos.empty(), "--size-fifos", "only of the pipeline alone");

@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/film.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "hwmodel/caster/check/replay_pixel.h"
 #include "hwmodel/caster/check/verify_picture.h"
 #include "hwmodel/caster/faults/faults.h"
@@ -111,6 +112,15 @@ void check_html_place(const Common& common, const PictureChoice& choice, const s
     throw UsageError(fmt::format("--html {}: error: --report goes to the same file", choice.html));
 }
 
+std::string write_waves(const std::string& vcd, std::optional<std::int64_t> from, const std::string& waves) {
+  if (vcd.empty()) return {};
+  if (waves.empty())
+    return fmt::format("--vcd {}: error: the run ended before cycle {}; nothing was written", vcd,
+                       from.value_or(0));
+  io::write_file(vcd, waves);
+  return {};
+}
+
 int verify_caster(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
                   const run::Simulation& state, const fs::path& preset,
                   const std::vector<std::string>& hw_sets) {
@@ -131,6 +141,8 @@ int verify_caster(const Common& common, const PictureChoice& choice, const scene
   options.frames = choice.frames;
   if (fault != nullptr) options.fault = fault->fault;
   options.poll = stop_if_interrupted;
+  options.waves = !choice.vcd.empty();
+  options.waves_from = choice.vcd_from;
   if (!choice.pixel.empty()) options.window = part_of(choice.pixel, camera);
   const hwmodel::raycast::PictureInput input{state.volume(), scene.look, scene.light,
                                              scene.terrain,  camera,     setting};
@@ -162,12 +174,15 @@ int verify_caster(const Common& common, const PictureChoice& choice, const scene
                  pixel);
     json["replay"] = {{"pixel", pixel}, {"fails_alone", replay->fails}};
   }
+  const std::string no_waves = write_waves(choice.vcd, choice.vcd_from, report.waves);
   write_report(common, json.dump(2) + '\n');
   if (!choice.html.empty())
     io::write_file(choice.html, hwmodel::picture_page(
                                     json, fmt::format("{}, step {}, {} x {}", scene.name, state.step_number(),
                                                       camera.width, camera.height)));
   if (!choice.png.empty()) render::write_png(choice.png, report.image);
+  if (!no_waves.empty() && report.good()) throw UsageError(no_waves);
+  if (!no_waves.empty()) say(no_waves);
   return report.good() && !report.strike ? kDone : kCheckFailed;
 }
 

@@ -1,7 +1,9 @@
 // voxmelt verify --picture: the ray caster in lock-step with the software's picture.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,9 @@ struct PictureChoice {
   bool machine = false;  // the whole machine is asked for
   std::string view, size, setting = "normal", png, plant, pixel;
   int frames = 1;
-  std::string html;   // of the pipeline's run, too
+  std::string html;  // of the pipeline's run, too
+  std::string vcd;
+  std::optional<std::int64_t> vcd_from;
   std::string again;  // what to type to see the picture again
 };
 void add_picture_choice(CLI::App& command, PictureChoice& choice);
@@ -32,6 +36,9 @@ std::string first_line(const std::string& text);
 // The scene's camera as chosen; throws UsageError.
 scene::Camera camera_of(const PictureChoice& choice, const scene::Scene& scene);
 render::Setting setting_of(const PictureChoice& choice);
+
+// Writes the waves of a run. Why there are none; empty: there are, or nobody asked.
+std::string write_waves(const std::string& vcd, std::optional<std::int64_t> from, const std::string& waves);
 
 // Does it fit the other options? Throws UsageError.
 void check_html_place(const Common& common, const PictureChoice& choice, const std::string& out);

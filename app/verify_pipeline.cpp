@@ -72,16 +72,6 @@ void print_result(const VerifyCommand& command, const scene::Scene& scene,
   if (report.strike) print_plant(report);
 }
 
-// Why there are no waves; empty: there are, or nobody asked.
-std::string write_waves(const VerifyCommand& command, const hwmodel::VerifyReport& report) {
-  if (command.vcd.empty()) return {};
-  if (report.waves.empty())
-    return fmt::format("--vcd {}: error: the run ended before cycle {}; nothing was written", command.vcd,
-                       command.vcd_from.value_or(0));
-  io::write_file(command.vcd, report.waves);
-  return {};
-}
-
 // What is verified, and where what comes of it goes.
 struct Job {
   const VerifyCommand& command;
@@ -198,7 +188,7 @@ int verify_pipeline(VerifyCommand command) {
   print_result(command, job.scene, report, design, options.configuration, fast.name);
   if (verdict == hwmodel::Verdict::good) {
     write_reports(job, report, design);
-    const std::string no_waves = write_waves(command, report);
+    const std::string no_waves = write_waves(command.vcd, command.vcd_from, report.waves);
     if (!no_waves.empty()) throw UsageError(no_waves);
     if (!command.shrink.empty() && !command.common.quiet)
       fmt::print("--shrink: there is no difference to make small\n");
@@ -206,7 +196,7 @@ int verify_pipeline(VerifyCommand command) {
   }
   try_writing([&] { write_reports(job, report, design); });
   try_writing([&] {
-    const std::string no_waves = write_waves(command, report);
+    const std::string no_waves = write_waves(command.vcd, command.vcd_from, report.waves);
     if (!no_waves.empty()) say(no_waves);
   });
   if (report.mismatch != nullptr) write_difference(job, options, report);

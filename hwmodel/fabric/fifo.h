@@ -23,18 +23,18 @@ class FifoWatcher {
   virtual void left(int channel, std::int64_t ordinal, const Word* lanes) = 0;
 };
 
-// Sees both sides of a channel in every cycle.
-template <class Word>
-class FifoProbe {
+// Sees both sides of a channel in every cycle, whatever its tokens are.
+class ChannelProbe {
  public:
   struct Sides {
     bool ready, put;  // of the producer: may it, and does it?
     bool valid, get;  // of the consumer
     int count;        // tokens at the begin of the cycle
   };
-  virtual ~FifoProbe() = default;
-  // `in` is the token that enters, `out` the oldest one; null where there is none.
-  virtual void cycle(int channel, const Sides& sides, const Word* in, const Word* out) = 0;
+  virtual ~ChannelProbe() = default;
+  // `in` is the token that enters, `out` the oldest one; null where there is none. Both point to the lanes of
+  // a token.
+  virtual void cycle(int channel, const Sides& sides, const void* in, const void* out) = 0;
 };
 
 // Corrupts what is stored. `last` is the token stored before `now`; `waiting` is how many tokens are in front
@@ -101,7 +101,7 @@ class Fifo {
     stalls_ = StallInjector(stall_seed_, static_cast<std::uint64_t>(channel_), pass);
   }
   void watch(FifoWatcher<Word>* watcher) { watcher_ = watcher; }
-  void probe(FifoProbe<Word>* probe) { probe_ = probe; }  // null: none
+  void probe(ChannelProbe* probe) { probe_ = probe; }  // null: none
 
   void plant(FifoFault<Word>* fault) { fault_ = fault; }  // null: none
 
@@ -149,7 +149,7 @@ class Fifo {
   StallInjector::Stall stall_;
   std::int64_t entered_ = 0, left_ = 0;
   FifoWatcher<Word>* watcher_ = nullptr;
-  FifoProbe<Word>* probe_ = nullptr;
+  ChannelProbe* probe_ = nullptr;
   FifoFault<Word>* fault_ = nullptr;
   bool jammed_ = false;
 };

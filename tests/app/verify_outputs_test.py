@@ -395,8 +395,21 @@ law = "paper"
         self.assertLess(max(train["cycles"] for train in report["trains"]), 1200)
         self.assertEqual([now["pipeline.cycle"] for now in self.check_waves(vcd)], list(range(1200, 1264)))
 
+    def test_the_waves_of_a_ray_caster_show_the_wrong_token(self):
+        """Behind the stage that the report names, in its cycle, leaves a token of the pixel that it names."""
+        for fault in ("met-eye", "press-tone", "pixel-channels"):
+            vcd, report = self.waves(1, self.scene, "--picture", "--size", "24x24", "--plant", fault, "--hw", "stalls")
+            wrong = report["difference"]
+            self.assertEqual(wrong["stage"], report["planted"]["stage"], fault)
+            self.assertGreaterEqual(len(vcd.cycles()), 32)
+            now = next(now for now in vcd.cycles() if now["ray_caster.cycle"] == wrong["cycle"])
+            ways = [name[:-len(".put")] for name in vcd.bits if name.endswith(".put") and f"_{wrong['stage']}_to_" in name and now[name]]
+            pixels = [(now[f"{way}.in.lane_0.x"], now[f"{way}.in.lane_0.y"], now[f"{way}.in.lane_0.sample"]) for way in ways
+                      if f"{way}.in.lane_0.x" in vcd.bits]
+            self.assertIn((wrong["x"], wrong["y"], wrong["sample"]), pixels, fault)
+
     def test_what_does_not_fit_together_is_refused(self):
-        for wrong, why in ((["--vcd-from", 3], "there is no --vcd"), (["--picture", "--vcd", "w.vcd"], "pipeline alone"),
+        for wrong, why in ((["--vcd-from", 3], "there is no --vcd"), (["--machine", "--vcd", "w.vcd"], "of one machine"),
                            (["--shrink", "small"], "FILE.toml"), (["--machine", "--shrink", "s.toml"], "pipeline alone"),
                            (["--html", "no/page.html"], "there is no folder"), (["--shrink", "scene.toml"], "reads this file"),
                            (["--html", "r.json", "--report", "r.json"], "the same file")):

@@ -84,7 +84,7 @@ void Checker::tell(Difference difference) {
   difference.cycle = ended_.value_or(0);
   if (!ended_) {
     difference.cycle = caster_.cycle();
-    caster_.stop();
+    if (stops_) caster_.stop();
   }
   difference_ = std::move(difference);
 }

@@ -36,6 +36,7 @@ class Checker final : FifoWatcher<TileOrder>,
   // The first pass has one sample of a pixel. The second one has several, of the pixels that differ from a
   // neighbour by more than `most`. `frame`: where it is written.
   void begin_pass(int samples, int most, std::int64_t frame, const Window& window = {});
+  void run_on_at_difference() { stops_ = false; }  // for waves; whoever wants them ends the run
   // After it: looks for what never came.
   void end_pass(const FrameEnd& end);
   const std::optional<Difference>& difference() const { return difference_; }
@@ -107,6 +108,7 @@ class Checker final : FifoWatcher<TileOrder>,
   Transit transit_;
   TileCheck tile_check_;
   MemoryCheck memory_check_;
+  bool stops_ = true;  // the run, at a difference
   std::optional<Difference> difference_;
   std::int64_t compared_ = 0;
 };

@@ -125,6 +125,10 @@ PictureRun::PictureRun(const Registers& registers, Memory& memory, const Picture
               options.fault == Fault::none ? PipeMaker(make_pipe) : planted_pipes(plan_), shares) {
   caster_.poll(options.poll);
   caster_.when_ended([this](const FrameEnd& end) { end_pass(end); });
+  if (!options.waves) return;
+  waves_.emplace(caster_, "ray caster", options.waves_from);
+  caster_.probe(&*waves_);
+  caster_.each_cycle([this] { end_cycle(); });
 }
 
 void PictureRun::forget(const UploadReport& upload) {
@@ -146,7 +150,16 @@ void PictureRun::begin(const render::PictureScene& scene, const picture::Camera&
   const Window first = drawing_->fast() ? options_.window : with_neighbours(options_.window);
   caster_.draw_only(first);
   drawing_->checker.begin_pass(1, 0, memory_.frame, first);
+  if (waves_) drawing_->checker.run_on_at_difference(), waves_->begin_train(report_.all_cycles);
   caster_.begin_first();
+}
+
+// Called between two cycles.
+void PictureRun::end_cycle() {
+  waves_->end_cycle();
+  if (!drawing_->checker.difference()) return;
+  caster_.watch({});  // what follows a difference may be anything
+  if (!waves_->wants_more()) caster_.stop();
 }
 
 // Called between two cycles.
@@ -162,6 +175,7 @@ void PictureRun::end_pass(const FrameEnd& end) {
   of.second = true;
   caster_.draw_only(options_.window);
   of.checker.begin_pass(of.samples(), of.most(), of.second_frame(memory_), options_.window);
+  if (waves_) waves_->begin_train(report_.all_cycles);
   caster_.begin_again(of.samples(), of.most());
 }
 
@@ -185,6 +199,8 @@ void PictureRun::finish() {
 
 PictureReport PictureRun::report() {
   report_.strike = plan_.struck();
+  if (waves_) waves_->end();
+  if (waves_ && !waves_->empty()) report_.waves = waves_->vcd();
   report_.memory = caster_.memory_counts();
   report_.memory_bytes = static_cast<std::int64_t>(memory_.bytes.size());
   report_.cost = cost_of(options_.configuration, registers_, memory_);

@@ -16,6 +16,7 @@
 #include "hwmodel/caster/model/cost.h"
 #include "hwmodel/caster/model/ray_caster.h"
 #include "hwmodel/caster/model/registers.h"
+#include "hwmodel/check/waves.h"
 #include "render/image/image.h"
 #include "render/packet/draw_picture.h"
 #include "render/reference/picture_scene.h"
@@ -36,6 +37,8 @@ struct PictureOptions {
   bool compare = true;        // behind every stage; the bytes are always compared
   int frames = 1;             // the same one again and again: later ones find the caches warm
   std::function<void()> poll;
+  bool waves = false;  // keep the cycles around the first difference or, where given, from `waves_from` on
+  std::optional<std::int64_t> waves_from;
 };
 
 struct StageAccount {
@@ -70,6 +73,7 @@ struct PictureReport {
   std::int64_t all_cycles = 0;  // of all frames
   std::vector<PassCycles> passes;
   std::vector<UploadReport> uploads;  // before each frame; without their lists
+  std::string waves;                  // VCD; empty: there are none
   render::Image image;
   // At the stage, pixel and sample that the fault left wrong; what got lost there is found as a hang.
   bool found_where_planted() const;
@@ -125,12 +129,14 @@ class PictureRun {
     bool second = false;  // pass
   };
   void end_pass(const FrameEnd& end);
+  void end_cycle();  // of a run with waves
 
   const Registers& registers_;
   const Memory& memory_;
   PictureOptions options_;
   FaultPlan plan_;
   RayCaster caster_;
+  std::optional<Waves> waves_;
   std::unique_ptr<Drawing> drawing_;
   std::clock_t begun_ = 0;
   PictureReport report_;

@@ -41,6 +41,7 @@ std::optional<PixelReplay> replay_pixel(const PictureInput& input, const Picture
   alone.window = *part;
   alone.compare = true;  // it shall name the stage
   alone.frames = 1;
+  alone.waves = false;
   const PictureReport again = verify_picture(input, alone);
   PixelReplay of{*part, !again.good(), again.hang};
   if (again.difference) of.text = text_of(*again.difference);

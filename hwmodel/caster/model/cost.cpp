@@ -16,7 +16,7 @@ constexpr int kColumns = 16, kTexels = 4, kCorners = 8;  // that one answer hold
 template <class... Of>
 int bits_of_token(const Of&... of) {
   int sum = 0;
-  wires_of(of..., [&](int bits, bool, std::int64_t) { sum += bits; });
+  wires_of(of..., [&](const WireName&, int bits, bool, std::int64_t) { sum += bits; });
   return sum;
 }
 
@@ -110,7 +110,7 @@ class Costs {
     channel("stretch -> ask", ask);
     channel("sample -> stretch", bits_of_token(LevelToken{}, context_));
     int exit = 0;
-    wires_of_exit(HitToken{}, context_, [&](int bits, bool, std::int64_t) { exit += bits; });
+    wires_of_exit(HitToken{}, context_, [&](const WireName&, int bits, bool, std::int64_t) { exit += bits; });
     channel("stretch -> crossing", exit, c_.rays);
     channel("stretch -> walk", bits_of_token(OnwardToken{}, context_), c_.rays);
     channel("passed -> press", bits_of_token(PassedToken{}, context_));

@@ -12,6 +12,7 @@
 #include "hwmodel/caster/model/memory_port.h"
 #include "hwmodel/caster/model/tile_stages.h"
 #include "hwmodel/caster/model/walk_stage.h"
+#include "hwmodel/check/token_source.h"
 
 namespace voxmelt::hwmodel::raycast {
 
@@ -114,6 +115,9 @@ class Pipe {
     std::int64_t entered;
   };
   virtual std::vector<ChannelState> channels() const = 0;
+  // In the same order, with numbers of their own.
+  virtual std::vector<TokenChannel> token_channels() const = 0;
+  virtual void probe(ChannelProbe* probe) = 0;
 };
 
 // Makes pipe number `number`.

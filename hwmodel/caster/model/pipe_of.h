@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "hwmodel/caster/model/channel_wires.h"
 #include "hwmodel/caster/model/crossing_stage.h"
 #include "hwmodel/caster/model/ground_stage.h"
 #include "hwmodel/caster/model/light_stage.h"
@@ -97,6 +98,8 @@ class PipeOf final : public Pipe {
   void forget(std::size_t i, const std::vector<std::int64_t>& lines) override;
   void forget_all() override;
   std::vector<ChannelState> channels() const override;
+  std::vector<TokenChannel> token_channels() const override;
+  void probe(ChannelProbe* probe) override;
 
  private:
   // Of the memory port.
@@ -104,6 +107,8 @@ class PipeOf final : public Pipe {
 
   template <class Word>
   Fifo<Word>& channel(Channel which, const char* name, int depth = 0);
+  template <class Word>
+  void show(Channel which, Fifo<Word>& fifo);
   void list_stages();
   PipeChannels make_channels();
   void connect_rays(const PipeChannels& c, Fifo<TileJob>& tiles);
@@ -145,6 +150,8 @@ class PipeOf final : public Pipe {
   const Stage* running_ = nullptr;
   std::vector<std::shared_ptr<void>> owned_;
   std::vector<std::function<ChannelState()>> states_;
+  std::vector<std::function<TokenChannel()>> types_;
+  std::vector<std::function<void(ChannelProbe*)>> probes_;
   std::function<void(const Watchers&)> watch_;
   std::vector<void (*)(void*)> commits_;
   std::vector<void*> committed_;
@@ -223,8 +230,24 @@ Fifo<Word>& PipeOf<Faults>::channel(Channel which, const char* name, int depth) 
     return ChannelState{made.name(),  made.channel(), made.count(),
                         made.depth(), made.ready(),   made.entered()};
   });
+  show(which, made);
   owned_.push_back(std::move(fifo));
   return made;
+}
+
+template <class Faults>
+template <class Word>
+void PipeOf<Faults>::show(Channel which, Fifo<Word>& fifo) {
+  const int number = 100 * number_ + static_cast<int>(types_.size());
+  const ContextBits bits{bits_for(configuration_.rays - 1), bits_for(configuration_.tiles - 1),
+                         clear_.has_value()};
+  types_.push_back([which, number, bits, &fifo] {
+    return TokenChannel{fifo.name(), number, fifo.depth(), type_of<Word>(which, bits)};
+  });
+  probes_.push_back([&fifo, numbered = std::make_shared<NumberedProbe>(number)](ChannelProbe* probe) {
+    numbered->tell(probe);
+    fifo.probe(probe == nullptr ? nullptr : numbered.get());
+  });
 }
 
 template <class Faults>
@@ -423,6 +446,19 @@ std::vector<Pipe::ChannelState> PipeOf<Faults>::channels() const {
   of.reserve(states_.size());
   for (const auto& state : states_) of.push_back(state());
   return of;
+}
+
+template <class Faults>
+std::vector<TokenChannel> PipeOf<Faults>::token_channels() const {
+  std::vector<TokenChannel> of;
+  of.reserve(types_.size());
+  for (const auto& type : types_) of.push_back(type());
+  return of;
+}
+
+template <class Faults>
+void PipeOf<Faults>::probe(ChannelProbe* probe) {
+  for (const auto& each : probes_) each(probe);
 }
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -179,8 +179,12 @@ void RayCaster::watch(const Watchers& watchers) {
   for (const auto& link : machine_->requests) link->fifo().watch(watchers.requests);
   for (const auto& link : machine_->replies) link->fifo().watch(watchers.replies);
 }
+void RayCaster::probe(ChannelProbe* probe) {
+  for (const auto& pipe : machine_->pipes) pipe->probe(probe);
+}
 void RayCaster::stop() { machine_->part.stop(); }
 void RayCaster::poll(std::function<void()> poll) { machine_->part.poll = std::move(poll); }
+void RayCaster::each_cycle(std::function<void()> call) { machine_->part.each_cycle = std::move(call); }
 
 void RayCaster::draw_only(const Window& window) { machine_->window = window; }
 

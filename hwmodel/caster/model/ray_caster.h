@@ -16,6 +16,7 @@
 #include "hwmodel/caster/model/layout.h"
 #include "hwmodel/caster/model/pipe.h"
 #include "hwmodel/caster/model/registers.h"
+#include "hwmodel/check/token_source.h"
 #include "hwmodel/fabric/memory_port.h"
 #include "hwmodel/memory/counts.h"
 
@@ -43,18 +44,19 @@ struct Shares {
   std::int64_t base;
 };
 
-class RayCaster {
+class RayCaster final : public TokenSource {
  public:
   // Registers and memory belong to the host, who may change both between two frames.
   RayCaster(const Registers& registers, Memory& memory, const Configuration& configuration,
             const PipeMaker& make = make_pipe, const std::optional<Shares>& shares = {});
-  ~RayCaster();
+  ~RayCaster() override;
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
   void watch(const Watchers& watchers);
-  void stop();  // after the present cycle
+  void stop() override;  // after the present cycle
   void poll(std::function<void()> poll);
+  void each_cycle(std::function<void()> call);  // when all blocks have run theirs
 
   // Where a value did not fit its wire.
   class StageError : public std::runtime_error {
@@ -81,7 +83,12 @@ class RayCaster {
   void forget(std::size_t i, const std::vector<std::int64_t>& lines);
   void forget_all();
 
-  std::int64_t cycle() const;  // of the present frame
+  std::int64_t cycle() const override;  // of the present frame
+  // As tools see it: the channels inside of the pipes, and all stages.
+  std::vector<TokenChannel> token_channels() const override;
+  void probe(ChannelProbe* probe) override;
+  std::vector<StageClasses> stage_classes() const override;
+  std::vector<std::int64_t> stage_counts() const override;
   int pipes() const;
   const Pipe& pipe(int i) const;
   MemoryCounts memory_counts() const;

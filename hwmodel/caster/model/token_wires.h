@@ -1,10 +1,12 @@
-// How wide every number is that a channel carries and a later stage reads. What only the checker reads is no
-// wire. A visitor gets (bits, has a sign, value) of each number: it sums the bits (cost.h), or checks that
-// the values fit, as a test does in running pictures.
+// How every number is called that a channel carries and a later stage reads, and how wide it is. What only
+// the checker reads is no wire. A visitor gets (name, bits, has a sign, value) of each number: it sums the
+// bits (cost.h), shows the values (channel_wires.h), or checks that they fit, as a test does in running
+// pictures.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "hwmodel/caster/model/arithmetic.h"
 #include "hwmodel/caster/model/tokens.h"
@@ -18,36 +20,54 @@ struct ContextBits {
   bool clear = false;         // a ray goes on through matter, and a surface is an event on it
 };
 
+// A number, a part of one, or one of several.
+struct WireName {
+  const char* stem;
+  const char* part = "";
+  int index = -1;
+
+  constexpr WireName(const char* of, const char* its = "", int which = -1)
+      : stem(of), part(its), index(which) {}
+  std::string text() const {
+    return std::string(stem) + part + (index < 0 ? "" : "_" + std::to_string(index));
+  }
+};
+
 template <class Visit>
-void vector_wires(const Vec& v, int bits, Visit&& visit) {
-  visit(bits, true, v.x), visit(bits, true, v.y), visit(bits, true, v.z);
+void vector_wires(const char* name, const Vec& v, int bits, Visit&& visit) {
+  visit(WireName{name, "_x"}, bits, true, v.x), visit(WireName{name, "_y"}, bits, true, v.y);
+  visit(WireName{name, "_z"}, bits, true, v.z);
 }
 template <class Visit>
-void color_wires(const Rgb& c, int bits, Visit&& visit, bool has_sign = false) {
-  for (const std::int32_t one : c) visit(bits, has_sign, std::int64_t{one});
+void color_wires(const char* name, const Rgb& c, int bits, Visit&& visit, bool has_sign = false) {
+  constexpr const char* kParts[] = {"_red", "_green", "_blue"};
+  for (std::size_t i = 0; i < 3; ++i) visit(WireName{name, kParts[i]}, bits, has_sign, std::int64_t{c[i]});
 }
 template <class Visit>
 void wires_of(const RayId& id, const ContextBits& of, Visit&& visit) {
-  visit(13, false, id.x), visit(13, false, id.y);
-  visit(5, false, id.sample), visit(of.buffers, false, id.buffer);
+  visit(WireName{"x"}, 13, false, id.x), visit(WireName{"y"}, 13, false, id.y);
+  visit(WireName{"sample"}, 5, false, id.sample), visit(WireName{"buffer"}, of.buffers, false, id.buffer);
 }
 template <class Visit>
 void wires_of(const Ray& ray, Visit&& visit) {
-  vector_wires(ray.start, 53, visit), vector_wires(ray.step, 20, visit);
+  vector_wires("start", ray.start, 53, visit), vector_wires("step", ray.step, 20, visit);
 }
 template <class Visit>
 void wires_of(const GroundHit& hit, Visit&& visit) {
-  visit(1, false, hit.found ? 1 : 0), visit(35, false, hit.found ? hit.part : 0);
-  vector_wires(hit.position, 32, visit);
-  visit(3, false, static_cast<std::int64_t>(hit.face));
-  vector_wires(hit.normal, 16, visit);
+  visit(WireName{"ground_found"}, 1, false, hit.found ? 1 : 0);
+  visit(WireName{"ground_part"}, 35, false, hit.found ? hit.part : 0);
+  vector_wires("ground_position", hit.position, 32, visit);
+  visit(WireName{"ground_face"}, 3, false, static_cast<std::int64_t>(hit.face));
+  vector_wires("ground_normal", hit.normal, 16, visit);
 }
 
 template <class Visit>
 void wires_of(const TileOrder& order, const ContextBits& of, Visit&& visit) {
-  visit(13, false, order.x), visit(13, false, order.y);
-  visit(of.buffers, false, order.buffer), visit(6, false, order.samples);
-  for (int i = 0; i < 64; ++i) visit(1, false, static_cast<std::int64_t>(order.pixels >> i & 1));
+  visit(WireName{"x"}, 13, false, order.x), visit(WireName{"y"}, 13, false, order.y);
+  visit(WireName{"buffer"}, of.buffers, false, order.buffer),
+      visit(WireName{"samples"}, 6, false, order.samples);
+  for (int i = 0; i < 64; ++i)
+    visit(WireName{"pixel", "", i}, 1, false, static_cast<std::int64_t>(order.pixels >> i & 1));
 }
 template <class Visit>
 void wires_of(const RayToken& token, const ContextBits& of, Visit&& visit) {
@@ -59,83 +79,97 @@ void wires_of(const GroundedRay& token, const ContextBits& of, Visit&& visit) {
 }
 template <class Visit>
 void wires_of(const LevelRequest& request, const ContextBits& of, Visit&& visit) {
-  visit(2, false, static_cast<std::int64_t>(request.asker));
-  visit(of.rays, false, request.context);
-  vector_wires(request.at, 32, visit);
+  visit(WireName{"asker"}, 2, false, static_cast<std::int64_t>(request.asker));
+  visit(WireName{"context"}, of.rays, false, request.context);
+  vector_wires("at", request.at, 32, visit);
 }
 // Levels, and the weights of their place.
 template <class Visit>
 void wires_of(const Levels& levels, const ContextBits& of, Visit&& visit) {
   const LevelRequest& request = levels.request;
   const std::size_t words = request.kind_index() == 1 ? 27 : 8;
-  visit(2, false, static_cast<std::int64_t>(request.asker));
-  visit(of.rays, false, request.context);
-  for (const std::int64_t at : {request.at.x, request.at.y, request.at.z}) visit(8, false, weight_of(at));
-  for (std::size_t i = 0; i < words; ++i) visit(16, true, levels.words[i]);
+  visit(WireName{"asker"}, 2, false, static_cast<std::int64_t>(request.asker));
+  visit(WireName{"context"}, of.rays, false, request.context);
+  visit(WireName{"weight_x"}, 8, false, weight_of(request.at.x));
+  visit(WireName{"weight_y"}, 8, false, weight_of(request.at.y));
+  visit(WireName{"weight_z"}, 8, false, weight_of(request.at.z));
+  for (std::size_t i = 0; i < words; ++i)
+    visit(WireName{"word", "", static_cast<int>(i)}, 16, true, levels.words[i]);
 }
 template <class Visit>
 void wires_of(const LevelToken& token, const ContextBits& of, Visit&& visit) {
-  visit(2, false, static_cast<std::int64_t>(token.request.asker));
-  visit(of.rays, false, token.request.context);
-  visit(16, true, token.level);
+  visit(WireName{"asker"}, 2, false, static_cast<std::int64_t>(token.request.asker));
+  visit(WireName{"context"}, of.rays, false, token.request.context);
+  visit(WireName{"level"}, 16, true, token.level);
 }
 template <class Visit>
 void wires_of(const HitToken& hit, const ContextBits& of, Visit&& visit) {
-  visit(of.rays, false, hit.context);
+  visit(WireName{"context"}, of.rays, false, hit.context);
   wires_of(hit.ray, of, visit);
-  visit(27, false, hit.k);
-  vector_wires(hit.at, 32, visit);
-  visit(15, false, hit.level), visit(1, false, hit.knows_before ? 1 : 0);
-  visit(16, true, hit.knows_before ? hit.before : 0);
-  if (of.clear) visit(1, false, hit.span == 0 ? 1 : 0);  // the ray's first matter
+  visit(WireName{"k"}, 27, false, hit.k);
+  vector_wires("at", hit.at, 32, visit);
+  visit(WireName{"level"}, 15, false, hit.level),
+      visit(WireName{"knows_before"}, 1, false, hit.knows_before ? 1 : 0);
+  visit(WireName{"before"}, 16, true, hit.knows_before ? hit.before : 0);
+  if (of.clear) visit(WireName{"first"}, 1, false, hit.span == 0 ? 1 : 0);  // the ray's first matter
 }
 // Of a ray that leaves matter: the rest of it has stayed in the stretch.
 template <class Visit>
 void wires_of_exit(const HitToken& hit, const ContextBits& of, Visit&& visit) {
-  visit(of.rays, false, hit.context);
-  vector_wires(hit.ray.ray.step, 20, visit);
-  visit(27, false, hit.k);
-  vector_wires(hit.at, 32, visit);
-  visit(15, false, hit.level), visit(16, true, hit.before);
+  visit(WireName{"context"}, of.rays, false, hit.context);
+  vector_wires("step", hit.ray.ray.step, 20, visit);
+  visit(WireName{"k"}, 27, false, hit.k);
+  vector_wires("at", hit.at, 32, visit);
+  visit(WireName{"level"}, 15, false, hit.level), visit(WireName{"before"}, 16, true, hit.before);
 }
 template <class Visit>
 void wires_of(const OnwardToken& token, const ContextBits& of, Visit&& visit) {
-  visit(of.rays, false, token.context);
-  visit(27, false, token.k);
-  vector_wires(token.at, 32, visit);
-  visit(16, true, token.level);
+  visit(WireName{"context"}, of.rays, false, token.context);
+  visit(WireName{"k"}, 27, false, token.k);
+  vector_wires("at", token.at, 32, visit);
+  visit(WireName{"level"}, 16, true, token.level);
 }
 template <class Visit>
 void wires_of(const MetToken& met, const ContextBits& of, Visit&& visit) {
   wires_of(met.id, of, visit);
-  vector_wires(met.ray.step, 20, visit);
+  vector_wires("step", met.ray.step, 20, visit);
   wires_of(met.ground, visit);
-  visit(1, false, met.matter.found ? 1 : 0);
-  visit(27, false, met.matter.sample), visit(12, false, met.matter.part);
-  vector_wires(met.matter.position, 32, visit);
+  visit(WireName{"matter_found"}, 1, false, met.matter.found ? 1 : 0);
+  visit(WireName{"matter_sample"}, 27, false, met.matter.sample);
+  visit(WireName{"matter_part"}, 12, false, met.matter.part);
+  vector_wires("matter_position", met.matter.position, 32, visit);
   if (!of.clear) return;
-  visit(of.rays, false, met.context);
-  visit(1, false, met.span == 0 ? 1 : 0), visit(1, false, met.leaves ? 1 : 0);
-  visit(15, false, met.level);
-  vector_wires(met.at, 32, visit);
+  visit(WireName{"context"}, of.rays, false, met.context);
+  visit(WireName{"first"}, 1, false, met.span == 0 ? 1 : 0),
+      visit(WireName{"leaves"}, 1, false, met.leaves ? 1 : 0);
+  visit(WireName{"level"}, 15, false, met.level);
+  vector_wires("at", met.at, 32, visit);
 }
 template <class Visit>
 void wires_of(const PassedToken& token, const ContextBits& of, Visit&& visit) {
   wires_of(token.id, of, visit);
-  visit(1, false, token.on_ground ? 1 : 0);
-  color_wires(token.passage.passed, 16, visit);
-  color_wires(token.passage.mirrored, 31, visit), color_wires(token.passage.scattered, 29, visit, true);
-  color_wires(token.behind, 18, visit, true);
+  visit(WireName{"on_ground"}, 1, false, token.on_ground ? 1 : 0);
+  color_wires("passed", token.passage.passed, 16, visit);
+  color_wires("mirrored", token.passage.mirrored, 31, visit);
+  color_wires("scattered", token.passage.scattered, 29, visit, true);
+  color_wires("behind", token.behind, 18, visit, true);
 }
 template <class Visit>
 void wires_of(const PressedToken& token, const ContextBits& of, Visit&& visit) {
   wires_of(token.id, of, visit);
-  color_wires(token.pressed, 13, visit);
+  color_wires("pressed", token.pressed, 13, visit);
 }
 template <class Visit>
 void wires_of(const PixelToken& token, const ContextBits& of, Visit&& visit) {
   wires_of(token.id, of, visit);
-  for (const std::uint8_t byte : token.bytes) visit(8, false, std::int64_t{byte});
+  color_wires("byte", {token.bytes[0], token.bytes[1], token.bytes[2]}, 8, visit);
+}
+
+// One of each side of a cell.
+template <class Sides, class Visit>
+void side_wires(const char* name, const Sides& sides, Visit&& visit) {
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    visit(WireName{name, "", static_cast<int>(i)}, 8, false, std::int64_t{sides[i]});
 }
 
 // A surface behind the stages that work on it, in their order: what is there and still needed.
@@ -145,45 +179,50 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& of, Visit&& vis
   const auto from = [&](Behind first) { return stage >= first; };
   const auto until = [&](Behind last) { return stage <= last; };
   wires_of(s.id, of, visit);
-  visit(2, false, static_cast<std::int64_t>(s.kind));
+  visit(WireName{"kind"}, 2, false, static_cast<std::int64_t>(s.kind));
   if (until(Behind::paint))
-    visit(1, false, s.inside ? 1 : 0), visit(3, false, static_cast<std::int64_t>(s.face));
-  if (until(Behind::matter)) vector_wires(s.position, 32, visit);
-  if (until(Behind::arriving)) vector_wires(s.to_eye, 16, visit);
-  if (until(Behind::arriving)) vector_wires(s.normal, 16, visit);
-  if (from(Behind::paint) && until(Behind::mirror)) color_wires(s.color, 13, visit);
+    visit(WireName{"inside"}, 1, false, s.inside ? 1 : 0),
+        visit(WireName{"face"}, 3, false, static_cast<std::int64_t>(s.face));
+  if (until(Behind::matter)) vector_wires("position", s.position, 32, visit);
+  if (until(Behind::arriving)) vector_wires("to_eye", s.to_eye, 16, visit);
+  if (until(Behind::arriving)) vector_wires("normal", s.normal, 16, visit);
+  if (from(Behind::paint) && until(Behind::mirror)) color_wires("color", s.color, 13, visit);
   if (from(Behind::matter) && until(Behind::light)) {
-    visit(8, false, s.matter.liquid), visit(8, false, s.matter.heat), visit(8, false, s.matter.obstacle);
+    visit(WireName{"liquid"}, 8, false, s.matter.liquid), visit(WireName{"heat"}, 8, false, s.matter.heat);
+    visit(WireName{"obstacle"}, 8, false, s.matter.obstacle);
   }
   if (stage == Behind::light) {
-    visit(8, false, s.light.lamp);
+    visit(WireName{"lamp"}, 8, false, s.light.lamp);
     if (!of.clear)  // it does not glow
-      for (const std::int32_t glow : s.light.glow) visit(8, false, glow);
+      side_wires("glow", s.light.glow, visit);
   }
-  if (from(Behind::light) && until(Behind::arriving))
-    for (const std::int32_t open : s.light.open) visit(8, false, open);
+  if (from(Behind::light) && until(Behind::arriving)) side_wires("open", s.light.open, visit);
   if (from(Behind::arriving) && until(Behind::mirror)) {
-    color_wires(s.arriving.light, 17, visit, true);
-    color_wires(s.mixture.material.diffuse, 13, visit), color_wires(s.mixture.material.mirror, 13, visit);
-    color_wires(s.mixture.material.highlight, 13, visit);
-    if (!of.clear) color_wires(s.mixture.emission, 14, visit);
+    color_wires("arriving", s.arriving.light, 17, visit, true);
+    color_wires("diffuse", s.mixture.material.diffuse, 13, visit);
+    color_wires("mirror", s.mixture.material.mirror, 13, visit);
+    color_wires("highlight", s.mixture.material.highlight, 13, visit);
+    if (!of.clear) color_wires("emission", s.mixture.emission, 14, visit);
   }
-  if (stage == Behind::arriving || (of.clear && from(Behind::mirror))) visit(13, false, s.mixture.w);
+  if (stage == Behind::arriving || (of.clear && from(Behind::mirror)))
+    visit(WireName{"w"}, 13, false, s.mixture.w);
   if (stage == Behind::arriving) {
-    visit(9, false, s.arriving.lamp), visit(16, true, s.arriving.facing);
-    visit(12, false, s.mixture.material.gloss);
+    visit(WireName{"lamp"}, 9, false, s.arriving.lamp),
+        visit(WireName{"facing"}, 16, true, s.arriving.facing);
+    visit(WireName{"gloss"}, 12, false, s.mixture.material.gloss);
   }
   if (stage == Behind::mirror) {
-    visit(13, false, s.mirrored.peak), visit(13, false, s.mirrored.free);
-    if (!of.clear) visit(15, false, s.mirrored.eye);
-    color_wires(s.mirrored.around, 15, visit);
+    visit(WireName{"peak"}, 13, false, s.mirrored.peak), visit(WireName{"free"}, 13, false, s.mirrored.free);
+    if (!of.clear) visit(WireName{"eye"}, 15, false, s.mirrored.eye);
+    color_wires("around", s.mirrored.around, 15, visit);
   }
-  if (stage == Behind::mirror || (of.clear && stage == Behind::colour)) visit(13, false, s.mirrored.more);
-  if (stage == Behind::colour) color_wires(s.sum, 18, visit, true);
+  if (stage == Behind::mirror || (of.clear && stage == Behind::colour))
+    visit(WireName{"more"}, 13, false, s.mirrored.more);
+  if (stage == Behind::colour) color_wires("sum", s.sum, 18, visit, true);
   if (!of.clear) return;
-  visit(of.rays, false, s.clear.context), visit(18, false, s.clear.way);
-  if (until(Behind::arriving)) visit(1, false, s.clear.leaves ? 1 : 0);
-  if (stage == Behind::colour) color_wires(s.clear.gleam, 15, visit);
+  visit(WireName{"context"}, of.rays, false, s.clear.context), visit(WireName{"way"}, 18, false, s.clear.way);
+  if (until(Behind::arriving)) visit(WireName{"leaves"}, 1, false, s.clear.leaves ? 1 : 0);
+  if (stage == Behind::colour) color_wires("gleam", s.clear.gleam, 15, visit);
 }
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "hwmodel/check/waves.h"
 #include "hwmodel/pipeline/check/checker.h"
 #include "hwmodel/pipeline/check/column_checker.h"
 #include "hwmodel/pipeline/check/diagnosis.h"
 #include "hwmodel/pipeline/check/feed_checker.h"
-#include "hwmodel/pipeline/check/waves.h"
 #include "hwmodel/pipeline/faults/channel_fault.h"
 #include "hwmodel/pipeline/faults/code_fault.h"
 #include "hwmodel/pipeline/faults/irradiance_fault.h"
@@ -65,7 +65,7 @@ class Lockstep::Run {
     pipeline_.watch_columns(&column_checker_);
     pipeline_.poll(options.poll);
     if (options.waves) {
-      waves_.emplace(pipeline_, options.waves_from);
+      waves_.emplace(pipeline_, "pipeline", options.waves_from);
       pipeline_.probe(&*waves_);
       checker_.stop_at_difference(false);
     }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <string_view>
+#include <type_traits>
 
 #include "hwmodel/pipeline/model/cell.h"
 
@@ -33,7 +34,8 @@ struct CellWire {
   std::string_view name;   // in a waveform
   std::string_view label;  // for people
   int bits;                // at most: Stage::width_of says what a scene needs
-  bool in_memory;          // or a side band, from the stage that makes it to the last that reads it
+  bool has_sign;
+  bool in_memory;  // or a side band, from the stage that makes it to the last that reads it
   std::int64_t (*get)(const Cell&);
   void (*set)(Cell&, std::int64_t);
 };
@@ -48,13 +50,14 @@ constexpr CellWire cell_wire(Wire wire, std::string_view name, std::string_view 
           name,
           label,
           Field::kBits,
+          std::is_same_v<Field, SInt<Field::kBits>>,
           in_memory,
           [](const Cell& cell) { return static_cast<std::int64_t>(cell.*Member); },
           [](Cell& cell, std::int64_t value) { cell.*Member = value; }};
 }
 
 inline constexpr std::array kCellWires{
-    CellWire{Wire::state, "state", "state", 2, true,
+    CellWire{Wire::state, "state", "state", 2, false, true,
              [](const Cell& cell) { return static_cast<std::int64_t>(cell.state); },
              [](Cell& cell, std::int64_t value) { cell.state = static_cast<State>(value); }},
     cell_wire<&Cell::amount>(Wire::amount, "amount", "amount", true),

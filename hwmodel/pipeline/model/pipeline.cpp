@@ -188,7 +188,7 @@ void Pipeline::memory(StreamMemory* memory) {
 
 void Pipeline::poll(std::function<void()> poll) { machine_->part.poll = std::move(poll); }
 
-void Pipeline::probe(FifoProbe<Cell>* probe) {
+void Pipeline::probe(ChannelProbe* probe) {
   machine_->for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.probe(probe); });
 }
 

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "hwmodel/check/token_source.h"
 #include "hwmodel/pipeline/model/configuration.h"
 #include "hwmodel/pipeline/model/irradiance_stream.h"
 #include "hwmodel/pipeline/model/memory_ports.h"
@@ -53,20 +54,20 @@ struct PassEnd {
 
 class Simulation;
 
-class Pipeline {
+class Pipeline final : public TokenSource {
  public:
   // `make` makes its stages, which may have planted faults. `simulation`: with other machines in it, which go
   // on while a train runs; null: one of its own.
   Pipeline(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration,
            const StageMaker& make = make_stage, Simulation* simulation = nullptr);
-  ~Pipeline();
+  ~Pipeline() override;
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
   // The watcher sees every token of the main stream. If it calls `stop`, the pass ends after the
   // present cycle.
   void watch(FifoWatcher<Cell>* watcher);
-  void stop();
+  void stop() override;
   std::vector<CellFifo*> channels_behind_stages(int cascade);  // of one time step, for faults to be planted
   void plant(PortFault* fault);                                // null: none
   void plant(FeedFault* fault);
@@ -76,7 +77,6 @@ class Pipeline {
   static constexpr int kFirstFeedChannel = 1000;
   const Books& books() const;            // of the pass that has been written last
   const state::Volume& written() const;  // where the last token went
-  void probe(FifoProbe<Cell>* probe);    // of the channels of the main stream
   // Called at the end of every cycle of every block: then the accounts of all stages include this cycle.
   void each_cycle(std::function<void()> watch);
   void memory(StreamMemory* memory);      // null: it always answers
@@ -114,7 +114,12 @@ class Pipeline {
 
   const Design& design() const;
   const Configuration& configuration() const;
-  std::int64_t cycle() const;  // of the present train
+  std::int64_t cycle() const override;  // of the present train
+  // As tools see it: the channels of the main stream, and all stages.
+  std::vector<TokenChannel> token_channels() const override;
+  void probe(ChannelProbe* probe) override;
+  std::vector<StageClasses> stage_classes() const override;
+  std::vector<std::int64_t> stage_counts() const override;
   std::vector<ChannelReport> channels() const;
   std::vector<StageReport> stages() const;           // the reader first, the writer last
   std::vector<const Stage*> working_stages() const;  // without the reader, the feeds and the writer

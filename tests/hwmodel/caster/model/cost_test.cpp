@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hwmodel/caster/host/uploader.h"
+#include "hwmodel/caster/model/channel_wires.h"
 #include "hwmodel/caster/model/cost.h"
 #include "hwmodel/caster/model/ray_caster.h"
 #include "hwmodel/caster/model/token_wires.h"
@@ -30,48 +31,20 @@ class Fits : public FifoWatcher<Token> {
   explicit Fits(ContextBits bits) : bits_(bits) {}
   void left(int, std::int64_t, const Token*) override {}
   void entered(int channel, std::int64_t, const Token* token) override {
-    std::size_t i = 0;
-    const auto check = [&](int bits, bool has_sign, std::int64_t value) {
+    const auto check = [&](const WireName& name, int bits, bool has_sign, std::int64_t value) {
       const std::int64_t low = has_sign ? -(std::int64_t{1} << (bits - 1)) : 0;
       const std::int64_t high = (std::int64_t{1} << (has_sign ? bits - 1 : bits)) - 1;
       if (value < low || value > high)
-        wrong.insert("channel " + std::to_string(channel % 100) + ", number " + std::to_string(i) + ": " +
+        wrong.insert("channel " + std::to_string(channel % 100) + ", " + name.text() + ": " +
                      std::to_string(value) + " in " + std::to_string(bits) + " bits");
-      ++i;
       ++checked;
     };
-    if constexpr (std::is_same_v<Token, Surface>)
-      return wires_of(*token, behind(channel % 100), bits_, check);
-    else if constexpr (std::is_same_v<Token, HitToken>)
-      if (static_cast<Channel>(channel % 100) == Channel::exits) return wires_of_exit(*token, bits_, check);
-    if constexpr (!std::is_same_v<Token, Surface>) wires_of(*token, bits_, check);
+    wires_in(static_cast<Channel>(channel % 100), *token, bits_, check);
   }
   std::set<std::string> wrong;
   std::int64_t checked = 0;
 
  private:
-  static Behind behind(int channel) {
-    switch (static_cast<Channel>(channel)) {
-      case Channel::met:
-        return Behind::met;
-      case Channel::normal:
-        return Behind::normal;
-      case Channel::paint:
-        return Behind::paint;
-      case Channel::texture:
-        return Behind::texture;
-      case Channel::matter:
-        return Behind::matter;
-      case Channel::light:
-        return Behind::light;
-      case Channel::arriving:
-        return Behind::arriving;
-      case Channel::mirror:
-        return Behind::mirror;
-      default:
-        return Behind::colour;
-    }
-  }
   ContextBits bits_;
 };
 

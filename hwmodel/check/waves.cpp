@@ -1,10 +1,11 @@
-#include "hwmodel/pipeline/check/waves.h"
+#include "hwmodel/check/waves.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <utility>
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -46,45 +47,48 @@ std::string value_text(const std::optional<std::int64_t>& value, int bits, const
 
 }  // namespace
 
-Waves::Waves(Pipeline& pipeline, std::optional<std::int64_t> from)
-    : pipeline_(pipeline), from_(from), lanes_(pipeline.design().shape.lanes) {
-  for (const ChannelReport& channel : pipeline.channels())
-    if (channel.producer != StageKind::feed) add_channel(channel);
+Waves::Waves(TokenSource& source, std::string machine, std::optional<std::int64_t> from)
+    : source_(source), machine_(std::move(machine)), from_(from) {
+  for (const TokenChannel& channel : source.token_channels()) add_channel(channel);
   of_stages_ = signals_.size();
   int number = 0;
-  for (const StageReport& stage : pipeline.stages()) {
-    const std::string scope = fmt::format("stages.s{:02}_step_{}_{}", number++, stage.cascade,
-                                          identifier(std::string(name_of(stage.kind))));
-    for (const char* name : kCycleClasses) signals_.push_back({scope, name, 1});
+  for (const StageClasses& stage : source.stage_classes()) {
+    const std::string scope = fmt::format("stages.s{:02}_{}", number++, identifier(stage.name));
+    for (const std::string& name : stage.classes) signals_.push_back({scope, name, 1});
   }
   now_.resize(signals_.size());
-  before_ = pipeline.accounts();
+  before_ = source.stage_counts();
 }
 
-void Waves::add_channel(const ChannelReport& channel) {
-  of_channel_.push_back(signals_.size());
-  const std::string scope =
-      fmt::format("channels.c{:02}_{}", of_channel_.size() - 1, identifier(channel.name));
+void Waves::add_channel(const TokenChannel& channel) {
+  const std::string scope = fmt::format("channels.c{:02}_{}", channels_.size(), identifier(channel.name));
+  numbers_[channel.number] = channels_.size();
+  channels_.push_back({channel.type, signals_.size()});
+  token_.resize(std::max(token_.size(), channel.type.values()));
   for (const char* name : {"ready", "put", "valid", "get"}) signals_.push_back({scope, name, 1});
   signals_.push_back({scope, "count", 11});
   for (const char* side : {"in", "out"})
-    for (int lane = 0; lane < lanes_; ++lane)
-      for (const CellWire& row : kCellWires)
-        signals_.push_back(
-            {fmt::format("{}.{}.lane_{}", scope, side, lane), std::string(row.name), row.bits});
+    for (int lane = 0; lane < channel.type.lanes; ++lane)
+      for (const TokenWire& wire : channel.type.wires)
+        signals_.push_back({fmt::format("{}.{}.lane_{}", scope, side, lane), wire.name, wire.bits});
 }
 
-void Waves::cycle(int channel, const Sides& sides, const Cell* in, const Cell* out) {
-  const std::int64_t now = cycles_before_ + pipeline_.cycle();
+void Waves::cycle(int number, const Sides& sides, const void* in, const void* out) {
+  const std::int64_t now = cycles_before_ + source_.cycle();
   if (now != now_at_) end();
   if (!keeps(now)) return;
-  std::size_t at = of_channel_[static_cast<std::size_t>(channel)];
+  const Channel& channel = channels_[numbers_.at(number)];
+  std::size_t at = channel.first;
   for (const bool wire : {sides.ready, sides.put, sides.valid, sides.get}) now_[at++] = wire;
   now_[at++] = sides.count;
-  for (const Cell* token : {in, out})
-    for (int lane = 0; lane < lanes_; ++lane)
-      for (const CellWire& row : kCellWires)
-        now_[at++] = token != nullptr ? std::optional(row.get(token[lane])) : std::nullopt;
+  put_token(channel.type, in, at);
+  put_token(channel.type, out, at + channel.type.values());
+}
+
+void Waves::put_token(const TokenType& type, const void* token, std::size_t at) {
+  if (token != nullptr) type.read(token, token_.data());
+  for (std::size_t i = 0; i < type.values(); ++i)
+    now_[at + i] = token != nullptr ? std::optional(token_[i]) : std::nullopt;
 }
 
 void Waves::begin_train(std::int64_t cycles_before) {
@@ -94,13 +98,10 @@ void Waves::begin_train(std::int64_t cycles_before) {
 
 void Waves::end_cycle() {
   end();
-  now_at_ = cycles_before_ + pipeline_.cycle();
-  const std::vector<StageCycles> accounts = pipeline_.accounts();
-  std::size_t at = of_stages_;
-  for (std::size_t i = 0; i < accounts.size(); ++i) {
-    for (const auto part : StageCycles::kParts) now_[at++] = accounts[i].*part > before_[i].*part;
-  }
-  before_ = accounts;
+  now_at_ = cycles_before_ + source_.cycle();
+  std::vector<std::int64_t> counts = source_.stage_counts();
+  for (std::size_t i = 0; i < counts.size(); ++i) now_[of_stages_ + i] = counts[i] > before_[i];
+  before_ = std::move(counts);
   is_new_ = true;
 }
 
@@ -122,9 +123,10 @@ bool Waves::wants_more() {
 }
 
 std::string Waves::vcd() const {
-  std::string text =
-      "$comment The hardware pipeline of voxmelt; a time unit is a nanosecond, a cycle takes ten. $end\n"
-      "$timescale 1 ns $end\n$scope module pipeline $end\n$var wire 1 ! clock $end\n";
+  std::string text = fmt::format(
+      "$comment The hardware {} of voxmelt; a time unit is a nanosecond, a cycle takes ten. $end\n"
+      "$timescale 1 ns $end\n$scope module {} $end\n$var wire 1 ! clock $end\n",
+      machine_, identifier(machine_));
   text += "$var wire 64 " + code(1) + " cycle $end\n";
   std::vector<std::string> open;
   for (std::size_t i = 0; i < signals_.size(); ++i) {

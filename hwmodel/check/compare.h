@@ -1,0 +1,89 @@
+// The first difference between what two machines carry. In order: every channel gets the same tokens, and
+// gives the same, at whatever time. In the same cycle: also when.
+//
+// Both machines run one after another, or in turn: what one is ahead is kept.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hwmodel/check/token_source.h"
+
+namespace voxmelt::hwmodel {
+
+struct TokenDifference {
+  enum class Kind : std::uint8_t {
+    value,    // another one on a wire
+    cycle,    // the same token, in another cycle
+    missing,  // a token that does not come
+    extra,    // one that should not
+    channel,  // one of them lacks the channel, or its tokens are of another type
+  };
+  Kind kind = Kind::value;
+  std::string channel{};
+  bool enters = true;        // else it differs when it leaves
+  std::int64_t ordinal = 0;  // of the token in its channel, from 0
+  std::string wire{};
+  int lane = 0;
+  std::int64_t expected = 0, actual = 0;                // values of the wire
+  std::int64_t expected_cycle = -1, actual_cycle = -1;  // -1: it did not come
+};
+
+std::string text_of(const TokenDifference& difference);
+
+enum class Compared : std::uint8_t { in_order, in_same_cycle };
+
+// As long as it lives it is the probe of both sources.
+class TokenComparison {
+ public:
+  TokenComparison(TokenSource& expected, TokenSource& actual, Compared how);
+  TokenComparison(const TokenComparison&) = delete;
+  TokenComparison& operator=(const TokenComparison&) = delete;
+  ~TokenComparison();
+
+  // At its first difference a source is stopped.
+  const std::optional<TokenDifference>& difference() const { return difference_; }
+  // Both have run: what one has and the other has not is a difference, too.
+  const std::optional<TokenDifference>& end();
+  std::int64_t compared() const { return compared_; }  // tokens; each as it enters and as it leaves
+
+ private:
+  struct Token {
+    std::int64_t cycle;
+    std::vector<std::int64_t> values;
+  };
+  struct Stream {  // what enters a channel, or what leaves it
+    std::int64_t ordinal = 0;
+    std::array<std::deque<Token>, 2> ahead;  // of the expected one, of the actual one
+  };
+  struct Side final : ChannelProbe {
+    Side(TokenComparison& of, TokenSource& from, std::size_t which) : all(of), source(from), number(which) {}
+    void cycle(int channel, const Sides& sides, const void* in, const void* out) override;
+
+    TokenComparison& all;
+    TokenSource& source;
+    std::size_t number;
+    std::map<int, std::size_t> channels;  // by number: which of `all.channels_`
+    std::map<int, TokenType> types;
+  };
+
+  void match(const std::vector<TokenChannel>& expected, const std::vector<TokenChannel>& actual);
+  void take(std::size_t side, std::size_t channel, bool enters, Token token);
+  void compare(std::size_t channel, bool enters, const Token& expected, const Token& actual);
+  void tell(TokenDifference difference);
+
+  Compared how_;
+  Side expected_, actual_;
+  std::vector<TokenChannel> channels_;  // of the expected one
+  std::vector<std::array<Stream, 2>> streams_;
+  std::optional<TokenDifference> difference_;
+  std::int64_t compared_ = 0;
+};
+
+}  // namespace voxmelt::hwmodel
