@@ -17,7 +17,11 @@ constexpr double kSideFirst = 1.0 / 16;
 }  // namespace
 
 ExactPicture::ExactPicture(const ExactScene& scene, const picture::Camera& camera, picture::Vector cells)
-    : scene_(scene), width_(static_cast<double>(camera.width)), height_(static_cast<double>(camera.height)) {
+    : scene_(scene),
+      width_(static_cast<double>(camera.width)),
+      height_(static_cast<double>(camera.height)),
+      distance_(static_cast<double>(camera.distance) / 4096),
+      parallel_(camera.parallel) {
   const auto radians = [](std::int64_t angle) {
     return static_cast<double>(angle) / picture::kDegree * std::numbers::pi / 180;
   };
@@ -28,7 +32,7 @@ ExactPicture::ExactPicture(const ExactScene& scene, const picture::Camera& camer
   right_ = {ca, 0, -sa};
   up_ = {-sa * se, ce, -ca * se};
   tangent_ = std::tan(radians(camera.half_field));
-  eye_ = exact(camera.target, picture::kCell) - forward_ * (static_cast<double>(camera.distance) / 4096);
+  eye_ = exact(camera.target, picture::kCell) - forward_ * distance_;
   double near = 1e30;
   for (int corner = 0; corner < 8; ++corner) {
     const auto at = [&](int bit, std::int64_t n) {
@@ -36,15 +40,16 @@ ExactPicture::ExactPicture(const ExactScene& scene, const picture::Camera& camer
     };
     near = std::min(near, dot(Exact{at(1, cells.x), at(2, cells.y), at(4, cells.z)} - eye_, forward_));
   }
-  near_ = std::max(0.0, near);
+  near_ = parallel_ ? near : std::max(0.0, near);
 }
 
 ExactRay ExactPicture::ray(double across, double down) const {
   const double scale = tangent_ / (height_ / 2);
-  const Exact direction =
-      forward_ + right_ * ((across - width_ / 2) * scale) + up_ * ((height_ / 2 - down) * scale);
+  const Exact aside = right_ * ((across - width_ / 2) * scale) + up_ * ((height_ / 2 - down) * scale);
+  const Exact direction = parallel_ ? forward_ : forward_ + aside;
   const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-  return {eye_ + direction * near_, direction * (1 / largest)};
+  const Exact start = parallel_ ? eye_ + forward_ * near_ + aside * distance_ : eye_ + direction * near_;
+  return {start, direction * (1 / largest)};
 }
 
 Exact ExactPicture::light(double across, double down) const {

@@ -53,7 +53,8 @@ class ExactPicture {
  private:
   const ExactScene& scene_;
   Exact eye_, forward_, right_, up_;
-  double width_ = 0, height_ = 0, tangent_ = 0, near_ = 0;
+  double width_ = 0, height_ = 0, distance_ = 0, tangent_ = 0, near_ = 0;
+  bool parallel_ = false;
 };
 
 }  // namespace voxmelt::accuracy

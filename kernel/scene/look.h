@@ -13,6 +13,7 @@ struct Camera {
   double elevation = 28;      // degrees above the horizon
   double distance = 0;        // from the target; 0: chosen so that the grid fits
   double field_of_view = 30;  // degrees, vertical
+  bool orthographic = false;  // rays are parallel: the picture is as high as it would be at the target
   int width = 640, height = 480;
 };
 

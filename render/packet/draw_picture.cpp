@@ -9,7 +9,6 @@
 #include <thread>
 #include <vector>
 
-#include "kernel/engine/cpu/workers.h"
 #include "render/packet/plain_packet.h"
 #include "render/packet/tile_boxes.h"
 #include "render/packet/visible_area.h"
@@ -173,39 +172,6 @@ bool fits_lanes(const PictureData& data) {
   return axis(view.eye.x, view.forward.x, view.wide.x, view.high.x, view.near_wide.x, view.near_high.x) &&
          axis(view.eye.y, view.forward.y, view.wide.y, view.high.y, view.near_wide.y, view.near_high.y) &&
          axis(view.eye.z, view.forward.z, view.wide.z, view.high.z, view.near_wide.z, view.near_high.z);
-}
-
-SurfacePicture draw_surface(const PictureData& data, const Packets& wanted, int threads) {
-  const Packets& packets = fits_lanes(data) ? wanted : plain_packets();
-  const auto width = static_cast<std::size_t>(data.width), height = static_cast<std::size_t>(data.height);
-  SurfacePicture picture{data.width, data.height, {}, {}};
-  picture.depth.assign(width * height, picture::kNoDepth);
-  picture.normal.assign(width * height, {});
-  constexpr int kRow = 64;  // pixels at a time
-  const int across = (data.width + kRow - 1) / kRow;
-  cpu::Workers(std::min(threads, cpu::Workers::most())).run(across * data.height, [&](int index) {
-    const int x0 = index % across * kRow, y = index / across;
-    std::array<std::int32_t, kRow + kMostLanes> places[2], found, numbers[6];
-    const auto count = static_cast<std::size_t>(std::min(kRow, data.width - x0));
-    for (std::size_t i = 0; i < kRow + kMostLanes; ++i) {
-      const auto x = x0 + static_cast<std::int64_t>(std::min(i, count - 1));
-      places[0][i] = static_cast<std::int32_t>(x * picture::kPixel + picture::kMiddle[0].across);
-      places[1][i] = static_cast<std::int32_t>(y * picture::kPixel + picture::kMiddle[0].down);
-    }
-    packets.find(data, {places[0].data(), places[1].data(), count},
-                 {found.data(),
-                  {numbers[0].data(), numbers[1].data(), numbers[2].data()},
-                  {numbers[3].data(), numbers[4].data(), numbers[5].data()}});
-    for (std::size_t i = 0; i < count; ++i) {
-      if (found[i] == 0) continue;
-      const std::size_t at = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x0) + i;
-      picture.depth[at] = static_cast<std::uint16_t>(
-          picture::depth_in_picture(data.view, {numbers[0][i], numbers[1][i], numbers[2][i]}));
-      for (std::size_t c = 0; c < 3; ++c)
-        picture.normal[at][c] = static_cast<std::int16_t>(numbers[3 + c][i]);
-    }
-  });
-  return picture;
 }
 
 Image draw_picture(const PictureData& data, Setting setting, const Packets& wanted, int threads,

@@ -1,10 +1,7 @@
 // The picture by packets of rays (docs/picture.md).
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <functional>
-#include <vector>
 
 #include "kernel/engine/cpu/instruction_set.h"
 #include "render/image/image.h"
@@ -33,16 +30,5 @@ struct Stopped {};
 using Stop = std::function<bool()>;
 Image draw_picture(const PictureData& data, Setting setting, const Packets& packets, int threads,
                    const Stop& stop = {});
-
-// What the middle of each pixel shows, row by row from the top: its depth (picture::depth_in_picture,
-// kNoDepth where there is nothing) and unit normal (2^14 is 1).
-struct SurfacePicture {
-  int width = 0, height = 0;
-  std::vector<std::uint16_t> depth;
-  std::vector<std::array<std::int16_t, 3>> normal;
-
-  friend bool operator==(const SurfacePicture&, const SurfacePicture&) = default;
-};
-SurfacePicture draw_surface(const PictureData& data, const Packets& packets, int threads);
 
 }  // namespace voxmelt::render

@@ -35,6 +35,7 @@ struct PaintedScene {
 struct Seen {
   bool found = false;
   picture::Vector position, normal;
+  bool ground = false;
 };
 
 // The watcher is told every number of a ray.
@@ -57,9 +58,14 @@ class Painter {
   Seen seen(std::int64_t across, std::int64_t down) const {
     const Met met(scene_, view_, across, down, spacing_, watch_);
     if (met.on_ground)
-      return {true, met.ground.position, ground_normal(met, paint_ground(scene_.ground, met.ground, watch_))};
+      return {true, met.ground.position, ground_normal(met, paint_ground(scene_.ground, met.ground, watch_)),
+              true};
     if (met.matter.found) return {true, met.matter.position, matter_normal(met)};
     return {};
+  }
+  // What matter is made of at a position.
+  picture::Matter matter(picture::Vector position) const {
+    return picture::matter_at(watched(scene_.matter, Stage::matter), scene_.cells, position, watch_);
   }
 
  private:
@@ -128,14 +134,10 @@ class Painter {
   }
   picture::Color matter_color(const Met& met) const {
     const picture::Vector normal = matter_normal(met), position = met.matter.position;
-    const auto cells = watched(scene_.matter, Stage::matter);
-    const auto matter_at = [&](picture::Vector p) {
-      return picture::matter_at(cells, scene_.cells, p, watch_);
-    };
-    picture::Matter matter = matter_at(position);
-    matter.obstacle = matter_at(position + normal * (std::int64_t{1} << 5)).obstacle;
+    picture::Matter made_of = matter(position);
+    made_of.obstacle = matter(position + normal * (std::int64_t{1} << 5)).obstacle;
     const picture::Light light = light_before(position, normal);
-    return picture::matter_color(scene_.paint, normal, to_eye(met), light, matter, watch_);
+    return picture::matter_color(scene_.paint, normal, to_eye(met), light, made_of, watch_);
   }
   picture::Light light_before(picture::Vector position, picture::Vector normal) const {
     return picture::light_at(watched(scene_.light, Stage::light), scene_.light_count, scene_.light_shift,

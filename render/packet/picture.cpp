@@ -75,6 +75,15 @@ SurfacePicture Picture::surface(const scene::Camera& camera, Setting setting, in
   return draw_surface(data(camera_in_integers(camera), setting), packets, threads);
 }
 
+std::vector<float> Picture::depths(const scene::Camera& camera, Setting setting, int threads,
+                                   const Packets& packets) const {
+  return draw_depths(data(camera_in_integers(camera), setting), packets, threads);
+}
+
+std::optional<Sight> Picture::see(const scene::Camera& camera, Setting setting, int x, int y) const {
+  return see_pixel(data(camera_in_integers(camera), setting), x, y);
+}
+
 bool Picture::camera_inside(const scene::Camera& camera) const {
   scene::Camera middle = camera;
   middle.width = middle.height = 1;

@@ -18,6 +18,7 @@
 #include "render/light/light_matter.h"
 #include "render/light/light_volume.h"
 #include "render/packet/draw_picture.h"
+#include "render/packet/draw_surface.h"
 #include "render/packet/field_bricks.h"
 #include "render/packet/ground_columns.h"
 #include "render/rule/shade.h"
@@ -42,6 +43,11 @@ class Picture {
              const Packets& packets = best_packets()) const;
   SurfacePicture surface(const scene::Camera& camera, Setting setting, int threads,
                          const Packets& packets = best_packets()) const;
+
+  // Depths in cells from the eye, and what one pixel shows (draw_surface.h), of draw()'s picture.
+  std::vector<float> depths(const scene::Camera& camera, Setting setting, int threads,
+                            const Packets& packets = best_packets()) const;
+  std::optional<Sight> see(const scene::Camera& camera, Setting setting, int x, int y) const;
 
   // Whether the camera stands in matter or in the ground: then it sees nothing but what it stands in.
   bool camera_inside(const scene::Camera& camera) const;

@@ -54,7 +54,14 @@ picture::Camera camera_in_integers(const scene::Camera& camera) {
           fixed(std::clamp(camera.elevation, -89.0, 89.0), 16),
           fixed(camera.field_of_view, 15),
           camera.width,
-          camera.height};
+          camera.height,
+          camera.orthographic};
+}
+
+double distance_of(const scene::Camera& camera, const state::Grid& grid) {
+  return std::ldexp(
+      static_cast<double>(picture::view_of(camera_in_integers(camera), {grid.x, grid.y, grid.z}).distance),
+      -12);
 }
 
 GroundMap ground_in_integers(const DensityField& field, const scene::Look& look,

@@ -1,6 +1,7 @@
 // Look, lamp, camera and ground of a scene in the integers of the picture (docs/picture.md).
 #pragma once
 
+#include "kernel/automaton/state/grid.h"
 #include "kernel/scene/look.h"
 #include "kernel/scene/shape/terrain.h"
 #include "render/density/density_field.h"
@@ -13,6 +14,8 @@ namespace voxmelt::render {
 picture::Look look_in_integers(const scene::Look& look);
 picture::Lamp lamp_in_integers(const scene::Light& light);
 picture::Camera camera_in_integers(const scene::Camera& camera);
+// Of a camera from its target, in cells: its own, or that at which the grid fits into the picture.
+double distance_of(const scene::Camera& camera, const state::Grid& grid);
 
 // Before columns are lowered. The heights come from the terrain, or from the field where the terrain does not
 // fit it.

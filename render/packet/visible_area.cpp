@@ -20,10 +20,14 @@ double dot_of(picture::Vector a, picture::Vector b) {
 Projection::Projection(const picture::View& view)
     : eye_{static_cast<double>(view.eye.x) / kCells, static_cast<double>(view.eye.y) / kCells,
            static_cast<double>(view.eye.z) / kCells},
+      parallel_(view.wide == picture::Vector{}),
       half_width_(static_cast<double>(view.half_width)),
       half_height_(static_cast<double>(view.half_height)) {
-  const double tangent = dot_of(view.wide, view.right) / (kOne * kOne);
-  const double scale = half_height_ / (tangent * kOne);
+  // Places to a cell: at a depth of one cell, or of parallel rays anywhere.
+  constexpr double kLeast = 1e-12;  // of a cell to a place, where its vector is rounded to 0
+  const double places = parallel_ ? 1 / std::max(dot_of(view.near_wide, view.right) / (kOne * kOne), kLeast)
+                                  : half_height_ / (dot_of(view.wide, view.right) / (kOne * kOne));
+  const double scale = places / kOne;
   const auto axis = [&](std::int64_t forward, std::int64_t right, std::int64_t up) {
     return Axes{static_cast<double>(forward) / kOne, static_cast<double>(right) * scale,
                 static_cast<double>(-up) * scale};
@@ -51,9 +55,9 @@ VisibleArea Projection::of(picture::Vector low, picture::Vector high) const {
   for (int corner = 0; corner < 8; ++corner) {
     const Axes &x = ends[0][corner & 1], &y = ends[1][corner >> 1 & 1], &z = ends[2][corner >> 2];
     const double depth = x.depth + y.depth + z.depth;
-    if (depth < 1)  // beside or behind the eye
+    if (depth < 1 && !parallel_)  // beside or behind the eye
       return {-1e300, 1e300, -1e300, 1e300};
-    const double nearer = 1 / depth;
+    const double nearer = parallel_ ? 1 : 1 / depth;
     const double across = (x.across + y.across + z.across) * nearer + half_width_;
     const double down = (x.down + y.down + z.down) * nearer + half_height_;
     area.left = std::min(area.left, across - 1);

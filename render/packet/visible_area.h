@@ -29,6 +29,7 @@ class Projection {
     double depth, across, down;
   };
   double eye_[3];
+  bool parallel_;  // then nothing is divided, and nothing is behind the eye
   Axes along_[3];  // by a cell along each axis; across and down are still to be divided by the depth
   double half_width_, half_height_;
 };

@@ -3,6 +3,7 @@
 
 #include "render/image/image.h"
 #include "render/packet/draw_picture.h"
+#include "render/packet/draw_surface.h"
 #include "render/reference/picture_scene.h"
 #include "render/rule/camera.h"
 

@@ -18,6 +18,7 @@ struct Camera {
   std::int64_t azimuth = 0, elevation = 0;  // in kDegree
   std::int64_t half_field = 0;              // half of the vertical field of view, in kDegree
   std::int64_t width = 0, height = 0;       // of the picture, in pixels
+  bool parallel = false;                    // all rays are: the picture shows what it would at the target
 };
 
 inline constexpr std::int64_t kPixel = 64;     // picture coordinates to a pixel
@@ -27,15 +28,15 @@ inline constexpr std::int64_t kNearUnit = 16;  // distances of the near plane to
 struct View {
   Vector eye;                   // in kCell
   Vector forward, right, up;    // of length kUnit
-  Vector wide, high;            // right and up times the tangent of half the field of view, in kUnit
+  Vector wide, high;            // right and up times the tangent of half the field of view, in kUnit; or 0
   std::int64_t near = 0;        // depth of the plane on which the rays start, in kNearUnit
   Vector near_wide, near_high;  // on that plane, a picture coordinate further; 2^30 is a cell
   std::int64_t half_width = 0, half_height = 0;  // of the picture, in picture coordinates
+  std::int64_t distance = 0;                     // of the camera from its target, in 2^-12 cells
   int halvings = 0;                              // of the step of rays; see halvings_of
 };
 
-// The depth of the nearest corner of the grid, a little less, and 0 where it lies behind the eye. The grid
-// counts with half a cell around it.
+// The depth of the nearest corner of the grid, a little less. The grid counts with half a cell around it.
 VOXMELT_RULE std::int64_t near_depth(Vector eye, Vector forward, Vector cells) {
   std::int64_t near = std::int64_t{1} << 40;
   for (int corner = 0; corner < 8; ++corner) {
@@ -44,7 +45,7 @@ VOXMELT_RULE std::int64_t near_depth(Vector eye, Vector forward, Vector cells) {
                        (corner & 4) != 0 ? cells.z * kCell + kCell / 2 : -kCell / 2};
     near = std::min(near, dot((point - eye) >> 16, forward) >> kUnitBits);
   }
-  return std::max<std::int64_t>(0, near - 3);
+  return near - 3;
 }
 
 // The distance at which every corner of the grid is inside the picture, with a little air around it.
@@ -59,7 +60,7 @@ VOXMELT_RULE std::int64_t fitted_distance(const Camera& camera, Vector cells, co
     const auto reach = [&](std::int64_t aside) {  // 1055 / 1024 is the air; tangents are of half the picture
       return floor_divided(std::min(magnitude(aside) * 1055, std::int64_t{1} << 42) << 20, tangent);
     };
-    const std::int64_t depth = -along(view.forward);
+    const std::int64_t depth = camera.parallel ? 0 : -along(view.forward);
     distance =
         std::max({distance, depth + reach(floor_divided(along(view.right) * camera.height, camera.width)),
                   depth + reach(along(view.up))});
@@ -87,6 +88,7 @@ VOXMELT_RULE View view_of(const Camera& camera, Vector cells) {
   const std::int64_t tangent = half_field.sine * kUnit / half_field.cosine;
   const std::int64_t distance =
       camera.distance > 0 ? camera.distance : fitted_distance(camera, cells, view, tangent);
+  view.distance = distance;
   view.eye = camera.target + ((back * distance) >> 22);
 
   view.wide = (view.right * tangent) >> kUnitBits;
@@ -94,11 +96,20 @@ VOXMELT_RULE View view_of(const Camera& camera, Vector cells) {
   view.half_width = camera.width * (kPixel / 2);
   view.half_height = camera.height * (kPixel / 2);
 
-  view.near = near_depth(view.eye, view.forward, cells);
-  view.halvings = halvings_of(tangent, view.near, camera.height);
-  const auto on_plane = [&](std::int64_t a) { return floor_divided(a * view.near, view.half_height * 16); };
+  const std::int64_t near = near_depth(view.eye, view.forward, cells);
+  if (camera.parallel && near < 1) view.eye = view.eye + ((view.forward * (near - 1)) >> 14);
+  view.near = std::max<std::int64_t>(camera.parallel ? 1 : 0, near);
+
+  // How wide the picture is on the near plane follows from that plane's depth, or else from the target's.
+  constexpr std::int64_t kFiner = 4096 / kNearUnit;
+  view.halvings = halvings_of(tangent, camera.parallel ? distance / kFiner : view.near, camera.height);
+  const auto on_plane = [&](std::int64_t a) {
+    return camera.parallel ? floor_divided(a * distance, view.half_height * 16 * kFiner)
+                           : floor_divided(a * view.near, view.half_height * 16);
+  };
   view.near_wide = {on_plane(view.wide.x), on_plane(view.wide.y), on_plane(view.wide.z)};
   view.near_high = {on_plane(view.high.x), on_plane(view.high.y), on_plane(view.high.z)};
+  if (camera.parallel) view.wide = view.high = {};
   return view;
 }
 
@@ -117,11 +128,15 @@ VOXMELT_RULE Ray ray_through(const View& view, std::int64_t across, std::int64_t
   return {start, step};
 }
 
+// How far a position is from the eye along the direction of view, in 1 / kDepthUnit of a cell.
+inline constexpr std::int64_t kDepthUnit = 4096;
+VOXMELT_RULE std::int64_t depth_from_eye(const View& view, Vector position) {
+  return dot((position - view.eye) >> 8, view.forward) >> kUnitBits;
+}
 // The depth of a position in a depth picture: 32nds of a cell from the plane on which the rays start.
 inline constexpr std::int64_t kNoDepth = 65535;  // of a ray that meets nothing
 VOXMELT_RULE std::int64_t depth_in_picture(const View& view, Vector position) {
-  const std::int64_t depth = dot((position - view.eye) >> 8, view.forward) >> kUnitBits;  // 2^12 is a cell
-  return std::clamp<std::int64_t>((depth - view.near * 256) >> 7, 0, kNoDepth - 1);
+  return std::clamp<std::int64_t>((depth_from_eye(view, position) - view.near * 256) >> 7, 0, kNoDepth - 1);
 }
 
 }  // namespace voxmelt::picture

@@ -20,6 +20,22 @@ inline Vec times30(Vec a, Int b) {
   return {rounded(a.x * b, 30), rounded(a.y * b, 30), rounded(a.z * b, 30)};
 }
 
+// Section 3, "Parallel rays": from wide, high and eye as they would be otherwise.
+inline void orthographic(View& view, Int near, Int distance, Int tangent, Int H) {
+  view.near = near;
+  if (near < 1) {
+    const Vec back = view.forward * (1 - near);  // to where the plane has depth 1
+    view.eye =
+        view.eye - Vec{ceil_divided(back.x, 16384), ceil_divided(back.y, 16384), ceil_divided(back.z, 16384)};
+    view.near = 1;
+  }
+  const Int scale = tangent * (distance / 256), limit = 15 * H * power_of_two(25);
+  view.halvings = scale >= 2 * limit ? 0 : scale >= limit ? 1 : 2;
+  view.near_wide = (view.wide * distance) / (131072 * H);
+  view.near_high = (view.high * distance) / (131072 * H);
+  view.wide = view.high = Vec{};
+}
+
 inline View make_view(const Input& in) {
   const Int degree = 65536;
   const Int W = in.width, H = in.height;
@@ -52,8 +68,9 @@ inline View make_view(const Input& in) {
       const auto reach = [&](Int s) {
         return floor_divided(std::min(magnitude(s) * 1055, power_of_two(42)) * power_of_two(20), tangent);
       };
-      distance = std::max(distance, -along(view.forward) + reach(floor_divided(along(right) * H, W)));
-      distance = std::max(distance, -along(view.forward) + reach(along(up)));
+      const Int before = in.orthographic ? 0 : -along(view.forward);
+      distance = std::max(distance, before + reach(floor_divided(along(right) * H, W)));
+      distance = std::max(distance, before + reach(along(up)));
     }
     distance = std::min(distance, power_of_two(30));
   }
@@ -67,6 +84,10 @@ inline View make_view(const Input& in) {
     const Vec place{corner & 1 ? (in.nx << 20) + half : -half, corner & 2 ? (in.ny << 20) + half : -half,
                     corner & 4 ? (in.nz << 20) + half : -half};
     least = std::min(least, dot((place - view.eye) >> 16, view.forward) >> 30);
+  }
+  if (in.orthographic) {
+    orthographic(view, least - 3, distance, tangent, H);
+    return view;
   }
   view.near = std::max<Int>(0, least - 3);
   // Section 10: e.

@@ -29,6 +29,7 @@ struct Input {
   double target_x = 0, target_y = 0, target_z = 0;
   double azimuth = 0, elevation = 0, distance = 0, field_of_view = 0;
   Int width = 0, height = 0;
+  bool orthographic = false;
   bool has_terrain = false, textured = false;
   std::string setting;
   Ints mask, amount, heat;      // (z ny + y) nx + x
@@ -106,6 +107,8 @@ inline void read_line_of(Input& in, const std::string& line) {
     in.field_of_view = number_from(words);
     in.width = integer_from(words);
     in.height = integer_from(words);
+  } else if (name == "orthographic") {
+    in.orthographic = true;
   } else if (name == "terrain") {
     in.has_terrain = integer_from(words) != 0;
     in.textured = integer_from(words) != 0;

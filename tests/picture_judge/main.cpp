@@ -1,4 +1,5 @@
-// picture_judge --picture FILE draws the picture; --field FILE writes filtered channels and drawn heights.
+// picture_judge --picture FILE draws the picture; --field FILE writes filtered channels and drawn heights;
+// --surface FILE writes five numbers of 8 bytes for each pixel: what it shows, where, and how deep.
 #include <exception>
 #include <iostream>
 #include <stdexcept>
@@ -13,8 +14,8 @@ static void put_bytes(Int value, int count) {
 int main(int count, char** words) {
   try {
     const std::string wish = count == 3 ? words[1] : "";
-    if (wish != "--picture" && wish != "--field")
-      throw std::runtime_error("usage: picture_judge --picture FILE, or --field FILE");
+    if (wish != "--picture" && wish != "--field" && wish != "--surface")
+      throw std::runtime_error("usage: picture_judge --picture FILE, --field FILE, or --surface FILE");
     const Input in = read_input(words[2]);
     if (wish == "--field") {
       const std::vector<Column> columns = make_columns(in);
@@ -28,8 +29,16 @@ int main(int count, char** words) {
       if (in.setting != "fast" && in.setting != "normal" && in.setting != "best")
         throw std::runtime_error("unknown setting");
       const Scene scene(in);
-      for (const Vec& pixel : draw_picture(scene))
-        for (int channel = 0; channel < 3; ++channel) put_bytes(pixel.at(channel), 1);
+      if (wish == "--surface")
+        for (Int j = 0; j < in.height; ++j)
+          for (Int i = 0; i < in.width; ++i) {
+            const Met of = met_by(scene, i, j, m_of(scene));
+            for (const Int number : {of.kind, of.position.x, of.position.y, of.position.z, of.z})
+              put_bytes(number, 8);
+          }
+      else
+        for (const Vec& pixel : draw_picture(scene))
+          for (int channel = 0; channel < 3; ++channel) put_bytes(pixel.at(channel), 1);
     }
     return std::cout.flush() ? 0 : 1;
   } catch (const std::exception& error) {

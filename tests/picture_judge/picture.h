@@ -59,6 +59,22 @@ inline Vec sample_of(const Scene& scene, Int X, Int Y, Int m) {
   return scene.look.background;
 }
 
+// What the middle of pixel (i, j) shows: 0 nothing, 1 matter, 2 the ground; where; and section 8's z.
+struct Met {
+  Int kind = 0;
+  Vec position;
+  Int z = 0;
+};
+inline Met met_by(const Scene& scene, Int i, Int j, Int m) {
+  const Ray ray = make_ray(scene.view, 64 * i + 32, 64 * j + 32, m);
+  const GroundHit ground = meet_ground(scene.ground, ray);
+  const MatterHit matter = meet_matter(scene.levels, ray);
+  const bool on_ground = ground.drawn_before(matter);
+  if (!on_ground && !matter.met) return {};
+  const Vec crossing = on_ground ? ground.crossing : matter.crossing.position;
+  return {on_ground ? 2 : 1, crossing, dot((crossing - scene.view.eye) >> 8, scene.view.forward) >> 30};
+}
+
 struct Place {
   Int x, y;
 };  // in a pixel, in 64ths
@@ -84,10 +100,12 @@ inline Vec pixel_of(const Scene& scene, Int i, Int j, int samples, Int m) {
   return {byte_of_light(light.x), byte_of_light(light.y), byte_of_light(light.z)};
 }
 
+inline Int m_of(const Scene& scene) { return (scene.in.setting == "best" ? 3 : 2) + scene.view.halvings; }
+
 inline std::vector<Vec> draw_picture(const Scene& scene) {
   const Int W = scene.in.width, H = scene.in.height;
   const std::string& setting = scene.in.setting;
-  const Int m = (setting == "best" ? 3 : 2) + scene.view.halvings;
+  const Int m = m_of(scene);
   std::vector<Vec> picture;
   for (Int j = 0; j < H; ++j)
     for (Int i = 0; i < W; ++i) picture.push_back(pixel_of(scene, i, j, 1, m));

@@ -270,6 +270,20 @@ HostilePicture hostile_clear_picture(std::uint64_t seed, int most) {
   return picture;
 }
 
+HostilePicture hostile_orthographic_picture(std::uint64_t seed, int most) {
+  HostilePicture picture = hostile_picture(seed, most);
+  Random random(seed * 104729 + 3);
+  scene::Camera& camera = picture.camera;
+  camera.orthographic = true;
+  if (random.one_in(4)) return picture;
+  const state::Grid& grid = picture.volume.grid;
+  camera.target = {0.5 * grid.x, 0.5 * grid.y, 0.5 * grid.z};
+  const double pixel = between(random, 0.02, 0.3), half = camera.field_of_view / 2;
+  camera.distance =
+      random.one_in(3) ? 0 : pixel * camera.height / 2 / std::tan(half * std::numbers::pi / 180);
+  return picture;
+}
+
 std::string description(const HostilePicture& picture) {
   const state::Grid& grid = picture.volume.grid;
   const scene::Camera& camera = picture.camera;
@@ -287,7 +301,8 @@ std::string description(const HostilePicture& picture) {
   for (const double a : {camera.target[0], camera.target[1], camera.target[2], camera.azimuth,
                          camera.elevation, camera.distance, camera.field_of_view})
     text << ' ' << a;
-  text << ", " << camera.width << " x " << camera.height << ", setting " << static_cast<int>(picture.setting);
+  text << ", " << camera.width << " x " << camera.height << (camera.orthographic ? ", parallel" : "")
+       << ", setting " << static_cast<int>(picture.setting);
   return text.str();
 }
 

@@ -27,6 +27,9 @@ HostilePicture hostile_picture(std::uint64_t seed, int most);
 // One with clear matter, through which rays see far: obstacles, ground, sides of the grid, surfaces.
 HostilePicture hostile_clear_picture(std::uint64_t seed, int most);
 
+// One of parallel rays: the grid fits, or pixels are of the sizes at which rays take finer steps.
+HostilePicture hostile_orthographic_picture(std::uint64_t seed, int most);
+
 // What it is made of, in words.
 std::string description(const HostilePicture& picture);
 

@@ -89,6 +89,7 @@ void write_judge_file(const std::filesystem::path& file, const state::Volume& vo
       << "camera"
       << text_of({camera.target[0], camera.target[1], camera.target[2], camera.azimuth, camera.elevation,
                   camera.distance, camera.field_of_view, 1.0 * camera.width, 1.0 * camera.height})
+      << (camera.orthographic ? "orthographic\n" : "")  //
       << "terrain" << text_of({given ? 1.0 : 0.0, terrain.textured ? 1.0 : 0.0}) << "setting "
       << kSettings[static_cast<std::size_t>(setting)] << "\ndata\n"
       << data_of(volume, given ? terrain : scene::Terrain{});
@@ -102,6 +103,13 @@ render::Image judged_picture(const std::filesystem::path& file, int width, int h
     throw std::runtime_error("the judge drew another size");
   std::memcpy(image.pixels.data(), bytes.data(), bytes.size());
   return image;
+}
+
+std::vector<JudgedSurface> judged_surface(const std::filesystem::path& file) {
+  const std::vector<std::uint8_t> bytes = judged("--surface", file);
+  std::vector<JudgedSurface> pixels(bytes.size() / sizeof(JudgedSurface));
+  std::memcpy(pixels.data(), bytes.data(), pixels.size() * sizeof(JudgedSurface));
+  return pixels;
 }
 
 std::vector<std::uint8_t> judged_field(const std::filesystem::path& file) { return judged("--field", file); }

@@ -20,6 +20,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "kernel/engine/cpu/instruction_set.h"
@@ -81,6 +83,33 @@ void expect_packets_draw(const Image& expected, const HostilePicture& of) {
   });
 }
 
+// Depths of every instruction set, and each pixel alone.
+void expect_surfaces(const std::vector<test::JudgedSurface>& judged, const HostilePicture& of) {
+  render::Picture picture;
+  picture.update(of.volume, of.look, of.light, of.terrain, 2);
+  ASSERT_EQ(judged.size(),
+            static_cast<std::size_t>(of.camera.width) * static_cast<std::size_t>(of.camera.height));
+  std::vector<float> depths;
+  for (const test::JudgedSurface& pixel : judged)
+    depths.push_back(pixel.kind == 0 ? std::numeric_limits<float>::infinity()
+                                     : static_cast<float>(pixel.depth) / 4096.0f);
+  cpu::for_each_instruction_set([&]<cpu::InstructionSet kSet>() {
+    if (!cpu::supported(kSet)) return;
+    EXPECT_EQ(depths, picture.depths(of.camera, of.setting, 3, render::packets_of(kSet)))
+        << cpu::name_of(kSet);
+  });
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    const auto width = static_cast<std::size_t>(of.camera.width);
+    const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
+    const std::optional<render::Sight> sight = picture.see(of.camera, of.setting, x, y);
+    const test::JudgedSurface seen =
+        sight ? test::JudgedSurface{sight->ground ? 2 : 1, sight->position.x, sight->position.y,
+                                    sight->position.z, judged[i].depth}
+              : test::JudgedSurface{};
+    ASSERT_EQ(judged[i], seen) << "pixel " << x << ", " << y;
+  }
+}
+
 bool has_colors(const Image& image) {
   return std::any_of(image.pixels.begin(), image.pixels.end(),
                      [&](const render::Rgb& pixel) { return pixel != image.pixels[0]; });
@@ -99,6 +128,7 @@ void expect_all_agree(const HostilePicture& of, const std::filesystem::path& fil
   const Image reference = reference_picture(scene, render::camera_in_integers(of.camera), of.setting);
   EXPECT_EQ(difference(judged, reference), "") << "the reference";
   expect_packets_draw(judged, of);
+  expect_surfaces(test::judged_surface(file), of);
   const auto halvings =
       picture::view_of(render::camera_in_integers(of.camera), scene.levels.cells()).halvings;
   if (has_colors(judged)) ++full[static_cast<std::size_t>(halvings)];
@@ -128,6 +158,10 @@ void expect_agreement(const char* name, HostilePicture (*picture_of)(std::uint64
 TEST(Judge, AgreesOnHostilePictures) { expect_agreement("hostile", test::hostile_picture, kPictures); }
 
 TEST(Judge, AgreesOnClearPictures) { expect_agreement("clear", test::hostile_clear_picture, kPictures / 2); }
+
+TEST(Judge, AgreesOnParallelRays) {
+  expect_agreement("parallel", test::hostile_orthographic_picture, kPictures / 2);
+}
 
 }  // namespace
 }  // namespace voxmelt

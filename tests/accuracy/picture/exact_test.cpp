@@ -267,12 +267,17 @@ TEST(ExactPicture, IsNearTheReference) {
   scene::Look look;
   look.glow = true;
   look.metallic = 0.5;
-  for (const double elevation : {20.0, -30.0}) {
+  struct Asked {
+    double elevation;
+    bool orthographic;
+  };
+  for (const Asked& from : {Asked{20.0, false}, Asked{-30.0, false}, Asked{25.0, true}}) {
     scene::Terrain terrain = test::floor_terrain(grid);
     terrain.textured = true;
     const World world(test::ball_and_puddle(grid), look, {}, terrain);
     scene::Camera asked = test::small_camera(grid, 60, 50);
-    asked.elevation = elevation;
+    asked.elevation = from.elevation;
+    asked.orthographic = from.orthographic;
     asked.distance = 120;
     const picture::Camera camera = render::camera_in_integers(asked);
     const accuracy::ExactPicture picture(world.exact, camera, world.data.levels.cells());

@@ -169,6 +169,8 @@ const std::vector<Case>& cases() {
       {kBox + "[camera]\nwidth = 1000000\n",
        "scene.toml:8:9: error: camera.width = 1000000 is outside 16..16384"},
       {kBox + "[camera]\nazimuth = -361\n", "scene.toml:8:11: error: camera.azimuth = -361 is below -360"},
+      {kBox + "[camera]\nprojection = \"fisheye\"\n",
+       "scene.toml:8:14: error: camera.projection = \"fisheye\" is not one of perspective, orthographic"},
       {kBox + "[camera]\nazimuth = 361\n", "scene.toml:8:11: error: camera.azimuth = 361 exceeds 360"},
       // Overrides.
       {kBox, "--set heat.gamma=0.7: error: heat.gamma = 0.7 exceeds 0.5236", {"heat.gamma=0.7"}},

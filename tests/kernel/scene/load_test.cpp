@@ -34,6 +34,7 @@ TEST(Load, DefaultsOfTheLeastScene) {
   EXPECT_EQ(scene.features, std::vector<std::string>{"diagonal"});
   EXPECT_EQ(scene.camera.target, (Vec3{4, 4.5, 5}));
   EXPECT_EQ(scene.camera.distance, 0);  // the renderer fits the grid
+  EXPECT_FALSE(scene.camera.orthographic);
   EXPECT_EQ(scene.terrain.height.size(), 80u);
   EXPECT_FALSE(scene.terrain.textured);
 }
@@ -237,6 +238,16 @@ doubling = 0.03125
   EXPECT_EQ(features_of(p),
             (std::vector<std::string>{"heat", "radiation", "air", "convection", "latent_heat", "vent",
                                       "drain", "diagonal", "drip", "reheat", "thermal_viscosity"}));
+}
+
+TEST(Load, TheCamerasProjection) {
+  const SceneFolder folder;
+  const auto parallel = [&](const char* name) {
+    return folder.load_text(std::string(kLeast) + "[camera]\nprojection = \"" + name + "\"\n")
+        .camera.orthographic;
+  };
+  EXPECT_TRUE(parallel("orthographic"));
+  EXPECT_FALSE(parallel("perspective"));
 }
 
 TEST(Load, SubstepsOfTheViscousLaw) {
