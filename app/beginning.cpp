@@ -6,9 +6,9 @@
 #include <system_error>
 #include <utility>
 
-#include "app/checkpoint_scene.h"
 #include "kernel/run/checkpoint/checkpoint.h"
 #include "kernel/run/io/export.h"
+#include "kernel/run/opening/checkpoint_scene.h"
 
 namespace voxmelt::app {
 namespace {
@@ -40,8 +40,8 @@ std::uint32_t steps_of(const std::string& from) {
 Beginning begin_from(const Common& common, const std::string& from) {
   Beginning begin;
   if (names_a_file(from)) {
-    if (!is_checkpoint(from)) steps_of(from);  // says what it is not
-    scene::Scene at = scene_of(checkpoint::read(from), from);
+    if (!run::is_checkpoint(from)) steps_of(from);  // says what it is not
+    scene::Scene at = run::scene_of(checkpoint::read(from), from);
     begin.scene = load_scene(common);
     if (begin.scene.mid_run)
       throw UsageError(fmt::format("error: --from {}: {} is a checkpoint itself", from, common.scene));

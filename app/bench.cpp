@@ -14,7 +14,6 @@
 
 #include "app/beginning.h"
 #include "app/bench_text.h"
-#include "app/checkpoint_scene.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/message.h"
@@ -23,6 +22,7 @@
 #include "app/visibility.h"
 #include "kernel/engine/cpu/instruction_set.h"
 #include "kernel/run/io/output_folder.h"
+#include "kernel/run/opening/checkpoint_scene.h"
 #include "measure/suite.h"
 #include "report/bench/report.h"
 
@@ -100,7 +100,7 @@ std::vector<std::string> film_scenes(bool quick) {
 int run_bench(BenchOptions options) {
   std::optional<std::uint32_t> from;
   if (options.from && names_a_file(*options.from)) {
-    if (!is_checkpoint(*options.from)) steps_of(*options.from);  // says what it is not
+    if (!run::is_checkpoint(*options.from)) steps_of(*options.from);  // says what it is not
     if (!options.scenes.empty())
       throw UsageError(fmt::format("error: --from {}: a checkpoint is a scene of its own, without --scenes",
                                    *options.from));

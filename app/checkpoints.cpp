@@ -8,10 +8,11 @@
 #include <system_error>
 #include <utility>
 
-#include "app/checkpoint_scene.h"
+#include "app/version.h"
 #include "kernel/run/io/checkpoint_files.h"
 #include "kernel/run/io/file_lock.h"
 #include "kernel/run/io/output_folder.h"
+#include "kernel/run/opening/checkpoint_scene.h"
 
 namespace voxmelt::app {
 
@@ -55,7 +56,7 @@ bool Checkpoints::write(RunRecord record, Film& film, const run::Simulation& sim
   record.seen = seen;
   record.seconds = seconds;
 
-  checkpoint::Head head = head_of(text_, scene_, simulation);
+  checkpoint::Head head = run::head_of(version_number(), text_, scene_, simulation);
   head.command = json_of(record);
   std::error_code error;
   std::filesystem::create_directories(folder_ / "checkpoints", error);

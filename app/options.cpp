@@ -12,11 +12,12 @@
 #include <thread>
 #include <utility>
 
-#include "app/checkpoint_scene.h"
 #include "app/message.h"
 #include "app/resources.h"
 #include "app/visibility.h"
 #include "kernel/run/io/output_folder.h"
+#include "kernel/run/opening/checkpoint_scene.h"
+#include "kernel/run/opening/opening.h"
 #include "kernel/run/trial/fastest.h"
 
 namespace voxmelt::app {
@@ -76,11 +77,11 @@ std::vector<fs::path> scene_folders() {
 
 scene::Scene load_scene(const Common& common) {
   const fs::path file = find_scene(common.scene);
-  if (is_checkpoint(file)) {
+  if (run::is_checkpoint(file)) {
     if (!common.sets.empty() || common.seed)
       throw UsageError(fmt::format("error: {} is a checkpoint: --set and --seed come too late for its scene",
                                    common.scene));
-    return scene_of(checkpoint::read(file), file);
+    return run::scene_of(checkpoint::read(file), file);
   }
   std::vector<std::string> sets = common.sets;
   if (common.seed) sets.push_back(fmt::format("run.seed={}", *common.seed));
@@ -107,11 +108,7 @@ run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
   step::Tuning tuning;
   tuning.threads = thread_count(common);
   auto provider = make_provider(choose_visibility(common.visibility), tuning.threads);
-  run::Simulation simulation(scene.parameters, std::move(scene.initial), implementation, tuning,
-                             std::move(provider));
-  simulation.begin_at(scene.first_step);
-  if (scene.mid_run) simulation.resume(std::move(*scene.mid_run));
-  return simulation;
+  return run::begin_run(scene, implementation, tuning, std::move(provider));
 }
 
 void keep_inputs(const scene::Scene& scene, const std::vector<Output>& outputs) {

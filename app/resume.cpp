@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "app/checkpoint_scene.h"
 #include "app/message.h"
 #include "kernel/run/checkpoint/blocks.h"
 #include "kernel/run/io/checkpoint_files.h"
 #include "kernel/run/io/file_lock.h"
 #include "kernel/run/io/output_folder.h"
+#include "kernel/run/opening/checkpoint_scene.h"
 
 namespace voxmelt::app {
 namespace {
@@ -109,7 +109,7 @@ Resumption load(const Candidate& candidate) {
       run.record.frames.size() > now)
     checkpoint::fail(candidate.file, "its head: the steps done are not those of its name and its frames");
   check_frames(candidate, run.record);
-  run.scene = scene_of(std::move(checkpoint), candidate.file);
+  run.scene = run::scene_of(std::move(checkpoint), candidate.file);
   return run;
 }
 

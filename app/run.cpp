@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/checkpoint_scene.h"
 #include "app/checkpoints.h"
 #include "app/commands.h"
 #include "app/film.h"
@@ -31,6 +30,7 @@
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/io/checkpoint_files.h"
 #include "kernel/run/io/output_folder.h"
+#include "kernel/run/opening/checkpoint_scene.h"
 #include "render/image/png.h"
 
 namespace voxmelt::app {
@@ -66,7 +66,7 @@ Prepared prepare(const RunOptions& options) {
   if (scene.mid_run)
     throw UsageError(fmt::format(
         "error: {} is a checkpoint; `voxmelt run --resume FOLDER` goes on with a run", common.scene));
-  run.text = scene_text(scene);
+  run.text = run::scene_text(scene, scene.initial.grid);
   RunRecord& record = run.record;
   record.common = common;
   if (!common.report.empty()) record.common.report = std::filesystem::absolute(common.report).string();

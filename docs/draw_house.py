@@ -61,6 +61,7 @@ PURPOSES = {
     "kernel/run/io": "exports and output folders",
     "kernel/run/checkpoint": "runs as files",
     "kernel/run/trial": "the fastest one here",
+    "kernel/run/opening": "from files to runs",
     "kernel/scene": "what a file says",
     "kernel/scene/text": "documents and their readers",
     "kernel/scene/shape": "solids, meshes, height fields to voxels",

@@ -1,12 +1,9 @@
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <stdexcept>
+#include <stop_token>
 #include <string>
-#include <thread>
-#include <utility>
 #include <vector>
 
 #include "kernel/automaton/state/digest.h"
@@ -14,13 +11,11 @@
 #include "kernel/run/io/export.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/simulation.h"
-#include "kernel/run/trial/fastest.h"
-#include "kernel/scene/scene.h"
+#include "kernel/scene/change.h"
 #include "library/ledgers.h"
+#include "library/parts.h"
 #include "library/sources.h"
 #include "library/translate.h"
-#include "render/image/png.h"
-#include "render/packet/picture.h"
 #include "voxmelt/voxmelt.h"
 
 namespace voxmelt {
@@ -28,54 +23,11 @@ namespace {
 
 using library::translated;
 
-constexpr int kMostThreads = 1024;
-
-const step::Implementation& find_implementation(const std::string& name) {
-  try {
-    return *run::chosen(name).implementation;
-  } catch (const std::invalid_argument& error) {
-    throw InputError("Options: error: implementation = \"" + name + "\": " + error.what());
-  }
-}
-
 const io::Format& find_format(const std::string& name) {
   if (const io::Format* found = io::find_format(name)) return *found;
   std::string known;
   for (const io::Format& one : io::formats()) known += (known.empty() ? "" : ", ") + std::string(one.name);
   throw InputError("export_state: error: format = \"" + name + "\" is not one of " + known);
-}
-
-int checked_threads(int threads) {
-  if (threads < 0 || threads > kMostThreads)
-    throw InputError("Options: error: threads = " + std::to_string(threads) + " is outside 0.." +
-                     std::to_string(kMostThreads));
-  return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
-
-template <class Number>
-Number checked(const char* name, Number value, Number lowest, Number highest) {
-  if (value >= lowest && value <= highest) return value;  // false for a NaN
-  throw InputError("Picture: error: " + std::string(name) + " = " + std::to_string(value) + " is outside " +
-                   std::to_string(lowest) + ".." + std::to_string(highest));
-}
-
-render::Setting setting_of(Quality quality) {
-  switch (quality) {
-    case Quality::fast:
-      return render::Setting::fast;
-    case Quality::best:
-      return render::Setting::best;
-    default:
-      return render::Setting::normal;
-  }
-}
-
-scene::Camera camera_of(scene::Camera camera, const Picture& picture) {
-  if (picture.width) camera.width = checked("width", *picture.width, 16, 8192);
-  if (picture.height) camera.height = checked("height", *picture.height, 16, 8192);
-  if (picture.azimuth) camera.azimuth = checked("azimuth", *picture.azimuth, -360.0, 360.0);
-  if (picture.elevation) camera.elevation = checked("elevation", *picture.elevation, -89.0, 89.0);
-  return camera;
 }
 
 template <class Number>
@@ -111,31 +63,7 @@ std::vector<Format> formats() {
   return all;
 }
 
-class Simulation::Parts {
- public:
-  Parts(const std::filesystem::path& file, const Options& options)
-      : implementation(find_implementation(options.implementation)),
-        threads(checked_threads(options.threads)),
-        scene(scene::load(file, options.overrides)),
-        simulation(scene.parameters, std::move(scene.initial), implementation, {.threads = threads}) {
-    simulation.begin_at(scene.first_step);
-  }
-
-  // Replaces one kind of source; the others stay.
-  template <class Change>
-  void change_sources(const Change& change) {
-    const rule::Parameters& now = simulation.parameters();
-    run::Simulation::Sources sources{now.heat.sources, now.vents, now.drains};
-    change(sources);
-    simulation.change_sources(std::move(sources));
-  }
-
-  const step::Implementation& implementation;
-  int threads;
-  scene::Scene scene;  // its initial state has moved into the simulation
-  run::Simulation simulation;
-  render::Picture picture;  // the last one: the next one updates what has changed
-};
+std::vector<std::string> changeable_keys() { return scene::changeable_keys(); }
 
 Simulation::Simulation(const std::filesystem::path& scene, const Options& options)
     : parts_(translated([&] { return std::make_unique<Parts>(scene, options); })) {}
@@ -143,22 +71,30 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-const std::string& Simulation::title() const { return parts_->scene.title; }
-const std::vector<std::string>& Simulation::warnings() const { return parts_->scene.warnings; }
-std::uint32_t Simulation::scene_steps() const { return parts_->scene.steps; }
+const std::string& Simulation::title() const { return parts_->scene().title; }
+const std::vector<std::string>& Simulation::warnings() const { return parts_->scene().warnings; }
+std::uint32_t Simulation::scene_steps() const { return parts_->scene().steps; }
 const std::string& Simulation::implementation() const { return parts_->implementation.name; }
 int Simulation::threads() const { return parts_->simulation.threads(); }
 std::uint32_t Simulation::steps_done() const { return parts_->simulation.steps_done(); }
 std::uint32_t Simulation::step_number() const { return parts_->simulation.step_number(); }
 
-void Simulation::step(std::uint32_t count) {
+std::uint32_t Simulation::step(std::uint32_t count, const std::stop_token& stop, const Progress& progress) {
   constexpr std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
   if (count > last - step_number())
     throw InputError("step: error: count = " + std::to_string(count) + " exceeds " +
                      std::to_string(last - step_number()) + ": step numbers end at " + std::to_string(last));
-  translated([&] {
-    for (std::uint32_t i = 0; i < count; ++i) parts_->simulation.step();
-  });
+  std::uint32_t done = 0;
+  while (done < count && !stop.stop_requested()) {
+    translated([&] { parts_->simulation.step(); });
+    ++done;
+    if (progress) progress(done, count);
+  }
+  return done;
+}
+
+void Simulation::restart() {
+  translated([&] { parts_->restart(); });
 }
 
 Grid Simulation::grid() const {
@@ -183,6 +119,12 @@ std::uint64_t Simulation::digest() const { return state::digest(parts_->simulati
 
 Ledgers Simulation::ledgers() const {
   return library::to_ledgers(parts_->simulation.ledger(), state::holdings(parts_->simulation.volume()));
+}
+
+Changes Simulation::changes(std::uint64_t version) { return parts_->changes(version); }
+
+void Simulation::set(const std::string& key, double value) {
+  translated([&] { parts_->set(key, value); });
 }
 
 std::vector<HeatSource> Simulation::heat_sources() const {
@@ -231,14 +173,8 @@ void Simulation::export_state(const std::filesystem::path& folder, const std::st
   });
 }
 
-void Simulation::draw(const std::filesystem::path& file, const Picture& picture) {
-  const scene::Scene& scene = parts_->scene;
-  const scene::Camera camera = camera_of(scene.camera, picture);
-  translated([&] {
-    parts_->picture.update(parts_->simulation.volume(), scene.look, scene.light, scene.terrain,
-                           parts_->threads);
-    render::write_png(file, parts_->picture.draw(camera, setting_of(picture.quality), parts_->threads));
-  });
+void Simulation::save(const std::filesystem::path& file) const {
+  translated([&] { parts_->save(file); });
 }
 
 }  // namespace voxmelt

@@ -86,6 +86,36 @@ Value region_table(const Document& document, const Source& source) {
   return table;
 }
 
+Value list_of(const Document& document, const std::vector<HeatSource>& sources) {
+  return document.list("heat_source", sources, [&](const HeatSource& source) {
+    const rule::SourceKindRow kind = row_of(source.kind);
+    Value table = document.list("keyframes", source.keyframes, [&](const Keyframe& keyframe) {
+      Value frame = document.table();
+      frame.put("step", document.step(keyframe.step));
+      if (kind.at) frame.put("at", document.position(keyframe.at));
+      if (kind.radius) frame.put("radius", document.number(keyframe.radius));
+      if (kind.direction) frame.put("direction", document.position(keyframe.direction));
+      frame.put("power", document.number(keyframe.power));
+      return frame;
+    });
+    table.put("kind", document.text(kind.name));
+    return table;
+  });
+}
+
+Value list_of(const Document& document, const std::vector<Vent>& vents) {
+  return document.list("vent", vents, [&](const Vent& vent) {
+    Value table = region_table(document, vent);
+    table.put("temperature", document.number(vent.temperature));
+    table.put("energy", document.number(vent.energy));
+    return table;
+  });
+}
+
+Value list_of(const Document& document, const std::vector<Drain>& drains) {
+  return document.list("drain", drains, [&](const Drain& drain) { return region_table(document, drain); });
+}
+
 template <class Rules>
 Rules checked(const Value& root, Rules (*read)(scene::Reader&)) {
   scene::Reader reader(root, "");
@@ -106,40 +136,29 @@ double to_part(rule::Amount amount) { return static_cast<double>(amount) / rule:
 }  // namespace
 
 std::vector<rule::HeatSource> to_rules(const std::vector<HeatSource>& sources) {
-  const Document document("set_heat_sources");
-  const Value root = document.list("heat_source", sources, [&](const HeatSource& source) {
-    const rule::SourceKindRow kind = row_of(source.kind);
-    Value table = document.list("keyframes", source.keyframes, [&](const Keyframe& keyframe) {
-      Value frame = document.table();
-      frame.put("step", document.step(keyframe.step));
-      if (kind.at) frame.put("at", document.position(keyframe.at));
-      if (kind.radius) frame.put("radius", document.number(keyframe.radius));
-      if (kind.direction) frame.put("direction", document.position(keyframe.direction));
-      frame.put("power", document.number(keyframe.power));
-      return frame;
-    });
-    table.put("kind", document.text(kind.name));
-    return table;
-  });
-  return checked(root, scene::read_heat_sources);
+  return checked(list_of(Document("set_heat_sources"), sources), scene::read_heat_sources);
 }
 
 std::vector<rule::Vent> to_rules(const std::vector<Vent>& vents) {
-  const Document document("set_vents");
-  const Value root = document.list("vent", vents, [&](const Vent& vent) {
-    Value table = region_table(document, vent);
-    table.put("temperature", document.number(vent.temperature));
-    table.put("energy", document.number(vent.energy));
-    return table;
-  });
-  return checked(root, scene::read_vents);
+  return checked(list_of(Document("set_vents"), vents), scene::read_vents);
 }
 
 std::vector<rule::Drain> to_rules(const std::vector<Drain>& drains) {
-  const Document document("set_drains");
-  const Value root =
-      document.list("drain", drains, [&](const Drain& drain) { return region_table(document, drain); });
-  return checked(root, scene::read_drains);
+  return checked(list_of(Document("set_drains"), drains), scene::read_drains);
+}
+
+scene::Value lists_of(const rule::Parameters& parameters) {
+  const Document document("the scene");
+  Value root = document.table();
+  const auto put = [&](const char* key, const auto& rules) {
+    std::vector<decltype(from_rule(rules.front()))> all;
+    for (const auto& rule : rules) all.push_back(from_rule(rule));
+    root.put(key, *list_of(document, all).find(key));
+  };
+  put("heat_source", parameters.heat.sources);
+  put("vent", parameters.vents);
+  put("drain", parameters.drains);
+  return root;
 }
 
 HeatSource from_rule(const rule::HeatSource& source) {

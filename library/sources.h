@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kernel/automaton/rule/parameters.h"
+#include "kernel/scene/text/document.h"
 #include "voxmelt/sources.h"
 
 namespace voxmelt::library {
@@ -18,5 +19,8 @@ std::vector<rule::Drain> to_rules(const std::vector<Drain>& drains);
 HeatSource from_rule(const rule::HeatSource& source);
 Vent from_rule(const rule::Vent& vent);
 Drain from_rule(const rule::Drain& drain);
+
+// All of them as a scene file would say them: [[heat_source]], [[vent]], [[drain]].
+scene::Value lists_of(const rule::Parameters& parameters);
 
 }  // namespace voxmelt::library

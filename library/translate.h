@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <new>
 
+#include "kernel/run/checkpoint/blocks.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/scene/text/error.h"
 #include "render/image/png.h"
+#include "render/packet/draw_picture.h"
 #include "voxmelt/errors.h"
 
 namespace voxmelt::library {
@@ -24,12 +26,16 @@ decltype(auto) translated(const Work& work) {
     return work();
   } catch (const scene::InputError& error) {
     throw InputError(error.what());
+  } catch (const checkpoint::Error& error) {
+    throw InputError(error.what());
   } catch (const scene::ResourceError& error) {
     throw ResourceError(error.what());
   } catch (const io::OutputError& error) {
     throw_unwritten(error);
   } catch (const render::ImageError& error) {
     throw_unwritten(error);
+  } catch (const render::Stopped&) {
+    throw Stopped();
   } catch (const std::filesystem::filesystem_error& error) {
     throw OutputError(error.what());
   } catch (const std::bad_alloc&) {

@@ -31,4 +31,10 @@ class ResourceError : public Error {
   using Error::Error;
 };
 
+/// A stop was requested before the work was done.
+class Stopped : public Error {
+ public:
+  Stopped() : Error("stopped") {}
+};
+
 }  // namespace voxmelt

@@ -31,15 +31,21 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
                        std::unique_ptr<visibility::Provider> provider)
     : parameters_(std::move(parameters)),
       volume_(std::move(initial)),
-      stepper_(implementation.create(parameters_, volume_.grid, tuning)),
-      host_(dynamic_cast<step::HostStepper*>(stepper_.get())),
-      device_(dynamic_cast<step::DeviceStepper*>(stepper_.get())),
+      create_(implementation.create),
+      tuning_(tuning),
       provider_(provider != nullptr ? std::move(provider) : visibility::usual_provider(tuning.threads)),
       ledger_(state::Ledger::open(volume_)),
       threads_(std::min(tuning.threads, cpu::Workers::most())) {
   parameters_.heat.ray_seed = parameters_.seed;  // providers of irradiance see heat alone
+  make_stepper();
   make_irradiance();
   volume_.changed.follow(volume_.grid);
+}
+
+void Simulation::make_stepper() {
+  stepper_ = create_(parameters_, volume_.grid, tuning_);
+  host_ = dynamic_cast<step::HostStepper*>(stepper_.get());
+  device_ = dynamic_cast<step::DeviceStepper*>(stepper_.get());
 }
 
 // It is kept once it is there: sources that have been removed shine until the next step of visibility.
@@ -54,6 +60,17 @@ void Simulation::change_sources(Sources sources) {
   parameters_.drains = std::move(sources.drains);
   make_irradiance();
   stepper_->change_sources(parameters_);
+}
+
+// Between two steps a stepper knows nothing that another one lacks, but for what it has not told.
+void Simulation::change_parameters(rule::Parameters parameters) {
+  fetch();
+  tell_changes();
+  parameters_ = std::move(parameters);
+  parameters_.heat.ray_seed = parameters_.seed;
+  make_stepper();
+  uploaded_ = false;
+  make_irradiance();
 }
 
 void Simulation::resume(state::MidRun run) {

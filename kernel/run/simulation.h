@@ -52,6 +52,11 @@ class Simulation {
   };
   void change_sources(Sources sources);
 
+  // Other parameters between two steps, whatever the state may be one of (scene::change_key). The caller has
+  // checked them. They take effect at the next step; rays of heat sources at the next step of visibility.
+  // A stepper is made anew, which costs about as much as the first step.
+  void change_parameters(rule::Parameters parameters);
+
   std::uint32_t steps_done() const { return steps_done_; }
   std::uint32_t step_number() const { return first_step_ + steps_done_; }
   const step::Irradiance* irradiance() const { return irradiance_.empty() ? nullptr : &irradiance_; }
@@ -75,6 +80,7 @@ class Simulation {
 
  private:
   void make_irradiance();
+  void make_stepper();
   void run(step::Phase phase, step::Moment moment);
   int count_substeps() const;
   void fetch() const {
@@ -86,9 +92,11 @@ class Simulation {
 
   rule::Parameters parameters_;
   mutable state::Volume volume_;
+  decltype(step::Implementation::create) create_;  // makes the stepper
+  step::Tuning tuning_;
   std::unique_ptr<step::Stepper> stepper_;
-  step::HostStepper* host_;      // the stepper, if it is one; else null
-  step::DeviceStepper* device_;  // likewise
+  step::HostStepper* host_ = nullptr;      // the stepper, if it is one
+  step::DeviceStepper* device_ = nullptr;  // likewise
   std::unique_ptr<visibility::Provider> provider_;
   mutable state::Ledger ledger_;
   mutable bool behind_ = false;  // the device has run on: volume_ and ledger_ are old

@@ -1,4 +1,5 @@
-// consumer SCENE STEPS: the line that `voxmelt digest` prints, by the library.
+// consumer SCENE STEPS: the line that `voxmelt digest` prints, by the library. Half way the run goes through
+// a checkpoint, and is drawn.
 #include <voxmelt/voxmelt.h>
 #include <cstdint>
 #include <cstdio>
@@ -7,8 +8,14 @@
 #include <string>
 
 int main(int, char** argv) {
-  voxmelt::Simulation simulation(std::filesystem::path(SCENES) / (std::string(argv[1]) + ".toml"));
-  simulation.step(static_cast<std::uint32_t>(std::atoi(argv[2])));
+  voxmelt::Simulation first(std::filesystem::path(SCENES) / (std::string(argv[1]) + ".toml"));
+  const auto steps = static_cast<std::uint32_t>(std::atoi(argv[2]));
+  first.step(steps / 2);
+  first.save("consumer.vxc");
+  voxmelt::Simulation simulation("consumer.vxc");
+  const voxmelt::Frame frame = simulation.render();
+  if (frame.rgb != first.render().rgb) return 2;
+  simulation.step(steps - steps / 2);
   const voxmelt::State state = simulation.state();
   std::printf("step %u digest %016llx mass %s solid %zu liquid %zu\n", simulation.steps_done(),
               static_cast<unsigned long long>(simulation.digest()),

@@ -15,10 +15,10 @@
 #include <string_view>
 #include <utility>
 
-#include "app/checkpoint_scene.h"
 #include "app/run_record.h"
 #include "kernel/run/checkpoint/blocks.h"
 #include "kernel/run/checkpoint/checkpoint.h"
+#include "kernel/run/opening/checkpoint_scene.h"
 #include "tests/fuzz/target.h"
 
 namespace {
@@ -120,7 +120,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
       checkpoint::Checkpoint whole = checkpoint::read(file);
       const std::string command = whole.head.command;
-      app::scene_of(std::move(whole), file);
+      run::scene_of(std::move(whole), file);
       app::run_record_of(command, file);
     } catch (const checkpoint::Error& error) {
       fuzz::check_message(error.what());

@@ -66,7 +66,8 @@ TABLE = {
     "string": "getline stod stof stoi stol stoll stoul stoull string to_string erase erase_if",
     "string_view": "string_view",
     "system_error": "errc error_code generic_category make_error_code system_category system_error",
-    "thread": "jthread stop_token this_thread thread",
+    "stop_token": "stop_callback stop_source stop_token",
+    "thread": "jthread this_thread thread",
     "tuple": "apply forward_as_tuple get ignore make_tuple tie tuple tuple_cat tuple_element tuple_element_t tuple_size tuple_size_v",
     "type_traits": "common_type_t conditional_t decay_t enable_if_t false_type integral_constant invoke_result_t is_arithmetic_v is_base_of_v "
                    "is_const_v is_constant_evaluated is_empty_v is_enum_v is_floating_point_v is_integral_v is_invocable_v is_same_v is_signed_v "

@@ -34,6 +34,7 @@ ALLOWED = {
     "kernel/run/io": [PARAMETERS, STATE],
     "kernel/run/checkpoint": [STATE, CPU, "kernel/run/io"],
     "kernel/run/trial": [STATE, STEP, "kernel/run"],
+    "kernel/run/opening": [STEP, VISIBILITY, "kernel/scene", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/trial"],
     PICTURE: [f"{RULE}/fixed_point.h"],
     "render/image": [],
     "report/svg": [],
@@ -86,12 +87,12 @@ ALLOWED = {
     "accuracy/picture": ["kernel/scene", CPU, "kernel/run", PICTURE, "render/density", "render/image", "render/reference", "render/packet/scene_in_integers.h"],
     # What strangers include: the standard library only.
     "include/voxmelt": [],
-    "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/io", "kernel/run/trial",
-                "render/image", "render/packet"],
+    "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening",
+                "render/image", "render/packet", f"{PICTURE}/camera.h"],
     "examples": ["include/voxmelt"],
     "app": [CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
             "hwmodel/pipeline/faults", "hwmodel/pipeline/report", "hwmodel/caster/check", "hwmodel/caster/faults", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine",
-            "hwmodel/machine/presets", "hwmodel/memory", STATE, "kernel/scene", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/trial", "render/image",
+            "hwmodel/machine/presets", "hwmodel/memory", STATE, "kernel/scene", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening", "kernel/run/trial", "render/image",
             "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders that may include it. The rest is the standard library's.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The examples do what they say, on a small scene, and are short.
 
-  examples_test.py ROOT FOLDER_OF_PROGRAMS
+  examples_test.py ROOT FOLDER_OF_PROGRAMS VOXMELT
 """
 import json
 import struct
@@ -9,11 +9,32 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 from pathlib import Path
 
-root, programs = Path(sys.argv[1]), Path(sys.argv[2])
+root, programs, voxmelt = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
 SCENE = root / "scenes/bunny_small.toml"
 LONGEST = 40
+
+
+def pixels(png):
+    """The bytes of an 8-bit RGB file that `voxmelt` wrote: filters 0, 1 and 2."""
+    data, at, packed = png.read_bytes(), 8, b""
+    while at < len(data):
+        size, = struct.unpack(">I", data[at:at + 4])
+        name, body = data[at + 4:at + 8], data[at + 8:at + 8 + size]
+        if name == b"IHDR":
+            width, height = struct.unpack(">II", body[:8])
+        packed += body if name == b"IDAT" else b""
+        at += 12 + size
+    raw, above, rows = zlib.decompress(packed), bytes(3 * width), b""
+    for y in range(height):
+        kind, *row = raw[y * (3 * width + 1):(y + 1) * (3 * width + 1)]
+        for i in range(len(row)):
+            row[i] = (row[i] + (0, row[i - 3] if i >= 3 else 0, above[i])[kind]) % 256
+        above = bytes(row)
+        rows += above
+    return rows
 
 
 class Examples(unittest.TestCase):
@@ -31,7 +52,7 @@ class Examples(unittest.TestCase):
 
     def test_each_is_tested_and_short(self):
         sources = sorted((root / "examples").glob("*.cpp"))
-        self.assertEqual([s.stem for s in sources], ["cello", "heights", "melt", "picture", "torch"])
+        self.assertEqual([s.stem for s in sources], ["cello", "heights", "melt", "picture", "torch", "viewer"])
         for source in sources:
             self.assertLessEqual(len(source.read_text().splitlines()), LONGEST, source.name)
 
@@ -62,6 +83,24 @@ class Examples(unittest.TestCase):
         self.assertEqual(words[:4], ["P2", "35", "38", "255"])
         self.assertEqual(len(words[4:]), 35 * 38)
         self.assertGreater(sum(map(int, words[4:])), 1000)
+
+    def test_the_viewers_frames_are_the_programs_pictures(self):
+        result = subprocess.run([programs / "viewer", SCENE, "3"], cwd=self.folder, capture_output=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        header, size = b"P6 320 240 255\n", 3 * 320 * 240
+        frames = [result.stdout[k * (len(header) + size):][:len(header) + size] for k in range(3)]
+        self.assertEqual([f[:len(header)] for f in frames], [header] * 3)
+        self.assertEqual(len(set(frames)), 3)
+        subprocess.run([voxmelt, "render", SCENE, "--size", "320x240", "--out", "p.png", "--quiet"], cwd=self.folder, check=True)
+        self.assertEqual(frames[0][len(header):], pixels(self.folder / "p.png"))
+
+        said = result.stderr.decode().splitlines()
+        self.assertEqual(said[-1], "at step 30, saved")
+        self.assertRegex(said[0], r"^in the middle: cell \d+ \d+ \d+, \d+(\.\d+)? cells away$")
+        # The program goes on with the library's checkpoint.
+        line = subprocess.run([voxmelt, "digest", "viewer.vxc", "--steps", "500"], cwd=self.folder, capture_output=True,
+                              text=True, check=True).stdout
+        self.assertEqual(line.strip(), json.loads((root / "tests/app/digests.json").read_text())["bunny_small"]["500"])
 
     def test_a_mistake_is_one_line(self):
         for arguments in (["missing.toml", 1], [SCENE]):

@@ -82,6 +82,6 @@ void flush_folder(const fs::path& folder) {
   flush(folder);
 }
 
-void flush_entry(const fs::path& path) { flush(path.parent_path()); }
+void flush_entry(const fs::path& path) { flush(path.has_parent_path() ? path.parent_path() : fs::path(".")); }
 
 }  // namespace voxmelt::io

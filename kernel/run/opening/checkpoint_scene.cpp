@@ -1,16 +1,15 @@
-#include "app/checkpoint_scene.h"
+#include "kernel/run/opening/checkpoint_scene.h"
 
 #include <fstream>
 #include <string>
 #include <system_error>
 #include <utility>
 
-#include "app/version.h"
 #include "kernel/run/checkpoint/blocks.h"
 #include "kernel/run/io/export.h"
 #include "kernel/scene/start.h"
 
-namespace voxmelt::app {
+namespace voxmelt::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,6 +44,9 @@ scene::Scene scene_of(checkpoint::Checkpoint checkpoint, const fs::path& file) {
     checkpoint::fail(file, broken);
   scene::fill(scene, std::move(checkpoint.volume));
   scene.first_step = head.first_step;
+  // Sources that were taken away shine until the next step of visibility.
+  rule::Heat& heat = scene.parameters.heat;
+  if (heat.enabled && heat.sources.empty()) heat.radiation = head.radiates;
   if (parameters_text(scene, head.grid) != text.parameters)
     checkpoint::fail(file, "was written by voxmelt " + head.version +
                                ", which resolves its scene to other parameters than this program");
@@ -61,13 +63,13 @@ scene::Scene scene_of(checkpoint::Checkpoint checkpoint, const fs::path& file) {
   return scene;
 }
 
-checkpoint::SceneText scene_text(const scene::Scene& scene) {
+checkpoint::SceneText scene_text(const scene::Scene& scene, state::Grid grid) {
   checkpoint::SceneText text;
   text.name = scene.name;
   text.file = scene.file.string();
   text.title = scene.title;
   text.settings = scene.settings;
-  text.parameters = parameters_text(scene, scene.initial.grid);
+  text.parameters = parameters_text(scene, grid);
   text.warnings = scene.warnings;
   for (const fs::path& file : scene.files)
     if (std::error_code ignored; fs::is_regular_file(file, ignored))
@@ -78,14 +80,14 @@ checkpoint::SceneText scene_text(const scene::Scene& scene) {
   return text;
 }
 
-checkpoint::Head head_of(const checkpoint::SceneText& text, const scene::Scene& scene,
-                         const run::Simulation& simulation) {
+checkpoint::Head head_of(const std::string& version, const checkpoint::SceneText& text,
+                         const scene::Scene& scene, const Simulation& simulation) {
   checkpoint::Head head;
-  head.version = version_number();
+  head.version = version;
   head.first_step = scene.first_step;
   head.scene = text;
   head.run = simulation.mid_run();
   return head;
 }
 
-}  // namespace voxmelt::app
+}  // namespace voxmelt::run

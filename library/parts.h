@@ -1,0 +1,69 @@
+// What a Simulation of the public face is made of.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kernel/run/checkpoint/checkpoint.h"
+#include "kernel/run/simulation.h"
+#include "kernel/scene/scene.h"
+#include "library/version_numbers.h"
+#include "render/packet/picture.h"
+#include "voxmelt/voxmelt.h"
+
+namespace voxmelt {
+
+class Simulation::Parts {
+ public:
+  Parts(const std::filesystem::path& file, const Options& options);
+
+  void restart();
+  void save(const std::filesystem::path& place) const;
+  Changes changes(std::uint64_t since);
+
+  void set(const std::string& key, double value);
+  // Replaces one kind of source; the others stay.
+  template <class Change>
+  void change_sources(const Change& change) {
+    const rule::Parameters& now = simulation.parameters();
+    run::Simulation::Sources sources{now.heat.sources, now.vents, now.drains};
+    change(sources);
+    simulation.change_sources(std::move(sources));
+    opened_.scene.parameters = simulation.parameters();
+    sources_changed_ = true;
+  }
+
+  // The picture of the present state, which keeps what has not changed since the last one.
+  render::Picture& up_to_date();
+
+  const step::Implementation& implementation;
+  const int threads;
+
+ private:
+  // A scene as a file gave it, and what a checkpoint knows of the files behind it.
+  struct Opened {
+    scene::Scene scene;
+    std::vector<checkpoint::FileState> files;
+    std::uint64_t digest = 0;  // of the first cells
+  };
+  static Opened open(const std::filesystem::path& file, const Options& options);
+  run::Simulation begin(scene::Scene& scene) const;
+
+  const std::filesystem::path file_;
+  const Options options_;
+  Opened opened_;  // its cells have moved on; its parameters and settings are the present ones
+
+ public:
+  run::Simulation simulation;
+  const scene::Scene& scene() const { return opened_.scene; }
+
+ private:
+  bool sources_changed_ = false;  // they are no longer those of the settings
+  render::Picture picture_;
+  library::VersionNumbers versions_;
+};
+
+}  // namespace voxmelt

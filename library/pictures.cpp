@@ -1,0 +1,167 @@
+// The pictures of a Simulation: from the units of a user to those of the renderer, and back.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "library/parts.h"
+#include "library/translate.h"
+#include "render/image/png.h"
+#include "render/packet/scene_in_integers.h"
+#include "render/rule/camera.h"
+
+namespace voxmelt {
+namespace {
+
+using library::translated;
+
+template <class Number>
+Number checked(const char* name, Number value, Number lowest, Number highest,
+               const std::string& of = "Picture") {
+  if (value >= lowest && value <= highest) return value;  // false for a NaN
+  throw InputError(of + ": error: " + std::string(name) + " = " + std::to_string(value) + " is outside " +
+                   std::to_string(lowest) + ".." + std::to_string(highest));
+}
+
+render::Setting setting_of(Quality quality) {
+  switch (quality) {
+    case Quality::fast:
+      return render::Setting::fast;
+    case Quality::best:
+      return render::Setting::best;
+    default:
+      return render::Setting::normal;
+  }
+}
+
+void look_from(const Camera& from, scene::Camera& camera) {
+  constexpr double kFarthest = 65536;  // as in scenes
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    camera.target[axis] = checked("camera.target", from.target[axis], -kFarthest, kFarthest);
+  camera.distance = checked("camera.distance", from.distance, 0.0, 4 * kFarthest);
+  camera.azimuth = checked("camera.azimuth", from.azimuth, -360.0, 360.0);
+  camera.elevation = checked("camera.elevation", from.elevation, -89.0, 89.0);
+  camera.field_of_view = checked("camera.field_of_view", from.field_of_view, 1.0, 120.0);
+  camera.orthographic = from.projection == Projection::orthographic;
+}
+
+scene::Camera camera_of(scene::Camera camera, const Picture& picture) {
+  if (picture.camera) look_from(*picture.camera, camera);
+  if (picture.width) camera.width = checked("width", *picture.width, 16, 8192);
+  if (picture.height) camera.height = checked("height", *picture.height, 16, 8192);
+  if (picture.azimuth) camera.azimuth = checked("azimuth", *picture.azimuth, -360.0, 360.0);
+  if (picture.elevation) camera.elevation = checked("elevation", *picture.elevation, -89.0, 89.0);
+  return camera;
+}
+
+double in_cells(std::int64_t position) { return static_cast<double>(position) / picture::kCell; }
+Position in_cells(picture::Vector p) { return {in_cells(p.x), in_cells(p.y), in_cells(p.z)}; }
+
+Frame frame_of(const render::Image& image, int alignment) {
+  const auto row = sizeof(render::Rgb) * static_cast<std::size_t>(image.width),
+             unit = static_cast<std::size_t>(alignment), height = static_cast<std::size_t>(image.height);
+  Frame frame{image.width, image.height, (row + unit - 1) / unit * unit, {}, {}, {}};
+  frame.rgb.resize(frame.stride * height);
+  for (int y = 0; y < image.height; ++y)
+    std::memcpy(frame.rgb.data() + static_cast<std::size_t>(y) * frame.stride, image.at(0, y).data(), row);
+  return frame;
+}
+
+Shown shown_by(const render::Sight& sight) {
+  if (sight.ground) return Shown::ground;
+  constexpr int kHalf = 128;  // of 255
+  if (sight.matter.obstacle >= kHalf) return Shown::obstacle;
+  return sight.matter.liquid >= kHalf ? Shown::liquid : Shown::solid;
+}
+
+// The cell that has a position in it; the nearest one, if that is outside.
+Cell cell_at(picture::Vector p, state::Grid grid) {
+  const auto along = [](std::int64_t at, int cells) {
+    return static_cast<int>(std::clamp<std::int64_t>(at >> picture::kPositionBits, 0, cells - 1));
+  };
+  return {along(p.x, grid.x), along(p.y, grid.y), along(p.z, grid.z)};
+}
+
+bool is_filled(const state::Volume& volume, Cell c) {
+  return volume.solid.test(c.x, c.y, c.z) || volume.liquid.test(c.x, c.y, c.z) ||
+         volume.inert.test(c.x, c.y, c.z);
+}
+
+// The first cell along the ray, within four cells, that is not air.
+Cell first_filled(const state::Volume& volume, const render::Sight& sight, Cell otherwise) {
+  const auto inside = [](std::int64_t at, int cells) { return at >= 0 && at < cells * picture::kCell; };
+  picture::Vector p = sight.position;
+  const auto moved = [&](std::int64_t at, std::int64_t from) { return std::abs(at - from); };
+  while (std::max({moved(p.x, sight.position.x), moved(p.y, sight.position.y),
+                   moved(p.z, sight.position.z)}) <= 4 * picture::kCell) {
+    if (inside(p.x, volume.grid.x) && inside(p.y, volume.grid.y) && inside(p.z, volume.grid.z))
+      if (const Cell cell = cell_at(p, volume.grid); is_filled(volume, cell)) return cell;
+    p = p + sight.step;
+  }
+  return otherwise;
+}
+
+}  // namespace
+
+Camera Simulation::camera(const Picture& picture) const {
+  const scene::Camera camera = camera_of(parts_->scene().camera, picture);
+  return {camera.target,        render::distance_of(camera, parts_->simulation.volume().grid),
+          camera.azimuth,       camera.elevation,
+          camera.field_of_view, camera.orthographic ? Projection::orthographic : Projection::perspective};
+}
+
+Frame Simulation::render(const Picture& picture, const std::stop_token& stop) {
+  const scene::Camera camera = camera_of(parts_->scene().camera, picture);
+  const int alignment = checked("row_alignment", picture.row_alignment, 1, 4096);
+  const render::Setting setting = setting_of(picture.quality);
+  return translated([&] {
+    if (stop.stop_requested()) throw render::Stopped{};
+    render::Picture& drawn = parts_->up_to_date();
+    drawn.stop_when([stop] { return stop.stop_requested(); });
+    Frame frame = frame_of(drawn.draw(camera, setting, parts_->threads), alignment);
+    if (!picture.depth) return frame;
+    if (stop.stop_requested()) throw render::Stopped{};
+    frame.depth = drawn.depths(camera, setting, parts_->threads);
+    frame.eye = in_cells(drawn.data(render::camera_in_integers(camera), setting).view.eye);
+    return frame;
+  });
+}
+
+std::optional<Hit> Simulation::pick(int x, int y, const Picture& picture) {
+  const scene::Camera camera = camera_of(parts_->scene().camera, picture);
+  checked("x", x, 0, camera.width - 1, "pick");
+  checked("y", y, 0, camera.height - 1, "pick");
+  return translated([&]() -> std::optional<Hit> {
+    const render::Setting setting = setting_of(picture.quality);
+    const render::Picture& drawn = parts_->up_to_date();
+    const std::optional<render::Sight> sight = drawn.see(camera, setting, x, y);
+    if (!sight) return std::nullopt;
+    const state::Volume& volume = parts_->simulation.volume();
+    const picture::View view = drawn.data(render::camera_in_integers(camera), setting).view;
+    const auto part = [](std::int64_t of) { return static_cast<double>(of) / (1 << picture::kNormalBits); };
+    Hit hit{shown_by(*sight),
+            in_cells(sight->position),
+            {part(sight->normal.x), part(sight->normal.y), part(sight->normal.z)},
+            static_cast<double>(picture::depth_from_eye(view, sight->position)) / picture::kDepthUnit,
+            cell_at(sight->position, volume.grid),
+            {}};
+    hit.matter = first_filled(volume, *sight, hit.cell);
+    return hit;
+  });
+}
+
+void Simulation::draw(const std::filesystem::path& file, const Picture& picture) {
+  const scene::Camera camera = camera_of(parts_->scene().camera, picture);
+  translated([&] {
+    render::Picture& drawn = parts_->up_to_date();
+    drawn.stop_when({});
+    render::write_png(file, drawn.draw(camera, setting_of(picture.quality), parts_->threads));
+  });
+}
+
+}  // namespace voxmelt
