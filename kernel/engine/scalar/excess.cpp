@@ -12,17 +12,39 @@
 namespace voxmelt::scalar {
 namespace {
 
-// Cells bottom .. bottom + n - 1 of a column, with the sum `mass`.
+// Cells bottom .. bottom + n - 1 of a column, with the sums of their amounts, and of amount x heat.
 struct Run {
   const Cells& cells;
   state::Volume& volume;
   int x, bottom, z;
-  std::int32_t n;
-  std::int64_t mass;
+  std::int32_t n = 0;
+  std::int64_t mass = 0;
+  std::uint64_t content = 0;
 
   state::Slot at(std::int32_t k) const { return cells.at(x, bottom + k, z); }
   std::int32_t amount(std::int32_t k) const { return volume.amount[at(k)]; }
 };
+
+Run gathered(const Cells& cells, state::Volume& volume, int x, int bottom, int z) {
+  Run run{cells, volume, x, bottom, z};
+  std::int32_t next_amount = cells.amount(x, bottom, z);
+  while (next_amount > 0 || run.mass > std::int64_t{run.n} * rule::kOne) {
+    const std::int32_t top = next_amount;
+    run.mass += top;
+    run.content += static_cast<std::uint64_t>(top) * volume.heat[run.at(run.n)];
+    ++run.n;
+    if (cells.blocked(x, bottom + run.n, z)) break;
+    next_amount = cells.amount(x, bottom + run.n, z);
+    if (!rule::run_continues(run.mass, run.n, top, next_amount)) break;
+  }
+  return run;
+}
+
+std::int32_t bed_under(const Run& run) {
+  const bool on_inert = run.bottom > 0 && run.volume.inert.test(run.x, run.bottom - 1, run.z);
+  return rule::bed_head(run.bottom,
+                        on_inert ? run.cells.amount(run.x, run.bottom - 1, run.z) : rule::kBedHalf);
+}
 
 bool keeps_order(const Run& run) {
   std::int64_t below = 0;
@@ -59,6 +81,14 @@ void mix_all(const Run& run, std::int32_t h) {
   for (std::int32_t k = 0; k < run.n; ++k) run.volume.heat[run.at(k)] = static_cast<std::uint16_t>(h);
 }
 
+// While the cells still hold what they held.
+void settle_heat(const Run& run, std::int32_t offset) {
+  if (keeps_order(run))
+    move_in_order(run, offset);
+  else
+    mix_all(run, rule::mixed(run.content, static_cast<std::uint64_t>(run.mass), offset));
+}
+
 }  // namespace
 
 void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
@@ -68,41 +98,17 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
   const std::int32_t offset = rule::mixing_dither(moment.step, moment.substep);
 
   const auto settle_run = [&](int x, int bottom, int z) {
-    // Gather the run.
-    std::int64_t mass = 0;
-    std::uint64_t content = 0;
-    std::int32_t n = 0;
-    std::int32_t next_amount = cells.amount(x, bottom, z);
-    while (next_amount > 0 || mass > std::int64_t{n} * rule::kOne) {
-      const state::Slot i = cells.at(x, bottom + n, z);
-      const std::int32_t top = next_amount;
-      mass += top;
-      content += static_cast<std::uint64_t>(top) * volume.heat[i];
-      ++n;
-      if (cells.blocked(x, bottom + n, z)) break;
-      next_amount = cells.amount(x, bottom + n, z);
-      if (!rule::run_continues(mass, n, top, next_amount)) break;
-    }
-    if (n == 0) return bottom;
-
-    // Settle it: heat first, while the cells still hold what they held.
-    if (hot) {
-      const Run run{cells, volume, x, bottom, z, n, mass};
-      if (keeps_order(run))
-        move_in_order(run, offset);
-      else
-        mix_all(run, rule::mixed(content, static_cast<std::uint64_t>(mass), offset));
-    }
-    const auto mean = static_cast<std::int32_t>(content / static_cast<std::uint64_t>(mass));
-    ledger.heat.rounded -= static_cast<state::Sum>(content);
-    const bool on_inert = bottom > 0 && volume.inert.test(x, bottom - 1, z);
-    const std::int32_t bed =
-        rule::bed_head(bottom, on_inert ? cells.amount(x, bottom - 1, z) : rule::kBedHalf);
-    const rule::Column column = rule::run_column(mass, n, bed, mean, parameters_.flow, moment.substeps);
+    const Run run = gathered(cells, volume, x, bottom, z);
+    if (run.n == 0) return bottom;
+    if (hot) settle_heat(run, offset);
+    ledger.heat.rounded -= static_cast<state::Sum>(run.content);
+    const auto mean = static_cast<std::int32_t>(run.content / static_cast<std::uint64_t>(run.mass));
+    const rule::Column column =
+        rule::run_column(run.mass, run.n, bed_under(run), mean, parameters_.flow, moment.substeps);
     std::int64_t held = 0;  // cells of the run that hold something
-    for (std::int32_t k = 0; k < n; ++k) {
-      const state::Slot i = cells.at(x, bottom + k, z);
-      const std::int32_t amount = rule::settled(mass, n, k);
+    for (std::int32_t k = 0; k < run.n; ++k) {
+      const state::Slot i = run.at(k);
+      const std::int32_t amount = rule::settled(run.mass, run.n, k);
       volume.amount[i] = static_cast<std::uint16_t>(amount);
       ledger.heat.rounded += static_cast<state::Sum>(amount) * volume.heat[i];
       if (amount == 0) volume.heat[i] = 0;
@@ -116,9 +122,9 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
       limit_[i] = column.limit;
       ++held;
     }
-    ledger.limit.add(
-        state::LimitCounts<std::int64_t>{held, column.limited ? held : 0, mass, column.limited ? mass : 0});
-    return bottom + n;
+    ledger.limit.add(state::LimitCounts<std::int64_t>{held, column.limited ? held : 0, run.mass,
+                                                      column.limited ? run.mass : 0});
+    return bottom + run.n;
   };
 
   in_run_.clear();

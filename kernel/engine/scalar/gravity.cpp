@@ -19,13 +19,74 @@ rule::FallSurroundings surroundings(const Cells& cells, const Side& side, int x,
   return {wall, empty_below && (wall || cells.blocked(x, y + 1, z))};
 }
 
+// What moves between a cell and the one above it, with its energy and heat.
+class PairMoves {
+ public:
+  PairMoves(const rule::Parameters& parameters, std::int32_t offset, state::Volume& volume,
+            state::Ledger& ledger)
+      : flow_(parameters.flow),
+        hot_(parameters.heat.enabled),
+        offset_(offset),
+        volume_(volume),
+        ledger_(ledger) {}
+
+  // Down: liquid falls only into free space. So a cell filled by falling never exceeds 1.
+  void fall(state::Slot high, state::Slot low, const rule::FallSurroundings& around) {
+    const std::int32_t lower = volume_.amount[low];
+    const std::int32_t flow = rule::fallen(lower, rule::released(volume_.amount[high], flow_.fall, around));
+    if (flow == 0) return;
+    if (flow_.law == rule::Law::paper) {
+      const std::int32_t room = lower + flow - volume_.energy[low];
+      const rule::EnergyMove move = rule::energy_fallen(volume_.energy[high], flow, room, flow_.paper);
+      volume_.energy[high] = static_cast<std::uint16_t>(volume_.energy[high] - move.lost);
+      volume_.energy[low] = static_cast<std::uint16_t>(volume_.energy[low] + move.gained);
+      ledger_.energy.accelerated += move.gained - move.lost;
+    }
+    transfer(high, low, flow);
+    cap_energy(high);
+  }
+
+  // Up: the piling of highly viscous liquid.
+  void push_up(state::Slot low, state::Slot high) {
+    const std::int32_t flow = rule::pushed_up(volume_.amount[low], volume_.amount[high]);
+    if (flow == 0) return;
+    const std::int32_t energy = std::min<std::int32_t>(volume_.energy[low], flow);
+    volume_.energy[low] = static_cast<std::uint16_t>(volume_.energy[low] - energy);
+    volume_.energy[high] = static_cast<std::uint16_t>(volume_.energy[high] + energy);
+    transfer(low, high, flow);
+  }
+
+ private:
+  void transfer(state::Slot from, state::Slot to, std::int32_t flow) {
+    if (hot_) {
+      const std::uint64_t content = std::uint64_t{volume_.amount[to]} * volume_.heat[to] +
+                                    static_cast<std::uint64_t>(flow) * volume_.heat[from];
+      const std::uint64_t after = std::uint64_t{volume_.amount[to]} + static_cast<std::uint64_t>(flow);
+      const std::int32_t h = rule::mixed(content, after, offset_);
+      ledger_.heat.rounded +=
+          static_cast<state::Sum>(after * static_cast<std::uint64_t>(h)) - static_cast<state::Sum>(content);
+      volume_.heat[to] = static_cast<std::uint16_t>(h);
+    }
+    volume_.amount[from] = static_cast<std::uint16_t>(volume_.amount[from] - flow);
+    volume_.amount[to] = static_cast<std::uint16_t>(volume_.amount[to] + flow);
+  }
+  void cap_energy(state::Slot i) {
+    if (volume_.energy[i] <= volume_.amount[i]) return;
+    ledger_.energy.capped += volume_.energy[i] - volume_.amount[i];
+    volume_.energy[i] = volume_.amount[i];
+  }
+
+  const rule::Flow& flow_;
+  const bool hot_;
+  const std::int32_t offset_;
+  state::Volume& volume_;
+  state::Ledger& ledger_;
+};
+
 }  // namespace
 
 void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
   const bool paper = parameters_.flow.law == rule::Law::paper;
-  const bool hot = parameters_.heat.enabled;
-  const rule::PaperLaw& law = parameters_.flow.paper;
-  const std::int32_t offset = rule::dither(step);
   const ActiveRows columns = ActiveRows::columns(volume);  // excess may climb as far as it must
   const Cells cells(volume);  // masks are those of the phase's begin until settle_masks
   // Under the paper's law the sides are those before this step's melt.
@@ -33,26 +94,7 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
     return cells.blocked(x, y, z) || (paper && melted_.test(x, y, z));
   };
 
-  // Moves `flow` (and energy) from cell `from` to cell `to`, and mixes their heat.
-  const auto transfer = [&](state::Slot from, state::Slot to, std::int32_t flow) {
-    if (hot) {
-      const std::uint64_t content = std::uint64_t{volume.amount[to]} * volume.heat[to] +
-                                    static_cast<std::uint64_t>(flow) * volume.heat[from];
-      const std::uint64_t after = std::uint64_t{volume.amount[to]} + static_cast<std::uint64_t>(flow);
-      const std::int32_t h = rule::mixed(content, after, offset);
-      ledger.heat.rounded +=
-          static_cast<state::Sum>(after * static_cast<std::uint64_t>(h)) - static_cast<state::Sum>(content);
-      volume.heat[to] = static_cast<std::uint16_t>(h);
-    }
-    volume.amount[from] = static_cast<std::uint16_t>(volume.amount[from] - flow);
-    volume.amount[to] = static_cast<std::uint16_t>(volume.amount[to] + flow);
-  };
-  const auto cap_energy = [&](state::Slot i) {
-    if (volume.energy[i] <= volume.amount[i]) return;
-    ledger.energy.capped += volume.energy[i] - volume.amount[i];
-    volume.energy[i] = volume.amount[i];
-  };
-
+  PairMoves moves(parameters_, rule::dither(step), volume, ledger);
   for (int z = 0; z < volume.grid.z; ++z)
     for (int y = 0; y + 1 < volume.grid.y; ++y) {
       const ActiveRows::Interval row = columns(y, z);
@@ -61,29 +103,10 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
         const std::int32_t lower = volume.amount[low], upper = volume.amount[high];
         if (lower + upper == 0 || cells.blocked(x, y, z) || cells.blocked(x, y + 1, z)) continue;
 
-        // Down: liquid falls only into free space. So a cell filled by falling never exceeds 1.
-        if (upper > 0 && lower < rule::kOne && (paper || !in_run_[high])) {
-          const std::int32_t ready = rule::released(upper, parameters_.flow.fall,
-                                                    surroundings(cells, side, x, y + 1, z, lower == 0));
-          const std::int32_t flow = rule::fallen(lower, ready);
-          if (flow == 0) continue;
-          if (paper) {
-            const std::int32_t room = lower + flow - volume.energy[low];
-            const rule::EnergyMove move = rule::energy_fallen(volume.energy[high], flow, room, law);
-            volume.energy[high] = static_cast<std::uint16_t>(volume.energy[high] - move.lost);
-            volume.energy[low] = static_cast<std::uint16_t>(volume.energy[low] + move.gained);
-            ledger.energy.accelerated += move.gained - move.lost;
-          }
-          transfer(high, low, flow);
-          cap_energy(high);
-        } else if (paper && lower > rule::kOne) {  // Up: the piling of highly viscous liquid.
-          const std::int32_t flow = rule::pushed_up(lower, upper);
-          if (flow == 0) continue;
-          const std::int32_t energy = std::min<std::int32_t>(volume.energy[low], flow);
-          volume.energy[low] = static_cast<std::uint16_t>(volume.energy[low] - energy);
-          volume.energy[high] = static_cast<std::uint16_t>(volume.energy[high] + energy);
-          transfer(low, high, flow);
-        }
+        if (upper > 0 && lower < rule::kOne && (paper || !in_run_[high]))
+          moves.fall(high, low, surroundings(cells, side, x, y + 1, z, lower == 0));
+        else if (paper && lower > rule::kOne)
+          moves.push_up(low, high);
       }
     }
   settle_masks(columns, volume);

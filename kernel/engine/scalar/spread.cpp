@@ -25,6 +25,61 @@ std::int32_t share_of(const rule::Flow& flow, std::int32_t heat, std::uint8_t pa
   return rule::thermal_share(flow.paper.share, heat, flow);
 }
 
+// What the cells give, by their patterns.
+struct Gift {
+  std::int32_t amount = 0, energy = 0;
+};
+class Gifts {
+ public:
+  Gifts(const rule::Flow& flow, const Cells& cells, const state::Volume& volume,
+        const state::Field<std::uint8_t>& pattern)
+      : flow_(flow), cells_(cells), volume_(volume), pattern_(pattern) {}
+
+  // The part of its energy that a gift keeps in contact with what is below the cell.
+  std::int32_t alpha(int x, int y, int z) const {
+    return rule::contact_alpha(cells_.blocked(x, y - 1, z), cells_.inert(x, y - 1, z), flow_.paper);
+  }
+  Gift given(int x, int y, int z, std::size_t d) const {
+    const state::Slot i = cells_.at(x, y, z);
+    const std::uint8_t pattern = pattern_[i];
+    if (!(pattern >> d & 1u)) return {};
+    const std::int32_t cap = rule::flow_cap(flow_.paper.neighbours);
+    const bool diagonal = rule::is_diagonal(static_cast<int>(d));
+    const std::int32_t share = share_of(flow_, volume_.heat[i], pattern, d);
+    const std::int32_t f = rule::shared(volume_.amount[i], share, cap, diagonal);
+    const std::int32_t e = std::min(f, rule::shared(volume_.energy[i], share, cap, diagonal));
+    const bool printed = flow_.paper.reading == rule::EnergyReading::printed;
+    return {f, printed ? rule::scaled(e, alpha(x, y, z)) : e};
+  }
+
+  // All that a cell gives and takes; `content` is amount x heat of what it takes.
+  struct Balance {
+    Gift out, in;
+    std::uint64_t content = 0;
+  };
+  Balance of(int x, int y, int z) const {
+    Balance all;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(flow_.paper.neighbours); ++d) {
+      const Gift mine = given(x, y, z, d);
+      all.out.amount += mine.amount;
+      all.out.energy += mine.energy;
+      const int nx = x + rule::kDirections[d].dx, nz = z + rule::kDirections[d].dz;
+      if (!cells_.liquid(nx, y, nz)) continue;
+      const Gift theirs = given(nx, y, nz, static_cast<std::size_t>(rule::kOpposite[d]));
+      all.in.amount += theirs.amount;
+      all.in.energy += theirs.energy;
+      all.content += static_cast<std::uint64_t>(theirs.amount) * volume_.heat[cells_.at(nx, y, nz)];
+    }
+    return all;
+  }
+
+ private:
+  const rule::Flow& flow_;
+  const Cells& cells_;
+  const state::Volume& volume_;
+  const state::Field<std::uint8_t>& pattern_;
+};
+
 }  // namespace
 
 void Reference::find_patterns(std::uint32_t step, const Volume& volume, const ActiveRows& rows) {
@@ -65,28 +120,10 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
   find_patterns(step, volume, rows);
 
   const Cells cells(volume);
-  const rule::Flow& flow = parameters_.flow;
-  const rule::PaperLaw& law = flow.paper;
-  const bool printed = law.reading == rule::EnergyReading::printed;
+  const Gifts gifts(parameters_.flow, cells, volume, pattern_);
+  const bool printed = parameters_.flow.paper.reading == rule::EnergyReading::printed;
   const bool hot = parameters_.heat.enabled;
-  const std::int32_t cap = rule::flow_cap(law.neighbours), offset = rule::dither(step);
-  const auto alpha = [&](int x, int y, int z) {
-    return rule::contact_alpha(cells.blocked(x, y - 1, z), cells.inert(x, y - 1, z), law);
-  };
-
-  struct Flow {
-    std::int32_t amount = 0, energy = 0;
-  };
-  const auto given = [&](int x, int y, int z, std::size_t d) -> Flow {
-    const state::Slot i = cells.at(x, y, z);
-    const std::uint8_t pattern = pattern_[i];
-    if (!(pattern >> d & 1u)) return {};
-    const bool diagonal = rule::is_diagonal(static_cast<int>(d));
-    const std::int32_t share = share_of(flow, volume.heat[i], pattern, d);
-    const std::int32_t f = rule::shared(volume.amount[i], share, cap, diagonal);
-    const std::int32_t e = std::min(f, rule::shared(volume.energy[i], share, cap, diagonal));
-    return {f, printed ? rule::scaled(e, alpha(x, y, z)) : e};
-  };
+  const std::int32_t offset = rule::dither(step);
 
   // The cells outside the active rows do not change, so this starts from a copy.
   next_.amount = volume.amount;
@@ -95,26 +132,14 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
   rows.for_each([&](int x, int y, int z) {
     if (cells.blocked(x, y, z)) return;
     const state::Slot i = cells.at(x, y, z);
-    Flow out, in;
-    std::uint64_t content = 0;
-    for (std::size_t d = 0; d < static_cast<std::size_t>(law.neighbours); ++d) {
-      const Flow mine = given(x, y, z, d);
-      out.amount += mine.amount;
-      out.energy += mine.energy;
-      const int nx = x + rule::kDirections[d].dx, nz = z + rule::kDirections[d].dz;
-      if (!cells.liquid(nx, y, nz)) continue;
-      const Flow theirs = given(nx, y, nz, static_cast<std::size_t>(rule::kOpposite[d]));
-      in.amount += theirs.amount;
-      in.energy += theirs.energy;
-      content += static_cast<std::uint64_t>(theirs.amount) * volume.heat[cells.at(nx, y, nz)];
-    }
+    auto [out, in, content] = gifts.of(x, y, z);
     if (out.amount == 0 && in.amount == 0) return;
 
     const std::int32_t amount = volume.amount[i] - out.amount + in.amount;
     next_.amount[i] = static_cast<std::uint16_t>(amount);
 
     // Friction takes 1 - alpha of what arrives; energy never exceeds the amount.
-    const std::int32_t gained = printed ? in.energy : rule::scaled(in.energy, alpha(x, y, z), offset);
+    const std::int32_t gained = printed ? in.energy : rule::scaled(in.energy, gifts.alpha(x, y, z), offset);
     const std::int32_t energy = volume.energy[i] - out.energy + gained;
     next_.energy[i] = static_cast<std::uint16_t>(std::min(energy, amount));
     ledger.energy.dissipated += in.energy - gained;

@@ -126,10 +126,10 @@ class Apply {
     if ((++batches_ & 255) == 0) flush();  // sums hold 32,768 vectors
   }
 
-  [[gnu::always_inline]] void vectors(Item item) {
-    const std::size_t cell = cell_ + at(item), own_at = own_at_ + at(item);
-    const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
-
+  struct Sums {
+    V amount, energy;
+  };
+  [[gnu::always_inline]] Sums given_away(std::size_t own_at) const {
     const V pattern = L::widen_bytes(own_.pattern + own_at);
     V out, energy_out;
     if constexpr (kFeatures.general) {
@@ -148,10 +148,13 @@ class Apply {
         energy_out = energy_out + L::low(diagonals, energy_flow<4>(own_, own_at));
       }
     }
+    return {out, energy_out};
+  }
 
+  // `content` gets amount x heat of what is taken, with heats as they are stored.
+  [[gnu::always_inline]] Sums taken(Item item, typename L::Wide& content) const {
     V in = L::zero(), energy_in = L::zero();
     V diagonal_in = L::zero(), diagonal_energy = L::zero();  // with kQuarters: four times these
-    typename L::Wide content{};
     V taken, heats;
     cpu::unrolled<kDirections>([&](auto d) VOXMELT_LAMBDA {
       // The neighbour there gives in the opposite direction.
@@ -182,34 +185,46 @@ class Apply {
         }
       }
     });
-
     if constexpr (kQuarters) {
       in = in + L::template shift_right<2>(diagonal_in);
       energy_in = energy_in + L::template shift_right<2>(diagonal_energy);
     }
+    return {in, energy_in};
+  }
 
-    const V kept = amount - out, now = kept + in;
+  [[gnu::always_inline]] void vectors(Item item) {
+    const std::size_t cell = cell_ + at(item);
+    const V amount = L::load(v_.amount + cell), energy = L::load(v_.energy + cell);
+    const Sums out = given_away(own_at_ + at(item));
+    typename L::Wide content{};
+    const Sums in = taken(item, content);
+
+    const V kept = amount - out.amount, now = kept + in.amount;
     L::store(v_.amount + cell, now);
-    const V gained = friction(energy_in, item);
-    const V uncapped = energy - energy_out + gained, capped = L::min(uncapped, now);
+    const V gained = friction(in.energy, item);
+    const V uncapped = energy - out.energy + gained, capped = L::min(uncapped, now);
     L::store(v_.energy + cell, capped);
-    dissipated_.add(energy_in - gained);
+    dissipated_.add(in.energy - gained);
     capped_.add(uncapped - capped);
 
     const M dry = L::equal(now, L::zero());
-    if constexpr (kFeatures.hot) {
-      const V heat = L::load(v_.heat + cell);
-      const M fed = L::less(L::zero(), in);
-      V mixed = heat;
-      if (L::to_bits(fed) != 0) {
-        // Heats of gifts are stored less 32768, to be signed. So 32768 times what came in is added back.
-        const auto biased = L::unpack(L::template shift_left<15>(in), L::template shift_right<1>(in));
-        const auto all = L::sum(L::sum(content, biased), L::product(kept, heat));
-        mixed = L::select(fed, mix_.mean(all, now, fed), heat);
-      }
-      L::store(v_.heat + cell, L::select(dry, L::zero(), mixed));
-    }
+    if constexpr (kFeatures.hot) mix(cell, in.amount, kept, now, content, dry);
     set_liquid(item, L::to_bits(dry) ^ kAll);
+  }
+
+  // The heat of cells that kept some of what they held, and took `in`.
+  [[gnu::always_inline]] void mix(std::size_t cell, V in, V kept, V now, const typename L::Wide& content,
+                                  M dry) {
+    const V heat = L::load(v_.heat + cell);
+    const M fed = L::less(L::zero(), in);
+    V mixed = heat;
+    if (L::to_bits(fed) != 0) {
+      // Heats of gifts are stored less 32768, to be signed. So 32768 times what came in is added back.
+      const auto biased = L::unpack(L::template shift_left<15>(in), L::template shift_right<1>(in));
+      const auto all = L::sum(L::sum(content, biased), L::product(kept, heat));
+      mixed = L::select(fed, mix_.mean(all, now, fed), heat);
+    }
+    L::store(v_.heat + cell, L::select(dry, L::zero(), mixed));
   }
 
   // The new liquid mask of an item's cells: a cell that is not blocked and holds something is liquid.

@@ -131,47 +131,52 @@ class Settle {
           rows.last = y;
         }
         if (taken == 0) continue;
-        const std::uint64_t ceiling = v_.blocked(w, y + 1, z_);
         if (start != 0) {
           if (open_[g] && (record(g, used_[g] - 1).columns & start) != 0) open_[g] = false;
           begin(sums[g], g, start, w, y);
         }
-
-        std::uint64_t over = 0, half = 0;
-        bool moves = false;
-        const std::size_t cell = v_.cell(w, y, z_);
-        for (int part = 0; part < L::kParts; ++part) {
-          if (!L::in_part(taken, part)) continue;
-          const std::size_t at = cell + static_cast<std::size_t>(part * L::kCount);
-          const int shift = part * L::kCount;
-          const V amount = L::load(v_.amount + at);
-          Wide& excess = sums[g].excess[part];
-          if constexpr (kFeatures.hot) orders_[g].meet(part, excess);
-          excess = L::sum(excess, L::widen(amount));
-          excess = {excess.low - W(4096), excess.high - W(4096)};
-          const V too_much = L::narrow(excess);
-          over |= L::to_bits(L::less(L::zero(), too_much)) << shift;
-          half |= L::to_bits(L::less(L::set(2047), amount)) << shift;
-          if constexpr (kFeatures.hot) {
-            const V heat = L::load(v_.heat + at);
-            sums[g].low[part] = L::sum(sums[g].low[part], L::widen(L::low(amount, heat)));
-            sums[g].high[part] = L::sum(sums[g].high[part], L::widen(L::high(amount, heat)));
-            const std::uint64_t rises = over & taken & ~ceiling;
-            if (L::in_part(rises, part) || orders_[g].moves(part)) {
-              const V up = L::keep(L::from_bits(rises, part), too_much);
-              orders_[g].lift(part, mix_, up, v_.amount + at, v_.heat + at);
-              moves = true;
-            }
-          }
-        }
-        const std::uint64_t wet = y + 1 < v_.ny ? v_.liquid[v_.word(w, y + 1, z_)] : 0;
-        if (moves) changed[y >> v_.tile_shift] |= TileRow{1} << w;
-        goes_on[g] = taken & ~ceiling & (over | (half & wet));
+        goes_on[g] = take(sums[g], g, taken, w, y, changed);
         if ((taken & ~goes_on[g]) != 0) keep(sums[g], g, taken & ~goes_on[g], y);
       }
     if constexpr (kFeatures.hot)
       for (RunOrder<Arch>& order : orders_) books_.heat.rounded += order.flush();
     return rows;
+  }
+
+  // Adds the cells of a word that runs take. Returns those whose run goes on above.
+  [[gnu::always_inline]] std::uint64_t take(Sums& sums, int g, std::uint64_t taken, int w, int y,
+                                            TileRow* changed) {
+    const std::uint64_t ceiling = v_.blocked(w, y + 1, z_);
+    std::uint64_t over = 0, half = 0;
+    bool moves = false;
+    const std::size_t cell = v_.cell(w, y, z_);
+    for (int part = 0; part < L::kParts; ++part) {
+      if (!L::in_part(taken, part)) continue;
+      const std::size_t at = cell + static_cast<std::size_t>(part * L::kCount);
+      const int shift = part * L::kCount;
+      const V amount = L::load(v_.amount + at);
+      Wide& excess = sums.excess[part];
+      if constexpr (kFeatures.hot) orders_[g].meet(part, excess);
+      excess = L::sum(excess, L::widen(amount));
+      excess = {excess.low - W(4096), excess.high - W(4096)};
+      const V too_much = L::narrow(excess);
+      over |= L::to_bits(L::less(L::zero(), too_much)) << shift;
+      half |= L::to_bits(L::less(L::set(2047), amount)) << shift;
+      if constexpr (kFeatures.hot) {
+        const V heat = L::load(v_.heat + at);
+        sums.low[part] = L::sum(sums.low[part], L::widen(L::low(amount, heat)));
+        sums.high[part] = L::sum(sums.high[part], L::widen(L::high(amount, heat)));
+        const std::uint64_t rises = over & taken & ~ceiling;
+        if (L::in_part(rises, part) || orders_[g].moves(part)) {
+          const V up = L::keep(L::from_bits(rises, part), too_much);
+          orders_[g].lift(part, mix_, up, v_.amount + at, v_.heat + at);
+          moves = true;
+        }
+      }
+    }
+    const std::uint64_t wet = y + 1 < v_.ny ? v_.liquid[v_.word(w, y + 1, z_)] : 0;
+    if (moves) changed[y >> v_.tile_shift] |= TileRow{1} << w;
+    return taken & ~ceiling & (over | (half & wet));
   }
 
   [[gnu::always_inline]] void begin(Sums& sums, int g, std::uint64_t start, int w, int y) {
