@@ -94,6 +94,15 @@ class CellFields : public ChannelValues {
  private:
   friend class BrickWriter;
   bool same_terrain(const scene::Terrain& terrain) const;
+  // The channels of matter in the bricks of a slice that are marked; which columns must be looked at anew.
+  template <class Marked>
+  void take_matter(const state::Volume& volume, int bz, const Marked& marked, Columns::News& news,
+                   const Loops& with);
+  // Then their intensity, and that of bricks whose columns have another plan. `changed` gets those in which
+  // any channel is another.
+  void write_intensities(const state::Volume& volume, int bz, const Columns::News& news,
+                         const std::vector<Extent>& another, const Loops& with,
+                         std::vector<std::uint32_t>& changed);
 
   Columns columns_;
   std::vector<float> terrain_;  // heights of the last update

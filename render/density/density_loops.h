@@ -66,87 +66,94 @@ struct DensityLoops {
     return block.cells + static_cast<std::size_t>(k) * block.slice + static_cast<std::size_t>(j) * block.row;
   }
 
-  // Most rows are what they were: they are only compared.
-  template <bool kWhole, bool kHeat>
-  static MatterFound matter_of(const MatterBrick& brick) {
-    const int count = kWhole ? kGroup : brick.x;
-    const auto get = [&](U16 & to, const std::uint16_t* cells) __attribute__((always_inline)) {
-      if constexpr (kWhole)
-        load(to, cells);
-      else
-        load_some(to, cells, count);
-    };
-    const auto put = [&](const U16& from, std::uint16_t* cells) __attribute__((always_inline)) {
-      if constexpr (kWhole)
-        store(from, cells);
-      else
-        store_some(from, cells, count);
-    };
-    const auto any = [](const U16& lanes) __attribute__((always_inline)) {
-      std::uint64_t halves[2];
-      std::memcpy(halves, &lanes, sizeof halves);
-      return (halves[0] | halves[1]) != 0;
-    };
-    // What is kept lies far apart in memory: it is asked for in time.
+  [[gnu::always_inline]] static bool any(const U16& lanes) {
+    std::uint64_t halves[2];
+    std::memcpy(halves, &lanes, sizeof halves);
+    return (halves[0] | halves[1]) != 0;
+  }
+
+  // The masks of a brick's rows, and of all of it.
+  struct Rows {
     std::uint64_t solids[kRows], liquids[kRows], any_solid = 0, any_liquid = 0;
+  };
+  // What is kept lies far apart in memory: it is asked for in time.
+  template <bool kHeat>
+  [[gnu::always_inline]] static void take_rows(const MatterBrick& brick, Rows& rows) {
     for (int k = 0; k < brick.z; ++k)
       for (int j = 0; j < brick.y; ++j) {
         const std::size_t word =
             static_cast<std::size_t>(k) * brick.mask_slice + static_cast<std::size_t>(j) * brick.mask_row;
         const int r = k * kBrickSide + j;
-        any_solid |= solids[r] = brick.solid[word] >> brick.shift & 0xff;
-        any_liquid |= liquids[r] = brick.liquid[word] >> brick.shift & 0xff;
-        if ((solids[r] | liquids[r]) != 0) __builtin_prefetch(at(brick.amount, j, k));
+        rows.any_solid |= rows.solids[r] = brick.solid[word] >> brick.shift & 0xff;
+        rows.any_liquid |= rows.liquids[r] = brick.liquid[word] >> brick.shift & 0xff;
+        if ((rows.solids[r] | rows.liquids[r]) != 0) __builtin_prefetch(at(brick.amount, j, k));
         if (brick.kept_solid) __builtin_prefetch(at(brick.to_solid, j, k));
         if (brick.kept_liquid) __builtin_prefetch(at(brick.to_liquid, j, k));
-        if (kHeat && liquids[r] != 0) __builtin_prefetch(at(brick.heat, j, k));
+        if (kHeat && rows.liquids[r] != 0) __builtin_prefetch(at(brick.heat, j, k));
         if (kHeat && brick.kept_heat) __builtin_prefetch(at(brick.to_heat, j, k));
       }
+  }
 
-    U16 changed[3]{};
-    unsigned changed_y[3]{}, changed_z[3]{};
-    const auto take = [&](int channel, const U16& fresh, std::uint16_t* kept, int j, int k)
-        __attribute__((always_inline)) {
+  // What has changed in a channel. Most rows are what they were: they are only compared.
+  template <bool kWhole>
+  struct ChannelChange {
+    U16 lanes{};
+    unsigned y = 0, z = 0;
+
+    [[gnu::always_inline]] void take(const U16& fresh, std::uint16_t* kept, int count, int j, int k) {
       U16 old;
-      get(old, kept);
+      if constexpr (kWhole)
+        load(old, kept);
+      else
+        load_some(old, kept, count);
       const U16 change = fresh ^ old;
       if (!any(change)) return;
-      put(fresh, kept);
-      changed[channel] |= change;
-      changed_y[channel] |= 1u << j;
-      changed_z[channel] |= 1u << k;
-    };
-    const bool hard = any_solid != 0 || brick.kept_solid, soft = any_liquid != 0 || brick.kept_liquid,
-               warm = kHeat && (any_liquid != 0 || brick.kept_heat);
-    for (int k = 0; (hard || soft || warm) && k < brick.z; ++k)
+      if constexpr (kWhole)
+        store(fresh, kept);
+      else
+        store_some(fresh, kept, count);
+      lanes |= change;
+      y |= 1u << j;
+      z |= 1u << k;
+    }
+    [[gnu::always_inline]] BrickPart part() const {
+      unsigned x = 0;
+      for (int lane = 0; lane < kGroup; ++lane) x |= (lanes[lane] != 0 ? 1u : 0u) << lane;
+      return {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), static_cast<std::uint8_t>(z)};
+    }
+  };
+
+  template <bool kWhole, bool kHeat>
+  static MatterFound matter_of(const MatterBrick& brick) {
+    Rows rows;
+    take_rows<kHeat>(brick, rows);
+    ChannelChange<kWhole> of_solid, of_liquid, of_heat;
+    const bool hard = rows.any_solid != 0 || brick.kept_solid,
+               wet = rows.any_liquid != 0 || brick.kept_liquid,
+               warm = kHeat && (rows.any_liquid != 0 || brick.kept_heat);
+    for (int k = 0; (hard || wet || warm) && k < brick.z; ++k)
       for (int j = 0; j < brick.y; ++j) {
         const int r = k * kBrickSide + j;
         U16 value{};
-        if ((solids[r] | liquids[r]) != 0) {
+        if ((rows.solids[r] | rows.liquids[r]) != 0) {
           load(value, at(brick.amount, j, k));
           value = value > 4096 ? U16{} + 4096 : value;
           value = (value << 4) - ((value + 15) >> 4);  // 255 a / 16, rounded down
         }
-        if (hard) take(0, value & lanes_of(solids[r]), at(brick.to_solid, j, k), j, k);
-        const U16 liquid = value & lanes_of(liquids[r]);
-        if (soft) take(1, liquid, at(brick.to_liquid, j, k), j, k);
+        if (hard) of_solid.take(value & lanes_of(rows.solids[r]), at(brick.to_solid, j, k), brick.x, j, k);
+        const U16 liquid = value & lanes_of(rows.liquids[r]);
+        if (wet) of_liquid.take(liquid, at(brick.to_liquid, j, k), brick.x, j, k);
         if (!warm) continue;
         U16 heat{};
-        if (liquids[r] != 0) {
+        if (rows.liquids[r] != 0) {
           U32 wide, temperature;
           load_as(temperature, at(brick.heat, j, k));
           wide = __builtin_convertvector(liquid, U32);
           heat = __builtin_convertvector(wide * temperature >> 16, U16);
         }
-        take(2, heat, at(brick.to_heat, j, k), j, k);
+        of_heat.take(heat, at(brick.to_heat, j, k), brick.x, j, k);
       }
-    const auto part = [&](int channel) __attribute__((always_inline)) {
-      unsigned x = 0;
-      for (int lane = 0; lane < kGroup; ++lane) x |= (changed[channel][lane] != 0 ? 1u : 0u) << lane;
-      return BrickPart{static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(changed_y[channel]),
-                       static_cast<std::uint8_t>(changed_z[channel])};
-    };
-    return {part(0), part(1), part(2)};
+    return {of_solid.part(), of_liquid.part(), of_heat.part()};
   }
 
   static MatterFound matter(const MatterBrick& brick) {

@@ -174,75 +174,89 @@ void LightVolume::turn_back(Plane& plane, const Bytes& slices, Bytes& changed,
 // Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of
 // a slice lies between the rays around (u, v) plus the shift; a ray lies between the cells around it less the
 // shift.
-void LightVolume::sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& loops) {
+LightVolume::LampRays LightVolume::lamp_rays() const {
   const std::int64_t component[3] = {to_light_.x, to_light_.y, to_light_.z};
   int axis = 1;
   for (const int other : {0, 2})
     if (picture::magnitude(component[other]) > picture::magnitude(component[axis])) axis = other;
-  const Way way = this->way(axis, component[axis] > 0);
   const auto slope = [&](int other) {
     return static_cast<std::int32_t>(
         picture::floor_divided(component[other] * picture::kLength, picture::magnitude(component[axis])));
   };
-  const std::int32_t slope_u = slope(axis == 0 ? 1 : 0), slope_v = slope(axis == 2 ? 1 : 2);
+  LampRays rays{axis, way(axis, component[axis] > 0), slope(axis == 0 ? 1 : 0), slope(axis == 2 ? 1 : 2)};
 
   // Rays from `low` on pass through the grid, at the first slice or at the last.
-  const auto low = [&](std::int32_t s) { return std::min(picture::shift_at(way.slices, s).cells, 0) - 1; };
-  const auto more = [&](std::int32_t s) {
-    return static_cast<int>(picture::magnitude(picture::shift_at(way.slices, s).cells)) + 4;
+  const auto low = [&](std::int32_t s) {
+    return std::min(picture::shift_at(rays.way.slices, s).cells, 0) - 1;
   };
-  const int low_u = low(slope_u), low_v = low(slope_v);
-  const int count_u = way.u + more(slope_u), count_v = way.v + more(slope_v);
-  const std::size_t ray_row = static_cast<std::size_t>(light_row(count_u) + 3 * kLightLanes);
-  const std::size_t size = static_cast<std::size_t>(count_v + 2) * ray_row;
+  const auto more = [&](std::int32_t s) {
+    return static_cast<int>(picture::magnitude(picture::shift_at(rays.way.slices, s).cells)) + 4;
+  };
+  rays.low_u = low(rays.slope_u), rays.low_v = low(rays.slope_v);
+  rays.count_u = rays.way.u + more(rays.slope_u), rays.count_v = rays.way.v + more(rays.slope_v);
+  rays.row = static_cast<std::size_t>(light_row(rays.count_u) + 3 * kLightLanes);
+  return rays;
+}
+
+// Every so often the rays are kept. So an update begins near the first slice in which something changed.
+// Returns that slice, and the rays before it.
+int LightVolume::begin_lamp(const LampRays& lamp, bool other_lamp, Sweep& sweep, Span& dark) const {
+  const std::size_t size = static_cast<std::size_t>(lamp.count_v + 2) * lamp.row;
   sweep.room.resize(size);
-  sweep.losses.resize(static_cast<std::size_t>(way.v + 2) * ray_row);
-  sweep.rows.assign(static_cast<std::size_t>(way.v), 0);
+  sweep.losses.resize(static_cast<std::size_t>(lamp.way.v + 2) * lamp.row);
+  sweep.rows.assign(static_cast<std::size_t>(lamp.way.v), 0);
   // What the turned plane held may be of a lamp long ago.
   sweep.turned_open.assign(static_cast<std::size_t>(z_), other_lamp ? 1 : 0);
-  std::uint8_t* const light = (way.turned ? lamp_.turned : lamp_.natural).data();
-  const std::uint8_t* const density = (way.turned ? density_.turned : density_.natural).data();
-  // Every so often the rays are kept. So an update begins near the first slice in which something changed.
-  int begin = 0;
   if (other_lamp) {
     sweep.kept.clear();
-  } else {
-    const auto& dirty = dirty_[static_cast<std::size_t>(axis)];
-    while (begin < way.slices && !dirty[static_cast<std::size_t>(way.at(begin))].any()) ++begin;
-    begin = std::min(begin / kKeptEvery, static_cast<int>(sweep.kept.size()) - 1) * kKeptEvery;
-  }
-  Span dark;
-  if (other_lamp) {
     sweep.rays.assign(size, 255);
-  } else {
-    const Kept& kept = sweep.kept[static_cast<std::size_t>(begin / kKeptEvery)];
-    sweep.rays = kept.rays;
-    dark = kept.dark;
+    return 0;
   }
+  const auto& dirty = dirty_[static_cast<std::size_t>(lamp.axis)];
+  int begin = 0;
+  while (begin < lamp.way.slices && !dirty[static_cast<std::size_t>(lamp.way.at(begin))].any()) ++begin;
+  begin = std::min(begin / kKeptEvery, static_cast<int>(sweep.kept.size()) - 1) * kKeptEvery;
+  const Kept& kept = sweep.kept[static_cast<std::size_t>(begin / kKeptEvery)];
+  sweep.rays = kept.rays;
+  dark = kept.dark;
+  return begin;
+}
+
+// The rows of a slice that the sweep has changed.
+void LightVolume::note_lamp_rows(const LampRays& lamp, int slice, Sweep& sweep) const {
+  const auto at = static_cast<std::size_t>(lamp.way.at(slice)), rows = static_cast<std::size_t>(y_);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(lamp.way.v); ++i) {
+    if (sweep.rows[i] == 0) continue;
+    if (lamp.way.turned)
+      sweep.turned_open[i] = 1;
+    else if (lamp.axis == 1)
+      sweep.open[i * rows + at] = 1;
+    else
+      sweep.open[at * rows + i] = 1;
+  }
+}
+
+void LightVolume::sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& loops) {
+  const LampRays lamp = lamp_rays();
+  const Way& way = lamp.way;
+  Span dark;
+  const int begin = begin_lamp(lamp, other_lamp, sweep, dark);
+  std::uint8_t* const light = (way.turned ? lamp_.turned : lamp_.natural).data();
+  const std::uint8_t* const density = (way.turned ? density_.turned : density_.natural).data();
   for (int s = begin; s < way.slices; ++s) {
     if (s % kKeptEvery == 0) {
       const auto at = static_cast<std::size_t>(s / kKeptEvery);
       if (sweep.kept.size() <= at) sweep.kept.resize(at + 1);
       if (s != begin || other_lamp) sweep.kept[at] = {sweep.rays, dark};
     }
-    const picture::Shift u = picture::shift_at(s, slope_u), v = picture::shift_at(s, slope_v);
-    const int at_u = u.cells - low_u, at_v = v.cells - low_v;
+    const picture::Shift u = picture::shift_at(s, lamp.slope_u), v = picture::shift_at(s, lamp.slope_v);
+    const int at_u = u.cells - lamp.low_u, at_v = v.cells - lamp.low_v;
     dark.add({at_v, at_v + way.v + 1});
-    dark = {std::max(dark.low - 1, 0), std::min(dark.high + 1, count_v)};
+    dark = {std::max(dark.low - 1, 0), std::min(dark.high + 1, lamp.count_v)};
     loops.lamp({way.u, way.v, way.row, way.row_step, density + way.byte(s), light + way.byte(s),
                 sweep.rows.data(), u.part, v.part, sweep.rays.data(), sweep.room.data(), sweep.losses.data(),
-                ray_row, count_u, count_v, at_u, at_v, dark.low, dark.high});
-    for (int i = 0; i < way.v; ++i) {
-      if (sweep.rows[static_cast<std::size_t>(i)] == 0) continue;
-      if (way.turned)
-        sweep.turned_open[static_cast<std::size_t>(i)] = 1;
-      else if (axis == 1)
-        sweep.open[static_cast<std::size_t>(i) * static_cast<std::size_t>(y_) +
-                   static_cast<std::size_t>(way.at(s))] = 1;
-      else
-        sweep.open[static_cast<std::size_t>(way.at(s)) * static_cast<std::size_t>(y_) +
-                   static_cast<std::size_t>(i)] = 1;
-    }
+                lamp.row, lamp.count_u, lamp.count_v, at_u, at_v, dark.low, dark.high});
+    note_lamp_rows(lamp, s, sweep);
   }
   if (way.turned) turn_back(lamp_, sweep.turned_open, sweep.open, loops);
 }

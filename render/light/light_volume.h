@@ -77,6 +77,17 @@ class LightVolume {
   Way way(int axis, bool from_high) const;
   void sweep_side(std::size_t side, Plane& plane, const Plane* emission, Bytes& changed,
                   Bytes& turned_changed, Sweep& sweep, const LightLoops& loops) const;
+  // The lamp's rays go along an axis, and shift by a slope from slice to slice along the two others, u and v.
+  struct LampRays {
+    int axis;
+    Way way;
+    std::int32_t slope_u, slope_v;
+    int low_u = 0, low_v = 0, count_u = 0, count_v = 0;  // the first rays, and how many there are
+    std::size_t row = 0;                                 // from a row of rays to the next
+  };
+  LampRays lamp_rays() const;
+  int begin_lamp(const LampRays& lamp, bool other_lamp, Sweep& sweep, Span& dark) const;
+  void note_lamp_rows(const LampRays& lamp, int slice, Sweep& sweep) const;
   void sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& loops);
   void turn_back(Plane& plane, const Bytes& slices, Bytes& changed, const LightLoops& loops) const;
   void interleave(cpu::Workers& workers, const LightLoops& loops);

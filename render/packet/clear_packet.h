@@ -102,76 +102,92 @@ struct ClearPacket : Packet<Arch> {
     }
   };
 
+  // Where the rays are on their walk: some look for matter, others are within it.
+  struct Walk {
+    V arrived{};  // at the ground
+    V searching = L::set(-1), within{};
+    V k{}, level{}, way{};  // the last sample, its level, and the way since the walk was told
+    Triple at{};            // lattice position of the last sample
+    V last;                 // sample before the ground
+  };
+
   // Tells which rays get to the ground.
   [[gnu::always_inline]] static inline V follow(Rest& rest, const Ground& ground) {
+    Walk walk;
+    walk.last = ground.found ? ground.part >> picture::kPartBits : L::set(INT32_MAX - 1);
+    for (;;) {
+      if (L::any(walk.searching)) enter(rest, ground, walk);
+      if (!L::any(walk.within)) return walk.arrived;
+      go_on(rest, ground, walk);
+    }
+  }
+
+  // The searching rays come to the next matter, to the ground or to nothing.
+  [[gnu::always_inline]] static inline void enter(Rest& rest, const Ground& ground, Walk& walk) {
     const PictureData& data = rest.data;
     const Row& row = rest.row;
-    const V sample_before = ground.part >> picture::kPartBits;
-    const V last = ground.found ? sample_before : L::set(INT32_MAX - 1), most = last + 1;
-    const int stretch = 1 << data.spacing;
-    V arrived{}, searching = L::set(-1), within{}, k{}, level{}, way{};
-    Triple at{};
-    for (;;) {
-      if (L::any(searching)) {
-        const auto hits = Field::march(data, row, searching, k, most);
-        arrived = arrived | (searching & ground.found & ~hits.found);
-        searching = V{};
-        V enters = hits.found;
-        if (L::any(enters)) {
-          const auto surface = Field::crossing(data.field, row, hits);
-          const V samples = L::clamp(sample_before - (hits.sample - 1), -8, 8);
-          const V place = samples * picture::kPlaces +
-                          (ground.part & (picture::kParts - 1)) * (picture::kPlaces / picture::kParts);
-          const V below = enters & ground.found & (place <= surface.part + ground.first);
-          arrived = arrived | below;
-          enters = enters & ~below;
-          const V crosses = enters & (hits.sample != 0);
-          if (L::any(crosses)) rest.surface(crosses, surface.at, crosses);
-          enters = enters & ~rest.dark();
-          k = enters ? hits.sample : k;
-          level = enters ? hits.level : level;
-          at = P::select(enters, hits.at, at);
-          const V soon = enters & (k > last);
-          if (L::any(soon)) rest.walk(soon, at, rest.template part<11>(place - surface.part));
-          arrived = arrived | soon;
-          enters = enters & ~soon;
-          way = enters ? rest.template part<11>(picture::kPlaces - surface.part) : way;
-          within = within | enters;
-        }
-      }
-      if (!L::any(within)) return arrived;
+    const auto hits = Field::march(data, row, walk.searching, walk.k, walk.last + 1);
+    walk.arrived = walk.arrived | (walk.searching & ground.found & ~hits.found);
+    walk.searching = V{};
+    V enters = hits.found;
+    if (!L::any(enters)) return;
+    const auto surface = Field::crossing(data.field, row, hits);
+    const V samples = L::clamp((ground.part >> picture::kPartBits) - (hits.sample - 1), -8, 8);
+    const V place = samples * picture::kPlaces +
+                    (ground.part & (picture::kParts - 1)) * (picture::kPlaces / picture::kParts);
+    const V below = enters & ground.found & (place <= surface.part + ground.first);
+    walk.arrived = walk.arrived | below;
+    enters = enters & ~below;
+    const V crosses = enters & (hits.sample != 0);
+    if (L::any(crosses)) rest.surface(crosses, surface.at, crosses);
+    enters = enters & ~rest.dark();
+    walk.k = enters ? hits.sample : walk.k;
+    walk.level = enters ? hits.level : walk.level;
+    walk.at = P::select(enters, hits.at, walk.at);
+    const V soon = enters & (walk.k > walk.last);
+    if (L::any(soon)) rest.walk(soon, walk.at, rest.template part<11>(place - surface.part));
+    walk.arrived = walk.arrived | soon;
+    enters = enters & ~soon;
+    walk.way = enters ? rest.template part<11>(picture::kPlaces - surface.part) : walk.way;
+    walk.within = walk.within | enters;
+  }
 
-      V leaves{}, going = within;
-      for (int i = 0; i < stretch; ++i) {
-        going = going & (k < last);
-        if (!L::any(going)) break;
-        const Triple next = P::select(going, at + row.step, Triple{});
-        const V here = Field::sample(data.field, next), air = going & (here < 0);
-        leaves = leaves | air;
-        going = going & ~air;
-        k = k - going;
-        way = going ? way + rest.step : way;
-        level = going ? here : level;
-        at = P::select(going, next, at);
-      }
-      const V ends = within & ~leaves & (k == last);
-      way = ends ? way + rest.template part<8>(ground.part & (picture::kParts - 1)) : way;
-      Triple exit{};
-      if (L::any(leaves)) {
-        const auto surface = Field::crossing_between(data.field, P::select(leaves, at + row.step, Triple{}),
-                                                     P::select(leaves, at, Triple{}), level);
-        way = leaves ? way + rest.template part<11>(picture::kPlaces - surface.part) : way;
-        exit = surface.at;
-      }
-      rest.walk(within, at, way);
-      way = V{};
-      if (L::any(leaves)) rest.surface(leaves, exit, V{});
-      arrived = arrived | ends;
-      within = within & ~ends & ~rest.dark();
-      searching = within & leaves;
-      within = within & ~leaves;
-      k = searching ? k + 1 : k;
+  // A stretch of the rays within matter, up to where they leave it or come to the ground.
+  [[gnu::always_inline]] static inline void go_on(Rest& rest, const Ground& ground, Walk& walk) {
+    const PictureData& data = rest.data;
+    const Row& row = rest.row;
+    const int stretch = 1 << data.spacing;
+    V leaves{}, going = walk.within;
+    for (int i = 0; i < stretch; ++i) {
+      going = going & (walk.k < walk.last);
+      if (!L::any(going)) break;
+      const Triple next = P::select(going, walk.at + row.step, Triple{});
+      const V here = Field::sample(data.field, next), air = going & (here < 0);
+      leaves = leaves | air;
+      going = going & ~air;
+      walk.k = walk.k - going;
+      walk.way = going ? walk.way + rest.step : walk.way;
+      walk.level = going ? here : walk.level;
+      walk.at = P::select(going, next, walk.at);
     }
+    const V ends = walk.within & ~leaves & (walk.k == walk.last);
+    walk.way = ends ? walk.way + rest.template part<8>(ground.part & (picture::kParts - 1)) : walk.way;
+    Triple exit{};
+    if (L::any(leaves)) {
+      const auto surface =
+          Field::crossing_between(data.field, P::select(leaves, walk.at + row.step, Triple{}),
+                                  P::select(leaves, walk.at, Triple{}), walk.level);
+      walk.way = leaves ? walk.way + rest.template part<11>(picture::kPlaces - surface.part) : walk.way;
+      exit = surface.at;
+    }
+    rest.walk(walk.within, walk.at, walk.way);
+    walk.way = V{};
+    if (L::any(leaves)) rest.surface(leaves, exit, V{});
+    walk.arrived = walk.arrived | ends;
+    walk.within = walk.within & ~ends & ~rest.dark();
+    walk.searching = walk.within & leaves;
+    walk.within = walk.within & ~leaves;
+    walk.k = walk.searching ? walk.k + 1 : walk.k;
   }
 };
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "render/packet/plain_packet.h"
@@ -137,6 +138,94 @@ class Differing {
   std::uint8_t far_[3 * kTile] = {};
 };
 
+// A picture that is drawn tile by tile, on some threads.
+class TiledPicture {
+ public:
+  TiledPicture(const PictureData& data, const Packets& packets, int threads, const Stop& stop)
+      : data_(data),
+        packets_(packets),
+        threads_(threads),
+        stop_(stop),
+        areas_(data),
+        across_((data.width + kTile - 1) / kTile),
+        tiles_(across_ * ((data.height + kTile - 1) / kTile)),
+        image_(data.width, data.height, {background(0), background(1), background(2)}) {}
+
+  // One sample a pixel. Packets are small squares, whose rays run together.
+  void draw_middles() {
+    const int side = packets_.lanes >= 16 ? 4 : packets_.lanes >= 4 ? 2 : 1, wide = packets_.lanes / side;
+    for_tiles(tiles_, threads_, stop_, [&](int index, Samples& samples) {
+      const Tile tile = tile_at(index);
+      PictureData of_tile;
+      if (!areas_.in(index, tile, of_tile)) return;
+      std::array<std::uint16_t, kTile * kTile> pixel;
+      samples.clear();
+      for (int y = tile.y0; y < tile.y1; y += side)
+        for (int x = tile.x0; x < tile.x1; x += wide)
+          for (int j = y; j < std::min(y + side, tile.y1); ++j)
+            for (int i = x; i < std::min(x + wide, tile.x1); ++i) {
+              pixel[samples.count()] = place_in(tile, i, j);
+              samples.add(i * picture::kPixel + picture::kMiddle[0].across,
+                          j * picture::kPixel + picture::kMiddle[0].down);
+            }
+      samples.draw(of_tile, packets_);
+      for (std::size_t i = 0; i < samples.count(); ++i)
+        pixel_at(tile, pixel[i]) = samples.mean<1>(*data_.bytes, i);
+    });
+  }
+
+  // More samples for the pixels that differ from a neighbour.
+  template <std::size_t kCount>
+  void refine(int difference, const std::array<picture::Sub, kCount>& pattern) {
+    const Image before = image_;
+    for_tiles(tiles_, threads_, stop_, [&](int index, Samples& samples) {
+      const Tile tile = tile_at(index);
+      std::array<std::uint16_t, kTile * kTile> pixel;
+      std::size_t pixels = 0;
+      samples.clear();
+      for (int y = tile.y0; y < tile.y1; ++y) {
+        const Differing differing(before, tile, y, difference);
+        for (int x = tile.x0; x < tile.x1; ++x) {
+          if (!differing(x - tile.x0)) continue;
+          pixel[pixels++] = place_in(tile, x, y);
+          for (const picture::Sub& sub : pattern)
+            samples.add(x * picture::kPixel + sub.across, y * picture::kPixel + sub.down);
+        }
+      }
+      PictureData of_tile;
+      if (pixels == 0 || !areas_.in(index, tile, of_tile)) return;
+      samples.draw(of_tile, packets_);
+      for (std::size_t i = 0; i < pixels; ++i)
+        pixel_at(tile, pixel[i]) = samples.mean<kCount>(*data_.bytes, i * kCount);
+    });
+  }
+
+  Image take() { return std::move(image_); }
+
+ private:
+  std::uint8_t background(std::size_t c) const {
+    return (*data_.bytes)[static_cast<std::size_t>(data_.background[c])];
+  }
+  Tile tile_at(int tile) const {
+    const int x = tile % across_ * kTile, y = tile / across_ * kTile;
+    return {x, y, std::min(x + kTile, data_.width), std::min(y + kTile, data_.height)};
+  }
+  static std::uint16_t place_in(const Tile& tile, int x, int y) {
+    return static_cast<std::uint16_t>((y - tile.y0) * kTile + (x - tile.x0));
+  }
+  Rgb& pixel_at(const Tile& tile, std::uint16_t place) {
+    return image_.at(tile.x0 + place % kTile, tile.y0 + place / kTile);
+  }
+
+  const PictureData& data_;
+  const Packets& packets_;
+  const int threads_;
+  const Stop& stop_;
+  const Areas areas_;
+  const int across_, tiles_;
+  Image image_;
+};
+
 }  // namespace
 
 const Packets& packets_of(cpu::InstructionSet wanted) {
@@ -176,71 +265,11 @@ bool fits_lanes(const PictureData& data) {
 
 Image draw_picture(const PictureData& data, Setting setting, const Packets& wanted, int threads,
                    const Stop& stop) {
-  const Packets& packets = fits_lanes(data) ? wanted : plain_packets();
-  const int width = data.width, height = data.height;
-  const int across = (width + kTile - 1) / kTile, tiles = across * ((height + kTile - 1) / kTile);
-  const auto tile_at = [&](int tile) {
-    const int x = tile % across * kTile, y = tile / across * kTile;
-    return Tile{x, y, std::min(x + kTile, width), std::min(y + kTile, height)};
-  };
-  const auto byte = [&](std::size_t c) {
-    return (*data.bytes)[static_cast<std::size_t>(data.background[c])];
-  };
-  Image image(width, height, {byte(0), byte(1), byte(2)});
-  const Areas areas(data);
-
-  // Packets are small squares, whose rays run together.
-  const int side = packets.lanes >= 16 ? 4 : packets.lanes >= 4 ? 2 : 1, wide = packets.lanes / side;
-  for_tiles(tiles, threads, stop, [&](int index, Samples& samples) {
-    const Tile tile = tile_at(index);
-    PictureData of_tile;
-    if (!areas.in(index, tile, of_tile)) return;
-    std::array<std::uint16_t, kTile * kTile> pixel;
-    samples.clear();
-    for (int y = tile.y0; y < tile.y1; y += side)
-      for (int x = tile.x0; x < tile.x1; x += wide)
-        for (int j = y; j < std::min(y + side, tile.y1); ++j)
-          for (int i = x; i < std::min(x + wide, tile.x1); ++i) {
-            pixel[samples.count()] = static_cast<std::uint16_t>((j - tile.y0) * kTile + (i - tile.x0));
-            samples.add(i * picture::kPixel + picture::kMiddle[0].across,
-                        j * picture::kPixel + picture::kMiddle[0].down);
-          }
-    samples.draw(of_tile, packets);
-    for (std::size_t i = 0; i < samples.count(); ++i)
-      image.at(tile.x0 + pixel[i] % kTile, tile.y0 + pixel[i] / kTile) = samples.mean<1>(*data.bytes, i);
-  });
-  if (setting == Setting::fast) return image;
-
-  const auto refine = [&]<std::size_t kCount>(int difference,
-                                              const std::array<picture::Sub, kCount>& pattern) {
-    const Image before = image;
-    for_tiles(tiles, threads, stop, [&](int index, Samples& samples) {
-      const Tile tile = tile_at(index);
-      std::array<std::uint16_t, kTile * kTile> pixel;
-      std::size_t pixels = 0;
-      samples.clear();
-      for (int y = tile.y0; y < tile.y1; ++y) {
-        const Differing differing(before, tile, y, difference);
-        for (int x = tile.x0; x < tile.x1; ++x) {
-          if (!differing(x - tile.x0)) continue;
-          pixel[pixels++] = static_cast<std::uint16_t>((y - tile.y0) * kTile + (x - tile.x0));
-          for (const picture::Sub& sub : pattern)
-            samples.add(x * picture::kPixel + sub.across, y * picture::kPixel + sub.down);
-        }
-      }
-      PictureData of_tile;
-      if (pixels == 0 || !areas.in(index, tile, of_tile)) return;
-      samples.draw(of_tile, packets);
-      for (std::size_t i = 0; i < pixels; ++i)
-        image.at(tile.x0 + pixel[i] % kTile, tile.y0 + pixel[i] / kTile) =
-            samples.mean<kCount>(*data.bytes, i * kCount);
-    });
-  };
-  if (setting == Setting::best)
-    refine(picture::kFineDifference, picture::kThirtyTwo);
-  else
-    refine(picture::kDifference, picture::kEight);
-  return image;
+  TiledPicture picture(data, fits_lanes(data) ? wanted : plain_packets(), threads, stop);
+  picture.draw_middles();
+  if (setting == Setting::normal) picture.refine(picture::kDifference, picture::kEight);
+  if (setting == Setting::best) picture.refine(picture::kFineDifference, picture::kThirtyTwo);
+  return picture.take();
 }
 
 }  // namespace voxmelt::render

@@ -86,41 +86,59 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
                          const BrickLoops& loops) {
   const bool all = changed == nullptr || grid_.x != field.grid().x || grid_.y != field.grid().y ||
                    grid_.z != field.grid().z;
+  if (!all && changed->empty()) return;
   if (all) {
     resize(field.grid());
     mixed_.assign(field.bricks().cells(), 0);
   }
-  const state::Grid& of = field.bricks();
-  std::vector<std::uint8_t> stale(of.cells(), all ? kWhole : 0), touched(slots_.size(), all ? 1 : 0);
-  if (!all) {
-    if (changed->empty()) return;
-    // With the pre-filter, a cell of the field changes the levels of those around it.
-    std::vector<BrickPart> parts(of.cells());
-    const auto spread = [&](std::uint32_t brick, const BrickPart& part, int reach) {
-      for_reached(of, place_in(of, brick), part, reach, [&](const state::Grid& near, const BrickPart& in) {
-        parts[of.index(near.x, near.y, near.z)].add(in);
-      });
-    };
-    for (const std::uint32_t brick : *changed) {
-      spread(brick, field.refreshed_part(brick).matter, 1);
-      spread(brick, field.refreshed_part(brick).heat, 0);
-    }
-    for (std::size_t brick = 0; brick < stale.size(); ++brick) {
-      const BrickPart& part = parts[brick];
-      if (!part.any()) continue;
-      stale[brick] = 1;
-      const state::Grid at = place_in(of, brick);
-      const auto next = [](std::uint8_t planes) { return (planes & kLastPlanes) != 0 ? 1 : 0; };
-      for_near(bricks_, at, {next(part.x), next(part.y), next(part.z)},
-               [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
-    }
-  }
+  Stale stale{std::vector<std::uint8_t>(field.bricks().cells(), all ? kWhole : 0),
+              std::vector<std::uint8_t>(slots_.size(), all ? 1 : 0)};
+  if (!all) find_stale(field, *changed, stale);
 
-  // What is nothing but air needs no slot. A new one is filled whole.
-  std::vector<std::size_t> bricks;
   bool moved = all;
-  for (std::size_t brick = 0; brick < touched.size(); ++brick) {
-    if (touched[brick] == 0) continue;
+  const std::vector<std::size_t> bricks = give_slots(field, stale, moved);
+  fill_all(field, look, stale, workers, loops);
+  std::vector<std::uint8_t> others(bricks.size());
+  workers.run(static_cast<int>(bricks.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    others[at] = stale.touched[bricks[at]] != 0 && find_ranges(bricks[at], loops) ? 1 : 0;
+  });
+  if (!moved && std::find(others.begin(), others.end(), 1) == others.end()) return;
+  find_distances();
+  find_box();
+  find_shell();
+}
+
+// With the pre-filter, a cell of the field changes the levels of those around it.
+void FieldBricks::find_stale(const DensityField& field, const std::vector<std::uint32_t>& changed,
+                             Stale& stale) const {
+  const state::Grid& of = field.bricks();
+  std::vector<BrickPart> parts(of.cells());
+  const auto spread = [&](std::uint32_t brick, const BrickPart& part, int reach) {
+    for_reached(of, place_in(of, brick), part, reach, [&](const state::Grid& near, const BrickPart& in) {
+      parts[of.index(near.x, near.y, near.z)].add(in);
+    });
+  };
+  for (const std::uint32_t brick : changed) {
+    spread(brick, field.refreshed_part(brick).matter, 1);
+    spread(brick, field.refreshed_part(brick).heat, 0);
+  }
+  for (std::size_t brick = 0; brick < stale.source.size(); ++brick) {
+    const BrickPart& part = parts[brick];
+    if (!part.any()) continue;
+    stale.source[brick] = 1;
+    const auto next = [](std::uint8_t planes) { return (planes & kLastPlanes) != 0 ? 1 : 0; };
+    for_near(bricks_, place_in(of, brick), {next(part.x), next(part.y), next(part.z)},
+             [&](const state::Grid& b) { stale.touched[bricks_.index(b.x, b.y, b.z)] = 1; });
+  }
+}
+
+// What is nothing but air needs no slot. A new one is filled whole.
+std::vector<std::size_t> FieldBricks::give_slots(const DensityField& field, Stale& stale, bool& moved) {
+  const state::Grid& of = field.bricks();
+  std::vector<std::size_t> bricks;
+  for (std::size_t brick = 0; brick < stale.touched.size(); ++brick) {
+    if (stale.touched[brick] == 0) continue;
     const state::Grid at = place_in(bricks_, brick);
     std::int32_t& slot = slots_[brick];
     if (!anything_near(field, at)) {
@@ -131,41 +149,35 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
     }
     if (slot == 0) {
       slot = take();
-      std::fill_n(levels_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces),
-                  kPlaces, picture::kAir);
-      std::fill_n(matter_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces),
-                  kPlaces, 0);
-      for_near(of, at, -1, 0, [&](const state::Grid& b) { stale[of.index(b.x, b.y, b.z)] = kWhole; });
+      const auto first = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces);
+      std::fill_n(levels_.begin() + first, kPlaces, picture::kAir);
+      std::fill_n(matter_.begin() + first, kPlaces, 0);
+      for_near(of, at, -1, 0, [&](const state::Grid& b) { stale.source[of.index(b.x, b.y, b.z)] = kWhole; });
     }
     bricks.push_back(brick);
   }
-  std::vector<std::size_t> sources;
-  for (std::size_t brick = 0; brick < stale.size(); ++brick)
-    if (stale[brick] != 0) sources.push_back(brick);
+  return bricks;
+}
 
+void FieldBricks::fill_all(const DensityField& field, const picture::Look& look, Stale& stale,
+                           cpu::Workers& workers, const BrickLoops& loops) {
   const auto heats = look.glow ? heats_of(look) : std::array<std::uint8_t, 257>{};
   const MatterSource matter{field.solid().data(), field.liquid().data(),
                             look.glow ? field.heat().data() : nullptr,
                             field.has_obstacles() ? field.obstacle().data() : nullptr, heats.data()};
-  std::fill(touched.begin(), touched.end(), 0);
+  std::vector<std::size_t> sources;
+  for (std::size_t brick = 0; brick < stale.source.size(); ++brick)
+    if (stale.source[brick] != 0) sources.push_back(brick);
   std::vector<std::uint8_t> filled(sources.size());
   workers.run(static_cast<int>(sources.size()), [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    filled[at] = fill(field, matter, sources[at], stale[sources[at]] == kWhole, loops) ? 1 : 0;
+    filled[at] = fill(field, matter, sources[at], stale.source[sources[at]] == kWhole, loops) ? 1 : 0;
   });
+  std::fill(stale.touched.begin(), stale.touched.end(), 0);
   for (std::size_t i = 0; i < sources.size(); ++i)
     if (filled[i] != 0)
-      for_near(bricks_, place_in(of, sources[i]), 0, 1,
-               [&](const state::Grid& b) { touched[bricks_.index(b.x, b.y, b.z)] = 1; });
-  std::vector<std::uint8_t> others(bricks.size());
-  workers.run(static_cast<int>(bricks.size()), [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    others[at] = touched[bricks[at]] != 0 && find_ranges(bricks[at], loops) ? 1 : 0;
-  });
-  if (!moved && std::find(others.begin(), others.end(), 1) == others.end()) return;
-  find_distances();
-  find_box();
-  find_shell();
+      for_near(bricks_, place_in(field.bricks(), sources[i]), 0, 1,
+               [&](const state::Grid& b) { stale.touched[bricks_.index(b.x, b.y, b.z)] = 1; });
 }
 
 std::int32_t FieldBricks::take() {

@@ -59,6 +59,17 @@ class FieldBricks {
   std::size_t bytes() const;
 
  private:
+  // What an update must do.
+  struct Stale {
+    std::vector<std::uint8_t> source;   // bricks of the field that have changed, or are wanted whole
+    std::vector<std::uint8_t> touched;  // bricks of places that may change; after fill_all, those that did
+  };
+  void find_stale(const DensityField& field, const std::vector<std::uint32_t>& changed, Stale& stale) const;
+  // Returns the touched bricks that have a slot. `moved` becomes true where a block has lost its matter.
+  std::vector<std::size_t> give_slots(const DensityField& field, Stale& stale, bool& moved);
+  void fill_all(const DensityField& field, const picture::Look& look, Stale& stale, cpu::Workers& workers,
+                const BrickLoops& loops);
+
   void resize(const state::Grid& grid);
   std::int32_t take();
   void give_back(std::int32_t& slot);

@@ -141,29 +141,41 @@ VOXMELT_RULE std::int32_t obstacle_share(Matter matter) {
   return std::clamp((matter.obstacle - 148) * 73, 0, kLight);
 }
 
+// What a surface is made of, and what it sends by itself.
+struct Substance {
+  Material material;
+  Color emission{};
+};
+template <class Watch = Silent>
+VOXMELT_RULE Substance substance_of(const Paint& paint, Matter matter, std::int32_t obstacle,
+                                    Watch watch = {}) {
+  const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);  // 255 is kLight - 1
+  Substance of{mixed(paint.solid, paint.liquid, liquid)};
+  if (paint.glow) {
+    const auto heat = static_cast<std::size_t>(matter.heat);
+    for (std::size_t c = 0; c < 3; ++c) {
+      of.material.diffuse[c] += (paint.glow_colors.crust[heat][c] * liquid) >> kLightBits;
+      of.emission[c] =
+          (((paint.glow_colors.light[heat][c] * liquid) >> kLightBits) * (kLight - obstacle)) >> kLightBits;
+    }
+  }
+  of.material = mixed(of.material, paint.obstacle, obstacle);
+  watch(Stage::material, "l", liquid), watch(Stage::material, "w", obstacle);
+  watch(Stage::material, "diffuse", of.material.diffuse),
+      watch(Stage::material, "mirror", of.material.mirror);
+  watch(Stage::material, "highlight", of.material.highlight),
+      watch(Stage::material, "gloss", of.material.gloss);
+  watch(Stage::material, "emission", of.emission);
+  return of;
+}
+
 // Towards the eye. `to_eye` has kLength. `normal` is on the eye's side, and `out` points out of the matter:
 // they are opposite where the eye looks at a surface from within.
 template <class Watch = Silent>
 VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector out, Vector to_eye, const Light& light,
                             Matter matter, Watch watch = {}) {
-  const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);  // 255 is kLight - 1
   const std::int32_t obstacle = obstacle_share(matter);
-  Material material = mixed(paint.solid, paint.liquid, liquid);
-  Color emission{};
-  if (paint.glow) {
-    const auto heat = static_cast<std::size_t>(matter.heat);
-    for (std::size_t c = 0; c < 3; ++c) {
-      material.diffuse[c] += (paint.glow_colors.crust[heat][c] * liquid) >> kLightBits;
-      emission[c] =
-          (((paint.glow_colors.light[heat][c] * liquid) >> kLightBits) * (kLight - obstacle)) >> kLightBits;
-    }
-  }
-  material = mixed(material, paint.obstacle, obstacle);
-  watch(Stage::material, "l", liquid), watch(Stage::material, "w", obstacle);
-  watch(Stage::material, "diffuse", material.diffuse), watch(Stage::material, "mirror", material.mirror);
-  watch(Stage::material, "highlight", material.highlight), watch(Stage::material, "gloss", material.gloss);
-  watch(Stage::material, "emission", emission);
-
+  const auto [material, emission] = substance_of(paint, matter, obstacle, watch);
   const Color arrives = arriving(paint, out, light, paint.glow && obstacle > 0, watch);
   const std::int32_t lamp = light.lamp + (light.lamp >> 7);
   const std::int32_t facing = cosine(normal, paint.to_light);
