@@ -1,3 +1,4 @@
+#include <utility>
 #include <vector>
 
 #include "accuracy/books.h"
@@ -12,8 +13,12 @@
 
 namespace voxmelt::accuracy {
 
-const std::vector<Case>& all_cases() {
-  static const std::vector<Case> cases{
+namespace {
+
+using Cases = std::vector<Case>;
+
+Cases arithmetic() {
+  return {
       {"books", "Arithmetic", "Mass, heat and energy balance to the unit",
        "The scenes proving_ground, in which every rule acts, under both laws.", measure_books},
       {"implementations", "Arithmetic", "Every implementation gives the reference's bits",
@@ -23,6 +28,11 @@ const std::vector<Case>& all_cases() {
        "Three still pools, one of which is shallow enough. The counters of report.json beside a count by "
        "hand.",
        measure_limit},
+  };
+}
+
+Cases heat() {
+  return {
       {"heat_kernel", "Heat", "A Gaussian of heat widens: its second moment grows by 6 D per step",
        "Eq. 1 with 6, 18 and 26 neighbours against the heat kernel. The Gaussian starts with sigma 6 and a "
        "peak "
@@ -42,6 +52,11 @@ const std::vector<Case>& all_cases() {
        "Above gamma 0.39, with 6 neighbours, hot and cold cells change places in each step and keep more "
        "than half of their difference. A scene that is refused or warned of counts as 0.",
        measure_checkerboard},
+  };
+}
+
+Cases light() {
+  return {
       {"lit_plane", "Light", "A plane under a far source takes up the cosine of the angle",
        "A plane of 65 x 65 cells, the source 2,000 cells away. The middle 21 x 21 columns are measured.",
        measure_lit_plane},
@@ -55,6 +70,11 @@ const std::vector<Case>& all_cases() {
        "rays "
        "to a face it may be wrong by 1/(2 m) of a cell, and the gate leaves 0.05 more.",
        measure_shadow_edge},
+  };
+}
+
+Cases spreading() {
+  return {
       {"huppert", "Spreading", "A drop spreads as t^(1/8): depth 10 to 2",
        "A drop of constant volume on a plane, kappa 0.02, that starts on Huppert's similarity profile with "
        "radius 20. "
@@ -80,6 +100,11 @@ const std::vector<Case>& all_cases() {
        "A disc of radius 12 and depth 4 under both laws. The paper's law is no viscous liquid: its exponent "
        "is reported.",
        measure_drop_shape},
+  };
+}
+
+Cases slopes() {
+  return {
       {"nusselt", "Slopes", "A film on a plane carries Nusselt's flux",
        "Kappa 0.1. The flux through the middle of the plane is counted over 256 steps.", measure_nusselt},
       {"stairs", "Slopes", "The same on steps of whole cells",
@@ -89,6 +114,11 @@ const std::vector<Case>& all_cases() {
        "over that of "
        "h, whatever its shape.",
        measure_blob},
+  };
+}
+
+Cases levels() {
+  return {
       {"tubes", "Levels", "Communicating vessels level: the scene lesson_tubes",
        "600 cells of liquid. Both shafts should stand at 52/9: under the roof of the tunnel a column that is "
        "overfull by o has a head 8 o above the ceiling. An incompressible liquid would stand at 6 cells.",
@@ -109,6 +139,11 @@ const std::vector<Case>& all_cases() {
        "Cells that hold too little or too much become full ones. Each should have the heat of the parts of "
        "the column that it takes. Each part is 0.014 of the range hotter than the one below.",
        measure_layers},
+  };
+}
+
+Cases convergence() {
+  return {
       {"melted_ball", "Convergence", "A melted ball of 32, 64 and 128 cells spreads alike",
        "A ball of liquid falls apart under its weight. Physical time and viscosity are fixed, steps are as "
        "many times "
@@ -120,6 +155,17 @@ const std::vector<Case>& all_cases() {
       {"convergence_step", "Convergence", "A melting ball in shorter steps",
        "The grid of 32 cells, with steps a half and a quarter as long.", measure_convergence_in_step},
   };
+}
+
+}  // namespace
+
+const std::vector<Case>& all_cases() {
+  static const Cases cases = [] {
+    Cases all;
+    for (Cases (*chapter)() : {arithmetic, heat, light, spreading, slopes, levels, convergence})
+      for (Case& one : chapter()) all.push_back(std::move(one));
+    return all;
+  }();
   return cases;
 }
 

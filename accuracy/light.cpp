@@ -170,6 +170,19 @@ Outcome measure_lit_plane(const Conditions& conditions) {
   return outcome;
 }
 
+namespace {
+
+// Of the ball's cells, over that of the ball.
+std::vector<double> silhouettes_of_cells(const std::vector<Source>& sources, double of_ball) {
+  const state::Volume cells = cells_of_ball();
+  std::vector<double> silhouettes;
+  silhouettes.reserve(sources.size());
+  for (const Source& source : sources) silhouettes.push_back(solid_angle(cells, source.at) / of_ball);
+  return silhouettes;
+}
+
+}  // namespace
+
 // A ball of radius 20, the source 50 radii away: three directions by name, and 100 on a spiral over the
 // sphere. A ball of cells has the symmetry of the grid, under which no two of the 100 are alike.
 Outcome measure_lit_ball(const Conditions& conditions) {
@@ -193,10 +206,7 @@ Outcome measure_lit_ball(const Conditions& conditions) {
 
   std::vector<Source> sources;
   for (const Direction& d : spiral(100)) sources.push_back(far_source(kBallMiddle, d, kBallDistance));
-  const state::Volume cells = cells_of_ball();
-  std::vector<double> silhouettes;  // over that of the ball
-  silhouettes.reserve(sources.size());
-  for (const Source& source : sources) silhouettes.push_back(solid_angle(cells, source.at) / exact);
+  const std::vector<double> silhouettes = silhouettes_of_cells(sources, exact);
 
   struct Setting {
     int rays;

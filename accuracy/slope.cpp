@@ -112,10 +112,32 @@ Outcome measure_stairs(const Conditions& conditions) {
   return outcome;
 }
 
+namespace {
+
+constexpr double kBlobKappa = 0.1;
+
+// A paraboloid in the middle of a plane that falls by so much per cell along x and z.
+Trial blob_on_plane(const Conditions& conditions, double fall_x, double fall_z) {
+  constexpr int kHalf = 32;
+  constexpr double kDepth = 1.6, kRadius = 12;
+  const int high = static_cast<int>(std::ceil(kHalf * (fall_x + fall_z) * 2)) + 1;
+  return Trial(conditions, "flow",
+               {fmt::format("grid.size=[{0},{1},{0}]", 2 * kHalf + 1, high + 5),
+                fmt::format("flow.viscous.kappa={}", kBlobKappa)},
+               [&](state::Volume& v) {
+                 for (int z = 0; z <= 2 * kHalf; ++z)
+                   for (int x = 0; x <= 2 * kHalf; ++x) {
+                     const double r2 = (x - kHalf) * (x - kHalf) + (z - kHalf) * (z - kHalf);
+                     put_bed(v, x, z, 1 + fall_x * (2 * kHalf - x) + fall_z * (2 * kHalf - z),
+                             kDepth * (1 - r2 / (kRadius * kRadius)), Bed::smooth);
+                   }
+               });
+}
+
+}  // namespace
+
 // The centre of mass of any shape of liquid moves by kappa / 3 x nusselt(slope) x sum h^3 / sum h per step.
 Outcome measure_blob(const Conditions& conditions) {
-  constexpr int kHalf = 32;
-  constexpr double kKappa = 0.1, kDepth = 1.6, kRadius = 12;
   constexpr std::uint32_t kSample = 16;
   Outcome outcome;
   Chart chart{.title = "Error of the way of a blob down a plane",
@@ -124,23 +146,12 @@ Outcome measure_blob(const Conditions& conditions) {
               .band = 5};
   for (const double slope : {0.1, 0.25, 0.5})
     for (const double angle : {0., 22.5, 45.}) {
-      const double a = angle * std::numbers::pi / 180, sx = slope * std::cos(a), sz = slope * std::sin(a);
-      const int high = static_cast<int>(std::ceil(kHalf * (sx + sz) * 2)) + 1;
-      Trial trial(conditions, "flow",
-                  {fmt::format("grid.size=[{0},{1},{0}]", 2 * kHalf + 1, high + 5),
-                   fmt::format("flow.viscous.kappa={}", kKappa)},
-                  [&](state::Volume& v) {
-                    for (int z = 0; z <= 2 * kHalf; ++z)
-                      for (int x = 0; x <= 2 * kHalf; ++x) {
-                        const double r2 = (x - kHalf) * (x - kHalf) + (z - kHalf) * (z - kHalf);
-                        put_bed(v, x, z, 1 + sx * (2 * kHalf - x) + sz * (2 * kHalf - z),
-                                kDepth * (1 - r2 / (kRadius * kRadius)), Bed::smooth);
-                      }
-                  });
+      const double a = angle * std::numbers::pi / 180;
+      Trial trial = blob_on_plane(conditions, slope * std::cos(a), slope * std::sin(a));
       const auto rate = [&](const Columns& c) {
         double sum = 0, cubes = 0;
         for (const double h : c.depth) sum += h, cubes += h * h * h;
-        return kKappa / 3 * nusselt(slope) * cubes / sum;
+        return kBlobKappa / 3 * nusselt(slope) * cubes / sum;
       };
       Columns columns(trial.volume());
       const Moments start = moments(columns);

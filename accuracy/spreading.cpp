@@ -190,10 +190,25 @@ Outcome measure_thin_film(const Conditions& conditions) {
   return outcome;
 }
 
+namespace {
+
+// A vent of radius 3 that gives `flux` cells per step, on a plane as wide as the liquid will be at `steps`.
+Trial vent_on_plane(const Conditions& conditions, double kappa, double flux, std::uint32_t steps) {
+  constexpr double kVentCells = 76;  // with their centre within the radius
+  const int half = static_cast<int>(1.12 * FedCurrent{kappa, flux}.front(steps)) + 4;
+  return Trial(
+      conditions, "vent",
+      {fmt::format("grid.size=[{0},{1},{0}]", 2 * half + 1, 22),
+       fmt::format("vent.0.at=[{0},0.5,{0}]", half + 0.5), fmt::format("vent.0.rate={}", flux / kVentCells),
+       fmt::format("flow.viscous.kappa={}", kappa)});
+}
+
+}  // namespace
+
 // A vent of radius 3 that gives 5 cells per step. In the second moment its width cancels: what it brings to
 // it from the start is what it takes away from the depth above the vent (Green's theorem on h^4 and r^2).
 Outcome measure_flux_vent(const Conditions& conditions) {
-  constexpr double kFlux = 5, kWet = 1.0 / 256, kVentCells = 76;  // with their centre within the radius
+  constexpr double kWet = 1.0 / 256;
   Outcome outcome;
   Chart errors{.title = "Errors of the radii of what a vent feeds",
                .x_label = "step",
@@ -201,12 +216,7 @@ Outcome measure_flux_vent(const Conditions& conditions) {
                .logarithmic_x = true,
                .band = 1};
   for (const double kappa : {0.02, 0.2}) {
-    const int half = static_cast<int>(1.12 * FedCurrent{kappa, kFlux}.front(3200)) + 4;
-    Trial trial(
-        conditions, "vent",
-        {fmt::format("grid.size=[{0},{1},{0}]", 2 * half + 1, 22),
-         fmt::format("vent.0.at=[{0},0.5,{0}]", half + 0.5),
-         fmt::format("vent.0.rate={}", kFlux / kVentCells), fmt::format("flow.viscous.kappa={}", kappa)});
+    Trial trial = vent_on_plane(conditions, kappa, 5, 3200);
     const std::string setting = fmt::format("kappa {:g}", kappa);
     struct Radius {
       const char* name;

@@ -97,6 +97,21 @@ std::vector<std::string> film_scenes(bool quick) {
                : std::vector<std::string>{"cello", "goblet", "lava"};
 }
 
+// The report, and into `out`, unless it is null, tables and plot.
+void write_findings(const BenchOptions& options, const measure::Findings& findings, io::OutputFolder* out) {
+  const std::string report = measure::bench_json(findings, version_text());
+  write_report(options.common, report);
+  if (out == nullptr) return;
+  io::write_file(out->partial() / "bench.json", report);
+  io::write_file(
+      out->partial() / "performance_tables.md",
+      measure::short_tables(findings) + measure::full_tables(findings) + measure::picture_tables(findings));
+  if (options.wants("automaton"))
+    io::write_file(out->partial() / "roofline.svg", measure::roofline_svg(findings));
+  out->commit();
+  if (!options.common.quiet) fmt::print("tables, plot and report  {}/\n", seen_from_here(out->place()));
+}
+
 int run_bench(BenchOptions options) {
   std::optional<std::uint32_t> from;
   if (options.from && names_a_file(*options.from)) {
@@ -145,18 +160,7 @@ int run_bench(BenchOptions options) {
   if (!finer.empty()) print_finer_grids(suite.run_finer_grids(finer, from.value_or(0)));
   for (const scene::Scene& scene : films) print_film(suite.run_film(scene));
 
-  const measure::Findings findings = suite.take();
-  const std::string report = measure::bench_json(findings, version_text());
-  write_report(options.common, report);
-  if (out) {
-    io::write_file(out->partial() / "bench.json", report);
-    io::write_file(
-        out->partial() / "performance_tables.md",
-        measure::short_tables(findings) + measure::full_tables(findings) + measure::picture_tables(findings));
-    if (automaton) io::write_file(out->partial() / "roofline.svg", measure::roofline_svg(findings));
-    out->commit();
-    if (!options.common.quiet) fmt::print("tables, plot and report  {}/\n", seen_from_here(out->place()));
-  }
+  write_findings(options, suite.take(), out ? &*out : nullptr);
   return kDone;
 }
 

@@ -109,7 +109,8 @@ void check_is_folder(const std::string& file) {
           suffix));
 }
 
-int run_render(RenderOptions options) {
+// What the options ask for is possible; names that were left open are chosen.
+void settle_outputs(RenderOptions& options) {
   if (options.out.empty()) options.out = options.turntable > 0 ? "turntable" : "picture.png";
   if (options.turntable == 0)
     check_is_png("--out", options.out);
@@ -117,6 +118,9 @@ int run_render(RenderOptions options) {
     check_is_folder(options.out);
   check_is_png("--depth", options.depth);
   check_is_png("--normals", options.normals);
+}
+
+scene::Scene load_view(const RenderOptions& options) {
   scene::Scene scene = load_scene(options.common);
   keep_inputs(scene, {{"--out", options.out},
                       {"--depth", options.depth},
@@ -128,52 +132,66 @@ int run_render(RenderOptions options) {
   if (options.elevation) scene.camera.elevation = *options.elevation;
   if (options.turntable > 0 && !(options.depth.empty() && options.normals.empty()))
     throw UsageError("--turntable: error: --depth and --normals are of one picture");
+  return scene;
+}
+
+void run_to(run::Simulation& simulation, const RenderOptions& options) {
+  Progress progress(options.steps, options.common.quiet);
+  while (simulation.steps_done() < options.steps) {
+    simulation.step();
+    stop_if_interrupted();
+    progress.show(simulation.steps_done(), simulation.volume());
+  }
+}
+
+// Draws one picture, or a turntable, and then writes the report that `report()` gives.
+template <class Report>
+void write_pictures(const RenderOptions& options, const render::Picture& picture, scene::Camera camera,
+                    render::Setting setting, const Report& report) {
+  const auto draw = [&] { return picture.draw(camera, setting, thread_count(options.common)); };
+  if (options.turntable == 0) {
+    render::write_png(options.out, draw());
+    const std::string near = write_surface(options, picture, camera, setting);
+    write_report(options.common, report());
+    if (!options.common.quiet) fmt::print("written: {}\n{}", options.out, near);
+    return;
+  }
+  io::OutputFolder out(options.out);
+  for (int k = 0; k < options.turntable; ++k) {
+    stop_if_interrupted();
+    render::write_png(out.partial() / fmt::format("view_{:03d}.png", k), draw());
+    camera.azimuth += 360.0 / options.turntable;
+  }
+  write_report(options.common, report());
+  out.commit();
+  if (!options.common.quiet) fmt::print("{} views written to {}\n", options.turntable, options.out);
+}
+
+int run_render(RenderOptions options) {
+  settle_outputs(options);
+  scene::Scene scene = load_view(options);
   const Pixel traced = options.trace ? pixel_of(*options.trace, scene.camera) : Pixel{};
   check_report_place(options.common, options.turntable > 0 ? options.out : "");
   catch_interrupts();
 
   run::Simulation simulation = make_simulation(scene, options.common);
-  {
-    Progress progress(options.steps, options.common.quiet);
-    while (simulation.steps_done() < options.steps) {
-      simulation.step();
-      stop_if_interrupted();
-      progress.show(simulation.steps_done(), simulation.volume());
-    }
-  }
-  const int threads = thread_count(options.common);
+  run_to(simulation, options);
+  const auto report = [&] { return report_json(scene, options.common, simulation, {}); };
   const render::Setting setting = options.setting == "fast"   ? render::Setting::fast
                                   : options.setting == "best" ? render::Setting::best
                                                               : render::Setting::normal;
   if (options.trace) {
     render::print_trace(std::cout, simulation.volume(), scene.look, scene.light, scene.terrain, scene.camera,
                         setting, traced.x, traced.y);
-    write_report(options.common, report_json(scene, options.common, simulation, {}));
+    write_report(options.common, report());
     return kDone;
   }
   render::Picture picture;
   picture.stop_when(interrupted);
-  picture.update(simulation.volume(), scene.look, scene.light, scene.terrain, threads);
-  const auto draw = [&] { return picture.draw(scene.camera, setting, threads); };
+  picture.update(simulation.volume(), scene.look, scene.light, scene.terrain, thread_count(options.common));
   if (picture.camera_inside(scene.camera))
     warn(scene, options.common, {"the camera stands in matter or in the ground, and sees nothing else"});
-
-  if (options.turntable == 0) {
-    render::write_png(options.out, draw());
-    const std::string near = write_surface(options, picture, scene.camera, setting);
-    write_report(options.common, report_json(scene, options.common, simulation, {}));
-    if (!options.common.quiet) fmt::print("written: {}\n{}", options.out, near);
-    return kDone;
-  }
-  io::OutputFolder out(options.out);
-  for (int k = 0; k < options.turntable; ++k) {
-    stop_if_interrupted();
-    render::write_png(out.partial() / fmt::format("view_{:03d}.png", k), draw());
-    scene.camera.azimuth += 360.0 / options.turntable;
-  }
-  write_report(options.common, report_json(scene, options.common, simulation, {}));
-  out.commit();
-  if (!options.common.quiet) fmt::print("{} views written to {}\n", options.turntable, options.out);
+  write_pictures(options, picture, scene.camera, setting, report);
   return kDone;
 }
 

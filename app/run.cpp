@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -12,26 +11,18 @@
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "app/checkpoints.h"
 #include "app/commands.h"
 #include "app/film.h"
-#include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
-#include "app/progress.h"
-#include "app/report.h"
 #include "app/resume.h"
 #include "app/run_record.h"
-#include "app/shell_word.h"
+#include "app/run_to_end.h"
 #include "app/visibility.h"
-#include "app/watch.h"
-#include "kernel/automaton/state/digest.h"
-#include "kernel/run/io/checkpoint_files.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/opening/checkpoint_scene.h"
-#include "render/image/png.h"
 
 namespace voxmelt::app {
 namespace {
@@ -46,22 +37,14 @@ struct RunOptions {
   std::set<std::string> given;  // options on the command line, of those that a resumed run may change
 };
 
-// A run that can begin, or go on.
-struct Prepared {
-  scene::Scene scene;
-  checkpoint::SceneText text;
-  RunRecord record;
-  std::unique_ptr<io::OutputFolder> out;
-};
-
 std::string by_chance() {
   std::random_device device;
   return fmt::format("{:08x}{:08x}", device(), device());
 }
 
-Prepared prepare(const RunOptions& options) {
+PreparedRun prepare(const RunOptions& options) {
   const Common& common = options.common;
-  Prepared run{load_scene(common), {}, {}, nullptr};
+  PreparedRun run{load_scene(common), {}, {}, nullptr};
   scene::Scene& scene = run.scene;
   if (scene.mid_run)
     throw UsageError(fmt::format(
@@ -84,11 +67,11 @@ Prepared prepare(const RunOptions& options) {
 }
 
 // Nothing where the run is complete already.
-std::optional<Prepared> prepare_to_resume(const RunOptions& options) {
+std::optional<PreparedRun> prepare_to_resume(const RunOptions& options) {
   std::optional<Resumption> found = find_run(options.resume);
   if (!found) return std::nullopt;
-  Prepared run{std::move(found->scene), std::move(found->text), std::move(found->record),
-               std::move(found->folder)};
+  PreparedRun run{std::move(found->scene), std::move(found->text), std::move(found->record),
+                  std::move(found->folder)};
   RunRecord& record = run.record;
   if (!record.size.empty()) set_size(run.scene.camera, record.size);
   Common& common = record.common;
@@ -105,138 +88,11 @@ std::optional<Prepared> prepare_to_resume(const RunOptions& options) {
   return run;
 }
 
-// Does `work`; returns why the disk took no more, or nothing.
-template <class Work>
-std::string until_full(Work&& work) {
-  const auto full = [](const auto& error) {
-    if (!error.out_of_space()) throw error;
-    return std::string(error.what());
-  };
-  try {
-    work();
-    return {};
-  } catch (const io::OutputError& error) {
-    return full(error);
-  } catch (const render::ImageError& error) {
-    return full(error);
-  }
-}
-
-void print_outputs(const Film& film, const std::string& video_note, const std::string& place) {
-  fmt::print("{} frames      {}/frames/\ncontact sheet  {}/contact_sheet.png\n", film.frame_count(), place,
-             place);
-  fmt::print("film           {}\n", video_note.empty() ? place + "/film.mp4" : video_note);
-  fmt::print("report         {}/report.json\n", place);
-}
-
-RunSeconds sum_of(const RunSeconds& a, const RunSeconds& b) {
-  return {a.update + b.update, a.render + b.render, a.encode + b.encode, a.wait + b.wait, a.total + b.total};
-}
-
-// A run from where it is to its end.
-int run_on(Prepared run, std::chrono::steady_clock::time_point start) {
-  scene::Scene& scene = run.scene;
-  const RunRecord& record = run.record;
-  const Common& common = record.common;
-  io::OutputFolder& out = *run.out;
-  const std::uint32_t steps = record.steps;
-  const std::optional<Interval> interval = interval_of(record.checkpoint_every);
-  catch_interrupts();  // they end the run early; what was made until then is kept
-
-  const std::uint32_t begun_at = scene.mid_run ? scene.mid_run->steps_done : 0;
-  run::Simulation simulation = make_simulation(scene, common);
-  const std::size_t planned = frames_due_before(record, steps) + (frame_is_due(record, steps) ? 1 : 0);
-  std::optional<Film> film(std::in_place, scene, out.partial(), planned, thread_count(common));
-  film->keep(record.frame_steps);
-  Checkpoints checkpoints(out.partial(), scene, std::move(run.text), thread_count(common));
-  Watch watch(record.seen);
-  const auto seconds_now = [&] {
-    RunSeconds now = film->seconds();
-    now.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return sum_of(record.seconds, now);
-  };
-  const auto checkpoint = [&] {
-    film->settle();  // what threads have timed is known then
-    return checkpoints.write(record, *film, simulation, watch.seen(), seconds_now());
-  };
-  const auto show = [&](std::uint32_t step) {
-    if (film->is_slow() && checkpoints.affordable())
-      checkpoint();  // an interrupt may lose this frame: then the run goes on from here
-    film->add_frame(simulation.volume(), step);
-    watch.look(simulation.volume(), step);
-  };
-  std::string video_note;
-  bool resumable = true;
-  std::string full = until_full([&] {
-    if (interval && begun_at == 0) checkpoint();
-    if (frame_is_due(record, begun_at) && record.frame_steps.size() == frames_due_before(record, begun_at))
-      show(begun_at);
-    Progress progress(steps, common.quiet, begun_at);
-    while (simulation.steps_done() < steps && !interrupted()) {
-      simulation.step();
-      film->check();
-      const std::uint32_t done = simulation.steps_done();
-      if (done < steps && checkpoints.due(interval, done)) checkpoint();
-      if (frame_is_due(record, done)) show(done);
-      progress.show(done, simulation.volume());
-    }
-    if (simulation.steps_done() < steps) resumable = checkpoint() || io::holds_work(out.partial());
-    video_note = film->finish();
-  });
-  const bool complete = full.empty() && simulation.steps_done() == steps;
-  watch.look(simulation.volume(), simulation.steps_done());
-  std::vector<std::string> warnings = watch.warnings(simulation);
-  if (complete && steps > 0 && state::digest(simulation.volume()) == scene.initial_digest)
-    warnings.push_back(
-        fmt::format("nothing has changed in {} step{}: no liquid can move, and no heat comes to a solid",
-                    steps, steps == 1 ? "" : "s"));
-  warn(scene, common, warnings);
-
-  const std::string place = seen_from_here(out.place());
-  if (full.empty()) {
-    full = until_full([&] {
-      const std::string report = report_json(scene, common, simulation, seconds_now(), complete);
-      io::write_file(out.partial() / "report.json", report);
-      write_report(common, report);
-      out.commit();
-    });
-  }
-  if (!full.empty()) {
-    film.reset();  // nothing is written beside what follows
-    out.release_reserve();
-    io::write_file(out.partial() / "report.json",
-                   report_json(scene, common, simulation, RunSeconds{}, false));
-    const bool goes_on = io::holds_work(out.partial());
-    const std::string kept = seen_from_here(out.keep_incomplete());
-    say(fmt::format(
-        "{}; the run ended after step {} of {}, and what was made is kept in {}/{}", full,
-        simulation.steps_done(), steps, kept,
-        goes_on ? "; with more room, `voxmelt run --resume " + shell_word(place) + "` goes on" : ""));
-    return kOutOfResources;
-  }
-  if (complete) clear_after(out.place(), record.id);
-
-  if (!common.quiet) {
-    print_outputs(*film, video_note, place);
-    if (const std::string limit = limit_text(simulation.ledger().limit); !limit.empty())
-      fmt::print("note           {}\n", limit);
-  }
-  const std::string drift = drift_text(simulation.drift());
-  if (!drift.empty()) {
-    say("error: the ledgers do not balance: " + drift);
-    return kCheckFailed;
-  }
-  if (complete) return kDone;
-  say(fmt::format("interrupted after step {} of {}; what was made is kept{}", simulation.steps_done(), steps,
-                  resumable ? "; `voxmelt run --resume " + shell_word(place) + "` goes on" : ""));
-  return kInterrupted;
-}
-
 int run_scene(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  if (options.resume.empty()) return run_on(prepare(options), start);
-  std::optional<Prepared> run = prepare_to_resume(options);
-  if (run) return run_on(std::move(*run), start);
+  if (options.resume.empty()) return run_to_end(prepare(options), start);
+  std::optional<PreparedRun> run = prepare_to_resume(options);
+  if (run) return run_to_end(std::move(*run), start);
   if (!options.common.quiet) fmt::print("the run in {} is complete\n", options.resume);
   return kDone;
 }

@@ -128,51 +128,78 @@ std::string roofs(const Findings& findings, const Scale& scale) {
   return svg;
 }
 
-struct Mark {
-  double x, y;
+double rate_of(const Case& one) { return one.active_per_second() * one.work.operations(); }
+
+// Those on one thread with the widest instruction set.
+std::vector<const Case*> shown_cases(const Findings& findings) {
+  const std::string set = widest(findings);
+  std::vector<const Case*> shown;
+  for (const Case& one : findings.cases)
+    if (one.threads == 1 && one.roof && one.implementation == set) shown.push_back(&one);
+  return shown;
+}
+
+// Room for all rates, and for that of additions.
+Scale scale_of(const Findings& findings, const std::vector<const Case*>& shown) {
+  double low = 1e12, high = std::max(1e9, rates_of(findings, widest(findings)).add);
+  for (const Case* one : shown) low = std::min(low, rate_of(*one)), high = std::max(high, rate_of(*one));
+  low = std::pow(10, std::floor(std::log10(low * 0.9)));
+  return {low, high * 1.5};
+}
+
+// The marks of cases, with their numbers. No mark covers another.
+class Marks {
+ public:
+  explicit Marks(const Scale& scale) : scale_(scale) {}
+
+  void add(const Case& one, std::size_t number) {
+    const double x = scale_.x(std::clamp(one.work.operations() / one.work.bytes, kFewestOps, kMostOps));
+    const double y = scale_.y(rate_of(one)), best = free_place(x, y);
+    placed_.push_back({best, y});
+    if (best != x) leaders_ += line(x, y, best, y, "#777", 1);
+    marks_ += fmt::format(
+        "<g><title>{}: {:.0f} Mcells/s, {:.0f} % of its roof</title><circle cx=\"{:.1f}\" cy=\"{:.1f}\" "
+        "r=\"{}\" "
+        "fill=\"{}\"/>{}</g>\n",
+        one.name, one.active_per_second() / 1e6, *one.percent_of_roof(), best, y, kRadius, colour(one),
+        text(best, y + 4, "middle", 11, "#fff", std::to_string(number)));
+  }
+  std::string svg() const { return leaders_ + marks_; }
+
+ private:
+  struct Mark {
+    double x, y;
+  };
+  // Beside the marks that are there already, as near to its own place as possible.
+  double free_place(double x, double y) const {
+    double best = x;
+    for (int k = 0; k < 60; ++k) {
+      const int away = (k + 1) / 2;
+      best = x + (k % 2 ? 4.0 : -4.0) * away;
+      if (std::none_of(placed_.begin(), placed_.end(),
+                       [&](const Mark& m) { return std::hypot(m.x - best, m.y - y) < 2 * kRadius + 1; }))
+        break;
+    }
+    return best;
+  }
+
+  const Scale& scale_;
+  std::vector<Mark> placed_;
+  std::string leaders_, marks_;
 };
 
 }  // namespace
 
 std::string roofline_svg(const Findings& findings) {
-  const std::string set = widest(findings);
-  std::vector<const Case*> shown;
-  for (const Case& one : findings.cases)
-    if (one.threads == 1 && one.roof && one.implementation == set) shown.push_back(&one);
-  const auto rate = [](const Case& one) { return one.active_per_second() * one.work.operations(); };
-
-  double low = 1e12, high = std::max(1e9, rates_of(findings, set).add);
-  for (const Case* one : shown) low = std::min(low, rate(*one)), high = std::max(high, rate(*one));
-  low = std::pow(10, std::floor(std::log10(low * 0.9)));
-  const Scale scale{low, high * 1.5};
-
-  std::string key_text, leaders, marks;
-  std::vector<Mark> placed;
+  const std::vector<const Case*> shown = shown_cases(findings);
+  const Scale scale = scale_of(findings, shown);
+  Marks marks(scale);
+  std::string key_text;
   double key_y = kTop + 14;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    const Case* one = shown[i];
+  for (std::size_t i = 0; i < shown.size(); ++i, key_y += 17) {
     key_text += text(kKey, key_y, "start", 12, "#222",
-                     fmt::format("{}  {} {}", i + 1, name_of(one->subject), one->workload));
-    key_y += 17;
-    // The mark is placed beside those that are there already, as near to its own place as possible.
-    const double x = scale.x(std::clamp(one->work.operations() / one->work.bytes, kFewestOps, kMostOps));
-    const double y = scale.y(rate(*one));
-    double best = x;
-    for (int k = 0; k < 60; ++k) {
-      const int away = (k + 1) / 2;
-      best = x + (k % 2 ? 4.0 : -4.0) * away;
-      if (std::none_of(placed.begin(), placed.end(),
-                       [&](const Mark& m) { return std::hypot(m.x - best, m.y - y) < 2 * kRadius + 1; }))
-        break;
-    }
-    placed.push_back({best, y});
-    if (best != x) leaders += line(x, y, best, y, "#777", 1);
-    marks += fmt::format(
-        "<g><title>{}: {:.0f} Mcells/s, {:.0f} % of its roof</title><circle cx=\"{:.1f}\" cy=\"{:.1f}\" "
-        "r=\"{}\" "
-        "fill=\"{}\"/>{}</g>\n",
-        one->name, one->active_per_second() / 1e6, *one->percent_of_roof(), best, y, kRadius, colour(*one),
-        text(best, y + 4, "middle", 11, "#fff", std::to_string(i + 1)));
+                     fmt::format("{}  {} {}", i + 1, name_of(shown[i]->subject), shown[i]->workload));
+    marks.add(*shown[i], i + 1);
   }
 
   const double height = std::max(kBottom + 60, key_y + 90);
@@ -185,7 +212,7 @@ std::string roofline_svg(const Findings& findings) {
   svg += text(kLeft, 30, "start", 18, "#111", "How near to this machine's limits");
   svg += text(kLeft, 52, "start", 12, "#555",
               findings.machine_text.processor + ", one thread. No point can stand above the solid line.");
-  svg += axes(scale) + roofs(findings, scale) + leaders + marks + key_text;
+  svg += axes(scale) + roofs(findings, scale) + marks.svg() + key_text;
   key_y += 12;
   for (const auto& kind : kKinds) {
     svg += fmt::format("<circle cx=\"{}\" cy=\"{:.1f}\" r=\"6\" fill=\"{}\"/>\n", kKey + 6, key_y - 4,

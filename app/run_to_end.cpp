@@ -1,0 +1,196 @@
+#include "app/run_to_end.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/checkpoints.h"
+#include "app/film.h"
+#include "app/interrupt.h"
+#include "app/message.h"
+#include "app/options.h"
+#include "app/progress.h"
+#include "app/report.h"
+#include "app/resume.h"
+#include "app/shell_word.h"
+#include "app/watch.h"
+#include "kernel/automaton/state/digest.h"
+#include "kernel/run/io/checkpoint_files.h"
+#include "render/image/png.h"
+
+namespace voxmelt::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Does `work`; returns why the disk took no more, or nothing.
+template <class Work>
+std::string until_full(Work&& work) {
+  const auto full = [](const auto& error) {
+    if (!error.out_of_space()) throw error;
+    return std::string(error.what());
+  };
+  try {
+    work();
+    return {};
+  } catch (const io::OutputError& error) {
+    return full(error);
+  } catch (const render::ImageError& error) {
+    return full(error);
+  }
+}
+
+RunSeconds sum_of(const RunSeconds& a, const RunSeconds& b) {
+  return {a.update + b.update, a.render + b.render, a.encode + b.encode, a.wait + b.wait, a.total + b.total};
+}
+
+class Run {
+ public:
+  Run(PreparedRun run, std::optional<Interval> interval, Clock::time_point start)
+      : run_(std::move(run)),
+        interval_(interval),
+        start_(start),
+        begun_at_(run_.scene.mid_run ? run_.scene.mid_run->steps_done : 0),
+        simulation_(make_simulation(run_.scene, common())),
+        film_(std::in_place, run_.scene, out().partial(), planned_frames(), thread_count(common())),
+        checkpoints_(out().partial(), run_.scene, std::move(run_.text), thread_count(common())),
+        watch_(record().seen) {
+    film_->keep(record().frame_steps);
+  }
+
+  int to_end() {
+    std::string full = until_full([&] { step_on(); });
+    const bool complete = full.empty() && simulation_.steps_done() == steps();
+    warn_of_what_was_seen(complete);
+    place_ = seen_from_here(out().place());
+    if (full.empty()) full = until_full([&] { write_outputs(complete); });
+    if (!full.empty()) return keep_incomplete(full);
+    if (complete) clear_after(out().place(), record().id);
+    if (!common().quiet) print_outputs();
+    return verdict(complete);
+  }
+
+ private:
+  const RunRecord& record() const { return run_.record; }
+  const Common& common() const { return run_.record.common; }
+  io::OutputFolder& out() const { return *run_.out; }
+  std::uint32_t steps() const { return run_.record.steps; }
+  std::string resume_command() const { return "`voxmelt run --resume " + shell_word(place_) + "` goes on"; }
+
+  std::size_t planned_frames() const {
+    return frames_due_before(record(), steps()) + (frame_is_due(record(), steps()) ? 1 : 0);
+  }
+  RunSeconds seconds_now() const {
+    RunSeconds now = film_->seconds();
+    now.total = std::chrono::duration<double>(Clock::now() - start_).count();
+    return sum_of(record().seconds, now);
+  }
+
+  bool checkpoint() {
+    film_->settle();  // what threads have timed is known then
+    return checkpoints_.write(record(), *film_, simulation_, watch_.seen(), seconds_now());
+  }
+  void show(std::uint32_t step) {
+    if (film_->is_slow() && checkpoints_.affordable())
+      checkpoint();  // an interrupt may lose this frame: then the run goes on from here
+    film_->add_frame(simulation_.volume(), step);
+    watch_.look(simulation_.volume(), step);
+  }
+
+  // Until the last step, or an interrupt.
+  void step_on() {
+    if (interval_ && begun_at_ == 0) checkpoint();
+    if (frame_is_due(record(), begun_at_) &&
+        record().frame_steps.size() == frames_due_before(record(), begun_at_))
+      show(begun_at_);
+    Progress progress(steps(), common().quiet, begun_at_);
+    while (simulation_.steps_done() < steps() && !interrupted()) {
+      simulation_.step();
+      film_->check();
+      const std::uint32_t done = simulation_.steps_done();
+      if (done < steps() && checkpoints_.due(interval_, done)) checkpoint();
+      if (frame_is_due(record(), done)) show(done);
+      progress.show(done, simulation_.volume());
+    }
+    if (simulation_.steps_done() < steps()) resumable_ = checkpoint() || io::holds_work(out().partial());
+    video_note_ = film_->finish();
+  }
+
+  void warn_of_what_was_seen(bool complete) {
+    watch_.look(simulation_.volume(), simulation_.steps_done());
+    std::vector<std::string> warnings = watch_.warnings(simulation_);
+    if (complete && steps() > 0 && state::digest(simulation_.volume()) == run_.scene.initial_digest)
+      warnings.push_back(
+          fmt::format("nothing has changed in {} step{}: no liquid can move, and no heat comes to a solid",
+                      steps(), steps() == 1 ? "" : "s"));
+    warn(run_.scene, common(), warnings);
+  }
+
+  void write_outputs(bool complete) {
+    const std::string report = report_json(run_.scene, common(), simulation_, seconds_now(), complete);
+    io::write_file(out().partial() / "report.json", report);
+    write_report(common(), report);
+    out().commit();
+  }
+
+  int keep_incomplete(const std::string& full) {
+    film_.reset();  // nothing is written beside what follows
+    out().release_reserve();
+    io::write_file(out().partial() / "report.json",
+                   report_json(run_.scene, common(), simulation_, RunSeconds{}, false));
+    const bool goes_on = io::holds_work(out().partial());
+    const std::string kept = seen_from_here(out().keep_incomplete());
+    say(fmt::format("{}; the run ended after step {} of {}, and what was made is kept in {}/{}", full,
+                    simulation_.steps_done(), steps(), kept,
+                    goes_on ? "; with more room, " + resume_command() : ""));
+    return kOutOfResources;
+  }
+
+  void print_outputs() const {
+    fmt::print("{} frames      {}/frames/\ncontact sheet  {}/contact_sheet.png\n", film_->frame_count(),
+               place_, place_);
+    fmt::print("film           {}\n", video_note_.empty() ? place_ + "/film.mp4" : video_note_);
+    fmt::print("report         {}/report.json\n", place_);
+    if (const std::string limit = limit_text(simulation_.ledger().limit); !limit.empty())
+      fmt::print("note           {}\n", limit);
+  }
+
+  int verdict(bool complete) const {
+    const std::string drift = drift_text(simulation_.drift());
+    if (!drift.empty()) {
+      say("error: the ledgers do not balance: " + drift);
+      return kCheckFailed;
+    }
+    if (complete) return kDone;
+    say(fmt::format("interrupted after step {} of {}; what was made is kept{}", simulation_.steps_done(),
+                    steps(), resumable_ ? "; " + resume_command() : ""));
+    return kInterrupted;
+  }
+
+  PreparedRun run_;  // its text has moved on
+  std::optional<Interval> interval_;
+  Clock::time_point start_;
+  std::uint32_t begun_at_;  // steps done before
+  run::Simulation simulation_;
+  std::optional<Film> film_;
+  Checkpoints checkpoints_;
+  Watch watch_;
+  std::string place_;       // of the output, for messages
+  std::string video_note_;  // why there is no film
+  bool resumable_ = true;
+};
+
+}  // namespace
+
+int run_to_end(PreparedRun run, Clock::time_point start) {
+  const std::optional<Interval> interval = interval_of(run.record.checkpoint_every);
+  catch_interrupts();  // they end the run early; what was made until then is kept
+  return Run(std::move(run), interval, start).to_end();
+}
+
+}  // namespace voxmelt::app
