@@ -61,6 +61,22 @@ std::string text_of(const hwmodel::raycast::Window& part) {
   return wide == 1 && high == 1 ? place : fmt::format("{},{}x{}", place, wide, high);
 }
 
+hwmodel::raycast::PictureOptions options_of(const PictureChoice& choice,
+                                            const hwmodel::raycast::Configuration& configuration,
+                                            const hwmodel::raycast::FaultInfo* fault,
+                                            const scene::Camera& camera) {
+  hwmodel::raycast::PictureOptions options;
+  options.configuration = configuration;
+  options.compare = choice.compare;
+  options.frames = choice.frames;
+  if (fault != nullptr) options.fault = fault->fault;
+  options.poll = stop_if_interrupted;
+  options.waves = !choice.vcd.empty();
+  options.waves_from = choice.vcd_from;
+  if (!choice.pixel.empty()) options.window = part_of(choice.pixel, camera);
+  return options;
+}
+
 }  // namespace
 
 void add_picture_choice(CLI::App& command, PictureChoice& choice) {
@@ -135,15 +151,7 @@ int verify_caster(const Common& common, const PictureChoice& choice, const scene
     throw UsageError("error: --plant: with --no-compare no stage is compared");
   check_report_place(common, "");
   check_html_place(common, choice, "");
-  hwmodel::raycast::PictureOptions options;
-  options.configuration = configured.caster;
-  options.compare = choice.compare;
-  options.frames = choice.frames;
-  if (fault != nullptr) options.fault = fault->fault;
-  options.poll = stop_if_interrupted;
-  options.waves = !choice.vcd.empty();
-  options.waves_from = choice.vcd_from;
-  if (!choice.pixel.empty()) options.window = part_of(choice.pixel, camera);
+  const hwmodel::raycast::PictureOptions options = options_of(choice, configured.caster, fault, camera);
   const hwmodel::raycast::PictureInput input{state.volume(), scene.look, scene.light,
                                              scene.terrain,  camera,     setting};
   const hwmodel::raycast::PictureReport report = hwmodel::raycast::verify_picture(input, options);
