@@ -29,7 +29,10 @@ struct WireName {
   constexpr WireName(const char* of, const char* its = "", int which = -1)
       : stem(of), part(its), index(which) {}
   std::string text() const {
-    return std::string(stem) + part + (index < 0 ? "" : "_" + std::to_string(index));
+    std::string all = stem;
+    all += part;
+    if (index >= 0) (all += '_') += std::to_string(index);
+    return all;
   }
 };
 
