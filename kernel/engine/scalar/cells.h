@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/automaton/rule/neighbourhood.h"
 #include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::scalar {
@@ -75,5 +76,11 @@ class ActiveRows {
 // Restores the invariants of state::Volume after amounts changed: the liquid mask, and no energy or heat in
 // an empty cell.
 void settle_masks(const ActiveRows& rows, state::Volume& volume);
+
+// A neighbour is open unless it is blocked, or a diagonal between two blocked cells.
+inline bool is_open(const Cells& cells, int x, int y, int z, rule::Direction d) {
+  if (cells.blocked(x + d.dx, y, z + d.dz)) return false;
+  return d.dx == 0 || d.dz == 0 || !(cells.blocked(x + d.dx, y, z) && cells.blocked(x, y, z + d.dz));
+}
 
 }  // namespace voxmelt::scalar

@@ -39,8 +39,6 @@ class Reference final : public step::HostStepper {
   void spread(std::uint32_t step, Volume& volume, Ledger& ledger);
   void settle(step::Moment moment, Volume& volume, Ledger& ledger);
   void viscous_spread(step::Moment moment, Volume& volume, Ledger& ledger);
-  // Viscous law: what a cell shows to its neighbours.
-  rule::Column column_at(const Cells& cells, const Volume& volume, int x, int y, int z) const;
 
   void find_patterns(std::uint32_t step, const Volume& volume, const ActiveRows& rows);
 

@@ -13,12 +13,6 @@
 namespace voxmelt::scalar {
 namespace {
 
-// A neighbour is open unless it is blocked, or a diagonal between two blocked cells.
-bool is_open(const Cells& cells, int x, int y, int z, rule::Direction d) {
-  if (cells.blocked(x + d.dx, y, z + d.dz)) return false;
-  return d.dx == 0 || d.dz == 0 || !(cells.blocked(x + d.dx, y, z) && cells.blocked(x, y, z + d.dz));
-}
-
 // The share of its amount and energy that cell (x, y, z) gives to direction d of its pattern.
 std::int32_t share_of(const rule::Flow& flow, std::int32_t heat, std::uint8_t pattern, std::size_t d) {
   if (flow.paper.use_table) return flow.paper.table[pattern][d];

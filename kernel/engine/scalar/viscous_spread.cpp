@@ -17,23 +17,27 @@ constexpr std::array<int, 8> kDitherAxis{0, 0, 1, 1, 2, 3, 3, 2};
 
 }  // namespace
 
-rule::Column Reference::column_at(const Cells& cells, const Volume& volume, int x, int y, int z) const {
-  if (const auto run = run_of(cells.at(x, y, z))) return *run;
-  if (y == 0) return rule::bed_column(rule::bed_head(0, rule::kBedHalf));
-  const state::Slot below = cells.at(x, y - 1, z);
-  if (volume.solid.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, rule::kBedHalf));
-  if (volume.inert.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, volume.amount[below]));
-  if (const auto run = run_of(below)) return rule::top_column(*run);
-  return rule::air_column(y);
-}
-
 void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledger) {
   const ActiveRows rows(volume);
   const Cells cells(volume);
   const bool hot = parameters_.heat.enabled;
   const std::int32_t mixing = rule::mixing_dither(moment.step, moment.substep);
 
-  const auto column = [&](int x, int y, int z) { return column_at(cells, volume, x, y, z); };
+  // What a cell shows to its neighbours.
+  const auto run_column = [&](state::Slot i) {
+    return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], in_run_[i] != 0, bed_[i], limit_[i]};
+  };
+  const auto column = [&](int x, int y, int z) {
+    const state::Slot i = cells.at(x, y, z);
+    if (in_run_[i]) return run_column(i);
+    if (y == 0) return rule::bed_column(rule::bed_head(0, rule::kBedHalf));
+    const state::Slot below = cells.at(x, y - 1, z);
+    if (volume.solid.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, rule::kBedHalf));
+    if (volume.inert.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, volume.amount[below]));
+    if (in_run_[below]) return rule::top_column(run_column(below));
+    return rule::air_column(y);
+  };
+
   next_.amount = volume.amount;
   next_.heat = volume.heat;
   rows.for_each([&](int x, int y, int z) {
@@ -46,8 +50,7 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
       const rule::Direction to = rule::kDirections[d];
       const int nx = x + to.dx, nz = z + to.dz;
       const bool diagonal = rule::is_diagonal(static_cast<int>(d));
-      if (cells.blocked(nx, y, nz)) continue;
-      if (diagonal && cells.blocked(nx, y, z) && cells.blocked(x, y, nz)) continue;
+      if (!is_open(cells, x, y, z, to)) continue;
       const state::Slot j = cells.at(nx, y, nz);
       if (!in_run_[i] && !in_run_[j]) continue;
       const rule::Column there = column(nx, y, nz);
