@@ -87,7 +87,7 @@ ALLOWED = {
     "accuracy/picture": ["kernel/scene", CPU, "kernel/run", PICTURE, "render/density", "render/image", "render/reference", "render/packet/scene_in_integers.h"],
     # What strangers include: the standard library only.
     "include/voxmelt": [],
-    "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening",
+    "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/trial", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening",
                 "render/image", "render/packet", f"{PICTURE}/camera.h"],
     "examples": ["include/voxmelt"],
     "app": [CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
