@@ -1,7 +1,10 @@
 #include "hwmodel/check/trace.h"
 
 #include <algorithm>
+#include <istream>
 #include <sstream>
+#include <string>
+#include <utility>
 
 namespace voxmelt::hwmodel {
 namespace {

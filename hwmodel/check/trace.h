@@ -16,7 +16,6 @@
 #include <ostream>
 #include <span>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "hwmodel/check/token_source.h"

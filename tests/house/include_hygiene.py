@@ -46,6 +46,7 @@ TABLE = {
     "iomanip": "setfill setprecision setw",
     "ios": "hex dec ios ios_base streamsize",
     "iostream": "cerr cin clog cout endl flush ostream istream",
+    "istream": "istream ws",
     "iterator": "back_inserter begin distance end forward_iterator_tag istreambuf_iterator iterator_traits next prev size ssize",
     "limits": "numeric_limits",
     "list": "list",
@@ -90,6 +91,7 @@ for header, names in TABLE.items():
         HEADERS.setdefault(name, []).append(header)
 HEADERS.update({"abs": ["cmath", "cstdlib"], "get": ["tuple", "utility", "array", "variant"], "ios": ["ios", "fstream"],
                 "erase": ["vector", "string", "deque"], "erase_if": ["vector", "string", "map", "set", "deque", "unordered_map"],
+                "istream": ["istream", "iostream", "sstream", "fstream"], "ws": ["istream", "iostream", "sstream", "fstream"],
                 "ostream": ["ostream", "iostream", "sstream", "fstream"], "flush": ["ostream", "iostream"], "endl": ["ostream", "iostream"],
                 "remove": ["cstdio", "algorithm"], "hex": ["ios", "iostream"], "dec": ["ios", "iostream"], "tuple_size": ["tuple", "utility", "array"], "tuple_size_v": ["tuple", "utility", "array"], "swap": ["utility"]})
 CHECKED = set(TABLE) | set(PLAIN.values())
