@@ -24,9 +24,7 @@ struct Arrivals {
   UInt<32> content;
 };
 
-struct Flowing {
-  UInt<16> amount = kFlatBed, energy, heat;
-  State state = State::inert;
+struct Flowing : StoredCell {
   UInt<8> pattern;
   Arrivals in;  // in the plane memory: from the south
 
@@ -35,8 +33,6 @@ struct Flowing {
   PaperFlow::Gift diagonal;
   UInt<16> left_amount, left_energy;  // what it keeps
   UInt<2> footing;
-
-  bool blocked() const { return state == State::solid || state == State::inert; }
 };
 
 template <class Faults>
@@ -114,10 +110,7 @@ class Apply final : public Stage {
     finish(left[lanes() - 1]);
     for (int lane = 0; lane < lanes(); ++lane) {
       Cell cell;
-      cell.amount = left[lane].amount;
-      cell.energy = left[lane].energy;
-      cell.heat = left[lane].heat;
-      cell.state = left[lane].state;
+      cell.stored() = left[lane].stored();
       cell.settle_state();
       out[lane] = cell;
     }
@@ -139,10 +132,7 @@ class Apply final : public Stage {
     const Flowing* below = line_.tap(1);
     for (const int lane : each_lane()) {
       Flowing& word = now[lane];
-      word.amount = in[lane].amount;
-      word.energy = in[lane].energy;
-      word.heat = in[lane].heat;
-      word.state = in[lane].state;
+      word.stored() = in[lane].stored();
       word.pattern = in[lane].pattern;
       weigh(word, below[lane].state);
     }

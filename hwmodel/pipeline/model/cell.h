@@ -15,12 +15,26 @@ inline constexpr std::int64_t kFlatBed = 2048;  // amount of an inert cell whose
 // Two bits. `air` and `liquid` are told apart by the amount (docs/automaton.md, section 1).
 enum class State : std::uint8_t { air, liquid, solid, inert };
 
-// A cell, and the side-band signals that live only between the stages named beside them. Which fields a
-// channel really has depends on the scene: Design::cell_bits. A default cell is the border: flat inert.
-struct Cell {
+// What memory has of a cell. The words that stages keep in their memories begin with it, too: what no stage
+// computes with goes through all of them. A default one is the border: flat inert.
+struct StoredCell {
   UInt<16> amount = kFlatBed;  // inert: bed offset
   UInt<16> energy, heat;
   State state = State::inert;
+
+  StoredCell& stored() { return *this; }
+  const StoredCell& stored() const { return *this; }
+  bool blocked() const { return state == State::solid || state == State::inert; }
+  bool matter() const { return state == State::solid || state == State::liquid; }
+  bool air() const { return state == State::air; }
+  bool liquid() const { return state == State::liquid; }
+
+  friend bool operator==(const StoredCell&, const StoredCell&) = default;
+};
+
+// A cell, and the side-band signals that live only between the stages named beside them. Which fields a
+// channel really has depends on the scene: Design::cell_bits.
+struct Cell : StoredCell {
   UInt<2> exposed_axes;  // conduction -> exchange: axes on which a face neighbour is air
   UInt<8> pattern;       // pattern -> apply: directions that the cell gives to
   UInt<1> beside_wall;   // conduction, walls or viscous spread -> gravity: one of the four sides is blocked
@@ -32,11 +46,6 @@ struct Cell {
   UInt<22> mobility;
   UInt<14> limit;
   UInt<25> dead;
-
-  bool blocked() const { return state == State::solid || state == State::inert; }
-  bool matter() const { return state == State::solid || state == State::liquid; }
-  bool air() const { return state == State::air; }
-  bool liquid() const { return state == State::liquid; }
 
   // For the end of a phase: a cell that is not blocked becomes liquid if it holds something, and otherwise
   // empty and cold.

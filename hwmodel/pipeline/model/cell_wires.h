@@ -40,8 +40,8 @@ struct CellWire {
   void (*set)(Cell&, std::int64_t);
 };
 
-template <class Field>
-Field type_of(Field Cell::*member);
+template <class Field, class Of>
+Field type_of(Field Of::*member);
 
 template <auto Member>
 constexpr CellWire cell_wire(Wire wire, std::string_view name, std::string_view label, bool in_memory) {

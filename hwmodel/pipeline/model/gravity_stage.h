@@ -12,11 +12,8 @@
 
 namespace voxmelt::hwmodel {
 
-struct Falling {
-  UInt<16> amount = kFlatBed, energy, heat;
-  State state = State::inert;
+struct Falling : StoredCell {
   UInt<1> beside_wall, in_run;
-  bool blocked() const { return state == State::solid || state == State::inert; }
 };
 
 template <class Faults>
@@ -50,7 +47,7 @@ class Gravity final : public Stage {
     if (in != nullptr)
       for (int lane = 0; lane < lanes(); ++lane) {
         const Cell& cell = in[lane];
-        newest[lane] = {cell.amount, cell.energy, cell.heat, cell.state, cell.beside_wall, cell.in_run};
+        newest[lane] = {cell.stored(), cell.beside_wall, cell.in_run};
       }
     if (out == nullptr) return;
     dither_ = at(dithers_, lag());
@@ -125,10 +122,7 @@ class Gravity final : public Stage {
 
   static Cell leave(const Falling& word) {
     Cell cell;
-    cell.amount = word.amount;
-    cell.energy = word.energy;
-    cell.heat = word.heat;
-    cell.state = word.state;
+    cell.stored() = word.stored();
     cell.settle_state();
     return cell;
   }

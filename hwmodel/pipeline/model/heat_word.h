@@ -10,39 +10,26 @@
 
 namespace voxmelt::hwmodel {
 
-struct HeatWord {
-  UInt<16> amount = kFlatBed;
-  UInt<16> energy;
+// Its heat has the fluxes computed so far.
+struct HeatWord : StoredCell {
   UInt<16> temperature;  // at the begin of the pass
-  UInt<16> heat;         // with the fluxes computed so far
-  State state = State::inert;
-  UInt<3> exposed;  // faces: a bit per axis on which a face neighbour is air; later: their number
+  UInt<3> exposed;       // faces: a bit per axis on which a face neighbour is air; later: their number
   UInt<1> beside_wall;
 
-  bool blocked() const { return state == State::solid || state == State::inert; }
-  bool matter() const { return state == State::solid || state == State::liquid; }
   bool wall() const { return state == State::inert && heat > 0; }  // it keeps its temperature
   bool conducts() const { return matter() || wall(); }
-  bool air() const { return state == State::air; }
-  bool liquid() const { return state == State::liquid; }
 };
 
 inline void take_cell(const Cell& cell, const rule::Material& material, HeatWord& word) {
-  word.amount = cell.amount;
-  word.energy = cell.energy;
-  word.heat = cell.heat;
+  word.stored() = cell.stored();
   word.temperature = temperature_of(cell.heat, material);
-  word.state = cell.state;
   word.exposed = std::int64_t{cell.exposed_axes};
   word.beside_wall = cell.beside_wall;
 }
 
 inline Cell give_cell(const HeatWord& word, std::int64_t exposed_axes) {
   Cell cell;
-  cell.amount = word.amount;
-  cell.energy = word.energy;
-  cell.heat = word.heat;
-  cell.state = word.state;
+  cell.stored() = word.stored();
   cell.exposed_axes = exposed_axes;
   cell.beside_wall = word.beside_wall;
   return cell;

@@ -15,13 +15,9 @@
 
 namespace voxmelt::hwmodel {
 
-struct Giver {
-  UInt<16> amount = kFlatBed, energy, heat;
-  State state = State::inert;
+struct Giver : StoredCell {
   UInt<8> pattern;                      // before the random byte
   UInt<16> axis_limit, diagonal_limit;  // registers: what holds less is available; the first is no less
-
-  bool blocked() const { return state == State::solid || state == State::inert; }
 };
 
 template <class Faults>
@@ -61,10 +57,7 @@ class Pattern final : public Stage {
     if (in != nullptr) {
       const Giver* below = line_.tap(1);
       for (const int lane : each_lane()) {
-        now[lane].amount = in[lane].amount;
-        now[lane].energy = in[lane].energy;
-        now[lane].heat = in[lane].heat;
-        now[lane].state = in[lane].state;
+        now[lane].stored() = in[lane].stored();
         find_limits(now[lane], above_floor && below[lane].state == State::air);
       }
     }
@@ -148,10 +141,7 @@ class Pattern final : public Stage {
     for (const int lane : each_lane(lag())) {
       const Giver& word = words[lane];
       Cell cell;
-      cell.amount = word.amount;
-      cell.energy = word.energy;
-      cell.heat = word.heat;
-      cell.state = word.state;
+      cell.stored() = word.stored();
       if (word.pattern != 0) {
         const int x = leaving().x + lane;
         if (x / 8 != block_of) block_of = x / 8, block = speck_block(keys_, step_at(lag()), block_index(x));
