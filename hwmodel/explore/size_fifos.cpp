@@ -96,8 +96,8 @@ Sizing size_fifos(const TimedRun& run, const std::optional<SizingMemory>& memory
 
 std::string toml_of(const Sizing& sizing, const Configuration& c, const std::string& title) {
   std::string text = fmt::format("title = \"{}\"\n[hw]\n", title);
-  for (const HwKey& key : kHwKeys)
-    if (key.get(c) != key.usual()) text += fmt::format("{} = {}\n", key.name, key.get(c));
+  for (const HwKey& key : kHwKeys)  // the depths are those of the channels
+    if (key.name != "fifo_depth") text += fmt::format("{} = {}\n", key.name, key.get(c));
   for (const SizedChannel& channel : sizing.channels)
     text += fmt::format("[[hw.channel]]\nname = \"{}\"\ndepth = {}\n", channel.name, channel.depth);
   return text;

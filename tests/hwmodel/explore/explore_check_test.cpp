@@ -51,13 +51,13 @@ TEST(ExploreCheck, TheFileOfDepthsSaysTheMachine) {
   sizing.channels = {{"reader -> source", 5, 0, 0, 0}, {"melt -> writer", 1, 0, 0, 0}};
   Configuration machine;
   machine.lanes = 4, machine.cascade = 3, machine.substeps = 2, machine.stall_seed = 7;
-  machine.overlap = false, machine.coded = true;
+  machine.overlap = false, machine.coded = true, machine.tile = 64;
   EXPECT_EQ(toml_of(sizing, machine, "sized"),
-            "title = \"sized\"\n[hw]\nlanes = 4\ncascade = 3\nsubsteps = 2\noverlap = 0\ncoded = 1\n"
-            "stall_seed = 7\n[[hw.channel]]\nname = \"reader -> source\"\ndepth = 5\n"
+            "title = \"sized\"\n[hw]\nlanes = 4\ncascade = 3\nsubsteps = 2\noverlap = 0\ntile = 64\n"
+            "coded = 1\nstall_seed = 7\n[[hw.channel]]\nname = \"reader -> source\"\ndepth = 5\n"
             "[[hw.channel]]\nname = \"melt -> writer\"\ndepth = 1\n");
   machine.overlap = true, machine.coded = false;
-  EXPECT_NE(toml_of(sizing, machine, "sized").find("overlap = 1\ncoded = 0\n"), std::string::npos);
+  EXPECT_NE(toml_of(sizing, machine, "sized").find("overlap = 1\ntile = 64\ncoded = 0\n"), std::string::npos);
 }
 
 }  // namespace
