@@ -144,13 +144,13 @@ void PictureRun::draw(const render::PictureScene& scene, const picture::Camera& 
 
 void PictureRun::begin(const render::PictureScene& scene, const picture::Camera& camera,
                        render::Setting setting, const render::Image& expected) {
-  begun_ = std::clock();  // of the processor: the machine may have other work
   drawing_ = std::make_unique<Drawing>(scene, camera, setting, expected, caster_);
   caster_.watch(options_.compare ? drawing_->checker.watchers() : Watchers{});
   const Window first = drawing_->fast() ? options_.window : with_neighbours(options_.window);
   caster_.draw_only(first);
   drawing_->checker.begin_pass(1, 0, memory_.frame, first);
   if (waves_) drawing_->checker.run_on_at_difference(), waves_->begin_train(report_.all_cycles);
+  begun_ = std::clock();  // of the processor: the machine may have other work
   caster_.begin_first();
 }
 

@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "hwmodel/explore/size_fifos.h"
 #include "hwmodel/machine/presets/presets.h"
