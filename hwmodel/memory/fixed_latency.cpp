@@ -15,7 +15,15 @@ int FixedLatency::open_port(PortClient* client) {
 bool FixedLatency::ready(int port) const {
   const Way& way = way_of(port);
   if (way.reads.size() + way.waiting >= kMostUnderWay) return false;
-  return way.client != nullptr || bus_free_ - (now_ + latency_) < kMostAhead;
+  return way.client != nullptr || streams_may_claim();
+}
+
+// What others claim does not count: else a client that always asks would keep all streams waiting.
+bool FixedLatency::streams_may_claim() const {
+  if (claims_.empty()) return true;
+  const Claim& first = claims_.front();
+  const std::int64_t gone = std::max<std::int64_t>(0, now_ + latency_ - (first.end - first.beats));
+  return claimed_ - gone < kMostClaimed;
 }
 
 void FixedLatency::put(int port, const Request& request) {
@@ -45,6 +53,8 @@ bool FixedLatency::cycle() {
     ways_[port.way].waiting = 0;
   }
   ++now_;
+  for (; !claims_.empty() && claims_.front().end <= now_ + latency_; claims_.pop_front())
+    claimed_ -= claims_.front().beats;
   return moved;
 }
 
@@ -59,6 +69,10 @@ void FixedLatency::serve(int port, const Request& request) {
   const std::int64_t beats = (bytes + bus_bytes_ - 1) / bus_bytes_;
   bus_cycles_ += beats;
   bus_free_ = std::max(bus_free_, now_ + (request.write ? 1 : latency_)) + beats;
+  if (way.client == nullptr && beats > 0) {
+    claims_.push_back({bus_free_, beats});
+    claimed_ += beats;
+  }
   if (!request.write) way.reads.push_back({request, port, bus_free_});
   if (way.client != nullptr) way.client->performed(request);
 }

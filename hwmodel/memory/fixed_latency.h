@@ -31,11 +31,15 @@ class FixedLatency final : public Memory {
 
   std::int64_t bus_cycles() const { return bus_cycles_; }  // that carried bytes
   // What was promised of the bus is forgotten: a job begins that counts from 0.
-  void begin_job() { bus_free_ = now_; }
+  void begin_job() {
+    bus_free_ = now_;
+    claims_.clear();
+    claimed_ = 0;
+  }
 
  private:
   static constexpr std::size_t kMostUnderWay = 256;  // reads of a way back
-  static constexpr std::int64_t kMostAhead = 64;     // cycles of the bus that a stream may claim
+  static constexpr std::int64_t kMostClaimed = 64;   // cycles of the bus, by all streams together
   struct UnderWay {
     Request request;
     int port = 0;
@@ -47,6 +51,9 @@ class FixedLatency final : public Memory {
     std::size_t waiting = 0;       // that were put in this cycle
     std::int64_t last_reply = -1;  // the cycle in which it was taken
   };
+  struct Claim {  // of a stream on the bus
+    std::int64_t end, beats;
+  };
   struct Port {
     std::size_t way = 0;
     std::deque<Request> inbox;  // of this cycle
@@ -55,12 +62,15 @@ class FixedLatency final : public Memory {
   const Way& way_of(int port) const { return ways_[ports_[static_cast<std::size_t>(port)].way]; }
   Way& way_of(int port) { return ways_[ports_[static_cast<std::size_t>(port)].way]; }
   void serve(int port, const Request& request);
+  bool streams_may_claim() const;
 
   int latency_, bus_bytes_;
   std::vector<Way> ways_;
   std::vector<Port> ports_;
   std::int64_t now_ = 0, bus_free_ = 0, bus_cycles_ = 0;
-  std::int64_t owed_ = 0;  // bytes of streams that fill no cycle yet
+  std::deque<Claim> claims_;  // that have not come to their end
+  std::int64_t claimed_ = 0;  // their beats
+  std::int64_t owed_ = 0;     // bytes of streams that fill no cycle yet
 };
 
 }  // namespace voxmelt::hwmodel::memory

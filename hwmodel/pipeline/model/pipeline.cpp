@@ -13,6 +13,8 @@ namespace voxmelt::hwmodel {
 namespace {
 
 constexpr std::int64_t kHangAfter = 1000;  // cycles in which no stage moves
+// Other machines may have asked the memory for much before.
+constexpr std::int64_t kHangBesideOthers = 20000;
 
 }  // namespace
 
@@ -168,6 +170,7 @@ Pipeline::Pipeline(const rule::Parameters& parameters, state::Grid grid, const C
       simulation_(simulation == nullptr ? *own_ : *simulation) {
   const Simulation::Scope scope(simulation_);
   machine_ = std::make_unique<Machine>(parameters, grid, configuration, make, simulation_);
+  if (simulation != nullptr) machine_->part.hang_after = kHangBesideOthers;
 }
 
 Pipeline::~Pipeline() {

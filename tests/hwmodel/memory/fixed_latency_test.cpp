@@ -95,5 +95,20 @@ TEST(FixedLatency, AStreamWaitsForTheBus) {
   EXPECT_TRUE(memory.ready(stream));  // in cycle 8: 63
 }
 
+// 100 lines take four cycles each, until cycle 410. The stream's bursts stand behind them, one a cycle.
+TEST(FixedLatency, AClientThatAsksForMuchKeepsNoStreamFromTheQueue) {
+  FixedLatency memory(10, 64);
+  Client client;
+  const int stream = memory.open_port(nullptr), lines = memory.open_port(&client);
+  for (std::uint32_t i = 0; i < 100; ++i) memory.put(lines, {256 * i, i, false, 256});
+  memory.cycle();
+  ASSERT_TRUE(memory.ready(stream));
+  for (std::uint32_t i = 0; i < 70; ++i) memory.put(stream, {64 * i, i, true, 64});
+  memory.cycle();
+  std::int64_t now = 2;
+  for (; !memory.ready(stream); ++now) memory.cycle();
+  EXPECT_EQ(now, 407);  // what is promised 10 cycles ahead has come to 417: 63 are left
+}
+
 }  // namespace
 }  // namespace voxmelt::hwmodel::memory
