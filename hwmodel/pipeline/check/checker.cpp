@@ -14,14 +14,14 @@
 
 namespace voxmelt::hwmodel {
 
-Checker::Checker(Pipeline& pipeline)
-    : pipeline_(pipeline),
-      shape_(pipeline.design().shape),
-      stages_(stages_of_step(pipeline.design())),
+Checker::Checker(StreamMachine& machine)
+    : machine_(machine),
+      shape_(machine.design().shape),
+      stages_(stages_of_step(machine.design())),
       written_in_(static_cast<std::size_t>(shape_.tokens() * shape_.tiles())) {
   int cascade = -1;
   std::size_t stage = 0;
-  for (const ChannelReport& report : pipeline.channels()) {
+  for (const ChannelReport& report : machine.channels()) {
     if (report.producer == StageKind::feed) continue;
     Channel channel{report.name, report.producer, report.cascade, 0, false, 0, 0, {}, {}, SIZE_MAX, {}, {}};
     if (report.producer != StageKind::reader) {
@@ -55,7 +55,7 @@ Checker::Span Checker::span_of(const Channel& channel, const Pass& pass) const {
   int copy = -1, step = 0, before = 0;  // what all stages of a time step spoil; those up to the producer
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     if (stages_[i] == StageKind::settle) ++copy;
-    if (pass.uses(stages_[i], copy)) step += lag_of(stages_[i], pipeline_.design()).reach;
+    if (pass.uses(stages_[i], copy)) step += lag_of(stages_[i], machine_.design()).reach;
     if (channel.behind_stage && i == channel.stage) before = step;
   }
   const int spoilt = channel.cascade * step + before;
@@ -136,7 +136,7 @@ void Checker::left(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
   const bool writes = &channel == &channels_.back();
   if (writes) {
     const std::int64_t streamed = passes_[channel.leaving - written_].pass.tile * shape_.tokens();
-    written_in_[static_cast<std::size_t>(streamed + channel.left.ordinal)] = pipeline_.cycle();
+    written_in_[static_cast<std::size_t>(streamed + channel.left.ordinal)] = machine_.cycle();
   }
   for (int lane = 0; lane < shape_.lanes; ++lane) {
     const Cell entered = channel.in_flight.empty() ? Cell{} : channel.in_flight.front();
@@ -167,11 +167,11 @@ void Checker::compare_written(const Channel& channel, const Cell* lanes) {
   if (wanted.written != nullptr && shape_.owns(wanted.pass.tile, place.x))
     for (int lane = 0; lane < cells; ++lane) compare_memory(channel, *wanted.written, lane, lanes[lane]);
   // What has been written must have arrived, and stay. (With hw.coded a column arrives as a whole.)
-  const int arrived = wanted.pass.tile + (pipeline_.configuration().coded ? 0 : 1);
+  const int arrived = wanted.pass.tile + (machine_.configuration().coded ? 0 : 1);
   if (wanted.left != nullptr && shape_.owner(place.x / shape_.lanes) < arrived)
     for (int lane = 0; lane < cells; ++lane)
       compare_memory(channel, *wanted.left, lane,
-                     wanted_cell(pipeline_.written(), place.x + lane, place.y, place.z));
+                     wanted_cell(machine_.written(), place.x + lane, place.y, place.z));
 }
 
 void Checker::compare_memory(const Channel& channel, const state::Volume& volume, int lane, const Cell& is) {
@@ -188,8 +188,8 @@ void Checker::compare_memory(const Channel& channel, const state::Volume& volume
 void Checker::compare_pass(const Channel& channel) {
   const Wanted& wanted = passes_[channel.leaving - written_];
   if (wanted.pass.tile + 1 < shape_.tiles()) return;
-  if (wanted.left != nullptr && mismatch_ == nullptr && !(*wanted.left == pipeline_.written())) {
-    const Difference d = first_difference(*wanted.left, pipeline_.written());
+  if (wanted.left != nullptr && mismatch_ == nullptr && !(*wanted.left == machine_.written())) {
+    const Difference d = first_difference(*wanted.left, machine_.written());
     if (!d.field.empty()) {
       const int lane = d.x % shape_.lanes;
       report(channel, Mismatch::Kind::memory, channel.leaving, {d.x - lane, d.y, d.z}, lane, "", d.expected,
@@ -200,7 +200,7 @@ void Checker::compare_pass(const Channel& channel) {
   }
   const std::optional<state::Holdings>& held = wanted.held;
   if (!held) return;
-  const Books& books = pipeline_.books();
+  const Books& books = machine_.books();
   const auto differs = [&](std::string_view field, std::int64_t a, std::int64_t b) {
     if (a != b && mismatch_ == nullptr)
       report(channel, Mismatch::Kind::books, channel.leaving, channel.left, 0, field, a, b);
@@ -225,7 +225,7 @@ void Checker::report(const Channel& channel, Mismatch::Kind kind, std::size_t pa
                                            : static_cast<std::uint32_t>(channel.cascade)),
       .cascade = channel.cascade,
       .lane = lane,
-      .cycle = pipeline_.cycle(),
+      .cycle = machine_.cycle(),
       .x = place.x + lane,
       .y = place.y,
       .z = place.z,
@@ -238,7 +238,7 @@ void Checker::report(const Channel& channel, Mismatch::Kind kind, std::size_t pa
 void Checker::report(Mismatch mismatch) {
   if (mismatch_ != nullptr) return;
   mismatch_ = std::make_unique<Mismatch>(std::move(mismatch));
-  if (stops_) pipeline_.stop();
+  if (stops_) machine_.stop();
 }
 
 }  // namespace voxmelt::hwmodel

@@ -18,14 +18,14 @@
 
 #include "hwmodel/pipeline/check/expectation.h"
 #include "hwmodel/pipeline/check/mismatch.h"
-#include "hwmodel/pipeline/model/pipeline.h"
+#include "hwmodel/pipeline/model/stream_machine.h"
 #include "kernel/automaton/state/ledger.h"
 
 namespace voxmelt::hwmodel {
 
 class Checker final : public FifoWatcher<Cell> {
  public:
-  explicit Checker(Pipeline& pipeline);
+  explicit Checker(StreamMachine& machine);
 
   // What a pass has to give, of one tile: `steps` has an entry per cascaded step; an empty one is not
   // compared. `written` is what it leaves in memory; null: not compared. `left` is the state that the whole
@@ -87,7 +87,7 @@ class Checker final : public FifoWatcher<Cell> {
   void report(const Channel& channel, Mismatch::Kind kind, std::size_t pass, const Place& place, int lane,
               std::string_view field, std::int64_t expected, std::int64_t actual);
 
-  Pipeline& pipeline_;
+  StreamMachine& machine_;
   const Shape shape_;
   const std::vector<StageKind> stages_;  // of a time step
   std::vector<Channel> channels_;

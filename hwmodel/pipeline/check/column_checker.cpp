@@ -40,9 +40,9 @@ bool ColumnChecker::differs(const Place& place, int lane, std::string_view field
       .kind = Mismatch::Kind::memory,
       .where = std::string(name_of(StageKind::writer)),
       .step = wanted.pass.first + static_cast<std::uint32_t>(wanted.pass.steps) - 1,
-      .cascade = pipeline_.configuration().cascade - 1,
+      .cascade = machine_.configuration().cascade - 1,
       .lane = lane,
-      .cycle = pipeline_.cycle(),
+      .cycle = machine_.cycle(),
       .x = place.x + lane,
       .y = place.y,
       .z = place.z,
@@ -56,7 +56,7 @@ bool ColumnChecker::differs(const Place& place, int lane, std::string_view field
 void ColumnChecker::column_written(const Place& last, const std::uint64_t* slot) {
   const auto& left = checker_.being_written().left;
   if (checker_.mismatch() != nullptr || left == nullptr) return;
-  const Design& design = pipeline_.design();
+  const Design& design = machine_.design();
   const int lanes = design.shape.lanes, cells = std::min(lanes, design.shape.grid.x - last.x);
   Bits bits(slot);
   std::int64_t stored = 0;

@@ -11,7 +11,7 @@ namespace voxmelt::hwmodel {
 
 class ColumnChecker final : public ColumnWatcher {
  public:
-  ColumnChecker(Pipeline& pipeline, Checker& checker) : pipeline_(pipeline), checker_(checker) {}
+  ColumnChecker(StreamMachine& machine, Checker& checker) : machine_(machine), checker_(checker) {}
 
   void column_written(const Place& place, const std::uint64_t* slot) override;
 
@@ -19,7 +19,7 @@ class ColumnChecker final : public ColumnWatcher {
   bool differs(const Place& place, int lane, std::string_view field, std::int64_t expected,
                std::int64_t actual);
 
-  Pipeline& pipeline_;
+  StreamMachine& machine_;
   Checker& checker_;
 };
 

@@ -10,10 +10,10 @@
 
 namespace voxmelt::hwmodel {
 
-Mismatch hang_of(const Pipeline& pipeline, const Pass& first, std::int64_t cycle) {
+Mismatch hang_of(const StreamMachine& machine, const Pass& first, std::int64_t cycle) {
   Mismatch m{.kind = Mismatch::Kind::hang, .step = first.first, .cycle = cycle};
   std::string full, empty;
-  const std::vector<ChannelReport> channels = pipeline.channels();
+  const std::vector<ChannelReport> channels = machine.channels();
   std::size_t last_full = 0;
   std::size_t last = 0;
   for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -26,7 +26,7 @@ Mismatch hang_of(const Pipeline& pipeline, const Pass& first, std::int64_t cycle
       list += (list.empty() ? "" : "; ") + channel.name;
   }
   const ChannelReport& blamed = channels[std::min(last_full + 1, last)];
-  const Shape& shape = pipeline.design().shape;
+  const Shape& shape = machine.design().shape;
   const std::int64_t streamed = first.tile + blamed.entered / shape.tokens();
   const Place place =
       place_of(shape, blamed.entered % shape.tokens(), static_cast<int>(streamed % shape.tiles()));
@@ -41,10 +41,10 @@ Mismatch hang_of(const Pipeline& pipeline, const Pass& first, std::int64_t cycle
 }
 
 // The pass took other cycles than the closed form says. Where channels hold two tokens, nobody waits.
-Mismatch cycles_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_t predicted,
+Mismatch cycles_of(const StreamMachine& machine, std::uint32_t first_step, std::int64_t predicted,
                    std::int64_t cycles) {
   std::string waited;
-  for (const StageReport& stage : pipeline.stages())
+  for (const StageReport& stage : machine.stages())
     if (stage.kind != StageKind::feed && stage.cycles.starved + stage.cycles.blocked > 0)
       waited += (waited.empty() ? "" : ", ") + std::string(name_of(stage.kind)) + " of time step " +
                 std::to_string(stage.cascade);

@@ -4,15 +4,15 @@
 #include <cstdint>
 
 #include "hwmodel/pipeline/check/mismatch.h"
-#include "hwmodel/pipeline/model/pipeline.h"
+#include "hwmodel/pipeline/model/stream_machine.h"
 
 namespace voxmelt::hwmodel {
 
 // Finds where everything waits: the first empty channel behind a full one, and the cell that should enter it.
-Mismatch hang_of(const Pipeline& pipeline, const Pass& first, std::int64_t cycle);
+Mismatch hang_of(const StreamMachine& machine, const Pass& first, std::int64_t cycle);
 
 // Nothing stalled, and it took other cycles than the closed form says.
-Mismatch cycles_of(const Pipeline& pipeline, std::uint32_t first_step, std::int64_t predicted,
+Mismatch cycles_of(const StreamMachine& machine, std::uint32_t first_step, std::int64_t predicted,
                    std::int64_t cycles);
 
 }  // namespace voxmelt::hwmodel

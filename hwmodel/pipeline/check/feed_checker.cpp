@@ -4,11 +4,11 @@
 
 namespace voxmelt::hwmodel {
 
-FeedChecker::FeedChecker(Pipeline& pipeline, Checker& checker)
-    : pipeline_(pipeline),
+FeedChecker::FeedChecker(StreamMachine& machine, Checker& checker)
+    : machine_(machine),
       checker_(checker),
-      shape_(pipeline.design().shape),
-      feeds_(static_cast<std::size_t>(pipeline.configuration().cascade)) {}
+      shape_(machine.design().shape),
+      feeds_(static_cast<std::size_t>(machine.configuration().cascade)) {}
 
 void FeedChecker::begin_train(const Irradiance* field) {
   field_ = field;
@@ -17,7 +17,7 @@ void FeedChecker::begin_train(const Irradiance* field) {
 }
 
 void FeedChecker::entered(int channel, std::int64_t ordinal, const UInt<16>* lanes) {
-  const int t = channel - Pipeline::kFirstFeedChannel;
+  const int t = channel - StreamMachine::kFirstFeedChannel;
   Seen& feed = feeds_[static_cast<std::size_t>(t)];
   const Place place = place_of_token(ordinal);
   for (int lane = 0; lane < shape_.lanes; ++lane) {
@@ -29,7 +29,7 @@ void FeedChecker::entered(int channel, std::int64_t ordinal, const UInt<16>* lan
 }
 
 void FeedChecker::left(int channel, std::int64_t ordinal, const UInt<16>* lanes) {
-  const int t = channel - Pipeline::kFirstFeedChannel;
+  const int t = channel - StreamMachine::kFirstFeedChannel;
   Seen& feed = feeds_[static_cast<std::size_t>(t)];
   for (int lane = 0; lane < shape_.lanes; ++lane) {
     const std::int64_t entered = feed.in_flight.empty() ? 0 : feed.in_flight.front();
@@ -49,7 +49,7 @@ void FeedChecker::report(Mismatch::Kind kind, int t, std::int64_t ordinal, int l
       .step = pass_of(ordinal).first + static_cast<std::uint32_t>(t),
       .cascade = t,
       .lane = lane,
-      .cycle = pipeline_.cycle(),
+      .cycle = machine_.cycle(),
       .x = place.x + lane,
       .y = place.y,
       .z = place.z,

@@ -13,7 +13,7 @@ namespace voxmelt::hwmodel {
 
 class FeedChecker final : public FifoWatcher<UInt<16>> {
  public:
-  FeedChecker(Pipeline& pipeline, Checker& checker);
+  FeedChecker(StreamMachine& machine, Checker& checker);
 
   // Before each train of passes, and then before each of its passes. `field`: null without radiation.
   void begin_train(const Irradiance* field);
@@ -36,7 +36,7 @@ class FeedChecker final : public FifoWatcher<UInt<16>> {
   void report(Mismatch::Kind kind, int t, std::int64_t ordinal, int lane, std::int64_t expected,
               std::int64_t actual);
 
-  Pipeline& pipeline_;
+  StreamMachine& machine_;
   Checker& checker_;
   const Shape shape_;
   const Irradiance* field_ = nullptr;

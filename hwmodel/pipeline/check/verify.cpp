@@ -16,11 +16,9 @@
 #include "hwmodel/pipeline/check/column_checker.h"
 #include "hwmodel/pipeline/check/diagnosis.h"
 #include "hwmodel/pipeline/check/feed_checker.h"
-#include "hwmodel/pipeline/faults/channel_fault.h"
-#include "hwmodel/pipeline/faults/code_fault.h"
-#include "hwmodel/pipeline/faults/irradiance_fault.h"
+#include "hwmodel/pipeline/faults/planted_faults.h"
 #include "hwmodel/pipeline/faults/planted_stages.h"
-#include "hwmodel/pipeline/faults/tile_fault.h"
+#include "hwmodel/pipeline/model/pipeline.h"
 #include "hwmodel/pipeline/time/prediction.h"
 #include "kernel/automaton/state/digest.h"
 #include "kernel/automaton/state/ledger.h"
@@ -45,32 +43,27 @@ class Lockstep::Run {
       const step::Implementation& fast, const step::Tuning& tuning, const VerifyOptions& options)
       : options_(options),
         plan_(options.fault, options.fault_step),
-        pipeline_(parameters, start.grid, options.configuration,
-                  options.make                   ? options.make
-                  : options.fault == Fault::none ? StageMaker(make_stage)
-                                                 : planted_stages(plan_),
-                  options.simulation),
-        channel_fault_(plan_, pipeline_),
-        tile_fault_(plan_, pipeline_),
-        irradiance_fault_(plan_, pipeline_),
-        code_fault_(plan_, pipeline_),
-        checker_(pipeline_),
-        feed_checker_(pipeline_, checker_),
-        column_checker_(pipeline_, checker_),
+        given_(options.machine ? options.machine() : nullptr),
+        pipeline_(given_ ? nullptr : make_pipeline(parameters, start.grid)),
+        machine_(given_ ? *given_ : *pipeline_),
+        checker_(machine_),
+        feed_checker_(machine_, checker_),
+        column_checker_(machine_, checker_),
         software_(parameters, start, first_step, fast, tuning,
-                  stages_of_step({parameters, pipeline_.design().shape})),
+                  stages_of_step({parameters, machine_.design().shape})),
         memory_(start) {
-    pipeline_.watch(&checker_);
-    pipeline_.watch_feeds(&feed_checker_);
-    pipeline_.watch_columns(&column_checker_);
-    pipeline_.poll(options.poll);
+    if (pipeline_ != nullptr && options.fault != Fault::none) planted_.emplace(plan_, *pipeline_);
+    machine_.watch(&checker_);
+    machine_.watch_feeds(&feed_checker_);
+    machine_.watch_columns(&column_checker_);
+    machine_.poll(options.poll);
     if (options.waves) {
-      waves_.emplace(pipeline_, "pipeline", options.waves_from);
-      pipeline_.probe(&*waves_);
+      waves_.emplace(machine_, "pipeline", options.waves_from);
+      machine_.probe(&*waves_);
       checker_.stop_at_difference(false);
     }
-    if (options.timeline || options.waves) pipeline_.each_cycle([this] { end_cycle(); });
-    pipeline_.memory(options.memory);
+    if (options.timeline || options.waves) machine_.each_cycle([this] { end_cycle(); });
+    machine_.memory(options.memory);
     report_.first_step = first_step;
   }
 
@@ -83,23 +76,30 @@ class Lockstep::Run {
     report_.strike = plan_.struck();
     if (waves_) waves_->end();
     if (waves_ && !waves_->empty()) report_.waves = waves_->vcd();
-    if (options_.timeline) report_.timeline.end(pipeline_.accounts());
-    report_.stages = pipeline_.stages();
-    report_.channels = pipeline_.channels();
+    if (options_.timeline) report_.timeline.end(machine_.accounts());
+    report_.stages = machine_.stages();
+    report_.channels = machine_.channels();
     report_.digest = state::digest(memory_);
     check_accounts();
     return std::move(report_);
   }
 
   void end_cycle() {
-    const std::int64_t cycles = report_.cycles + pipeline_.cycle() + 1;
-    if (options_.timeline && report_.timeline.wants(cycles)) report_.timeline.add(pipeline_.accounts());
+    const std::int64_t cycles = report_.cycles + machine_.cycle() + 1;
+    if (options_.timeline && report_.timeline.wants(cycles)) report_.timeline.add(machine_.accounts());
     if (!waves_) return;
     waves_->end_cycle();
-    if (checker_.mismatch() != nullptr && !waves_->wants_more()) pipeline_.stop();
+    if (checker_.mismatch() != nullptr && !waves_->wants_more()) machine_.stop();
   }
 
  private:
+  // The SystemC model. A planted fault strikes in it.
+  std::unique_ptr<Pipeline> make_pipeline(const rule::Parameters& parameters, state::Grid grid) {
+    StageMaker make = options_.make;
+    if (!make) make = options_.fault == Fault::none ? StageMaker(make_stage) : planted_stages(plan_);
+    return std::make_unique<Pipeline>(parameters, grid, options_.configuration, make, options_.simulation);
+  }
+
   // A train of passes over several time steps each, or several passes over one with many sub-steps.
   void advance() {
     const std::uint32_t step = next_step_ = report_.first_step + report_.steps;
@@ -118,26 +118,26 @@ class Lockstep::Run {
     const std::uint32_t done = report_.steps;
     for (; pass.substep < pass.substeps; pass.substep += pass.count) {
       pass.count = std::min(pass.count, pass.substeps - pass.substep);
-      for (pass.tile = 0; pass.tile < pipeline_.design().shape.tiles(); pass.tile = last_tile_ + 1)
+      for (pass.tile = 0; pass.tile < machine_.design().shape.tiles(); pass.tile = last_tile_ + 1)
         if (!run_train(pass)) return;
     }
     report_.steps = done + (next_step_ - step);
     report_.mismatch = std::move(software_mismatch_);
     if (report_.mismatch != nullptr || options_.visit_every == 0 || report_.steps % options_.visit_every != 0)
       return;
-    report_.stages = pipeline_.stages();
+    report_.stages = machine_.stages();
     stopped_ = !options_.visit(memory_, report_);
   }
 
   // How many sub-steps a step has is known when it begins, unless the scene says so.
   bool substeps_are_known() const {
-    return pipeline_.design().paper() || !pipeline_.design().parameters.flow.viscous.counts_substeps();
+    return machine_.design().paper() || !machine_.design().parameters.flow.viscous.counts_substeps();
   }
   // No pass reaches beyond a step at which somebody visits.
   int steps_of(std::uint32_t step) const {
     const std::uint32_t done = step - report_.first_step, every = options_.visit_every;
     const std::uint32_t left = options_.steps - done;
-    return steps_of_pass(pipeline_.design(), options_.configuration, step,
+    return steps_of_pass(machine_.design(), options_.configuration, step,
                          every == 0 ? left : std::min(left, every - done % every));
   }
 
@@ -160,20 +160,20 @@ class Lockstep::Run {
     return options_.visit_every != 0 && (step - report_.first_step) % options_.visit_every == 0;
   }
 
-  bool is_last_tile(const Pass& pass) const { return pass.tile + 1 == pipeline_.design().shape.tiles(); }
+  bool is_last_tile(const Pass& pass) const { return pass.tile + 1 == machine_.design().shape.tiles(); }
 
   // The next tile, or the pass that follows without a gap: only a step of visibility needs the whole state
   // before it begins.
   std::optional<Pass> next_pass(Pass last) {
     if (checker_.mismatch() != nullptr) return {};
     if (!is_last_tile(last)) {
-      if (!tiles_follow(pipeline_.design(), options_.configuration, last)) return {};
+      if (!tiles_follow(machine_.design(), options_.configuration, last)) return {};
       ++last.tile;
       add_pass(last);
       return last;
     }
     const std::uint32_t step = last.first + static_cast<std::uint32_t>(last.steps);
-    const Design& design = pipeline_.design();
+    const Design& design = machine_.design();
     const rule::Heat& heat = design.parameters.heat;
     if (!passes_overlap(design, options_.configuration, last) || !substeps_are_known() ||
         step == report_.first_step + options_.steps || is_visited(step) ||
@@ -197,19 +197,13 @@ class Lockstep::Run {
     wanted.left = wanted.steps.back().empty() ? wanted.written : wanted.steps.back().back().after;
     if (is_last_tile(pass) && wanted.left != nullptr) wanted.held = state::holdings(*wanted.left);
     checker_.add_pass(std::move(wanted));
-    channel_fault_.add_pass(pass);
-    tile_fault_.add_pass(pass);
-    irradiance_fault_.add_pass(pass);
-    code_fault_.add_pass(pass);
+    if (planted_) planted_->add_pass(pass);
     feed_checker_.add_pass(pass);
   }
 
   bool run_train(const Pass& first) {
     checker_.begin_train();
-    channel_fault_.begin_train();
-    tile_fault_.begin_train();
-    irradiance_fault_.begin_train();
-    code_fault_.begin_train();
+    if (planted_) planted_->begin_train();
     feed_checker_.begin_train(software_.irradiance());
     add_pass(first);
     std::vector<Pass> passes{first};
@@ -235,8 +229,8 @@ class Lockstep::Run {
 
   // What one pass has to give behind every stage, from what the sub-steps of a time step give.
   std::vector<Expected> expected_of(const Pass& pass, const std::vector<Expected>& step) const {
-    if (pipeline_.design().paper() || step.empty()) return step;
-    const std::vector<StageKind> stages = stages_of_step(pipeline_.design());
+    if (machine_.design().paper() || step.empty()) return step;
+    const std::vector<StageKind> stages = stages_of_step(machine_.design());
     const auto before =
         static_cast<std::size_t>(std::find(stages.begin(), stages.end(), StageKind::settle) - stages.begin());
     std::vector<Expected> expected;
@@ -257,7 +251,7 @@ class Lockstep::Run {
   }
 
   // False when a mismatch was found.
-  bool run_model(const std::vector<Pass>& passes, const Pipeline::Next& next,
+  bool run_model(const std::vector<Pass>& passes, const StreamMachine::Next& next,
                  const step::Irradiance* irradiance) {
     const Pass first = passes.front();
     const auto begin = std::chrono::steady_clock::now();
@@ -265,17 +259,16 @@ class Lockstep::Run {
     if (waves_) waves_->begin_train(report_.cycles);
     std::optional<IrradianceStream> stream;
     if (irradiance != nullptr)
-      report_.irradiance = stream.emplace(*irradiance, pipeline_.design().shape).counts();
+      report_.irradiance = stream.emplace(*irradiance, machine_.design().shape).counts();
     try {
-      end = pipeline_.run_train(first, next, stream ? &*stream : nullptr, memory_);
-    } catch (const Pipeline::StageError& error) {
+      end = machine_.run_train(first, next, stream ? &*stream : nullptr, memory_);
+    } catch (const StageError& error) {
       if (checker_.mismatch() != nullptr) {  // what follows a difference may be anything
         report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
         return false;
       }
       report_.mismatch = std::make_unique<Mismatch>(Mismatch{
-          .kind = error.kind == Pipeline::StageError::Kind::width ? Mismatch::Kind::width
-                                                                  : Mismatch::Kind::address,
+          .kind = error.kind == StageError::Kind::width ? Mismatch::Kind::width : Mismatch::Kind::address,
           .where = std::string(name_of(error.stage)),
           .phase = phase_of(error.stage),
           .step = error.step,
@@ -290,21 +283,21 @@ class Lockstep::Run {
       return false;
     }
     report_.model_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    report_.passes += (first.tile + end.passes) / pipeline_.design().shape.tiles();
+    report_.passes += (first.tile + end.passes) / machine_.design().shape.tiles();
     report_.cycles += end.cycles;
     if (end.complete) {
       const std::int64_t predicted =
-          predicted_cycles(pipeline_.design(), options_.configuration, first, end.passes);
+          predicted_cycles(machine_.design(), options_.configuration, first, end.passes);
       report_.predicted_cycles += predicted;
       report_.trains.push_back({first.first, end.passes, end.cycles, predicted});
       const Configuration& c = options_.configuration;
       if (c.stall_seed == 0 && options_.memory == nullptr && c.channels_alike() && end.cycles != predicted)
         report_.mismatch =
-            std::make_unique<Mismatch>(cycles_of(pipeline_, first.first, predicted, end.cycles));
+            std::make_unique<Mismatch>(cycles_of(machine_, first.first, predicted, end.cycles));
     }
     if (checker_.mismatch() != nullptr) report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
     if (report_.mismatch == nullptr && end.hangs)
-      report_.mismatch = std::make_unique<Mismatch>(hang_of(pipeline_, first, end.cycles));
+      report_.mismatch = std::make_unique<Mismatch>(hang_of(machine_, first, end.cycles));
     if (options_.streamed) options_.streamed(passes, stream ? &*stream : nullptr);
     return report_.mismatch == nullptr;
   }
@@ -312,7 +305,7 @@ class Lockstep::Run {
   void compare_memory(std::uint32_t step, const state::Volume& wanted) {
     const Difference d = first_difference(wanted, memory_);
     if (d.field.empty()) return;
-    const Shape& shape = pipeline_.design().shape;
+    const Shape& shape = machine_.design().shape;
     report_.mismatch = std::make_unique<Mismatch>(Mismatch{
         .kind = Mismatch::Kind::memory,
         .where = std::string(name_of(StageKind::writer)),
@@ -331,7 +324,7 @@ class Lockstep::Run {
 
   // A replay must begin where visibility is computed, or where this run began.
   bool starts_replay(std::uint32_t step) const {
-    return step == report_.first_step || pipeline_.design().parameters.heat.visibility_age(step) == 0;
+    return step == report_.first_step || machine_.design().parameters.heat.visibility_age(step) == 0;
   }
 
   // Every cycle of every stage is accounted for exactly once.
@@ -345,11 +338,10 @@ class Lockstep::Run {
 
   const VerifyOptions& options_;
   FaultPlan plan_;
-  Pipeline pipeline_;
-  ChannelFault channel_fault_;
-  TileFault tile_fault_;
-  IrradianceFault irradiance_fault_;
-  PlantedCode code_fault_;
+  std::unique_ptr<StreamMachine> given_;  // null: it is the pipeline
+  std::unique_ptr<Pipeline> pipeline_;
+  std::optional<PlantedFaults> planted_;  // in the pipeline
+  StreamMachine& machine_;
   Checker checker_;
   FeedChecker feed_checker_;
   ColumnChecker column_checker_;

@@ -11,11 +11,12 @@
 #include "hwmodel/pipeline/check/mismatch.h"
 #include "hwmodel/pipeline/check/timeline.h"
 #include "hwmodel/pipeline/faults/faults.h"
-#include "hwmodel/pipeline/model/pipeline.h"
+#include "hwmodel/pipeline/model/stream_machine.h"
 #include "kernel/automaton/step/stepper.h"
 
 namespace voxmelt::hwmodel {
 
+class Simulation;
 struct VerifyReport;
 struct VerifyOptions {
   std::uint32_t steps = 10;
@@ -31,8 +32,10 @@ struct VerifyOptions {
   bool waves =
       false;  // keep the cycles around the first difference or, if that is given, from `waves_from` on
   std::optional<std::int64_t> waves_from;
-  bool timeline = false;           // note what every stage did when
-  StageMaker make;                 // of the stages; empty: those of `fault`
+  bool timeline = false;  // note what every stage did when
+  // What is verified; empty: the SystemC pipeline of `configuration`. Its own has that configuration, too.
+  std::function<std::unique_ptr<StreamMachine>()> machine;
+  StageMaker make;                 // of the pipeline's stages; empty: those of `fault`
   StreamMemory* memory = nullptr;  // that the pipeline waits for; the closed form of its cycles does not hold
   Simulation* simulation = nullptr;  // in which other machines may run, too; null: one of its own
   // Called after every train, with its passes.

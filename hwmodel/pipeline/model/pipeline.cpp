@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "hwmodel/fabric/simulation.h"
@@ -98,7 +100,14 @@ struct Pipeline::Machine {
   }
 
   [[noreturn]] void fail(const ModelError& error, StageError::Kind kind, std::size_t t) const {
-    throw StageError(error.what(), kind, steps[t]->running(), static_cast<int>(t), part.cycle());
+    const Stage& failed = steps[t]->running();
+    StageError wrong(error.what(), kind);
+    wrong.stage = failed.kind();
+    wrong.step = failed.working_step();
+    wrong.spot = failed.spot();
+    wrong.cascade = static_cast<int>(t);
+    wrong.cycle = part.cycle();
+    throw wrong;
   }
 
   void begin(const Pass& pass, bool first) {

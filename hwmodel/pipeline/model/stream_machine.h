@@ -1,0 +1,96 @@
+// The automaton's stream as its checkers see it: it runs trains of passes over a volume, shows the tokens
+// behind every stage, and accounts for every cycle. The SystemC pipeline is one; a simulation of RTL can be
+// another.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "hwmodel/check/token_source.h"
+#include "hwmodel/pipeline/model/configuration.h"
+#include "hwmodel/pipeline/model/irradiance_stream.h"
+#include "hwmodel/pipeline/model/memory_ports.h"
+#include "hwmodel/pipeline/model/stages.h"
+#include "hwmodel/pipeline/model/stream_memory.h"
+#include "kernel/automaton/state/volume.h"
+
+namespace voxmelt::hwmodel {
+
+// A channel: those of the main stream in its order, then the feeds.
+struct ChannelReport {
+  std::string name;  // "step 0: gravity -> pattern"
+  StageKind producer = StageKind::reader;
+  int cascade = 0;  // position of its producer
+  int depth = 0, bits = 0, highest = 0, count = 0;
+  std::int64_t entered = 0;             // tokens, in the present train
+  std::vector<std::int64_t> occupancy;  // cycles with 0, 1, ... tokens
+};
+
+struct StageReport {
+  StageKind kind = StageKind::reader;
+  int cascade = 0;
+  std::int64_t lag = 0;
+  StageCycles cycles;
+  std::vector<BufferCost> buffers;
+  Units units;
+  std::int64_t moved_bits = 0;  // between the memory and a reader, writer or feed
+};
+
+// How a train of passes ended.
+struct PassEnd {
+  std::int64_t cycles = 0;
+  int passes = 0;         // that began; of a grid in tiles, every tile counts
+  bool complete = false;  // else it was stopped by the watcher, or it hangs
+  bool hangs = false;
+};
+
+// Where a value did not fit its wire, or an address its memory.
+struct StageError : std::runtime_error {
+  enum class Kind : std::uint8_t { width, address };
+  StageError(const std::string& what, Kind wrong) : std::runtime_error(what), kind(wrong) {}
+  Kind kind;
+  StageKind stage = StageKind::reader;
+  std::uint32_t step = 0;
+  Spot spot;
+  int cascade = 0;  // position of the stage's time step
+  std::int64_t cycle = 0;
+};
+
+// Its token channels are those of the main stream, in its order.
+class StreamMachine : public TokenSource {
+ public:
+  virtual const Design& design() const = 0;
+  virtual const Configuration& configuration() const = 0;
+
+  // The watcher sees every token of the main stream. If it calls `stop`, the pass ends after the
+  // present cycle.
+  virtual void watch(FifoWatcher<Cell>* watcher) = 0;
+  virtual void watch_columns(ColumnWatcher* watcher) = 0;        // that are written with hw.coded
+  virtual void watch_feeds(FifoWatcher<UInt<16>>* watcher) = 0;  // channels: kFirstFeedChannel + time step
+  static constexpr int kFirstFeedChannel = 1000;
+  // Called at the end of every cycle of every block: then the accounts of all stages include this cycle.
+  virtual void each_cycle(std::function<void()> watch) = 0;
+  virtual void memory(StreamMemory* memory) = 0;  // null: it always answers
+  // Called now and then during a pass; what it throws ends the pass.
+  virtual void poll(std::function<void()> poll) = 0;
+
+  // Streams passes over `volume`; what a pass does not use is bypassed. When the last token of a pass has
+  // been read, `next` says which pass follows without a gap, if any: the next tile, where `tiles_follow`
+  // holds, or behind the last tile the first one of a pass that has no more steps, where `passes_overlap`
+  // does (prediction.h). `irradiance`: null without radiation. Throws StageError.
+  using Next = std::function<std::optional<Pass>()>;
+  virtual PassEnd run_train(const Pass& first, const Next& next, const IrradianceStream* irradiance,
+                            state::Volume& volume) = 0;
+  virtual const Books& books() const = 0;            // of the pass that has been written last
+  virtual const state::Volume& written() const = 0;  // where the last token went
+
+  virtual std::vector<ChannelReport> channels() const = 0;
+  virtual std::vector<StageReport> stages() const = 0;    // the reader first, the writer last
+  virtual std::vector<StageCycles> accounts() const = 0;  // of the same
+};
+
+}  // namespace voxmelt::hwmodel
