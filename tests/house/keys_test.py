@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The docs explain every key: those of scene files in docs/scenes.md, those of parameters.json in docs/automaton.md,
-and those of the pipeline in docs/hardware.md.
+those of the pipeline in docs/hardware.md, and those of the ray caster in docs/hardware-picture.md.
 
   keys_test.py ROOT
   keys_test.py --self-test
@@ -14,6 +14,7 @@ ASKED = re.compile(r'(?:\.|->)(?:number|integer|flag|text|choice|file|rows|table
 WRITTEN = re.compile(r'\{"(\w+)",|\["(\w+)"\]')
 JSON = "kernel/run/io/parameters_json.cpp"
 HW = "hwmodel/pipeline/model/configuration.h"
+CASTER = "hwmodel/caster/model/configuration.h"
 
 
 def of_scenes(root):
@@ -33,16 +34,17 @@ def of_parameters(root):
     return written, set(re.findall(r"\w+", section[1] if section else ""))
 
 
-def of_pipeline(root):
-    """Rows of the table of [hw]; and all words of docs/hardware.md that stand as `hw.word`."""
-    rows = {key: HW for key in re.findall(r'hw_key<[^>]+>\(\s*"(\w+)"', (root / HW).read_text())}
-    return rows, set(re.findall(r"`hw\.(\w+)`", (root / "docs/hardware.md").read_text()))
+def of_machine(root, table, page):
+    """Rows of a machine's table of [hw]; and all words of its page that stand as `hw.word`."""
+    rows = {key: table for key in re.findall(r'hw_key<[^>]+>\(\s*"(\w+)"', (root / table).read_text())}
+    return rows, set(re.findall(r"`hw\.(\w+)`", (root / page).read_text()))
 
 
 def offences(root):
     found = []
     for page, (keys, explained) in (("docs/scenes.md", of_scenes(root)), ("docs/automaton.md", of_parameters(root)),
-                                    ("docs/hardware.md", of_pipeline(root))):
+                                    *((page, of_machine(root, table, page)) for table, page in ((HW, "docs/hardware.md"),
+                                                                                               (CASTER, "docs/hardware-picture.md")))):
         found += [f"{path}: {page} does not explain the key `{key}`" for key, path in keys.items() if key not in explained]
         found += [] if keys else [f"{page}: no key was found in the code: wrong folder, or wrong check"]
     return found
@@ -54,10 +56,11 @@ def self_test():
             reader: 'reader.number("gamma", x); reader->table("air"); frame.vector<3>("margin", y);\n',
             "docs/automaton.md": "## 13. Digest\nfrom\n## 14. Parameters\nheat.{radius}, `grid`\n## 15. Proofs\nuntil\n",
             json: 'json["grid"] = {{"radius", 3}};\n',
-            "docs/hardware.md": "`hw.lanes`, lanes and `tile`\n", HW: 'hw_key<&C::lanes>("lanes", 1),\n'}
+            "docs/hardware.md": "`hw.lanes`, lanes and `tile`\n", HW: 'hw_key<&C::lanes>("lanes", 1),\n',
+            "docs/hardware-picture.md": "`hw.pipes`\n", CASTER: 'hw_key<&C::pipes>("pipes", 1),\n'}
     planted = [(reader, 'r.number("delta", x);'), (reader, 'r->integer("delta", 1);'), (reader, 'r.vector<3>("delta");'),
                (reader, 'r.tables(\n    "delta");'), (reader, 'r.flag("power", true);'), (reader, "\n"),
-               (json, '{"until", 1}'), (json, '{"from", 1}'), (json, "\n"), (HW, "\n"), (HW, 'hw_key<&C::tile>(\n    "tile", 1)'), ("docs/automaton.md", "## 14. Parameters\ngrid\n")]
+               (json, '{"until", 1}'), (json, '{"from", 1}'), (json, "\n"), (HW, "\n"), (CASTER, "\n"), (CASTER, 'hw_key<&C::levels, &S::sets>("sets", 1)'), (HW, 'hw_key<&C::tile>(\n    "tile", 1)'), ("docs/automaton.md", "## 14. Parameters\ngrid\n")]
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         for changed in [None, *planted]:

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
+#include "hwmodel/fabric/key.h"
 #include "hwmodel/memory/chosen_memory.h"
 #include "hwmodel/memory/parameters.h"
 
@@ -40,6 +43,41 @@ struct Configuration {
 
   memory::Choice memory() const { return {dram, latency, bus_bytes, clock_mhz, memory_trace}; }
   int tiles_in_turn(bool clear) const { return clear ? std::min(tiles, clear_tiles) : tiles; }
+};
+
+using CasterKey = Key<Configuration>;
+
+// A cache's request needs up to eight lines at once: with fewer to spare it could wait for itself.
+inline constexpr std::array kCasterKeys{
+    hw_key<&Configuration::pipes>("pipes", 1, 64),
+    hw_key<&Configuration::rays>("rays", 1, 4096),
+    hw_key<&Configuration::walkers>("walkers", 1, 16),
+    hw_key<&Configuration::searchers>("searchers", 1, 16),
+    hw_key<&Configuration::fifo_depth>("fifo_depth", 1, 1024),
+    hw_key<&Configuration::stall_seed>("stall_seed", 0, std::numeric_limits<std::int64_t>::max()),
+    hw_key<&Configuration::tiles>("tiles", 1, 64),
+    hw_key<&Configuration::clear_tiles>("clear_tiles", 1, 64),
+    hw_key<&Configuration::bands>("bands", 1, 64),
+    hw_key<&Configuration::latency>("latency", 1, 1000),
+    hw_key<&Configuration::bus_bytes>("bus_bytes", 1, 4096),
+    hw_key<&Configuration::apron>("apron", 0, 1),
+    hw_key<&Configuration::level_bits>("level_bits", 1, 3),
+    hw_key<&Configuration::levels, &CacheShape::sets>("levels_sets", 1, 65536, "1, 2, 4 .. 65536", true),
+    hw_key<&Configuration::levels, &CacheShape::ways>("levels_ways", 1, 64, "1, 2, 4 .. 64", true),
+    hw_key<&Configuration::levels, &CacheShape::spare>("levels_spare", 8, 256),
+    hw_key<&Configuration::levels, &CacheShape::queue>("levels_queue", 1, 1024),
+    hw_key<&Configuration::matter, &CacheShape::sets>("matter_sets", 1, 65536, "1, 2, 4 .. 65536", true),
+    hw_key<&Configuration::matter, &CacheShape::ways>("matter_ways", 1, 64, "1, 2, 4 .. 64", true),
+    hw_key<&Configuration::matter, &CacheShape::spare>("matter_spare", 8, 256),
+    hw_key<&Configuration::matter, &CacheShape::queue>("matter_queue", 1, 1024),
+    hw_key<&Configuration::light, &CacheShape::sets>("light_sets", 1, 65536, "1, 2, 4 .. 65536", true),
+    hw_key<&Configuration::light, &CacheShape::ways>("light_ways", 1, 64, "1, 2, 4 .. 64", true),
+    hw_key<&Configuration::light, &CacheShape::spare>("light_spare", 8, 256),
+    hw_key<&Configuration::light, &CacheShape::queue>("light_queue", 1, 1024),
+    hw_key<&Configuration::ground, &CacheShape::sets>("ground_sets", 1, 65536, "1, 2, 4 .. 65536", true),
+    hw_key<&Configuration::ground, &CacheShape::ways>("ground_ways", 1, 64, "1, 2, 4 .. 64", true),
+    hw_key<&Configuration::ground, &CacheShape::spare>("ground_spare", 8, 256),
+    hw_key<&Configuration::ground, &CacheShape::queue>("ground_queue", 1, 1024),
 };
 
 inline constexpr int kTileSide = 8;  // pixels

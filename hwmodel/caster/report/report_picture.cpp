@@ -130,30 +130,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const CacheShape& cache) {
-  return {{"sets", cache.sets}, {"ways", cache.ways}, {"spare", cache.spare}, {"queue", cache.queue}};
-}
-
+// A cache's keys stand together: {"levels": {"sets": 64, ...}}.
 Json json_of(const Configuration& c) {
-  return {{"pipes", c.pipes},
-          {"rays", c.rays},
-          {"walkers", c.walkers},
-          {"searchers", c.searchers},
-          {"fifo_depth", c.fifo_depth},
-          {"stall_seed", c.stall_seed},
-          {"tiles", c.tiles},
-          {"clear_tiles", c.clear_tiles},
-          {"bands", c.bands},
-          {"clock_mhz", c.clock_mhz},
-          {"memory", c.dram ? c.dram->name : "fixed"},
-          {"latency", c.latency},
-          {"bus_bytes", c.bus_bytes},
-          {"apron", c.apron},
-          {"level_bits", c.level_bits},
-          {"levels", json_of(c.levels)},
-          {"matter", json_of(c.matter)},
-          {"light", json_of(c.light)},
-          {"ground", json_of(c.ground)}};
+  Json json{{"clock_mhz", c.clock_mhz}, {"memory", c.dram ? c.dram->name : "fixed"}};
+  for (const CasterKey& key : kCasterKeys) {
+    const std::string name(key.name);
+    const std::size_t cache = name.find('_');
+    const std::string first = name.substr(0, cache);
+    if (first == "levels" || first == "matter" || first == "light" || first == "ground")
+      json[first][name.substr(cache + 1)] = key.get(c);
+    else
+      json[name] = key.get(c);
+  }
+  json["apron"] = c.apron;
+  return json;
 }
 
 Json json_of(const StageAccount& stage) {

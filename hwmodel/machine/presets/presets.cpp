@@ -1,11 +1,10 @@
 #include "hwmodel/machine/presets/presets.h"
 
-#include <bit>
-#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "hwmodel/machine/presets/caster_preset.h"
+#include "hwmodel/machine/presets/keys.h"
 #include "kernel/scene/text/compose.h"
 #include "kernel/scene/text/reader.h"
 
@@ -13,13 +12,7 @@ namespace voxmelt::hwmodel {
 namespace {
 
 void read_pipeline(scene::Reader& hw, Configuration& c) {
-  for (const HwKey& key : kHwKeys) {
-    const std::string name(key.name);
-    const std::int64_t value = hw.integer(name, key.low, key.high, key.get(c));
-    if (key.power_of_two && !std::has_single_bit(static_cast<std::uint64_t>(value)))
-      hw.fail(name, " = " + std::to_string(value) + " is not a power of 2: " + std::string(key.values));
-    key.set(c, value);
-  }
+  read_keys(hw, kHwKeys, c);
   if (c.tile % c.lanes != 0)
     hw.fail("tile",
             " = " + std::to_string(c.tile) + " is not a multiple of lanes = " + std::to_string(c.lanes));

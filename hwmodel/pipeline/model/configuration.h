@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <string_view>
-#include <type_traits>
 #include <vector>
+
+#include "hwmodel/fabric/key.h"
 
 namespace voxmelt::hwmodel {
 
@@ -46,31 +46,7 @@ struct Configuration {
 inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024, kMostSubsteps = 64,
                      kMostTile = 65536;
 
-struct HwKey {
-  std::string_view name;    // of [hw], --set, JSON and CSV
-  std::int64_t low, high;   // its range
-  std::string_view values;  // the same for people
-  bool power_of_two;
-  std::int64_t (*get)(const Configuration&);
-  void (*set)(Configuration&, std::int64_t);
-
-  std::int64_t usual() const { return get(Configuration{}); }
-  bool chosen() const { return name != "stall_seed"; }  // by a designer: it is no test of the channels
-};
-
-template <auto Member>
-constexpr HwKey hw_key(std::string_view name, std::int64_t low, std::int64_t high, std::string_view values,
-                       bool power_of_two = false) {
-  return {name,
-          low,
-          high,
-          values,
-          power_of_two,
-          [](const Configuration& c) { return static_cast<std::int64_t>(c.*Member); },
-          [](Configuration& c, std::int64_t value) {
-            c.*Member = static_cast<std::remove_reference_t<decltype(c.*Member)>>(value);
-          }};
-}
+using HwKey = Key<Configuration>;
 
 // A multiple of the lanes must be read behind them: hw.tile.
 inline constexpr std::array kHwKeys{
