@@ -110,17 +110,9 @@ TEST(Code, AVolumeIsReadBack) {
   }
 }
 
-int quick_worlds() {
-#ifdef VOXMELT_ALL_CODED
-  return 50;
-#else
-  return 16;
-#endif
-}
-
-TEST(Code, HostileWorldsWithTilesAndStalls) {
+void hostile_worlds(int begin, int end) {
   int cut = 0, overlapped = 0;
-  for (int i = 0; i < quick_worlds(); ++i) {
+  for (int i = begin; i < end; ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
     worlds::Random random(seed + 97);
     const state::Grid grid{random.between(8, 60), random.between(1, 9), random.between(2, 24)};
@@ -138,33 +130,32 @@ TEST(Code, HostileWorldsWithTilesAndStalls) {
       return train.passes > design_of(start.parameters, grid, c).shape.tiles();
     });
   }
-  std::printf("             %d of %d worlds were cut, in %d passes overlapped\n", cut, quick_worlds(),
+  std::printf("             %d of %d worlds were cut, in %d passes overlapped\n", cut, end - begin,
               overlapped);
   EXPECT_GT(cut, 2);
   EXPECT_GT(overlapped, 2);
 }
+TEST(Code, HostileWorldsWithTilesAndStalls) { hostile_worlds(0, 16); }
+TEST(CodeLong, HostileWorldsWithTilesAndStalls) { hostile_worlds(16, 50); }
 
 // Lanes, time steps and code, and tiles where the crop is wide enough for them.
-TEST(Code, CropsOfScenes) {
+void crop_of_scene(const std::string& name, std::uint32_t step) {
   const std::array<int, 3> lanes{1, 4, 16};
   const std::array<int, 4> cascade{1, 2, 4, 8};
   int cut = 0;
-  for (const auto& [name, step] : {std::pair{"cello", 1048u}, std::pair{"bunny_viscous", 896u}}) {
-#ifndef VOXMELT_ALL_CODED
-    if (name != std::string("cello")) continue;
-#endif
-    const Start start = crop(start_of(name, step), 32);
-    for (std::size_t i = 0; i < lanes.size(); ++i)
-      for (std::size_t j = 0; j < cascade.size(); ++j) {
-        Configuration c{lanes[i], cascade[j], (i + j) % 2 == 0 ? 2 : 4, j % 3 == 1 ? i + 1 : 0};
-        c.coded = (i + j) % 2 == 0;
-        if (i < 2 && j < 2) c.tile = narrow(start, c, 1);
-        cut += design_of(start.parameters, start.volume.grid, c).shape.tiles() > 1;
-        ASSERT_TRUE(agrees(start, c, std::min(8u, 2u * static_cast<std::uint32_t>(c.cascade)))) << name;
-      }
-  }
+  const Start start = crop(start_of(name, step), 32);
+  for (std::size_t i = 0; i < lanes.size(); ++i)
+    for (std::size_t j = 0; j < cascade.size(); ++j) {
+      Configuration c{lanes[i], cascade[j], (i + j) % 2 == 0 ? 2 : 4, j % 3 == 1 ? i + 1 : 0};
+      c.coded = (i + j) % 2 == 0;
+      if (i < 2 && j < 2) c.tile = narrow(start, c, 1);
+      cut += design_of(start.parameters, start.volume.grid, c).shape.tiles() > 1;
+      ASSERT_TRUE(agrees(start, c, std::min(8u, 2u * static_cast<std::uint32_t>(c.cascade)))) << name;
+    }
   EXPECT_GE(cut, 3);
 }
+TEST(Code, CropsOfScenes) { crop_of_scene("cello", 1048); }
+TEST(CodeLong, CropsOfScenes) { crop_of_scene("bunny_viscous", 896); }
 
 // On a DRAM: the same bits, and it reads the bursts that hold something, and no others.
 TEST(Code, ADramGivesTheBurstsThatAreCounted) {
@@ -343,27 +334,26 @@ TEST(Code, PassesOverlapIfNobodyWaitsForAColumn) {
 
 // 8 lanes, 8 steps: a quarter of the 1024 bits of irradiance that were sent at most, and of the cello's
 // state.
-TEST(Code, TrafficOfTheShowcase) {
-  for (const auto& [name, step] : showcase()) {
-#ifndef VOXMELT_ALL_CODED
-    if (name != "cello") continue;
-#endif
-    const Start start = start_of(name, step);
-    run::Simulation simulation(start.parameters, start.volume, run::implementations().widest());
-    simulation.begin_at(start.step);
-    simulation.begin_step();
-    const Design design{start.parameters, {start.volume.grid, 8}, 1};
-    const explore::Content content = explore::content_of(design, simulation.irradiance(), &start.volume);
-    const auto tokens = static_cast<double>(design.shape.tokens());
-    const double irradiance = 8 * static_cast<double>(content.irradiance_bits) / tokens;
-    const double coded = static_cast<double>(content.coded_bits) / tokens / (8 * design.cell_bits());
-    std::printf("%-16s %.1f bits of irradiance per cycle; coded %.1f %% of the state\n", name.c_str(),
-                irradiance, 100 * coded);
-    EXPECT_LE(irradiance, 256);
-    if (name == "cello" || name == "cello_viscous") {
-      EXPECT_LE(coded, 0.25);
-    }
+void traffic_of(const std::string& name, std::uint32_t step) {
+  const Start start = start_of(name, step);
+  run::Simulation simulation(start.parameters, start.volume, run::implementations().widest());
+  simulation.begin_at(start.step);
+  simulation.begin_step();
+  const Design design{start.parameters, {start.volume.grid, 8}, 1};
+  const explore::Content content = explore::content_of(design, simulation.irradiance(), &start.volume);
+  const auto tokens = static_cast<double>(design.shape.tokens());
+  const double irradiance = 8 * static_cast<double>(content.irradiance_bits) / tokens;
+  const double coded = static_cast<double>(content.coded_bits) / tokens / (8 * design.cell_bits());
+  std::printf("%-16s %.1f bits of irradiance per cycle; coded %.1f %% of the state\n", name.c_str(),
+              irradiance, 100 * coded);
+  EXPECT_LE(irradiance, 256);
+  if (name == "cello" || name == "cello_viscous") {
+    EXPECT_LE(coded, 0.25);
   }
+}
+TEST(Code, TrafficOfTheShowcase) { traffic_of(showcase()[0].first, showcase()[0].second); }
+TEST(CodeLong, TrafficOfTheShowcase) {
+  for (std::size_t i = 1; i < showcase().size(); ++i) traffic_of(showcase()[i].first, showcase()[i].second);
 }
 
 }  // namespace

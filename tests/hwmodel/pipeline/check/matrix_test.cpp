@@ -45,8 +45,6 @@ void check_row(const Start& start, std::size_t i, bool counted) {
   run_row(start, row, c, 2);
 }
 
-#ifndef VOXMELT_WHOLE_MATRIX
-
 TEST(Matrix, TheRowsHoldEveryPair) {
   std::set<ValuePair> pairs;
   for (const MatrixRow& row : rows()) each_pair(row, [&](const ValuePair& pair) { pairs.insert(pair); });
@@ -71,8 +69,6 @@ TEST_P(Crops, OfAShowcaseScene) {
 
 INSTANTIATE_TEST_SUITE_P(Matrix, Crops, testing::Range(std::size_t{0}, showcase().size()),
                          [](const auto& chosen) { return showcase()[chosen.param].first; });
-
-#else
 
 constexpr int kParts = 8;  // of a scene's runs, so that a run can be cut short
 
@@ -127,11 +123,9 @@ std::vector<std::pair<std::size_t, int> > parts() {
     for (std::size_t scene = 0; scene < showcase().size(); ++scene) all.emplace_back(scene, part);
   return all;
 }
-INSTANTIATE_TEST_SUITE_P(Showcase, Whole, testing::ValuesIn(parts()), [](const auto& chosen) {
+INSTANTIATE_TEST_SUITE_P(Long, Whole, testing::ValuesIn(parts()), [](const auto& chosen) {
   return showcase()[chosen.param.first].first + "_" + std::to_string(chosen.param.second);
 });
-
-#endif
 
 }  // namespace
 }  // namespace voxmelt::hwmodel

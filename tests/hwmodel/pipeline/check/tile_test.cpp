@@ -113,11 +113,8 @@ void hostile_worlds(std::uint64_t begin, std::uint64_t end) {
               static_cast<int>(end - begin), most);
   EXPECT_GT(cut, static_cast<int>(end - begin) / 3);
 }
-#ifdef VOXMELT_ALL_TILES
-TEST(Tiles, HostileWorlds) { hostile_worlds(0, 200); }
-#else
 TEST(Tiles, HostileWorlds) { hostile_worlds(0, 40); }
-#endif
+TEST(TilesLong, HostileWorlds) { hostile_worlds(40, 200); }
 
 // Exactly the predicted cycles, with and without overlap, where tiles of shallow grids do not follow too.
 TEST(Tiles, ClosedFormIsExact) {
