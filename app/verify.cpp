@@ -64,15 +64,10 @@ void split_sets(VerifyCommand& command) {
 }
 
 int run_picture(VerifyCommand command) {
-  command.picture.plant = command.plant;
   scene::Scene scene = load_beginning(command);
   end_soon_at_interrupts();
   const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
-  PictureChoice picture = command.picture;
-  picture.vcd = command.vcd;
-  picture.vcd_from = command.vcd_from;
-  picture.again = picture_again(command, scene.file.string());
-  return verify_caster(command.common, picture, scene, ahead, find_preset(command.hw), command.hw_sets);
+  return verify_caster(command, scene, ahead);
 }
 
 // What is asked must fit the machine that is asked for. All that one of them does not do is refused here.
@@ -87,8 +82,8 @@ void check_asked(const VerifyCommand& command) {
          "of one machine: the pipeline, or with --picture the caster");
   refuse(picture && !command.vcd.empty() && !command.vcd_from && !command.picture.compare, "--vcd",
          "with --no-compare no stage is compared; --vcd-from says which cycles");
-  refuse((picture || machine) && !command.shrink.empty(), "--shrink",
-         "only of the pipeline alone (--picture finds one pixel by itself)");
+  refuse(machine && !command.shrink.empty(), "--shrink",
+         "of one machine: the pipeline, or with --picture the caster");
   refuse((picture || machine) && !command.size_fifos.empty(), "--size-fifos", "only of the pipeline alone");
   refuse(picture && command.plant_step.has_value(), "--plant-step", "a picture has no steps (--picture)");
   refuse(command.plant_step && command.plant.empty(), "--plant-step",
@@ -111,7 +106,7 @@ int run_verify(VerifyCommand command) {
 
 void add_outputs(CLI::App& command, VerifyCommand& options) {
   command.add_option("--shrink", options.shrink,
-                     "make what fails small (grid, steps, machine, matter): a scene FILE.toml");
+                     "make what fails small (grid, steps or pixels, machine, matter): a scene FILE.toml");
   command.add_option("--vcd", options.vcd,
                      "write the waves of the 64 cycles around the first difference, for a waveform viewer");
   command

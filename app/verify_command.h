@@ -14,6 +14,7 @@
 #include "hwmodel/pipeline/check/verify.h"
 #include "hwmodel/pipeline/model/configuration.h"
 #include "kernel/run/io/output_folder.h"
+#include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
 
 namespace voxmelt::app {
@@ -30,6 +31,7 @@ struct VerifyCommand {
 };
 
 int verify_pipeline(VerifyCommand command);
+int verify_caster(const VerifyCommand& command, const scene::Scene& scene, const run::Simulation& state);
 int verify_whole_machine(VerifyCommand command);
 
 // The file of --hw.
@@ -44,6 +46,8 @@ std::uint32_t plant_step(const VerifyCommand& command, std::uint32_t first_step)
 std::string name_of(const scene::Scene& scene);
 // What must be typed to see a picture again, but for its pixel.
 std::string picture_again(const VerifyCommand& command, const std::string& scene);
+// The same of the picture that --shrink makes, but for its pixels, its setting and what is plainer.
+std::string small_picture_again(const VerifyCommand& command);
 
 // The folder of a replay; a replay extends its scene, so it must not take that scene's place.
 std::filesystem::path replay_place(const VerifyCommand& command, const scene::Scene& scene);

@@ -5,12 +5,15 @@
 
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <system_error>
 
 #include "app/commands.h"
 #include "app/film.h"
 #include "app/interrupt.h"
 #include "app/message.h"
+#include "app/verify_command.h"
+#include "app/verify_shrink.h"
 #include "hwmodel/caster/check/replay_pixel.h"
 #include "hwmodel/caster/check/verify_picture.h"
 #include "hwmodel/caster/faults/faults.h"
@@ -54,25 +57,19 @@ hwmodel::raycast::Window part_of(const std::string& pixel, const scene::Camera& 
   return {x, y, x + wide, y + high};
 }
 
-// What --pixel says for a part.
-std::string text_of(const hwmodel::raycast::Window& part) {
-  const std::int32_t wide = part.right - part.left, high = part.bottom - part.top;
-  const std::string place = fmt::format("{},{}", part.left, part.top);
-  return wide == 1 && high == 1 ? place : fmt::format("{},{}x{}", place, wide, high);
-}
-
-hwmodel::raycast::PictureOptions options_of(const PictureChoice& choice,
+hwmodel::raycast::PictureOptions options_of(const VerifyCommand& command,
                                             const hwmodel::raycast::Configuration& configuration,
                                             const hwmodel::raycast::FaultInfo* fault,
                                             const scene::Camera& camera) {
+  const PictureChoice& choice = command.picture;
   hwmodel::raycast::PictureOptions options;
   options.configuration = configuration;
   options.compare = choice.compare;
   options.frames = choice.frames;
   if (fault != nullptr) options.fault = fault->fault;
   options.poll = stop_if_interrupted;
-  options.waves = !choice.vcd.empty();
-  options.waves_from = choice.vcd_from;
+  options.waves = !command.vcd.empty();
+  options.waves_from = command.vcd_from;
   if (!choice.pixel.empty()) options.window = part_of(choice.pixel, camera);
   return options;
 }
@@ -137,58 +134,107 @@ std::string write_waves(const std::string& vcd, std::optional<std::int64_t> from
   return {};
 }
 
-int verify_caster(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
-                  const run::Simulation& state, const fs::path& preset,
-                  const std::vector<std::string>& hw_sets) {
-  const scene::Camera camera = camera_of(choice, scene);
-  const render::Setting setting = setting_of(choice);
-  const hwmodel::Preset configured = hwmodel::load_preset(preset, hw_sets, hwmodel::Runs::caster);
-  const hwmodel::raycast::FaultInfo* fault = hwmodel::raycast::find_fault(choice.plant);
-  if (!choice.plant.empty() && fault == nullptr)
+namespace {
+
+void check_picture(const VerifyCommand& command, const scene::Scene& scene) {
+  const PictureChoice& choice = command.picture;
+  if (!command.plant.empty() && hwmodel::raycast::find_fault(command.plant) == nullptr)
     throw UsageError(fmt::format(
-        "error: --plant {}: unknown in the ray caster; `voxmelt list faults` names them", choice.plant));
-  if (!choice.plant.empty() && !choice.compare)
+        "error: --plant {}: unknown in the ray caster; `voxmelt list faults` names them", command.plant));
+  if (!command.plant.empty() && !choice.compare)
     throw UsageError("error: --plant: with --no-compare no stage is compared");
-  check_report_place(common, "");
-  check_html_place(common, choice, "");
-  const hwmodel::raycast::PictureOptions options = options_of(choice, configured.caster, fault, camera);
-  const hwmodel::raycast::PictureInput input{state.volume(), scene.look, scene.light,
-                                             scene.terrain,  camera,     setting};
-  const hwmodel::raycast::PictureReport report = hwmodel::raycast::verify_picture(input, options);
+  check_report_place(command.common, "");
+  check_html_place(command.common, choice, "");
+  check_place("--vcd", command.vcd, "");
+  check_place("--shrink", command.shrink, "");
+  keep_inputs(scene, {{"--html", choice.html}, {"--vcd", command.vcd}, {"--shrink", command.shrink}});
+}
 
-  if (fault != nullptr && report.good() && !report.strike)
-    throw UsageError(fmt::format(
-        "error: --plant {}: in this picture there is nothing that this fault could change", choice.plant));
+struct Drawn {
+  const VerifyCommand& command;
+  const scene::Scene& scene;
+  const hwmodel::raycast::PictureInput& input;
+  const hwmodel::raycast::PictureOptions& options;
+  const hwmodel::raycast::PictureReport& report;
+  std::uint32_t step = 0;
+};
 
-  if (common.quiet)
-    fmt::print("{}: {} cycles\n", scene.name, report.all_cycles);
-  else
-    fmt::print("{}: step {}, {} x {}, {}; pipes {}, fifo depth {}, stall seed {}\n", scene.name,
-               state.step_number(), camera.width, camera.height, choice.setting, options.configuration.pipes,
-               options.configuration.fifo_depth, options.configuration.stall_seed);
-  if (!common.quiet) fmt::print("{}", hwmodel::raycast::table_of(report, options.configuration));
-  fmt::print("{}", common.quiet ? first_line(hwmodel::raycast::verdict_text(report))
-                                : hwmodel::raycast::verdict_text(report));
-  nlohmann::ordered_json json{{"scene", scene.name},
-                              {"step", state.step_number()},
-                              {"width", camera.width},
-                              {"height", camera.height}};
+void print_picture(const Drawn& drawn) {
+  const auto& [command, scene, input, options, report, step] = drawn;
+  if (command.common.quiet) {
+    fmt::print("{}: {} cycles\n{}", scene.name, report.all_cycles,
+               first_line(hwmodel::raycast::verdict_text(report)));
+    return;
+  }
+  fmt::print("{}: step {}, {} x {}, {}; pipes {}, fifo depth {}, stall seed {}\n", scene.name, step,
+             input.camera.width, input.camera.height, command.picture.setting, options.configuration.pipes,
+             options.configuration.fifo_depth, options.configuration.stall_seed);
+  fmt::print("{}{}", hwmodel::raycast::table_of(report, options.configuration),
+             hwmodel::raycast::verdict_text(report));
+}
+
+nlohmann::ordered_json json_of(const Drawn& drawn) {
+  const auto& [command, scene, input, options, report, step] = drawn;
+  nlohmann::ordered_json json{
+      {"scene", scene.name}, {"step", step}, {"width", input.camera.width}, {"height", input.camera.height}};
   json.update(hwmodel::raycast::json_of(report, options.configuration));
   const auto replay = hwmodel::raycast::replay_pixel(input, options, report);
-  if (replay) {
-    const std::string pixel = text_of(replay->part);
-    if (!common.quiet)
-      fmt::print("{}to see it again:\n  {} --pixel {}\n", hwmodel::raycast::text_of(*replay), choice.again,
-                 pixel);
-    json["replay"] = {{"pixel", pixel}, {"fails_alone", replay->fails}};
-  }
-  const std::string no_waves = write_waves(choice.vcd, choice.vcd_from, report.waves);
-  write_report(common, json.dump(2) + '\n');
+  if (!replay) return json;
+  const std::string pixel = hwmodel::raycast::pixel_text(replay->part);
+  if (!command.common.quiet)
+    fmt::print("{}to see it again:\n  {} --pixel {}\n", hwmodel::raycast::text_of(*replay),
+               picture_again(command, scene.file.string()), pixel);
+  json["replay"] = {{"pixel", pixel}, {"fails_alone", replay->fails}};
+  return json;
+}
+
+void write_outputs(const Drawn& drawn, const nlohmann::ordered_json& json) {
+  const auto& [command, scene, input, options, report, step] = drawn;
+  const PictureChoice& choice = command.picture;
+  write_report(command.common, json.dump(2) + '\n');
   if (!choice.html.empty())
-    io::write_file(choice.html, hwmodel::picture_page(
-                                    json, fmt::format("{}, step {}, {} x {}", scene.name, state.step_number(),
-                                                      camera.width, camera.height)));
+    io::write_file(choice.html,
+                   hwmodel::picture_page(json, fmt::format("{}, step {}, {} x {}", scene.name, step,
+                                                           input.camera.width, input.camera.height)));
   if (!choice.png.empty()) render::write_png(choice.png, report.image);
+}
+
+void shrink(const Drawn& drawn) {
+  const VerifyCommand& command = drawn.command;
+  if (command.shrink.empty()) return;
+  if (drawn.report.good()) {
+    if (!command.common.quiet) fmt::print("--shrink: there is no difference to make small\n");
+    return;
+  }
+  try_writing([&] {
+    const std::string small =
+        make_small_picture(command, drawn.scene, drawn.input, drawn.options, drawn.report);
+    if (!command.common.quiet) fmt::print("{}", small);
+  });
+}
+
+}  // namespace
+
+int verify_caster(const VerifyCommand& command, const scene::Scene& scene, const run::Simulation& state) {
+  check_picture(command, scene);
+  const hwmodel::Preset configured =
+      hwmodel::load_preset(find_preset(command.hw), command.hw_sets, hwmodel::Runs::caster);
+  const hwmodel::raycast::FaultInfo* fault = hwmodel::raycast::find_fault(command.plant);
+  const scene::Camera camera = camera_of(command.picture, scene);
+  const hwmodel::raycast::PictureOptions options = options_of(command, configured.caster, fault, camera);
+  const hwmodel::raycast::PictureInput input{state.volume(), scene.look, scene.light,
+                                             scene.terrain,  camera,     setting_of(command.picture)};
+  const hwmodel::raycast::PictureReport report = hwmodel::raycast::verify_picture(input, options);
+  if (fault != nullptr && report.good() && !report.strike)
+    throw UsageError(fmt::format(
+        "error: --plant {}: in this picture there is nothing that this fault could change", command.plant));
+
+  const Drawn drawn{command, scene, input, options, report, state.step_number()};
+  print_picture(drawn);
+  const nlohmann::ordered_json json = json_of(drawn);
+  const std::string no_waves = write_waves(command.vcd, command.vcd_from, report.waves);
+  write_outputs(drawn, json);
+  shrink(drawn);
   if (!no_waves.empty() && report.good()) throw UsageError(no_waves);
   if (!no_waves.empty()) say(no_waves);
   return report.good() && !report.strike ? kDone : kCheckFailed;

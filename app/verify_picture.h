@@ -2,13 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "app/options.h"
-#include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
 #include "render/packet/draw_picture.h"
 
@@ -21,12 +18,9 @@ namespace voxmelt::app {
 struct PictureChoice {
   bool asked = false, compare = true;
   bool machine = false;  // the whole machine is asked for
-  std::string view, size, setting = "normal", png, plant, pixel;
+  std::string view, size, setting = "normal", png, pixel;
   int frames = 1;
   std::string html;  // of the pipeline's run, too
-  std::string vcd;
-  std::optional<std::int64_t> vcd_from;
-  std::string again;  // what to type to see the picture again
 };
 void add_picture_choice(CLI::App& command, PictureChoice& choice);
 
@@ -42,9 +36,5 @@ std::string write_waves(const std::string& vcd, std::optional<std::int64_t> from
 
 // Does it fit the other options? Throws UsageError.
 void check_html_place(const Common& common, const PictureChoice& choice, const std::string& out);
-
-int verify_caster(const Common& common, const PictureChoice& choice, const scene::Scene& scene,
-                  const run::Simulation& state, const std::filesystem::path& preset,
-                  const std::vector<std::string>& hw_sets);
 
 }  // namespace voxmelt::app

@@ -54,6 +54,16 @@ std::string picture_again(const VerifyCommand& command, const std::string& scene
   return text;
 }
 
+std::string small_picture_again(const VerifyCommand& command) {
+  std::string text = fmt::format("voxmelt verify {} --picture", shell_word(command.shrink));
+  if (!command.picture.compare) text += " --no-compare";
+  if (command.picture.frames != 1) text += fmt::format(" --frames {}", command.picture.frames);
+  if (!command.plant.empty()) text += " --plant " + command.plant;
+  if (!command.hw.empty()) text += " --hw " + shell_word(command.hw);
+  for (const std::string& set : command.hw_sets) text += " --set " + shell_word(set);
+  return text;
+}
+
 // A replay is called scene.toml, so its folder names it.
 std::string name_of(const scene::Scene& scene) {
   const std::string folder = fs::absolute(scene.file).parent_path().filename().string();

@@ -33,9 +33,69 @@ Value number(std::int64_t value) {
   return result;
 }
 
+Value real(double value) {
+  Value result;
+  result.kind = Value::Kind::real;
+  result.real = value;
+  return result;
+}
+
+Value text_value(std::string value) {
+  Value result;
+  result.kind = Value::Kind::text;
+  result.text = std::move(value);
+  return result;
+}
+
+Value array_of(std::vector<Value> items) {
+  Value result;
+  result.kind = Value::Kind::array;
+  result.items = std::move(items);
+  return result;
+}
+
 Value& table_of(Value& document, const std::string& key) {
   Value* found = document.find(key);
   return found != nullptr && found->kind == Value::Kind::table ? *found : document.put(key, Value{});
+}
+
+void put_start(Value& document, const Part& part, const std::string& fields, std::uint32_t step) {
+  table_of(document, "grid")
+      .put("size", array_of({number(part.size[0]), number(part.size[1]), number(part.size[2])}));
+  Value& start = table_of(document, "start");
+  start.put("fields", text_value(fields));
+  start.put("step", number(step));
+}
+
+void put_camera(Value& document, const Camera& camera, const std::array<int, 3>& by) {
+  Value table;
+  table.put("target", array_of({real(camera.target[0] - by[0]), real(camera.target[1] - by[1]),
+                                real(camera.target[2] - by[2])}));
+  table.put("azimuth", real(camera.azimuth));
+  table.put("elevation", real(camera.elevation));
+  table.put("distance", real(camera.distance));
+  table.put("field_of_view", real(camera.field_of_view));
+  table.put("projection", text_value(camera.orthographic ? "orthographic" : "perspective"));
+  table.put("width", number(camera.width));
+  table.put("height", number(camera.height));
+  document.put("camera", std::move(table));
+}
+
+// Floors and height fields, whose files are named from everywhere.
+void keep_terrain(Value& document) {
+  Value* all = document.find("inert");
+  if (all == nullptr || all->kind != Value::Kind::array) return;
+  std::vector<Value> kept;
+  for (Value& entry : all->items) {
+    const Value* shape = entry.find("shape");
+    if (shape == nullptr || (shape->text != "floor" && shape->text != "heightfield")) continue;
+    if (Value* file = entry.find("file"); file != nullptr && file->place.origin != nullptr)
+      file->text =
+          std::filesystem::absolute(file->place.origin->folder / file->text).lexically_normal().string();
+    kept.push_back(std::move(entry));
+  }
+  all->items = std::move(kept);
+  if (all->items.empty()) document.remove("inert");
 }
 
 }  // namespace
@@ -43,9 +103,7 @@ Value& table_of(Value& document, const std::string& key) {
 Excerpt::Excerpt(const std::filesystem::path& file, const std::vector<std::string>& overrides)
     : document_(read_document(file)) {
   for (const std::string& assignment : overrides) apply_override(document_, assignment);
-  for (const char* key :
-       {"title", "description", "solid", "liquid", "inert", "start", "camera", "light", "look"})
-    document_.remove(key);
+  for (const char* key : {"title", "description", "solid", "liquid", "start"}) document_.remove(key);
   if (Value* run = document_.find("run")) {
     run->remove("steps");
     run->remove("frame_every");
@@ -65,6 +123,7 @@ std::vector<std::string> Excerpt::removable() const {
 
 std::string Excerpt::text(const Part& part, const std::string& fields, std::uint32_t step) const {
   Value document = document_;
+  for (const char* key : {"inert", "camera", "light", "look"}) document.remove(key);
   const auto is_left_out = [&](const std::string& name) {
     return std::find(part.without.begin(), part.without.end(), name) != part.without.end();
   };
@@ -79,16 +138,17 @@ std::string Excerpt::text(const Part& part, const std::string& fields, std::uint
     if (all->items.empty()) document.remove(key);
   }
   if (is_left_out("heat.air")) document.find("heat")->remove("air");
-  Value size;
-  size.kind = Value::Kind::array;
-  for (const int side : part.size) size.items.push_back(number(side));
-  table_of(document, "grid").put("size", std::move(size));
-  Value folder;
-  folder.kind = Value::Kind::text;
-  folder.text = fields;
-  Value& start = table_of(document, "start");
-  start.put("fields", std::move(folder));
-  start.put("step", number(step));
+  put_start(document, part, fields, step);
+  return print_document(document);
+}
+
+std::string Excerpt::picture_text(const Part& part, const std::string& fields, const Camera& camera) const {
+  Value document = document_;
+  for (const char* key : kPlaced) document.remove(key);
+  document.remove("run");
+  keep_terrain(document);
+  put_camera(document, camera, part.from);
+  put_start(document, part, fields, 0);
   return print_document(document);
 }
 

@@ -1,5 +1,6 @@
-// A part of a scene as a file of its own, that needs no other scene: the rules and what heats and pours,
-// moved to a smaller grid. Shapes are left out; the state comes from fields.
+// A part of a scene as a file of its own, that needs no other scene. Its grid is smaller, and its state comes
+// from fields. To be run: the rules, and what heats and pours, moved. To be drawn: the rules, the camera,
+// moved, and the look.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/scene/look.h"
 #include "kernel/scene/text/document.h"
 
 namespace voxmelt::scene {
@@ -27,6 +29,8 @@ class Excerpt {
 
   // `fields`: the folder of the state, beside the file; `step`: the number of its first step.
   std::string text(const Part& part, const std::string& fields, std::uint32_t step) const;
+  // To be drawn. `camera`: as the scene has it. Of the shapes the terrain stays: it says how ground is drawn.
+  std::string picture_text(const Part& part, const std::string& fields, const Camera& camera) const;
 
  private:
   Value document_;

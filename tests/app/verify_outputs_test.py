@@ -412,7 +412,7 @@ law = "paper"
 
     def test_what_does_not_fit_together_is_refused(self):
         for wrong, why in ((["--vcd-from", 3], "there is no --vcd"), (["--machine", "--vcd", "w.vcd"], "of one machine"),
-                           (["--shrink", "small"], "FILE.toml"), (["--machine", "--shrink", "s.toml"], "pipeline alone"),
+                           (["--shrink", "small"], "FILE.toml"), (["--machine", "--shrink", "s.toml"], "of one machine"),
                            (["--html", "no/page.html"], "there is no folder"), (["--shrink", "scene.toml"], "reads this file"),
                            (["--html", "r.json", "--report", "r.json"], "the same file")):
             result = voxmelt("verify", self.scene, *wrong, cwd=self.folder)
@@ -452,6 +452,43 @@ law = "paper"
             self.assertLessEqual(steps, 2, fault)
         self.assertEqual(sorted(p.name for p in self.folder.iterdir() if "partial" in p.name), [])
 
+    def check_small_picture(self, scene, fault, *options):
+        """None where the fault strikes nowhere; else the sides of the grid, the pixels, and how long it took."""
+        begin = time.monotonic()
+        result = voxmelt("verify", scene, "--picture", *options, "--plant", fault, "--shrink", "small.toml", "--report", "r.json",
+                         cwd=self.folder, timeout=600)
+        seconds = time.monotonic() - begin
+        if result.returncode == 2 and "nothing that this fault could change" in result.stderr:
+            return None
+        self.assertEqual(result.returncode, 1, fault + result.stderr)
+        was = json.loads((self.folder / "r.json").read_text())
+        typed = [line.strip() for line in result.stdout.splitlines() if line.startswith("  voxmelt verify small.toml")]
+        self.assertEqual(len(typed), 1, result.stdout)
+        text = (self.folder / "small.toml").read_text()
+        self.assertIn(typed[0], text)
+        size = [int(n) for n in re.search(r"^size = \[(\d+), (\d+), (\d+)\]$", text, re.M).groups()]
+        part = re.search(r"--pixel \d+,\d+,(\d+)x(\d+)$", typed[0])
+        pixels = int(part[1]) * int(part[2]) if part else 1
+        again = voxmelt(*shlex.split(typed[0])[1:], "--report", "again.json", cwd=self.folder)
+        self.assertEqual(again.returncode, 1, fault + again.stderr)
+        now = json.loads((self.folder / "again.json").read_text())
+        self.assertEqual([report.get("difference", {}).get("stage") for report in (was, now)],
+                         [was.get("difference", {}).get("stage")] * 2, fault)
+        if "found there" in result.stdout:
+            self.assertIn("found there", again.stdout, fault)
+        return size, pixels, seconds
+
+    def test_a_wrong_picture_is_made_small(self):
+        for fault, cells in (("normal-axes", 4), ("pixel-channels", 1), ("cache-lost-miss", 4)):
+            size, pixels, _ = self.check_small_picture("proving_ground", fault, "--size", "48x40", "--hw", "stalls")
+            self.assertLessEqual(max(size), cells, fault)
+            self.assertEqual(pixels, 1, fault)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir() if "partial" in p.name), [])
+        right = voxmelt("verify", "proving_ground", "--picture", "--size", "16x16", "--shrink", "none.toml", cwd=self.folder)
+        self.assertEqual(right.returncode, 0, right.stderr)
+        self.assertIn("there is no difference to make small", right.stdout)
+        self.assertFalse((self.folder / "none.toml").exists())
+
 
 class EveryFault(Outputs):
     def test_every_fault_is_made_small(self):
@@ -470,6 +507,22 @@ class EveryFault(Outputs):
                     self.assertLess(seconds, 60)
                 found += 1
             self.assertGreater(found, 0, fault + " strikes nowhere")
+
+    def test_every_fault_of_a_picture_is_made_small(self):
+        listed = voxmelt("list", "faults").stdout.split("\n\n")[1]
+        struck = 0
+        for fault in [line.split()[0] for line in listed.splitlines() if line.startswith(" ") or "-" in line.split()[0]]:
+            small = self.check_small_picture("proving_ground", fault, "--size", "48x40", "--set", "hw.pipes=2", "--set", "look.clear=4") or \
+                self.check_small_picture("proving_ground", fault, "--size", "48x40", "--set", "hw.pipes=2")
+            if small is None:
+                continue
+            struck += 1
+            size, pixels, seconds = small
+            print(f"{fault:24}{'x'.join(map(str, size)):>10}{pixels:5} pixels{seconds:7.1f} s", flush=True)
+            with self.subTest(fault=fault):
+                self.assertLessEqual(max(size), 16)
+                self.assertLess(seconds, 60)
+        self.assertGreater(struck, 40)
 
 
 if __name__ == "__main__":

@@ -58,4 +58,10 @@ std::string text_of(const PixelReplay& of) {
   return fmt::format("{}, drawn alone, fails too:\n{}", what, of.text);
 }
 
+std::string pixel_text(const hwmodel::raycast::Window& part) {
+  const std::int32_t wide = part.right - part.left, high = part.bottom - part.top;
+  const std::string place = fmt::format("{},{}", part.left, part.top);
+  return wide == 1 && high == 1 ? place : fmt::format("{},{}x{}", place, wide, high);
+}
+
 }  // namespace voxmelt::hwmodel::raycast

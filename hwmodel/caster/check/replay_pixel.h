@@ -19,4 +19,7 @@ std::optional<PixelReplay> replay_pixel(const PictureInput& input, const Picture
                                         const PictureReport& report);
 std::string text_of(const PixelReplay& replay);
 
+// What --pixel says for a part of a picture: "X,Y", or "X,Y,WxH".
+std::string pixel_text(const Window& part);
+
 }  // namespace voxmelt::hwmodel::raycast

@@ -4,52 +4,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <system_error>
 #include <utility>
 
-#include "kernel/run/io/export.h"
-#include "kernel/run/io/output_folder.h"
-#include "kernel/run/io/unfinished.h"
+#include "hwmodel/check/shrink/small_scene.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/excerpt.h"
-#include "kernel/scene/text/error.h"
 
 namespace voxmelt::hwmodel {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Without "step 3: " of a channel: a machine with fewer time steps has other numbers.
 std::string stage_of(const std::string& where) {
   const std::size_t colon = where.find(": ");
   return where.starts_with("step ") && colon != std::string::npos ? where.substr(colon + 2) : where;
 }
-
-// A folder of this process that goes away with it.
-class Workplace {
- public:
-  explicit Workplace(const fs::path& beside) : folder_(beside.string() + ".partial") {
-    const auto held = io::changing_places();
-    fs::create_directories(folder_);
-    unfinished_.begin([this] { remove(); });
-  }
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
-  ~Workplace() {
-    const auto held = io::changing_places();
-    remove();
-  }
-  const fs::path& folder() const { return folder_; }
-
- private:
-  void remove() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-
-  fs::path folder_;
-  io::Unfinished unfinished_;
-};
 
 class Search {
  public:
@@ -65,18 +33,10 @@ class Search {
     return excerpt_.text({one.from, one.size(), one.without}, fields, one.first_step);
   }
 
-  // Every case is written and loaded as its user will do it. So what is left in the end can be seen again.
   bool fails(const Case& one) {
     if (request_.poll) request_.poll();
-    const fs::path& folder = workplace_.folder();
-    std::unique_ptr<scene::Scene> scene;
-    try {
-      io::export_npy(one.volume, folder);
-      io::write_file(folder / "scene.toml", text_of(one, "."));
-      scene = std::make_unique<scene::Scene>(scene::load(folder / "scene.toml", {}));
-    } catch (const scene::InputError&) {
-      return false;  // this part is no scene of its own
-    }
+    const std::unique_ptr<scene::Scene> scene = workplace_.load(one.volume, text_of(one, "."));
+    if (scene == nullptr) return false;
     VerifyOptions options = request_.options;
     options.steps = one.steps;
     options.every = 1;
@@ -96,7 +56,7 @@ class Search {
   const ShrinkRequest& request_;
   const VerifyReport& report_;
   const scene::Excerpt excerpt_;
-  Workplace workplace_;
+  const check::Workplace workplace_;
 };
 
 // The state before the step that differs: one step shows it. If it does not, the state from which all of it
@@ -122,15 +82,6 @@ std::optional<Case> first_case(const ShrinkRequest& request, const VerifyReport&
   return {};
 }
 
-int cells_with_something(const state::Volume& volume) {
-  int cells = 0;
-  for (int z = 0; z < volume.grid.z; ++z)
-    for (int y = 0; y < volume.grid.y; ++y)
-      for (int x = 0; x < volume.grid.x; ++x)
-        cells += volume.solid.test(x, y, z) || volume.liquid.test(x, y, z) || volume.inert.test(x, y, z);
-  return cells;
-}
-
 }  // namespace
 
 std::optional<SmallScene> shrink_to_scene(const ShrinkRequest& request, const VerifyReport& report) {
@@ -145,7 +96,7 @@ std::optional<SmallScene> shrink_to_scene(const ShrinkRequest& request, const Ve
       std::move(*first), search.removable(), [&](const Case& one) { return search.fails(one); },
       [&] { return Clock::now() < end; });
   const Case& small = shrinker.shrink({m.x, m.y, m.z});
-  return SmallScene{small, cells_with_something(small.volume), shrinker.tried(), stage_of(m.where),
+  return SmallScene{small, check::count_matter(small.volume), shrinker.tried(), stage_of(m.where),
                     search.text_of(small, request.fields.filename().string())};
 }
 

@@ -96,5 +96,75 @@ rate = 0.06
   EXPECT_FALSE(less.parameters.heat.air);
 }
 
+// Its camera stands where it stood, its look and its floor are the scene's; what heats and pours is gone.
+TEST(Excerpt, OfAPictureMovesItsCamera) {
+  const SceneFolder folder;
+  const std::filesystem::path file = folder.write("whole.toml", R"(
+[grid]
+size = [30, 20, 22]
+[heat]
+[[heat_source]]
+power = 7
+at = [30, 22.5, 25]
+[[vent]]
+at = [20, 17, 6]
+radius = 2.5
+rate = 0.1
+[[inert]]
+shape = "floor"
+thickness = 2
+[[inert]]
+shape = "sphere"
+at = [5, 5, 5]
+radius = 2
+[[solid]]
+shape = "sphere"
+at = [15, 10, 11]
+radius = 3
+[light]
+ambient = 0.25
+[look]
+solid = [0.1, 0.2, 0.3]
+)");
+  Camera camera{{12.5, 7, 8.25}, 40, 20, 33.5, 25, true, 64, 48};
+  const std::filesystem::path place = folder.path() / "excerpt";
+  std::filesystem::create_directories(place / "state");
+  io::export_npy(state::Volume({6, 7, 8}), place / "state");
+  std::ofstream(place / "scene.toml")
+      << Excerpt(file, {"look.glow=true"}).picture_text({{8, 2, 4}, {6, 7, 8}, {}}, "state", camera);
+  const Scene part = load(place / "scene.toml", {});
+  EXPECT_EQ(part.camera.target, (Vec3{4.5, 5, 4.25}));
+  EXPECT_EQ(part.camera.distance, 33.5);
+  EXPECT_EQ(part.camera.field_of_view, 25);
+  EXPECT_EQ(part.camera.azimuth, 40);
+  EXPECT_EQ(part.camera.elevation, 20);
+  EXPECT_TRUE(part.camera.orthographic);
+  EXPECT_EQ(part.camera.width, 64);
+  EXPECT_EQ(part.camera.height, 48);
+  EXPECT_EQ(part.light.ambient, 0.25);
+  EXPECT_EQ(part.look.solid, (Vec3{0.1, 0.2, 0.3}));
+  EXPECT_TRUE(part.look.glow);
+  EXPECT_EQ(part.terrain.height, std::vector<float>(48, 2.0F));
+  EXPECT_TRUE(part.parameters.vents.empty() && part.parameters.heat.sources.empty());
+}
+
+// Wherever the excerpt lies, it finds the heights that the scene named.
+TEST(Excerpt, OfAPictureKeepsItsTerrain) {
+  const SceneFolder folder;
+  const std::filesystem::path file = committed_scenes() / "lava.toml";
+  const Scene whole = load(file, {});
+  const state::Grid g = whole.initial.grid;
+  const std::filesystem::path place = folder.path() / "excerpt";
+  std::filesystem::create_directories(place / "state");
+  io::export_npy(whole.initial, place / "state");
+  std::ofstream(place / "scene.toml")
+      << Excerpt(file, {}).picture_text({{}, {g.x, g.y, g.z}, {}}, "state", whole.camera);
+  const Scene again = load(place / "scene.toml", {});
+  EXPECT_EQ(again.terrain, whole.terrain);
+  EXPECT_EQ(again.initial, whole.initial);
+  EXPECT_EQ(again.look, whole.look);
+  EXPECT_EQ(again.light, whole.light);
+}
+
 }  // namespace
 }  // namespace voxmelt::scene

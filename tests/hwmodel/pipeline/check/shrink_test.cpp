@@ -82,7 +82,7 @@ state::Volume of_every_kind() {
 }
 
 TEST(Shrinker, APartHoldsAllThatItsCellsHold) {
-  const state::Volume whole = of_every_kind(), part = part_of(whole, {1, 1, 1}, {3, 2, 2});
+  const state::Volume whole = of_every_kind(), part = state::part_of(whole, {{1, 1, 1}, {3, 2, 2}});
   EXPECT_EQ(part.grid, (state::Grid{3, 2, 2}));
   EXPECT_TRUE(part.solid.test(0, 0, 0) && part.inert.test(2, 1, 0) && part.liquid.test(2, 0, 1));
   const auto all_of = [&](int x, int y, int z) {
