@@ -12,10 +12,6 @@
 #include "kernel/scene/scene.h"
 #include "render/packet/draw_picture.h"
 
-namespace CLI {
-class App;
-}
-
 namespace voxmelt::app {
 
 struct PictureChoice {
@@ -28,7 +24,7 @@ struct PictureChoice {
   std::optional<std::int64_t> vcd_from;
   std::string again;  // what to type to see the picture again
 };
-void add_picture_choice(CLI::App& command, PictureChoice& choice);
+void add_picture_choice(Command command, PictureChoice& choice);
 
 // The verdict of --quiet.
 std::string first_line(const std::string& text);
