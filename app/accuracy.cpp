@@ -1,6 +1,5 @@
 // voxmelt accuracy: how well the automaton does physics, against answers that mathematics gives.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -129,32 +128,31 @@ int run_accuracy(const AccuracyOptions& options) {
 
 }  // namespace
 
-void add_accuracy(CLI::App& program, Chosen& chosen) {
+void add_accuracy(CommandLine& program) {
   auto options = std::make_shared<AccuracyOptions>();
-  CLI::App* command = program.add_subcommand(
+  const Command command = program.add(
       "accuracy", "The physics: errors against analytic answers, with the bar that each must keep");
-  command->add_flag("--quick", options->quick, "small cases only: less than a minute");
-  command
-      ->add_option("--case", options->cases, "this case only (repeatable); `voxmelt list cases` names them")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  CLI::Option* front =
+  command.flag("--quick", options->quick, "small cases only: less than a minute");
+  command.option("--case", options->cases, "this case only (repeatable); `voxmelt list cases` names them")
+      .written_as("NAME")
+      .one_each_time();
+  const Option front =
       command
-          ->add_option("--front", options->front,
-                       "instead: speed against error, of all scenes of the front or of these; one thread")
-          ->type_name("[SCENE ...]")
-          ->expected(0, -1);
-  command->add_option("--out", options->out,
-                      "folder for accuracy.html, .md, .csv and .json (--front: front.html, ...)");
-  add_common(*command, options->common);
-  command->footer(
+          .option("--front", options->front,
+                  "instead: speed against error, of all scenes of the front or of these; one thread")
+          .written_as("[SCENE ...]")
+          .any_number();
+  command.option("--out", options->out,
+                 "folder for accuracy.html, .md, .csv and .json (--front: front.html, ...)");
+  add_common(command, options->common);
+  command.footer(
       "Each case runs a scene of scenes/accuracy and compares with what mathematics says of it.\n"
       "Ends with 1 where an error is larger than its gate. Baseline: the paper's program, plainly written,\n"
       "on the same start; for a scene of the viscous law it runs the paper's law.");
-  command->callback([options, front, &chosen] {
-    options->wants_front = front->count() > 0;
+  command.runs([options, front] {
+    options->wants_front = front.given();
     std::erase(options->front, "");  // of --front alone
-    chosen = [options] { return run_accuracy(*options); };
+    return run_accuracy(*options);
   });
 }
 

@@ -1,7 +1,6 @@
 // voxmelt bench: how fast it is, how near to the machine's limits, and how many times as fast as the
 // paper's program.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -166,38 +165,37 @@ int run_bench(BenchOptions options) {
 
 }  // namespace
 
-void add_bench(CLI::App& program, Chosen& chosen) {
+void add_bench(CommandLine& program) {
   auto options = std::make_shared<BenchOptions>();
-  CLI::App* command = program.add_subcommand(
-      "bench", "Throughput, beside what this machine could do at most and the paper's program");
+  const Command command =
+      program.add("bench", "Throughput, beside what this machine could do at most and the paper's program");
   command
-      ->add_option("--parts", options->parts,
-                   "what to measure, with commas between: automaton, picture, grids (pictures of finer and\n"
-                   "finer grids), film (a whole melt) (default: automaton,picture)")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"automaton", "picture", "grids", "film"}));
-  command->add_flag("--quick", options->quick, "small cases only: less than a minute");
+      .option("--parts", options->parts,
+              "what to measure, with commas between: automaton, picture, grids (pictures of finer and\n"
+              "finer grids), film (a whole melt) (default: automaton,picture)")
+      .separated_by(',')
+      .one_of({"automaton", "picture", "grids", "film"});
+  command.flag("--quick", options->quick, "small cases only: less than a minute");
   command
-      ->add_option(
-          "--scenes", options->scenes,
-          "these scenes only, with commas between them (default: the showcase scenes, and dense volumes)")
-      ->delimiter(',');
-  command->add_option("--from", options->from,
-                      "step of the scenes to time (default: the middle of their melt), or a checkpoint");
-  command->add_option("--out", options->out, "folder for bench.json, performance_tables.md and roofline.svg");
+      .option("--scenes", options->scenes,
+              "these scenes only, with commas between them (default: the showcase scenes, and dense volumes)")
+      .separated_by(',');
+  command.option("--from", options->from,
+                 "step of the scenes to time (default: the middle of their melt), or a checkpoint");
+  command.option("--out", options->out, "folder for bench.json, performance_tables.md and roofline.svg");
   options->common.implementation = kEvery;
-  add_common(*command, options->common);
-  command->get_option("--implementation")
-      ->description("who computes: all but the reference, auto, or a name of `voxmelt list implementations`");
-  add_visibility(*command, options->common);
-  command->footer(
+  add_common(command, options->common);
+  command.find("--implementation")
+      .described_as("who computes: all but the reference, auto, or a name of `voxmelt list implementations`");
+  add_visibility(command, options->common);
+  command.footer(
       "Without --implementation it times every instruction set of this processor, without --threads one\n"
       "thread and all. Every result is compared with the reference before its time counts. Each phase of\n"
       "each step is timed in up to 40 rounds and counts with its shortest time. Ratios are to the paper's\n"
       "program (plainly written, and compiled for this processor), timed in the same rounds. The roof is\n"
       "what the definition needs, at the best rates that this run measured on the machine.\n"
       "Pictures are timed part by part. On one thread their times are processor time.");
-  command->callback([options, &chosen] { chosen = [options] { return run_bench(*options); }; });
+  command.runs([options] { return run_bench(*options); });
 }
 
 }  // namespace voxmelt::app

@@ -1,25 +1,19 @@
-// The subcommands. Each adds itself to the program, and `run` of the chosen one gives the exit code.
+// The subcommands. Each adds itself to the program.
 #pragma once
 
-#include <functional>
-
-namespace CLI {
-class App;
-}
+#include "app/command_line.h"
 
 namespace voxmelt::app {
 
-using Chosen = std::function<int()>;
-
-void add_run(CLI::App& program, Chosen& chosen);
-void add_digest(CLI::App& program, Chosen& chosen);
-void add_export(CLI::App& program, Chosen& chosen);
-void add_render(CLI::App& program, Chosen& chosen);
-void add_bench(CLI::App& program, Chosen& chosen);
-void add_accuracy(CLI::App& program, Chosen& chosen);
-void add_verify(CLI::App& program, Chosen& chosen);
-void add_explore(CLI::App& program, Chosen& chosen);
-void add_info(CLI::App& program, Chosen& chosen);
-void add_list(CLI::App& program, Chosen& chosen);
+void add_run(CommandLine& program);
+void add_digest(CommandLine& program);
+void add_export(CommandLine& program);
+void add_render(CommandLine& program);
+void add_bench(CommandLine& program);
+void add_accuracy(CommandLine& program);
+void add_verify(CommandLine& program);
+void add_explore(CommandLine& program);
+void add_info(CommandLine& program);
+void add_list(CommandLine& program);
 
 }  // namespace voxmelt::app

@@ -1,6 +1,5 @@
 // voxmelt digest: one line per K steps; equal lines mean equal bits.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cerrno>
 #include <cstdint>
@@ -59,16 +58,15 @@ int run_digest(const DigestOptions& options) {
 
 }  // namespace
 
-void add_digest(CLI::App& program, Chosen& chosen) {
+void add_digest(CommandLine& program) {
   auto options = std::make_shared<DigestOptions>();
-  CLI::App* command =
-      program.add_subcommand("digest", "Print the digest of the state: equal lines mean equal bits");
-  add_scene(*command, options->common);
-  command->add_option("--steps", options->steps, "steps to run")->capture_default_str();
-  command->add_option("--every", options->every, "also a line at step 0 and after every K steps");
-  add_common(*command, options->common);
-  add_visibility(*command, options->common);
-  command->callback([options, &chosen] { chosen = [options] { return run_digest(*options); }; });
+  const Command command = program.add("digest", "Print the digest of the state: equal lines mean equal bits");
+  add_scene(command, options->common);
+  command.option("--steps", options->steps, "steps to run").shows_default();
+  command.option("--every", options->every, "also a line at step 0 and after every K steps");
+  add_common(command, options->common);
+  add_visibility(command, options->common);
+  command.runs([options] { return run_digest(*options); });
 }
 
 }  // namespace voxmelt::app

@@ -1,6 +1,5 @@
 // voxmelt explore: which hardware is the best for a scene, on a device and a memory.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -132,43 +131,43 @@ int run_explore(ExploreCommand command) {
 
 }  // namespace
 
-void add_explore(CLI::App& program, Chosen& chosen) {
+void add_explore(CommandLine& program) {
   auto options = std::make_shared<ExploreCommand>();
-  CLI::App* command = program.add_subcommand(
+  const Command command = program.add(
       "explore", "Which hardware is best: all designs by closed form, the best ones simulated and verified");
-  add_scene(*command, options->common);
-  command->add_option("--device", options->device, "a device by name (zu7ev, ecp5-85f), or a TOML file")
-      ->required();
+  add_scene(command, options->common);
+  command.option("--device", options->device, "a device by name (zu7ev, ecp5-85f), or a TOML file")
+      .required();
   command
-      ->add_option("--memory", options->memory,
-                   "ddr4-2400, hbm2, lpddr4-3200, a TOML file, or none: it always answers")
-      ->capture_default_str();
-  command->add_option("--steps", options->steps, "steps of the run whose time is predicted")
-      ->check(CLI::Range(1u, 1000000u))
-      ->capture_default_str();
+      .option("--memory", options->memory,
+              "ddr4-2400, hbm2, lpddr4-3200, a TOML file, or none: it always answers")
+      .shows_default();
+  command.option("--steps", options->steps, "steps of the run whose time is predicted")
+      .within(1u, 1000000u)
+      .shows_default();
   command
-      ->add_option("--from", options->from,
-                   "steps that the software runs first (mid-melt): what lies in memory then is counted")
-      ->capture_default_str();
-  command->add_option("--points", options->points, "designs of the front that are simulated and verified")
-      ->check(CLI::Range(0u, 1000u))
-      ->capture_default_str();
+      .option("--from", options->from,
+              "steps that the software runs first (mid-melt): what lies in memory then is counted")
+      .shows_default();
+  command.option("--points", options->points, "designs of the front that are simulated and verified")
+      .within(0u, 1000u)
+      .shows_default();
   command
-      ->add_option("--check-steps", options->check_steps,
-                   "steps for which they are (default: one pass of the design)")
-      ->check(CLI::Range(1u, 10000u));
-  command->add_option("--out", options->out,
-                      "folder for explore.svg, explore.csv (every design) and explore.json");
-  add_common(*command, options->common);
-  add_visibility(*command, options->common);
+      .option("--check-steps", options->check_steps,
+              "steps for which they are (default: one pass of the design)")
+      .within(1u, 10000u);
+  command.option("--out", options->out,
+                 "folder for explore.svg, explore.csv (every design) and explore.json");
+  add_common(command, options->common);
+  add_visibility(command, options->common);
   std::string axes;
   for (const hwmodel::HwKey& key : hwmodel::kHwKeys)
     if (key.chosen()) axes += fmt::format("hw.{}, ", key.name);
-  command->footer(
+  command.footer(
       fmt::format("--set also takes the device's numbers (device.bram=300, device.clock=250), and keeps one "
                   "value of an\naxis: {}hw.clock_mhz.",
                   axes));
-  command->callback([options, &chosen] { chosen = [options] { return run_explore(*options); }; });
+  command.runs([options] { return run_explore(*options); });
 }
 
 }  // namespace voxmelt::app

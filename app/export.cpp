@@ -2,7 +2,6 @@
 #include "kernel/run/io/export.h"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -53,23 +52,23 @@ int run_export(const ExportOptions& options) {
 
 }  // namespace
 
-void add_export(CLI::App& program, Chosen& chosen) {
+void add_export(CommandLine& program) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command = program.add_subcommand(
-      "export", "Write the state after N steps (one file per field) and parameters.json");
-  add_scene(*command, options->common);
-  command->add_option("--steps", options->steps, "steps to run first")->capture_default_str();
-  command->add_option("--out", options->out, "folder to write")->required();
+  const Command command =
+      program.add("export", "Write the state after N steps (one file per field) and parameters.json");
+  add_scene(command, options->common);
+  command.option("--steps", options->steps, "steps to run first").shows_default();
+  command.option("--out", options->out, "folder to write").required();
   std::vector<std::string> names;
   std::string help;
   for (const io::Format& format : io::formats()) {
     names.emplace_back(format.name);
     help += fmt::format("{}{}: {}", help.empty() ? "" : "; ", format.name, format.description);
   }
-  command->add_option("--format", options->format, help)->check(CLI::IsMember(names))->capture_default_str();
-  add_common(*command, options->common);
-  add_visibility(*command, options->common);
-  command->callback([options, &chosen] { chosen = [options] { return run_export(*options); }; });
+  command.option("--format", options->format, help).one_of(names).shows_default();
+  add_common(command, options->common);
+  add_visibility(command, options->common);
+  command.runs([options] { return run_export(*options); });
 }
 
 }  // namespace voxmelt::app

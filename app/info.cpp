@@ -1,6 +1,5 @@
 // voxmelt info: what a checkpoint holds.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -99,11 +98,11 @@ int run_info(const std::string& given) {
 
 }  // namespace
 
-void add_info(CLI::App& program, Chosen& chosen) {
+void add_info(CommandLine& program) {
   auto file = std::make_shared<std::string>();
-  CLI::App* command = program.add_subcommand("info", "Say what a checkpoint holds, and that it is whole");
-  command->add_option("file", *file, "a checkpoint, or the folder of a run that has some")->required();
-  command->callback([file, &chosen] { chosen = [file] { return run_info(*file); }; });
+  const Command command = program.add("info", "Say what a checkpoint holds, and that it is whole");
+  command.option("file", *file, "a checkpoint, or the folder of a run that has some").required();
+  command.runs([file] { return run_info(*file); });
 }
 
 }  // namespace voxmelt::app

@@ -1,6 +1,5 @@
 // voxmelt list: what this build and its scenes can do.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -83,25 +82,23 @@ int list_presets() {
 
 }  // namespace
 
-void add_list(CLI::App& program, Chosen& chosen) {
+void add_list(CommandLine& program) {
   auto what = std::make_shared<std::string>();
-  CLI::App* command = program.add_subcommand(
+  const Command command = program.add(
       "list", "Name the implementations, scenes, features, cases, presets or faults of this build");
   command
-      ->add_option(
+      .option(
           "what", *what,
           "implementations, scenes, features, cases (of accuracy), presets (hardware) or faults (to plant)")
-      ->required()
-      ->check(CLI::IsMember({"implementations", "scenes", "features", "cases", "presets", "faults"}));
-  command->callback([what, &chosen] {
-    chosen = [what] {
-      if (*what == "implementations") return list_implementations();
-      if (*what == "scenes") return list_scenes();
-      if (*what == "cases") return list_cases();
-      if (*what == "presets") return list_presets();
-      if (*what == "faults") return list_faults();
-      return list_features();
-    };
+      .required()
+      .one_of({"implementations", "scenes", "features", "cases", "presets", "faults"});
+  command.runs([what] {
+    if (*what == "implementations") return list_implementations();
+    if (*what == "scenes") return list_scenes();
+    if (*what == "cases") return list_cases();
+    if (*what == "presets") return list_presets();
+    if (*what == "faults") return list_faults();
+    return list_features();
   });
 }
 

@@ -1,8 +1,8 @@
 // voxmelt: melts solid voxel models and lets them flow.
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <new>
 #include <string>
 
@@ -36,30 +36,6 @@ constexpr const char* kIntroduction =
     "A scene is a TOML file; docs/scenes.md explains its keys. Exit codes: 0 done, 1 a check failed,\n"
     "2 bad usage or input, 3 out of memory or disk, 4 interrupted.";
 
-// The message of CLI11 would say only that a subcommand is required.
-void check_subcommand(const CLI::App& program, const char* given) {
-  if (given[0] == '-') return;
-  std::string known;
-  for (const CLI::App* command : program.get_subcommands({})) {
-    if (command->get_name() == given) return;
-    known += (known.empty() ? "" : ", ") + command->get_name();
-  }
-  throw voxmelt::app::UsageError("error: unknown command '" + std::string(given) + "'; there are " + known);
-}
-
-// CLI11 takes an empty value of many options as not given.
-void check_no_empty_values(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string given = argv[i];
-    const bool assigned = given.starts_with("--") && given.size() > 3 && given.find('=') == given.size() - 1;
-    if (given.empty() || assigned)
-      throw voxmelt::app::UsageError("error: an empty value" +
-                                     (assigned ? " of " + given.substr(0, given.size() - 1)
-                                      : i > 1  ? " after " + std::string(argv[i - 1])
-                                               : std::string()));
-  }
-}
-
 int fail(const std::string& message, int code) {
   voxmelt::app::say(message);
   return code;
@@ -74,31 +50,19 @@ int main(int argc, char** argv) {
   for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
   app::end_at_interrupts();
   try {
-    CLI::App program(kIntroduction, "voxmelt");
-    program.set_version_flag("--version", app::version_text());
-    program.require_subcommand(1);
-    app::Chosen chosen;
-    app::add_run(program, chosen);
-    app::add_digest(program, chosen);
-    app::add_export(program, chosen);
-    app::add_render(program, chosen);
-    app::add_bench(program, chosen);
-    app::add_accuracy(program, chosen);
-    app::add_verify(program, chosen);
-    app::add_explore(program, chosen);
-    app::add_info(program, chosen);
-    app::add_list(program, chosen);
-    check_no_empty_values(argc, argv);
-    if (argc > 1) check_subcommand(program, argv[1]);
-    try {
-      program.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-      if (error.get_exit_code() != 0)
-        return fail(std::string("error: ") + error.what() + "; --help says more", app::kBadInput);
-      program.exit(error);  // help, or the version
-      return app::standard_output_is_well() ? app::kDone : app::kOutOfResources;
-    }
-    const int code = chosen();
+    app::CommandLine program("voxmelt", kIntroduction, app::version_text());
+    app::add_run(program);
+    app::add_digest(program);
+    app::add_export(program);
+    app::add_render(program);
+    app::add_bench(program);
+    app::add_accuracy(program);
+    app::add_verify(program);
+    app::add_explore(program);
+    app::add_info(program);
+    app::add_list(program);
+    const std::function<int()> work = program.read(argc, argv);
+    const int code = work ? work() : app::kDone;
     return app::standard_output_is_well() ? code : app::kOutOfResources;
   } catch (const app::OutputStopped& stopped) {
     app::standard_output_is_well(stopped.error);

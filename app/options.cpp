@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -45,27 +44,25 @@ void say_warnings(const Common& common, const std::vector<std::string>& warnings
 
 }  // namespace
 
-void add_scene(CLI::App& command, Common& common) {
-  command
-      .add_option("scene", common.scene,
-                  "scene file (TOML), a name of `voxmelt list scenes`, or a checkpoint")
-      ->required();
+void add_scene(Command command, Common& common) {
+  command.option("scene", common.scene, "scene file (TOML), a name of `voxmelt list scenes`, or a checkpoint")
+      .required();
 }
 
-void add_common(CLI::App& command, Common& common) {
+void add_common(Command command, Common& common) {
   command
-      .add_option("--implementation", common.implementation,
-                  "who computes: auto, or a name of `voxmelt list implementations`")
-      ->capture_default_str();
-  command.add_option("--threads", common.threads, "threads (default: all); no result depends on it")
-      ->check(CLI::Range(1, 1024));
-  command.add_option("--seed", common.seed, "seed of the random function, instead of the scene's")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{INT64_MAX}));
-  command.add_option("--set", common.sets, "override a key of the scene: path.to.key=value (repeatable)")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  command.add_option("--report", common.report, "also write the report to this JSON file");
-  command.add_flag("--quiet", common.quiet, "no progress line, no notes");
+      .option("--implementation", common.implementation,
+              "who computes: auto, or a name of `voxmelt list implementations`")
+      .shows_default();
+  command.option("--threads", common.threads, "threads (default: all); no result depends on it")
+      .within(1, 1024);
+  command.option("--seed", common.seed, "seed of the random function, instead of the scene's")
+      .within(std::uint64_t{0}, std::uint64_t{INT64_MAX});
+  command.option("--set", common.sets, "override a key of the scene: path.to.key=value (repeatable)")
+      .written_as("KEY=VALUE")
+      .one_each_time();
+  command.option("--report", common.report, "also write the report to this JSON file");
+  command.flag("--quiet", common.quiet, "no progress line, no notes");
 }
 
 std::vector<fs::path> scene_folders() {

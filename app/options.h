@@ -8,22 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
-
-namespace CLI {
-class App;
-}
 
 namespace voxmelt::app {
 
 enum ExitCode : int { kDone = 0, kCheckFailed = 1, kBadInput = 2, kOutOfResources = 3, kInterrupted = 4 };
-
-// Bad usage that CLI11 cannot see (an unknown implementation, an impossible size): exit code 2.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 // A signal ended the command before anything was written: exit code 4.
 class Interrupted : public std::runtime_error {
@@ -42,8 +33,8 @@ struct Common {
   bool quiet = false;
 };
 
-void add_scene(CLI::App& command, Common& common);
-void add_common(CLI::App& command, Common& common);
+void add_scene(Command command, Common& common);
+void add_common(Command command, Common& common);
 
 // A path, or the name of a scene that came with the program.
 scene::Scene load_scene(const Common& common);

@@ -1,6 +1,5 @@
 // voxmelt render: one picture, or a turntable.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cctype>
 #include <charconv>
@@ -39,16 +38,6 @@ struct RenderOptions {
   std::optional<double> azimuth, elevation;
   int turntable = 0;
 };
-
-// CLI::Range lets "nan" through.
-CLI::Validator finite_within(double low, double high) {
-  return {[=](const std::string& text) {
-            double value = NAN;
-            const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-            return good ? std::string() : fmt::format("{} is not a number from {} to {}", text, low, high);
-          },
-          fmt::format("NUMBER in [{} - {}]", low, high)};
-}
 
 struct Pixel {
   int x = 0, y = 0;
@@ -197,38 +186,40 @@ int run_render(RenderOptions options) {
 
 }  // namespace
 
-void add_render(CLI::App& program, Chosen& chosen) {
+void add_render(CommandLine& program) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* command =
-      program.add_subcommand("render", "Draw the state after N steps: one picture, or a turntable");
-  add_scene(*command, options->common);
-  command->add_option("--steps", options->steps, "steps to run first")->capture_default_str();
-  CLI::Option* out = command->add_option(
-      "--out", options->out, "file to write (default: picture.png), or folder (default: turntable)");
-  command->add_option("--size", options->size, "size in pixels, e.g. 1280x960");
-  CLI::Option* depth =
-      command->add_option("--depth", options->depth, "also write how far the surface is (PNG, 16 bits)");
-  CLI::Option* normals = command->add_option("--normals", options->normals,
-                                             "also write where the surface faces (PNG, 3 x 16 bits)");
-  command->add_option("--setting", options->setting, "samples per pixel: fast 1, normal 1 or 8, best 1 or 32")
-      ->check(CLI::IsMember({"fast", "normal", "best"}))
-      ->capture_default_str();
-  command->add_option("--azimuth", options->azimuth, "degrees around the vertical, instead of the scene's")
-      ->check(finite_within(-360, 360));
-  command->add_option("--elevation", options->elevation, "degrees above the horizon, instead of the scene's")
-      ->check(finite_within(-89, 89));
-  CLI::Option* turntable =
+  const Command command = program.add("render", "Draw the state after N steps: one picture, or a turntable");
+  add_scene(command, options->common);
+  command.option("--steps", options->steps, "steps to run first").shows_default();
+  const Option out = command.option("--out", options->out,
+                                    "file to write (default: picture.png), or folder (default: turntable)");
+  command.option("--size", options->size, "size in pixels, e.g. 1280x960");
+  const Option depth =
+      command.option("--depth", options->depth, "also write how far the surface is (PNG, 16 bits)");
+  const Option normals =
+      command.option("--normals", options->normals, "also write where the surface faces (PNG, 3 x 16 bits)");
+  command.option("--setting", options->setting, "samples per pixel: fast 1, normal 1 or 8, best 1 or 32")
+      .one_of({"fast", "normal", "best"})
+      .shows_default();
+  command.option("--azimuth", options->azimuth, "degrees around the vertical, instead of the scene's")
+      .within(-360.0, 360.0);
+  command.option("--elevation", options->elevation, "degrees above the horizon, instead of the scene's")
+      .within(-89.0, 89.0);
+  const Option turntable =
       command
-          ->add_option("--turntable", options->turntable,
-                       "this many views around the scene, into the folder --out (a name without .png)")
-          ->check(CLI::Range(1, 3600));
+          .option("--turntable", options->turntable,
+                  "this many views around the scene, into the folder --out (a name without .png)")
+          .within(1, 3600);
   command
-      ->add_option("--trace", options->trace,
-                   "print all numbers of pixel X,Y, from the upper left, instead of drawing")
-      ->excludes(out, turntable, depth, normals);
-  add_common(*command, options->common);
-  add_visibility(*command, options->common);
-  command->callback([options, &chosen] { chosen = [options] { return run_render(*options); }; });
+      .option("--trace", options->trace,
+              "print all numbers of pixel X,Y, from the upper left, instead of drawing")
+      .excludes(out)
+      .excludes(turntable)
+      .excludes(depth)
+      .excludes(normals);
+  add_common(command, options->common);
+  add_visibility(command, options->common);
+  command.runs([options] { return run_render(*options); });
 }
 
 }  // namespace voxmelt::app

@@ -1,6 +1,5 @@
 // voxmelt run: the main job. Steps, frames, a contact sheet, a film, a report.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <cstdint>
@@ -90,6 +89,10 @@ std::optional<PreparedRun> prepare_to_resume(const RunOptions& options) {
 
 int run_scene(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
+  if (options.resume.empty() && options.common.scene.empty())
+    throw UsageError("error: a scene, or --resume FOLDER, is required; --help says more");
+  if (options.checkpoint_every && !interval_of(*options.checkpoint_every))
+    throw UsageError("--checkpoint-every: error: want a number of steps, or of seconds as in 60s");
   if (options.resume.empty()) return run_to_end(prepare(options), start);
   std::optional<PreparedRun> run = prepare_to_resume(options);
   if (run) return run_to_end(std::move(*run), start);
@@ -99,35 +102,29 @@ int run_scene(const RunOptions& options) {
 
 }  // namespace
 
-void add_run(CLI::App& program, Chosen& chosen) {
+void add_run(CommandLine& program) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = program.add_subcommand(
-      "run", "Melt a scene: frames (PNG), contact sheet, film (with ffmpeg) and report.json");
-  add_scene(*command, options->common);
-  CLI::Option* scene = command->get_option("scene")->required(false);
-  CLI::Option* resume =
-      command->add_option("--resume", options->resume,
-                          "go on with the run of this folder, which was interrupted, killed or out of room");
-  resume->excludes(scene);
-  const auto begins = [&](CLI::Option* option) { option->excludes(resume); };
-  begins(command->add_option("--steps", options->steps, "steps to run (default: the scene's)"));
-  begins(
-      command->add_option("--frame-every", options->frame_every, "steps between frames; 0: the first only"));
-  begins(command->add_option("--out", options->out, "folder to write (default: out/SCENE)"));
-  begins(command->add_option("--size", options->size, "size of a frame in pixels, e.g. 640x480"));
-  command->add_option("--checkpoint-every", options->checkpoint_every,
-                      "write a checkpoint after every N steps, or every N seconds (60s)");
-  add_common(*command, options->common);
-  add_visibility(*command, options->common);
-  for (const char* option : {"--seed", "--set"}) begins(command->get_option(option));
-  command->callback([options, command, &chosen] {
-    if (options->resume.empty() && options->common.scene.empty())
-      throw CLI::RequiredError("a scene, or --resume FOLDER,");
-    if (options->checkpoint_every && !interval_of(*options->checkpoint_every))
-      throw UsageError("--checkpoint-every: error: want a number of steps, or of seconds as in 60s");
-    for (const CLI::Option* option : command->get_options())
-      if (option->count() > 0) options->given.insert(option->get_name());
-    chosen = [options] { return run_scene(*options); };
+  const Command command =
+      program.add("run", "Melt a scene: frames (PNG), contact sheet, film (with ffmpeg) and report.json");
+  add_scene(command, options->common);
+  const Option scene = command.find("scene").required(false);
+  const Option resume =
+      command.option("--resume", options->resume,
+                     "go on with the run of this folder, which was interrupted, killed or out of room");
+  resume.excludes(scene);
+  const auto begins = [&](Option option) { option.excludes(resume); };
+  begins(command.option("--steps", options->steps, "steps to run (default: the scene's)"));
+  begins(command.option("--frame-every", options->frame_every, "steps between frames; 0: the first only"));
+  begins(command.option("--out", options->out, "folder to write (default: out/SCENE)"));
+  begins(command.option("--size", options->size, "size of a frame in pixels, e.g. 640x480"));
+  command.option("--checkpoint-every", options->checkpoint_every,
+                 "write a checkpoint after every N steps, or every N seconds (60s)");
+  add_common(command, options->common);
+  add_visibility(command, options->common);
+  for (const char* option : {"--seed", "--set"}) begins(command.find(option));
+  command.runs([options, command] {
+    options->given = command.given();
+    return run_scene(*options);
   });
 }
 

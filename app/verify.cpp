@@ -1,6 +1,5 @@
 // voxmelt verify: the hardware model in lock-step with the software.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -104,56 +103,53 @@ int run_verify(VerifyCommand command) {
   return verify_pipeline(std::move(command));
 }
 
-void add_outputs(CLI::App& command, VerifyCommand& options) {
-  command.add_option("--shrink", options.shrink,
-                     "make what fails small (grid, steps or pixels, machine, matter): a scene FILE.toml");
-  command.add_option("--vcd", options.vcd,
-                     "write the waves of the 64 cycles around the first difference, for a waveform viewer");
+void add_outputs(Command command, VerifyCommand& options) {
+  command.option("--shrink", options.shrink,
+                 "make what fails small (grid, steps or pixels, machine, matter): a scene FILE.toml");
+  command.option("--vcd", options.vcd,
+                 "write the waves of the 64 cycles around the first difference, for a waveform viewer");
+  command.option("--vcd-from", options.vcd_from, "with --vcd: the 64 cycles from this cycle of the run on")
+      .not_negative();
+  command.option("--out", options.out, "folder for the replay of a mismatch (default: out/verify_SCENE)");
   command
-      .add_option("--vcd-from", options.vcd_from, "with --vcd: the 64 cycles from this cycle of the run on")
-      ->check(CLI::NonNegativeNumber);
-  command.add_option("--out", options.out, "folder for the replay of a mismatch (default: out/verify_SCENE)");
-  command
-      .add_option("--size-fifos", options.size_fifos,
-                  "first find the smallest depth of each channel that loses no cycle; write it to this file")
-      ->type_name("FILE.toml");
+      .option("--size-fifos", options.size_fifos,
+              "first find the smallest depth of each channel that loses no cycle; write it to this file")
+      .written_as("FILE.toml");
 }
 
 }  // namespace
 
-void add_verify(CLI::App& program, Chosen& chosen) {
+void add_verify(CommandLine& program) {
   auto options = std::make_shared<VerifyCommand>();
-  CLI::App* command = program.add_subcommand(
+  const Command command = program.add(
       "verify", "Run the hardware model in lock-step with the software; stop at the first difference");
-  add_scene(*command, options->common);
-  command->add_option("--steps", options->steps, "steps to verify")
-      ->check(CLI::Range(1u, 1000000u))
-      ->capture_default_str();
+  add_scene(command, options->common);
+  command.option("--steps", options->steps, "steps to verify").within(1u, 1000000u).shows_default();
   command
-      ->add_option("--from", options->from_text,
-                   "steps that the software runs first (mid-melt), or a checkpoint of the scene")
-      ->capture_default_str();
-  command->add_option("--every", options->every, "compare every K-th step, and the last")
-      ->check(CLI::Range(1u, 1000000u))
-      ->capture_default_str();
-  command->add_option("--hw", options->hw,
-                      "hardware configuration: a TOML file, or a name of `voxmelt list presets`");
-  command->add_option("--plant", options->plant,
-                      "plant a fault in the model (`voxmelt list faults`), to see it found");
-  command->add_option("--plant-step", options->plant_step,
-                      "the first step in which it may strike (default: in the middle)");
-  add_outputs(*command, *options);
-  add_picture_choice(*command, options->picture);
-  add_common(*command, options->common);
-  add_visibility(*command, options->common);
+      .option("--from", options->from_text,
+              "steps that the software runs first (mid-melt), or a checkpoint of the scene")
+      .shows_default();
+  command.option("--every", options->every, "compare every K-th step, and the last")
+      .within(1u, 1000000u)
+      .shows_default();
+  command.option("--hw", options->hw,
+                 "hardware configuration: a TOML file, or a name of `voxmelt list presets`");
+  command.option("--plant", options->plant,
+                 "plant a fault in the model (`voxmelt list faults`), to see it found");
+  command.option("--plant-step", options->plant_step,
+                 "the first step in which it may strike (default: in the middle)");
+  add_outputs(command, *options);
+  add_picture_choice(command, options->picture);
+  add_common(command, options->common);
+  add_visibility(command, options->common);
   std::string keys;
   for (const hwmodel::HwKey& key : hwmodel::kHwKeys)
     keys += fmt::format("hw.{} ({}), ", key.name, key.values);
-  command->footer(
+  command.footer(
       fmt::format("--set also takes {}hw.memory (ddr4-2400), hw.clock_mhz; the ray caster's keys are in "
                   "docs/hardware-picture.md.",
                   keys));
-  command->callback([options, &chosen] { chosen = [options] { return run_verify(*options); }; });
+  command.runs([options] { return run_verify(*options); });
 }
 
 }  // namespace voxmelt::app

@@ -1,7 +1,6 @@
 #include "app/verify_picture.h"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <charconv>
 #include <cstdint>
@@ -76,29 +75,28 @@ hwmodel::raycast::PictureOptions options_of(const VerifyCommand& command,
 
 }  // namespace
 
-void add_picture_choice(CLI::App& command, PictureChoice& choice) {
-  command.add_flag("--picture", choice.asked, "verify the ray caster: one picture, after --from steps");
-  command.add_flag("--machine", choice.machine,
-                   "verify the pipeline and the ray caster on one memory: --steps in all, --frames pictures");
-  command.add_option("--view", choice.view,
-                     "with --picture or --machine: the camera's AZIMUTH,ELEVATION in degrees");
-  command.add_option("--size", choice.size, "with --picture: size in pixels, e.g. 256x256");
+void add_picture_choice(Command command, PictureChoice& choice) {
+  command.flag("--picture", choice.asked, "verify the ray caster: one picture, after --from steps");
+  command.flag("--machine", choice.machine,
+               "verify the pipeline and the ray caster on one memory: --steps in all, --frames pictures");
+  command.option("--view", choice.view,
+                 "with --picture or --machine: the camera's AZIMUTH,ELEVATION in degrees");
+  command.option("--size", choice.size, "with --picture: size in pixels, e.g. 256x256");
   command
-      .add_option("--setting", choice.setting,
-                  "with --picture: samples per pixel: fast 1, normal 1 or 8, best 1 or 32")
-      ->check(CLI::IsMember({"fast", "normal", "best"}))
-      ->capture_default_str();
+      .option("--setting", choice.setting,
+              "with --picture: samples per pixel: fast 1, normal 1 or 8, best 1 or 32")
+      .one_of({"fast", "normal", "best"})
+      .shows_default();
   command
-      .add_option("--frames", choice.frames,
-                  "with --picture: draw it so often; with --machine: pictures of the steps")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command.add_flag("!--no-compare", choice.compare,
-                   "with --picture: compare the bytes alone, not every stage");
-  command.add_option("--html", choice.html, "write the report as a page: one HTML file, with pictures");
-  command.add_option("--png", choice.png, "with --picture: write the ray caster's picture");
-  command.add_option("--pixel", choice.pixel,
-                     "with --picture: draw only pixel X,Y, or X,Y,WxH: so many from there on");
+      .option("--frames", choice.frames,
+              "with --picture: draw it so often; with --machine: pictures of the steps")
+      .within(1, 1000)
+      .shows_default();
+  command.flag("!--no-compare", choice.compare, "with --picture: compare the bytes alone, not every stage");
+  command.option("--html", choice.html, "write the report as a page: one HTML file, with pictures");
+  command.option("--png", choice.png, "with --picture: write the ray caster's picture");
+  command.option("--pixel", choice.pixel,
+                 "with --picture: draw only pixel X,Y, or X,Y,WxH: so many from there on");
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')) + '\n'; }

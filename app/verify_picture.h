@@ -9,10 +9,6 @@
 #include "kernel/scene/scene.h"
 #include "render/packet/draw_picture.h"
 
-namespace CLI {
-class App;
-}
-
 namespace voxmelt::app {
 
 struct PictureChoice {
@@ -22,7 +18,7 @@ struct PictureChoice {
   int frames = 1;
   std::string html;  // of the pipeline's run, too
 };
-void add_picture_choice(CLI::App& command, PictureChoice& choice);
+void add_picture_choice(Command command, PictureChoice& choice);
 
 // The verdict of --quiet.
 std::string first_line(const std::string& text);

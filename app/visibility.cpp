@@ -1,6 +1,5 @@
 #include "app/visibility.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <vector>
 
@@ -26,14 +25,14 @@ const visibility::ProviderRow& row_of(const std::string& name) {
 
 }  // namespace
 
-void add_visibility(CLI::App& command, Common& common) {
+void add_visibility(Command command, Common& common) {
   std::vector<std::string> names{"auto"};
   for (const visibility::ProviderRow& row : all_providers()) names.emplace_back(row.name);
   command
-      .add_option("--visibility", common.visibility,
-                  "who follows the rays of heat sources; no result depends on it")
-      ->check(CLI::IsMember(names))
-      ->capture_default_str();
+      .option("--visibility", common.visibility,
+              "who follows the rays of heat sources; no result depends on it")
+      .one_of(names)
+      .shows_default();
 }
 
 VisibilityChoice choose_visibility(const std::string& asked) {

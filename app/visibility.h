@@ -7,10 +7,6 @@
 #include "app/options.h"
 #include "kernel/engine/visibility/visibility.h"
 
-namespace CLI {
-class App;
-}
-
 namespace voxmelt::app {
 
 struct VisibilityChoice {
@@ -18,7 +14,7 @@ struct VisibilityChoice {
   std::string reason;  // for the report
 };
 
-void add_visibility(CLI::App& command, Common& common);
+void add_visibility(Command command, Common& common);
 // Throws UsageError where this build does not have what was asked for.
 VisibilityChoice choose_visibility(const std::string& asked);
 std::unique_ptr<visibility::Provider> make_provider(const VisibilityChoice& choice, int threads);
