@@ -146,7 +146,11 @@ std::string Excerpt::picture_text(const Part& part, const std::string& fields, c
   Value document = document_;
   for (const char* key : kPlaced) document.remove(key);
   document.remove("run");
-  keep_terrain(document);
+  const bool bare = std::find(part.without.begin(), part.without.end(), "terrain") != part.without.end();
+  if (bare)
+    document.remove("inert");
+  else
+    keep_terrain(document);
   put_camera(document, camera, part.from);
   put_start(document, part, fields, 0);
   return print_document(document);

@@ -29,7 +29,8 @@ class Excerpt {
 
   // `fields`: the folder of the state, beside the file; `step`: the number of its first step.
   std::string text(const Part& part, const std::string& fields, std::uint32_t step) const;
-  // To be drawn. `camera`: as the scene has it. Of the shapes the terrain stays: it says how ground is drawn.
+  // To be drawn. `camera`: as the scene has it. Of the shapes the terrain stays, which says how ground is
+  // drawn; the part may go without "terrain".
   std::string picture_text(const Part& part, const std::string& fields, const Camera& camera) const;
 
  private:

@@ -16,6 +16,7 @@ namespace voxmelt::hwmodel::raycast {
 const PictureCase& PictureShrinker::shrink(const std::optional<std::array<int, 3>>& near) {
   shrink_window();
   shrink_machine();
+  try_change([](PictureCase& one) { one.without = {"terrain"}; });
   if (near) crop_around(*near);
   while (crop()) shrink_window();
   shrink_machine();
@@ -68,7 +69,7 @@ class Search {
 
   std::string text_of(const PictureCase& one, const std::string& fields) const {
     const state::Grid& grid = one.volume.grid;
-    return excerpt_.picture_text({one.from, {grid.x, grid.y, grid.z}, {}}, fields, camera_);
+    return excerpt_.picture_text({one.from, {grid.x, grid.y, grid.z}, one.without}, fields, camera_);
   }
 
   bool fails(const PictureCase& one) const {
@@ -114,7 +115,8 @@ std::optional<SmallPicture> shrink_to_scene(const PictureShrinkRequest& request,
                                                    std::chrono::duration<double>(request.seconds));
   const PictureInput& input = request.input;
   const Search search(request, report);
-  PictureCase first{input.volume, {}, request.options.window, input.setting, request.options.configuration};
+  PictureCase first{
+      input.volume, {}, request.options.window, input.setting, request.options.configuration, {}};
   // One pixel is tried first: whatever follows is quick then.
   const std::optional<PixelReplay> pixel = replay_pixel(input, request.options, report);
   first.window.right = std::min(first.window.right, input.camera.width);

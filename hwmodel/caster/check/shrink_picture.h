@@ -21,6 +21,7 @@ struct PictureCase {
   Window window;              // of the picture; it ends where the picture ends
   render::Setting setting = render::Setting::normal;
   Configuration configuration;
+  std::vector<std::string> without;  // "terrain", which the scene has and this one has not
 
   std::int64_t pixels() const {
     return std::int64_t{window.right - window.left} * std::int64_t{window.bottom - window.top};
