@@ -10,6 +10,7 @@
 #include "app/film.h"
 #include "app/interrupt.h"
 #include "app/message.h"
+#include "app/verify_report.h"
 #include "hwmodel/caster/check/replay_pixel.h"
 #include "hwmodel/caster/check/verify_picture.h"
 #include "hwmodel/caster/faults/faults.h"
@@ -17,7 +18,6 @@
 #include "hwmodel/machine/presets/presets.h"
 #include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
-#include "report/hardware/page.h"
 
 namespace voxmelt::app {
 namespace {
@@ -167,25 +167,18 @@ int verify_caster(const Common& common, const PictureChoice& choice, const scene
   if (!common.quiet) fmt::print("{}", hwmodel::raycast::table_of(report, options.configuration));
   fmt::print("{}", common.quiet ? first_line(hwmodel::raycast::verdict_text(report))
                                 : hwmodel::raycast::verdict_text(report));
-  nlohmann::ordered_json json{{"scene", scene.name},
-                              {"step", state.step_number()},
-                              {"width", camera.width},
-                              {"height", camera.height}};
-  json.update(hwmodel::raycast::json_of(report, options.configuration));
+  std::optional<SeenAgain> again;
   const auto replay = hwmodel::raycast::replay_pixel(input, options, report);
   if (replay) {
     const std::string pixel = text_of(replay->part);
     if (!common.quiet)
       fmt::print("{}to see it again:\n  {} --pixel {}\n", hwmodel::raycast::text_of(*replay), choice.again,
                  pixel);
-    json["replay"] = {{"pixel", pixel}, {"fails_alone", replay->fails}};
+    again = {pixel, replay->fails};
   }
   const std::string no_waves = write_waves(choice.vcd, choice.vcd_from, report.waves);
-  write_report(common, json.dump(2) + '\n');
-  if (!choice.html.empty())
-    io::write_file(choice.html, hwmodel::picture_page(
-                                    json, fmt::format("{}, step {}, {} x {}", scene.name, state.step_number(),
-                                                      camera.width, camera.height)));
+  write_picture_report({common, choice.html}, {scene.name, camera.width, camera.height}, state.step_number(),
+                       report, options.configuration, again);
   if (!choice.png.empty()) render::write_png(choice.png, report.image);
   if (!no_waves.empty() && report.good()) throw UsageError(no_waves);
   if (!no_waves.empty()) say(no_waves);
