@@ -116,7 +116,7 @@ int run_explore(ExploreCommand command) {
   }
   const explore::Explored explored{question, axes, swept, answer, checked, name, command.memory};
   fmt::print("{}", common.quiet ? sentence_of(explored) + "\n" : text_of(explored));
-  const std::string json = json_of(explored).dump(2) + '\n';
+  const std::string json = json_of(explored);
   write_report(common, json);
   if (out) {
     io::write_file(out->partial() / "explore.json", json);

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <cstdint>
+#include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -113,6 +114,12 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
       {"memory", {{"peak_bytes", peak_bytes()}}},
       {"parameters", json::parse(io::parameters_json(simulation.parameters(), volume.grid, 0))}};
   return report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+bool says_complete(const std::filesystem::path& folder) {
+  std::ifstream file(folder / "report.json");
+  const json report = json::parse(file, nullptr, false);
+  return report.is_object() && report.contains("complete") && report["complete"] == true;
 }
 
 std::string limit_text(const state::LimitCounts<state::Sum>& limit) {

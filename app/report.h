@@ -1,6 +1,7 @@
 // report.json: what was run, what it left, and whether the books balance. It suffices to repeat the run.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "app/options.h"
@@ -19,6 +20,9 @@ struct RunSeconds {
 // JSON readers are written as strings.
 std::string report_json(const scene::Scene& scene, const Common& common, const run::Simulation& simulation,
                         const RunSeconds& seconds, bool complete = true);
+
+// Does the report of this output folder say so?
+bool says_complete(const std::filesystem::path& folder);
 
 // What the limit of the mobility withholds, where that is much; else empty.
 std::string limit_text(const state::LimitCounts<state::Sum>& limit);

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -40,12 +38,6 @@ fs::path place_named(const fs::path& given) {
   return place.parent_path() / name;
 }
 
-bool is_complete(const fs::path& place) {
-  std::ifstream file(place / "report.json");
-  const nlohmann::json report = nlohmann::json::parse(file, nullptr, false);
-  return report.is_object() && report.contains("complete") && report["complete"] == true;
-}
-
 struct Candidate {
   fs::path folder, file;
   std::uint32_t step = 0;
@@ -56,7 +48,7 @@ struct Candidate {
 std::vector<Candidate> candidates_of(const fs::path& place) {
   std::vector<fs::path> folders = io::leavings_of(place);
   folders.push_back(place.string() + kIncomplete);
-  if (!is_complete(place)) folders.push_back(place);
+  if (!says_complete(place)) folders.push_back(place);
   struct Series {
     fs::file_time_type last;
     std::vector<Candidate> candidates;
@@ -162,7 +154,7 @@ std::optional<Resumption> find_run(const fs::path& given) {
   const std::vector<fs::path> leavings = io::leavings_of(place);
   if (std::ranges::any_of(leavings, is_alive))
     throw UsageError(fmt::format("--resume {}: error: a run is at work there", shown));
-  if (candidates.empty() && is_complete(place) && std::ranges::none_of(leavings, io::is_unfinished)) {
+  if (candidates.empty() && says_complete(place) && std::ranges::none_of(leavings, io::is_unfinished)) {
     // It may have died just before it cleared up.
     fs::remove_all(place / "checkpoints", ignored);
     io::clear_leavings(place);

@@ -1,10 +1,10 @@
 // voxmelt verify --machine: the pipeline and the ray caster on one memory, in lock-step with the software.
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdint>
 #include <ctime>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,6 +13,7 @@
 #include "app/run_ahead.h"
 #include "app/verify_command.h"
 #include "app/verify_picture.h"
+#include "app/verify_report.h"
 #include "app/visibility.h"
 #include "hwmodel/caster/faults/faults.h"
 #include "hwmodel/caster/report/report_picture.h"
@@ -24,7 +25,6 @@
 #include "measure/paper.h"
 #include "render/image/png.h"
 #include "render/packet/picture.h"
-#include "report/hardware/page.h"
 
 namespace voxmelt::app {
 namespace {
@@ -131,10 +131,9 @@ void print_machine(const VerifyCommand& command, const scene::Scene& scene, cons
 }
 
 // Measures the software beside it, for the report and for people.
-nlohmann::ordered_json beside_software(const VerifyCommand& command, const scene::Scene& scene,
-                                       const scene::Camera& camera, const run::Simulation& ahead,
-                                       const hwmodel::MachineReport& report,
-                                       const hwmodel::MachineOptions& options) {
+SoftwareRates beside_software(const VerifyCommand& command, const scene::Scene& scene,
+                              const scene::Camera& camera, const run::Simulation& ahead,
+                              const hwmodel::MachineReport& report, const hwmodel::MachineOptions& options) {
   const step::Implementation& fast = find_implementation(command.common);
   const std::uint32_t steps = command.steps, frames = static_cast<std::uint32_t>(command.picture.frames);
   const Software here =
@@ -150,9 +149,7 @@ nlohmann::ordered_json beside_software(const VerifyCommand& command, const scene
       fmt::print("the paper, 2003, {}: gravity {:.1f} ms, spreading {:.1f}, update {:.1f}: {:.1f} frames\n",
                  row->as, row->gravity, row->spreading, row->update, row->frames());
   }
-  return {{"implementation", fast.name},          {"threads", 1},
-          {"steps_a_second", steps / here.steps}, {"updates_a_second", n / here.update},
-          {"pictures_a_second", n / here.draw},   {"frames_a_second", n / here.total()}};
+  return {fast.name, steps / here.steps, n / here.update, n / here.draw, n / here.total()};
 }
 
 bool struck(const hwmodel::MachineReport& report) { return report.steps.strike || report.pictures.strike; }
@@ -177,15 +174,12 @@ hwmodel::MachineReport run_machine(const VerifyCommand& command, const scene::Sc
         "error: --plant {}: in these steps and pictures there is nothing that this fault could change",
         command.plant));
   print_machine(command, scene, camera, report, preset);
-  nlohmann::ordered_json json{{"scene", scene.name}, {"width", camera.width}, {"height", camera.height}};
-  json.update(hwmodel::json_of(report, options));
-  if (report.good()) json["software"] = beside_software(command, scene, camera, ahead, report, options);
+  std::optional<SoftwareRates> software;
+  if (report.good()) software = beside_software(command, scene, camera, ahead, report, options);
   fmt::print("{}", command.common.quiet ? first_line(verdict_of(report)) : verdict_of(report));
   if (report.steps.strike && !command.common.quiet) print_plant(report.steps);
-  write_report(command.common, json.dump(2) + '\n');
-  if (!choice.html.empty())
-    io::write_file(choice.html, hwmodel::machine_page(json, fmt::format("{}, {} x {}", scene.name,
-                                                                        camera.width, camera.height)));
+  write_machine_report({command.common, choice.html}, {scene.name, camera.width, camera.height}, report,
+                       options, software);
   if (!choice.png.empty()) render::write_png(choice.png, report.pictures.image);
   return report;
 }

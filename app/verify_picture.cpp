@@ -12,6 +12,7 @@
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/verify_command.h"
+#include "app/verify_report.h"
 #include "app/verify_shrink.h"
 #include "hwmodel/caster/check/replay_pixel.h"
 #include "hwmodel/caster/check/verify_picture.h"
@@ -20,7 +21,6 @@
 #include "hwmodel/machine/presets/presets.h"
 #include "kernel/run/io/output_folder.h"
 #include "render/image/png.h"
-#include "report/hardware/page.h"
 
 namespace voxmelt::app {
 namespace {
@@ -148,7 +148,7 @@ void check_picture(const VerifyCommand& command, const scene::Scene& scene) {
   keep_inputs(scene, {{"--html", choice.html}, {"--vcd", command.vcd}, {"--shrink", command.shrink}});
 }
 
-struct Drawn {
+struct PictureRun {
   const VerifyCommand& command;
   const scene::Scene& scene;
   const hwmodel::raycast::PictureInput& input;
@@ -157,7 +157,7 @@ struct Drawn {
   std::uint32_t step = 0;
 };
 
-void print_picture(const Drawn& drawn) {
+void print_picture(const PictureRun& drawn) {
   const auto& [command, scene, input, options, report, step] = drawn;
   if (command.common.quiet) {
     fmt::print("{}: {} cycles\n{}", scene.name, report.all_cycles,
@@ -171,33 +171,26 @@ void print_picture(const Drawn& drawn) {
              hwmodel::raycast::verdict_text(report));
 }
 
-nlohmann::ordered_json json_of(const Drawn& drawn) {
+std::optional<SeenAgain> see_again(const PictureRun& drawn) {
   const auto& [command, scene, input, options, report, step] = drawn;
-  nlohmann::ordered_json json{
-      {"scene", scene.name}, {"step", step}, {"width", input.camera.width}, {"height", input.camera.height}};
-  json.update(hwmodel::raycast::json_of(report, options.configuration));
   const auto replay = hwmodel::raycast::replay_pixel(input, options, report);
-  if (!replay) return json;
+  if (!replay) return {};
   const std::string pixel = hwmodel::raycast::pixel_text(replay->part);
   if (!command.common.quiet)
     fmt::print("{}to see it again:\n  {} --pixel {}\n", hwmodel::raycast::text_of(*replay),
                picture_again(command, scene.file.string()), pixel);
-  json["replay"] = {{"pixel", pixel}, {"fails_alone", replay->fails}};
-  return json;
+  return SeenAgain{pixel, replay->fails};
 }
 
-void write_outputs(const Drawn& drawn, const nlohmann::ordered_json& json) {
+void write_outputs(const PictureRun& drawn, const std::optional<SeenAgain>& again) {
   const auto& [command, scene, input, options, report, step] = drawn;
   const PictureChoice& choice = command.picture;
-  write_report(command.common, json.dump(2) + '\n');
-  if (!choice.html.empty())
-    io::write_file(choice.html,
-                   hwmodel::picture_page(json, fmt::format("{}, step {}, {} x {}", scene.name, step,
-                                                           input.camera.width, input.camera.height)));
+  write_picture_report({command.common, choice.html}, {scene.name, input.camera.width, input.camera.height},
+                       step, report, options.configuration, again);
   if (!choice.png.empty()) render::write_png(choice.png, report.image);
 }
 
-void shrink(const Drawn& drawn) {
+void shrink(const PictureRun& drawn) {
   const VerifyCommand& command = drawn.command;
   if (command.shrink.empty()) return;
   if (drawn.report.good()) {
@@ -227,11 +220,11 @@ int verify_caster(const VerifyCommand& command, const scene::Scene& scene, const
     throw UsageError(fmt::format(
         "error: --plant {}: in this picture there is nothing that this fault could change", command.plant));
 
-  const Drawn drawn{command, scene, input, options, report, state.step_number()};
+  const PictureRun drawn{command, scene, input, options, report, state.step_number()};
   print_picture(drawn);
-  const nlohmann::ordered_json json = json_of(drawn);
+  const std::optional<SeenAgain> again = see_again(drawn);
   const std::string no_waves = write_waves(command.vcd, command.vcd_from, report.waves);
-  write_outputs(drawn, json);
+  write_outputs(drawn, again);
   shrink(drawn);
   if (!no_waves.empty() && report.good()) throw UsageError(no_waves);
   if (!no_waves.empty()) say(no_waves);

@@ -1,6 +1,5 @@
 // voxmelt verify of the pipeline: simulates, prints, and writes what came of it.
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include "app/interrupt.h"
 #include "app/run_ahead.h"
 #include "app/verify_command.h"
+#include "app/verify_report.h"
 #include "app/verify_shrink.h"
 #include "app/verify_sizes.h"
 #include "app/visibility.h"
@@ -19,7 +19,6 @@
 #include "hwmodel/pipeline/model/tiling.h"
 #include "hwmodel/pipeline/report/report.h"
 #include "hwmodel/pipeline/streams/memory_streams.h"
-#include "report/hardware/page.h"
 
 namespace voxmelt::app {
 
@@ -130,13 +129,8 @@ hwmodel::VerifyOptions options_of(const Job& job, std::uint32_t first_step, hwmo
 
 void write_reports(const Job& job, const hwmodel::VerifyReport& report, const hwmodel::Design& design) {
   const VerifyCommand& command = job.command;
-  nlohmann::ordered_json json{{"scene", name_of(job.scene)}};
-  json.update(hwmodel::json_of(report, design, job.preset.configuration));
-  write_report(command.common, json.dump(2) + '\n');
-  if (!command.picture.html.empty())
-    io::write_file(command.picture.html,
-                   hwmodel::pipeline_page(json, fmt::format("{}, {} steps from step {}", name_of(job.scene),
-                                                            report.steps, report.first_step)));
+  write_pipeline_report({command.common, command.picture.html}, name_of(job.scene), report, design,
+                        job.preset.configuration);
 }
 
 // Of a difference: what of it can be seen again, and how.

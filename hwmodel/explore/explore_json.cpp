@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -149,7 +150,7 @@ json next_json(const Explored& of) {
 
 }  // namespace
 
-json json_of(const Explored& of) {
+std::string json_of(const Explored& of) {
   const Question& q = of.question;
   const rule::Heat& heat = q.parameters.heat;
   json front = json::array(), parts = json::array(), fronts;
@@ -195,7 +196,7 @@ json json_of(const Explored& of) {
                       {"wtr_s", m.wtr_s},
                       {"read_to_write", m.read_to_write}};
   }
-  return result;
+  return result.dump(2) + '\n';
 }
 
 }  // namespace voxmelt::hwmodel::explore

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -23,7 +22,7 @@ struct Explored {
 std::string text_of(const Explored& explored);
 std::string sentence_of(const Explored& explored);
 std::string csv_of(const Explored& explored);  // of every configuration
-nlohmann::ordered_json json_of(const Explored& explored);
+std::string json_of(const Explored& explored);
 std::string svg_of(const Explored& explored);
 
 const Checked* checked_at(const Explored& explored, std::size_t point);  // null: only predicted

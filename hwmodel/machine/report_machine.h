@@ -1,7 +1,7 @@
 // What a run of the whole machine says: the table, what bounds it, and JSON.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

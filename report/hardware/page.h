@@ -1,7 +1,7 @@
 // The pages of `voxmelt verify --html`: each from the JSON report of its run, and from nothing else.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace voxmelt::hwmodel {

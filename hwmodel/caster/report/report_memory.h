@@ -1,7 +1,7 @@
 // What a memory did, in words and as JSON.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "hwmodel/memory/counts.h"

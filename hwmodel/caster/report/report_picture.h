@@ -1,7 +1,7 @@
 // What a run of the ray caster says: the table and the verdict.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "hwmodel/caster/check/verify_picture.h"

@@ -1,7 +1,7 @@
 // What `voxmelt verify` reports: a table for people, JSON for programs.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "hwmodel/pipeline/check/verify.h"

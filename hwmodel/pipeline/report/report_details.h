@@ -2,7 +2,7 @@
 // every stage did when.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "hwmodel/pipeline/check/verify.h"
 

@@ -161,6 +161,9 @@ TEST(Excerpt, OfAPictureKeepsItsTerrain) {
       << Excerpt(file, {}).picture_text({{}, {g.x, g.y, g.z}, {}}, "state", whole.camera);
   const Scene again = load(place / "scene.toml", {});
   EXPECT_EQ(again.terrain, whole.terrain);
+  std::ofstream(place / "bare.toml") << Excerpt(file, {}).picture_text({{}, {g.x, g.y, g.z}, {"terrain"}},
+                                                                       "state", whole.camera);
+  EXPECT_EQ(load(place / "bare.toml", {}).terrain.height, std::vector<float>(whole.terrain.height.size()));
   EXPECT_EQ(again.initial, whole.initial);
   EXPECT_EQ(again.look, whole.look);
   EXPECT_EQ(again.light, whole.light);

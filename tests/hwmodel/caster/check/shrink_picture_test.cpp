@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
@@ -20,7 +22,7 @@ state::Volume filled(state::Grid grid) {
 }
 
 PictureCase whole_case() {
-  PictureCase one{filled({20, 17, 12}), {}, {0, 0, 40, 30}, render::Setting::best, {}};
+  PictureCase one{filled({20, 17, 12}), {}, {0, 0, 40, 30}, render::Setting::best, {}, {}};
   one.configuration.pipes = 4;
   one.configuration.fifo_depth = 2;
   one.configuration.stall_seed = 7;
@@ -51,7 +53,8 @@ TEST(PictureShrinker, KeepsWhatTheFailureNeedsAndNothingElse) {
       [&](const PictureCase& one) {
         ++asked;
         return holds(one, a) && holds(one, b) && one.window.holds(23, 11) &&
-               one.configuration.fifo_depth == 2 && one.setting != render::Setting::fast;
+               one.configuration.fifo_depth == 2 && one.setting != render::Setting::fast &&
+               one.without.empty();
       },
       [] { return true; });
   const PictureCase& small = shrinker.shrink(a);
@@ -65,6 +68,7 @@ TEST(PictureShrinker, KeepsWhatTheFailureNeedsAndNothingElse) {
   EXPECT_EQ(small.configuration.pipes, 1);
   EXPECT_EQ(small.configuration.stall_seed, 0u);
   EXPECT_EQ(small.configuration.fifo_depth, 2);
+  EXPECT_TRUE(small.without.empty());
   EXPECT_EQ(shrinker.tried(), asked);
 }
 
@@ -77,6 +81,7 @@ TEST(PictureShrinker, KeepsAPartThatLiesInNoHalf) {
   const PictureCase& small = shrinker.shrink({});
   EXPECT_EQ((std::array{small.window.left, small.window.top, small.window.right, small.window.bottom}),
             (std::array<std::int32_t, 4>{19, 14, 21, 16}));
+  EXPECT_EQ(small.without, std::vector<std::string>{"terrain"});
 }
 
 TEST(PictureShrinker, LeavesWhatCannotBeMadeSmaller) {

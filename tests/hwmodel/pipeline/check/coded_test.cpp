@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
-#include <utility>
 
 #include "hwmodel/explore/content.h"
 #include "hwmodel/memory/sheet.h"

@@ -1,0 +1,50 @@
+// What `voxmelt verify` reports of a run: JSON for --report, and for --html the page that is drawn from it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/options.h"
+#include "hwmodel/caster/check/verify_picture.h"
+#include "hwmodel/machine/machine.h"
+#include "hwmodel/pipeline/check/verify.h"
+#include "kernel/scene/scene.h"
+
+namespace voxmelt::app {
+
+// Where a report goes; nowhere where neither is given.
+struct ReportPlaces {
+  const Common& common;     // has --report
+  const std::string& html;  // --html; empty for none
+};
+
+// `name` is the scene's.
+void write_pipeline_report(const ReportPlaces& places, const std::string& name,
+                           const hwmodel::VerifyReport& report, const hwmodel::Design& design,
+                           const hwmodel::Configuration& configuration);
+
+struct Drawn {
+  std::string scene;
+  int width = 0, height = 0;
+};
+// How a difference is seen again: --pixel, and whether it fails alone.
+struct SeenAgain {
+  std::string pixel;
+  bool fails_alone = false;
+};
+void write_picture_report(const ReportPlaces& places, const Drawn& drawn, std::uint32_t step,
+                          const hwmodel::raycast::PictureReport& report,
+                          const hwmodel::raycast::Configuration& configuration,
+                          const std::optional<SeenAgain>& again);
+
+// The software's rates beside the machine's, on one thread of this processor.
+struct SoftwareRates {
+  std::string implementation;
+  double steps = 0, updates = 0, pictures = 0, frames = 0;  // a second
+};
+void write_machine_report(const ReportPlaces& places, const Drawn& drawn,
+                          const hwmodel::MachineReport& report, const hwmodel::MachineOptions& options,
+                          const std::optional<SoftwareRates>& software);
+
+}  // namespace voxmelt::app
