@@ -21,7 +21,7 @@ struct RunSeconds {
 std::string report_json(const scene::Scene& scene, const Common& common, const run::Simulation& simulation,
                         const RunSeconds& seconds, bool complete = true);
 
-// Does the report of this output folder say so?
+// Does the report.json of this output folder say that the run is complete?
 bool says_complete(const std::filesystem::path& folder);
 
 // What the limit of the mobility withholds, where that is much; else empty.
