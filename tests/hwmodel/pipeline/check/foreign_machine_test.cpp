@@ -73,7 +73,7 @@ VerifyReport verified(const Start& start, const Wrong& wrong, std::uint32_t step
   options.machine = [&] {
     return std::make_unique<Foreign>(start.parameters, start.volume.grid, options.configuration, wrong);
   };
-  return verify(start.parameters, start.volume, 0, worlds::implementation("auto"), {}, options);
+  return verify(start.parameters, start.volume, 0, run::implementations().widest(), {}, options);
 }
 
 TEST(ForeignMachine, IsVerifiedLikeThePipeline) {
