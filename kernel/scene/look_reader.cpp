@@ -1,6 +1,9 @@
 #include "kernel/scene/look_reader.h"
 
+#include <cmath>
+#include <cstddef>
 #include <optional>
+#include <string>
 
 #include "kernel/scene/shape/geometry.h"
 #include "kernel/scene/text/units.h"
@@ -36,6 +39,26 @@ Light read_light(Reader& root) {
 
 namespace {
 
+// A part of sRGB (IEC 61966-2-1), rounded so that every machine reads the same.
+double linear(int byte) {
+  const double part = byte / 255.0;
+  const double light = part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4);
+  return std::round(light * 10000) / 10000;
+}
+
+// [r, g, b] in linear light, or "#rrggbb" as painting programs write it.
+Vec3 read_color(Reader& reader, const char* key, const Vec3& fallback) {
+  if (!reader.has(key) || reader.kind(key) != Value::Kind::text)
+    return reader.vector<3>(key, fraction(), fallback);
+  const std::string text = reader.text(key);
+  if (text.size() != 7 || text[0] != '#' ||
+      text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+    reader.fail(key, " = \"" + text + "\": want \"#rrggbb\", or [r, g, b] from 0 to 1");
+  Vec3 color{};
+  for (std::size_t i = 0; i < 3; ++i) color[i] = linear(std::stoi(text.substr(1 + 2 * i, 2), nullptr, 16));
+  return color;
+}
+
 Vec3 read_clear(Reader& reader, const Vec3& fallback) {
   const Range range = at_most(256);
   if (reader.has("clear") && reader.kind("clear") != Value::Kind::array) {
@@ -51,10 +74,10 @@ Look read_look(Reader& root) {
   Look look;
   std::optional<Reader> reader = root.table("look");
   if (!reader) return look;
-  look.solid = reader->vector<3>("solid", fraction(), look.solid);
-  look.liquid = reader->vector<3>("liquid", fraction(), look.liquid);
-  look.ground = reader->vector<3>("ground", fraction(), look.ground);
-  look.background = reader->vector<3>("background", fraction(), look.background);
+  look.solid = read_color(*reader, "solid", look.solid);
+  look.liquid = read_color(*reader, "liquid", look.liquid);
+  look.ground = read_color(*reader, "ground", look.ground);
+  look.background = read_color(*reader, "background", look.background);
   look.shininess = reader->number("shininess", at_least(1).at_most(10000), look.shininess);
   look.specular = reader->number("specular", fraction(), look.specular);
   look.metallic = reader->number("metallic", fraction(), look.metallic);

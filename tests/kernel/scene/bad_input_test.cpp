@@ -159,6 +159,10 @@ const std::vector<Case>& cases() {
       {kBox + "[start]\nfields = \"none\"\n",
        "scene.toml:8:10: error: cannot read none/solid.npy: No such file or directory"},
       // Drawing.
+      {kBox + "[look]\nsolid = \"#5a2d0\"\n",
+       "scene.toml:8:9: error: look.solid = \"#5a2d0\": want \"#rrggbb\", or [r, g, b] from 0 to 1"},
+      {kBox + "[look]\nliquid = \"#5a2g00\"\n",
+       "scene.toml:8:10: error: look.liquid = \"#5a2g00\": want \"#rrggbb\", or [r, g, b] from 0 to 1"},
       {kBox + "[look]\nsolid = [1, 1, 2]\n", "scene.toml:8:16: error: look.solid.2 = 2 exceeds 1"},
       {kBox + "[look]\nclear = 256.5\n", "scene.toml:8:9: error: look.clear = 256.5 exceeds 256"},
       {kBox + "[look]\nclear = [9, -1, 9]\n", "scene.toml:8:13: error: look.clear.1 = -1 is below 0"},

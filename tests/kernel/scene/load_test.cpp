@@ -279,6 +279,10 @@ TEST(Load, ClearIsANumberOrThree) {
   const auto look = [&](const std::string& keys) {
     return folder.load_text(kLeast + "[look]\n" + keys).look;
   };
+  // 0x5a = 90, 0x2d = 45, 0x0c = 12: ((90 / 255 + 0.055) / 1.055)^2.4 = 0.10224, and so on.
+  EXPECT_EQ(look("solid = \"#5a2d0c\"\n").solid, (Vec3{0.1022, 0.0262, 0.0037}));
+  EXPECT_EQ(look("ground = \"#FFff00\"\n").ground, (Vec3{1, 1, 0}));
+  EXPECT_EQ(look("background = \"#010a0b\"\n").background, (Vec3{0.0003, 0.003, 0.0033}));
   EXPECT_EQ(look("").clear, (Vec3{0, 0, 0}));
   EXPECT_EQ(look("").frost, 0.1);
   EXPECT_EQ(look("clear=7.5\nfrost=0.25\n").clear, (Vec3{7.5, 7.5, 7.5}));
