@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, melts the default scene and says where the pictures are.
+# Installs what is missing, builds the program that runs and draws, and melts the default scene.
 # Extra arguments go to `voxmelt run`:  ./run.sh goblet --steps 500
 set -euo pipefail
 cd "$(dirname "$0")"
 
+voxmelt=build/first/app/voxmelt
+if [ ! -x $voxmelt ]; then echo "Building voxmelt takes some two minutes on two cores, once." >&2; fi
 cmake/install-dependencies.sh build
-cmake --preset release -DVOXMELT_TESTS=OFF > build/configure.log || { cat build/configure.log; exit 1; }
-cmake --build --preset release
+cmake --preset first > build/configure.log || { cat build/configure.log; exit 1; }
+cmake --build --preset first
 
 # Options alone mean the default scene. All but two of them have a value.
 scene=cello before=
@@ -19,4 +21,4 @@ for word in "$@"; do
   before=$word
 done
 if [ -n "$scene" ]; then set -- "$scene" "$@"; fi
-exec build/release/app/voxmelt run "$@"
+exec $voxmelt run "$@"

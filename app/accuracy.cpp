@@ -17,6 +17,7 @@
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
+#include "app/programs.h"
 #include "app/version.h"
 #include "kernel/run/io/output_folder.h"
 #include "report/accuracy/report.h"
@@ -130,8 +131,7 @@ int run_accuracy(const AccuracyOptions& options) {
 
 void add_accuracy(CommandLine& program) {
   auto options = std::make_shared<AccuracyOptions>();
-  const Command command = program.add(
-      "accuracy", "The physics: errors against analytic answers, with the bar that each must keep");
+  const Command command = program.add("accuracy", std::string(description_of("accuracy")));
   command.flag("--quick", options->quick, "small cases only: less than a minute");
   command.option("--case", options->cases, "this case only (repeatable); `voxmelt list cases` names them")
       .written_as("NAME")

@@ -17,6 +17,7 @@
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
+#include "app/programs.h"
 #include "app/version.h"
 #include "app/visibility.h"
 #include "kernel/engine/cpu/instruction_set.h"
@@ -167,8 +168,7 @@ int run_bench(BenchOptions options) {
 
 void add_bench(CommandLine& program) {
   auto options = std::make_shared<BenchOptions>();
-  const Command command =
-      program.add("bench", "Throughput, beside what this machine could do at most and the paper's program");
+  const Command command = program.add("bench", std::string(description_of("bench")));
   command
       .option("--parts", options->parts,
               "what to measure, with commas between: automaton, picture, grids (pictures of finer and\n"

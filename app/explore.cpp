@@ -15,6 +15,7 @@
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
+#include "app/programs.h"
 #include "app/run_ahead.h"
 #include "app/visibility.h"
 #include "hwmodel/explore/explore_report.h"
@@ -133,8 +134,7 @@ int run_explore(ExploreCommand command) {
 
 void add_explore(CommandLine& program) {
   auto options = std::make_shared<ExploreCommand>();
-  const Command command = program.add(
-      "explore", "Which hardware is best: all designs by closed form, the best ones simulated and verified");
+  const Command command = program.add("explore", std::string(description_of("explore")));
   add_scene(command, options->common);
   command.option("--device", options->device, "a device by name (zu7ev, ecp5-85f), or a TOML file")
       .required();

@@ -1,21 +1,11 @@
-// voxmelt: melts solid voxel models and lets them flow.
-#include <csignal>
-#include <exception>
-#include <filesystem>
-#include <functional>
-#include <new>
+// voxmelt: melts solid voxel models and lets them flow. It runs and draws; programs beside it verify and
+// measure.
 #include <string>
 
 #include "app/commands.h"
-#include "app/interrupt.h"
-#include "app/message.h"
-#include "app/options.h"
-#include "app/version.h"
-#include "kernel/run/checkpoint/blocks.h"
-#include "kernel/run/io/output_folder.h"
-#include "kernel/scene/scene.h"
-#include "render/image/png.h"
-#include "render/packet/draw_picture.h"
+#include "app/list.h"
+#include "app/programs.h"
+#include "app/run_program.h"
 
 namespace {
 
@@ -24,7 +14,7 @@ constexpr const char* kIntroduction =
     "  voxmelt run cello                    melt the cello: frames, contact sheet and report in out/cello\n"
     "  voxmelt run cello_viscous --steps 800\n"
     "  voxmelt run lava --set flow.paper.share=0.1 --out /tmp/lava\n"
-    "  voxmelt digest goblet --steps 10     one line per step; equal lines mean equal bits\n"
+    "  voxmelt digest goblet --steps 10 --every 1    one line per step; equal lines mean equal bits\n"
     "  voxmelt export bunny --steps 500 --out bunny500 --format vti\n"
     "  voxmelt render lava --steps 1200 --size 1280x960 --out lava.png\n"
     "  voxmelt verify lava --from 400 --set hw.lanes=16     the hardware model in lock-step with the "
@@ -36,58 +26,24 @@ constexpr const char* kIntroduction =
     "A scene is a TOML file; docs/scenes.md explains its keys. Exit codes: 0 done, 1 a check failed,\n"
     "2 bad usage or input, 3 out of memory or disk, 4 interrupted.";
 
-int fail(const std::string& message, int code) {
-  voxmelt::app::say(message);
-  return code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace voxmelt;
-  app::open_standard_streams();
-  // A file that grows too large and a pipe that is closed are error messages, not ends of the program.
-  for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
-  app::end_at_interrupts();
-  try {
-    app::CommandLine program("voxmelt", kIntroduction, app::version_text());
-    app::add_run(program);
-    app::add_digest(program);
-    app::add_export(program);
-    app::add_render(program);
-    app::add_bench(program);
-    app::add_accuracy(program);
-    app::add_verify(program);
-    app::add_explore(program);
-    app::add_info(program);
-    app::add_list(program);
-    const std::function<int()> work = program.read(argc, argv);
-    const int code = work ? work() : app::kDone;
-    return app::standard_output_is_well() ? code : app::kOutOfResources;
-  } catch (const app::OutputStopped& stopped) {
-    app::standard_output_is_well(stopped.error);
-    return app::kOutOfResources;
-  } catch (const app::Interrupted& interrupted) {
-    return fail(interrupted.what(), app::kInterrupted);
-  } catch (const render::Stopped&) {
-    return fail(app::Interrupted().what(), app::kInterrupted);
-  } catch (const scene::InputError& error) {
-    return fail(error.what(), app::kBadInput);
-  } catch (const checkpoint::Error& error) {
-    return fail(error.what(), app::kBadInput);
-  } catch (const app::UsageError& error) {
-    return fail(error.what(), app::kBadInput);
-  } catch (const scene::ResourceError& error) {
-    return fail(error.what(), app::kOutOfResources);
-  } catch (const io::OutputError& error) {
-    return fail(error.what(), error.out_of_space() ? app::kOutOfResources : app::kBadInput);
-  } catch (const render::ImageError& error) {
-    return fail(error.what(), error.out_of_space() ? app::kOutOfResources : app::kBadInput);
-  } catch (const std::bad_alloc&) {
-    return fail("error: out of memory", app::kOutOfResources);
-  } catch (const std::filesystem::filesystem_error& error) {  // a place that cannot be used
-    return fail(app::place_message(error), app::kBadInput);
-  } catch (const std::exception& error) {
-    return fail(std::string("error: ") + error.what(), app::kCheckFailed);
-  }
+  using namespace voxmelt::app;
+  const std::string missing = become_program(argc, argv);
+  // In the order of --help.
+  const auto add_commands = [&](CommandLine& program) {
+    if (!missing.empty()) throw UsageError(missing);
+    add_run(program);
+    add_digest(program);
+    add_export(program);
+    add_render(program);
+    for (const Elsewhere& row : kElsewhere)
+      program.add(std::string(row.command), std::string(row.description));
+    add_info(program);
+    add_list(
+        program,
+        {{"implementations", list_implementations}, {"scenes", list_scenes}, {"features", list_features}});
+  };
+  return run_program(kIntroduction, add_commands, argc, argv);
 }

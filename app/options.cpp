@@ -18,11 +18,23 @@
 #include "kernel/run/opening/checkpoint_scene.h"
 #include "kernel/run/opening/opening.h"
 #include "kernel/run/trial/fastest.h"
+#include "kernel/scene/text/suggestion.h"
 
 namespace voxmelt::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const fs::path& folder : scene_folders()) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 fs::path find_scene(const std::string& given) {
   const fs::path path(given);
@@ -32,9 +44,11 @@ fs::path find_scene(const std::string& given) {
     std::error_code ignored;
     if (fs::exists(candidate, ignored)) return candidate;
   }
-  throw UsageError(fmt::format(
-      "error: no scene file and no scene named '{}'; `voxmelt list scenes` names those that came with it",
-      given));
+  const std::string near = scene::nearest_name(given, scene_names());
+  throw UsageError(
+      fmt::format("error: no scene file and no scene named '{}'; {}`voxmelt list scenes` names those "
+                  "that came with it",
+                  given, near.empty() ? "" : fmt::format("did you mean '{}'? ", near)));
 }
 
 void say_warnings(const Common& common, const std::vector<std::string>& warnings) {

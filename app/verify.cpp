@@ -13,6 +13,7 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/options.h"
+#include "app/programs.h"
 #include "app/resources.h"
 #include "app/run_ahead.h"
 #include "app/verify_command.h"
@@ -121,8 +122,7 @@ void add_outputs(Command command, VerifyCommand& options) {
 
 void add_verify(CommandLine& program) {
   auto options = std::make_shared<VerifyCommand>();
-  const Command command = program.add(
-      "verify", "Run the hardware model in lock-step with the software; stop at the first difference");
+  const Command command = program.add("verify", std::string(description_of("verify")));
   add_scene(command, options->common);
   command.option("--steps", options->steps, "steps to verify").within(1u, 1000000u).shows_default();
   command

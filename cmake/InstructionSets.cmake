@@ -16,6 +16,21 @@ voxmelt_instruction_set(avx512 x86-64
   -march=x86-64-v4 -Wno-uninitialized $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 voxmelt_instruction_set(neon aarch64)
 
+# A build for the machine at hand has one of them; it takes a third of the processor time. AVX-512 is not worth
+# its: it takes longest to compile, and `auto` seldom chooses it.
+option(VOXMELT_ONE_INSTRUCTION_SET "Compile for one instruction set, of the machine at hand" OFF)
+if(VOXMELT_ONE_INSTRUCTION_SET)
+  if(NOT VOXMELT_AARCH64)
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=native -dM -E -x c++ /dev/null OUTPUT_VARIABLE native)
+    if(native MATCHES "__AVX2__ 1" AND native MATCHES "__BMI2__ 1" AND native MATCHES "__FMA__ 1")
+      set(VOXMELT_INSTRUCTION_SETS avx2)
+    else()
+      set(VOXMELT_INSTRUCTION_SETS sse42)
+    endif()
+  endif()
+  target_compile_definitions(voxmelt_options INTERFACE VOXMELT_ONLY_${VOXMELT_INSTRUCTION_SETS})
+endif()
+
 # voxmelt_instances(<target> <source> [SETS <name> ...] [OPTIONS <option> ...]): compiles the source once for
 # each instruction set, or for those named, into objects <target>_<name> that the target takes.
 #

@@ -2,8 +2,11 @@
 # Headers are included by their path from the top of the house: "kernel/automaton/rule/spread.h".
 add_library(voxmelt_options INTERFACE)
 target_include_directories(voxmelt_options INTERFACE ${PROJECT_SOURCE_DIR})
-target_compile_options(voxmelt_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+option(VOXMELT_WARNINGS "Warn, and take warnings for errors" ON)
+if(VOXMELT_WARNINGS)
+  target_compile_options(voxmelt_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+endif()
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
   set(VOXMELT_AARCH64 ON)
   # There compilers fuse multiply-adds by default, which gives other bits than on x86-64.
@@ -14,6 +17,11 @@ if(VOXMELT_SANITIZE)
     -fsanitize=${VOXMELT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(voxmelt_options INTERFACE -fsanitize=${VOXMELT_SANITIZE})
 endif()
+
+# voxmelt_cold(<source> ...): sources of this folder that run once and compile long. A command line, a report.
+function(voxmelt_cold)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
+endfunction()
 
 function(voxmelt_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})

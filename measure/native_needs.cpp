@@ -2,7 +2,9 @@
 
 namespace voxmelt::measure {
 
-#if defined(__AVX512F__)
+#if defined(VOXMELT_ONLY_avx2) || defined(VOXMELT_ONLY_sse42)  // a build for the machine at hand
+constinit const std::optional<cpu::InstructionSet> kNativeNeeds = cpu::InstructionSet{};
+#elif defined(__AVX512F__)
 constinit const std::optional<cpu::InstructionSet> kNativeNeeds = cpu::InstructionSet::avx512;
 #elif defined(__AVX__)
 constinit const std::optional<cpu::InstructionSet> kNativeNeeds = cpu::InstructionSet::avx2;

@@ -2,19 +2,13 @@
 
 namespace voxmelt::render {
 
-const Loops& loops_of([[maybe_unused]] cpu::InstructionSet widest) {
-  using enum cpu::InstructionSet;
-#if defined(__aarch64__)
-  static const Loops kNeon = loops_for<cpu::ArchOf<neon>>();
-  return kNeon;
-#else
-  if (widest == sse42) {
-    static const Loops kNarrow = loops_for<cpu::ArchOf<sse42>>();
+const Loops& loops_of(cpu::InstructionSet widest) {
+  if (widest < cpu::kWideEnough) {
+    static const Loops kNarrow = loops_for<cpu::ArchOf<cpu::InstructionSet{}>>();
     return kNarrow;
   }
-  static const Loops kWide = loops_for<cpu::ArchOf<avx2>>();
+  static const Loops kWide = loops_for<cpu::ArchOf<cpu::kWideEnough>>();
   return kWide;
-#endif
 }
 
 const Loops& loops() { return loops_of(cpu::widest()); }

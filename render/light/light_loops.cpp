@@ -2,19 +2,13 @@
 
 namespace voxmelt::render {
 
-const LightLoops& light_loops_of([[maybe_unused]] cpu::InstructionSet widest) {
-  using enum cpu::InstructionSet;
-#if defined(__aarch64__)
-  static const LightLoops kNeon = light_loops_for<cpu::ArchOf<neon>>();
-  return kNeon;
-#else
-  if (widest == sse42) {
-    static const LightLoops kNarrow = light_loops_for<cpu::ArchOf<sse42>>();
+const LightLoops& light_loops_of(cpu::InstructionSet widest) {
+  if (widest < cpu::kWideEnough) {
+    static const LightLoops kNarrow = light_loops_for<cpu::ArchOf<cpu::InstructionSet{}>>();
     return kNarrow;
   }
-  static const LightLoops kWide = light_loops_for<cpu::ArchOf<avx2>>();
+  static const LightLoops kWide = light_loops_for<cpu::ArchOf<cpu::kWideEnough>>();
   return kWide;
-#endif
 }
 
 const LightLoops& light_loops() { return light_loops_of(cpu::widest()); }

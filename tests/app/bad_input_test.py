@@ -125,6 +125,8 @@ ARGUMENTS = [
     (["render", "scene.toml", "--out", "/nowhere/p.png"], "/nowhere/p.png", 2),
     (["render", "scene.toml", "--setting", "ultra"], "--setting", 2),
     (["list", "sins"], "sins", 2),
+    (["digest", "gobelt"], "no scene named 'gobelt'; did you mean 'goblet'?", 2),
+    (["digest", "wholly_unlike"], "no scene named 'wholly_unlike'; `voxmelt list scenes`", 2),
     (["verify", "scene.toml", "--plant", "gremlin"], "gremlin", 2),
     (["verify", "scene.toml", "--plant", "vent-rate", "--quiet"], "nothing that this fault could change", 2),
     (["verify", "scene.toml", "--picture", "--plant", "vent-rate"], "--plant vent-rate: unknown in the ray caster", 2),

@@ -43,7 +43,7 @@ class RunSh(unittest.TestCase):
         shutil.copy(ROOT / "run.sh", self.folder)
         script(self.folder / "cmake/install-dependencies.sh", "")
         script(self.folder / "bin/cmake", "mkdir -p build")
-        script(self.folder / "build/release/app/voxmelt", 'echo "$@"; exit 7')
+        script(self.folder / "build/first/app/voxmelt", 'echo "$@"; exit 7')
         self.env = dict(os.environ, PATH=f"{self.folder}/bin:{os.environ['PATH']}")
 
     def tearDown(self):
@@ -61,6 +61,14 @@ class RunSh(unittest.TestCase):
         script(self.folder / "bin/cmake", "echo no compiler; exit 1")
         result = subprocess.run([self.folder / "run.sh"], env=self.env, capture_output=True, text=True)
         self.assertEqual((result.returncode, result.stdout), (1, "no compiler\n"))
+
+    def test_who_builds_for_the_first_time_is_told_how_long_it_takes(self):
+        program = self.folder / "build/first/app/voxmelt"
+        program.rename(self.folder / "later")
+        script(self.folder / "bin/cmake", f"mkdir -p build/first/app; cp {self.folder}/later {program}")
+        for expected in ("Building voxmelt takes some two minutes on two cores, once.\n", ""):
+            result = subprocess.run([self.folder / "run.sh"], env=self.env, capture_output=True, text=True)
+            self.assertEqual((result.returncode, result.stdout, result.stderr), (7, "run cello\n", expected))
 
 
 if __name__ == "__main__":

@@ -15,10 +15,16 @@ struct neon64;
 
 namespace voxmelt::cpu {
 
-// The narrowest comes first.
+// The narrowest comes first. VOXMELT_ONLY_<enumerator>: a build for the machine at hand has one.
 #if defined(__aarch64__)
 enum class InstructionSet { neon };
 using Architectures = std::tuple<xsimd::neon64>;
+#elif defined(VOXMELT_ONLY_sse42)
+enum class InstructionSet { sse42 };
+using Architectures = std::tuple<xsimd::sse4_2>;
+#elif defined(VOXMELT_ONLY_avx2)
+enum class InstructionSet { avx2 };
+using Architectures = std::tuple<xsimd::avx2>;
 #else
 enum class InstructionSet { sse42, avx2, avx512 };
 using Architectures = std::tuple<xsimd::sse4_2, xsimd::avx2, xsimd::avx512bw>;
@@ -53,11 +59,20 @@ inline bool has_avx512() {  // x86-64-v4
          __builtin_cpu_supports("avx512vl");
 }
 
-inline constexpr std::array kInstructionSets{
-    InstructionSetRow{InstructionSet::sse42, "sse4.2", "8 lanes of 16 bits", has_sse42},
-    InstructionSetRow{InstructionSet::avx2, "avx2", "16 lanes of 16 bits", has_avx2},
-    InstructionSetRow{InstructionSet::avx512, "avx512", "32 lanes of 16 bits", has_avx512},
+inline constexpr std::array kInstructionSets {
+#if !defined(VOXMELT_ONLY_avx2)
+  InstructionSetRow{InstructionSet::sse42, "sse4.2", "8 lanes of 16 bits", has_sse42},
+#endif
+#if !defined(VOXMELT_ONLY_sse42)
+      InstructionSetRow{InstructionSet::avx2, "avx2", "16 lanes of 16 bits", has_avx2},
+#endif
+#if !defined(VOXMELT_ONLY_sse42) && !defined(VOXMELT_ONLY_avx2)
+      InstructionSetRow{InstructionSet::avx512, "avx512", "32 lanes of 16 bits", has_avx512},
+#endif
 };
 #endif
+
+// For loops that more lanes than those of AVX2 do not help.
+inline constexpr InstructionSet kWideEnough{kInstructionSets.size() > 1 ? 1 : 0};
 
 }  // namespace voxmelt::cpu

@@ -1,0 +1,49 @@
+// The program is in parts, so that who wants a picture need not build the hardware model. `voxmelt` runs and
+// draws. Its other commands are programs beside it, which take its place when they are asked for.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace voxmelt::app {
+
+struct Elsewhere {
+  std::string_view command, program;
+  std::string_view description;  // of the command, in --help of voxmelt
+};
+
+inline constexpr std::array kElsewhere{
+    Elsewhere{"bench", "voxmelt-measure",
+              "Throughput, beside what this machine could do at most and the paper's program"},
+    Elsewhere{"accuracy", "voxmelt-measure",
+              "The physics: errors against analytic answers, with the bar that each must keep"},
+    Elsewhere{"verify", "voxmelt-hardware",
+              "Run the hardware model in lock-step with the software; stop at the first difference"},
+    Elsewhere{"explore", "voxmelt-hardware",
+              "Which hardware is best: all designs by closed form, the best ones simulated and verified"},
+};
+
+// What `list` names, by the program that knows it.
+struct ListedElsewhere {
+  std::string_view what, program;
+};
+inline constexpr std::array kListedElsewhere{
+    ListedElsewhere{"cases", "voxmelt-measure"},
+    ListedElsewhere{"presets", "voxmelt-hardware"},
+    ListedElsewhere{"devices", "voxmelt-hardware"},
+    ListedElsewhere{"memories", "voxmelt-hardware"},
+    ListedElsewhere{"faults", "voxmelt-hardware"},
+};
+
+constexpr std::string_view description_of(std::string_view command) {
+  for (const Elsewhere& row : kElsewhere)
+    if (row.command == command) return row.description;
+  return {};
+}
+
+// Becomes the program that has what is asked for. Returns where it is this one, or where that program is not
+// there: then with a message that says how to build it. Streams and signals must be as the caller gave them.
+std::string become_program(int argc, char** argv);
+
+}  // namespace voxmelt::app

@@ -1,0 +1,16 @@
+// What every program does around its commands: it prepares streams and signals, and an error becomes a
+// message and an exit code.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "app/command_line.h"
+
+namespace voxmelt::app {
+
+// Returns the exit code. Who asks for help sees `introduction`.
+int run_program(const std::string& introduction, const std::function<void(CommandLine&)>& add_commands,
+                int argc, char** argv);
+
+}  // namespace voxmelt::app
