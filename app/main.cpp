@@ -30,10 +30,9 @@ constexpr const char* kIntroduction =
 
 int main(int argc, char** argv) {
   using namespace voxmelt::app;
-  const std::string missing = become_program(argc, argv);
   // In the order of --help.
   const auto add_commands = [&](CommandLine& program) {
-    if (!missing.empty()) throw UsageError(missing);
+    become_program(argc, argv);
     add_run(program);
     add_digest(program);
     add_export(program);

@@ -8,6 +8,8 @@
 #include <string>
 #include <system_error>
 
+#include "app/command_line.h"
+
 namespace voxmelt::app {
 namespace {
 
@@ -26,9 +28,9 @@ std::string_view program_of(int argc, char** argv) {
 
 }  // namespace
 
-std::string become_program(int argc, char** argv) {
+void become_program(int argc, char** argv) {
   const std::string_view program = program_of(argc, argv);
-  if (program.empty()) return {};
+  if (program.empty()) return;
   std::error_code error;
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
   const fs::path other = self.parent_path() / program;
@@ -36,9 +38,10 @@ std::string become_program(int argc, char** argv) {
   const std::string reason = std::error_code(errno, std::generic_category()).message();
   const fs::path build = self.parent_path().parent_path();
   if (!fs::exists(other, error) && fs::exists(build / "CMakeCache.txt", error))
-    return fmt::format("error: {} is not built yet; this builds it:\n  cmake --build {} --target {}", program,
-                       build.string(), program);
-  return fmt::format("error: {}: {}", other.string(), reason);
+    throw UsageError(
+        fmt::format("error: {} is not built yet; this builds it:\n  cmake --build {} --target {}", program,
+                    build.string(), program));
+  throw UsageError(fmt::format("error: {}: {}", other.string(), reason));
 }
 
 }  // namespace voxmelt::app

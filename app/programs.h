@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <string_view>
 
 namespace voxmelt::app {
@@ -29,10 +28,8 @@ struct ListedElsewhere {
   std::string_view what, program;
 };
 inline constexpr std::array kListedElsewhere{
-    ListedElsewhere{"cases", "voxmelt-measure"},
-    ListedElsewhere{"presets", "voxmelt-hardware"},
-    ListedElsewhere{"devices", "voxmelt-hardware"},
-    ListedElsewhere{"memories", "voxmelt-hardware"},
+    ListedElsewhere{"cases", "voxmelt-measure"},    ListedElsewhere{"presets", "voxmelt-hardware"},
+    ListedElsewhere{"devices", "voxmelt-hardware"}, ListedElsewhere{"memories", "voxmelt-hardware"},
     ListedElsewhere{"faults", "voxmelt-hardware"},
 };
 
@@ -42,8 +39,8 @@ constexpr std::string_view description_of(std::string_view command) {
   return {};
 }
 
-// Becomes the program that has what is asked for. Returns where it is this one, or where that program is not
-// there: then with a message that says how to build it. Streams and signals must be as the caller gave them.
-std::string become_program(int argc, char** argv);
+// Becomes the program that has what is asked for; returns where it is this one. Streams and signals must be
+// as the caller gave them. Throws UsageError where that program is not there, and says how to build it.
+void become_program(int argc, char** argv);
 
 }  // namespace voxmelt::app

@@ -28,13 +28,13 @@ int fail(const std::string& message, int code) {
 
 int run_program(const std::string& introduction, const std::function<void(CommandLine&)>& add_commands,
                 int argc, char** argv) {
-  open_standard_streams();
-  // A file that grows too large and a pipe that is closed are error messages, not ends of the program.
-  for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
-  end_at_interrupts();
   try {
     CommandLine program("voxmelt", introduction, version_text());
     add_commands(program);
+    open_standard_streams();
+    // A file that grows too large and a pipe that is closed are error messages, not ends of the program.
+    for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+    end_at_interrupts();
     const std::function<int()> work = program.read(argc, argv);
     const int code = work ? work() : kDone;
     return standard_output_is_well() ? code : kOutOfResources;

@@ -9,7 +9,8 @@
 
 namespace voxmelt::app {
 
-// Returns the exit code. Who asks for help sees `introduction`.
+// Returns the exit code. Who asks for help sees `introduction`. While commands are added, streams and signals
+// are still as the caller gave them.
 int run_program(const std::string& introduction, const std::function<void(CommandLine&)>& add_commands,
                 int argc, char** argv);
 
