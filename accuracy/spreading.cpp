@@ -228,16 +228,16 @@ Outcome measure_flux_vent(const Conditions& conditions) {
       trial.run_to(step);
       const Columns columns(trial.volume());
       const FedCurrent current = fed(trial, kappa);
-      const auto note = [&](Radius& of, double value, double wanted) {
-        of.values.push_back({1. * step, value});
-        of.error.points.push_back({1. * step, 100 * (value / wanted - 1)});
+      const auto note = [&](Radius& radius, double value, double wanted) {
+        radius.values.push_back({1. * step, value});
+        radius.error.points.push_back({1. * step, 100 * (value / wanted - 1)});
         if (step == 3200)
           outcome.rows.push_back(
               {.setting = setting + ", step 3200",
-               .quantity = fmt::format("{}, cells, at {:.3f} cells per step", of.name, current.flux),
+               .quantity = fmt::format("{}, cells, at {:.3f} cells per step", radius.name, current.flux),
                .value = value,
                .exact = wanted,
-               .gate = of.gate,
+               .gate = radius.gate,
                .speed = trial.speed()});
       };
       note(rms, moments(columns).rms_radius, current.rms_radius(step));

@@ -39,10 +39,10 @@ struct ExploreCommand {
 void split_sets(ExploreCommand& command) {
   std::vector<std::string> scene;
   for (std::string& set : command.common.sets) {
-    auto& of = set.starts_with("device.") ? command.device_sets
-               : set.starts_with("hw.")   ? command.hw_sets
-                                          : scene;
-    of.push_back(std::move(set));
+    auto& one = set.starts_with("device.") ? command.device_sets
+                : set.starts_with("hw.")   ? command.hw_sets
+                                           : scene;
+    one.push_back(std::move(set));
   }
   command.common.sets = std::move(scene);
 }

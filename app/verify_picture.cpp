@@ -41,8 +41,8 @@ void set_view(scene::Camera& camera, const std::string& view) {
 hwmodel::raycast::Window part_of(const std::string& pixel, const scene::Camera& camera) {
   std::int32_t x = 0, y = 0, wide = 1, high = 1;
   const char *at = pixel.data(), *end = at + pixel.size();
-  const auto number = [&](std::int32_t& of) {
-    const auto [behind, bad] = std::from_chars(at, end, of);
+  const auto number = [&](std::int32_t& value) {
+    const auto [behind, bad] = std::from_chars(at, end, value);
     at = behind;
     return bad == std::errc();
   };

@@ -59,15 +59,15 @@ std::vector<double> errors(const Drawn& drawn) {
   const accuracy::ExactScene scene(data);
   const accuracy::ExactPicture exact(scene, render::camera_in_integers(drawn.camera), data.levels.cells());
   cpu::Workers workers(kThreads);
-  std::vector<double> of;
+  std::vector<double> all;
   for (const render::Setting setting : kTimed) {
     const accuracy::Sampled converged = accuracy::sampled(
         measure::kPictureSide, measure::kPictureSide,
         setting == render::Setting::fast ? accuracy::fast_sampling() : accuracy::normal_sampling(),
         [&](int x, int y, accuracy::Places places) { return exact.pixel(x, y, places); }, workers);
-    of.push_back(accuracy::psnr(drawn.draw(setting, render::best_packets()), converged.image));
+    all.push_back(accuracy::psnr(drawn.draw(setting, render::best_packets()), converged.image));
   }
-  return of;
+  return all;
 }
 
 void write_field(const Drawn& drawn, const std::string& file) {
@@ -82,9 +82,9 @@ void print_scene(const Drawn& drawn) {
   const state::Grid& grid = drawn.field.grid();
   const picture::View view =
       picture::view_of(render::camera_in_integers(drawn.camera), {grid.x, grid.y, grid.z});
-  const auto vector = [](picture::Vector of, double one) {
-    std::printf("[%.6f, %.6f, %.6f]", static_cast<double>(of.x) / one, static_cast<double>(of.y) / one,
-                static_cast<double>(of.z) / one);
+  const auto vector = [](picture::Vector vector, double one) {
+    std::printf("[%.6f, %.6f, %.6f]", static_cast<double>(vector.x) / one,
+                static_cast<double>(vector.y) / one, static_cast<double>(vector.z) / one);
   };
   std::printf("{\"grid\": [%d, %d, %d], \"side\": %d, \"view_angle\": %.6f, \"full\": %d, \"eye\": ", grid.x,
               grid.y, grid.z, measure::kPictureSide, drawn.camera.field_of_view, render::kFull);

@@ -154,10 +154,10 @@ struct Case {
   std::vector<Ray> World::*rays;
 };
 
-void cast(benchmark::State& state, const Case& of,
+void cast(benchmark::State& state, const Case& one,
           const std::function<std::unique_ptr<visibility::Caster>()>& make) {
-  World& w = world(of.n);
-  const std::vector<Ray>& rays = w.*of.rays;
+  World& w = world(one.n);
+  const std::vector<Ray>& rays = w.*one.rays;
   const std::unique_ptr<visibility::Caster> caster = make();
   const double begin = processor_seconds();
   caster->prepare(w.opaque, w.news);

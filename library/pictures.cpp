@@ -22,9 +22,9 @@ using library::translated;
 
 template <class Number>
 Number checked(const char* name, Number value, Number lowest, Number highest,
-               const std::string& of = "Picture") {
+               const std::string& text = "Picture") {
   if (value >= lowest && value <= highest) return value;  // false for a NaN
-  throw InputError(of + ": error: " + std::string(name) + " = " + std::to_string(value) + " is outside " +
+  throw InputError(text + ": error: " + std::string(name) + " = " + std::to_string(value) + " is outside " +
                    std::to_string(lowest) + ".." + std::to_string(highest));
 }
 
@@ -143,7 +143,9 @@ std::optional<Hit> Simulation::pick(int x, int y, const Picture& picture) {
     if (!sight) return std::nullopt;
     const state::Volume& volume = parts_->simulation.volume();
     const picture::View view = drawn.data(render::camera_in_integers(camera), setting).view;
-    const auto part = [](std::int64_t of) { return static_cast<double>(of) / (1 << picture::kNormalBits); };
+    const auto part = [](std::int64_t value) {
+      return static_cast<double>(value) / (1 << picture::kNormalBits);
+    };
     Hit hit{shown_by(*sight),
             in_cells(sight->position),
             {part(sight->normal.x), part(sight->normal.y), part(sight->normal.z)},

@@ -51,7 +51,7 @@ void Fastest::add(const Steps& round) {
 }
 
 Medians Fastest::median() const {
-  const auto of = [&](double (Seconds::*part)() const) {
+  const auto the_one = [&](double (Seconds::*part)() const) {
     std::vector<double> all;
     for (const Seconds& one : means_) all.push_back((one.*part)());
     if (all.empty()) return 0.0;
@@ -59,7 +59,7 @@ Medians Fastest::median() const {
     std::nth_element(all.begin(), middle, all.end());
     return *middle;
   };
-  return {of(&Seconds::flow), of(&Seconds::heat)};
+  return {the_one(&Seconds::flow), the_one(&Seconds::heat)};
 }
 
 std::uint64_t expected_digest(const Workload& workload) {

@@ -60,14 +60,14 @@ std::vector<Needed> needed_vectors(const Workload& workload, const std::vector<i
 
 LeastSeconds least_seconds(const Needed& needed, int lanes, int threads, const FullVolume& flow,
                            const std::optional<FullVolume>& heat) {
-  const auto of = [&](double vectors, double seconds, double cells) {
+  const auto one = [&](double vectors, double seconds, double cells) {
     return vectors * lanes * seconds / cells / threads;
   };
   const double gravity = flow.step.phase[static_cast<std::size_t>(step::Phase::gravity)];
   LeastSeconds least;
   least.flow =
-      of(needed.gravity, gravity, flow.cells) + of(needed.spread, flow.step.flow() - gravity, flow.cells);
-  if (heat) least.heat = of(needed.heat, heat->step.heat(), heat->cells);
+      one(needed.gravity, gravity, flow.cells) + one(needed.spread, flow.step.flow() - gravity, flow.cells);
+  if (heat) least.heat = one(needed.heat, heat->step.heat(), heat->cells);
   return least;
 }
 

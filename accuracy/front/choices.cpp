@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kMostRays = 16;
 
-std::string times(double of, const char* what) {
-  return of < 1 ? fmt::format("{} 1/{:g}", what, 1 / of) : fmt::format("{} x {:g}", what, of);
+std::string times(double value, const char* what) {
+  return value < 1 ? fmt::format("{} 1/{:g}", what, 1 / value) : fmt::format("{} x {:g}", what, value);
 }
 
 // Cheaper and finer on several axes at once, up to the setting of the reference.

@@ -27,12 +27,12 @@ inline double psnr(const render::Image& a, const render::Image& b) {
 
 // Grey where both are equal; a byte of difference counts eight times.
 inline render::Image difference_picture(const render::Image& a, const render::Image& b) {
-  render::Image of(a.width, a.height);
-  for (std::size_t i = 0; i < of.pixels.size(); ++i)
+  render::Image image(a.width, a.height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
-      of.pixels[i][c] =
+      image.pixels[i][c] =
           static_cast<std::uint8_t>(std::clamp(128 + 8 * (a.pixels[i][c] - b.pixels[i][c]), 0, 255));
-  return of;
+  return image;
 }
 
 }  // namespace voxmelt::accuracy

@@ -104,8 +104,8 @@ Cubic ExactField::levels_between(const std::array<int, 3>& cell, Exact from, Exa
                                 along_x(slice + row, ax)};
   const std::array<double, 4> b{along_x(0, bx), along_x(row, bx), along_x(slice, bx),
                                 along_x(slice + row, bx)};
-  const auto rest = [](const std::array<double, 4>& of, double y, double z) {
-    return blend(blend(of[0], of[1], y), blend(of[2], of[3], y), z);
+  const auto rest = [](const std::array<double, 4>& values, double y, double z) {
+    return blend(blend(values[0], values[1], y), blend(values[2], values[3], y), z);
   };
   return {rest(a, ay, az), (rest(b, ay, az) + rest(a, by, az) + rest(a, ay, bz)) / 3,
           (rest(a, by, bz) + rest(b, ay, bz) + rest(b, by, az)) / 3, rest(b, by, bz)};

@@ -75,10 +75,10 @@ ExactGround::ExactGround(const render::PictureScene& scene) : texels_(scene.grou
   }
 }
 
-double ExactGround::height(const Heights& of, double x, double z) const {
+double ExactGround::height(const Heights& heights, double x, double z) const {
   const Between i = between(x, cells_[0]), k = between(z, cells_[2]);
-  return blend(blend(of[at(i.low, k.low)], of[at(i.high, k.low)], i.part),
-               blend(of[at(i.low, k.high)], of[at(i.high, k.high)], i.part), k.part);
+  return blend(blend(heights[at(i.low, k.low)], heights[at(i.high, k.low)], i.part),
+               blend(heights[at(i.low, k.high)], heights[at(i.high, k.high)], i.part), k.part);
 }
 
 double ExactGround::highest_of_block(int x, int z) const {

@@ -36,7 +36,7 @@ class ExactGround {
   std::size_t at(int x, int z) const {
     return static_cast<std::size_t>(z + 1) * row_ + static_cast<std::size_t>(x + 1);
   }
-  double height(const Heights& of, double x, double z) const;
+  double height(const Heights& heights, double x, double z) const;
   double highest_of_block(int x, int z) const;
   Cubic depths_between(const std::array<int, 2>& cell, Exact from, Exact to) const;
   Exact cut_color(Exact p, picture::Face face) const;

@@ -67,18 +67,18 @@ ExactShade::Light ExactShade::light_before(Exact p, Exact normal) const {
   };
   const picture::Vector n = light_.count();
   const Axis x = axis(q.x, n.x), y = axis(q.y, n.y), z = axis(q.z, n.z);
-  Light of;
+  Light light;
   for (int corner = 0; corner < 8; ++corner) {
     const bool i = (corner & 1) != 0, j = (corner & 2) != 0, k = (corner & 4) != 0;
     const double weight = (i ? x.part : 1 - x.part) * (j ? y.part : 1 - y.part) * (k ? z.part : 1 - z.part);
     const picture::Light cell = light_(i ? x.high : x.low, j ? y.high : y.low, k ? z.high : z.low);
-    of.lamp += weight * cell.lamp;
+    light.lamp += weight * cell.lamp;
     for (std::size_t s = 0; s < 6; ++s) {
-      of.open[s] += weight * cell.open[s];
-      of.glow[s] += weight * cell.glow[s];
+      light.open[s] += weight * cell.open[s];
+      light.glow[s] += weight * cell.glow[s];
     }
   }
-  return of;
+  return light;
 }
 
 Exact ExactShade::arriving(Exact normal, const Light& light, bool lit_by_glow) const {

@@ -64,9 +64,10 @@ picture::Color IntegerPixels::light(std::int64_t across, std::int64_t down) cons
     const auto matter_at = [&](picture::Vector p) {
       return picture::matter_at(scene_.matter, scene_.levels.cells(), p);
     };
-    picture::Matter of = matter_at(matter.position);
-    of.obstacle = matter_at(matter.position + normal * 32).obstacle;
-    color = picture::matter_color(scene_.paint, normal, to_eye, light_before(matter.position, normal), of);
+    picture::Matter the_matter = matter_at(matter.position);
+    the_matter.obstacle = matter_at(matter.position + normal * 32).obstacle;
+    color = picture::matter_color(scene_.paint, normal, to_eye, light_before(matter.position, normal),
+                                  the_matter);
   } else {
     return color;
   }

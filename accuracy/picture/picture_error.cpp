@@ -66,7 +66,7 @@ int number(std::string_view name, std::string_view text, int low, int high) {
 }
 
 Options options_of(const std::vector<std::string>& arguments) {
-  Options of;
+  Options options;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& name = arguments[i];
     const auto value = [&]() -> const std::string& {
@@ -74,27 +74,27 @@ Options options_of(const std::vector<std::string>& arguments) {
       return arguments[++i];
     };
     if (name == "--causes") {
-      of.causes = true;
+      options.causes = true;
     } else if (name == "--scenes") {
       std::stringstream names(value());
-      for (std::string one; std::getline(names, one, ',');) of.scenes.push_back(one);
+      for (std::string one; std::getline(names, one, ',');) options.scenes.push_back(one);
     } else if (name == "--out") {
-      of.out = value();
+      options.out = value();
     } else if (name == "--views") {
-      of.views = number(name, value(), 1, kViews);
+      options.views = number(name, value(), 1, kViews);
     } else if (name == "--size") {
-      of.size = number(name, value(), 8, 4096);
+      options.size = number(name, value(), 8, 4096);
     } else if (name == "--threads") {
-      of.threads = number(name, value(), 1, 256);
+      options.threads = number(name, value(), 1, 256);
     } else {
       throw UsageError(name + ": unknown; see the head of accuracy/picture/picture_error.cpp");
     }
   }
-  for (const std::string& name : of.scenes)
+  for (const std::string& name : options.scenes)
     if (std::none_of(std::begin(kScenes), std::end(kScenes),
                      [&](const MidMelt& s) { return name == s.scene; }))
       throw UsageError("--scenes: no scene " + name + " here");
-  return of;
+  return options;
 }
 
 // View k of a turntable. Views that follow each other are far apart, so that the first few show all sides.
@@ -113,25 +113,26 @@ struct Drawing {
 };
 
 std::vector<Drawing> drawings(bool causes) {
-  std::vector<Drawing> of;
+  std::vector<Drawing> all;
   const auto step = [](int spacing) { return "1/" + std::to_string(1 << spacing); };
   for (const int spacing : {1, 2, 3}) {
-    of.push_back({"fast " + step(spacing), spacing, fast_sampling()});
-    of.push_back({"normal " + step(spacing), spacing, normal_sampling()});
-    of.push_back({"best " + step(spacing), spacing, best_sampling()});
+    all.push_back({"fast " + step(spacing), spacing, fast_sampling()});
+    all.push_back({"normal " + step(spacing), spacing, normal_sampling()});
+    all.push_back({"best " + step(spacing), spacing, best_sampling()});
   }
-  if (!causes) return of;
+  if (!causes) return all;
   // Without roundings and steps: what the samples' number and places cost.
-  of.push_back({"fast exact", -1, fast_sampling()});
-  of.push_back({"normal exact", -1, normal_sampling()});
-  of.push_back({"best exact", -1, best_sampling()});
+  all.push_back({"fast exact", -1, fast_sampling()});
+  all.push_back({"normal exact", -1, normal_sampling()});
+  all.push_back({"best exact", -1, best_sampling()});
   // As many samples as the converged picture: what roundings and steps cost.
-  for (const int spacing : {2, 3}) of.push_back({"64 samples " + step(spacing), spacing, lattice_sampling()});
+  for (const int spacing : {2, 3})
+    all.push_back({"64 samples " + step(spacing), spacing, lattice_sampling()});
   for (const int most : {4, 8, 32})
-    of.push_back({"eight where >" + std::to_string(most), -1, normal_sampling(most)});
+    all.push_back({"eight where >" + std::to_string(most), -1, normal_sampling(most)});
   for (const int most : {3, 16})
-    of.push_back({"thirty-two where >" + std::to_string(most), -1, best_sampling(most)});
-  return of;
+    all.push_back({"thirty-two where >" + std::to_string(most), -1, best_sampling(most)});
+  return all;
 }
 
 struct Worst {
@@ -187,18 +188,18 @@ int run(const Options& options) {
     if (options.scenes.empty() ||
         std::find(options.scenes.begin(), options.scenes.end(), scene.scene) != options.scenes.end())
       measure(scene, options, worst);
-  for (const auto& [name, of] : worst)
-    std::fprintf(stderr, "%-24s worst %.2f dB, %s\n", name.c_str(), of.error, of.view.c_str());
+  for (const auto& [name, error] : worst)
+    std::fprintf(stderr, "%-24s worst %.2f dB, %s\n", name.c_str(), error.error, error.view.c_str());
   if (options.out.empty()) return 0;
   const std::filesystem::path folder = options.out;
   std::filesystem::create_directories(folder);
   for (const auto& [drawing, setting] :
        {std::pair{"fast 1/4", "fast"}, {"normal 1/4", "normal"}, {"best 1/8", "best"}}) {
-    const Worst& of = worst[drawing];
-    render::write_png(folder / (std::string(setting) + "_drawn.png"), of.drawn);
-    render::write_png(folder / (std::string(setting) + "_converged.png"), of.converged);
+    const Worst& the_worst = worst[drawing];
+    render::write_png(folder / (std::string(setting) + "_drawn.png"), the_worst.drawn);
+    render::write_png(folder / (std::string(setting) + "_converged.png"), the_worst.converged);
     render::write_png(folder / (std::string(setting) + "_difference.png"),
-                      difference_picture(of.drawn, of.converged));
+                      difference_picture(the_worst.drawn, the_worst.converged));
   }
   return 0;
 }

@@ -18,9 +18,10 @@ using Places = std::span<const picture::Sub>;
 
 // 64 samples, those of the converged picture.
 inline constexpr std::array<picture::Sub, 64> kLattice = [] {
-  std::array<picture::Sub, 64> of{};
-  for (std::int32_t i = 0; i < 64; ++i) of[static_cast<std::size_t>(i)] = {8 * (i % 8) + 4, 8 * (i / 8) + 4};
-  return of;
+  std::array<picture::Sub, 64> values{};
+  for (std::int32_t i = 0; i < 64; ++i)
+    values[static_cast<std::size_t>(i)] = {8 * (i % 8) + 4, 8 * (i / 8) + 4};
+  return values;
 }();
 
 // First every pixel; then those that differ by more than `most` from a neighbour of the picture so far.
@@ -57,25 +58,25 @@ struct Sampled {
 // pixel(x, y, places) gives the bytes of a pixel.
 template <class Pixel>
 Sampled sampled(int width, int height, const Sampling& sampling, const Pixel& pixel, cpu::Workers& workers) {
-  Sampled of{render::Image(width, height), 0};
+  Sampled sampled{render::Image(width, height), 0};
   std::vector<std::size_t> counts(static_cast<std::size_t>(height));
   const auto pass = [&](Places places, const auto& wanted) {
     workers.run(height, [&](int y) {
       for (int x = 0; x < width; ++x) {
         if (!wanted(x, y)) continue;
-        of.image.at(x, y) = pixel(x, y, places);
+        sampled.image.at(x, y) = pixel(x, y, places);
         counts[static_cast<std::size_t>(y)] += places.size();
       }
     });
   };
   pass(sampling.first, [](int, int) { return true; });
   for (const Sampling::Pass& more : sampling.passes) {
-    const render::Image before = of.image;
+    const render::Image before = sampled.image;
     pass(more.places, [&](int x, int y) { return differs(before, x, y, more.most); });
   }
-  of.samples =
+  sampled.samples =
       static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0})) / (width * height);
-  return of;
+  return sampled;
 }
 
 }  // namespace voxmelt::accuracy

@@ -18,23 +18,24 @@ bool same_type(const TokenType& one, const TokenType& other) {
 
 }  // namespace
 
-std::string text_of(const TokenDifference& of) {
+std::string text_of(const TokenDifference& difference) {
   using enum TokenDifference::Kind;
-  if (of.kind == channel)
-    return fmt::format("channel \"{}\": only one has it, or with other wires", of.channel);
-  const std::string which = fmt::format("channel \"{}\": token {}, which {}", of.channel, of.ordinal,
-                                        of.enters ? "enters" : "leaves");
-  switch (of.kind) {
+  if (difference.kind == channel)
+    return fmt::format("channel \"{}\": only one has it, or with other wires", difference.channel);
+  const std::string which = fmt::format("channel \"{}\": token {}, which {}", difference.channel,
+                                        difference.ordinal, difference.enters ? "enters" : "leaves");
+  switch (difference.kind) {
     case missing:
-      return fmt::format("{} in cycle {}, is missing", which, of.expected_cycle);
+      return fmt::format("{} in cycle {}, is missing", which, difference.expected_cycle);
     case extra:
-      return fmt::format("{} in cycle {}, is one too many", which, of.actual_cycle);
+      return fmt::format("{} in cycle {}, is one too many", which, difference.actual_cycle);
     case cycle:
-      return fmt::format("{}: expected in cycle {}, seen in cycle {}", which, of.expected_cycle,
-                         of.actual_cycle);
+      return fmt::format("{}: expected in cycle {}, seen in cycle {}", which, difference.expected_cycle,
+                         difference.actual_cycle);
     default:
-      return fmt::format("{}: {} of lane {}: expected {} (cycle {}), seen {} (cycle {})", which, of.wire,
-                         of.lane, of.expected, of.expected_cycle, of.actual, of.actual_cycle);
+      return fmt::format("{}: {} of lane {}: expected {} (cycle {}), seen {} (cycle {})", which,
+                         difference.wire, difference.lane, difference.expected, difference.expected_cycle,
+                         difference.actual, difference.actual_cycle);
   }
 }
 

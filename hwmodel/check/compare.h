@@ -63,7 +63,8 @@ class TokenComparison {
     std::array<std::deque<Token>, 2> ahead;  // of the expected one, of the actual one
   };
   struct Side final : ChannelProbe {
-    Side(TokenComparison& of, TokenSource& from, std::size_t which) : all(of), source(from), number(which) {}
+    Side(TokenComparison& comparison, TokenSource& from, std::size_t which)
+        : all(comparison), source(from), number(which) {}
     void cycle(int channel, const Sides& sides, const void* in, const void* out) override;
 
     TokenComparison& all;

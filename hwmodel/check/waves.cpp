@@ -34,15 +34,15 @@ std::string code(std::size_t number) {
   return out;
 }
 
-std::string value_text(const std::optional<std::int64_t>& value, int bits, const std::string& of) {
-  if (bits == 1) return (!value ? "x" : *value != 0 ? "1" : "0") + of + '\n';
-  if (!value) return "bx " + of + '\n';
+std::string value_text(const std::optional<std::int64_t>& value, int bits, const std::string& text) {
+  if (bits == 1) return (!value ? "x" : *value != 0 ? "1" : "0") + text + '\n';
+  if (!value) return "bx " + text + '\n';
   std::string digits;
   for (int bit = bits - 1; bit >= 0; --bit) {
     const bool one = (static_cast<std::uint64_t>(*value) >> bit & 1) != 0;
     if (one || !digits.empty() || bit == 0) digits += one ? '1' : '0';
   }
-  return 'b' + digits + ' ' + of + '\n';
+  return 'b' + digits + ' ' + text + '\n';
 }
 
 }  // namespace

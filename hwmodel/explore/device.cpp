@@ -123,10 +123,11 @@ Family load_family(const std::string& name, const std::string& place) {
 }  // namespace
 
 Amounts Device::usable() const {
-  Amounts of = amounts;
+  Amounts the_amounts = amounts;
   for (const Resource logic : {kLut, kFf})
-    of[logic] = static_cast<std::int64_t>(std::floor(static_cast<double>(of[logic]) * fill + 1e-9));
-  return of;
+    the_amounts[logic] =
+        static_cast<std::int64_t>(std::floor(static_cast<double>(the_amounts[logic]) * fill + 1e-9));
+  return the_amounts;
 }
 
 Device load_device(const std::string& name, const std::vector<std::string>& overrides) {

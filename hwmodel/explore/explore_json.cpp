@@ -13,9 +13,9 @@ namespace {
 using json = nlohmann::ordered_json;
 
 json amounts_json(const Amounts& amounts) {
-  json of;
-  for (std::size_t r = 0; r < kResources; ++r) of[std::string(kResourceNames[r])] = amounts[r];
-  return of;
+  json json;
+  for (std::size_t r = 0; r < kResources; ++r) json[std::string(kResourceNames[r])] = amounts[r];
+  return json;
 }
 
 json logic_json(const LogicCost& cost) {
@@ -23,39 +23,39 @@ json logic_json(const LogicCost& cost) {
 }
 
 json shapes_json(const std::vector<MemoryShape>& shapes) {
-  json of = json::array();
-  for (const MemoryShape& shape : shapes) of.push_back({shape.bits, shape.words});
-  return of;
+  json json = json::array();
+  for (const MemoryShape& shape : shapes) json.push_back({shape.bits, shape.words});
+  return json;
 }
 
 json family_json(const Family& f) {
-  json of{{"name", f.name},
-          {"bram_parts", f.bram_parts},
-          {"bram_shapes", shapes_json(f.bram)},
-          {"uram_shapes", shapes_json(f.uram)},
-          {"lutram_words", f.lutram_words},
-          {"lutram_bits", f.lutram_bits},
-          {"lutram_luts", f.lutram_luts},
-          {"mux_ways", f.mux_ways},
-          {"deepest_lutram", f.deepest_lutram},
-          {"register_words", f.register_words},
-          {"product", {f.product.wide, f.product.narrow}},
-          {"port_bits", f.port_bits},
-          {"port_words", f.port_words},
-          {"divider", logic_json(f.divider)},
-          {"random_block", logic_json(f.random_block)},
-          {"channel", logic_json(f.channel)},
-          {"port", logic_json(f.port)},
-          {"coder", logic_json(f.coder)},
-          {"base", logic_json(f.base)}};
+  json the_json{{"name", f.name},
+                {"bram_parts", f.bram_parts},
+                {"bram_shapes", shapes_json(f.bram)},
+                {"uram_shapes", shapes_json(f.uram)},
+                {"lutram_words", f.lutram_words},
+                {"lutram_bits", f.lutram_bits},
+                {"lutram_luts", f.lutram_luts},
+                {"mux_ways", f.mux_ways},
+                {"deepest_lutram", f.deepest_lutram},
+                {"register_words", f.register_words},
+                {"product", {f.product.wide, f.product.narrow}},
+                {"port_bits", f.port_bits},
+                {"port_words", f.port_words},
+                {"divider", logic_json(f.divider)},
+                {"random_block", logic_json(f.random_block)},
+                {"channel", logic_json(f.channel)},
+                {"port", logic_json(f.port)},
+                {"coder", logic_json(f.coder)},
+                {"base", logic_json(f.base)}};
   for (const auto& [kind, cost] : f.stages) {
-    json& stage = of["stages"][std::string(name_of(kind))];
+    json& stage = the_json["stages"][std::string(name_of(kind))];
     stage = logic_json(cost.lane);
     stage["multipliers"] = json::array();
     for (const Widths& widths : cost.multipliers)
       stage["multipliers"].push_back({widths.wide, widths.narrow});
   }
-  return of;
+  return the_json;
 }
 
 json parts_json(const PartList& parts) {
@@ -83,30 +83,30 @@ json parts_json(const PartList& parts) {
 
 // Of the state with which the run begins, once for each number of lanes.
 json contents_json(const std::vector<PartList>& parts) {
-  json of = json::array();
+  json json = json::array();
   int last = 0;
   for (const PartList& one : parts) {
     const int lanes = one.design.shape.lanes;
     if (lanes == std::exchange(last, lanes)) continue;
-    of.push_back({{"lanes", lanes},
-                  {"irradiance_bits", one.content->irradiance_bits},
-                  {"lit_columns", one.content->lit_columns},
-                  {"coded_bits", one.content->coded_bits},
-                  {"coded_columns", one.content->coded_columns}});
+    json.push_back({{"lanes", lanes},
+                    {"irradiance_bits", one.content->irradiance_bits},
+                    {"lit_columns", one.content->lit_columns},
+                    {"coded_bits", one.content->coded_bits},
+                    {"coded_columns", one.content->coded_columns}});
   }
-  return of;
+  return json;
 }
 
 json axes_json(const Axes& axes) {
-  json of;
-  for (const Axis& axis : kAxes) of[std::string(axis.key)] = axes.*axis.values;
-  of["tiles"] = axes.tiles;
-  of["tile"] = axes.tile ? json(*axes.tile) : json();
-  return of;
+  json the_json;
+  for (const Axis& axis : kAxes) the_json[std::string(axis.key)] = axes.*axis.values;
+  the_json["tiles"] = axes.tiles;
+  the_json["tile"] = axes.tile ? json(*axes.tile) : json();
+  return the_json;
 }
 
-json point_json(const Explored& of, std::size_t at) {
-  const Point& p = of.swept.points[at];
+json point_json(const Explored& explored, std::size_t at) {
+  const Point& p = explored.swept.points[at];
   json hw;
   for (const HwKey& key : kHwKeys)
     if (key.chosen()) hw[std::string(key.name)] = key.get(p.hw);
@@ -120,7 +120,7 @@ json point_json(const Explored& of, std::size_t at) {
               {"fullest", std::isfinite(p.taken.fullest) ? json(p.taken.fullest) : json()},
               {"fullest_of", kResourceNames[p.taken.most]},
               {"state", "predicted"}};
-  const Checked* checked = checked_at(of, at);
+  const Checked* checked = checked_at(explored, at);
   if (checked == nullptr) return result;
   result["state"] = checked->good ? "verified" : "differs";
   result["simulated"] = {{"steps", checked->steps},
@@ -133,16 +133,16 @@ json point_json(const Explored& of, std::size_t at) {
   return result;
 }
 
-json next_json(const Explored& of) {
-  const Answer& a = of.answer;
+json next_json(const Explored& explored) {
+  const Answer& a = explored.answer;
   json next;
   for (std::size_t r = 0; r < kResources; ++r) {
     json& one = next[std::string(kResourceNames[r])];
     one["limit"] = a.next[r].limit * 1000;
     one["more"] = a.next[r].point ? json(a.next[r].more) : json();
-    one["design"] = a.next[r].point ? point_json(of, *a.next[r].point) : json();
+    one["design"] = a.next[r].point ? point_json(explored, *a.next[r].point) : json();
   }
-  if (of.question.memory) next["second_memory"] = a.with_twice_the_memory * 1000;
+  if (explored.question.memory) next["second_memory"] = a.with_twice_the_memory * 1000;
   next["any_memory"] = a.with_any_memory * 1000;
   next["clock"] = {{"mhz", a.next_clock_mhz}, {"cell_steps_per_second", a.with_next_clock * 1000}};
   return next;
@@ -150,37 +150,37 @@ json next_json(const Explored& of) {
 
 }  // namespace
 
-std::string json_of(const Explored& of) {
-  const Question& q = of.question;
+std::string json_of(const Explored& explored) {
+  const Question& q = explored.question;
   const rule::Heat& heat = q.parameters.heat;
   json front = json::array(), parts = json::array(), fronts;
-  for (const std::size_t at : of.answer.front) front.push_back(point_json(of, at));
-  for (const PartList& one : of.swept.parts) parts.push_back(parts_json(one));
+  for (const std::size_t at : explored.answer.front) front.push_back(point_json(explored, at));
+  for (const PartList& one : explored.swept.parts) parts.push_back(parts_json(one));
   for (std::size_t f = 0; f < kFronts; ++f) {
     json& one = fronts[std::string(front_name(f))] = json::array();
-    for (const std::size_t at : of.answer.fronts[f])
-      one.push_back({amount_of(of.swept.points[at], f), of.swept.points[at].speed * 1000});
+    for (const std::size_t at : explored.answer.fronts[f])
+      one.push_back({amount_of(explored.swept.points[at], f), explored.swept.points[at].speed * 1000});
   }
-  json result{{"scene", of.scene},
+  json result{{"scene", explored.scene},
               {"grid", {q.grid.x, q.grid.y, q.grid.z}},
               {"first_step", q.first_step},
               {"steps", q.steps},
               {"visibility_every", heat.radiates() ? heat.visibility_every : 0},
               {"device", q.device.name},
-              {"memory", of.memory},
+              {"memory", explored.memory},
               {"available", amounts_json(q.device.amounts)},
               {"usable", amounts_json(q.device.usable())},
               {"lutram", q.device.lutram},
               {"family", family_json(q.device.family)},
-              {"axes", axes_json(of.axes)},
-              {"configurations", of.swept.points.size()},
-              {"seconds", of.swept.seconds},
-              {"answer", sentence_of(of)},
-              {"best", of.answer.best ? point_json(of, *of.answer.best) : json()},
-              {"next", next_json(of)},
+              {"axes", axes_json(explored.axes)},
+              {"configurations", explored.swept.points.size()},
+              {"seconds", explored.swept.seconds},
+              {"answer", sentence_of(explored)},
+              {"best", explored.answer.best ? point_json(explored, *explored.answer.best) : json()},
+              {"next", next_json(explored)},
               {"front", front},
               {"fronts", fronts},
-              {"contents", contents_json(of.swept.parts)},
+              {"contents", contents_json(explored.swept.parts)},
               {"parts", parts}};
   if (q.memory) {
     const memory::Parameters& m = *q.memory;

@@ -64,7 +64,7 @@ std::string number(double value) {
 double giga(const Point& p) { return static_cast<double>(p.speed) * 1e-6; }
 
 struct Panel {
-  const Explored& of;
+  const Explored& explored;
   std::size_t f;  // of Answer::fronts
   Scale x, y;
 
@@ -92,7 +92,7 @@ struct Panel {
 
   std::string all() const {
     std::set<std::pair<int, int>> seen;  // one dot for designs at one place
-    for (const Point& p : of.swept.points)
+    for (const Point& p : explored.swept.points)
       if (p.taken.fits())
         seen.emplace(static_cast<int>(std::lround(x(amount(p)))), static_cast<int>(std::lround(y(giga(p)))));
     std::string path;
@@ -102,10 +102,10 @@ struct Panel {
 
   std::string front() const {
     std::string line, marks;
-    for (const std::size_t i : of.answer.fronts[f]) {
-      const Point& p = of.swept.points[i];
+    for (const std::size_t i : explored.answer.fronts[f]) {
+      const Point& p = explored.swept.points[i];
       line += (line.empty() ? "M" : " L") + at(p);
-      const Checked* checked = checked_at(of, i);
+      const Checked* checked = checked_at(explored, i);
       const char* state = checked == nullptr ? "predicted" : checked->good ? "verified" : "differs";
       marks += fmt::format(
           "<circle class='{0}' cx='{1:.1f}' cy='{2:.1f}' r='4'><title>{3} lanes x {4} steps, {5} MHz: "
@@ -115,8 +115,8 @@ struct Panel {
           front_name(f));
     }
     std::string text = fmt::format("<path class='front' d='{}'/>\n{}", line, marks);
-    if (const auto& front = of.answer.fronts[f]; !front.empty()) {
-      const Point& last = of.swept.points[front.back()];
+    if (const auto& front = explored.answer.fronts[f]; !front.empty()) {
+      const Point& last = explored.swept.points[front.back()];
       text +=
           fmt::format("<text class='label' x='{:.1f}' y='{:.1f}' text-anchor='end'>{} x {}, {} MHz</text>\n",
                       x(amount(last)) - 8, y(giga(last)) - 8, last.hw.lanes, last.hw.cascade, last.clock_mhz);
@@ -133,10 +133,10 @@ struct Panel {
 };
 
 std::string escaped(const std::string& text) {
-  std::string of;
+  std::string the_text;
   for (const char c : text)
-    of += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return of;
+    the_text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return the_text;
 }
 
 std::string name_of(std::size_t front) {
@@ -149,25 +149,25 @@ std::string name_of(std::size_t front) {
 std::size_t row_of(std::size_t panel) { return panel / 2; }
 
 std::string wrapped(const std::string& text, std::size_t most, double x, double y) {
-  std::string of;
+  std::string the_text;
   for (std::size_t from = 0; from < text.size(); y += 17) {
     std::size_t end = std::min(text.size(), from + most);
     if (end < text.size()) end = std::max(from + 1, text.rfind(' ', end));
-    of += fmt::format("<text x='{}' y='{}'>{}</text>\n", x, y, escaped(text.substr(from, end - from)));
+    the_text += fmt::format("<text x='{}' y='{}'>{}</text>\n", x, y, escaped(text.substr(from, end - from)));
     from = end + 1;
   }
-  return of;
+  return the_text;
 }
 
 }  // namespace
 
-std::string svg_of(const Explored& of) {
-  const Amounts usable = of.question.device.usable();
+std::string svg_of(const Explored& explored) {
+  const Amounts usable = explored.question.device.usable();
   std::vector<std::size_t> shown;
   for (std::size_t f = 0; f < kFronts; ++f)
     if (f >= kResources || usable[f] > 0) shown.push_back(f);
   double slowest = 1e9, fastest = 0;
-  for (const Point& p : of.swept.points)
+  for (const Point& p : explored.swept.points)
     if (p.taken.fits()) slowest = std::min(slowest, giga(p)), fastest = std::max(fastest, giga(p));
   constexpr double kHead = 104;
   const double height = kHead + kHeight * static_cast<double>(row_of(shown.size() + 1));
@@ -176,17 +176,17 @@ std::string svg_of(const Explored& of) {
       "role='img'>\n{2}"
       "<rect class='page' width='{0}' height='{1}'/>\n<text class='head' x='24' y='32'>{3} on {4}, "
       "{5}</text>\n{6}",
-      2 * kWidth, height, kStyle, escaped(of.scene), escaped(of.question.device.name), escaped(of.memory),
-      wrapped(sentence_of(of), 140, 24, 54));
+      2 * kWidth, height, kStyle, escaped(explored.scene), escaped(explored.question.device.name),
+      escaped(explored.memory), wrapped(sentence_of(explored), 140, 24, 54));
   if (fastest > 0)
     for (std::size_t i = 0; i < shown.size(); ++i) {
       const std::size_t f = shown[i];
-      const auto most = static_cast<double>(f < kResources ? usable[f] : of.question.device.clock_mhz);
+      const auto most = static_cast<double>(f < kResources ? usable[f] : explored.question.device.clock_mhz);
       double least = most;
-      for (const std::size_t at : of.answer.fronts[f])
-        least = std::min(least,
-                         static_cast<double>(std::max<std::int64_t>(1, amount_of(of.swept.points[at], f))));
-      const Panel panel{of, f, Scale(least * 0.8, most * 1.05, kLeft, kWidth - kRight),
+      for (const std::size_t at : explored.answer.fronts[f])
+        least = std::min(
+            least, static_cast<double>(std::max<std::int64_t>(1, amount_of(explored.swept.points[at], f))));
+      const Panel panel{explored, f, Scale(least * 0.8, most * 1.05, kLeft, kWidth - kRight),
                         Scale(slowest * 0.8, fastest * 1.3, kHeight - kBottom, kTop)};
       svg += fmt::format("<g transform='translate({} {})'>\n{}{}{}{}</g>\n", i % 2 == 0 ? 0 : kWidth,
                          kHead + kHeight * static_cast<double>(row_of(i)), panel.axes(name_of(f)),

@@ -34,8 +34,8 @@ std::string unit_of(Resource r) {
   return name;
 }
 
-std::string row_of(const Explored& of, std::size_t at) {
-  const Point& p = of.swept.points[at];
+std::string row_of(const Explored& explored, std::size_t at) {
+  const Point& p = explored.swept.points[at];
   std::string text =
       fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>5} {:>9}", p.hw.lanes, p.hw.cascade,
                   p.hw.substeps, p.hw.fifo_depth, p.hw.overlap ? "yes" : "no", p.hw.coded ? "yes" : "no",
@@ -43,7 +43,7 @@ std::string row_of(const Explored& of, std::size_t at) {
   for (const std::int64_t amount : p.taken.amounts) text += fmt::format(" {:>7}", amount);
   text += fmt::format(" {:>6.1f} {:>7.1f}  ", 100 * p.taken.fullest,
                       percent(static_cast<double>(p.on_memory - p.cycles), static_cast<double>(p.on_memory)));
-  const Checked* checked = checked_at(of, at);
+  const Checked* checked = checked_at(explored, at);
   if (checked == nullptr) return text + "predicted\n";
   if (!checked->good) return text + "DIFFERS\n";
   return text + fmt::format("verified, {} steps; cycles {:+}, with memory {:+.2f} %\n", checked->steps,
@@ -51,87 +51,91 @@ std::string row_of(const Explored& of, std::size_t at) {
 }
 
 // What would make the best design faster, the greatest gain first.
-std::vector<std::pair<std::int64_t, std::string>> bounds_of(const Explored& of) {
-  const std::int64_t best = of.swept.points[*of.answer.best].speed;
+std::vector<std::pair<std::int64_t, std::string>> bounds_of(const Explored& explored) {
+  const std::int64_t best = explored.swept.points[*explored.answer.best].speed;
   std::vector<std::pair<std::int64_t, std::string>> bounds;
   for (std::size_t r = 0; r < kResources; ++r)
-    if (of.answer.next[r].limit > best)
-      bounds.emplace_back(of.answer.next[r].limit, unit_of(static_cast<Resource>(r)));
-  if (of.answer.with_any_memory > best) bounds.emplace_back(of.answer.with_any_memory, "the memory");
-  if (of.answer.with_next_clock > best) bounds.emplace_back(of.answer.with_next_clock, "the clock");
+    if (explored.answer.next[r].limit > best)
+      bounds.emplace_back(explored.answer.next[r].limit, unit_of(static_cast<Resource>(r)));
+  if (explored.answer.with_any_memory > best)
+    bounds.emplace_back(explored.answer.with_any_memory, "the memory");
+  if (explored.answer.with_next_clock > best)
+    bounds.emplace_back(explored.answer.with_next_clock, "the clock");
   std::stable_sort(bounds.begin(), bounds.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   return bounds;
 }
 
-std::string next_text(const Explored& of) {
-  const std::int64_t best = of.swept.points[*of.answer.best].speed;
+std::string next_text(const Explored& explored) {
+  const std::int64_t best = explored.swept.points[*explored.answer.best].speed;
   std::string text;
   for (std::size_t r = 0; r < kResources; ++r) {
-    const Next& next = of.answer.next[r];
+    const Next& next = explored.answer.next[r];
     const auto unit = unit_of(static_cast<Resource>(r));
     if (next.point)
       text += fmt::format("  {} more {} buy {:+.1f} % ({}); any number {:+.1f} %\n", next.more, unit,
-                          gain(of.swept.points[*next.point].speed, best),
-                          design_of(of.swept.points[*next.point]), gain(next.limit, best));
+                          gain(explored.swept.points[*next.point].speed, best),
+                          design_of(explored.swept.points[*next.point]), gain(next.limit, best));
     else
       text += fmt::format("  more {} alone buy nothing\n", unit);
   }
-  if (of.question.memory)
+  if (explored.question.memory)
     text += fmt::format("  a second memory buys {:+.1f} %, any number {:+.1f} %\n",
-                        gain(of.answer.with_twice_the_memory, best), gain(of.answer.with_any_memory, best));
-  return text + fmt::format("  a clock of {} MHz buys {:+.1f} %\n", of.answer.next_clock_mhz,
-                            gain(of.answer.with_next_clock, best));
+                        gain(explored.answer.with_twice_the_memory, best),
+                        gain(explored.answer.with_any_memory, best));
+  return text + fmt::format("  a clock of {} MHz buys {:+.1f} %\n", explored.answer.next_clock_mhz,
+                            gain(explored.answer.with_next_clock, best));
 }
 
 }  // namespace
 
-const Checked* checked_at(const Explored& of, std::size_t point) {
-  for (const Checked& checked : of.checked)
+const Checked* checked_at(const Explored& explored, std::size_t point) {
+  for (const Checked& checked : explored.checked)
     if (checked.point == point) return &checked;
   return nullptr;
 }
 
-std::string sentence_of(const Explored& of) {
-  const Device& device = of.question.device;
-  if (!of.answer.best)
-    return fmt::format("None of {} designs for {} fits on {}.", of.swept.points.size(), of.scene,
+std::string sentence_of(const Explored& explored) {
+  const Device& device = explored.question.device;
+  if (!explored.answer.best)
+    return fmt::format("None of {} designs for {} fits on {}.", explored.swept.points.size(), explored.scene,
                        device.name);
-  const Point& p = of.swept.points[*of.answer.best];
-  const auto bounds = bounds_of(of);
-  const Checked* checked = checked_at(of, *of.answer.best);
-  std::string text =
-      fmt::format("The best of {} designs for {} on {} with {} has {}: {} Gcell-steps/s, {}; ",
-                  of.swept.points.size(), of.scene, device.name, of.memory, design_of(p), giga(p.speed),
-                  checked == nullptr ? "predicted"
-                  : checked->good    ? fmt::format("verified, {:+.2f} % off", 100 * checked->error())
-                                     : "but it DIFFERS from the software");
+  const Point& p = explored.swept.points[*explored.answer.best];
+  const auto bounds = bounds_of(explored);
+  const Checked* checked = checked_at(explored, *explored.answer.best);
+  std::string text = fmt::format(
+      "The best of {} designs for {} on {} with {} has {}: {} Gcell-steps/s, {}; ",
+      explored.swept.points.size(), explored.scene, device.name, explored.memory, design_of(p), giga(p.speed),
+      checked == nullptr ? "predicted"
+      : checked->good    ? fmt::format("verified, {:+.2f} % off", 100 * checked->error())
+                         : "but it DIFFERS from the software");
   if (bounds.empty()) return text + "no resource alone bounds it.";
   text += bounds.front().second + " bounds it";
   for (std::size_t i = 1; i < bounds.size(); ++i) text += (i == 1 ? ", then " : ", ") + bounds[i].second;
   return text + ".";
 }
 
-std::string text_of(const Explored& of) {
-  const Device& device = of.question.device;
+std::string text_of(const Explored& explored) {
+  const Device& device = explored.question.device;
   const Amounts usable = device.usable();
   std::string text = fmt::format("{}, of which usable:", device.title);
   for (std::size_t r = 0; r < kResources; ++r)
     text += fmt::format(" {} {}", usable[r], unit_of(static_cast<Resource>(r)));
   text +=
       fmt::format("\nmemory: {}\n{} designs of {} steps in {:.2f} s by the closed forms; {} on the front\n",
-                  of.question.memory ? of.question.memory->title : "always answers", of.swept.points.size(),
-                  of.question.steps, of.swept.seconds, of.answer.front.size());
+                  explored.question.memory ? explored.question.memory->title : "always answers",
+                  explored.swept.points.size(), explored.question.steps, explored.swept.seconds,
+                  explored.answer.front.size());
   text += fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>5} {:>9}", "lanes", "cascade", "substeps",
                       "depth", "overlap", "coded", "tile", "MHz", "Gcell/s");
   for (std::size_t r = 0; r < kResources; ++r)
     text += fmt::format(" {:>7}", unit_of(static_cast<Resource>(r)));
   text += fmt::format(" {:>6} {:>7}\n", "full %", "waits %");
-  for (const std::size_t at : of.answer.front) text += row_of(of, at);
-  for (const Checked& checked : of.checked)
+  for (const std::size_t at : explored.answer.front) text += row_of(explored, at);
+  for (const Checked& checked : explored.checked)
     if (!checked.good) text += checked.difference;
-  text += sentence_of(of) + "\n";
-  return of.answer.best ? text + next_text(of) : text;
+  text += sentence_of(explored) + "\n";
+  return explored.answer.best ? text + next_text(explored) : text;
 }
 
 }  // namespace voxmelt::hwmodel::explore

@@ -9,7 +9,9 @@ namespace voxmelt::hwmodel::explore {
 namespace {
 
 // Every piece but the first of a number loses a bit to the sign.
-std::int64_t pieces(int width, int of) { return width <= of ? 1 : 1 + (width - of + of - 2) / (of - 1); }
+std::int64_t pieces(int width, int number) {
+  return width <= number ? 1 : 1 + (width - number + number - 2) / (number - 1);
+}
 
 void add_stage(PartList& list, const StagePart& part, const Family& family) {
   const StageCost& cost = family.stages.at(part.kind);

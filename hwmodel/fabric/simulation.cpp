@@ -44,15 +44,15 @@ bool Part::ends() {
 struct Simulation::Clock final : sc_core::sc_module {
   SC_HAS_PROCESS(Clock);
   Clock(sc_core::sc_module_name name, Simulation& simulation)
-      : sc_module(name), signal("clock", 1, sc_core::SC_NS), of(simulation) {
+      : sc_module(name), signal("clock", 1, sc_core::SC_NS), owner(simulation) {
     SC_METHOD(between_cycles);
     sensitive << signal.negedge_event();
     dont_initialize();
   }
-  void between_cycles() { of.between_cycles(); }
+  void between_cycles() { owner.between_cycles(); }
 
   sc_core::sc_clock signal;
-  Simulation& of;
+  Simulation& owner;
 };
 
 Simulation::Simulation() : own_(new sc_core::sc_simcontext) {

@@ -133,30 +133,30 @@ class Run {
   }
 
   bool visit(const state::Volume& volume, const VerifyReport& done) {
-    Period of;
-    of.step = done.first_step + done.steps;
-    of.stream_beside = done.cycles - before_cycles_;
+    Period period;
+    period.step = done.first_step + done.steps;
+    period.stream_beside = done.cycles - before_cycles_;
     before_cycles_ = done.cycles;
     screen_.finish();
     if (!screen_.good()) return false;
-    of.frame_beside = screen_.beside().last().cycles;
-    of.together = simulation_.cycle() - began_;
+    period.frame_beside = screen_.beside().last().cycles;
+    period.together = simulation_.cycle() - began_;
 
     const StreamWork all = work_of(done);
-    of.work = all - before_;
+    period.work = all - before_;
     before_ = all;
-    of.stream = alone_.cycles() - before_alone_;
+    period.stream = alone_.cycles() - before_alone_;
     before_alone_ = alone_.cycles();
-    of.upload = screen_.take_over(volume);
-    of.host_seconds = screen_.host_seconds();
+    period.upload = screen_.take_over(volume);
+    period.host_seconds = screen_.host_seconds();
     const raycast::MemoryCounts counts = screen_.alone().memory_counts();
     screen_.draw_alone();
     const raycast::MemoryCounts now = screen_.alone().memory_counts();
-    of.frame = screen_.alone().last().cycles;
-    of.frame_read = now.read_bytes - counts.read_bytes;
-    of.frame_written = now.written_bytes - counts.written_bytes;
-    of.frame_bus = now.bus_cycles - counts.bus_cycles;
-    report_.periods.push_back(std::move(of));
+    period.frame = screen_.alone().last().cycles;
+    period.frame_read = now.read_bytes - counts.read_bytes;
+    period.frame_written = now.written_bytes - counts.written_bytes;
+    period.frame_bus = now.bus_cycles - counts.bus_cycles;
+    report_.periods.push_back(std::move(period));
     if (screen_.good()) begin_period();
     return screen_.good();
   }
@@ -180,19 +180,21 @@ class Run {
 
 Period MachineReport::sum() const {
   Period sum;
-  for (const Period& of : periods) {
-    sum.step = of.step;
-    sum.work.passes += of.work.passes, sum.work.cycles += of.work.cycles, sum.work.tokens += of.work.tokens;
-    sum.work.read_bits += of.work.read_bits, sum.work.fed_bits += of.work.fed_bits;
-    sum.work.written_bits += of.work.written_bits;
-    sum.stream += of.stream, sum.frame += of.frame;
-    sum.upload.words += of.upload.words, sum.upload.bursts += of.upload.bursts;
-    sum.upload.cycles += of.upload.cycles;
-    for (std::size_t i = 0; i < raycast::kSentVolumes; ++i) sum.upload.bytes[i] += of.upload.bytes[i];
-    sum.frame_read += of.frame_read, sum.frame_written += of.frame_written, sum.frame_bus += of.frame_bus;
-    sum.together += of.together;
-    sum.stream_beside += of.stream_beside, sum.frame_beside += of.frame_beside;
-    sum.host_seconds += of.host_seconds;
+  for (const Period& period : periods) {
+    sum.step = period.step;
+    sum.work.passes += period.work.passes, sum.work.cycles += period.work.cycles,
+        sum.work.tokens += period.work.tokens;
+    sum.work.read_bits += period.work.read_bits, sum.work.fed_bits += period.work.fed_bits;
+    sum.work.written_bits += period.work.written_bits;
+    sum.stream += period.stream, sum.frame += period.frame;
+    sum.upload.words += period.upload.words, sum.upload.bursts += period.upload.bursts;
+    sum.upload.cycles += period.upload.cycles;
+    for (std::size_t i = 0; i < raycast::kSentVolumes; ++i) sum.upload.bytes[i] += period.upload.bytes[i];
+    sum.frame_read += period.frame_read, sum.frame_written += period.frame_written,
+        sum.frame_bus += period.frame_bus;
+    sum.together += period.together;
+    sum.stream_beside += period.stream_beside, sum.frame_beside += period.frame_beside;
+    sum.host_seconds += period.host_seconds;
   }
   return sum;
 }

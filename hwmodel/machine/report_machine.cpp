@@ -22,28 +22,29 @@ double rate(double times, std::int64_t cycles, int clock_mhz) {
   return ratio(times * 1e6 * clock_mhz, static_cast<double>(cycles));
 }
 
-std::int64_t upload_bytes(const Period& of) { return of.upload.bursts * raycast::kBurst; }
+std::int64_t upload_bytes(const Period& period) { return period.upload.bursts * raycast::kBurst; }
 
-Json json_of(const Period& of) {
-  return {{"step", of.step},
+Json json_of(const Period& period) {
+  return {{"step", period.step},
           {"steps",
-           {{"passes", of.work.passes},
-            {"cycles", of.work.cycles},
-            {"tokens", of.work.tokens},
-            {"cycles_on_memory", of.stream},
-            {"read_bytes", (of.work.read_bits + 7) / 8},
-            {"irradiance_bytes", (of.work.fed_bits + 7) / 8},
-            {"written_bytes", (of.work.written_bits + 7) / 8}}},
-          {"upload", raycast::json_of(of.upload)},
+           {{"passes", period.work.passes},
+            {"cycles", period.work.cycles},
+            {"tokens", period.work.tokens},
+            {"cycles_on_memory", period.stream},
+            {"read_bytes", (period.work.read_bits + 7) / 8},
+            {"irradiance_bytes", (period.work.fed_bits + 7) / 8},
+            {"written_bytes", (period.work.written_bits + 7) / 8}}},
+          {"upload", raycast::json_of(period.upload)},
           {"frame",
-           {{"cycles", of.frame},
-            {"read_bytes", of.frame_read},
-            {"written_bytes", of.frame_written},
-            {"bus_cycles", of.frame_bus}}},
-          {"together", {{"cycles", of.together}, {"steps", of.stream_beside}, {"frame", of.frame_beside}}},
-          {"cycles_in_turn", of.in_turn()},
-          {"cycles_overlapped", of.overlapped()},
-          {"host_seconds", of.host_seconds}};
+           {{"cycles", period.frame},
+            {"read_bytes", period.frame_read},
+            {"written_bytes", period.frame_written},
+            {"bus_cycles", period.frame_bus}}},
+          {"together",
+           {{"cycles", period.together}, {"steps", period.stream_beside}, {"frame", period.frame_beside}}},
+          {"cycles_in_turn", period.in_turn()},
+          {"cycles_overlapped", period.overlapped()},
+          {"host_seconds", period.host_seconds}};
 }
 
 // Upper bounds of cell-steps a cycle, each below the one before, and what the pipeline reached: alone on the
@@ -95,12 +96,13 @@ std::string table_of(const MachineReport& report, const MachineOptions& options)
   const Period sum = report.sum();
   std::string text = fmt::format(kLine, "step", "steps", "bytes", "upload", "bytes", "frame", "bytes",
                                  "in turn", "together", "overlapped");
-  const auto row = [&](const std::string& name, const Period& of, std::int64_t n) {
-    text += fmt::format(kLine, name, of.stream / n, of.work.bytes() / n, of.upload.cycles / n,
-                        upload_bytes(of) / n, of.frame / n, (of.frame_read + of.frame_written) / n,
-                        of.in_turn() / n, of.together / n, of.overlapped() / n);
+  const auto row = [&](const std::string& name, const Period& period, std::int64_t n) {
+    text += fmt::format(kLine, name, period.stream / n, period.work.bytes() / n, period.upload.cycles / n,
+                        upload_bytes(period) / n, period.frame / n,
+                        (period.frame_read + period.frame_written) / n, period.in_turn() / n,
+                        period.together / n, period.overlapped() / n);
   };
-  for (const Period& of : report.periods) row(std::to_string(of.step), of, 1);
+  for (const Period& period : report.periods) row(std::to_string(period.step), period, 1);
   const auto frames = static_cast<std::int64_t>(report.periods.size());
   if (frames == 0) return text;
   row("mean", sum, frames);
@@ -147,7 +149,7 @@ Json json_of(const MachineReport& report, const MachineOptions& options) {
             {"first_upload", raycast::json_of(report.first_upload)},
             {"first_frame_cycles", report.first_frame},
             {"periods", Json::array()}};
-  for (const Period& of : report.periods) json["periods"].push_back(json_of(of));
+  for (const Period& period : report.periods) json["periods"].push_back(json_of(period));
   const Period sum = report.sum();
   const auto n = static_cast<double>(report.periods.size());
   const auto steps = static_cast<double>(report.steps.steps);

@@ -25,9 +25,9 @@ int Dram::open_port(PortClient* client) {
 }
 
 bool Dram::ready(int port) const {
-  const Port& of = ports_[static_cast<std::size_t>(port)];
-  return of.inbox.size() < static_cast<std::size_t>(policy_.inbox) &&
-         of.reads.size() < static_cast<std::size_t>(policy_.under_way);
+  const Port& the_port = ports_[static_cast<std::size_t>(port)];
+  return the_port.inbox.size() < static_cast<std::size_t>(policy_.inbox) &&
+         the_port.reads.size() < static_cast<std::size_t>(policy_.under_way);
 }
 
 void Dram::put(int port, const Request& request) {
@@ -41,14 +41,15 @@ void Dram::put(int port, const Request& request) {
 }
 
 const Request* Dram::reply(int port) const {
-  const Port& of = ports_[static_cast<std::size_t>(port)];
-  return of.reads.empty() || of.reads.front().done > now_ ? nullptr : &of.reads.front().request;
+  const Port& the_port = ports_[static_cast<std::size_t>(port)];
+  return the_port.reads.empty() || the_port.reads.front().done > now_ ? nullptr
+                                                                      : &the_port.reads.front().request;
 }
 
 void Dram::take(int port) {
-  Port& of = ports_[static_cast<std::size_t>(port)];
-  of.reads.pop_front();
-  ++of.first_read;
+  Port& the_port = ports_[static_cast<std::size_t>(port)];
+  the_port.reads.pop_front();
+  ++the_port.first_read;
 }
 
 bool Dram::cycle() {

@@ -62,15 +62,15 @@ struct BrickKernels {
           }
           rows[r] = copies[r];
         }
-        Words of[3], filtered;
+        Words words[3], filtered;
         for (int i = 0; i < 3; ++i) {
           Row first, second;
           load(first, rows[0] + i);
           load(second, rows[1] + i);
-          of[i] =
+          words[i] =
               __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
         }
-        filter(of[0], of[1], of[2], filtered);
+        filter(words[0], words[1], words[2], filtered);
         std::memcpy(along_x[k][j], &filtered, sizeof filtered);
       }
       // The rows between two pairs come from those: memory would be read before it is written.
@@ -220,14 +220,16 @@ struct BrickKernels {
   struct Lanes {
     Words most, x, y, z;
   };
-  [[gnu::always_inline]] static void take(Words& most, const Words& of) { most = of > most ? of : most; }
+  [[gnu::always_inline]] static void take(Words& most, const Words& words) {
+    most = words > most ? words : most;
+  }
   [[gnu::always_inline]] static void apart(const Words& a, const Words& b, Words& to) {
     to = (a > b ? a : b) - (a > b ? b : a);
   }
 
   // A block has the places 1 to 5, or 5 to 9. Lane 0 is that of place 1.
   static void ranges(const std::int16_t* levels, BlockRanges& to) {
-    Lanes of[4] = {};
+    Lanes the_lanes[4] = {};
     for (int k = 0; k < 9; ++k)
       for (int j = 0; j < 9; ++j) {
         const std::int16_t* row = levels + ((k + 1) * kSide + j + 1) * kSide + 1;
@@ -242,7 +244,7 @@ struct BrickKernels {
         apart(z + kToLevel, here, z);
         for (int half_z = k < 4 ? 0 : 1; half_z >= (k > 4 ? 1 : 0); --half_z)
           for (int half_y = j < 4 ? 0 : 1; half_y >= (j > 4 ? 1 : 0); --half_y) {
-            Lanes& block = of[2 * half_z + half_y];
+            Lanes& block = the_lanes[2 * half_z + half_y];
             take(block.most, here);
             take(block.x, x);
             if (j < 4 * half_y + 4) take(block.y, y);
@@ -251,7 +253,7 @@ struct BrickKernels {
       }
     for (int quarter = 0; quarter < 4; ++quarter) {
       alignas(32) Word lanes[4][16];
-      std::memcpy(lanes, &of[quarter], sizeof lanes);
+      std::memcpy(lanes, &the_lanes[quarter], sizeof lanes);
       for (int half_x = 0; half_x < 2; ++half_x) {
         const auto largest = [&](const Word* from, int count) {
           Word most = 0;

@@ -68,9 +68,10 @@ GroundMap::Paint top_paint(const GroundMap& map, picture::Vector position, pictu
   const auto texel = [&](std::int64_t i, std::int64_t j) {
     return map.texels()[static_cast<std::size_t>(j * columns + i)];
   };
-  const auto channel = [&](const auto& texels, const auto& of) -> std::int64_t {
-    return picture::bilinear([&](std::int64_t i, std::int64_t j) -> std::int32_t { return of(texels(i, j)); },
-                             columns, rows, x, z);
+  const auto channel = [&](const auto& texels, const auto& one) -> std::int64_t {
+    return picture::bilinear(
+        [&](std::int64_t i, std::int64_t j) -> std::int32_t { return one(texels(i, j)); }, columns, rows, x,
+        z);
   };
   // The five channels come with the same four texels, so a watcher sees these once.
   const picture::Watched told{texel, watch, picture::Stage::texture};
@@ -90,11 +91,11 @@ GroundMap::Paint told_paint(const GroundMap& map, const picture::GroundCrossing&
   const picture::Watched heights{columns, watch, picture::Stage::paint};
   const picture::Vector normal =
       picture::ground_normal(heights, map.cells(), crossing.position, crossing.face, watch);
-  const GroundMap::Paint of = crossing.face == picture::Face::top
-                                  ? top_paint(map, crossing.position, normal, watch)
-                                  : GroundMap::Paint{cut_color(map, crossing, watch), normal};
-  watch(picture::Stage::paint, "color", of.color), watch(picture::Stage::paint, "normal", of.normal);
-  return of;
+  const GroundMap::Paint paint = crossing.face == picture::Face::top
+                                     ? top_paint(map, crossing.position, normal, watch)
+                                     : GroundMap::Paint{cut_color(map, crossing, watch), normal};
+  watch(picture::Stage::paint, "color", paint.color), watch(picture::Stage::paint, "normal", paint.normal);
+  return paint;
 }
 
 template <class Watch>

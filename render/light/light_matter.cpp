@@ -14,24 +14,24 @@ constexpr std::int32_t kHeight = 4096;  // of a cell, in heights of columns
 
 // Of liquid that fills its cell: the temperature is in 256 steps.
 std::array<std::uint16_t, 257> emission_by_temperature(const picture::Look& look) {
-  std::array<std::uint16_t, 257> of;
-  for (std::size_t i = 0; i < of.size(); ++i) {
+  std::array<std::uint16_t, 257> values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
     const std::int32_t heat = picture::matter_of(0, 256, static_cast<std::int32_t>(i), 0, look).heat;
-    of[i] = static_cast<std::uint16_t>((heat * heat) >> 8);
+    values[i] = static_cast<std::uint16_t>((heat * heat) >> 8);
   }
-  return of;
+  return values;
 }
 
 // Of matter that is no obstacle, by its own.
 std::array<std::uint8_t, 256> thinned_densities(const picture::Look& look, int shift) {
-  std::array<std::uint8_t, 256> of;
+  std::array<std::uint8_t, 256> values;
   const std::int32_t share =
       picture::is_clear(look)
           ? picture::density_share(picture::passing_table(), picture::losses_of(look.clear), shift)
           : 256;
-  for (std::size_t i = 0; i < of.size(); ++i)
-    of[i] = static_cast<std::uint8_t>(picture::thinned(static_cast<std::int32_t>(i), share));
-  return of;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<std::uint8_t>(picture::thinned(static_cast<std::int32_t>(i), share));
+  return values;
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ bool LightSources::refresh_block(const DensityField& field, std::uint32_t block,
   const auto i = static_cast<int>(block);
   const state::Grid at{i % blocks_.x, i / blocks_.x % blocks_.y, i / blocks_.x / blocks_.y};
   const state::Grid first{at.x * side, at.y * side, at.z * side};
-  const auto count = [&](int from, int of) { return std::min(side, of - from); };
+  const auto count = [&](int from, int number) { return std::min(side, number - from); };
   const std::size_t cell = grid_.index(first.x, first.y, first.z);
   const auto room = static_cast<std::size_t>(cells);
   LightBlock from{count(first.x, grid_.x),

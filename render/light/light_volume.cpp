@@ -272,30 +272,30 @@ void LightVolume::interleave(cpu::Workers& workers, const LightLoops& loops) {
         open = static_cast<std::uint8_t>(open | sweep.open[row]);
         glow = static_cast<std::uint8_t>(glow | sweep.glow[row]);
       }
-      const auto of = [&](const Plane& plane) { return plane.natural.data() + row * row_; };
+      const auto one = [&](const Plane& plane) { return plane.natural.data() + row * row_; };
       auto* const to = reinterpret_cast<std::uint8_t*>(cells_.data() + row * static_cast<std::size_t>(x_));
       const std::uint8_t* const none = nothing_.data();
       if (open != 0)
-        loops.interleave({of(lamp_), of(open_[0]), of(open_[1]), of(open_[2]), of(open_[3]), of(open_[4]),
-                          of(open_[5]), none},
+        loops.interleave({one(lamp_), one(open_[0]), one(open_[1]), one(open_[2]), one(open_[3]),
+                          one(open_[4]), one(open_[5]), none},
                          x_, to);
       if (glow != 0)
-        loops.interleave(
-            {of(glow_[0]), of(glow_[1]), of(glow_[2]), of(glow_[3]), of(glow_[4]), of(glow_[5]), none, none},
-            x_, to + 8);
+        loops.interleave({one(glow_[0]), one(glow_[1]), one(glow_[2]), one(glow_[3]), one(glow_[4]),
+                          one(glow_[5]), none, none},
+                         x_, to + 8);
     }
   });
 }
 
 picture::Light LightVolume::operator()(std::int64_t x, std::int64_t y, std::int64_t z) const {
   const LightBytes& cell = cells_[static_cast<std::size_t>((z * count_.y + y) * count_.x + x)];
-  picture::Light of;
-  of.lamp = cell.lamp;
+  picture::Light light;
+  light.lamp = cell.lamp;
   for (std::size_t side = 0; side < picture::kSides; ++side) {
-    of.open[side] = cell.open[side];
-    of.glow[side] = cell.glow[side];
+    light.open[side] = cell.open[side];
+    light.glow[side] = cell.glow[side];
   }
-  return of;
+  return light;
 }
 
 }  // namespace voxmelt::render

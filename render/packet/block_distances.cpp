@@ -12,10 +12,10 @@ constexpr std::size_t kDigits = 5;
 
 // The eight bits of a byte as eight bytes, the lowest first in memory.
 constexpr auto kBytesOfBits = [] {
-  std::array<std::array<std::uint8_t, 8>, 256> of{};
-  for (std::size_t bits = 0; bits < of.size(); ++bits)
-    for (std::size_t i = 0; i < 8; ++i) of[bits][i] = static_cast<std::uint8_t>(bits >> i & 1);
-  return of;
+  std::array<std::array<std::uint8_t, 8>, 256> values{};
+  for (std::size_t bits = 0; bits < values.size(); ++bits)
+    for (std::size_t i = 0; i < 8; ++i) values[bits][i] = static_cast<std::uint8_t>(bits >> i & 1);
+  return values;
 }();
 
 // Blocks as bits: rows along x, in words of 64.

@@ -40,12 +40,12 @@ struct ClearPacket : Packet<Arch> {
 
     [[gnu::always_inline]] Color passed() const {
       const picture::Paint& paint = *data.paint;
-      Color of;
+      Color color;
       for (std::size_t c = 0; c < 3; ++c) {
         const V i = L::min(((way >> 8) * paint.losses[c]) >> 12, L::set(picture::kNothingPasses));
-        of.c[c] = (surfaces * (L::template gather<2>(paint.passing.data(), i) & 0xFFFF)) >> 12;
+        color.c[c] = (surfaces * (L::template gather<2>(paint.passing.data(), i) & 0xFFFF)) >> 12;
       }
-      return of;
+      return color;
     }
     [[gnu::always_inline]] V dark() const {
       const Color left = passed();

@@ -78,10 +78,10 @@ class ClearPainter {
   // With what shines through.
   picture::Color sum(const picture::Color& ground) const {
     const picture::Color share = passed();
-    picture::Color of{};
+    picture::Color color{};
     for (std::size_t c = 0; c < 3; ++c)
-      of[c] = mirrored_[c] + ((scattered_[c] + share[c] * ground[c]) >> picture::kPassedBits);
-    return of;
+      color[c] = mirrored_[c] + ((scattered_[c] + share[c] * ground[c]) >> picture::kPassedBits);
+    return color;
   }
 
  private:

@@ -41,20 +41,21 @@ struct DrawPacket : Packet<Arch> {
     V most;  // the last sample that counts: matter behind the ground does not
     typename Field::Hits hits;
   };
-  VOXMELT_WORDS void approach(const PictureData& data, V across, V down, Approach& of) {
-    of.row = Rays<Arch>::through(data, across, down);
-    of.start = Rays<Arch>::wrapped_start(of.row);
-    of.ground = {V{}, V{}, V{}};
-    if (data.ground.any && data.ground.flat) of.ground = Ground::march(data, of.row, of.start);
-    of.most = last_sample(of);
+  VOXMELT_WORDS void approach(const PictureData& data, V across, V down, Approach& approach) {
+    approach.row = Rays<Arch>::through(data, across, down);
+    approach.start = Rays<Arch>::wrapped_start(approach.row);
+    approach.ground = {V{}, V{}, V{}};
+    if (data.ground.any && data.ground.flat)
+      approach.ground = Ground::march(data, approach.row, approach.start);
+    approach.most = last_sample(approach);
   }
-  VOXMELT_WORDS V last_sample(const Approach& of) {
-    return of.ground.found ? (of.ground.inside >> picture::kPartBits) + 1 : L::set(INT32_MAX);
+  VOXMELT_WORDS V last_sample(const Approach& approach) {
+    return approach.ground.found ? (approach.ground.inside >> picture::kPartBits) + 1 : L::set(INT32_MAX);
   }
   // On hills it takes many looks: two packets at once. Out of line, because flat scenes are faster so.
-  [[gnu::noinline]] static void march_hills(const PictureData& data, Approach* of, std::size_t count) {
+  [[gnu::noinline]] static void march_hills(const PictureData& data, Approach* approach, std::size_t count) {
     for (std::size_t i = 0; i < count; i += 2) {
-      Approach &one = of[i], &other = of[std::min(i + 1, count - 1)];
+      Approach &one = approach[i], &other = approach[std::min(i + 1, count - 1)];
       Ground::march(data, one, other);
       one.most = last_sample(one);
       other.most = last_sample(other);
@@ -62,7 +63,7 @@ struct DrawPacket : Packet<Arch> {
   }
 
   [[gnu::always_inline]] static inline Met met(const PictureData& data, const Approach& from) {
-    Met of{V{}, V{}, V{}, V{}, Triple{V{}, V{}, V{}}};
+    Met met{V{}, V{}, V{}, V{}, Triple{V{}, V{}, V{}}};
     const auto& row = from.row;
     const auto& start = from.start;
     const auto& hits = from.hits;
@@ -70,11 +71,11 @@ struct DrawPacket : Packet<Arch> {
     Triple outside{V{}, V{}, V{}};
     if (L::any(ground.found)) {
       Ground::bisect(data.ground, row, start, ground);
-      of.ground = ground.found;
-      of.position = Rays<Arch>::at_part(row, start, ground.inside);
+      met.ground = ground.found;
+      met.position = Rays<Arch>::at_part(row, start, ground.inside);
       outside = Rays<Arch>::at_part(row, start, ground.before);
-      of.face = Ground::face_of(data.ground, ground.found, ground.inside, outside);
-      of.from_start = ground.inside == 0;
+      met.face = Ground::face_of(data.ground, ground.found, ground.inside, outside);
+      met.from_start = ground.inside == 0;
     }
     if (L::any(hits.found)) {
       const auto surface = Field::crossing(data.field, row, hits);
@@ -82,17 +83,17 @@ struct DrawPacket : Packet<Arch> {
       const V samples = L::clamp((ground.inside >> picture::kPartBits) - (hits.sample - 1), -8, 8);
       const V place = samples * picture::kPlaces +
                       (ground.inside & (picture::kParts - 1)) * (picture::kPlaces / picture::kParts);
-      const V first = of.face == static_cast<std::int32_t>(picture::Face::top)
+      const V first = met.face == static_cast<std::int32_t>(picture::Face::top)
                           ? V{}
                           : L::set(static_cast<std::int32_t>(picture::kSideFirst << data.view.halvings));
-      of.ground = of.ground & (~hits.found | (place <= surface.part + first));
-      of.matter = hits.found & ~of.ground;
+      met.ground = met.ground & (~hits.found | (place <= surface.part + first));
+      met.matter = hits.found & ~met.ground;
       constexpr std::int32_t kBack = -Field::kBias;
-      of.position =
-          P::select(of.matter, surface.at + Triple{L::set(kBack), L::set(kBack), L::set(kBack)}, of.position);
-      of.from_start = of.matter ? hits.sample == 0 : of.from_start;
+      met.position = P::select(met.matter, surface.at + Triple{L::set(kBack), L::set(kBack), L::set(kBack)},
+                               met.position);
+      met.from_start = met.matter ? hits.sample == 0 : met.from_start;
     }
-    return of;
+    return met;
   }
 
   // Positions of lanes that meet nothing are 0, and their normals any unit vectors.
@@ -105,47 +106,54 @@ struct DrawPacket : Packet<Arch> {
 
   // Tells whether there is any.
   [[gnu::always_inline]] static inline bool surface(const PictureData& data, const Approach& from,
-                                                    Surface& of) {
+                                                    Surface& surface) {
     const auto& row = from.row;
-    of.met = met(data, from);
-    of.found = of.met.matter | of.met.ground;
-    if (!L::any(of.found)) return false;
-    of.to_eye = P::unit_of(Triple{} - row.step, data.inverse_root);
-    of.position = P::select(of.found, of.met.position, Triple{});
-    of.normal = of.to_eye;
-    if (L::any(of.met.ground)) {
-      of.paint = Ground::painted(data, of.met.ground, of.met.face, of.position, of.to_eye);
-      of.normal = P::select(of.met.ground, of.paint.normal, of.normal);
+    surface.met = met(data, from);
+    surface.found = surface.met.matter | surface.met.ground;
+    if (!L::any(surface.found)) return false;
+    surface.to_eye = P::unit_of(Triple{} - row.step, data.inverse_root);
+    surface.position = P::select(surface.found, surface.met.position, Triple{});
+    surface.normal = surface.to_eye;
+    if (L::any(surface.met.ground)) {
+      surface.paint =
+          Ground::painted(data, surface.met.ground, surface.met.face, surface.position, surface.to_eye);
+      surface.normal = P::select(surface.met.ground, surface.paint.normal, surface.normal);
     }
-    if (L::any(of.met.matter)) {
+    if (L::any(surface.met.matter)) {
       constexpr std::int32_t kBias = Field::kBias;
-      of.lattice = P::select(of.met.matter, of.position + Triple{L::set(kBias), L::set(kBias), L::set(kBias)},
-                             Triple{});
-      of.normal = P::select(of.met.matter & ~of.met.from_start, Field::normal(data, of.lattice), of.normal);
+      surface.lattice =
+          P::select(surface.met.matter,
+                    surface.position + Triple{L::set(kBias), L::set(kBias), L::set(kBias)}, Triple{});
+      surface.normal = P::select(surface.met.matter & ~surface.met.from_start,
+                                 Field::normal(data, surface.lattice), surface.normal);
     }
     return true;
   }
 
   [[gnu::always_inline]] static inline Color light(const PictureData& data, const Approach& from) {
     Color color{{L::set(data.background[0]), L::set(data.background[1]), L::set(data.background[2])}};
-    Surface of;
-    if (!surface(data, from, of)) return color;
+    Surface the_surface;
+    if (!surface(data, from, the_surface)) return color;
     const auto arriving = LightPacket<Arch>::at(
-        data.light, data.paint->glow, LightPacket<Arch>::before(of.position, of.normal, data.light.shift));
+        data.light, data.paint->glow,
+        LightPacket<Arch>::before(the_surface.position, the_surface.normal, data.light.shift));
     Color lit = color;
-    if (L::any(of.met.ground)) {
-      const Color own{{of.paint.color[0], of.paint.color[1], of.paint.color[2]}};
-      lit = Shade::select(of.met.ground, Shade::ground_color(*data.paint, of.normal, arriving, own), lit);
+    if (L::any(the_surface.met.ground)) {
+      const Color own{{the_surface.paint.color[0], the_surface.paint.color[1], the_surface.paint.color[2]}};
+      lit = Shade::select(the_surface.met.ground,
+                          Shade::ground_color(*data.paint, the_surface.normal, arriving, own), lit);
     }
-    if (L::any(of.met.matter)) {
-      const V matter = Field::matter(data.field, of.lattice);
-      const Triple out = P::select(of.met.matter, of.lattice + (of.normal << 5), Triple{});
+    if (L::any(the_surface.met.matter)) {
+      const V matter = Field::matter(data.field, the_surface.lattice);
+      const Triple out =
+          P::select(the_surface.met.matter, the_surface.lattice + (the_surface.normal << 5), Triple{});
       const V outside = data.field.obstacles ? Field::matter(data.field, out) : V{};
-      lit = Shade::select(
-          of.met.matter,
-          Shade::matter_color(data, of.normal, of.to_eye, arriving, matter, (outside >> 16) & 255), lit);
+      lit = Shade::select(the_surface.met.matter,
+                          Shade::matter_color(data, the_surface.normal, the_surface.to_eye, arriving, matter,
+                                              (outside >> 16) & 255),
+                          lit);
     }
-    return Shade::select(of.found, Shade::pressed(*data.tone, lit), color);
+    return Shade::select(the_surface.found, Shade::pressed(*data.tone, lit), color);
   }
 
   // The light through clear matter: matter, ground and background may all be seen by a ray.
@@ -193,47 +201,47 @@ struct DrawPacket : Packet<Arch> {
 
   // Places are rounded up to whole packets: see Places.
   static void draw(const PictureData& data, Places places, PressedLight to) {
-    const auto store = [&](const Color& of, std::size_t i) {
-      L::store_halves(of.c[0], to.red + i);
-      L::store_halves(of.c[1], to.green + i);
-      L::store_halves(of.c[2], to.blue + i);
+    const auto store = [&](const Color& color, std::size_t i) {
+      L::store_halves(color.c[0], to.red + i);
+      L::store_halves(color.c[1], to.green + i);
+      L::store_halves(color.c[2], to.blue + i);
     };
     if (data.paint->clear) {
       for (std::size_t i = 0; i < places.count; i += P::kCount) {
-        Color of;
-        clear_light(data, L::load(places.across + i), L::load(places.down + i), of);
-        store(of, i);
+        Color color;
+        clear_light(data, L::load(places.across + i), L::load(places.down + i), color);
+        store(color, i);
       }
       return;
     }
     constexpr std::size_t kBatch = 16;
-    Approach of[kBatch];
+    Approach the_approach[kBatch];
     for (std::size_t i = 0; i < places.count;) {
       const std::size_t first = i;
       std::size_t count = 0;
       for (; count < kBatch && i < places.count; ++count, i += P::kCount)
-        approach(data, L::load(places.across + i), L::load(places.down + i), of[count]);
-      if (data.ground.any && !data.ground.flat) march_hills(data, of, count);
-      Field::march(data, of, of + count);
-      for (std::size_t j = 0; j < count; ++j) store(light(data, of[j]), first + j * P::kCount);
+        approach(data, L::load(places.across + i), L::load(places.down + i), the_approach[count]);
+      if (data.ground.any && !data.ground.flat) march_hills(data, the_approach, count);
+      Field::march(data, the_approach, the_approach + count);
+      for (std::size_t j = 0; j < count; ++j) store(light(data, the_approach[j]), first + j * P::kCount);
     }
   }
 
   static void find(const PictureData& data, Places places, FoundSurface to) {
-    const auto store = [](V of, std::int32_t* at) { std::memcpy(at, &of, sizeof of); };
+    const auto store = [](V vector, std::int32_t* at) { std::memcpy(at, &vector, sizeof vector); };
     for (std::size_t i = 0; i < places.count; i += P::kCount) {
-      Surface of;
+      Surface the_surface;
       Approach from;
       approach(data, L::load(places.across + i), L::load(places.down + i), from);
       if (data.ground.any && !data.ground.flat) march_hills(data, &from, 1);
       from.hits = Field::march(data, from.row, from.most);
-      if (!surface(data, from, of)) {
+      if (!surface(data, from, the_surface)) {
         store(V{}, to.found + i);
         continue;
       }
-      store(of.found, to.found + i);
-      const V position[3] = {of.position.x, of.position.y, of.position.z};
-      const V normal[3] = {of.normal.x, of.normal.y, of.normal.z};
+      store(the_surface.found, to.found + i);
+      const V position[3] = {the_surface.position.x, the_surface.position.y, the_surface.position.z};
+      const V normal[3] = {the_surface.normal.x, the_surface.normal.y, the_surface.normal.z};
       for (std::size_t j = 0; j < 3; ++j) {
         store(position[j], to.position[j] + i);
         store(normal[j], to.normal[j] + i);

@@ -41,9 +41,9 @@ class Samples {
   // The mean of kCount samples, in bytes.
   template <std::size_t kCount>
   Rgb mean(const picture::Bytes& bytes, std::size_t first) const {
-    const auto channel = [&](const std::vector<std::uint16_t>& of) {
+    const auto channel = [&](const std::vector<std::uint16_t>& all) {
       std::size_t sum = kCount / 2;
-      for (std::size_t i = first; i < first + kCount; ++i) sum += of[i];
+      for (std::size_t i = first; i < first + kCount; ++i) sum += all[i];
       return bytes[sum / kCount];
     };
     return {channel(red_), channel(green_), channel(blue_)};
@@ -230,11 +230,11 @@ class TiledPicture {
 
 const Packets& packets_of(cpu::InstructionSet wanted) {
   static const auto all = [] {
-    std::array<Packets, cpu::kInstructionSets.size()> of{};
+    std::array<Packets, cpu::kInstructionSets.size()> all{};
     cpu::for_each_instruction_set([&]<cpu::InstructionSet set>() {
-      of[static_cast<std::size_t>(set)] = packets_for<cpu::ArchOf<set>>();
+      all[static_cast<std::size_t>(set)] = packets_for<cpu::ArchOf<set>>();
     });
-    return of;
+    return all;
   }();
   return all[static_cast<std::size_t>(wanted)];
 }

@@ -19,17 +19,17 @@ static_assert(kPlacesOfBrick == kBrickPlaces);
 // A brick of the field.
 BrickSource source_of(const state::Grid& grid, const state::Grid& brick) {
   const state::Grid first{brick.x * kBrickSide, brick.y * kBrickSide, brick.z * kBrickSide};
-  BrickSource of;
+  BrickSource source;
   for (int i = 0; i < BrickSource::kWide; ++i) {
-    of.rows[static_cast<std::size_t>(i)] = grid.index(0, std::clamp(first.y + i - 1, 0, grid.y - 1), 0);
-    of.slices[static_cast<std::size_t>(i)] = grid.index(0, 0, std::clamp(first.z + i - 1, 0, grid.z - 1));
+    source.rows[static_cast<std::size_t>(i)] = grid.index(0, std::clamp(first.y + i - 1, 0, grid.y - 1), 0);
+    source.slices[static_cast<std::size_t>(i)] = grid.index(0, 0, std::clamp(first.z + i - 1, 0, grid.z - 1));
   }
-  of.x = first.x;
-  of.cells_x = grid.x;
-  of.count_x = std::min(kBrickSide, grid.x - first.x);
-  of.count_y = std::min(kBrickSide, grid.y - first.y);
-  of.count_z = std::min(kBrickSide, grid.z - first.z);
-  return of;
+  source.x = first.x;
+  source.cells_x = grid.x;
+  source.count_x = std::min(kBrickSide, grid.x - first.x);
+  source.count_y = std::min(kBrickSide, grid.y - first.y);
+  source.count_z = std::min(kBrickSide, grid.z - first.z);
+  return source;
 }
 
 // The planes of a brick of the field that the next brick of the lattice holds, too.
@@ -59,10 +59,11 @@ state::Grid place_in(const state::Grid& bricks, std::size_t brick) {
 
 // The glow's heat by temperature, in 256 steps.
 std::array<std::uint8_t, 257> heats_of(const picture::Look& look) {
-  std::array<std::uint8_t, 257> of;
-  for (std::size_t i = 0; i < of.size(); ++i)
-    of[i] = static_cast<std::uint8_t>(picture::matter_of(0, 256, static_cast<std::int32_t>(i), 0, look).heat);
-  return of;
+  std::array<std::uint8_t, 257> values;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] =
+        static_cast<std::uint8_t>(picture::matter_of(0, 256, static_cast<std::int32_t>(i), 0, look).heat);
+  return values;
 }
 
 }  // namespace
@@ -112,11 +113,11 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
 // With the pre-filter, a cell of the field changes the levels of those around it.
 void FieldBricks::find_stale(const DensityField& field, const std::vector<std::uint32_t>& changed,
                              Stale& stale) const {
-  const state::Grid& of = field.bricks();
-  std::vector<BrickPart> parts(of.cells());
+  const state::Grid& grid = field.bricks();
+  std::vector<BrickPart> parts(grid.cells());
   const auto spread = [&](std::uint32_t brick, const BrickPart& part, int reach) {
-    for_reached(of, place_in(of, brick), part, reach, [&](const state::Grid& near, const BrickPart& in) {
-      parts[of.index(near.x, near.y, near.z)].add(in);
+    for_reached(grid, place_in(grid, brick), part, reach, [&](const state::Grid& near, const BrickPart& in) {
+      parts[grid.index(near.x, near.y, near.z)].add(in);
     });
   };
   for (const std::uint32_t brick : changed) {
@@ -128,14 +129,14 @@ void FieldBricks::find_stale(const DensityField& field, const std::vector<std::u
     if (!part.any()) continue;
     stale.source[brick] = 1;
     const auto next = [](std::uint8_t planes) { return (planes & kLastPlanes) != 0 ? 1 : 0; };
-    for_near(bricks_, place_in(of, brick), {next(part.x), next(part.y), next(part.z)},
+    for_near(bricks_, place_in(grid, brick), {next(part.x), next(part.y), next(part.z)},
              [&](const state::Grid& b) { stale.touched[bricks_.index(b.x, b.y, b.z)] = 1; });
   }
 }
 
 // What is nothing but air needs no slot. A new one is filled whole.
 std::vector<std::size_t> FieldBricks::give_slots(const DensityField& field, Stale& stale, bool& moved) {
-  const state::Grid& of = field.bricks();
+  const state::Grid& grid = field.bricks();
   std::vector<std::size_t> bricks;
   for (std::size_t brick = 0; brick < stale.touched.size(); ++brick) {
     if (stale.touched[brick] == 0) continue;
@@ -152,7 +153,8 @@ std::vector<std::size_t> FieldBricks::give_slots(const DensityField& field, Stal
       const auto first = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces);
       std::fill_n(levels_.begin() + first, kPlaces, picture::kAir);
       std::fill_n(matter_.begin() + first, kPlaces, 0);
-      for_near(of, at, -1, 0, [&](const state::Grid& b) { stale.source[of.index(b.x, b.y, b.z)] = kWhole; });
+      for_near(grid, at, -1, 0,
+               [&](const state::Grid& b) { stale.source[grid.index(b.x, b.y, b.z)] = kWhole; });
     }
     bricks.push_back(brick);
   }

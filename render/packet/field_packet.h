@@ -72,17 +72,18 @@ struct FieldPacket : Packet<Arch> {
   }
   // Of some rays, from sample `from` on.
   VOXMELT_WORDS Walk walk(const PictureData& data, const Row& row, V rays, V from, V most) {
-    Walk of;
+    Walk walk;
     auto range = Rays<Arch>::in_box(row, data.field.low, data.field.high);
-    of.last = L::min(range.last, most);
-    of.sample = L::max(range.first, from);
-    of.active = rays & (of.sample <= of.last);
-    of.at = P::select(of.active, Rays<Arch>::at(row, of.sample, kBias), Triple{});
-    of.back_x = row.step.x < 0;
-    of.back_y = row.step.y < 0;
-    of.back_z = row.step.z < 0;
-    of.hits.found = of.hits.sample = of.hits.level = of.hits.at.x = of.hits.at.y = of.hits.at.z = V{};
-    return of;
+    walk.last = L::min(range.last, most);
+    walk.sample = L::max(range.first, from);
+    walk.active = rays & (walk.sample <= walk.last);
+    walk.at = P::select(walk.active, Rays<Arch>::at(row, walk.sample, kBias), Triple{});
+    walk.back_x = row.step.x < 0;
+    walk.back_y = row.step.y < 0;
+    walk.back_z = row.step.z < 0;
+    walk.hits.found = walk.hits.sample = walk.hits.level = walk.hits.at.x = walk.hits.at.y = walk.hits.at.z =
+        V{};
+    return walk;
   }
 
   static constexpr float kLess = 1 - 1.0f / (1 << 18);
@@ -92,14 +93,14 @@ struct FieldPacket : Packet<Arch> {
     V record, occupied;  // see FieldBricks::records
     V advance;           // samples until the ray leaves the block, or the empty cube around it
   };
-  VOXMELT_WORDS Block block(const PictureData& data, const Row& row, const Walk& of) {
+  VOXMELT_WORDS Block block(const PictureData& data, const Row& row, const Walk& walk) {
     const FieldData& field = data.field;
-    const Triple at = of.at >> kBlockBits;
+    const Triple at = walk.at >> kBlockBits;
     const V index = (at.z * field.blocks_y + at.y) * field.blocks_x + at.x;
     Block found;
     found.record = L::template gather<4>(field.records, index);
     const V air = found.record < 0;
-    found.occupied = of.active & ~air;
+    found.occupied = walk.active & ~air;
     found.advance = L::set(1);
     if (data.skip) {
       const V reach = (air ? found.record & 255 : L::set(1)) << kBlockBits;
@@ -107,21 +108,21 @@ struct FieldPacket : Packet<Arch> {
         const V way = reach + back - ((place ^ back) & ((1 << kBlockBits) - 1));
         return L::to_float(way) * inverse;
       };
-      const F leave =
-          L::min(L::min(axis(of.at.x, of.back_x, row.inverse_x), axis(of.at.y, of.back_y, row.inverse_y)),
-                 axis(of.at.z, of.back_z, row.inverse_z));
+      const F leave = L::min(
+          L::min(axis(walk.at.x, walk.back_x, row.inverse_x), axis(walk.at.y, walk.back_y, row.inverse_y)),
+          axis(walk.at.z, walk.back_z, row.inverse_z));
       found.advance = L::to_int(L::min(leave * kLess, L::set_float(1e8f))) + 1;
     }
     return found;
   }
 
-  VOXMELT_WORDS void meet(const PictureData& data, Walk& of, Block& in, V level) {
+  VOXMELT_WORDS void meet(const PictureData& data, Walk& walk, Block& in, V level) {
     const V matter = in.occupied & (level >= 0);
-    of.hits.found = of.hits.found | matter;
-    of.hits.sample = matter ? of.sample : of.hits.sample;
-    of.hits.level = matter ? level : of.hits.level;
-    of.hits.at = P::select(matter, of.at, of.hits.at);
-    of.active = of.active & ~matter;
+    walk.hits.found = walk.hits.found | matter;
+    walk.hits.sample = matter ? walk.sample : walk.hits.sample;
+    walk.hits.level = matter ? level : walk.hits.level;
+    walk.hits.at = P::select(matter, walk.at, walk.hits.at);
+    walk.active = walk.active & ~matter;
     if (data.skip) {
       // The level rises no faster than the block's slope allows. Weights and blends are rounded.
       const F rise_unit = L::set_float(1.0f / static_cast<float>(kSlopeUnit >> data.spacing));
@@ -131,20 +132,20 @@ struct FieldPacket : Packet<Arch> {
       in.advance = in.occupied ? L::min(in.advance, safe) : in.advance;
     }
   }
-  VOXMELT_WORDS void go(const Row& row, Walk& of, V advance) {
-    of.sample = of.sample + advance;
-    of.active = of.active & (of.sample <= of.last);
-    of.at = P::select(of.active, of.at + row.step * advance, of.at);
+  VOXMELT_WORDS void go(const Row& row, Walk& walk, V advance) {
+    walk.sample = walk.sample + advance;
+    walk.active = walk.active & (walk.sample <= walk.last);
+    walk.at = P::select(walk.active, walk.at + row.step * advance, walk.at);
   }
-  VOXMELT_WORDS V occupied_sample(const PictureData& data, const Walk& of, const Block& in) {
+  VOXMELT_WORDS V occupied_sample(const PictureData& data, const Walk& walk, const Block& in) {
     const V slot = in.occupied ? in.record >> 8 : V{};
-    return sample_in(data.field, of.at, slot * kVolume + in_brick(of.at));
+    return sample_in(data.field, walk.at, slot * kVolume + in_brick(walk.at));
   }
-  VOXMELT_WORDS void finish(const PictureData& data, const Row& row, Walk& of) {
-    while (L::any(of.active)) {
-      Block in = block(data, row, of);
-      if (L::any(in.occupied)) meet(data, of, in, occupied_sample(data, of, in));
-      go(row, of, in.advance);
+  VOXMELT_WORDS void finish(const PictureData& data, const Row& row, Walk& walk) {
+    while (L::any(walk.active)) {
+      Block in = block(data, row, walk);
+      if (L::any(in.occupied)) meet(data, walk, in, occupied_sample(data, walk, in));
+      go(row, walk, in.advance);
     }
   }
 
@@ -154,20 +155,20 @@ struct FieldPacket : Packet<Arch> {
   }
   // The same of some rays, from sample `from` on.
   VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, V rays, V from, V most) {
-    Walk of = walk(data, row, rays, from, most);
-    finish(data, row, of);
-    return of.hits;
+    Walk the_walk = walk(data, row, rays, from, most);
+    finish(data, row, the_walk);
+    return the_walk.hits;
   }
   // Two packets at once: while one waits for memory, the other goes on. approaches[i].row and most are read,
   // hits are written.
   template <class Approach>
   VOXMELT_WORDS void march(const PictureData& data, Approach* first, Approach* end) {
-    const auto next = [&](Walk& of) -> Approach* {
+    const auto next = [&](Walk& the_walk) -> Approach* {
       while (first != end) {
         Approach* const taken = first++;
-        of = walk(data, taken->row, taken->most);
-        if (L::any(of.active)) return taken;
-        taken->hits = of.hits;
+        the_walk = walk(data, taken->row, taken->most);
+        if (L::any(the_walk.active)) return taken;
+        taken->hits = the_walk.hits;
       }
       return nullptr;
     };
@@ -207,8 +208,8 @@ struct FieldPacket : Packet<Arch> {
   VOXMELT_WORDS Surface crossing(const FieldData& field, const Row& row, const Hits& hits) {
     const V from_start = hits.sample == 0;
     const Triple outside = P::select(hits.found & ~from_start, hits.at - row.step, hits.at);
-    const Surface of = crossing_between(field, outside, hits.at, hits.level);
-    return {from_start ? L::set(picture::kPlaces) : of.part, P::select(from_start, hits.at, of.at)};
+    const Surface surface = crossing_between(field, outside, hits.at, hits.level);
+    return {from_start ? L::set(picture::kPlaces) : surface.part, P::select(from_start, hits.at, surface.at)};
   }
 
   // Between two lattice positions, `outside` in air and `inside` in matter of the level `high`.

@@ -7,13 +7,13 @@ namespace voxmelt::render {
 
 std::vector<std::int32_t> GroundColumns::around(const ColumnHeights& heights) const {
   const picture::Vector cells = shape_.cells;
-  std::vector<std::int32_t> of;
-  of.reserve(static_cast<std::size_t>((cells.x + 3) * (cells.z + 3)));
+  std::vector<std::int32_t> all;
+  all.reserve(static_cast<std::size_t>((cells.x + 3) * (cells.z + 3)));
   for (std::int64_t z = -kGroundBefore; z < cells.z + kGroundBehind; ++z)
     for (std::int64_t x = -kGroundBefore; x < cells.x + kGroundBehind; ++x)
-      of.push_back(heights[static_cast<std::size_t>(std::clamp<std::int64_t>(z, 0, cells.z - 1) * cells.x +
-                                                    std::clamp<std::int64_t>(x, 0, cells.x - 1))]);
-  return of;
+      all.push_back(heights[static_cast<std::size_t>(std::clamp<std::int64_t>(z, 0, cells.z - 1) * cells.x +
+                                                     std::clamp<std::int64_t>(x, 0, cells.x - 1))]);
+  return all;
 }
 
 void GroundColumns::update(const GroundMap& map) {
@@ -48,17 +48,17 @@ void GroundColumns::lower(const GroundMap& map) {
 }
 
 GroundData GroundColumns::data(const GroundMap& map) const {
-  GroundData of = shape_;
-  if (!of.any) return of;
-  const std::int64_t first = kGroundBefore * of.row + kGroundBefore;
-  of.map = &map;
-  of.drawn = drawn_.data() + first;
-  of.bare = bare_.data() + first;
-  of.texels = texels_.empty() ? nullptr : texels_.data();
-  of.bands = bands_.empty() ? nullptr : bands_.data();
-  of.band_count = static_cast<std::int32_t>(bands_.size());
-  for (std::size_t side = 0; side < bends_.size(); ++side) of.bends[side] = bends_[side].data();
-  return of;
+  GroundData data = shape_;
+  if (!data.any) return data;
+  const std::int64_t first = kGroundBefore * data.row + kGroundBefore;
+  data.map = &map;
+  data.drawn = drawn_.data() + first;
+  data.bare = bare_.data() + first;
+  data.texels = texels_.empty() ? nullptr : texels_.data();
+  data.bands = bands_.empty() ? nullptr : bands_.data();
+  data.band_count = static_cast<std::int32_t>(bands_.size());
+  for (std::size_t side = 0; side < bends_.size(); ++side) data.bends[side] = bends_[side].data();
+  return data;
 }
 
 }  // namespace voxmelt::render

@@ -68,47 +68,48 @@ struct GroundPacket : Packet<Arch> {
     const std::int64_t top = std::int64_t{ground.highest} << (picture::kPositionBits - picture::kHeightBits);
     const auto range = Rays<Arch>::parts_in(
         row, kLow, {ground.cells.x * picture::kCell, top, ground.cells.z * picture::kCell});
-    Walk of;
-    of.first = range.first;
-    of.last = range.last;
-    of.active = range.first <= range.last;
-    of.hits = {V{}, V{}, V{}};
-    if (!L::any(of.active)) return of;
-    of.part = of.active ? range.first : V{};
+    Walk walk;
+    walk.first = range.first;
+    walk.last = range.last;
+    walk.active = range.first <= range.last;
+    walk.hits = {V{}, V{}, V{}};
+    if (!L::any(walk.active)) return walk;
+    walk.part = walk.active ? range.first : V{};
     // See GroundMap::find; all floats are rounded so that less is left out.
     const F aside = L::to_float(P::magnitude(row.step.x)) * static_cast<float>(ground.slopes.x) +
                     L::to_float(P::magnitude(row.step.z)) * static_cast<float>(ground.slopes.z);
     const F fall = L::to_float(row.step.y) * static_cast<float>(-picture::kHeight);
-    of.nearer = aside + fall + (aside + L::max(fall, -fall)) * kMore;
-    of.per_sample = of.nearer > 0.0f ? (1 - kMore * 4) / of.nearer : L::set_float(1.0f);
-    return of;
+    walk.nearer = aside + fall + (aside + L::max(fall, -fall)) * kMore;
+    walk.per_sample = walk.nearer > 0.0f ? (1 - kMore * 4) / walk.nearer : L::set_float(1.0f);
+    return walk;
   }
-  VOXMELT_WORDS V over(const PictureData& data, const Row& row, Triple start, const Walk& of) {
-    const Triple p = P::select(of.active, Rays<Arch>::at_part(row, start, of.part), Triple{});
-    return of.active ? above(data.ground, p) : V{};
+  VOXMELT_WORDS V over(const PictureData& data, const Row& row, Triple start, const Walk& walk) {
+    const Triple p = P::select(walk.active, Rays<Arch>::at_part(row, start, walk.part), Triple{});
+    return walk.active ? above(data.ground, p) : V{};
   }
-  VOXMELT_WORDS void go(const PictureData& data, Walk& of, V over) {
-    const V hit = of.active & (over < 0);
-    of.hits.found = of.hits.found | hit;
-    of.hits.inside = hit ? of.part : of.hits.inside;
-    of.active = of.active & ~hit & (of.part < of.last);
-    V next = (of.part >> picture::kPartBits) + 1;
+  VOXMELT_WORDS void go(const PictureData& data, Walk& walk, V over) {
+    const V hit = walk.active & (over < 0);
+    walk.hits.found = walk.hits.found | hit;
+    walk.hits.inside = hit ? walk.part : walk.hits.inside;
+    walk.active = walk.active & ~hit & (walk.part < walk.last);
+    V next = (walk.part >> picture::kPartBits) + 1;
     if (data.skip) {
       const picture::Vector slopes = data.ground.slopes;
       const float margin = static_cast<float>(slopes.x + slopes.z) * 8193.0f + (9 << 20);
       const F gap = L::to_float(over) * static_cast<float>(1 << picture::kPositionBits) - margin;
       const F leap =
-          gap > 0.0f ? (of.nearer > 0.0f ? gap * of.per_sample : L::set_float(1e6f)) : L::set_float(0);
+          gap > 0.0f ? (walk.nearer > 0.0f ? gap * walk.per_sample : L::set_float(1e6f)) : L::set_float(0);
       next = next + L::to_int(L::min(leap, L::set_float(1e6f)));
     }
-    of.part = of.active
-                  ? L::min(L::min(next, (of.last >> picture::kPartBits) + 1) << picture::kPartBits, of.last)
-                  : of.part;
+    walk.part =
+        walk.active
+            ? L::min(L::min(next, (walk.last >> picture::kPartBits) + 1) << picture::kPartBits, walk.last)
+            : walk.part;
   }
-  VOXMELT_WORDS Hits hits_of(const Walk& of) {
-    Hits hits = of.hits;
+  VOXMELT_WORDS Hits hits_of(const Walk& walk) {
+    Hits hits = walk.hits;
     const V sample = (hits.inside - 1) & -picture::kParts;
-    hits.before = hits.inside == of.first ? hits.inside - 1 : L::max(of.first, sample);
+    hits.before = hits.inside == walk.first ? hits.inside - 1 : L::max(walk.first, sample);
     return hits;
   }
 
@@ -122,14 +123,14 @@ struct GroundPacket : Packet<Arch> {
     hits.before = (open & ~in) ? middle : hits.before;
   }
 
-  VOXMELT_WORDS void finish(const PictureData& data, const Row& row, Triple start, Walk& of) {
-    while (L::any(of.active)) go(data, of, over(data, row, start, of));
+  VOXMELT_WORDS void finish(const PictureData& data, const Row& row, Triple start, Walk& walk) {
+    while (L::any(walk.active)) go(data, walk, over(data, row, start, walk));
   }
   // The place at or before which the ground is entered, to a sample.
   VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, Triple start) {
-    Walk of = walk(data, row);
-    finish(data, row, start, of);
-    return hits_of(of);
+    Walk the_walk = walk(data, row);
+    finish(data, row, start, the_walk);
+    return hits_of(the_walk);
   }
   // The same for two packets at once: while one waits for memory, the other goes on. Bisected, too.
   template <class Approach>
@@ -158,15 +159,15 @@ struct GroundPacket : Packet<Arch> {
 
   // The numbers of picture::Face.
   VOXMELT_WORDS V face_of(const GroundData& ground, V found, V inside, Triple outside) {
-    const auto face = [](picture::Face of) { return L::set(static_cast<std::int32_t>(of)); };
+    const auto face = [](picture::Face face) { return L::set(static_cast<std::int32_t>(face)); };
     const auto end = [](std::int64_t cells) { return static_cast<std::int32_t>(cells * picture::kCell - 1); };
     using picture::Face;
-    V of = outside.y < static_cast<std::int32_t>(kLow.y) ? face(Face::under) : face(Face::top);
-    of = outside.z > end(ground.cells.z) ? face(Face::high_z) : of;
-    of = outside.z < 0 ? face(Face::low_z) : of;
-    of = outside.x > end(ground.cells.x) ? face(Face::high_x) : of;
-    of = outside.x < 0 ? face(Face::low_x) : of;
-    return (found & (inside != 0)) ? of : V{};
+    V vector = outside.y < static_cast<std::int32_t>(kLow.y) ? face(Face::under) : face(Face::top);
+    vector = outside.z > end(ground.cells.z) ? face(Face::high_z) : vector;
+    vector = outside.z < 0 ? face(Face::low_z) : vector;
+    vector = outside.x > end(ground.cells.x) ? face(Face::high_x) : vector;
+    vector = outside.x < 0 ? face(Face::low_x) : vector;
+    return (found & (inside != 0)) ? vector : V{};
   }
 
   struct Painted {
@@ -177,22 +178,22 @@ struct GroundPacket : Packet<Arch> {
   // At places of the ground, whose lanes `found` are; the others are anything.
   VOXMELT_WORDS Painted painted(const PictureData& data, V found, V face, Triple position, Triple to_eye) {
     const GroundData& ground = data.ground;
-    const auto is = [&](picture::Face of) { return face == static_cast<std::int32_t>(of); };
+    const auto is = [&](picture::Face the_face) { return face == static_cast<std::int32_t>(the_face); };
     using picture::Face;
     const V top = found & is(Face::top);
-    Painted of;
-    of.normal = to_eye;
+    Painted painted;
+    painted.normal = to_eye;
     if (L::any(top)) {
-      of = painted_top(data, P::select(top, position, Triple{}));
-      if (!L::any(found & ~top)) return of;
-      of.normal = P::select(top, of.normal, to_eye);
+      painted = painted_top(data, P::select(top, position, Triple{}));
+      if (!L::any(found & ~top)) return painted;
+      painted.normal = P::select(top, painted.normal, to_eye);
     }
 
     constexpr std::int32_t kOne = picture::kLength;
     const V x = is(Face::high_x) & kOne, low_x = is(Face::low_x) & kOne, z = is(Face::high_z) & kOne,
             low_z = is(Face::low_z) & kOne, under = is(Face::under) & kOne;
     const V side = (x | low_x | z | low_z) != 0;
-    of.normal = P::select(side | (under != 0), Triple{x - low_x, -under, z - low_z}, of.normal);
+    painted.normal = P::select(side | (under != 0), Triple{x - low_x, -under, z - low_z}, painted.normal);
     V band{};
     if (ground.bands != nullptr && L::any(side)) {
       const Triple p = P::select(side, position, Triple{});
@@ -205,8 +206,9 @@ struct GroundPacket : Packet<Arch> {
       band = side ? entry(ground.bands, ground.band_count - 1, p.y + bend, picture::kBandFineness) : V{};
     }
     const V share = 2540 + ((41 * band) >> 8);
-    for (std::size_t c = 0; c < 3; ++c) of.color[c] = top ? of.color[c] : (ground.color[c] * share) >> 12;
-    return of;
+    for (std::size_t c = 0; c < 3; ++c)
+      painted.color[c] = top ? painted.color[c] : (ground.color[c] * share) >> 12;
+    return painted;
   }
 
  private:
@@ -241,10 +243,10 @@ struct GroundPacket : Packet<Arch> {
 
   VOXMELT_WORDS Painted painted_top(const PictureData& data, Triple p) {
     const GroundData& ground = data.ground;
-    Painted of;
-    of.normal = top_normal(data, p);
-    for (std::size_t c = 0; c < 3; ++c) of.color[c] = L::set(ground.color[c]);
-    if (ground.texels == nullptr) return of;
+    Painted painted;
+    painted.normal = top_normal(data, p);
+    for (std::size_t c = 0; c < 3; ++c) painted.color[c] = L::set(ground.color[c]);
+    if (ground.texels == nullptr) return painted;
 
     const auto columns = static_cast<std::int32_t>(ground.cells.x << ground.fineness),
                rows = static_cast<std::int32_t>(ground.cells.z << ground.fineness);
@@ -263,14 +265,15 @@ struct GroundPacket : Packet<Arch> {
                      blended(part(of_four[2]), part(of_four[3]), x.weight), z.weight);
     };
     const auto low = [](V word) { return word & 0xFFFF; };
-    of.color[0] = between(first, low);
-    of.color[1] = between(first, [](V word) { return (word >> 16) & 0xFFFF; });
-    of.color[2] = between(second, low);
+    painted.color[0] = between(first, low);
+    painted.color[1] = between(first, [](V word) { return (word >> 16) & 0xFFFF; });
+    painted.color[2] = between(second, low);
     // Bumps are 2^-8, and normals 2^-14.
     const V bump_x = between(second, [](V word) { return ((word << 8) >> 24) << 6; });
     const V bump_z = between(second, [](V word) { return (word >> 24) << 6; });
-    of.normal = P::unit({of.normal.x + bump_x, of.normal.y, of.normal.z + bump_z}, data.inverse_root);
-    return of;
+    painted.normal =
+        P::unit({painted.normal.x + bump_x, painted.normal.y, painted.normal.z + bump_z}, data.inverse_root);
+    return painted;
   }
 };
 

@@ -48,12 +48,12 @@ struct LightPacket : Packet<Arch> {
                                             FieldPacket<Arch>::blend_bytes(along[2], along[3], y.weight),
                                             z.weight);
     };
-    Light of{word(0), word(1), V{}, V{}};
+    Light light{word(0), word(1), V{}, V{}};
     if (glow) {
-      of.glow = word(2);
-      of.more_glow = word(3);
+      light.glow = word(2);
+      light.more_glow = word(3);
     }
-    return of;
+    return light;
   }
 
   // One cell of light in front of a surface.
@@ -63,7 +63,7 @@ struct LightPacket : Packet<Arch> {
 
   VOXMELT_WORDS V byte(V word, int i) { return (word >> (8 * i)) & 255; }
 
-  VOXMELT_WORDS V lamp(const Light& of) { return byte(of.lamp_open, 0); }
+  VOXMELT_WORDS V lamp(const Light& light) { return byte(light.lamp_open, 0); }
 
   // Six sides seen along a unit vector.
   VOXMELT_WORDS V along(V plus_x, V minus_x, V plus_y, V minus_y, V plus_z, V minus_z, Triple d) {
@@ -74,13 +74,13 @@ struct LightPacket : Packet<Arch> {
         (part(d.x, plus_x, minus_x) + part(d.y, plus_y, minus_y) + part(d.z, plus_z, minus_z)) >> 14,
         L::set(255));
   }
-  VOXMELT_WORDS V open(const Light& of, Triple d) {
-    return along(byte(of.lamp_open, 1), byte(of.lamp_open, 2), byte(of.lamp_open, 3), byte(of.open, 0),
-                 byte(of.open, 1), byte(of.open, 2), d);
+  VOXMELT_WORDS V open(const Light& light, Triple d) {
+    return along(byte(light.lamp_open, 1), byte(light.lamp_open, 2), byte(light.lamp_open, 3),
+                 byte(light.open, 0), byte(light.open, 1), byte(light.open, 2), d);
   }
-  VOXMELT_WORDS V glow(const Light& of, Triple d) {
-    return along(byte(of.glow, 0), byte(of.glow, 1), byte(of.glow, 2), byte(of.glow, 3),
-                 byte(of.more_glow, 0), byte(of.more_glow, 1), d);
+  VOXMELT_WORDS V glow(const Light& light, Triple d) {
+    return along(byte(light.glow, 0), byte(light.glow, 1), byte(light.glow, 2), byte(light.glow, 3),
+                 byte(light.more_glow, 0), byte(light.more_glow, 1), d);
   }
 };
 

@@ -44,26 +44,26 @@ void Picture::update(const DensityField& field, const scene::Look& look, const s
 }
 
 PictureData Picture::data(const picture::Camera& camera, Setting setting) const {
-  PictureData of;
-  of.view = picture::view_of(camera, bricks_.cells());
-  of.width = static_cast<std::int32_t>(camera.width);
-  of.height = static_cast<std::int32_t>(camera.height);
-  of.spacing = spacing_of(setting, of.view);
-  of.field = {bricks_.cells(),        bricks_.bricks().x,
-              bricks_.bricks().y,     bricks_.blocks().x,
-              bricks_.blocks().y,     bricks_.slots(),
-              bricks_.levels(),       bricks_.matter(),
-              bricks_.records(),      obstacles_,
-              bricks_.occupied().low, bricks_.occupied().high,
-              bricks_.shell().data(), bricks_.shell().size()};
-  of.light = {reinterpret_cast<const std::uint8_t*>(light_.cells().data()), light_.count(), light_.shift()};
-  of.ground = columns_.data(ground_);
-  of.paint = &paint_;
-  of.background = look_.background;
-  of.inverse_root = inverse_roots();
-  of.tone = &tone_table();
-  of.bytes = &byte_table();
-  return of;
+  PictureData data;
+  data.view = picture::view_of(camera, bricks_.cells());
+  data.width = static_cast<std::int32_t>(camera.width);
+  data.height = static_cast<std::int32_t>(camera.height);
+  data.spacing = spacing_of(setting, data.view);
+  data.field = {bricks_.cells(),        bricks_.bricks().x,
+                bricks_.bricks().y,     bricks_.blocks().x,
+                bricks_.blocks().y,     bricks_.slots(),
+                bricks_.levels(),       bricks_.matter(),
+                bricks_.records(),      obstacles_,
+                bricks_.occupied().low, bricks_.occupied().high,
+                bricks_.shell().data(), bricks_.shell().size()};
+  data.light = {reinterpret_cast<const std::uint8_t*>(light_.cells().data()), light_.count(), light_.shift()};
+  data.ground = columns_.data(ground_);
+  data.paint = &paint_;
+  data.background = look_.background;
+  data.inverse_root = inverse_roots();
+  data.tone = &tone_table();
+  data.bytes = &byte_table();
+  return data;
 }
 
 Image Picture::draw(const scene::Camera& camera, Setting setting, int threads, const Packets& packets) const {

@@ -119,10 +119,10 @@ struct Rays : Packet<Arch> {
     HalfV first, last;
   };
   VOXMELT_WORDS V wrapped(const Doubles& a) {
-    const auto part = [](D of) {
+    const auto part = [](D d) {
       typename L::Q bits;
-      of = of + 6755399441055744.0;  // 1.5 2^52
-      std::memcpy(&bits, &of, sizeof bits);
+      d = d + 6755399441055744.0;  // 1.5 2^52
+      std::memcpy(&bits, &d, sizeof bits);
       return __builtin_convertvector(bits, HalfV);
     };
     return L::joined(part(a.low), part(a.high));

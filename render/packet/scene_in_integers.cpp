@@ -16,26 +16,26 @@ std::int64_t fixed(double value, int bits) {
 
 std::int32_t light(double value) { return static_cast<std::int32_t>(fixed(value, picture::kLightBits)); }
 
-picture::Color color(const scene::Vec3& of) { return {light(of[0]), light(of[1]), light(of[2])}; }
+picture::Color color(const scene::Vec3& vec3) { return {light(vec3[0]), light(vec3[1]), light(vec3[2])}; }
 
 }  // namespace
 
 picture::Look look_in_integers(const scene::Look& look) {
-  picture::Look of;
-  of.solid = color(look.solid);
-  of.liquid = color(look.liquid);
-  of.ground = color(look.ground);
-  of.background = color(look.background);
-  of.shininess = static_cast<std::int32_t>(std::max<std::int64_t>(fixed(look.shininess, 0), 1));
-  of.specular = light(look.specular);
-  of.metallic = light(look.metallic);
+  picture::Look the_look;
+  the_look.solid = color(look.solid);
+  the_look.liquid = color(look.liquid);
+  the_look.ground = color(look.ground);
+  the_look.background = color(look.background);
+  the_look.shininess = static_cast<std::int32_t>(std::max<std::int64_t>(fixed(look.shininess, 0), 1));
+  the_look.specular = light(look.specular);
+  the_look.metallic = light(look.metallic);
   for (std::size_t c = 0; c < 3; ++c)
-    of.clear[c] = static_cast<std::int32_t>(fixed(look.clear[c], picture::kClearBits));
-  of.frost = light(look.frost);
-  of.glow = look.glow;
-  of.glow_cold = static_cast<std::int32_t>(fixed(look.glow_cold, 16));
-  of.glow_hot = static_cast<std::int32_t>(fixed(look.glow_hot, 16));
-  return of;
+    the_look.clear[c] = static_cast<std::int32_t>(fixed(look.clear[c], picture::kClearBits));
+  the_look.frost = light(look.frost);
+  the_look.glow = look.glow;
+  the_look.glow_cold = static_cast<std::int32_t>(fixed(look.glow_cold, 16));
+  the_look.glow_hot = static_cast<std::int32_t>(fixed(look.glow_hot, 16));
+  return the_look;
 }
 
 picture::Lamp lamp_in_integers(const scene::Light& light) {

@@ -84,14 +84,14 @@ struct ShadePacket : Packet<Arch> {
   };
 
   VOXMELT_WORDS Material mixed(const picture::Material& a, const picture::Material& b, V share) {
-    Material of;
+    Material material;
     for (std::size_t c = 0; c < 3; ++c) {
-      of.diffuse.c[c] = P::mixed(a.diffuse[c], b.diffuse[c], share);
-      of.mirror.c[c] = P::mixed(a.mirror[c], b.mirror[c], share);
-      of.highlight.c[c] = P::mixed(a.highlight[c], b.highlight[c], share);
+      material.diffuse.c[c] = P::mixed(a.diffuse[c], b.diffuse[c], share);
+      material.mirror.c[c] = P::mixed(a.mirror[c], b.mirror[c], share);
+      material.highlight.c[c] = P::mixed(a.highlight[c], b.highlight[c], share);
     }
-    of.gloss = P::mixed(a.gloss, b.gloss, share);
-    return of;
+    material.gloss = P::mixed(a.gloss, b.gloss, share);
+    return material;
   }
   VOXMELT_WORDS void mix_in(Material& a, const picture::Material& b, V share) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -148,24 +148,24 @@ struct ShadePacket : Packet<Arch> {
     const V seen =
         614 + ((whole(Lights::open(light, reflected)) * whole(Lights::open(light, normal)) * 3482) >> 16);
 
-    Shine of{{}, {}, emission, more, obstacle};
+    Shine shine{{}, {}, emission, more, obstacle};
     for (std::size_t c = 0; c < 3; ++c) {
       const V fresnel = material.mirror.c[c] + (((picture::kLight - material.mirror.c[c]) * more) >> 12);
       const V mirror = (((around.c[c] * seen) >> 12) * fresnel) >> 12;
-      of.mirrored.c[c] = ((material.highlight.c[c] * peak) >> 12) + mirror;
-      of.scattered.c[c] = (arrives.c[c] * material.diffuse.c[c]) >> 12;
-      if (paint.glow) of.emission.c[c] = (emission.c[c] * (2540 + ((1556 * eye) >> 14))) >> 12;
+      shine.mirrored.c[c] = ((material.highlight.c[c] * peak) >> 12) + mirror;
+      shine.scattered.c[c] = (arrives.c[c] * material.diffuse.c[c]) >> 12;
+      if (paint.glow) shine.emission.c[c] = (emission.c[c] * (2540 + ((1556 * eye) >> 14))) >> 12;
     }
-    return of;
+    return shine;
   }
 
   VOXMELT_WORDS Color matter_color(const PictureData& data, Triple normal, Triple to_eye, const Light& light,
                                    V matter, V obstacle_byte) {
-    const Shine of = shine_of(data, normal, normal, to_eye, light, matter, obstacle_byte);
+    const Shine shine = shine_of(data, normal, normal, to_eye, light, matter, obstacle_byte);
     Color sum;
     for (std::size_t c = 0; c < 3; ++c) {
-      sum.c[c] = of.scattered.c[c] + of.mirrored.c[c];
-      if (data.paint->glow) sum.c[c] = sum.c[c] + of.emission.c[c];
+      sum.c[c] = shine.scattered.c[c] + shine.mirrored.c[c];
+      if (data.paint->glow) sum.c[c] = sum.c[c] + shine.emission.c[c];
     }
     return sum;
   }
@@ -180,16 +180,16 @@ struct ShadePacket : Packet<Arch> {
     };
     const V beside = side(0) + side(1) + side(4) + side(5);
     const V above = ((2 * side(2) + beside) * 43) >> 9, below = ((2 * side(3) + beside) * 43) >> 9;
-    Color of;
+    Color color;
     for (std::size_t c = 0; c < 3; ++c) {
       const V inner =
           ((paint.from_above[c] * above + paint.from_below[c] * below) >> 8) + ((paint.lamp[c] * lamp) >> 9);
       V diffuse = P::mixed(paint.solid.diffuse[c], paint.liquid.diffuse[c], liquid);
       if (data.field.obstacles)
         diffuse = P::mixed(diffuse, L::set(paint.obstacle.diffuse[c]), obstacle_share((matter >> 16) & 255));
-      of.c[c] = (inner * diffuse) >> 12;
+      color.c[c] = (inner * diffuse) >> 12;
     }
-    return of;
+    return color;
   }
 
   VOXMELT_WORDS Color ground_color(const picture::Paint& paint, Triple normal, const Light& light,
@@ -201,10 +201,10 @@ struct ShadePacket : Packet<Arch> {
   }
 
   VOXMELT_WORDS Color pressed(const picture::Tone& tone, const Color& light) {
-    Color of;
+    Color color;
     for (std::size_t c = 0; c < 3; ++c)
-      of.c[c] = L::template gather<2>(tone.data(), L::clamp(light.c[c], 0, picture::kBrightest)) & 0xFFFF;
-    return of;
+      color.c[c] = L::template gather<2>(tone.data(), L::clamp(light.c[c], 0, picture::kBrightest)) & 0xFFFF;
+    return color;
   }
 };
 

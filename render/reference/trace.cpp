@@ -22,13 +22,13 @@ static_assert(kStages.size() == static_cast<std::size_t>(Stage::clear) + 1);
 
 // The numbers of a value, one after the other.
 struct Numbers {
-  std::array<std::int64_t, 16> of{};
+  std::array<std::int64_t, 16> values{};
   std::size_t count = 0;
 
   template <class Value>
   void add(const Value& value) {
     if constexpr (std::is_integral_v<Value>)
-      of[count++] = value;
+      values[count++] = value;
     else if constexpr (std::is_same_v<Value, Vector>)
       add(value.x), add(value.y), add(value.z);
     else if constexpr (std::is_same_v<Value, picture::Matter>)
@@ -55,7 +55,7 @@ struct Telling {
   void tell(Stage stage, const char* name, const Value& value) {
     Numbers numbers;
     numbers.add(value);
-    listener.told(stage, name, {numbers.of.data(), numbers.count});
+    listener.told(stage, name, {numbers.values.data(), numbers.count});
   }
   // The brick that serves a sample at a position (docs/picture.md, section 12).
   void read_at(Vector position) {
@@ -84,9 +84,9 @@ struct Teller {
 };
 
 void tell_material(const Teller& teller, const std::array<const char*, 4>& names,
-                   const picture::Material& of) {
-  teller(Stage::picture, names[0], of.diffuse), teller(Stage::picture, names[1], of.mirror);
-  teller(Stage::picture, names[2], of.highlight), teller(Stage::picture, names[3], of.gloss);
+                   const picture::Material& material) {
+  teller(Stage::picture, names[0], material.diffuse), teller(Stage::picture, names[1], material.mirror);
+  teller(Stage::picture, names[2], material.highlight), teller(Stage::picture, names[3], material.gloss);
 }
 
 // What all rays share, but for tables.

@@ -20,10 +20,10 @@ inline constexpr std::array<Sub, 1> kMiddle{{{32, 32}}};
 template <std::size_t kCount>
 constexpr std::array<Sub, kCount> rooks(const std::array<std::int32_t, kCount>& rows) {
   constexpr std::int32_t kApart = 64 / static_cast<std::int32_t>(kCount);
-  std::array<Sub, kCount> of{};
+  std::array<Sub, kCount> values{};
   for (std::size_t i = 0; i < kCount; ++i)
-    of[i] = {kApart * static_cast<std::int32_t>(i) + kApart / 2, kApart * rows[i] + kApart / 2};
-  return of;
+    values[i] = {kApart * static_cast<std::int32_t>(i) + kApart / 2, kApart * rows[i] + kApart / 2};
+  return values;
 }
 inline constexpr auto kEight = rooks<8>({3, 6, 0, 5, 2, 7, 1, 4});
 inline constexpr auto kThirtyTwo = rooks<32>({2,  15, 24, 28, 12, 4,  20, 16, 7,  22, 31, 1, 8,  14, 27, 11,

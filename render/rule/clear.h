@@ -38,10 +38,10 @@ VOXMELT_RULE Passing passing_table() {
 
 // Entries of the table per cell, of each channel, in 1 / 16; 4096 at most.
 VOXMELT_RULE Color losses_of(const Color& clear) {
-  Color of{};
+  Color color{};
   for (std::size_t c = 0; c < 3; ++c)
-    of[c] = std::min((1 << (12 + kClearBits)) / std::max(clear[c], 1), 1 << 12);
-  return of;
+    color[c] = std::min((1 << (12 + kClearBits)) / std::max(clear[c], 1), 1 << 12);
+  return color;
 }
 VOXMELT_RULE bool is_clear(const Look& look) { return !look.glow && look.clear != Color{}; }
 
@@ -52,12 +52,12 @@ struct Left {
 };
 
 VOXMELT_RULE Color passed(const Passing& table, const Color& losses, Left left) {
-  Color of{};
+  Color color{};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::int32_t i = std::min(((left.way >> 8) * losses[c]) >> 12, kNothingPasses);
-    of[c] = (left.surfaces * table[static_cast<std::size_t>(i)]) >> kLightBits;
+    color[c] = (left.surfaces * table[static_cast<std::size_t>(i)]) >> kLightBits;
   }
-  return of;
+  return color;
 }
 
 VOXMELT_RULE std::int32_t dimmed(std::int32_t surfaces, std::int32_t lost) {
@@ -89,10 +89,10 @@ VOXMELT_RULE Color inner_light(const Color& lamp, const Color& from_below, const
   const std::int32_t above = ((2 * light.open[2] + beside) * 43) >> 9;
   const std::int32_t below = ((2 * light.open[3] + beside) * 43) >> 9;
   const std::int32_t direct = light.lamp + (light.lamp >> 7);
-  Color of{};
+  Color color{};
   for (std::size_t c = 0; c < 3; ++c)
-    of[c] = ((from_above[c] * above + from_below[c] * below) >> 8) + ((lamp[c] * direct) >> 9);
-  return of;
+    color[c] = ((from_above[c] * above + from_below[c] * below) >> 8) + ((lamp[c] * direct) >> 9);
+  return color;
 }
 
 }  // namespace voxmelt::picture

@@ -79,13 +79,13 @@ struct Light {
 };
 
 VOXMELT_RULE Light between(const Light& a, const Light& b, std::int32_t weight) {
-  Light of;
-  of.lamp = blended(a.lamp, b.lamp, weight);
+  Light light;
+  light.lamp = blended(a.lamp, b.lamp, weight);
   for (std::size_t side = 0; side < kSides; ++side) {
-    of.open[side] = blended(a.open[side], b.open[side], weight);
-    of.glow[side] = blended(a.glow[side], b.glow[side], weight);
+    light.open[side] = blended(a.open[side], b.open[side], weight);
+    light.glow[side] = blended(a.glow[side], b.glow[side], weight);
   }
-  return of;
+  return light;
 }
 
 // The light at a position: between eight cells of light, of which those beyond the grid repeat the nearest.
@@ -109,10 +109,10 @@ VOXMELT_RULE Light light_at(const Lights& lights, Vector count, int shift, Vecto
     return between(below, above, y.weight);
   };
   const Light below = along_y(z.cell), above = along_y(z.cell + 1);
-  const Light of = between(below, above, z.weight);
-  watch(Stage::light, "lamp", of.lamp), watch(Stage::light, "open", of.open);
-  watch(Stage::light, "glow", of.glow);
-  return of;
+  const Light light = between(below, above, z.weight);
+  watch(Stage::light, "lamp", light.lamp), watch(Stage::light, "open", light.open);
+  watch(Stage::light, "glow", light.glow);
+  return light;
 }
 
 // Where the light of a surface is read: one cell of light in front of it.

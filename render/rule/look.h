@@ -75,14 +75,14 @@ inline constexpr Color kLampColor{4342, 4096, 3768};
 inline constexpr Color kSkyColor{3850, 4096, 4424};
 
 VOXMELT_RULE Material material_of(Color color, std::int32_t specular, std::int32_t metallic, Color lamp) {
-  Material of;
-  of.diffuse = times(color, kLight - times(metallic, 3482));  // 0.85 of a metal's is lost
-  const std::int32_t dull = times(specular, 328);             // 0.08
-  of.mirror = mixed(Color{dull, dull, dull}, color, metallic);
+  Material material;
+  material.diffuse = times(color, kLight - times(metallic, 3482));  // 0.85 of a metal's is lost
+  const std::int32_t dull = times(specular, 328);                   // 0.08
+  material.mirror = mixed(Color{dull, dull, dull}, color, metallic);
   const Color tint = mixed(Color{kLight, kLight, kLight}, color, metallic);
-  for (std::size_t c = 0; c < 3; ++c) of.highlight[c] = times(times(tint[c], lamp[c]), specular);
-  of.gloss = times(mixed(times(specular, 4915), kLight, metallic), 2867);  // 1.2 and 0.7
-  return of;
+  for (std::size_t c = 0; c < 3; ++c) material.highlight[c] = times(times(tint[c], lamp[c]), specular);
+  material.gloss = times(mixed(times(specular, 4915), kLight, metallic), 2867);  // 1.2 and 0.7
+  return material;
 }
 
 }  // namespace voxmelt::picture

@@ -20,17 +20,17 @@ struct Matter {
 // From the filtered intensities of a cell. Nothing has no shares.
 VOXMELT_RULE Matter matter_of(std::int32_t solid, std::int32_t liquid, std::int32_t heat,
                               std::int32_t obstacle, const Look& look) {
-  Matter of;
+  Matter the_matter;
   const std::int32_t matter = solid + liquid, all = matter + obstacle;
-  if (matter > 0) of.liquid = liquid * 255 / matter;
-  if (all > 0) of.obstacle = obstacle * 255 / all;
+  if (matter > 0) the_matter.liquid = liquid * 255 / matter;
+  if (all > 0) the_matter.obstacle = obstacle * 255 / all;
   if (look.glow && liquid > 0) {
     const std::int32_t temperature = std::min(heat * 256 / liquid, 256) * 256;
     const std::int32_t range = std::max(look.glow_hot - look.glow_cold, 1);
-    of.heat = static_cast<std::int32_t>(
+    the_matter.heat = static_cast<std::int32_t>(
         std::clamp<std::int64_t>(std::int64_t{temperature - look.glow_cold} * 255 / range, 0, 255));
   }
-  return of;
+  return the_matter;
 }
 
 // The light that a cell sends out, 0 .. 253, by its filtered liquid and its heat.
@@ -65,10 +65,10 @@ VOXMELT_RULE Matter matter_at(const Cells& matter, Vector cells, Vector position
     return both(below, above, y.weight);
   };
   const Matter below = along_y(z.cell), above = along_y(z.cell + 1);
-  const Matter of = both(below, above, z.weight);
-  watch(Stage::matter, "liquid", of.liquid), watch(Stage::matter, "heat", of.heat);
-  watch(Stage::matter, "obstacle", of.obstacle);
-  return of;
+  const Matter matter = both(below, above, z.weight);
+  watch(Stage::matter, "liquid", matter.liquid), watch(Stage::matter, "heat", matter.heat);
+  watch(Stage::matter, "obstacle", matter.obstacle);
+  return matter;
 }
 
 }  // namespace voxmelt::picture

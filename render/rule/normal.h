@@ -55,9 +55,9 @@ VOXMELT_RULE Vector unit(Vector a, Watch watch = {}) {
   const int more = square < std::int64_t{1} << 30 ? 1 : 0;
   watch(Stage::unit, "g", a), watch(Stage::unit, "q", square), watch(Stage::unit, "e", more);
   const std::int64_t scale = inverse_root(square << (2 * more), watch) << more;
-  const Vector of{rounded(a.x * scale, 16), rounded(a.y * scale, 16), rounded(a.z * scale, 16)};
-  watch(Stage::unit, "unit", of);
-  return of;
+  const Vector vector{rounded(a.x * scale, 16), rounded(a.y * scale, 16), rounded(a.z * scale, 16)};
+  watch(Stage::unit, "unit", vector);
+  return vector;
 }
 
 // Along an axis: the cell in which a position lies, and the weights of it and its neighbours in a quadratic
@@ -78,15 +78,16 @@ VOXMELT_RULE Spline spline_of(std::int64_t position) {
 }
 
 // Three numbers with weights, divided by 2^8 or 2^9.
-VOXMELT_RULE std::int32_t splined(const std::array<std::int32_t, 3>& of,
+VOXMELT_RULE std::int32_t splined(const std::array<std::int32_t, 3>& values,
                                   const std::array<std::int32_t, 3>& weight, int bits) {
-  return (of[0] * weight[0] + of[1] * weight[1] + of[2] * weight[2] + (1 << (bits - 1))) >> bits;
+  return (values[0] * weight[0] + values[1] * weight[1] + values[2] * weight[2] + (1 << (bits - 1))) >> bits;
 }
 
 template <class Watch>
-VOXMELT_RULE void tell_weights(Watch watch, const char* name, const Spline& of) {
+VOXMELT_RULE void tell_weights(Watch watch, const char* name, const Spline& spline) {
   watch(Stage::normal, name,
-        std::array{of.value[0], of.value[1], of.value[2], of.slope[0], of.slope[1], of.slope[2]});
+        std::array{spline.value[0], spline.value[1], spline.value[2], spline.slope[0], spline.slope[1],
+                   spline.slope[2]});
 }
 
 // Out of the matter: against the slope of the spline through 27 levels, along x, then y, then z.

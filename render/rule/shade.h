@@ -38,35 +38,35 @@ inline constexpr Color kGlowLight{6144, 1966, 369};  // that glowing liquid thro
 inline constexpr Color kMirroredLamp{9830, 9626, 9216}, kMirroredStrip{2867, 3072, 3482};
 
 VOXMELT_RULE Paint paint_of(const Look& look, const Lamp& lamp) {
-  Paint of;
-  of.to_light = unit_of(lamp.direction);
-  of.to_strip = unit_of({-of.to_light.x, 5734, -of.to_light.z});
-  of.lamp = times(kLampColor, times(4915, kLight - lamp.ambient));
-  of.from_below = times(times(look.ground, 3686), lamp.ambient);
-  of.from_above = times(kSkyColor, lamp.ambient);
-  of.solid = material_of(look.solid, times(look.specular, 2867), look.metallic, of.lamp);
-  of.liquid = material_of(look.liquid, look.specular, look.metallic, of.lamp);
-  of.obstacle = material_of(mixed(look.ground, Color{kLight, kLight, kLight}, 492), 123, 0, of.lamp);
-  of.glow = look.glow;
+  Paint paint;
+  paint.to_light = unit_of(lamp.direction);
+  paint.to_strip = unit_of({-paint.to_light.x, 5734, -paint.to_light.z});
+  paint.lamp = times(kLampColor, times(4915, kLight - lamp.ambient));
+  paint.from_below = times(times(look.ground, 3686), lamp.ambient);
+  paint.from_above = times(kSkyColor, lamp.ambient);
+  paint.solid = material_of(look.solid, times(look.specular, 2867), look.metallic, paint.lamp);
+  paint.liquid = material_of(look.liquid, look.specular, look.metallic, paint.lamp);
+  paint.obstacle = material_of(mixed(look.ground, Color{kLight, kLight, kLight}, 492), 123, 0, paint.lamp);
+  paint.glow = look.glow;
   if (look.glow) {  // molten rock is dull, and the table says its colour
-    of.solid = material_of(look.solid, times(look.specular, 2867), 0, of.lamp);
-    of.liquid = material_of(Color{}, times(look.specular, 492), 0, of.lamp);
+    paint.solid = material_of(look.solid, times(look.specular, 2867), 0, paint.lamp);
+    paint.liquid = material_of(Color{}, times(look.specular, 492), 0, paint.lamp);
   }
-  of.clear = is_clear(look);
-  if (of.clear) {
-    of.losses = losses_of(look.clear);
-    of.frost = look.frost;
-    of.passing = passing_table();
+  paint.clear = is_clear(look);
+  if (paint.clear) {
+    paint.losses = losses_of(look.clear);
+    paint.frost = look.frost;
+    paint.passing = passing_table();
   }
   const std::int32_t blur = blur_of(look.shininess);
-  of.lamp_low = 3523 - times(1229, blur);
-  of.lamp_high = 3809 + times(287, blur);
-  of.strip_low = 3277 - times(1229, blur);
-  of.highlight = highlight_of(look.shininess);
-  of.dull_highlight = highlight_of(12);
-  of.surroundings = surroundings_of(look);
-  of.glow_colors = glow_table();
-  return of;
+  paint.lamp_low = 3523 - times(1229, blur);
+  paint.lamp_high = 3809 + times(287, blur);
+  paint.strip_low = 3277 - times(1229, blur);
+  paint.highlight = highlight_of(look.shininess);
+  paint.dull_highlight = highlight_of(12);
+  paint.surroundings = surroundings_of(look);
+  paint.glow_colors = glow_table();
+  return paint;
 }
 
 VOXMELT_RULE std::int32_t cosine(Vector a, Vector b) {
@@ -150,23 +150,23 @@ template <class Watch = Silent>
 VOXMELT_RULE Substance substance_of(const Paint& paint, Matter matter, std::int32_t obstacle,
                                     Watch watch = {}) {
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);  // 255 is kLight - 1
-  Substance of{mixed(paint.solid, paint.liquid, liquid)};
+  Substance substance{mixed(paint.solid, paint.liquid, liquid)};
   if (paint.glow) {
     const auto heat = static_cast<std::size_t>(matter.heat);
     for (std::size_t c = 0; c < 3; ++c) {
-      of.material.diffuse[c] += (paint.glow_colors.crust[heat][c] * liquid) >> kLightBits;
-      of.emission[c] =
+      substance.material.diffuse[c] += (paint.glow_colors.crust[heat][c] * liquid) >> kLightBits;
+      substance.emission[c] =
           (((paint.glow_colors.light[heat][c] * liquid) >> kLightBits) * (kLight - obstacle)) >> kLightBits;
     }
   }
-  of.material = mixed(of.material, paint.obstacle, obstacle);
+  substance.material = mixed(substance.material, paint.obstacle, obstacle);
   watch(Stage::material, "l", liquid), watch(Stage::material, "w", obstacle);
-  watch(Stage::material, "diffuse", of.material.diffuse),
-      watch(Stage::material, "mirror", of.material.mirror);
-  watch(Stage::material, "highlight", of.material.highlight),
-      watch(Stage::material, "gloss", of.material.gloss);
-  watch(Stage::material, "emission", of.emission);
-  return of;
+  watch(Stage::material, "diffuse", substance.material.diffuse),
+      watch(Stage::material, "mirror", substance.material.mirror);
+  watch(Stage::material, "highlight", substance.material.highlight),
+      watch(Stage::material, "gloss", substance.material.gloss);
+  watch(Stage::material, "emission", substance.emission);
+  return substance;
 }
 
 // Towards the eye. `to_eye` has kLength. `normal` is on the eye's side, and `out` points out of the matter:
@@ -204,18 +204,18 @@ VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector out, Vecto
   const std::int32_t seen = 614 + (((free + (free >> 7)) * (open + (open >> 7)) * 3482) >> 16);
 
   watch(Stage::mirror, "seen open by r", free), watch(Stage::mirror, "free", seen);
-  Shine of{{}, {}, {}, more, obstacle};
+  Shine shine{{}, {}, {}, more, obstacle};
   Color fresnel{}, mirror{};
   for (std::size_t c = 0; c < 3; ++c) {
     fresnel[c] = material.mirror[c] + (((kLight - material.mirror[c]) * more) >> kLightBits);
     mirror[c] = (((around[c] * seen) >> kLightBits) * fresnel[c]) >> kLightBits;
-    of.mirrored[c] = ((material.highlight[c] * peak) >> kLightBits) + mirror[c];
-    of.scattered[c] = (arrives[c] * material.diffuse[c]) >> kLightBits;
-    of.emission[c] = (emission[c] * (2540 + ((1556 * eye) >> kNormalBits))) >> kLightBits;
+    shine.mirrored[c] = ((material.highlight[c] * peak) >> kLightBits) + mirror[c];
+    shine.scattered[c] = (arrives[c] * material.diffuse[c]) >> kLightBits;
+    shine.emission[c] = (emission[c] * (2540 + ((1556 * eye) >> kNormalBits))) >> kLightBits;
   }
   watch(Stage::colour, "fresnel", fresnel), watch(Stage::colour, "mirrored", mirror);
-  watch(Stage::colour, "own", of.emission);
-  return of;
+  watch(Stage::colour, "own", shine.emission);
+  return shine;
 }
 
 // What clear matter scatters at a place in it.
@@ -225,19 +225,19 @@ VOXMELT_RULE Color inner_color(const Paint& paint, const Light& light, Matter ma
   const std::int32_t obstacle = obstacle_share(matter);
   const Color diffuse =
       mixed(mixed(paint.solid.diffuse, paint.liquid.diffuse, liquid), paint.obstacle.diffuse, obstacle);
-  Color of = inner_light(paint.lamp, paint.from_below, paint.from_above, light);
+  Color color = inner_light(paint.lamp, paint.from_below, paint.from_above, light);
   watch(Stage::material, "l", liquid), watch(Stage::material, "w", obstacle);
-  watch(Stage::material, "diffuse", diffuse), watch(Stage::clear, "inner", of);
-  for (std::size_t c = 0; c < 3; ++c) of[c] = (of[c] * diffuse[c]) >> kLightBits;
-  return of;
+  watch(Stage::material, "diffuse", diffuse), watch(Stage::clear, "inner", color);
+  for (std::size_t c = 0; c < 3; ++c) color[c] = (color[c] * diffuse[c]) >> kLightBits;
+  return color;
 }
 
 template <class Watch = Silent>
 VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye, const Light& light,
                                 Matter matter, Watch watch = {}) {
-  const Shine of = shine_of(paint, normal, normal, to_eye, light, matter, watch);
+  const Shine shine = shine_of(paint, normal, normal, to_eye, light, matter, watch);
   Color sum{};
-  for (std::size_t c = 0; c < 3; ++c) sum[c] = of.mirrored[c] + of.scattered[c] + of.emission[c];
+  for (std::size_t c = 0; c < 3; ++c) sum[c] = shine.mirrored[c] + shine.scattered[c] + shine.emission[c];
   watch(Stage::colour, "colour", sum);
   return sum;
 }

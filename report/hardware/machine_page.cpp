@@ -15,20 +15,20 @@ using namespace parts;
 
 std::string periods(const Json& all) {
   std::vector<Bar> rows;
-  for (const Json& of : all) {
-    const std::string step = "step " + of["step"].dump();
+  for (const Json& json : all) {
+    const std::string step = "step " + json["step"].dump();
     const auto part = [](const Json& cycles, const char* css, const char* name) {
       return Segment{cycles.get<double>(), css, fmt::format("{}: {} cycles", name, number(cycles))};
     };
-    rows.push_back(
-        {step + ", in turn",
-         number(of["cycles_in_turn"]),
-         {part(of["steps"]["cycles_on_memory"], "f3", "pipeline"),
-          part(of["upload"]["cycles"], "f0", "upload"), part(of["frame"]["cycles"], "f1", "ray caster")}});
+    rows.push_back({step + ", in turn",
+                    number(json["cycles_in_turn"]),
+                    {part(json["steps"]["cycles_on_memory"], "f3", "pipeline"),
+                     part(json["upload"]["cycles"], "f0", "upload"),
+                     part(json["frame"]["cycles"], "f1", "ray caster")}});
     rows.push_back(
         {"overlapped",
-         number(of["cycles_overlapped"]),
-         {part(of["upload"]["cycles"], "f0", "upload"), part(of["together"]["cycles"], "f2", "both")}});
+         number(json["cycles_overlapped"]),
+         {part(json["upload"]["cycles"], "f0", "upload"), part(json["together"]["cycles"], "f2", "both")}});
   }
   return legend({{"b3", "pipeline"}, {"b0", "upload"}, {"b1", "ray caster"}, {"b2", "both at once"}}) +
          bars(rows, "cycles of every period");
@@ -45,16 +45,17 @@ std::string bounds(const Json& all) {
   return bars(rows, "bounds");
 }
 
-std::string one_memory(const Json& of) {
+std::string one_memory(const Json& json) {
   return "<div class=\"charts\">" +
-         roofline({.caption = "What bounds the steps",
-                   .unit = "cell-steps",
-                   .compute = of["lanes_and_steps"],
-                   .per_byte = of["cell_steps_per_byte"],
-                   .bounds = {{of["always_answered"], "the pipeline on a memory that always answers"}},
-                   .reached = {{of["alone"], of["bytes_per_cycle_alone"], "the pipeline alone on the memory"},
-                               {of["reached"], of["bytes_per_cycle"], "with upload and ray caster"}},
-                   .most_bytes = of["most_bytes_per_cycle"]}) +
+         roofline(
+             {.caption = "What bounds the steps",
+              .unit = "cell-steps",
+              .compute = json["lanes_and_steps"],
+              .per_byte = json["cell_steps_per_byte"],
+              .bounds = {{json["always_answered"], "the pipeline on a memory that always answers"}},
+              .reached = {{json["alone"], json["bytes_per_cycle_alone"], "the pipeline alone on the memory"},
+                          {json["reached"], json["bytes_per_cycle"], "with upload and ray caster"}},
+              .most_bytes = json["most_bytes_per_cycle"]}) +
          "</div>";
 }
 

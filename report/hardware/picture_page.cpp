@@ -25,16 +25,16 @@ std::string passes(const Json& report) {
   return list;
 }
 
-std::string bounds(const Json& of) {
+std::string bounds(const Json& json) {
   return "<div class=\"charts\">" +
          roofline({.caption = "What bounds the rays",
                    .unit = "rays",
-                   .compute = of["pipes"],
-                   .per_byte = of["rays_per_byte"],
-                   .bounds = {{of["busiest_stage"], "stage " + text(of["busiest"]) + ", if always busy"},
-                              {of["fill_and_drain"], "less its fill and drain"}},
-                   .reached = {{of["reached"], of["bytes_per_cycle"], "reached"}},
-                   .most_bytes = of["most_bytes_per_cycle"]}) +
+                   .compute = json["pipes"],
+                   .per_byte = json["rays_per_byte"],
+                   .bounds = {{json["busiest_stage"], "stage " + text(json["busiest"]) + ", if always busy"},
+                              {json["fill_and_drain"], "less its fill and drain"}},
+                   .reached = {{json["reached"], json["bytes_per_cycle"], "reached"}},
+                   .most_bytes = json["most_bytes_per_cycle"]}) +
          "</div>";
 }
 
@@ -53,8 +53,8 @@ std::string caches(const Json& all) {
   return legend({{"busy", "hits"}, {"blocked", "misses"}}) + bars(rows, "caches");
 }
 
-std::string dram(const Json& of) {
-  const Json& cycles = of["data_bus_cycles"];
+std::string dram(const Json& json) {
+  const Json& cycles = json["data_bus_cycles"];
   Bar bus{"data bus", number(cycles["all"]), {}};
   std::vector<Key> keys;
   for (const char* name : {"busy", "refresh", "turnaround", "row", "spacing", "idle"}) {
@@ -62,7 +62,7 @@ std::string dram(const Json& of) {
     bus.segments.push_back(
         {cycles[name].get<double>(), name, fmt::format("{} {} cycles", name, number(cycles[name]))});
   }
-  Bar rows{"rows", number(of["activates"]) + " opened", {}};
+  Bar rows{"rows", number(json["activates"]) + " opened", {}};
   const struct {
     const char *key, *css, *name;
   } kinds[] = {
@@ -70,14 +70,15 @@ std::string dram(const Json& of) {
   for (const auto& kind : kinds) {
     keys.push_back({std::string("b") + (kind.css + 1), std::string("row ") + kind.name});
     rows.segments.push_back(
-        {of[kind.key].get<double>(), kind.css, fmt::format("{} {}", kind.name, number(of[kind.key]))});
+        {json[kind.key].get<double>(), kind.css, fmt::format("{} {}", kind.name, number(json[kind.key]))});
   }
   // Each bar has a scale of its own.
   return legend(keys) + bars({bus}, "data bus") + bars({rows}, "rows") +
          fmt::format(
              "<p class=\"soft\">{} refreshes; a read takes {} cycles of the memory in the mean, {} at "
              "worst.</p>",
-             number(of["refreshes"]), number(of["mean_read_cycles"], 1), number(of["worst_read_cycles"]));
+             number(json["refreshes"]), number(json["mean_read_cycles"], 1),
+             number(json["worst_read_cycles"]));
 }
 
 std::string memories(const Json& pipe) {

@@ -55,18 +55,18 @@ std::string head(const Json& report, const std::string& title) {
 }
 
 // On a DRAM the slope is that of the bytes which have moved, and the dot lies there.
-std::string bounds_of_rate(const Json& of) {
-  const bool dram = of.contains("most_bytes_per_cycle");
+std::string bounds_of_rate(const Json& json) {
+  const bool dram = json.contains("most_bytes_per_cycle");
   return roofline(
       {.caption = "What bounds the rate",
        .unit = "cell-steps",
-       .compute = of["lanes_and_steps"],
-       .per_byte = of[dram ? "cell_steps_per_moved_byte" : "cell_steps_per_byte"],
-       .bounds = {{of["lanes_in_the_grid"], "less lanes beyond the grid"},
-                  {of["steps_with_work"], "less time steps without work"},
-                  {of["fill_and_drain"], "less fill and drain"}},
-       .reached = {{of["reached"], of[dram ? "moved_bytes_per_cycle" : "bytes_per_cycle"], "reached"}},
-       .most_bytes = dram ? of["most_bytes_per_cycle"] : Json{}});
+       .compute = json["lanes_and_steps"],
+       .per_byte = json[dram ? "cell_steps_per_moved_byte" : "cell_steps_per_byte"],
+       .bounds = {{json["lanes_in_the_grid"], "less lanes beyond the grid"},
+                  {json["steps_with_work"], "less time steps without work"},
+                  {json["fill_and_drain"], "less fill and drain"}},
+       .reached = {{json["reached"], json[dram ? "moved_bytes_per_cycle" : "bytes_per_cycle"], "reached"}},
+       .most_bytes = dram ? json["most_bytes_per_cycle"] : Json{}});
 }
 
 std::string charts(const Json& report) {

@@ -49,8 +49,8 @@ TEST_F(Running, AStopEndsBetweenTwoSteps) {
   std::stop_source source;
   std::vector<std::uint32_t> told;
   const std::uint32_t done =
-      simulation.step(10, source.get_token(), [&](std::uint32_t now, std::uint32_t of) {
-        EXPECT_EQ(of, 10u);
+      simulation.step(10, source.get_token(), [&](std::uint32_t now, std::uint32_t value) {
+        EXPECT_EQ(value, 10u);
         EXPECT_EQ(simulation.steps_done(), now) << "it may be looked at";
         told.push_back(now);
         if (now == 4) source.request_stop();

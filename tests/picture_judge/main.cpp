@@ -32,8 +32,8 @@ int main(int count, char** words) {
       if (wish == "--surface")
         for (Int j = 0; j < in.height; ++j)
           for (Int i = 0; i < in.width; ++i) {
-            const Met of = met_by(scene, i, j, m_of(scene));
-            for (const Int number : {of.kind, of.position.x, of.position.y, of.position.z, of.z})
+            const Met met = met_by(scene, i, j, m_of(scene));
+            for (const Int number : {met.kind, met.position.x, met.position.y, met.position.z, met.z})
               put_bytes(number, 8);
           }
       else

@@ -28,21 +28,21 @@ using worlds::Random;
 
 std::vector<std::pair<std::string, render::BrickLoops>> all_loops() {
   using enum cpu::InstructionSet;
-  std::vector<std::pair<std::string, render::BrickLoops>> of;
+  std::vector<std::pair<std::string, render::BrickLoops>> all;
 #if defined(__aarch64__)
-  of.emplace_back("neon", render::brick_loops_for<cpu::ArchOf<neon>>());
+  all.emplace_back("neon", render::brick_loops_for<cpu::ArchOf<neon>>());
 #else
-  if (cpu::supported(sse42)) of.emplace_back("sse4.2", render::brick_loops_for<cpu::ArchOf<sse42>>());
-  if (cpu::supported(avx2)) of.emplace_back("avx2", render::brick_loops_for<cpu::ArchOf<avx2>>());
+  if (cpu::supported(sse42)) all.emplace_back("sse4.2", render::brick_loops_for<cpu::ArchOf<sse42>>());
+  if (cpu::supported(avx2)) all.emplace_back("avx2", render::brick_loops_for<cpu::ArchOf<avx2>>());
 #endif
-  return of;
+  return all;
 }
 
 template <class Visit>
-void for_all(const Grid& of, const Visit& visit) {
-  for (int z = 0; z < of.z; ++z)
-    for (int y = 0; y < of.y; ++y)
-      for (int x = 0; x < of.x; ++x) visit(Grid{x, y, z});
+void for_all(const Grid& grid, const Visit& visit) {
+  for (int z = 0; z < grid.z; ++z)
+    for (int y = 0; y < grid.y; ++y)
+      for (int x = 0; x < grid.x; ++x) visit(Grid{x, y, z});
 }
 
 // Is there any intensity that the places of a brick depend on?
@@ -70,8 +70,9 @@ void expect_plain(const FieldBricks& bricks, const render::DensityField& field, 
                              static_cast<std::size_t>((i.z * kBrickPlaces + i.y) * kBrickPlaces + i.x);
       ASSERT_EQ(bricks.levels()[at], level(place))
           << "place " << place.x << ", " << place.y << ", " << place.z;
-      const picture::Matter of = matter(place.x - 2, place.y - 2, place.z - 2);
-      ASSERT_EQ(bricks.matter()[at], static_cast<std::uint32_t>(of.liquid | of.heat << 8 | of.obstacle << 16))
+      const picture::Matter the_matter = matter(place.x - 2, place.y - 2, place.z - 2);
+      ASSERT_EQ(bricks.matter()[at], static_cast<std::uint32_t>(the_matter.liquid | the_matter.heat << 8 |
+                                                                the_matter.obstacle << 16))
           << "place " << place.x << ", " << place.y << ", " << place.z;
     });
   });
@@ -104,9 +105,9 @@ void expect_plain(const FieldBricks& bricks, const render::DensityField& field, 
   });
   for_all(bricks.blocks(), [&](const Grid& block) {
     int distance = FieldBricks::kFarthest;
-    for (const Grid& of : occupied)
-      distance = std::min(
-          distance, std::max({std::abs(of.x - block.x), std::abs(of.y - block.y), std::abs(of.z - block.z)}));
+    for (const Grid& grid : occupied)
+      distance = std::min(distance, std::max({std::abs(grid.x - block.x), std::abs(grid.y - block.y),
+                                              std::abs(grid.z - block.z)}));
     const std::int32_t record = bricks.records()[bricks.blocks().index(block.x, block.y, block.z)];
     ASSERT_EQ(record < 0 ? record & 255 : 0, distance);
   });

@@ -91,12 +91,12 @@ scene::Look dull_look() {
 // from the side.
 Light arriving_at(const Side& side) {
   const Light above{0.94, 1.0, 1.08};
-  Light of{};
+  Light light{};
   for (std::size_t c = 0; c < 3; ++c) {
     const double below = 0.9 * kGround[c];
-    of[c] = side.axis != 1 ? (above[c] + below) / 2 : side.far ? above[c] : below;
+    light[c] = side.axis != 1 ? (above[c] + below) / 2 : side.far ? above[c] : below;
   }
-  return of;
+  return light;
 }
 
 // sRGB, for light that is not pressed.

@@ -52,8 +52,8 @@ TEST(LowPass, KeepsSumsAwayFromTheBorder) {
     for (int y = 6; y < 14; ++y)
       for (int x = 6; x < 15; ++x)
         cells[grid.index(x, y, z)] = static_cast<std::uint16_t>(random() % (render::kFull + 1));
-  const auto sum = [](const render::Values<std::uint16_t>& of) {
-    return std::accumulate(of.begin(), of.end(), 0.0);
+  const auto sum = [](const render::Values<std::uint16_t>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
   };
   // Every axis of a pass rounds quarters to nearest, halves upwards: an eighth upwards in the mean. Beyond
   // that the errors add up like a random walk.
@@ -115,10 +115,10 @@ TEST(DensityField, WorkedColumn) {
   EXPECT_EQ(columns.plan(column), (render::Plan{2, 0, 2, 4, 0}));
   EXPECT_EQ(field.ground()[column], 8192);
   EXPECT_EQ(field.wetness()[column], 4096);
-  const auto up = [&](const render::Values<std::uint16_t>& of) {
+  const auto up = [&](const render::Values<std::uint16_t>& the_values) {
     std::vector<int> values;
     values.reserve(7);
-    for (int y = 0; y < 7; ++y) values.push_back(of[grid.index(9, y, 10)]);
+    for (int y = 0; y < 7; ++y) values.push_back(the_values[grid.index(9, y, 10)]);
     return values;
   };
   using Up = std::vector<int>;

@@ -115,16 +115,16 @@ struct Change {
   int most = 0, contrast = 0;
 };
 Change change_of(const Image& before, const Image& after) {
-  Change of;
+  Change change;
   int low = 255, high = 0;
   for (std::size_t i = 0; i < before.pixels.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
-      of.most = std::max(of.most, std::abs(before.pixels[i][c] - after.pixels[i][c]));
+      change.most = std::max(change.most, std::abs(before.pixels[i][c] - after.pixels[i][c]));
       low = std::min<int>(low, before.pixels[i][c]);
       high = std::max<int>(high, before.pixels[i][c]);
     }
-  of.contrast = high - low;
-  return of;
+  change.contrast = high - low;
+  return change;
 }
 
 // Every amount moves by up to 1/512 of a cell, there and back. Along a silhouette two samples of a pixel may

@@ -97,9 +97,9 @@ void fill(state::Volume& volume, const scene::Terrain& terrain, Random& random) 
   const int kind = random.below(10);
   if (kind == 0) return;
   if (kind <= 2) {  // full
-    const int of = random.any({kSolid, kLiquid, kInert});
+    const int number = random.any({kSolid, kLiquid, kInert});
     worlds::for_each(worlds::whole(volume.grid),
-                     [&](int x, int y, int z) { put(volume, x, y, z, of, random); });
+                     [&](int x, int y, int z) { put(volume, x, y, z, number, random); });
     if (kind == 2) return;
     worlds::for_each(worlds::whole(volume.grid),
                      [&](int x, int y, int z) { volume.amount[volume.at(x, y, z)] = 4096; });

@@ -67,41 +67,48 @@ std::vector<std::uint8_t> field_bytes(const render::DensityField& field, const r
 }
 
 // Every instruction set and number of threads, and no samples left out.
-void expect_packets_draw(const Image& expected, const HostilePicture& of) {
+void expect_packets_draw(const Image& expected, const HostilePicture& hostile_picture) {
   render::Picture picture;
-  picture.update(of.volume, of.look, of.light, of.terrain, 2);
+  picture.update(hostile_picture.volume, hostile_picture.look, hostile_picture.light, hostile_picture.terrain,
+                 2);
   cpu::for_each_instruction_set([&]<cpu::InstructionSet kSet>() {
     if (!cpu::supported(kSet)) return;
     const render::Packets& packets = render::packets_of(kSet);
     for (int threads = 1; threads <= kMostThreads; ++threads)
-      EXPECT_EQ(difference(expected, picture.draw(of.camera, of.setting, threads, packets)), "")
+      EXPECT_EQ(difference(expected,
+                           picture.draw(hostile_picture.camera, hostile_picture.setting, threads, packets)),
+                "")
           << cpu::name_of(kSet) << ", " << threads << " threads";
-    render::PictureData data = picture.data(render::camera_in_integers(of.camera), of.setting);
+    render::PictureData data =
+        picture.data(render::camera_in_integers(hostile_picture.camera), hostile_picture.setting);
     data.skip = false;
-    EXPECT_EQ(difference(expected, render::draw_picture(data, of.setting, packets, 2)), "")
+    EXPECT_EQ(difference(expected, render::draw_picture(data, hostile_picture.setting, packets, 2)), "")
         << cpu::name_of(kSet) << ", no sample left out";
   });
 }
 
 // Depths of every instruction set, and each pixel alone.
-void expect_surfaces(const std::vector<test::JudgedSurface>& judged, const HostilePicture& of) {
+void expect_surfaces(const std::vector<test::JudgedSurface>& judged, const HostilePicture& hostile_picture) {
   render::Picture picture;
-  picture.update(of.volume, of.look, of.light, of.terrain, 2);
-  ASSERT_EQ(judged.size(),
-            static_cast<std::size_t>(of.camera.width) * static_cast<std::size_t>(of.camera.height));
+  picture.update(hostile_picture.volume, hostile_picture.look, hostile_picture.light, hostile_picture.terrain,
+                 2);
+  ASSERT_EQ(judged.size(), static_cast<std::size_t>(hostile_picture.camera.width) *
+                               static_cast<std::size_t>(hostile_picture.camera.height));
   std::vector<float> depths;
   for (const test::JudgedSurface& pixel : judged)
     depths.push_back(pixel.kind == 0 ? std::numeric_limits<float>::infinity()
                                      : static_cast<float>(pixel.depth) / 4096.0f);
   cpu::for_each_instruction_set([&]<cpu::InstructionSet kSet>() {
     if (!cpu::supported(kSet)) return;
-    EXPECT_EQ(depths, picture.depths(of.camera, of.setting, 3, render::packets_of(kSet)))
+    EXPECT_EQ(depths,
+              picture.depths(hostile_picture.camera, hostile_picture.setting, 3, render::packets_of(kSet)))
         << cpu::name_of(kSet);
   });
   for (std::size_t i = 0; i < judged.size(); ++i) {
-    const auto width = static_cast<std::size_t>(of.camera.width);
+    const auto width = static_cast<std::size_t>(hostile_picture.camera.width);
     const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
-    const std::optional<render::Sight> sight = picture.see(of.camera, of.setting, x, y);
+    const std::optional<render::Sight> sight =
+        picture.see(hostile_picture.camera, hostile_picture.setting, x, y);
     const test::JudgedSurface seen =
         sight ? test::JudgedSurface{sight->ground ? 2 : 1, sight->position.x, sight->position.y,
                                     sight->position.z, judged[i].depth}
@@ -117,20 +124,22 @@ bool has_colors(const Image& image) {
 
 using Counts = std::array<std::uint64_t, 3>;  // of pictures of more than one colour, by halvings of the step
 
-void expect_all_agree(const HostilePicture& of, const std::filesystem::path& file, Counts& full) {
+void expect_all_agree(const HostilePicture& picture, const std::filesystem::path& file, Counts& full) {
   render::DensityField field;
-  field.update(of.volume, of.look, of.terrain, 1);
-  const render::PictureScene scene(field, of.look, of.light, of.terrain);
-  test::write_judge_file(file, of.volume, of.look, of.light, of.terrain, of.camera, of.setting);
+  field.update(picture.volume, picture.look, picture.terrain, 1);
+  const render::PictureScene scene(field, picture.look, picture.light, picture.terrain);
+  test::write_judge_file(file, picture.volume, picture.look, picture.light, picture.terrain, picture.camera,
+                         picture.setting);
   EXPECT_EQ(test::judged_field(file), field_bytes(field, scene)) << "the field";
 
-  const Image judged = test::judged_picture(file, of.camera.width, of.camera.height);
-  const Image reference = reference_picture(scene, render::camera_in_integers(of.camera), of.setting);
+  const Image judged = test::judged_picture(file, picture.camera.width, picture.camera.height);
+  const Image reference =
+      reference_picture(scene, render::camera_in_integers(picture.camera), picture.setting);
   EXPECT_EQ(difference(judged, reference), "") << "the reference";
-  expect_packets_draw(judged, of);
-  expect_surfaces(test::judged_surface(file), of);
+  expect_packets_draw(judged, picture);
+  expect_surfaces(test::judged_surface(file), picture);
   const auto halvings =
-      picture::view_of(render::camera_in_integers(of.camera), scene.levels.cells()).halvings;
+      picture::view_of(render::camera_in_integers(picture.camera), scene.levels.cells()).halvings;
   if (has_colors(judged)) ++full[static_cast<std::size_t>(halvings)];
 }
 

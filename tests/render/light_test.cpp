@@ -24,14 +24,14 @@ using worlds::Random;
 // The loops that this processor can run.
 std::vector<std::pair<std::string, render::LightLoops>> all_loops() {
   using enum cpu::InstructionSet;
-  std::vector<std::pair<std::string, render::LightLoops>> of;
+  std::vector<std::pair<std::string, render::LightLoops>> all;
 #if defined(__aarch64__)
-  of.emplace_back("neon", render::light_loops_for<cpu::ArchOf<neon>>());
+  all.emplace_back("neon", render::light_loops_for<cpu::ArchOf<neon>>());
 #else
-  if (cpu::supported(sse42)) of.emplace_back("sse4.2", render::light_loops_for<cpu::ArchOf<sse42>>());
-  if (cpu::supported(avx2)) of.emplace_back("avx2", render::light_loops_for<cpu::ArchOf<avx2>>());
+  if (cpu::supported(sse42)) all.emplace_back("sse4.2", render::light_loops_for<cpu::ArchOf<sse42>>());
+  if (cpu::supported(avx2)) all.emplace_back("avx2", render::light_loops_for<cpu::ArchOf<avx2>>());
 #endif
-  return of;
+  return all;
 }
 
 std::uint8_t any_byte(Random& random) {
@@ -55,13 +55,13 @@ void change(render::LightPlane& plane, Random& random, int most) {
 }
 
 render::LightMatter any_matter(Random& random, Vector count, bool glow) {
-  render::LightMatter of{{count, 0}, {}};
-  if (glow) of.emission = of.density;
+  render::LightMatter matter{{count, 0}, {}};
+  if (glow) matter.emission = matter.density;
   for (int i = random.below(4); i > 0; --i) {
-    change(of.density, random, 20);
-    if (glow) change(of.emission, random, 8);
+    change(matter.density, random, 20);
+    if (glow) change(matter.emission, random, 8);
   }
-  return of;
+  return matter;
 }
 
 // Each axis dominant, ties, negative components, and components of 0.
@@ -69,11 +69,11 @@ Vector any_direction(Random& random) {
   const auto component = [&]() -> std::int64_t {
     return random.one_in(4) ? 0 : random.one_in(4) ? 1 - 2 * random.below(2) : random.between(-20, 20);
   };
-  Vector of{component(), component(), component()};
-  if (of == Vector{}) of.y = 1;
-  if (random.one_in(5)) of = {of.x, of.x, random.one_in(2) ? of.x : of.z};
-  if (of == Vector{}) of.z = -1;
-  return picture::unit_of(of * (1 << 20));
+  Vector vector{component(), component(), component()};
+  if (vector == Vector{}) vector.y = 1;
+  if (random.one_in(5)) vector = {vector.x, vector.x, random.one_in(2) ? vector.x : vector.z};
+  if (vector == Vector{}) vector.z = -1;
+  return picture::unit_of(vector * (1 << 20));
 }
 
 void expect_plain(const render::LightVolume& light, const render::LightMatter& matter, Vector to_light) {

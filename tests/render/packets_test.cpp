@@ -87,32 +87,32 @@ Hostile random_scene(Random& random) {
   constexpr std::array<int, 8> kSides{1, 2, 5, 8, 13, 16, 17, 23};
   const auto side = [&] { return kSides[static_cast<std::size_t>(random.whole(0, 7))]; };
   const state::Grid grid{side(), side(), side()};
-  Hostile of;
+  Hostile hostile;
   const bool large = std::min({grid.x, grid.y, grid.z}) >= 13;
-  of.volume = large && random.one_in(2) ? test::ball_and_puddle(grid) : state::Volume(grid);
+  hostile.volume = large && random.one_in(2) ? test::ball_and_puddle(grid) : state::Volume(grid);
   constexpr std::array<int, 5> kShares{0, 2, 20, 60, 100};
   const int share = large && random.one_in(2) ? 0 : kShares[static_cast<std::size_t>(random.whole(0, 4))];
   if (random.one_in(3))
     for (int i = 0; i < grid.x * grid.z; ++i)
-      of.volume.inert.set(random.whole(0, grid.x - 1), random.whole(0, grid.y - 1),
-                          random.whole(0, grid.z - 1), true);
+      hostile.volume.inert.set(random.whole(0, grid.x - 1), random.whole(0, grid.y - 1),
+                               random.whole(0, grid.z - 1), true);
   if (random.one_in(2))
-    put_boxes(of.volume, random);
+    put_boxes(hostile.volume, random);
   else
-    fill_somehow(of.volume, random, share);
-  if (!random.one_in(3)) of.terrain = random_terrain(grid, random);
-  of.look.smooth = random.whole(0, 3);
-  of.look.smooth_solid = random.whole(0, 2);
-  of.look.glow = random.one_in(3);
-  of.look.metallic = random.whole(0, 2) / 2.0;
-  of.look.specular = random.real(0, 1);
-  of.look.shininess = random.whole(1, 200);
-  if (!of.look.glow && !random.one_in(3)) {
-    for (double& half : of.look.clear) half = random.one_in(4) ? 0.0 : random.real(0.5, 20);
-    of.look.frost = random.real(0, 0.5);
+    fill_somehow(hostile.volume, random, share);
+  if (!random.one_in(3)) hostile.terrain = random_terrain(grid, random);
+  hostile.look.smooth = random.whole(0, 3);
+  hostile.look.smooth_solid = random.whole(0, 2);
+  hostile.look.glow = random.one_in(3);
+  hostile.look.metallic = random.whole(0, 2) / 2.0;
+  hostile.look.specular = random.real(0, 1);
+  hostile.look.shininess = random.whole(1, 200);
+  if (!hostile.look.glow && !random.one_in(3)) {
+    for (double& half : hostile.look.clear) half = random.one_in(4) ? 0.0 : random.real(0.5, 20);
+    hostile.look.frost = random.real(0, 0.5);
   }
-  of.light.direction = {random.real(-1, 1), random.real(0.1, 1), random.real(-1, 1)};
-  return of;
+  hostile.light.direction = {random.real(-1, 1), random.real(0.1, 1), random.real(-1, 1)};
+  return hostile;
 }
 
 scene::Camera random_camera(state::Grid grid, Random& random) {
@@ -147,10 +147,10 @@ struct NamedPackets {
   const render::Packets* packets;
 };
 std::vector<NamedPackets> all_packets() {
-  std::vector<NamedPackets> of{{"plain", &render::plain_packets()}};
+  std::vector<NamedPackets> all{{"plain", &render::plain_packets()}};
   for (const cpu::InstructionSetRow& row : cpu::kInstructionSets)
-    if (row.supported()) of.push_back({std::string(cpu::name_of(row.set)), &render::packets_of(row.set)});
-  return of;
+    if (row.supported()) all.push_back({std::string(cpu::name_of(row.set)), &render::packets_of(row.set)});
+  return all;
 }
 
 std::size_t different(const render::Image& a, const render::Image& b) {
@@ -167,14 +167,15 @@ TEST(PictureOfPackets, EqualsTheReferenceInHostileScenes) {
   std::array<int, 3> halved{};  // pictures by their halvings of the step
   for (std::uint32_t seed = 0; seed < 160; ++seed) {
     Random random(seed);
-    const Hostile of = random_scene(random);
+    const Hostile hostile = random_scene(random);
     render::DensityField field;
-    field.update(of.volume, of.look, of.terrain);
-    const render::PictureScene scene(field, of.look, of.light, of.terrain);
+    field.update(hostile.volume, hostile.look, hostile.terrain);
+    const render::PictureScene scene(field, hostile.look, hostile.light, hostile.terrain);
     render::Picture picture;
-    picture.update(field, of.look, of.light, of.terrain, nullptr, 1 + static_cast<int>(seed % 3));
+    picture.update(field, hostile.look, hostile.light, hostile.terrain, nullptr,
+                   1 + static_cast<int>(seed % 3));
     for (int view = 0; view < 3; ++view) {
-      const scene::Camera camera = random_camera(of.volume.grid, random);
+      const scene::Camera camera = random_camera(hostile.volume.grid, random);
       const render::Setting setting = kSettings[(seed + static_cast<std::uint32_t>(view)) % 3];
       const picture::Camera integers = render::camera_in_integers(camera);
       const render::Image reference = render::reference_picture(scene, integers, setting);

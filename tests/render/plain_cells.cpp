@@ -36,8 +36,8 @@ class Builder {
         shift_(columns_, 0) {}
 
   PlainCells build(int smooth) {
-    for (Cells* of : {&to_.intensity, &to_.solid, &to_.liquid, &to_.heat, &to_.obstacle})
-      of->assign(grid_.cells(), 0);
+    for (Cells* cells : {&to_.intensity, &to_.solid, &to_.liquid, &to_.heat, &to_.obstacle})
+      cells->assign(grid_.cells(), 0);
     to_.ground.assign(columns_, 0);
     to_.wetness.assign(columns_, 0);
     for (int z = 0; z < grid_.z; ++z)

@@ -83,10 +83,10 @@ constexpr auto kSpread = [](const auto& at) {
 };
 
 std::vector<std::int32_t> losses(const LightPlane& density) {
-  std::vector<std::int32_t> of;
-  of.reserve(density.cells.size());
-  for (const std::uint8_t cell : density.cells) of.push_back(picture::loss_of(cell));
-  return of;
+  std::vector<std::int32_t> all;
+  all.reserve(density.cells.size());
+  for (const std::uint8_t cell : density.cells) all.push_back(picture::loss_of(cell));
+  return all;
 }
 
 // Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of
@@ -190,8 +190,8 @@ LightMatter plain_light_matter(const DensityField& field, const std::vector<std:
   const state::Grid& grid = field.grid();
   const picture::Vector cells{grid.x, grid.y, grid.z}, count = picture::light_cells(cells);
   const int shift = picture::light_shift(cells);
-  LightMatter of{{count, 0}, {}};
-  if (look.glow) of.emission = {count, 0};
+  LightMatter light_matter{{count, 0}, {}};
+  if (look.glow) light_matter.emission = {count, 0};
   const bool clear = !look.glow && (look.clear[0] > 0 || look.clear[1] > 0 || look.clear[2] > 0);
   const std::int64_t share = clear ? plain_share(look.clear[1] / 64.0, 1 << shift) : 0;
   for (std::int64_t z = 0; z < count.z; ++z)
@@ -214,7 +214,7 @@ LightMatter plain_light_matter(const DensityField& field, const std::vector<std:
                 field.liquid()[i],
                 picture::matter_of(field.solid()[i], field.liquid()[i], field.heat()[i], 0, look).heat);
         });
-        const std::size_t i = of.density.index(x, y, z);
+        const std::size_t i = light_matter.density.index(x, y, z);
         matter >>= 3 * shift + 8;
         obstacle = std::min(obstacle >> (3 * shift + 8), matter);
         if (clear) {
@@ -222,10 +222,11 @@ LightMatter plain_light_matter(const DensityField& field, const std::vector<std:
           if (matter > 12) matter = 12 + (matter - 12) * share / 256;
           matter += obstacle;
         }
-        of.density.cells[i] = static_cast<std::uint8_t>(std::max(matter, (earth * 255) >> (3 * shift + 12)));
-        if (look.glow) of.emission.cells[i] = static_cast<std::uint8_t>(light >> (3 * shift));
+        light_matter.density.cells[i] =
+            static_cast<std::uint8_t>(std::max(matter, (earth * 255) >> (3 * shift + 12)));
+        if (look.glow) light_matter.emission.cells[i] = static_cast<std::uint8_t>(light >> (3 * shift));
       }
-  return of;
+  return light_matter;
 }
 
 std::vector<LightBytes> plain_light(const LightMatter& matter, Vector to_light) {

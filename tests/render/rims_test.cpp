@@ -49,8 +49,8 @@ struct FromAbove {
     const auto pixel = [](double at) {
       return std::clamp(static_cast<int>(std::floor(at * kPixelsPerCell)), 0, image_side - 1);
     };
-    const render::Rgb& of = image.at(pixel(x), pixel(z));
-    return of[0] > of[2];
+    const render::Rgb& rgb = image.at(pixel(x), pixel(z));
+    return rgb[0] > rgb[2];
   }
   // How far from (x, y, z) along (dx, 0, dz) the liquid ends.
   double rim(double x, double y, double z, double dx, double dz) const {
@@ -62,8 +62,8 @@ struct FromAbove {
   render::Image image;
 };
 
-double spread(const std::vector<double>& of) {
-  const auto [low, high] = std::minmax_element(of.begin(), of.end());
+double spread(const std::vector<double>& all) {
+  const auto [low, high] = std::minmax_element(all.begin(), all.end());
   return (*high - *low) / 2;
 }
 

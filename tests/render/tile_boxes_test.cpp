@@ -27,16 +27,16 @@ struct Matter {
     bricks.update(field, {}, nullptr, alone);
   }
   render::PictureData seen_by(const scene::Camera& camera) const {
-    render::PictureData of;
-    of.view = picture::view_of(render::camera_in_integers(camera), bricks.cells());
-    of.width = camera.width;
-    of.height = camera.height;
-    of.field.cells = bricks.cells();
-    of.field.low = bricks.occupied().low;
-    of.field.high = bricks.occupied().high;
-    of.field.shell = bricks.shell().data();
-    of.field.shell_count = bricks.shell().size();
-    return of;
+    render::PictureData data;
+    data.view = picture::view_of(render::camera_in_integers(camera), bricks.cells());
+    data.width = camera.width;
+    data.height = camera.height;
+    data.field.cells = bricks.cells();
+    data.field.low = bricks.occupied().low;
+    data.field.high = bricks.occupied().high;
+    data.field.shell = bricks.shell().data();
+    data.field.shell_count = bricks.shell().size();
+    return data;
   }
   render::DensityField field;
   render::FieldBricks bricks;
@@ -92,15 +92,15 @@ TEST(TileBoxes, HoldAllMatterThatTheirRaysMeet) {
     for (int i = 0; i < 100; ++i) {
       const int x = random.below(static_cast<int>(camera.width)),
                 y = random.below(static_cast<int>(camera.height));
-      render::FieldData of = data.field;
-      if (!boxes.narrow(y / kSide * boxes.across() + x / kSide, of)) ++empty;
+      render::FieldData field_data = data.field;
+      if (!boxes.narrow(y / kSide * boxes.across() + x / kSide, field_data)) ++empty;
       const auto place = [&](int pixel) { return pixel * picture::kPixel + random.below(65); };
       const picture::Ray ray = picture::ray_through(data.view, place(x), place(y), 2);
       const picture::Samples in = picture::samples_in(ray, data.field.low, data.field.high);
       for (std::int64_t k = in.first; k <= in.last; ++k) {
         if (picture::sample(levels, ray.at(k)) < 0) continue;
         ++met;
-        ASSERT_TRUE(holds(of, ray.at(k))) << seed << ": " << x << ", " << y << ", sample " << k;
+        ASSERT_TRUE(holds(field_data, ray.at(k))) << seed << ": " << x << ", " << y << ", sample " << k;
       }
     }
   }

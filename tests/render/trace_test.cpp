@@ -35,14 +35,14 @@ constexpr int kMostCells = 12000;
 
 // A picture's parts in integers.
 struct World {
-  explicit World(const HostilePicture& of)
-      : field(field_of(of)),
-        scene(field, of.look, of.light, of.terrain),
-        camera(render::camera_in_integers(of.camera)) {}
+  explicit World(const HostilePicture& picture)
+      : field(field_of(picture)),
+        scene(field, picture.look, picture.light, picture.terrain),
+        camera(render::camera_in_integers(picture.camera)) {}
 
-  static render::DensityField field_of(const HostilePicture& of) {
+  static render::DensityField field_of(const HostilePicture& picture) {
     render::DensityField field;
-    field.update(of.volume, of.look, of.terrain, 1);
+    field.update(picture.volume, picture.look, picture.terrain, 1);
     return field;
   }
 
@@ -102,17 +102,17 @@ class Silence : public render::Listener {
 
 TEST(Trace, DrawsTheSamePicture) {
   for (std::uint64_t seed = 0; seed < kPictures; ++seed) {
-    const HostilePicture of = hostile(seed);
-    const World world(of);
+    const HostilePicture picture = hostile(seed);
+    const World world(picture);
     Silence silence;
-    const render::Image expected = reference_picture(world.scene, world.camera, of.setting);
-    const render::Image got = reference_picture(world.scene, world.camera, of.setting, silence);
-    ASSERT_EQ(got.pixels, expected.pixels) << description(of);
+    const render::Image expected = reference_picture(world.scene, world.camera, picture.setting);
+    const render::Image got = reference_picture(world.scene, world.camera, picture.setting, silence);
+    ASSERT_EQ(got.pixels, expected.pixels) << description(picture);
     ASSERT_GT(silence.count, 0U);
     for (int i = 0; i < 5; ++i) {
-      const int x = i * 7 % of.camera.width, y = i * 5 % of.camera.height;
-      ASSERT_EQ(reference_pixel(world.scene, world.camera, of.setting, x, y, silence), expected.at(x, y))
-          << description(of) << ", pixel " << x << ' ' << y;
+      const int x = i * 7 % picture.camera.width, y = i * 5 % picture.camera.height;
+      ASSERT_EQ(reference_pixel(world.scene, world.camera, picture.setting, x, y, silence), expected.at(x, y))
+          << description(picture) << ", pixel " << x << ' ' << y;
     }
   }
 }
@@ -191,9 +191,10 @@ class Widths : public render::Listener {
 TEST(Trace, NumbersFitTheWidthsOfThePage) {
   Widths widths;
   for (std::uint64_t seed = 0; seed < kPictures + 3; ++seed) {
-    const HostilePicture of = seed < kPictures ? hostile(seed) : longest(static_cast<int>(seed - kPictures));
-    const World world(of);
-    reference_picture(world.scene, world.camera, of.setting, widths);
+    const HostilePicture picture =
+        seed < kPictures ? hostile(seed) : longest(static_cast<int>(seed - kPictures));
+    const World world(picture);
+    reference_picture(world.scene, world.camera, picture.setting, widths);
   }
   EXPECT_EQ(widths.wrong(), "");
 }
@@ -255,9 +256,9 @@ class Reads : public render::Listener {
 TEST(Trace, ReadsAsOftenAsThePageSays) {
   Reads reads;
   for (std::uint64_t seed = 0; seed < kPictures; ++seed) {
-    const HostilePicture of = hostile(seed);
-    const World world(of);
-    reference_picture(world.scene, world.camera, of.setting, reads);
+    const HostilePicture picture = hostile(seed);
+    const World world(picture);
+    reference_picture(world.scene, world.camera, picture.setting, reads);
   }
   EXPECT_EQ(reads.outside_bricks, 0);
   EXPECT_EQ(reads.counts["light's bytes"], std::set<int>{13});  // with glow; the page says 7 without

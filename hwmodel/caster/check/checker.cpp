@@ -31,9 +31,9 @@ Checker::Checker(const Expectation& expectation, RayCaster& caster, int width, i
       caster_(caster),
       width_(static_cast<std::size_t>(width)),
       height_(height),
-      transit_(caster, [this](Difference of) { tell(std::move(of)); }),
-      tile_check_(width, height, [this](Difference of) { tell(std::move(of)); }),
-      memory_check_([this](Difference of) { tell(std::move(of)); }) {
+      transit_(caster, [this](Difference difference) { tell(std::move(difference)); }),
+      tile_check_(width, height, [this](Difference difference) { tell(std::move(difference)); }),
+      memory_check_([this](Difference difference) { tell(std::move(difference)); }) {
   bytes_.resize(static_cast<std::size_t>(frame_bytes(width, height)));
   tiles_x_ = (width + kTileSide - 1) / kTileSide;
 }
@@ -128,9 +128,9 @@ ExpectedRay& Checker::ray(const RayId& id) {
   return rays_[static_cast<std::size_t>(place)];
 }
 ExpectedRay& Checker::shaded(const RayId& id) {
-  ExpectedRay& of = ray(id);
-  if (!of.shaded) expectation_.shade(of);
-  return of;
+  ExpectedRay& expected_ray = ray(id);
+  if (!expected_ray.shaded) expectation_.shade(expected_ray);
+  return expected_ray;
 }
 
 void Checker::entered(int, std::int64_t, const TileOrder* token) {
@@ -144,30 +144,32 @@ void Checker::entered(int, std::int64_t, const TileOrder* token) {
 }
 
 void Checker::entered(int, std::int64_t, const RayToken* token) {
-  const ExpectedRay& of = ray(token->id);
-  compare("set-up", token->id, "start", vec_of(of.ray.start), token->ray.start);
-  compare("set-up", token->id, "step", vec_of(of.ray.step), token->ray.step);
+  const ExpectedRay& expected_ray = ray(token->id);
+  compare("set-up", token->id, "start", vec_of(expected_ray.ray.start), token->ray.start);
+  compare("set-up", token->id, "step", vec_of(expected_ray.ray.step), token->ray.step);
 }
 
 void Checker::entered(int, std::int64_t, const GroundedRay* token) {
-  const ExpectedRay& of = ray(token->id);
-  const Vec position = vec_of(of.ground.position);
-  compare("ground", token->id, "found", of.ground.found, token->ground.found);
-  if (!of.ground.found) return;
-  compare("ground", token->id, "part", of.ground.part, token->ground.part, &position);
+  const ExpectedRay& expected_ray = ray(token->id);
+  const Vec position = vec_of(expected_ray.ground.position);
+  compare("ground", token->id, "found", expected_ray.ground.found, token->ground.found);
+  if (!expected_ray.ground.found) return;
+  compare("ground", token->id, "part", expected_ray.ground.part, token->ground.part, &position);
   compare("ground", token->id, "crossing", position, token->ground.position, &position);
-  compare("ground", token->id, "face", static_cast<Face>(of.ground.face), token->ground.face, &position);
+  compare("ground", token->id, "face", static_cast<Face>(expected_ray.ground.face), token->ground.face,
+          &position);
 }
 
 void Checker::entered(int, std::int64_t, const LevelRequest* token) {
   if (token->asker != Asker::walk && token->asker != Asker::stretch) return;
-  const ExpectedRay& of = ray(token->id);
+  const ExpectedRay& expected_ray = ray(token->id);
   const Vec position = from_lattice(token->at);
   compare(token->asker == Asker::walk ? "walk" : "stretch", token->id, "position",
-          vec_of(expectation_.at(of, token->k)), position, &position);
+          vec_of(expectation_.at(expected_ray, token->k)), position, &position);
   if (expectation_.clear()) return;
-  if (of.matter.found && token->k > of.matter.sample)
-    compare("walk", token->id, "k, beyond the first sample in matter", of.matter.sample, token->k, &position);
+  if (expected_ray.matter.found && token->k > expected_ray.matter.sample)
+    compare("walk", token->id, "k, beyond the first sample in matter", expected_ray.matter.sample, token->k,
+            &position);
 }
 
 void Checker::entered(int, std::int64_t, const Levels* token) {
@@ -195,21 +197,22 @@ void Checker::entered(int, std::int64_t, const LevelToken* token) {
 
 void Checker::entered(int, std::int64_t, const HitToken* token) {
   if (expectation_.clear()) return compare_clear(*token);
-  const ExpectedRay& of = ray(token->ray.id);
+  const ExpectedRay& expected_ray = ray(token->ray.id);
   const Vec position = from_lattice(token->at);
-  compare("walk", token->ray.id, "the first sample in matter", of.matter.found ? of.matter.sample : -1,
-          token->k, &position);
+  compare("walk", token->ray.id, "the first sample in matter",
+          expected_ray.matter.found ? expected_ray.matter.sample : -1, token->k, &position);
 }
 
 void Checker::entered(int, std::int64_t, const MetToken* token) {
   if (expectation_.clear()) return compare_clear(*token);
-  const ExpectedRay& of = ray(token->id);
+  const ExpectedRay& expected_ray = ray(token->id);
   if (!token->matter.found) {
-    const bool hidden = of.matter.found && of.ground.found && of.matter.sample > (of.ground.part >> 8) + 1;
-    compare("walk", token->id, "matter found", of.matter.found && !hidden, false);
+    const bool hidden = expected_ray.matter.found && expected_ray.ground.found &&
+                        expected_ray.matter.sample > (expected_ray.ground.part >> 8) + 1;
+    compare("walk", token->id, "matter found", expected_ray.matter.found && !hidden, false);
     return;
   }
-  compare_crossing(token->id, of.matter, token->matter);
+  compare_crossing(token->id, expected_ray.matter, token->matter);
 }
 
 void Checker::compare_crossing(const RayId& id, const picture::Crossing& expected, const Crossing& actual) {
@@ -222,8 +225,8 @@ void Checker::compare_crossing(const RayId& id, const picture::Crossing& expecte
 void Checker::entered(int channel, std::int64_t, const Surface* token) {
   const auto behind = static_cast<Channel>(channel % 100);
   if (expectation_.clear()) return compare_clear(behind, *token);
-  const ExpectedRay& of = shaded(token->id);
-  compare_surface(behind, of.surface, *token, of);
+  const ExpectedRay& ray = shaded(token->id);
+  compare_surface(behind, ray.surface, *token, ray);
 }
 
 // Compares what one stage, or two, made of a surface.
@@ -339,10 +342,10 @@ void Checker::compare_surface(Channel behind, const Surface& e, const Surface& a
 }
 
 void Checker::entered(int, std::int64_t, const PressedToken* token) {
-  const ExpectedRay& of = shaded(token->id);
-  compare("press", token->id, "pressed", of.pressed, token->pressed);
+  const ExpectedRay& ray = shaded(token->id);
+  compare("press", token->id, "pressed", ray.pressed, token->pressed);
   const std::size_t i = index_of(token->id);
-  for (std::size_t c = 0; c < 3; ++c) sums_[i / static_cast<std::size_t>(samples_)][c] += of.pressed[c];
+  for (std::size_t c = 0; c < 3; ++c) sums_[i / static_cast<std::size_t>(samples_)][c] += ray.pressed[c];
   free_.push_back(places_[i]);  // the ray has come to its end
   places_[i] = -1;
 }

@@ -11,9 +11,9 @@ namespace voxmelt::hwmodel::raycast {
 
 // From the walk into matter, or from a stretch to the air behind it.
 void Checker::compare_clear(const HitToken& token) {
-  const ExpectedRay& of = shaded(token.ray.id);
-  const picture::Crossing* expected = token.leaves ? of.clear.exit(token.span) : of.clear.entry(token.span);
-  if (expected == nullptr && of.clear.dark) return;
+  const ExpectedRay& ray = shaded(token.ray.id);
+  const picture::Crossing* expected = token.leaves ? ray.clear.exit(token.span) : ray.clear.entry(token.span);
+  if (expected == nullptr && ray.clear.dark) return;
   const Vec position = from_lattice(token.at);
   compare(token.leaves ? "stretch" : "walk", token.ray.id,
           token.leaves ? "the last sample in matter" : "the first sample in matter",
@@ -21,34 +21,34 @@ void Checker::compare_clear(const HitToken& token) {
 }
 
 void Checker::compare_clear(const MetToken& token) {
-  const ExpectedRay& of = shaded(token.id);
-  const picture::Crossing* expected = token.leaves ? of.clear.exit(token.span) : of.clear.entry(token.span);
+  const ExpectedRay& ray = shaded(token.id);
+  const picture::Crossing* expected = token.leaves ? ray.clear.exit(token.span) : ray.clear.entry(token.span);
   if (!token.matter.found) {
     const bool hidden =
-        expected != nullptr && of.ground.found && expected->sample > (of.ground.part >> 8) + 1;
+        expected != nullptr && ray.ground.found && expected->sample > (ray.ground.part >> 8) + 1;
     compare("walk", token.id, "matter found", expected != nullptr && !hidden, false);
   } else if (expected != nullptr) {
     compare_crossing(token.id, *expected, token.matter);
-  } else if (!of.clear.dark) {
+  } else if (!ray.clear.dark) {
     compare("crossing", token.id, "found", false, true);
   }
 }
 
 void Checker::compare_clear(Channel behind, const Surface& token) {
-  const ExpectedRay& of = shaded(token.id);
-  const ExpectedClear& clear = of.clear;
+  const ExpectedRay& ray = shaded(token.id);
+  const ExpectedClear& clear = ray.clear;
   const auto events = static_cast<std::int32_t>(clear.events.size()), event = token.clear.event;
   const bool goes_on = token.kind == Surface::Kind::matter || token.kind == Surface::Kind::way;
   if (goes_on && event < events)
-    return compare_surface(behind, clear.events[static_cast<std::size_t>(event)], token, of);
+    return compare_surface(behind, clear.events[static_cast<std::size_t>(event)], token, ray);
   if (clear.dark && event >= events) return;
   compare("stretch", token.id, "events", events, goes_on ? event + 1 : event);
-  compare_surface(behind, of.surface, token, of);
+  compare_surface(behind, ray.surface, token, ray);
 }
 
 void Checker::entered(int, std::int64_t, const PassedToken* token) {
-  const ExpectedRay& of = shaded(token->id);
-  const Passage &e = of.clear.passage, &a = token->passage;
+  const ExpectedRay& ray = shaded(token->id);
+  const Passage &e = ray.clear.passage, &a = token->passage;
   const auto same = [&](const char* name, const auto& expected, const auto& actual) {
     compare("passed", token->id, name, expected, actual);
   };

@@ -48,26 +48,26 @@ struct KeepEvents {
 
   template <class Value>
   void take_crossing(std::string_view name, const Value& value) const {
-    picture::Crossing& of = told->crossing;
+    picture::Crossing& crossing = told->crossing;
     if constexpr (std::is_same_v<Value, std::array<std::int64_t, 2>>) {
       if (name == "samples") told->leaves = value[0] > value[1];
     } else if constexpr (std::is_integral_v<Value>) {
-      if (name == "sample") of.sample = value;
-      if (name == "part") of.part = static_cast<std::int32_t>(value);
+      if (name == "sample") crossing.sample = value;
+      if (name == "part") crossing.part = static_cast<std::int32_t>(value);
     } else if constexpr (std::is_same_v<Value, picture::Vector>) {
       if (name != "crossing") return;
-      of.position = value;
-      of.found = true;
-      (told->leaves ? told->to.exits : told->to.entries).push_back(of);
+      crossing.position = value;
+      crossing.found = true;
+      (told->leaves ? told->to.exits : told->to.entries).push_back(crossing);
     }
   }
 
   void begin(Kind kind) const {
     told->matters = 0;
-    Surface& of = told->to.events.emplace_back();
-    of.kind = kind;
-    of.to_eye = told->to_eye;
-    of.clear.event = static_cast<std::int32_t>(told->to.events.size()) - 1;
+    Surface& surface = told->to.events.emplace_back();
+    surface.kind = kind;
+    surface.to_eye = told->to_eye;
+    surface.clear.event = static_cast<std::int32_t>(told->to.events.size()) - 1;
   }
   template <class Value>
   void take_clear(std::string_view name, const Value& value) const {

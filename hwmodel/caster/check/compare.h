@@ -30,13 +30,13 @@ void Checker::compare(const char* stage, const RayId& id, const char* name, cons
   ++compared_;
   if (expected == actual || difference_) [[likely]]
     return;
-  Difference of;
-  of.stage = stage, of.name = name;
-  of.x = id.x, of.y = id.y, of.sample = id.sample;
-  of.expected = text_of_value(expected), of.actual = text_of_value(actual);
-  of.has_position = position != nullptr;
-  if (position != nullptr) of.position = *position;
-  tell(std::move(of));
+  Difference difference;
+  difference.stage = stage, difference.name = name;
+  difference.x = id.x, difference.y = id.y, difference.sample = id.sample;
+  difference.expected = text_of_value(expected), difference.actual = text_of_value(actual);
+  difference.has_position = position != nullptr;
+  if (position != nullptr) difference.position = *position;
+  tell(std::move(difference));
 }
 
 }  // namespace voxmelt::hwmodel::raycast

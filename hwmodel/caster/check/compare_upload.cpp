@@ -23,8 +23,8 @@ class Comparison {
   explicit Comparison(const Memory& memory) : memory_(memory) {}
   void word(const char* volume, const state::Grid& brick, const state::Grid& place, std::int64_t expected,
             std::int64_t actual) {
-    ++of.compared;
-    if (expected != actual && !of.first) of.first = {volume, brick, place, expected, actual};
+    ++found.compared;
+    if (expected != actual && !found.first) found.first = {volume, brick, place, expected, actual};
   }
   template <class Word>
   Word read(std::int64_t address) const {
@@ -32,7 +32,7 @@ class Comparison {
     std::memcpy(&word, memory_.bytes.data() + address, sizeof word);
     return word;
   }
-  UploadComparison of;
+  UploadComparison found;
 
  private:
   const Memory& memory_;
@@ -131,7 +131,7 @@ void compare_bounds(Comparison& to, const GroundBlocks& blocks, const render::Gr
   const int wide = (nx + 3) / 4, deep = (nz + 3) / 4, coarse = (wide + 3) / 4;
   to.word("blocks of ground along x", {}, {}, wide, blocks.x);
   to.word("blocks of ground along z", {}, {}, deep, blocks.z);
-  if (to.of.first) return;
+  if (to.found.first) return;
   const LeastBounds x(nx, wide), z(nz, deep);
   std::vector<GroundBlock> fine(static_cast<std::size_t>(wide) * static_cast<std::size_t>(deep));
   std::vector<std::int32_t> rough(static_cast<std::size_t>(coarse) *
@@ -140,10 +140,10 @@ void compare_bounds(Comparison& to, const GroundBlocks& blocks, const render::Gr
   const auto raise = [](std::int32_t& bound, std::int32_t by) { bound = std::max(bound, (by + 63) / 64); };
   for (int cz = 0; cz < nz; ++cz)
     for (int cx = 0; cx < nx; ++cx) {
-      const auto demand = [&](int more_x, int more_z, const auto& of) {
+      const auto demand = [&](int more_x, int more_z, const auto& one) {
         if (cx + more_x >= nx || cz + more_z >= nz) return;
         x.readers(cx, more_x, [&](int bx) {
-          z.readers(cz, more_z, [&](int bz) { of(static_cast<std::size_t>(bz * wide + bx), bx, bz); });
+          z.readers(cz, more_z, [&](int bz) { one(static_cast<std::size_t>(bz * wide + bx), bx, bz); });
         });
       };
       demand(0, 0, [&](std::size_t i, int bx, int bz) {
@@ -195,13 +195,14 @@ UploadComparison compare_upload(const Registers& registers, const Memory& memory
     compare_ground(to, memory, data.ground);
     compare_bounds(to, registers.ground.blocks, data.ground);
   }
-  return to.of;
+  return to.found;
 }
 
-std::string text_of(const UploadDifference& of, std::int64_t step) {
-  return fmt::format("step {}: {} at {}, {}, {} (brick {}, {}, {}): expected {}, got {}\n", step, of.volume,
-                     of.place.x, of.place.y, of.place.z, of.brick.x, of.brick.y, of.brick.z, of.expected,
-                     of.actual);
+std::string text_of(const UploadDifference& difference, std::int64_t step) {
+  return fmt::format("step {}: {} at {}, {}, {} (brick {}, {}, {}): expected {}, got {}\n", step,
+                     difference.volume, difference.place.x, difference.place.y, difference.place.z,
+                     difference.brick.x, difference.brick.y, difference.brick.z, difference.expected,
+                     difference.actual);
 }
 
 }  // namespace voxmelt::hwmodel::raycast

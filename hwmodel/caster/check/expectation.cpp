@@ -84,11 +84,11 @@ picture::Crossing Expectation::first_crossing(const picture::Ray& ray) const {
 }
 
 ExpectedRay Expectation::ray(std::int64_t across, std::int64_t down) const {
-  ExpectedRay of;
-  of.ray = picture::ray_through(view_, across, down, spacing_);
-  of.matter = first_crossing(of.ray);
-  of.ground = scene_.ground.find(of.ray);
-  return of;
+  ExpectedRay ray;
+  ray.ray = picture::ray_through(view_, across, down, spacing_);
+  ray.matter = first_crossing(ray.ray);
+  ray.ground = scene_.ground.find(ray.ray);
+  return ray;
 }
 
 std::int32_t Expectation::sample(picture::Vector position) const {
@@ -168,10 +168,10 @@ void Expectation::shade_matter(ExpectedRay& ray) const {
 }
 
 Rgb Expectation::pressed(const Rgb& sum) {
-  Rgb of{};
+  Rgb color{};
   for (std::size_t c = 0; c < 3; ++c)
-    of[c] = render::tone_table()[static_cast<std::size_t>(std::clamp(sum[c], 0, picture::kBrightest))];
-  return of;
+    color[c] = render::tone_table()[static_cast<std::size_t>(std::clamp(sum[c], 0, picture::kBrightest))];
+  return color;
 }
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -12,8 +12,9 @@ namespace {
 
 constexpr int kChannelsOfAPipe = 100;
 
-std::string text_of(const LineReply& of) {
-  return fmt::format("client {}, slot {}, {} bytes at {}", of.client, of.slot, of.bytes, of.address);
+std::string text_of(const LineReply& reply) {
+  return fmt::format("client {}, slot {}, {} bytes at {}", reply.client, reply.slot, reply.bytes,
+                     reply.address);
 }
 
 }  // namespace
@@ -24,27 +25,28 @@ std::vector<LineReply>& MemoryCheck::of_pipe(int channel) {
   return under_way_[pipe];
 }
 
-void MemoryCheck::entered(int channel, std::int64_t, const LineRequest* of) {
-  if (!of->write) of_pipe(channel).push_back({of->client, of->slot, of->address, of->bytes});
+void MemoryCheck::entered(int channel, std::int64_t, const LineRequest* request) {
+  if (!request->write)
+    of_pipe(channel).push_back({request->client, request->slot, request->address, request->bytes});
 }
 
 void MemoryCheck::left(int channel, std::int64_t, const LineReply* reply) {
   ++compared_;
   std::vector<LineReply>& asked = of_pipe(channel);
-  const auto found = std::find_if(asked.begin(), asked.end(), [&](const LineReply& of) {
-    return of.client == reply->client && of.slot == reply->slot && of.address == reply->address &&
-           of.bytes == reply->bytes;
+  const auto found = std::find_if(asked.begin(), asked.end(), [&](const LineReply& line_reply) {
+    return line_reply.client == reply->client && line_reply.slot == reply->slot &&
+           line_reply.address == reply->address && line_reply.bytes == reply->bytes;
   });
   if (found != asked.end()) {
     asked.erase(found);
     return;
   }
-  Difference of;
-  of.stage = "memory", of.name = fmt::format("reply to pipe {}", channel / kChannelsOfAPipe);
-  of.address = reply->address;
-  of.expected = asked.empty() ? "none" : text_of(asked.front());
-  of.actual = text_of(*reply);
-  tell_(std::move(of));
+  Difference difference;
+  difference.stage = "memory", difference.name = fmt::format("reply to pipe {}", channel / kChannelsOfAPipe);
+  difference.address = reply->address;
+  difference.expected = asked.empty() ? "none" : text_of(asked.front());
+  difference.actual = text_of(*reply);
+  tell_(std::move(difference));
 }
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -27,7 +27,9 @@ render::Image image_of(const Memory& memory, std::int64_t frame, int width, int 
 }
 
 // The second pass compares a pixel with those beside it.
-Window with_neighbours(const Window& of) { return {of.left - 1, of.top - 1, of.right + 1, of.bottom + 1}; }
+Window with_neighbours(const Window& window) {
+  return {window.left - 1, window.top - 1, window.right + 1, window.bottom + 1};
+}
 
 // Tells how many pixels it compared.
 std::int64_t compare_bytes(PictureReport& report, const render::Image& expected, const Window& window) {
@@ -107,8 +109,8 @@ void take_accounts(PictureReport& report, const RayCaster& caster) {
 
 bool PictureReport::found_where_planted() const {
   if (!strike) return false;
-  const auto names = [&](const std::vector<std::string>& of, const std::string& stage) {
-    return std::find(of.begin(), of.end(), stage) != of.end();
+  const auto names = [&](const std::vector<std::string>& all, const std::string& stage) {
+    return std::find(all.begin(), all.end(), stage) != all.end();
   };
   if (!difference) return names(waiting, strike->stage + " data") || names(jammed, strike->stage);
   return difference->stage == strike->stage && difference->x == strike->x && difference->y == strike->y &&
@@ -164,19 +166,20 @@ void PictureRun::end_cycle() {
 
 // Called between two cycles.
 void PictureRun::end_pass(const FrameEnd& end) {
-  Drawing& of = *drawing_;
-  if (options_.compare) of.checker.end_pass(end);
+  Drawing& drawing = *drawing_;
+  if (options_.compare) drawing.checker.end_pass(end);
   report_.all_cycles += end.cycles;
-  report_.passes.push_back({of.second, end.cycles});
-  const std::int64_t before = of.second ? report_.end.cycles : 0;
+  report_.passes.push_back({drawing.second, end.cycles});
+  const std::int64_t before = drawing.second ? report_.end.cycles : 0;
   report_.end = end;
   report_.end.cycles += before;
-  if (of.fast() || of.second || of.checker.difference() || !end.complete) return;
-  of.second = true;
+  if (drawing.fast() || drawing.second || drawing.checker.difference() || !end.complete) return;
+  drawing.second = true;
   caster_.draw_only(options_.window);
-  of.checker.begin_pass(of.samples(), of.most(), of.second_frame(memory_), options_.window);
+  drawing.checker.begin_pass(drawing.samples(), drawing.most(), drawing.second_frame(memory_),
+                             options_.window);
   if (waves_) waves_->begin_train(report_.all_cycles);
-  caster_.begin_again(of.samples(), of.most());
+  caster_.begin_again(drawing.samples(), drawing.most());
 }
 
 void PictureRun::finish() {

@@ -43,19 +43,19 @@ std::optional<PixelReplay> replay_pixel(const PictureInput& input, const Picture
   alone.frames = 1;
   alone.waves = false;
   const PictureReport again = verify_picture(input, alone);
-  PixelReplay of{*part, !again.good(), again.hang};
-  if (again.difference) of.text = text_of(*again.difference);
-  return of;
+  PixelReplay replay{*part, !again.good(), again.hang};
+  if (again.difference) replay.text = text_of(*again.difference);
+  return replay;
 }
 
-std::string text_of(const PixelReplay& of) {
-  const Window& part = of.part;
+std::string text_of(const PixelReplay& replay) {
+  const Window& part = replay.part;
   const std::string what = part.right == part.left + 1
                                ? fmt::format("pixel ({}, {})", part.left, part.top)
                                : fmt::format("the tile of pixel ({}, {})", part.left, part.top);
-  if (!of.fails)
+  if (!replay.fails)
     return fmt::format("{}, drawn alone, is right: what is drawn before or beside it matters\n", what);
-  return fmt::format("{}, drawn alone, fails too:\n{}", what, of.text);
+  return fmt::format("{}, drawn alone, fails too:\n{}", what, replay.text);
 }
 
 std::string pixel_text(const hwmodel::raycast::Window& part) {

@@ -41,17 +41,19 @@ void TileCheck::pixel_complete(std::int32_t x, std::int32_t y) { --tiles_[index_
 
 void TileCheck::written(std::int64_t tile, int burst) {
   const auto i = static_cast<std::size_t>(tile);
-  Tile& of = tiles_[i];
-  if (of.pixels_left != 0) tell(i, "write", "pixels that are still to come", 0, of.pixels_left);
-  std::uint8_t& times = of.bursts[static_cast<std::size_t>(burst)];
+  Tile& tile = tiles_[i];
+  if (tile.pixels_left != 0) tell(i, "write", "pixels that are still to come", 0, tile.pixels_left);
+  std::uint8_t& times = tile.bursts[static_cast<std::size_t>(burst)];
   if (++times > 1) tell(i, "write", "times a burst is written", 1, times);
 }
 
 void TileCheck::end_pass(bool hangs) {
-  const auto times = [](const Tile& of) { return *std::min_element(of.bursts.begin(), of.bursts.end()); };
+  const auto times = [](const Tile& tile) {
+    return *std::min_element(tile.bursts.begin(), tile.bursts.end());
+  };
   // As long as a tile is under way, those behind it may not be dealt yet.
   if (hangs && std::any_of(tiles_.begin(), tiles_.end(),
-                           [&](const Tile& of) { return of.dealt > 0 && times(of) == 0; }))
+                           [&](const Tile& tile) { return tile.dealt > 0 && times(tile) == 0; }))
     return;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     const RayId first = first_pixel(i);
@@ -69,11 +71,11 @@ RayId TileCheck::first_pixel(std::size_t tile) const {
 
 void TileCheck::tell(std::size_t tile, const char* stage, const char* name, std::int64_t expected,
                      std::int64_t actual) {
-  Difference of;
-  of.stage = stage, of.name = name;
-  of.x = first_pixel(tile).x, of.y = first_pixel(tile).y;
-  of.expected = std::to_string(expected), of.actual = std::to_string(actual);
-  tell_(std::move(of));
+  Difference difference;
+  difference.stage = stage, difference.name = name;
+  difference.x = first_pixel(tile).x, difference.y = first_pixel(tile).y;
+  difference.expected = std::to_string(expected), difference.actual = std::to_string(actual);
+  tell_(std::move(difference));
 }
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -29,39 +29,39 @@ Transit::Line& Transit::line(int channel) {
 }
 
 void Transit::left(int channel, const Token& token) {
-  Line& of = line(channel);
+  Line& the_line = line(channel);
   ++compared_;
   const auto same = [](const Token& a, const Token& b) { return same_place(a.id, b.id) && a.sum == b.sum; };
-  if (of.tokens.empty() || !same(of.tokens.front(), token)) {
-    const std::string expected = of.tokens.empty() ? "none" : text_of(of.tokens.front().id);
-    if (of.any_left && same(of.last, token))
+  if (the_line.tokens.empty() || !same(the_line.tokens.front(), token)) {
+    const std::string expected = the_line.tokens.empty() ? "none" : text_of(the_line.tokens.front().id);
+    if (the_line.any_left && same(the_line.last, token))
       tell(channel, token.id, "leaves twice", expected, text_of(token.id));
-    else if (of.tokens.empty() || same_place(of.tokens.front().id, token.id))
+    else if (the_line.tokens.empty() || same_place(the_line.tokens.front().id, token.id))
       tell(channel, token.id, "leaves as it entered", expected, text_of(token.id) + ", changed");
     else
-      tell(channel, of.tokens.front().id, "leaves next", expected, text_of(token.id));
+      tell(channel, the_line.tokens.front().id, "leaves next", expected, text_of(token.id));
   }
-  if (!of.tokens.empty()) of.tokens.pop_front();
-  of.last = token;
-  of.any_left = true;
+  if (!the_line.tokens.empty()) the_line.tokens.pop_front();
+  the_line.last = token;
+  the_line.any_left = true;
 }
 
 void Transit::look_for_lost() {
   for (int i = 0; i < caster_.pipes(); ++i)
     for (const Pipe::ChannelState& channel : caster_.pipe(i).channels()) {
-      const Line& of = line(channel.number);
-      if (static_cast<int>(of.tokens.size()) <= channel.count) continue;
-      const RayId& id = of.tokens[static_cast<std::size_t>(channel.count)].id;
+      const Line& the_line = line(channel.number);
+      if (static_cast<int>(the_line.tokens.size()) <= channel.count) continue;
+      const RayId& id = the_line.tokens[static_cast<std::size_t>(channel.count)].id;
       return tell(channel.number, id, "leaves", text_of(id), "nothing");
     }
 }
 
 void Transit::tell(int channel, const RayId& at, const char* name, std::string expected, std::string actual) {
-  Difference of;
-  of.stage = name_of(channel), of.name = name;
-  of.x = at.x, of.y = at.y, of.sample = at.sample;
-  of.expected = std::move(expected), of.actual = std::move(actual);
-  tell_(std::move(of));
+  Difference difference;
+  difference.stage = name_of(channel), difference.name = name;
+  difference.x = at.x, difference.y = at.y, difference.sample = at.sample;
+  difference.expected = std::move(expected), difference.actual = std::move(actual);
+  tell_(std::move(difference));
 }
 
 std::string Transit::name_of(int number) const {

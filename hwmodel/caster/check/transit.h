@@ -65,9 +65,9 @@ class Transit {
   FifoWatcher<Word>* around(FifoWatcher<Word>* inner) {
     if (inner == nullptr) return nullptr;
     auto made = std::make_shared<Around<Word>>(*this, *inner);
-    FifoWatcher<Word>* of = made.get();
+    FifoWatcher<Word>* watcher = made.get();
     owned_.push_back(std::move(made));
-    return of;
+    return watcher;
   }
   // A token stays where it is in its channel, and with it every byte between its members. Four sums of every
   // fourth word: they do not wait for one another.

@@ -15,19 +15,19 @@ class ClearFaults : public Planted {
   using Planted::Planted;
 
   void told(Surface& event) {
-    ClearEvent& of = event.clear;
+    ClearEvent& clear_event = event.clear;
     if (event.kind == Surface::Kind::way) {
-      if (!counts(of)) return;
-      if (armed(Fault::stretch_way)) replace("stretch", event.id, of.way, of.way + 1);
+      if (!counts(clear_event)) return;
+      if (armed(Fault::stretch_way)) replace("stretch", event.id, clear_event.way, clear_event.way + 1);
       if (armed(Fault::stretch_place))
         replace("stretch", event.id, event.position, event.position + event.step);
-    } else if (event.kind == Surface::Kind::matter && of.event == 0) {
-      if (armed(Fault::stretch_side)) replace("stretch", event.id, of.leaves, !of.leaves);
+    } else if (event.kind == Surface::Kind::matter && clear_event.event == 0) {
+      if (armed(Fault::stretch_side)) replace("stretch", event.id, clear_event.leaves, !clear_event.leaves);
     }
   }
 
-  void passed(const LookRegisters& look, const Passage& before, const Surface& event, Passage& of) {
-    Passage wrong = of;
+  void passed(const LookRegisters& look, const Passage& before, const Surface& event, Passage& passage) {
+    Passage wrong = passage;
     if (event.kind == Surface::Kind::way) {
       const auto with = [&](std::int64_t way, std::int64_t obstacle) {
         wrong = before;
@@ -47,11 +47,11 @@ class ClearFaults : public Planted {
       if (armed(Fault::passed_mirror)) with(look, 0);
       if (armed(Fault::passed_order))
         for (std::size_t c = 0; c < 3; ++c)
-          wrong.mirrored[c] =
-              before.mirrored[c] + static_cast<std::int32_t>((std::int64_t{of.passed[c]} * gleam[c]) >> 15);
+          wrong.mirrored[c] = before.mirrored[c] +
+                              static_cast<std::int32_t>((std::int64_t{passage.passed[c]} * gleam[c]) >> 15);
     }
-    if (same(wrong, of)) return;
-    of = wrong;
+    if (same(wrong, passage)) return;
+    passage = wrong;
     strike("passed", event.id);
   }
 
@@ -65,8 +65,8 @@ class ClearFaults : public Planted {
 
  private:
   // Behind its first surface, something still passes on the ray: else the event changes nothing.
-  bool counts(const ClearEvent& of) const {
-    return of.event <= 1 && !registers().look.obstacles && registers().look.frost <= 2048;
+  bool counts(const ClearEvent& event) const {
+    return event.event <= 1 && !registers().look.obstacles && registers().look.frost <= 2048;
   }
   static bool same(const Passage& a, const Passage& b) {
     return a.left.surfaces == b.left.surfaces && a.left.way == b.left.way && a.passed == b.passed &&

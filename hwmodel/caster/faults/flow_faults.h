@@ -140,9 +140,9 @@ class FlowFaults : public Planted {
  private:
   template <class Made>
   Made* kept(std::shared_ptr<Made> made) {
-    Made* of = made.get();
+    Made* the_made = made.get();
     plan().keep(std::move(made));
-    return of;
+    return the_made;
   }
 
   std::shared_ptr<LastReply> last_reply_;

@@ -51,7 +51,7 @@ class Planted : public check::Planted<FaultPlan> {
   }
   // Is a place in the slab, between its four columns?
   bool in_ground(Vec p) const {
-    const Layout& of = memory_->heights;
+    const Layout& layout = memory_->heights;
     const Spot x = spot_of(p.x), z = spot_of(p.z);
     const auto height = [&](std::size_t n) {
       const auto inside = [](std::int64_t cell, std::int64_t cells) {
@@ -61,8 +61,9 @@ class Planted : public check::Planted<FaultPlan> {
       const int cz = inside(z.cell + static_cast<std::int64_t>(n >> 1), registers_->cells.z);
       Column column;
       std::memcpy(&column,
-                  memory_->bytes.data() + of.address(of.line_at(cx >> of.bits[0], 0, cz >> of.bits[2])) +
-                      of.offset(cx, 0, cz),
+                  memory_->bytes.data() +
+                      layout.address(layout.line_at(cx >> layout.bits[0], 0, cz >> layout.bits[2])) +
+                      layout.offset(cx, 0, cz),
                   sizeof column);
       return std::int64_t{column.drawn};
     };
@@ -71,14 +72,15 @@ class Planted : public check::Planted<FaultPlan> {
 
  private:
   std::int16_t word_at(int x, int y, int z, const std::array<std::int32_t, 3>& low) const {
-    const Layout& of = memory_->levels;
+    const Layout& layout = memory_->levels;
     const int bx = low[0] >> kBrickBits, by = low[1] >> kBrickBits, bz = low[2] >> kBrickBits;
     const std::int64_t line =
-        of.apron ? of.line_at(bx, by, bz) : of.line_at(x >> of.bits[0], y >> of.bits[1], z >> of.bits[2]);
+        layout.apron ? layout.line_at(bx, by, bz)
+                     : layout.line_at(x >> layout.bits[0], y >> layout.bits[1], z >> layout.bits[2]);
     if (line == kNoLine) return static_cast<std::int16_t>(kAir);
     std::int16_t word = 0;
-    const int offset = of.apron ? of.apron_offset(x, y, z, bx, by, bz) : of.offset(x, y, z);
-    std::memcpy(&word, memory_->bytes.data() + of.address(line) + offset, sizeof word);
+    const int offset = layout.apron ? layout.apron_offset(x, y, z, bx, by, bz) : layout.offset(x, y, z);
+    std::memcpy(&word, memory_->bytes.data() + layout.address(line) + offset, sizeof word);
     return word;
   }
 

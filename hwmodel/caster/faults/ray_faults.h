@@ -56,33 +56,33 @@ class RayFaults : public Planted {
   }
 
   template <class Context>
-  void begun(Context& of) {
-    if (!armed(Fault::walk_first_sample) || level_at(of.walker.at) < 0) return;
-    of.k = 1;
-    of.walker.at = of.walker.at + of.walker.step;
-    strike("walk", of.ray.id);
+  void begun(Context& context) {
+    if (!armed(Fault::walk_first_sample) || level_at(context.walker.at) < 0) return;
+    context.k = 1;
+    context.walker.at = context.walker.at + context.walker.step;
+    strike("walk", context.ray.id);
   }
   template <class Context>
-  void leaps(const Context& of, Leap leap, std::int64_t& steps) {
+  void leaps(const Context& context, Leap leap, std::int64_t& steps) {
     const Fault fault = leap == Leap::to_box         ? Fault::walk_box
                         : leap == Leap::out_of_block ? Fault::walk_block
                                                      : Fault::walk_rise;
-    if (!armed(fault) || of.k + steps > of.most) return;
-    if (level_at(of.walker.at + of.walker.step * steps) < 0) return;
+    if (!armed(fault) || context.k + steps > context.most) return;
+    if (level_at(context.walker.at + context.walker.step * steps) < 0) return;
     ++steps;
-    strike("walk", of.ray.id);
+    strike("walk", context.ray.id);
   }
   template <class Context>
-  void asked(const Context& of, LevelRequest& request) {
+  void asked(const Context& context, LevelRequest& request) {
     if (!armed(Fault::walk_stale_position)) return;
-    request.at = request.at - of.walker.step;
-    strike("walk", of.ray.id);
+    request.at = request.at - context.walker.step;
+    strike("walk", context.ray.id);
   }
   template <class Context>
-  void judged(const Context& of, bool& matter) {
+  void judged(const Context& context, bool& matter) {
     if (!matter || !armed(Fault::walk_passes)) return;
     matter = false;
-    strike("walk", of.ray.id);
+    strike("walk", context.ray.id);
   }
 
   void crossed(const HitToken& hit, const Bracket& bracket, Crossing& met) {
@@ -90,9 +90,9 @@ class RayFaults : public Planted {
     const RayId& id = hit.ray.id;
     if (armed(Fault::crossing_halvings)) {
       const Vec before = hit.at - hit.ray.ray.step;
-      Bracket of{before, hit.at, level_at(before), hit.level, 0};
-      for (int halved = 0; halved < 2; ++halved) halve(of, level_at(middle_of(of)));
-      const Crossing wrong = crossing_of(of, hit.k);
+      Bracket bracket{before, hit.at, level_at(before), hit.level, 0};
+      for (int halved = 0; halved < 2; ++halved) halve(bracket, level_at(middle_of(bracket)));
+      const Crossing wrong = crossing_of(bracket, hit.k);
       if (wrong.part == met.part && wrong.position == met.position) return;
       met = wrong;
       strike("crossing", id);
@@ -113,9 +113,9 @@ class RayFaults : public Planted {
     ground = !ground;
     strike("met", met.id);
   }
-  void met(Surface& of) {
-    if (armed(Fault::met_depth)) replace("met", of.id, of.depth, of.depth + 1);
-    if (armed(Fault::met_eye)) replace("met", of.id, of.to_eye, Vec{} - of.to_eye);
+  void met(Surface& surface) {
+    if (armed(Fault::met_depth)) replace("met", surface.id, surface.depth, surface.depth + 1);
+    if (armed(Fault::met_eye)) replace("met", surface.id, surface.to_eye, Vec{} - surface.to_eye);
   }
 };
 

@@ -37,37 +37,40 @@ class SurfaceFaults : public Planted {
     }
   }
 
-  void inclined(const Slope& slope, Surface& of) {
-    const Vec& n = of.normal;
-    if (armed(Fault::normal_axes)) replace("normal", of.id, of.normal, Vec{n.z, n.y, n.x});
-    if (armed(Fault::normal_root)) replace("normal", of.id, of.normal, with_next_root(Vec{} - slope.slope));
+  void inclined(const Slope& slope, Surface& surface) {
+    const Vec& n = surface.normal;
+    if (armed(Fault::normal_axes)) replace("normal", surface.id, surface.normal, Vec{n.z, n.y, n.x});
+    if (armed(Fault::normal_root))
+      replace("normal", surface.id, surface.normal, with_next_root(Vec{} - slope.slope));
   }
 
-  void painted(const GroundRegisters& ground, Surface& of) {
-    const Vec& n = of.normal;
-    const bool side = of.face != Face::none && of.face != Face::under && of.face != Face::top;
-    if (armed(Fault::paint_side) && side) replace("paint", of.id, of.normal, Vec{} - n);
+  void painted(const GroundRegisters& ground, Surface& surface) {
+    const Vec& n = surface.normal;
+    const bool side = surface.face != Face::none && surface.face != Face::under && surface.face != Face::top;
+    if (armed(Fault::paint_side) && side) replace("paint", surface.id, surface.normal, Vec{} - n);
     if (armed(Fault::paint_band) && side)
-      replace("paint", of.id, of.color, cut_color(ground, of.position + Vec{0, kCell / 4, 0}, of.face));
-    if (armed(Fault::paint_top) && of.face == Face::top)
-      replace("paint", of.id, of.normal, Vec{n.z, n.y, n.x});
+      replace("paint", surface.id, surface.color,
+              cut_color(ground, surface.position + Vec{0, kCell / 4, 0}, surface.face));
+    if (armed(Fault::paint_top) && surface.face == Face::top)
+      replace("paint", surface.id, surface.normal, Vec{n.z, n.y, n.x});
   }
-  void textured(const TexelGather::Out& answer, Vec smooth, Vec bump, Surface& of) {
+  void textured(const TexelGather::Out& answer, Vec smooth, Vec bump, Surface& surface) {
     if (armed(Fault::texture_bump))
-      replace("texture", of.id, of.normal, unit_of(smooth + Vec{-bump.x, 0, bump.z}));
+      replace("texture", surface.id, surface.normal, unit_of(smooth + Vec{-bump.x, 0, bump.z}));
     const Texel& low = answer.words[0];
-    if (armed(Fault::texture_texel)) replace("texture", of.id, of.color, Rgb{low.red, low.green, low.blue});
+    if (armed(Fault::texture_texel))
+      replace("texture", surface.id, surface.color, Rgb{low.red, low.green, low.blue});
   }
 
-  void known(int which, const Surface& of, MatterBytes& bytes) {
+  void known(int which, const Surface& surface, MatterBytes& bytes) {
     if (armed(Fault::matter_share) && which == 0)
-      replace("matter", of.id, bytes, {bytes.heat, bytes.liquid, bytes.obstacle});
+      replace("matter", surface.id, bytes, {bytes.heat, bytes.liquid, bytes.obstacle});
     if (armed(Fault::matter_place) && which == 1)
-      replace("matter", of.id, bytes.obstacle, of.matter.obstacle);
+      replace("matter", surface.id, bytes.obstacle, surface.matter.obstacle);
   }
 
-  void lighted(const LightGather::Out& answer, bool glow, Surface& of) {
-    Light wrong = of.light;
+  void lighted(const LightGather::Out& answer, bool glow, Surface& surface) {
+    Light wrong = surface.light;
     if (armed(Fault::light_cell)) {
       auto words = answer.words;
       for (std::size_t i = 0; i < 8; i += 2) words[i + 1] = words[i];
@@ -75,7 +78,7 @@ class SurfaceFaults : public Planted {
     }
     if (armed(Fault::light_side)) std::swap(wrong.open[0], wrong.open[1]);
     if (armed(Fault::light_glow)) std::swap(wrong.glow[2], wrong.glow[3]);
-    replace("light", of.id, of.light, wrong);
+    replace("light", surface.id, surface.light, wrong);
   }
 
  private:

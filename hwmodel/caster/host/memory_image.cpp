@@ -27,28 +27,28 @@ void take_room(Memory& memory, Layout& layout, std::int64_t lines) {
 
 Layout brick_layout(const render::FieldData& field, int word_bytes, int bits, bool apron) {
   const state::Grid bricks = lattice_bricks(field);
-  Layout of;
-  of.sparse = true;
-  of.apron = apron;
-  of.word_bytes = word_bytes;
+  Layout layout;
+  layout.sparse = true;
+  layout.apron = apron;
+  layout.word_bytes = word_bytes;
   const int side = apron ? kBrickBits : bits;  // with its apron a brick is a line
-  of.bits = {side, side, side};
-  of.count = {bricks.x, bricks.y, bricks.z};
-  of.slots.assign(field.slots, field.slots + bricks.cells());
-  of.line_bytes = whole_bursts((apron ? render::kBrickVolume : 1 << (3 * bits)) * word_bytes);
-  return of;
+  layout.bits = {side, side, side};
+  layout.count = {bricks.x, bricks.y, bricks.z};
+  layout.slots.assign(field.slots, field.slots + bricks.cells());
+  layout.line_bytes = whole_bursts((apron ? render::kBrickVolume : 1 << (3 * bits)) * word_bytes);
+  return layout;
 }
 std::int64_t lines_of_brick(const Layout& layout) {
   return layout.apron ? 1 : std::int64_t{1} << (3 * (kBrickBits - layout.bits[0]));
 }
 
 Layout dense_layout(std::array<int, 3> count, std::array<int, 3> bits, int word_bytes) {
-  Layout of;
-  of.word_bytes = word_bytes;
-  of.bits = bits;
-  for (std::size_t axis = 0; axis < 3; ++axis) of.count[axis] = ((count[axis] - 1) >> bits[axis]) + 1;
-  of.line_bytes = whole_bursts(word_bytes << (bits[0] + bits[1] + bits[2]));
-  return of;
+  Layout layout;
+  layout.word_bytes = word_bytes;
+  layout.bits = bits;
+  for (std::size_t axis = 0; axis < 3; ++axis) layout.count[axis] = ((count[axis] - 1) >> bits[axis]) + 1;
+  layout.line_bytes = whole_bursts(word_bytes << (bits[0] + bits[1] + bits[2]));
+  return layout;
 }
 std::int64_t lines_of(const Layout& layout) {
   return std::int64_t{layout.count[0]} * layout.count[1] * layout.count[2];

@@ -13,82 +13,87 @@ namespace {
 
 Vec vec_of(const picture::Vector& v) { return {v.x, v.y, v.z}; }
 
-Material material_of(const picture::Material& of) { return {of.diffuse, of.mirror, of.highlight, of.gloss}; }
+Material material_of(const picture::Material& material) {
+  return {material.diffuse, material.mirror, material.highlight, material.gloss};
+}
 
 CameraRegisters camera_of(const render::PictureData& data) {
   const picture::View& view = data.view;
-  CameraRegisters of;
-  of.eye = vec_of(view.eye), of.forward = vec_of(view.forward);
-  of.wide = vec_of(view.wide), of.high = vec_of(view.high);
-  of.near_wide = vec_of(view.near_wide), of.near_high = vec_of(view.near_high);
-  of.near = view.near;
-  of.width = data.width, of.height = data.height;
-  of.spacing = data.spacing, of.halvings = view.halvings;
-  return of;
+  CameraRegisters registers;
+  registers.eye = vec_of(view.eye), registers.forward = vec_of(view.forward);
+  registers.wide = vec_of(view.wide), registers.high = vec_of(view.high);
+  registers.near_wide = vec_of(view.near_wide), registers.near_high = vec_of(view.near_high);
+  registers.near = view.near;
+  registers.width = data.width, registers.height = data.height;
+  registers.spacing = data.spacing, registers.halvings = view.halvings;
+  return registers;
 }
 
 LookRegisters look_of(const render::PictureData& data) {
   const picture::Paint& paint = *data.paint;
-  LookRegisters of;
-  of.to_light = vec_of(paint.to_light), of.to_strip = vec_of(paint.to_strip);
-  of.lamp = paint.lamp, of.from_below = paint.from_below, of.from_above = paint.from_above;
-  of.background = data.background;
-  of.solid = material_of(paint.solid), of.liquid = material_of(paint.liquid);
-  of.obstacle = material_of(paint.obstacle);
-  of.glow = paint.glow, of.obstacles = data.field.obstacles;
-  of.clear = paint.clear, of.losses = paint.losses, of.frost = paint.frost;
-  of.lamp_low = paint.lamp_low, of.lamp_high = paint.lamp_high, of.strip_low = paint.strip_low;
-  of.highlight = paint.highlight, of.dull_highlight = paint.dull_highlight;
-  of.surroundings = paint.surroundings;
-  of.glow_light = paint.glow_colors.light, of.glow_crust = paint.glow_colors.crust;
-  of.tone.assign(data.tone->begin(), data.tone->end());
-  of.bytes.assign(data.bytes->begin(), data.bytes->end());
-  return of;
+  LookRegisters registers;
+  registers.to_light = vec_of(paint.to_light), registers.to_strip = vec_of(paint.to_strip);
+  registers.lamp = paint.lamp, registers.from_below = paint.from_below,
+  registers.from_above = paint.from_above;
+  registers.background = data.background;
+  registers.solid = material_of(paint.solid), registers.liquid = material_of(paint.liquid);
+  registers.obstacle = material_of(paint.obstacle);
+  registers.glow = paint.glow, registers.obstacles = data.field.obstacles;
+  registers.clear = paint.clear, registers.losses = paint.losses, registers.frost = paint.frost;
+  registers.lamp_low = paint.lamp_low, registers.lamp_high = paint.lamp_high,
+  registers.strip_low = paint.strip_low;
+  registers.highlight = paint.highlight, registers.dull_highlight = paint.dull_highlight;
+  registers.surroundings = paint.surroundings;
+  registers.glow_light = paint.glow_colors.light, registers.glow_crust = paint.glow_colors.crust;
+  registers.tone.assign(data.tone->begin(), data.tone->end());
+  registers.bytes.assign(data.bytes->begin(), data.bytes->end());
+  return registers;
 }
 
 GroundRegisters ground_of(const render::PictureData& data) {
   const render::GroundMap* map = data.ground.map;
-  GroundRegisters of;
-  of.any = data.ground.any;
-  if (!of.any) return of;
-  of.highest = map->highest();
-  of.blocks = ground_blocks(data.ground.cells.x, data.ground.cells.z, [&](std::int64_t x, std::int64_t z) {
-    return std::int64_t{data.ground.drawn[z * data.ground.row + x]};
-  });
-  for (std::size_t c = 0; c < 3; ++c) of.color[c] = data.ground.color[c];
-  of.textured = !map->texels().empty();
-  of.fineness = map->fineness();
-  of.bands.assign(map->bands().begin(), map->bands().end());
-  of.bends = map->bends();
-  return of;
+  GroundRegisters registers;
+  registers.any = data.ground.any;
+  if (!registers.any) return registers;
+  registers.highest = map->highest();
+  registers.blocks =
+      ground_blocks(data.ground.cells.x, data.ground.cells.z, [&](std::int64_t x, std::int64_t z) {
+        return std::int64_t{data.ground.drawn[z * data.ground.row + x]};
+      });
+  for (std::size_t c = 0; c < 3; ++c) registers.color[c] = data.ground.color[c];
+  registers.textured = !map->texels().empty();
+  registers.fineness = map->fineness();
+  registers.bands.assign(map->bands().begin(), map->bands().end());
+  registers.bends = map->bends();
+  return registers;
 }
 
 SkipMap skip_of(const render::FieldData& field) {
   const state::Grid bricks = lattice_bricks(field);
-  SkipMap of;
-  of.x = 2 * bricks.x, of.y = 2 * bricks.y, of.z = 2 * bricks.z;
-  of.words.resize(static_cast<std::size_t>(of.x) * static_cast<std::size_t>(of.y) *
-                  static_cast<std::size_t>(of.z));
-  for (std::size_t i = 0; i < of.words.size(); ++i) {
+  SkipMap map;
+  map.x = 2 * bricks.x, map.y = 2 * bricks.y, map.z = 2 * bricks.z;
+  map.words.resize(static_cast<std::size_t>(map.x) * static_cast<std::size_t>(map.y) *
+                   static_cast<std::size_t>(map.z));
+  for (std::size_t i = 0; i < map.words.size(); ++i) {
     const std::int32_t record = field.records[i];
-    of.words[i] = static_cast<std::uint16_t>((record & 255) + (record < 0 ? 256 : 0));
+    map.words[i] = static_cast<std::uint16_t>((record & 255) + (record < 0 ? 256 : 0));
   }
-  of.low = to_lattice(vec_of(field.low)), of.high = to_lattice(vec_of(field.high));
-  return of;
+  map.low = to_lattice(vec_of(field.low)), map.high = to_lattice(vec_of(field.high));
+  return map;
 }
 
 }  // namespace
 
 Registers registers_of(const render::PictureData& data) {
-  Registers of;
-  of.cells = vec_of(data.field.cells);
-  of.camera = camera_of(data);
-  of.look = look_of(data);
-  of.ground = ground_of(data);
-  of.skip = skip_of(data.field);
-  of.light_cells = vec_of(data.light.count);
-  of.light_shift = data.light.shift;
-  return of;
+  Registers registers;
+  registers.cells = vec_of(data.field.cells);
+  registers.camera = camera_of(data);
+  registers.look = look_of(data);
+  registers.ground = ground_of(data);
+  registers.skip = skip_of(data.field);
+  registers.light_cells = vec_of(data.light.count);
+  registers.light_shift = data.light.shift;
+  return registers;
 }
 
 }  // namespace voxmelt::hwmodel::raycast

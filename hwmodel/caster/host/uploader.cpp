@@ -17,10 +17,10 @@ state::Grid field_bricks(const render::FieldData& field) {
 }
 
 template <class Visit>
-void for_all(const state::Grid& of, const Visit& visit) {
-  for (int z = 0; z < of.z; ++z)
-    for (int y = 0; y < of.y; ++y)
-      for (int x = 0; x < of.x; ++x) visit(state::Grid{x, y, z});
+void for_all(const state::Grid& grid, const Visit& visit) {
+  for (int z = 0; z < grid.z; ++z)
+    for (int y = 0; y < grid.y; ++y)
+      for (int x = 0; x < grid.x; ++x) visit(state::Grid{x, y, z});
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ UploadReport Uploader::update(const render::PictureData& data, const std::vector
   }
   send_registers(data, report);
   std::erase_if(report.bricks,
-                [&](const SentBrick& of) { return strikes(UploadFault::Kind::forgotten, of); });
+                [&](const SentBrick& brick) { return strikes(UploadFault::Kind::forgotten, brick); });
   send_bricks(data, report);
   send_lines(data, report);
   const UploadEnd end = run_upload(upload_, memory_, configuration_);
@@ -58,13 +58,13 @@ bool Uploader::is_whole(const render::PictureData& data) const {
 }
 
 std::vector<SentBrick> Uploader::all_bricks(const render::PictureData& data) const {
-  std::vector<SentBrick> of;
+  std::vector<SentBrick> all;
   for_all(lattice_bricks(data.field), [&](const state::Grid& b) {
     if (memory_.levels.brick_at(b.x, b.y, b.z) == 0) return;
-    of.push_back({Sent::levels, b});
-    of.push_back({Sent::matter, b});
+    all.push_back({Sent::levels, b});
+    all.push_back({Sent::matter, b});
   });
-  return of;
+  return all;
 }
 
 // Cells 8 f .. 8 f + 7 of the field change levels and matter of the cells 8 f - 1 .. 8 f + 8, by the
@@ -88,16 +88,16 @@ std::vector<SentBrick> Uploader::due_bricks(const render::PictureData& data,
     mark(f, before, levels);
     mark(f, 0, matter);
   }
-  std::vector<SentBrick> of;
+  std::vector<SentBrick> all;
   for_all(to, [&](const state::Grid& b) {
     const std::size_t i = to.index(b.x, b.y, b.z);
     const std::int32_t slot = data.field.slots[i];
     if (slot == 0) return;
     const bool moved = slot != memory_.levels.slots[i];
-    if (moved || levels[i] != 0) of.push_back({Sent::levels, b});
-    if (moved || matter[i] != 0) of.push_back({Sent::matter, b});
+    if (moved || levels[i] != 0) all.push_back({Sent::levels, b});
+    if (moved || matter[i] != 0) all.push_back({Sent::matter, b});
   });
-  return of;
+  return all;
 }
 
 void Uploader::send_registers(const render::PictureData& data, UploadReport& report) {
@@ -121,18 +121,18 @@ void Uploader::send_registers(const render::PictureData& data, UploadReport& rep
 }
 
 void Uploader::send_bricks(const render::PictureData& data, UploadReport& report) {
-  for (SentBrick& of : report.bricks) {
-    const Layout& layout = of.volume == Sent::levels ? memory_.levels : memory_.matter;
-    std::vector<std::int64_t>& told = report.lines[static_cast<std::size_t>(of.volume)];
+  for (SentBrick& brick : report.bricks) {
+    const Layout& layout = brick.volume == Sent::levels ? memory_.levels : memory_.matter;
+    std::vector<std::int64_t>& told = report.lines[static_cast<std::size_t>(brick.volume)];
     const std::size_t sent_before = upload_.addresses.size(), told_before = told.size();
     const LineSink sink = [&](std::int64_t line, const std::uint8_t* bytes) {
-      of.other = send_other(layout, of.volume, line, bytes, report) || of.other;
+      brick.other = send_other(layout, brick.volume, line, bytes, report) || brick.other;
     };
-    (of.volume == Sent::levels ? level_lines : matter_lines)(data, layout, of.brick, sink);
-    if (strikes(UploadFault::Kind::misplaced, of))
+    (brick.volume == Sent::levels ? level_lines : matter_lines)(data, layout, brick.brick, sink);
+    if (strikes(UploadFault::Kind::misplaced, brick))
       for (std::size_t i = sent_before; i < upload_.addresses.size(); ++i)
         upload_.addresses[i] += std::int64_t{layout.line_bytes} << (3 * (kBrickBits - layout.bits[0]));
-    if (strikes(UploadFault::Kind::untold, of)) told.resize(told_before);
+    if (strikes(UploadFault::Kind::untold, brick)) told.resize(told_before);
   }
 }
 
@@ -149,13 +149,13 @@ void Uploader::send_lines(const render::PictureData& data, UploadReport& report)
 
 bool Uploader::send_other(const Layout& layout, Sent volume, std::int64_t line, const std::uint8_t* bytes,
                           UploadReport& report) {
-  const auto of = static_cast<std::size_t>(volume);
+  const auto one = static_cast<std::size_t>(volume);
   if (!report.whole && std::memcmp(memory_.bytes.data() + layout.address(line), bytes,
                                    static_cast<std::size_t>(layout.line_bytes)) == 0)
     return false;
   upload_.add(layout.address(line), bytes, layout.line_bytes);
-  report.lines[of].push_back(line);
-  report.bytes[of] += layout.line_bytes;
+  report.lines[one].push_back(line);
+  report.bytes[one] += layout.line_bytes;
   return true;
 }
 

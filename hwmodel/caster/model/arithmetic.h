@@ -71,15 +71,15 @@ inline Spots spots_of(Vec position) {
 
 // The inverse root: R[i] = 2^15 / sqrt(i / 128) for i = 128 .. 512, a memory of 385 words (section 8).
 inline constexpr auto kInverseRoot = [] {
-  std::array<std::uint16_t, 385> of{};
+  std::array<std::uint16_t, 385> values{};
   for (std::int64_t i = 0; i < 385; ++i) {
     const std::int64_t square = (std::int64_t{1} << 39) / (i + 128);
     std::int64_t root = 0;
     for (std::int64_t bit = std::int64_t{1} << 20; bit > 0; bit >>= 1)
       if ((root + bit) * (root + bit) <= square) root += bit;
-    of[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>((root + 1) >> 1);
+    values[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>((root + 1) >> 1);
   }
-  return of;
+  return values;
 }();
 
 // Brings a vector of components within 2^15 to the length 2^14; 0 stays 0. Three squares, one product of the

@@ -51,19 +51,19 @@ class AttachStage : public Stage {
     if (answer_->valid()) {
       while (waiting_[first_unanswered_].answered == waiting_[first_unanswered_].questions)
         ++first_unanswered_;
-      Waiting& of = waiting_[first_unanswered_];
-      take(of.surface, of.answered++, *answer_->get());
+      Waiting& waiting = waiting_[first_unanswered_];
+      take(waiting.surface, waiting.answered++, *answer_->get());
       moved = true;
     }
     while (first_unasked_ < waiting_.size() &&
            waiting_[first_unasked_].asked == waiting_[first_unasked_].questions)
       ++first_unasked_;
     if (first_unasked_ < waiting_.size()) {
-      Waiting& of = waiting_[first_unasked_];
+      Waiting& waiting = waiting_[first_unasked_];
       if (ask_->ready()) {
         Request& request = *ask_->put();
-        request = question(of.surface, of.asked++);
-        request.id = of.surface.id;
+        request = question(waiting.surface, waiting.asked++);
+        request.id = waiting.surface.id;
         moved = true;
       } else {
         blocked = true;

@@ -53,8 +53,8 @@ void wires_of(const ClampedRequest& request, const ContextBits&, Visit&& visit) 
   visit(WireName{"context"}, 16, true, request.context);
 }
 template <class Request, class Word, std::size_t kMost, class Visit>
-void wires_of(const Gathered<Request, Word, kMost>& answer, const ContextBits& of, Visit&& visit) {
-  wires_of(answer.request, of, visit);
+void wires_of(const Gathered<Request, Word, kMost>& answer, const ContextBits& context, Visit&& visit) {
+  wires_of(answer.request, context, visit);
   for (std::size_t i = 0; i < kMost; ++i)  // as they lie in memory, eight bytes at a time
     for (std::size_t from = 0; from < sizeof(Word); from += 8) {
       const std::size_t bytes = std::min<std::size_t>(8, sizeof(Word) - from);
@@ -79,31 +79,31 @@ void wires_of(const LineRequest& request, const ContextBits&, Visit&& visit) {
 
 // The wires of a token in a channel.
 template <class Word, class Visit>
-void wires_in(Channel channel, const Word& word, const ContextBits& of, Visit&& visit) {
+void wires_in(Channel channel, const Word& word, const ContextBits& context, Visit&& visit) {
   if constexpr (std::is_same_v<Word, Surface>) {
-    wires_of(word, behind(channel), of, visit);
+    wires_of(word, behind(channel), context, visit);
   } else if constexpr (std::is_same_v<Word, HitToken>) {
     if (channel == Channel::exits)
-      wires_of_exit(word, of, visit);
+      wires_of_exit(word, context, visit);
     else
-      wires_of(word, of, visit);
+      wires_of(word, context, visit);
   } else {
-    wires_of(word, of, visit);
+    wires_of(word, context, visit);
   }
 }
 
 template <class Word>
-TokenType type_of(Channel channel, const ContextBits& of) {
+TokenType type_of(Channel channel, const ContextBits& context) {
   Word any{};
   if constexpr (std::is_same_v<Word, Levels>)
     if (channel == Channel::normal_levels) any.request.asker = Asker::normal;
   TokenType type;
-  wires_in(channel, any, of, [&](const WireName& name, int bits, bool has_sign, std::int64_t) {
+  wires_in(channel, any, context, [&](const WireName& name, int bits, bool has_sign, std::int64_t) {
     type.wires.push_back({name.text(), bits, has_sign});
   });
-  type.read = [channel, of, count = type.wires.size()](const void* token, std::int64_t* values) {
+  type.read = [channel, context, count = type.wires.size()](const void* token, std::int64_t* values) {
     std::size_t i = 0;  // a token on the wrong way may have other wires
-    wires_in(channel, *static_cast<const Word*>(token), of,
+    wires_in(channel, *static_cast<const Word*>(token), context,
              [&](const WireName&, int, bool, std::int64_t value) {
                if (i < count) values[i++] = value;
              });

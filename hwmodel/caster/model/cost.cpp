@@ -14,9 +14,9 @@ constexpr int kAddress = 32;
 constexpr int kColumns = 16, kTexels = 4, kCorners = 8;  // that one answer holds
 
 template <class... Of>
-int bits_of_token(const Of&... of) {
+int bits_of_token(const Of&... tokens) {
   int sum = 0;
-  wires_of(of..., [&](const WireName&, int bits, bool, std::int64_t) { sum += bits; });
+  wires_of(tokens..., [&](const WireName&, int bits, bool, std::int64_t) { sum += bits; });
   return sum;
 }
 
@@ -178,7 +178,7 @@ class Costs {
 
   // As many copies as are read in a cycle.
   void tables() {
-    const auto size = [](const auto& of) { return static_cast<std::int64_t>(of.size()); };
+    const auto size = [](const auto& one) { return static_cast<std::int64_t>(one.size()); };
     memory("walk", "reciprocals", 3 * size(kReciprocals), 12);
     memory("walk", "rises", size(kRises), 20);
     memory("walk", "skip map", size(registers_.skip.words), 9);
@@ -276,7 +276,7 @@ std::int64_t PipeCost::memory_bits() const {
 }
 UnitCost PipeCost::all_units() const {
   UnitCost sum{"all", 0, 0};
-  for (const UnitCost& of : units) sum.multipliers += of.multipliers, sum.dividers += of.dividers;
+  for (const UnitCost& cost : units) sum.multipliers += cost.multipliers, sum.dividers += cost.dividers;
   return sum;
 }
 

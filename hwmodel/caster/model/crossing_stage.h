@@ -50,9 +50,10 @@ class CrossingStage final : public Stage {
       if (ask_->ready()) {
         const int i = asking_.front();
         asking_.pop_front();
-        const Context& of = at(i);
-        *ask_->put() = {Asker::crossing, static_cast<std::int16_t>(i), of.hit.ray.id, of.hit.k,
-                        on_wires<32>(of.halved < 3 ? middle_of(of.bracket) : of.bracket.outside)};
+        const Context& context = at(i);
+        *ask_->put() = {
+            Asker::crossing, static_cast<std::int16_t>(i), context.hit.ray.id, context.hit.k,
+            on_wires<32>(context.halved < 3 ? middle_of(context.bracket) : context.bracket.outside)};
         moved = true;
       } else {
         blocked = true;
@@ -77,32 +78,39 @@ class CrossingStage final : public Stage {
   }
 
   void begin(const HitToken& hit) {
-    Context& of = at(hit.context);
-    of.hit = hit;
+    Context& context = at(hit.context);
+    context.hit = hit;
     ++waiting_;
     const Vec& step = hit.ray.ray.step;
-    of.bracket = {hit.leaves ? hit.at + step : hit.at - step, hit.at, hit.before, hit.level, 0};
-    of.halved = 0;
+    context.bracket = {hit.leaves ? hit.at + step : hit.at - step, hit.at, hit.before, hit.level, 0};
+    context.halved = 0;
     (begins_in_matter(hit) ? done_ : asking_).push_back(hit.context);
   }
   void take(int i, std::int64_t level) {
-    Context& of = at(i);
-    if (of.halved == 3) {
-      of.bracket.a = level;
+    Context& context = at(i);
+    if (context.halved == 3) {
+      context.bracket.a = level;
       return done_.push_back(i);
     }
-    halve(of.bracket, level);
-    const bool needs_before = ++of.halved == 3 && of.bracket.e == 0 && !of.hit.knows_before;
-    (of.halved < 3 || needs_before ? asking_ : done_).push_back(i);
+    halve(context.bracket, level);
+    const bool needs_before = ++context.halved == 3 && context.bracket.e == 0 && !context.hit.knows_before;
+    (context.halved < 3 || needs_before ? asking_ : done_).push_back(i);
   }
   void finish(int i) {
-    const Context& of = at(i);
-    const GroundedRay& ray = of.hit.ray;
-    Crossing met = begins_in_matter(of.hit) ? Crossing{true, 0, 2048, on_wires<32>(ray.ray.start)}
-                                            : crossing_of(of.bracket, of.hit.k);
-    faults_.crossed(of.hit, of.bracket, met);
-    *out_->put() = {ray.id,      ray.ray,       ray.ground,   met,      of.hit.context,
-                    of.hit.span, of.hit.leaves, of.hit.level, of.hit.at};
+    const Context& context = at(i);
+    const GroundedRay& ray = context.hit.ray;
+    Crossing met = begins_in_matter(context.hit) ? Crossing{true, 0, 2048, on_wires<32>(ray.ray.start)}
+                                                 : crossing_of(context.bracket, context.hit.k);
+    faults_.crossed(context.hit, context.bracket, met);
+    *out_->put() = {ray.id,
+                    ray.ray,
+                    ray.ground,
+                    met,
+                    context.hit.context,
+                    context.hit.span,
+                    context.hit.leaves,
+                    context.hit.level,
+                    context.hit.at};
     walk_.crossed(i);
     --waiting_;
   }

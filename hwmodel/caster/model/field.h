@@ -32,16 +32,18 @@ struct Bracket {
   UInt<15> b;
   UInt<3> e;
 };
-inline Vec middle_of(const Bracket& of) { return of.outside + ((of.inside - of.outside) >> 1); }
+inline Vec middle_of(const Bracket& bracket) {
+  return bracket.outside + ((bracket.inside - bracket.outside) >> 1);
+}
 // The level of the middle decides which end moves there.
-inline void halve(Bracket& of, std::int64_t level) {
-  const Vec middle = middle_of(of);
+inline void halve(Bracket& bracket, std::int64_t level) {
+  const Vec middle = middle_of(bracket);
   const bool air = level < 0;
-  of.e = 2 * of.e + (air ? 1 : 0);
+  bracket.e = 2 * bracket.e + (air ? 1 : 0);
   if (air)
-    of.outside = middle, of.a = level;
+    bracket.outside = middle, bracket.a = level;
   else
-    of.inside = middle, of.b = level;
+    bracket.inside = middle, bracket.b = level;
 }
 struct Crossing {
   bool found = false;
@@ -49,10 +51,10 @@ struct Crossing {
   Vec position;  // not of the lattice
 };
 // One quotient of nine bits.
-inline Crossing crossing_of(const Bracket& of, std::int64_t sample) {
-  const UInt<9> f = (-of.a * 256) / (of.b - of.a);
-  const Vec at = of.outside + (((of.inside - of.outside) * f) >> 8);
-  return {true, sample, UInt<12>(of.e * 256 + f), on_wires<32>(from_lattice(at))};
+inline Crossing crossing_of(const Bracket& bracket, std::int64_t sample) {
+  const UInt<9> f = (-bracket.a * 256) / (bracket.b - bracket.a);
+  const Vec at = bracket.outside + (((bracket.inside - bracket.outside) * f) >> 8);
+  return {true, sample, UInt<12>(bracket.e * 256 + f), on_wires<32>(from_lattice(at))};
 }
 
 // The middle one of the 27 places of a normal.

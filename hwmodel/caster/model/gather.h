@@ -100,14 +100,14 @@ class Gather final : public LineClient {
 
  private:
   struct Tags final : Stage {
-    Tags(std::string name, Gather& gather) : Stage(std::move(name)), of(gather) {}
-    Did cycle() override { return of.look_up(); }
-    Gather& of;
+    Tags(std::string name, Gather& gather) : Stage(std::move(name)), gather_(gather) {}
+    Did cycle() override { return gather_.look_up(); }
+    Gather& gather_;
   };
   struct Data final : Stage {
-    Data(std::string name, Gather& gather) : Stage(std::move(name)), of(gather) {}
-    Did cycle() override { return of.read(); }
-    Gather& of;
+    Data(std::string name, Gather& gather) : Stage(std::move(name)), gather_(gather) {}
+    Did cycle() override { return gather_.read(); }
+    Gather& gather_;
   };
 
  public:

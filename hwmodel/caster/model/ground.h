@@ -44,14 +44,14 @@ std::int64_t between_columns(const Value& value, Spot x, Spot z) {
 struct NearColumns {
   static constexpr std::size_t kSide = 4;
   std::int64_t x = 0, z = 0;  // the first cell
-  std::array<Column, kSide * kSide> of{};
+  std::array<Column, kSide * kSide> columns{};
 
   template <class Value>
   SInt<24> height(Value value, std::int64_t px, std::int64_t pz) const {
     const Spot sx = spot_of(px), sz = spot_of(pz);
     const auto first = kSide * static_cast<std::size_t>(sz.cell - z) + static_cast<std::size_t>(sx.cell - x);
     const auto number = [&](std::size_t n) {
-      return std::int64_t{of[first + (n & 1) + kSide * (n >> 1)].*value};
+      return std::int64_t{columns[first + (n & 1) + kSide * (n >> 1)].*value};
     };
     return between_columns(number, sx, sz);
   }
@@ -64,23 +64,23 @@ struct Parts {
   std::int64_t first = 0, last = -1;
 };
 inline Parts parts_of(const Registers& registers, const Ray& ray) {
-  Parts of{0, INT64_MAX};
+  Parts parts{0, INT64_MAX};
   const auto axis = [&](std::int64_t start, std::int64_t step, std::int64_t high) {
     const std::int64_t before = -256 * start, behind = 256 * (high - start) - 1;
     if (step == 0) {
-      if (before > 0 || behind < 0) of.first = INT64_MAX;
+      if (before > 0 || behind < 0) parts.first = INT64_MAX;
     } else if (step > 0) {
-      of.first = std::max(of.first, -divided(-before, step));
-      of.last = std::min(of.last, divided(behind, step));
+      parts.first = std::max(parts.first, -divided(-before, step));
+      parts.last = std::min(parts.last, divided(behind, step));
     } else {
-      of.first = std::max(of.first, -divided(behind, -step));
-      of.last = std::min(of.last, divided(-before, -step));
+      parts.first = std::max(parts.first, -divided(behind, -step));
+      parts.last = std::min(parts.last, divided(-before, -step));
     }
   };
   axis(ray.start.x, ray.step.x, registers.cells.x * kCell);
   axis(ray.start.y, ray.step.y, registers.ground.highest << 8);
   axis(ray.start.z, ray.step.z, registers.cells.z * kCell);
-  return of.first > of.last ? Parts{} : of;
+  return parts.first > parts.last ? Parts{} : parts;
 }
 
 inline bool in_slab(const Registers& registers, Vec p) {
@@ -145,10 +145,10 @@ inline Rgb cut_color(const GroundRegisters& ground, Vec p, Face face) {
     const std::int64_t bend = along_table(ground.bends[static_cast<std::size_t>(face) - 1], by_z ? p.z : p.x);
     band = along_table(ground.bands, (p.y + bend) << 2);
   }
-  Rgb of{};
+  Rgb color{};
   for (std::size_t c = 0; c < 3; ++c)
-    of[c] = static_cast<std::int32_t>((ground.color[c] * (2540 + ((41 * band) >> 8))) >> 12);
-  return of;
+    color[c] = static_cast<std::int32_t>((ground.color[c] * (2540 + ((41 * band) >> 8))) >> 12);
+  return color;
 }
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -17,18 +17,19 @@ namespace voxmelt::hwmodel::raycast {
 // From the heights of nx x nz columns. The places of a block read its columns and those beside it.
 template <class HeightAt>
 GroundBlocks ground_blocks(std::int64_t nx, std::int64_t nz, const HeightAt& height_at) {
-  GroundBlocks of;
-  of.x = static_cast<int>((nx + 3) / 4), of.z = static_cast<int>((nz + 3) / 4);
-  of.fine.resize(static_cast<std::size_t>(of.x) * static_cast<std::size_t>(of.z));
-  of.coarse.resize(static_cast<std::size_t>(of.coarse_x()) * static_cast<std::size_t>((of.z + 3) / 4));
+  GroundBlocks blocks;
+  blocks.x = static_cast<int>((nx + 3) / 4), blocks.z = static_cast<int>((nz + 3) / 4);
+  blocks.fine.resize(static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.z));
+  blocks.coarse.resize(static_cast<std::size_t>(blocks.coarse_x()) *
+                       static_cast<std::size_t>((blocks.z + 3) / 4));
   const auto height = [&](std::int64_t x, std::int64_t z) -> std::int64_t {
     return height_at(std::clamp<std::int64_t>(x, 0, nx - 1), std::clamp<std::int64_t>(z, 0, nz - 1));
   };
   const auto up = [](std::int64_t v) {
     return static_cast<std::int32_t>((v + (1 << kBoundShift) - 1) >> kBoundShift);
   };
-  for (int bz = 0; bz < of.z; ++bz)
-    for (int bx = 0; bx < of.x; ++bx) {
+  for (int bz = 0; bz < blocks.z; ++bz)
+    for (int bx = 0; bx < blocks.x; ++bx) {
       std::int64_t highest = 0, slope_x = 0, slope_z = 0;
       for (std::int64_t z = 4 * bz - 1; z <= 4 * bz + 4; ++z)
         for (std::int64_t x = 4 * bx - 1; x <= 4 * bx + 4; ++x) {
@@ -36,11 +37,11 @@ GroundBlocks ground_blocks(std::int64_t nx, std::int64_t nz, const HeightAt& hei
           if (x <= 4 * bx + 3) slope_x = std::max(slope_x, magnitude(height(x + 1, z) - height(x, z)));
           if (z <= 4 * bz + 3) slope_z = std::max(slope_z, magnitude(height(x, z + 1) - height(x, z)));
         }
-      of.fine[static_cast<std::size_t>(bz * of.x + bx)] = {up(highest), up(slope_x), up(slope_z)};
-      std::int32_t& coarse = of.coarse[static_cast<std::size_t>(bz / 4 * of.coarse_x() + bx / 4)];
+      blocks.fine[static_cast<std::size_t>(bz * blocks.x + bx)] = {up(highest), up(slope_x), up(slope_z)};
+      std::int32_t& coarse = blocks.coarse[static_cast<std::size_t>(bz / 4 * blocks.coarse_x() + bx / 4)];
       coarse = std::max(coarse, up(highest));
     }
-  return of;
+  return blocks;
 }
 
 // A ray in search of the ground.
@@ -55,23 +56,24 @@ inline Searcher searcher_of(const Ray& ray) {
 inline constexpr std::int64_t kAlways = std::int64_t{1} << 26;  // samples: more than a ray has in the box
 
 // Samples behind p that lie in its block. A part's position is rounded down: on the way up one unit less.
-inline std::int64_t samples_in_block(const Searcher& of, Vec p, int bits) {
+inline std::int64_t samples_in_block(const Searcher& searcher, Vec p, int bits) {
   const std::int64_t size = std::int64_t{1} << bits;
   const auto axis = [&](std::int64_t q, std::int64_t step, Inverse inverse) {
     if (step == 0) return kAlways;
     const std::int64_t in = q & (size - 1), way = step > 0 ? size - 2 - in : in;
     return way < 0 ? 0 : steps_in(way, inverse);
   };
-  return std::min(axis(p.x, of.step.x, of.x), axis(p.z, of.step.z, of.z));
+  return std::min(axis(p.x, searcher.step.x, searcher.x), axis(p.z, searcher.step.z, searcher.z));
 }
 
 // Samples behind p that are left out without a look at columns; nothing if p itself may lie in the ground.
-inline std::optional<std::int64_t> samples_above(const GroundBlocks& blocks, const Searcher& of, Vec p) {
+inline std::optional<std::int64_t> samples_above(const GroundBlocks& blocks, const Searcher& searcher,
+                                                 Vec p) {
   const auto above = [&](std::int64_t highest, int bits) -> std::int64_t {
     const std::int64_t gap = p.y - (highest << (kCellBits - 12 + kBoundShift));
     if (gap < 0) return -1;
-    const std::int64_t falling = of.step.y >= 0 ? kAlways : steps_in(gap, of.y);
-    return std::min(falling, samples_in_block(of, p, bits));
+    const std::int64_t falling = searcher.step.y >= 0 ? kAlways : steps_in(gap, searcher.y);
+    return std::min(falling, samples_in_block(searcher, p, bits));
   };
   const std::int64_t most =
       std::max(above(blocks.coarse_at(p), kCoarseBits), above(blocks.fine_at(p).highest, kFineBits));
@@ -86,14 +88,14 @@ inline std::int64_t approach_of(Vec slopes, Vec step) {
 // What covers the roundings of heights and positions, in the same unit.
 inline std::int64_t margin_of(Vec slopes) { return ((slopes.x + slopes.z) << 13) + (std::int64_t{1} << 23); }
 // Samples behind p, so far above the ground, that lie in its block and outside of the ground.
-inline std::int64_t samples_over_slopes(const GroundBlocks& blocks, const Searcher& of, Vec p,
+inline std::int64_t samples_over_slopes(const GroundBlocks& blocks, const Searcher& searcher, Vec p,
                                         std::int64_t above) {
   const GroundBlock& block = blocks.fine_at(p);
   const Vec slopes{std::int64_t{block.slope_x} << kBoundShift, 0, std::int64_t{block.slope_z} << kBoundShift};
-  const std::int64_t left = (above << 20) - margin_of(slopes), nearer = approach_of(slopes, of.step);
+  const std::int64_t left = (above << 20) - margin_of(slopes), nearer = approach_of(slopes, searcher.step);
   if (left <= 0) return 0;
   const std::int64_t most = nearer <= 0 ? kAlways : steps_in(left >> 12, inverse_of((nearer >> 12) + 1));
-  return std::min(most, samples_in_block(of, p, kFineBits));
+  return std::min(most, samples_in_block(searcher, p, kFineBits));
 }
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -93,40 +93,42 @@ class GroundStage final : public Stage {
   void begin(const RayToken& token) {
     const int i = free_.back();
     free_.pop_back();
-    Search& of = at(i);
-    of = {};
-    of.ray.id = token.id;
-    of.ray.ray = token.ray;
-    if (registers_.ground.any) of.parts = parts_of(registers_, token.ray);
-    of.part = of.parts.first;
-    of.searcher = searcher_of(token.ray);
-    (of.parts.first > of.parts.last ? done_ : passing_).push_back(i);
+    Search& search = at(i);
+    search = {};
+    search.ray.id = token.id;
+    search.ray.ray = token.ray;
+    if (registers_.ground.any) search.parts = parts_of(registers_, token.ray);
+    search.part = search.parts.first;
+    search.searcher = searcher_of(token.ray);
+    (search.parts.first > search.parts.last ? done_ : passing_).push_back(i);
   }
 
   // A step over the blocks below, or none: then the ray must look at columns.
   void pass(int i) {
-    Search& of = at(i);
-    auto samples = samples_above(registers_.ground.blocks, of.searcher, at_part(of.ray.ray, of.part));
-    faults_.passes_blocks(of.ray, of.part, samples);
+    Search& search = at(i);
+    auto samples =
+        samples_above(registers_.ground.blocks, search.searcher, at_part(search.ray.ray, search.part));
+    faults_.passes_blocks(search.ray, search.part, samples);
     if (!samples) return ready_.push_back(i);
     go_on(i, *samples);
   }
   // To the sample behind those that are left out.
   void go_on(int i, std::int64_t samples) {
-    Search& of = at(i);
-    if (of.part == of.parts.last) return done_.push_back(i);
-    of.part = std::min(((of.part >> 8) + 1 + samples) << 8, of.parts.last);
+    Search& search = at(i);
+    if (search.part == search.parts.last) return done_.push_back(i);
+    search.part = std::min(((search.part >> 8) + 1 + samples) << 8, search.parts.last);
     passing_.push_back(i);
   }
 
   // A part out of the ground, before this one: the bisection would begin there.
-  std::int64_t part_before(const Search& of) const {
-    return of.part == of.parts.first ? of.part - 1 : std::max(of.parts.first, ((of.part - 1) >> 8) << 8);
+  std::int64_t part_before(const Search& search) const {
+    return search.part == search.parts.first ? search.part - 1
+                                             : std::max(search.parts.first, ((search.part - 1) >> 8) << 8);
   }
   // Asks for all columns that the step up to the part may need.
   void look(int i) {
-    Search& of = at(i);
-    const Vec a = at_part(of.ray.ray, part_before(of)), b = at_part(of.ray.ray, of.part);
+    Search& search = at(i);
+    const Vec a = at_part(search.ray.ray, part_before(search)), b = at_part(search.ray.ray, search.part);
     ClampedRequest& ask = *ask_->put();
     ask.at = {spot_of(std::min(a.x, b.x) - kCell / 2), {}, spot_of(std::min(a.z, b.z) - kCell / 2)};
     ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1,
@@ -134,31 +136,31 @@ class GroundStage final : public Stage {
     ask.asker = 0;
     ask.context = static_cast<std::int16_t>(i);
     ask.side = NearColumns::kSide;
-    ask.id = of.ray.id;
+    ask.id = search.ray.id;
   }
 
   void decide(int i, const ColumnGather::Out& answer) {
-    Search& of = at(i);
+    Search& search = at(i);
     const NearColumns columns{answer.request.at.x.cell, answer.request.at.z.cell, answer.words};
-    const Vec p = at_part(of.ray.ray, of.part);
+    const Vec p = at_part(search.ray.ray, search.part);
     const std::int64_t above = (p.y >> 8) - columns.height(&Column::drawn, p.x, p.z);
     if (above < 0) return bisect(i, columns);
-    go_on(i, samples_over_slopes(registers_.ground.blocks, of.searcher, p, above));
+    go_on(i, samples_over_slopes(registers_.ground.blocks, search.searcher, p, above));
   }
   void bisect(int i, const NearColumns& columns) {
-    Search& of = at(i);
-    std::int64_t outside = part_before(of), inside = of.part;
+    Search& search = at(i);
+    std::int64_t outside = part_before(search), inside = search.part;
     while (inside - outside > 1) {
       const std::int64_t middle = (inside + outside) >> 1;
-      const Vec p = at_part(of.ray.ray, middle);
+      const Vec p = at_part(search.ray.ray, middle);
       const bool in = in_slab(registers_, p) && (p.y >> 8) < columns.height(&Column::drawn, p.x, p.z);
       (in ? inside : outside) = middle;
     }
-    GroundHit& hit = of.ray.ground;
+    GroundHit& hit = search.ray.ground;
     hit.found = true;
     hit.part = UInt<36>(inside);
-    hit.position = on_wires<31>(at_part(of.ray.ray, inside));
-    hit.face = inside == 0 ? Face::none : face_of(registers_, at_part(of.ray.ray, outside));
+    hit.position = on_wires<31>(at_part(search.ray.ray, inside));
+    hit.face = inside == 0 ? Face::none : face_of(registers_, at_part(search.ray.ray, outside));
     if (hit.face == Face::top) hit.normal = normal_at(hit.position, columns);
     done_.push_back(i);
   }

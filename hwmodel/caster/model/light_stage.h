@@ -22,26 +22,26 @@ class MatterStage final : public AttachStage<MatterRequest, MatterGather::Out> {
       : AttachStage("matter", static_cast<std::size_t>(waiting)), registers_(registers), faults_(faults) {}
 
  private:
-  int questions(const Surface& of) const override {
-    if (of.kind == Surface::Kind::way) return 1;
-    if (of.kind != Surface::Kind::matter) return 0;
+  int questions(const Surface& surface) const override {
+    if (surface.kind == Surface::Kind::way) return 1;
+    if (surface.kind != Surface::Kind::matter) return 0;
     return registers_.look.obstacles ? 2 : 1;
   }
-  MatterRequest question(const Surface& of, int which) const override {
-    const Vec p = which == 0 ? of.position : of.position + of.normal * 32;
+  MatterRequest question(const Surface& surface, int which) const override {
+    const Vec p = which == 0 ? surface.position : surface.position + surface.normal * 32;
     const auto among = [](std::int64_t at, std::int64_t cells) {
       return std::clamp(at, kCell / 2, cells * kCell - kCell / 2);
     };
     const Vec& cells = registers_.cells;
-    return {spots_of({among(p.x, cells.x), among(p.y, cells.y), among(p.z, cells.z)}), of.id};
+    return {spots_of({among(p.x, cells.x), among(p.y, cells.y), among(p.z, cells.z)}), surface.id};
   }
-  void take(Surface& of, int which, const MatterGather::Out& answer) override {
+  void take(Surface& surface, int which, const MatterGather::Out& answer) override {
     MatterBytes bytes = matter_of(answer.words.data(), answer.request.at);
-    faults_.known(which, of, bytes);
+    faults_.known(which, surface, bytes);
     if (which == 0)
-      of.matter = bytes;
+      surface.matter = bytes;
     else
-      of.matter.obstacle = bytes.obstacle;
+      surface.matter.obstacle = bytes.obstacle;
   }
 
   const Registers& registers_;
@@ -55,10 +55,12 @@ class LightStage final : public AttachStage<ClampedRequest, LightGather::Out> {
       : AttachStage("light", static_cast<std::size_t>(waiting)), registers_(registers), faults_(faults) {}
 
  private:
-  int questions(const Surface& of) const override { return of.kind == Surface::Kind::background ? 0 : 1; }
-  ClampedRequest question(const Surface& of, int) const override {
+  int questions(const Surface& surface) const override {
+    return surface.kind == Surface::Kind::background ? 0 : 1;
+  }
+  ClampedRequest question(const Surface& surface, int) const override {
     const int s = registers_.light_shift;
-    const Vec q = of.position + of.normal * (std::int64_t{1} << (6 + s));
+    const Vec q = surface.position + surface.normal * (std::int64_t{1} << (6 + s));
     ClampedRequest ask;
     ask.at = spots_of(q >> s);
     const Vec& cells = registers_.light_cells;
@@ -66,9 +68,9 @@ class LightStage final : public AttachStage<ClampedRequest, LightGather::Out> {
                  static_cast<std::int32_t>(cells.z)};
     return ask;
   }
-  void take(Surface& of, int, const LightGather::Out& answer) override {
-    of.light = light_of(answer.words.data(), answer.request.at, registers_.look.glow);
-    faults_.lighted(answer, registers_.look.glow, of);
+  void take(Surface& surface, int, const LightGather::Out& answer) override {
+    surface.light = light_of(answer.words.data(), answer.request.at, registers_.look.glow);
+    faults_.lighted(answer, registers_.look.glow, surface);
   }
 
   const Registers& registers_;

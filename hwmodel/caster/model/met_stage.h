@@ -45,21 +45,21 @@ class MetStage final : public Stage {
     return Did::starved;
   }
   Surface surface_of(const MetToken& met) {
-    Surface of;
-    of.id = met.id;
-    of.step = met.ray.step;
+    Surface surface;
+    surface.id = met.id;
+    surface.step = met.ray.step;
     bool ground = ground_first(met.ground, met.matter, registers_.camera.halvings);
     faults_.compared(met, ground);
-    if (!ground && !met.matter.found) return of;
-    of.kind = ground ? Surface::Kind::ground : Surface::Kind::matter;
-    of.inside = ground ? met.ground.face == Face::none : met.matter.sample == 0;
-    of.face = met.ground.face;
-    if (ground) of.normal = met.ground.normal;
-    of.position = ground ? met.ground.position : met.matter.position;
-    of.depth = depth_of(registers_.camera, of.position);
-    of.to_eye = unit_of(Vec{} - met.ray.step);
-    faults_.met(of);
-    return of;
+    if (!ground && !met.matter.found) return surface;
+    surface.kind = ground ? Surface::Kind::ground : Surface::Kind::matter;
+    surface.inside = ground ? met.ground.face == Face::none : met.matter.sample == 0;
+    surface.face = met.ground.face;
+    if (ground) surface.normal = met.ground.normal;
+    surface.position = ground ? met.ground.position : met.matter.position;
+    surface.depth = depth_of(registers_.camera, surface.position);
+    surface.to_eye = unit_of(Vec{} - met.ray.step);
+    faults_.met(surface);
+    return surface;
   }
 
   const Registers& registers_;

@@ -16,19 +16,19 @@ class NormalStage final : public AttachStage<LevelRequest, Levels> {
       : AttachStage("normal", static_cast<std::size_t>(waiting)), faults_(faults) {}
 
  private:
-  int questions(const Surface& of) const override {
-    return of.kind == Surface::Kind::matter && !of.inside ? 1 : 0;
+  int questions(const Surface& surface) const override {
+    return surface.kind == Surface::Kind::matter && !surface.inside ? 1 : 0;
   }
-  LevelRequest question(const Surface& of, int) const override {
-    return {Asker::normal, 0, of.id, 0, to_lattice(of.position)};
+  LevelRequest question(const Surface& surface, int) const override {
+    return {Asker::normal, 0, surface.id, 0, to_lattice(surface.position)};
   }
-  void take(Surface& of, int, const Levels& levels) override {
+  void take(Surface& surface, int, const Levels& levels) override {
     const Slope slope = slope_of(levels.words.data(), levels.request.at);
-    of.normal = slope.normal;
-    faults_.inclined(slope, of);
+    surface.normal = slope.normal;
+    faults_.inclined(slope, surface);
   }
-  void finish(Surface& of) override {
-    if (of.inside) of.normal = of.to_eye;
+  void finish(Surface& surface) override {
+    if (surface.inside) surface.normal = surface.to_eye;
   }
 
   [[no_unique_address]] Faults faults_;

@@ -20,15 +20,15 @@ class PaintStage final : public SurfaceStage {
       : SurfaceStage("paint", registers), registers_(registers), faults_(faults) {}
 
  private:
-  void compute(Surface& of) override {
-    if (of.kind != Surface::Kind::ground) return;
-    if (of.face == Face::top) {
-      of.color = registers_.ground.color;
+  void compute(Surface& surface) override {
+    if (surface.kind != Surface::Kind::ground) return;
+    if (surface.face == Face::top) {
+      surface.color = registers_.ground.color;
     } else {
-      of.color = cut_color(registers_.ground, of.position, of.face);
-      of.normal = of.face == Face::none ? of.to_eye : side_normal(of.face);
+      surface.color = cut_color(registers_.ground, surface.position, surface.face);
+      surface.normal = surface.face == Face::none ? surface.to_eye : side_normal(surface.face);
     }
-    faults_.painted(registers_.ground, of);
+    faults_.painted(registers_.ground, surface);
   }
 
   const Registers& registers_;
@@ -43,32 +43,34 @@ class TextureStage final : public AttachStage<ClampedRequest, TexelGather::Out> 
       : AttachStage("texture", static_cast<std::size_t>(waiting)), registers_(registers), faults_(faults) {}
 
  private:
-  int questions(const Surface& of) const override {
-    return registers_.ground.textured && of.kind == Surface::Kind::ground && of.face == Face::top ? 1 : 0;
+  int questions(const Surface& surface) const override {
+    return registers_.ground.textured && surface.kind == Surface::Kind::ground && surface.face == Face::top
+               ? 1
+               : 0;
   }
-  ClampedRequest question(const Surface& of, int) const override {
+  ClampedRequest question(const Surface& surface, int) const override {
     const int q = registers_.ground.fineness;
     ClampedRequest ask;
-    ask.at = {spot_of(of.position.x << q), {}, spot_of(of.position.z << q)};
+    ask.at = {spot_of(surface.position.x << q), {}, spot_of(surface.position.z << q)};
     ask.count = {static_cast<std::int32_t>(registers_.cells.x << q), 1,
                  static_cast<std::int32_t>(registers_.cells.z << q)};
     return ask;
   }
-  void take(Surface& of, int, const TexelGather::Out& answer) override {
+  void take(Surface& surface, int, const TexelGather::Out& answer) override {
     const auto between = [&](const auto& channel) {
       const auto value = [&](std::size_t n) {
         return std::int64_t{channel(answer.words[n < 2 ? n : n + 2])};
       };
       return between_columns(value, answer.request.at.x, answer.request.at.z);
     };
-    of.color = {static_cast<std::int32_t>(between([](const Texel& t) { return t.red; })),
-                static_cast<std::int32_t>(between([](const Texel& t) { return t.green; })),
-                static_cast<std::int32_t>(between([](const Texel& t) { return t.blue; }))};
+    surface.color = {static_cast<std::int32_t>(between([](const Texel& t) { return t.red; })),
+                     static_cast<std::int32_t>(between([](const Texel& t) { return t.green; })),
+                     static_cast<std::int32_t>(between([](const Texel& t) { return t.blue; }))};
     const SInt<14> x = between([](const Texel&t) { return 64 * t.bump_x; }),
                    z = between([](const Texel&t) { return 64 * t.bump_z; });
-    const Vec smooth = of.normal, bump{x, 0, z};
-    of.normal = unit_of(smooth + bump);
-    faults_.textured(answer, smooth, bump, of);
+    const Vec smooth = surface.normal, bump{x, 0, z};
+    surface.normal = unit_of(smooth + bump);
+    faults_.textured(answer, smooth, bump, surface);
   }
 
   const Registers& registers_;

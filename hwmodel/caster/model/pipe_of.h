@@ -442,18 +442,18 @@ void PipeOf<Faults>::forget_all() {
 
 template <class Faults>
 std::vector<Pipe::ChannelState> PipeOf<Faults>::channels() const {
-  std::vector<ChannelState> of;
-  of.reserve(states_.size());
-  for (const auto& state : states_) of.push_back(state());
-  return of;
+  std::vector<ChannelState> all;
+  all.reserve(states_.size());
+  for (const auto& state : states_) all.push_back(state());
+  return all;
 }
 
 template <class Faults>
 std::vector<TokenChannel> PipeOf<Faults>::token_channels() const {
-  std::vector<TokenChannel> of;
-  of.reserve(types_.size());
-  for (const auto& type : types_) of.push_back(type());
-  return of;
+  std::vector<TokenChannel> all;
+  all.reserve(types_.size());
+  for (const auto& type : types_) all.push_back(type());
+  return all;
 }
 
 template <class Faults>

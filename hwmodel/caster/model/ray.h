@@ -35,10 +35,10 @@ struct Inverse {
   UInt<6> shift;
 };
 inline constexpr auto kReciprocals = [] {
-  std::array<std::uint16_t, 1024> of{};
+  std::array<std::uint16_t, 1024> values{};
   for (std::int32_t i = 0; i < 1024; ++i)
-    of[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>((1 << 22) / (1024 + i + 1));
-  return of;
+    values[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>((1 << 22) / (1024 + i + 1));
+  return values;
 }();
 inline Inverse inverse_of(std::int64_t step) {
   const std::int64_t d = magnitude(step);

@@ -45,23 +45,24 @@ class SetupStage final : public Stage {
 
   void open_next() {
     if (!in_->valid()) return;
-    const auto place = std::find_if(open_.begin(), open_.end(), [](const Open& of) { return of.left == 0; });
+    const auto place =
+        std::find_if(open_.begin(), open_.end(), [](const Open& open_parts) { return open_parts.left == 0; });
     if (place == open_.end()) return;
     const TileOrder& tile = *in_->get();
     *place = {tile, tile.pixels, 0};
   }
-  void make_ray(Open& of) {
-    const TileOrder& tile = of.tile;
-    const int at = std::countr_zero(of.left);
+  void make_ray(Open& open_parts) {
+    const TileOrder& tile = open_parts.tile;
+    const int at = std::countr_zero(open_parts.left);
     const std::int32_t x = tile.x + at % kTileSide, y = tile.y + at / kTileSide;
-    const Sub sub = sub_of(tile.samples, of.sample);
+    const Sub sub = sub_of(tile.samples, open_parts.sample);
     RayToken& token = *out_->put();
-    token.id = {x, y, static_cast<std::int16_t>(of.sample), static_cast<std::int16_t>(tile.buffer)};
+    token.id = {x, y, static_cast<std::int16_t>(open_parts.sample), static_cast<std::int16_t>(tile.buffer)};
     token.ray = ray_of(registers_.camera, 64 * std::int64_t{x} + sub.across, 64 * std::int64_t{y} + sub.down);
     faults_.set_up(registers_.camera, tile.samples, token);
-    if (++of.sample < tile.samples) return;
-    of.sample = 0;
-    of.left &= of.left - 1;
+    if (++open_parts.sample < tile.samples) return;
+    open_parts.sample = 0;
+    open_parts.left &= open_parts.left - 1;
   }
 
   const Registers& registers_;

@@ -39,13 +39,13 @@ inline Light light_of(const LightWord* words, const Spots& at, bool glow) {
     return static_cast<std::int32_t>(UInt<8>(
         blended(blended(row(0), row(2), at.y.weight), blended(row(4), row(6), at.y.weight), at.z.weight)));
   };
-  Light of;
-  of.lamp = byte(0);
+  Light light;
+  light.lamp = byte(0);
   for (std::size_t side = 0; side < 6; ++side) {
-    of.open[side] = byte(1 + side);
-    of.glow[side] = glow ? byte(8 + side) : 0;
+    light.open[side] = byte(1 + side);
+    light.glow[side] = glow ? byte(8 + side) : 0;
   }
-  return of;
+  return light;
 }
 // Six sides as seen along a direction.
 inline std::int64_t seen(const std::array<std::int32_t, 6>& sides, Vec r) {
@@ -61,19 +61,20 @@ struct Arriving {
   Rgb light{};
 };
 inline Arriving arriving_of(const LookRegisters& look, Vec normal, const Light& light, bool by_glow) {
-  Arriving of;
-  of.lamp = UInt<9>(whole(light.lamp));
-  of.facing = SInt<16>(cosine(normal, look.to_light));
-  of.lit = UInt<15>((((std::max<std::int64_t>(of.facing + 2458, 0) * 14247) >> 14) * of.lamp) >> 8);
+  Arriving arriving;
+  arriving.lamp = UInt<9>(whole(light.lamp));
+  arriving.facing = SInt<16>(cosine(normal, look.to_light));
+  arriving.lit =
+      UInt<15>((((std::max<std::int64_t>(arriving.facing + 2458, 0) * 14247) >> 14) * arriving.lamp) >> 8);
   const std::int64_t open = whole(seen(light.open, normal)), glow = by_glow ? seen(light.glow, normal) : 0;
   constexpr Rgb kGlow{6144, 1966, 369};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::int64_t ambient =
         look.from_below[c] + (((look.from_above[c] - look.from_below[c]) * (normal.y + (1 << 14))) >> 15);
-    of.light[c] = static_cast<std::int32_t>(
-        SInt<17>(((ambient * open) >> 8) + ((look.lamp[c] * of.lit) >> 14) + ((kGlow[c] * glow) >> 5)));
+    arriving.light[c] = static_cast<std::int32_t>(
+        SInt<17>(((ambient * open) >> 8) + ((look.lamp[c] * arriving.lit) >> 14) + ((kGlow[c] * glow) >> 5)));
   }
-  return of;
+  return arriving;
 }
 
 // What matter is at a place, mixed.
@@ -87,21 +88,21 @@ inline Material mixed(const Material& a, const Material& b, std::int64_t share) 
           mixed(a.highlight, b.highlight, share), mixed(a.gloss, b.gloss, share)};
 }
 inline Mixture mixture_of(const LookRegisters& look, const MatterBytes& bytes) {
-  Mixture of;
-  of.l = static_cast<std::int32_t>(UInt<12>(16 * bytes.liquid + (bytes.liquid >> 4)));
-  of.w = std::clamp(73 * (bytes.obstacle - 148), 0, 4096);
-  of.material = mixed(look.solid, look.liquid, of.l);
+  Mixture mixture;
+  mixture.l = static_cast<std::int32_t>(UInt<12>(16 * bytes.liquid + (bytes.liquid >> 4)));
+  mixture.w = std::clamp(73 * (bytes.obstacle - 148), 0, 4096);
+  mixture.material = mixed(look.solid, look.liquid, mixture.l);
   if (look.glow) {
     const auto heat = static_cast<std::size_t>(bytes.heat);
     for (std::size_t c = 0; c < 3; ++c) {
-      of.material.diffuse[c] += (look.glow_crust[heat][c] * of.l) >> 12;
-      of.emission[c] = (((look.glow_light[heat][c] * of.l) >> 12) * (4096 - of.w)) >> 12;
+      mixture.material.diffuse[c] += (look.glow_crust[heat][c] * mixture.l) >> 12;
+      mixture.emission[c] = (((look.glow_light[heat][c] * mixture.l) >> 12) * (4096 - mixture.w)) >> 12;
     }
   }
-  of.material = mixed(of.material, look.obstacle, of.w);
-  check_wires<13>(of.material.diffuse), check_wires<13>(of.material.mirror);
-  check_wires<13>(of.material.highlight), check_wires<14>(of.emission);
-  return of;
+  mixture.material = mixed(mixture.material, look.obstacle, mixture.w);
+  check_wires<13>(mixture.material.diffuse), check_wires<13>(mixture.material.mirror);
+  check_wires<13>(mixture.material.highlight), check_wires<14>(mixture.emission);
+  return mixture;
 }
 
 // What a surface mirrors, and of what.
@@ -116,60 +117,63 @@ inline std::int64_t highlight_at(const std::array<std::uint16_t, 1026>& table, s
 }
 inline Mirrored mirrored_of(const LookRegisters& look, Vec normal, Vec to_eye, const Light& light,
                             const Arriving& arriving, const Mixture& mixture) {
-  Mirrored of;
+  Mirrored mirrored;
   const Vec half = unit_of(look.to_light + to_eye);
   const std::int64_t shine = std::clamp<std::int64_t>(cosine(normal, half), 0, 1 << 14);
   const std::int64_t unlit =
       mixed(highlight_at(look.highlight, shine), highlight_at(look.dull_highlight, shine), mixture.w);
-  of.peak = UInt<13>((((unlit * smooth(0, 1024, arriving.facing >> 2)) >> 12) * arriving.lamp) >> 8);
+  mirrored.peak = UInt<13>((((unlit * smooth(0, 1024, arriving.facing >> 2)) >> 12) * arriving.lamp) >> 8);
 
-  of.eye = std::clamp<std::int64_t>(cosine(normal, to_eye), 0, 1 << 14);
-  const std::int64_t a = (1 << 14) - of.eye, a2 = (a * a) >> 14, a4 = (a2 * a2) >> 14;
+  mirrored.eye = std::clamp<std::int64_t>(cosine(normal, to_eye), 0, 1 << 14);
+  const std::int64_t a = (1 << 14) - mirrored.eye, a2 = (a * a) >> 14, a4 = (a2 * a2) >> 14;
   const std::int64_t graze = (a4 * a) >> 14;
-  of.more = UInt<13>((graze * mixture.material.gloss) >> 14);
+  mirrored.more = UInt<13>((graze * mixture.material.gloss) >> 14);
   const std::int64_t twice = (2 * dot(normal, to_eye)) >> 14;
-  of.reflected = on_wires<16>(((normal * twice) >> 14) - to_eye);
-  of.free = 614 + ((whole(seen(light.open, of.reflected)) * whole(seen(light.open, normal)) * 3482) >> 16);
+  mirrored.reflected = on_wires<16>(((normal * twice) >> 14) - to_eye);
+  mirrored.free =
+      614 + ((whole(seen(light.open, mirrored.reflected)) * whole(seen(light.open, normal)) * 3482) >> 16);
 
-  const std::int64_t entry = std::clamp<std::int64_t>(of.reflected.y + (1 << 14), 0, 1 << 15) >> 4;
+  const std::int64_t entry = std::clamp<std::int64_t>(mirrored.reflected.y + (1 << 14), 0, 1 << 15) >> 4;
   const std::uint32_t packed = look.surroundings[static_cast<std::size_t>(entry)];
   const Rgb surroundings{static_cast<std::int32_t>((packed & 2047) * 2),
                          static_cast<std::int32_t>(((packed >> 11) & 2047) * 2),
                          static_cast<std::int32_t>((packed >> 22) * 4)};
-  const std::int64_t lamp = smooth(look.lamp_low, look.lamp_high, cosine(of.reflected, look.to_light) >> 2);
-  const std::int64_t strip = smooth(look.strip_low, 3973, cosine(of.reflected, look.to_strip) >> 2);
+  const std::int64_t lamp =
+      smooth(look.lamp_low, look.lamp_high, cosine(mirrored.reflected, look.to_light) >> 2);
+  const std::int64_t strip = smooth(look.strip_low, 3973, cosine(mirrored.reflected, look.to_strip) >> 2);
   constexpr Rgb kLamp{9830, 9626, 9216}, kStrip{2867, 3072, 3482};
   for (std::size_t c = 0; c < 3; ++c)
-    of.around[c] = static_cast<std::int32_t>(
+    mirrored.around[c] = static_cast<std::int32_t>(
         UInt<15>(surroundings[c] + ((kLamp[c] * lamp) >> 12) + ((kStrip[c] * strip) >> 12)));
-  return of;
+  return mirrored;
 }
 
 // What a surface scatters of the light that arrives.
 inline Rgb scattered_color(const Arriving& arriving, const Rgb& color) {
-  Rgb of{};
+  Rgb the_color{};
   for (std::size_t c = 0; c < 3; ++c)
-    of[c] = static_cast<std::int32_t>((std::int64_t{arriving.light[c]} * color[c]) >> 12);
-  return of;
+    the_color[c] = static_cast<std::int32_t>((std::int64_t{arriving.light[c]} * color[c]) >> 12);
+  return the_color;
 }
 // What it mirrors, and its highlight.
-inline Rgb gleam_of(const Mixture& of, const Mirrored& mirror) {
+inline Rgb gleam_of(const Mixture& mixture, const Mirrored& mirror) {
   Rgb gleam{};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::int64_t fresnel =
-        of.material.mirror[c] + (((4096 - of.material.mirror[c]) * mirror.more) >> 12);
+        mixture.material.mirror[c] + (((4096 - mixture.material.mirror[c]) * mirror.more) >> 12);
     gleam[c] =
-        static_cast<std::int32_t>(UInt<15>(((of.material.highlight[c] * mirror.peak) >> 12) +
+        static_cast<std::int32_t>(UInt<15>(((mixture.material.highlight[c] * mirror.peak) >> 12) +
                                            ((((mirror.around[c] * mirror.free) >> 12) * fresnel) >> 12)));
   }
   return gleam;
 }
-inline Rgb matter_color(const Arriving& arriving, const Mixture& of, const Mirrored& mirror) {
-  const Rgb body = scattered_color(arriving, of.material.diffuse), gleam = gleam_of(of, mirror);
+inline Rgb matter_color(const Arriving& arriving, const Mixture& mixture, const Mirrored& mirror) {
+  const Rgb body = scattered_color(arriving, mixture.material.diffuse), gleam = gleam_of(mixture, mirror);
   Rgb sum{};
   for (std::size_t c = 0; c < 3; ++c)
-    sum[c] = static_cast<std::int32_t>(SInt<18>(
-        std::int64_t{body[c]} + gleam[c] + ((of.emission[c] * (2540 + ((1556 * mirror.eye) >> 14))) >> 12)));
+    sum[c] = static_cast<std::int32_t>(
+        SInt<18>(std::int64_t{body[c]} + gleam[c] +
+                 ((mixture.emission[c] * (2540 + ((1556 * mirror.eye) >> 14))) >> 12)));
   return sum;
 }
 

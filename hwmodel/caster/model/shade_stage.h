@@ -51,17 +51,18 @@ class ArrivingStage final : public SurfaceStage {
       : SurfaceStage("arriving", registers), faults_(faults) {}
 
  private:
-  void compute(Surface& of) override {
-    if (of.kind == Surface::Kind::background) return;
-    if (of.kind == Surface::Kind::way) {
-      of.mixture = mixture_of(look(), of.matter);
-      of.arriving.light = inner_light(look(), of.light);
+  void compute(Surface& surface) override {
+    if (surface.kind == Surface::Kind::background) return;
+    if (surface.kind == Surface::Kind::way) {
+      surface.mixture = mixture_of(look(), surface.matter);
+      surface.arriving.light = inner_light(look(), surface.light);
       return;
     }
-    const bool matter = of.kind == Surface::Kind::matter;
-    if (matter) of.mixture = mixture_of(look(), of.matter);
-    of.arriving = arriving_of(look(), of.normal, of.light, look().glow && (!matter || of.mixture.w > 0));
-    faults_.arrived(look(), of);
+    const bool matter = surface.kind == Surface::Kind::matter;
+    if (matter) surface.mixture = mixture_of(look(), surface.matter);
+    surface.arriving =
+        arriving_of(look(), surface.normal, surface.light, look().glow && (!matter || surface.mixture.w > 0));
+    faults_.arrived(look(), surface);
   }
 
   [[no_unique_address]] Faults faults_;
@@ -74,16 +75,16 @@ class MirrorStage final : public SurfaceStage {
       : SurfaceStage("mirror", registers), faults_(faults) {}
 
  private:
-  void compute(Surface& of) override {
-    if (of.kind != Surface::Kind::matter) return;
-    Vec normal = of.normal;
-    Arriving arriving = of.arriving;
-    if (of.clear.leaves) {  // the eye sees the surface from within
+  void compute(Surface& surface) override {
+    if (surface.kind != Surface::Kind::matter) return;
+    Vec normal = surface.normal;
+    Arriving arriving = surface.arriving;
+    if (surface.clear.leaves) {  // the eye sees the surface from within
       normal = Vec{} - normal;
       arriving.facing = SInt<16>(cosine(normal, look().to_light));
     }
-    of.mirrored = mirrored_of(look(), normal, of.to_eye, of.light, arriving, of.mixture);
-    faults_.mirrored(look(), of);
+    surface.mirrored = mirrored_of(look(), normal, surface.to_eye, surface.light, arriving, surface.mixture);
+    faults_.mirrored(look(), surface);
   }
 
   [[no_unique_address]] Faults faults_;
@@ -96,18 +97,19 @@ class ColourStage final : public SurfaceStage {
       : SurfaceStage("colour", registers), faults_(faults) {}
 
  private:
-  void compute(Surface& of) override {
-    if (of.kind == Surface::Kind::background) {
-      of.sum = look().background;
-    } else if (of.kind == Surface::Kind::ground) {
-      of.sum = scattered_color(of.arriving, of.color);
+  void compute(Surface& surface) override {
+    if (surface.kind == Surface::Kind::background) {
+      surface.sum = look().background;
+    } else if (surface.kind == Surface::Kind::ground) {
+      surface.sum = scattered_color(surface.arriving, surface.color);
     } else if (look().clear) {
-      of.sum = scattered_color(of.arriving, of.mixture.material.diffuse);
-      if (of.kind == Surface::Kind::matter) of.clear.gleam = gleam_of(of.mixture, of.mirrored);
+      surface.sum = scattered_color(surface.arriving, surface.mixture.material.diffuse);
+      if (surface.kind == Surface::Kind::matter)
+        surface.clear.gleam = gleam_of(surface.mixture, surface.mirrored);
     } else {
-      of.sum = matter_color(of.arriving, of.mixture, of.mirrored);
+      surface.sum = matter_color(surface.arriving, surface.mixture, surface.mirrored);
     }
-    faults_.coloured(of);
+    faults_.coloured(surface);
   }
 
   [[no_unique_address]] Faults faults_;

@@ -83,8 +83,9 @@ class StretchStage final : public Stage {
     serve(asking_, *ask_, [&](int i) { ask(i); });
     serve(leaving_, *exit_, [&](int i) { leave(i); });
     serve(going_, *onward_, [&](int i) {
-      const Context& of = at(i);
-      *onward_->put() = {static_cast<std::int16_t>(i), of.k + 1, of.at + of.ray.ray.step, of.beyond};
+      const Context& context = at(i);
+      *onward_->put() = {static_cast<std::int16_t>(i), context.k + 1, context.at + context.ray.ray.step,
+                         context.beyond};
     });
     serve(telling_, *out_, [&](int i) { tell(i); });
     if (answer_->valid()) {
@@ -110,27 +111,29 @@ class StretchStage final : public Stage {
   }
 
   void begin(const MetToken& met) {
-    Context& of = at(met.context);
-    of = {};
-    of.ray = {met.id, met.ray, met.ground};
-    of.to_eye = unit_of(Vec{} - met.ray.step);
-    of.length = length_of_step(met.ray.step, of.to_eye);
-    of.last = met.ground.found ? met.ground.part >> 8 : std::numeric_limits<std::int64_t>::max();
+    Context& context = at(met.context);
+    context = {};
+    context.ray = {met.id, met.ray, met.ground};
+    context.to_eye = unit_of(Vec{} - met.ray.step);
+    context.length = length_of_step(met.ray.step, context.to_eye);
+    context.last = met.ground.found ? met.ground.part >> 8 : std::numeric_limits<std::int64_t>::max();
   }
-  void add(Context& of, const Event& event) { of.events[static_cast<std::size_t>(of.count++)] = event; }
-  void add_way(Context& of) {
-    add(of, {Kind::way, false, from_lattice(of.at), static_cast<std::int32_t>(of.way)});
-    of.way = 0;
-    of.steps = 0;
+  void add(Context& context, const Event& event) {
+    context.events[static_cast<std::size_t>(context.count++)] = event;
+  }
+  void add_way(Context& context) {
+    add(context, {Kind::way, false, from_lattice(context.at), static_cast<std::int32_t>(context.way)});
+    context.way = 0;
+    context.steps = 0;
   }
   // At the ground, or nowhere.
   void end(int i, bool dark = false) {
-    Context& of = at(i);
-    const GroundHit& ground = of.ray.ground;
+    Context& context = at(i);
+    const GroundHit& ground = context.ray.ground;
     if (ground.found && !dark)
-      add(of, {Kind::ground, false, ground.position, 0});
+      add(context, {Kind::ground, false, ground.position, 0});
     else
-      add(of, {});
+      add(context, {});
   }
   void tell_soon(int i, Next next) {
     at(i).next = next;
@@ -141,58 +144,58 @@ class StretchStage final : public Stage {
   void entered(const MetToken& met) {
     const int i = met.context;
     if (met.span == 0) begin(met);
-    Context& of = at(i);
-    of.span = met.span;
+    Context& context = at(i);
+    context.span = met.span;
     if (ground_first(met.ground, met.matter, registers_.camera.halvings)) {
       end(i);
       return tell_soon(i, Next::nothing);
     }
-    if (met.matter.sample > 0) add(of, {Kind::matter, false, met.matter.position, 0});
-    of.k = met.matter.sample, of.at = met.at, of.level = met.level;
-    of.steps = 0;
-    if (of.k > of.last) {  // the ground follows within the step
-      const std::int64_t place = (of.k - 1) * 2048 + met.matter.part;
-      of.way = part_of_step(of.length, UInt<12>(8 * met.ground.part - place), 11);
-      add_way(of);
+    if (met.matter.sample > 0) add(context, {Kind::matter, false, met.matter.position, 0});
+    context.k = met.matter.sample, context.at = met.at, context.level = met.level;
+    context.steps = 0;
+    if (context.k > context.last) {  // the ground follows within the step
+      const std::int64_t place = (context.k - 1) * 2048 + met.matter.part;
+      context.way = part_of_step(context.length, UInt<12>(8 * met.ground.part - place), 11);
+      add_way(context);
       end(i);
       return tell_soon(i, Next::nothing);
     }
-    of.way = part_of_step(of.length, 2048 - met.matter.part, 11);
+    context.way = part_of_step(context.length, 2048 - met.matter.part, 11);
     proceed(i);
   }
   // Behind a sample in matter.
   void proceed(int i) {
-    Context& of = at(i);
-    if (of.k == of.last) {
-      of.way = of.way + part_of_step(of.length, of.ray.ground.part & 255, 8);
-      add_way(of);
+    Context& context = at(i);
+    if (context.k == context.last) {
+      context.way = context.way + part_of_step(context.length, context.ray.ground.part & 255, 8);
+      add_way(context);
       end(i);
       return tell_soon(i, Next::nothing);
     }
-    if (of.steps == 1 << registers_.camera.spacing) add_way(of);
-    if (of.count > 0) return tell_soon(i, Next::sample);
+    if (context.steps == 1 << registers_.camera.spacing) add_way(context);
+    if (context.count > 0) return tell_soon(i, Next::sample);
     go(i, Next::sample);
   }
   void take(int i, std::int16_t level) {
-    Context& of = at(i);
+    Context& context = at(i);
     --asked_;
     if (level < 0) {
-      of.beyond = level;
+      context.beyond = level;
       return go(i, Next::exit);
     }
-    ++of.k;
-    of.at = of.at + of.ray.ray.step;
-    of.level = level;
-    of.way = of.way + of.length;
-    ++of.steps;
+    ++context.k;
+    context.at = context.at + context.ray.ray.step;
+    context.level = level;
+    context.way = context.way + context.length;
+    ++context.steps;
     proceed(i);
   }
   // At the surface to air.
   void left(const MetToken& met) {
-    Context& of = at(met.context);
-    of.way = of.way + part_of_step(of.length, 2048 - met.matter.part, 11);
-    add_way(of);
-    add(of, {Kind::matter, true, met.matter.position, 0});
+    Context& context = at(met.context);
+    context.way = context.way + part_of_step(context.length, 2048 - met.matter.part, 11);
+    add_way(context);
+    add(context, {Kind::matter, true, met.matter.position, 0});
     tell_soon(met.context, Next::onward);
   }
 
@@ -207,34 +210,41 @@ class StretchStage final : public Stage {
     (next == Next::sample ? asking_ : next == Next::exit ? leaving_ : going_).push_back(i);
   }
   void tell(int i) {
-    Context& of = at(i);
-    const Event& event = of.events[static_cast<std::size_t>(of.first)];
+    Context& context = at(i);
+    const Event& event = context.events[static_cast<std::size_t>(context.first)];
     Surface& to = *out_->put();
     to = {};
-    to.id = of.ray.id;
+    to.id = context.ray.id;
     to.kind = event.kind;
-    to.face = of.ray.ground.face;
+    to.face = context.ray.ground.face;
     to.inside = event.kind == Kind::ground && to.face == Face::none;
     to.position = event.position;
-    to.step = of.ray.ray.step;
-    to.to_eye = of.to_eye;
-    if (event.kind == Kind::ground) to.normal = of.ray.ground.normal;
-    to.clear = {static_cast<std::int16_t>(i), event.leaves, of.told++, event.way, {}};
+    to.step = context.ray.ray.step;
+    to.to_eye = context.to_eye;
+    if (event.kind == Kind::ground) to.normal = context.ray.ground.normal;
+    to.clear = {static_cast<std::int16_t>(i), event.leaves, context.told++, event.way, {}};
     faults_.told(to);
-    if (++of.first < of.count) return telling_.push_front(i);
-    of.first = of.count = 0;
-    go(i, of.next);
+    if (++context.first < context.count) return telling_.push_front(i);
+    context.first = context.count = 0;
+    go(i, context.next);
   }
   void ask(int i) {
-    const Context& of = at(i);
-    *ask_->put() = {Asker::stretch, static_cast<std::int16_t>(i), of.ray.id, UInt<27>(of.k + 1),
-                    on_wires<32>(of.at + of.ray.ray.step)};
+    const Context& context = at(i);
+    *ask_->put() = {Asker::stretch, static_cast<std::int16_t>(i), context.ray.id, UInt<27>(context.k + 1),
+                    on_wires<32>(context.at + context.ray.ray.step)};
     ++asked_;
   }
   void leave(int i) {
-    const Context& of = at(i);
-    *exit_->put() = {
-        static_cast<std::int16_t>(i), of.ray, of.k, of.at, of.level, true, of.beyond, of.span, true};
+    const Context& context = at(i);
+    *exit_->put() = {static_cast<std::int16_t>(i),
+                     context.ray,
+                     context.k,
+                     context.at,
+                     context.level,
+                     true,
+                     context.beyond,
+                     context.span,
+                     true};
   }
 
   const Registers& registers_;

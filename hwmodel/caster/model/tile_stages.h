@@ -214,9 +214,10 @@ class WriteStage final : public Stage {
     bool moved = false;
     if (in_->valid()) {
       const PixelToken& pixel = *in_->get();
-      TileBuffer& of = buffers_.at(pixel.id.buffer);
+      TileBuffer& buffer = buffers_.at(pixel.id.buffer);
       const bool at_once = buffers_.complete.empty() && out_->ready();
-      if (--of.left == 0 || faults_.writes_early(at_once, of)) buffers_.complete.push_back(pixel.id.buffer);
+      if (--buffer.left == 0 || faults_.writes_early(at_once, buffer))
+        buffers_.complete.push_back(pixel.id.buffer);
       moved = true;
     }
     if (buffers_.complete.empty()) return moved ? Did::busy : Did::starved;

@@ -26,8 +26,8 @@ struct WireName {
   const char* part = "";
   int index = -1;
 
-  constexpr WireName(const char* of, const char* its = "", int which = -1)
-      : stem(of), part(its), index(which) {}
+  constexpr WireName(const char* its_stem, const char* its = "", int which = -1)
+      : stem(its_stem), part(its), index(which) {}
   std::string text() const {
     std::string all = stem;
     all += part;
@@ -47,9 +47,10 @@ void color_wires(const char* name, const Rgb& c, int bits, Visit&& visit, bool h
   for (std::size_t i = 0; i < 3; ++i) visit(WireName{name, kParts[i]}, bits, has_sign, std::int64_t{c[i]});
 }
 template <class Visit>
-void wires_of(const RayId& id, const ContextBits& of, Visit&& visit) {
+void wires_of(const RayId& id, const ContextBits& context, Visit&& visit) {
   visit(WireName{"x"}, 13, false, id.x), visit(WireName{"y"}, 13, false, id.y);
-  visit(WireName{"sample"}, 5, false, id.sample), visit(WireName{"buffer"}, of.buffers, false, id.buffer);
+  visit(WireName{"sample"}, 5, false, id.sample),
+      visit(WireName{"buffer"}, context.buffers, false, id.buffer);
 }
 template <class Visit>
 void wires_of(const Ray& ray, Visit&& visit) {
@@ -65,34 +66,34 @@ void wires_of(const GroundHit& hit, Visit&& visit) {
 }
 
 template <class Visit>
-void wires_of(const TileOrder& order, const ContextBits& of, Visit&& visit) {
+void wires_of(const TileOrder& order, const ContextBits& context, Visit&& visit) {
   visit(WireName{"x"}, 13, false, order.x), visit(WireName{"y"}, 13, false, order.y);
-  visit(WireName{"buffer"}, of.buffers, false, order.buffer),
+  visit(WireName{"buffer"}, context.buffers, false, order.buffer),
       visit(WireName{"samples"}, 6, false, order.samples);
   for (int i = 0; i < 64; ++i)
     visit(WireName{"pixel", "", i}, 1, false, static_cast<std::int64_t>(order.pixels >> i & 1));
 }
 template <class Visit>
-void wires_of(const RayToken& token, const ContextBits& of, Visit&& visit) {
-  wires_of(token.id, of, visit), wires_of(token.ray, visit);
+void wires_of(const RayToken& token, const ContextBits& context, Visit&& visit) {
+  wires_of(token.id, context, visit), wires_of(token.ray, visit);
 }
 template <class Visit>
-void wires_of(const GroundedRay& token, const ContextBits& of, Visit&& visit) {
-  wires_of(token.id, of, visit), wires_of(token.ray, visit), wires_of(token.ground, visit);
+void wires_of(const GroundedRay& token, const ContextBits& context, Visit&& visit) {
+  wires_of(token.id, context, visit), wires_of(token.ray, visit), wires_of(token.ground, visit);
 }
 template <class Visit>
-void wires_of(const LevelRequest& request, const ContextBits& of, Visit&& visit) {
+void wires_of(const LevelRequest& request, const ContextBits& context, Visit&& visit) {
   visit(WireName{"asker"}, 2, false, static_cast<std::int64_t>(request.asker));
-  visit(WireName{"context"}, of.rays, false, request.context);
+  visit(WireName{"context"}, context.rays, false, request.context);
   vector_wires("at", request.at, 32, visit);
 }
 // Levels, and the weights of their place.
 template <class Visit>
-void wires_of(const Levels& levels, const ContextBits& of, Visit&& visit) {
+void wires_of(const Levels& levels, const ContextBits& context, Visit&& visit) {
   const LevelRequest& request = levels.request;
   const std::size_t words = request.kind_index() == 1 ? 27 : 8;
   visit(WireName{"asker"}, 2, false, static_cast<std::int64_t>(request.asker));
-  visit(WireName{"context"}, of.rays, false, request.context);
+  visit(WireName{"context"}, context.rays, false, request.context);
   visit(WireName{"weight_x"}, 8, false, weight_of(request.at.x));
   visit(WireName{"weight_y"}, 8, false, weight_of(request.at.y));
   visit(WireName{"weight_z"}, 8, false, weight_of(request.at.z));
@@ -100,57 +101,57 @@ void wires_of(const Levels& levels, const ContextBits& of, Visit&& visit) {
     visit(WireName{"word", "", static_cast<int>(i)}, 16, true, levels.words[i]);
 }
 template <class Visit>
-void wires_of(const LevelToken& token, const ContextBits& of, Visit&& visit) {
+void wires_of(const LevelToken& token, const ContextBits& context, Visit&& visit) {
   visit(WireName{"asker"}, 2, false, static_cast<std::int64_t>(token.request.asker));
-  visit(WireName{"context"}, of.rays, false, token.request.context);
+  visit(WireName{"context"}, context.rays, false, token.request.context);
   visit(WireName{"level"}, 16, true, token.level);
 }
 template <class Visit>
-void wires_of(const HitToken& hit, const ContextBits& of, Visit&& visit) {
-  visit(WireName{"context"}, of.rays, false, hit.context);
-  wires_of(hit.ray, of, visit);
+void wires_of(const HitToken& hit, const ContextBits& context, Visit&& visit) {
+  visit(WireName{"context"}, context.rays, false, hit.context);
+  wires_of(hit.ray, context, visit);
   visit(WireName{"k"}, 27, false, hit.k);
   vector_wires("at", hit.at, 32, visit);
   visit(WireName{"level"}, 15, false, hit.level),
       visit(WireName{"knows_before"}, 1, false, hit.knows_before ? 1 : 0);
   visit(WireName{"before"}, 16, true, hit.knows_before ? hit.before : 0);
-  if (of.clear) visit(WireName{"first"}, 1, false, hit.span == 0 ? 1 : 0);  // the ray's first matter
+  if (context.clear) visit(WireName{"first"}, 1, false, hit.span == 0 ? 1 : 0);  // the ray's first matter
 }
 // Of a ray that leaves matter: the rest of it has stayed in the stretch.
 template <class Visit>
-void wires_of_exit(const HitToken& hit, const ContextBits& of, Visit&& visit) {
-  visit(WireName{"context"}, of.rays, false, hit.context);
+void wires_of_exit(const HitToken& hit, const ContextBits& context, Visit&& visit) {
+  visit(WireName{"context"}, context.rays, false, hit.context);
   vector_wires("step", hit.ray.ray.step, 20, visit);
   visit(WireName{"k"}, 27, false, hit.k);
   vector_wires("at", hit.at, 32, visit);
   visit(WireName{"level"}, 15, false, hit.level), visit(WireName{"before"}, 16, true, hit.before);
 }
 template <class Visit>
-void wires_of(const OnwardToken& token, const ContextBits& of, Visit&& visit) {
-  visit(WireName{"context"}, of.rays, false, token.context);
+void wires_of(const OnwardToken& token, const ContextBits& context, Visit&& visit) {
+  visit(WireName{"context"}, context.rays, false, token.context);
   visit(WireName{"k"}, 27, false, token.k);
   vector_wires("at", token.at, 32, visit);
   visit(WireName{"level"}, 16, true, token.level);
 }
 template <class Visit>
-void wires_of(const MetToken& met, const ContextBits& of, Visit&& visit) {
-  wires_of(met.id, of, visit);
+void wires_of(const MetToken& met, const ContextBits& context, Visit&& visit) {
+  wires_of(met.id, context, visit);
   vector_wires("step", met.ray.step, 20, visit);
   wires_of(met.ground, visit);
   visit(WireName{"matter_found"}, 1, false, met.matter.found ? 1 : 0);
   visit(WireName{"matter_sample"}, 27, false, met.matter.sample);
   visit(WireName{"matter_part"}, 12, false, met.matter.part);
   vector_wires("matter_position", met.matter.position, 32, visit);
-  if (!of.clear) return;
-  visit(WireName{"context"}, of.rays, false, met.context);
+  if (!context.clear) return;
+  visit(WireName{"context"}, context.rays, false, met.context);
   visit(WireName{"first"}, 1, false, met.span == 0 ? 1 : 0),
       visit(WireName{"leaves"}, 1, false, met.leaves ? 1 : 0);
   visit(WireName{"level"}, 15, false, met.level);
   vector_wires("at", met.at, 32, visit);
 }
 template <class Visit>
-void wires_of(const PassedToken& token, const ContextBits& of, Visit&& visit) {
-  wires_of(token.id, of, visit);
+void wires_of(const PassedToken& token, const ContextBits& context, Visit&& visit) {
+  wires_of(token.id, context, visit);
   visit(WireName{"on_ground"}, 1, false, token.on_ground ? 1 : 0);
   color_wires("passed", token.passage.passed, 16, visit);
   color_wires("mirrored", token.passage.mirrored, 31, visit);
@@ -158,13 +159,13 @@ void wires_of(const PassedToken& token, const ContextBits& of, Visit&& visit) {
   color_wires("behind", token.behind, 18, visit, true);
 }
 template <class Visit>
-void wires_of(const PressedToken& token, const ContextBits& of, Visit&& visit) {
-  wires_of(token.id, of, visit);
+void wires_of(const PressedToken& token, const ContextBits& context, Visit&& visit) {
+  wires_of(token.id, context, visit);
   color_wires("pressed", token.pressed, 13, visit);
 }
 template <class Visit>
-void wires_of(const PixelToken& token, const ContextBits& of, Visit&& visit) {
-  wires_of(token.id, of, visit);
+void wires_of(const PixelToken& token, const ContextBits& context, Visit&& visit) {
+  wires_of(token.id, context, visit);
   color_wires("byte", {token.bytes[0], token.bytes[1], token.bytes[2]}, 8, visit);
 }
 
@@ -178,10 +179,10 @@ void side_wires(const char* name, const Sides& sides, Visit&& visit) {
 // A surface behind the stages that work on it, in their order: what is there and still needed.
 enum class Behind : std::uint8_t { met, normal, paint, texture, matter, light, arriving, mirror, colour };
 template <class Visit>
-void wires_of(const Surface& s, Behind stage, const ContextBits& of, Visit&& visit) {
+void wires_of(const Surface& s, Behind stage, const ContextBits& context, Visit&& visit) {
   const auto from = [&](Behind first) { return stage >= first; };
   const auto until = [&](Behind last) { return stage <= last; };
-  wires_of(s.id, of, visit);
+  wires_of(s.id, context, visit);
   visit(WireName{"kind"}, 2, false, static_cast<std::int64_t>(s.kind));
   if (until(Behind::paint))
     visit(WireName{"inside"}, 1, false, s.inside ? 1 : 0),
@@ -196,7 +197,7 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& of, Visit&& vis
   }
   if (stage == Behind::light) {
     visit(WireName{"lamp"}, 8, false, s.light.lamp);
-    if (!of.clear)  // it does not glow
+    if (!context.clear)  // it does not glow
       side_wires("glow", s.light.glow, visit);
   }
   if (from(Behind::light) && until(Behind::arriving)) side_wires("open", s.light.open, visit);
@@ -205,9 +206,9 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& of, Visit&& vis
     color_wires("diffuse", s.mixture.material.diffuse, 13, visit);
     color_wires("mirror", s.mixture.material.mirror, 13, visit);
     color_wires("highlight", s.mixture.material.highlight, 13, visit);
-    if (!of.clear) color_wires("emission", s.mixture.emission, 14, visit);
+    if (!context.clear) color_wires("emission", s.mixture.emission, 14, visit);
   }
-  if (stage == Behind::arriving || (of.clear && from(Behind::mirror)))
+  if (stage == Behind::arriving || (context.clear && from(Behind::mirror)))
     visit(WireName{"w"}, 13, false, s.mixture.w);
   if (stage == Behind::arriving) {
     visit(WireName{"lamp"}, 9, false, s.arriving.lamp),
@@ -216,14 +217,15 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& of, Visit&& vis
   }
   if (stage == Behind::mirror) {
     visit(WireName{"peak"}, 13, false, s.mirrored.peak), visit(WireName{"free"}, 13, false, s.mirrored.free);
-    if (!of.clear) visit(WireName{"eye"}, 15, false, s.mirrored.eye);
+    if (!context.clear) visit(WireName{"eye"}, 15, false, s.mirrored.eye);
     color_wires("around", s.mirrored.around, 15, visit);
   }
-  if (stage == Behind::mirror || (of.clear && stage == Behind::colour))
+  if (stage == Behind::mirror || (context.clear && stage == Behind::colour))
     visit(WireName{"more"}, 13, false, s.mirrored.more);
   if (stage == Behind::colour) color_wires("sum", s.sum, 18, visit, true);
-  if (!of.clear) return;
-  visit(WireName{"context"}, of.rays, false, s.clear.context), visit(WireName{"way"}, 18, false, s.clear.way);
+  if (!context.clear) return;
+  visit(WireName{"context"}, context.rays, false, s.clear.context),
+      visit(WireName{"way"}, 18, false, s.clear.way);
   if (until(Behind::arriving)) visit(WireName{"leaves"}, 1, false, s.clear.leaves ? 1 : 0);
   if (stage == Behind::colour) color_wires("gleam", s.clear.gleam, 15, visit);
 }

@@ -83,22 +83,22 @@ struct LevelRequest {
 
   std::size_t kind_index() const { return asker == Asker::normal ? 1 : 0; }
   Places places() const {
-    Places of;
+    Places places;
     const auto place = [](std::int64_t q) { return static_cast<std::int32_t>(q >> kCellBits); };
-    of.low = {place(at.x), place(at.y), place(at.z)};
+    places.low = {place(at.x), place(at.y), place(at.z)};
     if (asker == Asker::normal) {
-      of.side = of.high = 3;
+      places.side = places.high = 3;
       const auto three = [](std::int64_t q) {
         const auto middle = static_cast<std::int32_t>(middle_place(q));
         return std::array<std::int32_t, 4>{middle - 1, middle, middle + 1, 0};
       };
-      of.x = three(at.x), of.y = three(at.y), of.z = three(at.z);
+      places.x = three(at.x), places.y = three(at.y), places.z = three(at.z);
     } else {
-      of.x = {of.low[0], of.low[0] + 1, 0, 0};
-      of.y = {of.low[1], of.low[1] + 1, 0, 0};
-      of.z = {of.low[2], of.low[2] + 1, 0, 0};
+      places.x = {places.low[0], places.low[0] + 1, 0, 0};
+      places.y = {places.low[1], places.low[1] + 1, 0, 0};
+      places.z = {places.low[2], places.low[2] + 1, 0, 0};
     }
-    return of;
+    return places;
   }
 };
 using LevelGather = Gather<LevelRequest, std::int16_t, 27>;
@@ -120,9 +120,9 @@ struct MatterRequest {
       const auto low = static_cast<std::int32_t>(s.cell + kLatticeBorder);
       return std::array<std::int32_t, 4>{low, low + 1, 0, 0};
     };
-    Places of{two(at.x), two(at.y), two(at.z), 2, {}};
-    of.low = {of.x[0], of.y[0], of.z[0]};
-    return of;
+    Places places{two(at.x), two(at.y), two(at.z), 2, {}};
+    places.low = {places.x[0], places.y[0], places.z[0]};
+    return places;
   }
 };
 using MatterGather = Gather<MatterRequest, std::uint32_t, 8>;

@@ -28,7 +28,7 @@ inline Walker walker_of(const Ray& ray) {
 }
 
 // Samples until the box low <= position < high; 0 within it; nothing if the ray misses it.
-inline std::optional<std::int64_t> steps_to_box(const Walker& of, Vec low, Vec high) {
+inline std::optional<std::int64_t> steps_to_box(const Walker& walker, Vec low, Vec high) {
   std::int64_t steps = 0;
   bool misses = false;
   const auto axis = [&](std::int64_t q, std::int64_t step, Inverse inverse, std::int64_t from,
@@ -41,15 +41,15 @@ inline std::optional<std::int64_t> steps_to_box(const Walker& of, Vec low, Vec h
       steps = std::max(steps, steps_in(q - to, inverse) + 1);
     }
   };
-  axis(of.at.x, of.step.x, of.x, low.x, high.x);
-  axis(of.at.y, of.step.y, of.y, low.y, high.y);
-  axis(of.at.z, of.step.z, of.z, low.z, high.z);
+  axis(walker.at.x, walker.step.x, walker.x, low.x, high.x);
+  axis(walker.at.y, walker.step.y, walker.y, low.y, high.y);
+  axis(walker.at.z, walker.step.z, walker.z, low.z, high.z);
   if (misses) return std::nullopt;
   return std::min(steps, kMostSamples);
 }
 
 // Samples until the ray leaves the blocks that are less than `reach` blocks away.
-inline std::int64_t steps_out(const Walker& of, std::int64_t reach) {
+inline std::int64_t steps_out(const Walker& walker, std::int64_t reach) {
   constexpr std::int64_t kMask = (std::int64_t{1} << kBlockBits) - 1;
   const auto axis = [&](std::int64_t q, std::int64_t step, Inverse inverse) {
     if (step == 0) return std::int64_t{1} << 26;
@@ -57,16 +57,17 @@ inline std::int64_t steps_out(const Walker& of, std::int64_t reach) {
     const std::int64_t way = step > 0 ? (reach << kBlockBits) - in - 1 : ((reach - 1) << kBlockBits) + in;
     return steps_in(way, inverse) + 1;
   };
-  return std::min(axis(of.at.x, of.step.x, of.x),
-                  std::min(axis(of.at.y, of.step.y, of.y), axis(of.at.z, of.step.z, of.z)));
+  return std::min(
+      axis(walker.at.x, walker.step.x, walker.x),
+      std::min(axis(walker.at.y, walker.step.y, walker.y), axis(walker.at.z, walker.step.z, walker.z)));
 }
 
 // 2^20 / (3 slope), rounded down: a memory of 256 words.
 inline constexpr auto kRises = [] {
-  std::array<std::uint32_t, 256> of{};
-  for (std::uint32_t slope = 1; slope < 256; ++slope) of[slope] = (1u << 20) / (3 * slope);
-  of[0] = (1u << 20) - 1;
-  return of;
+  std::array<std::uint32_t, 256> values{};
+  for (std::uint32_t slope = 1; slope < 256; ++slope) values[slope] = (1u << 20) / (3 * slope);
+  values[0] = (1u << 20) - 1;
+  return values;
 }();
 // Samples until the level may reach 0, where it rises by no more than 768 slope per cell. Weights are rounded
 // to 1/256 cell, which moves a level by 768 / 512 slope at either end; blends err by 3/2 each.

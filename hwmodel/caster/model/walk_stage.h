@@ -80,8 +80,10 @@ class WalkStage final : public Stage {
     if (!lost_.empty()) {
       if (missed_->ready()) {
         const int i = lost_.front();
-        const Context& of = at(i);
-        *missed_->put() = {of.ray.id, of.ray.ray, of.ray.ground, {}, static_cast<std::int16_t>(i), of.span};
+        const Context& context = at(i);
+        *missed_->put() = {
+            context.ray.id, context.ray.ray, context.ray.ground, {}, static_cast<std::int16_t>(i),
+            context.span};
         crossed(i);
         lost_.pop_front();
         moved = true;
@@ -126,86 +128,87 @@ class WalkStage final : public Stage {
   void begin(const GroundedRay& ray) {
     const int i = free_.back();
     free_.pop_back();
-    Context& of = at(i);
-    of.ray = ray;
-    of.walker = walker_of(ray.ray);
-    of.k = 0;
-    of.known = -2;
-    of.span = 0;
+    Context& context = at(i);
+    context.ray = ray;
+    context.walker = walker_of(ray.ray);
+    context.k = 0;
+    context.known = -2;
+    context.span = 0;
     // Matter that is not behind the ground is met by the sample after it, at the latest.
-    of.most = ray.ground.found ? (ray.ground.part >> 8) + 1 : kMostSamples;
+    context.most = ray.ground.found ? (ray.ground.part >> 8) + 1 : kMostSamples;
     ++counts_.rays;
-    faults_.begun(of);
+    faults_.begun(context);
     walking_.push_back(i);
   }
 
   void go_on(const OnwardToken& token) {
-    Context& of = at(token.context);
-    of.walker.at = token.at;
-    of.k = of.known = token.k;
-    of.level = token.level;
-    ++of.span;
+    Context& context = at(token.context);
+    context.walker.at = token.at;
+    context.k = context.known = token.k;
+    context.level = token.level;
+    ++context.span;
     walking_.push_back(token.context);
   }
 
-  void advance(Context& of, Leap leap, std::int64_t steps) {
-    faults_.leaps(of, leap, steps);
-    of.k += steps;
-    of.walker.at = of.walker.at + of.walker.step * steps;
+  void advance(Context& context, Leap leap, std::int64_t steps) {
+    faults_.leaps(context, leap, steps);
+    context.k += steps;
+    context.walker.at = context.walker.at + context.walker.step * steps;
   }
 
   void step(int i) {
-    Context& of = at(i);
+    Context& context = at(i);
     ++counts_.leaps;
-    if (of.k > of.most) return lost_.push_back(i);
+    if (context.k > context.most) return lost_.push_back(i);
     const SkipMap& skip = registers_.skip;
-    const auto to_box = steps_to_box(of.walker, skip.low, skip.high);
+    const auto to_box = steps_to_box(context.walker, skip.low, skip.high);
     if (!to_box) return lost_.push_back(i);
     if (*to_box > 0) {
-      advance(of, Leap::to_box, *to_box);
+      advance(context, Leap::to_box, *to_box);
       return walking_.push_back(i);
     }
-    const Vec& q = of.walker.at;
+    const Vec& q = context.walker.at;
     const std::uint16_t word = skip.at(q.x >> kBlockBits, q.y >> kBlockBits, q.z >> kBlockBits);
     if (word >= 256) {
-      advance(of, Leap::out_of_block, steps_out(of.walker, word - 256));
+      advance(context, Leap::out_of_block, steps_out(context.walker, word - 256));
       return walking_.push_back(i);
     }
-    of.slope = word;
-    if (of.known == of.k) return through_air(i);
+    context.slope = word;
+    if (context.known == context.k) return through_air(i);
     sampled_.push_back(i);
   }
 
   void ask(int i) {
-    Context& of = at(i);
+    Context& context = at(i);
     LevelRequest& request = *ask_->put();
-    request = {Asker::walk, static_cast<std::int16_t>(i), of.ray.id, UInt<27>(of.k),
-               on_wires<32>(of.walker.at)};
-    faults_.asked(of, request);
+    request = {Asker::walk, static_cast<std::int16_t>(i), context.ray.id, UInt<27>(context.k),
+               on_wires<32>(context.walker.at)};
+    faults_.asked(context, request);
     ++counts_.samples;
     ++asked_;
   }
 
   void decide(const LevelToken& token) {
     const int i = token.request.context;
-    Context& of = at(i);
+    Context& context = at(i);
     --asked_;
     bool matter = token.level >= 0;
-    faults_.judged(of, matter);
+    faults_.judged(context, matter);
     if (matter) {
-      *hit_->put() = {token.request.context, of.ray,   of.k,   of.walker.at, token.level,
-                      of.known == of.k - 1,  of.level, of.span};
+      *hit_->put() = {token.request.context, context.ray, context.k,
+                      context.walker.at,     token.level, context.known == context.k - 1,
+                      context.level,         context.span};
       return;
     }
-    of.known = of.k;
-    of.level = token.level;
+    context.known = context.k;
+    context.level = token.level;
     through_air(i);
   }
   // From a sample whose level is known.
   void through_air(int i) {
-    Context& of = at(i);
-    const std::int64_t rise = steps_to_rise(of.level, of.slope, registers_.camera.spacing);
-    advance(of, Leap::through_air, std::min(rise, steps_out(of.walker, 1)));
+    Context& context = at(i);
+    const std::int64_t rise = steps_to_rise(context.level, context.slope, registers_.camera.spacing);
+    advance(context, Leap::through_air, std::min(rise, steps_out(context.walker, 1)));
     walking_.push_back(i);
   }
 

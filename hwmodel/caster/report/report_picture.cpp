@@ -29,21 +29,25 @@ std::string text_of(const UploadReport& upload) {
   return text + fmt::format("), {} words of registers; {} cycles\n", upload.words, upload.cycles);
 }
 
-std::string place_of(const FaultPlan::Strike& of) {
-  if (of.address >= 0) return fmt::format("the line at address {}", of.address);
-  return fmt::format("pixel ({}, {}), sample {}", of.x, of.y, of.sample);
+std::string place_of(const FaultPlan::Strike& strike) {
+  if (strike.address >= 0) return fmt::format("the line at address {}", strike.address);
+  return fmt::format("pixel ({}, {}), sample {}", strike.x, strike.y, strike.sample);
 }
 
 nlohmann::ordered_json json_of(const PipeCost& cost) {
   nlohmann::ordered_json json;
-  for (const ChannelCost& of : cost.channels)
-    json["channels"].push_back({{"name", of.name}, {"bits", of.bits}, {"depth", of.depth}});
-  for (const MemoryCost& of : cost.memories)
-    json["memories"].push_back(
-        {{"stage", of.stage}, {"name", of.name}, {"words", of.words}, {"bits", of.bits}});
-  for (const UnitCost& of : cost.units)
-    json["units"].push_back(
-        {{"stage", of.stage}, {"multipliers", of.multipliers}, {"dividers", of.dividers}});
+  for (const ChannelCost& channel_cost : cost.channels)
+    json["channels"].push_back(
+        {{"name", channel_cost.name}, {"bits", channel_cost.bits}, {"depth", channel_cost.depth}});
+  for (const MemoryCost& memory_cost : cost.memories)
+    json["memories"].push_back({{"stage", memory_cost.stage},
+                                {"name", memory_cost.name},
+                                {"words", memory_cost.words},
+                                {"bits", memory_cost.bits}});
+  for (const UnitCost& unit_cost : cost.units)
+    json["units"].push_back({{"stage", unit_cost.stage},
+                             {"multipliers", unit_cost.multipliers},
+                             {"dividers", unit_cost.dividers}});
   json["channel_bits"] = cost.channel_bits();
   json["memory_bits"] = cost.memory_bits();
   json["multipliers"] = cost.all_units().multipliers;

@@ -134,8 +134,8 @@ struct Pipeline::Machine {
   }
 
   using BuffersOf = std::vector<BufferCost> (*)(const CodeLayout&);
-  std::vector<BufferCost> buffers(BuffersOf of) const {
-    return memory.coded() ? of(memory.read_code().layout()) : std::vector<BufferCost>{};
+  std::vector<BufferCost> buffers(BuffersOf buffers_of) const {
+    return memory.coded() ? buffers_of(memory.read_code().layout()) : std::vector<BufferCost>{};
   }
   std::int64_t bits_read() const {
     return memory.coded() ? reader.coded_bits() : reader.cycles().busy * token_bits();

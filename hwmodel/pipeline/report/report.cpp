@@ -20,9 +20,9 @@ namespace {
 using json = nlohmann::ordered_json;
 
 json hw_json(const Configuration& configuration) {
-  json of;
-  for (const HwKey& key : kHwKeys) of[std::string(key.name)] = key.get(configuration);
-  return of;
+  json json;
+  for (const HwKey& key : kHwKeys) json[std::string(key.name)] = key.get(configuration);
+  return json;
 }
 
 json stage_json(const StageReport& stage) {

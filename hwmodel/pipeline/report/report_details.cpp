@@ -13,8 +13,8 @@ using Json = nlohmann::ordered_json;
 double ratio(double a, double b) { return b == 0 ? 0 : a / b; }
 
 // To one digit behind the point, as the table shows it.
-double percent(const Json& part, std::int64_t of) {
-  return std::round(1000 * ratio(part.get<double>(), static_cast<double>(of))) / 10;
+double percent(const Json& part, std::int64_t value) {
+  return std::round(1000 * ratio(part.get<double>(), static_cast<double>(value))) / 10;
 }
 
 Json json_of(const Timeline& timeline, const Json& stages) {

@@ -16,7 +16,7 @@ namespace voxmelt::rule {
 
 // May a ray of this face be cast, by the cell's coordinate along its axis alone? True wherever one is.
 VOXMELT_RULE bool may_look(SourceKind kind, const SourceKey& source, const Face& face, int coordinate) {
-  return with_kind(kind, [&](auto of) { return of.may_look(source, face, coordinate); });
+  return with_kind(kind, [&](auto one) { return one.may_look(source, face, coordinate); });
 }
 
 // The rays of one cell to one source.
@@ -32,13 +32,13 @@ class CellRays {
       sight_.middle[a] = kPositionUnit * cell[a] + kPositionUnit / 2;
       sight_.delta[a] = at[a] - sight_.middle[a];
     }
-    with_kind(kind, [&](auto of) { of.prepare(sight_); });
+    with_kind(kind, [&](auto one) { one.prepare(sight_); });
   }
 
   // The face whose rays are asked for next.
   constexpr void choose(int number) {
     sight_.face = face_of(number);
-    if (!with_kind(kind_, [](auto of) { return of.kTurns; })) return;
+    if (!with_kind(kind_, [](auto one) { return one.kTurns; })) return;
     const auto [nx, ny, nz] = sight_.setting.grid;
     const auto index = (static_cast<std::uint64_t>(cell_[2]) * static_cast<std::uint64_t>(ny) +
                         static_cast<std::uint64_t>(cell_[1])) *
@@ -61,13 +61,13 @@ class CellRays {
   }
 
   constexpr Ray ray(int n, const Position& from) const {
-    return with_kind(kind_, [&](auto of) { return of.ray(sight_, n, from); });
+    return with_kind(kind_, [&](auto one) { return one.ray(sight_, n, from); });
   }
 
   // What the cell receives: `sum` adds the weights of all rays that see the source.
   constexpr std::uint64_t receives(std::int64_t sum) const {
     if (sum == 0) return 0;
-    return with_kind(kind_, [&](auto of) { return of.receives(sight_, sum); });
+    return with_kind(kind_, [&](auto one) { return one.receives(sight_, sum); });
   }
 
  private:

@@ -67,9 +67,9 @@ class VoxelWalk {
       if (first == 3 || crossing_[a] * length_[first] < crossing_[first] * length_[a]) first = a;
     }
     if (first == 3) return false;
-    const std::int64_t at = crossing_[first], of = length_[first];
+    const std::int64_t at = crossing_[first], length = length_[first];
     for (std::size_t a = 0; a < 3; ++a)
-      if (crossing_[a] < length_[a] && crossing_[a] * of == at * length_[a]) {
+      if (crossing_[a] < length_[a] && crossing_[a] * length == at * length_[a]) {
         cell_[a] += step_[a];
         crossing_[a] += kPositionUnit;
       }

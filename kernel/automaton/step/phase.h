@@ -46,7 +46,7 @@ struct Moment {
   int substep = 0, substeps = 1;
   bool unseen = false;  // the next phase follows at once: what this one does may be put off into that one
   explicit Moment(std::uint32_t number) : step(number) {}
-  Moment(std::uint32_t number, int of, int all) : step(number), substep(of), substeps(all) {}
+  Moment(std::uint32_t number, int the_number, int all) : step(number), substep(the_number), substeps(all) {}
 };
 
 }  // namespace voxmelt::step

@@ -79,14 +79,14 @@ struct WordLanes {
   VOXMELT_WORDS V set(std::int32_t value) { return V{} + value; }
   VOXMELT_WORDS F set_float(float value) { return F{} + value; }
   VOXMELT_WORDS V indices() {
-    V of{};
-    for (int i = 0; i < kCount; ++i) of[i] = i;
-    return of;
+    V vector{};
+    for (int i = 0; i < kCount; ++i) vector[i] = i;
+    return vector;
   }
   VOXMELT_WORDS V load(const std::int32_t* from) {
-    V of;
-    std::memcpy(&of, from, sizeof of);
-    return of;
+    V vector;
+    std::memcpy(&vector, from, sizeof vector);
+    return vector;
   }
   // By shuffles: through memory, the processor would wait for the stores.
   template <int kWhich>
@@ -121,14 +121,14 @@ struct WordLanes {
   VOXMELT_WORDS F to_float(V a) { return __builtin_convertvector(a, F); }
   VOXMELT_WORDS V to_int(F a) { return __builtin_convertvector(a, V); }  // towards 0
   VOXMELT_WORDS V bits_of_float(F a) {
-    V of;
-    std::memcpy(&of, &a, sizeof of);
-    return of;
+    V vector;
+    std::memcpy(&vector, &a, sizeof vector);
+    return vector;
   }
   VOXMELT_WORDS F float_of_bits(V a) {
-    F of;
-    std::memcpy(&of, &a, sizeof of);
-    return of;
+    F f;
+    std::memcpy(&f, &a, sizeof f);
+    return f;
   }
   VOXMELT_WORDS U as_unsigned(V a) { return reinterpret_cast<U>(a); }
   VOXMELT_WORDS V as_signed(U a) { return reinterpret_cast<V>(a); }
@@ -176,13 +176,13 @@ struct WordLanes {
 #if defined(__AVX2__)
     if constexpr (kCount == 8) return gather_eight<kScale>(from, (__m256i)index);
 #endif
-    V of{};
+    V vector{};
     for (int i = 0; i < kCount; ++i) {
       std::int32_t one;
       std::memcpy(&one, static_cast<const char*>(from) + std::int64_t{index[i]} * kScale, 4);
-      of[i] = one;
+      vector[i] = one;
     }
-    return of;
+    return vector;
   }
 
   // Both 16-bit halves of the lanes multiplied, signed, and their two products added.

@@ -140,8 +140,9 @@ void MeshLayers::run() {
   for (std::uint32_t i = 0; i < surface_.triangles.size(); ++i) order.emplace_back(layers_of(i).first, i);
   std::sort(order.begin(), order.end());
   const auto begin_rays = [this](std::vector<std::int16_t>& totals) {
-    for (std::int16_t& of : totals)
-      of = inside_ == Inside::winding ? at_low_end<Inside::winding>(of) : at_low_end<Inside::parity>(of);
+    for (std::int16_t& int16_t : totals)
+      int16_t = inside_ == Inside::winding ? at_low_end<Inside::winding>(int16_t)
+                                           : at_low_end<Inside::parity>(int16_t);
   };
   if (!surface_.closed) total_through_layers();
   begin_rays(told_s_);

@@ -39,10 +39,10 @@ Start falling() {
 
 // A pipeline that runs one pass of two time steps.
 struct Streamed {
-  explicit Streamed(const Start& of, std::uint64_t stall_seed = 0, const StageMaker& make = make_stage)
-      : start(of),
+  explicit Streamed(const Start& the_start, std::uint64_t stall_seed = 0, const StageMaker& make = make_stage)
+      : start(the_start),
         configuration{.lanes = 2, .cascade = 2, .fifo_depth = 2, .stall_seed = stall_seed},
-        machine(of.parameters, of.volume.grid, configuration, make) {}
+        machine(the_start.parameters, the_start.volume.grid, configuration, make) {}
   PassEnd run() {
     state::Volume volume = start.volume;
     return machine.run_pass({.first = start.step, .steps = 2}, nullptr, volume);

@@ -90,12 +90,12 @@ class PlantedInScreen : public testing::TestWithParam<raycast::FaultInfo> {};
 TEST_P(PlantedInScreen, IsFoundWhereItWasPlanted) {
   using namespace raycast::fault_pictures;
   const raycast::FaultInfo& fault = GetParam();
-  const auto report_of = [&](const Case& of) {
+  const auto report_of = [&](const Case& one) {
     MachineOptions options;
     options.steps.steps = 2;
-    options.picture.configuration = of.configuration;
+    options.picture.configuration = one.configuration;
     options.picture.fault = fault.fault;
-    const test::HostilePicture& p = of.picture;
+    const test::HostilePicture& p = one.picture;
     return verify_machine({rule::Parameters{},
                            0,
                            *run::implementations().find("reference"),
@@ -104,8 +104,8 @@ TEST_P(PlantedInScreen, IsFoundWhereItWasPlanted) {
                           options);
   };
   bool struck = false;
-  const auto look_at = [&](const Case& of, const std::string& where) {
-    const MachineReport report = report_of(of);
+  const auto look_at = [&](const Case& one, const std::string& where) {
+    const MachineReport report = report_of(one);
     ASSERT_EQ(report.steps.mismatch, nullptr) << where << text_of(*report.steps.mismatch);
     if (!report.pictures.strike) {
       ASSERT_TRUE(report.good()) << where;

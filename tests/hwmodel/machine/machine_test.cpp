@@ -86,22 +86,22 @@ TEST(Machine, CyclesAndBytesSumUp) {
   const state::Grid g = melt.before.volume().grid;
   const std::int64_t tokens = std::int64_t{(g.x + 3) / 4} * g.y * g.z;
   std::int64_t cycles = 0, frames = report.first_frame, read = 0;
-  for (const Period& of : report.periods) {
-    EXPECT_EQ(of.work.passes, 1);  // two steps, T = 2
-    EXPECT_EQ(of.work.tokens, tokens);
-    EXPECT_EQ(of.work.read_bits, tokens * 4 * 50);
-    EXPECT_EQ(of.work.written_bits, tokens * 4 * 50);
-    EXPECT_GT(of.work.cycles, tokens);
+  for (const Period& period : report.periods) {
+    EXPECT_EQ(period.work.passes, 1);  // two steps, T = 2
+    EXPECT_EQ(period.work.tokens, tokens);
+    EXPECT_EQ(period.work.read_bits, tokens * 4 * 50);
+    EXPECT_EQ(period.work.written_bits, tokens * 4 * 50);
+    EXPECT_GT(period.work.cycles, tokens);
     // The first words come after the latency. The last ones go when the last token has been written.
-    EXPECT_GE(of.stream, of.work.cycles + options.picture.configuration.latency);
-    EXPECT_LE(of.stream, of.work.cycles + 2 * options.picture.configuration.latency);
-    EXPECT_GE(of.stream_beside, of.stream);
-    EXPECT_EQ(of.together, std::max(of.stream_beside, of.frame_beside));
-    EXPECT_LE(of.together, of.stream + of.frame + of.frame / 2);
-    EXPECT_EQ(of.frame_written, 2 * 5 * 4 * 192);  // two passes, tiles of 192 bytes
-    EXPECT_GT(of.upload.bursts, 0);
-    EXPECT_LT(of.upload.bursts, report.first_upload.bursts);
-    cycles += of.stream_beside, frames += of.frame_beside, read += of.frame_read;
+    EXPECT_GE(period.stream, period.work.cycles + options.picture.configuration.latency);
+    EXPECT_LE(period.stream, period.work.cycles + 2 * options.picture.configuration.latency);
+    EXPECT_GE(period.stream_beside, period.stream);
+    EXPECT_EQ(period.together, std::max(period.stream_beside, period.frame_beside));
+    EXPECT_LE(period.together, period.stream + period.frame + period.frame / 2);
+    EXPECT_EQ(period.frame_written, 2 * 5 * 4 * 192);  // two passes, tiles of 192 bytes
+    EXPECT_GT(period.upload.bursts, 0);
+    EXPECT_LT(period.upload.bursts, report.first_upload.bursts);
+    cycles += period.stream_beside, frames += period.frame_beside, read += period.frame_read;
   }
   EXPECT_EQ(cycles, report.steps.cycles);
   // The picture of the last state is drawn while the pipeline is idle: as by the ray caster alone.
@@ -131,14 +131,14 @@ TEST(Machine, BothWaitForANarrowBus) {
     const MachineReport report = melt.verify(options);
     ASSERT_TRUE(report.good());
     for (std::size_t i = 1; i < 3; ++i) {
-      const Period &before = report.periods[i - 1], &of = report.periods[i];
-      EXPECT_EQ(of.together, std::max(of.stream_beside, of.frame_beside));
+      const Period &before = report.periods[i - 1], &period = report.periods[i];
+      EXPECT_EQ(period.together, std::max(period.stream_beside, period.frame_beside));
       if (narrow) {
-        EXPECT_GT(of.frame_beside, before.frame + before.frame / 20);
-        EXPECT_GT(of.stream_beside, of.work.cycles + 100);
+        EXPECT_GT(period.frame_beside, before.frame + before.frame / 20);
+        EXPECT_GT(period.stream_beside, period.work.cycles + 100);
       } else {
-        EXPECT_LT(std::abs(of.frame_beside - before.frame), before.frame / 50);
-        EXPECT_LE(of.stream_beside, of.stream + 2);
+        EXPECT_LT(std::abs(period.frame_beside - before.frame), before.frame / 50);
+        EXPECT_LE(period.stream_beside, period.stream + 2);
       }
     }
   }
@@ -151,11 +151,11 @@ TEST(Machine, BothAreClientsOfOneDram) {
   const MachineReport report = melt.verify(options);
   ASSERT_TRUE(report.good());
   for (std::size_t i = 1; i < 3; ++i) {
-    const Period &before = report.periods[i - 1], &of = report.periods[i];
-    EXPECT_GT(of.stream, of.work.cycles);
-    EXPECT_GE(of.stream_beside, of.stream - of.stream / 50);
-    EXPECT_GT(of.frame_beside, before.frame);
-    EXPECT_EQ(of.together, std::max(of.stream_beside, of.frame_beside));
+    const Period &before = report.periods[i - 1], &period = report.periods[i];
+    EXPECT_GT(period.stream, period.work.cycles);
+    EXPECT_GE(period.stream_beside, period.stream - period.stream / 50);
+    EXPECT_GT(period.frame_beside, before.frame);
+    EXPECT_EQ(period.together, std::max(period.stream_beside, period.frame_beside));
   }
 }
 

@@ -69,8 +69,8 @@ TEST(Memory, WhereABurstLies) {
   EXPECT_EQ(b.row, 9);
   EXPECT_EQ(b.bank, 2 ^ 1);
   EXPECT_EQ(b.group, 2);
-  for (const Parameters& of : {p, two_ranks(), sheet("hbm2"), sheet("lpddr4-3200")}) {
-    Parameters small = of;
+  for (const Parameters& parameters : {p, two_ranks(), sheet("hbm2"), sheet("lpddr4-3200")}) {
+    Parameters small = parameters;
     small.rows = 32;
     std::map<std::vector<int>, std::int64_t> seen;
     for (std::int64_t address = 0; address < small.bytes(); address += kBurst) {
@@ -78,7 +78,7 @@ TEST(Memory, WhereABurstLies) {
       EXPECT_LE(at.column + kBurst / (small.width_bits / 8), small.columns);
       seen[{at.channel, at.rank, at.group, at.bank, at.row, at.column}] = address;
     }
-    EXPECT_EQ(static_cast<std::int64_t>(seen.size()), small.bytes() / kBurst) << of.name;
+    EXPECT_EQ(static_cast<std::int64_t>(seen.size()), small.bytes() / kBurst) << parameters.name;
   }
 }
 
@@ -180,8 +180,8 @@ TEST(Memory, PortsTakeTurns) {
     }
     dram.cycle();
   }
-  for (const std::int64_t of : served.by_id)
-    EXPECT_NEAR(static_cast<double>(of), static_cast<double>(served.by_id[0]), 2);
+  for (const std::int64_t value : served.by_id)
+    EXPECT_NEAR(static_cast<double>(value), static_cast<double>(served.by_id[0]), 2);
   EXPECT_GT(served.by_id[0], 2000);
 }
 

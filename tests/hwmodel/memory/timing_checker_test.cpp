@@ -24,7 +24,7 @@ Command command(std::int64_t cycle, Kind kind, const At& at) {
 }
 std::string verdict(const Parameters& p, const std::vector<Command>& stream) {
   TimingChecker checker(p);
-  for (const Command& of : stream) checker.issued(of);
+  for (const Command& command : stream) checker.issued(command);
   if (checker.violations() == 0) return "";
   std::string rules;
   for (const auto& [rule, count] : checker.by_rule()) rules += (rules.empty() ? "" : ", ") + rule;
@@ -92,13 +92,13 @@ TEST(TimingChecker, EveryRuleOfTheSheetToTheCycle) {
       {"command bus", {act(100, kA)}, Kind::activate, kOtherRank, 101},
       {"tREFI: the gap", {}, Kind::refresh, kA, -9 * 9360},
   };
-  for (const Case& of : cases) {
-    std::vector<Command> stream = of.before;
-    const bool late = of.from < 0;  // the rule holds until then, not from then on
-    stream.push_back(command(late ? -of.from : of.from, of.kind, of.at));
-    EXPECT_EQ(verdict(two_ranks(), stream), "") << of.rule;
+  for (const Case& one : cases) {
+    std::vector<Command> stream = one.before;
+    const bool late = one.from < 0;  // the rule holds until then, not from then on
+    stream.push_back(command(late ? -one.from : one.from, one.kind, one.at));
+    EXPECT_EQ(verdict(two_ranks(), stream), "") << one.rule;
     stream.back().cycle += late ? 1 : -1;
-    EXPECT_EQ(verdict(two_ranks(), stream), of.rule);
+    EXPECT_EQ(verdict(two_ranks(), stream), one.rule);
   }
   // This sheet's tRC is tRAS + tRP. A longer one shows by itself.
   Parameters longer = two_ranks();
@@ -168,16 +168,16 @@ TEST(TimingChecker, FindsEveryPlantedTimingError) {
     return checker.by_rule();
   };
   EXPECT_TRUE(found(ddr4, ddr4).empty());
-  for (const Planted& of : planted) {
+  for (const Planted& the_planted : planted) {
     Parameters believed = ddr4;
-    of.plant(believed);
-    EXPECT_TRUE(found(ddr4, believed).contains(of.rule)) << of.rule;
+    the_planted.plant(believed);
+    EXPECT_TRUE(found(ddr4, believed).contains(the_planted.rule)) << the_planted.rule;
   }
-  for (const Parameters& of : {lpddr4, hbm}) {
-    EXPECT_TRUE(found(of, of).empty());
-    Parameters believed = of;
+  for (const Parameters& parameters : {lpddr4, hbm}) {
+    EXPECT_TRUE(found(parameters, parameters).empty());
+    Parameters believed = parameters;
     --believed.act_slots;
-    EXPECT_TRUE(found(of, believed).contains("command bus")) << of.name;
+    EXPECT_TRUE(found(parameters, believed).contains("command bus")) << parameters.name;
   }
 }
 

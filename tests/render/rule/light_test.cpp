@@ -80,10 +80,10 @@ TEST(LightGrid, SidesSeenAlongADirection) {
 // Two cells of light along x, two cells wide: their middles are at 1 and 3 cells.
 TEST(LightGrid, BetweenCellsOfLight) {
   const auto lights = [](std::int64_t x, std::int64_t, std::int64_t) {
-    Light of;
-    of.lamp = x == 0 ? 0 : 200;
-    of.open[3] = x == 0 ? 100 : 0;
-    return of;
+    Light light;
+    light.lamp = x == 0 ? 0 : 200;
+    light.open[3] = x == 0 ? 100 : 0;
+    return light;
   };
   const auto at = [&](std::int64_t x) { return light_at(lights, {2, 1, 1}, 1, {x, 0, 0}); };
   EXPECT_EQ(at(kCell).lamp, 0);

@@ -21,17 +21,18 @@ namespace {
 
 // A block of solid under liquid, before the background: its rim is drawn twice.
 test::HostilePicture block(int pixels) {
-  test::HostilePicture of;
-  of.volume = state::Volume(state::Grid{20, 16, 20});
+  test::HostilePicture picture;
+  picture.volume = state::Volume(state::Grid{20, 16, 20});
   worlds::for_each({4, 2, 4, 16, 12, 16}, [&](int x, int y, int z) {
-    of.volume.solid.set(x, y, z, true);
-    of.volume.amount[of.volume.at(x, y, z)] = static_cast<std::uint16_t>(4096 - 500 * ((x + y + z) % 3));
+    picture.volume.solid.set(x, y, z, true);
+    picture.volume.amount[picture.volume.at(x, y, z)] =
+        static_cast<std::uint16_t>(4096 - 500 * ((x + y + z) % 3));
   });
-  of.camera.azimuth = 30, of.camera.elevation = 25;
-  of.camera.target = {10, 7, 10};
-  of.camera.width = of.camera.height = pixels;
-  of.setting = render::Setting::normal;
-  return of;
+  picture.camera.azimuth = 30, picture.camera.elevation = 25;
+  picture.camera.target = {10, 7, 10};
+  picture.camera.width = picture.camera.height = pixels;
+  picture.setting = render::Setting::normal;
+  return picture;
 }
 
 PictureInput input_of(const test::HostilePicture& p) {
@@ -189,7 +190,7 @@ TEST(Hang, NamesTheLastTokenThatIsLost) {
 
 TEST(TileCheck, ABurstThatIsWrittenTwiceIsFound) {
   std::vector<Difference> told;
-  TileCheck check(20, 12, [&](const Difference& of) { told.push_back(of); });
+  TileCheck check(20, 12, [&](const Difference& difference) { told.push_back(difference); });
   check.begin_pass({});
   check.written(4, 1);
   check.written(4, 2);
@@ -203,7 +204,7 @@ TEST(TileCheck, ABurstThatIsWrittenTwiceIsFound) {
 
 TEST(MemoryCheck, AReplyIsOfAnOpenRequestOfItsPipeAndComesOnce) {
   std::vector<Difference> told;
-  MemoryCheck check([&](const Difference& of) { told.push_back(of); });
+  MemoryCheck check([&](const Difference& difference) { told.push_back(difference); });
   LineRequest request;
   request.client = 2, request.slot = 5, request.address = 640, request.bytes = 128;
   const LineReply reply{2, 5, 640, 128};

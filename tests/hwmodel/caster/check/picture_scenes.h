@@ -43,11 +43,11 @@ class MidMelt {
   // The scene's own view, one from its other side and above, and one from below.
   static constexpr int kViews = 3;
   scene::Camera camera(int view, int pixels) const {
-    scene::Camera of = scene_.camera;
-    of.width = of.height = pixels;
-    if (view == 1) of.azimuth += 160, of.elevation = 40;
-    if (view == 2) of.azimuth += 75, of.elevation = -12;
-    return of;
+    scene::Camera camera = scene_.camera;
+    camera.width = camera.height = pixels;
+    if (view == 1) camera.azimuth += 160, camera.elevation = 40;
+    if (view == 2) camera.azimuth += 75, camera.elevation = -12;
+    return camera;
   }
   PictureReport draw(const scene::Camera& camera, const PictureOptions& options,
                      render::Setting setting = render::Setting::normal) const {

@@ -20,11 +20,11 @@ namespace {
 
 using namespace fault_pictures;
 
-PictureReport verify(const Case& of, Fault fault) {
+PictureReport verify(const Case& one, Fault fault) {
   PictureOptions options;
-  options.configuration = of.configuration;
+  options.configuration = one.configuration;
   options.fault = fault;
-  const test::HostilePicture& p = of.picture;
+  const test::HostilePicture& p = one.picture;
   return verify_picture({p.volume, p.look, p.light, p.terrain, p.camera, p.setting}, options);
 }
 
@@ -42,8 +42,8 @@ class PlantedInCaster : public testing::TestWithParam<FaultInfo> {};
 TEST_P(PlantedInCaster, IsFoundWhereItWasPlanted) {
   const FaultInfo& fault = GetParam();
   int struck = 0;
-  const auto look_at = [&](const Case& of, const std::string& where) {
-    const PictureReport report = verify(of, fault.fault);
+  const auto look_at = [&](const Case& one, const std::string& where) {
+    const PictureReport report = verify(one, fault.fault);
     if (!report.strike) {
       ASSERT_TRUE(report.good()) << where << ": nothing struck, but " << text_of(report);
       return;

@@ -27,37 +27,37 @@ inline void put_solid(state::Volume& volume, int x, int y, int z, int amount) {
 // hold something else in each block: in some of them the first sample beyond the border is in matter.
 // Without, no block sticks out of the box of what is occupied.
 inline Case wall_at_border(int seed, bool corners) {
-  Case of;
-  of.picture.volume = state::Volume(state::Grid{24, 24, 24});
+  Case one;
+  one.picture.volume = state::Volume(state::Grid{24, 24, 24});
   worlds::for_each({6, 0, 0, 15, 24, 24}, [&](int x, int y, int z) {
     const int any = corners ? ((y + 2) / 4 * 7 + (z + 2) / 4 + 9 * seed) % 40 * 100 : 2030;
-    put_solid(of.picture.volume, x, y, z, x == 6 || x == 14 ? any : 4096);
+    put_solid(one.picture.volume, x, y, z, x == 6 || x == 14 ? any : 4096);
   });
   if (corners)  // the box of what is occupied is nearly the grid, and rays leave empty blocks
     for (const int at : {0, 20})
       worlds::for_each({at, at, at, at + 4, at + 4, at + 4},
-                       [&](int x, int y, int z) { put_solid(of.picture.volume, x, y, z, 4096); });
-  of.picture.look.smooth = of.picture.look.smooth_solid = 0;
-  of.picture.camera.azimuth = seed % 2 == 0 ? 90 : -90;
-  of.picture.camera.elevation = 3 * seed;
-  of.picture.camera.target = {12, 12, 12};
-  of.picture.camera.width = of.picture.camera.height = corners ? 40 : 16;
-  return of;
+                       [&](int x, int y, int z) { put_solid(one.picture.volume, x, y, z, 4096); });
+  one.picture.look.smooth = one.picture.look.smooth_solid = 0;
+  one.picture.camera.azimuth = seed % 2 == 0 ? 90 : -90;
+  one.picture.camera.elevation = 3 * seed;
+  one.picture.camera.target = {12, 12, 12};
+  one.picture.camera.width = one.picture.camera.height = corners ? 40 : 16;
+  return one;
 }
 
 // A wide plate from above, with lines so small that their numbers exceed 4096, and a cache that keeps them.
 inline Case wide_plate(int seed) {
-  Case of;
-  of.picture.volume = state::Volume(state::Grid{72, 10, 72});
+  Case one;
+  one.picture.volume = state::Volume(state::Grid{72, 10, 72});
   worlds::for_each({2, 3, 2, 70, 7, 70}, [&](int x, int y, int z) {
-    put_solid(of.picture.volume, x, y, z, 4096 - 300 * ((x + 2 * z) % 5));
+    put_solid(one.picture.volume, x, y, z, 4096 - 300 * ((x + 2 * z) % 5));
   });
-  of.picture.camera.elevation = 85 - 10 * seed;
-  of.picture.camera.target = {36, 5, 36};
-  of.picture.camera.width = of.picture.camera.height = 48;
-  of.configuration.level_bits = 1;
-  of.configuration.levels = {1024, 8, 16, 64};
-  return of;
+  one.picture.camera.elevation = 85 - 10 * seed;
+  one.picture.camera.target = {36, 5, 36};
+  one.picture.camera.width = one.picture.camera.height = 48;
+  one.configuration.level_bits = 1;
+  one.configuration.levels = {1024, 8, 16, 64};
+  return one;
 }
 
 struct Made {
@@ -66,14 +66,14 @@ struct Made {
 };
 // Pictures without which a fault hardly ever makes a difference.
 inline std::vector<Made> made_for(Fault fault) {
-  std::vector<Made> of;
+  std::vector<Made> all;
   for (int seed = 0; seed < 12; ++seed) {
     const std::string number = ' ' + std::to_string(seed);
-    if (fault == Fault::walk_box) of.push_back({"wall" + number, wall_at_border(seed, false)});
-    if (fault == Fault::walk_block) of.push_back({"wall and corners" + number, wall_at_border(seed, true)});
-    if (fault == Fault::cache_tag_bits && seed < 4) of.push_back({"plate" + number, wide_plate(seed)});
+    if (fault == Fault::walk_box) all.push_back({"wall" + number, wall_at_border(seed, false)});
+    if (fault == Fault::walk_block) all.push_back({"wall and corners" + number, wall_at_border(seed, true)});
+    if (fault == Fault::cache_tag_bits && seed < 4) all.push_back({"plate" + number, wide_plate(seed)});
   }
-  return of;
+  return all;
 }
 
 inline bool is_of_clear_matter(Fault fault) {
@@ -82,33 +82,33 @@ inline bool is_of_clear_matter(Fault fault) {
 
 // Every second one has no obstacles.
 inline test::HostilePicture hostile_clear(std::uint64_t seed) {
-  test::HostilePicture of = test::hostile_clear_picture(seed, 3000);
-  if (seed % 2 == 1) return of;
-  worlds::for_each(worlds::whole(of.volume.grid), [&](int x, int y, int z) {
-    if (of.volume.inert.test(x, y, z))
-      of.volume.solid.set(x, y, z, true), of.volume.inert.set(x, y, z, false);
+  test::HostilePicture picture = test::hostile_clear_picture(seed, 3000);
+  if (seed % 2 == 1) return picture;
+  worlds::for_each(worlds::whole(picture.volume.grid), [&](int x, int y, int z) {
+    if (picture.volume.inert.test(x, y, z))
+      picture.volume.solid.set(x, y, z, true), picture.volume.inert.set(x, y, z, false);
   });
-  of.terrain = {};
-  of.look.frost = 0.1;
-  return of;
+  picture.terrain = {};
+  picture.look.frost = 0.1;
+  return picture;
 }
 
 inline Case hostile(int seed, bool clear) {
   const auto number = static_cast<std::uint64_t>(seed);
-  Case of{clear ? hostile_clear(number) : test::hostile_picture(number, 3000), {}};
+  Case one{clear ? hostile_clear(number) : test::hostile_picture(number, 3000), {}};
   worlds::Random random(static_cast<std::uint64_t>(seed) + 77);
-  if (!clear) of.picture.look.clear = {};
-  Configuration& c = of.configuration;
+  if (!clear) one.picture.look.clear = {};
+  Configuration& c = one.configuration;
   c.pipes = random.any({1, 2});
   c.stall_seed = random.one_in(2) ? 0 : static_cast<std::uint64_t>(seed) + 1;
   c.fifo_depth = random.any({2, 4});
   c.levels = {random.any({1, 4}), random.any({1, 2, 4}), 8, 64};
   c.level_bits = random.between(1, 3);
   c.apron = random.one_in(3);
-  if (of.picture.camera.width * of.picture.camera.height > 500)
-    of.picture.camera.width = of.picture.camera.height = 20;
-  of.picture.setting = render::Setting::normal;
-  return of;
+  if (one.picture.camera.width * one.picture.camera.height > 500)
+    one.picture.camera.width = one.picture.camera.height = 20;
+  one.picture.setting = render::Setting::normal;
+  return one;
 }
 
 }  // namespace voxmelt::hwmodel::raycast::fault_pictures

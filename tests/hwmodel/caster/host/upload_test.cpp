@@ -83,12 +83,14 @@ class Melt {
   const std::vector<std::uint32_t>* changed_ = nullptr;
 };
 
-std::string text(const UploadComparison& of, std::int64_t step) {
-  return of.first ? text_of(*of.first, step) : "";
+std::string text(const UploadComparison& comparison, std::int64_t step) {
+  return comparison.first ? text_of(*comparison.first, step) : "";
 }
 
 using Bytes = std::array<std::int64_t, kSentVolumes>;
-std::int64_t sum_of(const Bytes& of) { return std::accumulate(of.begin(), of.end(), std::int64_t{0}); }
+std::int64_t sum_of(const Bytes& bytes) {
+  return std::accumulate(bytes.begin(), bytes.end(), std::int64_t{0});
+}
 
 class UploadOf : public testing::TestWithParam<std::pair<const char*, std::uint32_t>> {};
 
@@ -110,9 +112,9 @@ TEST_P(UploadOf, FiftyStepsOfChangedBricksMakeTheFieldByteForByte) {
     for (std::size_t i = 0; i < kSentVolumes; ++i) bytes[i] += report.bytes[i];
     cycles += report.cycles;
     if (step % 25 != 0) continue;
-    const UploadComparison of = melt.compare_fresh(uploader);
-    ASSERT_GT(of.compared, 100000);
-    ASSERT_FALSE(of.first) << text(of, melt.number());
+    const UploadComparison comparison = melt.compare_fresh(uploader);
+    ASSERT_GT(comparison.compared, 100000);
+    ASSERT_FALSE(comparison.first) << text(comparison, melt.number());
   }
   EXPECT_GT(bytes[0], 0);
   EXPECT_GT(bytes[1], 0);
@@ -130,7 +132,7 @@ TEST_P(UploadOf, FiftyStepsOfChangedBricksMakeTheFieldByteForByte) {
 INSTANTIATE_TEST_SUITE_P(PaperScenes, UploadOf,
                          testing::Values(std::pair{"cello", 1048U}, std::pair{"goblet", 1100U},
                                          std::pair{"lava", 1200U}, std::pair{"bunny", 896U}),
-                         [](const auto& of) { return std::string(of.param.first); });
+                         [](const auto& one) { return std::string(one.param.first); });
 
 // Every brick of a step with other bytes is forgotten once, in the middle of six steps. The comparison names
 // it in that step, and not before.
@@ -166,17 +168,17 @@ TEST(Upload, AForgottenBrickIsFoundWithItsStep) {
       for (int step = 1; step <= 2; ++step) {
         melt.step();
         melt.send(uploader);
-        const UploadComparison of = melt.compare(uploader);
-        ASSERT_FALSE(of.first) << text(of, melt.number());
+        const UploadComparison comparison = melt.compare(uploader);
+        ASSERT_FALSE(comparison.first) << text(comparison, melt.number());
       }
       melt.step();
       melt.send(uploader);
       ASSERT_EQ(melt.number(), at);
-      const UploadComparison of = melt.compare(uploader);
-      ASSERT_TRUE(of.first);
-      EXPECT_EQ(of.first->volume, of_levels(others[i]) ? "levels" : "matter");
-      EXPECT_EQ(of.first->brick, others[i].brick);
-      EXPECT_NE(text(of, melt.number()).find("step " + std::to_string(at)), std::string::npos);
+      const UploadComparison comparison = melt.compare(uploader);
+      ASSERT_TRUE(comparison.first);
+      EXPECT_EQ(comparison.first->volume, of_levels(others[i]) ? "levels" : "matter");
+      EXPECT_EQ(comparison.first->brick, others[i].brick);
+      EXPECT_NE(text(comparison, melt.number()).find("step " + std::to_string(at)), std::string::npos);
     }
   }
 }
@@ -216,12 +218,12 @@ TEST(Upload, AMisplacedBrickIsFoundWithItsStep) {
       ASSERT_FALSE(melt.compare(uploader).first);
       melt.step();
       melt.send(uploader);
-      const UploadComparison of = melt.compare(uploader);
-      ASSERT_TRUE(of.first);
-      EXPECT_EQ(of.first->volume, sent[i].volume == Sent::levels ? "levels" : "matter");
+      const UploadComparison comparison = melt.compare(uploader);
+      ASSERT_TRUE(comparison.first);
+      EXPECT_EQ(comparison.first->volume, sent[i].volume == Sent::levels ? "levels" : "matter");
       const Layout& layout = uploader.memory().levels;
       const auto slot = [&](const state::Grid& b) { return layout.brick_at(b.x, b.y, b.z); };
-      const std::int64_t ahead = slot(of.first->brick) - slot(sent[i].brick);
+      const std::int64_t ahead = slot(comparison.first->brick) - slot(sent[i].brick);
       EXPECT_TRUE(ahead == 0 || ahead == 1) << ahead;
     }
   }
@@ -279,9 +281,9 @@ TEST(Upload, EveryLayoutHoldsTheFieldAfterEveryStep) {
       Uploader uploader{configuration};
       melt.send(uploader);
       for (int step = 0; step < 10; ++step) {
-        const UploadComparison of = melt.compare_fresh(uploader);
-        ASSERT_GT(of.compared, 10000);
-        ASSERT_FALSE(of.first) << text(of, melt.number());
+        const UploadComparison comparison = melt.compare_fresh(uploader);
+        ASSERT_GT(comparison.compared, 10000);
+        ASSERT_FALSE(comparison.first) << text(comparison, melt.number());
         melt.step();
         melt.send(uploader);
       }
@@ -317,10 +319,11 @@ TEST(Upload, AnOldTableOfBricksIsFoundWithItsStep) {
       picture.update(field, look, {}, {}, changed, 1);
       const render::PictureData data = picture.data(camera, render::Setting::fast);
       uploader.update(data, changed);
-      const UploadComparison of = compare_upload(uploader.registers(), uploader.memory(), data);
-      ASSERT_EQ(of.first.has_value(), planted && update == 2) << update << ' ' << text(of, update);
-      if (of.first) {
-        EXPECT_EQ(of.first->volume, "matter");
+      const UploadComparison comparison = compare_upload(uploader.registers(), uploader.memory(), data);
+      ASSERT_EQ(comparison.first.has_value(), planted && update == 2)
+          << update << ' ' << text(comparison, update);
+      if (comparison.first) {
+        EXPECT_EQ(comparison.first->volume, "matter");
       }
     }
   }
@@ -335,8 +338,8 @@ TEST(Upload, AWrongBoundOfTheGroundIsFound) {
   ASSERT_FALSE(melt.compare(uploader).first) << text(melt.compare(uploader), 0);
   const Registers right = uploader.registers();
   const auto found = [&](const Registers& wrong) {
-    const UploadComparison of = compare_upload(wrong, uploader.memory(), melt.data());
-    return of.first ? of.first->volume : "";
+    const UploadComparison comparison = compare_upload(wrong, uploader.memory(), melt.data());
+    return comparison.first ? comparison.first->volume : "";
   };
   const std::size_t fine = right.ground.blocks.fine.size();
   ASSERT_GT(fine, 50U);
@@ -387,9 +390,9 @@ TEST(Upload, LoneCellsThatComeAndGoAreWhereTheyShouldBe) {
       uploader.update(now.data(camera, render::Setting::fast), changed);
       render::Picture fresh;
       fresh.update(volume, look, {}, {}, 1);
-      const UploadComparison of =
+      const UploadComparison comparison =
           compare_upload(uploader.registers(), uploader.memory(), fresh.data(camera, render::Setting::fast));
-      ASSERT_FALSE(of.first) << text(of, step) << "apron " << apron;
+      ASSERT_FALSE(comparison.first) << text(comparison, step) << "apron " << apron;
       toggle();
       if (step % 3 == 0) toggle();
     }
@@ -405,8 +408,8 @@ TEST(Upload, WhereThereIsNoRoomForMoreBricksAllIsSentAnew) {
   for (int step = 0; step < 60; ++step) {
     melt.step();
     whole += melt.send(uploader).whole ? 1 : 0;
-    const UploadComparison of = melt.compare(uploader);
-    ASSERT_FALSE(of.first) << text(of, melt.number());
+    const UploadComparison comparison = melt.compare(uploader);
+    ASSERT_FALSE(comparison.first) << text(comparison, melt.number());
   }
   EXPECT_GE(whole, 1);
   EXPECT_LE(whole, 6);

@@ -177,17 +177,17 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
   std::deque<Reply> under_way;
   std::deque<Ask> asked;
   std::mt19937 random(41);
-  Fetched of;
+  Fetched fetched;
   int put = 0, got = 0;
   int x = 9, y = 9, z = 9;
-  for (; got < count && of.cycles < 400000; ++of.cycles) {
+  for (; got < count && fetched.cycles < 400000; ++fetched.cycles) {
     for (Fifo<TestGather::Out>* out : {&two, &three}) {
       if (!out->valid()) continue;
       const TestGather::Out& answer = *out->get();
       const auto same = std::find_if(asked.begin(), asked.end(),
                                      [&](const Ask& a) { return a.kind == answer.request.kind; });
       EXPECT_NE(same, asked.end());
-      if (same == asked.end()) return of;
+      if (same == asked.end()) return fetched;
       EXPECT_EQ(answer.request.number, same->number) << "in order";
       const Places& p = same->p;
       const auto side = static_cast<std::size_t>(p.side);
@@ -195,11 +195,11 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
         EXPECT_EQ(answer.words[i],
                   world.expected(p, p.x[i % side], p.y[i / side % side], p.z[i / side / side]))
             << got << " " << i;
-      if (testing::Test::HasFailure()) return of;
+      if (testing::Test::HasFailure()) return fetched;
       asked.erase(same);
       ++got;
     }
-    if (!under_way.empty() && under_way.front().due <= of.cycles) {
+    if (!under_way.empty() && under_way.front().due <= fetched.cycles) {
       const LineReply& reply = under_way.front().reply;
       EXPECT_EQ(reply.client, 3);
       gather.arrived(reply, world.bytes.data() + reply.address);
@@ -210,7 +210,7 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
       EXPECT_FALSE(request.write);
       EXPECT_EQ(request.bytes, world.layout.line_bytes);
       under_way.push_back(
-          {of.cycles + latency, {request.client, request.slot, request.address, request.bytes}});
+          {fetched.cycles + latency, {request.client, request.slot, request.address, request.bytes}});
     }
     gather.data.run();
     gather.tags.run();
@@ -236,8 +236,8 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
     in.commit(), ask.commit(), two.commit(), three.commit();
   }
   EXPECT_EQ(got, count) << "it hangs";
-  of.misses = gather.counts().misses;
-  return of;
+  fetched.misses = gather.counts().misses;
+  return fetched;
 }
 
 TEST(RaycastGather, WordsAreThoseOfAPlainReadingInTheirOrder) {

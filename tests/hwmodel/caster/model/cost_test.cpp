@@ -93,10 +93,11 @@ struct AllFit {
 
 // What a hostile picture is drawn from.
 struct Drawn {
-  Drawn(const test::HostilePicture& of, const Configuration& c) : uploader(c) {
-    field.update(of.volume, of.look, of.terrain, 1);
-    software.update(field, of.look, of.light, of.terrain, nullptr, 1);
-    uploader.update(software.data(render::camera_in_integers(of.camera), render::Setting::fast), nullptr);
+  Drawn(const test::HostilePicture& picture, const Configuration& c) : uploader(c) {
+    field.update(picture.volume, picture.look, picture.terrain, 1);
+    software.update(field, picture.look, picture.light, picture.terrain, nullptr, 1);
+    uploader.update(software.data(render::camera_in_integers(picture.camera), render::Setting::fast),
+                    nullptr);
   }
   render::DensityField field;
   render::Picture software;

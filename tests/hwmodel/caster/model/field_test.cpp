@@ -23,17 +23,17 @@ namespace {
 constexpr std::int64_t kFull = 32640;
 
 CameraRegisters worked_camera() {
-  CameraRegisters of;
-  of.eye = {-6945525, 7835297, 15011433};
-  of.forward = {578731322, -367241333, -826513985};
-  of.wide = {235676806, 0, 165022676};
-  of.high = {56441079, 270357325, -80606216};
-  of.near = 187;
-  of.near_wide = {5379829, 0, 3766997};
-  of.near_high = {1288388, 6171486, -1840011};
-  of.width = of.height = 16;
-  of.spacing = 2;
-  return of;
+  CameraRegisters registers;
+  registers.eye = {-6945525, 7835297, 15011433};
+  registers.forward = {578731322, -367241333, -826513985};
+  registers.wide = {235676806, 0, 165022676};
+  registers.high = {56441079, 270357325, -80606216};
+  registers.near = 187;
+  registers.near_wide = {5379829, 0, 3766997};
+  registers.near_high = {1288388, 6171486, -1840011};
+  registers.width = registers.height = 16;
+  registers.spacing = 2;
+  return registers;
 }
 
 TEST(RaycastRay, TheWorkedPixelsRay) {
@@ -154,13 +154,13 @@ std::int64_t worked_sample(Vec q) {
 
 TEST(RaycastField, TheWorkedPixelsSamples) {
   const Ray ray = ray_of(worked_camera(), 352, 288);
-  for (const Worked& of : kSamples) {
-    const Vec q = to_lattice(ray.start + ray.step * of.k);
-    EXPECT_EQ((q.x >> 20) - 2, of.cell[0]) << of.k;
-    EXPECT_EQ((q.y >> 20) - 2, of.cell[1]) << of.k;
-    EXPECT_EQ((q.z >> 20) - 2, of.cell[2]) << of.k;
-    EXPECT_EQ(worked_sample(q), of.level) << of.k;
-    EXPECT_EQ(from_lattice(q), ray.start + ray.step * of.k);
+  for (const Worked& worked : kSamples) {
+    const Vec q = to_lattice(ray.start + ray.step * worked.k);
+    EXPECT_EQ((q.x >> 20) - 2, worked.cell[0]) << worked.k;
+    EXPECT_EQ((q.y >> 20) - 2, worked.cell[1]) << worked.k;
+    EXPECT_EQ((q.z >> 20) - 2, worked.cell[2]) << worked.k;
+    EXPECT_EQ(worked_sample(q), worked.level) << worked.k;
+    EXPECT_EQ(from_lattice(q), ray.start + ray.step * worked.k);
   }
   const Vec seventh = to_lattice({6483, 4568305, 3025956});
   EXPECT_EQ(weight_of(seventh.x), 130);
@@ -184,16 +184,17 @@ TEST(RaycastField, EachLevelHasItsWeight) {
 }
 
 TEST(RaycastField, TheWorkedPixelsCrossing) {
-  Bracket of{to_lattice({782523, 4203619, 1688040}), to_lattice({911863, 4142838, 1465054}), -510, 3315, 0};
+  Bracket bracket{to_lattice({782523, 4203619, 1688040}), to_lattice({911863, 4142838, 1465054}), -510, 3315,
+                  0};
   const std::array<Vec, 3> middles{
       {{847193, 4173228, 1576547}, {814858, 4188423, 1632293}, {798690, 4196021, 1660166}}};
   const std::array<std::int64_t, 3> levels{1275, 255, 0};
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(from_lattice(middle_of(of)), middles[i]);
-    EXPECT_EQ(worked_sample(middle_of(of)), levels[i]);
-    halve(of, levels[i]);
+    EXPECT_EQ(from_lattice(middle_of(bracket)), middles[i]);
+    EXPECT_EQ(worked_sample(middle_of(bracket)), levels[i]);
+    halve(bracket, levels[i]);
   }
-  const Crossing crossing = crossing_of(of, 14);
+  const Crossing crossing = crossing_of(bracket, 14);
   EXPECT_TRUE(crossing.found);
   EXPECT_EQ(crossing.sample, 14);
   EXPECT_EQ(crossing.part, 256);
@@ -203,14 +204,14 @@ TEST(RaycastField, TheWorkedPixelsCrossing) {
 // The worked ray: the first middle is air, the second matter, the third air: e = 101 in bits.
 TEST(RaycastField, TheWorkedRaysCrossing) {
   const auto at = [](std::int64_t z) { return to_lattice({33554432, 33554432, z}); };
-  Bracket of{at(67829760 - 2 * 262144), at(67829760 - 3 * 262144), -12240, 4080, 0};
-  EXPECT_EQ(middle_of(of), at(67174400));
-  halve(of, -4080);
-  EXPECT_EQ(middle_of(of), at(67108864));
-  halve(of, 0);
-  EXPECT_EQ(middle_of(of), at(67141632));
-  halve(of, -2040);
-  const Crossing crossing = crossing_of(of, 3);
+  Bracket bracket{at(67829760 - 2 * 262144), at(67829760 - 3 * 262144), -12240, 4080, 0};
+  EXPECT_EQ(middle_of(bracket), at(67174400));
+  halve(bracket, -4080);
+  EXPECT_EQ(middle_of(bracket), at(67108864));
+  halve(bracket, 0);
+  EXPECT_EQ(middle_of(bracket), at(67141632));
+  halve(bracket, -2040);
+  const Crossing crossing = crossing_of(bracket, 3);
   EXPECT_EQ(crossing.position.z, 67108864);
   EXPECT_EQ(crossing.part, 5 * 256 + 256);
   // Between -100 and 301: f = 25600 / 401 = 63, and (4096 x 63) >> 8 = 1008 of the way.
@@ -227,9 +228,9 @@ TEST(RaycastField, TheWorkedPixelsNormal) {
   std::array<std::int16_t, 27> levels{};
   for (int i = 0; i < 27; ++i)
     levels[static_cast<std::size_t>(i)] = worked_level(i % 3 - 1, 3 + i / 3 % 3, i / 9);
-  const Slope of = slope_of(levels.data(), q);
-  EXPECT_EQ(of.slope, (Vec{3889, -31747, 0}));
-  EXPECT_EQ(of.normal, (Vec{-1992, 16262, 0}));
+  const Slope slope = slope_of(levels.data(), q);
+  EXPECT_EQ(slope.slope, (Vec{3889, -31747, 0}));
+  EXPECT_EQ(slope.normal, (Vec{-1992, 16262, 0}));
 }
 
 // Three plain passes over an array that shrinks, in the words of the page.
@@ -240,7 +241,7 @@ Vec plain_slope(const std::array<std::int16_t, 27>& levels, Vec position) {
     const std::int64_t u = (p[axis] + 2048) / 4096 % 256, t = 256 - u, l = t * t / 512, r = u * u / 512;
     weights[axis] = {{{l, 256 - l - r, r}, {-t, t - u, u}}};
   }
-  std::array<std::int64_t, 3> of{};
+  std::array<std::int64_t, 3> values{};
   for (std::size_t wanted = 0; wanted < 3; ++wanted) {
     std::array<std::int64_t, 27> now{};
     std::copy(levels.begin(), levels.end(), now.begin());
@@ -256,9 +257,9 @@ Vec plain_slope(const std::array<std::int16_t, 27>& levels, Vec position) {
         now[i] = static_cast<std::int64_t>(std::floor(sum / unit + 0.5));
       }
     }
-    of[wanted] = now[0];
+    values[wanted] = now[0];
   }
-  return {of[0], of[1], of[2]};
+  return {values[0], values[1], values[2]};
 }
 
 TEST(RaycastField, SlopesAreThoseOfThreePlainPasses) {
@@ -299,11 +300,11 @@ TEST(RaycastField, LengthsAreThoseOfRealNumbers) {
     };
     Vec g{component(), component(), component()};
     if (largest(g) > 32767 || g == Vec{}) continue;
-    const Vec of = unit(g);
+    const Vec vector = unit(g);
     const double length = std::sqrt(static_cast<double>(g.x * g.x + g.y * g.y + g.z * g.z));
-    ASSERT_LE(std::abs(static_cast<double>(of.x) - 16384.0 * static_cast<double>(g.x) / length), 1.6);
-    ASSERT_LE(std::abs(static_cast<double>(of.y) - 16384.0 * static_cast<double>(g.y) / length), 1.6);
-    ASSERT_LE(std::abs(static_cast<double>(of.z) - 16384.0 * static_cast<double>(g.z) / length), 1.6);
+    ASSERT_LE(std::abs(static_cast<double>(vector.x) - 16384.0 * static_cast<double>(g.x) / length), 1.6);
+    ASSERT_LE(std::abs(static_cast<double>(vector.y) - 16384.0 * static_cast<double>(g.y) / length), 1.6);
+    ASSERT_LE(std::abs(static_cast<double>(vector.z) - 16384.0 * static_cast<double>(g.z) / length), 1.6);
   }
 }
 

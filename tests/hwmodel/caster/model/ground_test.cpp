@@ -18,11 +18,11 @@ namespace {
 constexpr std::int64_t kOne = std::int64_t{1} << 20;
 
 Registers slab(std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t highest) {
-  Registers of;
-  of.cells = {x, y, z};
-  of.ground.any = true;
-  of.ground.highest = highest;
-  return of;
+  Registers registers;
+  registers.cells = {x, y, z};
+  registers.ground.any = true;
+  registers.ground.highest = highest;
+  return registers;
 }
 
 // Two columns along x, one along z: outside the nearest one.
@@ -74,19 +74,19 @@ TEST(RaycastGround, AHeightIsBlendedAlongXAndThenZ) {
 
 // Sixteen columns from (5, -1) on: entry 4 z + x has 100 (4 z + x)^2.
 TEST(RaycastGround, SixteenColumnsHoldAPlaceAndHalfACellAround) {
-  NearColumns of{5, -1, {}};
-  for (std::int32_t i = 0; i < 16; ++i) of.of[static_cast<std::size_t>(i)] = {100 * i * i, -i};
+  NearColumns columns{5, -1, {}};
+  for (std::int32_t i = 0; i < 16; ++i) columns.columns[static_cast<std::size_t>(i)] = {100 * i * i, -i};
   // Position of cell c and weight w: c + 1/2 cells and w 2^12.
   const auto place = [](std::int64_t cell, std::int64_t weight) {
     return cell * kOne + kOne / 2 + (weight << 12);
   };
   // Entries 5, 6, 9 and 10: 2500 and 3600 are 3050, 8100 and 10000 are 9050; a quarter on 4550.
-  EXPECT_EQ(of.height(&Column::drawn, place(6, 128), place(0, 64)), 4550);
-  EXPECT_EQ(of.height(&Column::drawn, place(5, 0), place(-1, 0)), 0);
-  EXPECT_EQ(of.height(&Column::drawn, place(6, 0), place(-1, 0)), 100);
-  EXPECT_EQ(of.height(&Column::drawn, place(5, 0), place(0, 0)), 1600);
-  EXPECT_EQ(of.height(&Column::drawn, place(7, 0), place(1, 0)), 10000);
-  EXPECT_EQ(of.height(&Column::bare, place(6, 0), place(0, 0)), -5);
+  EXPECT_EQ(columns.height(&Column::drawn, place(6, 128), place(0, 64)), 4550);
+  EXPECT_EQ(columns.height(&Column::drawn, place(5, 0), place(-1, 0)), 0);
+  EXPECT_EQ(columns.height(&Column::drawn, place(6, 0), place(-1, 0)), 100);
+  EXPECT_EQ(columns.height(&Column::drawn, place(5, 0), place(0, 0)), 1600);
+  EXPECT_EQ(columns.height(&Column::drawn, place(7, 0), place(1, 0)), 10000);
+  EXPECT_EQ(columns.height(&Column::bare, place(6, 0), place(0, 0)), -5);
 }
 
 TEST(RaycastGround, TheFirstAndTheLastPartAreThoseOfAPlainSearch) {
@@ -210,12 +210,12 @@ TEST(RaycastGround, ARayComesNoNearerThanItsApproach) {
 // from 3 on. Bounds are rounded up to 64: 12345 becomes 193.
 TEST(RaycastGround, BoundsOfBlocksByHand) {
   const std::array<std::int64_t, 6> heights{0, 4096, 4096, 0, 0, 12345};
-  const GroundBlocks of =
+  const GroundBlocks blocks =
       ground_blocks(6, 1, [&](std::int64_t x, std::int64_t) { return heights[static_cast<std::size_t>(x)]; });
-  EXPECT_EQ(of.x, 2);
-  EXPECT_EQ(of.z, 1);
-  EXPECT_EQ(of.fine, (std::vector<GroundBlock>{{64, 64, 0}, {193, 193, 0}}));
-  EXPECT_EQ(of.coarse, (std::vector<std::int32_t>{193}));
+  EXPECT_EQ(blocks.x, 2);
+  EXPECT_EQ(blocks.z, 1);
+  EXPECT_EQ(blocks.fine, (std::vector<GroundBlock>{{64, 64, 0}, {193, 193, 0}}));
+  EXPECT_EQ(blocks.coarse, (std::vector<std::int32_t>{193}));
 }
 
 // Block 0 has bound 2 cells, and the ray is 2 1/2 cells high. It falls by 1/8 cell a sample: 4 samples. By
@@ -227,8 +227,8 @@ TEST(RaycastGround, SamplesAboveABlockByHand) {
   blocks.coarse = {9999};
   const auto from = [&](Vec p, Vec step) { return samples_above(blocks, searcher_of({p, step}), p); };
   const std::int64_t half = kOne / 2, quarter = kOne / 4, eighth = kOne / 8;
-  const auto near = [](std::optional<std::int64_t> of, std::int64_t exact) {
-    return of && *of <= exact && *of >= exact - 1;  // a reciprocal is a little too small
+  const auto near = [](std::optional<std::int64_t> found, std::int64_t exact) {
+    return found && *found <= exact && *found >= exact - 1;  // a reciprocal is a little too small
   };
   EXPECT_TRUE(near(from({3 * half, 5 * half, kOne}, {quarter, -eighth, 0}), 4));
   EXPECT_TRUE(near(from({3 * half, 50 * half, kOne}, {quarter, -eighth, 0}), 9));
@@ -300,8 +300,8 @@ TEST(RaycastGround, NoSampleIsLeftOutInTheGround) {
   EXPECT_GT(next, 200);
 }
 
-void expect_near(Vec of, Vec expected) {
-  EXPECT_LE(largest(of - expected), 2) << of.x << " " << of.y << " " << of.z;
+void expect_near(Vec vector, Vec expected) {
+  EXPECT_LE(largest(vector - expected), 2) << vector.x << " " << vector.y << " " << vector.z;
 }
 
 // 16384 / sqrt 2 = 11585; 2048 : 4096 has 16384 / sqrt 5 = 7327 and 14654.

@@ -34,8 +34,8 @@ std::int64_t differing(const render::Image& image, int most) {
 }
 
 Account account_of(const PictureReport& report, const std::string& stage) {
-  for (const StageAccount& of : report.stages)
-    if (of.name == stage) return of.account;
+  for (const StageAccount& account : report.stages)
+    if (account.name == stage) return account.account;
   ADD_FAILURE() << "no stage " << stage;
   return {};
 }

@@ -13,7 +13,7 @@ namespace {
 
 // Entry i is power(32 i, shininess) >> 3 (picture-light.md, section 2): squared from the highest bit down.
 std::array<std::uint16_t, 1026> highlights(unsigned shininess) {
-  std::array<std::uint16_t, 1026> of{};
+  std::array<std::uint16_t, 1026> values{};
   for (std::int64_t i = 0; i < 1026; ++i) {
     const std::int64_t x = 32 * (i < 1024 ? i : 1024);
     std::int64_t result = 32768;
@@ -22,32 +22,32 @@ std::array<std::uint16_t, 1026> highlights(unsigned shininess) {
       result = (result * result + 16384) / 32768;
       if ((shininess & bit) != 0) result = (result * x + 16384) / 32768;
     }
-    of[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(result / 8);
+    values[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(result / 8);
   }
-  return of;
+  return values;
 }
 
 LookRegisters worked_look() {
-  LookRegisters of;
-  of.to_light = {-7947, 11921, 7948};
-  of.to_strip = {10319, 7446, -10321};
-  of.lamp = {3907, 3686, 3391};
-  of.from_below = {461, 461, 461};
-  of.from_above = {963, 1024, 1106};
-  of.solid = {{1766, 1178, 589}, {1594, 1082, 570}, {1197, 968, 742}, 2036};
-  of.liquid = {{589, 1178, 1766}, {594, 1106, 1618}, {1221, 1383, 1484}, 2294};
-  of.obstacle = {{2294, 2294, 2294}, {10, 10, 10}, {117, 111, 102}, 104};
-  of.lamp_low = 3113, of.lamp_high = 3905, of.strip_low = 2867;
-  of.highlight = highlights(12);
-  of.dull_highlight.fill(4096);
-  of.surroundings[1371] = of.surroundings[1373] = 1;
-  of.surroundings[1372] = 2576 / 2 | 2692 / 2 << 11 | 2884U / 4 << 22;
-  return of;
+  LookRegisters registers;
+  registers.to_light = {-7947, 11921, 7948};
+  registers.to_strip = {10319, 7446, -10321};
+  registers.lamp = {3907, 3686, 3391};
+  registers.from_below = {461, 461, 461};
+  registers.from_above = {963, 1024, 1106};
+  registers.solid = {{1766, 1178, 589}, {1594, 1082, 570}, {1197, 968, 742}, 2036};
+  registers.liquid = {{589, 1178, 1766}, {594, 1106, 1618}, {1221, 1383, 1484}, 2294};
+  registers.obstacle = {{2294, 2294, 2294}, {10, 10, 10}, {117, 111, 102}, 104};
+  registers.lamp_low = 3113, registers.lamp_high = 3905, registers.strip_low = 2867;
+  registers.highlight = highlights(12);
+  registers.dull_highlight.fill(4096);
+  registers.surroundings[1371] = registers.surroundings[1373] = 1;
+  registers.surroundings[1372] = 2576 / 2 | 2692 / 2 << 11 | 2884U / 4 << 22;
+  return registers;
 }
 Light worked_light() {
-  Light of;
-  of.open = {200, 255, 255, 200, 216, 239};
-  return of;
+  Light light;
+  light.open = {200, 255, 255, 200, 216, 239};
+  return light;
 }
 constexpr Vec kNormal{-1992, 16262, 0}, kToEye{-8002, 3759, 13794};
 
@@ -174,18 +174,18 @@ TEST(RaycastShade, GlowAndObstaclesAreMixedIn) {
   look.glow_crust[199] = look.glow_crust[201] = {77, 77, 77};
   look.glow_light[199] = look.glow_light[201] = {77, 77, 77};
   const MatterBytes bytes{128, 200, 170};
-  Mixture of = mixture_of(look, bytes);
-  EXPECT_EQ(of.l, 2056);
-  EXPECT_EQ(of.w, 1606);
-  EXPECT_EQ(of.material.diffuse[0], 1239);  // 2004 + rounded(-1950 x 1606, 12)
-  EXPECT_EQ(of.emission, (Rgb{}));
+  Mixture mixture = mixture_of(look, bytes);
+  EXPECT_EQ(mixture.l, 2056);
+  EXPECT_EQ(mixture.w, 1606);
+  EXPECT_EQ(mixture.material.diffuse[0], 1239);  // 2004 + rounded(-1950 x 1606, 12)
+  EXPECT_EQ(mixture.emission, (Rgb{}));
   look.glow = true;
-  of = mixture_of(look, bytes);
-  EXPECT_EQ(of.material.diffuse, (Rgb{1270, 1239, 1239}));
-  EXPECT_EQ(of.material.mirror, (Rgb{693, 693, 693}));
-  EXPECT_EQ(of.material.highlight, (Rgb{620, 620, 620}));
-  EXPECT_EQ(of.material.gloss, 622);
-  EXPECT_EQ(of.emission, (Rgb{1220, 0, 2}));
+  mixture = mixture_of(look, bytes);
+  EXPECT_EQ(mixture.material.diffuse, (Rgb{1270, 1239, 1239}));
+  EXPECT_EQ(mixture.material.mirror, (Rgb{693, 693, 693}));
+  EXPECT_EQ(mixture.material.highlight, (Rgb{620, 620, 620}));
+  EXPECT_EQ(mixture.material.gloss, 622);
+  EXPECT_EQ(mixture.emission, (Rgb{1220, 0, 2}));
   EXPECT_EQ(mixture_of(look, {0, 200, 148}).w, 0);
   EXPECT_EQ(mixture_of(look, {0, 200, 255}).w, 4096);
 }
@@ -229,11 +229,11 @@ TEST(RaycastShade, HighlightsOfObstaclesAndOfTheEdge) {
   EXPECT_EQ(mirrored_of(look, up, up, light, arriving, mixture).peak, 629);
   arriving.facing = -1;
   EXPECT_EQ(mirrored_of(look, up, up, light, arriving, mixture).peak, 0);
-  const Mirrored of = mirrored_of(look, up, up, light, arriving, mixture);
-  EXPECT_EQ(of.eye, 16384);
-  EXPECT_EQ(of.reflected, up);
-  EXPECT_EQ(of.free, 614);                        // nothing is open
-  EXPECT_EQ(of.around, (Rgb{9830, 9626, 9216}));  // the middle of the lamp
+  const Mirrored mirrored = mirrored_of(look, up, up, light, arriving, mixture);
+  EXPECT_EQ(mirrored.eye, 16384);
+  EXPECT_EQ(mirrored.reflected, up);
+  EXPECT_EQ(mirrored.free, 614);                        // nothing is open
+  EXPECT_EQ(mirrored.around, (Rgb{9830, 9626, 9216}));  // the middle of the lamp
 
   std::array<std::uint16_t, 1026> table{};
   table[574] = 160, table[575] = 200;

@@ -12,12 +12,12 @@ namespace {
 
 std::string order_of(int tiles_x, int tiles_y, int bands) {
   const TileTurns turns(tiles_x, tiles_y, bands);
-  std::string of;
+  std::string text;
   for (int i = 0; i < turns.count(); ++i) {
     const TileTurns::Tile tile = turns.at(i);
-    if (tile.any) of += std::to_string(tile.x) + std::to_string(tile.y) + " ";
+    if (tile.any) text += std::to_string(tile.x) + std::to_string(tile.y) + " ";
   }
-  return of;
+  return text;
 }
 
 TEST(RaycastTiles, OneBandGoesRowByRow) { EXPECT_EQ(order_of(3, 2, 1), "00 10 20 01 11 21 "); }

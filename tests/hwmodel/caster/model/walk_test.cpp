@@ -29,12 +29,12 @@ class Random {
 // A step of 2^-spacing cells: the largest component in magnitude is more than half of that, or is it.
 Vec random_step(Random& random, int spacing) {
   const std::int64_t most = std::int64_t{1} << (20 - spacing);
-  std::array<std::int64_t, 3> of{};
-  for (std::int64_t& one : of)
+  std::array<std::int64_t, 3> values{};
+  for (std::int64_t& one : values)
     one = random.below(4) == 0 ? 0 : random.within(random.below(3) == 0 ? 40 : most);
   const std::int64_t longest = most - random.below(most / 2);
-  of[static_cast<std::size_t>(random.below(3))] = random.below(2) == 0 ? longest : -longest;
-  return {of[0], of[1], of[2]};
+  values[static_cast<std::size_t>(random.below(3))] = random.below(2) == 0 ? longest : -longest;
+  return {values[0], values[1], values[2]};
 }
 Walker walker_at(Vec at, Vec step) {
   return {at, step, inverse_of(step.x), inverse_of(step.y), inverse_of(step.z)};
@@ -56,25 +56,25 @@ TEST(RaycastWalk, NoSampleBeforeTheBoxIsInIt) {
     Vec start{random.within(9 << 20), random.within(9 << 20), random.within(9 << 20)};
     if (n % 2 == 0)
       start = low - step * random.below(600);  // it comes to a corner of the box, or close to it
-    Walker of = walker_at(start, step);
+    Walker walker = walker_at(start, step);
     std::int64_t first = -1;
     for (std::int64_t k = 0; k < 2400 && first < 0; ++k)
-      if (in_box(of.at + of.step * k, low, high)) first = k;
+      if (in_box(walker.at + walker.step * k, low, high)) first = k;
     // The walk goes on until it is in the box, or knows that it never will be.
     std::int64_t k = 0;
     int leaps = 0;
-    for (std::optional<std::int64_t> steps; (steps = steps_to_box(of, low, high)) && *steps > 0 && k < 2400;
-         ++leaps) {
+    for (std::optional<std::int64_t> steps;
+         (steps = steps_to_box(walker, low, high)) && *steps > 0 && k < 2400; ++leaps) {
       ASSERT_TRUE(first < 0 || k + *steps <= first) << n;
       k += *steps;
-      of.at = of.at + of.step * *steps;
+      walker.at = walker.at + walker.step * *steps;
     }
     if (first >= 0) {
       ASSERT_EQ(k, first) << n;
       ASSERT_LE(leaps, 4 + first / 100) << n;
       ++hits;
     } else {
-      const auto steps = steps_to_box(of, low, high);
+      const auto steps = steps_to_box(walker, low, high);
       ASSERT_TRUE(!steps || k >= 2400) << n;
       misses += !steps ? 1 : 0;
     }
@@ -107,11 +107,11 @@ TEST(RaycastWalk, NoSampleThatIsLeftOutIsReachBlocksAway) {
   for (int n = 0; n < 6000; ++n) {
     const std::int64_t reach = 1 + n % 16;
     const auto coordinate = [&] { return (std::int64_t{400} << 20) + random.below(4 << 20); };
-    const Walker of =
+    const Walker walker =
         walker_at({coordinate(), coordinate(), coordinate()}, random_step(random, 2 + n / 16 % 4));
     std::int64_t exact = 1;
-    while (blocks_away(of.at, of.at + of.step * exact) < reach) ++exact;
-    const std::int64_t steps = steps_out(of, reach);
+    while (blocks_away(walker.at, walker.at + walker.step * exact) < reach) ++exact;
+    const std::int64_t steps = steps_out(walker, reach);
     ASSERT_GE(steps, 1);
     ASSERT_LE(steps, exact) << n;
     ASSERT_GE(steps, exact - exact / 500 - 1) << n;
@@ -162,12 +162,12 @@ TEST(RaycastWalk, TheLevelDoesNotRiseToTheSurfaceInStepsThatAreLeftOut) {
                        uphill = lean < 0 ? -most_step : most_step;
     const Vec step = straight ? Vec{uphill, uphill, uphill} : random_step(random, spacing);
     const auto level = [&](Vec q) {
-      std::array<std::int16_t, 8> of{};
+      std::array<std::int16_t, 8> values{};
       for (std::size_t i = 0; i < 8; ++i)
-        of[i] = static_cast<std::int16_t>(levels[static_cast<std::size_t>(q.z >> 20) + (i >> 2)]
-                                                [static_cast<std::size_t>(q.y >> 20) + (i >> 1 & 1)]
-                                                [static_cast<std::size_t>(q.x >> 20) + (i & 1)]);
-      return sample_of(of.data(), q);
+        values[i] = static_cast<std::int16_t>(levels[static_cast<std::size_t>(q.z >> 20) + (i >> 2)]
+                                                    [static_cast<std::size_t>(q.y >> 20) + (i >> 1 & 1)]
+                                                    [static_cast<std::size_t>(q.x >> 20) + (i & 1)]);
+      return sample_of(values.data(), q);
     };
     const std::int64_t here = level(start);
     if (here >= 0) continue;

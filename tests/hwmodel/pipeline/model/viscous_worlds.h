@@ -15,8 +15,8 @@ struct ViscousWorld {
         simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
                    worlds::implementation("reference")) {}
 
-  ViscousWorld(const Design& of, const state::Volume& start)
-      : design(of), simulation(design.parameters, start, worlds::implementation("reference")) {}
+  ViscousWorld(const Design& the_design, const state::Volume& start)
+      : design(the_design), simulation(design.parameters, start, worlds::implementation("reference")) {}
 
   // Runs a whole step of the reference; at(phase, state before it) after each phase.
   template <class At>

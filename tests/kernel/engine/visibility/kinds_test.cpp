@@ -115,15 +115,15 @@ TEST(Directional, GivesTheCosineAndNoDistance) {
   Volume v(Grid{40, 9, 9});
   put_solid(v, 4, 4, 4);
   put_solid(v, 30, 1, 4);
-  const auto of = [&](rule::Position d, int rays) {
+  const auto one = [&](rule::Position d, int rays) {
     return lit(v, {directional, {.power = kFull, .direction = d}}, rays);
   };
   for (const int rays : {1, 4, 16}) {
-    EXPECT_EQ(of({0, 32768, 0}, rays)[v.at(4, 4, 4)], 16384);
-    EXPECT_EQ(of({0, 1, 0}, rays)[v.at(30, 1, 4)], 16384) << "any length";
-    EXPECT_EQ(of({0, -7, 0}, rays)[v.at(30, 1, 4)], 16384) << "from below";
-    EXPECT_EQ(of({3, 4, 0}, rays)[v.at(4, 4, 4)], 16384 * 7 / 5) << "two faces: 3 / 5 and 4 / 5";
-    EXPECT_EQ(of({0, 0, 0}, rays)[v.at(4, 4, 4)], 0);
+    EXPECT_EQ(one({0, 32768, 0}, rays)[v.at(4, 4, 4)], 16384);
+    EXPECT_EQ(one({0, 1, 0}, rays)[v.at(30, 1, 4)], 16384) << "any length";
+    EXPECT_EQ(one({0, -7, 0}, rays)[v.at(30, 1, 4)], 16384) << "from below";
+    EXPECT_EQ(one({3, 4, 0}, rays)[v.at(4, 4, 4)], 16384 * 7 / 5) << "two faces: 3 / 5 and 4 / 5";
+    EXPECT_EQ(one({0, 0, 0}, rays)[v.at(4, 4, 4)], 0);
   }
 }
 
