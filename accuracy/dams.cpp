@@ -27,15 +27,18 @@ std::vector<double> middle_row(const Columns& columns) {
 }
 double mean_x(const std::vector<double>& depth) {  // from the closed end
   double sum = 0, sum_x = 0;
-  for (std::size_t x = 0; x < depth.size(); ++x)
-    sum += depth[x], sum_x += depth[x] * (static_cast<double>(x) + 0.5);
+  for (std::size_t x = 0; x < depth.size(); ++x) {
+    sum += depth[x];
+    sum_x += depth[x] * (static_cast<double>(x) + 0.5);
+  }
   return sum_x / sum;
 }
 double rms_x(const std::vector<double>& depth) {
   double sum = 0, sum_x2 = 0;
   for (std::size_t x = 0; x < depth.size(); ++x) {
     const double at = static_cast<double>(x) + 0.5;
-    sum += depth[x], sum_x2 += depth[x] * at * at;
+    sum += depth[x];
+    sum_x2 += depth[x] * at * at;
   }
   return std::sqrt(sum_x2 / sum);
 }

@@ -157,7 +157,10 @@ Outcome measure_lit_plane(const Conditions& conditions) {
         for (int x = kRim; x < kSide - kRim; ++x) wanted += on_floor(source, x, kTop, z);
       const double ratio = taken_up(trial.volume(), kRim, kSide - kRim, kRim, kSide - kRim) / wanted;
       measured.points.push_back({angle, ratio * std::cos(angle * std::numbers::pi / 180)});
-      if (std::abs(ratio - 1) >= std::abs(row.value - 1)) row.value = ratio, row.speed = trial.speed();
+      if (std::abs(ratio - 1) >= std::abs(row.value - 1)) {
+        row.value = ratio;
+        row.speed = trial.speed();
+      }
     }
     outcome.rows.push_back(std::move(row));
   }

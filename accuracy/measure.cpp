@@ -59,7 +59,10 @@ std::vector<double> radial_profile(const Columns& columns) {
   for (int z = 0; z < columns.nz; ++z)
     for (int x = 0; x < columns.nx; ++x) {
       const auto ring = static_cast<std::size_t>(std::lround(std::hypot(columns.x_of(x), columns.z_of(z))));
-      if (ring >= sum.size()) sum.resize(ring + 1), count.resize(ring + 1);
+      if (ring >= sum.size()) {
+        sum.resize(ring + 1);
+        count.resize(ring + 1);
+      }
       sum[ring] += columns.at(x, z);
       count[ring] += 1;
     }

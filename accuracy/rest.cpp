@@ -191,8 +191,13 @@ Outcome measure_layers(const Conditions& conditions) {
     double sum = 0;
     while (held < kGivenOne && part < kCells) {
       const int gets = std::min(kGivenOne - held, amount(part) - taken);
-      held += gets, taken += gets, sum += gets * heat(part);
-      if (taken == amount(part)) ++part, taken = 0;
+      held += gets;
+      taken += gets;
+      sum += gets * heat(part);
+      if (taken == amount(part)) {
+        ++part;
+        taken = 0;
+      }
     }
     wrong = std::max(wrong, std::abs(column.volume().heat[column.volume().at(0, bottom++, 0)] - sum / held));
   }

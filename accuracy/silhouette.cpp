@@ -67,8 +67,10 @@ double solid_angle(const state::Volume& volume, const std::array<double, 3>& eye
       const Vector at =
           plus({low[0] + (corner & 1), low[1] + (corner >> 1 & 1), low[2] + (corner >> 2)}, -1, eye);
       const double scale = distance / -dot(at, towards);
-      left = std::min(left, scale * dot(at, right)), end = std::max(end, scale * dot(at, right));
-      bottom = std::min(bottom, scale * dot(at, up)), top = std::max(top, scale * dot(at, up));
+      left = std::min(left, scale * dot(at, right));
+      end = std::max(end, scale * dot(at, right));
+      bottom = std::min(bottom, scale * dot(at, up));
+      top = std::max(top, scale * dot(at, up));
     }
     for (int row = pixel(bottom); row <= pixel(top); ++row)
       for (int column = pixel(left); column <= pixel(end); ++column) {

@@ -150,7 +150,10 @@ Outcome measure_blob(const Conditions& conditions) {
       Trial trial = blob_on_plane(conditions, slope * std::cos(a), slope * std::sin(a));
       const auto rate = [&](const Columns& c) {
         double sum = 0, cubes = 0;
-        for (const double h : c.depth) sum += h, cubes += h * h * h;
+        for (const double h : c.depth) {
+          sum += h;
+          cubes += h * h * h;
+        }
         return kBlobKappa / 3 * nusselt(slope) * cubes / sum;
       };
       Columns columns(trial.volume());

@@ -13,7 +13,8 @@ int main(int argc, char** argv) try {
   voxmelt::Simulation simulation(argv[1]);
   voxmelt::Picture picture;
   picture.camera = simulation.camera();
-  picture.width = 320, picture.height = 240;
+  picture.width = 320;
+  picture.height = 240;
   for (int k = 0; k < std::atoi(argv[2]); ++k) {
     const voxmelt::Frame frame = simulation.render(picture);
     std::cout << "P6 " << frame.width << ' ' << frame.height << " 255\n";

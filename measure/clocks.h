@@ -29,7 +29,10 @@ double seconds_for(Clock clock, const Task& task) {
 // The least of many.
 class Least {
  public:
-  void add(double value) { value_ = any_ ? std::min(value_, value) : value, any_ = true; }
+  void add(double value) {
+    value_ = any_ ? std::min(value_, value) : value;
+    any_ = true;
+  }
   double value() const { return value_; }
 
  private:

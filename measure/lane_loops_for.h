@@ -37,9 +37,18 @@ struct Loops {
 #endif
   template <class Operation>
   VOXMELT_LANES void each(Chains& v, const Operation& operation) {
-    operation(v.a, v.b), operation(v.b, v.c), operation(v.c, v.d), operation(v.d, v.e);
-    operation(v.e, v.f), operation(v.f, v.g), operation(v.g, v.h), operation(v.h, v.i);
-    operation(v.i, v.j), operation(v.j, v.k), operation(v.k, v.l), operation(v.l, v.a);
+    operation(v.a, v.b);
+    operation(v.b, v.c);
+    operation(v.c, v.d);
+    operation(v.d, v.e);
+    operation(v.e, v.f);
+    operation(v.f, v.g);
+    operation(v.g, v.h);
+    operation(v.h, v.i);
+    operation(v.i, v.j);
+    operation(v.j, v.k);
+    operation(v.k, v.l);
+    operation(v.l, v.a);
   }
 
   static std::uint64_t multiply(std::uint64_t rounds, std::uint16_t* sink) {

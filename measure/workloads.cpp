@@ -71,8 +71,14 @@ rule::Parameters later(rule::Parameters parameters, std::uint32_t steps) {
   const auto shift = [steps](std::uint32_t& step) {
     if (step != 0xFFFFFFFFu) step -= std::min(step, steps);
   };
-  for (rule::Vent& vent : parameters.vents) shift(vent.from), shift(vent.until);
-  for (rule::Drain& drain : parameters.drains) shift(drain.from), shift(drain.until);
+  for (rule::Vent& vent : parameters.vents) {
+    shift(vent.from);
+    shift(vent.until);
+  }
+  for (rule::Drain& drain : parameters.drains) {
+    shift(drain.from);
+    shift(drain.until);
+  }
   for (rule::HeatSource& source : parameters.heat.sources) {
     // The last key that has passed stays, at step 0, so a moving source starts from there.
     while (source.keys.size() > 1 && source.keys[1].step <= steps) source.keys.erase(source.keys.begin());

@@ -73,7 +73,9 @@ struct Cells {
       : grid(start.grid), line(grid.x + 2), slice(line * (grid.y + 2)), masks(start) {
     const auto count = static_cast<std::size_t>(slice) * static_cast<std::size_t>(grid.z + 2);
     kind.assign(count, kInert);
-    amount.resize(count), energy.resize(count), heat.resize(count);
+    amount.resize(count);
+    energy.resize(count);
+    heat.resize(count);
     for (int z = 0; z < grid.z; ++z)
       for (int y = 0; y < grid.y; ++y)
         for (int x = 0; x < grid.x; ++x) {

@@ -69,12 +69,16 @@ class FlowRules {
       const std::uint32_t block = rule::random_block_index(x, y, z, cells.grid.x, cells.grid.y);
       pattern_[i] = available & rule::random_byte(rule::random_block(keys_, step, block), x);
     });
-    next_amount_ = cells.amount, next_energy_ = cells.energy, next_heat_ = cells.heat;
+    next_amount_ = cells.amount;
+    next_energy_ = cells.energy;
+    next_heat_ = cells.heat;
     rows.for_each([&](int x, int y, int z) {
       const std::size_t i = cells.at(x, y, z);
       if (!cells.blocked(i)) gather(cells, i, rule::dither(step));
     });
-    cells.amount.swap(next_amount_), cells.energy.swap(next_energy_), cells.heat.swap(next_heat_);
+    cells.amount.swap(next_amount_);
+    cells.energy.swap(next_energy_);
+    cells.heat.swap(next_heat_);
     cells.settle(rows);
   }
 

@@ -20,8 +20,12 @@ void add_several(const Subject& subject, Extent extent, std::vector<Choice>& all
   const auto add = [&](double step, int neighbours, int rays, int interval) {
     Choice choice{Axis::several, usual_setting(extent)};
     Setting& s = choice.setting;
-    s.step = step, s.neighbours = neighbours;
-    if (subject.radiates) s.rays = rays, s.interval = interval;
+    s.step = step;
+    s.neighbours = neighbours;
+    if (subject.radiates) {
+      s.rays = rays;
+      s.interval = interval;
+    }
     if (subject.viscous && step < 1) s.substeps_max = 64;
     all.push_back(choice);
   };
@@ -106,7 +110,10 @@ Setting reference_of(const Subject& subject, Extent extent) {
   Setting finest = usual_setting(extent);
   finest.neighbours = 26;
   finest.step = quick ? 0.5 : 0.25;
-  if (subject.radiates) finest.rays = kMostRays, finest.interval = 1;
+  if (subject.radiates) {
+    finest.rays = kMostRays;
+    finest.interval = 1;
+  }
   finest.substeps_max = 64;
   return finest;
 }

@@ -26,7 +26,10 @@ Span span_in(const std::array<double, kAxes>& start, const std::array<double, kA
     }
     const double one = (low[a] - start[a]) / along[a], other = (high[a] - start[a]) / along[a];
     const double in = std::min(one, other), out = std::max(one, other);
-    if (in > span.first) span.first = in, span.axis = static_cast<int>(a);
+    if (in > span.first) {
+      span.first = in;
+      span.axis = static_cast<int>(a);
+    }
     span.last = std::min(span.last, out);
   }
   return span;
@@ -53,7 +56,10 @@ class Walk {
       if (along_[a] == 0) continue;
       const double side = along_[a] > 0 ? high[a] + 1 : low[a];
       const double t = (side - start_[a]) / along_[a];
-      if (t < least) least = t, axis_ = a;
+      if (t < least) {
+        least = t;
+        axis_ = a;
+      }
     }
     return std::max(least, t_);
   }

@@ -38,7 +38,8 @@ class TraceReader {
     if (word == "channel") return take_channel(cells);
     if (word == "wire") return take_wire(cells);
     if (word == "train") {
-      ++train_, last_ = 0;
+      ++train_;
+      last_ = 0;
       return;
     }
     take_token();

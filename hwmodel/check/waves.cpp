@@ -14,9 +14,10 @@ namespace {
 std::string identifier(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text.compare(i, 4, " -> ") == 0)
-      out += "_to_", i += 3;
-    else if (std::isalnum(static_cast<unsigned char>(text[i])) != 0)
+    if (text.compare(i, 4, " -> ") == 0) {
+      out += "_to_";
+      i += 3;
+    } else if (std::isalnum(static_cast<unsigned char>(text[i])) != 0)
       out += text[i];
     else if (!out.empty() && out.back() != '_')
       out += '_';

@@ -46,8 +46,11 @@ Next next_of(const Question& question, const Swept& swept, std::int64_t speed, R
     if (!least) continue;
     next.limit = std::max(next.limit, point.speed);
     const std::int64_t more = *least - there;
-    if (!next.point || more < next.more || (more == next.more && preferred(point, swept.points[*next.point])))
-      next.point = i, next.more = more;
+    if (!next.point || more < next.more ||
+        (more == next.more && preferred(point, swept.points[*next.point]))) {
+      next.point = i;
+      next.more = more;
+    }
   }
   return next;
 }

@@ -20,7 +20,8 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   checked.point = at;
   checked.steps = steps == 0 ? static_cast<std::uint32_t>(point.hw.cascade) : steps;
   const RunTime time = time_of(parts, point.hw, point.clock_mhz, question, checked.steps);
-  checked.predicted = time.cycles, checked.predicted_on = time.on_memory;
+  checked.predicted = time.cycles;
+  checked.predicted_on = time.on_memory;
 
   VerifyOptions options;
   options.steps = checked.steps;

@@ -20,7 +20,8 @@ class FirstOfFeeds {
     double fetched = 0;
     for (double& left : left_) {
       const double some = std::min(left, bursts);
-      left -= some, fetched += some;
+      left -= some;
+      fetched += some;
     }
     if (*std::max_element(left_.begin(), left_.end()) <= 0) left_.clear();
     return fetched;

@@ -56,7 +56,8 @@ std::vector<std::array<int, 2>> pairs(scene::Reader& from, const char* key) {
 
 LogicCost logic(scene::Reader& from) {
   LogicCost cost;
-  cost.lut = from.integer("lut", 0, kMost), cost.ff = from.integer("ff", 0, kMost);
+  cost.lut = from.integer("lut", 0, kMost);
+  cost.ff = from.integer("ff", 0, kMost);
   cost.source = from.text("source");
   for (const char* kind : {"synthesised", "counted", "assumed"})
     if (cost.source.starts_with(kind)) return cost;
@@ -108,11 +109,13 @@ Family load_family(const std::string& name, const std::string& place) {
   read_memories(memory, f);
   f.product = {whole(product, "wide", 2, 256), whole(product, "narrow", 2, 256)};
   product.finish();
-  f.divider = logic_of(root, "divider"), f.random_block = logic_of(root, "random_block");
-  f.channel = logic_of(root, "channel"), f.base = logic_of(root, "base");
+  f.divider = logic_of(root, "divider");
+  f.random_block = logic_of(root, "random_block");
+  f.channel = logic_of(root, "channel");
+  f.base = logic_of(root, "base");
   f.coder = logic_of(root, "coder");
   f.port = logic(port);
-  f.port_bits = whole(port, "buffer_bits", 1, kWidest),
+  f.port_bits = whole(port, "buffer_bits", 1, kWidest);
   f.port_words = whole(port, "buffer_words", 1, kWidest);
   port.finish();
   read_stages(root, f);

@@ -168,7 +168,10 @@ std::string svg_of(const Explored& explored) {
     if (f >= kResources || usable[f] > 0) shown.push_back(f);
   double slowest = 1e9, fastest = 0;
   for (const Point& p : explored.swept.points)
-    if (p.taken.fits()) slowest = std::min(slowest, giga(p)), fastest = std::max(fastest, giga(p));
+    if (p.taken.fits()) {
+      slowest = std::min(slowest, giga(p));
+      fastest = std::max(fastest, giga(p));
+    }
   constexpr double kHead = 104;
   const double height = kHead + kHeight * static_cast<double>(row_of(shown.size() + 1));
   std::string svg = fmt::format(

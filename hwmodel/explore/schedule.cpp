@@ -110,7 +110,8 @@ void add_feeds(Train& train, const Design& design, const Configuration& c, const
     double left = all - begin;
     for (std::size_t i = 0; i < used.size(); ++i) {
       const double fetched = std::min(left, used[i]);
-      work.fed[i + delays[t]] += fetched, left -= fetched;
+      work.fed[i + delays[t]] += fetched;
+      left -= fetched;
     }
   }
 }

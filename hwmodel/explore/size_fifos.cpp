@@ -66,7 +66,8 @@ class Sizer {
         sized.one_less = less.hangs ? INT64_MAX : less.cycles - sizing_.cycles;
         if (sized.one_less > 0 || !memory_) break;
         all = false;
-        sizing_.cycles = less.cycles, sized.one_less = 0;
+        sizing_.cycles = less.cycles;
+        sized.one_less = 0;
       }
       sized.depth = channel.depth;
     }

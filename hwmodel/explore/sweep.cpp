@@ -31,7 +31,8 @@ Fixed fixed_of(const PartList& parts, const Configuration& hw, const Family& f) 
   ff = f.base.ff + steps * parts.ff + fixed.ports * f.port.ff;
   dsp = steps * parts.dsp;
   const auto channel = [&](std::int64_t times, std::int64_t bits) {
-    lut += times * f.channel.lut, ff += times * f.channel.ff;
+    lut += times * f.channel.lut;
+    ff += times * f.channel.ff;
     if (depth <= f.register_words)
       ff += times * depth * bits * lanes;
     else
@@ -41,7 +42,8 @@ Fixed fixed_of(const PartList& parts, const Configuration& hw, const Family& f) 
   for (const StagePart& stage : parts.stages) channel(steps, stage.output_bits);
   if (parts.fed) channel(steps, 16);
   if (hw.coded) {
-    lut += 2 * f.coder.lut, ff += 2 * f.coder.ff;
+    lut += 2 * f.coder.lut;
+    ff += 2 * f.coder.ff;
     const CodeLayout layout(parts.design);
     for (const auto& buffers : {reader_buffers(layout), writer_buffers(layout)})
       for (const BufferCost& one : buffers)
@@ -92,7 +94,10 @@ Taken taken_by(const PartList& parts, const Configuration& hw, const Device& dev
       if (relaxed == static_cast<Resource>(r)) continue;
       double share = share_of(amounts[r], usable[r]);
       if (r == kLut) share = std::max(share, share_of(lutram, device.lutram));
-      if (share > taken.fullest) taken.fullest = share, taken.most = static_cast<Resource>(r);
+      if (share > taken.fullest) {
+        taken.fullest = share;
+        taken.most = static_cast<Resource>(r);
+      }
     }
     if (first || better_choice(taken, best)) best = taken;
     first = false;
@@ -178,7 +183,9 @@ Swept sweep(const Question& question, const Axes& axes, const std::function<void
       std::map<int, std::size_t> parts_of;  // by the blocks of a tile
       for (const int cascade : axes.cascade) {
         Configuration hw;
-        hw.lanes = lanes, hw.cascade = cascade, hw.substeps = substeps;
+        hw.lanes = lanes;
+        hw.cascade = cascade;
+        hw.substeps = substeps;
         for (const int tile : tiles_of(axes, question, hw)) {
           hw.tile = tile;
           const Design design = design_of(question.parameters, question.grid, hw);

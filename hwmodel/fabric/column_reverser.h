@@ -23,7 +23,11 @@ class ColumnReverser {
         words_(lanes_ * depth_) {}
 
   // The next exchange is the first of a column; what the memory holds is of no use.
-  void restart() { address_ = 0, done_ = 0, upwards_ = true; }
+  void restart() {
+    address_ = 0;
+    done_ = 0;
+    upwards_ = true;
+  }
 
   // Writes a token of this column, and gives the token of the column before that lies as far from its end.
   void exchange(const Word* in, Word* out) {

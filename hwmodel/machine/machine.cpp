@@ -20,7 +20,10 @@ StreamWork work_of(const VerifyReport& report) {
   work.passes = report.passes;
   work.cycles = report.predicted_cycles;
   for (const StageReport& stage : report.stages) {
-    if (stage.kind == StageKind::reader) work.tokens += stage.cycles.busy, work.read_bits += stage.moved_bits;
+    if (stage.kind == StageKind::reader) {
+      work.tokens += stage.cycles.busy;
+      work.read_bits += stage.moved_bits;
+    }
     if (stage.kind == StageKind::writer) work.written_bits += stage.moved_bits;
     if (stage.kind == StageKind::feed) work.fed_bits += stage.moved_bits;
   }
@@ -182,18 +185,24 @@ Period MachineReport::sum() const {
   Period sum;
   for (const Period& period : periods) {
     sum.step = period.step;
-    sum.work.passes += period.work.passes, sum.work.cycles += period.work.cycles,
-        sum.work.tokens += period.work.tokens;
-    sum.work.read_bits += period.work.read_bits, sum.work.fed_bits += period.work.fed_bits;
+    sum.work.passes += period.work.passes;
+    sum.work.cycles += period.work.cycles;
+    sum.work.tokens += period.work.tokens;
+    sum.work.read_bits += period.work.read_bits;
+    sum.work.fed_bits += period.work.fed_bits;
     sum.work.written_bits += period.work.written_bits;
-    sum.stream += period.stream, sum.frame += period.frame;
-    sum.upload.words += period.upload.words, sum.upload.bursts += period.upload.bursts;
+    sum.stream += period.stream;
+    sum.frame += period.frame;
+    sum.upload.words += period.upload.words;
+    sum.upload.bursts += period.upload.bursts;
     sum.upload.cycles += period.upload.cycles;
     for (std::size_t i = 0; i < raycast::kSentVolumes; ++i) sum.upload.bytes[i] += period.upload.bytes[i];
-    sum.frame_read += period.frame_read, sum.frame_written += period.frame_written,
-        sum.frame_bus += period.frame_bus;
+    sum.frame_read += period.frame_read;
+    sum.frame_written += period.frame_written;
+    sum.frame_bus += period.frame_bus;
     sum.together += period.together;
-    sum.stream_beside += period.stream_beside, sum.frame_beside += period.frame_beside;
+    sum.stream_beside += period.stream_beside;
+    sum.frame_beside += period.frame_beside;
     sum.host_seconds += period.host_seconds;
   }
   return sum;

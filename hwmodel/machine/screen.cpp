@@ -36,7 +36,10 @@ const raycast::UploadReport& Screen::take_over(const state::Volume& volume) {
 
   scene_.emplace(field_, input_.look, input_.light, input_.terrain);
   expected_ = software_.draw(input_.camera, input_.setting, 1);
-  if (!first) beside_->forget(upload_), alone_->forget(upload_);
+  if (!first) {
+    beside_->forget(upload_);
+    alone_->forget(upload_);
+  }
   upload_.bricks.clear();
   for (auto& lines : upload_.lines) lines.clear();
   return upload_;

@@ -25,7 +25,10 @@ class BusAccount {
     cause += gap - idle;
     to.busy += beats;
     if (any_ && write != write_) ++(write ? to.read_to_write : to.write_to_read);
-    any_ = true, write_ = write, rank_ = rank, refreshed_ = false;
+    any_ = true;
+    write_ = write;
+    rank_ = rank;
+    refreshed_ = false;
     end_ = begin + beats;
   }
   std::int64_t end() const { return end_; }

@@ -110,16 +110,19 @@ void Controller::choose_side(std::int64_t now, std::int64_t& next) {
   const bool may_turn = run_ >= policy_.batch;
   if (writing_) {
     if (writes != 0 && (hurry_ || reads == 0 || (writes > low && !may_turn))) return;
-    writing_ = false, run_ = 0, no_reads_since_ = now;
+    writing_ = false;
+    run_ = 0;
+    no_reads_since_ = now;
     return;
   }
   if (writes == 0) return;
   const std::int64_t too_old = writes_.front().arrival + policy_.starve + 1;
   const std::int64_t lingered = no_reads_since_ + policy_.linger;
   const bool many = writes >= static_cast<std::size_t>(policy_.high) || now >= too_old;
-  if (hurry_ || (reads != 0 ? many && may_turn : many || writes > low || now >= lingered))
-    writing_ = true, run_ = 0;
-  else
+  if (hurry_ || (reads != 0 ? many && may_turn : many || writes > low || now >= lingered)) {
+    writing_ = true;
+    run_ = 0;
+  } else
     next = std::min(next, reads == 0 ? lingered : std::max(too_old, now + 1));
 }
 

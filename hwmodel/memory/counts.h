@@ -24,12 +24,27 @@ struct Counts {
   std::int64_t cycles() const { return busy + idle + refresh + turnaround + row + spacing; }
 
   Counts& operator+=(const Counts& o) {
-    reads += o.reads, writes += o.writes, hits += o.hits, misses += o.misses, conflicts += o.conflicts;
-    activates += o.activates, precharges += o.precharges, refreshes += o.refreshes, columns += o.columns;
-    read_to_write += o.read_to_write, write_to_read += o.write_to_read, held += o.held;
-    busy += o.busy, idle += o.idle, refresh += o.refresh, turnaround += o.turnaround;
-    row += o.row, spacing += o.spacing, read_latency += o.read_latency;
-    worst_read = std::max(worst_read, o.worst_read), worst_write = std::max(worst_write, o.worst_write);
+    reads += o.reads;
+    writes += o.writes;
+    hits += o.hits;
+    misses += o.misses;
+    conflicts += o.conflicts;
+    activates += o.activates;
+    precharges += o.precharges;
+    refreshes += o.refreshes;
+    columns += o.columns;
+    read_to_write += o.read_to_write;
+    write_to_read += o.write_to_read;
+    held += o.held;
+    busy += o.busy;
+    idle += o.idle;
+    refresh += o.refresh;
+    turnaround += o.turnaround;
+    row += o.row;
+    spacing += o.spacing;
+    read_latency += o.read_latency;
+    worst_read = std::max(worst_read, o.worst_read);
+    worst_write = std::max(worst_write, o.worst_write);
     return *this;
   }
 };

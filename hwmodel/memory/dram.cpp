@@ -63,7 +63,10 @@ void Dram::run(std::int64_t end) {
   while (now_ < end) {
     std::int64_t next = end;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
-      if (take_request(c)) wake_[c] = now_, next = now_ + 1;
+      if (take_request(c)) {
+        wake_[c] = now_;
+        next = now_ + 1;
+      }
       if (wake_[c] <= now_) {
         Controller::Done done;
         wake_[c] = channels_[c].step(now_, done);
@@ -92,8 +95,12 @@ bool Dram::take_request(std::size_t channel) {
       continue;
     }
     Entry entry;
-    entry.address = request.address, entry.put = waiting.put, entry.at = location;
-    entry.write = request.write, entry.port = static_cast<int>(at), entry.id = request.id;
+    entry.address = request.address;
+    entry.put = waiting.put;
+    entry.at = location;
+    entry.write = request.write;
+    entry.port = static_cast<int>(at);
+    entry.id = request.id;
     entry.number = waiting.number;
     controller.take(entry, now_);
     if (trace_ != nullptr) trace_->taken(now_, request);

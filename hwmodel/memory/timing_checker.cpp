@@ -85,7 +85,8 @@ void TimingChecker::issued(const Command& c) {
     case Kind::precharge_all:
       for (Bank& bank : rank.banks) {
         if (bank.open) check_precharge(bank, c);
-        bank.open = false, bank.closed_with_all = true;
+        bank.open = false;
+        bank.closed_with_all = true;
         bank.precharge = c.cycle;
       }
       break;
@@ -119,7 +120,9 @@ void TimingChecker::check_activate(Rank& rank, const Command& c) {
   std::rotate(rank.activates.begin(), rank.activates.begin() + 3, rank.activates.end());
   rank.activates[0] = c.cycle;
   rank.groups[static_cast<std::size_t>(c.group)].activate = c.cycle;
-  bank.open = true, bank.row = c.row, bank.activate = c.cycle;
+  bank.open = true;
+  bank.row = c.row;
+  bank.activate = c.cycle;
 }
 
 void TimingChecker::check_precharge(const Bank& bank, const Command& c) {

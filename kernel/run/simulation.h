@@ -38,7 +38,10 @@ class Simulation {
   void begin_step();
   std::vector<step::Phase> phases() const;  // of the step that has begun, in their order
   void run_phase(step::Phase phase);
-  void end_step() { ++steps_done_, untold_ = true; }
+  void end_step() {
+    ++steps_done_;
+    untold_ = true;
+  }
   int substeps() const { return substeps_; }  // of the step that has begun last
   step::Moment moment() const { return {step_number(), substep_, substeps_}; }  // of the next phase
 
@@ -88,7 +91,11 @@ class Simulation {
   }
   void download() const;
   void tell_changes() const;
-  void touch() { fetch(), uploaded_ = false, volume_.changed.forget(); }
+  void touch() {
+    fetch();
+    uploaded_ = false;
+    volume_.changed.forget();
+  }
 
   rule::Parameters parameters_;
   mutable state::Volume volume_;

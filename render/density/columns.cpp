@@ -64,7 +64,10 @@ class Columns::Finder {
              0xff;
     };
     Stand* const stands = columns_.stands_.data() + columns_.at(bx * kBrickSide, z);
-    for (int i = 0; i < count; ++i) stands[i].bed = grid.y, stands[i].top = 0;
+    for (int i = 0; i < count; ++i) {
+      stands[i].bed = grid.y;
+      stands[i].top = 0;
+    }
     unsigned left = (1u << count) - 1;
     const auto take = [&](unsigned found, const auto& put) {
       for (int i = 0; i < count; ++i)
@@ -211,9 +214,15 @@ const std::vector<Extent>& Columns::update(const state::Volume& volume, int smoo
 
   ColumnBox levels = ColumnBox::none(), wet = ColumnBox::none();
   const auto unite = [](ColumnBox& to, const ColumnBox& box) {
-    if (!box.empty()) to.add(box.low_x, box.low_z), to.add(box.high_x - 1, box.high_z - 1);
+    if (!box.empty()) {
+      to.add(box.low_x, box.low_z);
+      to.add(box.high_x - 1, box.high_z - 1);
+    }
   };
-  for (const Found& one : found) unite(levels, one.levels), unite(wet, one.wet);
+  for (const Found& one : found) {
+    unite(levels, one.levels);
+    unite(wet, one.wet);
+  }
   const int passes = std::min(kLevelPasses * smooth, kMostLevelPasses);
   if (news.everything) levels = wet = {0, 0, grid_.x, grid_.z};
   if (!levels.empty()) levels = levels.widened(passes, grid_.x, grid_.z);

@@ -65,8 +65,10 @@ class Sheet {
 }  // namespace
 
 void ColumnBox::add(int x, int z) {
-  low_x = std::min(low_x, x), high_x = std::max(high_x, x + 1);
-  low_z = std::min(low_z, z), high_z = std::max(high_z, z + 1);
+  low_x = std::min(low_x, x);
+  high_x = std::max(high_x, x + 1);
+  low_z = std::min(low_z, z);
+  high_z = std::max(high_z, z + 1);
 }
 
 ColumnBox ColumnBox::widened(int columns, int x, int z) const {

@@ -51,7 +51,8 @@ picture::Vector cut_color(const GroundMap& map, const picture::GroundCrossing& c
     };
     const std::int32_t bend = entry(bends, along);
     band = entry(map.bands(), (crossing.position.y + bend) << picture::kBandFineness);
-    watch(picture::Stage::texture, "bend", bend), watch(picture::Stage::texture, "band", band);
+    watch(picture::Stage::texture, "bend", bend);
+    watch(picture::Stage::texture, "band", band);
   }
   return picture::cut_color(map.color(), band);
 }
@@ -94,7 +95,8 @@ GroundMap::Paint told_paint(const GroundMap& map, const picture::GroundCrossing&
   const GroundMap::Paint paint = crossing.face == picture::Face::top
                                      ? top_paint(map, crossing.position, normal, watch)
                                      : GroundMap::Paint{cut_color(map, crossing, watch), normal};
-  watch(picture::Stage::paint, "color", paint.color), watch(picture::Stage::paint, "normal", paint.normal);
+  watch(picture::Stage::paint, "color", paint.color);
+  watch(picture::Stage::paint, "normal", paint.normal);
   return paint;
 }
 

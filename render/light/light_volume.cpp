@@ -192,8 +192,10 @@ LightVolume::LampRays LightVolume::lamp_rays() const {
   const auto more = [&](std::int32_t s) {
     return static_cast<int>(picture::magnitude(picture::shift_at(rays.way.slices, s).cells)) + 4;
   };
-  rays.low_u = low(rays.slope_u), rays.low_v = low(rays.slope_v);
-  rays.count_u = rays.way.u + more(rays.slope_u), rays.count_v = rays.way.v + more(rays.slope_v);
+  rays.low_u = low(rays.slope_u);
+  rays.low_v = low(rays.slope_v);
+  rays.count_u = rays.way.u + more(rays.slope_u);
+  rays.count_v = rays.way.v + more(rays.slope_v);
   rays.row = static_cast<std::size_t>(light_row(rays.count_u) + 3 * kLightLanes);
   return rays;
 }

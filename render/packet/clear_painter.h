@@ -32,7 +32,8 @@ class ClearPainter {
         halvings_(halvings),
         last_(ground.found ? ground.part >> picture::kPartBits : std::numeric_limits<std::int64_t>::max()),
         watch_(watch) {
-    watch_(Stage::met, "to_eye", to_eye_), watch_(Stage::clear, "length", step_);
+    watch_(Stage::met, "to_eye", to_eye_);
+    watch_(Stage::clear, "length", step_);
   }
 
   // From the first crossing on. Tells whether the ray gets to the ground.
@@ -101,14 +102,16 @@ class ClearPainter {
   picture::Crossing exit_at(std::int64_t k) const {
     watch_(Stage::crossing, "samples", std::array{k + 1, k});
     const picture::Crossing exit = picture::crossing_between(levels(), ray_.at(k + 1), ray_.at(k), k, watch_);
-    watch_(Stage::crossing, "sample", exit.sample), watch_(Stage::crossing, "part", exit.part);
+    watch_(Stage::crossing, "sample", exit.sample);
+    watch_(Stage::crossing, "part", exit.part);
     watch_(Stage::crossing, "crossing", exit.position);
     return exit;
   }
 
   // The ray enters or leaves matter.
   void surface(picture::Vector position, bool enters) {
-    watch_(Stage::clear, "enters", enters ? 1 : 0), watch_(Stage::clear, "position", position);
+    watch_(Stage::clear, "enters", enters ? 1 : 0);
+    watch_(Stage::clear, "position", position);
     const picture::Vector normal =
         picture::normal_at(watched(scene_.levels, Stage::normal), position, watch_);
     watch_(Stage::normal, "normal", normal);
@@ -116,7 +119,8 @@ class ClearPainter {
     const picture::Light light = light_at(picture::before_surface(position, normal, scene_.light_shift));
     const picture::Shine shine = picture::shine_of(paint_, enters ? normal : picture::Vector{} - normal,
                                                    normal, to_eye_, light, matter, watch_);
-    watch_(Stage::clear, "gleam", shine.mirrored), watch_(Stage::clear, "body", shine.scattered);
+    watch_(Stage::clear, "gleam", shine.mirrored);
+    watch_(Stage::clear, "body", shine.scattered);
     const picture::Color all = passed();
     for (std::size_t c = 0; c < 3; ++c) mirrored_[c] += (all[c] * shine.mirrored[c]) >> picture::kPassedBits;
     left_.surfaces = picture::dimmed(left_.surfaces, shine.more);
@@ -128,7 +132,8 @@ class ClearPainter {
 
   // A way in matter, with what is at a place of it.
   void walk(picture::Vector position, std::int32_t way) {
-    watch_(Stage::clear, "d", way), watch_(Stage::clear, "position", position);
+    watch_(Stage::clear, "d", way);
+    watch_(Stage::clear, "position", position);
     const picture::Matter matter = matter_at(position);
     const picture::Color color = picture::inner_color(paint_, light_at(position), matter, watch_);
     watch_(Stage::clear, "body", color);
@@ -142,8 +147,10 @@ class ClearPainter {
   void scatter(const picture::Color& before, const picture::Color& color) {
     const picture::Color after = passed();
     for (std::size_t c = 0; c < 3; ++c) scattered_[c] += (before[c] - after[c]) * color[c];
-    watch_(Stage::clear, "left", left_.surfaces), watch_(Stage::clear, "way", left_.way);
-    watch_(Stage::clear, "passed", after), watch_(Stage::clear, "mirrored", mirrored_);
+    watch_(Stage::clear, "left", left_.surfaces);
+    watch_(Stage::clear, "way", left_.way);
+    watch_(Stage::clear, "passed", after);
+    watch_(Stage::clear, "mirrored", mirrored_);
     watch_(Stage::clear, "scattered", scattered_);
   }
 

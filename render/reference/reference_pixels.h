@@ -71,7 +71,8 @@ class ReferencePixels {
       light[c] = (light[c] + count / 2) / count;
       bytes[c] = byte_table()[static_cast<std::size_t>(light[c])];
     }
-    watch_(picture::Stage::pixel, "samples", count), watch_(picture::Stage::pixel, "light", light);
+    watch_(picture::Stage::pixel, "samples", count);
+    watch_(picture::Stage::pixel, "light", light);
     watch_(picture::Stage::pixel, "bytes", bytes);
     return bytes;
   }

@@ -29,20 +29,31 @@ struct Numbers {
   void add(const Value& value) {
     if constexpr (std::is_integral_v<Value>)
       values[count++] = value;
-    else if constexpr (std::is_same_v<Value, Vector>)
-      add(value.x), add(value.y), add(value.z);
-    else if constexpr (std::is_same_v<Value, picture::Matter>)
-      add(value.liquid), add(value.heat), add(value.obstacle);
-    else if constexpr (std::is_same_v<Value, picture::Light>)
-      add(value.lamp), add(value.open), add(value.glow);
-    else if constexpr (std::is_same_v<Value, picture::Texel>)
-      add(value.red), add(value.green), add(value.blue), add(int{value.bump_x}), add(int{value.bump_z});
-    else
+    else if constexpr (std::is_same_v<Value, Vector>) {
+      add(value.x);
+      add(value.y);
+      add(value.z);
+    } else if constexpr (std::is_same_v<Value, picture::Matter>) {
+      add(value.liquid);
+      add(value.heat);
+      add(value.obstacle);
+    } else if constexpr (std::is_same_v<Value, picture::Light>) {
+      add(value.lamp);
+      add(value.open);
+      add(value.glow);
+    } else if constexpr (std::is_same_v<Value, picture::Texel>) {
+      add(value.red);
+      add(value.green);
+      add(value.blue);
+      add(int{value.bump_x});
+      add(int{value.bump_z});
+    } else
       for (const auto& one : value) add(one);
   }
   template <class Value>
   void add(const picture::Fetched<Value>& fetched) {
-    add(fetched.cell), add(fetched.value);
+    add(fetched.cell);
+    add(fetched.value);
   }
 };
 
@@ -85,27 +96,41 @@ struct Teller {
 
 void tell_material(const Teller& teller, const std::array<const char*, 4>& names,
                    const picture::Material& material) {
-  teller(Stage::picture, names[0], material.diffuse), teller(Stage::picture, names[1], material.mirror);
-  teller(Stage::picture, names[2], material.highlight), teller(Stage::picture, names[3], material.gloss);
+  teller(Stage::picture, names[0], material.diffuse);
+  teller(Stage::picture, names[1], material.mirror);
+  teller(Stage::picture, names[2], material.highlight);
+  teller(Stage::picture, names[3], material.gloss);
 }
 
 // What all rays share, but for tables.
 void tell_picture(const Teller& teller, const PictureScene& scene, const picture::View& view) {
   const auto tell = [&](const char* name, const auto& value) { teller(Stage::picture, name, value); };
-  tell("eye", view.eye), tell("forward", view.forward), tell("right", view.right), tell("up", view.up);
-  tell("wide", view.wide), tell("high", view.high), tell("near", view.near);
-  tell("near_wide", view.near_wide), tell("near_high", view.near_high);
+  tell("eye", view.eye);
+  tell("forward", view.forward);
+  tell("right", view.right);
+  tell("up", view.up);
+  tell("wide", view.wide);
+  tell("high", view.high);
+  tell("near", view.near);
+  tell("near_wide", view.near_wide);
+  tell("near_high", view.near_high);
   tell("e", view.halvings);
   const picture::Paint& paint = scene.paint;
-  tell("to_light", paint.to_light), tell("to_strip", paint.to_strip), tell("lamp", paint.lamp);
-  tell("from_below", paint.from_below), tell("from_above", paint.from_above);
+  tell("to_light", paint.to_light);
+  tell("to_strip", paint.to_strip);
+  tell("lamp", paint.lamp);
+  tell("from_below", paint.from_below);
+  tell("from_above", paint.from_above);
   tell_material(teller, {"solid diffuse", "solid mirror", "solid highlight", "solid gloss"}, paint.solid);
   tell_material(teller, {"liquid diffuse", "liquid mirror", "liquid highlight", "liquid gloss"},
                 paint.liquid);
   tell_material(teller, {"obstacle diffuse", "obstacle mirror", "obstacle highlight", "obstacle gloss"},
                 paint.obstacle);
-  tell("lamp low", paint.lamp_low), tell("lamp high", paint.lamp_high), tell("strip low", paint.strip_low);
-  tell("cells of light", scene.light.count()), tell("s", scene.light.shift());
+  tell("lamp low", paint.lamp_low);
+  tell("lamp high", paint.lamp_high);
+  tell("strip low", paint.strip_low);
+  tell("cells of light", scene.light.count());
+  tell("s", scene.light.shift());
 }
 
 }  // namespace

@@ -123,8 +123,10 @@ VOXMELT_RULE Ray ray_through(const View& view, std::int64_t across, std::int64_t
   const Vector start =
       view.eye + ((view.forward * view.near) >> 14) + ((view.near_wide * u + view.near_high * v) >> 10);
   const Vector step = step_along(direction, spacing);
-  watch(Stage::ray, "place", std::array{across, down}), watch(Stage::ray, "direction", direction);
-  watch(Stage::ray, "start", start), watch(Stage::ray, "step", step);
+  watch(Stage::ray, "place", std::array{across, down});
+  watch(Stage::ray, "direction", direction);
+  watch(Stage::ray, "start", start);
+  watch(Stage::ray, "step", step);
   return {start, step};
 }
 

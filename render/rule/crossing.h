@@ -51,9 +51,12 @@ VOXMELT_RULE Crossing crossing_between(const Levels& levels, Vector outside, Vec
     }
   }
   const std::int32_t last = false_position(low, high);
-  watch(Stage::crossing, "A", outside), watch(Stage::crossing, "B", inside);
-  watch(Stage::crossing, "a", low), watch(Stage::crossing, "b", high);
-  watch(Stage::crossing, "e", part), watch(Stage::crossing, "f", last);
+  watch(Stage::crossing, "A", outside);
+  watch(Stage::crossing, "B", inside);
+  watch(Stage::crossing, "a", low);
+  watch(Stage::crossing, "b", high);
+  watch(Stage::crossing, "e", part);
+  watch(Stage::crossing, "f", last);
   return {true, k, part * kParts + last, outside + (((inside - outside) * last) >> 8)};
 }
 
@@ -75,7 +78,8 @@ VOXMELT_RULE Crossing first_crossing(const Levels& levels, Vector cells, const R
     if (sample(levels, ray.at(k), watch) < 0) continue;
     const Crossing met =
         k == 0 ? Crossing{true, 0, kPlaces, ray.start} : crossing_before(levels, ray, k, watch);
-    watch(Stage::crossing, "sample", met.sample), watch(Stage::crossing, "part", met.part);
+    watch(Stage::crossing, "sample", met.sample);
+    watch(Stage::crossing, "part", met.part);
     watch(Stage::crossing, "crossing", met.position);
     return met;
   }

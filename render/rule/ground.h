@@ -64,7 +64,8 @@ VOXMELT_RULE Samples ground_parts(Vector cells, std::int32_t highest, const Ray&
 template <class Heights, class Watch = Silent>
 VOXMELT_RULE GroundCrossing ground_between(const Heights& heights, Vector cells, const Ray& ray,
                                            std::int64_t outside, std::int64_t inside, Watch watch = {}) {
-  watch(Stage::ground, "A", outside), watch(Stage::ground, "B", inside);
+  watch(Stage::ground, "A", outside);
+  watch(Stage::ground, "B", inside);
   while (inside - outside > 1) {
     const std::int64_t middle = (outside + inside) >> 1;
     watch(Stage::ground, "M", middle);
@@ -75,7 +76,8 @@ VOXMELT_RULE GroundCrossing ground_between(const Heights& heights, Vector cells,
     }
   }
   const Face face = inside == 0 ? Face::none : face_before(cells, position_at(ray, outside));
-  watch(Stage::ground, "place", inside), watch(Stage::ground, "crossing", position_at(ray, inside));
+  watch(Stage::ground, "place", inside);
+  watch(Stage::ground, "crossing", position_at(ray, inside));
   watch(Stage::ground, "face", static_cast<std::int32_t>(face));
   return {true, inside, position_at(ray, inside), face};
 }

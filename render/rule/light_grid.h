@@ -110,7 +110,8 @@ VOXMELT_RULE Light light_at(const Lights& lights, Vector count, int shift, Vecto
   };
   const Light below = along_y(z.cell), above = along_y(z.cell + 1);
   const Light light = between(below, above, z.weight);
-  watch(Stage::light, "lamp", light.lamp), watch(Stage::light, "open", light.open);
+  watch(Stage::light, "lamp", light.lamp);
+  watch(Stage::light, "open", light.open);
   watch(Stage::light, "glow", light.glow);
   return light;
 }

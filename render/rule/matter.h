@@ -66,7 +66,8 @@ VOXMELT_RULE Matter matter_at(const Cells& matter, Vector cells, Vector position
   };
   const Matter below = along_y(z.cell), above = along_y(z.cell + 1);
   const Matter matter = both(below, above, z.weight);
-  watch(Stage::matter, "liquid", matter.liquid), watch(Stage::matter, "heat", matter.heat);
+  watch(Stage::matter, "liquid", matter.liquid);
+  watch(Stage::matter, "heat", matter.heat);
   watch(Stage::matter, "obstacle", matter.obstacle);
   return matter;
 }

@@ -39,7 +39,8 @@ VOXMELT_RULE std::int64_t inverse_root(std::int64_t m, Watch watch = {}) {
   const auto i = static_cast<std::size_t>((m >> 23) - kRootFirst);
   const std::int64_t root =
       kInverseRoot[i] - rounded((kInverseRoot[i] - kInverseRoot[i + 1]) * (m & 0x7FFFFF), 23);
-  watch(Stage::unit, "m", m), watch(Stage::unit, "i", m >> 23);
+  watch(Stage::unit, "m", m);
+  watch(Stage::unit, "i", m >> 23);
   watch(Stage::unit, "R", std::array{kInverseRoot[i], kInverseRoot[i + 1]});
   watch(Stage::unit, "r", root);
   return root;
@@ -53,7 +54,9 @@ VOXMELT_RULE Vector unit(Vector a, Watch watch = {}) {
   a = a * (std::int64_t{1} << (15 - bits_of(largest(a))));
   const std::int64_t square = dot(a, a);  // 2^28 <= square < 2^32
   const int more = square < std::int64_t{1} << 30 ? 1 : 0;
-  watch(Stage::unit, "g", a), watch(Stage::unit, "q", square), watch(Stage::unit, "e", more);
+  watch(Stage::unit, "g", a);
+  watch(Stage::unit, "q", square);
+  watch(Stage::unit, "e", more);
   const std::int64_t scale = inverse_root(square << (2 * more), watch) << more;
   const Vector vector{rounded(a.x * scale, 16), rounded(a.y * scale, 16), rounded(a.z * scale, 16)};
   watch(Stage::unit, "unit", vector);
@@ -95,8 +98,10 @@ template <class Levels, class Watch = Silent>
 VOXMELT_RULE Vector normal_at(const Levels& levels, Vector position, Watch watch = {}) {
   using Three = std::array<std::int32_t, 3>;
   const Spline x = spline_of(position.x), y = spline_of(position.y), z = spline_of(position.z);
-  watch(Stage::normal, "position", position), watch(Stage::normal, "cell", Vector{x.cell, y.cell, z.cell});
-  tell_weights(watch, "weights along x", x), tell_weights(watch, "weights along y", y);
+  watch(Stage::normal, "position", position);
+  watch(Stage::normal, "cell", Vector{x.cell, y.cell, z.cell});
+  tell_weights(watch, "weights along x", x);
+  tell_weights(watch, "weights along y", y);
   tell_weights(watch, "weights along z", z);
   Three slope_x{}, slope_y{}, value{};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -84,8 +84,10 @@ VOXMELT_RULE Color arriving(const Paint& paint, Vector normal, const Light& ligh
   const std::int32_t seen = seen_along(light.open, normal), open = seen + (seen >> 7);
   const std::int32_t glow = lit_by_glow ? seen_along(light.glow, normal) : 0;
   const auto up = static_cast<std::int32_t>(normal.y) + kLength;  // 0 .. 2
-  watch(Stage::arriving, "lamp", lamp), watch(Stage::arriving, "facing", facing);
-  watch(Stage::arriving, "lit", lit), watch(Stage::arriving, "seen open", seen);
+  watch(Stage::arriving, "lamp", lamp);
+  watch(Stage::arriving, "facing", facing);
+  watch(Stage::arriving, "lit", lit);
+  watch(Stage::arriving, "seen open", seen);
   watch(Stage::arriving, "seen glow", glow);
   Color ambient{}, sum{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -94,7 +96,8 @@ VOXMELT_RULE Color arriving(const Paint& paint, Vector normal, const Light& ligh
     sum[c] =
         ((ambient[c] * open) >> 8) + ((paint.lamp[c] * lit) >> kNormalBits) + ((kGlowLight[c] * glow) >> 5);
   }
-  watch(Stage::arriving, "ambient", ambient), watch(Stage::arriving, "arriving", sum);
+  watch(Stage::arriving, "ambient", ambient);
+  watch(Stage::arriving, "arriving", sum);
   return sum;
 }
 
@@ -116,8 +119,10 @@ VOXMELT_RULE Color mirrored(const Paint& paint, Vector direction, Watch watch = 
   for (std::size_t c = 0; c < 3; ++c)
     sum[c] =
         around[c] + ((kMirroredLamp[c] * lamp) >> kLightBits) + ((kMirroredStrip[c] * strip) >> kLightBits);
-  watch(Stage::mirror, "entry", height >> 4), watch(Stage::mirror, "surroundings", around);
-  watch(Stage::mirror, "lamp", lamp), watch(Stage::mirror, "strip", strip);
+  watch(Stage::mirror, "entry", height >> 4);
+  watch(Stage::mirror, "surroundings", around);
+  watch(Stage::mirror, "lamp", lamp);
+  watch(Stage::mirror, "strip", strip);
   watch(Stage::mirror, "around", sum);
   return sum;
 }
@@ -160,11 +165,12 @@ VOXMELT_RULE Substance substance_of(const Paint& paint, Matter matter, std::int3
     }
   }
   substance.material = mixed(substance.material, paint.obstacle, obstacle);
-  watch(Stage::material, "l", liquid), watch(Stage::material, "w", obstacle);
-  watch(Stage::material, "diffuse", substance.material.diffuse),
-      watch(Stage::material, "mirror", substance.material.mirror);
-  watch(Stage::material, "highlight", substance.material.highlight),
-      watch(Stage::material, "gloss", substance.material.gloss);
+  watch(Stage::material, "l", liquid);
+  watch(Stage::material, "w", obstacle);
+  watch(Stage::material, "diffuse", substance.material.diffuse);
+  watch(Stage::material, "mirror", substance.material.mirror);
+  watch(Stage::material, "highlight", substance.material.highlight);
+  watch(Stage::material, "gloss", substance.material.gloss);
   watch(Stage::material, "emission", substance.emission);
   return substance;
 }
@@ -183,7 +189,8 @@ VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector out, Vecto
   const std::int32_t bright = std::clamp(cosine(normal, halfway), 0, kLength);
   std::int32_t peak = highlight_at(paint.highlight, bright);
   if (obstacle > 0) peak = mixed(peak, highlight_at(paint.dull_highlight, bright), obstacle);
-  watch(Stage::mirror, "half", halfway), watch(Stage::mirror, "shine", bright);
+  watch(Stage::mirror, "half", halfway);
+  watch(Stage::mirror, "shine", bright);
   watch(Stage::mirror, "unlit peak", peak);
   peak = (((peak * smooth_light(0, 1024, facing >> 2)) >> kLightBits) * lamp) >> 8;
 
@@ -194,16 +201,20 @@ VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector out, Vecto
   const std::int32_t more = (graze * material.gloss) >> kNormalBits;
   const std::int64_t twice = 2 * dot(normal, to_eye) >> kNormalBits;
   const Vector reflected = ((normal * twice) >> kNormalBits) - to_eye;
-  watch(Stage::mirror, "peak", peak), watch(Stage::mirror, "eye", eye);
-  watch(Stage::mirror, "a2", away2), watch(Stage::mirror, "a4", away4);
-  watch(Stage::mirror, "graze", graze), watch(Stage::mirror, "more", more);
+  watch(Stage::mirror, "peak", peak);
+  watch(Stage::mirror, "eye", eye);
+  watch(Stage::mirror, "a2", away2);
+  watch(Stage::mirror, "a4", away4);
+  watch(Stage::mirror, "graze", graze);
+  watch(Stage::mirror, "more", more);
   watch(Stage::mirror, "r", reflected);
   const Color around = mirrored(paint, reflected, watch);
   const std::int32_t open = seen_along(light.open, normal), free = seen_along(light.open, reflected);
   // The mirrored light is at most 85 % hidden.
   const std::int32_t seen = 614 + (((free + (free >> 7)) * (open + (open >> 7)) * 3482) >> 16);
 
-  watch(Stage::mirror, "seen open by r", free), watch(Stage::mirror, "free", seen);
+  watch(Stage::mirror, "seen open by r", free);
+  watch(Stage::mirror, "free", seen);
   Shine shine{{}, {}, {}, more, obstacle};
   Color fresnel{}, mirror{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -213,7 +224,8 @@ VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector out, Vecto
     shine.scattered[c] = (arrives[c] * material.diffuse[c]) >> kLightBits;
     shine.emission[c] = (emission[c] * (2540 + ((1556 * eye) >> kNormalBits))) >> kLightBits;
   }
-  watch(Stage::colour, "fresnel", fresnel), watch(Stage::colour, "mirrored", mirror);
+  watch(Stage::colour, "fresnel", fresnel);
+  watch(Stage::colour, "mirrored", mirror);
   watch(Stage::colour, "own", shine.emission);
   return shine;
 }
@@ -226,8 +238,10 @@ VOXMELT_RULE Color inner_color(const Paint& paint, const Light& light, Matter ma
   const Color diffuse =
       mixed(mixed(paint.solid.diffuse, paint.liquid.diffuse, liquid), paint.obstacle.diffuse, obstacle);
   Color color = inner_light(paint.lamp, paint.from_below, paint.from_above, light);
-  watch(Stage::material, "l", liquid), watch(Stage::material, "w", obstacle);
-  watch(Stage::material, "diffuse", diffuse), watch(Stage::clear, "inner", color);
+  watch(Stage::material, "l", liquid);
+  watch(Stage::material, "w", obstacle);
+  watch(Stage::material, "diffuse", diffuse);
+  watch(Stage::clear, "inner", color);
   for (std::size_t c = 0; c < 3; ++c) color[c] = (color[c] * diffuse[c]) >> kLightBits;
   return color;
 }

@@ -161,8 +161,12 @@ void EmbreeCaster::Scene::bounds(const RTCBoundsFunctionArguments* call) {
   const auto lower = [&](std::size_t a) { return static_cast<float>(first[a] + low[a]) - margin; };
   const auto upper = [&](std::size_t a) { return static_cast<float>(first[a] + high[a]) + margin; };
   RTCBounds& box = *call->bounds_o;
-  box.lower_x = lower(0), box.lower_y = lower(1), box.lower_z = lower(2);
-  box.upper_x = upper(0), box.upper_y = upper(1), box.upper_z = upper(2);
+  box.lower_x = lower(0);
+  box.lower_y = lower(1);
+  box.lower_z = lower(2);
+  box.upper_x = upper(0);
+  box.upper_y = upper(1);
+  box.upper_z = upper(2);
 }
 
 void EmbreeCaster::Scene::occluded(const RTCOccludedFunctionNArguments* call) {

@@ -70,8 +70,10 @@ std::string hover(const Measured& point) {
   const auto add = [&](const char* what, const std::optional<front::Errors>& errors) {
     if (errors) text += fmt::format("\n{} error {}", what, percent_text(errors->largest()));
   };
-  add("whole", point.whole), add("model", point.model), add("arithmetic", point.arithmetic),
-      add("grid", point.grid);
+  add("whole", point.whole);
+  add("model", point.model);
+  add("arithmetic", point.arithmetic);
+  add("grid", point.grid);
   text += fmt::format("\n{} bits a cell\n{} Mcells/s", point.cost.state_bits,
                       speed_text(point.cost.cells_per_second));
   if (point.twin) return text + fmt::format(" by the twin, {:.2f} x its u16 dithered", point.cost.over_twin);
@@ -199,7 +201,10 @@ std::string tally(const std::string& number, const std::string& what) {
 
 std::string html_text(const FrontReport& report) {
   std::string picks, scenes, how;
-  for (const Swept& swept : report.swept) picks += pick_card(swept), scenes += scene_card(swept);
+  for (const Swept& swept : report.swept) {
+    picks += pick_card(swept);
+    scenes += scene_card(swept);
+  }
   for (const char* paragraph : kHowErrorsAreMeasured) how += fmt::format("<p>{}</p>", escaped(paragraph));
   const bool quick = report.extent == front::Extent::quick;
   const std::string body = fmt::format(

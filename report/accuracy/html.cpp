@@ -28,8 +28,10 @@ std::string legend(const Chart& chart) {
     if (curve.points.empty()) continue;
     if (!curve.exact)
       out += fmt::format("<span><i class=\"b{}\"></i>{}</span>", colour++ % kColours, escaped(curve.name));
-    else if (!exact)
-      out.insert(0, "<span><i class=\"line\"></i>exact</span>"), exact = true;
+    else if (!exact) {
+      out.insert(0, "<span><i class=\"line\"></i>exact</span>");
+      exact = true;
+    }
   }
   return out;
 }

@@ -43,7 +43,10 @@ std::string wrapped(const std::string& text) {
   std::istringstream words(text);
   std::string out, line, word;
   while (words >> word) {
-    if (!line.empty() && line.size() + 1 + word.size() > kColumns) out += line + '\n', line.clear();
+    if (!line.empty() && line.size() + 1 + word.size() > kColumns) {
+      out += line + '\n';
+      line.clear();
+    }
     line += (line.empty() ? "" : " ") + word;
   }
   return out + line;

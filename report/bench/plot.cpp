@@ -142,7 +142,10 @@ std::vector<const Case*> shown_cases(const Findings& findings) {
 // Room for all rates, and for that of additions.
 Scale scale_of(const Findings& findings, const std::vector<const Case*>& shown) {
   double low = 1e12, high = std::max(1e9, rates_of(findings, widest(findings)).add);
-  for (const Case* one : shown) low = std::min(low, rate_of(*one)), high = std::max(high, rate_of(*one));
+  for (const Case* one : shown) {
+    low = std::min(low, rate_of(*one));
+    high = std::max(high, rate_of(*one));
+  }
   low = std::pow(10, std::floor(std::log10(low * 0.9)));
   return {low, high * 1.5};
 }

@@ -211,7 +211,8 @@ std::string against_prediction(const Json& trains, const std::vector<std::string
   };
   for (const Json& train : trains)
     for (const double value : {train["cycles"].get<double>(), predicted(train)}) {
-      low = low == 0 ? value : std::min(low, value), high = std::max(high, value);
+      low = low == 0 ? value : std::min(low, value);
+      high = std::max(high, value);
     }
   const bool wide = high > 20 * low;
   const double room = std::max(high - low, 0.1 * high);

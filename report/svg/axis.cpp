@@ -27,7 +27,10 @@ Axis::Axis(double low, double high, bool logarithmic, double from, double to)
           ticks_.push_back(step * decade);
     return;
   }
-  if (!(high_ > low_)) low_ -= 0.5, high_ += 0.5;
+  if (!(high_ > low_)) {
+    low_ -= 0.5;
+    high_ += 0.5;
+  }
   const double distance = tick_distance(high_ - low_);
   low_ = std::floor(low_ / distance + 1e-9) * distance;
   high_ = std::ceil(high_ / distance - 1e-9) * distance;

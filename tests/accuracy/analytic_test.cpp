@@ -135,7 +135,9 @@ TEST(Analytic, LubricationFlowFollowsHuppert) {
   const std::vector<double> later = lubrication_flow(0.05, depth, 31 * age, kParts);
   double before = 0, after = 0, second = 0;
   for (std::size_t i = 0; i < depth.size(); ++i) {
-    before += depth[i], after += later[i], second += later[i] * at(i) * at(i);
+    before += depth[i];
+    after += later[i];
+    second += later[i] * at(i) * at(i);
     if (at(i) < 40) {
       EXPECT_NEAR(later[i], dam.height(at(i), 32 * age), 0.02) << at(i);
     }

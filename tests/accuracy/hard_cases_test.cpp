@@ -151,7 +151,9 @@ TEST(HardCase, SidesOfOneTwoAndAroundAWord) {
         Parameters p = law == rule::Law::paper ? paper_showcase() : viscous(0.1);
         p.heat.enabled = true;
         p.heat.neighbours = 26;
-        p.heat.weight_face = 3000, p.heat.weight_edge = 1500, p.heat.weight_corner = 1000;
+        p.heat.weight_face = 3000;
+        p.heat.weight_edge = 1500;
+        p.heat.weight_corner = 1000;
         p.material.melting_point = 30000;
         Volume v(Grid{axis == 0 ? side : 7, axis == 1 ? side : 7, axis == 2 ? side : 7});
         Random random(static_cast<std::uint64_t>(side));

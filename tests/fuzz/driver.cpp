@@ -44,7 +44,8 @@ void write_all(int file, const char* bytes, std::size_t size) {
   while (size > 0) {
     const ssize_t written = write(file, bytes, size);
     if (written <= 0) return;
-    bytes += written, size -= static_cast<std::size_t>(written);
+    bytes += written;
+    size -= static_cast<std::size_t>(written);
   }
 }
 
@@ -144,10 +145,12 @@ int main(int argc, char** argv) {
   // A stack that has run over has no room for a handler: it gets its own.
   static std::array<char, 1 << 16> stack;
   stack_t own{};
-  own.ss_sp = stack.data(), own.ss_size = stack.size();
+  own.ss_sp = stack.data();
+  own.ss_size = stack.size();
   sigaltstack(&own, nullptr);
   struct sigaction action {};
-  action.sa_handler = keep, action.sa_flags = SA_ONSTACK;
+  action.sa_handler = keep;
+  action.sa_flags = SA_ONSTACK;
   sigaction(SIGSEGV, &action, nullptr);
   return run({argv + 1, argv + argc});
 }

@@ -46,9 +46,10 @@ std::vector<std::string> dictionary(const std::string& text) {
     for (std::size_t i = first + 1; i < last; ++i) {
       if (line[i] != '\\' || i + 1 >= last)
         word += line[i];
-      else if (line[i + 1] == 'x' && i + 3 < last)
-        word += static_cast<char>(std::stoi(line.substr(i + 2, 2), nullptr, 16)), i += 3;
-      else
+      else if (line[i + 1] == 'x' && i + 3 < last) {
+        word += static_cast<char>(std::stoi(line.substr(i + 2, 2), nullptr, 16));
+        i += 3;
+      } else
         word += line[++i];
     }
     words.push_back(word);

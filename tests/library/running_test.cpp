@@ -40,7 +40,8 @@ void expect_same(Simulation& a, Simulation& b, int steps) {
     ASSERT_EQ(a.step_number(), b.step_number());
     ASSERT_EQ(a.digest(), b.digest()) << "at step " << a.step_number();
     ASSERT_EQ(books_of(a), books_of(b)) << "at step " << a.step_number();
-    a.step(), b.step();
+    a.step();
+    b.step();
   }
 }
 
@@ -147,7 +148,8 @@ TEST_F(Running, ACheckpointHasWhatWasSet) {
   EXPECT_EQ(simulation.steps_done(), 0u);
   simulation.step(6);
   EXPECT_NE(simulation.digest(), third.digest()) << "the vent came later";
-  again.step(20), third.step(20);
+  again.step(20);
+  third.step(20);
   EXPECT_EQ(again.digest(), third.digest());
 }
 
@@ -280,7 +282,8 @@ TEST_F(Running, ASetValueInTheMiddleOfARun) {
     Simulation said(scene("proving_ground"),
                     {{start, "heat.gamma=0.1", "flow.paper.share=0.05"}, "reference", 1});
     for (int step = 0; step < 12; ++step) {
-      changed.step(), said.step();
+      changed.step();
+      said.step();
       ASSERT_EQ(changed.digest(), said.digest()) << one.name << ", step " << step;
     }
   }

@@ -111,12 +111,26 @@ TEST_F(Library, LedgersAddUpToWhatIsThere) {
 TEST_F(Library, TermsHaveTheirSigns) {
   state::Ledger ledger;
   ledger.mass.start = ledger.energy.start = ledger.heat.start = 1;
-  ledger.mass.added = 2, ledger.mass.removed = 3;
+  ledger.mass.added = 2;
+  ledger.mass.removed = 3;
   state::EnergyLedger& e = ledger.energy;
-  e.melted = 2, e.added = 3, e.removed = 4, e.reheated = 5, e.accelerated = 6, e.dissipated = 7, e.capped = 8;
+  e.melted = 2;
+  e.added = 3;
+  e.removed = 4;
+  e.reheated = 5;
+  e.accelerated = 6;
+  e.dissipated = 7;
+  e.capped = 8;
   state::HeatLedger& h = ledger.heat;
-  h.conducted = 2, h.convected = 3, h.radiated = 4, h.warmed = 5, h.cooled = 6, h.added = 7, h.removed = 8;
-  h.rounded = 9, h.walls = 10;
+  h.conducted = 2;
+  h.convected = 3;
+  h.radiated = 4;
+  h.warmed = 5;
+  h.cooled = 6;
+  h.added = 7;
+  h.removed = 8;
+  h.rounded = 9;
+  h.walls = 10;
   const Ledgers books = library::to_ledgers(ledger, {.solid = 10, .liquid = 20, .energy = 30, .heat = 40});
   const auto text = [](const Ledger& one) {
     std::string all = to_string(one.start) + " ";
@@ -191,7 +205,8 @@ TEST_F(Library, AnExportGoesOnTheSame) {
   Simulation again(file, options);
   EXPECT_EQ(again.step_number(), 8u);
   EXPECT_EQ(again.digest(), simulation.digest());
-  simulation.step(9), again.step(9);
+  simulation.step(9);
+  again.step(9);
   EXPECT_EQ(again.digest(), simulation.digest());
 }
 

@@ -107,7 +107,8 @@ TEST_F(Sources, WhatIsReadBackIsWhatWasSetRounded) {
     same.set_heat_sources(same.heat_sources());
     same.set_vents(same.vents());
     same.set_drains(same.drains());
-    same.step(), untouched.step();
+    same.step();
+    untouched.step();
     ASSERT_EQ(same.digest(), untouched.digest()) << step;
   }
 }

@@ -84,7 +84,9 @@ TEST(CellFields, AmountsAreLinearAndCapped) {
     volume.liquid.set(x, 4, 4, true);
     volume.amount[volume.at(x, 4, 4)] = static_cast<std::uint16_t>(amount);
   };
-  set(1, 2048), set(3, 4096), set(5, 9000);
+  set(1, 2048);
+  set(3, 4096);
+  set(5, 9000);
   const auto fields = render::cell_fields(volume);
   EXPECT_EQ(fields.intensity[volume.grid.index(1, 4, 4)], render::kFull / 2);
   EXPECT_EQ(fields.intensity[volume.grid.index(3, 4, 4)], render::kFull);

@@ -214,7 +214,8 @@ TEST(Told, HeatIsReadWhereItGlows) {
   scene::Look dull, glowing;
   glowing.glow = true;
   DensityField one, other;
-  one.update(volume, dull), other.update(volume, glowing);
+  one.update(volume, dull);
+  other.update(volume, glowing);
   volume.changed.new_version();
   for (int z = 0; z < 8; ++z) volume.heat[volume.at(2, 2, z)] ^= 0x5555;
   volume.changed.mark(ChangedBricks::kHeat, 1, 0, 0);

@@ -225,12 +225,18 @@ class Reads : public render::Listener {
       }
     }
     if (stage == Stage::brick) std::copy(numbers.begin(), numbers.end(), brick_.begin());
-    if (stage == Stage::sample && name == "level") end("sample", stage), ++samples_;
+    if (stage == Stage::sample && name == "level") {
+      end("sample", stage);
+      ++samples_;
+    }
     if (stage == Stage::crossing && name == "samples") samples_ = 0;
     if (stage == Stage::crossing && name == "f") count("crossing", samples_);
     if (stage == Stage::normal && name == "slope") end("normal", stage);
     if (stage == Stage::matter && name == "obstacle") end("matter", stage);
-    if (stage == Stage::light && name == "lamp") end("light", stage), count("light's bytes", bytes_);
+    if (stage == Stage::light && name == "lamp") {
+      end("light", stage);
+      count("light's bytes", bytes_);
+    }
     if (stage == Stage::light && name == "fetched") bytes_ = static_cast<int>(numbers.size()) - 3;
     if (stage == Stage::ground && name == "height") end("ground's height", stage);
     if (stage == Stage::paint && name == "fall") end("ground's normal", stage);

@@ -44,9 +44,14 @@ Watchers Checker::watchers() {
 }
 
 void Checker::begin_pass(int samples, int most, std::int64_t frame, const Window& window) {
-  samples_ = samples, most_ = most, frame_ = frame, window_ = window;
+  samples_ = samples;
+  most_ = most;
+  frame_ = frame;
+  window_ = window;
   ended_.reset();
-  transit_.begin_pass(), tile_check_.begin_pass(window), memory_check_.begin_pass();
+  transit_.begin_pass();
+  tile_check_.begin_pass(window);
+  memory_check_.begin_pass();
   if (samples == 1)
     std::fill(bytes_.begin(), bytes_.end(), std::uint8_t{0});
   else
@@ -246,8 +251,10 @@ class Checker::SurfacePair {
   void met(bool clear) {
     const char* stage = clear ? "stretch" : "met";
     same(stage, "on ground", e.kind, a.kind);
-    if (clear)
-      same(stage, "leaves", e.clear.leaves, a.clear.leaves), same(stage, "d", e.clear.way, a.clear.way);
+    if (clear) {
+      same(stage, "leaves", e.clear.leaves, a.clear.leaves);
+      same(stage, "d", e.clear.way, a.clear.way);
+    }
     if (!matter() && !ground() && !way()) return;
     same(stage, "position", e.position, a.position);
     if (!clear) same(stage, "depth", e.depth, a.depth);
@@ -259,7 +266,10 @@ class Checker::SurfacePair {
     if (e.face != Face::top) same("paint", "color", e.color, a.color);  // rock may still come
   }
   void texture() {
-    if (ground()) same("texture", "color", e.color, a.color), same("texture", "normal", e.normal, a.normal);
+    if (ground()) {
+      same("texture", "color", e.color, a.color);
+      same("texture", "normal", e.normal, a.normal);
+    }
   }
   void matter_words() {
     if (!matter() && !way()) return;

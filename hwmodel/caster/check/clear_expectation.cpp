@@ -82,8 +82,14 @@ struct KeepEvents {
     } else if constexpr (std::is_same_v<Value, picture::Vector>) {
       if (name == "position") event().position = vec_of(value);
     } else if constexpr (std::is_integral_v<Value>) {
-      if (name == "enters") begin(Kind::matter), event().clear.leaves = value == 0;
-      if (name == "d") begin(Kind::way), event().clear.way = static_cast<std::int32_t>(value);
+      if (name == "enters") {
+        begin(Kind::matter);
+        event().clear.leaves = value == 0;
+      }
+      if (name == "d") {
+        begin(Kind::way);
+        event().clear.way = static_cast<std::int32_t>(value);
+      }
       if (name == "left") sums.left.surfaces = value;
       if (name == "way") sums.left.way = value;
     }

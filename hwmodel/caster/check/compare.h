@@ -31,9 +31,13 @@ void Checker::compare(const char* stage, const RayId& id, const char* name, cons
   if (expected == actual || difference_) [[likely]]
     return;
   Difference difference;
-  difference.stage = stage, difference.name = name;
-  difference.x = id.x, difference.y = id.y, difference.sample = id.sample;
-  difference.expected = text_of_value(expected), difference.actual = text_of_value(actual);
+  difference.stage = stage;
+  difference.name = name;
+  difference.x = id.x;
+  difference.y = id.y;
+  difference.sample = id.sample;
+  difference.expected = text_of_value(expected);
+  difference.actual = text_of_value(actual);
   difference.has_position = position != nullptr;
   if (position != nullptr) difference.position = *position;
   tell(std::move(difference));

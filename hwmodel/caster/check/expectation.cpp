@@ -20,7 +20,8 @@ Expectation::Expectation(const render::PictureScene& scene, const picture::Camer
       view_(picture::view_of(camera, scene.levels.cells())),
       spacing_(render::spacing_of(setting, view_)) {
   const picture::Vector cells = scene.levels.cells();
-  row_ = static_cast<std::size_t>(cells.x + 1), slice_ = row_ * static_cast<std::size_t>(cells.y + 1);
+  row_ = static_cast<std::size_t>(cells.x + 1);
+  slice_ = row_ * static_cast<std::size_t>(cells.y + 1);
   air_.assign(slice_ * static_cast<std::size_t>(cells.z + 1), 255);
   for (std::int64_t z = 0; z < cells.z; ++z)
     for (std::int64_t y = 0; y < cells.y; ++y)

@@ -42,7 +42,8 @@ void MemoryCheck::left(int channel, std::int64_t, const LineReply* reply) {
     return;
   }
   Difference difference;
-  difference.stage = "memory", difference.name = fmt::format("reply to pipe {}", channel / kChannelsOfAPipe);
+  difference.stage = "memory";
+  difference.name = fmt::format("reply to pipe {}", channel / kChannelsOfAPipe);
   difference.address = reply->address;
   difference.expected = asked.empty() ? "none" : text_of(asked.front());
   difference.actual = text_of(*reply);

@@ -74,8 +74,12 @@ void tell_hang(PictureReport& report, const RayCaster& caster) {
 }
 
 void add(Account& sum, const Account& more) {
-  sum.busy += more.busy, sum.starved += more.starved, sum.blocked += more.blocked;
-  sum.memory += more.memory, sum.fill += more.fill, sum.drain += more.drain;
+  sum.busy += more.busy;
+  sum.starved += more.starved;
+  sum.blocked += more.blocked;
+  sum.memory += more.memory;
+  sum.fill += more.fill;
+  sum.drain += more.drain;
 }
 
 void take_accounts(PictureReport& report, const RayCaster& caster) {
@@ -151,7 +155,10 @@ void PictureRun::begin(const render::PictureScene& scene, const picture::Camera&
   const Window first = drawing_->fast() ? options_.window : with_neighbours(options_.window);
   caster_.draw_only(first);
   drawing_->checker.begin_pass(1, 0, memory_.frame, first);
-  if (waves_) drawing_->checker.run_on_at_difference(), waves_->begin_train(report_.all_cycles);
+  if (waves_) {
+    drawing_->checker.run_on_at_difference();
+    waves_->begin_train(report_.all_cycles);
+  }
   begun_ = std::clock();  // of the processor: the machine may have other work
   caster_.begin_first();
 }

@@ -72,9 +72,12 @@ RayId TileCheck::first_pixel(std::size_t tile) const {
 void TileCheck::tell(std::size_t tile, const char* stage, const char* name, std::int64_t expected,
                      std::int64_t actual) {
   Difference difference;
-  difference.stage = stage, difference.name = name;
-  difference.x = first_pixel(tile).x, difference.y = first_pixel(tile).y;
-  difference.expected = std::to_string(expected), difference.actual = std::to_string(actual);
+  difference.stage = stage;
+  difference.name = name;
+  difference.x = first_pixel(tile).x;
+  difference.y = first_pixel(tile).y;
+  difference.expected = std::to_string(expected);
+  difference.actual = std::to_string(actual);
   tell_(std::move(difference));
 }
 

@@ -14,10 +14,17 @@ std::string text_of(const RayId& id) {
 Transit::Transit(const RayCaster& caster, Tell tell) : caster_(caster), tell_(std::move(tell)) {}
 
 Watchers Transit::around(Watchers w) {
-  w.tiles = around(w.tiles), w.set_up = around(w.set_up), w.ground = around(w.ground),
+  w.tiles = around(w.tiles);
+  w.set_up = around(w.set_up);
+  w.ground = around(w.ground);
   w.asks = around(w.asks);
-  w.levels = around(w.levels), w.samples = around(w.samples), w.hits = around(w.hits), w.met = around(w.met);
-  w.surfaces = around(w.surfaces), w.pressed = around(w.pressed), w.pixels = around(w.pixels);
+  w.levels = around(w.levels);
+  w.samples = around(w.samples);
+  w.hits = around(w.hits);
+  w.met = around(w.met);
+  w.surfaces = around(w.surfaces);
+  w.pressed = around(w.pressed);
+  w.pixels = around(w.pixels);
   w.passed = around(w.passed);
   return w;
 }
@@ -58,9 +65,13 @@ void Transit::look_for_lost() {
 
 void Transit::tell(int channel, const RayId& at, const char* name, std::string expected, std::string actual) {
   Difference difference;
-  difference.stage = name_of(channel), difference.name = name;
-  difference.x = at.x, difference.y = at.y, difference.sample = at.sample;
-  difference.expected = std::move(expected), difference.actual = std::move(actual);
+  difference.stage = name_of(channel);
+  difference.name = name;
+  difference.x = at.x;
+  difference.y = at.y;
+  difference.sample = at.sample;
+  difference.expected = std::move(expected);
+  difference.actual = std::move(actual);
   tell_(std::move(difference));
 }
 

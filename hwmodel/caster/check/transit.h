@@ -88,7 +88,10 @@ class Transit {
     for (std::size_t i = 0; i < sizeof token % 32 / 8; ++i) add(sums[i], 8);
     add(sums[3], sizeof token % 8);
     std::uint64_t all = 0;
-    for (const std::uint64_t sum : sums) all = (all ^ sum) * kFactor, all ^= all >> 29;
+    for (const std::uint64_t sum : sums) {
+      all = (all ^ sum) * kFactor;
+      all ^= all >> 29;
+    }
     return all;
   }
 

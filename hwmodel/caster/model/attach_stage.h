@@ -18,7 +18,10 @@ class AttachStage : public Stage {
  public:
   AttachStage(std::string name, std::size_t most) : Stage(std::move(name)), most_(most) {}
   void connect(Fifo<Surface>& in, Fifo<Request>& ask, Fifo<Answer>& answer, Fifo<Surface>& out) {
-    in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
+    in_ = &in;
+    ask_ = &ask;
+    answer_ = &answer;
+    out_ = &out;
   }
 
  protected:

@@ -39,9 +39,12 @@ constexpr Behind behind(Channel channel) {
 // Requests of a fetching stage, and the words that answer them. cost.h counts their bits.
 template <class Visit>
 void wires_of(const Spots& at, Visit&& visit) {
-  visit(WireName{"cell_x"}, 12, false, at.x.cell), visit(WireName{"weight_x"}, 8, false, at.x.weight);
-  visit(WireName{"cell_y"}, 12, false, at.y.cell), visit(WireName{"weight_y"}, 8, false, at.y.weight);
-  visit(WireName{"cell_z"}, 12, false, at.z.cell), visit(WireName{"weight_z"}, 8, false, at.z.weight);
+  visit(WireName{"cell_x"}, 12, false, at.x.cell);
+  visit(WireName{"weight_x"}, 8, false, at.x.weight);
+  visit(WireName{"cell_y"}, 12, false, at.y.cell);
+  visit(WireName{"weight_y"}, 8, false, at.y.weight);
+  visit(WireName{"cell_z"}, 12, false, at.z.cell);
+  visit(WireName{"weight_z"}, 8, false, at.z.weight);
 }
 template <class Visit>
 void wires_of(const MatterRequest& request, const ContextBits&, Visit&& visit) {
@@ -66,10 +69,11 @@ void wires_of(const Gathered<Request, Word, kMost>& answer, const ContextBits& c
 }
 template <class Visit>
 void wires_of(const LineRequest& request, const ContextBits&, Visit&& visit) {
-  visit(WireName{"client"}, 3, false, request.client), visit(WireName{"slot"}, 16, false, request.slot);
+  visit(WireName{"client"}, 3, false, request.client);
+  visit(WireName{"slot"}, 16, false, request.slot);
   visit(WireName{"address"}, 32, false, request.address);
-  visit(WireName{"bytes"}, 16, false, request.bytes),
-      visit(WireName{"write"}, 1, false, request.write ? 1 : 0);
+  visit(WireName{"bytes"}, 16, false, request.bytes);
+  visit(WireName{"write"}, 1, false, request.write ? 1 : 0);
   for (int i = 0; i < kBurst / 8; ++i) {
     std::int64_t word = 0;
     if (request.write) std::memcpy(&word, request.data.data() + std::ptrdiff_t{8} * i, 8);

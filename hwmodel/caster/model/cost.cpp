@@ -155,8 +155,10 @@ class Costs {
     const auto waiting = [&](const char* stage, Behind before) {
       memory(stage, "surfaces", kWaiting, surface(before) + 3 * 2);
     };
-    waiting("normal", Behind::met), waiting("texture", Behind::paint);
-    waiting("matter", Behind::texture), waiting("light", Behind::matter);
+    waiting("normal", Behind::met);
+    waiting("texture", Behind::paint);
+    waiting("matter", Behind::texture);
+    waiting("light", Behind::matter);
     memory("tiles", "tiles beside", 5, 8 * kTileBytes);
     memory("pixel", "sums of tiles", std::int64_t{c_.tiles} * kTilePixels, 3 * 18 + 6);
     memory("pixel", "bytes of tiles", c_.tiles, 8 * kTileBytes);
@@ -247,7 +249,9 @@ class Costs {
     stage("mirror", 56 + (clear_ ? 3 : 0), 3);
     stage("colour", clear_ ? 3 * 5 : 3 * 6 + 1);  // emission is of opaque matter
     stage("press", clear_ ? 3 : 0);
-    stage("pixel"), stage("write"), stage("memory port");
+    stage("pixel");
+    stage("write");
+    stage("memory port");
   }
 
   const Configuration& c_;
@@ -276,7 +280,10 @@ std::int64_t PipeCost::memory_bits() const {
 }
 UnitCost PipeCost::all_units() const {
   UnitCost sum{"all", 0, 0};
-  for (const UnitCost& cost : units) sum.multipliers += cost.multipliers, sum.dividers += cost.dividers;
+  for (const UnitCost& cost : units) {
+    sum.multipliers += cost.multipliers;
+    sum.dividers += cost.dividers;
+  }
   return sum;
 }
 

@@ -23,7 +23,10 @@ class CrossingStage final : public Stage {
   CrossingStage(WalkStage<Faults>& walk, int rays, Faults faults = {})
       : Stage("crossing"), walk_(walk), faults_(faults), rays_(static_cast<std::size_t>(rays)) {}
   void connect(Fifo<HitToken>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<MetToken>& out) {
-    in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
+    in_ = &in;
+    ask_ = &ask;
+    answer_ = &answer;
+    out_ = &out;
   }
   void connect_exits(Fifo<HitToken>& exits) { exits_ = &exits; }
 

@@ -40,10 +40,13 @@ inline void halve(Bracket& bracket, std::int64_t level) {
   const Vec middle = middle_of(bracket);
   const bool air = level < 0;
   bracket.e = 2 * bracket.e + (air ? 1 : 0);
-  if (air)
-    bracket.outside = middle, bracket.a = level;
-  else
-    bracket.inside = middle, bracket.b = level;
+  if (air) {
+    bracket.outside = middle;
+    bracket.a = level;
+  } else {
+    bracket.inside = middle;
+    bracket.b = level;
+  }
 }
 struct Crossing {
   bool found = false;

@@ -77,7 +77,10 @@ class Gather final : public LineClient {
         store_(arrived_.size() * static_cast<std::size_t>(layout.line_bytes)),
         queue_(static_cast<std::size_t>(shape.queue)) {}
 
-  void connect(Fifo<Request>& in, Fifo<LineRequest>& to_memory) { in_ = &in, to_memory_ = &to_memory; }
+  void connect(Fifo<Request>& in, Fifo<LineRequest>& to_memory) {
+    in_ = &in;
+    to_memory_ = &to_memory;
+  }
   // Requests of kind i go to channel i.
   void connect_out(std::vector<Fifo<Out>*> out) { out_ = std::move(out); }
 
@@ -203,8 +206,11 @@ class Gather final : public LineClient {
       if (faults_.loses_miss(entry)) [[unlikely]]
         continue;
       LineRequest& ask = *to_memory_->put();
-      ask.client = client_, ask.slot = found.slot, ask.address = layout_.address(line);
-      ask.bytes = layout_.line_bytes, ask.write = false;
+      ask.client = client_;
+      ask.slot = found.slot;
+      ask.address = layout_.address(line);
+      ask.bytes = layout_.line_bytes;
+      ask.write = false;
     }
     in_->get();
     next_ = 0;

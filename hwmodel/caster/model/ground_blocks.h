@@ -18,7 +18,8 @@ namespace voxmelt::hwmodel::raycast {
 template <class HeightAt>
 GroundBlocks ground_blocks(std::int64_t nx, std::int64_t nz, const HeightAt& height_at) {
   GroundBlocks blocks;
-  blocks.x = static_cast<int>((nx + 3) / 4), blocks.z = static_cast<int>((nz + 3) / 4);
+  blocks.x = static_cast<int>((nx + 3) / 4);
+  blocks.z = static_cast<int>((nz + 3) / 4);
   blocks.fine.resize(static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.z));
   blocks.coarse.resize(static_cast<std::size_t>(blocks.coarse_x()) *
                        static_cast<std::size_t>((blocks.z + 3) / 4));

@@ -34,7 +34,10 @@ class GroundStage final : public Stage {
   }
   void connect(Fifo<RayToken>& in, Fifo<ClampedRequest>& ask, Fifo<ColumnGather::Out>& answer,
                Fifo<GroundedRay>& out) {
-    in_ = &in, ask_ = &ask, answer_ = &answer, out_ = &out;
+    in_ = &in;
+    ask_ = &ask;
+    answer_ = &answer;
+    out_ = &out;
   }
 
  private:

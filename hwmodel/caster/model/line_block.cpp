@@ -7,7 +7,8 @@ namespace voxmelt::hwmodel::raycast {
 
 void LineBlock::connect(Fifo<LineRequest>& requests, Fifo<LineReply>& replies) {
   Port& port = ports_.emplace_back();
-  port.requests = &requests, port.replies = &replies;
+  port.requests = &requests;
+  port.replies = &replies;
   port.port = memory_.open_port(this);
 }
 
@@ -53,8 +54,10 @@ std::int32_t LineBlock::bytes_at_once(std::int64_t bytes) const {
 
 void LineBlock::accept(Port& port) {
   const LineRequest& request = *port.requests->get();
-  port.next = request.address, port.bytes = request.bytes;
-  port.write = request.write, port.id = 0;
+  port.next = request.address;
+  port.bytes = request.bytes;
+  port.write = request.write;
+  port.id = 0;
   counts_.bus_cycles += (request.bytes + bus_bytes_ - 1) / bus_bytes_;
   if (!request.write) {
     ++counts_.reads;
@@ -79,7 +82,8 @@ bool LineBlock::hand_on(Port& port) {
   while (port.bytes > 0 && memory_.ready(port.port)) {
     const std::int32_t bytes = bytes_at_once(port.bytes);
     memory_.put(port.port, {base_ + port.next, port.id, port.write, bytes});
-    port.next += bytes, port.bytes -= bytes;
+    port.next += bytes;
+    port.bytes -= bytes;
     moved = true;
   }
   return moved;

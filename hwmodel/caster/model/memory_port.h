@@ -18,7 +18,10 @@ class MemoryPort final : public Stage {
   explicit MemoryPort(const Memory& memory) : Stage("memory port"), memory_(memory) {}
   void connect(std::vector<Fifo<LineRequest>*> in, Fifo<LineRequest>& out, Fifo<LineReply>& replies,
                std::vector<LineClient*> clients) {
-    in_ = std::move(in), out_ = &out, replies_ = &replies, clients_ = std::move(clients);
+    in_ = std::move(in);
+    out_ = &out;
+    replies_ = &replies;
+    clients_ = std::move(clients);
   }
 
  private:

@@ -31,7 +31,8 @@ class MetStage final : public Stage {
       : Stage("met"), registers_(registers), faults_(faults) {}
   // From the walk come rays that met no matter, and from the crossing the others.
   void connect(Fifo<MetToken>& missed, Fifo<MetToken>& crossed, Fifo<Surface>& out) {
-    in_ = {&crossed, &missed}, out_ = &out;
+    in_ = {&crossed, &missed};
+    out_ = &out;
   }
 
  private:

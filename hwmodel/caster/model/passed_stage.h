@@ -26,7 +26,10 @@ class PassedStage final : public Stage {
         walk_(walk),
         faults_(faults),
         rays_(static_cast<std::size_t>(rays)) {}
-  void connect(Fifo<Surface>& in, Fifo<PassedToken>& out) { in_ = &in, out_ = &out; }
+  void connect(Fifo<Surface>& in, Fifo<PassedToken>& out) {
+    in_ = &in;
+    out_ = &out;
+  }
 
   bool dark(int context) const { return rays_[static_cast<std::size_t>(context)].dark(); }
 
@@ -70,7 +73,10 @@ class ClearPressStage final : public Stage {
  public:
   explicit ClearPressStage(const Registers& registers, Faults faults = {})
       : Stage("press"), look_(registers.look), faults_(faults) {}
-  void connect(Fifo<PassedToken>& in, Fifo<PressedToken>& out) { in_ = &in, out_ = &out; }
+  void connect(Fifo<PassedToken>& in, Fifo<PressedToken>& out) {
+    in_ = &in;
+    out_ = &out;
+  }
 
  private:
   Did cycle() override {

@@ -436,8 +436,11 @@ void PipeOf<Faults>::forget(std::size_t i, const std::vector<std::int64_t>& line
 
 template <class Faults>
 void PipeOf<Faults>::forget_all() {
-  levels_.forget_all(), matter_words_.forget_all(), light_cells_.forget_all();
-  columns_.forget_all(), texels_.forget_all();
+  levels_.forget_all();
+  matter_words_.forget_all();
+  light_cells_.forget_all();
+  columns_.forget_all();
+  texels_.forget_all();
 }
 
 template <class Faults>

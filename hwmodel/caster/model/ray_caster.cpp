@@ -24,7 +24,9 @@ class Dealer {
   void begin(const FrameRegisters& frame, int bands, bool second) {
     frame_ = frame;
     turns_ = TileTurns(frame.tiles_x, frame.tiles_y, bands);
-    second_ = second, next_ = 0, turn_ = 0;
+    second_ = second;
+    next_ = 0;
+    turn_ = 0;
   }
   void connect(Fifo<TileJob>& out) { out_.push_back(&out); }
   bool cycle() {

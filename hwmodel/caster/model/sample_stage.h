@@ -19,7 +19,9 @@ class SampleStage final : public Stage {
  public:
   explicit SampleStage(Faults faults = {}) : Stage("sample"), faults_(faults) {}
   void connect(Fifo<Levels>& in, Fifo<LevelToken>& to_walk, Fifo<LevelToken>& to_crossing) {
-    in_ = &in, to_walk_ = &to_walk, to_crossing_ = &to_crossing;
+    in_ = &in;
+    to_walk_ = &to_walk;
+    to_crossing_ = &to_crossing;
   }
   void connect_stretch(Fifo<LevelToken>& to_stretch) { to_stretch_ = &to_stretch; }
 
@@ -50,7 +52,10 @@ template <class Request>
 class AskStage final : public Stage {
  public:
   explicit AskStage(std::string name) : Stage(std::move(name)) {}
-  void connect(std::vector<Fifo<Request>*> in, Fifo<Request>& out) { in_ = std::move(in), out_ = &out; }
+  void connect(std::vector<Fifo<Request>*> in, Fifo<Request>& out) {
+    in_ = std::move(in);
+    out_ = &out;
+  }
 
  private:
   Did cycle() override {

@@ -21,7 +21,10 @@ class SetupStage final : public Stage {
  public:
   SetupStage(const Registers& registers, int tiles, Faults faults = {})
       : Stage("set-up"), registers_(registers), faults_(faults), open_(static_cast<std::size_t>(tiles)) {}
-  void connect(Fifo<TileOrder>& in, Fifo<RayToken>& out) { in_ = &in, out_ = &out; }
+  void connect(Fifo<TileOrder>& in, Fifo<RayToken>& out) {
+    in_ = &in;
+    out_ = &out;
+  }
 
  private:
   struct Open {

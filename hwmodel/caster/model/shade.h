@@ -100,8 +100,10 @@ inline Mixture mixture_of(const LookRegisters& look, const MatterBytes& bytes) {
     }
   }
   mixture.material = mixed(mixture.material, look.obstacle, mixture.w);
-  check_wires<13>(mixture.material.diffuse), check_wires<13>(mixture.material.mirror);
-  check_wires<13>(mixture.material.highlight), check_wires<14>(mixture.emission);
+  check_wires<13>(mixture.material.diffuse);
+  check_wires<13>(mixture.material.mirror);
+  check_wires<13>(mixture.material.highlight);
+  check_wires<14>(mixture.emission);
   return mixture;
 }
 

@@ -23,7 +23,10 @@ class SurfaceStage : public Stage {
  public:
   SurfaceStage(std::string name, const Registers& registers)
       : Stage(std::move(name)), registers_(registers) {}
-  void connect(Fifo<Surface>& in, Fifo<Surface>& out) { in_ = &in, out_ = &out; }
+  void connect(Fifo<Surface>& in, Fifo<Surface>& out) {
+    in_ = &in;
+    out_ = &out;
+  }
 
  protected:
   virtual void compute(Surface& surface) = 0;
@@ -120,7 +123,10 @@ class PressStage final : public Stage {
  public:
   explicit PressStage(const Registers& registers, Faults faults = {})
       : Stage("press"), registers_(registers), faults_(faults) {}
-  void connect(Fifo<Surface>& in, Fifo<PressedToken>& out) { in_ = &in, out_ = &out; }
+  void connect(Fifo<Surface>& in, Fifo<PressedToken>& out) {
+    in_ = &in;
+    out_ = &out;
+  }
 
  private:
   Did cycle() override {

@@ -36,8 +36,13 @@ class StretchStage final : public Stage {
   void connect(Fifo<MetToken>& missed, Fifo<MetToken>& crossed, Fifo<LevelRequest>& ask,
                Fifo<LevelToken>& answer, Fifo<HitToken>& exit, Fifo<OnwardToken>& onward,
                Fifo<Surface>& out) {
-    missed_ = &missed, crossed_ = &crossed, ask_ = &ask, answer_ = &answer, exit_ = &exit;
-    onward_ = &onward, out_ = &out;
+    missed_ = &missed;
+    crossed_ = &crossed;
+    ask_ = &ask;
+    answer_ = &answer;
+    exit_ = &exit;
+    onward_ = &onward;
+    out_ = &out;
   }
 
  private:
@@ -151,7 +156,9 @@ class StretchStage final : public Stage {
       return tell_soon(i, Next::nothing);
     }
     if (met.matter.sample > 0) add(context, {Kind::matter, false, met.matter.position, 0});
-    context.k = met.matter.sample, context.at = met.at, context.level = met.level;
+    context.k = met.matter.sample;
+    context.at = met.at;
+    context.level = met.level;
     context.steps = 0;
     if (context.k > context.last) {  // the ground follows within the step
       const std::int64_t place = (context.k - 1) * 2048 + met.matter.part;

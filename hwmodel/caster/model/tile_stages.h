@@ -67,7 +67,9 @@ class TileStage final : public Stage, public LineClient {
         buffers_(buffers),
         client_(client) {}
   void connect(Fifo<TileJob>& in, Fifo<LineRequest>& ask, Fifo<TileOrder>& out) {
-    in_ = &in, ask_ = &ask, out_ = &out;
+    in_ = &in;
+    ask_ = &ask;
+    out_ = &out;
   }
   void arrived(const LineReply& reply, const std::uint8_t* bytes) override {
     std::memcpy(around_[static_cast<std::size_t>(reply.slot)].data(), bytes, kTileBytes);
@@ -169,7 +171,10 @@ class PixelStage final : public Stage {
  public:
   PixelStage(const Registers& registers, TileBuffers& buffers, Faults faults = {})
       : Stage("pixel"), registers_(registers), faults_(faults), buffers_(buffers) {}
-  void connect(Fifo<PressedToken>& in, Fifo<PixelToken>& out) { in_ = &in, out_ = &out; }
+  void connect(Fifo<PressedToken>& in, Fifo<PixelToken>& out) {
+    in_ = &in;
+    out_ = &out;
+  }
 
  private:
   Did cycle() override {
@@ -207,7 +212,10 @@ class WriteStage final : public Stage {
  public:
   WriteStage(const FrameRegisters& frame, TileBuffers& buffers, Faults faults = {})
       : Stage("write"), frame_(frame), faults_(faults), buffers_(buffers) {}
-  void connect(Fifo<PixelToken>& in, Fifo<LineRequest>& out) { in_ = &in, out_ = &out; }
+  void connect(Fifo<PixelToken>& in, Fifo<LineRequest>& out) {
+    in_ = &in;
+    out_ = &out;
+  }
 
  private:
   Did cycle() override {

@@ -38,7 +38,8 @@ struct WireName {
 
 template <class Visit>
 void vector_wires(const char* name, const Vec& v, int bits, Visit&& visit) {
-  visit(WireName{name, "_x"}, bits, true, v.x), visit(WireName{name, "_y"}, bits, true, v.y);
+  visit(WireName{name, "_x"}, bits, true, v.x);
+  visit(WireName{name, "_y"}, bits, true, v.y);
   visit(WireName{name, "_z"}, bits, true, v.z);
 }
 template <class Visit>
@@ -48,13 +49,15 @@ void color_wires(const char* name, const Rgb& c, int bits, Visit&& visit, bool h
 }
 template <class Visit>
 void wires_of(const RayId& id, const ContextBits& context, Visit&& visit) {
-  visit(WireName{"x"}, 13, false, id.x), visit(WireName{"y"}, 13, false, id.y);
-  visit(WireName{"sample"}, 5, false, id.sample),
-      visit(WireName{"buffer"}, context.buffers, false, id.buffer);
+  visit(WireName{"x"}, 13, false, id.x);
+  visit(WireName{"y"}, 13, false, id.y);
+  visit(WireName{"sample"}, 5, false, id.sample);
+  visit(WireName{"buffer"}, context.buffers, false, id.buffer);
 }
 template <class Visit>
 void wires_of(const Ray& ray, Visit&& visit) {
-  vector_wires("start", ray.start, 53, visit), vector_wires("step", ray.step, 20, visit);
+  vector_wires("start", ray.start, 53, visit);
+  vector_wires("step", ray.step, 20, visit);
 }
 template <class Visit>
 void wires_of(const GroundHit& hit, Visit&& visit) {
@@ -67,19 +70,23 @@ void wires_of(const GroundHit& hit, Visit&& visit) {
 
 template <class Visit>
 void wires_of(const TileOrder& order, const ContextBits& context, Visit&& visit) {
-  visit(WireName{"x"}, 13, false, order.x), visit(WireName{"y"}, 13, false, order.y);
-  visit(WireName{"buffer"}, context.buffers, false, order.buffer),
-      visit(WireName{"samples"}, 6, false, order.samples);
+  visit(WireName{"x"}, 13, false, order.x);
+  visit(WireName{"y"}, 13, false, order.y);
+  visit(WireName{"buffer"}, context.buffers, false, order.buffer);
+  visit(WireName{"samples"}, 6, false, order.samples);
   for (int i = 0; i < 64; ++i)
     visit(WireName{"pixel", "", i}, 1, false, static_cast<std::int64_t>(order.pixels >> i & 1));
 }
 template <class Visit>
 void wires_of(const RayToken& token, const ContextBits& context, Visit&& visit) {
-  wires_of(token.id, context, visit), wires_of(token.ray, visit);
+  wires_of(token.id, context, visit);
+  wires_of(token.ray, visit);
 }
 template <class Visit>
 void wires_of(const GroundedRay& token, const ContextBits& context, Visit&& visit) {
-  wires_of(token.id, context, visit), wires_of(token.ray, visit), wires_of(token.ground, visit);
+  wires_of(token.id, context, visit);
+  wires_of(token.ray, visit);
+  wires_of(token.ground, visit);
 }
 template <class Visit>
 void wires_of(const LevelRequest& request, const ContextBits& context, Visit&& visit) {
@@ -112,8 +119,8 @@ void wires_of(const HitToken& hit, const ContextBits& context, Visit&& visit) {
   wires_of(hit.ray, context, visit);
   visit(WireName{"k"}, 27, false, hit.k);
   vector_wires("at", hit.at, 32, visit);
-  visit(WireName{"level"}, 15, false, hit.level),
-      visit(WireName{"knows_before"}, 1, false, hit.knows_before ? 1 : 0);
+  visit(WireName{"level"}, 15, false, hit.level);
+  visit(WireName{"knows_before"}, 1, false, hit.knows_before ? 1 : 0);
   visit(WireName{"before"}, 16, true, hit.knows_before ? hit.before : 0);
   if (context.clear) visit(WireName{"first"}, 1, false, hit.span == 0 ? 1 : 0);  // the ray's first matter
 }
@@ -124,7 +131,8 @@ void wires_of_exit(const HitToken& hit, const ContextBits& context, Visit&& visi
   vector_wires("step", hit.ray.ray.step, 20, visit);
   visit(WireName{"k"}, 27, false, hit.k);
   vector_wires("at", hit.at, 32, visit);
-  visit(WireName{"level"}, 15, false, hit.level), visit(WireName{"before"}, 16, true, hit.before);
+  visit(WireName{"level"}, 15, false, hit.level);
+  visit(WireName{"before"}, 16, true, hit.before);
 }
 template <class Visit>
 void wires_of(const OnwardToken& token, const ContextBits& context, Visit&& visit) {
@@ -144,8 +152,8 @@ void wires_of(const MetToken& met, const ContextBits& context, Visit&& visit) {
   vector_wires("matter_position", met.matter.position, 32, visit);
   if (!context.clear) return;
   visit(WireName{"context"}, context.rays, false, met.context);
-  visit(WireName{"first"}, 1, false, met.span == 0 ? 1 : 0),
-      visit(WireName{"leaves"}, 1, false, met.leaves ? 1 : 0);
+  visit(WireName{"first"}, 1, false, met.span == 0 ? 1 : 0);
+  visit(WireName{"leaves"}, 1, false, met.leaves ? 1 : 0);
   visit(WireName{"level"}, 15, false, met.level);
   vector_wires("at", met.at, 32, visit);
 }
@@ -184,15 +192,17 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& context, Visit&
   const auto until = [&](Behind last) { return stage <= last; };
   wires_of(s.id, context, visit);
   visit(WireName{"kind"}, 2, false, static_cast<std::int64_t>(s.kind));
-  if (until(Behind::paint))
-    visit(WireName{"inside"}, 1, false, s.inside ? 1 : 0),
-        visit(WireName{"face"}, 3, false, static_cast<std::int64_t>(s.face));
+  if (until(Behind::paint)) {
+    visit(WireName{"inside"}, 1, false, s.inside ? 1 : 0);
+    visit(WireName{"face"}, 3, false, static_cast<std::int64_t>(s.face));
+  }
   if (until(Behind::matter)) vector_wires("position", s.position, 32, visit);
   if (until(Behind::arriving)) vector_wires("to_eye", s.to_eye, 16, visit);
   if (until(Behind::arriving)) vector_wires("normal", s.normal, 16, visit);
   if (from(Behind::paint) && until(Behind::mirror)) color_wires("color", s.color, 13, visit);
   if (from(Behind::matter) && until(Behind::light)) {
-    visit(WireName{"liquid"}, 8, false, s.matter.liquid), visit(WireName{"heat"}, 8, false, s.matter.heat);
+    visit(WireName{"liquid"}, 8, false, s.matter.liquid);
+    visit(WireName{"heat"}, 8, false, s.matter.heat);
     visit(WireName{"obstacle"}, 8, false, s.matter.obstacle);
   }
   if (stage == Behind::light) {
@@ -211,12 +221,13 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& context, Visit&
   if (stage == Behind::arriving || (context.clear && from(Behind::mirror)))
     visit(WireName{"w"}, 13, false, s.mixture.w);
   if (stage == Behind::arriving) {
-    visit(WireName{"lamp"}, 9, false, s.arriving.lamp),
-        visit(WireName{"facing"}, 16, true, s.arriving.facing);
+    visit(WireName{"lamp"}, 9, false, s.arriving.lamp);
+    visit(WireName{"facing"}, 16, true, s.arriving.facing);
     visit(WireName{"gloss"}, 12, false, s.mixture.material.gloss);
   }
   if (stage == Behind::mirror) {
-    visit(WireName{"peak"}, 13, false, s.mirrored.peak), visit(WireName{"free"}, 13, false, s.mirrored.free);
+    visit(WireName{"peak"}, 13, false, s.mirrored.peak);
+    visit(WireName{"free"}, 13, false, s.mirrored.free);
     if (!context.clear) visit(WireName{"eye"}, 15, false, s.mirrored.eye);
     color_wires("around", s.mirrored.around, 15, visit);
   }
@@ -224,8 +235,8 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& context, Visit&
     visit(WireName{"more"}, 13, false, s.mirrored.more);
   if (stage == Behind::colour) color_wires("sum", s.sum, 18, visit, true);
   if (!context.clear) return;
-  visit(WireName{"context"}, context.rays, false, s.clear.context),
-      visit(WireName{"way"}, 18, false, s.clear.way);
+  visit(WireName{"context"}, context.rays, false, s.clear.context);
+  visit(WireName{"way"}, 18, false, s.clear.way);
   if (until(Behind::arriving)) visit(WireName{"leaves"}, 1, false, s.clear.leaves ? 1 : 0);
   if (stage == Behind::colour) color_wires("gleam", s.clear.gleam, 15, visit);
 }

@@ -92,7 +92,9 @@ struct LevelRequest {
         const auto middle = static_cast<std::int32_t>(middle_place(q));
         return std::array<std::int32_t, 4>{middle - 1, middle, middle + 1, 0};
       };
-      places.x = three(at.x), places.y = three(at.y), places.z = three(at.z);
+      places.x = three(at.x);
+      places.y = three(at.y);
+      places.z = three(at.z);
     } else {
       places.x = {places.low[0], places.low[0] + 1, 0, 0};
       places.y = {places.low[1], places.low[1] + 1, 0, 0};

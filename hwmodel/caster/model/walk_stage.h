@@ -52,7 +52,11 @@ class WalkStage final : public Stage {
   }
   void connect(Fifo<GroundedRay>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<HitToken>& hit,
                Fifo<MetToken>& missed) {
-    in_ = &in, ask_ = &ask, answer_ = &answer, hit_ = &hit, missed_ = &missed;
+    in_ = &in;
+    ask_ = &ask;
+    answer_ = &answer;
+    hit_ = &hit;
+    missed_ = &missed;
   }
   // Rays go on through clear matter: they return from there, and keep their places until they end.
   void connect_onward(Fifo<OnwardToken>& onward) { onward_ = &onward; }

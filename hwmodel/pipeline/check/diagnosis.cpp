@@ -35,7 +35,9 @@ Mismatch hang_of(const StreamMachine& machine, const Pass& first, std::int64_t c
   m.cascade = blamed.cascade;
   const auto passes = static_cast<std::uint32_t>(streamed / shape.tiles());  // all but the last are alike
   m.step += passes * static_cast<std::uint32_t>(first.steps) + static_cast<std::uint32_t>(blamed.cascade);
-  m.x = place.x, m.y = place.y, m.z = place.z;
+  m.x = place.x;
+  m.y = place.y;
+  m.z = place.z;
   m.detail = "full: " + (full.empty() ? "none" : full) + "\n  empty: " + (empty.empty() ? "none" : empty);
   return m;
 }

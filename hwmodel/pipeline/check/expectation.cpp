@@ -75,9 +75,12 @@ std::unique_ptr<Mismatch> Expectation::compare_software(step::Phase phase) const
                  .field = "ledger"};
   const Difference d = first_difference(reference_.volume(), fast_.volume());
   if (!d.field.empty()) {
-    found.x = d.x, found.y = d.y, found.z = d.z;
+    found.x = d.x;
+    found.y = d.y;
+    found.z = d.z;
     found.field = d.field;
-    found.expected = d.expected, found.actual = d.actual;
+    found.expected = d.expected;
+    found.actual = d.actual;
   }
   return std::make_unique<Mismatch>(std::move(found));
 }

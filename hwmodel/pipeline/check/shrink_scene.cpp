@@ -74,7 +74,8 @@ std::optional<Case> first_case(const ShrinkRequest& request, const VerifyReport&
   while (simulation.step_number() < step) simulation.step();
   Case late = one;
   late.volume = simulation.volume();
-  late.first_step = step, late.steps = 1;
+  late.first_step = step;
+  late.steps = 1;
   if (search.fails(late)) return late;
   late.steps = 2;
   if (search.fails(late)) return late;

@@ -54,7 +54,8 @@ void PlantedCode::ended(std::int64_t pass, const Place& place, std::uint64_t* sl
   for (Place at = place; at.y > 0; --at.y) {
     const bool here = bit_of(slot, at.y), below = bit_of(slot, at.y - 1);
     if (here == below) continue;
-    set_bit(slot, at.y, below), set_bit(slot, at.y - 1, here);
+    set_bit(slot, at.y, below);
+    set_bit(slot, at.y - 1, here);
     --at.y;
     return strike_writer(pass, at, 0);
   }

@@ -46,7 +46,8 @@ class GravityFaults : public Planted {
     Falling wrong_low = low, wrong_high = high;
     stage.move(wrong_low, wrong_high, blocked_above);
     if (wrong_low.amount <= low.amount) return;
-    low = wrong_low, high = wrong_high;
+    low = wrong_low;
+    high = wrong_high;
     strike_word(stage, stage.line_, low);
   }
 

@@ -130,7 +130,9 @@ class SettleFaults : public Planted {
       const RunShow show = hwmodel::shown(record.sum, record.last, 0, record.mobility, stage.flow_,
                                           stage.pace_, stage.widths_);
       Cell shows;
-      shows.head = show.head, shows.mobility = show.mobility, shows.limit = show.limit,
+      shows.head = show.head;
+      shows.mobility = show.mobility;
+      shows.limit = show.limit;
       shows.dead = show.dead;
       return shows;
     };

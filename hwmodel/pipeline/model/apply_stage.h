@@ -83,7 +83,8 @@ class Apply final : public Stage {
     Flowing* south = came().z > 0 || ends ? line_.tap(plane_) : nullptr;
     if (south != nullptr)
       for (const int lane : each_lane(shape().plane())) {
-        wire(south[lane].in.amount, south_bits_), wire(south[lane].in.energy, south_bits_);
+        wire(south[lane].in.amount, south_bits_);
+        wire(south[lane].in.energy, south_bits_);
         weigh(south[lane], line_.tap(plane_ + 1)[lane].state);
       }
 

@@ -17,7 +17,8 @@ class Feed {
 
   // Null: the time step does not work.
   void begin_pass(const IrradianceStream* stream, int tile) {
-    stream_ = stream, passes_ = 0;
+    stream_ = stream;
+    passes_ = 0;
     next_.clear();
     begin_tile(tile);
   }

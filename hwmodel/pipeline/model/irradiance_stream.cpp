@@ -27,7 +27,10 @@ IrradianceWords IrradianceStream::words_of(const Irradiance& field, const Shape&
     std::uint32_t mask = 0;
     lit.clear();
     for (int lane = 0; lane < lanes; ++lane)
-      if (cells[lane] != 0) mask |= std::uint32_t{1} << lane, lit.push_back(cells[lane]);
+      if (cells[lane] != 0) {
+        mask |= std::uint32_t{1} << lane;
+        lit.push_back(cells[lane]);
+      }
     if (mask == 0 && dark < kMostDark) {
       ++dark;
       continue;

@@ -61,7 +61,12 @@ class IrradianceReader {
  public:
   explicit IrradianceReader(int lanes) : lanes_(lanes) {}
 
-  void begin(const IrradianceWords& words) { words_ = &words, at_ = 0, dark_ = 0, open_ = false; }
+  void begin(const IrradianceWords& words) {
+    words_ = &words;
+    at_ = 0;
+    dark_ = 0;
+    open_ = false;
+  }
 
   // Words from the begin of the stream that must be there before the next token can be made.
   std::int64_t needs() const {
@@ -69,7 +74,11 @@ class IrradianceReader {
     std::size_t end = at_;
     std::uint32_t mask = mask_;
     std::int64_t dark = dark_;
-    if (!open_) dark = word(at_), mask = mask_at(at_ + 1), end += 1 + static_cast<std::size_t>(head_words());
+    if (!open_) {
+      dark = word(at_);
+      mask = mask_at(at_ + 1);
+      end += 1 + static_cast<std::size_t>(head_words());
+    }
     if (dark == 0) end += static_cast<std::size_t>(std::popcount(mask));
     return static_cast<std::int64_t>(end);
   }
@@ -80,7 +89,9 @@ class IrradianceReader {
     for (int lane = 0; lane < lanes_; ++lane) lanes[lane] = 0;
     if (!open_) {
       if (at_ >= words_->size()) return;
-      dark_ = word(at_), mask_ = mask_at(at_ + 1), open_ = true;
+      dark_ = word(at_);
+      mask_ = mask_at(at_ + 1);
+      open_ = true;
       at_ += 1 + static_cast<std::size_t>(head_words());
       if (fault != nullptr) [[unlikely]]
         fault->counted(t, pass, place, mask_, dark_);

@@ -55,8 +55,11 @@ class Writer {
   }
   void connect(CellFifo& in) { in_ = &in; }
   void begin_pass(int tile) {
-    tiles_ = {tile}, place_ = begin_of(shape_, tile);
-    first_ = written_ = tile * shape_.tokens(), last_cycle_ = -1, passes_ = 0;
+    tiles_ = {tile};
+    place_ = begin_of(shape_, tile);
+    first_ = written_ = tile * shape_.tokens();
+    last_cycle_ = -1;
+    passes_ = 0;
   }
   void add_pass(int tile) { tiles_.push_back(tile); }
   void cycle(std::int64_t now) {
@@ -70,7 +73,8 @@ class Writer {
       write(in_->get());
       if (dram_ != nullptr && owns())
         dram_->written(column_ ? column_->bits() : 0, ends_column(shape_, place_), now);
-      ++written_, last_cycle_ = now;
+      ++written_;
+      last_cycle_ = now;
       ++cycles_.busy;
       place_.next(shape_);
       if (place_.ordinal == shape_.tokens()) end_tile();
@@ -127,7 +131,8 @@ class Writer {
       memory_.next_to_write();
       closed_ = open_;
     }
-    tiles_.pop_front(), ++passes_;
+    tiles_.pop_front();
+    ++passes_;
     if (!done()) place_ = begin_of(shape_, tiles_.front());
   }
 
@@ -155,7 +160,10 @@ class Reader {
   Reader(const Shape& shape, StateMemory& memory) : shape_(shape), memory_(memory) {
     if (memory.coded()) column_.emplace(memory.read_code().layout());
   }
-  void connect(CellFifo& out, const Writer& writer) { out_ = &out, writer_ = &writer; }
+  void connect(CellFifo& out, const Writer& writer) {
+    out_ = &out;
+    writer_ = &writer;
+  }
   void begin_pass(int tile) {
     place_ = begin_of(shape_, tile);
     passes_ = grids_before_ = 0;

@@ -144,7 +144,10 @@ class Pattern final : public Stage {
       cell.stored() = word.stored();
       if (word.pattern != 0) {
         const int x = leaving().x + lane;
-        if (x / 8 != block_of) block_of = x / 8, block = speck_block(keys_, step_at(lag()), block_index(x));
+        if (x / 8 != block_of) {
+          block_of = x / 8;
+          block = speck_block(keys_, step_at(lag()), block_index(x));
+        }
         cell.pattern = word.pattern & speck_byte(block, x);
       }
       faults_.drawn(*this, word, lane, cell);

@@ -194,7 +194,8 @@ void Pipeline::watch(FifoWatcher<Cell>* watcher) {
 void Pipeline::memory(StreamMemory* memory) {
   Machine& m = *machine_;
   m.dram = memory;
-  m.reader.dram(memory), m.writer.dram(memory);
+  m.reader.dram(memory);
+  m.writer.dram(memory);
   for (const auto& feed : m.feeds) feed->dram(memory);
 }
 

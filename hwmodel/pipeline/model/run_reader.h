@@ -70,7 +70,8 @@ class RunReader {
   // At the tap where cells come, the pace comes with the run's first cell.
   void bring(const RunPace& pace) { next_ = pace; }
   void bring_floor(const RunPace& pace) {
-    below_ = Below::blocked, bed_ = kFlatBed;
+    below_ = Below::blocked;
+    bed_ = kFlatBed;
     next_ = pace;
   }
 
@@ -84,18 +85,29 @@ class RunReader {
       return;
     }
     if (word.runs()) {
-      if (below_ == Below::blocked) head_ = word.head, pace_ = next_, run_bed_ = bed_head(y, bed_) >> 5;
+      if (below_ == Below::blocked) {
+        head_ = word.head;
+        pace_ = next_;
+        run_bed_ = bed_head(y, bed_) >> 5;
+      }
       below_ = Below::run;
-      seen.head = head_, seen.pace = pace_, seen.bed = run_bed_;
+      seen.head = head_;
+      seen.pace = pace_;
+      seen.bed = run_bed_;
       return;
     }
     seen.pace = {};
     seen.head = 512 * (y - 2);
     seen.bed = kNoBed;
-    if (below_ == Below::blocked) seen.head = bed_head(y, bed_), seen.bed = seen.head >> 5;
+    if (below_ == Below::blocked) {
+      seen.head = bed_head(y, bed_);
+      seen.bed = seen.head >> 5;
+    }
     if (below_ == Below::run) {
-      seen.head = head_, seen.bed = run_bed_;
-      seen.pace.mobility = pace_.mobility, seen.pace.limit = pace_.limit;
+      seen.head = head_;
+      seen.bed = run_bed_;
+      seen.pace.mobility = pace_.mobility;
+      seen.pace.limit = pace_.limit;
     }
     below_ = Below::outside;
   }

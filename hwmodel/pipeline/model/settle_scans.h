@@ -97,9 +97,12 @@ class SumScan {
 
   void add(const Cell& cell, SettleKind kind, bool hot) {
     amount_ = cell.amount;
-    if (kind == SettleKind::first)
-      sum_ = 0, content_ = 0, last_ = 0, ordered_ = 1;
-    else if (kind == SettleKind::inner)
+    if (kind == SettleKind::first) {
+      sum_ = 0;
+      content_ = 0;
+      last_ = 0;
+      ordered_ = 1;
+    } else if (kind == SettleKind::inner)
       last_ = last_ + 1;
     else
       return;
@@ -168,15 +171,18 @@ class ShowScan {
       return;
     }
     cell.amount = 0;
-    if (word.kind == SettleKind::outside)
-      cell.amount = std::int64_t{word.sum}, cell.heat = word.heat;
-    else
+    if (word.kind == SettleKind::outside) {
+      cell.amount = std::int64_t{word.sum};
+      cell.heat = word.heat;
+    } else
       settle(word, y, flow, pace, widths, cell);
     cell.state = State::liquid;
     cell.settle_state();
     if (!cell.in_run) return;
-    cell.head = show_.head, cell.dead = show_.dead;
-    cell.mobility = show_.mobility, cell.limit = show_.limit;
+    cell.head = show_.head;
+    cell.dead = show_.dead;
+    cell.mobility = show_.mobility;
+    cell.limit = show_.limit;
   }
 
  private:

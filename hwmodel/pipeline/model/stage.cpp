@@ -12,7 +12,8 @@ void Stage::begin_pass(step::Moment moment, bool bypass, int tile) {
   coming_ = leaving_ = 0;
   moves_ = filled_ = 0;
   came_ = left_ = begin_of(shape(), tile);
-  spot_delay_ = 0, spot_lane_ = 0;
+  spot_delay_ = 0;
+  spot_lane_ = 0;
 }
 
 Place Stage::place_at(std::int64_t delay) const {
@@ -48,7 +49,10 @@ bool Stage::cycle() {
   }
   ++(!takes ? cycles_.fill_drain : bypass ? cycles_.bypassed : cycles_.busy);
 
-  if (next) ++coming_, came_ = begin_of(shape(), passes_[coming_].tile);
+  if (next) {
+    ++coming_;
+    came_ = begin_of(shape(), passes_[coming_].tile);
+  }
   if (came_.ordinal == 0) {
     if (!overlaps()) filled_ = 0;
     begin_step();
@@ -59,7 +63,8 @@ bool Stage::cycle() {
     std::copy(in, in + lanes(), out);
   else
     advance(in, out);
-  ++moves_, ++filled_;
+  ++moves_;
+  ++filled_;
   came_.next(shape());
   if (!gives) return true;
   left_.next(shape());

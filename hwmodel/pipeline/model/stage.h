@@ -86,7 +86,10 @@ struct StagePass {
 template <class T>
 struct OfTwoPasses {
   T now{}, last{};
-  void next(const T& value) { last = now, now = value; }
+  void next(const T& value) {
+    last = now;
+    now = value;
+  }
 };
 
 // Where a stage computes: a cell, and the lane of the token in which it lies.
@@ -129,7 +132,10 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  void connect(CellFifo& in, CellFifo& out) { in_ = &in, out_ = &out; }
+  void connect(CellFifo& in, CellFifo& out) {
+    in_ = &in;
+    out_ = &out;
+  }
   virtual void feed(HeatFifo& /*feed*/) {}  // a second input, of irradiance: `exchange` has one
 
   // A pass streams one tile once. The first one of a train finds the stage empty; those that are added while
@@ -196,7 +202,10 @@ class Stage {
     spot_delay_ = delay;
     return {lanes(), spot_lane_};
   }
-  void compute_at(std::int64_t delay, int lane) { spot_delay_ = delay, spot_lane_ = lane; }
+  void compute_at(std::int64_t delay, int lane) {
+    spot_delay_ = delay;
+    spot_lane_ = lane;
+  }
 
  private:
   StageKind kind_;

@@ -26,7 +26,8 @@ class StateMemory {
   void begin_train(state::Volume& volume) {
     if (tiled_ && !second_) second_ = volume;
     first_ = &volume;
-    reads_first_ = true, writes_first_ = !tiled_;
+    reads_first_ = true;
+    writes_first_ = !tiled_;
     if (codes_[0]) codes_[0]->store(volume);
   }
   void end_train() {

@@ -157,8 +157,10 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
   int highest = 0;
   std::string fullest;
   for (const ChannelReport& channel : report.channels)
-    if (channel.producer != StageKind::feed && channel.highest > highest)
-      highest = channel.highest, fullest = channel.name;
+    if (channel.producer != StageKind::feed && channel.highest > highest) {
+      highest = channel.highest;
+      fullest = channel.name;
+    }
   text += fmt::format("channels: {} of depth {}, {} bits; high-water mark {} ({})\n", report.channels.size(),
                       configuration.fifo_depth, channel_bits(report, configuration.lanes), highest, fullest);
   text += fmt::format(

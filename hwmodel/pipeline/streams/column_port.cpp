@@ -19,14 +19,18 @@ ColumnSlots::ColumnSlots(const Design& design, bool is_coded, std::int64_t first
 
 void ColumnWalk::begin(const ColumnSlots& slots, bool owned) {
   *this = {};
-  shape_ = slots.shape, owned_ = owned;
+  shape_ = slots.shape;
+  owned_ = owned;
 }
 
 void ColumnWalk::add(int tile) {
   if (any_ && tile == 0) ++passes_;
   any_ = true;
   tiles_.push_back({tile, passes_});
-  if (tiles_.size() == 1) z_ = 0, begin_row();
+  if (tiles_.size() == 1) {
+    z_ = 0;
+    begin_row();
+  }
 }
 
 void ColumnWalk::begin_row() {
@@ -51,7 +55,8 @@ void ColumnWalk::next() {
 void ColumnInput::begin(const ColumnSlots& slots, std::array<const StoredColumns*, 2> stored,
                         memory::Memory& memory, int port) {
   *this = {};
-  memory_ = &memory, stored_ = stored;
+  memory_ = &memory;
+  stored_ = stored;
   port_ = port;
   slots_ = slots;
   walk_.begin(slots, false);
@@ -66,13 +71,16 @@ bool ColumnInput::has(std::int64_t bits, std::int64_t now) const {
 }
 
 void ColumnInput::use(std::int64_t bits, bool ends, std::int64_t now) {
-  freed_before_ = freed_, last_used_ = now;
+  freed_before_ = freed_;
+  last_used_ = now;
   const std::int64_t all = ahead_[static_cast<std::size_t>(done_ - first_)].bursts;
   const std::int64_t done = ends ? all : bits / CodeLayout::kBurstBits;
   freed_ += done - freed_of_column_;
   freed_of_column_ = done;
   if (!ends) return;
-  ++done_, last_done_ = now, freed_of_column_ = 0;
+  ++done_;
+  last_done_ = now;
+  freed_of_column_ = 0;
 }
 
 void ColumnInput::take(std::int64_t now) {
@@ -91,7 +99,8 @@ void ColumnInput::ask(Column& column, std::int64_t number, std::int64_t bursts, 
   const std::int64_t slot = slots_->address(column.at.number, column.at.pass);
   while (column.asked < bursts && room(now)) {
     memory_->put(port_, {slot + column.asked * memory::kBurst, 0, false, memory::kBurst});
-    ++column.asked, ++asked_;
+    ++column.asked;
+    ++asked_;
     under_way_.push_back(number);
   }
 }

@@ -28,7 +28,8 @@ MemoryStreams::MemoryStreams(const Design& design, int cascade, const memory::Pa
 
 MemoryStreams::MemoryStreams(const Design& design, int cascade, memory::Memory& shared, std::int64_t base)
     : MemoryStreams(design, cascade, memory::Parameters{}, 0) {
-  memory_ = &shared, base_ = base;
+  memory_ = &shared;
+  base_ = base;
 }
 
 void MemoryStreams::open_ports() {
@@ -50,19 +51,22 @@ void MemoryStreams::begin_train(const Train& train) {
   coded_ = train.columns[0] != nullptr;
   slots_.reset();
   if (coded_ || design_.shape.tiled()) slots_.emplace(design_, coded_, base_);
-  tokens_written_ = handed_ = wanted_ = tokens_read_ = tokens_put_ = 0, last_written_ = -1;
+  tokens_written_ = handed_ = wanted_ = tokens_read_ = tokens_put_ = 0;
+  last_written_ = -1;
   unwritten_ = {};
   if (slots_) {
     written_columns_.begin(*slots_, *memory_, writer_);
     columns_.begin(*slots_, train.columns, *memory_, reader_);
   } else {
     state_ = {};
-    state_.port = reader_, state_.pass = tokens_ * token_;
+    state_.port = reader_;
+    state_.pass = tokens_ * token_;
   }
   // The state at the begin, irradiance behind it.
   const std::int64_t align = memory_->alignment();
   const std::int64_t all = slots_ ? slots_->bytes() : burst_bits(tokens_ * token_) / 8;
-  irradiance_bits_.clear(), irradiance_at_.clear();
+  irradiance_bits_.clear();
+  irradiance_at_.clear();
   std::int64_t at = base_ + (all + align - 1) / align * align;
   for (int tile = 0; tile < design_.shape.tiles(); ++tile) {
     irradiance_bits_.push_back(train.irradiance == nullptr ? 0 : train.irradiance->bits(tile));
@@ -71,15 +75,17 @@ void MemoryStreams::begin_train(const Train& train) {
   }
   for (std::size_t t = 0; t < feeds_.size(); ++t) {
     feeds_[t] = {};
-    feeds_[t].port = feed_ports_[t], feeds_[t].bits_of_tile = &irradiance_bits_;
+    feeds_[t].port = feed_ports_[t];
+    feeds_[t].bits_of_tile = &irradiance_bits_;
   }
   add_pass(train.tile, train.fed);
 }
 
 void MemoryStreams::add_pass(int tile, int fed) {
-  if (slots_)
-    columns_.add(tile), written_columns_.add(tile);
-  else
+  if (slots_) {
+    columns_.add(tile);
+    written_columns_.add(tile);
+  } else
     wanted_ += burst_bits(state_.pass);
   for (std::size_t t = 0; t < static_cast<std::size_t>(fed); ++t) feeds_[t].add(tile);
 }

@@ -49,7 +49,8 @@ class MemoryStreams final : public StreamMemory {
   }
   void written(std::int64_t bits, bool ends, std::int64_t now) override {
     if (slots_) return written_columns_.written(of_column(bits, ends, tokens_put_), ends, now);
-    ++tokens_written_, last_written_ = now;
+    ++tokens_written_;
+    last_written_ = now;
   }
   void cycle(std::int64_t now) override;
 
@@ -81,7 +82,8 @@ class MemoryStreams final : public StreamMemory {
     }
     // They are not needed any more; `ends`: nor is the rest of the pass.
     void use(std::int64_t bits, bool ends, std::int64_t now) {
-      before = used, last_used = now;
+      before = used;
+      last_used = now;
       used = begun + bits;
       if (ends) used = begun += burst_bits(pass);
     }

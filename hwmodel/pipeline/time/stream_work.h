@@ -16,8 +16,12 @@ struct StreamWork {
   std::int64_t bytes() const { return (read_bits + 7) / 8 + (fed_bits + 7) / 8 + (written_bits + 7) / 8; }
   friend StreamWork operator-(const StreamWork& a, const StreamWork& b) {
     StreamWork work = a;
-    work.passes -= b.passes, work.cycles -= b.cycles, work.tokens -= b.tokens;
-    work.read_bits -= b.read_bits, work.fed_bits -= b.fed_bits, work.written_bits -= b.written_bits;
+    work.passes -= b.passes;
+    work.cycles -= b.cycles;
+    work.tokens -= b.tokens;
+    work.read_bits -= b.read_bits;
+    work.fed_bits -= b.fed_bits;
+    work.written_bits -= b.written_bits;
     return work;
   }
 };

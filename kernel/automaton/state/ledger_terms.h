@@ -90,8 +90,10 @@ struct LimitCounts {
 
   template <class From>
   void add(const LimitCounts<From>& more) {
-    cells += more.cells, limited_cells += more.limited_cells;
-    mass += more.mass, limited_mass += more.limited_mass;
+    cells += more.cells;
+    limited_cells += more.limited_cells;
+    mass += more.mass;
+    limited_mass += more.limited_mass;
   }
   friend bool operator==(const LimitCounts&, const LimitCounts&) = default;
 };

@@ -57,9 +57,10 @@ void PaperFlow::gravity(const Job& job, const Tiles& dirty, simd::Books& books) 
                    (!job.sleep || mostly(dirty, begin, end, 0, job.view.tile_rows(), all_words(job.view)));
     for (int z = begin; z < end; ++z) {
       const bool waits = worker.ahead && z >= later.begin && z < later.end;
-      if (waits)
-        fallen_.clear(z), worker.follow[static_cast<std::size_t>(z)] = 0;
-      else
+      if (waits) {
+        fallen_.clear(z);
+        worker.follow[static_cast<std::size_t>(z)] = 0;
+      } else
         fall(job, dirty, z, worker);
     }
   });

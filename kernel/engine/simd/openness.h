@@ -34,7 +34,10 @@ class Openness {
     std::uint64_t here = own[0] | front[0] | back[0];
     std::uint64_t left = own[-1] | front[-1] | back[-1], right = own[1] | front[1] | back[1];
     if (w == 0) left = 0;
-    if (w == words_ - 1) right = 0, here &= last_word_;
+    if (w == words_ - 1) {
+      right = 0;
+      here &= last_word_;
+    }
     return here | cpu::from_left(here, left) | cpu::from_right(here, right);
   }
 

@@ -60,7 +60,10 @@ Packed pack(const Column& column, state::Grid grid, const Slab& slab) {
   };
   int y = 0, z = slab.first;
   while (z < slab.first + slab.count && empty(row_of(column, y, z)))
-    if (++y == grid.y) y = 0, ++z;
+    if (++y == grid.y) {
+      y = 0;
+      ++z;
+    }
   if (z == slab.first + slab.count) return {bytes, {}};
   Bytes raw(bytes);
   std::byte* to = raw.data();

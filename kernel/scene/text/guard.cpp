@@ -28,7 +28,8 @@ class Guard {
           break;
         }
         skip_string(c);
-        fresh_ = false, within_word_ = true;
+        fresh_ = false;
+        within_word_ = true;
       } else {
         look_at(c);
         ++at_;
@@ -43,7 +44,9 @@ class Guard {
   void look_at(char c) {
     const auto byte = static_cast<unsigned char>(c);
     if (c == '\n') {
-      dots_ = 0, ++line_, line_begin_ = at_ + 1;
+      dots_ = 0;
+      ++line_;
+      line_begin_ = at_ + 1;
       fresh_ = true;
       if (brackets_.empty()) in_value_ = false;
       return;
@@ -87,7 +90,8 @@ class Guard {
       const char c = text_[at_];
       if (c == '\n') {
         if (!many) return;
-        ++line_, line_begin_ = at_ + 1;
+        ++line_;
+        line_begin_ = at_ + 1;
       } else if (c == '\\' && escapes) {
         if (at_ + 1 < text_.size() && text_[at_ + 1] != '\n') ++at_;
       } else if (c == quote && (!many || text_.substr(at_, 3) == std::string(3, quote))) {

@@ -69,8 +69,11 @@ Swept swept() {
     point.cost = {50, seconds, 1e8, std::nullopt, 1};
     if (axis == Axis::grid)
       point.grid = all(whole);
-    else
-      point.whole = all(whole), point.arithmetic = all(whole / 10), point.model = all(whole);
+    else {
+      point.whole = all(whole);
+      point.arithmetic = all(whole / 10);
+      point.model = all(whole);
+    }
     one.points.push_back(point);
   };
   add(Axis::usual, {}, 1, 0.05);
@@ -81,7 +84,8 @@ Swept swept() {
   add(Axis::rounding, {.arithmetic = kEngine}, std::nullopt, 0.05);
   add(Axis::format, {.arithmetic = kExact}, std::nullopt, 0.05);
   one.points[4].cost.state_bits = 26;
-  one.points[6].cost.state_bits = 194, one.points[6].arithmetic = Errors{};
+  one.points[6].cost.state_bits = 194;
+  one.points[6].arithmetic = Errors{};
   return one;
 }
 

@@ -89,7 +89,10 @@ TEST(Subject, BodiesScaleWithTheGrid) {
       for (int z = 0; z < v.grid.z; ++z)
         for (int y = 0; y < v.grid.y; ++y)
           for (int x = 0; x < v.grid.x; ++x)
-            if (v.solid.test(x, y, z)) mass += v.amount[v.at(x, y, z)] / 4096., top = std::max(top, y);
+            if (v.solid.test(x, y, z)) {
+              mass += v.amount[v.at(x, y, z)] / 4096.;
+              top = std::max(top, y);
+            }
       return std::pair{(top + 1 - 1) / grid, mass / (grid * grid * grid)};
     };
     const auto [tall, large] = height_and_volume(1);

@@ -32,7 +32,8 @@ Start falling() {
   for (std::uint64_t seed = 0;; ++seed) {
     Start start = hostile_start(seed, rule::Law::paper, {7, 6, 5});
     if (start.parameters.heat.radiation) continue;
-    start.parameters.vents.clear(), start.parameters.drains.clear();
+    start.parameters.vents.clear();
+    start.parameters.drains.clear();
     return start;
   }
 }

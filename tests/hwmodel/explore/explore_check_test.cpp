@@ -18,8 +18,13 @@ TEST(ExploreCheck, APointThatFailsIsNotVerified) {
   question.steps = 2;
   question.device = load_device("zu7ev", {});
   Axes axes;
-  axes.lanes = {2}, axes.cascade = {2}, axes.substeps = {1}, axes.fifo_depth = {2};
-  axes.overlap = {1}, axes.coded = {0}, axes.clock_mhz = {100};
+  axes.lanes = {2};
+  axes.cascade = {2};
+  axes.substeps = {1};
+  axes.fifo_depth = {2};
+  axes.overlap = {1};
+  axes.coded = {0};
+  axes.clock_mhz = {100};
   const state::Volume start(question.grid);
   const CheckInput input{start, worlds::implementation("reference"), {}, {}};
   const Checked good = check(question, sweep(question, axes, {}), 0, 0, input);
@@ -50,13 +55,19 @@ TEST(ExploreCheck, TheFileOfDepthsSaysTheMachine) {
   Sizing sizing;
   sizing.channels = {{"reader -> source", 5, 0, 0, 0}, {"melt -> writer", 1, 0, 0, 0}};
   Configuration machine;
-  machine.lanes = 4, machine.cascade = 3, machine.substeps = 2, machine.stall_seed = 7;
-  machine.overlap = false, machine.coded = true, machine.tile = 64;
+  machine.lanes = 4;
+  machine.cascade = 3;
+  machine.substeps = 2;
+  machine.stall_seed = 7;
+  machine.overlap = false;
+  machine.coded = true;
+  machine.tile = 64;
   EXPECT_EQ(toml_of(sizing, machine, "sized"),
             "title = \"sized\"\n[hw]\nlanes = 4\ncascade = 3\nsubsteps = 2\noverlap = 0\ntile = 64\n"
             "coded = 1\nstall_seed = 7\n[[hw.channel]]\nname = \"reader -> source\"\ndepth = 5\n"
             "[[hw.channel]]\nname = \"melt -> writer\"\ndepth = 1\n");
-  machine.overlap = true, machine.coded = false;
+  machine.overlap = true;
+  machine.coded = false;
   EXPECT_NE(toml_of(sizing, machine, "sized").find("overlap = 1\ntile = 64\ncoded = 0\n"), std::string::npos);
 }
 

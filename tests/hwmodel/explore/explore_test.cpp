@@ -29,7 +29,8 @@ TimedRun timed(int lanes, int cascade, std::int64_t steps) {
   run.parameters.heat.enabled = run.parameters.heat.radiation = true;
   run.parameters.heat.visibility_every = 16;
   run.grid = {64, 24, 40};
-  run.configuration.lanes = lanes, run.configuration.cascade = cascade;
+  run.configuration.lanes = lanes;
+  run.configuration.cascade = cascade;
   run.steps = steps;
   return run;
 }

@@ -48,10 +48,17 @@ TEST(Channel, NothingShowsBeforeTheCycleEnds) {
 
 TEST(Channel, CountsItsCyclesByOccupancy) {
   Fifo<int> fifo = channel(3);
-  fifo.commit();                                          // 0
-  for (int i = 0; i < 2; ++i) fifo.put(), fifo.commit();  // 1, 2
-  for (int i = 0; i < 2; ++i) fifo.get(), fifo.commit();  // 1, 0
-  fifo.put(), fifo.commit();                              // 1
+  fifo.commit();  // 0
+  for (int i = 0; i < 2; ++i) {
+    fifo.put();
+    fifo.commit();
+  }  // 1, 2
+  for (int i = 0; i < 2; ++i) {
+    fifo.get();
+    fifo.commit();
+  }  // 1, 0
+  fifo.put();
+  fifo.commit();  // 1
   EXPECT_EQ(fifo.occupancy(), (std::vector<std::int64_t>{2, 3, 1, 0}));
   EXPECT_EQ(fifo.highest(), 2);
   EXPECT_EQ(fifo.count(), 1);
@@ -79,7 +86,8 @@ TEST(Channel, TokensAreNumberedFromTheBeginOfAPass) {
     for (int i = 0; i < 3; ++i) {
       *fifo.put() = 10 * pass + i;
       fifo.commit();
-      fifo.get(), fifo.commit();
+      fifo.get();
+      fifo.commit();
     }
     EXPECT_EQ(fifo.entered(), 3);
     EXPECT_EQ(fifo.left(), 3);
@@ -99,10 +107,14 @@ Refusals refusals(std::uint64_t seed, std::uint64_t channel, std::uint64_t pass 
   Refusals seen;
   for (int i = 0; i < kCycles; ++i) {
     const StallInjector::Stall stall = injector.next();
-    seen.put += stall.put, seen.get += stall.get, seen.both += stall.put && stall.get;
+    seen.put += stall.put;
+    seen.get += stall.get;
+    seen.both += stall.put && stall.get;
     seen.puts.push_back(stall.put);
   }
-  seen.put /= kCycles, seen.get /= kCycles, seen.both /= kCycles;
+  seen.put /= kCycles;
+  seen.get /= kCycles;
+  seen.both /= kCycles;
   return seen;
 }
 
@@ -148,7 +160,8 @@ TEST(LineBuffer, ANewTokenIsBlankAndTapsSeeTheOldOnes) {
     line.shift();
     EXPECT_EQ(line.tap(0)[0], 0);
     EXPECT_EQ(line.tap(0)[1], 0);
-    line.tap(0)[0] = token, line.tap(0)[1] = -token;
+    line.tap(0)[0] = token;
+    line.tap(0)[1] = -token;
     for (int delay = 0; delay <= 3 && delay < token; ++delay) {
       EXPECT_EQ(line.tap(static_cast<std::size_t>(delay))[0], token - delay);
       EXPECT_EQ(line.tap(static_cast<std::size_t>(delay))[1], delay - token);

@@ -80,7 +80,8 @@ TEST(Simulation, WhenAJobEndsAnotherOneMayBegin) {
     simulation.begin(a.part);
   };
   b.length = 100;
-  simulation.begin(a.part), simulation.begin(b.part);
+  simulation.begin(a.part);
+  simulation.begin(b.part);
   simulation.run(b.part);
   EXPECT_EQ(a.seen.size(), 30u) << "three jobs, without a gap";
   EXPECT_FALSE(a.part.works());
@@ -90,7 +91,8 @@ TEST(Simulation, AJobEndsWhereItHangsIsStoppedOrBreaks) {
   Simulation simulation;
   Counter a(simulation, "a"), b(simulation, "b"), c(simulation, "c");
   a.length = b.length = c.length = 1 << 30;
-  a.idle_from = 5, a.part.hang_after = 20;
+  a.idle_from = 5;
+  a.part.hang_after = 20;
   b.part.each_cycle = [&] {
     if (b.part.cycle() == 30) b.part.stop();
   };
@@ -140,8 +142,10 @@ TEST(Simulation, TwoRunInTurn) {
   Counter a(one, "a"), b(other, "b");
   for (int i = 1; i <= 3; ++i) {
     a.counted = b.counted = 0;
-    one.begin(a.part), one.run(a.part);
-    other.begin(b.part), other.run(b.part);
+    one.begin(a.part);
+    one.run(a.part);
+    other.begin(b.part);
+    other.run(b.part);
     EXPECT_EQ(a.seen.size(), 10u * i);
     EXPECT_EQ(b.seen.size(), 10u * i);
     EXPECT_EQ(one.cycle(), 10 * i - 1);

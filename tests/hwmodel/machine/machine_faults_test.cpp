@@ -79,7 +79,8 @@ state::Volume with_empty_air(state::Volume volume) {
   worlds::for_each(worlds::whole(volume.grid), [&](int x, int y, int z) {
     if (volume.solid.test(x, y, z) || volume.liquid.test(x, y, z) || volume.inert.test(x, y, z)) return;
     const state::Slot at = volume.at(x, y, z);
-    volume.amount[at] = 0, volume.heat[at] = 0;
+    volume.amount[at] = 0;
+    volume.heat[at] = 0;
   });
   return volume;
 }

@@ -28,7 +28,8 @@ struct Melt {
         before(scene.parameters, std::move(scene.initial), *run::implementations().find("reference")) {
     ahead -= scene.parameters.heat.visibility_age(ahead);
     while (before.step_number() < ahead) before.step();
-    scene.camera.width = 40, scene.camera.height = 32;
+    scene.camera.width = 40;
+    scene.camera.height = 32;
   }
   MachineReport verify(const MachineOptions& options) const {
     return verify_machine({scene.parameters,
@@ -101,7 +102,9 @@ TEST(Machine, CyclesAndBytesSumUp) {
     EXPECT_EQ(period.frame_written, 2 * 5 * 4 * 192);  // two passes, tiles of 192 bytes
     EXPECT_GT(period.upload.bursts, 0);
     EXPECT_LT(period.upload.bursts, report.first_upload.bursts);
-    cycles += period.stream_beside, frames += period.frame_beside, read += period.frame_read;
+    cycles += period.stream_beside;
+    frames += period.frame_beside;
+    read += period.frame_read;
   }
   EXPECT_EQ(cycles, report.steps.cycles);
   // The picture of the last state is drawn while the pipeline is idle: as by the ray caster alone.

@@ -85,7 +85,10 @@ TEST(FixedLatency, AStreamWaitsForTheBus) {
   const int stream = memory.open_port(nullptr), lines = memory.open_port(&client);
   int claimed = 0;
   for (int cycle = 0; cycle < 3; ++cycle) {
-    for (int i = 0; i < 40 && memory.ready(stream); ++i) memory.put(stream, {0, 0, true, 64}), ++claimed;
+    for (int i = 0; i < 40 && memory.ready(stream); ++i) {
+      memory.put(stream, {0, 0, true, 64});
+      ++claimed;
+    }
     memory.cycle();
   }
   EXPECT_EQ(claimed, 80);  // after two cycles the bus is free from cycle 81 on: 69 behind the latency

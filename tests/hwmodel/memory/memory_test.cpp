@@ -95,7 +95,10 @@ TEST(Memory, ReadsWorkedByHand) {
   std::vector<std::int64_t> replied;
   for (int cycle = 1; cycle < 40; ++cycle) {
     dram.cycle();
-    while (dram.reply(port) != nullptr) replied.push_back(cycle), dram.take(port);
+    while (dram.reply(port) != nullptr) {
+      replied.push_back(cycle);
+      dram.take(port);
+    }
   }
   // ACT 0 and, tRRD_S later, ACT 4. RD 17 after tRCD, RD 21 likewise. The third: tCCD_L after 17 is 23,
   // tCCD_S after 21 is 25. The row in the second bank closes tRAS after 4; ACT 60 after tRP; RD 77.
@@ -273,8 +276,10 @@ struct Bytes final : PortClient, RequestListener {
   void performed(const Request& request) override {
     if (request.write)
       stored[request.address] = request.id;
-    else
-      wrong += stored[request.address] == expected[request.id] ? 0 : 1, ++compared;
+    else {
+      wrong += stored[request.address] == expected[request.id] ? 0 : 1;
+      ++compared;
+    }
   }
   std::map<std::int64_t, std::uint32_t> last, stored;
   std::map<std::uint32_t, std::uint32_t> expected;
@@ -283,7 +288,8 @@ struct Bytes final : PortClient, RequestListener {
 
 TEST(Memory, KeepsTheRulesTheOrderAndItsAccounts) {
   Parameters slow_bus = sheet("lpddr4-3200");  // two ranks share a bus on which commands take cycles
-  slow_bus.ranks = 2, slow_bus.channels = 1;
+  slow_bus.ranks = 2;
+  slow_bus.channels = 1;
   for (const Parameters& p :
        {sheet("ddr4-2400"), two_ranks(), sheet("hbm2"), sheet("lpddr4-3200"), slow_bus}) {
     for (const int mhz : {150, 400}) {
@@ -346,12 +352,18 @@ struct Stream {
 Counts saturated(const Parameters& p, const std::vector<Stream>& streams) {
   Dram dram(p, 400);
   std::vector<std::int64_t> at;
-  for (const Stream& stream : streams) dram.open_port(nullptr), at.push_back(stream.base);
+  for (const Stream& stream : streams) {
+    dram.open_port(nullptr);
+    at.push_back(stream.base);
+  }
   for (int cycle = 0; cycle < 200000; ++cycle) {
     for (std::size_t i = 0; i < streams.size(); ++i) {
       const int port = static_cast<int>(i);
       while (dram.reply(port) != nullptr) dram.take(port);
-      while (dram.ready(port)) dram.put(port, {at[i], 0, streams[i].write}), at[i] += kBurst;
+      while (dram.ready(port)) {
+        dram.put(port, {at[i], 0, streams[i].write});
+        at[i] += kBurst;
+      }
     }
     dram.cycle();
   }

@@ -23,13 +23,19 @@ class Traffic {
  public:
   Traffic(Dram& dram, int ports, std::uint64_t seed, PortClient* client = nullptr)
       : dram_(dram), random_(seed), ports_(static_cast<std::size_t>(ports)) {
-    for (Port& port : ports_) port.number = dram.open_port(client), turn(port);
+    for (Port& port : ports_) {
+      port.number = dram.open_port(client);
+      turn(port);
+    }
   }
 
   void run(std::int64_t cycles) {
     for (std::int64_t i = 0; i < cycles; ++i) {
       for (Port& port : ports_) {
-        while (dram_.reply(port.number) != nullptr) dram_.take(port.number), ++replies_;
+        while (dram_.reply(port.number) != nullptr) {
+          dram_.take(port.number);
+          ++replies_;
+        }
         while (dram_.ready(port.number) && between(0, 99) < port.eager) put(port);
       }
       dram_.cycle();
@@ -39,7 +45,10 @@ class Traffic {
   bool drain() {
     for (int i = 0; i < 100000 && !dram_.idle(); ++i) {
       for (Port& port : ports_)
-        while (dram_.reply(port.number) != nullptr) dram_.take(port.number), ++replies_;
+        while (dram_.reply(port.number) != nullptr) {
+          dram_.take(port.number);
+          ++replies_;
+        }
       dram_.cycle();
     }
     return dram_.idle();

@@ -155,7 +155,8 @@ TEST(Device, HasTheStateAndTheBooksOfTheReferenceWheneverTheyAreRead) {
   Simulation hidden(melting_parameters(), melting_block(), kHidden);
   Simulation reference = simulate(melting_parameters(), melting_block());
   for (int step = 0; step < 60; ++step) {
-    hidden.step(), reference.step();
+    hidden.step();
+    reference.step();
     if (step % 7 != 3) continue;
     ASSERT_TRUE(hidden.ledger() == reference.ledger()) << "step " << step;
     ASSERT_TRUE(hidden.volume() == reference.volume()) << "step " << step;

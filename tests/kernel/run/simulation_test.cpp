@@ -64,7 +64,10 @@ TEST(Simulation, ARunThatBeginsInTheMiddleGoesOnTheSame) {
       Simulation from_there(p, through.volume(), implementation);
       from_there.begin_at(40);
       const Volume middle = through.volume();
-      for (int i = 0; i < 12; ++i) through.step(), from_there.step();
+      for (int i = 0; i < 12; ++i) {
+        through.step();
+        from_there.step();
+      }
       EXPECT_EQ(from_there.step_number(), 52u);
       EXPECT_TRUE(from_there.volume() == through.volume()) << implementation.name;
       EXPECT_GT(through.volume().liquid.count(), 0) << "nothing flows";

@@ -36,7 +36,13 @@ TEST(Angle, QuartersAreExact) {
     EXPECT_EQ(got.sine, sine * kUnit) << degrees;
     EXPECT_EQ(got.cosine, cosine * kUnit) << degrees;
   };
-  is(0, 0, 1), is(90, 1, 0), is(180, 0, -1), is(270, -1, 0), is(360, 0, 1), is(-90, -1, 0), is(-450, -1, 0);
+  is(0, 0, 1);
+  is(90, 1, 0);
+  is(180, 0, -1);
+  is(270, -1, 0);
+  is(360, 0, 1);
+  is(-90, -1, 0);
+  is(-450, -1, 0);
 }
 
 // 17 terms are cut by less than 1 each, and pi by less than 1: the sums are within 10 of the true values.

@@ -167,7 +167,8 @@ TEST(Antialias, PlacesLieApartAndInTheMiddle) {
   const auto check = [](const auto& pattern) {
     std::int32_t across = 0, down = 0;
     for (const Sub& one : pattern) {
-      across += one.across, down += one.down;
+      across += one.across;
+      down += one.down;
       for (const Sub& other : pattern)
         if (&one != &other) {
           EXPECT_NE(one.across, other.across);

@@ -119,7 +119,10 @@ TEST(CasterMemory, TwoShareADram) {
       ++mark;
     }
     dram.cycle();
-    for (Side* side : {&first, &second}) side->requests.commit(), side->replies.commit();
+    for (Side* side : {&first, &second}) {
+      side->requests.commit();
+      side->replies.commit();
+    }
   }
   EXPECT_EQ(first.replied, 100);
   EXPECT_EQ(second.replied, 100);

@@ -99,7 +99,8 @@ test::HostilePicture bar_along_x() {
     picture.volume.amount[picture.volume.at(x, y, z)] = 4096;
   });
   picture.look.clear = {9, 18, 26};
-  picture.camera.azimuth = -90, picture.camera.elevation = 0;  // along x
+  picture.camera.azimuth = -90;
+  picture.camera.elevation = 0;  // along x
   picture.camera.target = {18, 8, 10};
   picture.camera.width = picture.camera.height = 9;
   return picture;
@@ -155,7 +156,8 @@ TEST(Caster, ClearMatterHasItsOwnNumberOfTiles) {
   picture.camera.width = picture.camera.height = 40;
   const auto cycles = [&](int tiles, int clear_tiles) {
     PictureOptions options;
-    options.configuration.tiles = tiles, options.configuration.clear_tiles = clear_tiles;
+    options.configuration.tiles = tiles;
+    options.configuration.clear_tiles = clear_tiles;
     const PictureReport report = verify_picture(
         {picture.volume, picture.look, picture.light, picture.terrain, picture.camera, render::Setting::fast},
         options);

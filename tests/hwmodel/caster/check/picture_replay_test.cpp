@@ -28,7 +28,8 @@ test::HostilePicture block(int pixels) {
     picture.volume.amount[picture.volume.at(x, y, z)] =
         static_cast<std::uint16_t>(4096 - 500 * ((x + y + z) % 3));
   });
-  picture.camera.azimuth = 30, picture.camera.elevation = 25;
+  picture.camera.azimuth = 30;
+  picture.camera.elevation = 25;
   picture.camera.target = {10, 7, 10};
   picture.camera.width = picture.camera.height = pixels;
   picture.setting = render::Setting::normal;
@@ -206,7 +207,10 @@ TEST(MemoryCheck, AReplyIsOfAnOpenRequestOfItsPipeAndComesOnce) {
   std::vector<Difference> told;
   MemoryCheck check([&](const Difference& difference) { told.push_back(difference); });
   LineRequest request;
-  request.client = 2, request.slot = 5, request.address = 640, request.bytes = 128;
+  request.client = 2;
+  request.slot = 5;
+  request.address = 640;
+  request.bytes = 128;
   const LineReply reply{2, 5, 640, 128};
   const int ask = 191, answer = 192, other = 92;  // of pipe 1, and of pipe 0
   check.entered(ask, 0, &request);
@@ -254,7 +258,8 @@ TEST(Channels, EachFaultIsFoundInEachChannel) {
         PictureOptions options;
         options.configuration.stall_seed = static_cast<std::uint64_t>(seed);
         options.configuration.pipes = 1 + seed % 2;
-        options.fault = fault, options.fault_channel = channel;
+        options.fault = fault;
+        options.fault_channel = channel;
         const PictureReport report = verify_picture(input_of(block(24)), options);
         if (!report.strike) continue;
         ++struck;

@@ -45,8 +45,14 @@ class MidMelt {
   scene::Camera camera(int view, int pixels) const {
     scene::Camera camera = scene_.camera;
     camera.width = camera.height = pixels;
-    if (view == 1) camera.azimuth += 160, camera.elevation = 40;
-    if (view == 2) camera.azimuth += 75, camera.elevation = -12;
+    if (view == 1) {
+      camera.azimuth += 160;
+      camera.elevation = 40;
+    }
+    if (view == 2) {
+      camera.azimuth += 75;
+      camera.elevation = -12;
+    }
     return camera;
   }
   PictureReport draw(const scene::Camera& camera, const PictureOptions& options,

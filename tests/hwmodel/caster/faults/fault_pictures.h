@@ -85,8 +85,10 @@ inline test::HostilePicture hostile_clear(std::uint64_t seed) {
   test::HostilePicture picture = test::hostile_clear_picture(seed, 3000);
   if (seed % 2 == 1) return picture;
   worlds::for_each(worlds::whole(picture.volume.grid), [&](int x, int y, int z) {
-    if (picture.volume.inert.test(x, y, z))
-      picture.volume.solid.set(x, y, z, true), picture.volume.inert.set(x, y, z, false);
+    if (picture.volume.inert.test(x, y, z)) {
+      picture.volume.solid.set(x, y, z, true);
+      picture.volume.inert.set(x, y, z, false);
+    }
   });
   picture.terrain = {};
   picture.look.frost = 0.1;

@@ -36,7 +36,8 @@ class Melt {
  public:
   Melt(const std::string& name, std::uint32_t ahead, const std::vector<std::string>& overrides = {})
       : scene_(scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), overrides)) {
-    scene_.camera.width = 24, scene_.camera.height = 16;
+    scene_.camera.width = 24;
+    scene_.camera.height = 16;
     simulation_ = std::make_unique<run::Simulation>(scene_.parameters, std::move(scene_.initial),
                                                     run::implementations().widest());
     while (simulation_->step_number() < ahead) simulation_->step();
@@ -275,7 +276,8 @@ TEST(Upload, EveryLayoutHoldsTheFieldAfterEveryStep) {
   for (const int bits : {1, 2, 3})
     for (const bool apron : {false, true}) {
       Configuration configuration;
-      configuration.level_bits = bits, configuration.apron = apron;
+      configuration.level_bits = bits;
+      configuration.apron = apron;
       configuration.stall_seed = apron ? 7 : 0;
       Melt melt("bunny_small", kSmall);
       Uploader uploader{configuration};
@@ -309,7 +311,8 @@ TEST(Upload, AnOldTableOfBricksIsFoundWithItsStep) {
     Uploader uploader{Configuration{}};
     if (planted) uploader.plant({UploadFault::Kind::old_table, 2, {}});
     state::Volume volume({40, 40, 40});
-    toggle_cell(volume, 20, 20, 20), toggle_cell(volume, 36, 36, 36);
+    toggle_cell(volume, 20, 20, 20);
+    toggle_cell(volume, 36, 36, 36);
     render::DensityField field;
     render::Picture picture;
     for (int update = 0; update < 3; ++update) {
@@ -366,7 +369,8 @@ TEST(Upload, LoneCellsThatComeAndGoAreWhereTheyShouldBe) {
   scene::Look look;
   look.smooth = look.smooth_solid = 0;
   scene::Camera picture_camera;
-  picture_camera.width = 16, picture_camera.height = 16;
+  picture_camera.width = 16;
+  picture_camera.height = 16;
   const picture::Camera camera = render::camera_in_integers(picture_camera);
   std::mt19937 random(61);
   for (const bool apron : {false, true}) {

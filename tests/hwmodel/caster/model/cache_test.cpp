@@ -217,9 +217,15 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
     if (put < count && in.ready()) {
       // Near the request before, as samples of a ray are; now and then somewhere else.
       const auto walk = [&](int at) { return std::clamp(at + static_cast<int>(random() % 3) - 1, 1, 20); };
-      x = walk(x), y = walk(y), z = walk(z);
+      x = walk(x);
+      y = walk(y);
+      z = walk(z);
       const auto anywhere = [&] { return 1 + static_cast<int>(random() % 20); };
-      if (random() % 20 == 0) x = anywhere(), y = anywhere(), z = anywhere();
+      if (random() % 20 == 0) {
+        x = anywhere();
+        y = anywhere();
+        z = anywhere();
+      }
       Ask& next = *in.put();
       next = {};
       next.number = put++;
@@ -230,10 +236,15 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
       const auto places = [&](int at) {
         return std::array<std::int32_t, 4>{at + from, at + from + 1, at + from + 2, 0};
       };
-      next.p.x = places(x), next.p.y = places(y), next.p.z = places(z);
+      next.p.x = places(x);
+      next.p.y = places(y);
+      next.p.z = places(z);
       asked.push_back(next);
     }
-    in.commit(), ask.commit(), two.commit(), three.commit();
+    in.commit();
+    ask.commit();
+    two.commit();
+    three.commit();
   }
   EXPECT_EQ(got, count) << "it hangs";
   fetched.misses = gather.counts().misses;

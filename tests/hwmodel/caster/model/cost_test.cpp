@@ -64,16 +64,38 @@ struct AllFit {
         onward(bits) {}
   Watchers watchers() {
     Watchers w;
-    w.tiles = &tiles, w.set_up = &set_up, w.ground = &ground, w.asks = &asks, w.levels = &levels;
-    w.samples = &samples, w.hits = &hits, w.met = &met, w.surfaces = &surfaces, w.pressed = &pressed;
-    w.pixels = &pixels, w.passed = &passed, w.onward = &onward;
+    w.tiles = &tiles;
+    w.set_up = &set_up;
+    w.ground = &ground;
+    w.asks = &asks;
+    w.levels = &levels;
+    w.samples = &samples;
+    w.hits = &hits;
+    w.met = &met;
+    w.surfaces = &surfaces;
+    w.pressed = &pressed;
+    w.pixels = &pixels;
+    w.passed = &passed;
+    w.onward = &onward;
     return w;
   }
   template <class Visit>
   void for_each(Visit&& visit) {
-    visit(tiles), visit(set_up), visit(ground), visit(asks), visit(levels), visit(samples), visit(hits);
-    visit(met), visit(surfaces), visit(pressed), visit(pixels);
-    if (bits.clear) visit(passed), visit(onward);
+    visit(tiles);
+    visit(set_up);
+    visit(ground);
+    visit(asks);
+    visit(levels);
+    visit(samples);
+    visit(hits);
+    visit(met);
+    visit(surfaces);
+    visit(pressed);
+    visit(pixels);
+    if (bits.clear) {
+      visit(passed);
+      visit(onward);
+    }
   }
   ContextBits bits;
   Fits<TileOrder> tiles;
@@ -118,7 +140,8 @@ TEST_P(CostOf, EveryNumberFitsItsWire) {
   const bool clear = GetParam();
   std::int64_t fewest = INT64_MAX;
   Configuration c;
-  c.rays = 17, c.tiles = 3;
+  c.rays = 17;
+  c.tiles = 3;
   std::map<int, std::int64_t> checked;
   for (std::uint64_t seed = 0; seed < (clear ? 60 : 120); ++seed) {
     const test::HostilePicture picture = picture_of(seed, clear);
@@ -155,7 +178,8 @@ TEST_P(CostOf, EveryChannelAndStageHasItsRow) {
   EXPECT_EQ(rows, channels);
   for (const Stage* stage : caster.pipe(0).stages()) stages.push_back(stage->name());
   for (const UnitCost& one : cost.units) units.push_back(one.stage);
-  std::sort(stages.begin(), stages.end()), std::sort(units.begin(), units.end());
+  std::sort(stages.begin(), stages.end());
+  std::sort(units.begin(), units.end());
   EXPECT_EQ(units, stages);
   for (const MemoryCost& one : cost.memories) {
     const bool of_cache = std::count(stages.begin(), stages.end(), one.stage + " tags") == 1;

@@ -50,7 +50,8 @@ TEST(RaycastRay, TheWorkedRayLooksAlongAnAxis) {
   camera.high = {0, std::int64_t{1} << 30, 0};
   camera.near = 1589;
   camera.near_wide = camera.near_high = {};
-  camera.width = 8, camera.height = 4;
+  camera.width = 8;
+  camera.height = 4;
   const Ray ray = ray_of(camera, 256, 128);
   EXPECT_EQ(ray.start, (Vec{33554432, 33554432, 67829760}));
   EXPECT_EQ(ray.step, (Vec{0, 0, -262144}));
@@ -65,7 +66,8 @@ TEST(RaycastRay, StepsAreTheDirectionsToNearest) {
     camera.forward = {unit(random), unit(random), unit(random)};
     camera.wide = {unit(random), n % 3 == 0 ? 0 : unit(random), unit(random)};
     camera.high = {unit(random), unit(random), unit(random)};
-    camera.width = 1 + n % 40, camera.height = 1 + n % 23;
+    camera.width = 1 + n % 40;
+    camera.height = 1 + n % 23;
     camera.spacing = 2 + n % 4;
     const std::int64_t across = random() % static_cast<unsigned>(64 * camera.width);
     const std::int64_t down = random() % static_cast<unsigned>(64 * camera.height);
@@ -78,7 +80,10 @@ TEST(RaycastRay, StepsAreTheDirectionsToNearest) {
                                         direction(camera.forward.z, camera.wide.z, camera.high.z)};
     const std::int64_t most = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
     std::int64_t power = 1, b = 0;
-    while (power < most) power *= 2, ++b;
+    while (power < most) {
+      power *= 2;
+      ++b;
+    }
     if (b < 27) continue;  // no camera is so close to nothing
     const std::int64_t unit_step = std::int64_t{1} << (b - 20 + camera.spacing);
     const Ray ray = ray_of(camera, across, down);
@@ -101,7 +106,10 @@ TEST(RaycastRay, PlacesOfSamplesInAPixel) {
     EXPECT_EQ(sub_of(8, i).down, 8 * eight[static_cast<std::size_t>(i)] + 4);
   }
   std::set<std::int64_t> across, down;
-  for (int i = 0; i < 32; ++i) across.insert(sub_of(32, i).across), down.insert(sub_of(32, i).down);
+  for (int i = 0; i < 32; ++i) {
+    across.insert(sub_of(32, i).across);
+    down.insert(sub_of(32, i).down);
+  }
   EXPECT_EQ(across.size(), 32U);
   EXPECT_EQ(down.size(), 32U);
   for (const std::int64_t place : down) EXPECT_EQ(place % 2, 1);

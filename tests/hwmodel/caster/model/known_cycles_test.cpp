@@ -111,7 +111,8 @@ TEST(KnownCycles, AnUploadsCyclesAreExact) {
       for (const int words : {0, 1, 77})
         for (const int bursts : {0, 1, 2, 90}) {
           Configuration c;
-          c.fifo_depth = depth, c.bus_bytes = bus;
+          c.fifo_depth = depth;
+          c.bus_bytes = bus;
           Upload upload;
           upload.words = words;
           std::vector<std::uint8_t> line(kBurst);

@@ -37,7 +37,9 @@ LookRegisters worked_look() {
   registers.solid = {{1766, 1178, 589}, {1594, 1082, 570}, {1197, 968, 742}, 2036};
   registers.liquid = {{589, 1178, 1766}, {594, 1106, 1618}, {1221, 1383, 1484}, 2294};
   registers.obstacle = {{2294, 2294, 2294}, {10, 10, 10}, {117, 111, 102}, 104};
-  registers.lamp_low = 3113, registers.lamp_high = 3905, registers.strip_low = 2867;
+  registers.lamp_low = 3113;
+  registers.lamp_high = 3905;
+  registers.strip_low = 2867;
   registers.highlight = highlights(12);
   registers.dull_highlight.fill(4096);
   registers.surroundings[1371] = registers.surroundings[1373] = 1;
@@ -214,7 +216,9 @@ TEST(RaycastShade, GlowArrivesWhereItIsAskedFor) {
 TEST(RaycastShade, HighlightsOfObstaclesAndOfTheEdge) {
   LookRegisters look;
   look.to_light = {0, 16384, 0};
-  look.lamp_low = 3113, look.lamp_high = 3905, look.strip_low = 2867;
+  look.lamp_low = 3113;
+  look.lamp_high = 3905;
+  look.strip_low = 2867;
   look.highlight.fill(4000);
   look.dull_highlight.fill(1000);
   Light light;
@@ -236,7 +240,8 @@ TEST(RaycastShade, HighlightsOfObstaclesAndOfTheEdge) {
   EXPECT_EQ(mirrored.around, (Rgb{9830, 9626, 9216}));  // the middle of the lamp
 
   std::array<std::uint16_t, 1026> table{};
-  table[574] = 160, table[575] = 200;
+  table[574] = 160;
+  table[575] = 200;
   EXPECT_EQ(highlight_at(table, 9193), 182);  // 574 x 16 + 9: 160 + (40 x 9) / 16
 }
 

@@ -26,7 +26,8 @@ Start warm_start(const std::function<bool(const Start&)>& strikes = [](const Sta
     const rule::Heat& heat = start.parameters.heat;
     if (!heat.enabled || heat.neighbours != 26 || heat.convection == 0 || !heat.air || heat.radiation)
       continue;
-    start.parameters.vents.clear(), start.parameters.drains.clear();
+    start.parameters.vents.clear();
+    start.parameters.drains.clear();
     start.step = 1;
     if (strikes(start)) return start;
   }
@@ -109,7 +110,8 @@ TEST(Checker, AMissingStageIsNamed) {
 TEST(Checker, EverySecondStepAndTheLastAreCompared) {
   const Start start = warm_start();
   VerifyOptions options;
-  options.steps = 5, options.every = 2;
+  options.steps = 5;
+  options.every = 2;
   options.configuration.cascade = 3;
   int polls = 0;
   options.poll = [&] { ++polls; };
@@ -154,7 +156,8 @@ TEST(Checker, AMismatchHasItsLaneItsCycleAndTheStateBefore) {
   simulation.begin_at(start.step);
   worlds::steps(simulation, 2);
   rule::Parameters only_conduction = start.parameters;
-  only_conduction.heat.convection = 0, only_conduction.heat.air = false;
+  only_conduction.heat.convection = 0;
+  only_conduction.heat.air = false;
   run::Simulation before(only_conduction, simulation.volume(), worlds::implementation("reference"));
   before.begin_at(3);
   for (const step::Phase phase : {step::Phase::source, step::Phase::heat}) before.run_phase(phase);

@@ -23,7 +23,8 @@ std::uint16_t& at(Irradiance& field, int x, int y, int z) { return field[field.l
 
 TEST(IrradianceStream, HasTheWordsOfLitTokens) {
   Irradiance field = field_of({7, 2, 2});  // two blocks of four lanes: tokens (x 0, y 0), (0, 1), (4, 0) ..
-  at(field, 2, 1, 0) = 20, at(field, 3, 1, 0) = 30;
+  at(field, 2, 1, 0) = 20;
+  at(field, 3, 1, 0) = 30;
   at(field, 4, 0, 0) = 40;
   at(field, 6, 0, 1) = 60;
   const IrradianceStream stream(field, {{7, 2, 2}, 4});
@@ -35,7 +36,8 @@ TEST(IrradianceStream, HasTheWordsOfLitTokens) {
 
 TEST(IrradianceStream, AMaskOf32LanesHasTwoWords) {
   Irradiance field = field_of({32, 1, 1});
-  at(field, 1, 0, 0) = 5, at(field, 31, 0, 0) = 6;
+  at(field, 1, 0, 0) = 5;
+  at(field, 31, 0, 0) = 6;
   EXPECT_EQ(IrradianceStream(field, {{32, 1, 1}, 32}).words(0), (IrradianceWords{0, 2, 0x8000, 5, 6}));
 }
 
@@ -54,7 +56,10 @@ TEST(IrradianceStream, IsReadBack) {
     worlds::Random random(seed + 3);
     const state::Grid grid{random.between(1, 40), random.between(1, 6), random.between(1, 5)};
     Shape shape{grid, random.any({1, 2, 4, 8, 16, 32})};
-    if (shape.grid_blocks() > 3) shape.tile = shape.grid_blocks() - 1, shape.halo = 1;
+    if (shape.grid_blocks() > 3) {
+      shape.tile = shape.grid_blocks() - 1;
+      shape.halo = 1;
+    }
     Irradiance field = field_of(grid);
     const int one_in = random.any({1, 2, 30, 1000});
     worlds::for_each(worlds::whole(grid), [&](int x, int y, int z) {
@@ -260,23 +265,32 @@ TEST(Columns, AreAskedForWhenTheyHaveBeenWritten) {
   ColumnInput in;
   out.begin(slots, dram, dram.open_port(nullptr));
   in.begin(slots, {}, dram, dram.open_port(nullptr));
-  for (int pass = 0; pass < 2; ++pass) in.add(0), out.add(0);
+  for (int pass = 0; pass < 2; ++pass) {
+    in.add(0);
+    out.add(0);
+  }
   std::int64_t now = 0;
   const auto cycles = [&](int n) {
     for (int i = 0; i < n; ++i) {
-      out.cycle(now), in.cycle(out, now);
+      out.cycle(now);
+      in.cycle(out, now);
       dram.cycle();
       ++now;
     }
   };
   cycles(500);
   EXPECT_EQ(dram.counts().reads, 6);
-  out.written(100, false, now), cycles(500);
+  out.written(100, false, now);
+  cycles(500);
   EXPECT_EQ(dram.counts().reads, 6) << "half a column";
-  out.written(5 * 34, true, now), cycles(500);
+  out.written(5 * 34, true, now);
+  cycles(500);
   EXPECT_EQ(dram.counts().reads, 7);
   EXPECT_EQ(out.passes(0), 1);
-  for (int column = 1; column < 6; ++column) out.written(5 * 34, true, now), cycles(1);
+  for (int column = 1; column < 6; ++column) {
+    out.written(5 * 34, true, now);
+    cycles(1);
+  }
   cycles(500);
   EXPECT_EQ(dram.counts().reads, 12);
   EXPECT_EQ(dram.counts().writes, 6);
@@ -291,18 +305,23 @@ TEST(Code, AColumnIsReadOnlyWhenItHasBeenWritten) {
   Writer writer(design.shape, memory);
   Reader reader(design.shape, memory);
   CellFifo out("out", 0, 1, 8, 0), in("in", 1, 1, 8, 0);
-  reader.connect(out, writer), writer.connect(in);
+  reader.connect(out, writer);
+  writer.connect(in);
   memory.begin_train(volume);
-  reader.begin_pass(0), writer.begin_pass(0);
+  reader.begin_pass(0);
+  writer.begin_pass(0);
   std::int64_t now = 0;
   const auto cycle = [&](bool comes) {
-    reader.cycle(now), writer.cycle(now);
+    reader.cycle(now);
+    writer.cycle(now);
     if (comes) in.put()[0] = {};
-    in.commit(), out.commit();
+    in.commit();
+    out.commit();
     ++now;
   };
   for (int i = 0; i < 3; ++i) cycle(false);
-  reader.add_pass(0), writer.add_pass(0);
+  reader.add_pass(0);
+  writer.add_pass(0);
   for (int i = 0; i < 3; ++i) cycle(true);
   EXPECT_EQ(reader.cycles().starved, 3) << "two of three have been written";
   cycle(false);

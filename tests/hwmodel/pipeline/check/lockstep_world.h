@@ -51,7 +51,12 @@ inline Start crop(const Start& whole, int side) {
         std::int64_t wet = 0;
         worlds::for_each({x, y, z, x + side, y + side, z + side},
                          [&](int cx, int cy, int cz) { wet += whole.volume.liquid.test(cx, cy, cz); });
-        if (wet > most) most = wet, x0 = x, y0 = y, z0 = z;
+        if (wet > most) {
+          most = wet;
+          x0 = x;
+          y0 = y;
+          z0 = z;
+        }
       }
   Start cut{whole.name + " crop", whole.parameters, state::Volume({side, side, side}), whole.step};
   worlds::for_each({0, 0, 0, side, side, side}, [&](int x, int y, int z) {
@@ -63,7 +68,11 @@ inline Start crop(const Start& whole, int side) {
     cut.volume.energy[to] = whole.volume.energy[from];
     cut.volume.heat[to] = whole.volume.heat[from];
   });
-  const auto move = [&](rule::Position& at) { at.x -= 16 * x0, at.y -= 16 * y0, at.z -= 16 * z0; };
+  const auto move = [&](rule::Position& at) {
+    at.x -= 16 * x0;
+    at.y -= 16 * y0;
+    at.z -= 16 * z0;
+  };
   for (rule::HeatSource& source : cut.parameters.heat.sources)
     for (rule::SourceKey& key : source.keys) move(key.at);
   for (rule::Vent& vent : cut.parameters.vents) move(vent.region.at);

@@ -65,7 +65,10 @@ inline std::vector<MatrixRow> covering_rows() {
       }
       std::ptrdiff_t found = 0;
       each_pair(row, [&](const ValuePair& pair) { found += missing.contains(pair) ? 1 : 0; });
-      if (found > most) most = found, best = row;
+      if (found > most) {
+        most = found;
+        best = row;
+      }
     }
     each_pair(best, [&](const ValuePair& pair) { missing.erase(pair); });
     rows.push_back(best);
@@ -95,7 +98,9 @@ inline const std::vector<ChannelDepth>& sized_depths(const Start& start, const C
   run.parameters = start.parameters;
   run.grid = {2 * std::max(c.lanes, 2), 5, 5};
   run.configuration = c;
-  run.configuration.tile = 0, run.configuration.coded = false, run.configuration.stall_seed = 0;
+  run.configuration.tile = 0;
+  run.configuration.coded = false;
+  run.configuration.stall_seed = 0;
   run.first_step = start.step;
   run.steps = c.cascade;
   std::optional<explore::SizingMemory> dram;
@@ -109,8 +114,12 @@ inline Configuration configuration_of(const Start& start, const MatrixRow& row) 
   Configuration c{kLanesOf[static_cast<std::size_t>(row[kLanes])],
                   kCascadeOf[static_cast<std::size_t>(row[kCascade])], 1,
                   static_cast<std::uint64_t>(row[kSeed])};
-  c.overlap = row[kOverlap] == 1, c.coded = row[kCoded] == 1;
-  if (row[kSized] == 1) c.depths = sized_depths(start, c, row[kMemory]), c.fifo_depth = 4;
+  c.overlap = row[kOverlap] == 1;
+  c.coded = row[kCoded] == 1;
+  if (row[kSized] == 1) {
+    c.depths = sized_depths(start, c, row[kMemory]);
+    c.fifo_depth = 4;
+  }
   c.tile = tile_width(start, c, row[kTile]);
   return c;
 }

@@ -109,7 +109,8 @@ TEST_P(Whole, FullProductOnACrop) {
     c = configuration_of(start, row);
     compared += run_row(start, row, c, 10).compared_cells;
     if (HasFailure()) return;
-    ++runs, cut += c.tile > 0 ? 1 : 0;
+    ++runs;
+    cut += c.tile > 0 ? 1 : 0;
   } while (next());
   std::printf("| %s | part %d of %d | %lld runs | %lld in tiles | %lld | 0 |\n", start.name.c_str(),
               part() + 1, kParts, static_cast<long long>(runs), static_cast<long long>(cut),

@@ -79,23 +79,27 @@ TEST(Overlap, ATokenIsReadOnlyWhenItHasBeenWritten) {
     Writer writer(shape, memory);
     Reader reader(shape, memory);
     CellFifo out("out", 0, 1, 8, 0), in("in", 1, 1, 8, 0);
-    reader.connect(out, writer), writer.connect(in);
+    reader.connect(out, writer);
+    writer.connect(in);
     memory.begin_train(volume);
-    reader.begin_pass(0), writer.begin_pass(0);
+    reader.begin_pass(0);
+    writer.begin_pass(0);
     std::int64_t now = 0;
     const auto cycle = [&](bool comes) {
       if (writer_first) writer.cycle(now);
       const bool last = reader.cycle(now);
       if (!writer_first) writer.cycle(now);
       if (comes) in.put()[0] = {};
-      in.commit(), out.commit();
+      in.commit();
+      out.commit();
       ++now;
       return last;
     };
     EXPECT_FALSE(cycle(false));
     EXPECT_FALSE(cycle(false));
     EXPECT_TRUE(cycle(false)) << "the last token of the pass";
-    reader.add_pass(0), writer.add_pass(0);
+    reader.add_pass(0);
+    writer.add_pass(0);
     cycle(true);   // a token comes to the writer
     cycle(false);  // it is written
     EXPECT_EQ(reader.cycles().busy, 3);
@@ -123,7 +127,8 @@ TEST(Overlap, EveryFaultIsFoundWhereItWasPlanted) {
         ASSERT_EQ(report.mismatch, nullptr) << fault.name << ": " << text_of(*report.mismatch);
         continue;
       }
-      ++here, ++struck;
+      ++here;
+      ++struck;
       ASSERT_NE(report.mismatch, nullptr) << fault.name << ": struck and not found";
       ASSERT_TRUE(report.found_where_planted())
           << fault.name << ", seed " << seed << ": planted in " << report.strike->where << ", step "

@@ -61,7 +61,8 @@ class Odd final : public Stage {
 // Nothing melts in a world without matter, so `melt` only hands on.
 Start empty_start() {
   Start start = start_with_sides(rule::Law::paper, true, {6, 3, 3});
-  start.parameters.vents.clear(), start.parameters.drains.clear();
+  start.parameters.vents.clear();
+  start.parameters.drains.clear();
   start.volume = state::Volume({6, 3, 3});
   return start;
 }

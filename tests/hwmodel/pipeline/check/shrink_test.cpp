@@ -72,12 +72,18 @@ TEST(Shrinker, KeepsWhatTheFailureNeedsAndNothingElse) {
 // One cell of every kind, with all that it can hold, at the corners of a box.
 state::Volume of_every_kind() {
   state::Volume volume(state::Grid{6, 5, 4});
-  volume.solid.set(1, 1, 1, true), volume.inert.set(3, 2, 1, true), volume.liquid.set(3, 1, 2, true);
+  volume.solid.set(1, 1, 1, true);
+  volume.inert.set(3, 2, 1, true);
+  volume.liquid.set(3, 1, 2, true);
   const auto put = [&](int x, int y, int z, std::uint16_t amount, std::uint16_t energy, std::uint16_t heat) {
     const state::Slot at = volume.at(x, y, z);
-    volume.amount[at] = amount, volume.energy[at] = energy, volume.heat[at] = heat;
+    volume.amount[at] = amount;
+    volume.energy[at] = energy;
+    volume.heat[at] = heat;
   };
-  put(1, 1, 1, 4000, 0, 500), put(3, 2, 1, 2048, 0, 700), put(3, 1, 2, 900, 300, 40000);
+  put(1, 1, 1, 4000, 0, 500);
+  put(3, 2, 1, 2048, 0, 700);
+  put(3, 1, 2, 900, 300, 40000);
   return volume;
 }
 

@@ -172,7 +172,9 @@ TEST(Tiles, APassWaitsOnlyUntilTheOwnerHasWritten) {
   start.parameters.heat.enabled = true;
   start.parameters.flow.fall.hang = 2000;
   Configuration c;
-  c.lanes = 1, c.cascade = 2, c.tile = 26;
+  c.lanes = 1;
+  c.cascade = 2;
+  c.tile = 26;
   const Shape shape = design_of(start.parameters, start.volume.grid, c).shape;
   ASSERT_EQ(shape.tiles(), 2);
   ASSERT_EQ(shape.blocks(), 26);

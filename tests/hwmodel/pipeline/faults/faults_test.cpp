@@ -24,7 +24,11 @@ TEST_P(PlantedFault, IsFoundWhereItWasPlanted) {
     Start start = hostile_start(seed, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, grid);
     Configuration c{random.any({2, 4, 16}), random.between(1, 3), random.any({1, 2, 4}),
                     random.one_in(2) ? 0 : seed};
-    if (is_of_tiles(fault.fault)) c.lanes = 1, c.cascade = 1, c.tile = narrow(start, c, random.between(1, 4));
+    if (is_of_tiles(fault.fault)) {
+      c.lanes = 1;
+      c.cascade = 1;
+      c.tile = narrow(start, c, random.between(1, 4));
+    }
     c.coded = is_of_the_code(fault.fault) || random.one_in(4);
     const VerifyReport report = lockstep(start, c, 6, fault.fault, 2);
     const std::string where = "seed " + std::to_string(seed) + ", " + name_of(c);

@@ -48,8 +48,17 @@ TEST(CellWires, EachReadsAndWritesItsOwnField) {
 // A whole cell has no bits beside its wires: who sets them all has copied it.
 TEST(CellWires, TheyAreAllThatACellHas) {
   Cell from;
-  from.state = State::solid, from.amount = 1, from.energy = 2, from.heat = 3, from.exposed_axes = 1;
-  from.pattern = 77, from.beside_wall = 1, from.in_run = 1, from.head = -5, from.mobility = 6, from.limit = 7;
+  from.state = State::solid;
+  from.amount = 1;
+  from.energy = 2;
+  from.heat = 3;
+  from.exposed_axes = 1;
+  from.pattern = 77;
+  from.beside_wall = 1;
+  from.in_run = 1;
+  from.head = -5;
+  from.mobility = 6;
+  from.limit = 7;
   from.dead = 8;
   Cell to;
   for (const CellWire& row : kCellWires) row.set(to, row.get(from));
@@ -60,7 +69,10 @@ TEST(CellWires, AWordInMemoryHasTheNumbersOfTheState) {
   state::Volume volume(state::Grid{3, 1, 1});
   const state::Slot slot = volume.at(1, 0, 0);
   Cell cell;
-  cell.state = State::liquid, cell.amount = 40000, cell.energy = 123, cell.heat = 65535;
+  cell.state = State::liquid;
+  cell.amount = 40000;
+  cell.energy = 123;
+  cell.heat = 65535;
   write_cell(cell, 1, 0, 0, volume);
   EXPECT_TRUE(volume.liquid.test(1, 0, 0));
   EXPECT_EQ(volume.amount[slot], 40000);

@@ -75,16 +75,25 @@ TEST(StageAccount, EveryCycleIsCountedAsWhatItWas) {
     EXPECT_EQ(stage.cycles().blocked, blocked);
     EXPECT_EQ(stage.cycles().fill_drain, other);
   };
-  cycle(true, false), expect(0, 0, 0, 1);   // nothing has come yet
-  cycle(false, false), expect(1, 0, 0, 1);  // takes the first token
-  cycle(true, false), expect(1, 1, 0, 1);   // the second one is late
-  cycle(true, false), expect(2, 1, 0, 1);   // takes it, gives the first one
-  cycle(false, true), expect(2, 1, 1, 1);   // which is in the way
-  cycle(false, false), expect(3, 1, 1, 1);  // takes the third, gives the second
-  cycle(false, true), expect(3, 1, 2, 1);   // which is in the way
-  cycle(false, false), expect(3, 1, 2, 2);  // gives the third
+  cycle(true, false);
+  expect(0, 0, 0, 1);  // nothing has come yet
+  cycle(false, false);
+  expect(1, 0, 0, 1);  // takes the first token
+  cycle(true, false);
+  expect(1, 1, 0, 1);  // the second one is late
+  cycle(true, false);
+  expect(2, 1, 0, 1);  // takes it, gives the first one
+  cycle(false, true);
+  expect(2, 1, 1, 1);  // which is in the way
+  cycle(false, false);
+  expect(3, 1, 1, 1);  // takes the third, gives the second
+  cycle(false, true);
+  expect(3, 1, 2, 1);  // which is in the way
+  cycle(false, false);
+  expect(3, 1, 2, 2);  // gives the third
   EXPECT_TRUE(stage.done());
-  cycle(false, false), expect(3, 1, 2, 3);  // nothing is left to do
+  cycle(false, false);
+  expect(3, 1, 2, 3);  // nothing is left to do
 }
 
 // In bypass it hands on without lag: three cycles with a token, and one before and behind them.
@@ -115,7 +124,10 @@ TEST(StageAccount, AFeedIsBypassedOrDrains) {
   Feed feed(shape, 0, out);
   std::int64_t now = 0;
   const auto cycles = [&](int n) {
-    while (n-- > 0) feed.cycle(now++), out.commit();
+    while (n-- > 0) {
+      feed.cycle(now++);
+      out.commit();
+    }
   };
   feed.begin_pass(nullptr, 0);
   cycles(3);

@@ -218,9 +218,12 @@ TEST(ViscousStages, SpreadHandsOnRunsAndWallsAndNothingElse) {
         Cell plain = cell;
         plain.in_run = plain.beside_wall = 0;
         Cell state_only;
-        state_only.state = cell.state, state_only.amount = cell.amount, state_only.heat = cell.heat;
+        state_only.state = cell.state;
+        state_only.amount = cell.amount;
+        state_only.heat = cell.heat;
         ASSERT_EQ(plain, state_only);
-        runs += in_run, walls += beside_wall;
+        runs += in_run;
+        walls += beside_wall;
       });
     });
   }

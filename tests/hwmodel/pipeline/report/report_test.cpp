@@ -18,10 +18,15 @@ namespace {
 
 VerifyReport report_with_distinct_numbers() {
   VerifyReport r;
-  r.first_step = 40, r.steps = 3;
-  r.compared_cells = 501, r.software_cells = 502;
-  r.passes = 2, r.cycles = 200, r.predicted_cycles = 160;
-  r.model_seconds = 0.5, r.cell_steps = 1'000'000;
+  r.first_step = 40;
+  r.steps = 3;
+  r.compared_cells = 501;
+  r.software_cells = 502;
+  r.passes = 2;
+  r.cycles = 200;
+  r.predicted_cycles = 160;
+  r.model_seconds = 0.5;
+  r.cell_steps = 1'000'000;
   r.digest = 0xABC;
   r.stages = {{StageKind::reader, 0, 0, {100, 0, 90, 10}, {}, {}, 7200},
               {StageKind::melt, 0, 7, {50, 40, 30, 60, 20}, {{"memory", 5, 4, 11}}, {3, 2, 1}},
@@ -223,7 +228,8 @@ TEST(Report, TheFirstDifferenceOfEveryField) {
   expect(changed(100, 51, 25), "energy", 50, 51);
   expect(changed(100, 50, 26), "heat", 25, 26);
   state::Volume solid = base;
-  solid.liquid.set(1, 1, 1, false), solid.solid.set(1, 1, 1, true);
+  solid.liquid.set(1, 1, 1, false);
+  solid.solid.set(1, 1, 1, true);
   expect(solid, "state", 1, 2);
 }
 

@@ -31,8 +31,15 @@ class Streams {
   // Reads and writes as many tokens as it may, in as many cycles; for each side one in a cycle.
   void run(int to_read, int to_write, int cycles = 400) {
     while (cycles-- > 0) {
-      if (to_read > 0 && streams_.may_read(0, now_)) streams_.read(0, false, now_), ++read_, --to_read;
-      if (to_write > 0 && streams_.may_write(now_)) streams_.written(0, false, now_), --to_write;
+      if (to_read > 0 && streams_.may_read(0, now_)) {
+        streams_.read(0, false, now_);
+        ++read_;
+        --to_read;
+      }
+      if (to_write > 0 && streams_.may_write(now_)) {
+        streams_.written(0, false, now_);
+        --to_write;
+      }
       streams_.cycle(now_++);
     }
   }

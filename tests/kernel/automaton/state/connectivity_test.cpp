@@ -95,7 +95,8 @@ TEST(Detached, ASpongeIsThatOfAPlainWalk) {
     });
     const std::int64_t expected = detached_plainly(v);
     EXPECT_EQ(count_detached(v), expected) << "world " << world;
-    most = std::max(most, expected), least = std::min(least, expected);
+    most = std::max(most, expected);
+    least = std::min(least, expected);
   }
   EXPECT_GT(most, 500);
   EXPECT_LT(least, 10);

@@ -43,7 +43,8 @@ TEST(Volume, AnyChangeOfAnyFieldOrMaskMakesItAnother) {
 TEST(Volume, ACopyHoldsEveryCellAndIsApart) {
   const Volume base = full_volume();
   Volume constructed = base, assigned(kGrid), resized({1, 1, 1});
-  assigned = base, resized = base;
+  assigned = base;
+  resized = base;
   for (const Volume* copy : {&constructed, &assigned, &resized})
     worlds::for_each(worlds::whole(kGrid), [&](int x, int y, int z) {
       const Slot cell = base.at(x, y, z);

@@ -149,7 +149,10 @@ class Divider {
     if (++used_ == kSize) flush();
   }
   void flush() {
-    for (std::size_t i = used_; i < kSize; ++i) low_[i] = high_[i] = 0, d_[i] = 1;
+    for (std::size_t i = used_; i < kSize; ++i) {
+      low_[i] = high_[i] = 0;
+      d_[i] = 1;
+    }
     own_.divide(kSize, low_.data(), high_.data(), d_.data(), quotient_.data(), remainder_.data());
     for (std::size_t i = 0; i < used_; ++i) {
       const std::uint32_t n = std::uint32_t{high_[i]} << 16 | low_[i], d = d_[i];

@@ -39,7 +39,10 @@ TEST_P(Hostile, SameBitsAfterEveryPhase) {
     const Grid grid = any_grid(random);
     Parameters parameters = hostile_parameters(random, law, grid);
     if (random.one_in(2)) parameters.heat = {};  // so that things come to rest, and sleep
-    if (random.one_in(2)) parameters.vents.clear(), parameters.drains.clear();
+    if (random.one_in(2)) {
+      parameters.vents.clear();
+      parameters.drains.clear();
+    }
     Volume start = hostile_volume(random, parameters, grid);
     if (seed % 2 == 1) thin_out(random, start);
     if (!same_steps(parameters, start, name, any_tuning(random), 6)) {

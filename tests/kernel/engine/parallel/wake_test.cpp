@@ -69,7 +69,10 @@ TEST(Sleep, WhatClungToAMeltedSolidFalls) {
         put(start, x, 4, z, 900, 0, 40000);
         run::Simulation reference = simulate(p, start);
         int melted = 0;
-        while (reference.volume().solid.count() > 0 && melted < 18) reference.step(), ++melted;
+        while (reference.volume().solid.count() > 0 && melted < 18) {
+          reference.step();
+          ++melted;
+        }
         ASSERT_LT(melted, 16);
         ASSERT_EQ(amount_at(reference, x, 4, z), 900);
         reference.step();

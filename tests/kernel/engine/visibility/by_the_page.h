@@ -87,7 +87,8 @@ inline Turned turned(std::uint64_t word, int n, int rays) {
   Wide p = 1 + rho * cosine(c) / 16384, q = 1 + rho * cosine(63 - c) / 16384;
   for (Wide t = 0; t < u / 16384; ++t) {
     const Wide old = p;
-    p = -q, q = old;
+    p = -q;
+    q = old;
   }
   return {rho, p, q};
 }

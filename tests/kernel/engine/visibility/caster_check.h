@@ -77,7 +77,8 @@ inline void check_hostile_worlds(const Casters& casters, int worlds, std::uint64
       for (Caster* caster : casters) caster->prepare(opaque, changes);
       const Shine shine = awkward_shine(random, v.grid);
       const Counts counts = check_fates(casters, opaque, v, shine, random.any({1, 2, 4}), seed);
-      all.rays += counts.rays, all.seeing += counts.seeing;
+      all.rays += counts.rays;
+      all.seeing += counts.seeing;
       const std::int32_t part = random.any({2, 5, 50});
       for_each(whole(v.grid), [&](int x, int y, int z) {
         if (v.solid.test(x, y, z) && random.one_in(part)) v.solid.set(x, y, z, false);
@@ -125,7 +126,8 @@ inline void check_scenes(const Casters& casters) {
         if (kind == rule::SourceKind::sky && n > 5) continue;  // one is as the other
         const auto seed = static_cast<std::uint64_t>(n);
         const Counts counts = check_fates(casters, opaque, v, awkward_shine(random, v.grid, kind), 1, seed);
-        all.rays += counts.rays, all.seeing += counts.seeing;
+        all.rays += counts.rays;
+        all.seeing += counts.seeing;
       }
     }
     EXPECT_GT(all.seeing, 4000u) << number;

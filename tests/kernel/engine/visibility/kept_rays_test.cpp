@@ -55,10 +55,15 @@ TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
       rule::SourceKey& key = source.keys[0];
       for_each(whole(v.grid), [&](int x, int y, int z) {
         const bool solid = v.solid.test(x, y, z), inert = v.inert.test(x, y, z);
-        if (event == melts && solid && random.one_in(part)) put(v, x, y, z, 0), v.solid.set(x, y, z, false);
+        if (event == melts && solid && random.one_in(part)) {
+          put(v, x, y, z, 0);
+          v.solid.set(x, y, z, false);
+        }
         if (event == appears && !solid && !inert && random.one_in(20 * part)) put_any(v, random, x, y, z);
-        if (event == turns && solid != inert && random.one_in(part))
-          v.solid.set(x, y, z, inert), v.inert.set(x, y, z, solid);
+        if (event == turns && solid != inert && random.one_in(part)) {
+          v.solid.set(x, y, z, inert);
+          v.inert.set(x, y, z, solid);
+        }
       });
       if (event == moves) {  // also: a source of another kind takes its place
         const Shine other =

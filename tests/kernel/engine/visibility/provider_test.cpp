@@ -49,8 +49,14 @@ bool clear(const Volume& v, std::array<std::int64_t, 3> c, Position s) {
       if (d[a] == 0) continue;
       const std::int64_t under = d[a] > 0 ? d[a] : -d[a];
       const std::int64_t first = d[a] > 0 ? corner[a] - c[a] : c[a] - corner[a] - 16;
-      if (first * low_under > low * under) low = first, low_under = under;
-      if ((first + 16) * high_under < high * under) high = first + 16, high_under = under;
+      if (first * low_under > low * under) {
+        low = first;
+        low_under = under;
+      }
+      if ((first + 16) * high_under < high * under) {
+        high = first + 16;
+        high_under = under;
+      }
     }
     hidden = low * high_under < high * low_under;
   });

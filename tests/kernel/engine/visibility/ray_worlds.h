@@ -56,7 +56,9 @@ inline Volume hostile_world(Random& random, const Grid& g) {
     const auto end = [&](int begin, int size) {
       return kind == 2 && random.one_in(3) ? begin + 1 : random.between(begin + 1, size);
     };
-    box.x1 = end(box.x0, g.x), box.y1 = end(box.y0, g.y), box.z1 = end(box.z0, g.z);
+    box.x1 = end(box.x0, g.x);
+    box.y1 = end(box.y0, g.y);
+    box.z1 = end(box.z0, g.z);
     for_each(box, [&](int x, int y, int z) {
       if (!random.one_in(50)) put_any(v, random, x, y, z);
     });

@@ -65,7 +65,8 @@ class OutputFolders : public testing::Test {
     if (dead) end();
     meanwhile();
     if (!dead) end();
-    ::close(ready[0]), ::close(ready[1]);
+    ::close(ready[0]);
+    ::close(ready[1]);
   }
 
   fs::path folder_, place_;
