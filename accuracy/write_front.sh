@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes docs/front.md from a full run of `voxmelt accuracy --front`, and leaves its page in out/front.
+# Writes docs/results/front.md from a full run of `voxmelt accuracy --front`, and leaves its page in out/front.
 #   accuracy/write_front.sh [VOXMELT] [further options of voxmelt accuracy]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -8,5 +8,5 @@ voxmelt=${1:-build/release/app/voxmelt}
 if [ $# -gt 0 ]; then shift; fi
 
 "$voxmelt" accuracy --front --out out/front "$@"
-cp out/front/front.md docs/front.md
-echo "written: docs/front.md, out/front/front.html"
+cp out/front/front.md docs/results/front.md
+echo "written: docs/results/front.md, out/front/front.html"

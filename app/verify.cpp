@@ -147,7 +147,7 @@ void add_verify(CommandLine& program) {
     keys += fmt::format("hw.{} ({}), ", key.name, key.values);
   command.footer(
       fmt::format("--set also takes {}hw.memory (ddr4-2400), hw.clock_mhz; the ray caster's keys are in "
-                  "docs/hardware-picture.md.",
+                  "docs/hardware/ray-caster.md.",
                   keys));
   command.runs([options] { return run_verify(*options); });
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tables of docs/hardware-picture.md: what the ray caster's numbers are worth, in simulated cycles.
+"""Tables of docs/hardware/ray-caster.md: what the ray caster's numbers are worth, in simulated cycles.
 
 sweep_caster.py PROGRAM sampler|defaults|frames|simulation [SIZE [SCENE...]]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes docs/performance.md, docs/performance_picture.md, docs/performance_tables.md and
+# Writes docs/results/performance.md, docs/results/performance_picture.md, docs/results/performance_tables.md and
 # docs/gallery/roofline.svg from one run of `voxmelt bench`, in about twenty minutes.
 #   bench/write_performance.sh [VOXMELT] [further options of voxmelt bench]
 # The text of a page comes from its template in this folder. A line {{name}} becomes the table of that
@@ -41,7 +41,7 @@ fill() {  # fill TEMPLATE: the template with its tables
 pages="performance performance_picture performance_tables"
 for page in $pages; do fill "bench/${page}_template.md" > "$results/$page.md"; done
 
-mkdir -p "$docs/gallery"
+mkdir -p "$docs/gallery" "$docs/results"
 cp "$results/out/roofline.svg" "$docs/gallery/roofline.svg"
-for page in $pages; do cp "$results/$page.md" "$docs/"; done
-echo "written: $pages in $docs/, $docs/gallery/roofline.svg"
+for page in $pages; do cp "$results/$page.md" "$docs/results/"; done
+echo "written: $pages in $docs/results/, $docs/gallery/roofline.svg"

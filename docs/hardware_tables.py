@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tables of docs/hardware-picture.md that the model itself gives: wires, memories and units of a pipe.
+"""The tables of docs/hardware/ray-caster.md that the model itself gives: wires, memories and units of a pipe.
 
   hardware_tables.py PROGRAM ROOT           writes them
   hardware_tables.py PROGRAM ROOT --check   fails if the page has others
@@ -68,7 +68,7 @@ def report_of(program, scene, folder):
 
 def main():
     program, root, *check = sys.argv[1:]
-    page = Path(root) / "docs/hardware-picture.md"
+    page = Path(root) / "docs/hardware/ray-caster.md"
     with tempfile.TemporaryDirectory() as folder:
         pipes = [report_of(program, scene, folder) for scene in (LAVA, ICE + OPAQUE, ICE)]
     made = tables_of(pipes[0]) + "\n" + of_clear_matter(*pipes[1:])
@@ -77,7 +77,7 @@ def main():
     if not check:
         page.write_text(before + BEGIN + "\n" + made + "\n" + END + after)
     elif old != "\n" + made + "\n":
-        sys.exit("docs/hardware-picture.md has other tables than the model; docs/hardware_tables.py writes them anew")
+        sys.exit("docs/hardware/ray-caster.md has other tables than the model; docs/hardware_tables.py writes them anew")
 
 
 main()

@@ -1,5 +1,5 @@
-// The field of a picture in double: sample, first crossing, normal and matter (docs/picture.md, sections 6 to
-// 8), without roundings and without steps. The levels and the cells' bytes are data.
+// The field of a picture in double: sample, first crossing, normal and matter (docs/picture/definition.md,
+// sections 6 to 8), without roundings and without steps. The levels and the cells' bytes are data.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The ground of a picture in double: crossing, normal and colour (docs/picture-ground.md), without roundings
+// The ground of a picture in double: crossing, normal and colour (docs/picture/ground.md), without roundings
 // and without steps. Heights of columns, texels and tables are data.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The converged picture: the definition of docs/picture.md in double, without roundings, without steps, with
-// 64 samples a pixel. The error of a drawn picture is its distance from this one.
+// The converged picture: the definition of docs/picture/definition.md in double, without roundings, without
+// steps, with 64 samples a pixel. The error of a drawn picture is its distance from this one.
 #pragma once
 
 #include <span>

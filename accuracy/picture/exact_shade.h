@@ -1,4 +1,4 @@
-// Light and colour of a picture in double (docs/picture-light.md, sections 5 to 8), without roundings. The
+// Light and colour of a picture in double (docs/picture/light.md, sections 5 to 8), without roundings. The
 // volumes of light and the tables of the paint are data; between two entries there is a straight line.
 #pragma once
 

@@ -1,5 +1,6 @@
-// Pixels of the picture in integers, by render/rule (docs/picture.md): the same bytes as the reference, which
-// the tests hold it against. It takes any step and any places of samples, and leaves out samples in air.
+// Pixels of the picture in integers, by render/rule (docs/picture/definition.md): the same bytes as the
+// reference, which the tests hold it against. It takes any step and any places of samples, and leaves out
+// samples in air.
 #pragma once
 
 #include <cstdint>

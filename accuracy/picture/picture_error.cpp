@@ -1,4 +1,4 @@
-// picture_error: how far pictures are from the converged one (docs/picture-error.md).
+// picture_error: how far pictures are from the converged one (docs/results/picture-error.md).
 //
 //   picture_error [--scenes cello,goblet] [--views 20] [--size 256] [--threads 2] [--causes] [--out FOLDER]
 //

@@ -1,4 +1,4 @@
-// How many samples which pixels get (docs/picture.md, section 10), for pixels of any origin.
+// How many samples which pixels get (docs/picture/definition.md, section 10), for pixels of any origin.
 #pragma once
 
 #include <array>

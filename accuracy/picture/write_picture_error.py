@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes docs/picture-error.md and docs/gallery/picture-error.svg from a run of picture_error.
+"""Writes docs/results/picture-error.md and docs/gallery/picture-error.svg from a run of picture_error.
 
   write_picture_error.py [PICTURE_ERROR] [--causes-views 2] [further options of picture_error]
   write_picture_error.py --from MAIN.csv CAUSES.csv
@@ -172,9 +172,9 @@ def main():
     page = TEMPLATE.read_text()
     for name, text in words.items():
         page = page.replace("{{" + name + "}}", text)
-    (ROOT / "docs/picture-error.md").write_text(page)
+    (ROOT / "docs/results/picture-error.md").write_text(page)
     (ROOT / "docs/gallery/picture-error.svg").write_text(plot(all_views))
-    print("written: docs/picture-error.md, docs/gallery/picture-error.svg")
+    print("written: docs/results/picture-error.md, docs/gallery/picture-error.svg")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 /// @file
 /// Pictures of a state: where they are seen from, frames as bytes, and what a pixel shows
-/// (docs/picture.md defines every byte).
+/// (docs/picture/definition.md defines every byte).
 #pragma once
 
 #include <cstddef>
@@ -76,8 +76,8 @@ enum class Shown {
   ground,    ///< floor or terrain
 };
 
-/// Where the ray through a pixel's middle first meets something (docs/picture.md, section 9). Clear matter
-/// counts: what is behind its surface does not.
+/// Where the ray through a pixel's middle first meets something (docs/picture/definition.md, section 9).
+/// Clear matter counts: what is behind its surface does not.
 struct Hit {
   Shown shown = Shown::solid;  ///< of what the picture mixes there, the largest part
   Position position{};         ///< the place, in cells

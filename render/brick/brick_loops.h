@@ -1,5 +1,5 @@
-// The inner loops that fill bricks of levels and of matter (docs/picture.md, sections 6 and 12). They are
-// compiled once for each instruction set and chosen at run time; the bits are the same.
+// The inner loops that fill bricks of levels and of matter (docs/picture/definition.md, sections 6 and 12).
+// They are compiled once for each instruction set and chosen at run time; the bits are the same.
 #pragma once
 
 #include <array>

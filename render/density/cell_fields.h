@@ -1,4 +1,4 @@
-// What each cell contributes to the picture, before filtering (docs/picture-field.md, sections 2 to 5).
+// What each cell contributes to the picture, before filtering (docs/picture/field.md, sections 2 to 5).
 //
 // Intensities are the paper's 0..255 with eight fraction bits (u16, kFull = 255 * 256): linear in the
 // amount of a cell, full at kOne and above. Arrays are [z][y][x], x fastest.

@@ -1,5 +1,5 @@
 // The scalar field that is drawn: filtered intensity and what goes with it, kept up to date brick by brick
-// (docs/picture-field.md).
+// (docs/picture/field.md).
 //
 // The surface is where the filtered intensity is half of kFull. For a column of full cells with a part-filled
 // cell on top this lies within a tenth of a cell of the column's height, so smooth amounts look smooth.

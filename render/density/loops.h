@@ -48,7 +48,7 @@ struct Loops {
   // Takes over what is solid and liquid in a brick. Rows of masks and amounts are read to their end.
   MatterFound (*matter)(const MatterBrick& brick);
 
-  // One pass of the 3x3x3 binomial filter (docs/picture-field.md, section 6): x * y * z cells of `to` from
+  // One pass of the 3x3x3 binomial filter (docs/picture/field.md, section 6): x * y * z cells of `to` from
   // two more along each axis of `from`, which may be `to`. Rows of `to` are written up to the next multiple
   // of kLanes, those of `from` read up to 2 kLanes further than x + 2. `room`: 2 (x + 2 + 3 kLanes) (y + 2)
   // cells.
@@ -64,7 +64,7 @@ struct Loops {
   void (*mix)(const std::uint16_t* solid, const std::uint16_t* liquid, const std::uint16_t* weights,
               int count, std::uint16_t* to);
 
-  // One pass along the levels of puddles (docs/picture-field.md, section 4).
+  // One pass along the levels of puddles (docs/picture/field.md, section 4).
   void (*smooth_levels)(const LevelRows& from, int count, std::int32_t* to);
 };
 

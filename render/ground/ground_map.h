@@ -1,5 +1,5 @@
 // The ground of a scene as integers: heights, and the texture of rock
-// (docs/picture-ground.md).
+// (docs/picture/ground.md).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The inner loops of the light (docs/picture-light.md, sections 4 and 5). They are compiled once for each
+// The inner loops of the light (docs/picture/light.md, sections 4 and 5). They are compiled once for each
 // instruction set and chosen at run time; the bits are the same.
 //
 // Rows of bytes begin at multiples of kLightLanes bytes from each other, and may be read and written up to

@@ -1,4 +1,4 @@
-// What stops and what sends light, from the field and the ground (docs/picture-light.md, section 4).
+// What stops and what sends light, from the field and the ground (docs/picture/light.md, section 4).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The light that arrives in every cell of the grid of light (docs/picture-light.md, sections 4 and 5).
+// The light that arrives in every cell of the grid of light (docs/picture/light.md, sections 4 and 5).
 //
 // Each sweep keeps what it gave, as planes of bytes. An update goes only through rows that a change can
 // reach.

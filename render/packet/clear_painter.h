@@ -1,4 +1,4 @@
-// What a ray sees through clear matter, by render/rule alone (docs/picture-translucent.md).
+// What a ray sees through clear matter, by render/rule alone (docs/picture/translucent.md).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The picture by packets of rays (docs/picture.md).
+// The picture by packets of rays (docs/picture/definition.md).
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // The field as the ray caster reads it: bricks of levels and of matter, and what of it is empty
-// (docs/picture.md, section 12).
+// (docs/picture/definition.md, section 12).
 //
 // The lattice holds the cells -2 .. n + 1 of each axis: lattice place = cell + 2. Brick b covers samples
 // whose lower cell lies in the places 8 b .. 8 b + 7. It holds the 11 places from 8 b - 1 along each axis, so

@@ -1,4 +1,4 @@
-// A ground map in the order in which packets of rays read it (docs/picture-ground.md).
+// A ground map in the order in which packets of rays read it (docs/picture/ground.md).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The ground as packets of rays read it, as plain data (docs/picture-ground.md).
+// The ground as packets of rays read it, as plain data (docs/picture/ground.md).
 #pragma once
 
 #include <array>

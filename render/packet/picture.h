@@ -1,4 +1,5 @@
-// A scene as it is drawn: all that pictures of it read, kept up to date, and the pictures (docs/picture.md).
+// A scene as it is drawn: all that pictures of it read, kept up to date, and the pictures
+// (docs/picture/definition.md).
 #pragma once
 
 #include <cstdint>

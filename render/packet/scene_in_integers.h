@@ -1,4 +1,4 @@
-// Look, lamp, camera and ground of a scene in the integers of the picture (docs/picture.md).
+// Look, lamp, camera and ground of a scene in the integers of the picture (docs/picture/definition.md).
 #pragma once
 
 #include "kernel/automaton/state/grid.h"

@@ -1,4 +1,4 @@
-// The levels of a field's cells (docs/picture.md, section 6).
+// The levels of a field's cells (docs/picture/definition.md, section 6).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the cells of a field are made of, as the picture's shading reads it (docs/picture-light.md, section
+// What the cells of a field are made of, as the picture's shading reads it (docs/picture/light.md, section
 // 3).
 #pragma once
 

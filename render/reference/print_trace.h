@@ -1,4 +1,4 @@
-// The trace of one pixel of a state, as text (docs/picture-trace.md).
+// The trace of one pixel of a state, as text (docs/picture/trace.md).
 #pragma once
 
 #include <ostream>

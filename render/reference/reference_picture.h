@@ -1,4 +1,5 @@
-// The picture by plain loops over render/rule (docs/picture.md): what faster programs are held against.
+// The picture by plain loops over render/rule (docs/picture/definition.md): what faster programs are held
+// against.
 #pragma once
 
 #include "render/image/image.h"

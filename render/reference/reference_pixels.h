@@ -1,4 +1,4 @@
-// Pixels of the reference, one by one (docs/picture.md, section 10).
+// Pixels of the reference, one by one (docs/picture/definition.md, section 10).
 #pragma once
 
 #include <array>

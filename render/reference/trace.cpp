@@ -68,7 +68,7 @@ struct Telling {
     numbers.add(value);
     listener.told(stage, name, {numbers.values.data(), numbers.count});
   }
-  // The brick that serves a sample at a position (docs/picture.md, section 12).
+  // The brick that serves a sample at a position (docs/picture/definition.md, section 12).
   void read_at(Vector position) {
     const auto along = [](std::int64_t p) {
       return (picture::place_of(p).cell + kLatticeBorder) / kBrickSide;

@@ -1,5 +1,5 @@
 // The trace: all numbers by which the reference draws, in the order in which they come about
-// (docs/picture-trace.md).
+// (docs/picture/trace.md).
 #pragma once
 
 #include <cstdint>

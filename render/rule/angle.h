@@ -1,4 +1,4 @@
-// Sine and cosine by their power series in integers (docs/picture.md, section 2).
+// Sine and cosine by their power series in integers (docs/picture/definition.md, section 2).
 #pragma once
 
 #include <cstdint>

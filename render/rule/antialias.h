@@ -1,4 +1,4 @@
-// Which pixels get more samples, and where these lie (docs/picture.md, section 10).
+// Which pixels get more samples, and where these lie (docs/picture/definition.md, section 10).
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct Sub {
 inline constexpr std::array<Sub, 1> kMiddle{{{32, 32}}};
 
 // Places of which no two share a row or a column: that of column i lies in row rows[i]. They come from a
-// search (docs/picture-error.md): over edges of any direction they err least.
+// search (docs/results/picture-error.md): over edges of any direction they err least.
 template <std::size_t kCount>
 constexpr std::array<Sub, kCount> rooks(const std::array<std::int32_t, kCount>& rows) {
   constexpr std::int32_t kApart = 64 / static_cast<std::int32_t>(kCount);

@@ -1,4 +1,5 @@
-// From a camera in numbers of a scene file to the ray of a pixel (docs/picture.md, sections 3 and 4).
+// From a camera in numbers of a scene file to the ray of a pixel (docs/picture/definition.md, sections 3 and
+// 4).
 #pragma once
 
 #include <algorithm>

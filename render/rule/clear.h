@@ -1,4 +1,4 @@
-// What clear matter lets through, front to back along a ray (docs/picture-translucent.md).
+// What clear matter lets through, front to back along a ray (docs/picture/translucent.md).
 #pragma once
 
 #include <algorithm>

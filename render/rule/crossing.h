@@ -1,4 +1,4 @@
-// Where a ray first meets matter (docs/picture.md, section 7).
+// Where a ray first meets matter (docs/picture/definition.md, section 7).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Number formats of the picture (docs/picture.md, section 1).
+// Number formats of the picture (docs/picture/definition.md, section 1).
 #pragma once
 
 #include <algorithm>

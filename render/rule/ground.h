@@ -1,4 +1,4 @@
-// Where a ray first meets the ground, and the ground's normal there (docs/picture-ground.md, sections 3 to
+// Where a ray first meets the ground, and the ground's normal there (docs/picture/ground.md, sections 3 to
 // 5).
 #pragma once
 

@@ -1,4 +1,4 @@
-// The ground's heights, from columns to any place (docs/picture-ground.md, sections 1 and 2).
+// The ground's heights, from columns to any place (docs/picture/ground.md, sections 1 and 2).
 //
 // A height is in 1 / kHeight of a cell, at the middle of its column. Outside the grid the nearest column
 // repeats itself.

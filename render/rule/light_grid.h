@@ -1,5 +1,5 @@
 // Light as small volumes: what of the lamp, of the surroundings and of glowing liquid arrives where
-// (docs/picture-light.md, sections 4 and 5).
+// (docs/picture/light.md, sections 4 and 5).
 //
 // The grid of light is coarser than the grid of cells. Its values are bytes, swept slice by slice.
 #pragma once

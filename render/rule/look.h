@@ -1,4 +1,4 @@
-// The look of a picture in integers, and what its shading needs of it (docs/picture-light.md, section 1).
+// The look of a picture in integers, and what its shading needs of it (docs/picture/light.md, section 1).
 #pragma once
 
 #include <algorithm>

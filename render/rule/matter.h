@@ -1,4 +1,4 @@
-// What the matter of a cell is made of, as bytes (docs/picture-light.md, section 3).
+// What the matter of a cell is made of, as bytes (docs/picture/light.md, section 3).
 #pragma once
 
 #include <algorithm>

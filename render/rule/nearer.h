@@ -1,4 +1,4 @@
-// Which of matter and ground a ray meets (docs/picture.md, section 9).
+// Which of matter and ground a ray meets (docs/picture/definition.md, section 9).
 #pragma once
 
 #include <cstdint>

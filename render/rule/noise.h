@@ -1,4 +1,4 @@
-// Smooth noise on a lattice, in integers (docs/picture-ground.md, section 6).
+// Smooth noise on a lattice, in integers (docs/picture/ground.md, section 6).
 #pragma once
 
 #include <algorithm>

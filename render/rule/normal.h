@@ -1,4 +1,4 @@
-// The unit normal of the surface (docs/picture.md, section 8).
+// The unit normal of the surface (docs/picture/definition.md, section 8).
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// A ray as a row of samples, and those of them that lie in the grid (docs/picture.md, sections 4 and 5).
+// A ray as a row of samples, and those of them that lie in the grid (docs/picture/definition.md, sections 4
+// and 5).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The ground's colour, and the roughness of rock (docs/picture-ground.md, sections 6 and 7).
+// The ground's colour, and the roughness of rock (docs/picture/ground.md, sections 6 and 7).
 //
 // A colour is linear red, green and blue; kColor is 1.
 #pragma once

@@ -1,4 +1,4 @@
-// The field between the cells (docs/picture.md, section 6).
+// The field between the cells (docs/picture/definition.md, section 6).
 //
 // A level is a filtered intensity less half of a full one: 0 or more is matter. The field is the trilinear
 // interpolation of the levels. It never leaves the range of the eight levels around it.

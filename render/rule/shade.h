@@ -1,4 +1,4 @@
-// The colour of a surface (docs/picture-light.md, section 6).
+// The colour of a surface (docs/picture/light.md, section 6).
 #pragma once
 
 #include <algorithm>

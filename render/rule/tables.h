@@ -1,4 +1,4 @@
-// The tables of a picture: highlight, surroundings, glow (docs/picture-light.md, section 2).
+// The tables of a picture: highlight, surroundings, glow (docs/picture/light.md, section 2).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// From linear light to the bytes of a picture (docs/picture-light.md, sections 7 and 8).
+// From linear light to the bytes of a picture (docs/picture/light.md, sections 7 and 8).
 #pragma once
 
 #include <array>

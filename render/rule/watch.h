@@ -12,25 +12,25 @@ namespace voxmelt::picture {
 
 // In the order of a ray. Each is a section of the pages.
 enum class Stage : std::uint8_t {
-  picture,   // what all rays share: docs/picture.md 3, docs/picture-light.md 1
-  pixel,     // docs/picture.md 10, docs/picture-light.md 7 and 8
-  ray,       // docs/picture.md 4 and 5
+  picture,   // what all rays share: docs/picture/definition.md 3, docs/picture/light.md 1
+  pixel,     // docs/picture/definition.md 10, docs/picture/light.md 7 and 8
+  ray,       // docs/picture/definition.md 4 and 5
   brick,     // 12
   sample,    // 6; those of a crossing, too
   crossing,  // 7
-  ground,    // docs/picture-ground.md 2 to 4
-  met,       // docs/picture.md 9
+  ground,    // docs/picture/ground.md 2 to 4
+  met,       // docs/picture/definition.md 9
   unit,      // 8: how a vector is brought to its length
   normal,    // 8
-  paint,     // docs/picture-ground.md 5 and 8: the ground's normal and colour
+  paint,     // docs/picture/ground.md 5 and 8: the ground's normal and colour
   texture,   // 7 and 8
-  matter,    // docs/picture-light.md 3
+  matter,    // docs/picture/light.md 3
   light,     // 5
   arriving,  // 6
   material,  // 6
   mirror,    // 6
   colour,    // 6
-  clear,     // docs/picture-translucent.md
+  clear,     // docs/picture/translucent.md
 };
 
 // Nobody listens.

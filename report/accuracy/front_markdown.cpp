@@ -1,4 +1,4 @@
-// docs/front.md: the front in words and tables, for readers of the sources.
+// docs/results/front.md: the front in words and tables, for readers of the sources.
 #include <fmt/format.h>
 
 #include <optional>

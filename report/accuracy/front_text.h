@@ -1,4 +1,4 @@
-// What the page and docs/front.md say alike.
+// What the page and docs/results/front.md say alike.
 #pragma once
 
 #include <string>

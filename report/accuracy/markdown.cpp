@@ -1,4 +1,4 @@
-// docs/accuracy.md: the tables of the page, for readers of the sources.
+// docs/results/accuracy.md: the tables of the page, for readers of the sources.
 #include <fmt/format.h>
 
 #include <cstddef>

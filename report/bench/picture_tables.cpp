@@ -1,4 +1,4 @@
-// The tables of docs/performance_picture.md, and that of all drawings.
+// The tables of docs/results/performance_picture.md, and that of all drawings.
 #include <fmt/format.h>
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The tables of docs/performance.md: most show the widest instruction set on all threads.
+// The tables of docs/results/performance.md: most show the widest instruction set on all threads.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The tables of docs/performance_tables.md: every case, and the machine's rates that they are held against.
+// The tables of docs/results/performance_tables.md: every case, and the machine's rates that they are held
+// against.
 #include <fmt/format.h>
 
 #include <algorithm>

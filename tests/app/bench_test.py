@@ -132,9 +132,9 @@ class Bench(unittest.TestCase):
         result = subprocess.run([ROOT / "bench/write_performance.sh", stub], capture_output=True, text=True,
                                 env={**os.environ, "WRITE_TO": str(docs)})
         self.assertEqual(result.returncode, 0, result.stderr)
-        short = (docs / "performance.md").read_text()
-        full = (docs / "performance_tables.md").read_text()
-        picture = (docs / "performance_picture.md").read_text()
+        short = (docs / "results/performance.md").read_text()
+        full = (docs / "results/performance_tables.md").read_text()
+        picture = (docs / "results/performance_picture.md").read_text()
         for page, heading in ((short, "| scene | million cells |"), (short, "| subject | volume |"),
                               (short, "| scene | program |"), (full, "| footprint | threads |"),
                               (full, "| Feature | A scene without it |"), (full, "| **in all** |"), (full, "| scene | instruction set | threads | field, ms |"),

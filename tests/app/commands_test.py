@@ -657,7 +657,7 @@ kappa = 20
         self.assertTrue(whole["whole"])
         self.assertEqual(whole["bytes"], 64 * whole["bursts"])
         self.assertEqual(whole["bytes"], sum(whole["volumes"].values()))
-        self.assertEqual(whole["cycles"], whole["words"] + whole["bursts"] + 1, "docs/hardware-picture.md, p = 1")
+        self.assertEqual(whole["cycles"], whole["words"] + whole["bursts"] + 1, "docs/hardware/ray-caster.md, p = 1")
         self.assertEqual(sum(whole["stage"].values()), whole["cycles"])
         self.assertEqual([u["bytes"] for u in later], [0, 0], "the same picture")
         self.assertIn(f"upload of everything: {whole['bytes']} bytes in {whole['bursts']} bursts", text)

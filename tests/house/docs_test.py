@@ -102,7 +102,7 @@ def self_test():
         "README.md": "# House\n\nSee [docs](docs/a.md), `docs/a.md`.\n\n```\n" + "x" * 120 + "\n```\n\n```cpp\nint a;\n```\n",
         "examples/a.cpp": "int a;\n",
         "docs/a.md": "| " + "x" * 120 + " | n |\n|---|--:|\n\n```\nbox |---| box\n```\n",
-        "docs/performance.md": "<!-- Written by a script -->\n" + "x " * 60 + "\n",
+        "docs/results/performance.md": "<!-- Written by a script -->\n" + "x " * 60 + "\n",
         "docs/decisions/README.md": "- [one](one.md)\n- [long](long.md)\n",
         "docs/decisions/one.md": "# One\n",
         "include/house.h": "/// See docs/a.md.\n",

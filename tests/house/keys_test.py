@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The docs explain every key: those of scene files in docs/scenes.md, those of parameters.json in docs/automaton.md,
-those of the pipeline in docs/hardware.md, and those of the ray caster in docs/hardware-picture.md.
+those of the pipeline in docs/hardware/pipeline.md, and those of the ray caster in docs/hardware/ray-caster.md.
 
   keys_test.py ROOT
   keys_test.py --self-test
@@ -43,8 +43,8 @@ def of_machine(root, table, page):
 def offences(root):
     found = []
     for page, (keys, explained) in (("docs/scenes.md", of_scenes(root)), ("docs/automaton.md", of_parameters(root)),
-                                    *((page, of_machine(root, table, page)) for table, page in ((HW, "docs/hardware.md"),
-                                                                                               (CASTER, "docs/hardware-picture.md")))):
+                                    *((page, of_machine(root, table, page)) for table, page in ((HW, "docs/hardware/pipeline.md"),
+                                                                                               (CASTER, "docs/hardware/ray-caster.md")))):
         found += [f"{path}: {page} does not explain the key `{key}`" for key, path in keys.items() if key not in explained]
         found += [] if keys else [f"{page}: no key was found in the code: wrong folder, or wrong check"]
     return found
@@ -56,8 +56,8 @@ def self_test():
             reader: 'reader.number("gamma", x); reader->table("air"); frame.vector<3>("margin", y);\n',
             "docs/automaton.md": "## 13. Digest\nfrom\n## 14. Parameters\nheat.{radius}, `grid`\n## 15. Proofs\nuntil\n",
             json: 'json["grid"] = {{"radius", 3}};\n',
-            "docs/hardware.md": "`hw.lanes`, lanes and `tile`\n", HW: 'hw_key<&C::lanes>("lanes", 1),\n',
-            "docs/hardware-picture.md": "`hw.pipes`\n", CASTER: 'hw_key<&C::pipes>("pipes", 1),\n'}
+            "docs/hardware/pipeline.md": "`hw.lanes`, lanes and `tile`\n", HW: 'hw_key<&C::lanes>("lanes", 1),\n',
+            "docs/hardware/ray-caster.md": "`hw.pipes`\n", CASTER: 'hw_key<&C::pipes>("pipes", 1),\n'}
     planted = [(reader, 'r.number("delta", x);'), (reader, 'r->integer("delta", 1);'), (reader, 'r.vector<3>("delta");'),
                (reader, 'r.tables(\n    "delta");'), (reader, 'r.flag("power", true);'), (reader, "\n"),
                (json, '{"until", 1}'), (json, '{"from", 1}'), (json, "\n"), (HW, "\n"), (CASTER, "\n"), (CASTER, 'hw_key<&C::levels, &S::sets>("sets", 1)'), (HW, 'hw_key<&C::tile>(\n    "tile", 1)'), ("docs/automaton.md", "## 14. Parameters\ngrid\n")]

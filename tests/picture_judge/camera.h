@@ -1,4 +1,4 @@
-// The view of a camera and the ray of a place: picture.md sections 3 and 4.
+// The view of a camera and the ray of a place: docs/picture/definition.md sections 3 and 4.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The walk of a ray through clear matter: picture-translucent.md sections 2 to 7.
+// The walk of a ray through clear matter: docs/picture/translucent.md sections 2 to 7.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What clear matter lets pass: picture-translucent.md sections 1 and 2.
+// What clear matter lets pass: docs/picture/translucent.md sections 1 and 2.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What matter is made of and the colours of surfaces: picture-light.md sections 3 and 6.
+// What matter is made of and the colours of surfaces: docs/picture/light.md sections 3 and 6.
 #pragma once
 
 #include <algorithm>

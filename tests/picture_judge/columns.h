@@ -1,4 +1,4 @@
-// Columns, their beds and their puddles: picture-field.md sections 2 to 4.
+// Columns, their beds and their puddles: docs/picture/field.md sections 2 to 4.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The filtered channels: picture-field.md sections 2 and 5 to 7.
+// The filtered channels: docs/picture/field.md sections 2 and 5 to 7.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The ground's heights, where a ray meets it and its normal: picture-ground.md sections 1 to 5.
+// The ground's heights, where a ray meets it and its normal: docs/picture/ground.md sections 1 to 5.
 #pragma once
 
 #include <algorithm>
@@ -83,8 +83,8 @@ struct GroundHit {
   Int part = 0;
   Vec crossing;
   Face face = Face::top;
-  Int halvings = 0;  // of the step: picture.md 10
-  // picture.md 9
+  Int halvings = 0;  // of the step: docs/picture/definition.md 10
+  // docs/picture/definition.md 9
   bool drawn_before(const MatterHit& matter) const {
     const Int bias = face == Face::top ? 0 : 1024 * power_of_two(halvings);
     return met && (!matter.met || 8 * part <= matter.place() + bias);

@@ -1,4 +1,4 @@
-// The grid of light and its sweeps: picture-light.md sections 4 and 5.
+// The grid of light and its sweeps: docs/picture/light.md sections 4 and 5.
 #pragma once
 
 #include <algorithm>
@@ -86,7 +86,7 @@ class LightGrid {
           emission.push_back(glowing >> (3 * s));
         }
   }
-  // picture-translucent.md 8: o is the obstacles' part of a.
+  // docs/picture/translucent.md 8: o is the obstacles' part of a.
   Int thinned(const Look& look, Int a, Int o) const {
     const Int share = (180 * (256 - (look.clear.passes(power_of_two(s + 8), look.clear.loss.y) >> 7))) >> 8;
     const Int d = a - o;

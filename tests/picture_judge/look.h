@@ -1,4 +1,4 @@
-// The look in integers and its tables: picture-light.md sections 1 and 2.
+// The look in integers and its tables: docs/picture/light.md sections 1 and 2.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Integers, vectors, roots and angles: picture.md sections 1, 2 and 8 (unit).
+// Integers, vectors, roots and angles: docs/picture/definition.md sections 1, 2 and 8 (unit).
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 using Int = std::int64_t;
 using Ints = std::vector<Int>;
 
-// picture.md 1: a / b rounds down, also for a negative a.
+// docs/picture/definition.md 1: a / b rounds down, also for a negative a.
 inline Int floor_divided(Int a, Int b) {
   if (b <= 0) throw std::runtime_error("division by a number that is not positive");
   const Int q = a / b;
@@ -29,7 +29,7 @@ inline Int scaled_number(double v, int n) {
   return static_cast<Int>(whole) + (product - whole >= 0.5 ? 1 : 0);
 }
 
-// Least b with x < 2^b (picture.md 8).
+// Least b with x < 2^b (docs/picture/definition.md 8).
 inline Int bits(Int x) {
   Int b = 0;
   while (x >= power_of_two(b)) ++b;
@@ -48,7 +48,7 @@ inline Int floor_root(Int x) {
   return low;
 }
 
-// picture.md 6.
+// docs/picture/definition.md 6.
 inline Int blended(Int a, Int b, Int w) { return (a * (256 - w) + b * w + 128) >> 8; }
 
 struct Vec {
@@ -68,10 +68,10 @@ inline Vec operator/(Vec a, Int d) {
 inline Int dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Int largest_magnitude(Vec a) { return std::max({magnitude(a.x), magnitude(a.y), magnitude(a.z)}); }
 
-// picture.md 8: R[i] is 2^15 / sqrt(i / 128).
+// docs/picture/definition.md 8: R[i] is 2^15 / sqrt(i / 128).
 inline Int inverse_root(Int i) { return (floor_root(power_of_two(39) / i) + 1) >> 1; }
 
-// picture.md 8: components below 2^15 in magnitude, brought to length 2^14.
+// docs/picture/definition.md 8: components below 2^15 in magnitude, brought to length 2^14.
 inline Vec unit(Vec g) {
   const Int largest = largest_magnitude(g);
   if (largest == 0) return g;
@@ -96,7 +96,7 @@ struct SineCosine {
   Int sine, cosine;
 };
 
-// picture.md 2: the angle counts in 2^-16 degrees, the results in 2^-30.
+// docs/picture/definition.md 2: the angle counts in 2^-16 degrees, the results in 2^-30.
 inline SineCosine sine_cosine(Int a) {
   const Int quarter = 5898240;
   const Int q = floor_divided(a, quarter);

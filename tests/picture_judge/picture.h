@@ -1,4 +1,4 @@
-// What a ray meets, samples, settings and bytes: picture.md sections 9 and 10.
+// What a ray meets, samples, settings and bytes: docs/picture/definition.md sections 9 and 10.
 #pragma once
 
 #include <string>

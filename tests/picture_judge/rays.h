@@ -1,4 +1,4 @@
-// Levels, samples, the crossing of matter and its normal: picture.md sections 5 to 8.
+// Levels, samples, the crossing of matter and its normal: docs/picture/definition.md sections 5 to 8.
 #pragma once
 
 #include <algorithm>

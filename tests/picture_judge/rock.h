@@ -1,4 +1,4 @@
-// Noise, the texture of rock and the ground's colour: picture-ground.md sections 6 to 8.
+// Noise, the texture of rock and the ground's colour: docs/picture/ground.md sections 6 to 8.
 #pragma once
 
 #include <algorithm>

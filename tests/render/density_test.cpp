@@ -103,7 +103,7 @@ TEST(CellFields, GroundIsFilledOnlyNearMatter) {
   EXPECT_EQ(fields.liquid[volume.grid.index(4, 1, 4)], 0);
 }
 
-// The worked column of docs/picture-field.md, section 10: every number there.
+// The worked column of docs/picture/field.md, section 10: every number there.
 TEST(DensityField, WorkedColumn) {
   const state::Grid grid{20, 12, 20};
   state::Volume volume = test::floor_volume(grid);

@@ -1,5 +1,5 @@
-// Random pictures at the edges of what docs/picture.md allows: matter, look, lamp, ground, camera and
-// setting.
+// Random pictures at the edges of what docs/picture/definition.md allows: matter, look, lamp, ground, camera
+// and setting.
 #pragma once
 
 #include <cstdint>

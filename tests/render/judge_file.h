@@ -29,7 +29,7 @@ render::Image judged_picture(const std::filesystem::path& file, int width, int h
 std::vector<std::uint8_t> judged_field(const std::filesystem::path& file);
 
 // What the middle of a pixel shows: 0 nothing, 1 matter, 2 the ground; where, in 2^-20 cells; and how deep, z
-// of docs/picture.md, section 8.
+// of docs/picture/definition.md, section 8.
 struct JudgedSurface {
   std::int64_t kind = 0, x = 0, y = 0, z = 0, depth = 0;
   friend bool operator==(const JudgedSurface&, const JudgedSurface&) = default;

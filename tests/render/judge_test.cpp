@@ -1,6 +1,6 @@
 // The reference, every instruction set and the judge draw the same bytes: random hostile pictures by seed.
-// The judge (tests/picture_judge) was written from docs/picture.md alone, so it sees bugs of render/rule that
-// all others share. See one picture again: VOXMELT_PICTURE_SEED=N render_judge_test.
+// The judge (tests/picture_judge) was written from docs/picture/definition.md alone, so it sees bugs of
+// render/rule that all others share. See one picture again: VOXMELT_PICTURE_SEED=N render_judge_test.
 //
 // Bugs that were planted in render/rule, and that it found: the weight below, not the nearest; a bisection
 // that keeps the old level; a root without the straight line; vectors of one bit more; the lamp's rays,

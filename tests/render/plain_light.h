@@ -1,4 +1,4 @@
-// The light by plain loops over render/rule (docs/picture-light.md, sections 4 and 5): what the fast sweeps
+// The light by plain loops over render/rule (docs/picture/light.md, sections 4 and 5): what the fast sweeps
 // are held to.
 #pragma once
 

@@ -50,7 +50,7 @@ def whole(b):
 
 
 def sine_cosine(a):
-    """picture.md 2"""
+    """docs/picture/definition.md 2"""
     quarter = a // 5898240
     x = rounded((a - 5898240 * quarter) * 1228166276394, 32)
     t, s, c = 1 << 30, 0, 1 << 30
@@ -66,7 +66,7 @@ def root_entry(i):
 
 
 def place(p):
-    """Cell and weight of a position along an axis: picture.md 6"""
+    """Cell and weight of a position along an axis: docs/picture/definition.md 6"""
     s = p - (1 << 19) + (1 << 11)
     return s >> 20, (s >> 12) % 256
 
@@ -100,7 +100,7 @@ class Pixel:
         inside = all(0 <= c < n for c, n in zip(cell, self.cells))
         return table[cell] if inside else beside
 
-    # picture-field.md 2 and 6, and picture.md 6
+    # docs/picture/field.md 2 and 6, and docs/picture/definition.md 6
     def make_field(self):
         self.solid, self.liquid = {}, {}
         for cell in product(*map(range, self.cells)):
@@ -126,7 +126,7 @@ class Pixel:
         return {c: new(near(c, -1), table[c], near(c, 1)) for c in table}
 
     def unit(self, g, of_any_length=False):
-        """picture.md 8"""
+        """docs/picture/definition.md 8"""
         bits = max(map(abs, g)).bit_length()
         if of_any_length and bits > 15:
             g = [c >> (bits - 14) for c in g]
@@ -149,7 +149,7 @@ class Pixel:
         self.rows = rows
         return result
 
-    # picture.md 3
+    # docs/picture/definition.md 3
     def view(self):
         camera, tell = self.scene["camera"], lambda name, numbers: self.tell("picture", name, numbers)
         (sa, ca), (se, ce), (sf, cf) = (sine_cosine(fixed(v, 16)) for v in (
@@ -168,12 +168,12 @@ class Pixel:
         self.eye, self.forward, self.wide, self.high, self.near = eye, forward, wide, high, near
         self.near_wide = [(c * near) // (512 * camera["height"]) for c in wide]
         self.near_high = [(c * near) // (512 * camera["height"]) for c in high]
-        self.e = 2 - min(2, tangent * near // ((15 << 25) * camera["height"]))  # picture.md 10
+        self.e = 2 - min(2, tangent * near // ((15 << 25) * camera["height"]))  # docs/picture/definition.md 10
         for name, numbers in (("eye", eye), ("forward", forward), ("right", right), ("up", up), ("wide", wide), ("high", high),
                               ("near", near), ("near_wide", self.near_wide), ("near_high", self.near_high), ("e", self.e)):
             tell(name, numbers)
 
-    # picture-light.md 1 and 2
+    # docs/picture/light.md 1 and 2
     def materials(self):
         look, light, tell = self.scene["look"], self.scene["light"], lambda name, numbers: self.tell("picture", name, numbers)
         color = {name: [fixed(c, 12) for c in look[name]] for name in ("solid", "liquid", "ground")}
@@ -222,7 +222,7 @@ class Pixel:
         seen = mixed(below, sky, smooth(-246 - edge, 246 + edge, h))
         return [clamp((c * m + 2048) >> 12, 0, m) * k for c, m, k in zip(seen, (2047, 2047, 1023), (2, 2, 4))]
 
-    # picture-light.md 4 and 5
+    # docs/picture/light.md 4 and 5
     def light_volume(self):
         cells = self.cells[0] * self.cells[1] * self.cells[2]
         self.s = next(s for s in range(1, 30) if cells <= 1 << (19 + 3 * s))
@@ -281,7 +281,7 @@ class Pixel:
             both = {(a, b): spread([ray_of(along, a, b + i) for i in range(-2, 3)]) for a, b in along}
             arrives = {key: value + ((255 - value + 7) >> 3) for key, value in both.items()}
 
-    # picture.md 4 and 5
+    # docs/picture/definition.md 4 and 5
     def ray(self):
         camera = self.scene["camera"]
         w, h = camera["width"], camera["height"]
@@ -330,7 +330,7 @@ class Pixel:
             self.tell("sample", name, numbers)
         return level
 
-    # picture.md 7
+    # docs/picture/definition.md 7
     def crossing(self):
         position = lambda k: [s + k * d for s, d in zip(self.start, self.step)]
         for k in range(self.range[0], self.range[1] + 1):
@@ -358,7 +358,7 @@ class Pixel:
         self.tell("met", "on ground", 0)
         self.tell("met", "depth", clamp((z - 256 * self.near) >> 7, 0, 65534))
 
-    # picture.md 8
+    # docs/picture/definition.md 8
     def normal(self):
         self.read_at(self.p)
         s = [p + (1 << 11) for p in self.p]
@@ -388,7 +388,7 @@ class Pixel:
         self.tell("normal", "normal", normal)
         return normal
 
-    # picture-light.md 3
+    # docs/picture/light.md 3
     def matter(self, position):
         among = [clamp(p, 1 << 19, (n << 20) - (1 << 19)) for p, n in zip(position, self.cells)]
         corners, weights = self.look_up("matter", among)
@@ -405,7 +405,7 @@ class Pixel:
             self.tell("matter", name, number)
         return of
 
-    # picture-light.md 5 to 8
+    # docs/picture/light.md 5 to 8
     def surface(self):
         n, p = self.normal(), self.p
         liquid = self.matter(p)[0]
@@ -488,7 +488,7 @@ def ray_of(rays, a, b):
 
 
 def pressed(c):
-    """picture-light.md 7"""
+    """docs/picture/light.md 7"""
     c, left = clamp(c, 0, 12287), 1 << 30
     for _ in range(2868, c + 1):
         left = rounded(left * 1072868508, 30)

@@ -66,7 +66,7 @@ class Sight {
     return picture::matter_at(matter_, levels_.cells(), scaled(at, picture::kPositionBits));
   }
   // How much of an obstacle shows at a surface, 0 .. 1: it is looked for half a cell before the surface, and
-  // counts from a share of 148 to one of 204 (docs/picture-light.md, section 6).
+  // counts from a share of 148 to one of 204 (docs/picture/light.md, section 6).
   double obstacle(const Hit& hit) const {
     return std::clamp((matter(hit.point + hit.normal * 0.5).obstacle - 148) / 56.0, 0.0, 1.0);
   }

@@ -1,5 +1,5 @@
-// The reference's trace: it draws the same picture, its numbers fit the widths of docs/picture-trace.md, and
-// it reads as often as docs/picture.md, section 12, says.
+// The reference's trace: it draws the same picture, its numbers fit the widths of docs/picture/trace.md, and
+// it reads as often as docs/picture/definition.md, section 12, says.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -199,7 +199,8 @@ TEST(Trace, NumbersFitTheWidthsOfThePage) {
   EXPECT_EQ(widths.wrong(), "");
 }
 
-// Reads per piece of work, by the table of docs/picture.md, section 12: the first number of the second cell.
+// Reads per piece of work, by the table of docs/picture/definition.md, section 12: the first number of the
+// second cell.
 std::map<std::string, int> reads_of_the_page() {
   std::map<std::string, int> reads;
   std::ifstream page(VOXMELT_DOCS "/picture.md");

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The worked pixel of docs/picture-trace.md: the page, the plain program, the trace and the judge agree, number by number.
+"""The worked pixel of docs/picture/trace.md: the page, the plain program, the trace and the judge agree, number by number.
 
   worked_pixel_test.py ROOT VOXMELT JUDGE
 """
@@ -16,7 +16,7 @@ from pathlib import Path
 from plain_pixel import Pixel
 
 ROOT, VOXMELT, JUDGE = map(Path, sys.argv[1:4])
-PAGE = (ROOT / "docs/picture-trace.md").read_text()
+PAGE = (ROOT / "docs/picture/trace.md").read_text()
 
 
 def worked(page):

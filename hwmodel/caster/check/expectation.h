@@ -1,4 +1,4 @@
-// What the software's reference says of a ray: the numbers of its trace (docs/picture-trace.md), in the terms
+// What the software's reference says of a ray: the numbers of its trace (docs/picture/trace.md), in the terms
 // of the ray caster's tokens.
 #pragma once
 

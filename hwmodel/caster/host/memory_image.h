@@ -1,5 +1,5 @@
 // How the host lays out what it sends to the ray caster's memory: room for every volume, and the bytes of
-// their lines (docs/hardware.md).
+// their lines (docs/hardware/pipeline.md).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The ray caster's own arithmetic, written from docs/picture.md and its pages alone. If it shared code with
-// render/rule, their agreement would prove nothing.
+// The ray caster's own arithmetic, written from docs/picture/definition.md and its pages alone. If it shared
+// code with render/rule, their agreement would prove nothing.
 #pragma once
 
 #include <algorithm>
@@ -53,7 +53,7 @@ inline std::int64_t blended(std::int64_t a, std::int64_t b, std::int64_t weight)
   return (a * (256 - weight) + b * weight + 128) >> 8;
 }
 
-// Cell and weight of one axis (docs/picture.md, section 6).
+// Cell and weight of one axis (docs/picture/definition.md, section 6).
 struct Spot {
   std::int64_t cell = 0, weight = 0;
 };

@@ -1,4 +1,4 @@
-// What clear matter lets through (docs/picture-translucent.md): the numbers of a ray's surfaces and ways.
+// What clear matter lets through (docs/picture/translucent.md): the numbers of a ray's surfaces and ways.
 #pragma once
 
 #include <algorithm>

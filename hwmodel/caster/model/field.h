@@ -1,5 +1,6 @@
-// The field at a position: a sample, the crossing between two, and the normal (docs/picture.md, sections 6 to
-// 8). Positions are in the lattice: cell -2 has place 0, so that the bits of a position are place and weight.
+// The field at a position: a sample, the crossing between two, and the normal (docs/picture/definition.md,
+// sections 6 to 8). Positions are in the lattice: cell -2 has place 0, so that the bits of a position are
+// place and weight.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The slab: its height at a place, where a ray meets it, normal and colour (docs/picture-ground.md).
+// The slab: its height at a place, where a ray meets it, normal and colour (docs/picture/ground.md).
 #pragma once
 
 #include <algorithm>

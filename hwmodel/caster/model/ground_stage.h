@@ -1,4 +1,4 @@
-// Where rays meet the ground (docs/picture-ground.md, section 4). Many rays are under way. In each cycle some
+// Where rays meet the ground (docs/picture/ground.md, section 4). Many rays are under way. In each cycle some
 // of them take a step over blocks that they pass above, and one looks at sixteen columns. A step is a quarter
 // of a cell at most, so they serve its height, its eight halvings by a row of eight units, and the normal
 // where it ends. Without ground the stage hands rays on.

@@ -1,5 +1,5 @@
-// Where words lie in memory (docs/hardware.md): lines, which the memory gives as a whole, of words in a box
-// of places. Sparse volumes consist of bricks of 8 x 8 x 8 places, of which only some are stored.
+// Where words lie in memory (docs/hardware/pipeline.md): lines, which the memory gives as a whole, of words
+// in a box of places. Sparse volumes consist of bricks of 8 x 8 x 8 places, of which only some are stored.
 #pragma once
 
 #include <array>
@@ -52,7 +52,7 @@ struct Memory {
   Layout levels, matter;   // by lattice place
   Layout light;            // by cell of light; 16 bytes: lamp, six of openness, nothing, six of glow
   Layout heights;          // by column: drawn and bare height, 32 bits each
-  Layout texels;           // docs/picture-ground.md, section 7
+  Layout texels;           // docs/picture/ground.md, section 7
   std::int64_t frame = 0;  // the picture, tile by tile, 3 bytes a pixel
 };
 

@@ -1,4 +1,4 @@
-// What matter is made of at the crossing, and the light in front of a surface (docs/picture-light.md,
+// What matter is made of at the crossing, and the light in front of a surface (docs/picture/light.md,
 // sections 3 and 5).
 #pragma once
 

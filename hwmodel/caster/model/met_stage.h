@@ -1,5 +1,5 @@
 // What a ray meets first: matter, the ground or the background; its depth, and the direction to the eye
-// (docs/picture.md, sections 8 and 9).
+// (docs/picture/definition.md, sections 8 and 9).
 #pragma once
 
 #include <algorithm>

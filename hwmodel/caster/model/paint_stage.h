@@ -1,4 +1,4 @@
-// The ground's colour, and the normal of its sides (docs/picture-ground.md, sections 5 and 8); then four
+// The ground's colour, and the normal of its sides (docs/picture/ground.md, sections 5 and 8); then four
 // texels of rock.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What comes along a ray through clear matter, summed up from front to back (docs/picture-translucent.md,
+// What comes along a ray through clear matter, summed up from front to back (docs/picture/translucent.md,
 // sections 2, 5 and 6): an event a cycle, and one token per ray. Then its pressed light (section 7).
 #pragma once
 

@@ -1,5 +1,5 @@
-// From the place of a sample in the picture to its ray (docs/picture.md, section 4), and how far a ray goes
-// in how many samples. Products and shifts; no division.
+// From the place of a sample in the picture to its ray (docs/picture/definition.md, section 4), and how far a
+// ray goes in how many samples. Products and shifts; no division.
 #pragma once
 
 #include <algorithm>

@@ -27,7 +27,7 @@ struct Window {
   friend bool operator==(const Window&, const Window&) = default;
 };
 
-// The view of a camera (docs/picture.md, section 3).
+// The view of a camera (docs/picture/definition.md, section 3).
 struct CameraRegisters {
   Vec eye, forward, wide, high, near_wide, near_high;
   std::int64_t near = 0;
@@ -41,13 +41,13 @@ struct Material {
   std::int32_t gloss = 0;
 };
 
-// Light and look (docs/picture-light.md, sections 1 and 2).
+// Light and look (docs/picture/light.md, sections 1 and 2).
 struct LookRegisters {
   Vec to_light, to_strip;
   Rgb lamp{}, from_below{}, from_above{}, background{};
   Material solid, liquid, obstacle;
   bool glow = false, obstacles = false;
-  bool clear = false;  // docs/picture-translucent.md
+  bool clear = false;  // docs/picture/translucent.md
   Rgb losses{};
   std::int32_t frost = 0;
   std::int32_t lamp_low = 0, lamp_high = 0, strip_low = 0;
@@ -83,7 +83,7 @@ struct GroundBlocks {
   }
 };
 
-// The slab (docs/picture-ground.md). Heights and texels lie in memory.
+// The slab (docs/picture/ground.md). Heights and texels lie in memory.
 struct GroundRegisters {
   bool any = false;
   std::int64_t highest = 0;  // 2^-12 cells

@@ -1,4 +1,4 @@
-// The colour of a surface (docs/picture-light.md, sections 3, 5 and 6), in the parts that the stages compute.
+// The colour of a surface (docs/picture/light.md, sections 3, 5 and 6), in the parts that the stages compute.
 #pragma once
 
 #include <algorithm>

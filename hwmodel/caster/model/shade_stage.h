@@ -1,4 +1,4 @@
-// Shading in four stages (docs/picture-light.md, sections 6 and 7): what arrives and what matter is, what it
+// Shading in four stages (docs/picture/light.md, sections 6 and 7): what arrives and what matter is, what it
 // mirrors, the sum, and the pressing of bright light. A surface a cycle.
 #pragma once
 

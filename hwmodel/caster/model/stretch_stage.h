@@ -1,4 +1,4 @@
-// A ray through clear matter (docs/picture-translucent.md, section 3): stretch by stretch to the surface at
+// A ray through clear matter (docs/picture/translucent.md, section 3): stretch by stretch to the surface at
 // which it leaves, and back to the walk, until it ends. It tells what is on the ray, in order: surfaces and
 // ways, and at last the ground or the background. One event a cycle leaves. A ray asks for one sample at a
 // time, because one that lies behind the surface would be read in vain; other rays fill the time.

@@ -1,5 +1,5 @@
 // Tiles: which of their pixels are to be drawn, where the samples of a pixel come together, and how the bytes
-// return to memory (docs/picture.md, section 10).
+// return to memory (docs/picture/definition.md, section 10).
 #pragma once
 
 #include <algorithm>

@@ -28,7 +28,7 @@ struct TileOrder {
   std::uint64_t pixels = 0;
 };
 
-// Places of samples in a pixel, in 64ths (docs/picture.md, section 10).
+// Places of samples in a pixel, in 64ths (docs/picture/definition.md, section 10).
 struct Sub {
   std::int64_t across = 32, down = 32;
 };

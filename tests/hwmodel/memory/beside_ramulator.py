@@ -4,7 +4,7 @@
   beside_ramulator.py BUILD RAMULATOR
 
 Ramulator is built by `make`, with the scheduler FRFCFS_PriorHit (a line of src/Scheduler.h): rows with a waiting hit
-stay open, as here. Both have the grade 16-16-16, which is in its table. Prints the tables of docs/hardware-memory.md.
+stay open, as here. Both have the grade 16-16-16, which is in its table. Prints the tables of docs/hardware/memory.md.
 """
 import random
 import re

@@ -1,7 +1,7 @@
 // Replays a trace of requests on a DRAM, as fast as its controller takes them, and prints the cycles. Beside
 // it, the same requests are written with addresses that lie in the same bank, row and column for Ramulator's
 // order (row, bank, group, rank, column, channel), so that its cycles can be compared
-// (docs/hardware-memory.md).
+// (docs/hardware/memory.md).
 //   replay_trace MEMORY IN.trace OUT.trace      lines: 0x00001240 R
 #include <fmt/format.h>
 

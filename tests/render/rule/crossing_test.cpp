@@ -31,8 +31,8 @@ TEST(Crossing, FalsePositionByHand) {
   EXPECT_EQ(false_position(-1, 32640), 0);
 }
 
-// docs/picture.md says that floats give the same quotient. For each divisor these are the dividends nearest
-// below every whole quotient, where a float would be rounded up first.
+// docs/picture/definition.md says that floats give the same quotient. For each divisor these are the
+// dividends nearest below every whole quotient, where a float would be rounded up first.
 TEST(Crossing, FalsePositionIsThatOfFloats) {
   for (std::int32_t divisor = 1; divisor <= 2 * kHalfIntensity; ++divisor)
     for (std::int32_t quotient = 1; quotient <= kParts; ++quotient) {
@@ -78,7 +78,7 @@ TEST(Crossing, FullGridIsMetOnItsSide) {
   }
 }
 
-// The worked ray of docs/picture.md, section 11: every number by hand.
+// The worked ray of docs/picture/definition.md, section 11: every number by hand.
 TEST(Crossing, TheWorkedRay) {
   const test::CubeOfLevels full(64, [](int, int, int) { return kHalfIntensity; });
   const Camera camera{{32 * kCell, 32 * kCell, 64 * kCell}, 100 << 12, 0, 0, 45 * kDegree, 8, 4};

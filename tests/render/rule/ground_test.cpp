@@ -123,7 +123,7 @@ TEST(Ground, AnEdgeBetweenTwoSamplesIsMet) {
 }
 
 // A ray that goes in through the top and out through a side within one step: the worked ray of
-// docs/picture-ground.md, section 9.
+// docs/picture/ground.md, section 9.
 TEST(Ground, WhereARayLeavesIsLookedAt) {
   const Land land{{2, 8, 1}, {8 * kHeight, 4 * kHeight}};
   // Beyond x = 1.5 the ground is 4 cells high. The ray is 0.25 above it, and below it after 25/26 of a step.

@@ -19,7 +19,7 @@ namespace voxmelt::hwmodel::raycast {
 
 using SceneStep = std::pair<std::string, std::uint32_t>;
 
-// The showcase (docs/performance.md has the steps), and the scenes in which every rule acts.
+// The showcase (docs/results/performance.md has the steps), and the scenes in which every rule acts.
 inline const std::vector<SceneStep>& drawn_scenes() {
   static const std::vector<SceneStep> scenes{{"cello", 1048},         {"goblet", 1100},
                                              {"lava", 1200},          {"bunny", 896},

@@ -121,7 +121,7 @@ TEST_P(UploadOf, FiftyStepsOfChangedBricksMakeTheFieldByteForByte) {
   EXPECT_GT(bytes[1], 0);
   EXPECT_GT(bytes[2], 0);
   EXPECT_LT(sum_of(bytes), 50 * sum_of(whole.bytes));
-  // Seen with --gtest_output: what docs/hardware.md tells.
+  // Seen with --gtest_output: what docs/hardware/pipeline.md tells.
   RecordProperty("whole_bytes", std::to_string(sum_of(whole.bytes)));
   RecordProperty("whole_cycles", std::to_string(whole.cycles));
   RecordProperty("level_bytes", std::to_string(bytes[0] / 50));

@@ -1,6 +1,6 @@
 // The ray caster's arithmetic up to the normal, alone. Expected numbers are those of the worked pixel
-// (docs/picture-trace.md, section 4) and of the worked ray (docs/picture.md, section 11), or those of plain
-// loops below.
+// (docs/picture/trace.md, section 4) and of the worked ray (docs/picture/definition.md, section 11), or those
+// of plain loops below.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -297,8 +297,8 @@ TEST(RaycastField, TheWorkedVectorsOfLength1) {
   EXPECT_EQ(kInverseRoot[512 - 128], 16384);
 }
 
-// Every component within 1.6 of the true one (picture.md, section 8); a shift of large vectors costs one
-// 2^14th of the largest component more.
+// Every component within 1.6 of the true one (docs/picture/definition.md, section 8); a shift of large
+// vectors costs one 2^14th of the largest component more.
 TEST(RaycastField, LengthsAreThoseOfRealNumbers) {
   std::mt19937_64 random(8);
   for (int n = 0; n < 100000; ++n) {

@@ -1,4 +1,4 @@
-// The ray caster's ground, alone: the worked ray of docs/picture-ground.md, section 9, and hand computations.
+// The ray caster's ground, alone: the worked ray of docs/picture/ground.md, section 9, and hand computations.
 #include <gtest/gtest.h>
 
 #include <algorithm>

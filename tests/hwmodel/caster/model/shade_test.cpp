@@ -1,4 +1,4 @@
-// The ray caster's colours, alone: the worked pixel (docs/picture-trace.md, section 4), and hand computations
+// The ray caster's colours, alone: the worked pixel (docs/picture/trace.md, section 4), and hand computations
 // of what it does not show: glow, obstacles, and each of eight neighbours.
 #include <gtest/gtest.h>
 

@@ -32,7 +32,7 @@ inline Start start_of(const std::string& scene_name, std::uint32_t ahead) {
   return {scene_name, scene.parameters, simulation.volume(), simulation.step_number()};
 }
 
-// The steps at which the showcase scenes are in the middle of their melt (docs/performance.md).
+// The steps at which the showcase scenes are in the middle of their melt (docs/results/performance.md).
 inline const std::vector<std::pair<std::string, std::uint32_t>>& showcase() {
   static const std::vector<std::pair<std::string, std::uint32_t>> scenes{
       {"cello", 1048},         {"goblet", 1100},         {"lava", 1200},         {"bunny", 896},

@@ -1,5 +1,5 @@
-// The wires of a token: their widths as docs/hardware.md has them, and that each reads and writes its own
-// field.
+// The wires of a token: their widths as docs/hardware/pipeline.md has them, and that each reads and writes
+// its own field.
 #include "hwmodel/pipeline/model/cell_wires.h"
 
 #include <gtest/gtest.h>

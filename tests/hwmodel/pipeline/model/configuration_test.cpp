@@ -17,7 +17,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// As docs/hardware.md says them.
+// As docs/hardware/pipeline.md says them.
 const std::map<std::string, std::int64_t> kUsual{{"lanes", 4},      {"cascade", 1},   {"substeps", 1},
                                                  {"overlap", 1},    {"tile", 0},      {"coded", 0},
                                                  {"fifo_depth", 4}, {"stall_seed", 0}};

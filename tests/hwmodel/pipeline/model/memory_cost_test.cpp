@@ -1,4 +1,4 @@
-// What the memories of a stage hold is what docs/hardware.md says: bits per cell of a plane, and how
+// What the memories of a stage hold is what docs/hardware/pipeline.md says: bits per cell of a plane, and how
 // many cells.
 #include <gtest/gtest.h>
 
