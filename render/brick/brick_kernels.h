@@ -180,8 +180,7 @@ struct BrickKernels {
   template <class T>
   [[gnu::always_inline]] static void scatter_all(const T* from, const std::array<T*, 8>& to) {
     for (int which = 0; which < 4; ++which) {
-      T* const here = to[at(2 * which)];
-      *const next = to[at(2 * which + 1)];
+      T *const here = to[at(2 * which)], *const next = to[at(2 * which + 1)];
       if (here == nullptr && next == nullptr) continue;
       const int first_y = (which & 1) != 0 ? kCells - 3 : 0, first_z = (which & 2) != 0 ? kCells - 3 : 0;
       const int place_y = (which & 1) != 0 ? 0 : 3, place_z = (which & 2) != 0 ? 0 : 3;

@@ -15,8 +15,8 @@ void conduct_faces_slice(const View& view, const Step& step, int z, const OldHea
                          const TileRow* carried, const TileRow* tiles, HeatFlux& flux, const HeatTiles& found,
                          Books& books) {
   FullConduction<Arch, kLatent> full(view, step, z, old, flux);
-  books.heat.conducted += FaceConduction < Arch;
-  kLatent > (view, step, z, old, flux).run(carried, tiles, full, found);
+  books.heat.conducted +=
+      FaceConduction<Arch, kLatent>(view, step, z, old, flux).run(carried, tiles, full, found);
   books.heat.conducted += full.total();
 }
 
@@ -45,8 +45,7 @@ constexpr WallKernels kWallKernels{find_wall_gains_slice<Arch, kLatent, Axes>,
 template <class Arch, bool kLatent>
 void convect_slice(const View& view, const Step& step, int z, const TileRow* tiles, HeatFlux& flux,
                    const HeatTiles& found, Books& books) {
-  books.heat.convected += Convection < Arch;
-  kLatent > (view, step, z, flux).run(tiles, found);
+  books.heat.convected += Convection<Arch, kLatent>(view, step, z, flux).run(tiles, found);
 }
 
 template <class Arch, HeatFeatures kFeatures>

@@ -49,8 +49,7 @@ Opaque::News Opaque::take_layer(const state::Volume& volume, int layer) {
     std::fill_n(changed_.begin() + static_cast<std::ptrdiff_t>(change_word(0, z)), column_words_, 0);
     const std::uint64_t *const now_solid = volume.solid.row(0, z).data(), *const now_inert =
                                                                               volume.inert.row(0, z).data();
-    std::uint64_t* const solid = solid_.row(0, z).data();
-    *const opaque = plane_.row(0, z).data();
+    std::uint64_t *const solid = solid_.row(0, z).data(), *const opaque = plane_.row(0, z).data();
     const auto differs = [&](std::size_t w) {
       return ((now_solid[w] | now_inert[w]) ^ opaque[w]) | (solid[w] ^ now_solid[w]);
     };
