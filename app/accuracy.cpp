@@ -17,6 +17,7 @@
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
+#include "app/print.h"
 #include "app/programs.h"
 #include "app/version.h"
 #include "kernel/run/io/output_folder.h"
@@ -56,23 +57,23 @@ std::vector<const Case*> chosen_cases(const std::vector<std::string>& names) {
 }
 
 void print_header() {
-  fmt::print("{:<42} {:>10} {:>10} {:>9} {:>9} {:<7} {:>7} {:>9}\n", "", "value", "exact", "error", "gate",
-             "", "Mcell/s", "baseline");
+  print("{:<42} {:>10} {:>10} {:>9} {:>9} {:<7} {:>7} {:>9}\n", "", "value", "exact", "error", "gate", "",
+        "Mcell/s", "baseline");
 }
 
 void print_rows(const accuracy::Found& found) {
-  fmt::print("{}: {}\n", found.one->name, found.one->title);
+  print("{}: {}\n", found.one->name, found.one->title);
   for (const accuracy::Row& row : found.outcome.rows) {
     const auto& baseline = row.speed.baseline_cells_per_second;
-    fmt::print("  {:<40} {:>10} {:>10} {:>9} {:>9} {:<7} {:>7} {:>9}  {}\n", row.setting,
-               accuracy::number_text(row.value), accuracy::number_text(row.exact), accuracy::error_text(row),
-               accuracy::gate_text(row),
-               !row.gate      ? ""
-               : row.passed() ? "passed"
-                              : "MISSED",
-               row.speed.cells_per_second > 0 ? accuracy::speed_text(row.speed.cells_per_second) : "-",
-               baseline ? accuracy::speed_text(*baseline) : "-",
-               row.quantity + (row.note.empty() ? "" : " (" + row.note + ")"));
+    print("  {:<40} {:>10} {:>10} {:>9} {:>9} {:<7} {:>7} {:>9}  {}\n", row.setting,
+          accuracy::number_text(row.value), accuracy::number_text(row.exact), accuracy::error_text(row),
+          accuracy::gate_text(row),
+          !row.gate      ? ""
+          : row.passed() ? "passed"
+                         : "MISSED",
+          row.speed.cells_per_second > 0 ? accuracy::speed_text(row.speed.cells_per_second) : "-",
+          baseline ? accuracy::speed_text(*baseline) : "-",
+          row.quantity + (row.note.empty() ? "" : " (" + row.note + ")"));
   }
   std::fflush(stdout);
 }
@@ -112,7 +113,7 @@ int run_accuracy(const AccuracyOptions& options) {
     report.found.push_back(std::move(found));
     stop_if_interrupted();
   }
-  fmt::print("{} of {} gates passed\n", report.gates() - report.missed(), report.gates());
+  print("{} of {} gates passed\n", report.gates() - report.missed(), report.gates());
 
   const std::string json = accuracy::json_text(report);
   write_report(common, json);
@@ -122,7 +123,7 @@ int run_accuracy(const AccuracyOptions& options) {
     io::write_file(out->partial() / "accuracy.md", accuracy::markdown_text(report));
     io::write_file(out->partial() / "accuracy.html", accuracy::html_text(report));
     out->commit();
-    if (!common.quiet) fmt::print("page, tables and report  {}/\n", seen_from_here(out->place()));
+    if (!common.quiet) print("page, tables and report  {}/\n", seen_from_here(out->place()));
   }
   return report.passed() ? kDone : kCheckFailed;
 }

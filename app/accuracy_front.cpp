@@ -12,6 +12,7 @@
 #include "accuracy/front/sweep.h"
 #include "app/interrupt.h"
 #include "app/message.h"
+#include "app/print.h"
 #include "app/version.h"
 #include "kernel/run/io/output_folder.h"
 #include "report/accuracy/front.h"
@@ -45,15 +46,15 @@ std::string part(const std::optional<front::Errors>& errors) {
 }
 
 void print_points(const front::Swept& swept) {
-  fmt::print("{}\n", swept.subject->scene);
+  print("{}\n", swept.subject->scene);
   for (const front::Measured& point : swept.points) {
     const auto& baseline = point.cost.baseline_cells_per_second;
-    fmt::print("  {:<44} {:>10} {:>10} {:>10} {:>10} {:>5} {:>8} {:>9} {:>9}  {}\n",
-               front::text_of(point.choice), part(point.arithmetic), part(point.model), part(point.whole),
-               part(point.grid), point.cost.state_bits,
-               point.cost.run_seconds ? fmt::format("{:.3f} s", *point.cost.run_seconds) : "-",
-               accuracy::speed_text(point.cost.cells_per_second),
-               baseline ? accuracy::speed_text(*baseline) : "-", point.twin ? "twin" : "engine");
+    print("  {:<44} {:>10} {:>10} {:>10} {:>10} {:>5} {:>8} {:>9} {:>9}  {}\n", front::text_of(point.choice),
+          part(point.arithmetic), part(point.model), part(point.whole), part(point.grid),
+          point.cost.state_bits,
+          point.cost.run_seconds ? fmt::format("{:.3f} s", *point.cost.run_seconds) : "-",
+          accuracy::speed_text(point.cost.cells_per_second), baseline ? accuracy::speed_text(*baseline) : "-",
+          point.twin ? "twin" : "engine");
   }
   std::fflush(stdout);
 }
@@ -74,15 +75,15 @@ int run_front(const Common& common, const FrontOptions& options, const accuracy:
                                .extent = extent,
                                .swept = {},
                                .seconds = 0};
-  fmt::print("{:<46} {:>10} {:>10} {:>10} {:>10} {:>5} {:>8} {:>9} {:>9}\n", "", "arithmetic", "model",
-             "whole", "grid", "bits", "run", "Mcell/s", "baseline");
+  print("{:<46} {:>10} {:>10} {:>10} {:>10} {:>5} {:>8} {:>9} {:>9}\n", "", "arithmetic", "model", "whole",
+        "grid", "bits", "run", "Mcell/s", "baseline");
   for (const front::Subject* subject : subjects) {
     report.swept.push_back(
         front::sweep(*subject, extent, conditions, [](const front::Choice&) { stop_if_interrupted(); }));
     print_points(report.swept.back());
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  fmt::print("{} points along {} axes\n", report.points(), report.axes());
+  print("{} points along {} axes\n", report.points(), report.axes());
 
   const std::string json = accuracy::json_text(report);
   write_report(common, json);
@@ -92,7 +93,7 @@ int run_front(const Common& common, const FrontOptions& options, const accuracy:
     io::write_file(out->partial() / "front.md", accuracy::markdown_text(report));
     io::write_file(out->partial() / "front.html", accuracy::html_text(report));
     out->commit();
-    if (!common.quiet) fmt::print("page, tables and report  {}/\n", seen_from_here(out->place()));
+    if (!common.quiet) print("page, tables and report  {}/\n", seen_from_here(out->place()));
   }
   return kDone;
 }

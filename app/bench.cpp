@@ -17,6 +17,7 @@
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
+#include "app/print.h"
 #include "app/programs.h"
 #include "app/version.h"
 #include "app/visibility.h"
@@ -109,7 +110,7 @@ void write_findings(const BenchOptions& options, const measure::Findings& findin
   if (options.wants("automaton"))
     io::write_file(out->partial() / "roofline.svg", measure::roofline_svg(findings));
   out->commit();
-  if (!options.common.quiet) fmt::print("tables, plot and report  {}/\n", seen_from_here(out->place()));
+  if (!options.common.quiet) print("tables, plot and report  {}/\n", seen_from_here(out->place()));
 }
 
 int run_bench(BenchOptions options) {

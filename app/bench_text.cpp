@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/interrupt.h"
+#include "app/print.h"
 #include "measure/texts.h"
 
 namespace voxmelt::app {
@@ -30,77 +31,73 @@ void print_case(const Case& one) {
   const std::string phases = one.subject == Subject::flow
                                  ? fmt::format("{} + {} + {}", phase(gravity), phase(spread), phase(excess))
                                  : fmt::format("{} + {}", phase(heat), phase(melt));
-  fmt::print(
-      "  {:<5} {:<9} {:>7}  {:>8} {:>8}  {:<22} {:>8.0f} {:>8.0f} {:>8} {:>6} {:>6} {:>8} {:>8} {:>6}\n",
-      measure::name_of(one.subject), one.implementation, one.threads, measure::milliseconds(one.seconds),
-      measure::milliseconds(one.median_seconds), phases, one.cells_per_second() / 1e6,
-      one.active_per_second() / 1e6, measure::three_digits(1e9 / one.active_per_second()), one.bytes_per_cell,
-      measure::or_dash(one.percent_of_roof()), measure::or_dash(one.ratio_to_baseline),
-      measure::or_dash(one.ratio_to_native), one.rounds);
+  print("  {:<5} {:<9} {:>7}  {:>8} {:>8}  {:<22} {:>8.0f} {:>8.0f} {:>8} {:>6} {:>6} {:>8} {:>8} {:>6}\n",
+        measure::name_of(one.subject), one.implementation, one.threads, measure::milliseconds(one.seconds),
+        measure::milliseconds(one.median_seconds), phases, one.cells_per_second() / 1e6,
+        one.active_per_second() / 1e6, measure::three_digits(1e9 / one.active_per_second()),
+        one.bytes_per_cell, measure::or_dash(one.percent_of_roof()), measure::or_dash(one.ratio_to_baseline),
+        measure::or_dash(one.ratio_to_native), one.rounds);
 }
 
 }  // namespace
 
 void print_case_heading() {
-  fmt::print("{:<25}{:>8} {:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8}\n", "", "ms per", "median",
-             "gravity+spread+excess", "Mcells/s", "Mcells/s", "ns per", "bytes", "% of", "times", "times");
-  fmt::print("  {:<5} {:<9} {:>7}  {:>8} {:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8} {:>6}\n", "",
-             "by", "threads", "step", "round", "or heat+melt", "grid", "active", "active", "/cell", "roof",
-             "baseline", "native", "rounds");
+  print("{:<25}{:>8} {:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8}\n", "", "ms per", "median",
+        "gravity+spread+excess", "Mcells/s", "Mcells/s", "ns per", "bytes", "% of", "times", "times");
+  print("  {:<5} {:<9} {:>7}  {:>8} {:>8}  {:<22} {:>8} {:>8} {:>8} {:>6} {:>6} {:>8} {:>8} {:>6}\n", "",
+        "by", "threads", "step", "round", "or heat+melt", "grid", "active", "active", "/cell", "roof",
+        "baseline", "native", "rounds");
 }
 
 void print_workload(const measure::Workload& workload, const measure::Result& result,
                     const std::vector<Case>& cases) {
   const state::Grid g = workload.start.grid;
-  fmt::print("{}  {} x {} x {}, {:.1f} % liquid", workload.name, g.x, g.y, g.z,
-             100 * static_cast<double>(workload.start.liquid.count()) / static_cast<double>(g.cells()));
+  print("{}  {} x {} x {}, {:.1f} % liquid", workload.name, g.x, g.y, g.z,
+        100 * static_cast<double>(workload.start.liquid.count()) / static_cast<double>(g.cells()));
   const auto print_baseline = [&](Subject subject) {
     const auto ms = [&](const measure::Seconds& step) {
       return measure::milliseconds(measure::seconds_of(subject, step));
     };
-    if (result.plain) fmt::print("; {} of the baseline {} ms", measure::name_of(subject), ms(*result.plain));
-    if (result.native) fmt::print(", native {} ms", ms(*result.native));
+    if (result.plain) print("; {} of the baseline {} ms", measure::name_of(subject), ms(*result.plain));
+    if (result.native) print(", native {} ms", ms(*result.native));
   };
   if (workload.times_flow) print_baseline(Subject::flow);
   if (workload.times_heat) print_baseline(Subject::heat);
-  fmt::print("; checked against {}\n", workload.judge);
+  print("; checked against {}\n", workload.judge);
   for (const Case& one : cases) print_case(one);
   done();
 }
 
 void print_drawing(const measure::Drawing& drawing) {
-  fmt::print("{}  pictures of {} x {}, ms; a PNG file {}; checked against the plain painter\n",
-             drawing.workload, measure::kPictureSide, measure::kPictureSide, milliseconds(drawing.encode));
-  fmt::print("  {:<7} {:<7} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7} {:>7} {:>10} {:>6}\n", "", "by", "threads",
-             "field", "light etc", "unchanged", "fast", "normal", "best", "ns per ray", "rounds");
+  print("{}  pictures of {} x {}, ms; a PNG file {}; checked against the plain painter\n", drawing.workload,
+        measure::kPictureSide, measure::kPictureSide, milliseconds(drawing.encode));
+  print("  {:<7} {:<7} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7} {:>7} {:>10} {:>6}\n", "", "by", "threads",
+        "field", "light etc", "unchanged", "fast", "normal", "best", "ns per ray", "rounds");
   for (const measure::DrawingTiming& one : drawing.timings)
-    fmt::print("  {:<7} {:<7} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7} {:>7} {:>10} {:>6}\n", "picture",
-               cpu::name_of(one.set), one.threads, milliseconds(one.field), milliseconds(one.light),
-               milliseconds(one.unchanged), milliseconds(one.draw[0]), milliseconds(one.draw[1]),
-               milliseconds(one.draw[2]), three_digits(drawing.nanoseconds_per_ray(one, 0)), drawing.rounds);
+    print("  {:<7} {:<7} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7} {:>7} {:>10} {:>6}\n", "picture",
+          cpu::name_of(one.set), one.threads, milliseconds(one.field), milliseconds(one.light),
+          milliseconds(one.unchanged), milliseconds(one.draw[0]), milliseconds(one.draw[1]),
+          milliseconds(one.draw[2]), three_digits(drawing.nanoseconds_per_ray(one, 0)), drawing.rounds);
   done();
 }
 
 void print_finer_grids(const std::vector<measure::FinerGrid>& grids) {
-  fmt::print("finer grids, pictures of {} x {}, one thread, ms\n", measure::kPictureSide,
-             measure::kPictureSide);
+  print("finer grids, pictures of {} x {}, one thread, ms\n", measure::kPictureSide, measure::kPictureSide);
   for (std::size_t i = 0; i < grids.size(); ++i)
     for (std::size_t t = 0; t < grids[i].timings.size(); ++t) {
       const measure::FinerGrid::Timing& one = grids[i].timings[t];
-      fmt::print(
-          "  {:<30} {:>4} x {:>3} x {:>4}  {:<7} fast {:>6}, normal {:>6}, times the grid before: {}\n",
-          grids[i].scene, grids[i].grid.x, grids[i].grid.y, grids[i].grid.z, cpu::name_of(one.set),
-          milliseconds(one.fast), milliseconds(one.normal),
-          measure::or_dash(measure::growth_of_normal(grids, i, t)));
+      print("  {:<30} {:>4} x {:>3} x {:>4}  {:<7} fast {:>6}, normal {:>6}, times the grid before: {}\n",
+            grids[i].scene, grids[i].grid.x, grids[i].grid.y, grids[i].grid.z, cpu::name_of(one.set),
+            milliseconds(one.fast), milliseconds(one.normal),
+            measure::or_dash(measure::growth_of_normal(grids, i, t)));
     }
   done();
 }
 
 void print_film(const measure::MeltFilm& film) {
-  fmt::print(
-      "a whole melt  {:<10} {} steps in {} frames, {}: {} frames a second, {} ms of processor a frame\n",
-      film.scene, film.steps, film.frames, measure::threads_text(film.threads),
-      three_digits(film.frames_per_second()), milliseconds(film.processor_seconds / film.frames));
+  print("a whole melt  {:<10} {} steps in {} frames, {}: {} frames a second, {} ms of processor a frame\n",
+        film.scene, film.steps, film.frames, measure::threads_text(film.threads),
+        three_digits(film.frames_per_second()), milliseconds(film.processor_seconds / film.frames));
   done();
 }
 

@@ -1,6 +1,4 @@
 // voxmelt digest: one line per K steps; equal lines mean equal bits.
-#include <fmt/format.h>
-
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -11,6 +9,7 @@
 #include "app/commands.h"
 #include "app/message.h"
 #include "app/options.h"
+#include "app/print.h"
 #include "app/report.h"
 #include "app/visibility.h"
 #include "app/watch.h"
@@ -27,9 +26,8 @@ struct DigestOptions {
 void print_line(const run::Simulation& simulation) {
   const state::Volume& volume = simulation.volume();
   const state::Holdings held = state::holdings(volume);
-  fmt::print("step {} digest {:016x} mass {} solid {} liquid {}\n", simulation.steps_done(),
-             state::digest(volume), state::to_string(held.solid + held.liquid), volume.solid.count(),
-             volume.liquid.count());
+  print("step {} digest {:016x} mass {} solid {} liquid {}\n", simulation.steps_done(), state::digest(volume),
+        state::to_string(held.solid + held.liquid), volume.solid.count(), volume.liquid.count());
   if (std::fflush(stdout) != 0) throw OutputStopped{errno};
 }
 

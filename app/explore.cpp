@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +14,7 @@
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
+#include "app/print.h"
 #include "app/programs.h"
 #include "app/run_ahead.h"
 #include "app/visibility.h"
@@ -109,14 +109,14 @@ int run_explore(ExploreCommand command) {
   for (const std::size_t point : points) {
     if (!common.quiet) {
       const hwmodel::Configuration& hw = swept.points[point].hw;
-      fmt::print(stderr, "verifying {} of {}: {} lanes, {} steps\n", checked.size() + 1, points.size(),
-                 hw.lanes, hw.cascade);
+      print_error("verifying {} of {}: {} lanes, {} steps\n", checked.size() + 1, points.size(), hw.lanes,
+                  hw.cascade);
     }
     checked.push_back(check(question, swept, point, command.check_steps,
                             {ahead.volume(), fast, tuning, stop_if_interrupted}));
   }
   const explore::Explored explored{question, axes, swept, answer, checked, name, command.memory};
-  fmt::print("{}", common.quiet ? sentence_of(explored) + "\n" : text_of(explored));
+  print("{}", common.quiet ? sentence_of(explored) + "\n" : text_of(explored));
   const std::string json = json_of(explored);
   write_report(common, json);
   if (out) {
@@ -124,7 +124,7 @@ int run_explore(ExploreCommand command) {
     io::write_file(out->partial() / "explore.csv", csv_of(explored));
     io::write_file(out->partial() / "explore.svg", svg_of(explored));
     out->commit();
-    if (!common.quiet) fmt::print("picture, table and report  {}/\n", seen_from_here(out->place()));
+    if (!common.quiet) print("picture, table and report  {}/\n", seen_from_here(out->place()));
   }
   const bool good = std::all_of(checked.begin(), checked.end(), [](const auto& one) { return one.good; });
   return good ? kDone : kCheckFailed;

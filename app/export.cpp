@@ -13,6 +13,7 @@
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
+#include "app/print.h"
 #include "app/report.h"
 #include "app/visibility.h"
 #include "kernel/run/io/output_folder.h"
@@ -46,7 +47,7 @@ int run_export(const ExportOptions& options) {
   write_report(options.common, report_json(scene, options.common, simulation, {}));
   out.commit();
   if (!options.common.quiet)
-    fmt::print("step {} written to {}\n", simulation.step_number(), seen_from_here(out.place()));
+    print("step {} written to {}\n", simulation.step_number(), seen_from_here(out.place()));
   return kDone;
 }
 

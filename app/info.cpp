@@ -11,6 +11,7 @@
 
 #include "app/commands.h"
 #include "app/options.h"
+#include "app/print.h"
 #include "app/run_record.h"
 #include "kernel/automaton/state/ledger.h"
 #include "kernel/run/checkpoint/blocks.h"
@@ -60,10 +61,9 @@ void print_blocks(const fs::path& file) {
     column.stored += block.stored_bytes;
     ++column.blocks;
   }
-  fmt::print("\n{:<10}{:>8}{:>16}{:>14}\n", "column", "blocks", "bytes", "stored");
+  print("\n{:<10}{:>8}{:>16}{:>14}\n", "column", "blocks", "bytes", "stored");
   for (const std::string& kind : order)
-    fmt::print("{:<10}{:>8}{:>16}{:>14}\n", kind, columns[kind].blocks, columns[kind].raw,
-               columns[kind].stored);
+    print("{:<10}{:>8}{:>16}{:>14}\n", kind, columns[kind].blocks, columns[kind].raw, columns[kind].stored);
 }
 
 int run_info(const std::string& given) {
@@ -72,16 +72,16 @@ int run_info(const std::string& given) {
   const checkpoint::Head& head = whole.head;
   const RunRecord record = run_record_of(head.command, file);
   const state::MidRun& run = head.run;
-  fmt::print("checkpoint     {}\nwritten by     voxmelt {}\n", file.string(), head.version);
-  fmt::print("scene          {}  {}\n", head.scene.name, head.scene.title);
-  fmt::print("step           {} of {}\n", run.steps_done, record.steps);
-  fmt::print("grid           {} x {} x {}\n", head.grid.x, head.grid.y, head.grid.z);
-  fmt::print("digest         {:016x}\n", head.digest);
-  fmt::print("cells          solid {}, liquid {}, inert {}\n", whole.volume.solid.count(),
-             whole.volume.liquid.count(), whole.volume.inert.count());
-  fmt::print("mass           {}\nenergy         {}\nheat           {}\n", ledger_text(run.ledger.mass),
-             ledger_text(run.ledger.energy), ledger_text(run.ledger.heat));
-  fmt::print("frames         {}\n", record.frames.size());
+  print("checkpoint     {}\nwritten by     voxmelt {}\n", file.string(), head.version);
+  print("scene          {}  {}\n", head.scene.name, head.scene.title);
+  print("step           {} of {}\n", run.steps_done, record.steps);
+  print("grid           {} x {} x {}\n", head.grid.x, head.grid.y, head.grid.z);
+  print("digest         {:016x}\n", head.digest);
+  print("cells          solid {}, liquid {}, inert {}\n", whole.volume.solid.count(),
+        whole.volume.liquid.count(), whole.volume.inert.count());
+  print("mass           {}\nenergy         {}\nheat           {}\n", ledger_text(run.ledger.mass),
+        ledger_text(run.ledger.energy), ledger_text(run.ledger.heat));
+  print("frames         {}\n", record.frames.size());
   std::string options = fmt::format("steps {}, frame every {}", record.steps, record.frame_every);
   if (!record.size.empty()) options += ", size " + record.size;
   if (!record.checkpoint_every.empty()) options += ", checkpoint every " + record.checkpoint_every;
@@ -89,9 +89,9 @@ int run_info(const std::string& given) {
                          record.common.threads == 0 ? "all" : std::to_string(record.common.threads));
   if (record.common.seed) options += fmt::format(", seed {}", *record.common.seed);
   for (const std::string& set : record.common.sets) options += ", set " + set;
-  fmt::print("run            {}\n", options);
+  print("run            {}\n", options);
   for (const checkpoint::FileState& one : head.scene.files)
-    fmt::print("read           {}  {} bytes, {}\n", one.name, one.bytes, now_of(one));
+    print("read           {}  {} bytes, {}\n", one.name, one.bytes, now_of(one));
   print_blocks(file);
   return kDone;
 }

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "app/options.h"
+#include "app/print.h"
 #include "kernel/run/trial/fastest.h"
 #include "kernel/scene/features.h"
 
@@ -18,8 +19,8 @@ namespace fs = std::filesystem;
 void list_implementations() {
   const run::Choice& chosen = run::fastest();
   for (const auto& one : run::implementations().all())
-    fmt::print("{:<12} {}{}\n", one.name, one.description, one.supported ? "" : " (not on this processor)");
-  fmt::print("{:<12} {}: {}\n", "auto", chosen.implementation->name, chosen.reason);
+    print("{:<12} {}{}\n", one.name, one.description, one.supported ? "" : " (not on this processor)");
+  print("{:<12} {}: {}\n", "auto", chosen.implementation->name, chosen.reason);
 }
 
 void list_scenes() {
@@ -37,13 +38,13 @@ void list_scenes() {
       } catch (const scene::InputError& error) {
         title = fmt::format("(cannot be read: {})", error.what());
       }
-      fmt::print("{:<24} {}\n", file.stem().string(), title);
+      print("{:<24} {}\n", file.stem().string(), title);
     }
   }
 }
 
 void list_features() {
-  for (const std::string& name : scene::feature_names()) fmt::print("{}\n", name);
+  for (const std::string& name : scene::feature_names()) print("{}\n", name);
 }
 
 }  // namespace voxmelt::app

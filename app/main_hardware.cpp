@@ -1,11 +1,10 @@
 // voxmelt-hardware: the commands of voxmelt that need the hardware model. `voxmelt` starts it.
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <set>
 #include <system_error>
 
 #include "app/commands.h"
+#include "app/print.h"
 #include "app/resources.h"
 #include "app/run_program.h"
 #include "hwmodel/caster/faults/faults.h"
@@ -21,10 +20,10 @@ namespace fs = std::filesystem;
 
 void list_faults() {
   for (const hwmodel::FaultInfo& fault : hwmodel::all_faults())
-    fmt::print("{:<24} {:<14} {}\n", fault.name, fault.stage, fault.what);
-  fmt::print("\nwith --picture, in the ray caster:\n");
+    print("{:<24} {:<14} {}\n", fault.name, fault.stage, fault.what);
+  print("\nwith --picture, in the ray caster:\n");
   for (const hwmodel::raycast::FaultInfo& fault : hwmodel::raycast::all_faults())
-    fmt::print("{:<24} {:<14} {}\n", fault.name, fault.stage, fault.what);
+    print("{:<24} {:<14} {}\n", fault.name, fault.stage, fault.what);
 }
 
 void list_presets() {
@@ -33,18 +32,18 @@ void list_presets() {
   for (const auto& entry : fs::directory_iterator(resource_folder("presets"), ignored))
     if (entry.path().extension() == ".toml") files.insert(entry.path());
   for (const fs::path& file : files)
-    fmt::print("{:<24} {}\n", file.stem().string(), hwmodel::load_preset(file, {}).title);
+    print("{:<24} {}\n", file.stem().string(), hwmodel::load_preset(file, {}).title);
 }
 
 // For --device, and for --memory and hw.memory.
 void list_devices() {
   for (const hwmodel::explore::NamedText& file : hwmodel::explore::device_files())
-    fmt::print("{:<24} {}\n", file.name, hwmodel::explore::load_device(file.name, {}).title);
+    print("{:<24} {}\n", file.name, hwmodel::explore::load_device(file.name, {}).title);
 }
 
 void list_memories() {
   for (const hwmodel::MemoryFile& file : hwmodel::memory_files())
-    fmt::print("{:<24} {}\n", file.name, hwmodel::load_memory(file.name, "").title);
+    print("{:<24} {}\n", file.name, hwmodel::load_memory(file.name, "").title);
 }
 
 }  // namespace

@@ -1,15 +1,14 @@
 // voxmelt-measure: the commands of voxmelt that measure speed and error. `voxmelt` starts it.
-#include <fmt/format.h>
-
 #include "accuracy/case.h"
 #include "app/commands.h"
+#include "app/print.h"
 #include "app/run_program.h"
 
 namespace voxmelt::app {
 namespace {
 
 void list_cases() {
-  for (const accuracy::Case& one : accuracy::all_cases()) fmt::print("{:<24} {}\n", one.name, one.title);
+  for (const accuracy::Case& one : accuracy::all_cases()) print("{:<24} {}\n", one.name, one.title);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "app/print.h"
+
 namespace voxmelt::app {
 namespace {
 
@@ -45,7 +47,7 @@ std::string seen_from_here(const std::filesystem::path& place) {
   return (error ? place : std::filesystem::proximate(place, here)).string();
 }
 
-void say(std::string_view text) { fmt::print(stderr, "{}\n", one_line(text)); }
+void say(std::string_view text) { put_error(one_line(text) + '\n'); }
 
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -59,7 +61,8 @@ void open_standard_streams() {
 bool standard_output_is_well(int error) {
   errno = 0;
   const bool flushed = std::fflush(stdout) == 0;
-  const int why = error != 0 ? error : errno;
+  const int first = error != 0 ? error : output_error();
+  const int why = first != 0 ? first : errno;
   if (flushed && std::ferror(stdout) == 0) return true;
   say(fmt::format("standard output: error: cannot write: {}", g_output_was_closed ? "it is closed"
                                                               : why != 0          ? std::strerror(why)

@@ -1,9 +1,8 @@
 #include "app/progress.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include "app/print.h"
 
 namespace voxmelt::app {
 
@@ -11,7 +10,7 @@ Progress::Progress(std::uint32_t steps, bool quiet, std::uint32_t begun_at)
     : steps_(steps), begun_at_(begun_at), on_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-  if (shown_) std::fputs("\n", stderr);
+  if (shown_) put_error("\n");
 }
 
 void Progress::show(std::uint32_t done, const state::Volume& volume) {
@@ -24,9 +23,8 @@ void Progress::show(std::uint32_t done, const state::Volume& volume) {
   const double left = rate > 0 ? (steps_ - done) / rate : 0;
   const double liquid = static_cast<double>(volume.liquid.count());
   const double matter = liquid + static_cast<double>(volume.solid.count());
-  fmt::print(stderr, "\rstep {}/{}  {:.1f} steps/s  liquid {:.0f} %  {:.0f} s left   ", done, steps_, rate,
-             matter > 0 ? 100 * liquid / matter : 0, left);
-  std::fflush(stderr);
+  print_error("\rstep {}/{}  {:.1f} steps/s  liquid {:.0f} %  {:.0f} s left   ", done, steps_, rate,
+              matter > 0 ? 100 * liquid / matter : 0, left);
 }
 
 }  // namespace voxmelt::app

@@ -16,6 +16,7 @@
 #include "app/film.h"
 #include "app/interrupt.h"
 #include "app/options.h"
+#include "app/print.h"
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/surface_pictures.h"
@@ -142,7 +143,7 @@ void write_pictures(const RenderOptions& options, const render::Picture& picture
     render::write_png(options.out, draw());
     const std::string near = write_surface(options, picture, camera, setting);
     write_report(options.common, report());
-    if (!options.common.quiet) fmt::print("written: {}\n{}", options.out, near);
+    if (!options.common.quiet) print("written: {}\n{}", options.out, near);
     return;
   }
   io::OutputFolder out(options.out);
@@ -153,7 +154,7 @@ void write_pictures(const RenderOptions& options, const render::Picture& picture
   }
   write_report(options.common, report());
   out.commit();
-  if (!options.common.quiet) fmt::print("{} views written to {}\n", options.turntable, options.out);
+  if (!options.common.quiet) print("{} views written to {}\n", options.turntable, options.out);
 }
 
 int run_render(RenderOptions options) {

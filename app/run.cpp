@@ -16,6 +16,7 @@
 #include "app/film.h"
 #include "app/message.h"
 #include "app/options.h"
+#include "app/print.h"
 #include "app/resume.h"
 #include "app/run_record.h"
 #include "app/run_to_end.h"
@@ -96,7 +97,7 @@ int run_scene(const RunOptions& options) {
   if (options.resume.empty()) return run_to_end(prepare(options), start);
   std::optional<PreparedRun> run = prepare_to_resume(options);
   if (run) return run_to_end(std::move(*run), start);
-  if (!options.common.quiet) fmt::print("the run in {} is complete\n", options.resume);
+  if (!options.common.quiet) print("the run in {} is complete\n", options.resume);
   return kDone;
 }
 

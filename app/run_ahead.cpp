@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/interrupt.h"
+#include "app/print.h"
 
 namespace voxmelt::app {
 
@@ -20,7 +21,7 @@ run::Simulation run_ahead(scene::Scene& scene, const Common& common, std::uint32
   const std::uint32_t age = heat.visibility_age(until);
   until = !scene.mid_run || until - age >= earliest ? until - age : until - age + heat.visibility_every;
   until = std::max(until, scene.first_step);
-  if (!common.quiet && until != asked) fmt::print("verifying from step {}, a step of visibility\n", until);
+  if (!common.quiet && until != asked) print("verifying from step {}, a step of visibility\n", until);
   run::Simulation simulation = make_simulation(scene, common);
   while (simulation.step_number() < until) {
     simulation.step();

@@ -14,6 +14,7 @@
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
+#include "app/print.h"
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/resume.h"
@@ -152,12 +153,12 @@ class Run {
   }
 
   void print_outputs() const {
-    fmt::print("{} frames      {}/frames/\ncontact sheet  {}/contact_sheet.png\n", film_->frame_count(),
-               place_, place_);
-    fmt::print("film           {}\n", video_note_.empty() ? place_ + "/film.mp4" : video_note_);
-    fmt::print("report         {}/report.json\n", place_);
+    print("{} frames      {}/frames/\ncontact sheet  {}/contact_sheet.png\n", film_->frame_count(), place_,
+          place_);
+    print("film           {}\n", video_note_.empty() ? place_ + "/film.mp4" : video_note_);
+    print("report         {}/report.json\n", place_);
     if (const std::string limit = limit_text(simulation_.ledger().limit); !limit.empty())
-      fmt::print("note           {}\n", limit);
+      print("note           {}\n", limit);
   }
 
   int verdict(bool complete) const {

@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/print.h"
 #include "app/run_ahead.h"
 #include "app/verify_command.h"
 #include "app/verify_picture.h"
@@ -123,11 +124,11 @@ void print_machine(const VerifyCommand& command, const scene::Scene& scene, cons
   const hwmodel::Configuration& p = preset.configuration;
   const hwmodel::raycast::Configuration& c = preset.caster;
   if (command.common.quiet)
-    return fmt::print("{}: {} cycles, overlapped\n", scene.name, report.sum().overlapped());
-  fmt::print("{}: pipeline: lanes {}, cascade {}; ray caster: pipes {}; fifo depth {}, stall seed {}\n",
-             scene.name, p.lanes, p.cascade, c.pipes, c.fifo_depth, c.stall_seed);
-  fmt::print("{} x {}, {}; memory: {}\n", camera.width, camera.height, command.picture.setting,
-             c.dram ? c.dram->name : fmt::format("latency {}, {} bytes a cycle", c.latency, c.bus_bytes));
+    return print("{}: {} cycles, overlapped\n", scene.name, report.sum().overlapped());
+  print("{}: pipeline: lanes {}, cascade {}; ray caster: pipes {}; fifo depth {}, stall seed {}\n",
+        scene.name, p.lanes, p.cascade, c.pipes, c.fifo_depth, c.stall_seed);
+  print("{} x {}, {}; memory: {}\n", camera.width, camera.height, command.picture.setting,
+        c.dram ? c.dram->name : fmt::format("latency {}, {} bytes a cycle", c.latency, c.bus_bytes));
 }
 
 // Measures the software beside it, for the report and for people.
@@ -140,14 +141,14 @@ SoftwareRates beside_software(const VerifyCommand& command, const scene::Scene& 
       measure_software(scene, camera, setting_of(command.picture), ahead, fast, steps, steps / frames);
   const double n = frames;
   if (!command.common.quiet) {
-    fmt::print("{}", hwmodel::table_of(report, options));
-    fmt::print(
+    print("{}", hwmodel::table_of(report, options));
+    print(
         "the software here, one thread, {}: {:.1f} steps, {:.1f} updates, {:.1f} pictures a second; "
         "{:.1f} frames\n",
         fast.name, steps / here.steps, n / here.update, n / here.draw, n / here.total());
     if (const measure::PaperRow* row = paper_row(scene.name))
-      fmt::print("the paper, 2003, {}: gravity {:.1f} ms, spreading {:.1f}, update {:.1f}: {:.1f} frames\n",
-                 row->as, row->gravity, row->spreading, row->update, row->frames());
+      print("the paper, 2003, {}: gravity {:.1f} ms, spreading {:.1f}, update {:.1f}: {:.1f} frames\n",
+            row->as, row->gravity, row->spreading, row->update, row->frames());
   }
   return {fast.name, steps / here.steps, n / here.update, n / here.draw, n / here.total()};
 }
@@ -176,7 +177,7 @@ hwmodel::MachineReport run_machine(const VerifyCommand& command, const scene::Sc
   print_machine(command, scene, camera, report, preset);
   std::optional<SoftwareRates> software;
   if (report.good()) software = beside_software(command, scene, camera, ahead, report, options);
-  fmt::print("{}", command.common.quiet ? first_line(verdict_of(report)) : verdict_of(report));
+  print("{}", command.common.quiet ? first_line(verdict_of(report)) : verdict_of(report));
   if (report.steps.strike && !command.common.quiet) print_plant(report.steps);
   write_machine_report({command.common, choice.html}, {scene.name, camera.width, camera.height}, report,
                        options, software);

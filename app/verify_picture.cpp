@@ -11,6 +11,7 @@
 #include "app/film.h"
 #include "app/interrupt.h"
 #include "app/message.h"
+#include "app/print.h"
 #include "app/verify_command.h"
 #include "app/verify_report.h"
 #include "app/verify_shrink.h"
@@ -160,15 +161,15 @@ struct PictureRun {
 void print_picture(const PictureRun& drawn) {
   const auto& [command, scene, input, options, report, step] = drawn;
   if (command.common.quiet) {
-    fmt::print("{}: {} cycles\n{}", scene.name, report.all_cycles,
-               first_line(hwmodel::raycast::verdict_text(report)));
+    print("{}: {} cycles\n{}", scene.name, report.all_cycles,
+          first_line(hwmodel::raycast::verdict_text(report)));
     return;
   }
-  fmt::print("{}: step {}, {} x {}, {}; pipes {}, fifo depth {}, stall seed {}\n", scene.name, step,
-             input.camera.width, input.camera.height, command.picture.setting, options.configuration.pipes,
-             options.configuration.fifo_depth, options.configuration.stall_seed);
-  fmt::print("{}{}", hwmodel::raycast::table_of(report, options.configuration),
-             hwmodel::raycast::verdict_text(report));
+  print("{}: step {}, {} x {}, {}; pipes {}, fifo depth {}, stall seed {}\n", scene.name, step,
+        input.camera.width, input.camera.height, command.picture.setting, options.configuration.pipes,
+        options.configuration.fifo_depth, options.configuration.stall_seed);
+  print("{}{}", hwmodel::raycast::table_of(report, options.configuration),
+        hwmodel::raycast::verdict_text(report));
 }
 
 std::optional<SeenAgain> see_again(const PictureRun& drawn) {
@@ -177,8 +178,8 @@ std::optional<SeenAgain> see_again(const PictureRun& drawn) {
   if (!replay) return {};
   const std::string pixel = hwmodel::raycast::pixel_text(replay->part);
   if (!command.common.quiet)
-    fmt::print("{}to see it again:\n  {} --pixel {}\n", hwmodel::raycast::text_of(*replay),
-               picture_again(command, scene.file.string()), pixel);
+    print("{}to see it again:\n  {} --pixel {}\n", hwmodel::raycast::text_of(*replay),
+          picture_again(command, scene.file.string()), pixel);
   return SeenAgain{pixel, replay->fails};
 }
 
@@ -194,13 +195,13 @@ void shrink(const PictureRun& drawn) {
   const VerifyCommand& command = drawn.command;
   if (command.shrink.empty()) return;
   if (drawn.report.good()) {
-    if (!command.common.quiet) fmt::print("--shrink: there is no difference to make small\n");
+    if (!command.common.quiet) print("--shrink: there is no difference to make small\n");
     return;
   }
   try_writing([&] {
     const std::string small =
         make_small_picture(command, drawn.scene, drawn.input, drawn.options, drawn.report);
-    if (!command.common.quiet) fmt::print("{}", small);
+    if (!command.common.quiet) print("{}", small);
   });
 }
 

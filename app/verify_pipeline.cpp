@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/interrupt.h"
+#include "app/print.h"
 #include "app/run_ahead.h"
 #include "app/verify_command.h"
 #include "app/verify_report.h"
@@ -25,10 +26,10 @@ namespace voxmelt::app {
 // What came of the planted fault.
 void print_plant(const hwmodel::VerifyReport& report) {
   const auto& at = *report.strike;
-  fmt::print("planted: {}, step {}, cell ({}, {}, {}); {}\n", at.where, at.step, at.x, at.y, at.z,
-             report.mismatch == nullptr     ? "NOT FOUND"
-             : report.found_where_planted() ? "found there"
-                                            : "found, but ELSEWHERE");
+  print("planted: {}, step {}, cell ({}, {}, {}); {}\n", at.where, at.step, at.x, at.y, at.z,
+        report.mismatch == nullptr     ? "NOT FOUND"
+        : report.found_where_planted() ? "found there"
+                                       : "found, but ELSEWHERE");
 }
 
 namespace {
@@ -51,23 +52,22 @@ void print_result(const VerifyCommand& command, const scene::Scene& scene,
                   const hwmodel::VerifyReport& report, const hwmodel::Design& design,
                   const hwmodel::Configuration& c, const std::string& fast) {
   if (command.common.quiet)
-    return fmt::print("{}: {} cycles, predicted {}\n{}", name_of(scene), report.cycles,
-                      report.predicted_cycles, quiet_verdict(report));
-  fmt::print("{}: lanes {}, cascade {}, fifo depth {}, stall seed {}; steps {} to {}\n", name_of(scene),
-             c.lanes, c.cascade, c.fifo_depth, c.stall_seed, report.first_step,
-             report.first_step + report.steps);
-  fmt::print("{}", hwmodel::table_of(report, design, c));
+    return print("{}: {} cycles, predicted {}\n{}", name_of(scene), report.cycles, report.predicted_cycles,
+                 quiet_verdict(report));
+  print("{}: lanes {}, cascade {}, fifo depth {}, stall seed {}; steps {} to {}\n", name_of(scene), c.lanes,
+        c.cascade, c.fifo_depth, c.stall_seed, report.first_step, report.first_step + report.steps);
+  print("{}", hwmodel::table_of(report, design, c));
   const auto stages = std::count_if(
       report.stages.begin(), report.stages.end(),
       [](const hwmodel::StageReport& stage) { return phase_of(stage.kind) && stage.cascade == 0; });
   if (report.mismatch == nullptr)
-    fmt::print(
+    print(
         "{} cells compared behind {} stages of a time step, {} of the software ({}): no difference; digest "
         "{:016x}\n",
         report.compared_cells, stages, report.software_cells,
         fast == "reference" ? "the reference itself" : fast, report.digest);
   else
-    fmt::print("{}", hwmodel::text_of(*report.mismatch));
+    print("{}", hwmodel::text_of(*report.mismatch));
   if (report.strike) print_plant(report);
 }
 
@@ -140,7 +140,7 @@ void write_difference(const Job& job, hwmodel::VerifyOptions options, const hwmo
   options.memory = nullptr;  // what is cut has other streams
   try_writing([&] {
     const std::string small = make_small(job.command, job.scene, options, report);
-    if (!job.command.common.quiet) fmt::print("{}", small);
+    if (!job.command.common.quiet) print("{}", small);
   });
 }
 
@@ -185,7 +185,7 @@ int verify_pipeline(VerifyCommand command) {
     const std::string no_waves = write_waves(command.vcd, command.vcd_from, report.waves);
     if (!no_waves.empty()) throw UsageError(no_waves);
     if (!command.shrink.empty() && !command.common.quiet)
-      fmt::print("--shrink: there is no difference to make small\n");
+      print("--shrink: there is no difference to make small\n");
     return !sized_cycles || check_sized(*sized_cycles, report.cycles) ? kDone : kCheckFailed;
   }
   try_writing([&] { write_reports(job, report, design); });

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/print.h"
 #include "app/shell_word.h"
 #include "app/verify_command.h"
 #include "hwmodel/pipeline/check/replay.h"
@@ -90,8 +91,8 @@ void write_replay(const VerifyCommand& command, const scene::Scene& scene,
                   const hwmodel::VerifyReport& report) {
   if (command.from == 0 && report.replay_step == scene.first_step) {
     if (!command.common.quiet)
-      fmt::print("the scene itself begins with the state from which it can be seen again:\n  {}\n",
-                 again(command, scene.file.string(), report));
+      print("the scene itself begins with the state from which it can be seen again:\n  {}\n",
+            again(command, scene.file.string(), report));
     return;
   }
   const fs::path place = replay_place(command, scene);
@@ -100,8 +101,8 @@ void write_replay(const VerifyCommand& command, const scene::Scene& scene,
   hwmodel::write_replay(out.partial(), scene.file, *report.replay, report.replay_step, typed);
   out.commit();
   if (!command.common.quiet)
-    fmt::print("the state before step {} is in {}; to see it again:\n  {}\n", report.replay_step,
-               place.string(), typed);
+    print("the state before step {} is in {}; to see it again:\n  {}\n", report.replay_step, place.string(),
+          typed);
 }
 
 }  // namespace voxmelt::app

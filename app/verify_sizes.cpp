@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/interrupt.h"
+#include "app/print.h"
 #include "hwmodel/explore/held.h"
 #include "hwmodel/explore/size_fifos.h"
 #include "hwmodel/pipeline/model/tiling.h"
@@ -20,21 +21,20 @@ namespace {
 namespace explore = hwmodel::explore;
 
 void print_table(const explore::Sizing& sizing, const hwmodel::Configuration& c) {
-  fmt::print("{:<36} {:>6} {:>8} {:>10} {:>20}\n", "channel", "depth", "highest", "bits", "one less costs");
+  print("{:<36} {:>6} {:>8} {:>10} {:>20}\n", "channel", "depth", "highest", "bits", "one less costs");
   std::int64_t bits = 0;
   for (const explore::SizedChannel& channel : sizing.channels) {
     const std::int64_t own = std::int64_t{channel.depth} * channel.bits * c.lanes;
     bits += own;
-    fmt::print("{:<36} {:>6} {:>8} {:>10} {:>20}\n", channel.name, channel.depth, channel.highest, own,
-               channel.depth == 1              ? "-"
-               : channel.one_less == INT64_MAX ? "it hangs"
-                                               : fmt::format("{} cycles", channel.one_less));
+    print("{:<36} {:>6} {:>8} {:>10} {:>20}\n", channel.name, channel.depth, channel.highest, own,
+          channel.depth == 1              ? "-"
+          : channel.one_less == INT64_MAX ? "it hangs"
+                                          : fmt::format("{} cycles", channel.one_less));
   }
   const std::int64_t saved = sizing.deep_cycles - sizing.cycles;
-  fmt::print("{} bits in {} channels; {} cycles, {} depth {}; {} runs simulated\n", bits,
-             sizing.channels.size(), sizing.cycles,
-             saved == 0 ? "as with" : fmt::format("{} fewer than with", saved), hwmodel::kMostDepth,
-             sizing.runs);
+  print("{} bits in {} channels; {} cycles, {} depth {}; {} runs simulated\n", bits, sizing.channels.size(),
+        sizing.cycles, saved == 0 ? "as with" : fmt::format("{} fewer than with", saved), hwmodel::kMostDepth,
+        sizing.runs);
 }
 
 }  // namespace
@@ -73,13 +73,13 @@ std::int64_t size_channels(const VerifiedStream& stream, const Common& common, c
   const std::string title =
       fmt::format("{} lanes, {} steps, channels as deep as they need", c.lanes, c.cascade);
   io::write_file(file, explore::toml_of(sizing, c, title));
-  if (!common.quiet) fmt::print("depths  {}\n", file);
+  if (!common.quiet) print("depths  {}\n", file);
   return sizing.cycles;
 }
 
 bool check_sized(std::int64_t wanted, std::int64_t cycles) {
   if (cycles == wanted) return true;
-  fmt::print("the sized machine took {} cycles, and {} when its channels were sized\n", cycles, wanted);
+  print("the sized machine took {} cycles, and {} when its channels were sized\n", cycles, wanted);
   return false;
 }
 
