@@ -42,6 +42,16 @@ void read_floor(Reader& reader, Terrain& terrain, state::Grid grid) {
   raise(terrain, std::vector<double>(terrain.height.size(), thickness));
 }
 
+// A map is stretched over the whole plan. Twice as much along one side as along the other is seldom meant.
+void warn_of_stretching(const Elevation& elevation, state::Grid grid, const std::string& file,
+                        std::vector<std::string>& warnings) {
+  const double wide = elevation.columns * elevation.cell_x, deep = elevation.rows * elevation.cell_y;
+  const double ratio = wide / deep * grid.z / grid.x;
+  if (ratio >= 0.5 && ratio <= 2) return;
+  warnings.push_back(fmt::format("{}: a map of {:g} x {:g} is stretched over {} x {} cells", file, wide, deep,
+                                 grid.x, grid.z));
+}
+
 void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid,
                       std::vector<std::string>& warnings) {
   const std::filesystem::path file = reader.file("file");
@@ -51,8 +61,10 @@ void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid,
 
   Elevation elevation = read_esri_ascii(file, reader.place("file"));
   if (elevation.missing > 0)
-    warnings.push_back(
-        fmt::format("{}: {} cells without data take the lowest elevation", file.string(), elevation.missing));
+    warnings.push_back(fmt::format("{}: {} cells without data{} take the lowest elevation", file.string(),
+                                   elevation.missing,
+                                   elevation.names_missing ? "" : " (-9999; no NODATA_value is named)"));
+  warn_of_stretching(elevation, grid, file.string(), warnings);
   smooth(elevation, passes);
   std::vector<double> height = resample(elevation, grid.x, grid.z);
   for (double& h : height) h = base + scale * h;

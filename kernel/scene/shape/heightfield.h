@@ -12,7 +12,9 @@ namespace voxmelt::scene {
 struct Elevation {
   int columns = 0, rows = 0;
   std::vector<double> value;
-  long long missing = 0;  // cells without data, which were given the lowest elevation of the file
+  long long missing = 0;          // cells without data, which were given the lowest elevation of the file
+  bool names_missing = false;     // does the file say which number means that? Else it is -9999
+  double cell_x = 1, cell_y = 1;  // their size, in any unit
 
   double at(int column, int row) const;  // clamped to the border
 };

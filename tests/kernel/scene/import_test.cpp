@@ -175,6 +175,58 @@ TEST(Heightfield, CellsWithoutDataAreLowestAndSaidSo) {
   EXPECT_FLOAT_EQ(scene.terrain.height[0], 2.25f);
 }
 
+// One grid as many programs write it: lines end as in DOS, sizes along two axes, signs, a byte order mark, a
+// last Ctrl-Z; and every way to say that the second cell has no elevation.
+TEST(Heightfield, WhatWritersWriteIsRead) {
+  const SceneFolder folder;
+  const auto values = [&](const std::string& grid) {
+    folder.write("h.asc", grid);
+    return read_esri_ascii(folder.path() / "h.asc", {}).value;
+  };
+  const std::string sides = "ncols 2\nnrows 2\n";
+  const std::vector<double> whole{5, 7.5, -3, 0.25};
+  for (const std::string& grid :
+       {sides + "5 7.5\n-3 0.25\n", std::string("NCOLS 2\r\nNROWS 2\r\nCELLSIZE 30\r\n5 7.5\r\n-3 0.25\r\n"),
+        "\xef\xbb\xbf" + sides + "5 7.5 -3 0.25", sides + "5 7.5\n-3 0.25\n\x1a",
+        sides + "dx 10\ndy 20.5\nxllcenter 1e6\nyllcenter -2.5E+05\n+5 75e-1 -3 .25\n"})
+    EXPECT_EQ(values(grid), whole) << grid;
+  const std::vector<double> lowest{5, -3, -3, 0.25};
+  for (const auto& [name, word] : std::vector<std::pair<std::string, std::string>>{
+           {"-9999", "-9999"},
+           {"-9999.0", "-9999"},
+           {"-3.4028234663852886e+38", "-3.4028234663852886e+38"},
+           {"1e20", "1e+20"},
+           {"nan", "nan"},
+           {"-9999", "NaN"},
+           {"null", "null"},
+           {"-2147483648", "-2147483648"}})
+    EXPECT_EQ(values(sides + "NODATA_value " + name + "\n5 " + word + "\n-3 0.25\n"), lowest) << name;
+  EXPECT_EQ(values(sides + "NODATA_value -3\n5 7.5\n-3 0.25\n"), (std::vector<double>{5, 7.5, 0.25, 0.25}));
+  EXPECT_EQ(values(sides + "nan 7.5\n-3 0.25\n"), (std::vector<double>{-3, 7.5, -3, 0.25}));
+  // A number that means nothing where another one is named.
+  EXPECT_EQ(values(sides + "NODATA_value 0\n5 -9999\n-3 0.25\n"), (std::vector<double>{5, -9999, -3, 0.25}));
+}
+
+TEST(Heightfield, RowsOfTheUsualNumberAreNoPits) {
+  const SceneFolder folder;
+  folder.write("h.asc", "ncols 2\nnrows 2\n5 -9999\n5 5\n");
+  const Scene scene = folder.load_text(kHillScene);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(folder.without_folder(scene.warnings[0]),
+            "h.asc: 1 cells without data (-9999; no NODATA_value is named) take the lowest elevation");
+}
+
+TEST(Heightfield, AMapThatIsStretchedIsSaid) {
+  const SceneFolder folder;
+  folder.write("h.asc", "ncols 5\nnrows 2\ncellsize 10\n1 1 1 1 1\n1 1 1 1 1\n");
+  const Scene scene = folder.load_text(kHillScene);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(folder.without_folder(scene.warnings[0]),
+            "h.asc: a map of 50 x 20 is stretched over 16 x 16 cells");
+  folder.write("h.asc", "ncols 5\nnrows 2\ndx 10\ndy 20\n1 1 1 1 1\n1 1 1 1 1\n");
+  EXPECT_TRUE(folder.load_text(kHillScene).warnings.empty());
+}
+
 TEST(Heightfield, BadFilesAreRefusedWithTheirLine) {
   const SceneFolder folder;
   const auto error = [&](const std::string& grid) {
@@ -185,12 +237,22 @@ TEST(Heightfield, BadFilesAreRefusedWithTheirLine) {
   EXPECT_EQ(error(""), place + ":0: the file ends before its elevations");
   EXPECT_EQ(error("ncols 2\nnrows 2\n1 2\n3\n"), place + ":4: the file ends after 3 of 4 elevations");
   EXPECT_EQ(error("ncols 2\nnrows 2\n1 2\n3 4 5\n"), place + ":4: more than 2 x 2 elevations");
-  EXPECT_EQ(error("ncols 2\nnrows 2\n1 x\n3 4\n"), place + ":3: 'x' is not an elevation");
-  EXPECT_EQ(error("ncols 2\nnrows nan\n1 2\n"), place + ":2: 'nan' is not an elevation");
+  EXPECT_EQ(error("ncols 2\nnrows 2\n1 x\n3 4\n"), place + ":3: 'x' is not a number");
+  EXPECT_EQ(error("ncols 2\nnrows nan\n1 2\n"), place + ":2: 'nan' is not a number");
   EXPECT_EQ(error("ncols -2\n1 2\n"), place + ":1: ncols = -2 is outside 2..8192");
   EXPECT_EQ(error("ncols 1e9\nnrows 1e9\n1 2\n"), place + ":1: ncols = 1e9 is outside 2..8192");
   EXPECT_EQ(error("1 2 3\n"), place + ":1: ncols and nrows must come before the elevations");
   EXPECT_EQ(error("wide 2\n1 2 3\n"), place + ":1: unknown header 'wide'");
+  EXPECT_EQ(error("ncols 2\nnrows 2\n1,5 2\n3 4\n"),
+            place + ":3: '1,5' is not a number: decimals begin with a point");
+  EXPECT_EQ(error("ncols 2\nnrows 2\ncellsize 10 10.5\n1 2\n3 4\n"),
+            place + ":3: cellsize has one value, and not '10.5' as well");
+  EXPECT_EQ(error("ncols 2\nnrows 2\ndx 0\n1 2\n3 4\n"), place + ":3: dx = 0 is no size");
+  EXPECT_EQ(
+      error("ncols 2\nnrows 2\n1 1e20\n3 4\n"),
+      place + ":3: '1e20' is no elevation; where it means that there is none, NODATA_value must name it");
+  EXPECT_EQ(error(std::string("\xff\xfen\0c\0", 6)),
+            place + ":0: this is UTF-16; write the file as plain text or UTF-8");
   EXPECT_EQ(error("ncols 2\nnrows 2\nnodata_value 1\n1 1\n1 1\n"), place + ":5: every cell is without data");
   EXPECT_EQ(error("ncols 2\nnrows 2\n0 100\n0 100\n")
                 .rfind("scene.toml:6:18: error: inert.0.vertical_scale = 1 raises the terrain to ", 0),
