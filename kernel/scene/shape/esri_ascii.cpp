@@ -50,7 +50,6 @@ class EsriParser {
       : text_(text), file_(file), place_(place) {}
 
   Elevation parse() {
-    check_encoding();
     header();
     if (elevation_.columns == 0 || elevation_.rows == 0)
       fail("ncols and nrows must come before the elevations");
@@ -71,12 +70,6 @@ class EsriParser {
   }
 
  private:
-  void check_encoding() {
-    if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
-    if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff"))
-      fail("this is UTF-16; write the file as plain text or UTF-8");
-  }
-
   bool next_line() {
     if (text_.empty()) return false;
     const std::size_t end = std::min(text_.find('\n'), text_.size());
@@ -186,7 +179,7 @@ class EsriParser {
 Elevation read_esri_ascii(const std::filesystem::path& file, const Place& place) {
   const std::string name = file.string();
   const std::string text = read_text_file(file, kLargestGridFile, place.text());
-  return EsriParser(text, name, place).parse();
+  return EsriParser(without_mark(text, place, name), name, place).parse();
 }
 
 }  // namespace voxmelt::scene

@@ -56,10 +56,7 @@ class ObjReader {
 
   Mesh read(std::string_view text) {
     while (!text.empty()) {
-      ++line_;
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      std::string_view line = text.substr(0, end);
-      text.remove_prefix(std::min(end + 1, text.size()));
+      std::string_view line = take_line(text);
       const std::string_view kind = take_word(line);
       if (kind == "v") vertex(line);
       if (kind == "f") face(line);
@@ -72,6 +69,25 @@ class ObjReader {
  private:
   [[noreturn]] void fail(const std::string& message) const {
     fail_at(place_, fmt::format("{}:{}: {}", file_, line_, message));
+  }
+
+  // With the lines behind it, as long as each ends with a backslash; without a comment.
+  std::string_view take_line(std::string_view& text) {
+    joined_.clear();
+    for (;;) {
+      ++line_;
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      std::string_view line = text.substr(0, end);
+      text.remove_prefix(std::min(end + 1, text.size()));
+      for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1))
+        if (at == 0 || kBlanks.find(line[at - 1]) != std::string_view::npos) line = line.substr(0, at);
+      const std::size_t last = line.find_last_not_of(kBlanks);
+      const bool goes_on = last != std::string_view::npos && line[last] == '\\' && !text.empty();
+      if (joined_.empty() && !goes_on) return line;
+      joined_ += goes_on ? line.substr(0, last) : line;
+      if (!goes_on) return joined_;
+      joined_ += ' ';
+    }
   }
 
   double coordinate(std::string_view& line) const {
@@ -105,6 +121,7 @@ class ObjReader {
   const std::string& file_;
   const Place& place_;
   std::int64_t line_ = 0;
+  std::string joined_;  // lines that are one
   Mesh mesh_;
 };
 
@@ -119,7 +136,8 @@ Box Mesh::bounds() const {
 
 Mesh read_mesh(const std::filesystem::path& file, const Place& place) {
   const std::string name = file.string();
-  return ObjReader(name, place).read(read_text_file(file, kLargestMeshFile, place.text()));
+  const std::string text = read_text_file(file, kLargestMeshFile, place.text());
+  return ObjReader(name, place).read(without_mark(text, place, name));
 }
 
 }  // namespace voxmelt::scene

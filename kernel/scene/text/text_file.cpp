@@ -43,6 +43,12 @@ void FilesRead::note(const std::filesystem::path& file) {
   if (innermost != nullptr) innermost->files_.push_back(file);
 }
 
+std::string_view without_mark(std::string_view text, const Place& place, const std::string& file) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    fail_at(place, file + ": this is UTF-16; write the file as plain text or UTF-8");
+  return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
+}
+
 std::string read_text_file(const std::filesystem::path& file, std::size_t limit, const std::string& where) {
   const auto fail = [&](const std::string& why) {
     throw InputError(fmt::format("{}: error: cannot read {}: {}", where, file.string(), why));

@@ -4,13 +4,20 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "kernel/scene/text/document.h"
 
 namespace voxmelt::scene {
 
 // The bytes of `file`. Throws InputError "<where>: error: ..." when it is missing, a folder, larger than
 // `limit`, or a pipe through which nothing comes for a while.
 std::string read_text_file(const std::filesystem::path& file, std::size_t limit, const std::string& where);
+
+// The text without the mark that some programs write before UTF-8. Throws InputError naming `place` and
+// `file` where it is UTF-16.
+std::string_view without_mark(std::string_view text, const Place& place, const std::string& file);
 
 // While one lives, it notes the files that this thread reads; the innermost one notes.
 class FilesRead {

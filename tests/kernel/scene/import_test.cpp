@@ -1,6 +1,7 @@
 // Meshes, height fields and exported fields: what comes out, and what is refused.
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -27,6 +28,24 @@ TEST(Mesh, CubeIsExact) {
   EXPECT_EQ(solid_mass(scene.initial), 512);
   EXPECT_TRUE(scene.initial.solid.test(4, 2, 4));
   EXPECT_TRUE(scene.initial.solid.test(11, 9, 11));
+}
+
+// The same cube, as modelling programs write it.
+TEST(Mesh, WhatWritersWriteIsRead) {
+  const SceneFolder folder;
+  const auto digest = [&](const std::string& mesh) {
+    folder.write("m.obj", mesh);
+    return folder.load_text(kMeshScene).initial_digest;
+  };
+  const std::uint64_t plain = digest(kCorners + kSquares);
+  const std::string rest = kSquares.substr(kSquares.find('\n') + 1);
+  for (const std::string& mesh :
+       {kCorners + "f 1 4 \\\n3 2\n" + rest, kCorners + "f 1 4\\\n3 2\n" + rest,
+        kCorners + "f 1 4 \\\r\n 3 \\\r\n 2\r\n" + rest, kCorners + "f 1 4 3 2 # under side\n" + rest,
+        kCorners + "f 1 4 3 2 # under side \\\n" + rest, "#first\n" + kCorners + kSquares + "# last \\",
+        "\xef\xbb\xbf" + kCorners + kSquares})
+    EXPECT_EQ(digest(mesh), plain) << mesh;
+  EXPECT_NE(digest(kCorners + rest), plain);
 }
 
 TEST(Mesh, TurnedCubeKeepsItsVolumeAndDoesNotLeak) {
@@ -83,6 +102,9 @@ TEST(Mesh, BadFilesAreRefusedWithTheirLine) {
   EXPECT_EQ(error(kCorners + "f 1 2 -9\n"),
             place + ":9: a face names vertex -9, but 8 vertices are known here");
   EXPECT_EQ(error(kCorners + "f 1 2\n"), place + ":9: a face needs 3 corners, not 2: is the file truncated?");
+  EXPECT_EQ(error(kCorners + "f 1 \\\n 2 \\\n x\n"), place + ":11: 'x' is not a vertex of a face");
+  EXPECT_EQ(error(std::string("\xff\xfev\0", 4)),
+            place + ": this is UTF-16; write the file as plain text or UTF-8");
   EXPECT_EQ(error(kCorners + "f a b c\n"), place + ":9: 'a' is not a vertex of a face");
   EXPECT_EQ(error("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n"),
             "scene.toml:6:10: error: solid.0.height: m.obj has no height to scale");
@@ -252,7 +274,7 @@ TEST(Heightfield, BadFilesAreRefusedWithTheirLine) {
       error("ncols 2\nnrows 2\n1 1e20\n3 4\n"),
       place + ":3: '1e20' is no elevation; where it means that there is none, NODATA_value must name it");
   EXPECT_EQ(error(std::string("\xff\xfen\0c\0", 6)),
-            place + ":0: this is UTF-16; write the file as plain text or UTF-8");
+            place + ": this is UTF-16; write the file as plain text or UTF-8");
   EXPECT_EQ(error("ncols 2\nnrows 2\nnodata_value 1\n1 1\n1 1\n"), place + ":5: every cell is without data");
   EXPECT_EQ(error("ncols 2\nnrows 2\n0 100\n0 100\n")
                 .rfind("scene.toml:6:18: error: inert.0.vertical_scale = 1 raises the terrain to ", 0),
