@@ -82,9 +82,9 @@ void print_scene(const Drawn& drawn) {
   const state::Grid& grid = drawn.field.grid();
   const picture::View view =
       picture::view_of(render::camera_in_integers(drawn.camera), {grid.x, grid.y, grid.z});
-  const auto vector = [](picture::Vector vector, double one) {
-    std::printf("[%.6f, %.6f, %.6f]", static_cast<double>(vector.x) / one,
-                static_cast<double>(vector.y) / one, static_cast<double>(vector.z) / one);
+  const auto vector = [](picture::Vector the_vector, double one) {
+    std::printf("[%.6f, %.6f, %.6f]", static_cast<double>(the_vector.x) / one,
+                static_cast<double>(the_vector.y) / one, static_cast<double>(the_vector.z) / one);
   };
   std::printf("{\"grid\": [%d, %d, %d], \"side\": %d, \"view_angle\": %.6f, \"full\": %d, \"eye\": ", grid.x,
               grid.y, grid.z, measure::kPictureSide, drawn.camera.field_of_view, render::kFull);

@@ -66,9 +66,9 @@ Exact ExactPicture::light(double across, double down) const {
   }
   if (matter < 0) return scene_.background;
   const Exact p = ray.at(matter), normal = matter == 0 ? to_eye : scene_.field.normal(p);
-  ExactField::Matter matter = scene_.field.matter(p);
-  if (scene_.field.obstacles()) matter.obstacle = scene_.field.matter(p + normal * 0.5).obstacle;
-  return pressed(scene_.shade.matter_color(p, normal, to_eye, matter));
+  ExactField::Matter the_matter = scene_.field.matter(p);
+  if (scene_.field.obstacles()) the_matter.obstacle = scene_.field.matter(p + normal * 0.5).obstacle;
+  return pressed(scene_.shade.matter_color(p, normal, to_eye, the_matter));
 }
 
 ExactPicture::Seen ExactPicture::matter(double across, double down) const {

@@ -58,25 +58,25 @@ struct Sampled {
 // pixel(x, y, places) gives the bytes of a pixel.
 template <class Pixel>
 Sampled sampled(int width, int height, const Sampling& sampling, const Pixel& pixel, cpu::Workers& workers) {
-  Sampled sampled{render::Image(width, height), 0};
+  Sampled result{render::Image(width, height), 0};
   std::vector<std::size_t> counts(static_cast<std::size_t>(height));
   const auto pass = [&](Places places, const auto& wanted) {
     workers.run(height, [&](int y) {
       for (int x = 0; x < width; ++x) {
         if (!wanted(x, y)) continue;
-        sampled.image.at(x, y) = pixel(x, y, places);
+        result.image.at(x, y) = pixel(x, y, places);
         counts[static_cast<std::size_t>(y)] += places.size();
       }
     });
   };
   pass(sampling.first, [](int, int) { return true; });
   for (const Sampling::Pass& more : sampling.passes) {
-    const render::Image before = sampled.image;
+    const render::Image before = result.image;
     pass(more.places, [&](int x, int y) { return differs(before, x, y, more.most); });
   }
-  sampled.samples =
+  result.samples =
       static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0})) / (width * height);
-  return sampled;
+  return result;
 }
 
 }  // namespace voxmelt::accuracy

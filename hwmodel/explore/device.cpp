@@ -126,11 +126,10 @@ Family load_family(const std::string& name, const std::string& place) {
 }  // namespace
 
 Amounts Device::usable() const {
-  Amounts the_amounts = amounts;
+  Amounts result = amounts;
   for (const Resource logic : {kLut, kFf})
-    the_amounts[logic] =
-        static_cast<std::int64_t>(std::floor(static_cast<double>(the_amounts[logic]) * fill + 1e-9));
-  return the_amounts;
+    result[logic] = static_cast<std::int64_t>(std::floor(static_cast<double>(result[logic]) * fill + 1e-9));
+  return result;
 }
 
 Device load_device(const std::string& name, const std::vector<std::string>& overrides) {

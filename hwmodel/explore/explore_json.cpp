@@ -13,9 +13,9 @@ namespace {
 using json = nlohmann::ordered_json;
 
 json amounts_json(const Amounts& amounts) {
-  json json;
-  for (std::size_t r = 0; r < kResources; ++r) json[std::string(kResourceNames[r])] = amounts[r];
-  return json;
+  json result;
+  for (std::size_t r = 0; r < kResources; ++r) result[std::string(kResourceNames[r])] = amounts[r];
+  return result;
 }
 
 json logic_json(const LogicCost& cost) {
@@ -23,39 +23,39 @@ json logic_json(const LogicCost& cost) {
 }
 
 json shapes_json(const std::vector<MemoryShape>& shapes) {
-  json json = json::array();
-  for (const MemoryShape& shape : shapes) json.push_back({shape.bits, shape.words});
-  return json;
+  json result = json::array();
+  for (const MemoryShape& shape : shapes) result.push_back({shape.bits, shape.words});
+  return result;
 }
 
 json family_json(const Family& f) {
-  json the_json{{"name", f.name},
-                {"bram_parts", f.bram_parts},
-                {"bram_shapes", shapes_json(f.bram)},
-                {"uram_shapes", shapes_json(f.uram)},
-                {"lutram_words", f.lutram_words},
-                {"lutram_bits", f.lutram_bits},
-                {"lutram_luts", f.lutram_luts},
-                {"mux_ways", f.mux_ways},
-                {"deepest_lutram", f.deepest_lutram},
-                {"register_words", f.register_words},
-                {"product", {f.product.wide, f.product.narrow}},
-                {"port_bits", f.port_bits},
-                {"port_words", f.port_words},
-                {"divider", logic_json(f.divider)},
-                {"random_block", logic_json(f.random_block)},
-                {"channel", logic_json(f.channel)},
-                {"port", logic_json(f.port)},
-                {"coder", logic_json(f.coder)},
-                {"base", logic_json(f.base)}};
+  json result{{"name", f.name},
+              {"bram_parts", f.bram_parts},
+              {"bram_shapes", shapes_json(f.bram)},
+              {"uram_shapes", shapes_json(f.uram)},
+              {"lutram_words", f.lutram_words},
+              {"lutram_bits", f.lutram_bits},
+              {"lutram_luts", f.lutram_luts},
+              {"mux_ways", f.mux_ways},
+              {"deepest_lutram", f.deepest_lutram},
+              {"register_words", f.register_words},
+              {"product", {f.product.wide, f.product.narrow}},
+              {"port_bits", f.port_bits},
+              {"port_words", f.port_words},
+              {"divider", logic_json(f.divider)},
+              {"random_block", logic_json(f.random_block)},
+              {"channel", logic_json(f.channel)},
+              {"port", logic_json(f.port)},
+              {"coder", logic_json(f.coder)},
+              {"base", logic_json(f.base)}};
   for (const auto& [kind, cost] : f.stages) {
-    json& stage = the_json["stages"][std::string(name_of(kind))];
+    json& stage = result["stages"][std::string(name_of(kind))];
     stage = logic_json(cost.lane);
     stage["multipliers"] = json::array();
     for (const Widths& widths : cost.multipliers)
       stage["multipliers"].push_back({widths.wide, widths.narrow});
   }
-  return the_json;
+  return result;
 }
 
 json parts_json(const PartList& parts) {
@@ -83,26 +83,26 @@ json parts_json(const PartList& parts) {
 
 // Of the state with which the run begins, once for each number of lanes.
 json contents_json(const std::vector<PartList>& parts) {
-  json json = json::array();
+  json result = json::array();
   int last = 0;
   for (const PartList& one : parts) {
     const int lanes = one.design.shape.lanes;
     if (lanes == std::exchange(last, lanes)) continue;
-    json.push_back({{"lanes", lanes},
-                    {"irradiance_bits", one.content->irradiance_bits},
-                    {"lit_columns", one.content->lit_columns},
-                    {"coded_bits", one.content->coded_bits},
-                    {"coded_columns", one.content->coded_columns}});
+    result.push_back({{"lanes", lanes},
+                      {"irradiance_bits", one.content->irradiance_bits},
+                      {"lit_columns", one.content->lit_columns},
+                      {"coded_bits", one.content->coded_bits},
+                      {"coded_columns", one.content->coded_columns}});
   }
-  return json;
+  return result;
 }
 
 json axes_json(const Axes& axes) {
-  json the_json;
-  for (const Axis& axis : kAxes) the_json[std::string(axis.key)] = axes.*axis.values;
-  the_json["tiles"] = axes.tiles;
-  the_json["tile"] = axes.tile ? json(*axes.tile) : json();
-  return the_json;
+  json result;
+  for (const Axis& axis : kAxes) result[std::string(axis.key)] = axes.*axis.values;
+  result["tiles"] = axes.tiles;
+  result["tile"] = axes.tile ? json(*axes.tile) : json();
+  return result;
 }
 
 json point_json(const Explored& explored, std::size_t at) {

@@ -133,10 +133,10 @@ struct Panel {
 };
 
 std::string escaped(const std::string& text) {
-  std::string the_text;
+  std::string result;
   for (const char c : text)
-    the_text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return the_text;
+    result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return result;
 }
 
 std::string name_of(std::size_t front) {
@@ -149,14 +149,14 @@ std::string name_of(std::size_t front) {
 std::size_t row_of(std::size_t panel) { return panel / 2; }
 
 std::string wrapped(const std::string& text, std::size_t most, double x, double y) {
-  std::string the_text;
+  std::string result;
   for (std::size_t from = 0; from < text.size(); y += 17) {
     std::size_t end = std::min(text.size(), from + most);
     if (end < text.size()) end = std::max(from + 1, text.rfind(' ', end));
-    the_text += fmt::format("<text x='{}' y='{}'>{}</text>\n", x, y, escaped(text.substr(from, end - from)));
+    result += fmt::format("<text x='{}' y='{}'>{}</text>\n", x, y, escaped(text.substr(from, end - from)));
     from = end + 1;
   }
-  return the_text;
+  return result;
 }
 
 }  // namespace

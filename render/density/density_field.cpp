@@ -58,13 +58,13 @@ void DensityField::find_dirty(bool all) {
             all ? DirtyPart{BrickPart::whole(), BrickPart::whole()} : DirtyPart{});
   std::fill(rows_.begin(), rows_.end(), all ? 1 : 0);
   const auto spread = [&](const state::Grid& brick, const BrickPart& part, int reach, std::uint8_t flags) {
-    for_reached(bricks(), brick, part, reach, [&](const state::Grid& near, const BrickPart& part) {
+    for_reached(bricks(), brick, part, reach, [&](const state::Grid& near, const BrickPart& brick_part) {
       const std::size_t at = bricks().index(near.x, near.y, near.z);
       dirty_[at] |= flags;
       if ((flags & flag_of(kHeat)) != 0)
-        parts_[at].heat.add(part);
+        parts_[at].heat.add(brick_part);
       else
-        parts_[at].matter.add(part);
+        parts_[at].matter.add(brick_part);
       rows_[static_cast<std::size_t>(near.z) * static_cast<std::size_t>(bricks().y) +
             static_cast<std::size_t>(near.y)] = 1;
     });

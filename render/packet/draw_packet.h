@@ -41,13 +41,13 @@ struct DrawPacket : Packet<Arch> {
     V most;  // the last sample that counts: matter behind the ground does not
     typename Field::Hits hits;
   };
-  VOXMELT_WORDS void approach(const PictureData& data, V across, V down, Approach& approach) {
-    approach.row = Rays<Arch>::through(data, across, down);
-    approach.start = Rays<Arch>::wrapped_start(approach.row);
-    approach.ground = {V{}, V{}, V{}};
+  VOXMELT_WORDS void approach(const PictureData& data, V across, V down, Approach& the_approach) {
+    the_approach.row = Rays<Arch>::through(data, across, down);
+    the_approach.start = Rays<Arch>::wrapped_start(the_approach.row);
+    the_approach.ground = {V{}, V{}, V{}};
     if (data.ground.any && data.ground.flat)
-      approach.ground = Ground::march(data, approach.row, approach.start);
-    approach.most = last_sample(approach);
+      the_approach.ground = Ground::march(data, the_approach.row, the_approach.start);
+    the_approach.most = last_sample(the_approach);
   }
   VOXMELT_WORDS V last_sample(const Approach& approach) {
     return approach.ground.found ? (approach.ground.inside >> picture::kPartBits) + 1 : L::set(INT32_MAX);
@@ -63,7 +63,7 @@ struct DrawPacket : Packet<Arch> {
   }
 
   [[gnu::always_inline]] static inline Met met(const PictureData& data, const Approach& from) {
-    Met met{V{}, V{}, V{}, V{}, Triple{V{}, V{}, V{}}};
+    Met result{V{}, V{}, V{}, V{}, Triple{V{}, V{}, V{}}};
     const auto& row = from.row;
     const auto& start = from.start;
     const auto& hits = from.hits;
@@ -71,11 +71,11 @@ struct DrawPacket : Packet<Arch> {
     Triple outside{V{}, V{}, V{}};
     if (L::any(ground.found)) {
       Ground::bisect(data.ground, row, start, ground);
-      met.ground = ground.found;
-      met.position = Rays<Arch>::at_part(row, start, ground.inside);
+      result.ground = ground.found;
+      result.position = Rays<Arch>::at_part(row, start, ground.inside);
       outside = Rays<Arch>::at_part(row, start, ground.before);
-      met.face = Ground::face_of(data.ground, ground.found, ground.inside, outside);
-      met.from_start = ground.inside == 0;
+      result.face = Ground::face_of(data.ground, ground.found, ground.inside, outside);
+      result.from_start = ground.inside == 0;
     }
     if (L::any(hits.found)) {
       const auto surface = Field::crossing(data.field, row, hits);
@@ -83,17 +83,17 @@ struct DrawPacket : Packet<Arch> {
       const V samples = L::clamp((ground.inside >> picture::kPartBits) - (hits.sample - 1), -8, 8);
       const V place = samples * picture::kPlaces +
                       (ground.inside & (picture::kParts - 1)) * (picture::kPlaces / picture::kParts);
-      const V first = met.face == static_cast<std::int32_t>(picture::Face::top)
+      const V first = result.face == static_cast<std::int32_t>(picture::Face::top)
                           ? V{}
                           : L::set(static_cast<std::int32_t>(picture::kSideFirst << data.view.halvings));
-      met.ground = met.ground & (~hits.found | (place <= surface.part + first));
-      met.matter = hits.found & ~met.ground;
+      result.ground = result.ground & (~hits.found | (place <= surface.part + first));
+      result.matter = hits.found & ~result.ground;
       constexpr std::int32_t kBack = -Field::kBias;
-      met.position = P::select(met.matter, surface.at + Triple{L::set(kBack), L::set(kBack), L::set(kBack)},
-                               met.position);
-      met.from_start = met.matter ? hits.sample == 0 : met.from_start;
+      result.position = P::select(
+          result.matter, surface.at + Triple{L::set(kBack), L::set(kBack), L::set(kBack)}, result.position);
+      result.from_start = result.matter ? hits.sample == 0 : result.from_start;
     }
-    return met;
+    return result;
   }
 
   // Positions of lanes that meet nothing are 0, and their normals any unit vectors.
@@ -106,26 +106,26 @@ struct DrawPacket : Packet<Arch> {
 
   // Tells whether there is any.
   [[gnu::always_inline]] static inline bool surface(const PictureData& data, const Approach& from,
-                                                    Surface& surface) {
+                                                    Surface& the_surface) {
     const auto& row = from.row;
-    surface.met = met(data, from);
-    surface.found = surface.met.matter | surface.met.ground;
-    if (!L::any(surface.found)) return false;
-    surface.to_eye = P::unit_of(Triple{} - row.step, data.inverse_root);
-    surface.position = P::select(surface.found, surface.met.position, Triple{});
-    surface.normal = surface.to_eye;
-    if (L::any(surface.met.ground)) {
-      surface.paint =
-          Ground::painted(data, surface.met.ground, surface.met.face, surface.position, surface.to_eye);
-      surface.normal = P::select(surface.met.ground, surface.paint.normal, surface.normal);
+    the_surface.met = met(data, from);
+    the_surface.found = the_surface.met.matter | the_surface.met.ground;
+    if (!L::any(the_surface.found)) return false;
+    the_surface.to_eye = P::unit_of(Triple{} - row.step, data.inverse_root);
+    the_surface.position = P::select(the_surface.found, the_surface.met.position, Triple{});
+    the_surface.normal = the_surface.to_eye;
+    if (L::any(the_surface.met.ground)) {
+      the_surface.paint = Ground::painted(data, the_surface.met.ground, the_surface.met.face,
+                                          the_surface.position, the_surface.to_eye);
+      the_surface.normal = P::select(the_surface.met.ground, the_surface.paint.normal, the_surface.normal);
     }
-    if (L::any(surface.met.matter)) {
+    if (L::any(the_surface.met.matter)) {
       constexpr std::int32_t kBias = Field::kBias;
-      surface.lattice =
-          P::select(surface.met.matter,
-                    surface.position + Triple{L::set(kBias), L::set(kBias), L::set(kBias)}, Triple{});
-      surface.normal = P::select(surface.met.matter & ~surface.met.from_start,
-                                 Field::normal(data, surface.lattice), surface.normal);
+      the_surface.lattice =
+          P::select(the_surface.met.matter,
+                    the_surface.position + Triple{L::set(kBias), L::set(kBias), L::set(kBias)}, Triple{});
+      the_surface.normal = P::select(the_surface.met.matter & ~the_surface.met.from_start,
+                                     Field::normal(data, the_surface.lattice), the_surface.normal);
     }
     return true;
   }

@@ -230,11 +230,11 @@ class TiledPicture {
 
 const Packets& packets_of(cpu::InstructionSet wanted) {
   static const auto all = [] {
-    std::array<Packets, cpu::kInstructionSets.size()> all{};
+    std::array<Packets, cpu::kInstructionSets.size()> result{};
     cpu::for_each_instruction_set([&]<cpu::InstructionSet set>() {
-      all[static_cast<std::size_t>(set)] = packets_for<cpu::ArchOf<set>>();
+      result[static_cast<std::size_t>(set)] = packets_for<cpu::ArchOf<set>>();
     });
-    return all;
+    return result;
   }();
   return all[static_cast<std::size_t>(wanted)];
 }

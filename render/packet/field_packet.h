@@ -72,18 +72,18 @@ struct FieldPacket : Packet<Arch> {
   }
   // Of some rays, from sample `from` on.
   VOXMELT_WORDS Walk walk(const PictureData& data, const Row& row, V rays, V from, V most) {
-    Walk walk;
+    Walk result;
     auto range = Rays<Arch>::in_box(row, data.field.low, data.field.high);
-    walk.last = L::min(range.last, most);
-    walk.sample = L::max(range.first, from);
-    walk.active = rays & (walk.sample <= walk.last);
-    walk.at = P::select(walk.active, Rays<Arch>::at(row, walk.sample, kBias), Triple{});
-    walk.back_x = row.step.x < 0;
-    walk.back_y = row.step.y < 0;
-    walk.back_z = row.step.z < 0;
-    walk.hits.found = walk.hits.sample = walk.hits.level = walk.hits.at.x = walk.hits.at.y = walk.hits.at.z =
-        V{};
-    return walk;
+    result.last = L::min(range.last, most);
+    result.sample = L::max(range.first, from);
+    result.active = rays & (result.sample <= result.last);
+    result.at = P::select(result.active, Rays<Arch>::at(row, result.sample, kBias), Triple{});
+    result.back_x = row.step.x < 0;
+    result.back_y = row.step.y < 0;
+    result.back_z = row.step.z < 0;
+    result.hits.found = result.hits.sample = result.hits.level = result.hits.at.x = result.hits.at.y =
+        result.hits.at.z = V{};
+    return result;
   }
 
   static constexpr float kLess = 1 - 1.0f / (1 << 18);

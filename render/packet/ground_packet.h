@@ -68,20 +68,20 @@ struct GroundPacket : Packet<Arch> {
     const std::int64_t top = std::int64_t{ground.highest} << (picture::kPositionBits - picture::kHeightBits);
     const auto range = Rays<Arch>::parts_in(
         row, kLow, {ground.cells.x * picture::kCell, top, ground.cells.z * picture::kCell});
-    Walk walk;
-    walk.first = range.first;
-    walk.last = range.last;
-    walk.active = range.first <= range.last;
-    walk.hits = {V{}, V{}, V{}};
-    if (!L::any(walk.active)) return walk;
-    walk.part = walk.active ? range.first : V{};
+    Walk result;
+    result.first = range.first;
+    result.last = range.last;
+    result.active = range.first <= range.last;
+    result.hits = {V{}, V{}, V{}};
+    if (!L::any(result.active)) return result;
+    result.part = result.active ? range.first : V{};
     // See GroundMap::find; all floats are rounded so that less is left out.
     const F aside = L::to_float(P::magnitude(row.step.x)) * static_cast<float>(ground.slopes.x) +
                     L::to_float(P::magnitude(row.step.z)) * static_cast<float>(ground.slopes.z);
     const F fall = L::to_float(row.step.y) * static_cast<float>(-picture::kHeight);
-    walk.nearer = aside + fall + (aside + L::max(fall, -fall)) * kMore;
-    walk.per_sample = walk.nearer > 0.0f ? (1 - kMore * 4) / walk.nearer : L::set_float(1.0f);
-    return walk;
+    result.nearer = aside + fall + (aside + L::max(fall, -fall)) * kMore;
+    result.per_sample = result.nearer > 0.0f ? (1 - kMore * 4) / result.nearer : L::set_float(1.0f);
+    return result;
   }
   VOXMELT_WORDS V over(const PictureData& data, const Row& row, Triple start, const Walk& walk) {
     const Triple p = P::select(walk.active, Rays<Arch>::at_part(row, start, walk.part), Triple{});
@@ -159,7 +159,7 @@ struct GroundPacket : Packet<Arch> {
 
   // The numbers of picture::Face.
   VOXMELT_WORDS V face_of(const GroundData& ground, V found, V inside, Triple outside) {
-    const auto face = [](picture::Face face) { return L::set(static_cast<std::int32_t>(face)); };
+    const auto face = [](picture::Face the_face) { return L::set(static_cast<std::int32_t>(the_face)); };
     const auto end = [](std::int64_t cells) { return static_cast<std::int32_t>(cells * picture::kCell - 1); };
     using picture::Face;
     V vector = outside.y < static_cast<std::int32_t>(kLow.y) ? face(Face::under) : face(Face::top);
@@ -181,19 +181,19 @@ struct GroundPacket : Packet<Arch> {
     const auto is = [&](picture::Face the_face) { return face == static_cast<std::int32_t>(the_face); };
     using picture::Face;
     const V top = found & is(Face::top);
-    Painted painted;
-    painted.normal = to_eye;
+    Painted result;
+    result.normal = to_eye;
     if (L::any(top)) {
-      painted = painted_top(data, P::select(top, position, Triple{}));
-      if (!L::any(found & ~top)) return painted;
-      painted.normal = P::select(top, painted.normal, to_eye);
+      result = painted_top(data, P::select(top, position, Triple{}));
+      if (!L::any(found & ~top)) return result;
+      result.normal = P::select(top, result.normal, to_eye);
     }
 
     constexpr std::int32_t kOne = picture::kLength;
     const V x = is(Face::high_x) & kOne, low_x = is(Face::low_x) & kOne, z = is(Face::high_z) & kOne,
             low_z = is(Face::low_z) & kOne, under = is(Face::under) & kOne;
     const V side = (x | low_x | z | low_z) != 0;
-    painted.normal = P::select(side | (under != 0), Triple{x - low_x, -under, z - low_z}, painted.normal);
+    result.normal = P::select(side | (under != 0), Triple{x - low_x, -under, z - low_z}, result.normal);
     V band{};
     if (ground.bands != nullptr && L::any(side)) {
       const Triple p = P::select(side, position, Triple{});
@@ -207,8 +207,8 @@ struct GroundPacket : Packet<Arch> {
     }
     const V share = 2540 + ((41 * band) >> 8);
     for (std::size_t c = 0; c < 3; ++c)
-      painted.color[c] = top ? painted.color[c] : (ground.color[c] * share) >> 12;
-    return painted;
+      result.color[c] = top ? result.color[c] : (ground.color[c] * share) >> 12;
+    return result;
   }
 
  private:

@@ -48,12 +48,12 @@ struct LightPacket : Packet<Arch> {
                                             FieldPacket<Arch>::blend_bytes(along[2], along[3], y.weight),
                                             z.weight);
     };
-    Light light{word(0), word(1), V{}, V{}};
+    Light result{word(0), word(1), V{}, V{}};
     if (glow) {
-      light.glow = word(2);
-      light.more_glow = word(3);
+      result.glow = word(2);
+      result.more_glow = word(3);
     }
-    return light;
+    return result;
   }
 
   // One cell of light in front of a surface.

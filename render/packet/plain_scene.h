@@ -60,13 +60,13 @@ struct LightCells {
   const LightData& light;
   picture::Light operator()(std::int64_t x, std::int64_t y, std::int64_t z) const {
     const std::uint8_t* cell = light.cells + 16 * ((z * light.count.y + y) * light.count.x + x);
-    picture::Light light;
-    light.lamp = cell[0];
+    picture::Light result;
+    result.lamp = cell[0];
     for (std::size_t side = 0; side < picture::kSides; ++side) {
-      light.open[side] = cell[1 + side];
-      light.glow[side] = cell[8 + side];
+      result.open[side] = cell[1 + side];
+      result.glow[side] = cell[8 + side];
     }
-    return light;
+    return result;
   }
 };
 

@@ -21,21 +21,21 @@ picture::Color color(const scene::Vec3& vec3) { return {light(vec3[0]), light(ve
 }  // namespace
 
 picture::Look look_in_integers(const scene::Look& look) {
-  picture::Look the_look;
-  the_look.solid = color(look.solid);
-  the_look.liquid = color(look.liquid);
-  the_look.ground = color(look.ground);
-  the_look.background = color(look.background);
-  the_look.shininess = static_cast<std::int32_t>(std::max<std::int64_t>(fixed(look.shininess, 0), 1));
-  the_look.specular = light(look.specular);
-  the_look.metallic = light(look.metallic);
+  picture::Look result;
+  result.solid = color(look.solid);
+  result.liquid = color(look.liquid);
+  result.ground = color(look.ground);
+  result.background = color(look.background);
+  result.shininess = static_cast<std::int32_t>(std::max<std::int64_t>(fixed(look.shininess, 0), 1));
+  result.specular = light(look.specular);
+  result.metallic = light(look.metallic);
   for (std::size_t c = 0; c < 3; ++c)
-    the_look.clear[c] = static_cast<std::int32_t>(fixed(look.clear[c], picture::kClearBits));
-  the_look.frost = light(look.frost);
-  the_look.glow = look.glow;
-  the_look.glow_cold = static_cast<std::int32_t>(fixed(look.glow_cold, 16));
-  the_look.glow_hot = static_cast<std::int32_t>(fixed(look.glow_hot, 16));
-  return the_look;
+    result.clear[c] = static_cast<std::int32_t>(fixed(look.clear[c], picture::kClearBits));
+  result.frost = light(look.frost);
+  result.glow = look.glow;
+  result.glow_cold = static_cast<std::int32_t>(fixed(look.glow_cold, 16));
+  result.glow_hot = static_cast<std::int32_t>(fixed(look.glow_hot, 16));
+  return result;
 }
 
 picture::Lamp lamp_in_integers(const scene::Light& light) {

@@ -148,15 +148,15 @@ struct ShadePacket : Packet<Arch> {
     const V seen =
         614 + ((whole(Lights::open(light, reflected)) * whole(Lights::open(light, normal)) * 3482) >> 16);
 
-    Shine shine{{}, {}, emission, more, obstacle};
+    Shine result{{}, {}, emission, more, obstacle};
     for (std::size_t c = 0; c < 3; ++c) {
       const V fresnel = material.mirror.c[c] + (((picture::kLight - material.mirror.c[c]) * more) >> 12);
       const V mirror = (((around.c[c] * seen) >> 12) * fresnel) >> 12;
-      shine.mirrored.c[c] = ((material.highlight.c[c] * peak) >> 12) + mirror;
-      shine.scattered.c[c] = (arrives.c[c] * material.diffuse.c[c]) >> 12;
-      if (paint.glow) shine.emission.c[c] = (emission.c[c] * (2540 + ((1556 * eye) >> 14))) >> 12;
+      result.mirrored.c[c] = ((material.highlight.c[c] * peak) >> 12) + mirror;
+      result.scattered.c[c] = (arrives.c[c] * material.diffuse.c[c]) >> 12;
+      if (paint.glow) result.emission.c[c] = (emission.c[c] * (2540 + ((1556 * eye) >> 14))) >> 12;
     }
-    return shine;
+    return result;
   }
 
   VOXMELT_WORDS Color matter_color(const PictureData& data, Triple normal, Triple to_eye, const Light& light,

@@ -20,17 +20,17 @@ struct Matter {
 // From the filtered intensities of a cell. Nothing has no shares.
 VOXMELT_RULE Matter matter_of(std::int32_t solid, std::int32_t liquid, std::int32_t heat,
                               std::int32_t obstacle, const Look& look) {
-  Matter the_matter;
+  Matter result;
   const std::int32_t matter = solid + liquid, all = matter + obstacle;
-  if (matter > 0) the_matter.liquid = liquid * 255 / matter;
-  if (all > 0) the_matter.obstacle = obstacle * 255 / all;
+  if (matter > 0) result.liquid = liquid * 255 / matter;
+  if (all > 0) result.obstacle = obstacle * 255 / all;
   if (look.glow && liquid > 0) {
     const std::int32_t temperature = std::min(heat * 256 / liquid, 256) * 256;
     const std::int32_t range = std::max(look.glow_hot - look.glow_cold, 1);
-    the_matter.heat = static_cast<std::int32_t>(
+    result.heat = static_cast<std::int32_t>(
         std::clamp<std::int64_t>(std::int64_t{temperature - look.glow_cold} * 255 / range, 0, 255));
   }
-  return the_matter;
+  return result;
 }
 
 // The light that a cell sends out, 0 .. 253, by its filtered liquid and its heat.
@@ -65,11 +65,11 @@ VOXMELT_RULE Matter matter_at(const Cells& matter, Vector cells, Vector position
     return both(below, above, y.weight);
   };
   const Matter below = along_y(z.cell), above = along_y(z.cell + 1);
-  const Matter matter = both(below, above, z.weight);
-  watch(Stage::matter, "liquid", matter.liquid);
-  watch(Stage::matter, "heat", matter.heat);
-  watch(Stage::matter, "obstacle", matter.obstacle);
-  return matter;
+  const Matter result = both(below, above, z.weight);
+  watch(Stage::matter, "liquid", result.liquid);
+  watch(Stage::matter, "heat", result.heat);
+  watch(Stage::matter, "obstacle", result.obstacle);
+  return result;
 }
 
 }  // namespace voxmelt::picture

@@ -88,16 +88,16 @@ json drawing_json(const Drawing& one) {
   json rays, timings = json::array();
   for (std::size_t i = 0; i < kSettings.size(); ++i) rays[kSettingNames[i]] = one.rays[i];
   for (const DrawingTiming& timing : one.timings) {
-    json json = {{"instruction_set", cpu::name_of(timing.set)},
-                 {"threads", timing.threads},
-                 {"field", timing.field * 1e3},
-                 {"light_and_bricks", timing.light * 1e3},
-                 {"unchanged", timing.unchanged * 1e3}};
+    json the_json = {{"instruction_set", cpu::name_of(timing.set)},
+                     {"threads", timing.threads},
+                     {"field", timing.field * 1e3},
+                     {"light_and_bricks", timing.light * 1e3},
+                     {"unchanged", timing.unchanged * 1e3}};
     for (std::size_t i = 0; i < kSettings.size(); ++i) {
-      json[kSettingNames[i]] = timing.draw[i] * 1e3;
-      json[std::string(kSettingNames[i]) + "_nanoseconds_per_ray"] = one.nanoseconds_per_ray(timing, i);
+      the_json[kSettingNames[i]] = timing.draw[i] * 1e3;
+      the_json[std::string(kSettingNames[i]) + "_nanoseconds_per_ray"] = one.nanoseconds_per_ray(timing, i);
     }
-    timings.push_back(json);
+    timings.push_back(the_json);
   }
   return {{"workload", one.workload},
           {"grid", grid_json(one.grid)},

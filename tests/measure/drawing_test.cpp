@@ -110,9 +110,9 @@ TEST(TwoStates, GoThereAndBackAndTellEveryChange) {
 
 TEST(FinerGrids, GrowthIsToTheGridBefore) {
   const auto grid = [](double normal) {
-    FinerGrid grid;
-    grid.timings = {{cpu::widest(), 1, normal}};
-    return grid;
+    FinerGrid finer_grid;
+    finer_grid.timings = {{cpu::widest(), 1, normal}};
+    return finer_grid;
   };
   const std::vector<FinerGrid> grids{grid(0.02), grid(0.03), grid(0.015)};
   EXPECT_FALSE(growth_of_normal(grids, 0, 0));

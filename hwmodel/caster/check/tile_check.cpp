@@ -41,9 +41,9 @@ void TileCheck::pixel_complete(std::int32_t x, std::int32_t y) { --tiles_[index_
 
 void TileCheck::written(std::int64_t tile, int burst) {
   const auto i = static_cast<std::size_t>(tile);
-  Tile& tile = tiles_[i];
-  if (tile.pixels_left != 0) tell(i, "write", "pixels that are still to come", 0, tile.pixels_left);
-  std::uint8_t& times = tile.bursts[static_cast<std::size_t>(burst)];
+  Tile& the_tile = tiles_[i];
+  if (the_tile.pixels_left != 0) tell(i, "write", "pixels that are still to come", 0, the_tile.pixels_left);
+  std::uint8_t& times = the_tile.bursts[static_cast<std::size_t>(burst)];
   if (++times > 1) tell(i, "write", "times a burst is written", 1, times);
 }
 

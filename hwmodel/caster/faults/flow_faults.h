@@ -140,9 +140,9 @@ class FlowFaults : public Planted {
  private:
   template <class Made>
   Made* kept(std::shared_ptr<Made> made) {
-    Made* the_made = made.get();
+    Made* result = made.get();
     plan().keep(std::move(made));
-    return the_made;
+    return result;
   }
 
   std::shared_ptr<LastReply> last_reply_;

@@ -90,9 +90,9 @@ class RayFaults : public Planted {
     const RayId& id = hit.ray.id;
     if (armed(Fault::crossing_halvings)) {
       const Vec before = hit.at - hit.ray.ray.step;
-      Bracket bracket{before, hit.at, level_at(before), hit.level, 0};
-      for (int halved = 0; halved < 2; ++halved) halve(bracket, level_at(middle_of(bracket)));
-      const Crossing wrong = crossing_of(bracket, hit.k);
+      Bracket the_bracket{before, hit.at, level_at(before), hit.level, 0};
+      for (int halved = 0; halved < 2; ++halved) halve(the_bracket, level_at(middle_of(the_bracket)));
+      const Crossing wrong = crossing_of(the_bracket, hit.k);
       if (wrong.part == met.part && wrong.position == met.position) return;
       met = wrong;
       strike("crossing", id);

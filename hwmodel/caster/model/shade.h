@@ -152,10 +152,10 @@ inline Mirrored mirrored_of(const LookRegisters& look, Vec normal, Vec to_eye, c
 
 // What a surface scatters of the light that arrives.
 inline Rgb scattered_color(const Arriving& arriving, const Rgb& color) {
-  Rgb the_color{};
+  Rgb result{};
   for (std::size_t c = 0; c < 3; ++c)
-    the_color[c] = static_cast<std::int32_t>((std::int64_t{arriving.light[c]} * color[c]) >> 12);
-  return the_color;
+    result[c] = static_cast<std::int32_t>((std::int64_t{arriving.light[c]} * color[c]) >> 12);
+  return result;
 }
 // What it mirrors, and its highlight.
 inline Rgb gleam_of(const Mixture& mixture, const Mirrored& mirror) {

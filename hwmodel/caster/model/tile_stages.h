@@ -222,9 +222,9 @@ class WriteStage final : public Stage {
     bool moved = false;
     if (in_->valid()) {
       const PixelToken& pixel = *in_->get();
-      TileBuffer& buffer = buffers_.at(pixel.id.buffer);
+      TileBuffer& tile_buffer = buffers_.at(pixel.id.buffer);
       const bool at_once = buffers_.complete.empty() && out_->ready();
-      if (--buffer.left == 0 || faults_.writes_early(at_once, buffer))
+      if (--tile_buffer.left == 0 || faults_.writes_early(at_once, tile_buffer))
         buffers_.complete.push_back(pixel.id.buffer);
       moved = true;
     }

@@ -83,24 +83,24 @@ struct LevelRequest {
 
   std::size_t kind_index() const { return asker == Asker::normal ? 1 : 0; }
   Places places() const {
-    Places places;
+    Places result;
     const auto place = [](std::int64_t q) { return static_cast<std::int32_t>(q >> kCellBits); };
-    places.low = {place(at.x), place(at.y), place(at.z)};
+    result.low = {place(at.x), place(at.y), place(at.z)};
     if (asker == Asker::normal) {
-      places.side = places.high = 3;
+      result.side = result.high = 3;
       const auto three = [](std::int64_t q) {
         const auto middle = static_cast<std::int32_t>(middle_place(q));
         return std::array<std::int32_t, 4>{middle - 1, middle, middle + 1, 0};
       };
-      places.x = three(at.x);
-      places.y = three(at.y);
-      places.z = three(at.z);
+      result.x = three(at.x);
+      result.y = three(at.y);
+      result.z = three(at.z);
     } else {
-      places.x = {places.low[0], places.low[0] + 1, 0, 0};
-      places.y = {places.low[1], places.low[1] + 1, 0, 0};
-      places.z = {places.low[2], places.low[2] + 1, 0, 0};
+      result.x = {result.low[0], result.low[0] + 1, 0, 0};
+      result.y = {result.low[1], result.low[1] + 1, 0, 0};
+      result.z = {result.low[2], result.low[2] + 1, 0, 0};
     }
-    return places;
+    return result;
   }
 };
 using LevelGather = Gather<LevelRequest, std::int16_t, 27>;
@@ -122,9 +122,9 @@ struct MatterRequest {
       const auto low = static_cast<std::int32_t>(s.cell + kLatticeBorder);
       return std::array<std::int32_t, 4>{low, low + 1, 0, 0};
     };
-    Places places{two(at.x), two(at.y), two(at.z), 2, {}};
-    places.low = {places.x[0], places.y[0], places.z[0]};
-    return places;
+    Places result{two(at.x), two(at.y), two(at.z), 2, {}};
+    result.low = {result.x[0], result.y[0], result.z[0]};
+    return result;
   }
 };
 using MatterGather = Gather<MatterRequest, std::uint32_t, 8>;

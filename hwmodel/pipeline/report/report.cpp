@@ -20,9 +20,9 @@ namespace {
 using json = nlohmann::ordered_json;
 
 json hw_json(const Configuration& configuration) {
-  json json;
-  for (const HwKey& key : kHwKeys) json[std::string(key.name)] = key.get(configuration);
-  return json;
+  json result;
+  for (const HwKey& key : kHwKeys) result[std::string(key.name)] = key.get(configuration);
+  return result;
 }
 
 json stage_json(const StageReport& stage) {

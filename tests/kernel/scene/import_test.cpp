@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/scene/shape/heightfield.h"
 #include "tests/kernel/scene/scene_text.h"
 
 namespace voxmelt::scene {

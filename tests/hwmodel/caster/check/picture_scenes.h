@@ -43,17 +43,17 @@ class MidMelt {
   // The scene's own view, one from its other side and above, and one from below.
   static constexpr int kViews = 3;
   scene::Camera camera(int view, int pixels) const {
-    scene::Camera camera = scene_.camera;
-    camera.width = camera.height = pixels;
+    scene::Camera result = scene_.camera;
+    result.width = result.height = pixels;
     if (view == 1) {
-      camera.azimuth += 160;
-      camera.elevation = 40;
+      result.azimuth += 160;
+      result.elevation = 40;
     }
     if (view == 2) {
-      camera.azimuth += 75;
-      camera.elevation = -12;
+      result.azimuth += 75;
+      result.elevation = -12;
     }
-    return camera;
+    return result;
   }
   PictureReport draw(const scene::Camera& camera, const PictureOptions& options,
                      render::Setting setting = render::Setting::normal) const {
