@@ -40,12 +40,14 @@ TEST(Mesh, WhatWritersWriteIsRead) {
   };
   const std::uint64_t plain = digest(kCorners + kSquares);
   const std::string rest = kSquares.substr(kSquares.find('\n') + 1);
-  for (const std::string& mesh :
-       {kCorners + "f 1 4 \\\n3 2\n" + rest, kCorners + "f 1 4\\\n3 2\n" + rest,
-        kCorners + "f 1 4 \\\r\n 3 \\\r\n 2\r\n" + rest, kCorners + "f 1 4 3 2 # under side\n" + rest,
-        kCorners + "f 1 4 3 2 # under side \\\n" + rest, "#first\n" + kCorners + kSquares + "# last \\",
-        "\xef\xbb\xbf" + kCorners + kSquares})
-    EXPECT_EQ(digest(mesh), plain) << mesh;
+  const std::vector<std::string> meshes{kCorners + "f 1 4 \\\n3 2\n" + rest,
+                                        kCorners + "f 1 4\\\n3 2\n" + rest,
+                                        kCorners + "f 1 4 \\\r\n 3 \\\r\n 2\r\n" + rest,
+                                        kCorners + "f 1 4 3 2 # under side\n" + rest,
+                                        kCorners + "f 1 4 3 2 # under side \\\n" + rest,
+                                        "#first\n" + kCorners + kSquares + "# last \\",
+                                        "\xef\xbb\xbf" + kCorners + kSquares};
+  for (const std::string& mesh : meshes) EXPECT_EQ(digest(mesh), plain) << mesh;
   EXPECT_NE(digest(kCorners + rest), plain);
 }
 
@@ -208,11 +210,11 @@ TEST(Heightfield, WhatWritersWriteIsRead) {
   };
   const std::string sides = "ncols 2\nnrows 2\n";
   const std::vector<double> whole{5, 7.5, -3, 0.25};
-  for (const std::string& grid :
-       {sides + "5 7.5\n-3 0.25\n", std::string("NCOLS 2\r\nNROWS 2\r\nCELLSIZE 30\r\n5 7.5\r\n-3 0.25\r\n"),
-        "\xef\xbb\xbf" + sides + "5 7.5 -3 0.25", sides + "5 7.5\n-3 0.25\n\x1a",
-        sides + "dx 10\ndy 20.5\nxllcenter 1e6\nyllcenter -2.5E+05\n+5 75e-1 -3 .25\n"})
-    EXPECT_EQ(values(grid), whole) << grid;
+  const std::vector<std::string> grids{
+      sides + "5 7.5\n-3 0.25\n", std::string("NCOLS 2\r\nNROWS 2\r\nCELLSIZE 30\r\n5 7.5\r\n-3 0.25\r\n"),
+      "\xef\xbb\xbf" + sides + "5 7.5 -3 0.25", sides + "5 7.5\n-3 0.25\n\x1a",
+      sides + "dx 10\ndy 20.5\nxllcenter 1e6\nyllcenter -2.5E+05\n+5 75e-1 -3 .25\n"};
+  for (const std::string& grid : grids) EXPECT_EQ(values(grid), whole) << grid;
   const std::vector<double> lowest{5, -3, -3, 0.25};
   for (const auto& [name, word] : std::vector<std::pair<std::string, std::string>>{
            {"-9999", "-9999"},
@@ -222,8 +224,11 @@ TEST(Heightfield, WhatWritersWriteIsRead) {
            {"nan", "nan"},
            {"-9999", "NaN"},
            {"null", "null"},
-           {"-2147483648", "-2147483648"}})
-    EXPECT_EQ(values(sides + "NODATA_value " + name + "\n5 " + word + "\n-3 0.25\n"), lowest) << name;
+           {"-2147483648", "-2147483648"}}) {
+    std::string grid = sides;
+    grid.append("NODATA_value ").append(name).append("\n5 ").append(word).append("\n-3 0.25\n");
+    EXPECT_EQ(values(grid), lowest) << name;
+  }
   EXPECT_EQ(values(sides + "NODATA_value -3\n5 7.5\n-3 0.25\n"), (std::vector<double>{5, 7.5, 0.25, 0.25}));
   EXPECT_EQ(values(sides + "nan 7.5\n-3 0.25\n"), (std::vector<double>{-3, 7.5, -3, 0.25}));
   // A number that means nothing where another one is named.
