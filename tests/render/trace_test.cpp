@@ -142,7 +142,7 @@ struct Width {
 class Widths : public render::Listener {
  public:
   Widths() {
-    std::ifstream page(VOXMELT_DOCS "/picture-trace.md");
+    std::ifstream page(VOXMELT_DOCS "/picture/trace.md");
     for (std::string line; std::getline(page, line);) {
       const std::vector<std::string> row = cells_of(line);
       if (row.size() != 4 || row[3].find_first_of("us") != 0 || row[3].size() > 3) continue;
@@ -203,7 +203,7 @@ TEST(Trace, NumbersFitTheWidthsOfThePage) {
 // second cell.
 std::map<std::string, int> reads_of_the_page() {
   std::map<std::string, int> reads;
-  std::ifstream page(VOXMELT_DOCS "/picture.md");
+  std::ifstream page(VOXMELT_DOCS "/picture/definition.md");
   bool here = false;
   for (std::string line; std::getline(page, line);) {
     if (line.rfind("## ", 0) == 0) here = line == "## 12. What hardware reads";
