@@ -20,7 +20,6 @@ int main(int argc, char** argv) try {
     std::cout << "P6 " << frame.width << ' ' << frame.height << " 255\n";
     for (std::size_t y = 0; y < static_cast<std::size_t>(frame.height); ++y)
       std::cout.write(reinterpret_cast<const char*>(frame.rgb.data() + y * frame.stride), 3 * frame.width);
-
     if (const auto hit = simulation.pick(160, 120, picture))
       std::cerr << "in the middle: cell " << hit->matter.x << ' ' << hit->matter.y << ' ' << hit->matter.z
                 << ", " << hit->depth << " cells away\n";
