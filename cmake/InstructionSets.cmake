@@ -31,10 +31,12 @@ if(VOXMELT_ONE_INSTRUCTION_SET)
   target_compile_definitions(voxmelt_options INTERFACE VOXMELT_ONLY_${VOXMELT_INSTRUCTION_SETS})
 endif()
 
+set(VOXMELT_INSTANCE_LEVEL -O3 CACHE STRING "How far the code of an instruction set is optimised")
+
 # voxmelt_instances(<target> <source> [SETS <name> ...] [OPTIONS <option> ...]): compiles the source once for
 # each instruction set, or for those named, into objects <target>_<name> that the target takes.
 #
-# They are always optimised: at -O0 helpers of the standard library would stay out of line, and code of one
+# They are always optimised, whatever the rest is: at -O0 helpers of the standard library would stay out of line, and code of one
 # instruction set could be linked in place of another's.
 function(voxmelt_instances target source)
   cmake_parse_arguments(ARG "" "" "SETS;OPTIONS" ${ARGN})
@@ -44,7 +46,7 @@ function(voxmelt_instances target source)
     endif()
     add_library(${target}_${set} OBJECT ${source})
     target_link_libraries(${target}_${set} PRIVATE voxmelt_options)
-    target_compile_options(${target}_${set} PRIVATE -O3 ${VOXMELT_${set}_OPTIONS} ${ARG_OPTIONS})
+    target_compile_options(${target}_${set} PRIVATE ${VOXMELT_INSTANCE_LEVEL} ${VOXMELT_${set}_OPTIONS} ${ARG_OPTIONS})
     target_compile_definitions(${target}_${set} PRIVATE
       VOXMELT_INSTRUCTION_SET=${set} VOXMELT_LANES_HEADER="kernel/engine/cpu/lanes_${set}.h")
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_${set}>)
