@@ -41,7 +41,7 @@ TEST(IrradianceStream, AMaskOf32LanesHasTwoWords) {
   EXPECT_EQ(IrradianceStream(field, {{32, 1, 1}, 32}).words(0), (IrradianceWords{0, 2, 0x8000, 5, 6}));
 }
 
-TEST(IrradianceStream, ALongDarkStretchNeedsAnEmptyMask) {
+TEST(IrradianceStream, ADarkStretchNeedsAnEmptyMask) {
   Irradiance field = field_of({1, 300, 300});
   at(field, 0, 299, 299) = 9;
   EXPECT_EQ(IrradianceStream(field, {{1, 300, 300}, 1}).words(0),
