@@ -5,7 +5,11 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 voxmelt=build/first/app/voxmelt
-if [ ! -x $voxmelt ]; then echo "Building voxmelt takes some two minutes on two cores, once." >&2; fi
+if [ ! -x $voxmelt ]; then
+  echo "Building voxmelt takes some two minutes on two cores, once." >&2
+  [ $# -gt 0 ] || echo "Then look at out/cello/contact_sheet.png." >&2
+fi
+command -v ffmpeg > /dev/null || echo "Without ffmpeg there are pictures and no film: apt-get install ffmpeg" >&2
 cmake/install-dependencies.sh build
 cmake --preset first > build/configure.log || { cat build/configure.log; exit 1; }
 cmake --build --preset first

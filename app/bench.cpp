@@ -24,7 +24,9 @@
 #include "kernel/engine/cpu/instruction_set.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/opening/checkpoint_scene.h"
+#include "measure/machine.h"
 #include "measure/suite.h"
+#include "measure/texts.h"
 #include "report/bench/report.h"
 
 namespace voxmelt::app {
@@ -104,6 +106,7 @@ void write_findings(const BenchOptions& options, const measure::Findings& findin
   write_report(options.common, report);
   if (out == nullptr) return;
   io::write_file(out->partial() / "bench.json", report);
+  if (options.wants("automaton")) io::write_file(out->partial() / "bench.csv", measure::bench_csv(findings));
   io::write_file(
       out->partial() / "performance_tables.md",
       measure::short_tables(findings) + measure::full_tables(findings) + measure::picture_tables(findings));
@@ -111,6 +114,12 @@ void write_findings(const BenchOptions& options, const measure::Findings& findin
     io::write_file(out->partial() / "roofline.svg", measure::roofline_svg(findings));
   out->commit();
   if (!options.common.quiet) print("tables, plot and report  {}/\n", seen_from_here(out->place()));
+}
+
+// `own`: how many threads of ours are in the load.
+void warn_of_load(double load, int own) {
+  const std::string busy = measure::busy_text(load, own, measure::describe_machine().threads);
+  if (!busy.empty()) say("warning: " + busy);
 }
 
 int run_bench(BenchOptions options) {
@@ -141,6 +150,7 @@ int run_bench(BenchOptions options) {
   const auto films = scenes_of(options.wants("film"), film_scenes(options.quick));
   end_soon_at_interrupts();
 
+  warn_of_load(measure::load_average(), 0);
   if (automaton) {
     note(options.common, "measuring the machine");
     print_case_heading();
@@ -161,7 +171,9 @@ int run_bench(BenchOptions options) {
   if (!finer.empty()) print_finer_grids(suite.run_finer_grids(finer, from.value_or(0)));
   for (const scene::Scene& scene : films) print_film(suite.run_film(scene));
 
-  write_findings(options, suite.take(), out ? &*out : nullptr);
+  const measure::Findings findings = suite.take();
+  warn_of_load(findings.load_after, plan.threads.back());
+  write_findings(options, findings, out ? &*out : nullptr);
   return kDone;
 }
 
@@ -183,7 +195,8 @@ void add_bench(CommandLine& program) {
       .separated_by(',');
   command.option("--from", options->from,
                  "step of the scenes to time (default: the middle of their melt), or a checkpoint");
-  command.option("--out", options->out, "folder for bench.json, performance_tables.md and roofline.svg");
+  command.option("--out", options->out,
+                 "folder for bench.json, bench.csv, performance_tables.md and roofline.svg");
   options->common.implementation = kEvery;
   add_common(command, options->common);
   command.find("--implementation")

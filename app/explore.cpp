@@ -95,6 +95,7 @@ int run_explore(ExploreCommand command) {
 
   explore::Axes axes = usual_axes(question);
   keep_only(axes, command.hw_sets);
+  if (!common.quiet) print_error("weighing designs\n");
   const explore::Swept swept = sweep(question, axes, stop_if_interrupted);
   if (swept.points.empty())
     throw UsageError(

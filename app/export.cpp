@@ -27,6 +27,14 @@ struct ExportOptions {
   std::string out, format{io::formats().front().name};
 };
 
+// The keys of the scene, after --set. In the format npy the state beside it is its start.
+std::string scene_toml(const scene::Scene& scene, const std::string& format, std::uint32_t step) {
+  std::string text = fmt::format("# The keys of {}, at step {}; its shapes are in the fields.\n{}",
+                                 scene.name, step, scene.settings);
+  if (format == "npy") text += fmt::format("\n[start]\nfields = \".\"\nstep = {}\n", step);
+  return text;
+}
+
 int run_export(const ExportOptions& options) {
   scene::Scene scene = load_scene(options.common);
   keep_inputs(scene, {{"--out", options.out}, {"--report", options.common.report}});
@@ -44,6 +52,8 @@ int run_export(const ExportOptions& options) {
   io::find_format(options.format)->write(volume, out.partial(), stop_if_interrupted);
   io::write_file(out.partial() / "parameters.json",
                  io::parameters_json(simulation.parameters(), volume.grid, simulation.step_number()));
+  io::write_file(out.partial() / "fields.json", io::fields_json(volume));
+  io::write_file(out.partial() / "scene.toml", scene_toml(scene, options.format, simulation.step_number()));
   write_report(options.common, report_json(scene, options.common, simulation, {}));
   out.commit();
   if (!options.common.quiet)
@@ -55,8 +65,9 @@ int run_export(const ExportOptions& options) {
 
 void add_export(CommandLine& program) {
   auto options = std::make_shared<ExportOptions>();
-  const Command command =
-      program.add("export", "Write the state after N steps (one file per field) and parameters.json");
+  const Command command = program.add("export",
+                                      "Write the state after N steps (one file per field), its units and "
+                                      "parameters, and a scene to go on from");
   add_scene(command, options->common);
   command.option("--steps", options->steps, "steps to run first").shows_default();
   command.option("--out", options->out, "folder to write").required();

@@ -28,6 +28,11 @@ std::size_t frame_bytes(const scene::Camera& camera) {
          static_cast<std::size_t>(camera.height);
 }
 
+render::Frames::Plan with_frame_bytes(render::Frames::Plan plan, const scene::Camera& camera) {
+  plan.frame_bytes = frame_bytes(camera);
+  return plan;
+}
+
 }  // namespace
 
 void set_size(scene::Camera& camera, const std::string& size) {
@@ -36,15 +41,16 @@ void set_size(scene::Camera& camera, const std::string& size) {
   const bool separated = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
   const auto height = separated ? std::from_chars(width.ptr + 1, end, camera.height) : width;
   if (!separated || height.ec != std::errc() || height.ptr != end || camera.width < 16 ||
-      camera.height < 16 || camera.width > 8192 || camera.height > 8192)
-    throw UsageError(fmt::format("--size {}: error: want WIDTHxHEIGHT, each 16 to 8192", size));
+      camera.height < 16 || camera.width > scene::kWidestPicture || camera.height > scene::kWidestPicture)
+    throw UsageError(
+        fmt::format("--size {}: error: want WIDTHxHEIGHT, each 16 to {}", size, scene::kWidestPicture));
 }
 
-Film::Film(const scene::Scene& scene, const std::filesystem::path& folder, std::size_t planned, int threads)
+Film::Film(const scene::Scene& scene, const std::filesystem::path& folder, render::Frames::Plan plan)
     : scene_(scene),
-      threads_(threads),
-      frames_(folder, {planned, frame_bytes(scene.camera), threads}),
-      drawing_(threads > 1 ? 1 : 0, 1, [this](Shot& shot) { draw(shot); }) {
+      threads_(plan.threads),
+      frames_(folder, with_frame_bytes(plan, scene.camera)),
+      drawing_(plan.threads > 1 ? 1 : 0, 1, [this](Shot& shot) { draw(shot); }) {
   picture_.stop_when(interrupted_for_long);
 }
 

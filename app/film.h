@@ -23,8 +23,8 @@ void set_size(scene::Camera& camera, const std::string& size);
 // only.
 class Film {
  public:
-  // `planned` frames, into `folder`.
-  Film(const scene::Scene& scene, const std::filesystem::path& folder, std::size_t planned, int threads);
+  // Frames go into `folder`. The plan need not say how large they are: the scene does.
+  Film(const scene::Scene& scene, const std::filesystem::path& folder, render::Frames::Plan plan);
 
   // Takes over the state and returns. It waits for the last frame's drawing, because that reads the picture.
   void add_frame(const state::Volume& volume, std::uint32_t step);

@@ -32,6 +32,7 @@ struct RunOptions {
   std::optional<std::uint32_t> steps, frame_every;
   std::string out;
   std::optional<std::string> size;
+  std::optional<int> fps;
   std::optional<std::string> checkpoint_every;
   std::string resume;           // folder; empty for a run from the scene's beginning
   std::set<std::string> given;  // options on the command line, of those that a resumed run may change
@@ -58,6 +59,7 @@ PreparedRun prepare(const RunOptions& options) {
   record.size = options.size.value_or("");
   if (options.size) set_size(scene.camera, *options.size);
   record.checkpoint_every = options.checkpoint_every.value_or("");
+  record.frames_per_second = options.fps.value_or(record.frames_per_second);
   record.id = by_chance();
   const std::string place = options.out.empty() ? "out/" + scene.name : options.out;
   keep_inputs(scene, {{"--out", place}, {"--report", common.report}});
@@ -82,6 +84,7 @@ std::optional<PreparedRun> prepare_to_resume(const RunOptions& options) {
   if (given("--report")) common.report = std::filesystem::absolute(options.common.report).string();
   if (given("--quiet")) common.quiet = true;
   if (options.checkpoint_every) record.checkpoint_every = *options.checkpoint_every;
+  if (options.fps) record.frames_per_second = *options.fps;
   find_implementation(common);
   check_report_place(common, found->place.string());
   if (!found->note.empty()) say("warning: " + found->note);
@@ -118,6 +121,8 @@ void add_run(CommandLine& program) {
   begins(command.option("--frame-every", options->frame_every, "steps between frames; 0: the first only"));
   begins(command.option("--out", options->out, "folder to write (default: out/SCENE)"));
   begins(command.option("--size", options->size, "size of a frame in pixels, e.g. 640x480"));
+  command.option("--fps", options->fps, "frames of the film in a second (default: 12)")
+      .within(1, kMostFramesPerSecond);
   command.option("--checkpoint-every", options->checkpoint_every,
                  "write a checkpoint after every N steps, or every N seconds (60s)");
   add_common(command, options->common);

@@ -23,6 +23,8 @@ run::Simulation run_ahead(scene::Scene& scene, const Common& common, std::uint32
   until = std::max(until, scene.first_step);
   if (!common.quiet && until != asked) print("verifying from step {}, a step of visibility\n", until);
   run::Simulation simulation = make_simulation(scene, common);
+  if (!common.quiet && simulation.step_number() < until)
+    print_error("{} runs to step {}\n", scene.name, until);
   while (simulation.step_number() < until) {
     simulation.step();
     stop_if_interrupted();

@@ -65,6 +65,7 @@ std::string json_of(const RunRecord& record) {
               {"frame_every", record.frame_every},
               {"size", record.size},
               {"checkpoint_every", record.checkpoint_every},
+              {"fps", record.frames_per_second},
               {"id", record.id},
               {"out", record.shown_place},
               {"implementation", common.implementation},
@@ -92,6 +93,9 @@ RunRecord run_record_of(const std::string& text, const std::filesystem::path& fi
     record.size = object.at("size").get<std::string>();
     record.checkpoint_every = object.at("checkpoint_every").get<std::string>();
     record.id = object.at("id").get<std::string>();
+    if (object.contains("fps")) record.frames_per_second = whole<int>(object.at("fps"), "fps", file);
+    if (record.frames_per_second < 1 || record.frames_per_second > kMostFramesPerSecond)
+      checkpoint::fail(file, "its head: command.fps is out of its range");
     record.shown_place = object.at("out").get<std::string>();
     common.implementation = object.at("implementation").get<std::string>();
     common.visibility = object.at("visibility").get<std::string>();

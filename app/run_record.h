@@ -14,11 +14,14 @@
 
 namespace voxmelt::app {
 
+inline constexpr int kMostFramesPerSecond = 240;
+
 struct RunRecord {
   Common common;  // without its scene
   std::uint32_t steps = 0, frame_every = 0;
   std::string size;              // as --size; empty for the scene's
   std::string checkpoint_every;  // as --checkpoint-every; empty for none
+  int frames_per_second = 12;    // of the film
   std::string id;                // of this run, by chance
   std::string shown_place;       // of its output, as the user named it
   std::vector<checkpoint::FileState> frames;

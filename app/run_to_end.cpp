@@ -58,7 +58,7 @@ class Run {
         start_(start),
         begun_at_(run_.scene.mid_run ? run_.scene.mid_run->steps_done : 0),
         simulation_(make_simulation(run_.scene, common())),
-        film_(std::in_place, run_.scene, out().partial(), planned_frames(), thread_count(common())),
+        film_(std::in_place, run_.scene, out().partial(), plan()),
         checkpoints_(out().partial(), run_.scene, std::move(run_.text), thread_count(common())),
         watch_(record().seen) {
     film_->keep(record().frame_steps);
@@ -83,8 +83,10 @@ class Run {
   std::uint32_t steps() const { return run_.record.steps; }
   std::string resume_command() const { return "`voxmelt run --resume " + shell_word(place_) + "` goes on"; }
 
-  std::size_t planned_frames() const {
-    return frames_due_before(record(), steps()) + (frame_is_due(record(), steps()) ? 1 : 0);
+  render::Frames::Plan plan() const {
+    return {.count = frames_due_before(record(), steps()) + (frame_is_due(record(), steps()) ? 1 : 0),
+            .threads = thread_count(common()),
+            .frames_per_second = record().frames_per_second};
   }
   RunSeconds seconds_now() const {
     RunSeconds now = film_->seconds();

@@ -52,8 +52,8 @@ void look_from(const Camera& from, scene::Camera& camera) {
 
 scene::Camera camera_of(scene::Camera camera, const Picture& picture) {
   if (picture.camera) look_from(*picture.camera, camera);
-  if (picture.width) camera.width = checked("width", *picture.width, 16, 8192);
-  if (picture.height) camera.height = checked("height", *picture.height, 16, 8192);
+  if (picture.width) camera.width = checked("width", *picture.width, 16, scene::kWidestPicture);
+  if (picture.height) camera.height = checked("height", *picture.height, 16, scene::kWidestPicture);
   if (picture.azimuth) camera.azimuth = checked("azimuth", *picture.azimuth, -360.0, 360.0);
   if (picture.elevation) camera.elevation = checked("elevation", *picture.elevation, -89.0, 89.0);
   return camera;

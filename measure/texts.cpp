@@ -31,4 +31,11 @@ std::string percent_or_dash(const std::optional<double>& value) {
 std::string threads_text(int threads) { return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"); }
 std::string milliseconds(double seconds) { return three_digits(seconds * 1e3); }
 
+std::string busy_text(double load, int own, int processors) {
+  if (load - own < 0.25 * processors) return "";
+  return fmt::format(
+      "the load average is {:.1f} on {}: other programs take processors, and times and ratios may be far off",
+      load, processors == 1 ? "1 processor" : fmt::format("{} processors", processors));
+}
+
 }  // namespace voxmelt::measure

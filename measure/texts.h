@@ -14,4 +14,8 @@ std::string percent_or_dash(const std::optional<double>& value);  // "12 %", or 
 std::string milliseconds(double seconds);                         // three digits
 std::string threads_text(int threads);                            // "1 thread", "2 threads"
 
+// Warns if other work takes a quarter of the processors or more; else it is empty. `load` is the load
+// average, of which `own` threads are ours.
+std::string busy_text(double load, int own, int processors);
+
 }  // namespace voxmelt::measure

@@ -38,8 +38,8 @@ struct Camera {
 /// A picture of a state. What is not set here is taken from the scene.
 struct Picture {
   std::optional<Camera> camera;       ///< where it is seen from
-  std::optional<int> width;           ///< pixels, 16..8192
-  std::optional<int> height;          ///< pixels, 16..8192
+  std::optional<int> width;           ///< pixels, 16..16384
+  std::optional<int> height;          ///< pixels, 16..16384
   std::optional<double> azimuth;      ///< degrees, in place of the camera's
   std::optional<double> elevation;    ///< degrees, in place of the camera's
   Quality quality = Quality::normal;  ///< how carefully it is drawn

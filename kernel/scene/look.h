@@ -7,6 +7,8 @@ namespace voxmelt::scene {
 
 using Vec3 = std::array<double, 3>;
 
+inline constexpr int kWidestPicture = 16384;  // pixels, across and down
+
 struct Camera {
   Vec3 target{};              // looked at
   double azimuth = 35;        // degrees, 0 looks along -z from +z, 90 looks along -x from +x

@@ -19,8 +19,8 @@ Camera read_camera(Reader& root, state::Grid grid) {
     camera.distance = reader->number("distance", at_most(4 * kLargestCoordinate), 0.0);
     camera.field_of_view = reader->number("field_of_view", at_least(1).at_most(120), camera.field_of_view);
     camera.orthographic = reader->choice("projection", {"perspective", "orthographic"}, 0) == 1;
-    camera.width = static_cast<int>(reader->integer("width", 16, 16384, camera.width));
-    camera.height = static_cast<int>(reader->integer("height", 16, 16384, camera.height));
+    camera.width = static_cast<int>(reader->integer("width", 16, kWidestPicture, camera.width));
+    camera.height = static_cast<int>(reader->integer("height", 16, kWidestPicture, camera.height));
     reader->finish();
   }
   return camera;

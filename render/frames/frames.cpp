@@ -10,8 +10,6 @@
 namespace voxmelt::render {
 namespace {
 
-constexpr int kFramesPerSecond = 12;
-
 // So many frames wait for an encoder, wait for the film, and are in work.
 constexpr std::size_t kMostAhead = 4, kBytesAhead = std::size_t{64} << 20;
 std::size_t ahead(const Frames::Plan& plan) {
@@ -31,7 +29,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 Frames::Frames(std::filesystem::path folder, const Plan& plan)
     : folder_(std::move(folder)),
       sheet_(plan.count),
-      video_(folder_ / "film.mp4", kFramesPerSecond),
+      video_(folder_ / "film.mp4", plan.frames_per_second),
       film_(
           plan.threads > 1 ? 1 : 0, ahead(plan),
           [this](Frame& frame) { video_.add(frame.image ? *frame.image : read_png(file_of(frame.number))); }),

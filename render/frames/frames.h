@@ -21,6 +21,7 @@ class Frames {
     std::size_t count = 0;        // of frames; fewer are no error
     std::size_t frame_bytes = 0;  // of one picture in memory: large ones do not wait in numbers
     int threads = 1;              // with one all is done in turn, with more beside the caller
+    int frames_per_second = 12;   // of the film
   };
 
   // Into folder/frames/frame_00000.png, ..., folder/contact_sheet.png and folder/film.mp4. No byte depends on

@@ -118,7 +118,8 @@ void VideoWriter::start(int width, int height) {
   if (error == 0) return;
   ffmpeg_ = 0;
   close();
-  problem_ = std::string("ffmpeg cannot be started: ") + std::strerror(error);
+  problem_ = std::string("ffmpeg cannot be started: ") + std::strerror(error) +
+             (error == ENOENT ? " (Debian's package `ffmpeg` has it)" : "");
 }
 
 void VideoWriter::add(const Image& frame) {

@@ -10,6 +10,9 @@ namespace voxmelt::measure {
 // `version` is that of the program that was measured.
 std::string bench_json(const Findings& findings, const std::string& version);
 
+// A line for each case of the automaton, below a line of names.
+std::string bench_csv(const Findings& findings);
+
 // Tables in Markdown, each after a line "<!-- table: NAME -->".
 std::string short_tables(const Findings& findings);    // machine, scenes, dense, bounds, densebounds, picture
 std::string full_tables(const Findings& findings);     // memory, rates, flow, heat, scaling, roofs

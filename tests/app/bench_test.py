@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """`voxmelt bench`: the quick run works, what it writes can be read, bad use ends in one line."""
+import csv
 import json
 import os
 import re
@@ -73,6 +74,17 @@ class Bench(unittest.TestCase):
         self.assertEqual(len(lines), len(names))
         for line in lines:
             self.assertEqual(len(line), 18 if line[0] == "flow" else 16, line)
+
+        with open(self.folder / "out/bench.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(names))
+        for row, case in zip(rows, report["cases"]):
+            self.assertEqual(case["name"], f'{row["subject"]}/{row["implementation"]}/{row["workload"]}/threads:{row["threads"]}')
+            self.assertAlmostEqual(float(row["milliseconds"]), case["milliseconds"])
+            for phase, value in case["phase_milliseconds"].items():
+                self.assertAlmostEqual(float(row[f"{phase}_milliseconds"]), value)
+            self.assertEqual(row["percent_of_roof"] == "", case["percent_of_roof"] is None)
+            self.assertAlmostEqual(float(row["ratio_to_baseline"]), case["ratio_to_baseline"])
 
         tables = (self.folder / "out/performance_tables.md").read_text()
         for name in ("machine", "scenes", "dense", "bounds", "densebounds", "picture", "memory", "rates", "flow", "heat", "scaling", "roofs", "drawing",

@@ -293,7 +293,7 @@ class Commands(unittest.TestCase):
         self.good("export", self.scene, "--steps", "4", "--out", "at4")
         names = {p.name for p in (self.folder / "at4").iterdir()} - {".voxmelt-output"}
         fields = {f"{f}.npy" for f in ("solid", "liquid", "inert", "amount", "energy", "heat")}
-        self.assertEqual(names, fields | {"parameters.json"})
+        self.assertEqual(names, fields | {"parameters.json", "fields.json", "scene.toml"})
         amount = (self.folder / "at4/amount.npy").read_bytes()
         self.assertEqual(amount[:6], b"\x93NUMPY")
         self.assertIn(b"'<u2'", amount[:128])
@@ -303,6 +303,27 @@ class Commands(unittest.TestCase):
         start = self.good("digest", "again.toml", "--steps", "0").split()[3]
         there = self.good("digest", self.scene, "--steps", "4").split()[3]
         self.assertEqual(start, there)
+
+    def test_an_export_says_what_its_fields_hold(self):
+        self.good("export", self.scene, "--out", "e")
+        said = json.loads((self.folder / "e/fields.json").read_text())
+        units = {f["name"]: (f["bits"], f.get("unit")) for f in said["fields"]}
+        self.assertEqual(units, {"solid": (1, None), "liquid": (1, None), "inert": (1, None),
+                                 "amount": (16, "1/4096 of a full cell"), "energy": (16, "1/4096 of a full cell"),
+                                 "heat": (16, "1/65535 of the scene's range")})
+        self.assertIn("[z][y][x]", said["axes"])
+
+    # The keys of --set are in it; without radiation every step is one to go on from.
+    def test_an_export_is_a_scene_that_goes_on(self):
+        changes = ("--set", "flow.paper.neighbours=4", "--set", "heat_source=[]")
+        self.good("export", self.scene, "--steps", "5", "--out", "at5", *changes)
+        self.assertIn("neighbours = 4", (self.folder / "at5/scene.toml").read_text())
+        there = self.good("digest", self.scene, "--steps", "9", *changes).split()[3]
+        self.assertEqual(self.good("digest", "at5/scene.toml", "--steps", "4").split()[3], there)
+        self.good("export", "at5/scene.toml", "--steps", "2", "--out", "at7")
+        self.assertEqual(self.good("digest", "at7/scene.toml", "--steps", "2").split()[3], there)
+        self.good("export", self.scene, "--out", "v", "--format", "vti")
+        self.assertNotIn("[start]", (self.folder / "v/scene.toml").read_text())
 
     # A default is the value that it says, and differs from the one beside it.
     def test_defaults_of_steps(self):
@@ -348,7 +369,7 @@ class Commands(unittest.TestCase):
         for name in formats:
             self.good("export", self.scene, "--out", f"all_{name}", "--format", name)
             written = {path.name for path in (self.folder / f"all_{name}").iterdir()}
-            self.assertGreater(len(written - {"parameters.json"}), 0, name)
+            self.assertGreater(len(written - {"parameters.json", "fields.json", "scene.toml"}), 0, name)
             self.assertIn("parameters.json", written, name)
 
     def test_render_one_picture_and_a_turntable(self):

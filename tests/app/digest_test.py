@@ -3,12 +3,16 @@
 
   digest_test.py VOXMELT ORACLE STEPS...            check
   digest_test.py VOXMELT ORACLE STEPS... --approve  write digests.json, only where both agree
+  digest_test.py VOXMELT ORACLE STEPS... --scene NAME [--approve]    this scene alone
+
+Standard error says which scene is run, and how long the last one took.
 """
 import json
 import math
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 APPROVED = Path(__file__).with_name("digests.json")
@@ -27,11 +31,17 @@ def told(steps, *command):
 
 def main():
     arguments = [a for a in sys.argv[1:] if a != "--approve"]
+    all_scenes = scenes = sorted(p.stem for p in Path("scenes").glob("*.toml"))
+    if "--scene" in arguments:
+        at = arguments.index("--scene")
+        scenes = [scene for scene in scenes if scene == arguments[at + 1]]
+        del arguments[at:at + 2]
     voxmelt, oracle, steps = arguments[0], arguments[1], [int(a) for a in arguments[2:]]
-    scenes = sorted(p.stem for p in Path("scenes").glob("*.toml"))
     approved = json.loads(APPROVED.read_text()) if APPROVED.exists() else {}
     problems, compared, found = [], 0, {}
-    for scene in scenes:
+    for number, scene in enumerate(scenes, 1):
+        begin = time.monotonic()
+        print(f"{number} of {len(scenes)}: {scene} ...", end=" ", file=sys.stderr, flush=True)
         with tempfile.TemporaryDirectory() as folder:
             start = f"{folder}/start"
             output(voxmelt, "export", scene, "--steps", "0", "--out", start, "--quiet")
@@ -51,12 +61,13 @@ def main():
                 known = approved.get(scene, {}).get(str(n))
                 if known != mine and "--approve" not in sys.argv:
                     problems.append(f"{scene}, {n} steps: both agree on\n  {mine}\n  but approved is\n  {known}")
+        print(f"{time.monotonic() - begin:.1f} s", file=sys.stderr, flush=True)
     if compared < 2 * len(steps) or not scenes:
-        problems.append(f"only {compared} comparisons: is scenes/ empty?")
+        problems.append(f"only {compared} comparisons: scenes/ has no such scene")
     if "--approve" in sys.argv:
         for scene, lines in found.items():
             approved.setdefault(scene, {}).update(lines)
-        approved = {scene: approved[scene] for scene in scenes if scene in approved}
+        approved = {scene: approved[scene] for scene in all_scenes if scene in approved}
         APPROVED.write_text(json.dumps(approved, indent=1, sort_keys=True) + "\n")
     print("\n".join(problems) if problems else f"{compared} digests agree")
     sys.exit(1 if problems else 0)

@@ -93,7 +93,7 @@ class Frames(unittest.TestCase):
 
     def test_a_film_that_fails_leaves_the_frames(self):
         for threads in (1, 2):
-            for script, note in (("", "no film: ffmpeg cannot be started: No such file or directory"),
+            for script, note in (("", "no film: ffmpeg cannot be started: No such file or directory (Debian's package `ffmpeg` has it)"),
                                  ("cat > /dev/null; exit 3", "no film: ffmpeg failed with exit status 3"),
                                  ('head -c 100 > "$film"; kill -9 $$', "no film: ffmpeg failed with exit status 128")):
                 with self.subTest(note, threads=threads):
@@ -102,6 +102,18 @@ class Frames(unittest.TestCase):
                     self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
                                      [".voxmelt-output", "contact_sheet.png", "frames", "report.json"])
                     self.assertEqual(len(list((self.folder / "out/frames").iterdir())), 3)
+
+    def test_a_film_has_as_many_frames_a_second_as_asked(self):
+        keep = 'echo "$@" >> arguments.txt; cat > "$film"'
+        for threads in (1, 2):
+            for asked, wanted in (((), "12"), (("--fps", 30), "30")):
+                with self.subTest(asked, threads=threads):
+                    (self.folder / "arguments.txt").unlink(missing_ok=True)
+                    self.run_scene("fps", "--threads", threads, *asked, script=keep)
+                    words = (self.folder / "arguments.txt").read_text().split()
+                    self.assertEqual(words[words.index("-framerate") + 1], wanted)
+        for wrong in (0, 241, "fast"):
+            self.assertEqual(voxmelt("run", self.scene, "--fps", wrong, cwd=self.folder).returncode, 2)
 
     # Seven frames stand in two rows of four, at half their size: 32 x 24, with gaps of 6.
     def test_a_sheet_of_seven_frames(self):

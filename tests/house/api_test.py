@@ -22,7 +22,7 @@ def pages(tree):
 
 with tempfile.TemporaryDirectory() as folder:
     tree = Path(folder)
-    for name in ("include", "docs/Doxyfile"):
+    for name in ("include", "docs/Doxyfile", "docs/api_main_page.md"):
         copy = shutil.copytree if (root / name).is_dir() else shutil.copy
         (tree / name).parent.mkdir(exist_ok=True)
         copy(root / name, tree / name)
@@ -31,6 +31,8 @@ with tempfile.TemporaryDirectory() as folder:
         problems.append(complaints)
     if not (tree / "build/api/html/classvoxmelt_1_1Simulation.html").exists():
         problems.append("there is no page of voxmelt::Simulation")
+    if "classvoxmelt_1_1Simulation.html" not in (tree / "build/api/html/index.html").read_text().split("<body>")[1]:
+        problems.append("the first page does not lead to voxmelt::Simulation")
 
     for header in sorted((tree / "include/voxmelt").glob("*.h")):
         kept = header.read_text()

@@ -249,9 +249,9 @@ TEST_F(Library, ErrorsAreItsOwn) {
             std::string::npos);
   EXPECT_NE(message_of<OutputError>([&] { simulation.export_state(file); }), "nothing");
   Picture picture;
-  picture.width = 8193;
+  picture.width = 16385;
   EXPECT_EQ(message_of<InputError>([&] { simulation.draw(folder / "p.png", picture); }),
-            "Picture: error: width = 8193 is outside 16..8192");
+            "Picture: error: width = 16385 is outside 16..16384");
   picture = {};
   picture.azimuth = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(message_of<InputError>([&] { simulation.draw(folder / "p.png", picture); }), "nothing");

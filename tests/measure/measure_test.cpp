@@ -357,6 +357,17 @@ TEST(Needed, AScenesBoundIsThatOfItsSet) {
   EXPECT_FALSE(cases.front().least_seconds);
 }
 
+// Two processors, of which this program may have taken two: a quarter of them is half a thread.
+TEST(Texts, OtherWorkIsSaidFromAQuarterOfTheProcessorsOn) {
+  EXPECT_EQ(busy_text(0.49, 0, 2), "");
+  EXPECT_EQ(busy_text(2.49, 2, 2), "");
+  EXPECT_EQ(busy_text(12.1, 0, 2),
+            "the load average is 12.1 on 2 processors: other programs take processors, and times and ratios "
+            "may be far off");
+  EXPECT_NE(busy_text(0.3, 0, 1).find("on 1 processor:"), std::string::npos);
+  EXPECT_NE(busy_text(2.5, 2, 2), "");
+}
+
 TEST(Machine, MoreThreadsAreNeverAWorseBound) {
   Machine machine({.fewest = 2, .seconds = 0});
   const Bandwidth one = machine.bandwidth(1 << 20, 1), two = machine.bandwidth(1 << 20, 2);

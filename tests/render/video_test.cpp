@@ -74,7 +74,9 @@ TEST_F(Video, ProblemsAreMessages) {
   const std::string place = (folder_ / "film.mp4").string();
   {
     const FakeFfmpeg missing("");
-    EXPECT_EQ(film(3), place + ": no film: ffmpeg cannot be started: No such file or directory");
+    EXPECT_EQ(film(3), place +
+                           ": no film: ffmpeg cannot be started: No such file or directory (Debian's package "
+                           "`ffmpeg` has it)");
     EXPECT_TRUE(nothing_is_left());
   }
   {

@@ -30,6 +30,9 @@ const Format* find_format(std::string_view name);  // null for an unknown name
 // The format `npy`: FIELD.npy, C order, axes (z, y, x); masks as u8, numbers as u16.
 void export_npy(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll = {});
 
+// What the files of these fields hold: axes, bits and units.
+std::string fields_json(const state::Volume& volume);
+
 // Everything that the rules depend on besides the state (docs/automaton.md, "Parameters").
 std::string parameters_json(const rule::Parameters& parameters, state::Grid grid, std::uint32_t step);
 
