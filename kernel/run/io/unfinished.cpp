@@ -11,7 +11,7 @@ struct Everything {
   bool completed = false;
 };
 
-// Never destroyed: the other thread may come while main() returns.
+// Returns an object that is never destroyed, because the other thread may come while main() returns.
 Everything& everything() {
   static Everything& all = *new Everything;
   return all;
