@@ -1,4 +1,4 @@
-// [camera], [light] and [look]. All throw InputError.
+// [camera], [light] and [look] are read here. All functions throw InputError.
 #pragma once
 
 #include "kernel/automaton/state/grid.h"

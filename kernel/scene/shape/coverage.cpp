@@ -46,8 +46,8 @@ class Sampler {
       }
   }
 
-  // The octants of the cell come first: one distance decides most of them, and eight samples decide each of
-  // the rest.
+  // Counts the covered samples of a cell. Its octants come first: one distance decides most of them, and
+  // eight samples decide each of the rest.
   std::uint8_t cell(int x, int y, int z) const {
     const double reach = 0.25 * std::numbers::sqrt3 + kSlack;
     int covered = 0;
