@@ -41,7 +41,7 @@ struct Picture {
   std::optional<int> width;           ///< pixels, 16..8192
   std::optional<int> height;          ///< pixels, 16..8192
   std::optional<double> azimuth;      ///< degrees, in place of the camera's
-  std::optional<double> elevation;    ///< care with which it is drawn
+  std::optional<double> elevation;    ///< degrees, in place of the camera's
   Quality quality = Quality::normal;  ///< how carefully it is drawn
   bool depth = false;                 ///< a frame has depths, too; they cost as much as a fast picture
   int row_alignment = 1;              ///< rows of a frame begin at multiples of so many bytes, 1..4096

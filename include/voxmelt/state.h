@@ -1,8 +1,8 @@
 /// @file
 /// The state of a volume is read in place, through views of masks and of fields of numbers, without a copy.
 ///
-/// x is fastest, y points up (gravity acts along -y), z is outermost. Rows are contiguous. Padding lies
-/// between rows and slices, so a whole field is not one span. docs/automaton.md, section 1, defines all
+/// The x axis is fastest, y points up (gravity acts along -y), z is outermost. Rows are contiguous. Padding
+/// lies between rows and slices, so a whole field is not one span. docs/automaton.md, section 1, defines all
 /// values.
 #pragma once
 

@@ -115,7 +115,7 @@ struct Drain {
 // gives all.
 struct Fall {
   std::uint32_t factor = 65536;       // free air
-  std::uint32_t wall_factor = 65536;  // extra `adhesion`: a side or diagonal-free neighbour is solid
+  std::uint32_t wall_factor = 65536;  // extra `adhesion`: one of the four sides is blocked
   Amount minimum = 32;                // a smaller amount moves whole
   Amount hang = 0;                    // extra `drip`: an overhanging film below this amount waits; 0 is off
 
@@ -140,8 +140,8 @@ struct PaperLaw {
   bool use_table = false;       // factors per pattern (paper, 4 neighbours) instead of one share
   std::array<std::array<std::uint16_t, 4>, 16> table{};  // [pattern][direction], 1/65536
   std::uint16_t share = 8192;                            // 1/65536 of the amount per axis direction
-  bool downhill = true;                                  // receive only below the giver
-  Amount margin = 256;                                   // and by more than this
+  bool downhill = true;  // neighbours receive only if they hold less than the giver
+  Amount margin = 256;   // less by more than this
   bool support = false;  // extra `support`: only cells that stand on something spread
   Amount slump = 0;      // extra `slump`: margin at which a starved cell still yields; 0 is off
   EnergyReading reading = EnergyReading::text;

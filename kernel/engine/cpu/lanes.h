@@ -1,6 +1,6 @@
-// 16-bit lanes are the one place where instruction sets differ. xsimd gives the types and the plain
-// operations. xsimd 8.1 lacks or breaks some for 16 bits: multiply-high, masks from and to bit words,
-// widening. One specialisation of Lanes per instruction set adds these, in lanes_*.h.
+// 16-bit lanes are the one place where instruction sets differ. The library xsimd gives the types and the
+// plain operations. Its version 8.1 lacks or breaks some for 16 bits: multiply-high, masks from and to bit
+// words, widening. One specialisation of Lanes per instruction set adds these, in lanes_*.h.
 //
 // A word of 64 mask bits serves kParts vectors of kCount lanes. `part` counts them along x, and lane i is bit
 // i. Nothing here allocates, throws, or is emitted out of line. So the linker cannot take code of one
@@ -17,7 +17,7 @@
 
 namespace voxmelt::cpu {
 
-// What every instruction set has. Lanes<Arch> adds:
+// LanesOf has the parts that all instruction sets share. Lanes<Arch> adds:
 //   V high(V a, V b)                    (a b) >> 16
 //   V shift_right<n>(V), shift_left<n>(V)
 //   M less(V a, V b)                    unsigned

@@ -82,7 +82,7 @@ simd::View Stepper::view_of(state::Volume& volume) {
 // Vents and drains report their changes, and each step of visibility wakes all.
 void Stepper::change_sources(const rule::Parameters& parameters) {
   parameters_ = parameters;
-  kernels_ = simd::kernels(set_, parameters);  // they are others if there was no radiation before
+  kernels_ = simd::kernels(set_, parameters);  // others are needed if radiation is new
 }
 
 simd::Step step_of(const rule::Parameters& parameters, step::Phase phase, step::Moment moment,

@@ -44,7 +44,7 @@ class Convection {
           const Found found = word(w, y, own, rising);
           if (found.changed) tell.changed[r] |= bit;
           if (found.hot) tell.hot[r] |= bit;
-          if (found.restless) {  // both ends of the pairs
+          if (found.restless) {  // marks both ends of the pairs
             tell.restless[r] |= bit;
             tell.restless[(y + 1) >> v_.tile_shift] |= bit;
           }

@@ -138,7 +138,7 @@ struct Runs {
 // long as the fields', and 64 cells before and after must be readable. All is zero at first.
 struct Currents {
   std::uint16_t* flow[4] = {};  // [y][row], signed: to (+x), (+z), (+x+z), (-x+z)
-  std::uint16_t* heat[2] = {};  // [y][row]: heats of this slice and the next, xor 0x8000, where needed
+  std::uint16_t* heat[2] = {};  // [y][row], only with heat: heats of this slice and the next, xor 0x8000
   TileRow* giving = nullptr;    // [y]: words with a flow that is not 0
 };
 

@@ -38,7 +38,7 @@ class ExchangePairs {
         z_(z),
         c_(currents),
         slope_{L::table(kSlope.axis), L::table(kSlope.diagonal)} {
-    const auto front = z + 1 < view.nz ? static_cast<std::ptrdiff_t>(view.slice) : 0;  // else masked
+    const auto front = z + 1 < view.nz ? static_cast<std::ptrdiff_t>(view.slice) : 0;  // 0: masked
     const std::ptrdiff_t steps[4] = {1, front, front + 1, front - 1};
     for (int axis = 0; axis < 4; ++axis) to_other_[axis] = steps[axis];
   }
@@ -280,8 +280,8 @@ class ExchangePairs {
   Currents& c_;
   std::ptrdiff_t to_other_[4];  // to the other cell of a pair
   int dithered_ = -1;           // the row of the two below
-  int whole_[4],
-      rest_[4];  // of the dither in 1/65536 of what a shift keeps: its whole part, 65535 less the rest
+  // Hold the dither in 1/65536 of what a shift keeps: its whole part, and 65535 less the rest.
+  int whole_[4], rest_[4];
   const typename L::Table slope_[2];  // for axes, for diagonals
 };
 

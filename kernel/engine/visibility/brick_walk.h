@@ -134,7 +134,7 @@ class BrickWalk {
     for (std::size_t a = 0; a < 3; ++a) {
       const int last = first[a] + state::kBrickSide - 1;
       const int planes = way_[a] > 0 ? first[a] - cell_[a] : cell_[a] - last;
-      if ((way_[a] > 0 ? last - cell_[a] : cell_[a] - first[a]) < 0) return false;  // it lies behind
+      if ((way_[a] > 0 ? last - cell_[a] : cell_[a] - first[a]) < 0) return false;  // the brick lies behind
       if (planes <= 0) continue;
       if (each_[a] == 0) return false;
       entry = std::max(entry, next_[a] + (planes - 1) * each_[a]);

@@ -1,6 +1,6 @@
 // Gaps tell how far a ray may go at once. For each brick and each of the eight ways of a ray, they have the
-// side of the largest cube of empty bricks that begins there. That is a byte each, so 1/64 byte per way for
-// each cell of the grid.
+// side of the largest cube of empty bricks that begins there. That is a byte each, so 1/64 byte for each cell
+// of the grid.
 //
 // Opaque cells only vanish, so a gap remains one. Gaps are found anew only after many bricks emptied.
 #pragma once

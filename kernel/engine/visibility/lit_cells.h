@@ -24,7 +24,7 @@ inline constexpr std::uint32_t kStale = 0xffff'ffff;
 
 struct LitCells {
   std::vector<Lit> cells;   // by place
-  std::vector<Fate> fates;  // of their rays, by cell and by face
+  std::vector<Fate> fates;  // fates of the rays, by cell and by face
   std::size_t bytes() const { return cells.size() * sizeof(Lit) + fates.size() * sizeof(Fate); }
 };
 

@@ -40,7 +40,7 @@ void Unfinished::complete() {
 }
 
 bool discard_unfinished() {
-  (void)changing_places().release();  // for good
+  (void)changing_places().release();  // held until the process ends
   for (const auto& discard : everything().unfinished) discard();
   return everything().completed;
 }

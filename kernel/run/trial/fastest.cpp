@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kRemembered = 8;  // builds and processors
+constexpr std::size_t kRemembered = 8;  // lines kept, for builds and processors
 
 // Returns the first processor's lines, less those that change from moment to moment.
 std::string processor() {

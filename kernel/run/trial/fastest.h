@@ -1,9 +1,8 @@
 // `auto` takes the implementation that was fastest in a short trial on this processor.
 //
 // The first program of a build makes the trial. It remembers the answer in `voxmelt/fastest` in the user's
-// folder for caches (XDG_CACHE_HOME, or
-// /.cache), a line for each of the last builds and processors. If it cannot write there, every program makes
-// the trial. No result depends on the choice.
+// folder for caches (XDG_CACHE_HOME, or ~/.cache), a line for each of the last builds and processors. If it
+// cannot write there, every program makes the trial. No result depends on the choice.
 #pragma once
 
 #include <filesystem>

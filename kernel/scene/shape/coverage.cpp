@@ -76,7 +76,7 @@ class Sampler {
 
 Window window_of(const Box& box, state::Grid grid) {
   const auto clip = [](double low, double high, int cells, int& first, int& count) {
-    if (!std::isfinite(low) || !std::isfinite(high)) return;  // scaled out of all numbers
+    if (!std::isfinite(low) || !std::isfinite(high)) return;  // a scale left no finite numbers
     first = static_cast<int>(std::clamp(std::floor(low), 0.0, static_cast<double>(cells)));
     count =
         std::max(0, static_cast<int>(std::clamp(std::ceil(high), 0.0, static_cast<double>(cells))) - first);

@@ -16,7 +16,7 @@ inline constexpr int kSamplesPerCell = 64;
 // Is the part of a grid that a box touches: cells low .. low + size - 1, x fastest.
 struct Window {
   int x = 0, y = 0, z = 0;  // lowest cell
-  state::Grid size;         // 0 along some axis: nothing
+  state::Grid size;         // 0 along some axis if the box touches no cell
 
   std::size_t index(int cx, int cy, int cz) const { return size.index(cx - x, cy - y, cz - z); }
 };

@@ -18,8 +18,8 @@ struct Entry {
   Role role = Role::solid;
   std::string name;  // "solid.0"
   bool cut = false;  // taken away from what its list has built so far
-  ShapePtr shape;    // or, without it:
-  Mesh mesh;         // placed in the grid
+  ShapePtr shape;    // null if the mesh is used
+  Mesh mesh;         // in place in the grid
   Inside inside = Inside::winding;
   std::string mesh_file;
   double temperature = 0;         // 0..1
