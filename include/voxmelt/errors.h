@@ -1,19 +1,19 @@
 /// @file
-/// What goes wrong, by kind. Each what() is one complete line for the user.
+/// Everything that goes wrong has a type here. Each what() is one complete line for the user.
 #pragma once
 
 #include <stdexcept>
 
 namespace voxmelt {
 
-/// The common base of everything that voxmelt throws on purpose. A std::logic_error is a bug in voxmelt.
+/// Is the common base of everything that voxmelt throws on purpose. A std::logic_error is a bug in voxmelt.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What the caller gave is wrong: a file, an override, a number out of its range. The message names the
-/// place, what is wrong and what is allowed: "scene.toml:12:8: error: vent.0.rate = 2 exceeds 1, ...".
+/// The caller gave something wrong: a file, an override, or a number out of its range. The message names the
+/// place, the fault and what is allowed: "scene.toml:12:8: error: vent.0.rate = 2 exceeds 1, ...".
 class InputError : public Error {
  public:
   using Error::Error;

@@ -1,5 +1,5 @@
 /// @file
-/// Pictures of a state: where they are seen from, frames as bytes, and what a pixel shows
+/// Pictures of a state are described here: the camera, the frame as bytes, and the hit of a pixel
 /// (docs/picture/definition.md defines every byte).
 #pragma once
 
@@ -12,30 +12,30 @@
 
 namespace voxmelt {
 
-/// How carefully a picture is drawn.
+/// Tells how carefully a picture is drawn.
 enum class Quality {
   fast,    ///< one sample per pixel
-  normal,  ///< eight where a pixel differs from a neighbour
-  best,    ///< thirty-two where it differs, along shorter steps
+  normal,  ///< eight samples where a pixel differs from a neighbour
+  best,    ///< thirty-two samples where it differs, along shorter steps
 };
 
-/// How space becomes a picture.
+/// Tells how space becomes a picture.
 enum class Projection {
-  perspective,   ///< what is farther away is smaller
+  perspective,   ///< distant things look smaller
   orthographic,  ///< all rays are parallel; everything is as large as a perspective shows it at the target
 };
 
-/// Where a picture is seen from.
+/// Tells from where a picture is seen.
 struct Camera {
-  Position target{};          ///< the place looked at, in cells
-  double distance = 0;        ///< from the target to the eye, in cells, 0..262144; 0: so that the grid fits
+  Position target{};          ///< place looked at, in cells
+  double distance = 0;        ///< cells from the target to the eye, 0..262144; 0 makes the grid fit
   double azimuth = 35;        ///< degrees around the vertical, -360..360; 0 from the front, 90 from +x
   double elevation = 28;      ///< degrees above the horizon, -89..89
-  double field_of_view = 30;  ///< of the picture's height, in degrees, 1..120
+  double field_of_view = 30;  ///< angle of the picture's height, in degrees, 1..120
   Projection projection = Projection::perspective;  ///< perspective, or parallel rays
 };
 
-/// A picture of a state. What is not set here is taken from the scene.
+/// Describes a picture of a state. The scene supplies everything that is not set here.
 struct Picture {
   std::optional<Camera> camera;       ///< where it is seen from
   std::optional<int> width;           ///< pixels, 16..16384
@@ -43,24 +43,25 @@ struct Picture {
   std::optional<double> azimuth;      ///< degrees, in place of the camera's
   std::optional<double> elevation;    ///< degrees, in place of the camera's
   Quality quality = Quality::normal;  ///< how carefully it is drawn
-  bool depth = false;                 ///< does a frame have depths? They cost as much as a fast picture
+  bool depth = false;                 ///< a frame has depths, too; they cost as much as a fast picture
   int row_alignment = 1;              ///< rows of a frame begin at multiples of so many bytes, 1..4096
 };
 
-/// A picture in memory. Rows follow each other from the top.
+/// Holds a picture in memory. Rows follow each other from the top.
 struct Frame {
   int width = 0;                  ///< pixels in a row
   int height = 0;                 ///< rows
   std::size_t stride = 0;         ///< bytes from a row to the next: 3 x width, rounded up to `row_alignment`
-  std::vector<std::uint8_t> rgb;  ///< red, green, blue of each pixel, in sRGB; what lies between rows is 0
-  /// Cells from the eye to what the middle of each pixel shows, along the direction of view; infinity where
-  /// that is the background. width x height of them, or none.
+  std::vector<std::uint8_t> rgb;  ///< red, green, blue of each pixel, in sRGB; bytes between rows are 0
+  /// Holds the cells from the eye to what the middle of each pixel shows, along the direction of view. A
+  /// pixel of the background has infinity. There are width x height depths, or none.
   std::vector<float> depth;
-  /// From where depths count, if there are any. Parallel rays have their eye before the whole grid.
+  /// Is the point from which depths count, if there are any. Parallel rays have their eye before the whole
+  /// grid.
   Position eye{};
 };
 
-/// A cell of the volume: 0 <= x < grid.x, and so on.
+/// Names a cell of the volume: 0 <= x < grid.x, and so on.
 struct Cell {
   int x = 0;                                                   ///< along x
   int y = 0;                                                   ///< upwards
@@ -68,24 +69,24 @@ struct Cell {
   friend bool operator==(const Cell&, const Cell&) = default;  ///< the same cell
 };
 
-/// What a pixel may show.
+/// Names the things that a pixel may show.
 enum class Shown {
-  solid,     ///< what has not melted
-  liquid,    ///< what flows
+  solid,     ///< matter that has not melted
+  liquid,    ///< matter that flows
   obstacle,  ///< inert cells above the ground
   ground,    ///< floor or terrain
 };
 
-/// Where the ray through a pixel's middle first meets something (docs/picture/definition.md, section 9).
-/// Clear matter counts: what is behind its surface does not.
+/// Describes where the ray through a pixel's middle first meets something (docs/picture/definition.md,
+/// section 9). Clear matter counts, and things behind its surface do not.
 struct Hit {
-  Shown shown = Shown::solid;  ///< of what the picture mixes there, the largest part
-  Position position{};         ///< the place, in cells
-  Position normal{};           ///< of the surface there, outwards, of length 1
+  Shown shown = Shown::solid;  ///< the largest part of what the picture mixes there
+  Position position{};         ///< place of the hit, in cells
+  Position normal{};           ///< normal of the surface there, outwards, of length 1
   double depth = 0;            ///< cells from the eye, as in a frame
-  Cell cell;                   ///< that has the place in it
-  /// The first cell from there on along the ray that is not air. The drawn surface is smooth, so that it may
-  /// run through a cell of air beside the matter. It is `cell` where no such cell comes within four cells.
+  Cell cell;                   ///< cell that contains the place
+  /// Names the first cell from there on along the ray that is not air. The drawn surface is smooth, so it may
+  /// run through a cell of air beside the matter. This is `cell` if no such cell comes within four cells.
   Cell matter;
 };
 

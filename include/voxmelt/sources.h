@@ -1,6 +1,6 @@
 /// @file
-/// What acts on a volume from outside: sources of heat, vents and drains, in the units and ranges of
-/// scene files (docs/scenes.md). Lengths are in cells; cell c covers c..c+1.
+/// Sources of heat, vents and drains act on a volume from outside. Their numbers have the units and ranges of
+/// scene files (docs/scenes.md). Lengths are in cells, and cell c covers c..c+1.
 #pragma once
 
 #include <array>
@@ -10,53 +10,53 @@
 
 namespace voxmelt {
 
-/// x, y, z in cells, each -65536..65536; rounded to sixteenths.
+/// Holds x, y, z in cells, each -65536..65536, rounded to sixteenths.
 using Position = std::array<double, 3>;
 
-/// For an `until`: never.
+/// Stands for "never" in an `until`.
 inline constexpr std::uint32_t kNever = 0xFFFFFFFFu;
 
-/// What a heat source is.
+/// Names the kinds of heat sources.
 enum class HeatSourceKind : std::uint8_t {
   point,
-  sphere,       ///< a ball that shines: its shadows are soft
+  sphere,       ///< a ball that shines, with soft shadows
   directional,  ///< a sun
   sky,          ///< everything above the horizon, equally bright
 };
-inline constexpr std::size_t kHeatSourceKinds = 4;  ///< how many kinds there are
+inline constexpr std::size_t kHeatSourceKinds = 4;  ///< number of kinds
 
-/// Where a heat source is at a step, and how strong it is. What its kind does not have is not used.
+/// Tells where a heat source is at a step, and how strong it is. Numbers that its kind lacks are not used.
 struct Keyframe {
   std::uint32_t step = 0;  ///< number of the step
   Position at{};           ///< position of a point, centre of a sphere
   /// A surface cell at distance d that faces a point or a sphere gains power / d^2 per step, in temperature
-  /// (the scene's range is 0..1). One that faces a sun, or lies open under a sky, gains power;
-  /// docs/automaton.md, section 5. 0..4194303.
+  /// (the scene's range is 0..1). One that faces a sun, or lies open under a sky, gains `power`
+  /// (docs/automaton.md, section 5). The range is 0..4194303.
   double power = 0;
-  double radius = 0;     ///< of a sphere, 0..8192
-  Position direction{};  ///< towards a directional source, of any length but 0; each -10^6..10^6
+  double radius = 0;     ///< radius of a sphere, 0..8192
+  Position direction{};  ///< direction towards a directional source, of any length but 0; each -10^6..10^6
 };
 
-/// A source of heat. Between two keyframes, all numbers change linearly in the step. Before the first and
-/// after the last they are constant.
+/// Describes a source of heat. Between two keyframes, all numbers change linearly in the step. Before the
+/// first and after the last they are constant.
 struct HeatSource {
   std::vector<Keyframe> keyframes;              ///< at least one, steps ascending
-  HeatSourceKind kind = HeatSourceKind::point;  ///< what it is
+  HeatSourceKind kind = HeatSourceKind::point;  ///< kind of source
 
-  /// A point source that stays where it is.
+  /// Makes a point source that stays in its place.
   static HeatSource fixed(const Position& at, double power) { return {{{0, at, power}}}; }
 };
 
-/// Adds liquid to all cells that are not solid or inert and whose centre is within `radius` of `at`, at steps
-/// with from <= step < until; docs/automaton.md, section 4.
+/// Adds liquid to all cells that are not solid or inert and whose centre is within `radius` of `at`. It does
+/// so at steps with from <= step < until (docs/automaton.md, section 4).
 struct Vent {
-  Position at{};                 ///< centre
-  double radius = 1;             ///< more than 0, at most 8192
-  double rate = 0.1;             ///< full cells of liquid per cell and step: more than 0, at most 1
-  double temperature = 0;        ///< of the liquid, 0..1
-  double energy = 1;             ///< of the liquid, as a part of its amount, 0..1; the viscous law has none
-  std::uint32_t from = 0;        ///< first step
-  std::uint32_t until = kNever;  ///< first step after it, more than `from`
+  Position at{};           ///< centre
+  double radius = 1;       ///< more than 0, at most 8192
+  double rate = 0.1;       ///< full cells of liquid per cell and step: more than 0, at most 1
+  double temperature = 0;  ///< temperature of the liquid, 0..1
+  double energy = 1;       ///< energy of the liquid as a part of its amount, 0..1; unused by the viscous law
+  std::uint32_t from = 0;  ///< first step
+  std::uint32_t until = kNever;  ///< first step after the last one, more than `from`
 };
 
 /// Takes liquid away, where and when a vent of the same numbers would add it.
@@ -65,7 +65,7 @@ struct Drain {
   double radius = 1;             ///< more than 0, at most 8192
   double rate = 0.1;             ///< full cells of liquid per cell and step: more than 0, at most 1
   std::uint32_t from = 0;        ///< first step
-  std::uint32_t until = kNever;  ///< first step after it, more than `from`
+  std::uint32_t until = kNever;  ///< first step after the last one, more than `from`
 };
 
 }  // namespace voxmelt

@@ -1,11 +1,11 @@
-// The implementations of this program.
+// The implementations of this program are collected here.
 #pragma once
 
 #include "kernel/automaton/step/stepper.h"
 
 namespace voxmelt::run {
 
-// All that are linked, the reference first. Which one is fastest: kernel/run/trial/fastest.h.
+// Lists all that are linked, the reference first. kernel/run/trial/fastest.h finds the fastest.
 const step::Registry& implementations();
 
 }  // namespace voxmelt::run

@@ -48,7 +48,8 @@ void Simulation::make_stepper() {
   device_ = dynamic_cast<step::DeviceStepper*>(stepper_.get());
 }
 
-// It is kept once it is there: sources that have been removed shine until the next step of visibility.
+// Makes the irradiance, and keeps it from then on. Sources that have been removed shine until the next step
+// of visibility.
 void Simulation::make_irradiance() {
   if (parameters_.heat.radiates() && irradiance_.empty()) irradiance_ = step::Irradiance(volume_.grid);
 }
@@ -62,7 +63,8 @@ void Simulation::change_sources(Sources sources) {
   stepper_->change_sources(parameters_);
 }
 
-// Between two steps a stepper knows nothing that another one lacks, but for what it has not told.
+// Makes a new stepper. Between two steps a stepper knows nothing that another one lacks, except changes that
+// it has not told.
 void Simulation::change_parameters(rule::Parameters parameters) {
   fetch();
   tell_changes();
@@ -122,8 +124,8 @@ void Simulation::run(step::Phase phase, step::Moment moment) {
   if (phase == step::Phase::spread) ++substep_;
 }
 
-// Told when somebody asks for the volume: until then everything counts as changed. So it does after a change
-// by hand.
+// Tells the changes when somebody asks for the volume. Until then everything counts as changed. The same
+// holds after a change by hand.
 void Simulation::tell_changes() const {
   if (!untold_) return;
   untold_ = false;

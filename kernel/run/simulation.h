@@ -1,7 +1,7 @@
-// The run loop: state, visibility, phases, books.
+// The run loop has the state, visibility, the phases and the books.
 //
 // With a device stepper the state lies in the device's memory. volume(), ledger() and drift() then fetch it,
-// at most once a step; visibility fetches the two masks that it needs.
+// at most once a step. Visibility fetches the two masks that it needs.
 #pragma once
 
 #include <cstdint>
@@ -22,32 +22,32 @@ class Simulation {
              const step::Tuning& tuning = {},
              std::unique_ptr<visibility::Provider> provider = nullptr);  // null: the usual one
 
-  // The automaton's number of the next step, before the first one; 0 without this call.
+  // Sets the automaton's number of the next step, before the first one. It is 0 without this call.
   void begin_at(std::uint32_t step) { first_step_ = step; }
 
-  // Goes on with a run that was left between two steps: `initial` was its volume, and its first step has been
-  // set by begin_at(). Before the first step.
+  // Goes on with a run that was left between two steps. `initial` was its volume, and its first step has been
+  // set by begin_at(). It must be called before the first step.
   void resume(state::MidRun run);
   state::MidRun mid_run() const;  // the same of this run, but without a copy of the irradiance
 
   // Runs one whole step.
   void step();
 
-  // Runs one phase of the present step, where implementations are compared phase by phase. With a device
-  // stepper it throws std::logic_error: a device has no phases.
+  // These run one phase of the present step, so that implementations can be compared phase by phase. With a
+  // device stepper run_phase() throws std::logic_error, because a device has no phases.
   void begin_step();
-  std::vector<step::Phase> phases() const;  // of the step that has begun, in their order
+  std::vector<step::Phase> phases() const;  // phases of the step that has begun, in their order
   void run_phase(step::Phase phase);
   void end_step() {
     ++steps_done_;
     untold_ = true;
   }
-  int substeps() const { return substeps_; }  // of the step that has begun last
-  step::Moment moment() const { return {step_number(), substep_, substeps_}; }  // of the next phase
+  int substeps() const { return substeps_; }  // count of the step that has begun last
+  step::Moment moment() const { return {step_number(), substep_, substeps_}; }  // moment of the next phase
 
-  // Other heat sources, vents and drains, between two steps. Vents and drains take effect at the next step,
-  // heat sources at the next step of visibility (docs/automaton.md, section 5), as if the scene had them
-  // from the start. The caller has checked their ranges; sources need a scene with heat.
+  // Replaces heat sources, vents and drains between two steps. Vents and drains take effect at the next step,
+  // and heat sources at the next step of visibility (docs/automaton.md, section 5). The bits are as if the
+  // scene had them from the start. The caller has checked their ranges. Sources need a scene with heat.
   struct Sources {
     std::vector<rule::HeatSource> heat;
     std::vector<rule::Vent> vents;
@@ -55,9 +55,10 @@ class Simulation {
   };
   void change_sources(Sources sources);
 
-  // Other parameters between two steps, whatever the state may be one of (scene::change_key). The caller has
-  // checked them. They take effect at the next step; rays of heat sources at the next step of visibility.
-  // A stepper is made anew, which costs about as much as the first step.
+  // Replaces the parameters between two steps. A scene with them could begin from any state of the run
+  // (scene::change_key). The caller has checked them. They take effect at the next step, and rays of heat
+  // sources at the next step of visibility. A stepper is made anew, which costs about as much as the first
+  // step.
   void change_parameters(rule::Parameters parameters);
 
   std::uint32_t steps_done() const { return steps_done_; }
@@ -67,15 +68,15 @@ class Simulation {
   const state::Volume& volume() const { return fetch(), tell_changes(), volume_; }
   const state::Ledger& ledger() const { return fetch(), ledger_; }
   const rule::Parameters& parameters() const { return parameters_; }
-  int threads() const { return threads_; }  // in use, where the implementation divides work among them
+  int threads() const { return threads_; }  // in use, if the implementation divides work among them
   state::Drift drift() const { return state::drift(ledger(), volume()); }
 
-  // The volume that the next step begins with, for tests that plant a leak.
+  // Returns the volume that the next step begins with, for tests that plant a leak.
   state::Volume& mutable_volume() { return touch(), volume_; }
   state::Ledger& mutable_ledger() { return touch(), ledger_; }
 
   const state::Seconds& seconds() const { return seconds_; }  // with a device stepper, none of a phase
-  visibility::Casts casts() const {                           // of the whole run
+  visibility::Casts casts() const {                           // counts of the whole run
     visibility::Casts all = casts_before_;
     return all += provider_->casts();
   }
@@ -102,18 +103,18 @@ class Simulation {
   decltype(step::Implementation::create) create_;  // makes the stepper
   step::Tuning tuning_;
   std::unique_ptr<step::Stepper> stepper_;
-  step::HostStepper* host_ = nullptr;      // the stepper, if it is one
-  step::DeviceStepper* device_ = nullptr;  // likewise
+  step::HostStepper* host_ = nullptr;      // the stepper, if it is a host stepper
+  step::DeviceStepper* device_ = nullptr;  // the stepper, if it is a device stepper
   std::unique_ptr<visibility::Provider> provider_;
   mutable state::Ledger ledger_;
-  mutable bool behind_ = false;  // the device has run on: volume_ and ledger_ are old
-  bool uploaded_ = false;        // the device has a state of ours
+  mutable bool behind_ = false;  // the device has run on, so volume_ and ledger_ are old
+  bool uploaded_ = false;        // the device holds our state
   mutable bool untold_ = false;  // steps have ended, and volume_.changed does not know of them yet
   step::Irradiance irradiance_;  // empty without radiation
   std::int64_t irradiance_capped_ = 0;
   int threads_;
   std::uint32_t first_step_ = 0, steps_done_ = 0;
-  int substeps_ = 1, substep_ = 0;  // substep_: that of the next phase
+  int substeps_ = 1, substep_ = 0;  // substep_: sub-step of the next phase
   state::Seconds seconds_;
   visibility::Casts casts_before_;  // before the run was resumed
 };

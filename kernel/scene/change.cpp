@@ -22,7 +22,7 @@ Value parsed(const std::string& settings, const std::string& name) {
   return parse_text(settings, std::make_shared<const Origin>(Origin{name, {}, false}));
 }
 
-// As TOML would have it: a whole number counts as an integer, too.
+// Returns a number as TOML would have it. A whole number counts as an integer, too.
 Value number(double value, const Place& place) {
   Value number;
   number.kind = Value::Kind::real;
@@ -53,7 +53,7 @@ void put_at(Value& document, const std::string& path, Value value) {
   table->put(path.substr(begin), std::move(value));
 }
 
-// Of settings that were read before.
+// Returns the grid's height in settings that were read before.
 int height_of(const Value& document) {
   return static_cast<int>(document.find("grid")->find("size")->items.at(1).real);
 }
@@ -117,7 +117,7 @@ void change_key(Scene& scene, const std::string& key, double value, const std::s
   parameters.heat = read_heat(root, height_of(document), warnings);
   parameters.flow = read_flow(root, warnings);
 
-  // What does not follow from these tables is as it was.
+  // Everything that does not follow from these tables stays.
   const rule::Heat& before = scene.parameters.heat;
   parameters.heat.sources = before.sources;
   parameters.heat.radiation = before.radiation;

@@ -24,7 +24,7 @@ void raise(Terrain& terrain, const std::vector<double>& height) {
     terrain.height[i] = std::max(terrain.height[i], static_cast<float>(height[i]));
 }
 
-// The heat content at which a wall has the temperature that is asked for; 0 where none is.
+// Returns the heat content at which a wall has the temperature that is asked for. It is 0 if none is.
 rule::Temperature read_wall(Reader& reader, const rule::Material& material) {
   if (!reader.has("temperature")) return 0;
   const double asked = reader.number("temperature", fraction());
@@ -42,7 +42,8 @@ void read_floor(Reader& reader, Terrain& terrain, state::Grid grid) {
   raise(terrain, std::vector<double>(terrain.height.size(), thickness));
 }
 
-// A map is stretched over the whole plan. Twice as much along one side as along the other is seldom meant.
+// Warns of a stretched map. A map is stretched over the whole plan, and twice as much along one side as along
+// the other is seldom meant.
 void warn_of_stretching(const Elevation& elevation, state::Grid grid, const std::string& file,
                         std::vector<std::string>& warnings) {
   const double wide = elevation.columns * elevation.cell_x, deep = elevation.rows * elevation.cell_y;
@@ -76,7 +77,7 @@ void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid,
   terrain.textured = true;
 }
 
-// The mesh is turned, scaled, then set down: the centre of its bounding box's bottom comes to `at`.
+// Reads a mesh. It is turned, scaled, then set down: the centre of its bounding box's bottom comes to `at`.
 void read_mesh_entry(Reader& reader, Entry& entry) {
   const std::filesystem::path file = reader.file("file");
   entry.mesh_file = file.filename().string();

@@ -1,4 +1,4 @@
-// Reads what fills the grid at the start: [[solid]], [[liquid]] and [[inert]], in the order of the file.
+// The grid is filled at the start by [[solid]], [[liquid]] and [[inert]], in the order of the file.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace voxmelt::scene {
 
-// Throws InputError. `warnings` grows by what is odd but usable.
+// Reads them. It throws InputError. `warnings` grows by things that are odd but usable.
 Contents read_contents(Reader& root, state::Grid grid, const rule::Material& material,
                        std::vector<std::string>& warnings);
 

@@ -81,7 +81,7 @@ void put_camera(Value& document, const Camera& camera, const std::array<int, 3>&
   document.put("camera", std::move(table));
 }
 
-// Floors and height fields, whose files are named from everywhere.
+// Keeps floors and height fields alone, with absolute paths of their files.
 void keep_terrain(Value& document) {
   Value* all = document.find("inert");
   if (all == nullptr || all->kind != Value::Kind::array) return;

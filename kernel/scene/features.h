@@ -1,4 +1,4 @@
-// The named features of a scene, for `voxmelt list` and for choosing what a step must do.
+// The features of a scene have names. `voxmelt list` shows them, and they tell what a step must do.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace voxmelt::scene {
 
-// All names, in the order in which features_of lists them.
+// Lists all names, in the order in which features_of lists them.
 const std::vector<std::string>& feature_names();
 
 std::vector<std::string> features_of(const rule::Parameters& parameters);

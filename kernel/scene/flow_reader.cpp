@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLargestKappa = 71;  // mobility fits 36 bits
 constexpr std::uint64_t kLargestMobility = (std::uint64_t{1} << 36) - 1;
-constexpr double kLargestEntry = 2;  // of the table of mobilities: 65535 / 32768
+constexpr double kLargestEntry = 2;  // largest entry of the table of mobilities: 65535 / 32768
 constexpr int kMostSubsteps = 1024;
 constexpr double kLargestYield = 255;  // x 65536 fits 24 bits
 
@@ -33,7 +33,7 @@ rule::Fall read_fall(Reader& reader) {
   return fall;
 }
 
-// Row `pattern`, bit by bit: +x, -x, +z, -z.
+// Reads a table, whose row `pattern` has the directions bit by bit: +x, -x, +z, -z.
 void read_table(Reader& reader, rule::PaperLaw& law) {
   if (law.neighbours != 4) reader.fail("table", " needs flow.paper.neighbours = 4");
   if (reader.has("share")) reader.fail("table", " replaces share: give only one of them");
@@ -79,7 +79,7 @@ rule::PaperLaw read_paper(Reader& reader) {
   return law;
 }
 
-// A number, or "auto": 0.
+// Reads a number, or "auto", which gives 0.
 std::int64_t read_substeps(Reader& reader) {
   if (!reader.has("substeps") || reader.kind("substeps") != Value::Kind::text)
     return reader.integer("substeps", 1, kMostSubsteps, 1);
@@ -89,7 +89,7 @@ std::int64_t read_substeps(Reader& reader) {
 
 rule::ViscousLaw read_viscous(Reader& reader) {
   rule::ViscousLaw law;
-  // kq = (2/3) (kappa / 3), with kappa = g dt / nu
+  // kq = (2/3) (kappa / 3), with kappa = g dt / nu.
   const double kappa = reader.number("kappa", above(0).at_most(kLargestKappa));
   law.mobility = static_cast<std::uint64_t>(std::llround(0x1p32 * (2.0 / 9) * kappa));
   law.yield =
@@ -102,8 +102,8 @@ rule::ViscousLaw read_viscous(Reader& reader) {
   return law;
 }
 
-// Doubles what the table multiplies, unless that exceeds its range. Twice the paper's largest share is cut by
-// the rule itself, so that law never wants more.
+// Doubles the factor that the table multiplies, unless that exceeds its range. The rule itself cuts twice the
+// paper's largest share, so that law never wants more.
 bool double_mobility(rule::Flow& flow) {
   if (flow.law == rule::Law::viscous) {
     if (flow.viscous.mobility > kLargestMobility / 2) return false;
@@ -115,8 +115,9 @@ bool double_mobility(rule::Flow& flow) {
   return true;
 }
 
-// Mobility doubles every `doubling` of temperature and is 1 at `reference`. An entry of the table is at most
-// twice its unit. Where the hottest liquid wants more, the unit stands for 2, 4, ... times that mobility.
+// Reads the table of mobilities. Mobility doubles every `doubling` of temperature and is 1 at `reference`. An
+// entry of the table is at most twice its unit. If the hottest liquid wants more, the unit stands for 2, 4,
+// ... times that mobility.
 void read_thermal(Reader& reader, rule::Flow& flow, std::vector<std::string>& warnings) {
   const double reference = reader.number("reference", fraction());
   const double doubling = reader.number("doubling", at_least(0.001).at_most(1));

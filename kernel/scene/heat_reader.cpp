@@ -16,8 +16,8 @@ namespace voxmelt::scene {
 namespace {
 
 constexpr double kLargestGamma = 0.5236;  // pi / 6: weight_face <= 10922, and conduction cannot overshoot
-// pi / 8: up to here a checkerboard of heat loses at least half of its swing in each step. With 26 neighbours
-// the corners damp it, and no wave that changes its sign keeps more than a fifth.
+// Is pi / 8: up to here a checkerboard of heat loses at least half of its swing in each step. With 26
+// neighbours the corners damp it, and no wave that changes its sign keeps more than a fifth.
 constexpr double kCalmGamma = 0.3927;
 constexpr double kLargestPower = 4194303;  // x 2^28 fits 50 bits
 constexpr double kLargestExchange =
@@ -28,7 +28,7 @@ constexpr std::int64_t kLastStep = 0xFFFFFFFFll;
 
 Range power() { return at_most(kLargestPower); }
 
-// Eq. 1: weight = gamma / (pi l^2) for a neighbour at distance l.
+// Returns the weight of Eq. 1, gamma / (pi l^2), for a neighbour at distance l.
 std::uint16_t weight(double gamma, double squared_distance) {
   return static_cast<std::uint16_t>(std::floor(65536 * gamma / (std::numbers::pi * squared_distance)));
 }
@@ -67,7 +67,7 @@ int read_rays(Reader& reader) {
   return static_cast<int>(asked);
 }
 
-// What a key of a source says, as far as its kind has it.
+// Reads a key of a source, as far as its kind has the numbers.
 rule::SourceKey read_source_key(Reader& reader, const rule::SourceKindRow& kind, std::uint32_t step) {
   rule::SourceKey key{.step = step};
   if (kind.at) key.at = to_position(reader.vector<3>("at", coordinate()));

@@ -59,7 +59,7 @@ bool can_flow(const Contents& contents, const rule::Parameters& parameters) {
   return false;
 }
 
-// All but what fills the grid. Returns its size.
+// Reads everything except what fills the grid. It returns the size of the grid.
 state::Grid read_settings(Reader& root, Scene& scene) {
   scene.title = root.text("title", scene.name);
   root.text("description", "");
@@ -77,13 +77,13 @@ state::Grid read_settings(Reader& root, Scene& scene) {
   return grid;
 }
 
-// What load_settings() reads again.
+// Returns the text that load_settings() reads again.
 std::string settings_of(Value document) {
   for (const char* list : {"solid", "liquid", "inert", "start"}) document.remove(list);
   return print_document(document);
 }
 
-// Is every cell that touches this place solid or inert? Outside the grid nothing is.
+// Tells if every cell that touches this place is solid or inert. Outside the grid no cell is.
 bool is_buried(const state::Volume& cells, const rule::Position& at) {
   constexpr std::int64_t cell = rule::kPositionUnit;
   const state::Grid g = cells.grid;

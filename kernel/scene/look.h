@@ -1,4 +1,4 @@
-// How a scene is drawn: plain data, read by render/. Lengths in cells, colours linear RGB 0..1.
+// The look of a scene is plain data, read by render/. Lengths are in cells, colours in linear RGB 0..1.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ using Vec3 = std::array<double, 3>;
 inline constexpr int kWidestPicture = 16384;  // pixels, across and down
 
 struct Camera {
-  Vec3 target{};              // looked at
+  Vec3 target{};              // place looked at
   double azimuth = 35;        // degrees, 0 looks along -z from +z, 90 looks along -x from +x
   double elevation = 28;      // degrees above the horizon
   double distance = 0;        // from the target; 0: chosen so that the grid fits
@@ -29,16 +29,16 @@ struct Light {
 inline constexpr int kMostSmooth = 6;  // passes that the renderer can do
 
 struct Look {
-  Vec3 solid{0.55, 0.56, 0.6};   // colour of what has not melted
-  Vec3 liquid{0.78, 0.8, 0.84};  // colour of what flows
+  Vec3 solid{0.55, 0.56, 0.6};   // colour of matter that has not melted
+  Vec3 liquid{0.78, 0.8, 0.84};  // colour of matter that flows
   Vec3 ground{0.42, 0.36, 0.3};  // floor and terrain
   Vec3 background{0.93, 0.94, 0.96};
   double shininess = 40;  // Blinn-Phong exponent
   double specular = 0.4;
   double metallic = 0;  // 0: wax, chocolate, plastic; 1: bare metal that mirrors its surroundings
   bool glow = false;    // colour and light of the liquid by its temperature (lava)
-  // Through so many cells of matter passes half of the red, green and blue; less than 1 counts as 1. All 0:
-  // matter is opaque.
+  // Holds the cells of matter through which half of the red, green and blue passes. Less than 1 counts as 1.
+  // If all are 0, matter is opaque.
   Vec3 clear{};
   double frost = 0.1;                       // share of the light that a surface of clear matter scatters
   double glow_cold = 0.3, glow_hot = 0.95;  // temperatures at the ends of the glow ramp, 0..1

@@ -39,14 +39,14 @@ Light read_light(Reader& root) {
 
 namespace {
 
-// A part of sRGB (IEC 61966-2-1), rounded so that every machine reads the same.
+// Returns the linear part of an sRGB byte (IEC 61966-2-1), rounded so that every machine reads the same.
 double linear(int byte) {
   const double part = byte / 255.0;
   const double light = part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4);
   return std::round(light * 10000) / 10000;
 }
 
-// [r, g, b] in linear light, or "#rrggbb" as painting programs write it.
+// Reads [r, g, b] in linear light, or "#rrggbb" as painting programs write it.
 Vec3 read_color(Reader& reader, const char* key, const Vec3& fallback) {
   if (!reader.has(key) || reader.kind(key) != Value::Kind::text)
     return reader.vector<3>(key, fraction(), fallback);

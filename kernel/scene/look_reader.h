@@ -1,4 +1,4 @@
-// [camera], [light] and [look]. All throw InputError.
+// [camera], [light] and [look] are read here. All functions throw InputError.
 #pragma once
 
 #include "kernel/automaton/state/grid.h"
@@ -7,7 +7,7 @@
 
 namespace voxmelt::scene {
 
-Camera read_camera(Reader& root, state::Grid grid);  // distance 0 becomes the least at which the grid fits
+Camera read_camera(Reader& root, state::Grid grid);  // distance 0 lets the renderer fit the grid
 Light read_light(Reader& root);
 Look read_look(Reader& root);
 

@@ -11,7 +11,7 @@
 namespace voxmelt::scene {
 namespace {
 
-// The kernel's MemAvailable. Without it no grid is refused.
+// Returns the kernel's MemAvailable. Without it no grid is refused.
 std::uint64_t available_bytes() {
   std::ifstream file("/proc/meminfo");
   std::string key, unit;
@@ -26,8 +26,8 @@ std::uint64_t available_bytes() {
 }  // namespace
 
 std::uint64_t needed_bytes(state::Grid grid) {
-  // Memory that even an empty grid takes: three masks, the walls (and sides), the page tables. Half a byte
-  // per cell is enough.
+  // Even an empty grid takes memory: three masks, the walls (and sides), the page tables. Half a byte per
+  // cell is enough.
   return static_cast<std::uint64_t>(grid.cells()) / 2;
 }
 

@@ -1,4 +1,4 @@
-// Whether a grid fits into memory, asked before anything is allocated.
+// A grid must fit into memory. This is checked before anything is allocated.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace voxmelt::scene {
 
-// Bytes that a run of this grid needs even while nothing is in it: half a byte for each cell.
+// Returns the bytes that a run of this grid needs even while nothing is in it: half a byte for each cell.
 std::uint64_t needed_bytes(state::Grid grid);
 
-// Throws ResourceError naming the needed and the available bytes.
+// Throws ResourceError with the needed and the available bytes if the grid does not fit.
 void check_memory(state::Grid grid, const Place& place);
 
 }  // namespace voxmelt::scene

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kPreamble = 10;  // magic, version, 16-bit header length
 constexpr std::size_t kLargestHeader = 65536;
 
-// What follows "'key':" in the header's dictionary, without blanks.
+// Returns the text after "'key':" in the header's dictionary, without blanks.
 std::string entry(const std::string& header, const std::string& key) {
   std::string packed;
   for (const char c : header)

@@ -1,5 +1,5 @@
-// Each table of a scene file that becomes rule parameters: checked, then rounded to the automaton's integers.
-// All throw InputError. `warnings` grows by what is odd but usable.
+// Each table of a scene file that becomes rule parameters is checked, then rounded to the automaton's
+// integers. All functions throw InputError. `warnings` grows by things that are odd but usable.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@
 namespace voxmelt::scene {
 
 rule::Material read_material(Reader& root);  // [material]
-// [heat], [heat.air] and [[heat_source]]
+// Reads [heat], [heat.air] and [[heat_source]].
 rule::Heat read_heat(Reader& root, int ny, std::vector<std::string>& warnings);
 std::vector<rule::HeatSource> read_heat_sources(Reader& root);  // [[heat_source]] alone
 std::vector<rule::Vent> read_vents(Reader& root);               // [[vent]]
 std::vector<rule::Drain> read_drains(Reader& root);             // [[drain]]
-// [flow] and its tables
+// Reads [flow] and its tables.
 rule::Flow read_flow(Reader& root, std::vector<std::string>& warnings);
 
 }  // namespace voxmelt::scene

@@ -26,7 +26,7 @@ Point read_point(Reader& reader, std::string_view key, std::optional<Vec3> fallb
   return to_point(reader.vector<3>(key, coordinate(), fallback));
 }
 
-// A closed polygon of at least three different points, smoothed where the scene asks.
+// Reads a closed polygon of at least three different points, smoothed if the scene asks for it.
 std::vector<Point2> read_outline(Reader& reader, std::string_view key, bool radii) {
   const std::vector<double> flat = reader.rows(key, 2, 3, kMostPoints, coordinate());
   std::vector<Point2> points;

@@ -1,4 +1,5 @@
-// Reads shapes of scene files (docs/scenes.md). Lengths are in cells, y is up, and angles are in degrees.
+// Shapes of scene files are read here (docs/scenes.md). Lengths are in cells, y is up, and angles are in
+// degrees.
 #pragma once
 
 #include <string>
@@ -9,11 +10,11 @@
 
 namespace voxmelt::scene {
 
-// The names that read_shape understands.
+// Lists the names that read_shape understands.
 const std::vector<std::string>& shape_names();
 
 // Reads the keys of the shape `name` and of its placement (at, rotate, scale, mirror). The caller must call
-// finish(). Throws InputError.
+// finish(). It throws InputError.
 ShapePtr read_shape(Reader& reader, const std::string& name);
 
 }  // namespace voxmelt::scene

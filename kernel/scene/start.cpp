@@ -40,7 +40,7 @@ void take(const Cells& cells, state::Grid grid, state::Field<T>& field,
       for (int x = 0; x < grid.x; ++x) state::set_value(field, x, y, z, cells[grid.index(x, y, z)]);
 }
 
-// Exports of version 0.1 call `heat` `temperature`.
+// Returns the file of a field. Exports of version 0.1 call `heat` `temperature`.
 std::filesystem::path file_of(const std::filesystem::path& folder, std::string_view field) {
   const std::filesystem::path file = folder / fmt::format("{}.npy", field), old = folder / "temperature.npy";
   const bool is_old = field == "heat" && !std::filesystem::exists(file) && std::filesystem::exists(old);
@@ -70,7 +70,7 @@ std::int64_t cells_with_something(const state::Field<T>& field) {
   return std::ranges::count_if(field.stored(), [](T value) { return value != 0; });
 }
 
-// The first invariant that a cell breaks, or nothing.
+// Returns the first invariant that a cell breaks, or null.
 const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
   const state::Slot cell = volume.at(x, y, z);
   const bool solid = volume.solid.test(x, y, z), liquid = volume.liquid.test(x, y, z),

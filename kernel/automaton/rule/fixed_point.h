@@ -1,4 +1,4 @@
-// Number formats and roundings of the automaton (docs/automaton.md, sections 1 and 2).
+// The automaton computes with these number formats and roundings (docs/automaton.md, sections 1 and 2).
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@ inline constexpr std::int32_t kAmountMax = 65535;
 inline constexpr std::int32_t kTemperatureMax = 65535;
 inline constexpr std::int32_t kBedHalf = 2048;  // amount of an inert cell whose top is its own upper face
 
-// floor((a x fraction + dither) / 65536). a may be negative: the shift rounds towards minus infinity.
+// Returns floor((a x fraction + dither) / 65536). a may be negative: the shift rounds towards minus infinity.
 VOXMELT_RULE std::int32_t scaled(std::int32_t a, std::int32_t fraction, std::int32_t dither = 0) {
   return static_cast<std::int32_t>((static_cast<std::int64_t>(a) * fraction + dither) >> 16);
 }
 
-// The dither of a step: its low 16 bits in reverse order, shifted by `part` of `parts` of the period. Any run
-// of steps then samples 0..65535 evenly, and no state is needed.
+// Returns the dither of a step: its low 16 bits in reverse order, shifted by `part` of `parts` of the period.
+// Any run of steps then samples 0..65535 evenly, and no state is needed.
 VOXMELT_RULE std::int32_t dither(std::uint32_t step, int part = 0, int parts = 1) {
   std::uint32_t r = step & 0xFFFFu;
   r = ((r & 0x5555u) << 1) | ((r >> 1) & 0x5555u);

@@ -1,4 +1,5 @@
-// Heat: conduction (Eq. 1), convection in liquid, radiation received, exchange with air.
+// A cell gains or loses heat by conduction (Eq. 1), convection in liquid, radiation received and exchange
+// with air.
 //
 // The stored field is the heat content h of a cell. It equals the temperature except in scenes with latent
 // heat. There a cell at the melting point takes up `latent_heat` units before its temperature rises again.
@@ -20,41 +21,45 @@ VOXMELT_RULE std::int32_t temperature_of(std::int32_t h, const Material& materia
   return std::max(melting, h - latent);
 }
 
-// Eq. 1 for one pair: what the first cell gains and the second loses. `weight` is 65536 gamma / (pi l^2).
+// Applies Eq. 1 to one pair: the first cell gains the result, and the second loses it. `weight` is 65536
+// gamma / (pi l^2).
 VOXMELT_RULE std::int32_t conducted(std::int32_t first, std::int32_t second, std::int32_t weight,
                                     std::int32_t dither) {
   return scaled(second - first, weight, dither);
 }
 
-// Convection in liquid (paper section 3): a hot cell below a cold one gives heat upwards. Nothing flows down.
+// Returns the convection in liquid (paper section 3). A hot cell below a cold one gives heat upwards. Nothing
+// flows down.
 VOXMELT_RULE std::int32_t convected(std::int32_t lower, std::int32_t upper, std::int32_t weight,
                                     std::int32_t dither) {
   return lower > upper ? scaled(lower - upper, weight, dither) : 0;
 }
 
-// 4096 sqrt(number of exposed axes): the area of a digital surface. With it, no lobes grow along the axes.
+// Holds 4096 sqrt(number of exposed axes), the area of a digital surface. With it, no lobes grow along the
+// axes.
 inline constexpr std::array<std::int32_t, 4> kExposure{0, 4096, 5793, 7094};
 
-// Heat gained from the irradiance of a cell (UQ12.4 temperature units per step).
+// Returns the heat gained from the irradiance of a cell (UQ12.4 temperature units per step).
 VOXMELT_RULE std::int32_t radiated(std::int32_t h, std::int32_t irradiance, std::int32_t dither) {
   return std::min((irradiance * 4096 + dither) >> 16, kTemperatureMax - h);
 }
 
-// Newton's law of cooling, or of heating, by moving air. The result stays between the two temperatures.
+// Applies Newton's law of cooling, or of heating, by moving air. The result stays between the two
+// temperatures.
 VOXMELT_RULE std::int32_t exchanged(std::int32_t h, std::int32_t air, std::int32_t exchange, int exposed_axes,
                                     std::int32_t dither, const Material& material) {
   const std::int32_t rate = (exchange * kExposure[static_cast<std::size_t>(exposed_axes)]) >> 12;
   return std::min(scaled(air - temperature_of(h, material), rate, dither), kTemperatureMax - h);
 }
 
-// Heat travels with liquid: the heat of a cell after its contents were mixed. `content` is the sum of amount
-// x h of what the cell holds now; `amount` is its new amount (> 0).
+// Returns the heat of a cell after its contents were mixed, since heat travels with liquid. `content` is the
+// sum of amount x h over the new contents of the cell. `amount` is its new amount (> 0).
 VOXMELT_RULE std::int32_t mixed(std::uint64_t content, std::uint64_t amount, std::int32_t dither) {
   const std::uint64_t offset = (amount * static_cast<std::uint64_t>(dither)) >> 16;
   return static_cast<std::int32_t>((content + offset) / amount);
 }
 
-// A solid melts when its heat reaches the melting point and the latent heat has been paid.
+// Tells if a solid melts: its heat has reached the melting point, and the latent heat has been paid.
 VOXMELT_RULE bool melts(std::int32_t h, const Material& material) {
   return h >= std::int32_t{material.melting_point} + material.latent_heat;
 }

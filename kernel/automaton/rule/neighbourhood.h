@@ -1,4 +1,5 @@
-// Horizontal directions, in the order of the bits of a pattern byte, and the axes of heat conduction.
+// The horizontal directions stand here in the order of the bits of a pattern byte, with the axes of heat
+// conduction.
 #pragma once
 
 #include <array>
@@ -22,7 +23,7 @@ struct Offset {
   int dx, dy, dz;
 };
 
-// One axis per pair of opposite neighbours, pointing from the first cell of a pair to the second.
+// There is one axis per pair of opposite neighbours. It points from the first cell of a pair to the second.
 inline constexpr std::array<Offset, 3> kFaceAxes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 inline constexpr std::array<Offset, 6> kEdgeAxes{
     {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}}};

@@ -1,6 +1,6 @@
-// Everything that the rules of a scene depend on besides its state. All numbers are integers, resolved once
-// from the scene file. `voxmelt export` writes exactly these as parameters.json (docs/automaton.md,
-// "Parameters"). The functions give what follows from the parameters alone.
+// The rules of a scene depend on its state and on these parameters alone. All numbers are integers, resolved
+// once from the scene file. `voxmelt export` writes exactly these as parameters.json (docs/automaton.md,
+// "Parameters"). The functions derive what follows from the parameters alone.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace voxmelt::rule {
 enum class Law : std::uint8_t { paper, viscous };
 enum class EnergyReading : std::uint8_t { text, printed };
 
-// Positions and radii of sources are in sixteenths of a cell; the centre of cell c is 16 c + 8.
+// Positions and radii of sources are in sixteenths of a cell. The centre of cell c is 16 c + 8.
 inline constexpr std::int64_t kPositionUnit = 16;
 
 struct Position {
@@ -25,13 +25,14 @@ struct Position {
 
 enum class SourceKind : std::uint8_t { point, sphere, directional, sky };
 
-// What a kind is called in scenes and exports, and what its keys have beside step and power.
+// Gives the name of a kind in scenes and exports, and the keys that it has beside step and power.
 struct SourceKindRow {
   SourceKind kind;
   std::string_view name;
   bool at = false, radius = false, direction = false;
 };
-// By SourceKind; the first one is what a source without a kind is. Their rays are in source_kinds.h.
+// The rows are in the order of SourceKind. A source without a kind is of the first one. Their rays are in
+// source_kinds.h.
 inline constexpr std::array kSourceKinds{
     SourceKindRow{.kind = SourceKind::point, .name = "point", .at = true},
     SourceKindRow{.kind = SourceKind::sphere, .name = "sphere", .at = true, .radius = true},
@@ -42,15 +43,15 @@ constexpr const SourceKindRow& row_of(SourceKind kind) {
   return kSourceKinds[static_cast<std::size_t>(kind)];
 }
 
-// Between two keys, all numbers of a source change linearly in the step. Those that its kind lacks are 0.
+// Between two keys, all numbers of a source change linearly in the step. Numbers that its kind lacks are 0.
 struct SourceKey {
   std::uint32_t step = 0;
   Position at{};
-  // Irradiance x squared distance: 1/16 temperature unit per step x (1/16 cell)^2. Of a sun or a sky: the
-  // irradiance of what is turned to it, x 256.
+  // Is the irradiance x squared distance: 1/16 temperature unit per step x (1/16 cell)^2. For a sun or a sky
+  // it is the irradiance of a face turned to it, x 256.
   std::uint64_t power = 0;
   std::int64_t radius = 0;
-  Position direction{};  // towards a directional source, of any length
+  Position direction{};  // points towards a directional source, any length
 };
 
 struct HeatSource {
@@ -69,18 +70,18 @@ struct Heat {
   bool radiation = false;           // heat sources present
   std::uint32_t visibility_every = 8;
   int rays_per_face = 1;       // 1, 4 or 16: from the centres of equal squares
-  std::uint64_t ray_seed = 1;  // of the places where rays end: the scene's seed
+  std::uint64_t ray_seed = 1;  // the scene's seed, for the places where rays end
   std::vector<HeatSource> sources;
   bool air = false;                          // exchange with moving air at exposed cells (oven, or cooling)
   std::uint16_t air_exchange = 0;            // 1/65536 per step and unit area, at most 37837
   std::vector<Temperature> air_temperature;  // one per y
 
   VOXMELT_RULE bool radiates() const { return enabled && radiation; }
-  // How many steps ago the irradiance of this step was computed; 0 where nothing radiates.
+  // Returns how many steps ago the irradiance of this step was computed. It is 0 if nothing radiates.
   VOXMELT_RULE std::uint32_t visibility_age(std::uint32_t step) const {
     return radiates() ? step % visibility_every : 0;
   }
-  // Is the irradiance computed anew before this step?
+  // Tells if the irradiance is computed anew before this step.
   VOXMELT_RULE bool is_visibility_step(std::uint32_t step) const {
     return radiates() && visibility_age(step) == 0;
   }
@@ -110,24 +111,25 @@ struct Drain {
   std::uint32_t from = 0, until = 0xFFFFFFFFu;
 };
 
-// Vertical motion, both laws: a cell gives min(A, (A x factor >> 16) + minimum). A factor of 65536 gives all.
+// Vertical motion is alike in both laws: a cell gives min(A, (A x factor >> 16) + minimum). A factor of 65536
+// gives all.
 struct Fall {
   std::uint32_t factor = 65536;       // free air
-  std::uint32_t wall_factor = 65536;  // extra `adhesion`: a side or diagonal-free neighbour is solid
+  std::uint32_t wall_factor = 65536;  // extra `adhesion`: one of the four sides is blocked
   Amount minimum = 32;                // a smaller amount moves whole
   Amount hang = 0;                    // extra `drip`: an overhanging film below this amount waits; 0 is off
 
-  // Does what a cell gives depend on what stands beside it?
+  // Tells if the outflow of a cell depends on what stands beside it.
   VOXMELT_RULE bool sees_sides() const { return hang > 0 || wall_factor != factor; }
-  // Does every cell give all that it holds?
+  // Tells if every cell gives all that it holds.
   VOXMELT_RULE bool is_free() const { return factor == 65536 && !sees_sides(); }
 };
 
-// Bounds of spreading, by the number of neighbours (docs/proofs.md, "Amounts stay in 0..AMAX"). Nothing gives
+// Spreading is bounded by the number of neighbours (docs/proofs.md, "Amounts stay in 0..AMAX"). Nothing gives
 // more than it has: with 8 neighbours a cell gives 4 shares and, to its diagonals, 4 quarters of one.
 VOXMELT_RULE std::int32_t most_shares(int neighbours) { return neighbours == 8 ? 5 : 4; }
 VOXMELT_RULE std::int32_t largest_share(int neighbours) { return 65536 / most_shares(neighbours); }
-// Nothing overflows: with 8 neighbours a receiver below 11 takes at most 4 x 1 + 4 x 1/4; with 4 neighbours
+// Nothing overflows. With 8 neighbours a receiver below 11 takes at most 4 x 1 + 4 x 1/4. With 4 neighbours
 // one below 8 takes at most 4 x 2.
 VOXMELT_RULE std::int32_t flow_cap(int neighbours) { return neighbours == 8 ? kOne : 2 * kOne; }
 VOXMELT_RULE std::int32_t receiver_limit(int neighbours) { return (neighbours == 8 ? 11 : 8) * kOne; }
@@ -138,8 +140,8 @@ struct PaperLaw {
   bool use_table = false;       // factors per pattern (paper, 4 neighbours) instead of one share
   std::array<std::array<std::uint16_t, 4>, 16> table{};  // [pattern][direction], 1/65536
   std::uint16_t share = 8192;                            // 1/65536 of the amount per axis direction
-  bool downhill = true;                                  // receive only below the giver
-  Amount margin = 256;                                   // and by more than this
+  bool downhill = true;  // neighbours receive only if they hold less than the giver
+  Amount margin = 256;   // less by more than this
   bool support = false;  // extra `support`: only cells that stand on something spread
   Amount slump = 0;      // extra `slump`: margin at which a starved cell still yields; 0 is off
   EnergyReading reading = EnergyReading::text;
@@ -152,9 +154,9 @@ struct ViscousLaw {
   std::uint64_t mobility = 0;  // kq = (2/3)(kappa/3), 1/2^32: docs/automaton.md, section 10
   std::uint32_t yield = 0;     // yield stress: depth x head difference that rests, 1/65536
   std::uint8_t stiffness = 8;  // K: 1..8, of closed conduits
-  std::uint16_t substeps =
-      1;  // settle and spread so often in a step, 1..1024; 0: as often as the state needs
-  std::uint16_t substeps_max = 1024;  // then at most so often
+  // The law settles and spreads so often in a step, 1..1024. With 0 it is as often as the state needs.
+  std::uint16_t substeps = 1;
+  std::uint16_t substeps_max = 1024;  // upper bound if `substeps` is 0
 
   bool counts_substeps() const { return substeps == 0; }
 };

@@ -1,4 +1,4 @@
-// Random bits as a function of (seed, step, cell): the block cipher Speck64/128 cut to 10 rounds.
+// Random bits are a function of (seed, step, cell): the block cipher Speck64/128 cut to 10 rounds.
 //
 // One 64-bit block serves 8 cells along x, one byte (8 directions) each. It takes 32-bit additions, rotations
 // by 8 and 3, and exclusive-or, which are cheap in SIMD and in logic.
@@ -16,10 +16,10 @@ namespace voxmelt::rule {
 inline constexpr int kRandomRounds = 10;
 using RoundKeys = std::array<std::uint32_t, kRandomRounds>;
 
-// The last word of the key: "elt!" for the random bits of cells, "rays" for the places where rays end.
+// Is the last word of the key: "elt!" for the random bits of cells, "rays" for the places where rays end.
 inline constexpr std::uint32_t kCellWord = 0x656C7421, kRayWord = 0x72617973;
 
-// Speck64/128 key schedule of (seed low, seed high, "voxm", last word).
+// Computes the Speck64/128 key schedule of (seed low, seed high, "voxm", last word).
 VOXMELT_RULE RoundKeys round_keys(std::uint64_t seed, std::uint32_t last_word = kCellWord) {
   RoundKeys key{};
   std::array<std::uint32_t, kRandomRounds + 3> l{};
@@ -43,7 +43,7 @@ VOXMELT_RULE std::uint64_t random_block(const RoundKeys& key, std::uint32_t step
   return (std::uint64_t{x} << 32) | y;
 }
 
-// Blocks are numbered along x, then y, then z; a row of nx cells has ceil(nx / 8) of them.
+// Blocks are numbered along x, then y, then z. A row of nx cells has ceil(nx / 8) of them.
 VOXMELT_RULE std::uint32_t random_block_index(int x, int y, int z, int nx, int ny) {
   const std::uint32_t row_blocks = (static_cast<std::uint32_t>(nx) + 7) / 8;
   return (static_cast<std::uint32_t>(z) * static_cast<std::uint32_t>(ny) + static_cast<std::uint32_t>(y)) *

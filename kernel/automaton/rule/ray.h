@@ -1,4 +1,4 @@
-// Where the rays of a solid cell begin and end, and what they weigh, for a source of any kind
+// The rays of a solid cell begin, end and weigh as computed here, for a source of any kind
 // (docs/automaton.md, section 5).
 #pragma once
 
@@ -14,12 +14,13 @@
 
 namespace voxmelt::rule {
 
-// May a ray of this face be cast, by the cell's coordinate along its axis alone? True wherever one is.
+// Tells if a ray of this face may be cast, by the cell's coordinate along its axis alone. It is true wherever
+// a ray is cast.
 VOXMELT_RULE bool may_look(SourceKind kind, const SourceKey& source, const Face& face, int coordinate) {
   return with_kind(kind, [&](auto one) { return one.may_look(source, face, coordinate); });
 }
 
-// The rays of one cell to one source.
+// Computes the rays of one cell to one source.
 class CellRays {
  public:
   using Ray = SightRay;
@@ -35,7 +36,7 @@ class CellRays {
     with_kind(kind, [&](auto one) { one.prepare(sight_); });
   }
 
-  // The face whose rays are asked for next.
+  // Chooses the face whose rays are asked for next.
   constexpr void choose(int number) {
     sight_.face = face_of(number);
     if (!with_kind(kind_, [](auto one) { return one.kTurns; })) return;
@@ -48,7 +49,7 @@ class CellRays {
                                static_cast<std::uint32_t>(index));
   }
 
-  // The start of ray side x i + j.
+  // Returns the start of ray side x i + j.
   constexpr Position start(int i, int j) const {
     Triple from{};
     const std::int64_t square = kPositionUnit / sight_.setting.side;
@@ -64,7 +65,7 @@ class CellRays {
     return with_kind(kind_, [&](auto one) { return one.ray(sight_, n, from); });
   }
 
-  // What the cell receives: `sum` adds the weights of all rays that see the source.
+  // Returns the irradiance that the cell receives. `sum` adds the weights of all rays that see the source.
   constexpr std::uint64_t receives(std::int64_t sum) const {
     if (sum == 0) return 0;
     return with_kind(kind_, [&](auto one) { return one.receives(sight_, sum); });

@@ -1,5 +1,5 @@
-// Where rays can begin and end (docs/automaton.md, section 5): the faces of a cell, places on a disc, the way
-// out of the grid.
+// Rays begin and end at places computed here (docs/automaton.md, section 5): faces of a cell, places on a
+// disc, and the way out of the grid.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ VOXMELT_RULE std::uint64_t squared(const Triple& t) {
   return static_cast<std::uint64_t>(t[0] * t[0] + t[1] * t[1] + t[2] * t[2]);
 }
 
-// +x, -x, +y, -y, +z, -z.
+// Faces are numbered +x, -x, +y, -y, +z, -z.
 inline constexpr int kFaces = 6;
 struct Face {
   std::size_t axis;
@@ -31,7 +31,7 @@ VOXMELT_RULE Face face_of(int number) {
   return {static_cast<std::size_t>(number) / 2, number % 2 == 0 ? 1 : -1};
 }
 
-// floor(16384 cos((2c + 1) pi / 256))
+// Holds floor(16384 cos((2c + 1) pi / 256)).
 inline constexpr std::array<std::int64_t, 64> kCosine{
     16382, 16372, 16353, 16323, 16284, 16234, 16175, 16107, 16028, 15940, 15842, 15735, 15618,
     15492, 15357, 15212, 15058, 14895, 14723, 14543, 14353, 14155, 13948, 13733, 13510, 13278,
@@ -39,12 +39,12 @@ inline constexpr std::array<std::int64_t, 64> kCosine{
     9268,  8934,  8594,  8249,  7900,  7545,  7186,  6822,  6455,  6083,  5708,  5329,  4948,
     4563,  4175,  3785,  3393,  2998,  2602,  2204,  1805,  1405,  1004,  603,   201};
 
-// A place on a disc of radius 16384: p, q, and its distance from the middle.
+// Is a place on a disc of radius 16384: its distance rho from the middle, and its coordinates p and q.
 struct DiscPlace {
   std::int64_t rho, p, q;
 };
 
-// The places of the rays of a face are spread evenly, and turned by its random word.
+// Spreads the places of the rays of a face evenly, and turns them by the face's random word.
 VOXMELT_RULE DiscPlace disc_place(std::uint64_t word, int ray, int rays) {
   const auto n = static_cast<std::uint64_t>(ray);
   const std::uint64_t reversed = rays == 16  ? (n & 1) << 3 | (n & 2) << 1 | (n & 4) >> 1 | (n & 8) >> 3
@@ -67,7 +67,7 @@ VOXMELT_RULE DiscPlace disc_place(std::uint64_t word, int ray, int rays) {
   }
 }
 
-// Two vectors of length 16384, upright on each other and on `delta`, which is not 0.
+// Holds two vectors of length 16384 at right angles to each other and to `delta`, which is not 0.
 struct DiscAxes {
   Triple g{}, v{};
 };
@@ -98,8 +98,8 @@ VOXMELT_RULE DiscAxes disc_axes(const Triple& delta) {
   return axes;
 }
 
-// The first of start + way, start + 2 way, ... that has left the grid. `way` leads out of the grid, or along
-// its border, where `start` lies on the border.
+// Returns the first of start + way, start + 2 way, ... that has left the grid. `way` leads out of the grid,
+// or along its border if `start` lies on the border.
 VOXMELT_RULE Position leaving(const Triple& start, const Triple& way, const std::array<int, 3>& grid) {
   std::int64_t k = INT64_MAX;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -111,7 +111,7 @@ VOXMELT_RULE Position leaving(const Triple& start, const Triple& way, const std:
   return {start[0] + k * way[0], start[1] + k * way[1], start[2] + k * way[2]};
 }
 
-// What the rays of all cells have in common.
+// Holds what the rays of all cells have in common.
 struct RaySetting {
   std::array<int, 3> grid{};
   int side = 1;  // a face has side x side rays

@@ -1,4 +1,4 @@
-// Vents, drains and the path of a moving heat source: integers in sixteenths of a cell.
+// Vents, drains and the path of a moving heat source are computed in integers, in sixteenths of a cell.
 #pragma once
 
 #include <algorithm>
@@ -20,18 +20,18 @@ VOXMELT_RULE bool is_open(std::uint32_t from, std::uint32_t until, std::uint32_t
   return from <= step && step < until;
 }
 
-// What a vent adds to, or a drain takes from, a cell that holds `amount`.
+// Returns the amount that a vent adds to, or a drain takes from, a cell that holds `amount`.
 VOXMELT_RULE std::int32_t vented(std::int32_t amount, std::int32_t rate) {
   return std::min(rate, kAmountMax - amount);
 }
 VOXMELT_RULE std::int32_t drained(std::int32_t amount, std::int32_t rate) { return std::min(rate, amount); }
 
-// Energy of freshly vented liquid: `energy` per kOne.
+// Returns the energy of freshly vented liquid. `energy` is per kOne.
 VOXMELT_RULE std::int32_t vented_energy(std::int32_t added, std::int32_t energy) {
   return (added * energy) >> 12;
 }
 
-// a + floor((b - a) i / n), where 0 <= i < n < 2^32. The difference is divided into a quotient and a
+// Returns a + floor((b - a) i / n), where 0 <= i < n < 2^32. The difference is divided into a quotient and a
 // remainder by n. Then no product exceeds 64 bits, whatever a and b are.
 VOXMELT_RULE std::int64_t between(std::int64_t a, std::int64_t b, std::int64_t i, std::int64_t n) {
   const std::int64_t difference = b - a;
@@ -45,7 +45,7 @@ VOXMELT_RULE Position between(const Position& a, const Position& b, std::int64_t
   return {between(a.x, b.x, i, n), between(a.y, b.y, i, n), between(a.z, b.z, i, n)};
 }
 
-// The numbers of a source at a step.
+// Returns the numbers of a source at a step.
 inline SourceKey source_at(const HeatSource& source, std::uint32_t step) {
   const auto& keys = source.keys;
   if (step <= keys.front().step) return keys.front();

@@ -1,6 +1,6 @@
-// The kinds of heat sources (docs/automaton.md, section 5): for each of them where the rays of a face end,
-// what they weigh, and what a cell receives. A new kind is a row of kSourceKinds, a struct here, and its
-// place in `SourceKinds`.
+// Each kind of heat source has a struct here (docs/automaton.md, section 5). It tells where the rays of a
+// face end, their weights, and the irradiance of a cell. A new kind is a row of kSourceKinds, a struct here,
+// and its place in `SourceKinds`.
 #pragma once
 
 #include <algorithm>
@@ -15,25 +15,25 @@
 
 namespace voxmelt::rule {
 
-// A ray's end and weight; with a weight of 0 it is not cast.
+// Holds a ray's end and weight. A ray with a weight of 0 is not cast.
 struct SightRay {
   std::int64_t weight = 0;
   Position end;
 };
 
-// What the rays of a cell to a source depend on.
+// Holds the data on which the rays of a cell to a source depend.
 struct Sight {
   const RaySetting& setting;
   const SourceKey& source;
-  Triple middle{}, delta{};  // of the cell; from there to `at` of the source
-  DiscAxes axes{};           // where the kind has prepared them
+  Triple middle{}, delta{};  // the cell's middle; vector from there to `at` of the source
+  DiscAxes axes{};           // set if the kind prepares them
   Face face{};
   std::uint64_t word = 0;  // the random word of cell and face, for kinds whose rays are turned
 
   constexpr std::size_t next() const { return (face.axis + 1) % 3; }
   constexpr std::size_t last() const { return (face.axis + 2) % 3; }
 
-  // Ends that are not beyond the plane of the face are none.
+  // Makes a ray to an end beyond the plane of the face. Any other end gives no ray.
   constexpr SightRay to(const Position& end) const {
     const std::int64_t weight = face.side * (triple(end)[face.axis] - middle[face.axis]);
     if (weight <= kPositionUnit / 2) return {};
@@ -41,26 +41,26 @@ struct Sight {
   }
 };
 
-// May an end at most `reach` before `at` lie beyond the plane of the face?
+// Tells if an end at most `reach` before `at` may lie beyond the plane of the face.
 VOXMELT_RULE bool may_reach(const SourceKey& source, const Face& face, int coordinate, std::int64_t reach) {
   const std::int64_t delta = triple(source.at)[face.axis] - (kPositionUnit * coordinate + kPositionUnit / 2);
   return face.side * delta + reach > kPositionUnit / 2;
 }
 
-// floor(power by / under)
+// Returns floor(power by / under).
 VOXMELT_RULE std::uint64_t quotient(std::uint64_t power, std::uint64_t by, std::uint64_t under) {
   __extension__ using Wide = unsigned __int128;
   return static_cast<std::uint64_t>(Wide{power} * by / under);
 }
-inline constexpr std::uint64_t kOneCell = kPositionUnit * kPositionUnit;  // its distance, squared
+inline constexpr std::uint64_t kOneCell = kPositionUnit * kPositionUnit;  // squared distance of one cell
 
 // Each kind has:
 //   kTurns      its rays are turned by random bits
-//   may_look    may a ray of this face be cast, by the cell's coordinate along its axis alone? True wherever
-//               one is
+//   may_look    a ray of this face may be cast, by the cell's coordinate along its axis alone; true wherever
+//               one is cast
 //   prepare     once for a cell
-//   ray         from `start`, ray n of the face
-//   receives    what the cell receives, where the rays that see the source weigh `sum` > 0 together
+//   ray         ray n of the face, from `start`
+//   receives    the cell's irradiance; the rays that see the source weigh `sum` > 0 together
 
 struct PointSource {
   static constexpr bool kTurns = false;
@@ -78,7 +78,7 @@ struct PointSource {
 
 struct SphereSource {
   static constexpr bool kTurns = true;
-  // A place on its disc is a little farther out than its radius, by rounding (docs/proofs.md).
+  // By rounding, a place on the sphere's disc may be a little farther out than its radius (docs/proofs.md).
   VOXMELT_RULE static bool may_look(const SourceKey& source, const Face& face, int coordinate) {
     return may_reach(source, face, coordinate, source.radius + source.radius / 8 + 1);
   }
@@ -142,7 +142,8 @@ struct SkySource {
   }
 };
 
-using SourceKinds = std::tuple<PointSource, SphereSource, DirectionalSource, SkySource>;  // by SourceKind
+// The kinds are in the order of SourceKind.
+using SourceKinds = std::tuple<PointSource, SphereSource, DirectionalSource, SkySource>;
 static_assert(std::tuple_size_v<SourceKinds> == kSourceKinds.size(), "a kind without rays, or without a row");
 static_assert(
     [] {

@@ -1,4 +1,4 @@
-// The viscous law: free-surface heads and lubrication mobility of settled runs of liquid.
+// The viscous law gives settled runs of liquid free-surface heads and a lubrication mobility.
 //
 // A run is the contiguous liquid standing on a solid. Heads are in 1/512 cell from the grid's bottom.
 #pragma once
@@ -15,15 +15,16 @@ namespace voxmelt::rule {
 
 inline constexpr std::int32_t kHeadOne = 512;
 inline constexpr std::int32_t kRunHalf = kOne / 2;
-inline constexpr std::int32_t kNoBed = -1;  // of a cell in the air
+inline constexpr std::int32_t kNoBed = -1;  // bed of a cell in the air
 
-// Does the run go on above n cells that hold the sum `mass`, the uppermost `top`, when the next holds `next`?
+// Tells if the run goes on above n cells that hold the sum `mass`. The uppermost holds `top`, the next one
+// `next`.
 VOXMELT_RULE bool run_continues(std::int64_t mass, std::int32_t n, std::int32_t top, std::int32_t next) {
   return mass > std::int64_t{n} * kOne || (top >= kRunHalf && next > 0);
 }
 
-// Settled amount of cell k of a run of n cells with sum `mass`: full from the bottom; what does not fit below
-// a ceiling is stacked from the top cell down.
+// Returns the settled amount of cell k of a run of n cells with sum `mass`. Cells are full from the bottom.
+// Liquid that does not fit below a ceiling is stacked from the top cell down.
 VOXMELT_RULE std::int32_t settled(std::int64_t mass, std::int32_t n, std::int32_t k) {
   const std::int64_t over = std::max<std::int64_t>(0, mass - std::int64_t{n} * kOne);
   const std::int64_t base = std::clamp<std::int64_t>(mass - std::int64_t{k} * kOne, 0, kOne);
@@ -32,8 +33,9 @@ VOXMELT_RULE std::int32_t settled(std::int64_t mass, std::int32_t n, std::int32_
   return static_cast<std::int32_t>(base + stacked);
 }
 
-// Where heat goes when a run settles. The excess at the face above cell k is what cells 0..k hold beyond ONE
-// each, before settling. Up to this one, no cell holds more than kAmountMax while the parts move.
+// Heat moves through the faces of a run when it settles. The excess at the face above cell k is what cells
+// 0..k hold beyond ONE each, before settling. Up to kMostExcess, no cell holds more than kAmountMax while the
+// parts move.
 inline constexpr std::int64_t kMostExcess = kAmountMax - kOne;
 
 VOXMELT_RULE std::int64_t face_excess(std::int64_t mass_below, std::int32_t k) {
@@ -42,7 +44,7 @@ VOXMELT_RULE std::int64_t face_excess(std::int64_t mass_below, std::int32_t k) {
 VOXMELT_RULE bool keeps_order_at(std::int64_t excess) {
   return -kMostExcess <= excess && excess <= kMostExcess;
 }
-// Through that face: first upwards from cell k, then downwards into it. `mass` is the whole run's.
+// Amounts pass that face first upwards from cell k, then downwards into it. `mass` is the whole run's.
 VOXMELT_RULE std::int32_t settles_up(std::int64_t excess) {
   return static_cast<std::int32_t>(std::max<std::int64_t>(0, excess));
 }
@@ -51,24 +53,25 @@ VOXMELT_RULE std::int32_t settles_down(std::int64_t mass, std::int64_t mass_belo
   return static_cast<std::int32_t>(std::max<std::int64_t>(0, settled_below - mass_below));
 }
 
-struct Column {           // what a cell shows to its neighbours
+// Holds what a cell shows to its neighbours.
+struct Column {
   std::int32_t head;      // 1/512 cell
-  std::int32_t mobility;  // 1/2^24, towards a cell in a run: limited by the depth
+  std::int32_t mobility;  // 1/2^24, towards a cell in a run; limited by the depth
   std::int32_t exposed;   // 1/2^24, towards a cell outside a run: a bare flank, limited per cell only
   std::int32_t dead;      // head differences up to this do not move it (yield stress; at least one unit)
   bool in_run;
   std::int32_t bed = kNoBed;  // 1/16 cell from the grid's bottom
-  std::int32_t limit = 0;     // 1/65536, of the mobility; 0: no run here or below
-  bool limited = false;       // has it cut the mobility?
+  std::int32_t limit = 0;     // 1/65536, bound of the mobility; 0: no run here or below
+  bool limited = false;       // the limit has cut the mobility
 };
 
 VOXMELT_RULE std::int32_t bed_head(int y, std::int32_t bed_amount) {
   return y * kHeadOne + ((bed_amount - kBedHalf) >> 3);
 }
 
-// Dithers of sub-step k of n. A pair's: n sub-steps at a steady flux round as one step does (Hermite's
-// identity), and the layers of a run, by their height y, round in turn. A mixture's: no two are alike, and
-// that of sub-step 0 is the step's.
+// These are the dithers of sub-step k of n. With a pair's dither, n sub-steps at a steady flux round as one
+// step does (Hermite's identity). The layers of a run, by their height y, round in turn. No two dithers of a
+// mixture are alike, and that of sub-step 0 is the step's.
 VOXMELT_RULE std::int32_t pair_dither(std::uint32_t step, int axis, int y, int k, int n) {
   const std::int32_t offset = (dither(step, axis, 4) + dither(static_cast<std::uint32_t>(y))) & 0xFFFF;
   return (offset + 65536 * ((k + axis * n / 4) % n)) / n;
@@ -77,7 +80,8 @@ VOXMELT_RULE std::int32_t mixing_dither(std::uint32_t step, int k) {
   return (dither(step) + dither(static_cast<std::uint32_t>(k))) & 0xFFFF;
 }
 
-// Mobility kq M^2 of a run of sum `mass` and heat content h in one of n sub-steps, 1/2^24, without a limit.
+// Returns the mobility kq M^2, in 1/2^24 and without a limit, in one of n sub-steps. The run has the sum
+// `mass` and the heat content h.
 VOXMELT_RULE std::int64_t run_mobility(std::int64_t mass, std::int32_t h, const Flow& flow, int substeps) {
   const auto n = static_cast<std::uint64_t>(substeps);
   const std::uint64_t pace = (flow.viscous.mobility + n / 2) / n;
@@ -87,12 +91,12 @@ VOXMELT_RULE std::int64_t run_mobility(std::int64_t mass, std::int32_t h, const 
     mobility = (mobility * flow.mobility_table[static_cast<std::size_t>(h >> 11)]) >> 15;
   return mobility;
 }
-// So that a column gives at most a fifth of a cell of height to another column; 1/65536.
+// Limits the mobility, in 1/65536. So a column gives at most a fifth of a cell of height to another column.
 VOXMELT_RULE std::int32_t run_limit(std::int64_t mass, std::int64_t over, const ViscousLaw& law) {
   const std::int64_t limit = 13107 / ((mass >> 12) + 1) / (over > 0 ? law.stiffness : 1);
   return static_cast<std::int32_t>(std::max<std::int64_t>(1, limit));
 }
-// The sub-steps with which no limit cuts the mobility of this run.
+// Returns the number of sub-steps with which no limit cuts the mobility of this run.
 VOXMELT_RULE std::int64_t needed_substeps(std::int64_t mass, std::int32_t n, std::int32_t h,
                                           const Flow& flow) {
   const std::int64_t over = std::max<std::int64_t>(0, mass - std::int64_t{n} * kOne);
@@ -100,7 +104,7 @@ VOXMELT_RULE std::int64_t needed_substeps(std::int64_t mass, std::int32_t n, std
   return (run_mobility(mass, h, flow, 1) + limit - 1) / limit;
 }
 
-// What a run of n cells with sum `mass` and mean heat content h shows, its bed at `bed`.
+// Returns what a run of n cells with sum `mass` and mean heat content h shows. Its bed is at `bed`.
 VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t bed, std::int32_t h,
                                const Flow& flow, int substeps = 1) {
   const ViscousLaw& law = flow.viscous;
@@ -123,7 +127,7 @@ VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t b
   return column;
 }
 
-// A cell outside a run: on a bed, on top of a run (`below`), or in the air.
+// These columns are of a cell outside a run: on a bed, on top of a run (`below`), or in the air.
 VOXMELT_RULE Column bed_column(std::int32_t bed) { return {bed, 0, 0, 0, false, bed >> 5}; }
 VOXMELT_RULE Column top_column(const Column& below) {
   return {below.head, below.mobility, 0, 0, false, below.bed, below.limit};
@@ -131,8 +135,8 @@ VOXMELT_RULE Column top_column(const Column& below) {
 VOXMELT_RULE Column air_column(int y) { return {(y - 2) * kHeadOne, 0, 0, 0, false}; }
 
 // A film on a slope carries 1 / (1 + s^2)^2 of what it carries on level ground. Axes and diagonals together
-// do so in all directions, with 1 / (1 + 2 s^2) and 1 / (1 + s^2 + s^4)^2, where s is the difference of the
-// pair's own two beds. In 1/16384, by 16 s.
+// do so in all directions, with 1 / (1 + 2 s^2) and 1 / (1 + s^2 + s^4)^2. Here s is the difference of the
+// pair's own two beds. The table is in 1/16384, by 16 s.
 inline constexpr std::int32_t kSteepest = 16;
 using SlopeTable = std::array<std::int32_t, kSteepest + 1>;
 inline constexpr std::array<SlopeTable, 2> kSlopeFactor = [] {  // [diagonal]
@@ -151,14 +155,16 @@ VOXMELT_RULE std::int32_t slope_factor(std::int32_t bed, std::int32_t other, boo
   return factor[static_cast<std::size_t>(std::min(kSteepest, std::max(bed - other, other - bed)))];
 }
 
-// The amount that flows at a drop: between level beds the mean of both cells, since the face lies between the
-// columns. On a slope the two cells lie at different depths of their runs, so the giver's alone counts.
+// Returns the amount that flows at a drop. Between level beds it is the mean of both cells, since the face
+// lies between the columns. On a slope the two cells lie at different depths of their runs, so the giver's
+// alone counts.
 VOXMELT_RULE std::int32_t flowing_amount(const Column& giver, std::int32_t a, const Column& taker,
                                          std::int32_t b) {
   return giver.bed != kNoBed && giver.bed == taker.bed ? (a + b + 1) >> 1 : a;
 }
 
-// The flow from `giver` (amount a) to `taker` (amount b); 0 unless the giver stands higher and in a run.
+// Returns the flow from `giver` (amount a) to `taker` (amount b). It is 0 unless the giver stands higher and
+// in a run.
 VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, const Column& taker,
                                        std::int32_t b, bool diagonal, std::int32_t dither) {
   if (!giver.in_run) return 0;
@@ -176,7 +182,7 @@ VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, cons
   const auto wanted = static_cast<std::int32_t>(diagonal ? (product + (offset << 12)) >> 28
                                                          : (product + (offset << 10)) >> 26);
   const std::int32_t room = std::max(0, (taker.in_run ? kAmountMax : kOne) - b);
-  const std::int32_t most = scaled(std::min(a, room), 13107);  // four fifths, and four twentieths
+  const std::int32_t most = scaled(std::min(a, room), 13107);  // a fifth; in all 4/5 + 4/20
   return std::min(wanted, diagonal ? most >> 2 : most);
 }
 

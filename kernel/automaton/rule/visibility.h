@@ -1,4 +1,4 @@
-// Irradiance of a cell from a point source: what its faces receive, and the exact walk of their rays.
+// The irradiance of a cell from a point source depends on its faces and on the exact walk of their rays.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@ namespace voxmelt::rule {
 
 inline constexpr std::int32_t kIrradianceMax = 65535;  // UQ12.4 temperature units per step
 
-// floor(sqrt(a)), digit by digit: exact, and the same everywhere.
+// Returns floor(sqrt(a)), digit by digit. It is exact, and the same everywhere.
 VOXMELT_RULE std::uint64_t square_root(std::uint64_t a) {
   std::uint64_t root = 0;
-  const int even = (63 - std::countl_zero(a | 1)) & ~1;  // of the greatest power of 4 that is not above a
+  const int even = (63 - std::countl_zero(a | 1)) & ~1;  // log2 of the greatest power of 4 <= a
   for (std::uint64_t bit = std::uint64_t{1} << even; bit != 0; bit >>= 2) {
     const std::uint64_t next = root + bit;
     root >>= 1;
@@ -28,10 +28,11 @@ VOXMELT_RULE std::uint64_t square_root(std::uint64_t a) {
   return root;
 }
 
-// What the faces of a cell receive from a source: power x sum / |delta|^3. The sum takes for each face
-// |delta| along its axis. So it is the inverse square times the cosine of each face, no nearer than one cell.
+// Returns the irradiance that the faces of a cell receive from a source: power x sum / |delta|^3. The sum
+// takes |delta| along its axis for each face. So it is the inverse square times the cosine of each face, no
+// nearer than one cell.
 //   facing            that sum, taken for every ray that sees the source
-//   rays              of a face: 1, 4 or 16
+//   rays              rays of a face: 1, 4 or 16
 //   distance_squared  |delta|^2 from the cell's centre, below 2^52
 VOXMELT_RULE std::uint64_t irradiance(std::uint64_t power, std::int64_t facing, int rays,
                                       std::uint64_t distance_squared) {
@@ -44,10 +45,10 @@ VOXMELT_RULE std::uint64_t irradiance(std::uint64_t power, std::int64_t facing, 
 }
 
 // Walks the cells whose interiors the open segment from `start` to `target` crosses, in order. At an edge or
-// a corner it steps along all tied axes at once: touching is not crossing.
+// a corner it steps along all tied axes at once, because touching is not crossing.
 class VoxelWalk {
  public:
-  // `cell` is the first one that is crossed; `start` lies inside it, or on its border and behind it.
+  // Starts in `cell`, the first one that is crossed. `start` lies inside it, or on its border and behind it.
   VoxelWalk(std::array<int, 3> cell, Position start, Position target) : cell_(cell) {
     const std::array<std::int64_t, 3> from{start.x, start.y, start.z}, to{target.x, target.y, target.z};
     for (std::size_t a = 0; a < 3; ++a) {
@@ -58,9 +59,10 @@ class VoxelWalk {
     }
   }
 
-  // Moves to the next cell; false when the segment ends first.
+  // Moves to the next cell. It returns false when the segment ends first.
   bool next() {
-    // The next crossing on axis a is at parameter crossing / length; compared without division.
+    // The next crossing on axis a is at parameter crossing / length. Parameters are compared without
+    // division.
     std::size_t first = 3;
     for (std::size_t a = 0; a < 3; ++a) {
       if (crossing_[a] >= length_[a]) continue;

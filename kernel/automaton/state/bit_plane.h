@@ -1,4 +1,4 @@
-// One bit per cell, packed 64 cells to a word along x.
+// A bit plane holds one bit per cell, packed 64 cells to a word along x.
 //
 //   word(w, y, z): bit b is cell x = 64 w + b; every row starts a new word; bits past the grid are 0.
 #pragma once

@@ -1,8 +1,8 @@
-// Which bricks of 8x8x8 cells of a volume may have changed, for those who keep something computed from it.
+// Readers that keep something computed from a volume learn which bricks of 8x8x8 cells may have changed.
 //
-// Every brick has the versions at which its matter and its heat were last marked. A reader keeps what it has
-// seen, and asks for the bricks that are newer. So any number of readers can follow one volume, and none
-// clears what another needs. Where nobody tells of changes (a volume made or edited by hand, a copy),
+// Every brick has the versions at which its matter and its heat were last marked. A reader keeps the version
+// that it has seen, and asks for the bricks that are newer. So any number of readers can follow one volume,
+// and none clears what another needs. If nobody tells of changes (a volume made or edited by hand, a copy),
 // everything counts as changed.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace voxmelt::state {
 
 inline constexpr int kBrickSide = 8;
 
-// How many bricks a grid needs along each axis; the last ones may reach past the grid.
+// Returns how many bricks a grid needs along each axis. The last ones may reach past the grid.
 inline Grid brick_grid(const Grid& cells) {
   const auto bricks = [](int side) { return (side + kBrickSide - 1) / kBrickSide; };
   return {bricks(cells.x), bricks(cells.y), bricks(cells.z)};
@@ -26,7 +26,7 @@ inline Grid brick_grid(const Grid& cells) {
 
 class ChangedBricks {
  public:
-  // Of which volume, and up to which version. The default has seen nothing.
+  // Names the volume, and the version up to which a reader has seen it. The default has seen nothing.
   struct Seen {
     std::uint64_t volume = 0, version = 0;
   };
@@ -39,26 +39,26 @@ class ChangedBricks {
   ChangedBricks& operator=(ChangedBricks&& other) noexcept { return take(other), *this; }
   ~ChangedBricks() = default;
 
-  // Matter: masks, amounts, energies, and the heat that moves with them. Heat: heats alone, which change
-  // nearly everywhere while something melts.
+  // The matter is masks, amounts, energies, and the heat that moves with them. The other part is heats alone,
+  // which change nearly everywhere while something melts.
   enum Part { kMatter, kHeat };
 
-  // For those who change the volume. All begins as not followed.
+  // These functions are for code that changes the volume. No volume is followed at first.
   void follow(const Grid& cells);  // everything counts as changed; from now on changes are told
   void forget();                   // no longer followed
   bool followed() const { return volume_ != 0; }
-  void begin() { open_ = true; }  // until `end`, changes may not have been told yet
+  void begin() { open_ = true; }  // until `end`, some changes may not have been told yet
   void end() { open_ = false; }
-  void new_version() { ++version_; }  // what is marked from now on is newer than what was
-  // The bricks at y and z that hold cells of these words of 64 cells along x, one bit each.
+  void new_version() { ++version_; }  // later marks are newer than earlier ones
+  // Marks the bricks at y and z that hold cells of these words of 64 cells along x, one bit each.
   void mark(Part part, std::uint64_t words, int y, int z);
   void mark_all() { std::fill(newest_[kMatter].begin(), newest_[kMatter].end(), version_); }
 
-  // For readers.
+  // These functions are for readers.
   Seen now() const { return open_ ? Seen{} : Seen{volume_, version_}; }
   bool all_since(const Seen& seen) const { return open_ || volume_ == 0 || seen.volume != volume_; }
   bool none_since(const Seen& seen) const { return !all_since(seen) && seen.version == version_; }
-  // Only where `all_since` is false.
+  // Tells if a part of a brick is newer. It may be called only if `all_since` is false.
   bool since(Part part, const Seen& seen, std::size_t brick) const {
     return newest_[kMatter][brick] > seen.version || (part == kHeat && newest_[kHeat][brick] > seen.version);
   }

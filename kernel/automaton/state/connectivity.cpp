@@ -16,7 +16,7 @@ void flood(Row solid, std::span<std::uint64_t> reached) {
   std::uint64_t carry = 0;
   for (std::size_t w = 0; w < solid.size(); ++w) {
     const std::uint64_t s = solid[w], from = reached[w] | (s & carry);
-    const std::uint64_t sum = s + from;  // from its first set bit on, a run of ones turns to what was added
+    const std::uint64_t sum = s + from;  // flips each run of ones from its first seed on
     carry = sum < s ? 1 : 0;
     reached[w] = from | ((sum ^ s) & s);
   }
@@ -32,7 +32,7 @@ void flood(Row solid, std::span<std::uint64_t> reached) {
   }
 }
 
-// Solids that stand on the bottom or on an inert cell of their row or of a row beside it.
+// Marks the solids that stand on the bottom or on an inert cell of their row or of a row beside it.
 void seed(const Volume& volume, int y, int z, std::span<std::uint64_t> reached) {
   const Grid g = volume.grid;
   const Row solid = volume.solid.row(y, z), inert = volume.inert.row(y, z);

@@ -1,4 +1,4 @@
-// Which solids still stand on something.
+// The count of detached solids tells if parts of the model no longer stand on anything.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,8 @@
 
 namespace voxmelt::state {
 
-// Solid cells without a path of face-adjacent solid cells to an inert cell or to the grid's bottom.
+// Counts the solid cells without a path of face-adjacent solid cells to an inert cell or to the grid's
+// bottom.
 std::int64_t count_detached(const Volume& volume);
 
 }  // namespace voxmelt::state

@@ -30,7 +30,7 @@ std::string text_of(const Difference& d) {
 }
 
 std::optional<Difference> first_difference(const Volume& expected, const Volume& actual) {
-  if (expected == actual) return {};  // usually, and page by page
+  if (expected == actual) return {};  // the usual case, compared page by page
   const Grid g = expected.grid;
   for (int z = 0; z < g.z; ++z)
     for (int y = 0; y < g.y; ++y)

@@ -1,4 +1,4 @@
-// Where two volumes of one size differ.
+// Two volumes of one size are compared cell by cell and field by field.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,11 @@ struct Difference {
 };
 std::string text_of(const Difference& difference);  // "heat at 1, 2, 3: expected 4, is 5"
 
-// Of the cells x fastest, and of a cell the fields in the order of their table; none where all are equal.
+// Returns the first difference, or none. Cells come x fastest, and the fields of a cell in the order of their
+// table.
 std::optional<Difference> first_difference(const Volume& expected, const Volume& actual);
 
-// Does this cell have the same number in every field?
+// Tells if this cell has the same number in every field.
 bool same_cell(const Volume& a, const Volume& b, int x, int y, int z);
 
 }  // namespace voxmelt::state

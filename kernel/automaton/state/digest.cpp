@@ -22,7 +22,7 @@ constexpr bool every_bit_has_its_place() {
 }
 static_assert(every_bit_has_its_place(), "two fields share a bit of a cell's word");
 
-// The cells of a row from its first one on; null for an optional field that the volume lacks.
+// Returns the cells of a row from its first one on. It is null for an optional field that the volume lacks.
 const std::uint64_t* row_of(const BitPlane& plane, int y, int z) {
   return plane.empty() ? nullptr : plane.row(y, z).data();
 }
@@ -31,7 +31,7 @@ const T* row_of(const Field<T>& field, int y, int z) {
   return field.empty() ? nullptr : field.row(y, z);
 }
 
-// Is any of `count` cells from x = 64 w on not 0?
+// Tells if any of `count` cells from x = 64 w on is not 0.
 bool any_of(const std::uint64_t* mask, std::size_t w, int /*bits past the grid are 0*/) {
   return mask[w] != 0;
 }

@@ -1,6 +1,6 @@
-// One number per cell, laid out for SIMD: [z][y][x], x fastest. Every row begins at a multiple of 64 cells
-// and 64 bytes. A slice has one spare row: without it, the slices of a power-of-two grid would share the same
-// sets of a cache. Padding is 0 and stays 0. A row may be read up to 64 cells beyond both ends.
+// A field has one number per cell, laid out for SIMD: [z][y][x], x fastest. Every row begins at a multiple of
+// 64 cells and 64 bytes. A slice has one spare row. Without it, the slices of a power-of-two grid would share
+// the same sets of a cache. Padding is 0 and stays 0. A row may be read up to 64 cells beyond both ends.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace voxmelt::state {
 
-// Where a cell is stored in a field. Only Layout makes it, so it is not mistaken for Grid::index.
+// Tells where a cell is stored in a field. Only Layout makes it, so it is not mistaken for Grid::index.
 struct Slot {
   std::size_t offset = 0;
   friend Slot operator+(Slot slot, std::size_t cells) { return {slot.offset + cells}; }
@@ -54,7 +54,7 @@ class Field {
   T* row(int y, int z) { return data() + layout_.at(0, y, z).offset; }
   const T* row(int y, int z) const { return data() + layout_.at(0, y, z).offset; }
 
-  // All stored values, including the padding (0) between rows.
+  // Returns all stored values, including the padding (0) between rows.
   std::span<const T> stored() const { return {data(), layout_.cells()}; }
 
   void clear() { pages_.clear(); }

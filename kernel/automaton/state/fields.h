@@ -1,8 +1,9 @@
-// The fields of a state: a row for each. What merely carries a state goes over this table: equality, digest,
-// files, checkpoints, views, comparisons. Rules and engines name the fields that they compute with.
+// Each field of a state has a row in this table. Code that merely carries a state goes over the table:
+// equality, digest, files, checkpoints, views, comparisons. Rules and engines name the fields that they
+// compute with.
 //
-// A new field is a member of Volume and a row here. It may be as wide as the others or narrower: a mask is a
-// BitPlane, a number of 8 bits a Field<std::uint8_t>.
+// A new field is a member of Volume and a row here. It may be as wide as the others or narrower. A mask is a
+// BitPlane, and a number of 8 bits a Field<std::uint8_t>.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +16,17 @@
 namespace voxmelt::state {
 
 struct FieldInfo {
-  std::string_view name;     // of files, blocks, views and messages; at most 8 letters
-  int bits = 0;              // of a cell: 1 for a mask, else 8 or 16
-  std::string_view unit{};   // of a number
-  int digest_bit = 0;        // the lowest of its bits in a cell's word of the digest
-  std::uint32_t border = 0;  // of a cell outside the grid
-  // Which scenes have it; null: all. In the others it is 0 everywhere, and `missing` says why.
+  std::string_view name;     // in files, blocks, views and messages; at most 8 letters
+  int bits = 0;              // per cell: 1 for a mask, else 8 or 16
+  std::string_view unit{};   // unit of a number
+  int digest_bit = 0;        // lowest of its bits in a cell's word of the digest
+  std::uint32_t border = 0;  // value of a cell outside the grid
+  // Tells which scenes have the field. Null stands for all. In the others it is 0 everywhere, and `missing`
+  // says why.
   bool (*present)(const rule::Parameters&) = nullptr;
   std::string_view missing{};
-  // It has address space, and a place in files, only in a volume of a scene that has it, or whose
-  // start.fields had it. (Of the others, what is empty takes no memory.)
+  // An optional field has address space, and a place in files, only in a volume of a scene that has it, or
+  // whose start.fields had it. Empty pages of the other fields take no memory.
   bool optional = false;
 };
 
@@ -38,7 +40,7 @@ inline constexpr bool has_energy(const rule::Parameters& p) { return p.flow.law 
 inline constexpr bool has_heat(const rule::Parameters& p) { return p.heat.enabled; }
 }  // namespace field
 
-// In the order of files.
+// The rows are in the order of files.
 inline constexpr std::tuple kFields{
     FieldRow<&Volume::solid>{{.name = "solid", .bits = 1, .digest_bit = 48}},
     FieldRow<&Volume::liquid>{{.name = "liquid", .bits = 1, .digest_bit = 49}},
@@ -68,14 +70,14 @@ constexpr void for_each_field(const Visit& visit) {
   std::apply([&](const auto&... row) { (visit(row), ...); }, kFields);
 }
 
-// The number of a cell, whatever the width. The field is not empty.
+// Returns the number of a cell, whatever the width. The field must not be empty.
 inline std::uint32_t value_at(const BitPlane& plane, int x, int y, int z) { return plane.test(x, y, z); }
 template <class T>
 std::uint32_t value_at(const Field<T>& field, int x, int y, int z) {
   return field[field.layout().at(x, y, z)];
 }
 
-// Sets it, and leaves memory alone where it is that number already: what is empty stays without memory.
+// Sets the number, and leaves memory alone if the cell has it already. So empty pages stay without memory.
 inline void set_value(BitPlane& plane, int x, int y, int z, std::uint32_t value) {
   if (value_at(plane, x, y, z) != value) plane.set(x, y, z, value != 0);
 }
@@ -85,7 +87,7 @@ void set_value(Field<T>& field, int x, int y, int z, std::uint32_t value) {
   if (cell != value) cell = static_cast<T>(value);
 }
 
-// All fields of a volume of the same size. What is known of the changes of `to` stays as it is.
+// Copies all fields of a volume of the same size. The record of the changes of `to` stays as it is.
 void copy_fields(const Volume& from, Volume& to);
 
 }  // namespace voxmelt::state

@@ -1,4 +1,4 @@
-// The size of a volume in cells: x fastest, y up (gravity along -y), z outermost.
+// A grid is the size of a volume in cells: x fastest, y up (gravity along -y), z outermost.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
-// Exact books of mass, energy and heat (docs/automaton.md, "Ledgers").
+// These are the exact books of mass, energy and heat (docs/automaton.md, "Ledgers").
 //
 // Every term (ledger_terms.h) is summed where a rule applies it. None is found by subtraction. A ledger
-// balances when start + all terms = what the state holds, to the unit.
+// balances when start + all terms = the holdings of the state, to the unit.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ __extension__ using Sum = __int128;
 
 std::string to_string(Sum value);
 
-// What a state holds, in the units of each ledger.
+// Sums what a state holds, in the units of each ledger.
 struct Holdings {
   Sum solid = 0, liquid = 0;  // mass: sum of amount
   Sum energy = 0;             // sum of energy
@@ -25,7 +25,7 @@ struct Holdings {
 
 Holdings holdings(const Volume& volume);
 
-// The ledger of mass, energy or heat.
+// Is the ledger of mass, energy or heat.
 template <template <class> class Terms>
 struct LedgerOf : Terms<Sum> {
   Sum start = 0;
@@ -51,7 +51,7 @@ struct Ledger {
   friend bool operator==(const Ledger&, const Ledger&) = default;
 };
 
-// What the state holds minus what the books say; all zero when they balance.
+// Is what the state holds minus what the books expect. All are zero when they balance.
 struct Drift {
   Sum mass = 0, energy = 0, heat = 0;
   bool none() const { return mass == 0 && energy == 0 && heat == 0; }

@@ -1,5 +1,5 @@
-// The terms of the ledgers (docs/automaton.md, "Ledgers"), each with its name and its sign. Sums, booking,
-// the balance and report.json follow from these tables.
+// The terms of the ledgers (docs/automaton.md, "Ledgers") stand in tables, each with its name and its sign.
+// Sums, booking, the balance and report.json follow from these tables.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace voxmelt::state {
 template <class Terms, class Number>
 struct Term {
   std::string_view name;
-  int sign;  // +1: what the state holds grows by the term; -1: it shrinks
+  int sign;  // +1: the state's holdings grow by the term; -1: they shrink
   Number Terms::*value;
 };
 
@@ -82,7 +82,8 @@ constexpr void add_terms(Terms<To>& to, const Terms<From>& from) {
   for (std::size_t i = 0; i < sums.size(); ++i) to.*sums[i].value += from.*terms[i].value;
 }
 
-// Liquid in settled runs of the viscous law, over all sub-steps, and that whose mobility a limit cuts.
+// Counts the liquid in settled runs of the viscous law, over all sub-steps, and the part whose mobility a
+// limit cuts.
 template <class Number>
 struct LimitCounts {
   Number cells = 0, limited_cells = 0;
@@ -98,13 +99,13 @@ struct LimitCounts {
   friend bool operator==(const LimitCounts&, const LimitCounts&) = default;
 };
 
-// The terms of all ledgers.
+// Holds the terms of all ledgers.
 template <class Number>
 struct LedgerTerms {
   MassTerms<Number> mass;
   EnergyTerms<Number> energy;
   HeatTerms<Number> heat;
-  LimitCounts<Number> limit;  // no ledger: it has no balance
+  LimitCounts<Number> limit;  // not a ledger, as it has no balance
 
   LedgerTerms& operator+=(const LedgerTerms& other) {
     add_terms(mass, other.mass);

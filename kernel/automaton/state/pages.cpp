@@ -28,7 +28,7 @@ std::byte* reserve(std::size_t bytes) {
   return static_cast<std::byte*>(address);
 }
 
-// Pages of `to` are written only where they differ. So empty pages never take memory.
+// Copies only the pages that differ. So empty pages never take memory.
 void copy(const std::byte* from, std::byte* to, std::size_t bytes, bool to_is_zero) {
   for (std::size_t at = 0; at < bytes; at += kPage) {
     const std::size_t size = std::min(kPage, bytes - at);

@@ -1,5 +1,5 @@
-// Zeroed memory that is taken only where something is written. Every cell has address space, and only pages
-// that are not empty have memory. Copies are as sparse as their originals.
+// Zeroed memory is taken only where something is written. Every cell has address space, and only pages that
+// are not empty have memory. Copies are as sparse as their originals.
 #pragma once
 
 #include <cstddef>

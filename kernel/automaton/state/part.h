@@ -1,4 +1,4 @@
-// A part of a volume: cut out, or cleared.
+// A part of a volume can be cut out, or cleared.
 #pragma once
 
 #include <array>
@@ -7,18 +7,18 @@
 
 namespace voxmelt::state {
 
-// Cells `from` <= cell < `from` + `size`, within the grid.
+// Names the cells with `from` <= cell < `from` + `size`, within the grid.
 struct Box {
   std::array<int, 3> from{}, size{};
 };
 
-// These cells alone, as a volume of their size.
+// Returns these cells alone, as a volume of their size.
 Volume part_of(const Volume& volume, const Box& box);
 
-// Every field of these cells becomes 0.
+// Sets every field of these cells to 0.
 void clear(Volume& volume, const Box& box);
 
-// Is any mask set there?
+// Tells if any mask is set there.
 bool holds_something(const Volume& volume, const Box& box);
 
 }  // namespace voxmelt::state

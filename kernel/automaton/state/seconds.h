@@ -1,4 +1,4 @@
-// What takes the time of a run: the phases of its steps, and visibility before them.
+// The time of a run goes to the phases of its steps, and to visibility before them.
 #pragma once
 
 #include <array>
@@ -11,10 +11,11 @@ struct Seconds {
   double visibility = 0;
 
   struct Row {
-    std::string_view name;  // of reports
+    std::string_view name;  // name in reports
     double Seconds::*value;
   };
-  // The phases in the order of step::Phase, then visibility: so they stand in a checkpoint, too.
+  // The rows are the phases in the order of step::Phase, then visibility. They stand in a checkpoint in this
+  // order, too.
   static constexpr std::array<Row, 7> table() {
     return {{{"source", &Seconds::source},
              {"heat", &Seconds::heat},

@@ -1,4 +1,4 @@
-// The state of a volume: three bit-packed masks and three 16-bit fields, all [z][y][x], x fastest.
+// The state of a volume has three bit-packed masks and three 16-bit fields, all [z][y][x], x fastest.
 //
 //   solid   meltable solid; amount is its mass (a full cell holds kOne; a surface cell its covered part)
 //   inert   never melts and never moves; its amount is the bed offset (kBedHalf: flat), no mass; with heat
@@ -6,10 +6,10 @@
 //   liquid  exactly the cells that are neither and hold amount > 0
 //
 // A cell with neither solid nor liquid has energy 0 and, unless it is such a wall, heat 0. An empty cell has
-// amount 0 too. A cell of amount 0 has no heat, so the bed offset of a wall is at least 1. What a scene does
-// not use (energy, heat) takes no memory, nor does what is empty.
+// amount 0 too. A cell of amount 0 has no heat, so the bed offset of a wall is at least 1. A field that a
+// scene does not use (energy, heat) takes no memory, nor do empty pages.
 //
-// What is known of its changes is no part of the state: volumes that differ in it alone are equal.
+// The record of its changes is no part of the state: volumes that differ in it alone are equal.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Volume {
   Slot at(int x, int y, int z) const { return amount.layout().at(x, y, z); }
 
   Grid grid;
-  // Each with a row in fields.h.
+  // Each member has a row in fields.h.
   BitPlane solid, liquid, inert;
   Field<std::uint16_t> amount, energy, heat;
 

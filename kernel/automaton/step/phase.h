@@ -1,4 +1,4 @@
-// The phases of a step and their order. This is the only place that lists them.
+// The phases of a step and their order are listed in this place only.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ inline constexpr int kPhaseCount = 6;
 inline constexpr std::array<std::string_view, kPhaseCount> kPhaseNames{"source",  "heat",   "melt",
                                                                        "gravity", "spread", "excess"};
 
-// Where the times of a run have that of a phase: `seconds.*time_of(phase)`.
+// Returns the member that has the time of a phase: `seconds.*time_of(phase)`.
 constexpr double state::Seconds::*time_of(Phase phase) {
   return state::Seconds::table()[static_cast<std::size_t>(phase)].value;
 }
@@ -29,8 +29,8 @@ static_assert(
     }(),
     "state::Seconds has the phases in the order of Phase");
 
-// Paper law: gravity and excess are one ascending sweep, run as `gravity`; `excess` is empty.
-// Viscous law: settle (`excess`) and spread, so often as the step has sub-steps, then fall (`gravity`).
+// Under the paper law, gravity and excess are one ascending sweep, run as `gravity`, and `excess` is empty.
+// Under the viscous law, a step settles (`excess`) and spreads once per sub-step, then falls (`gravity`).
 inline std::vector<Phase> phase_order(rule::Law law, int substeps = 1) {
   using enum Phase;
   if (law == rule::Law::paper) return {source, heat, melt, gravity, spread, excess};
@@ -40,11 +40,11 @@ inline std::vector<Phase> phase_order(rule::Law law, int substeps = 1) {
   return phases;
 }
 
-// When a phase runs: in which step, and in which of its sub-steps (`excess` and `spread`, viscous law).
+// Tells when a phase runs: in which step, and in which of its sub-steps (`excess` and `spread`, viscous law).
 struct Moment {
   std::uint32_t step = 0;
   int substep = 0, substeps = 1;
-  bool unseen = false;  // the next phase follows at once: what this one does may be put off into that one
+  bool unseen = false;  // the next phase follows at once, and may do the work of this one
   explicit Moment(std::uint32_t number) : step(number) {}
   Moment(std::uint32_t number, int the_number, int all) : step(number), substep(the_number), substeps(all) {}
 };

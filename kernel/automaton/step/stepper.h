@@ -1,4 +1,4 @@
-// What every implementation of the automaton offers. There are two kinds. A host stepper computes in the run
+// Every implementation of the automaton is a stepper. There are two kinds. A host stepper computes in the run
 // loop's memory, one phase at a time. So any two can be compared after each phase. A device stepper (a GPU,
 // an FPGA, another process) runs whole steps in memory of its own, and gives the state back when asked.
 #pragma once
@@ -24,14 +24,14 @@ class Stepper {
  public:
   virtual ~Stepper() = default;
 
-  // Marks the bricks in which its steps may have changed the volume since the last call. The run loop asks
-  // where somebody wants to see the volume: of a host stepper after a phase, of a device after a download,
-  // for all steps up to it. A stepper that does not know better says: everywhere. Then whoever follows the
-  // volume, as a picture does, scans all of it.
+  // Marks the bricks in which its steps may have changed the volume since the last call. The run loop calls
+  // it when somebody wants to see the volume. It asks a host stepper after a phase. It asks a device after a
+  // download, for all steps up to it. A stepper that does not know better marks all bricks. Then a follower
+  // of the volume, such as a picture, scans all of it.
   virtual void tell_changes(state::ChangedBricks& changed) { changed.mark_all(); }
 
-  // From the next step on, point sources, vents and drains are those of `parameters`. All else in it is as it
-  // was when the stepper was created, but `heat.radiation` may become true.
+  // Replaces point sources, vents and drains by those of `parameters`, from the next step on. All else in it
+  // is as it was when the stepper was created, but `heat.radiation` may become true.
   virtual void change_sources(const rule::Parameters& parameters) = 0;
 };
 
@@ -46,29 +46,29 @@ class HostStepper : public Stepper {
 
 class DeviceStepper : public Stepper {
  public:
-  // Copies a state and its books to the device, in place of what it held.
+  // Copies a state and its books to the device, in place of its old contents.
   virtual void upload(const state::Volume& volume, const state::Ledger& ledger) = 0;
 
-  // Runs all phases of step number `step`. Where the scene does not say how many sub-steps it has, the device
+  // Runs all phases of step number `step`. If the scene does not say how many sub-steps it has, the device
   // counts them in its own state (docs/automaton.md, section 10). `irradiance` lies in the host's memory and
-  // is null when the scene has no radiation; its values change only at steps divisible by
+  // is null when the scene has no radiation. Its values change only at steps divisible by
   // heat.visibility_every.
   virtual void run_step(std::uint32_t step, const Irradiance* irradiance) = 0;
 
   // Copies `solid` and `inert` into the volume, which has the grid's size. Visibility needs no more.
   virtual void download_masks(state::Volume& volume) = 0;
 
-  // Copies the whole state and the books, every term booked until now. Of the volume it writes the fields
-  // (state::copy_fields): what is known of its changes stays, and the next tell_changes adds to it.
+  // Copies the whole state and the books, with every term booked until now. It writes the fields of the
+  // volume (state::copy_fields). The record of its changes stays, and the next tell_changes adds to it.
   virtual void download(state::Volume& volume, state::Ledger& ledger) = 0;
 };
 
-// How an implementation works. No result depends on it.
+// Sets how an implementation works. No result depends on it.
 struct Tuning {
   int threads = 1;
   bool sleep = true;   // skip what provably stays as it is
   int tile_shift = 3;  // rows of a tile of work: 2^tile_shift, 0..12
-  // Cells of a grid from which on gravity may run a slice ahead of spread (paper law).
+  // A grid must have this many cells for gravity to run a slice ahead of spread (paper law).
   std::size_t ahead_from = std::size_t{1} << 20;
 };
 
@@ -77,24 +77,25 @@ struct Implementation {
   std::string description;
   std::unique_ptr<Stepper> (*create)(const rule::Parameters& parameters, state::Grid grid,
                                      const Tuning& tuning);
-  bool supported = true;  // by this processor
+  bool supported = true;  // this processor can run it
 };
 
-// Every room of kernel/engine/ with implementations has an add_implementations(registry). kernel/run/ calls
+// Every folder of kernel/engine/ with implementations has an add_implementations(registry). kernel/run/ calls
 // them, the reference first.
 class Registry {
  public:
   void add(Implementation implementation) { implementations_.push_back(std::move(implementation)); }
   const std::vector<Implementation>& all() const { return implementations_; }
 
-  // Null for an unknown name. What users call `auto` is known to kernel/run/trial/fastest.h alone.
+  // Returns null for an unknown name. Only kernel/run/trial/fastest.h knows what users call `auto`.
   const Implementation* find(std::string_view name) const {
     for (const Implementation& candidate : implementations_)
       if (candidate.name == name) return &candidate;
     return nullptr;
   }
 
-  // The last one that this processor supports. No trial, so it is the same every time: for tests.
+  // Returns the last one that this processor supports. It makes no trial, so it is the same every time, for
+  // tests.
   const Implementation& widest() const {
     const Implementation* found = &implementations_.front();
     for (const Implementation& candidate : implementations_)

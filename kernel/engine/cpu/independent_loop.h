@@ -1,5 +1,5 @@
-// A word before a loop, for g++: no iteration depends on another. clang looks for itself at run time, and its
-// own word for it warns where a loop does not become vectors.
+// VOXMELT_INDEPENDENT stands before a loop and tells g++ that no iteration depends on another. The compiler
+// clang looks for itself at run time. Its own word for it warns if a loop does not become vectors.
 #pragma once
 
 #if defined(__clang__)

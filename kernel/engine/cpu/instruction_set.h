@@ -1,4 +1,4 @@
-// Which instruction sets there are, and how to call the code that was compiled for one of them.
+// The instruction sets are listed, and code that was compiled for one of them is called through this header.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ constexpr const InstructionSetRow& row_of(InstructionSet set) {
 constexpr std::string_view name_of(InstructionSet set) { return row_of(set).name; }
 inline bool supported(InstructionSet set) { return row_of(set).supported(); }
 
-// The best that this processor has.
+// Returns the best one that this processor has.
 inline InstructionSet widest() {
   InstructionSet best{};
   for (const InstructionSetRow& row : kInstructionSets)
@@ -24,7 +24,7 @@ inline InstructionSet widest() {
   return best;
 }
 
-// The type that templates are compiled for.
+// Is the type that templates are compiled for.
 template <InstructionSet kSet>
 using ArchOf = std::tuple_element_t<static_cast<std::size_t>(kSet), Architectures>;
 

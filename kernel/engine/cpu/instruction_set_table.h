@@ -1,5 +1,5 @@
-// The instruction sets that kernels are compiled for: their names, what they are, and what a processor must
-// have. The compiler's options stand in cmake/InstructionSets.cmake, the lanes in lanes_<enumerator>.h.
+// Kernels are compiled for these instruction sets. Each row has a name, a description, and a test of the
+// processor. The compiler's options stand in cmake/InstructionSets.cmake, the lanes in lanes_<enumerator>.h.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct neon64;
 
 namespace voxmelt::cpu {
 
-// The narrowest comes first. VOXMELT_ONLY_<enumerator>: a build for the machine at hand has one.
+// The narrowest comes first. A build for the machine at hand has only one, set by VOXMELT_ONLY_<enumerator>.
 #if defined(__aarch64__)
 enum class InstructionSet { neon };
 using Architectures = std::tuple<xsimd::neon64>;
@@ -33,8 +33,8 @@ using Architectures = std::tuple<xsimd::sse4_2, xsimd::avx2, xsimd::avx512bw>;
 struct InstructionSetRow {
   InstructionSet set;
   std::string_view name, description;
-  // Does this processor have everything that the compiler may use, and does the operating system save
-  // its registers?
+  // Tells if this processor has everything that the compiler may use, and if the operating system saves its
+  // registers.
   bool (*supported)();
 };
 
@@ -72,7 +72,7 @@ inline constexpr std::array kInstructionSets {
 };
 #endif
 
-// For loops that more lanes than those of AVX2 do not help.
+// Is enough for loops that gain nothing from more lanes than those of AVX2.
 inline constexpr InstructionSet kWideEnough{kInstructionSets.size() > 1 ? 1 : 0};
 
 }  // namespace voxmelt::cpu

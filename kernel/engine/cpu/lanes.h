@@ -1,9 +1,9 @@
-// 16-bit lanes: the one place where instruction sets differ. xsimd gives the types and the plain operations.
-// xsimd 8.1 lacks or breaks some for 16 bits: multiply-high, masks from and to bit words, widening. One
-// specialisation of Lanes per instruction set adds these, in lanes_*.h.
+// 16-bit lanes are the one place where instruction sets differ. The library xsimd gives the types and the
+// plain operations. Its version 8.1 lacks or breaks some for 16 bits: multiply-high, masks from and to bit
+// words, widening. One specialisation of Lanes per instruction set adds these, in lanes_*.h.
 //
-// A word of 64 mask bits serves kParts vectors of kCount lanes; `part` counts them along x; lane i is bit i.
-// Nothing here allocates, throws, or is emitted out of line. So the linker cannot take code of one
+// A word of 64 mask bits serves kParts vectors of kCount lanes. `part` counts them along x, and lane i is bit
+// i. Nothing here allocates, throws, or is emitted out of line. So the linker cannot take code of one
 // instruction set for another.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace voxmelt::cpu {
 
-// What every instruction set has. Lanes<Arch> adds:
+// LanesOf has the parts that all instruction sets share. Lanes<Arch> adds:
 //   V high(V a, V b)                    (a b) >> 16
 //   V shift_right<n>(V), shift_left<n>(V)
 //   M less(V a, V b)                    unsigned
@@ -71,11 +71,11 @@ struct LanesOf {
   static constexpr int kCount = static_cast<int>(V::size);
   static constexpr int kParts = 64 / kCount;
   static constexpr int kTwins = kParts / 2;  // pairs of vectors in a word
-  // Does a sum under a mask cost no more than a sum?
+  // Is true if a sum under a mask costs no more than a sum.
   static constexpr bool kMaskedSums = std::is_same_v<Arch, xsimd::avx512bw>;
 
-  // Does the word have a bit among the lanes of the part? Most words of a scene are empty but for one or two
-  // parts, so asking is cheaper than computing.
+  // Tells if the word has a bit among the lanes of the part. Most words of a scene are empty but for one or
+  // two parts, so asking is cheaper than computing.
   VOXMELT_LANES bool in_part(std::uint64_t word, int part) {
     return (word >> (part * kCount) & ~std::uint64_t{0} >> (64 - kCount)) != 0;
   }
@@ -83,7 +83,8 @@ struct LanesOf {
   VOXMELT_LANES V load(const std::uint16_t* at) { return V::load_aligned(at); }  // 64-byte aligned rows
   VOXMELT_LANES V load_any(const std::uint16_t* at) { return V::load_unaligned(at); }
   VOXMELT_LANES void store(std::uint16_t* at, V v) { v.store_aligned(at); }
-  // The lanes at + dx, for an aligned address and dx from -1 to 1; bytes as lanes.
+  // Both take the lanes at + dx, for an aligned address and dx from -1 to 1. The second widens bytes to
+  // lanes.
   template <int dx>
   VOXMELT_LANES V load_beside(const std::uint16_t* at) {
     if constexpr (dx == 0) return load(at);
@@ -108,16 +109,16 @@ struct LanesOf {
   VOXMELT_LANES Wide product(V a, V b) { return Lanes<Arch>::unpack(low(a, b), Lanes<Arch>::high(a, b)); }
   VOXMELT_LANES Wide sum(Wide a, Wide b) { return {a.low + b.low, a.high + b.high}; }
 
-  // Quotient (below 65536 in the lanes that matter) and remainder of unsigned 32-bit by 16-bit numbers, d >
-  // 0. The result is exact. Rounding the operands and the quotient to 24 bits leaves an error below 1/64. So
-  // the whole part is at most one off, and the remainder shows it.
+  // Returns quotient and remainder of unsigned 32-bit by 16-bit numbers, d > 0. The quotient is below 65536
+  // in the lanes that matter. The result is exact: rounding the operands and the quotient to 24 bits leaves
+  // an error below 1/64. So the whole part is at most one off, and the remainder shows it.
   VOXMELT_LANES Divided divide(Wide n, V d) {
     const Wide divisor = widen(d);
     const Half l = divide(n.low, divisor.low), h = divide(n.high, divisor.high);
     return {Lanes<Arch>::narrow({l.quotient, h.quotient}), Lanes<Arch>::narrow({l.remainder, h.remainder})};
   }
 
-  // Sum of lanes below 32,768 over at most 32,768 vectors.
+  // Sums lanes below 32,768 over at most 32,768 vectors.
   class SmallSums {
    public:
     VOXMELT_MEMBER void add(V v) { pairs_ = pairs_ + Lanes<Arch>::pair_sums(v, V(std::uint16_t{1})); }
@@ -133,7 +134,7 @@ struct LanesOf {
     W pairs_ = W(0);
   };
 
-  // Sum of lanes over at most 32,768 vectors.
+  // Sums lanes over at most 32,768 vectors.
   class Sums {
    public:
     VOXMELT_MEMBER void add(V v) {
@@ -184,15 +185,15 @@ VOXMELT_LANES void unrolled(const F& f) {
   (std::make_integer_sequence<int, n>{});
 }
 
-// Makes the compiler hold an address in one register. Where addresses are sums of parts that many cells
-// share, GCC 12 keeps the parts in memory and adds them up again for every cell.
+// Makes the compiler hold an address in one register. If addresses are sums of parts that many cells share,
+// GCC 12 keeps the parts in memory and adds them up again for every cell.
 template <class T>
 VOXMELT_LANES T* settled(T* address) {
   asm("" : "+r"(address));
   return address;
 }
 
-// A word of the row shifted along x: bit x of the result is bit x + 1, or x - 1, of the row.
+// Shifts a word of the row along x. Bit x of the result is bit x + 1 of the row, or x - 1 for from_left.
 VOXMELT_LANES std::uint64_t from_right(std::uint64_t word, std::uint64_t next) {
   return word >> 1 | next << 63;
 }

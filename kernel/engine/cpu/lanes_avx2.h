@@ -1,4 +1,4 @@
-// Lanes<avx2>: 16 lanes, a mask is a vector of ones and zeros.
+// Lanes<avx2> has 16 lanes. A mask is a vector of ones and zeros.
 #pragma once
 
 #include <immintrin.h>
@@ -21,7 +21,7 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
     return V(_mm256_slli_epi16(a, n));
   }
 
-  // a < b where the saturated difference b - a is not 0.
+  // a < b holds where the saturated difference b - a is not 0.
   VOXMELT_LANES M less(V a, V b) {
     const __m256i none = _mm256_cmpeq_epi16(_mm256_subs_epu16(b, a), _mm256_setzero_si256());
     return M(_mm256_xor_si256(none, _mm256_set1_epi16(-1)));
@@ -69,7 +69,8 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
   VOXMELT_LANES Bytes none() { return _mm256_setzero_si256(); }
   VOXMELT_LANES Bytes bytes(int value) { return _mm256_set1_epi8(static_cast<char>(value)); }
   using Where = __m256i;
-  // By how much b exceeds a. Packing keeps what is not 0 (from 32768 on it counts as negative).
+  // The difference tells by how much b exceeds a. Packing keeps every difference but 0 (from 32768 on it
+  // counts as negative).
   VOXMELT_LANES Where not_less(V a0, V b0, V a1, V b1) {
     return _mm256_cmpeq_epi8(_mm256_packs_epi16(_mm256_subs_epu16(b0, a0), _mm256_subs_epu16(b1, a1)),
                              none());
@@ -107,7 +108,7 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
   }
   VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
                           Bytes* dice) {
-    // Blocks in the order in which unpacking leaves the bytes of a pair in one vector.
+    // The blocks are in the order in which unpacking leaves the bytes of a pair in one vector.
     const int a = static_cast<int>(blocks[0]), b = static_cast<int>(blocks[1]);
     __m256i y = _mm256_add_epi32(_mm256_setr_epi32(a, a, b, b, a, a, b, b),
                                  _mm256_setr_epi32(0, 1, 0, 1, 2, 3, 2, 3));
@@ -123,7 +124,7 @@ struct Lanes<xsimd::avx2> : LanesOf<xsimd::avx2> {
     dice[1] = _mm256_unpackhi_epi32(y, x);
   }
 
-  // Low and high bytes of the first and of the last 16 of 32 entries, twice each.
+  // Holds the low and high bytes of the first and of the last 16 of 32 entries, twice each.
   struct Table {
     __m256i low[2], high[2];
   };

@@ -1,4 +1,4 @@
-// Lanes<avx512bw>: 32 lanes, masks in mask registers.
+// Lanes<avx512bw> has 32 lanes. Masks are in mask registers.
 #pragma once
 
 #include <immintrin.h>
@@ -72,11 +72,12 @@ struct Lanes<xsimd::avx512bw> : LanesOf<xsimd::avx512bw> {
   VOXMELT_LANES V widen_bytes(const std::uint8_t* at) {
     return V(_mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at))));
   }
-  // Beside a whole line of the cache, every vector lies across two. So aligned ones are put together.
+  // Beside a whole line of the cache, every vector lies across two lines. So aligned vectors are put
+  // together.
   template <int dx>
   VOXMELT_LANES V load_beside(const std::uint16_t* at) {
     if constexpr (dx == 0) return load(at);
-    // Lane i comes from lane i + dx; from 32 on it is one of the other vector's.
+    // Lane i comes from lane i + dx. Indices from 32 on mean lanes of the other vector.
     const __m512i right = _mm512_setr_epi32(
         0x00020001, 0x00040003, 0x00060005, 0x00080007, 0x000A0009, 0x000C000B, 0x000E000D, 0x0010000F,
         0x00120011, 0x00140013, 0x00160015, 0x00180017, 0x001A0019, 0x001C001B, 0x001E001D, 0x0020001F);
@@ -108,7 +109,7 @@ struct Lanes<xsimd::avx512bw> : LanesOf<xsimd::avx512bw> {
   }
   VOXMELT_LANES void dice(const std::uint32_t* keys, std::uint32_t step, const std::uint32_t* blocks,
                           Bytes* dice) {
-    // Blocks in the order in which unpacking leaves the bytes of a pair in one vector.
+    // The blocks are in the order in which unpacking leaves the bytes of a pair in one vector.
     const __m512i first = _mm512_mask_set1_epi32(_mm512_set1_epi32(static_cast<int>(blocks[0])), 0xCCCC,
                                                  static_cast<int>(blocks[1]));
     __m512i y = _mm512_add_epi32(first, _mm512_setr_epi32(0, 1, 0, 1, 2, 3, 2, 3, 4, 5, 4, 5, 6, 7, 6, 7));

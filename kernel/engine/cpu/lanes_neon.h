@@ -1,4 +1,4 @@
-// Lanes<neon64>: 8 lanes; a mask is a vector of ones and zeros. It runs on every 64-bit ARM processor.
+// Lanes<neon64> has 8 lanes, and a mask is a vector of ones and zeros. It runs on every 64-bit ARM processor.
 #pragma once
 
 #include <arm_neon.h>
@@ -36,7 +36,7 @@ struct Lanes<xsimd::neon64> : LanesOf<xsimd::neon64> {
   VOXMELT_LANES V sub_if(M m, V a, V b) { return a - keep(m, b); }
   VOXMELT_LANES V carry(V a, V low, V most) { return V(vsubq_u16(a, vcgtq_u16(low, most))); }
 
-  // The first four lanes, then the last four.
+  // The low half has the first four lanes, the high half the last four.
   VOXMELT_LANES Wide unpack(V low, V high) {
     return {wide(vreinterpretq_s32_u16(vzip1q_u16(low, high))),
             wide(vreinterpretq_s32_u16(vzip2q_u16(low, high)))};

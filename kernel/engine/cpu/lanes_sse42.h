@@ -1,4 +1,4 @@
-// Lanes<sse4_2>: 8 lanes; a mask is a vector of ones and zeros. It runs on every x86-64-v2 processor.
+// Lanes<sse4_2> has 8 lanes, and a mask is a vector of ones and zeros. It runs on every x86-64-v2 processor.
 #pragma once
 
 #include <nmmintrin.h>
@@ -21,7 +21,7 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
     return V(_mm_slli_epi16(a, n));
   }
 
-  // a < b where the saturated difference b - a is not 0.
+  // a < b holds where the saturated difference b - a is not 0.
   VOXMELT_LANES M less(V a, V b) {
     const __m128i none = _mm_cmpeq_epi16(_mm_subs_epu16(b, a), _mm_setzero_si128());
     return M(_mm_xor_si128(none, _mm_set1_epi16(-1)));
@@ -63,7 +63,8 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
   VOXMELT_LANES Bytes none() { return _mm_setzero_si128(); }
   VOXMELT_LANES Bytes bytes(int value) { return _mm_set1_epi8(static_cast<char>(value)); }
   using Where = __m128i;
-  // By how much b exceeds a. Packing keeps what is not 0 (from 32768 on it counts as negative).
+  // The difference tells by how much b exceeds a. Packing keeps every difference but 0 (from 32768 on it
+  // counts as negative).
   VOXMELT_LANES Where not_less(V a0, V b0, V a1, V b1) {
     return _mm_cmpeq_epi8(_mm_packs_epi16(_mm_subs_epu16(b0, a0), _mm_subs_epu16(b1, a1)), none());
   }
@@ -112,7 +113,7 @@ struct Lanes<xsimd::sse4_2> : LanesOf<xsimd::sse4_2> {
     dice[1] = _mm_unpackhi_epi32(y, x);
   }
 
-  // Low and high bytes of the first and of the last 16 of 32 entries.
+  // Holds the low and high bytes of the first and of the last 16 of 32 entries.
   struct Table {
     __m128i low[2], high[2];
   };

@@ -1,5 +1,6 @@
-// The lanes of the instruction set that this object is compiled for. Sources that cmake/InstructionSets.cmake
-// compiles once for each set include this file. They instantiate templates, and share nothing else.
+// OwnArch has the lanes of the instruction set that this object is compiled for. Sources that
+// cmake/InstructionSets.cmake compiles once for each set include this file. They instantiate templates, and
+// share nothing else.
 #pragma once
 
 #include "kernel/engine/cpu/instruction_set.h"

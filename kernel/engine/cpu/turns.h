@@ -1,5 +1,5 @@
-// The order in which repeated tasks run. The task that took longest the last time begins first, so that all
-// threads end at about the same time. No task's result may depend on the order.
+// Repeated tasks run in turns. The task that took longest the last time begins first, so that all threads end
+// at about the same time. No task's result may depend on the order.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ namespace voxmelt::cpu {
 
 class Turns {
  public:
-  // Sorts the tasks 0 .. count - 1, the longest last. With a new count all are alike.
+  // Sorts the tasks 0 .. count - 1, the longest last. With a new count all tasks count as equally long.
   void sort(int count);
   int at(int turn) const { return order_[static_cast<std::size_t>(turn)]; }
 

@@ -1,4 +1,4 @@
-// 32-bit lanes, in the vector types that g++ and clang have for any processor. Only gathers and a few
+// 32-bit lanes use the vector types that g++ and clang have for any processor. Only gathers and a few
 // products differ between instruction sets.
 //
 // Everything is a template over the architecture and always inlined. So the linker cannot take code of one
@@ -69,9 +69,8 @@ struct WordLanes {
   using V = typename WordVectors<kCount>::V;  // masks, too: a lane is 0 or -1
   using U = typename WordVectors<kCount>::U;
   using F = typename WordVectors<kCount>::F;
-  using D =
-      typename WordVectors<kCount>::D;  // doubles of half of the lanes: vectors have the processor's width
-  using Q = typename WordVectors<kCount>::Q;  // 64 bits a lane, as D
+  using D = typename WordVectors<kCount>::D;  // doubles of half of the lanes, to keep the vector's width
+  using Q = typename WordVectors<kCount>::Q;  // 64 bits a lane, for half of the lanes, like D
   using HalfV = typename WordVectors<kCount>::HalfV;
   using HalfF = typename WordVectors<kCount>::HalfF;
   using H = typename WordVectors<kCount>::H;  // 16 bits a lane
@@ -88,7 +87,7 @@ struct WordLanes {
     std::memcpy(&vector, from, sizeof vector);
     return vector;
   }
-  // By shuffles: through memory, the processor would wait for the stores.
+  // Halves are taken by shuffles. Through memory, the processor would wait for the stores.
   template <int kWhich>
   VOXMELT_WORDS HalfV half(V a) {
     constexpr int k = kWhich * kCount / 2;
@@ -108,7 +107,7 @@ struct WordLanes {
     else
       return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   }
-  // Lanes of 16 bits.
+  // Stores lanes of 16 bits.
   VOXMELT_WORDS void store_halves(V a, std::uint16_t* to) {
     const H halves = __builtin_convertvector(a, H);
     std::memcpy(to, &halves, sizeof halves);
@@ -149,7 +148,7 @@ struct WordLanes {
   }
 
 #if defined(__AVX2__)
-  // By plain loads: several processors are slower at the instruction that gathers.
+  // Plain loads gather here, because several processors are slower at the instruction that gathers.
   template <int kScale>
   VOXMELT_WORDS V gather_eight(const void* from, __m256i index) {
     const auto at = [&](std::int64_t i) {
@@ -167,7 +166,7 @@ struct WordLanes {
   }
 #endif
 
-  // The 32 bits at `from` + kScale index bytes.
+  // Loads the 32 bits at `from` + kScale index bytes.
   template <int kScale>
   VOXMELT_WORDS V gather(const void* from, V index) {
 #if defined(__AVX512F__)
@@ -185,7 +184,7 @@ struct WordLanes {
     return vector;
   }
 
-  // Both 16-bit halves of the lanes multiplied, signed, and their two products added.
+  // Multiplies both 16-bit halves of the lanes, signed, and adds their two products.
   VOXMELT_WORDS V pair_products(V a, V b) {
 #if defined(__AVX512F__)
     if constexpr (kCount == 16) return (V)_mm512_madd_epi16((__m512i)a, (__m512i)b);
@@ -199,9 +198,9 @@ struct WordLanes {
     return ((a << 16) >> 16) * ((b << 16) >> 16) + (a >> 16) * (b >> 16);
   }
 
-  // 2^n, n 0 .. 30. Not every processor shifts lanes by different counts.
+  // Returns 2^n for n 0 .. 30. Not every processor shifts lanes by different counts.
   VOXMELT_WORDS V power_of_two(V n) { return to_int(float_of_bits((n + 127) << 23)); }
-  // How many bits a lane takes, 0 <= a < 2^24: the least n with a < 2^n.
+  // Returns how many bits a lane takes, 0 <= a < 2^24: the least n with a < 2^n.
   VOXMELT_WORDS V bits_of(V a) { return a == 0 ? V{} : (bits_of_float(to_float(a)) >> 23) - 126; }
 };
 

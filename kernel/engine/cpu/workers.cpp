@@ -38,7 +38,7 @@ int Workers::most() { return std::numeric_limits<int>::max(); }
 #else
 
 struct Workers::Arena {
-  // TBB writes two lines to the terminal where somebody asks for more than it has.
+  // TBB writes two lines to the terminal if somebody asks for more than it has.
   explicit Arena(int threads) : arena(std::min(threads, Workers::most())) {}
   template <class Work>
   void run(int threads, const Work& work) {

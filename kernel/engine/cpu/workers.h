@@ -16,11 +16,12 @@ class Workers {
 
   int threads() const { return threads_; }
 
-  // The machine's number of threads: no more run at a time, however many are asked for.
+  // Returns the machine's number of threads. No more run at a time, however many are asked for.
   static int most();
 
   // Runs task(0) .. task(count - 1) in any order (the last one begins first), and returns when all are done.
-  // What a task throws (memory may run out) is thrown from here. Tasks that have not begun are then skipped.
+  // An exception of a task (memory may run out) is thrown from here. Tasks that have not begun are then
+  // skipped.
   template <class Task>
   void run(int count, const Task& task) {
     if (threads_ == 1 || count <= 1) {
@@ -31,7 +32,7 @@ class Workers {
         count, [](const void* context, int i) { (*static_cast<const Task*>(context))(i); }, &task);
   }
 
-  // The same for tasks that are repeated; the longest begins first.
+  // Does the same for tasks that are repeated. The longest begins first.
   template <class Task>
   void run(int count, Turns& turns, const Task& task) {
     if (threads_ == 1 || count <= 1) return run(count, task);

@@ -1,5 +1,5 @@
-// Slices cut into chunks, one task each. An in-place sweep whose cells read the slices beside them needs what
-// the neighbouring chunk held before it changed. So the two slices at every cut are saved first.
+// Slices are cut into chunks, one task each. In an in-place sweep, cells read the slices beside them, and
+// need the old contents of a neighbouring chunk. So the two slices at every cut are saved first.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace voxmelt::parallel {
 
 class Chunks {
  public:
-  static constexpr int kLeast = 2;  // slices in a chunk: each is beside one cut only
+  static constexpr int kLeast = 2;  // slices in a chunk; each is beside one cut only
 
   Chunks() = default;
   Chunks(int slices, int wanted)

@@ -1,4 +1,5 @@
-// Memory of the viscous law: what runs show to their neighbours, and what the pairs of one slice exchange.
+// The viscous law needs memory for what runs show to their neighbours, and for what the pairs of one slice
+// exchange.
 #pragma once
 
 #include <array>
@@ -43,7 +44,7 @@ class SliceCurrents {
   }
   simd::Currents& currents() { return currents_; }
 
-  // False: nothing is exchanged, and no kernel need look.
+  // Tells if anything is exchanged. If not, no kernel need look.
   bool written() const { return written_; }
   void set_written(bool written) { written_ = written; }
 

@@ -1,4 +1,4 @@
-// Memory for what the cells of some rows of a slice give in the paper law's spread.
+// Gifts are what the cells of some rows of a slice give in the paper law's spread. Their memory is here.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace voxmelt::parallel {
 
 class SliceGifts {
  public:
-  // For `rows` rows. `flows` is the number of arrays that differ: 1, 2 (axes, diagonals) or 4 (by direction).
+  // Makes memory for `rows` rows. `flows` is the number of arrays that differ: 1, 2 (axes, diagonals) or 4
+  // (by direction).
   SliceGifts(const simd::View& view, int rows, int flows)
       : patterns_(array_cells(view, rows)),
         giving_(sizeof(simd::TileRow) * count(rows) * static_cast<std::size_t>(view.words + 4)),

@@ -60,7 +60,7 @@ void HeatFlow::heat(const Job& job, bool new_irradiance, Tiles& changed, simd::B
     convect(job);
     end_pass(job, false);
   }
-  // Each cell acts alone here: where nothing else has changed, only a restless tile may change.
+  // Each cell acts alone here. If nothing else has changed, only a restless tile may change.
   if (job.kernels.exchange) {
     sweep(job, [&](int z, Worker& worker, const Neighbours&) { exchange(job, z, worker); });
     end_pass(job, false);
@@ -87,7 +87,7 @@ void HeatFlow::wake(const Job& job, bool new_irradiance) {
   });
 }
 
-// Notes what a pass has changed. Its neighbours are awake for the passes that follow.
+// Notes the changes of a pass. Their neighbours are awake for the passes that follow.
 void HeatFlow::end_pass(const Job& job, bool wake_neighbours) {
   job.workers.run(chunks_.count(), [&](int chunk) {
     const TileRow all = all_words(job.view);
@@ -100,7 +100,8 @@ void HeatFlow::end_pass(const Job& job, bool wake_neighbours) {
   moved_.clear();
 }
 
-// Saves the slices beside a cut before either is changed: the rows that a tile that is awake may read.
+// Saves the slices beside a cut before either is changed. It saves the rows that a tile that is awake may
+// read.
 void HeatFlow::save_cuts(const Job& job) {
   job.workers.run(chunks_.cuts(), [&](int i) {
     Worker& worker = cut_[static_cast<std::size_t>(i)];
@@ -154,7 +155,7 @@ void HeatFlow::call(int z, Worker& worker, const Call& kernel) {
   for_melt_.add(z, worker.hot.data());
 }
 
-// What walls give depends on the heats before the pass.
+// Finds the gains from walls first, because they depend on the heats before the pass.
 template <class Pass>
 void HeatFlow::with_walls(const Job& job, const simd::WallKernels& walls, const Pass& pass) {
   if (!walls.find) return pass();
@@ -193,7 +194,7 @@ void HeatFlow::conduct_faces(const Job& job) {
 void HeatFlow::conduct_distant(const Job& job, bool corners) {
   const auto kernel = corners ? job.kernels.conduct_corners : job.kernels.conduct_edges;
   sweep(job, [&](int z, Worker& worker, const Neighbours& near) {
-    // The slice below has been changed if it was awake: its old heats are in the ring.
+    // If the slice below was awake, it has been changed, and its old heats are in the ring.
     const auto ring = [&](int slice) -> Slice& { return worker.old[static_cast<std::size_t>(slice & 1)]; };
     std::copy_n(heats(job, z), job.view.slice, ring(z).data());
     const bool below_changed = !near.first && awake_.any(z - 1);
@@ -236,7 +237,7 @@ void HeatFlow::melt(const Job& job, Tiles& changed, simd::Books& books) {
   close(books);
 }
 
-// Sums what the workers booked.
+// Sums the books of the workers.
 void HeatFlow::close(simd::Books& books) {
   for (Worker& worker : chunk_) {
     books += worker.books;

@@ -1,9 +1,9 @@
-// Phases heat and melt over all slices.
+// Phases heat and melt run over all slices here.
 //
 // A tile is awake for heat if it, or a tile beside it, has changed since its last heat (its heat, its
-// amounts, its masks). It is also awake if another dither might move heat. Each pass wakes the neighbours
-// of what it changes. A tile is awake for melt if it has changed since its last melt. Bodies of one
-// temperature sleep.
+// amounts, its masks). It is also awake if another dither might move heat. Each pass wakes the neighbours of
+// what it changes. A tile is awake for melt if it has changed since its last melt. Bodies of one temperature
+// sleep.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class HeatFlow {
  public:
   HeatFlow(state::Grid grid, const simd::View& view, int chunks);
 
-  void note(const Tiles& changed);  // by other phases
+  void note(const Tiles& changed);  // changes of other phases
 
   // Both functions add to `changed` the tiles that they change.
   void heat(const Job& job, bool new_irradiance, Tiles& changed, simd::Books& books);
@@ -29,15 +29,15 @@ class HeatFlow {
  private:
   using Slice = state::Field<std::uint16_t>;
   struct Worker {
-    std::vector<Slice> old;  // of a chunk: a ring of two; at a cut: the slices before and after it
+    std::vector<Slice> old;  // in a chunk: a ring of two; at a cut: the slices before and after it
     Slice up, front;
     simd::HeatFlux flux;
-    std::vector<TileRow> moved, hot;  // by a call
+    std::vector<TileRow> moved, hot;  // found by a call of a kernel
     simd::Books books;
   };
   struct Neighbours {
     const std::uint16_t *below, *above;  // old heats; null beyond the grid
-    bool first;                          // of its chunk
+    bool first;                          // the slice is the first of its chunk
   };
 
   void wake(const Job& job, bool new_irradiance);
@@ -59,8 +59,8 @@ class HeatFlow {
   cpu::Turns sweep_turns_, melt_turns_;
   Tiles stale_, taken_, awake_, restless_, moved_, for_melt_;
   std::vector<Worker> chunk_, cut_;
-  Slice wall_gains_;            // of the whole grid; empty where a scene has no isothermal walls
-  state::BitPlane wall_cells_;  // that touch one
+  Slice wall_gains_;            // for the whole grid; empty if a scene has no isothermal walls
+  state::BitPlane wall_cells_;  // cells that touch a wall
 };
 
 }  // namespace voxmelt::parallel

@@ -1,4 +1,4 @@
-// What every phase of a step gets.
+// Every phase of a step gets a job.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace voxmelt::parallel {
 
-// What the kernels get to know of a moment.
+// Returns what the kernels get to know of a moment.
 simd::Step step_of(const rule::Parameters& parameters, step::Phase phase, step::Moment moment,
                    const std::uint32_t* keys, const step::Irradiance* irradiance);
 
@@ -20,7 +20,7 @@ struct Job {
   const simd::Kernels& kernels;
   cpu::Workers& workers;
   bool sleep;          // false: every tile is awake in every phase
-  bool ahead = false;  // spread follows at once, so that gravity may be put off into it
+  bool ahead = false;  // spread follows at once, so gravity may be put off into it
 };
 
 }  // namespace voxmelt::parallel

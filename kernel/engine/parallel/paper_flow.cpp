@@ -8,7 +8,7 @@
 namespace voxmelt::parallel {
 namespace {
 
-// Prefetches what a tile row will need: slices are too far apart for the hardware prefetcher.
+// Prefetches the data of a tile row, because slices are too far apart for the hardware prefetcher.
 void prefetch(const simd::View& view, int z, int r, TileRow tiles) {
   for (; tiles != 0; tiles &= tiles - 1) {
     const int w = std::countr_zero(tiles);
@@ -67,7 +67,8 @@ void PaperFlow::gravity(const Job& job, const Tiles& dirty, simd::Books& books) 
   close(books);
 }
 
-// Patterns at a cut are found before those of the chunks, and they read the slices beside them.
+// Returns the slices of which gravity may be put off. Patterns at a cut are found before those of the chunks,
+// and they read the slices beside them.
 PaperFlow::Slices PaperFlow::put_off(int chunk) const {
   return {chunks_.begin(chunk) + (chunk > 0 ? 2 : 0), chunks_.end(chunk) - (chunk < chunks_.cuts() ? 2 : 0)};
 }
@@ -86,10 +87,10 @@ void PaperFlow::fall(const Job& job, const Tiles& dirty, int z, Worker& worker) 
   fallen_.clear(z);
   if (job.sleep && !dirty.any_near(z)) return;
   const TileRow all = all_words(job.view);
-  TileRow follow = 0;  // tiles whose last row was moved: the row above may follow
+  TileRow follow = 0;  // tiles whose last row was moved, so that the row above may follow
   for (int r = 0; r < job.view.tile_rows(); ++r) {
     TileRow work = job.sleep ? dirty.near(z, r, all) : all;
-    // What hangs in the row above may hang from the row above that. With tiles of one row, that is beyond the
+    // A drop in the row above may hang from the row above that. With tiles of one row, that is beyond the
     // next tile.
     if (job.view.tile_shift == 0 && r + 2 < job.view.tile_rows()) work |= dirty.slice(z)[r + 2];
     if ((work | follow) != 0)
@@ -120,7 +121,7 @@ bool PaperFlow::awake(const Sweep& sweep, int z) const {
   return work;
 }
 
-// `given`: the tiles in which the gifts are not empty yet.
+// Finds the patterns of a band. `given` has the tiles in which the gifts are not empty yet.
 [[gnu::always_inline]] inline void PaperFlow::find_patterns(const Sweep& sweep, const Band& band, int z,
                                                             TileRow given, const std::uint64_t* below,
                                                             SliceGifts& gifts) {
@@ -132,7 +133,7 @@ bool PaperFlow::awake(const Sweep& sweep, int z) const {
   band.set(restless, left);
 }
 
-// The gifts of the two slices at a cut must be known before either side changes them.
+// Finds the gifts of the two slices at a cut before either side changes them.
 void PaperFlow::run_cut(const Sweep& sweep, int cut) {
   const simd::View& view = sweep.job.view;
   Worker& worker = cut_[static_cast<std::size_t>(cut)];
@@ -205,7 +206,7 @@ void PaperFlow::run_band(const Sweep& sweep, int chunk, const Band& band, std::v
     return worker.ceiling.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(job.view.words);
   };
 
-  // The cuts have done the slices beside them.
+  // The patterns of the slices beside a cut are already found.
   const int pattern_from = cut_before ? begin + 1 : begin, pattern_to = cut_after ? end - 1 : end;
   const std::uint64_t* last_row = job.view.liquid + job.view.word(0, band.view.tile_end(band.row) - 1, begin);
   Slices falls = worker.ahead ? put_off(chunk) : Slices{0, 0};
@@ -238,7 +239,7 @@ void PaperFlow::run_band(const Sweep& sweep, int chunk, const Band& band, std::v
   }
 }
 
-// Sums what the workers booked.
+// Sums the books of the workers.
 void PaperFlow::close(simd::Books& books) {
   for (std::vector<Worker>* workers : {&chunk_, &cut_})
     for (Worker& worker : *workers) {

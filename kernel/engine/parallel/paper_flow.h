@@ -1,14 +1,14 @@
-// The flow of the paper's law over all slices: gravity, then spread. The two halves of spread (pattern,
-// apply) are one pass over memory. A chunk of slices is worked on band by band, upwards; a band is a tile
-// row, or several where most tiles are awake. It carries three slices of gifts along z, which fit into the
-// first cache levels.
+// The flow of the paper's law runs over all slices: gravity, then spread. The two halves of spread (pattern,
+// apply) are one pass over memory. A chunk of slices is worked on band by band, upwards. A band is a tile
+// row, or several if most tiles are awake. It carries three slices of gifts along z, which fit into the first
+// cache levels.
 //
-// In a chunk that is mostly awake, gravity joins that pass if nobody looks at the state in between: it is a
-// slice ahead of the patterns that read it, as these are of apply. What lies at a cut falls before.
+// In a chunk that is mostly awake, gravity joins that pass if nobody looks at the state in between. It then
+// runs a slice ahead of the patterns that read it, as these run ahead of apply. Slices at a cut fall before.
 //
-// A tile is awake for a phase where something that the phase reads has changed since it last ran there:
+// A tile is awake for a phase if something that the phase reads has changed since it last ran there:
 //   gravity  it, or a tile beside it, changed since the last gravity (in it, or since), or melted before it:
-//            only now that counts at the sides of cells
+//            only now does the melted cell no longer count as a side
 //   pattern  the same, this step's gravity included; or some cell may give and only the dice said no
 //   apply    it or a neighbour gives
 // All three read no further than the next tile (gravity's kernel itself follows a chain up a column). So a
@@ -29,21 +29,21 @@ class PaperFlow {
  public:
   PaperFlow(const rule::Parameters& parameters, const simd::View& view, int chunks);
 
-  // `dirty` holds the tiles that changed since the last step. Spread leaves in `dirty_next` what this step's
-  // gravity and spread changed.
+  // `dirty` holds the tiles that changed since the last step. Spread leaves in `dirty_next` the tiles that
+  // this step's gravity and spread changed.
   void gravity(const Job& job, const Tiles& dirty, simd::Books& books);
   void spread(const Job& job, const Tiles& dirty, Tiles& dirty_next, simd::Books& books);
 
  private:
   struct Worker {
-    std::vector<SliceGifts>
-        gifts;  // of a chunk: a ring of three; at a cut: of the slices before and after it
-    std::vector<SliceGifts> tall_gifts;  // of a chunk: the same for tall bands
+    // Is a ring of three in a chunk. At a cut it has the gifts of the slices before and after it.
+    std::vector<SliceGifts> gifts;
+    std::vector<SliceGifts> tall_gifts;  // in a chunk: the same for tall bands
     std::vector<std::uint8_t> awake;     // slices in which patterns must be looked for
-    // For each slice: the liquid in the last row of the tile row below, before spread.
+    // Holds for each slice the liquid in the last row of the tile row below, before spread.
     std::vector<std::uint64_t> ceiling;
-    bool ahead = false;           // gravity of this step has been put off, but for slices at cuts
-    std::vector<TileRow> follow;  // ahead, for each slice: tiles that moved the first row of the next band
+    bool ahead = false;           // gravity of this step has been put off, except for slices at cuts
+    std::vector<TileRow> follow;  // if ahead, for each slice: tiles that moved the first row of the next band
     std::vector<TileRow> moved;   // working memory of fall_band
     simd::Books books;
   };
@@ -59,7 +59,7 @@ class PaperFlow {
 
   void fall(const Job& job, const Tiles& dirty, int z, Worker& worker);
   void fall_band(const Job& job, const Band& band, int z, Worker& worker);
-  Slices put_off(int chunk) const;  // of which gravity may be put off
+  Slices put_off(int chunk) const;  // slices of which gravity may be put off
   bool awake(const Sweep& sweep, int z) const;
   TileRow awake(const Sweep& sweep, const Band& band, int z) const;
   void find_patterns(const Sweep& sweep, const Band& band, int z, TileRow given, const std::uint64_t* below,
@@ -74,7 +74,7 @@ class PaperFlow {
   cpu::Turns gravity_turns_, cut_turns_, chunk_turns_;
   Tiles fallen_, restless_;
   std::vector<Worker> chunk_, cut_;
-  SliceGifts none_;  // of slices beyond the grid
+  SliceGifts none_;  // gifts of slices beyond the grid: empty
 };
 
 }  // namespace voxmelt::parallel

@@ -25,7 +25,7 @@ simd::View shape_of(state::Grid grid, int tile_shift) {
   return view;
 }
 
-// Does falling in this scene see its sides as they were earlier than all else?
+// Tells if falling in this scene sees its sides in an earlier state than all else.
 bool keeps_sides(const rule::Parameters& p) {
   return p.flow.law == rule::Law::paper && p.heat.enabled && p.flow.fall.sees_sides();
 }
@@ -59,7 +59,7 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
     viscous_.emplace(grid, view, chunks);
   dirty_ = dirty_next_ = changed_ = untold_ = untold_heat_ = melted_ = freed_ =
       Tiles(view.nz, view.tile_rows());
-  dirty_.fill(all_words(view));  // nothing is known of the first state
+  dirty_.fill(all_words(view));  // the first state counts as changed everywhere
   if (heat_) heat_->note(dirty_);
   if (viscous_) viscous_->note(dirty_);
 }
@@ -79,10 +79,10 @@ simd::View Stepper::view_of(state::Volume& volume) {
   return view;
 }
 
-// Vents and drains report what they change, and each step of visibility wakes all.
+// Vents and drains report their changes, and each step of visibility wakes all.
 void Stepper::change_sources(const rule::Parameters& parameters) {
   parameters_ = parameters;
-  kernels_ = simd::kernels(set_, parameters);  // others, where there was no radiation
+  kernels_ = simd::kernels(set_, parameters);  // others are needed if radiation is new
 }
 
 simd::Step step_of(const rule::Parameters& parameters, step::Phase phase, step::Moment moment,
@@ -106,7 +106,7 @@ void Stepper::run(step::Phase phase, step::Moment moment, const step::Irradiance
                   state::Volume& volume, state::Ledger& ledger) {
   const simd::View view = view_of(volume);
   const simd::Step step = step_of(parameters_, phase, moment, keys_.data(), irradiance);
-  // Gravity that is put off would see what has become of the sides since.
+  // If gravity were put off, it would see sides that have changed since.
   const bool ahead = moment.unseen && !sides_ && volume.grid.cells() >= tuning_.ahead_from;
   const Job job{view, step, kernels_, workers_, tuning_.sleep, ahead};
   simd::Books books;
@@ -150,7 +150,7 @@ void Stepper::heat(const Job& job, simd::Books& books) {
   changed_.clear();
   heat_->heat(job, parameters_.heat.is_visibility_step(job.step.number), changed_, books);
   untold_heat_.add(changed_);
-  // The flow of the paper's law reads heat only where it mixes, unless its shares depend on it.
+  // The flow of the paper's law reads heat only when it mixes, unless its shares depend on it.
   if (parameters_.flow.thermal_viscosity) dirty_.add(changed_);
   if (viscous_) viscous_->note(changed_);
 }
@@ -167,7 +167,7 @@ void Stepper::melt(const Job& job, simd::Books& books) {
   if (viscous_) viscous_->note(changed_);
 }
 
-// What has melted is no side any more. The next gravity must look at what it supported.
+// Removes melted cells from the sides. The next gravity must look at the drops that they supported.
 void Stepper::open_sides(const simd::View& view) {
   if (!sides_) return;
   refresh(view, melted_, *sides_);
@@ -202,7 +202,7 @@ void Stepper::tell_changes(state::ChangedBricks& changed) {
   tell(untold_heat_, state::ChangedBricks::kHeat, changed);
 }
 
-// Slices of one brick are told together: a mark for each would cost as much again.
+// Tells the slices of one brick together, because a mark for each would cost as much again.
 void Stepper::tell(Tiles& tiles, state::ChangedBricks::Part part, state::ChangedBricks& changed) const {
   const int side = state::kBrickSide;
   for (int first = 0; first < tiles.slices(); first += side)

@@ -1,6 +1,6 @@
-// Runs the SIMD kernels of one instruction set over all slices, with threads. Every tile that provably
-// stays as it is sleeps. The bits are those of the reference, whatever the instruction set, threads, tiles
-// and sleeping.
+// The stepper runs the SIMD kernels of one instruction set over all slices, with threads. Every tile that
+// provably stays as it is sleeps. The bits are those of the reference, whatever the instruction set, threads,
+// tiles and sleeping.
 #pragma once
 
 #include <optional>
@@ -42,16 +42,16 @@ class Stepper final : public step::HostStepper {
   simd::Kernels kernels_;
   rule::RoundKeys keys_;
   cpu::Workers workers_;
-  int rows_;                            // of the grid
-  std::optional<Walls> walls_, sides_;  // sides_: before this step's melt, where gravity asks for them
+  int rows_;                            // rows of the grid
+  std::optional<Walls> walls_, sides_;  // sides_: before this step's melt, if gravity asks for them
   std::optional<HeatFlow> heat_;
   std::optional<PaperFlow> paper_;
   std::optional<ViscousFlow> viscous_;
   Tiles dirty_, dirty_next_;    // paper law: changed since the last gravity; working memory
-  Tiles changed_;               // by a phase
+  Tiles changed_;               // changed by a phase
   Tiles untold_, untold_heat_;  // changed since the last call of tell_changes; only their heat
-  Tiles melted_;                // solids there have melted, and are sides still
-  Tiles freed_;                 // their sides have gone since the last gravity began
+  Tiles melted_;                // tiles with melted solids that still count as sides
+  Tiles freed_;                 // tiles that lost sides since the last gravity began
 };
 
 void add_implementations(step::Registry& registry);  // one for each instruction set, the narrowest first

@@ -1,5 +1,5 @@
-// Sets of tiles: one bit per mask word of x, [slice][tile row], with an empty slice and row at every side.
-// Such sets say what sleeps. A slice in which nothing is awake costs one test.
+// A set of tiles has one bit per mask word of x, [slice][tile row], with an empty slice and row at every
+// side. Such sets tell which tiles sleep. A slice in which nothing is awake costs one test.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ class Tiles {
 
   int slices() const { return slices_; }
   int rows() const { return rows_; }
-  std::ptrdiff_t stride() const { return rows_ + 2; }  // from a slice to the next
+  std::ptrdiff_t stride() const { return rows_ + 2; }  // rows from a slice to the next
   const TileRow* slice(int z) const { return bits_.data() + index(z); }
   // Gives a slice for writing. A slice that stays empty should be tidied.
   TileRow* edit(int z) {
@@ -64,7 +64,7 @@ class Tiles {
       if (other.touched_[count(z)] != 0) add(z, other.slice(z));
   }
 
-  // Tiles of row r of slice z that are, or are beside, one of this set.
+  // Returns the tiles of row r of slice z that are, or are beside, one of this set.
   TileRow near(int z, int r, TileRow words) const {
     const TileRow *own = slice(z) + r, *front = slice(z + 1) + r, *back = slice(z - 1) + r;
     const TileRow near =

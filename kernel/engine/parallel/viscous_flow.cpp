@@ -45,7 +45,8 @@ const Tiles& ViscousFlow::take_changed() {
   return changed_before_;
 }
 
-// The tiles of slice z that are awake: `noted`, or beside one; null: all.
+// Finds the tiles of slice z that are awake: the noted ones, with those beside them if `beside`. If nothing
+// may sleep, it takes all.
 void ViscousFlow::find_work(const Job& job, const Tiles* noted, int z, bool beside, Worker& worker) {
   const TileRow all = all_words(job.view);
   for (int r = 0; r < job.view.tile_rows(); ++r) {
@@ -56,7 +57,7 @@ void ViscousFlow::find_work(const Job& job, const Tiles* noted, int z, bool besi
 }
 
 void ViscousFlow::settle(const Job& job, simd::Books& books) {
-  // Every mobility is for one of so many sub-steps.
+  // Every mobility is for one of so many sub-steps. If their number changes, all runs are settled again.
   if (job.step.substeps != substeps_) for_settle_.fill(all_words(job.view));
   substeps_ = job.step.substeps;
   job.workers.run(chunks_.count(), settle_turns_, [&](int chunk) {
@@ -71,7 +72,7 @@ void ViscousFlow::settle(const Job& job, simd::Books& books) {
     }
   });
   close(books);
-  limit_.add(books.limit);  // the kernel says what has changed
+  limit_.add(books.limit);  // the kernel books only changes
   books.limit = limit_;
 }
 
@@ -136,7 +137,7 @@ void ViscousFlow::fall(const Job& job, simd::Books& books) {
   close(books);
 }
 
-// Sums what the workers booked.
+// Sums the books of the workers.
 void ViscousFlow::close(simd::Books& books) {
   for (std::vector<Worker>* workers : {&chunk_, &cut_})
     for (Worker& worker : *workers) {

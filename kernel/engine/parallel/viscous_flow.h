@@ -1,10 +1,9 @@
-// The flow of the viscous law over all slices: settle, spread (exchange, carry), fall.
+// The flow of the viscous law runs over all slices: settle, spread (exchange, carry), fall.
 //
-// A tile is awake for a phase where something that the phase reads has changed since it last ran there:
+// A tile is awake for a phase if something that the phase reads has changed since it last ran there:
 //   settle    it changed since the last settle (in it, or since); its whole column is settled
 //   exchange  it, or a tile beside it, changed since the last exchange; or some pair there may exchange
-//   something
-//             at another step's dither
+//             something at another step's dither
 //   fall      it, or a tile beside it, changed since the last fall
 #pragma once
 
@@ -21,17 +20,17 @@ class ViscousFlow {
  public:
   ViscousFlow(state::Grid grid, const simd::View& view, int chunks);
 
-  void note(const Tiles& changed);  // by phases that are not here
+  void note(const Tiles& changed);  // changes of phases that are not here
   void settle(const Job& job, simd::Books& books);
   void spread(const Job& job, simd::Books& books);
   void fall(const Job& job, simd::Books& books);  // the last phase of a step
 
-  // What the three phases have changed in this step.
+  // Returns the tiles that the three phases have changed in this step.
   const Tiles& take_changed();
 
  private:
   struct Worker {
-    std::vector<SliceCurrents> ring;  // of a chunk: two; of a cut: one, of the slice before it
+    std::vector<SliceCurrents> ring;  // in a chunk: two; at a cut: one, for the slice before it
     state::Pages scratch;
     std::vector<TileRow> work, changed;
     simd::Books books;
@@ -48,9 +47,9 @@ class ViscousFlow {
   RunMemory memory_;
   Tiles for_settle_, for_exchange_, for_fall_, taken_, restless_, changed_, changed_before_;
   std::vector<Worker> chunk_, cut_;
-  SliceCurrents none_;                      // of the slice before the first
-  std::uint32_t substeps_ = 0;              // of the last settle
-  state::LimitCounts<std::int64_t> limit_;  // of all columns, at the last settle
+  SliceCurrents none_;                      // currents of the slice before the first: empty
+  std::uint32_t substeps_ = 0;              // number of sub-steps at the last settle
+  state::LimitCounts<std::int64_t> limit_;  // counts over all columns, at the last settle
 };
 
 }  // namespace voxmelt::parallel

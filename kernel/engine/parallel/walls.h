@@ -1,7 +1,7 @@
-// One bit per cell: solid, inert or beyond the grid. Kernels read this plane to know what blocks. It is
-// one word and one row wider than the grid at every side, where everything is blocked. A scene keeps a
-// second one, the sides as they were before melt, if solids melt and the paper's law reads the sides of a
-// falling cell.
+// The walls have one bit per cell, set if it is solid, inert or beyond the grid. Kernels read this plane to
+// know which cells are blocked. It is one word and one row wider than the grid at every side, where
+// everything is blocked. A scene keeps a second plane if solids melt and the paper's law reads the sides of a
+// falling cell. It has the sides before melt.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Cells by their coordinates, the border included, and the rows where anything can happen.
+// Cells are read by their coordinates, the border included. The active rows tell where anything can happen.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ class Cells {
   bool matter(int x, int y, int z) const {
     return !outside(x, y, z) && (v_.solid.test(x, y, z) || v_.liquid.test(x, y, z));
   }
-  // An inert cell of fixed temperature.
+  // Tells if the cell is an inert cell of fixed temperature.
   bool isothermal(int x, int y, int z) const {
     return !outside(x, y, z) && v_.inert.test(x, y, z) && heat(x, y, z) > 0;
   }
@@ -40,14 +40,15 @@ class Cells {
   state::Grid g_;
 };
 
-// For each row (y, z), the interval of x in which it or one of the eight rows around it holds matter, one
-// cell wider on each side. A cell outside the interval has no matter, nor have its neighbours. So no rule
+// Keeps for each row (y, z) the interval of x in which it or one of the eight rows around it holds matter,
+// one cell wider on each side. A cell outside the interval has no matter, nor have its neighbours. So no rule
 // changes it.
 class ActiveRows {
  public:
   explicit ActiveRows(const state::Volume& volume);
 
-  // The same for rules that scan along gravity: every row of a slice z gets the union of its rows.
+  // Returns the intervals for rules that scan along gravity. Every row of a slice z gets the union of its
+  // rows.
   static ActiveRows columns(const state::Volume& volume);
 
   struct Interval {

@@ -1,5 +1,5 @@
-// Phase `excess` of the viscous law: settle every run and give its cells their head and mobility.
-// (The paper's law moves its excess in the same sweep as gravity.)
+// Phase `excess` of the viscous law settles every run and gives its cells their head and mobility. (The
+// paper's law moves its excess in the same sweep as gravity.)
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace voxmelt::scalar {
 namespace {
 
-// Cells bottom .. bottom + n - 1 of a column, with the sums of their amounts, and of amount x heat.
+// Holds the cells bottom .. bottom + n - 1 of a column, with the sums of their amounts, and of amount x heat.
 struct Run {
   const Cells& cells;
   state::Volume& volume;
@@ -65,9 +65,9 @@ void move_part(const Run& run, std::int32_t from, std::int32_t to, std::int32_t 
   run.volume.amount[run.at(from)] -= static_cast<std::uint16_t>(flow);
 }
 
-// The parts move through the faces of the run, upwards and then downwards.
+// Moves the parts through the faces of the run, upwards and then downwards.
 void move_in_order(const Run& run, std::int32_t offset) {
-  std::vector<std::int64_t> below;  // of each face: the run's mass below it, before anything moves
+  std::vector<std::int64_t> below;  // for each face: the run's mass below it, before anything moves
   std::int64_t sum = 0;
   for (std::int32_t k = 0; k < run.n - 1; ++k) below.push_back(sum += run.amount(k));
   const auto below_face = [&](std::int32_t k) { return below[static_cast<std::size_t>(k)]; };
@@ -81,7 +81,7 @@ void mix_all(const Run& run, std::int32_t h) {
   for (std::int32_t k = 0; k < run.n; ++k) run.volume.heat[run.at(k)] = static_cast<std::uint16_t>(h);
 }
 
-// While the cells still hold what they held.
+// Moves the heat while the cells still have their old amounts.
 void settle_heat(const Run& run, std::int32_t offset) {
   if (keeps_order(run))
     move_in_order(run, offset);

@@ -1,5 +1,5 @@
-// Phase `gravity`, both laws: one ascending sweep over each column. The paper's law also pushes up what does
-// not fit (excess); under the viscous law only cells outside a run fall.
+// Phase `gravity` is one ascending sweep over each column, in both laws. The paper's law also pushes up the
+// amount that does not fit (excess). Under the viscous law only cells outside a run fall.
 #include "kernel/automaton/rule/gravity.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace voxmelt::scalar {
 namespace {
 
-// side(x, y, z) says whether that cell counts as a blocked side.
+// Describes the surroundings of a cell. side(x, y, z) tells if that cell counts as a blocked side.
 template <class Side>
 rule::FallSurroundings surroundings(const Cells& cells, const Side& side, int x, int y, int z,
                                     bool empty_below) {
@@ -19,7 +19,7 @@ rule::FallSurroundings surroundings(const Cells& cells, const Side& side, int x,
   return {wall, empty_below && (wall || cells.blocked(x, y + 1, z))};
 }
 
-// What moves between a cell and the one above it, with its energy and heat.
+// Moves liquid between a cell and the one above it, with its energy and heat.
 class PairMoves {
  public:
   PairMoves(const rule::Parameters& parameters, std::int32_t offset, state::Volume& volume,
@@ -30,7 +30,7 @@ class PairMoves {
         volume_(volume),
         ledger_(ledger) {}
 
-  // Down: liquid falls only into free space. So a cell filled by falling never exceeds 1.
+  // Liquid falls down only into free space. So a cell filled by falling never exceeds 1.
   void fall(state::Slot high, state::Slot low, const rule::FallSurroundings& around) {
     const std::int32_t lower = volume_.amount[low];
     const std::int32_t flow = rule::fallen(lower, rule::released(volume_.amount[high], flow_.fall, around));
@@ -46,7 +46,7 @@ class PairMoves {
     cap_energy(high);
   }
 
-  // Up: the piling of highly viscous liquid.
+  // Pushes liquid up: the piling of highly viscous liquid.
   void push_up(state::Slot low, state::Slot high) {
     const std::int32_t flow = rule::pushed_up(volume_.amount[low], volume_.amount[high]);
     if (flow == 0) return;
@@ -88,7 +88,7 @@ class PairMoves {
 void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
   const bool paper = parameters_.flow.law == rule::Law::paper;
   const ActiveRows columns = ActiveRows::columns(volume);  // excess may climb as far as it must
-  const Cells cells(volume);  // masks are those of the phase's begin until settle_masks
+  const Cells cells(volume);  // masks stay those of the phase's begin until settle_masks
   // Under the paper's law the sides are those before this step's melt.
   const auto side = [&](int x, int y, int z) {
     return cells.blocked(x, y, z) || (paper && melted_.test(x, y, z));

@@ -1,5 +1,5 @@
-// Phase `heat`: conduction (Eq. 1) among matter and from isothermal walls in one pass per neighbour distance,
-// convection in liquid, then radiation received and exchange with air, cell by cell.
+// Phase `heat` conducts (Eq. 1) among matter and from isothermal walls in one pass per neighbour distance. It
+// then convects in liquid. Last come radiation received and exchange with air, cell by cell.
 #include "kernel/automaton/rule/heat.h"
 
 #include <cstddef>
@@ -25,7 +25,7 @@ void conduct(std::span<const rule::Offset> axes, std::int32_t weight, std::uint3
     if (!cells.matter(x, y, z)) return;
     const std::int32_t own = rule::temperature_of(cells.heat(x, y, z), material);
     std::int32_t from_matter = 0, from_walls = 0;
-    // flux(temperature there) is what the cell gains.
+    // The cell gains flux(temperature there).
     const auto neighbour = [&](int nx, int ny, int nz, const auto& flux) {
       const bool wall = cells.isothermal(nx, ny, nz);
       if (!wall && !cells.matter(nx, ny, nz)) return;
@@ -86,7 +86,7 @@ void Reference::heat(std::uint32_t step, const step::Irradiance* irradiance, Vol
   const ActiveRows rows(volume);
   state::Field<std::uint16_t>& next = next_.heat;
 
-  // Conduction, nearest neighbours first.
+  // Conduction goes first, with the nearest neighbours before the others.
   const auto pass = [&](std::span<const rule::Offset> axes, std::int32_t weight) {
     conduct(axes, weight, step, material, rows, volume, next, ledger.heat);
   };

@@ -1,4 +1,4 @@
-// Phase `melt`: hot solids become liquid; the extra `reheat` gives hot liquid its energy back.
+// Phase `melt` turns hot solids into liquid. The extra `reheat` gives hot liquid its energy back.
 #include <cstdint>
 
 #include "kernel/automaton/rule/heat.h"

@@ -1,5 +1,5 @@
-// The reference implementation: plain loops over kernel/automaton/rule, one file per phase. Everything else
-// is compared with it.
+// The reference implementation has plain loops over kernel/automaton/rule, one file per phase. Everything
+// else is compared with it.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,10 @@ class Reference final : public step::HostStepper {
            state::Ledger& ledger) override;
   void change_sources(const rule::Parameters& parameters) override { parameters_ = parameters; }
 
-  // Paper law, after `spread`: the directions that each liquid cell gave to, one bit each.
+  // Returns the directions that each liquid cell gave to, one bit each. It is for the paper law, after
+  // `spread`.
   const state::Field<std::uint8_t>& pattern() const { return pattern_; }
-  // Viscous law, after `excess`: what the run of a cell shows; nothing outside runs.
+  // Returns what the run of a cell shows, or nothing outside runs. It is for the viscous law, after `excess`.
   std::optional<rule::Column> run_of(state::Slot i) const {
     if (in_run_[i] == 0) return {};
     return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], true, bed_[i], limit_[i]};
@@ -45,7 +46,7 @@ class Reference final : public step::HostStepper {
   rule::Parameters parameters_;
   rule::RoundKeys keys_;
   state::Field<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
-  state::BitPlane melted_;              // paper law: by the last `melt`, until `gravity` has run
+  state::BitPlane melted_;              // paper law: melted by the last `melt`, until `gravity` has run
   state::Field<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
   state::Field<std::int32_t> head_, mobility_, exposed_, dead_, bed_,
       limit_;    // viscous law: see rule::Column

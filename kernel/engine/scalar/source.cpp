@@ -1,4 +1,4 @@
-// Phase `source`: vents add liquid, drains take it.
+// Phase `source` lets vents add liquid and drains take it.
 #include "kernel/automaton/rule/source.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Phase `spread` of the paper's law (Eqs. 7-20), in two sub-phases: `pattern` (which directions each cell
-// gives to) and `apply` (every cell gathers what its neighbours give).
+// Phase `spread` of the paper's law (Eqs. 7-20) has two sub-phases. `pattern` chooses the directions that
+// each cell gives to. In `apply` every cell gathers the gifts of its neighbours.
 #include "kernel/automaton/rule/spread.h"
 
 #include <algorithm>
@@ -13,13 +13,13 @@
 namespace voxmelt::scalar {
 namespace {
 
-// The share of its amount and energy that cell (x, y, z) gives to direction d of its pattern.
+// Returns the share of its amount and energy that cell (x, y, z) gives to direction d of its pattern.
 std::int32_t share_of(const rule::Flow& flow, std::int32_t heat, std::uint8_t pattern, std::size_t d) {
   if (flow.paper.use_table) return flow.paper.table[pattern][d];
   return rule::thermal_share(flow.paper.share, heat, flow);
 }
 
-// What the cells give, by their patterns.
+// Is what a cell gives by its pattern.
 struct Gift {
   std::int32_t amount = 0, energy = 0;
 };
@@ -29,7 +29,7 @@ class Gifts {
         const state::Field<std::uint8_t>& pattern)
       : flow_(flow), cells_(cells), volume_(volume), pattern_(pattern) {}
 
-  // The part of its energy that a gift keeps in contact with what is below the cell.
+  // Returns the part of its energy that a gift keeps in contact with what is below the cell.
   std::int32_t alpha(int x, int y, int z) const {
     return rule::contact_alpha(cells_.blocked(x, y - 1, z), cells_.inert(x, y - 1, z), flow_.paper);
   }
@@ -46,7 +46,7 @@ class Gifts {
     return {f, printed ? rule::scaled(e, alpha(x, y, z)) : e};
   }
 
-  // All that a cell gives and takes; `content` is amount x heat of what it takes.
+  // Sums all that a cell gives and takes. `content` is amount x heat of the part that it takes.
   struct Balance {
     Gift out, in;
     std::uint64_t content = 0;
@@ -132,7 +132,7 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
     const std::int32_t amount = volume.amount[i] - out.amount + in.amount;
     next_.amount[i] = static_cast<std::uint16_t>(amount);
 
-    // Friction takes 1 - alpha of what arrives; energy never exceeds the amount.
+    // Friction takes 1 - alpha of the arriving energy. Energy never exceeds the amount.
     const std::int32_t gained = printed ? in.energy : rule::scaled(in.energy, gifts.alpha(x, y, z), offset);
     const std::int32_t energy = volume.energy[i] - out.energy + gained;
     next_.energy[i] = static_cast<std::uint16_t>(std::min(energy, amount));

@@ -16,7 +16,7 @@ class Runs {
   Runs(const rule::Parameters& parameters, const state::Volume& volume)
       : parameters_(parameters), volume_(volume), cells_(volume) {}
 
-  // The sub-steps that the run needs which begins here.
+  // Returns the number of sub-steps that the run beginning here needs.
   std::int64_t need(int x, int bottom, int z) const {
     std::int64_t mass = 0;
     std::uint64_t content = 0;
@@ -35,7 +35,7 @@ class Runs {
     return rule::needed_substeps(mass, n, mean, parameters_.flow);
   }
 
-  // Calls visit(x, y, z) where a run begins: liquid directly above a blocked cell.
+  // Calls visit(x, y, z) for each cell in which a run begins: liquid directly above a blocked cell.
   template <class Visit>
   void for_each_begin(Visit&& visit) const {
     const state::Volume& v = volume_;

@@ -1,4 +1,4 @@
-// How many sub-steps the next step of the viscous law has (docs/automaton.md, section 10).
+// The next step of the viscous law has a number of sub-steps (docs/automaton.md, section 10).
 #pragma once
 
 #include "kernel/automaton/rule/parameters.h"
@@ -6,7 +6,8 @@
 
 namespace voxmelt::scalar {
 
-// Where a scene asks for as many as the state needs: the most that one of its runs needs.
+// Returns that number. If a scene asks for as many as the state needs, it is the most that one of its runs
+// needs.
 int count_substeps(const rule::Parameters& parameters, const state::Volume& volume);
 
 }  // namespace voxmelt::scalar

@@ -1,4 +1,4 @@
-// Phase `spread` of the viscous law: flow down the difference of free-surface heads.
+// Phase `spread` of the viscous law lets liquid flow down the difference of free-surface heads.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
   const bool hot = parameters_.heat.enabled;
   const std::int32_t mixing = rule::mixing_dither(moment.step, moment.substep);
 
-  // What a cell shows to its neighbours.
+  // Returns what a cell shows to its neighbours.
   const auto run_column = [&](state::Slot i) {
     return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], in_run_[i] != 0, bed_[i], limit_[i]};
   };

@@ -1,5 +1,6 @@
-// Phase `spread` of the paper's law, second half (Eqs. 11-20): every cell gathers what its neighbours give.
-// It works row by row on one slice, in place. What a neighbour gives, and its heat, are read from the gifts.
+// The second half of phase `spread` of the paper's law (Eqs. 11-20) lets every cell gather the gifts of its
+// neighbours. It works row by row on one slice, in place. The amount, energy and heat that a neighbour gives
+// are read from the gifts.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +19,7 @@ class Apply {
   using V = typename L::V;
   using M = typename L::M;
   static constexpr int kDirections = kFeatures.eight ? 8 : 4;
-  // A gift to a diagonal is a quarter of the one that is stored.
+  // A gift to a diagonal is a quarter of the stored one.
   static constexpr bool kQuarters = kFeatures.eight && !kFeatures.general && !L::kMaskedSums;
 
  public:
@@ -67,8 +68,8 @@ class Apply {
 
  private:
   static constexpr int kBatch = 64;
-  // Where a vector begins in the state and in the gifts, counted from the first row of the tile row. The
-  // upper 32 bits hold its word in the planes.
+  // Tells where a vector begins in the state and in the gifts, counted from the first row of the tile row.
+  // The upper 32 bits hold its word in the planes.
   using Item = std::uint64_t;
   static Item item(std::uint32_t at, std::uint32_t mask) { return Item{mask} << 32 | at; }
   static std::size_t at(Item item) { return item & 0xFFFFFFFF; }
@@ -77,7 +78,7 @@ class Apply {
     int y;
     std::uint32_t at, mask;
   };
-  // The cells that give something, in the present row of three slices.
+  // Marks the cells that give something, in the present row of three slices.
   struct Givers {
     const std::uint64_t *below, *own, *above;
     [[gnu::always_inline]] void climb(const View& v) {
@@ -98,14 +99,14 @@ class Apply {
     givers_ = {below_.givers + below_.word(v_, 0, below_.row(y)), own_.givers + own_.word(v_, 0, own_.row(y)),
                above_.givers + above_.word(v_, 0, above_.row(y))};
   }
-  // Words in or beside which a cell gives.
+  // Returns the words in or beside which a cell gives.
   [[gnu::always_inline]] TileRow beside_giving(int y) const {
     const TileRow giving =
         below_.giving[below_.row(y)] | own_.giving[own_.row(y)] | above_.giving[above_.row(y)];
     return giving | giving << 1 | giving >> 1;
   }
 
-  // Appends the vectors of a word of which a cell may give or take; returns how many there are then.
+  // Appends the vectors of a word in which a cell may give or take. It returns how many there are then.
   [[gnu::always_inline]] int collect(int w, const Row& row, int count) {
     const std::uint64_t here = givers_[w];
     const std::uint64_t any =
@@ -151,7 +152,7 @@ class Apply {
     return {out, energy_out};
   }
 
-  // `content` gets amount x heat of what is taken, with heats as they are stored.
+  // Returns what the cells take. `content` gets amount x heat of it, with heats as they are stored.
   [[gnu::always_inline]] Sums taken(Item item, typename L::Wide& content) const {
     V in = L::zero(), energy_in = L::zero();
     V diagonal_in = L::zero(), diagonal_energy = L::zero();  // with kQuarters: four times these
@@ -212,14 +213,14 @@ class Apply {
     set_liquid(item, L::to_bits(dry) ^ kAll);
   }
 
-  // The heat of cells that kept some of what they held, and took `in`.
+  // Mixes the heat of cells that kept some of their liquid, and took `in`.
   [[gnu::always_inline]] void mix(std::size_t cell, V in, V kept, V now, const typename L::Wide& content,
                                   M dry) {
     const V heat = L::load(v_.heat + cell);
     const M fed = L::less(L::zero(), in);
     V mixed = heat;
     if (L::to_bits(fed) != 0) {
-      // Heats of gifts are stored less 32768, to be signed. So 32768 times what came in is added back.
+      // Heats of gifts are stored less 32768, to be signed. So 32768 times the incoming amount is added back.
       const auto biased = L::unpack(L::template shift_left<15>(in), L::template shift_right<1>(in));
       const auto all = L::sum(L::sum(content, biased), L::product(kept, heat));
       mixed = L::select(fed, mix_.mean(all, now, fed), heat);
@@ -227,7 +228,7 @@ class Apply {
     L::store(v_.heat + cell, L::select(dry, L::zero(), mixed));
   }
 
-  // The new liquid mask of an item's cells: a cell that is not blocked and holds something is liquid.
+  // Sets the new liquid mask of an item's cells. A cell that is not blocked and holds something is liquid.
   [[gnu::always_inline]] void set_liquid(Item item, std::uint64_t wet) const {
     const std::size_t word = word_ + mask(item);
     const int shift = static_cast<int>(at(item) % 64);
@@ -235,7 +236,7 @@ class Apply {
     v_.liquid[word] = liquid | (wet << shift & ~(v_.solid[word] | v_.inert[word]));
   }
 
-  // Lean: one flow for the axes and one for the diagonals.
+  // Returns the flow to a direction. The lean form has one flow for the axes and one for the diagonals.
   template <int d, int dx = 0>
   [[gnu::always_inline]] static V flow(const Gifts& gifts, std::size_t at) {
     return given<d, dx>(gifts.flow, at);
@@ -252,7 +253,7 @@ class Apply {
       return L::template load_beside<dx>(planes[kFeatures.general ? d : d / 4 * 4] + at);
   }
 
-  // (alpha e + D) >> 16. Under the printed reading the giver has paid already.
+  // Returns (alpha e + D) >> 16. Under the printed reading the giver has paid already.
   [[gnu::always_inline]] V friction(V e, Item item) const {
     if constexpr (kFeatures.general)
       if (law_.reading == rule::EnergyReading::printed) return e;
@@ -276,13 +277,13 @@ class Apply {
   const V dither_, undithered_;
   const int z_;
   const Gifts &below_, &own_, &above_;
-  std::size_t cell_ = 0, word_ = 0;                       // the tile row's first cell, in the state
-  std::size_t below_at_ = 0, own_at_ = 0, above_at_ = 0;  // in the gifts, likewise
+  std::size_t cell_ = 0, word_ = 0;                       // first cell of the tile row, in the state
+  std::size_t below_at_ = 0, own_at_ = 0, above_at_ = 0;  // the same place in the gifts
   bool bottom_ = false;                                   // it is the lowest tile row
   Givers givers_{};
   Books& books_;
   Mix<Arch> mix_;
-  // With eight neighbours, a cell gives or takes at most 5 ONE; with four, 8 ONE.
+  // With eight neighbours, a cell gives or takes at most 5 ONE. With four, it is 8 ONE.
   std::conditional_t<kFeatures.eight, typename L::SmallSums, typename L::Sums> dissipated_, capped_;
   int batches_ = 0;
   Item items_[kBatch];

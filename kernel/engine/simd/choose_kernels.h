@@ -1,4 +1,4 @@
-// Which kernels a scene needs.
+// A scene gets only the kernels that it needs.
 #pragma once
 
 #include "kernel/engine/simd/heat_kernels.h"

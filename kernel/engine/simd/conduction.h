@@ -1,7 +1,7 @@
-// Phase `heat`: conduction through faces (Eq. 1), one slice in place. The flux through a face is computed
-// once: a cell computes those to x + 1, y + 1 and z + 1, and takes the others from the lane, the row and
-// the slice before it. So no old heats need be kept, because what a cell still has to read has not been
-// written yet.
+// Phase `heat` conducts through faces here (Eq. 1), one slice in place. The flux through a face is computed
+// once. A cell computes those to x + 1, y + 1 and z + 1, and takes the others from the lane, the row and the
+// slice before it. So no old heats need be kept: a heat that a cell still has to read has not been written
+// yet.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ class FaceConduction {
         along_z_(step.parameters->heat.weight_face, part_dither(step, 2, 3)),
         books_(6 * step.parameters->heat.weight_face) {}
 
-  // `full` works on tile rows that are matter throughout.
+  // Conducts in the tiles. `full` works on tile rows that are matter throughout.
   [[gnu::always_inline]] std::int64_t run(const TileRow* carried, const TileRow* tiles,
                                           FullConduction<Arch, kLatent>& full, const HeatTiles& found) {
     for (int r = 0; r < v_.tile_rows(); ++r) {
@@ -74,11 +74,12 @@ class FaceConduction {
     TileRow changed, restless, hot;
   };
 
-  // A row's masks of matter, and those above and in front of it (beyond the grid: any, and not asked).
+  // Holds a row's masks of matter, and those above and in front of it. Beyond the grid these are any, and not
+  // asked.
   struct Row {
     int y;
     bool last_row, last_slice;
-    std::size_t cell, in_slice;  // of its first word: in the volume, in a slice
+    std::size_t cell, in_slice;  // places of its first word: in the volume, in a slice
     const std::uint64_t *solid, *liquid;
     std::size_t up, front;  // words from here to there
     [[gnu::always_inline]] std::uint64_t own(int w) const { return solid[w] | liquid[w]; }
@@ -100,7 +101,7 @@ class FaceConduction {
             v_.word(0, 0, 1)};
   }
 
-  // from_below and from_back are the words whose flux is carried.
+  // Works on one row. from_below and from_back are the words whose flux is carried.
   [[gnu::always_inline]] void row(int y, TileRow work, TileRow from_below, TileRow from_back, Found& found) {
     const Row row = row_at(y);
     for (TileRow left = work; left != 0; left &= left - 1) {
@@ -124,7 +125,7 @@ class FaceConduction {
     }
   }
 
-  // Flux into a word from words that this sweep did not visit. It is computed, not carried.
+  // Computes the flux into a word from words that this sweep did not visit, since it is not carried.
   [[gnu::always_inline]] void enter_x(int w, int y, std::uint64_t own) {
     const std::uint64_t pair = own & matter(v_, w - 1, y, z_) >> 63;
     const std::uint16_t* last = heat_ + v_.cell(w, y, z_) - L::kCount;
@@ -153,7 +154,7 @@ class FaceConduction {
     }
   }
 
-  // A word without matter passes nothing on. A flux that was carried here is 0.
+  // Clears the fluxes out of a word without matter. A flux that was carried here is 0.
   [[gnu::always_inline]] void nothing(int w, int y, bool from_below, bool from_back) {
     before_ = L::zero();
     for (int at = 0; at < 64; at += L::kCount) {
@@ -162,7 +163,7 @@ class FaceConduction {
     }
   }
 
-  struct Pairs {  // cells that are matter, as is their neighbour
+  struct Pairs {  // cells that are matter and have a neighbour of matter
     std::uint64_t right, up, front;
   };
 
@@ -182,7 +183,7 @@ class FaceConduction {
     V any = L::zero(), hottest = L::zero();
     for (int part = 0; part < L::kParts; ++part) {
       const std::size_t at = static_cast<std::size_t>(part * L::kCount);
-      if (!L::in_part(own, part)) {  // the stored fluxes into it are 0, and so is what flows on
+      if (!L::in_part(own, part)) {  // the stored fluxes into it are 0, and so are those out of it
         before_ = L::zero();
         continue;
       }
@@ -206,7 +207,7 @@ class FaceConduction {
     return {any, hottest};
   }
 
-  // Does any pair of this word have two temperatures? A neighbour that changed in this pass is reported as
+  // Tells if any pair of this word has two temperatures. A neighbour that changed in this pass is reported as
   // changed, and wakes this tile in any case.
   [[gnu::always_inline]] bool differs(int w, int y, std::uint64_t own) const {
     const std::uint16_t* here = heat_ + v_.cell(w, y, z_);

@@ -1,4 +1,4 @@
-// Friction of a cell, by what it stands on (Eqs. 16-20).
+// The friction of a cell depends on the matter below it (Eqs. 16-20).
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,8 @@
 
 namespace voxmelt::simd {
 
-// The alpha of the cells of vector `part` of mask word `word`. `floor`: they are the lowest of the grid.
+// Returns the alpha of the cells of vector `part` of mask word `word`. With `floor` they are the lowest of
+// the grid.
 template <class Arch>
 VOXMELT_LANES typename cpu::Lanes<Arch>::V contact_alpha(const View& view, const rule::PaperLaw& law,
                                                          bool floor, std::size_t word, int part) {

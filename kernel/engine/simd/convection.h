@@ -1,5 +1,5 @@
-// Phase `heat`: convection, heat that rises in liquid where it is hotter below. One slice in place, rows
-// ascending: what rises into a row is carried from the row below it.
+// Phase `heat` convects here: heat rises in liquid that is hotter below. One slice is done in place, rows
+// ascending. The heat that rises into a row is carried from the row below it.
 #pragma once
 
 #include <cstddef>
@@ -44,7 +44,7 @@ class Convection {
           const Found found = word(w, y, own, rising);
           if (found.changed) tell.changed[r] |= bit;
           if (found.hot) tell.hot[r] |= bit;
-          if (found.restless) {  // both ends of the pairs
+          if (found.restless) {  // marks both ends of the pairs
             tell.restless[r] |= bit;
             tell.restless[(y + 1) >> v_.tile_shift] |= bit;
           }
@@ -61,7 +61,7 @@ class Convection {
     bool changed, restless, hot;
   };
 
-  // How much hotter the lower cells are, where a bit of `pairs` is set.
+  // Returns how much hotter the lower cells are, where a bit of `pairs` is set.
   [[gnu::always_inline]] V hotter(V lower, V upper, std::uint64_t pairs, int part) const {
     return L::keep(L::from_bits(pairs, part), L::sub_saturated(plateau_(lower), plateau_(upper)));
   }

@@ -1,6 +1,6 @@
-// Phase `heat`: conduction to neighbours over edges or corners (Eq. 1 with 18 or 26 neighbours), one slice.
-// Every cell gathers from both sides of each axis; the heats are read from slices of before the pass. Words
-// that are surrounded by matter need no masks.
+// Phase `heat` conducts to neighbours over edges or corners here (Eq. 1 with 18 or 26 neighbours), one slice
+// at a time. Every cell gathers from both sides of each axis. It reads heats from slices of before the pass.
+// Words that are surrounded by matter need no masks.
 #pragma once
 
 #include <cstddef>
@@ -81,8 +81,8 @@ class DistantConduction {
     V any, hottest;  // any: not 0 where heat changed
   };
 
-  // Those of the words whose cells are matter, and all cells around them in the rows and slices beside tile
-  // row r. Only along x may a neighbour be beyond the grid.
+  // Returns those of the words whose cells are matter, as are all cells around them in the rows and slices
+  // beside tile row r. Only along x may a neighbour be beyond the grid.
   [[gnu::always_inline]] TileRow amid_matter(int r, TileRow words) const {
     if (z_ == 0 || z_ + 1 == v_.nz) return 0;
     const int begin = v_.tile_begin(r) > 0 ? v_.tile_begin(r) - 1 : 0,
@@ -99,8 +99,7 @@ class DistantConduction {
     return words & all & (all << 1 | 1) & (all >> 1 | TileRow{1} << (v_.words - 1));
   }
 
-  // Cells of the word that are matter and whose neighbour at this offset is matter too; the heats of
-  // that neighbour.
+  // Finds the cells of the word that are matter and have matter at this offset, with the heats there.
   [[gnu::always_inline]] Neighbour neighbour(int w, int y, std::uint64_t own, int dx, int dy, int dz) const {
     std::uint64_t there = matter(v_, w, y + dy, z_ + dz);
     if (dx > 0) there = cpu::from_right(there, matter(v_, w + 1, y + dy, z_ + dz));
@@ -110,7 +109,8 @@ class DistantConduction {
     return {slice + v_.cell(w, row, 0) + dx, own & there};
   }
 
-  // Where there is no pair, the neighbour counts as being as warm as the cell. So nothing flows.
+  // Adds the fluxes of a word. If there is no pair, the neighbour counts as being as warm as the cell. So
+  // nothing flows.
   [[gnu::always_inline]] Sum word(int w, int y, std::uint64_t own) {
     Neighbour to[Axes::kCount], from[Axes::kCount];
     find_neighbours(w, y, own, to, from);
@@ -128,13 +128,13 @@ class DistantConduction {
     return L::select(L::from_bits(neighbour.pairs, part), there, heat);
   }
 
-  // For words amid matter: every neighbour is there, but for those beyond the grid along x.
+  // Adds the fluxes of a word amid matter. Every neighbour exists, except those beyond the grid along x.
   [[gnu::always_inline]] Sum full_word(int w, int y) {
     const std::uint16_t* slices[3];
     for (int i = 0; i < 3; ++i) slices[i] = slices_[i] + v_.cell(w, y, 0);
     const bool first = w == 0, last = w + 1 == v_.words;
     return add_up(w, y, ~std::uint64_t{0}, [&](int part, V heat) VOXMELT_LAMBDA {
-      // Lanes whose previous, and next, cell along x is in the grid.
+      // These lanes have a previous, or a next, cell along x within the grid.
       const std::uint64_t previous = first && part == 0 ? kAll - 1 : kAll,
                           next = last && part + 1 == L::kParts ? kAll >> 1 : kAll;
       const auto at = static_cast<std::size_t>(part * L::kCount);
@@ -162,7 +162,7 @@ class DistantConduction {
     return fluxes_[0].value(out) - fluxes_[0].value(in);
   }
 
-  // gain(part, temperatures) is what the cells of a vector gain.
+  // Changes the heats of a word. The cells of a vector gain gain(part, temperatures).
   template <class Gain>
   [[gnu::always_inline]] Sum add_up(int w, int y, std::uint64_t own, const Gain& gain) {
     const std::size_t cell = v_.cell(w, y, z_);
@@ -181,7 +181,7 @@ class DistantConduction {
     return sum;
   }
 
-  // Did any pair of this word have two temperatures?
+  // Tells if any pair of this word had two temperatures.
   [[gnu::always_inline]] bool differs(int w, int y, std::uint64_t own) const {
     Neighbour to[Axes::kCount], from[Axes::kCount];
     find_neighbours(w, y, own, to, from);

@@ -1,4 +1,5 @@
-// Phase `heat`: radiation received by solids, and exchange with air at exposed cells; each cell alone.
+// Phase `heat` lets solids receive radiation and exposed cells exchange heat with air here. Each cell acts
+// alone.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,7 @@ class Exchange {
         melting_(step.parameters->material),
         dither_(L::set(static_cast<int>(step.dither))),
         rest_(L::set(static_cast<int>(0xFFFF - step.dither))) {
-    // 4096 times the root of the number of exposed axes.
+    // The exposure is 4096 times the root of the number of exposed axes.
     constexpr int kExposure[3]{4096, 5793, 7094};
     const int exchange = step.parameters->heat.air_exchange;
     for (int n = 0; n < 3; ++n) rate_[n] = L::set((exchange * kExposure[n]) >> 12);
@@ -71,7 +72,7 @@ class Exchange {
   };
   struct Row {
     int y;
-    std::size_t mask, cell;  // of its first word
+    std::size_t mask, cell;  // places of its first word
     Near own, up, down, front, back;
   };
   [[gnu::always_inline]] Row row_at(int y) const {
@@ -79,7 +80,7 @@ class Exchange {
     if constexpr (kFeatures.air) {
       const std::size_t line = v_.word(0, 1, 0), slice = v_.word(0, 0, 1);
       const std::uint64_t* liquid = v_.liquid + row.mask;
-      // Beyond the grid all is wall. What is read as liquid there does not matter.
+      // Beyond the grid all is wall. Bits that are read as liquid there do not matter.
       row.own = {v_.walls_at(y, z_), liquid};
       row.up = {v_.walls_at(y + 1, z_), y + 1 < v_.ny ? liquid + line : liquid};
       row.down = {v_.walls_at(y - 1, z_), y > 0 ? liquid - line : liquid};
@@ -128,7 +129,7 @@ class Exchange {
     return {L::nonzero(any), L::nonzero(left), L::nonzero(any) && melting_.reached(hottest)};
   }
 
-  // (4096 I + D) >> 16, cut at the top. `left`: it is not 0 where a cell is not at rest.
+  // Returns (4096 I + D) >> 16, cut at the top. `left` becomes other than 0 where a cell is not at rest.
   [[gnu::always_inline]] V radiate(V heat, V amount, V irradiance, V& left) {
     const V room = L::set(0xFFFF) - heat;
     const V low = L::template shift_left<12>(irradiance), high = L::template shift_right<4>(irradiance);
@@ -138,8 +139,8 @@ class Exchange {
     return heat + gain;
   }
 
-  // floor((air - T) rate + D) / 65536): for air < T the rounding is reversed: |difference| rate is rounded
-  // with 65535 - D.
+  // Returns floor(((air - T) rate + D) / 65536). For air < T the rounding is reversed: |difference| rate is
+  // rounded with 65535 - D.
   [[gnu::always_inline]] V blow(V heat, V amount, const Exposed& bare, V air, int part, V& left) {
     const V own = plateau_(heat), warmer = L::sub_saturated(air, own), colder = L::sub_saturated(own, air);
     const V rate = L::select(L::from_bits(bare.three, part), rate_[2],

@@ -1,5 +1,6 @@
-// Phase `gravity` of the viscous law (docs/automaton.md, section 8): liquid outside runs falls. One slice,
-// ascending, pairs of rows (y, y + 1), 64 cells at a time. Free of kernel/automaton/rule on purpose.
+// Phase `gravity` of the viscous law lets liquid outside runs fall (docs/automaton.md, section 8). It does
+// one slice, ascending, in pairs of rows (y, y + 1), 64 cells at a time. It is free of kernel/automaton/rule
+// on purpose.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +30,7 @@ class FallOutside {
         mix_(step.dither) {}
 
   [[gnu::always_inline]] void run(const TileRow* tiles, TileRow* changed) {
-    TileRow moved = 0;  // words that the last pair of rows changed: what is above may follow
+    TileRow moved = 0;  // words that the last pair of rows changed, so that those above may follow
     for (int y = 0; y + 1 < v_.ny; ++y) {
       TileRow work = tiles[y >> v_.tile_shift] | tiles[(y + 1) >> v_.tile_shift] | moved;
       if (v_.words < 64) work &= (TileRow{1} << v_.words) - 1;
@@ -75,7 +76,7 @@ class FallOutside {
   struct Around {
     std::uint64_t wall, overhang;
   };
-  // For the cells of word w in row y: is a side blocked, and is there something to hang from?
+  // Tells for the cells of word w in row y if a side is blocked, and if there is something to hang from.
   [[gnu::always_inline]] Around surroundings(int w, int y) const {
     const std::uint64_t own = v_.blocked(w, y, z_);
     const std::uint64_t wall = cpu::from_right(own, v_.blocked(w + 1, y, z_)) |

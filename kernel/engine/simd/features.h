@@ -1,5 +1,5 @@
-// What a scene uses, as far as it changes the inner loops. A kernel is compiled for each combination, and a
-// scene runs the one that has what it needs and nothing else.
+// The features of a scene are those that change the inner loops. A kernel is compiled for each combination,
+// and a scene runs the one that has the features it needs and nothing else.
 #pragma once
 
 namespace voxmelt::simd {
@@ -11,7 +11,7 @@ struct GravityFeatures {
 
 struct SpreadFeatures {
   bool hot;
-  bool eight;    // neighbours, else four
+  bool eight;    // eight neighbours, else four
   bool thermal;  // shares by heat
   bool general;  // shares by pattern, the printed reading, or no `downhill`
   bool support;  // for `pattern`: a cell that stands on nothing gives nothing
@@ -19,8 +19,8 @@ struct SpreadFeatures {
 
 struct HeatFeatures {
   bool latent;     // temperature is not heat
-  bool radiation;  // of `exchange`
-  bool air;        // of `exchange`
+  bool radiation;  // used by `exchange`
+  bool air;        // used by `exchange`
 };
 
 struct ViscousFeatures {
@@ -28,16 +28,16 @@ struct ViscousFeatures {
   bool guided;  // walls hold, or drops hang
 };
 
-// What this build can do. It is everything, unless the CMake option VOXMELT_WITHOUT leaves features out to
-// measure their price (bench/feature_cost.py). A scene that uses what is left out runs wrongly there.
+// Tells what this build can do. It is everything, unless the CMake option VOXMELT_WITHOUT leaves features out
+// to measure their price (bench/feature_cost.py). A scene that uses a missing feature runs wrongly there.
 #ifndef VOXMELT_WITHOUT
 #define VOXMELT_WITHOUT
 #endif
 struct Built {
   bool heat = true, latent = true, walls = true, radiation = true, air = true, convection = true,
        edges = true, corners = true;
-  bool viscous = true, guided = true, thermal = true;                              // of both laws
-  bool eight = true, general = true, support = true, slump = true, reheat = true;  // of the paper's law
+  bool viscous = true, guided = true, thermal = true;                              // for both laws
+  bool eight = true, general = true, support = true, slump = true, reheat = true;  // for the paper's law
 };
 constexpr Built kBuilt{VOXMELT_WITHOUT};
 

@@ -1,5 +1,5 @@
-// Heat between two cells (Eq. 1, docs/automaton.md, section 6), 16 bits a lane. Free of kernel/automaton/rule
-// on purpose: compared with it, not built from it.
+// Heat flows between two cells (Eq. 1, docs/automaton.md, section 6), 16 bits a lane. The code is free of
+// kernel/automaton/rule on purpose: compared with it, not built from it.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,20 @@
 
 namespace voxmelt::simd {
 
-// Solid or liquid; nothing beyond the grid.
+// Returns the cells that are solid or liquid. There are none beyond the grid.
 VOXMELT_LANES std::uint64_t matter(const View& v, int w, int y, int z) {
   if (w < 0 || w >= v.words || y < 0 || y >= v.ny || z < 0 || z >= v.nz) return 0;
   const std::size_t at = v.word(w, y, z);
   return v.solid[at] | v.liquid[at];
 }
 
-// D(s, part, parts).
+// Returns D(s, part, parts).
 VOXMELT_LANES std::uint32_t part_dither(const Step& step, int part, int parts) {
   return (step.dither + 65536u * static_cast<std::uint32_t>(part) / static_cast<std::uint32_t>(parts)) &
          0xFFFFu;
 }
 
-// The temperature of a heat content. It stays at the melting point while the latent heat is paid.
+// Returns the temperature of a heat content. It stays at the melting point while the latent heat is paid.
 template <class Arch, bool kLatent>
 class Plateau {
   using L = cpu::Lanes<Arch>;
@@ -44,7 +44,8 @@ class Plateau {
   V melting_, latent_;
 };
 
-// floor(((second - first) weight + dither) / 65536) modulo 65536; |second - first| weight < 2^31.
+// Computes floor(((second - first) weight + dither) / 65536) modulo 65536, for |second - first| weight <
+// 2^31.
 template <class Arch>
 class Flux {
   using L = cpu::Lanes<Arch>;
@@ -59,13 +60,13 @@ class Flux {
   [[gnu::always_inline]] V between(V first, V second) const {
     return L::sub_if(L::less(second, first), flux(second - first), weight_);
   }
-  // Only pairs count; other lanes are 0.
+  // Computes the flux of pairs only. Other lanes are 0.
   [[gnu::always_inline]] V between(V first, V second, M pair) const {
     return L::sub_if(L::less(second, first) & pair, flux(L::keep(pair, second - first)), weight_);
   }
 
-  // Sums of fluxes of one weight: the sum of the differences modulo 65536, and how many of them
-  // were negative.
+  // Holds sums of fluxes of one weight: the sum of the differences modulo 65536, and how many of them were
+  // negative.
   struct Total {
     V fluxes = L::zero(), negative = L::zero();
   };
@@ -78,11 +79,11 @@ class Flux {
     return total.fluxes - L::low(total.negative, weight_);
   }
 
-  // The flux of a difference that is not negative.
+  // Returns the flux of a difference that is not negative.
   [[gnu::always_inline]] V falling(V difference) const { return flux(difference); }
 
  private:
-  // The flux of the difference modulo 65536. It is too large by the weight where the true difference
+  // Returns the flux of the difference modulo 65536. It is too large by the weight where the true difference
   // is negative.
   [[gnu::always_inline]] V flux(V difference) const {
     return L::carry(L::high(difference, weight_), L::low(difference, weight_), most_);

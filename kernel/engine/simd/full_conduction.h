@@ -1,6 +1,6 @@
-// Conduction through faces (see conduction.h) for a tile row that is matter throughout, as is what lies above
-// and in front of it. It needs no masks, and takes several rows at once. It is apart from the rest, so that
-// each has enough registers.
+// Conduction through faces (see conduction.h) is faster for a tile row that is matter throughout, with matter
+// above and in front of it. It needs no masks, and takes several rows at once. It is apart from the rest, so
+// that each has enough registers.
 #pragma once
 
 #include <algorithm>
@@ -31,15 +31,15 @@ class FullConduction {
                along(step, 2)},
         books_(6 * step.parameters->heat.weight_face) {}
 
-  // How many rows from y on have only cells of pairs in the words of `work`, which are side by side. The last
-  // cell of the last word along x may be an exception.
+  // Returns how many rows from y on have only cells of pairs in the words of `work`, which are side by side.
+  // The last cell of the last word along x may be an exception.
   [[gnu::always_inline]] int rows(int y, int end, TileRow work) const {
     const TileRow first = work & -work;
     if ((work & (work + first)) != 0 || z_ + 1 == v_.nz) return 0;
     if (matter(v_, __builtin_ctzll(work), y, z_) != ~std::uint64_t{0}) return 0;
     const int most = std::min({end - y, v_.ny - 1 - y, kMostRows}), words = v_.words;
     const std::size_t begin = v_.word(0, y, z_), plane = v_.word(0, 0, 1);
-    // Most often it is all of a tile row, whose masks are contiguous in memory.
+    // Most often the words are a whole tile row, whose masks are contiguous in memory.
     if (__builtin_popcountll(work) == words && all_matter(begin, (most + 1) * words) &&
         all_matter(begin + plane, most * words))
       return most;
@@ -54,19 +54,20 @@ class FullConduction {
   }
 
   struct Sums {
-    TileRow changed;  // words
-    V hottest;        // their hottest cells
+    TileRow changed;  // words that changed
+    V hottest;        // the hottest cells, lane by lane
   };
 
-  // Needs the flux along y into row y, and along z into all rows. It goes word by word, so that the fluxes
-  // along y stay in registers. before[k] is the flux along x into row y + k, and then out of it.
+  // Conducts in these rows. It needs the flux along y into row y, and along z into all rows. It goes word by
+  // word, so that the fluxes along y stay in registers. before[k] is the flux along x into row y + k, and
+  // then out of it.
   [[gnu::noinline]] Sums run(int y, int rows, TileRow words) {
     int w = __builtin_ctzll(words);
     V before[kMostRows];
     for (int k = 0; k < rows; ++k) before[k] = w > 0 ? from_left(w, y + k) : L::zero();
     const Rules rules = rules_;
     const int last = 63 - __builtin_clzll(words);
-    std::uint64_t ends[kMostRows];  // cells of the last word that are of a pair along x
+    std::uint64_t ends[kMostRows];  // cells of the last word that have a pair along x
     for (int k = 0; k < rows; ++k)
       ends[k] = cpu::from_right(~std::uint64_t{0}, last + 1 < v_.words ? matter(v_, last + 1, y + k, z_) : 0);
     Sums sums{0, L::zero()};
@@ -88,7 +89,7 @@ class FullConduction {
     return {step.parameters->heat.weight_face, part_dither(step, axis, 3)};
   }
 
-  // That many words, from a given one on.
+  // Tells if so many words, from a given one on, are all matter.
   [[gnu::always_inline]] bool all_matter(std::size_t word, int words) const {
     const std::uint64_t *solid = v_.solid + word, *liquid = v_.liquid + word;
     constexpr int kAtOnce = 64 / L::kParts / 4;  // words of a vector
@@ -106,7 +107,7 @@ class FullConduction {
     return !L::nonzero(every ^ L::set(0xFFFF));
   }
 
-  // Flux along x into word w.
+  // Returns the flux along x into word w.
   [[gnu::always_inline]] V from_left(int w, int y) const {
     const std::uint64_t pair = matter(v_, w, y, z_) & matter(v_, w - 1, y, z_) >> 63;
     const std::uint16_t* last = heat_ + v_.cell(w, y, 0) - L::kCount;
@@ -114,7 +115,8 @@ class FullConduction {
                                   L::from_bits(pair << (L::kCount - 1), 0));
   }
 
-  // kLast: ends[k] says which cells of row y + k belong to a pair along x; otherwise all do.
+  // Conducts in one word of all rows. With kLast, ends[k] tells which cells of row y + k belong to a pair
+  // along x. Otherwise all do.
   template <bool kLast>
   [[gnu::always_inline]] void full_word(const Rules& rules, int y, int rows, int w, const std::uint64_t* ends,
                                         V* before_rows, Sums& sums) {
@@ -170,7 +172,7 @@ class FullConduction {
 
   static constexpr int kMostRows = 8;
   const View& v_;
-  std::uint16_t* const heat_;  // of this slice
+  std::uint16_t* const heat_;  // heats of this slice
   const std::uint16_t *const amount_, *const above_;
   std::uint16_t *const up_, *const front_;
   const int z_;

@@ -1,4 +1,4 @@
-// Phase `spread` of the paper's law: what cells give to a direction (Eqs. 9, 10), written into the gifts.
+// Cells give to a direction in phase `spread` of the paper's law (Eqs. 9, 10). Their gifts are written here.
 #pragma once
 
 #include <cstddef>
@@ -28,20 +28,21 @@ class GiftWriter {
     if constexpr (kFeatures.thermal) shares_ = share_table(*step.parameters);
   }
 
-  // What cells give of what they hold. With thermal viscosity, it is the share times the table.
+  // Returns the share of their contents that cells give. With thermal viscosity, it is the share times the
+  // table.
   [[gnu::always_inline]] V share(std::size_t at) const {
     if constexpr (!kFeatures.thermal) return share_;
     return L::lookup(shares_, L::load(heat_ + at));
   }
-  // The amount along an axis. With shares by pattern it is not known yet, and is 0.
+  // Returns the amount along an axis. With shares by pattern it is not known yet, and is 0.
   [[gnu::always_inline]] V flow(V amount, V share) const {
     if constexpr (kFeatures.general)
       if (law_.use_table) return L::zero();
     return capped(amount, share);
   }
 
-  // One gift for all directions of an axis. That of a diagonal is its quarter, which `apply` takes when it
-  // reads the gift, unless sums under a mask are free.
+  // Writes one gift for all directions of an axis. The gift to a diagonal is its quarter. `apply` takes that
+  // quarter when it reads the gift, unless sums under a mask are free.
   [[gnu::always_inline]] void write(std::size_t at, V flow, V share) const {
     const V warm = L::min(flow, L::high(L::load(energy_ + at), share));
     L::store(gifts_.flow[0] + at, flow);
@@ -53,7 +54,7 @@ class GiftWriter {
     write_heat(at);
   }
 
-  // The gifts of every direction on their own: shares by pattern, energy by the printed reading.
+  // Writes the gifts of every direction on their own: shares by pattern, energy by the printed reading.
   [[gnu::always_inline]] void write_each(const View& view, std::size_t at, int y, std::uint32_t lane) const {
     const V amount = L::load(amount_ + at), energy = L::load(energy_ + at);
     write_heat(at);
@@ -83,13 +84,13 @@ class GiftWriter {
     if constexpr (kFeatures.hot) L::store(gifts_.heat + at, L::load(heat_ + at) ^ L::set(0x8000));
   }
 
-  // Shares by heat, limited to what all neighbours together can take.
+  // Returns the shares by heat, limited to what all neighbours together can take.
   [[gnu::always_inline]] static typename L::Table share_table(const rule::Parameters& parameters) {
     alignas(64) std::uint16_t shares[32];
     const V sh = L::set(parameters.flow.paper.share);  // below 2^15
     for (std::size_t i = 0; i < 32; i += L::kCount) {
       const V mobility = L::load_any(parameters.flow.mobility_table.data() + i);
-      // The product >> 15 may need 17 bits; the limit brings it back to 16.
+      // The product >> 15 may need 17 bits. The limit brings it back to 16.
       const V high = L::high(sh, mobility), low = L::template shift_right<15>(L::low(sh, mobility));
       L::store(shares + i, L::min(L::add_saturated(L::add_saturated(high, high), low),
                                   L::set(rule::largest_share(kDirections))));
@@ -107,7 +108,7 @@ class GiftWriter {
   const Gifts& gifts_;
   const std::uint16_t *const amount_, *const energy_, *const heat_;  // from the gifts' first row on
   const V share_;
-  typename L::Table shares_;  // by heat; with thermal viscosity
+  typename L::Table shares_;  // by heat, for thermal viscosity
 };
 
 }  // namespace voxmelt::simd

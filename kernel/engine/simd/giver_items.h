@@ -1,4 +1,5 @@
-// The work of `pattern` on a tile row, cut into items of two vectors each: those with a cell that may give.
+// The work of `pattern` on a tile row is cut into items of two vectors each. Only items with a cell that may
+// give are kept.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +19,12 @@ class GiverItems {
 
   struct Item {
     std::uint32_t at;         // its first cell, counted from the first of the gifts
-    std::uint32_t row, lane;  // of its first cell: in the gifts, along x
-    bool walls;               // beside some of its cells, not counting the border in x
+    std::uint32_t row, lane;  // its first cell: row in the gifts, x
+    bool walls;               // walls beside some of its cells, not counting the border in x
     Twin givers;              // cells that may give
   };
 
-  // For `below`, see Kernels::pattern.
+  // Takes `below` as in Kernels::pattern.
   [[gnu::always_inline]] GiverItems(int z, const std::uint64_t* below, const Gifts& gifts)
       : z_(z), first_below_(below), gifts_(gifts) {}
 
@@ -39,7 +40,7 @@ class GiverItems {
   }
   [[gnu::always_inline]] bool more() const { return y_ < end_; }
 
-  // Fills the next batch, from row to row. Returns how many items it has.
+  // Fills the next batch, from row to row. It returns how many items the batch has.
   [[gnu::always_inline]] int collect(const View& view, const Openness<Arch, kDirections>& openness) {
     int count = 0;
     while (count + L::kTwins <= kMost) {
@@ -66,7 +67,7 @@ class GiverItems {
     walls_ += view.words + 2;
   }
 
-  // Appends the items of a word; returns how many there are then.
+  // Appends the items of a word. It returns how many there are then.
   [[gnu::always_inline]] int collect(const View& view, const Openness<Arch, kDirections>& openness, int w,
                                      int count) {
     std::uint64_t givers = liquid_[w];
@@ -86,10 +87,10 @@ class GiverItems {
   const int z_;
   const std::uint64_t* const first_below_;
   const Gifts& gifts_;
-  TileRow tiles_ = 0, work_ = 0;  // of a row: asked for, left
+  TileRow tiles_ = 0, work_ = 0;  // tiles of a row: asked for, left
   int y_ = 0, end_ = 0;
-  std::uint32_t row_ = 0, at_ = 0;                                               // in the gifts
-  const std::uint64_t *liquid_ = nullptr, *below_ = nullptr, *walls_ = nullptr;  // of the row
+  std::uint32_t row_ = 0, at_ = 0;  // row and first cell in the gifts
+  const std::uint64_t *liquid_ = nullptr, *below_ = nullptr, *walls_ = nullptr;  // masks of the row
   Item items_[kMost];
 };
 

@@ -1,6 +1,6 @@
-// Phase `gravity` of the paper's law (Eqs. 2-6, with excess in the same sweep): one slice, ascending, pairs
-// of rows (y, y + 1), 64 cells at a time. Free of kernel/automaton/rule on purpose: compared with it, not
-// built from it.
+// Phase `gravity` of the paper's law (Eqs. 2-6, with excess in the same sweep) does one slice, ascending. It
+// takes pairs of rows (y, y + 1), 64 cells at a time. It is free of kernel/automaton/rule on purpose:
+// compared with it, not built from it.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ class Gravity {
         mix_(step.dither) {}
 
   [[gnu::always_inline]] void run(int r, TileRow tiles, TileRow& follow, TileRow* changed) {
-    TileRow moved = follow;  // tiles that the last pair of rows changed: what is above may follow
+    TileRow moved = follow;  // tiles that the last pair of rows changed, so that those above may follow
     int rows = 0;
     const int end = v_.tile_end(r) < v_.ny ? v_.tile_end(r) : v_.ny - 1;
     Row row = row_of(v_.tile_begin(r));
@@ -54,7 +54,7 @@ class Gravity {
   }
 
  private:
-  // A pair of rows: where the lower one begins, and the upper one's masks.
+  // Is a pair of rows: the begin of the lower one, and the masks of both.
   struct Row {
     int y;
     std::size_t cell;
@@ -96,7 +96,7 @@ class Gravity {
     return true;
   }
 
-  // The fields of a row from some cell on.
+  // Points to the fields of a row from some cell on.
   struct Fields {
     std::uint16_t *amount, *energy, *heat;
     [[gnu::always_inline]] Fields operator+(int cells) const {
@@ -108,13 +108,14 @@ class Gravity {
             kFeatures.hot ? cpu::settled(v_.heat + cell) : nullptr};
   }
 
-  struct Wet {  // cells of two words that hold something; what is blocked may be among them
+  struct Wet {  // cells of two words that hold something; blocked cells may be among them
     std::uint64_t low, high;
   };
   struct Around {
     std::uint64_t wall, overhang;
   };
-  // For the cells q of word w in row y: was a side blocked before melt, and is there something to hang from?
+  // Tells for the cells of word w in row y if a side was blocked before melt, and if there is something to
+  // hang from.
   [[gnu::always_inline]] Around surroundings(int w, int y) const {
     const std::uint64_t* row = v_.sides_at(y, z_);
     const std::uint64_t wall = cpu::from_right(row[w], row[w + 1]) | cpu::from_left(row[w], row[w - 1]) |
@@ -182,7 +183,7 @@ class Gravity {
     const V lower = L::load(low.energy), upper = L::load(high.energy);
     V lost = L::min(upper, down), gained = lost;
     if constexpr (kFeatures.guided) {
-      const V room = new_lower - lower;  // a receiver's; where nothing falls, nothing is lost either
+      const V room = new_lower - lower;  // a receiver's room; if nothing falls, nothing is lost either
       const std::uint32_t beta = law_.beta;
       V accelerated = L::high(lost, L::set(static_cast<int>(beta & 0xFFFF)));
       for (std::uint32_t whole = beta >> 16; whole > 0; --whole) accelerated = accelerated + lost;
@@ -219,7 +220,7 @@ class Gravity {
   const int z_;
   Books& books_;
   Mix<Arch> mix_;
-  typename L::SmallSums faster_, slower_, capped_;  // of what moves down: at most ONE a cell
+  typename L::SmallSums faster_, slower_, capped_;  // sums of what moves down: at most ONE a cell
 };
 
 }  // namespace voxmelt::simd

@@ -1,5 +1,5 @@
-// What a pass of heat finds besides the heats: the ledger's exact sum of amount x gain, and whether something
-// may melt.
+// A pass of heat finds more than the heats: the ledger's exact sum of amount x gain, and the cells that may
+// melt.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,9 @@
 
 namespace voxmelt::simd {
 
-// Gains of a pass that moves heat in pairs. What one cell gains another loses, so the gains of a pass add up
-// to 0. Then each amount may be counted from a full cell, and full cells need not be booked at all.
+// Books the gains of a pass that moves heat in pairs. One cell loses what another gains, so the gains of a
+// pass add up to 0. Then each amount may be counted from a full cell, and full cells need not be booked at
+// all.
 template <class Arch>
 class PairBooks {
   using L = cpu::Lanes<Arch>;
@@ -18,24 +19,25 @@ class PairBooks {
   using W = typename L::W;
 
  public:
-  // most_gain: no gain is more than this, up or down.
+  // Takes `most_gain`, which no gain exceeds, up or down.
   [[gnu::always_inline]] explicit PairBooks(int most_gain) : fits_(most_gain <= 0x7FFF) {}
 
-  // It is not 0 where cells must be booked.
+  // Returns a vector that is not 0 where cells must be booked.
   [[gnu::always_inline]] static V beside_full(V amount) { return amount ^ L::set(kFull); }
 
-  // Books a vector of cells; their heats are those after the gain.
+  // Books a vector of cells. Their heats are those after the gain.
   [[gnu::always_inline]] void add(V amount, V now, V gain) {
     if (L::nonzero(beside_full(amount))) book(amount, now, gain);
   }
-  // A word of them.
+  // Books a word of cells.
   [[gnu::always_inline]] void add(const std::uint16_t* amounts, const std::uint16_t* heats,
                                   const V (&gains)[L::kParts]) {
     for (int part = 0; part < L::kParts; ++part)
       book(L::load(amounts + part * L::kCount), L::load(heats + part * L::kCount), gains[part]);
   }
 
-  // It must be called for every row: lanes overflow after 32,768 vectors, and a row has at most 512.
+  // Ends a row, and must be called for every row: lanes overflow after 32,768 vectors, and a row has at most
+  // 512.
   [[gnu::always_inline]] void end_row() {
     if ((++rows_ & 31) == 0) flush();
   }
@@ -48,8 +50,8 @@ class PairBooks {
   static constexpr int kFull = 4096;
 
   [[gnu::always_inline]] void book(V amount, V now, V gain) {
-    // Up to here, an amount counted from a full cell fits 16 signed bits. A gain fits if its sign agrees with
-    // the order of old and new heat.
+    // Up to this amount, an amount counted from a full cell fits 16 signed bits. A gain fits if its sign
+    // agrees with the order of old and new heat.
     V odd = L::sub_saturated(amount, L::set(0x7FFF + kFull));
     if (!fits_) {
       const V old = now - gain;
@@ -84,7 +86,7 @@ class PairBooks {
   const bool fits_;
 };
 
-// Sum of amount x gain, gain >= 0.
+// Sums amount x gain, for gain >= 0.
 template <class Arch>
 class GainBooks {
   using L = cpu::Lanes<Arch>;
@@ -115,7 +117,7 @@ class GainBooks {
   unsigned rows_ = 0;
 };
 
-// The heat from which on matter melts.
+// Holds the heat from which on matter melts.
 template <class Arch>
 class MeltingHeat {
   using L = cpu::Lanes<Arch>;
@@ -124,7 +126,7 @@ class MeltingHeat {
  public:
   [[gnu::always_inline]] explicit MeltingHeat(const rule::Material& material)
       : least_(material.melting_point + material.latent_heat), below_(L::set(least_ > 0 ? least_ - 1 : 0)) {}
-  // Has any lane reached it? For several vectors, their maximum tells.
+  // Tells if any lane has reached it. For several vectors, their maximum tells.
   [[gnu::always_inline]] bool reached(V heats) const {
     return least_ == 0 || L::nonzero(L::sub_saturated(heats, below_));
   }

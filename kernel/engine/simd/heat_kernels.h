@@ -1,4 +1,4 @@
-// The heat kernels of one instruction set, one set per combination of features.
+// Each instruction set has its heat kernels here, one set per combination of features.
 #pragma once
 
 #include "kernel/engine/simd/conduction.h"
@@ -83,7 +83,7 @@ void choose_latent_kernels(const rule::Heat& heat, Kernels& kernels) {
     kernels.exchange = exchange_slice<Arch, HeatFeatures{kLatent, false, true}>;
 }
 
-// Sets the kernels of phases `heat` and `melt`; leaves them null without heat.
+// Sets the kernels of phases `heat` and `melt`. Without heat it leaves them null.
 template <class Arch>
 void choose_heat_kernels(const rule::Parameters& parameters, Kernels& kernels) {
   if (!kBuilt.heat || !parameters.heat.enabled) return;

@@ -1,4 +1,4 @@
-// Heat travels with liquid: the exact mean of the heats of what comes together (docs/automaton.md,
+// Heat travels with liquid. A cell gets the exact mean of the heats that come together (docs/automaton.md,
 // section 2).
 #pragma once
 
@@ -18,11 +18,11 @@ class Mix {
  public:
   [[gnu::always_inline]] explicit Mix(std::uint32_t dither) : dither_(L::set(static_cast<int>(dither))) {}
 
-  // The mean of (a0, h0) and (a1, h1) where a1 > 0; other lanes are undefined and not booked.
+  // Returns the mean of (a0, h0) and (a1, h1) where a1 > 0. Other lanes are undefined and not booked.
   [[gnu::always_inline]] V two(V a0, V h0, V a1, V h1) {
     return two(a0, h0, a1, h1, [&](V up, V down) VOXMELT_LAMBDA { book(up, down); });
   }
-  // The same; book(up, down) takes what is rounded, up - down in each lane.
+  // Does the same with books of the caller: book(up, down) takes the rounding, up - down in each lane.
   template <class Book>
   [[gnu::always_inline]] V two(V a0, V h0, V a1, V h1, const Book& book) const {
     // With one part, or two of one heat, the mean is that heat and nothing is rounded.
@@ -31,7 +31,7 @@ class Mix {
     return mean(L::sum(L::product(a0, h0), L::product(a1, h1)), a0 + a1, L::less(L::zero(), a1), book);
   }
 
-  // content / amount, where `counts`.
+  // Returns content / amount, where `counts`.
   [[gnu::always_inline]] V mean(Wide content, V amount, M counts) {
     return mean(content, amount, counts, [&](V up, V down) VOXMELT_LAMBDA { book(up, down); });
   }
@@ -41,7 +41,7 @@ class Mix {
     down_.add(down);
   }
 
-  // What the books call `rounded`: amount x mean - content, which is offset - remainder.
+  // Returns the term `rounded` of the books: amount x mean - content, which is offset - remainder.
   [[gnu::always_inline]] std::int64_t flush() {
     const std::int64_t rounded =
         static_cast<std::int64_t>(up_.total()) - static_cast<std::int64_t>(down_.total());

@@ -1,5 +1,5 @@
-// Phase `spread` of the paper's law: the neighbours that a cell may give to as far as walls are concerned
-// (docs/automaton.md, section 2), for the two vectors of an item.
+// Walls limit the neighbours that a cell may give to in phase `spread` of the paper's law (docs/automaton.md,
+// section 2). The code treats the two vectors of an item.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ class Openness {
         west_(directions(0, kWest)),
         east_(directions((view.nx - 1) % kCells, kEast)) {}
 
-  // Cells of word w of a row, whose walls begin at `row`, with a wall beside them or across a diagonal. The
-  // border in x is left out, since every row has it.
+  // Returns the cells of word w that have a wall beside them or across a diagonal. The walls of the row begin
+  // at `row`. The border in x is left out, since every row has it.
   [[gnu::always_inline]] std::uint64_t beside_walls(int w, const std::uint64_t* row) const {
     const std::uint64_t *own = row + w, *front = own + slice_, *back = own - slice_;
     std::uint64_t here = own[0] | front[0] | back[0];

@@ -1,4 +1,4 @@
-// The paper law's kernels of one instruction set, one set per combination of features.
+// Each instruction set has the paper law's kernels here, one set per combination of features.
 #pragma once
 
 #include <cstdint>

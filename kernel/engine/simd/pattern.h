@@ -1,8 +1,10 @@
-// Phase `spread` of the paper's law, first half (Eqs. 7-10): which directions each cell gives to, and what.
+// The first half of phase `spread` of the paper's law (Eqs. 7-10) chooses the directions that each cell gives
+// to, and its gifts.
 //
 // The work of a tile row is cut into items of two vectors each (a pattern is a byte, and so are dice). A
-// batch of items goes through three stages: items with a liquid cell; those with a direction that may
-// receive; dice for two at a time. So no stage waits for another's result, and no branch depends on it.
+// batch of items goes through three stages. The first finds items with a liquid cell, the second those with a
+// direction that may receive. The third throws dice for two at a time. So no stage waits for another's
+// result, and no branch depends on it.
 #pragma once
 
 #include <cstddef>
@@ -51,8 +53,8 @@ class Pattern {
   }
 
  private:
-  // Patterns of words that give nothing are 0. (Rows beyond a last, shorter tile row stay as they are,
-  // because nothing reads them.)
+  // Sets the patterns of words that give nothing to 0. (Rows beyond a last, shorter tile row stay as they
+  // are, because nothing reads them.)
   [[gnu::always_inline]] void clear(int r) {
     if (gifts_.tiles(v_, r) == 0) return;
     const std::size_t first = gifts_.row(v_.tile_begin(r)), rows = static_cast<std::size_t>(gifts_.rows);
@@ -77,12 +79,12 @@ class Pattern {
       restless_ |= TileRow{any} << word_of(item);
       size += any;
     }
-    found[size] = size == 0 ? std::uint8_t{0} : found[size - 1];  // for the last of an odd number
+    found[size] = size == 0 ? std::uint8_t{0} : found[size - 1];  // the partner of the last of an odd number
     for (int i = 0; i < size; i += 2) throw_dice(items_[found[i]], items_[found[i + 1]]);
   }
 
   // Writes into an item's pattern the directions to which its cells may give: open, and low enough. Without
-  // `general` it writes the gifts, too. Returns true if there is any direction.
+  // `general` it writes the gifts, too. It returns true if there is any direction.
   [[gnu::always_inline]] bool find_available(const Item& item) const {
     const std::size_t at = item.at;
     const int lane = static_cast<int>(item.lane);
@@ -92,7 +94,7 @@ class Pattern {
     available = openness_.inside(lane, available);
     if (item.walls) available = openness_.past_walls(lane, v_.walls_at(y_of(item), z_), available);
     const bool any = L::nonzero_bytes(available) != 0;
-    // Writing what is not needed costs less than a mispredicted branch; with heat it costs more.
+    // Writing unneeded gifts costs less than a mispredicted branch. With heat it costs more.
     if (kFeatures.hot && !any) return false;
     L::store_bytes(gifts_.pattern + at, available);
     if constexpr (!kFeatures.general) {
@@ -119,7 +121,7 @@ class Pattern {
     const Bytes kept = L::both(L::load_bytes(pattern), dice);
     L::store_bytes(pattern, kept);
     const Twin any = L::nonzero_bytes(kept);
-    // One bit per cell: the bits of the cells from `lane` on begin at byte lane / 8 of the row.
+    // There is one bit per cell. The bits of the cells from `lane` on begin at byte lane / 8 of the row.
     auto* row = reinterpret_cast<std::uint8_t*>(gifts_.givers + gifts_.word(v_, 0, item.row));
     __builtin_memcpy(row + item.lane / 8, &any, sizeof(Twin));
     const TileRow gives = TileRow{any != 0} << word_of(item);
@@ -137,7 +139,7 @@ class Pattern {
   }
 
   static constexpr Twin kEvery = static_cast<Twin>(~Twin{0});
-  // No part refers to another, nor to v_, because g++ 12 keeps in memory what is pointed to.
+  // No part refers to another, nor to v_, because g++ 12 keeps in memory any object that is pointed to.
   const View v_;
   const Step& step_;
   const int z_;
@@ -146,7 +148,7 @@ class Pattern {
   Items items_;
   const Receivers<Arch, kFeatures> receivers_;
   const GiftWriter<Arch, kFeatures> writer_;
-  const std::uint32_t row_blocks_, first_block_;  // of the random function
+  const std::uint32_t row_blocks_, first_block_;  // block numbers of the random function
   TileRow restless_ = 0, giving_ = 0;
 };
 

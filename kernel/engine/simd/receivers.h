@@ -1,5 +1,5 @@
-// Phase `spread` of the paper's law: which directions a cell may give to as far as amounts and energy are
-// concerned (Eqs. 7, 8).
+// Amounts and energy limit the directions that a cell may give to in phase `spread` of the paper's law (Eqs.
+// 7, 8).
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ class Receivers {
   static constexpr int kDirectionBits = (1 << kDirections) - 1;
 
  public:
-  // What a vector would give to a direction along an axis, its share of the amount, and below which amounts
-  // neighbours receive.
+  // Holds what a vector would give to a direction along an axis, and its share of the amount. Neighbours
+  // receive if their amount is below `axis` or `diagonal`.
   struct Offer {
     V flow, share;
     V axis, diagonal;
@@ -41,7 +41,7 @@ class Receivers {
     back_ = z > 0 ? own_ - view.slice : own_;
   }
 
-  // For two neighbouring vectors: what they offer, and the directions that take it.
+  // Finds, for two neighbouring vectors, their offers and the directions that take them.
   [[gnu::always_inline]] Bytes find(std::size_t at, const Writer& writer, Offer& low, Offer& high) const {
     Margins low_margins = margins_, high_margins = margins_;
     if (slumps_) {
@@ -74,13 +74,14 @@ class Receivers {
   [[gnu::always_inline]] static Margins margins(V axis) {
     return {axis, L::add_saturated(axis, L::template shift_right<3>(axis))};
   }
-  // A cell that is starved of energy has a margin of its own.
+  // Returns the margins of cells. A cell that is starved of energy has a margin of its own.
   [[gnu::always_inline]] Margins margins_of(std::size_t at) const {
     const auto energetic = L::less(threshold_, L::load(energy_ + at));
     return margins(L::select(energetic, margins_.axis, L::set(law_.slump)));
   }
 
-  // A neighbour receives if it holds less than the giver's amount less the larger of flow and margin.
+  // Makes the offer of a vector. A neighbour receives if it holds less than the giver's amount less the
+  // larger of flow and margin.
   [[gnu::always_inline]] Offer offer(std::size_t at, const Margins& margins, const Writer& writer) const {
     const V amount = L::load(own_ + at);
     const V share = writer.share(at), flow = writer.flow(amount, share);

@@ -1,5 +1,6 @@
-// Viscous law: from the sums of runs that end at one height to their settled amounts and what they show,
-// those parts of 64 columns that have one. Plain loops over lanes, for the compiler to vectorise.
+// Under the viscous law, the sums of runs that end at one height give their settled amounts, and what they
+// show. The code treats those parts of 64 columns that have such a run. It has plain loops over lanes, for
+// the compiler to vectorise.
 #pragma once
 
 #include <cmath>
@@ -11,25 +12,25 @@
 
 namespace voxmelt::simd {
 
-// Sums of runs that have ended, at most one a column.
+// Holds the sums of runs that have ended, at most one a column.
 struct alignas(64) EndedRuns {
   std::uint16_t excess_low[64], excess_high[64];  // mass - 4096 cells, signed 32-bit
   std::uint16_t first[64], last[64];              // heights of the first and the last cell
   std::uint16_t bed[64];                          // amount of the bed
   std::uint16_t content[4][64];  // sums of the low and of the high halves of amount x heat, 32-bit each
-  std::uint64_t columns;         // that have a run here
-  std::uint64_t ordered;         // of these, those whose run keeps its order
+  std::uint64_t columns;         // columns that have a run here
+  std::uint64_t ordered;         // columns whose run keeps its order
   int top;                       // greatest of `last`
 };
 static_assert(sizeof(EndedRuns) == kSettleRecord && offsetof(EndedRuns, columns) % 64 == 0);
 
-// Below the pivot a cell gets 4096, at it `at`, above it `above`.
+// Holds the settled amounts. Below the pivot a cell gets 4096, at the pivot `at`, and above it `above`.
 struct alignas(64) SettledRuns {
   std::uint16_t pivot[64];  // 1 + its height
   std::uint16_t at[64], above[64];
   std::uint16_t head_low[64], head_high[64];  // 1024 + head above the grid's bottom
   std::uint16_t mobility[64], dead[64];
-  std::uint16_t heat[64];                            // of runs that do not keep their order
+  std::uint16_t heat[64];                            // heat of runs that do not keep their order
   std::uint16_t fine[64], limit[64], shown_bed[64];  // as in Runs
   std::uint64_t ordered;                             // after the arrays, so that vectors may be aligned
 };
@@ -48,8 +49,8 @@ class RunData {
 
   using Limits = state::LimitCounts<std::int64_t>;
 
-  // Other columns keep what they have. Returns what the books call `rounded`, of runs that mix, and adds to
-  // `limits`.
+  // Settles the runs. Other columns keep what they have. It returns the term `rounded` of the books, for runs
+  // that mix, and adds to `limits`.
   [[gnu::always_inline]] std::int64_t settle(const EndedRuns& runs, SettledRuns& settled,
                                              Limits& limits) const {
     std::int64_t rounded = 0;
@@ -60,7 +61,7 @@ class RunData {
   }
 
  private:
-  using Lanes16 = std::uint16_t[64];  // of which one part at a time is in use
+  using Lanes16 = std::uint16_t[64];  // one part at a time is in use
   using Lanes32 = std::int32_t[64];
 
   [[gnu::always_inline]] std::int64_t settle(int part, const EndedRuns& runs, SettledRuns& settled,
@@ -110,7 +111,8 @@ class RunData {
       any |= over[i];
     }
     if (any == 0) return;
-    for (int i = begin; i < end; ++i) {  // under a ceiling: what does not fit is stacked from the top down
+    // Under a ceiling, liquid that does not fit is stacked from the top down.
+    for (int i = begin; i < end; ++i) {
       if (over[i] == 0) continue;
       constexpr int kHeadroom = 65535 - 4096;
       const int filled = over[i] / kHeadroom;
@@ -120,8 +122,8 @@ class RunData {
     }
   }
 
-  // The mean heat, and one heat for a whole run where the order is not kept. Numbers below 2^53: exact in
-  // double, and a quotient is rounded to the next whole number only if it is one.
+  // Computes the mean heat, and one heat for a whole run if the order is not kept. All numbers are below 2^53
+  // and so exact in double. A quotient is rounded to the next whole number only if it is one.
   [[gnu::always_inline]] std::int64_t mix(int begin, const Lanes32& mass, const Lanes16& counts,
                                           const EndedRuns& runs, SettledRuns& now, Lanes16& mean) const {
     const int end = begin + L::kCount;
@@ -145,7 +147,7 @@ class RunData {
     return rounded;
   }
 
-  // Head, mobility, dead zone.
+  // Computes head, mobility and dead zone.
   [[gnu::always_inline]] void show(int begin, const Lanes32& mass, const Lanes32& over, const Lanes16& counts,
                                    const EndedRuns& runs, const Lanes16& mean, SettledRuns& now,
                                    Limits& limits) const {
@@ -159,7 +161,7 @@ class RunData {
       now.head_high[i] = static_cast<std::uint16_t>(head >> 16);
       now.shown_bed[i] = static_cast<std::uint16_t>(16 * runs.first[i] + (runs.bed[i] >> 8) - 7);
 
-      // depth < 2^24. The float quotient of whole numbers is less than one off wherever it is below 131072.
+      // Here depth < 2^24. The float quotient of whole numbers is less than one off if it is below 131072.
       const int depth = mass[i] < 16 ? 1 : mass[i] >> 4, sum = 2 * yield + depth / 2;
       int dead = static_cast<int>(static_cast<float>(sum) / static_cast<float>(depth));
       const int rest = sum - dead * depth;
@@ -174,7 +176,7 @@ class RunData {
 
     int cells = 0, limited_cells = 0, low = 0, limited_low = 0, high = 0, limited_high = 0;
     for (int i = begin; i < end; ++i) {
-      // Quotients of whole numbers below 2^14: a float's whole part is theirs.
+      // The quotients are of whole numbers below 2^14. A float has the right whole part for them.
       const int whole = static_cast<int>(13107.f / static_cast<float>((mass[i] >> 12) + 1));
       const int stiff = static_cast<int>(static_cast<float>(whole) / static_cast<float>(stiffness));
       const int limit = over[i] > 0 ? stiff : whole, most = limit < 1 ? 1 : limit;
@@ -196,8 +198,8 @@ class RunData {
                       (std::int64_t{limited_high} << 16) + limited_low});
   }
 
-  // Mobilities, cut at 2^28, far above every limit. (p q + 2^23) >> 24 has up to 40 bits: p is parted in two
-  // of 18, so that all numbers are whole and exact in double.
+  // Computes mobilities, cut at 2^28, far above every limit. (p q + 2^23) >> 24 has up to 40 bits. So p is
+  // parted in two of 18 bits, and all numbers are whole and exact in double.
   template <bool kThermal>
   [[gnu::always_inline]] void move(int begin, const Lanes32& mass, const Lanes16& mean,
                                    Lanes32& mobility) const {

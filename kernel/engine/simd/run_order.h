@@ -1,5 +1,6 @@
-// Heat keeps its order when runs settle (docs/automaton.md, section 10): the parts of the runs of one word of
-// columns move through the faces between their cells. A scan upwards, then one downwards, hand on what moves.
+// Heat keeps its order when runs settle (docs/automaton.md, section 10). The parts of the runs of one word of
+// columns move through the faces between their cells. A scan upwards, then one downwards, hand on the moving
+// parts.
 #pragma once
 
 #include <cstdint>
@@ -18,21 +19,21 @@ class RunOrder {
   using Wide = typename L::Wide;
 
  public:
-  // At the first cells of runs. Nothing flows to them: no run gives beyond its last cell.
+  // Begins runs at their first cells. Nothing flows to them, since no run gives beyond its last cell.
   [[gnu::always_inline]] void begin(int part, Wide kept) {
     Part& p = parts_[part];
     p.most = {p.most.low & kept.low, p.most.high & kept.high};
     if (p.lifted) p.rounded = {p.rounded.low & kept.low, p.rounded.high & kept.high};
   }
 
-  // The face that the scan upwards comes to.
+  // Notes the excess at the face that the scan upwards comes to.
   [[gnu::always_inline]] void meet(int part, Wide excess) {
     Part& p = parts_[part];
     p.most = {xsimd::max(p.most.low, xsimd::abs(excess.low)),
               xsimd::max(p.most.high, xsimd::abs(excess.high))};
   }
 
-  // Upwards: a cell takes what comes from below and gives `up`.
+  // Moves upwards: a cell takes the flow from below and gives `up`.
   [[gnu::always_inline]] void lift(int part, const Mix<Arch>& mix, V up, std::uint16_t* amount,
                                    std::uint16_t* heat) {
     Part& p = parts_[part];
@@ -50,8 +51,8 @@ class RunOrder {
     hand_on(p, up, own);
   }
 
-  // Downwards, where `ordered`: a cell takes what comes from above, keeps `settled` and gives the rest.
-  // Returns its heat.
+  // Moves downwards, where `ordered`: a cell takes the flow from above, keeps `settled` and gives the rest.
+  // It returns the cell's heat.
   [[gnu::always_inline]] V sink(int part, Mix<Arch>& mix, M ordered, V held, V heat, V settled) {
     Part& p = parts_[part];
     const V down = L::keep(ordered, held + p.flow - settled);
@@ -61,10 +62,10 @@ class RunOrder {
     return heat;
   }
 
-  // Does something flow to the next cells of the scan?
+  // Tells if something flows to the next cells of the scan.
   [[gnu::always_inline]] bool moves(int part) const { return parts_[part].moves; }
-  // Where `ended`, runs end with this excess in all: the lanes of those that keep their order. What the
-  // others have mixed on the way up is forgotten.
+  // Ends runs where `ended`, with their total excess. It returns the lanes of those that keep their order.
+  // The mixing of the others on the way up is forgotten.
   [[gnu::always_inline]] std::uint64_t end(int part, M ended, Wide excess) {
     constexpr int kMost = 65535 - 4096;
     Part& p = parts_[part];
@@ -76,7 +77,7 @@ class RunOrder {
     }
     return L::to_bits(L::less(L::zero(), ordered));
   }
-  // What mixing on the way up has rounded in runs that keep their order, in all columns so far.
+  // Returns the rounding by mixing on the way up in runs that keep their order, in all columns so far.
   [[gnu::always_inline]] std::int64_t flush() {
     std::int64_t total = 0;
     for (Part& p : parts_) {
@@ -92,12 +93,13 @@ class RunOrder {
   }
 
  private:
-  // In lanes of runs that do not keep their order, what moves is of no use to anybody.
+  // Is the state of a scan. In lanes of runs that do not keep their order, the moving parts are of no use to
+  // anybody.
   struct Part {
-    V flow = L::zero(), heat = L::zero();  // what comes through the face to the cell that follows
-    bool moves = false;                    // is a flow not 0?
-    Wide most{W(0), W(0)};                 // of |excess| at the faces so far
-    bool lifted = false;                   // since the last flush: else the two that follow are 0
+    V flow = L::zero(), heat = L::zero();  // flow through the face to the cell that follows
+    bool moves = false;                    // a flow is not 0
+    Wide most{W(0), W(0)};                 // greatest |excess| at the faces so far
+    bool lifted = false;                   // since the last flush; if not, the two that follow are 0
     Wide rounded{W(0), W(0)}, booked{W(0), W(0)};
   };
 

@@ -1,10 +1,11 @@
-// Phase `excess` of the viscous law: runs settle, and show their neighbours head and mobility
-// (docs/automaton.md, section 10). One slice, a few words of columns at a time: upwards to sum the runs,
-// downwards to write them, once more for the cells outside runs. Free of kernel/automaton/rule on purpose.
+// In phase `excess` of the viscous law runs settle, and show their neighbours head and mobility
+// (docs/automaton.md, section 10). The code does one slice, a few words of columns at a time. It goes upwards
+// to sum the runs, downwards to write them, and once more for the cells outside runs. It is free of
+// kernel/automaton/rule on purpose.
 //
 // A column is processed whole if one of its tiles is asked for. Settling is not idempotent (a run that comes
-// to rest may then reach liquid above it), but it is a function of the column alone, and of the dither only
-// where parts of different heats come together: where a settle has changed nothing, and nothing has since,
+// to rest may then reach liquid above it). But it is a function of the column alone, and of the dither only
+// if parts of different heats come together. So if a settle has changed nothing, and nothing has since,
 // another one changes nothing.
 #pragma once
 
@@ -55,18 +56,17 @@ class Settle {
       const Rows rows = gather(group, changed);
       for (int y = rows.last; y >= rows.first; --y) {
         changed[y >> v_.tile_shift] |= write(group, y) << base;
-        if ((y & 1023) == 0) close();  // what is mixed is summed over so many rows
+        if ((y & 1023) == 0) close();  // mixing is summed over so many rows
       }
       close();
       note_limits(group);
-      // A cell outside runs shows something else only if it, or the cell below, has changed since it last
-      // did.
+      // Cells outside runs show something else only if they, or the cells below, have changed since.
       TileRow below = 0;
       for (int t = 0; t < v_.tile_rows(); ++t) {
         for (int y = v_.tile_begin(t); y < v_.tile_end(t); ++y) {
           const TileRow anew = ((tiles[t] | changed[t]) >> base & group) | below;
           below = 0;
-          if (anew == 0) break;  // nor in the rows above, up to the next tile
+          if (anew == 0) break;  // rows above, up to the next tile, show the same
           changed[t] |= outside.row(anew, base, y) << base;
         }
         below = (tiles[t] | changed[t]) >> base & group;
@@ -77,7 +77,7 @@ class Settle {
  private:
   using Limits = state::LimitCounts<std::int64_t>;
 
-  // The books get what is other than at the last call.
+  // Books the difference to the last call.
   [[gnu::always_inline]] void note_limits(TileRow group) const {
     for (; group != 0; group &= group - 1) {
       const int g = __builtin_ctzll(group);
@@ -89,7 +89,8 @@ class Settle {
     }
   }
 
-  struct Sums {  // of the runs in progress; vectors in the order in which unpacking leaves them
+  // Sums the runs in progress. The vectors are in the order in which unpacking leaves them.
+  struct Sums {
     Wide excess[L::kParts], low[L::kParts], high[L::kParts];
     V first[L::kParts], bed[L::kParts];
   };
@@ -102,8 +103,8 @@ class Settle {
     if constexpr (kFeatures.hot) books_.heat.rounded += mix_.flush();
   }
 
-  // Upwards: which cells runs take, and the sums of those that end; what moves up. Returns the rows in which
-  // there is, or was, a run.
+  // Goes upwards. It finds the cells that runs take, the sums of those that end, and the parts that move up.
+  // It returns the rows in which there is, or was, a run.
   [[gnu::always_inline]] Rows gather(TileRow group, TileRow* changed) {
     Rows rows{v_.ny, -1};
     Sums sums[kGroup];
@@ -143,7 +144,7 @@ class Settle {
     return rows;
   }
 
-  // Adds the cells of a word that runs take. Returns those whose run goes on above.
+  // Adds the cells of a word that runs take. It returns those whose run goes on above.
   [[gnu::always_inline]] std::uint64_t take(Sums& sums, int g, std::uint64_t taken, int w, int y,
                                             TileRow* changed) {
     const std::uint64_t ceiling = v_.blocked(w, y + 1, z_);
@@ -195,8 +196,9 @@ class Settle {
       sums.bed[part] = L::select(which, bed_below<Arch>(v_, w, y, z_, part), sums.bed[part]);
     }
   }
-  // Runs of different columns share a record until one of its columns begins another run: so a record is
-  // wanted, on the way down, at its top, when all runs of later records have been written.
+  // Keeps the sums of ended runs. Runs of different columns share a record until one of its columns begins
+  // another run. So on the way down a record is wanted at its top, when all runs of later records have been
+  // written.
   [[gnu::always_inline]] void keep(const Sums& sums, int g, std::uint64_t ended, int y) {
     if (!open_[g]) {
       open_[g] = true;
@@ -238,10 +240,10 @@ class Settle {
     return L::narrow({(wide.low >> 16) & W(0xFFFF), (wide.high >> 16) & W(0xFFFF)});
   }
 
-  // Downwards: amounts and heats of the cells taken, and what those of a run show.
+  // Goes downwards. It writes amounts and heats of the cells taken, and what those of a run show.
   [[gnu::always_inline]] TileRow write(TileRow group, int y) {
     TileRow changed = 0;
-    while (group != 0) {  // as y does, downwards: so memory is foreseen
+    while (group != 0) {  // from the last on, as y goes down: so memory is foreseen
       const int g = 63 - __builtin_clzll(group), w = base_ + g;
       group &= ~(TileRow{1} << g);
       const std::uint64_t taken = taken_[y * kGroup + g];
@@ -268,7 +270,7 @@ class Settle {
     return changed;
   }
 
-  // Returns the lanes that are in a run.
+  // Writes one part of a word. It returns the lanes that are in a run.
   [[gnu::always_inline]] std::uint64_t vectors(int w, int y, int part, std::uint64_t taken, int g,
                                                TileRow& deep, bool& differs) {
     const SettledRuns& settled = settled_[g];
@@ -297,7 +299,7 @@ class Settle {
     V difference = (old ^ amount) | (old_head ^ new_head) | (old_mobility ^ mobility) | (old_dead ^ dead) |
                    (old_bed ^ bed) | (old_fine ^ fine) | (old_limit ^ limit);
     if constexpr (kFeatures.hot) {
-      // Where no amount changes and nothing comes from above, no heat changes in runs that keep their order.
+      // If no amount changes and nothing comes from above, no heat changes in runs that keep their order.
       const std::uint64_t ordered = taken & settled.ordered, mixed = taken & ~settled.ordered;
       if (L::in_part(mixed, part) || orders_[g].moves(part) || L::nonzero(old ^ amount)) {
         const V old_heat = L::load(v_.heat + at);
@@ -326,7 +328,7 @@ class Settle {
     return L::to_bits(in_run);
   }
 
-  // Writes heads that 16 bits do not hold; returns what changed.
+  // Writes heads that 16 bits do not hold. It returns the changes.
   [[gnu::always_inline]] V plumb(std::size_t at, Wide head) const {
     const V old_low = L::load(r_.deep_low + at), old_high = L::load(r_.deep_high + at);
     const V low = low_half(head), high = high_half(head);
@@ -346,10 +348,10 @@ class Settle {
   Books& books_;
   SettledRuns settled_[kGroup] = {};
   RunOrder<Arch> orders_[kGroup];
-  Limits limits_[kGroup];  // of the words of a group
+  Limits limits_[kGroup];  // counts of the words of a group
   int base_ = 0;
-  int used_[kGroup];   // records
-  bool open_[kGroup];  // may the last one take more columns?
+  int used_[kGroup];   // records in use
+  bool open_[kGroup];  // the last record may take more columns
 };
 
 }  // namespace voxmelt::simd

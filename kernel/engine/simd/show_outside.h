@@ -1,4 +1,5 @@
-// Viscous law: what cells outside runs show: those on a bed, on a run, or (all zero) in the air.
+// Cells outside runs show something, too, under the viscous law. They stand on a bed, on a run, or (all zero)
+// in the air.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 
 namespace voxmelt::simd {
 
-// The amount of the bed below row y.
+// Returns the amount of the bed below row y.
 template <class Arch>
 VOXMELT_LANES typename cpu::Lanes<Arch>::V bed_below(const View& view, int w, int y, int z, int part) {
   using L = cpu::Lanes<Arch>;
@@ -27,7 +28,7 @@ class ShowOutside {
  public:
   [[gnu::always_inline]] ShowOutside(const View& view, int z, const Runs& runs) : v_(view), r_(runs), z_(z) {}
 
-  // `group`: words from `base` on. Returns those that changed.
+  // Shows the cells of row y. `group` has words from `base` on. It returns those that changed.
   [[gnu::always_inline]] TileRow row(TileRow group, int base, int y) const {
     TileRow changed = 0;
     for (; group != 0; group &= group - 1) {

@@ -10,7 +10,8 @@ namespace {
 struct Range {
   int begin, end;
 };
-// The interval of cells c whose centre, 16 c + 8, is at most `radius` from `at`; it may be slightly larger.
+// Returns the interval of cells c whose centre, 16 c + 8, is at most `radius` from `at`. It may be slightly
+// larger.
 Range range(std::int64_t at, std::int64_t radius, int size) {
   const auto clamped = [&](std::int64_t c) { return static_cast<int>(std::clamp<std::int64_t>(c, 0, size)); };
   return {clamped(((at - radius) >> 4) - 1), clamped(((at + radius) >> 4) + 2)};
@@ -70,7 +71,7 @@ class Sources {
   }
 
  private:
-  // Calls act(slot, liquid word, bit) for the cells of a region that are not blocked. It returns true if the
+  // Calls act(slot, liquid word, bit) for the cells of a region that are not blocked. act returns true if the
   // cell changed.
   template <class Act>
   void for_cells(const rule::Region& region, Act&& act) {

@@ -1,5 +1,5 @@
-// Phase `source`: vents add liquid, drains take it. There are few such cells, so plain code serves every
-// instruction set.
+// Phase `source` lets vents add liquid and drains take it. There are few such cells, so plain code serves
+// every instruction set.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace voxmelt::simd {
 
-// `changed`: [z][tile row], its slices `stride` apart.
+// Runs the sources. `changed` is [z][tile row], its slices `stride` apart.
 void run_sources(const View& view, const Step& step, TileRow* changed, std::ptrdiff_t stride, Books& books);
 
 }  // namespace voxmelt::simd

@@ -1,5 +1,5 @@
-// Phase `spread` of the viscous law, second half: every cell of one slice sums what its eight pairs exchange;
-// in place.
+// In the second half of phase `spread` of the viscous law, every cell of one slice sums the exchange of its
+// eight pairs, in place.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +43,7 @@ class Carry {
   }
 
  private:
-  // Returns the lanes that are liquid, or hold something else.
+  // Changes one part of a word. It returns the lanes that are liquid, or hold something else.
   [[gnu::always_inline]] std::uint64_t vectors(int w, int y, int part, bool& differs) {
     const auto lane = static_cast<std::ptrdiff_t>(64 * w + part * L::kCount);
     const std::ptrdiff_t at = y * static_cast<std::ptrdiff_t>(v_.row) + lane;
@@ -80,7 +80,7 @@ class Carry {
       const M fed = L::less(L::zero(), in);
       V mixed = heat;
       if (L::to_bits(fed) != 0) {
-        // Heats of givers are 32768 less, to be signed: put back 32768 times what came in.
+        // Heats of givers are 32768 less, to be signed. So 32768 times the incoming amount is put back.
         const auto biased = L::unpack(L::template shift_left<15>(in), L::template shift_right<1>(in));
         const auto all = L::sum(L::sum(content, biased), L::product(now - in, heat));
         mixed = L::select(fed, mix_.mean(all, now, fed), heat);
@@ -93,7 +93,7 @@ class Carry {
     return L::to_bits(dry) ^ kAll;
   }
 
-  // A signed lane, or 0.
+  // Returns a signed lane, or 0.
   [[gnu::always_inline]] static V positive(V v) {
     using Signed = xsimd::batch<std::int16_t, Arch>;
     return xsimd::bitwise_cast<V>(xsimd::max(xsimd::bitwise_cast<Signed>(v), Signed(std::int16_t{0})));

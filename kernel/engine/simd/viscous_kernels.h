@@ -1,4 +1,4 @@
-// The viscous law's kernels of one instruction set, one set per combination of features.
+// Each instruction set has the viscous law's kernels here, one set per combination of features.
 #pragma once
 
 #include "kernel/engine/simd/fall.h"

@@ -1,6 +1,7 @@
-// Phase `spread` of the viscous law (docs/automaton.md, section 11), first half: what each pair of neighbours
-// exchanges. A pair is computed once, at its first cell: right, front, front right and front left of it. Row
-// by row of one slice, 64 cells at a time. Free of kernel/automaton/rule on purpose.
+// The first half of phase `spread` of the viscous law (docs/automaton.md, section 11) computes what each pair
+// of neighbours exchanges. A pair is computed once, at its first cell: the other is right, front, front right
+// or front left of it. The code goes row by row through one slice, 64 cells at a time. It is free of
+// kernel/automaton/rule on purpose.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +13,7 @@
 
 namespace voxmelt::simd {
 
-// Less flows on a slope: by 16 times the difference of two beds in cells, 1 is 16384.
+// Less flows on a slope. The factors go by 16 times the difference of two beds in cells, and 1 is 16384.
 struct SlopeFactors {
   alignas(64) std::uint16_t axis[32] = {16384, 16257, 15888, 15308, 14564, 13707, 12788, 11848, 10923,
                                         10034, 9198,  8422,  7710,  7061,  6473,  5941,  5461};
@@ -37,12 +38,12 @@ class ExchangePairs {
         z_(z),
         c_(currents),
         slope_{L::table(kSlope.axis), L::table(kSlope.diagonal)} {
-    const auto front = z + 1 < view.nz ? static_cast<std::ptrdiff_t>(view.slice) : 0;  // else masked
+    const auto front = z + 1 < view.nz ? static_cast<std::ptrdiff_t>(view.slice) : 0;  // 0: masked
     const std::ptrdiff_t steps[4] = {1, front, front + 1, front - 1};
     for (int axis = 0; axis < 4; ++axis) to_other_[axis] = steps[axis];
   }
 
-  // Returns the restless words of row y.
+  // Computes row y. It returns the restless words.
   [[gnu::always_inline]] TileRow row(int y, TileRow work) {
     if ((work | c_.giving[y]) == 0) return 0;
     TileRow restless = 0, giving = 0;
@@ -65,7 +66,7 @@ class ExchangePairs {
       if (may_flow) restless |= bit;
       if (flows) giving |= bit;
     }
-    // Words that gave, and were not looked at now, or have no pairs any more.
+    // These words gave, and were not looked at now, or have no pairs any more.
     for (TileRow old = c_.giving[y] & ~giving; old != 0; old &= old - 1)
       for (int part = 0; part < L::kParts; ++part) clear(__builtin_ctzll(old), y, part);
     c_.giving[y] = giving;
@@ -74,7 +75,7 @@ class ExchangePairs {
   }
 
  private:
-  // R of the axes in row y. D(y) reverses the order of the bits of y.
+  // Computes R of the axes in row y. D(y) reverses the order of the bits of y.
   [[gnu::always_inline]] void set_dither(int y) {
     dithered_ = y;
     auto own = static_cast<std::uint32_t>(y);
@@ -182,8 +183,8 @@ class ExchangePairs {
     if constexpr (kDiagonal) most = L::template shift_right<2>(most);
     const M gate = L::from_bits(moves << (part * L::kCount), part);
 
-    // (c drive + (R << 10)) >> 26 as (c drive >> 8, and R << 2) >> 18: the fine bits of c only carry.
-    // Likewise for diagonals. In 32 bits a lane, of which the lower half is not kept.
+    // (c drive + (R << 10)) >> 26 is computed as (c drive >> 8, and R << 2) >> 18, since the fine bits of c
+    // only carry. Diagonals do likewise. In 32 bits a lane, the lower half is not kept.
     const V drive = driven<kDiagonal>(L::min(drop, L::set(kDiagonal ? 724 : 512)), gate, own.bed, bed);
     const V fine = L::high(c.fine, drive), low = L::low(c.coarse, drive) + fine;
     const V high = L::add_if(L::less(low, fine), L::high(c.coarse, drive), L::set(1));
@@ -202,13 +203,13 @@ class ExchangePairs {
     V coarse, fine;
   };
 
-  // Limited by depth towards a run, and towards a bare flank by 1/8.
+  // Limits a mobility by the depth towards a run, and by 1/8 towards a bare flank.
   [[gnu::always_inline]] static Mobility limited(V coarse, V fine, M to_run, V limit) {
     const V most = L::select(to_run, limit, L::set(8192));
     return {L::min(coarse, most), L::keep(L::less(coarse, most), fine)};
   }
 
-  // Of both cells of a pair.
+  // Returns the mobility of both cells of a pair together.
   [[gnu::always_inline]] Mobility mobilities(const Cell& own, std::ptrdiff_t there, M gives, M here_runs,
                                              M there_runs) const {
     const V limit = L::load_any(r_.limit + there);
@@ -216,13 +217,13 @@ class ExchangePairs {
     const Mobility b =
         limited(L::load_any(r_.mobility + there), L::load_any(r_.fine + there), here_runs, limit);
     const V all = a.fine + b.fine, carried = L::add_if(L::less(all, a.fine), a.coarse + b.coarse, L::set(1));
-    // Where the taker is, or stands on, a run: at most twice the giver's limit.
+    // If the taker is, or stands on, a run, the mobility is at most twice the giver's limit.
     const V giver = L::select(gives, own.limit, limit), taker = L::select(gives, limit, own.limit);
     const V most = L::select(L::equal(taker, L::zero()), L::set(0xFFFF), giver + giver);
     return {L::min(carried, most), L::keep(L::less(carried, most), all)};
   }
 
-  // (s A) >> 12, at most 2^24 - 1.
+  // Returns (s A) >> 12, at most 2^24 - 1.
   [[gnu::always_inline]] static Conductance conductance(const Mobility& s, V amount) {
     const V fine = L::high(s.fine, amount), low = L::low(s.coarse, amount) + fine;
     const V high = L::add_if(L::less(low, fine), L::high(s.coarse, amount), L::set(1));
@@ -232,7 +233,8 @@ class ExchangePairs {
         L::select(over, L::set(0xFF00), L::template shift_left<4>(low) & L::set(0xFF00))};
   }
 
-  // The drop in 1/8192 cell, less on a slope. Most beds are level, or none: then nothing is looked up.
+  // Returns the drop in 1/8192 cell, less on a slope. Most beds are level, or none, and then nothing is
+  // looked up.
   template <bool kDiagonal>
   [[gnu::always_inline]] V driven(V drop, M gate, V bed, V other) const {
     const V between = L::sub_saturated(bed, other) | L::sub_saturated(other, bed);
@@ -243,7 +245,7 @@ class ExchangePairs {
                    L::lookup(slope_[kDiagonal], L::template shift_left<11>(steps)));
   }
 
-  // Heads in 32 bits.
+  // Returns heads in 32 bits.
   [[gnu::always_inline]] Wide plumbed(V head, std::ptrdiff_t at) const {
     const M cut = L::equal(head, L::set(0xFFFF));
     return L::unpack(L::select(cut, L::load_any(r_.deep_low + at), head),
@@ -255,7 +257,7 @@ class ExchangePairs {
       L::store(c_.flow[axis] + static_cast<std::size_t>(y) * v_.row + (64 * w + part * L::kCount), L::zero());
   }
 
-  // The heats of all cells that a pair of these words has: the phase goes on in place.
+  // Keeps the heats of all cells in a pair of these words, because the phase goes on in place.
   [[gnu::always_inline]] void keep_heat(int y, TileRow words) {
     words |= words << 1 | words >> 1;
     if (v_.words < 64) words &= (TileRow{1} << v_.words) - 1;
@@ -277,10 +279,10 @@ class ExchangePairs {
   const int z_;
   Currents& c_;
   std::ptrdiff_t to_other_[4];  // to the other cell of a pair
-  int dithered_ = -1;           // the row of these
-  int whole_[4],
-      rest_[4];  // of the dither in 1/65536 of what a shift keeps: its whole part, 65535 less the rest
-  const typename L::Table slope_[2];  // of axes, of diagonals
+  int dithered_ = -1;           // the row of the two below
+  // Hold the dither in 1/65536 of what a shift keeps: its whole part, and 65535 less the rest.
+  int whole_[4], rest_[4];
+  const typename L::Table slope_[2];  // for axes, for diagonals
 };
 
 }  // namespace voxmelt::simd

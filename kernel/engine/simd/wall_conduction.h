@@ -1,6 +1,6 @@
-// Phase `heat`: conduction from isothermal walls, inert cells whose heat is not 0 (docs/automaton.md, section
-// 6). It belongs to the same synchronous pass as conduction among matter. So the gains are found before that
-// pass changes any heat, and added after it. The walls themselves never change.
+// Phase `heat` conducts from isothermal walls here. These are inert cells whose heat is not 0
+// (docs/automaton.md, section 6). It belongs to the same synchronous pass as conduction among matter. So the
+// gains are found before that pass changes any heat, and added after it. The walls themselves never change.
 #pragma once
 
 #include <cstddef>
@@ -58,7 +58,7 @@ class WallConduction {
     });
   }
 
-  // Returns the sum of amount x gain.
+  // Adds the gains. It returns the sum of amount x gain.
   [[gnu::always_inline]] std::int64_t add(const TileRow* tiles, const HeatTiles& tell) {
     for_words(tiles, [&](int w, int y, int r, TileRow bit) VOXMELT_LAMBDA {
       const std::uint64_t cells = gains_.cells[v_.word(w, y, z_)];
@@ -85,7 +85,8 @@ class WallConduction {
   }
 
  private:
-  struct Contacts {  // cells of matter whose neighbour along an axis, or against it, is a wall
+  // Marks the cells of matter whose neighbour along an axis, or against it, is a wall.
+  struct Contacts {
     std::uint64_t after[Axes::kCount] = {}, before[Axes::kCount] = {}, all = 0;
   };
 
@@ -111,7 +112,7 @@ class WallConduction {
     return contacts;
   }
 
-  // Walls of a row, seen by the cells of word w whose neighbours stand dx further.
+  // Returns the walls of a row, seen by the cells of word w whose neighbours stand dx further.
   [[gnu::always_inline]] std::uint64_t walls(int w, int y, int z, int dx) const {
     if (y < 0 || y >= v_.ny || z < 0 || z >= v_.nz) return 0;
     const std::uint64_t own = walls_of(w, y, z);
@@ -133,7 +134,8 @@ class WallConduction {
     const Axis a = Axes::kAxes[k];
     return a.dz * static_cast<std::ptrdiff_t>(v_.slice) + a.dy * static_cast<std::ptrdiff_t>(v_.row) + a.dx;
   }
-  // The temperatures of the walls at a place. Where there is none, the cell's own: then nothing flows.
+  // Returns the temperatures of the walls at a place. Without a wall it is the cell's own, so that nothing
+  // flows.
   [[gnu::always_inline]] V wall_or(std::uint64_t contacts, int part, const std::uint16_t* at, V heat) const {
     if (!L::in_part(contacts, part)) return heat;
     return L::select(L::from_bits(contacts, part), plateau_(L::load_any(at)), heat);

@@ -1,7 +1,8 @@
-// rule::VoxelWalk with one denominator for all three axes, so that it can pass whole bricks exactly.
+// A brick walk is rule::VoxelWalk with one denominator for all three axes, so that it can pass whole bricks
+// exactly.
 //
 // VoxelWalk crosses the next plane of axis a at crossing / length_a. Times the product of the lengths that
-// are not 0, that is a whole number. So comparing is comparing, and a step is an addition.
+// are not 0, that is a whole number. So a comparison needs no product, and a step is an addition.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +16,12 @@
 
 namespace voxmelt::visibility {
 
-// No axis of a ray is longer than this, in sixteenths, where 64 bits suffice for a walk in any grid: the
-// product of three lengths is at most 2^60. A crossing within a grid of 4096 cells, and 254 bricks beyond,
-// stays below 2^17, and so below 2^57 when it is multiplied by two lengths.
+// Bounds the axes of a ray, in sixteenths, for which 64 bits suffice in any grid. The product of three
+// lengths is then at most 2^60. A crossing within a grid of 4096 cells, and 254 bricks beyond, stays below
+// 2^17. Multiplied by two lengths it stays below 2^57.
 inline constexpr std::int64_t kLongestNarrow = std::int64_t{1} << 20;
 
-// The lengths of a ray along the axes, and which way it goes.
+// Holds the lengths of a ray along the axes, and the way it goes.
 struct Course {
   explicit Course(const Ray& ray) {
     const std::array<std::int64_t, 3> from{ray.start.x, ray.start.y, ray.start.z},
@@ -38,7 +39,7 @@ struct Course {
   std::array<std::int64_t, 3> length{}, crossing{};
 };
 
-template <class Whole>  // std::int64_t, or a wider one
+template <class Whole>  // std::int64_t, or a wider type
 class BrickWalk {
  public:
   BrickWalk(const Cell& cell, const Course& course) : cell_(cell), way_(course.way) {
@@ -58,7 +59,7 @@ class BrickWalk {
 
   const Cell& cell() const { return cell_; }
 
-  // Moves to the next cell; false when the segment ends first.
+  // Moves to the next cell. It returns false when the segment ends first.
   bool step() {
     const Whole at = std::min({next_[0], next_[1], next_[2]});
     if (at >= end_) return false;
@@ -70,12 +71,12 @@ class BrickWalk {
     return true;
   }
 
-  // Tests cells (numbers within a brick, as Opaque::place counts them) until one holds, the segment ends, or
-  // the walk has left the brick. Says which.
+  // Tests cells until one holds, the segment ends, or the walk has left the brick. It returns which of these
+  // happened. Cells are numbers within a brick, as Opaque::place counts them.
   enum class End { stopped, arrived, left };
   template <class Test>
   End within(std::uint32_t& number, const Test& test) {
-    // Five bits for each coordinate: 8 to 15 inside the brick, 7 or 16 beyond.
+    // Each coordinate has five bits: 8 to 15 inside the brick, 7 or 16 beyond.
     constexpr std::uint32_t kGuards = 0x6318, kInside = 0x2108;
     const Cell first{cell_[0] & ~7, cell_[1] & ~7, cell_[2] & ~7};
     std::uint32_t packed = kInside;
@@ -107,13 +108,13 @@ class BrickWalk {
     return end;
   }
 
-  // A bit for each axis along which the ray goes up.
+  // Returns a bit for each axis along which the ray goes up.
   std::size_t octant() const {
     return static_cast<std::size_t>((way_[0] > 0) | (way_[1] > 0) << 1 | (way_[2] > 0) << 2);
   }
 
-  // Moves to the first cell beyond the cube of `side` bricks that begins with this one, on the way; false
-  // when the segment ends first.
+  // Moves to the first cell beyond the cube of `side` bricks that begins with this one, on the way. It
+  // returns false when the segment ends first.
   bool leave(int side) {
     const int more = state::kBrickSide * (side - 1);
     Whole exit = kNever;
@@ -126,13 +127,14 @@ class BrickWalk {
     return true;
   }
 
-  // Moves to the first cell of the walk in the brick that begins at `first`; false when it has none there.
+  // Moves to the first cell of the walk in the brick that begins at `first`. It returns false when it has
+  // none there.
   bool enter(const Cell& first) {
     Whole entry = -1;
     for (std::size_t a = 0; a < 3; ++a) {
       const int last = first[a] + state::kBrickSide - 1;
       const int planes = way_[a] > 0 ? first[a] - cell_[a] : cell_[a] - last;
-      if ((way_[a] > 0 ? last - cell_[a] : cell_[a] - first[a]) < 0) return false;  // it lies behind
+      if ((way_[a] > 0 ? last - cell_[a] : cell_[a] - first[a]) < 0) return false;  // the brick lies behind
       if (planes <= 0) continue;
       if (each_[a] == 0) return false;
       entry = std::max(entry, next_[a] + (planes - 1) * each_[a]);
@@ -152,7 +154,7 @@ class BrickWalk {
  private:
   static constexpr Whole kNever = Whole{1} << (8 * sizeof(Whole) - 2);
 
-  // How many more cells of the brick lie ahead.
+  // Returns how many more cells of the brick lie ahead.
   int inside(std::size_t a) const { return way_[a] > 0 ? 7 - (cell_[a] & 7) : cell_[a] & 7; }
   void cross(std::size_t a, int planes) {
     cell_[a] += planes * way_[a];
@@ -170,7 +172,7 @@ class BrickWalk {
 
   Cell cell_;
   std::array<int, 3> way_;
-  std::array<Whole, 3> next_{}, each_{};  // of the next plane, and from plane to plane; 0: along the plane
+  std::array<Whole, 3> next_{}, each_{};  // to the next plane, and from plane to plane; 0: no plane is met
   Whole end_ = 1;
 };
 
@@ -187,8 +189,8 @@ auto with_walk(const Ray& ray, const Walk& walk) {
   return walk(wide);
 }
 
-// The opaque cell that the walk meets before it leaves the brick where it stands, or kSees. `ends` says
-// whether the segment ends in the brick.
+// Returns the opaque cell that the walk meets before it leaves its brick, or kSees. `ends` tells if the
+// segment ends in the brick.
 template <class Walk>
 Fate meet_in_brick(const Opaque& opaque, std::size_t brick, Walk& walk, bool& ends) {
   const std::uint8_t* const rows = opaque.rows(brick);

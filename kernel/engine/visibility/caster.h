@@ -1,4 +1,5 @@
-// Who follows rays. Every caster gives the answers of rule::VoxelWalk: whether a ray sees its source.
+// A caster follows rays. Every caster gives the answers of rule::VoxelWalk, which tell if a ray sees its
+// source.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +13,16 @@
 
 namespace voxmelt::visibility {
 
-// From a face of a solid cell to a point of its source. `cell` lies beyond the face, and is not opaque. It
-// may lie outside the grid.
+// Runs from a face of a solid cell to a point of its source. `cell` lies beyond the face, and is not opaque.
+// It may lie outside the grid.
 struct Ray {
   Cell cell;
   rule::Position start, end;
 };
 
-// What became of a ray: it sees the source, or it meets the opaque cell at this place (Opaque::place). Any
-// opaque cell on its way will do. Where places exceed 32 bits, it is only known to be dark. No caster gives
-// kNone: those who keep fates say so that there is no ray to cast.
+// Tells the fate of a ray. It sees the source, or it meets the opaque cell at this place (Opaque::place). Any
+// opaque cell on its way will do. If places exceed 32 bits, it is only known to be dark. No caster gives
+// kNone. Code that keeps fates uses it if there is no ray to cast.
 using Fate = std::uint32_t;
 inline constexpr Fate kSees = 0xffff'ffff, kDark = 0xffff'fffe, kNone = 0xffff'fffd;
 inline Fate met(std::size_t place) { return place < kNone ? static_cast<Fate>(place) : kDark; }
@@ -30,23 +31,23 @@ class Caster {
  public:
   virtual ~Caster() = default;
   virtual std::string_view name() const = 0;
-  // Before rays are cast into what `opaque` now is. The same one every time.
+  // Is called before rays are cast into a new state of `opaque`, which is the same object every time.
   virtual void prepare(const Opaque& /*opaque*/, const Opaque::News& /*news*/) {}
-  // One fate for each ray. Several threads may call it at once.
+  // Finds one fate for each ray. Several threads may call it at once.
   virtual void cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const = 0;
 };
 
-// rule::VoxelWalk itself, cell after cell.
+// Uses rule::VoxelWalk itself, cell after cell.
 class PlainCaster final : public Caster {
  public:
   std::string_view name() const override { return "walk"; }
   void cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const override;
 };
 
-// By bricks, the fate of one ray.
+// Returns the fate of one ray, found by bricks.
 Fate two_level_fate(const Opaque& opaque, const Gaps& gaps, const Ray& ray);
 
-// Over gaps at once where nothing stands, and from cell to cell elsewhere.
+// Passes empty gaps at once, and goes from cell to cell elsewhere.
 class TwoLevelCaster final : public Caster {
  public:
   std::string_view name() const override { return "two-level"; }

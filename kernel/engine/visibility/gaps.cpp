@@ -5,7 +5,7 @@
 namespace voxmelt::visibility {
 namespace {
 
-constexpr std::int64_t kFewEmptied = 16;  // of the bricks that held something, one part of so many
+constexpr std::int64_t kFewEmptied = 16;  // 1/16 of the bricks that held something
 
 }  // namespace
 
@@ -21,7 +21,8 @@ void Gaps::update(const Opaque& opaque, const Opaque::News& news) {
   }
 }
 
-// From the far end of the way. A cube is one longer than the shortest of the seven that begin beside it.
+// Finds the sides from the far end of the way. A cube is one longer than the shortest of the seven that begin
+// beside it.
 void Gaps::find(const Opaque& opaque, std::size_t octant) {
   const state::Grid& g = opaque.bricks();
   std::vector<std::uint8_t>& sides = sides_[octant];
@@ -40,7 +41,7 @@ void Gaps::find(const Opaque& opaque, std::size_t octant) {
                                 *const on_both = row(y + way(1), z + way(2));
       for (std::size_t x = 0; x < width; ++x) least[x] = std::min({on_y[x], on_z[x], on_both[x]});
       const std::size_t first = g.index(0, y, z);
-      int side = kEndless, near = kEndless;  // of the brick before, and of those beside it
+      int side = kEndless, near = kEndless;  // sides of the brick before, and of those beside it
       for (std::size_t i = 0; i < width; ++i) {
         const std::size_t x = way(0) > 0 ? width - 1 - i : i;
         side = std::min<int>({side, near, least[x]});

@@ -11,23 +11,25 @@
 namespace voxmelt::visibility {
 namespace {
 
-constexpr int kBandCells = 1 << 15;  // about; more threads have work, and the memory of each is bounded
+// A band has about so many cells. So more threads have work, and the memory of each is bounded.
+constexpr int kBandCells = 1 << 15;
 constexpr std::size_t kBatch = 1024;
 
 bool same(const rule::Position& a, const rule::Position& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-// Do rays end at the same places?
+// Tells if rays end at the same places.
 bool same_ends(const rule::SourceKey& a, const rule::SourceKey& b) {
   return same(a.at, b.at) && a.radius == b.radius && same(a.direction, b.direction);
 }
 
-// A ray that sees goes on to see, and one that met a cell stays dark while that one is opaque.
+// Tells if a ray's fate is known. A ray that sees goes on to see. One that met a cell stays dark while that
+// cell is opaque.
 bool known(const Opaque& opaque, Fate fate) {
   return fate == kSees || fate == kNone || (fate != kDark && opaque.holds(fate));
 }
 
 }  // namespace
 
-// Rays that are cast together, and where their fates belong.
+// Collects rays that are cast together, and the places of their fates.
 class KeptRays::Batch {
  public:
   Batch(const Caster& caster, const Opaque& opaque, std::vector<Fate>& fates)
@@ -111,7 +113,8 @@ void KeptRays::begin(const rule::Heat& heat) {
     }
 }
 
-// A source that has just been made has power 0, as one that is off. Nothing is kept of either.
+// Updates the sources. A source that has just been made has power 0, as one that is off. Nothing is kept of
+// either.
 void KeptRays::move_sources(const rule::Heat& heat, std::uint32_t step) {
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     const rule::SourceKey now = rule::source_at(heat.sources[s], step);
@@ -171,7 +174,8 @@ std::int64_t KeptRays::write(const Band& band, state::Field<std::uint16_t>& resu
   return cuts;
 }
 
-// Nothing here is new: no face, and no ray has lost the cell that it met. So all is written already.
+// Tells if nothing here is new: no face, and no ray has lost the cell that it met. Then all is written
+// already.
 bool KeptRays::rests(const Band& band) const {
   if (!steady_ || !band.kept) return false;
   for (std::size_t w = static_cast<std::size_t>(band.y0) / 64; 64 * w < static_cast<std::size_t>(band.y1);
@@ -182,7 +186,8 @@ bool KeptRays::rests(const Band& band) const {
   });
 }
 
-// Of rows y = 64 w to 64 w + 63, those of the band; or only those that may have other faces than before.
+// Returns the rows of the band among y = 64 w to 64 w + 63. With `changed` it takes only those that may have
+// other faces than before.
 std::uint64_t KeptRays::rows_of(const Band& band, std::size_t w, bool changed) const {
   const auto below = [w](int y) {  // rows of this word before y
     const int rows = std::clamp(y - 64 * static_cast<int>(w), 0, 64);
@@ -208,7 +213,7 @@ void KeptRays::renew(Band& band, const Source& source, const Surface& surface, L
   }
 }
 
-// All cells with faces that look. Of a source that is still, what is known of their rays is taken over, and
+// Finds all cells with faces that look. If the source is still, known fates of their rays are taken over, and
 // rows without a change are not looked at.
 LitCells KeptRays::find(const Band& band, const Surface& surface, const LitCells& old, bool still) const {
   const LitCells none;
@@ -240,7 +245,7 @@ LitCells KeptRays::find(const Band& band, const Surface& surface, const LitCells
   return now.take();
 }
 
-// Follows each ray of which it is not known that it sees the source, or meets a cell that is opaque now.
+// Casts each ray unless it is known to see the source, or to meet a cell that is still opaque.
 Casts KeptRays::cast(const Band& band, const Source& source, LitCells& own) const {
   Batch batch(*caster_, opaque_, own.fates);
   std::int64_t asked = 0;
@@ -250,7 +255,7 @@ Casts KeptRays::cast(const Band& band, const Source& source, LitCells& own) cons
     const auto is_known = [&](std::size_t at) { return known(opaque_, own.fates[at]); };
     const std::size_t first = place;
     while (place < end && is_known(place)) asked += own.fates[place++] != kNone;
-    if (place == end) continue;  // nothing is new: so it is with most cells
+    if (place == end) continue;  // most cells have nothing new
     const Cell cell = cell_at(band, lit);
     rule::CellRays rays(setting_, source.kind, source.now, cell);
     std::size_t at = first;

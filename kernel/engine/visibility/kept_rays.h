@@ -1,10 +1,10 @@
-// A provider that casts only what changed. While a source stands still, a ray that saw it sees it: opaque
-// cells only vanish. A dark ray stays dark while the cell that it met is opaque. Where an opaque cell appears
-// (a volume edited by hand), or a source moves, every ray is cast anew. A sky always stands still. So the
-// irradiance is what it would be if all were cast each time, and depends on no memory.
+// This provider casts only rays that may have changed. While a source stands still, a ray that saw it sees
+// it, because opaque cells only vanish. A dark ray stays dark while the cell that it met is opaque. If an
+// opaque cell appears (a volume edited by hand), or a source moves, every ray is cast anew. A sky always
+// stands still. So the irradiance is the same as if all rays were cast each time, and depends on no memory.
 //
-// What is kept, beside Opaque: 12 bytes for each cell with a face that looks, and 4 for each of its rays. A
-// band of rows keeps at most kMostKept bytes for each of its cells and 16 KiB. Beyond that it keeps nothing.
+// Beside Opaque, it keeps 12 bytes for each cell with a face that looks, and 4 for each of its rays. A band
+// of rows keeps at most kMostKept bytes for each of its cells and 16 KiB. Beyond that it keeps nothing.
 #pragma once
 
 #include <cstddef>
@@ -36,20 +36,20 @@ class KeptRays final : public Provider {
   std::size_t kept_bytes() const;  // beside Opaque
 
  private:
-  // Some rows of a slice: the work of one thread.
+  // Is the work of one thread: some rows of a slice.
   struct Band {
     int z = 0, y0 = 0, y1 = 0;
     // A cell's place is its row within the band times 2^16, and x. Its value is cut just above the largest.
     std::vector<LitCells> sources;
-    bool kept = true;  // else what it had of the sources took too much memory
+    bool kept = true;  // if not, its cells of the sources took too much memory
     std::int64_t cuts = 0;
     Casts casts;
   };
   struct Source {
     rule::SourceKind kind = rule::SourceKind::point;
     rule::SourceKey now;
-    bool still = false;   // its rays end where they ended, and no opaque cell has appeared
-    bool steady = false;  // moreover, its power is what it was
+    bool still = false;   // its rays end at the same places as before, and no opaque cell has appeared
+    bool steady = false;  // moreover, its power is the same as before
   };
 
   void begin(const rule::Heat& heat);
@@ -74,8 +74,8 @@ class KeptRays final : public Provider {
   std::uint64_t seed_ = 0;
   std::vector<Source> sources_;
   std::vector<Band> bands_;
-  const void* written_ = nullptr;  // where the result of the last time lies
-  bool steady_ = false;            // it is given again, and all sources are steady
+  const void* written_ = nullptr;  // address of the last result
+  bool steady_ = false;            // the same result is given again, and all sources are steady
   Casts casts_;
 };
 

@@ -1,5 +1,5 @@
-// The cells of some rows whose faces look at a source, with what is known of their rays; and how such a list
-// is renewed: what stays is copied in one piece.
+// The lit cells of some rows have faces that look at a source, and known fates of their rays. Such a list is
+// renewed by copying each unchanged stretch in one piece.
 #pragma once
 
 #include <bit>
@@ -13,18 +13,18 @@
 
 namespace voxmelt::visibility {
 
-// A cell with faces that look at the source.
+// Describes a cell with faces that look at the source.
 struct Lit {
-  std::uint32_t place;  // ascending; who keeps the list says what it means
-  std::uint32_t value;  // what the cell receives, or kStale
+  std::uint32_t place;  // ascending; its meaning is up to the owner of the list
+  std::uint32_t value;  // the cell's irradiance, or kStale
   std::uint8_t faces;   // a bit for each face
-  std::uint8_t rays;    // of all its faces
+  std::uint8_t rays;    // number of rays of all its faces
 };
 inline constexpr std::uint32_t kStale = 0xffff'ffff;
 
 struct LitCells {
   std::vector<Lit> cells;   // by place
-  std::vector<Fate> fates;  // of their rays: by cell, and by face
+  std::vector<Fate> fates;  // fates of the rays, by cell and by face
   std::size_t bytes() const { return cells.size() * sizeof(Lit) + fates.size() * sizeof(Fate); }
 };
 
@@ -46,7 +46,7 @@ class RenewedLitCells {
     begin();
   }
 
-  // This cell has these faces, and none between it and the last one. What is known of a face is kept.
+  // Adds a cell with these faces. There is none between it and the last one. Known fates of a face are kept.
   void look(std::uint32_t place, std::uint8_t faces) {
     drop_before(place);
     const bool was = more() && next().place == place;
@@ -79,7 +79,7 @@ class RenewedLitCells {
     first_cell_ = cell_;
     first_fate_ = fate_;
   }
-  // What was passed since `begin`.
+  // Copies the cells that were passed since `begin`.
   void copy() {
     const auto append = [](auto& to, const auto& from, std::size_t first, std::size_t end) {
       const auto begin = from.begin();
@@ -94,8 +94,8 @@ class RenewedLitCells {
   const LitCells& old_;
   int each_;
   LitCells now_;
-  std::size_t cell_ = 0, fate_ = 0;              // the next of the old ones
-  std::size_t first_cell_ = 0, first_fate_ = 0;  // the first that is not copied yet
+  std::size_t cell_ = 0, fate_ = 0;              // next of the old ones
+  std::size_t first_cell_ = 0, first_fate_ = 0;  // first one that is not copied yet
 };
 
 }  // namespace voxmelt::visibility

@@ -55,7 +55,7 @@ Opaque::News Opaque::take_layer(const state::Volume& volume, int layer) {
     };
     for (std::size_t first = 0; first < slice; first += kTogether) {
       const std::size_t end = std::min(slice, first + kTogether);
-      std::uint64_t any = 0;  // most words are as they were
+      std::uint64_t any = 0;  // most words have not changed
       if (end - first == kTogether)
         for (std::size_t i = 0; i < kTogether; ++i) any |= differs(first + i);
       else
@@ -89,7 +89,7 @@ void Opaque::write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, in
   }
 }
 
-// Of the bricks that have changed. Returns how many are empty now.
+// Looks into the bricks that have changed. It returns how many are empty now.
 int Opaque::look_into(int layer) {
   const std::size_t each = bricks_.index(0, 0, 1), begin = each * static_cast<std::size_t>(layer);
   int emptied = 0;

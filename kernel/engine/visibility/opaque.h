@@ -1,6 +1,6 @@
-// The cells that stop rays, as a caster reads them: solid or inert. They are kept from one casting to the
-// next, as rows of bits and as bricks of 8x8x8 bits, so that it is known what is new. They take 3/8 byte for
-// each cell of the grid, in pages that stay untaken where nothing stands.
+// Solid and inert cells are opaque: they stop rays. A caster reads them here. They are kept from one casting
+// to the next, as rows of bits and as bricks of 8x8x8 bits, so that changes are known. They take 3/8 byte for
+// each cell of the grid, in pages that stay untaken if nothing stands there.
 #pragma once
 
 #include <array>
@@ -24,23 +24,23 @@ class Opaque {
     bool appeared = false;  // a cell is opaque that was not, or the grid is another one
     bool vanished = false;  // a cell is no longer opaque
     bool turned = false;    // a cell is solid that was inert, or the reverse
-    int emptied = 0;        // bricks that held something, and hold nothing any more
+    int emptied = 0;        // number of bricks that held something, and hold nothing any more
     bool any() const { return appeared || vanished || turned; }
   };
-  // Takes the masks of a volume over.
+  // Takes over the masks of a volume.
   News take(const state::Volume& volume, cpu::Workers& workers);
 
   const state::Grid& grid() const { return grid_; }
   const state::BitPlane& plane() const { return plane_; }
   const state::BitPlane& solid() const { return solid_; }
-  // Rows y = 64 w to 64 w + 63 of slice z, a bit each: did a mask of this row, or of one beside it, change
-  // when the masks were last taken? Only such a row may have other faces than before.
+  // Returns a bit for each of rows y = 64 w to 64 w + 63 of slice z. It is set if a mask of this row, or of
+  // one beside it, changed when the masks were last taken. Only such a row may have other faces than before.
   std::uint64_t changed_about(std::size_t w, int z) const;
 
   bool contains(const Cell& cell) const { return grid_.contains(cell[0], cell[1], cell[2]); }
   bool test(const Cell& cell) const { return contains(cell) && holds(place(brick_at(cell), cell)); }
 
-  // By bricks. A place is 512 times the number of a brick, and the number of a cell in it.
+  // These functions go by bricks. A place is 512 times the number of a brick, and the number of a cell in it.
   const state::Grid& bricks() const { return bricks_; }
   std::size_t brick_at(const Cell& cell) const {
     return bricks_.index(cell[0] >> 3, cell[1] >> 3, cell[2] >> 3);
@@ -51,9 +51,10 @@ class Opaque {
     return brick << 9 | static_cast<std::size_t>((cell[2] & 7) << 6 | (cell[1] & 7) << 3 | (cell[0] & 7));
   }
   bool holds(std::size_t place) const { return (bytes()[place >> 3] >> (place & 7) & 1) != 0; }
-  // The cells of a brick, a byte for each row: rows by y, then by z.
+  // Returns the cells of a brick, a byte for each row: rows by y, then by z.
   const std::uint8_t* rows(std::size_t brick) const { return bytes() + (brick << 6); }
-  // Is all of a brick empty that a ray from this cell on can come to? `octant` is that of BrickWalk.
+  // Tells if a ray from this cell on can meet nothing in the rest of the brick. `octant` is that of
+  // BrickWalk.
   bool clear_ahead(std::size_t brick, const Cell& cell, std::size_t octant) const;
 
  private:
@@ -72,7 +73,7 @@ class Opaque {
   state::BitPlane plane_, solid_;
   state::Pages bits_;                   // 64 bytes a brick
   std::vector<Contents> contents_;      // by bricks
-  std::size_t column_words_ = 0;        // of the rows of a slice
+  std::size_t column_words_ = 0;        // words of the rows of a slice
   std::vector<std::uint64_t> changed_;  // by slices: a bit for each row
 };
 

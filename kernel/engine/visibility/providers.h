@@ -1,5 +1,5 @@
-// The providers of irradiance by name, a row each. A room that has some adds them; no result depends on which
-// one is taken.
+// The providers of irradiance are listed by name, a row each. A folder that has some adds them. No result
+// depends on the choice.
 #pragma once
 
 #include <memory>
@@ -13,14 +13,14 @@ namespace voxmelt::visibility {
 struct ProviderRow {
   std::string_view name, description;
   std::unique_ptr<Provider> (*create)(int threads);
-  bool built_in = true;  // else this build lacks it, and it may not be created
+  bool built_in = true;  // if not, this build lacks it, and it may not be created
 };
 using Providers = std::vector<ProviderRow>;
 
-void add_providers(Providers& all);  // those of this room: walk and two-level
+void add_providers(Providers& all);  // walk and two-level
 
-// What `auto` means, and what a simulation takes that is given none: two-level. It was no slower than Embree
-// at any size of grid that was measured (docs/decisions/rays-only-what-changed.md).
+// Is the provider that `auto` means, and that a simulation takes if it is given none. It was no slower than
+// Embree at any size of grid that was measured (docs/decisions/rays-only-what-changed.md).
 inline constexpr std::string_view kUsual = "two-level";
 std::unique_ptr<Provider> usual_provider(int threads);
 

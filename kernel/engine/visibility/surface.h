@@ -1,4 +1,5 @@
-// Which faces of the solid cells may look at a source (docs/automaton.md, section 5), by words of 64 cells.
+// A surface tells which faces of the solid cells may look at a source (docs/automaton.md, section 5), by
+// words of 64 cells.
 #pragma once
 
 #include <array>
@@ -33,7 +34,7 @@ class Surface {
     }
   }
 
-  // By the numbers of faces: the cells of a word that are solid, and of which this face is free and may look.
+  // Returns, by the numbers of faces, the solid cells of a word whose face is free and may look.
   Faces faces(const Opaque& opaque, std::size_t w, int y, int z) const {
     const std::uint64_t solid = opaque.solid().row(y, z)[w];
     if (solid == 0) return {};
@@ -59,7 +60,7 @@ class Surface {
   state::Grid grid_;
   rule::SourceKind kind_;
   rule::SourceKey source_;
-  std::vector<std::uint64_t> up_, down_;  // the cells along x whose upper, or lower, face may look
+  std::vector<std::uint64_t> up_, down_;  // cells along x whose upper, or lower, face may look
 };
 
 }  // namespace voxmelt::visibility

@@ -1,4 +1,4 @@
-// A walk over gaps of empty bricks at once, and from cell to cell elsewhere.
+// A two-level walk passes gaps of empty bricks at once, and goes from cell to cell elsewhere.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace voxmelt::visibility {
 
-// Follows a walk that begins in the grid through at most `most` bricks and gaps. Returns the opaque cell that
-// it meets, or kSees: then `ends` says whether it has come to its end, or out of the grid.
+// Follows a walk that begins in the grid through at most `most` bricks and gaps. It returns the opaque cell
+// that it meets, or kSees. With kSees, `ends` tells if it has come to its end, or out of the grid.
 template <class Walk>
 Fate follow(const Opaque& opaque, const Gaps& gaps, Walk& walk, int most, bool& ends) {
   const std::size_t octant = walk.octant();
@@ -25,7 +25,7 @@ Fate follow(const Opaque& opaque, const Gaps& gaps, Walk& walk, int most, bool& 
     } else if (const Fate fate = meet_in_brick(opaque, brick, walk, ends); fate != kSees) {
       return fate;
     }
-    // What lies in a brick, but beyond the grid, is empty. So a ray may leave the grid there.
+    // Any part of a brick beyond the grid is empty. So a ray may leave the grid there.
     const Cell& cell = walk.cell();
     ends |= !opaque.bricks().contains(cell[0] >> 3, cell[1] >> 3, cell[2] >> 3);
   }

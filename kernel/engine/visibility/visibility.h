@@ -1,5 +1,6 @@
-// What each surface cell receives from the heat sources, as data: recomputed at steps divisible by
-// heat.visibility_every, a pure function of that step's masks and sources (docs/automaton.md, section 5).
+// The irradiance of each surface cell from the heat sources is data. It is recomputed at steps divisible by
+// heat.visibility_every, and is a pure function of that step's masks and sources (docs/automaton.md, section
+// 5).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace voxmelt::visibility {
 
-// Since a provider was made: the rays that the definition asks for, and those that were followed.
+// Counts the rays that the definition asks for, and those that were followed, since a provider was made.
 struct Casts {
   std::int64_t asked = 0, cast = 0;
   Casts& operator+=(const Casts& more) { return asked += more.asked, cast += more.cast, *this; }
@@ -21,18 +22,18 @@ class Provider {
  public:
   virtual ~Provider() = default;
 
-  // Fills one UQ12.4 irradiance per cell; 0 for every cell that is not a lit surface cell. `result` has the
-  // size of the volume. A provider may find its own earlier result there, and write only what is new: between
-  // two calls, nobody else changes a result that is given again. Returns how often a cell was cut at the
+  // Fills one UQ12.4 irradiance per cell, 0 for every cell that is not a lit surface cell. `result` has the
+  // size of the volume. A provider may find its own earlier result there, and write only changes. Between two
+  // calls, nobody else changes a result that is given again. It returns how often a cell was cut at the
   // largest irradiance, once for each source.
   virtual std::int64_t irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
                                   state::Field<std::uint16_t>& result) = 0;
 
   virtual std::string_view name() const { return "walk"; }
-  virtual Casts casts() const { return {}; }  // none where they are not counted
+  virtual Casts casts() const { return {}; }  // none if they are not counted
 };
 
-// The exact integer walk through the voxels, of every ray each time: the definition.
+// Is the definition: the exact integer walk through the voxels, of every ray each time.
 class VoxelWalkProvider final : public Provider {
  public:
   explicit VoxelWalkProvider(int threads = 1) : workers_(threads) {}

@@ -14,7 +14,8 @@
 namespace voxmelt::visibility {
 namespace {
 
-// Liquid is transparent, and so is everything beyond the grid: only solid and inert cells block.
+// Tells if a cell blocks rays. Only solid and inert cells do. Liquid is transparent, and so is everything
+// beyond the grid.
 bool opaque(const state::Volume& volume, int x, int y, int z) {
   return volume.grid.contains(x, y, z) && (volume.solid.test(x, y, z) || volume.inert.test(x, y, z));
 }
@@ -36,7 +37,7 @@ bool sees(const state::Volume& volume, Cell first, rule::Position start, rule::P
   return true;
 }
 
-// The sum of the weights of all rays of a cell that see the source.
+// Returns the sum of the weights of all rays of a cell that see the source.
 std::int64_t weight_seeing(const state::Volume& volume, rule::CellRays& rays, Cell cell, unsigned faces,
                            int side) {
   std::int64_t sum = 0;
@@ -54,7 +55,7 @@ std::int64_t weight_seeing(const state::Volume& volume, rule::CellRays& rays, Ce
   return sum;
 }
 
-// Which faces of a cell are free, and may have rays that are cast: a bit for each.
+// Returns a bit for each face of a cell that is free, and may have rays that are cast.
 unsigned free_faces(const state::Volume& volume, rule::SourceKind kind, const rule::SourceKey& source,
                     Cell cell) {
   unsigned faces = 0;

@@ -26,10 +26,10 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 
 constexpr std::array<unsigned char, 8> kMagic{0x89, 'V', 'X', 'C', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint32_t kVersion = 1;
-constexpr int kLevel = 1;  // of zstd: higher ones take several times as long for a tenth of the bytes
+constexpr int kLevel = 1;  // level of zstd; higher ones take several times as long for a tenth of the bytes
 constexpr const char* kEnd = "end";
 
-// Before each block, and covered by its checksum with what follows.
+// Stands before each block, and is covered by the block's checksum.
 struct RawHeader {
   std::array<char, 8> kind{};
   std::uint32_t first = 0, count = 0;
@@ -82,7 +82,7 @@ Packed packed(std::span<const std::byte> raw) {
   if (all_zero(raw)) return {raw.size(), {}};
   Bytes stored(ZSTD_compressBound(raw.size()));
   const std::size_t size = ZSTD_compress(stored.data(), stored.size(), raw.data(), raw.size(), kLevel);
-  if (ZSTD_isError(size) != 0) throw std::bad_alloc();  // the one thing that can be lacking
+  if (ZSTD_isError(size) != 0) throw std::bad_alloc();  // only memory can be lacking
   stored.resize(size);
   return {raw.size(), std::move(stored)};
 }

@@ -1,4 +1,4 @@
-// A file of blocks: each is packed by zstd, and has a checksum that covers it and its header
+// A checkpoint is a file of blocks. Each is packed by zstd, and has a checksum that covers it and its header
 // (docs/checkpoint.md).
 #pragma once
 
@@ -17,7 +17,8 @@
 
 namespace voxmelt::checkpoint {
 
-// A file that is no checkpoint, or no whole one: exit code 2. The message begins with the file's name.
+// Is thrown for a file that is no checkpoint, or no whole one: exit code 2. The message begins with the
+// file's name.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -32,11 +33,11 @@ struct BlockName {
   friend bool operator==(const BlockName&, const BlockName&) = default;
 };
 
-// XXH3, 64 bits.
+// Returns XXH3, 64 bits.
 std::uint64_t checksum(std::span<const std::byte> bytes);
 std::uint64_t checksum_of_file(const std::filesystem::path& file);  // throws Error
 
-// A block as it is stored. Zeros alone are stored as nothing.
+// Holds a block as it is stored. A block of zeros alone is stored as nothing.
 struct Packed {
   std::uint64_t raw_bytes = 0;
   Bytes stored;
@@ -45,12 +46,12 @@ Packed packed(std::span<const std::byte> raw);
 
 class BlockWriter {
  public:
-  // Beside `place`, which appears with finish(); without it nothing is left. Throws io::OutputError, as all
-  // that follows.
+  // Writes beside `place`. The file appears there with finish(), and without it nothing is left. It throws
+  // io::OutputError, as do the functions below.
   explicit BlockWriter(const std::filesystem::path& place);
 
   void put(const BlockName& name, const Packed& block);
-  // The last block. Then the file is on the disk, and in its place.
+  // Writes the last block. Then the file is on the disk, and in its place.
   void finish();
 
  private:
@@ -64,20 +65,20 @@ class BlockWriter {
 
 class BlockReader {
  public:
-  // The version is one that this program reads. Throws Error, as all that follows.
+  // Opens a file, whose version is one that this program reads. It throws Error, as do the functions below.
   explicit BlockReader(const std::filesystem::path& file);
 
-  // The next block: it has this name, and at most so many bytes. It is whole.
+  // Reads the next block, which must have this name, and at most so many bytes. The block is whole.
   Bytes next(const BlockName& name, std::uint64_t most);
-  // The same where the number of bytes is known: into `raw`. Returns whether all of it is 0; then `raw` is
-  // not written.
+  // Reads a block of a known number of bytes into `raw`. It returns true if all of it is 0. Then `raw` is not
+  // written.
   bool next_is_empty(const BlockName& name, std::span<std::byte> raw);
-  // Is the next block of this kind? It is not read.
+  // Tells if the next block is of this kind. It is not read.
   bool next_is(std::string_view kind);
-  // The last block, and nothing behind it.
+  // Reads the last block, and checks that nothing comes behind it.
   void finish();
 
-  // Every block as it stands in the file, each of them whole.
+  // Lists every block as it stands in the file, each of them whole.
   struct Listed {
     BlockName name;
     std::uint64_t raw_bytes = 0, stored_bytes = 0;
@@ -100,7 +101,7 @@ class BlockReader {
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Close> file_;
-  std::uint64_t left_ = 0;  // bytes of the file that were not read
+  std::uint64_t left_ = 0;  // bytes of the file that are not read yet
   std::uint32_t blocks_ = 0;
   Bytes checksums_;
 };

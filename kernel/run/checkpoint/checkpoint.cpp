@@ -46,7 +46,7 @@ void write(const std::filesystem::path& place, Head head, const state::Volume& v
 }
 
 Checkpoint read(const std::filesystem::path& file) {
-  (void)BlockReader::list(file);  // every block is whole, before memory is taken for any of them
+  (void)BlockReader::list(file);  // checks that every block is whole, before memory is taken for any
   BlockReader reader(file);
   Checkpoint result;
   Head& head = result.head;

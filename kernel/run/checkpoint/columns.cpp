@@ -35,7 +35,7 @@ int slices_of_a_slab(std::size_t row, state::Grid grid) {
   return static_cast<int>(std::clamp<std::size_t>(kSlab / slice, 1, static_cast<std::size_t>(grid.z)));
 }
 
-// A column's slabs: first slices, and how many.
+// Is a slab of a column: its first slice, and the number of slices.
 struct Slab {
   int first = 0, count = 0;
   BlockName name(std::string_view kind) const {
@@ -49,7 +49,7 @@ std::vector<Slab> slabs_of(std::size_t row, state::Grid grid) {
   return slabs;
 }
 
-// An empty slab is found where it lies, without a copy.
+// Packs a slab. An empty slab is found in place, without a copy.
 template <class Column>
 Packed pack(const Column& column, state::Grid grid, const Slab& slab) {
   const std::size_t row = row_bytes(column, grid);
@@ -100,7 +100,7 @@ Column take(BlockReader& reader, std::string_view kind, state::Grid grid) {
     for (int z = slab.first; z < slab.first + slab.count; ++z)
       for (int y = 0; y < grid.y; ++y, from += row) {
         const bool empty = from[0] == std::byte{0} && std::memcmp(from, from + 1, row - 1) == 0;
-        if (!empty) std::memcpy(row_of(column, y, z), from, row);  // else the page stays without memory
+        if (!empty) std::memcpy(row_of(column, y, z), from, row);  // if not, the page stays without memory
       }
   }
   return column;

@@ -1,4 +1,4 @@
-// The fields of a volume as blocks: slabs of whole slices, packed by all threads.
+// The fields of a volume are stored as blocks: slabs of whole slices, packed by all threads.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace voxmelt::checkpoint {
 
-// Every field that the volume has, in the order of their table; of the optional ones those that are there.
+// Writes every field that the volume has, in the order of their table. Optional fields are written if they
+// are there.
 void put_volume(BlockWriter& writer, cpu::Workers& workers, const state::Volume& volume);
 state::Volume take_volume(BlockReader& reader, state::Grid grid);
 

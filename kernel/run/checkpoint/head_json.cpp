@@ -34,7 +34,7 @@ std::optional<std::uint64_t> from_hexadecimal(std::string_view text) {
   return value;
 }
 
-// At most 38 digits: less than 2^127.
+// Reads a sum of at most 38 digits, which is less than 2^127.
 std::optional<Sum> sum_of(std::string_view text) {
   const bool negative = text.starts_with('-');
   const std::string_view digits = text.substr(negative ? 1 : 0);
@@ -60,7 +60,7 @@ json files_json(const std::vector<FileState>& files) {
   return result;
 }
 
-// Strict access to one object: what is missing or of another kind is named.
+// Gives strict access to one object. A missing value, or one of another kind, is named in the error.
 class Object {
  public:
   Object(const json& object, std::string name, const std::filesystem::path& file)

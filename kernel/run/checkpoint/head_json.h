@@ -1,4 +1,4 @@
-// The head of a checkpoint as JSON text.
+// The head of a checkpoint is JSON text.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 namespace voxmelt::checkpoint {
 
 std::string json_of(const Head& head);
-// Throws Error naming `file`, and what is missing or out of its range.
+// Reads a head. It throws Error with the name of `file` and of the value that is missing or out of its range.
 Head head_of(const std::string& json, const std::filesystem::path& file);
 
 }  // namespace voxmelt::checkpoint

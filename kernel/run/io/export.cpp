@@ -15,12 +15,12 @@
 namespace voxmelt::io {
 namespace {
 
-// What a field is called in the files, and how one row of it is written.
+// Tells the name of a field in the files, and writes one row of it.
 struct Column {
   std::string name;
   const char* npy_type;
   const char* vtk_type;
-  std::size_t bytes;  // of a cell
+  std::size_t bytes;  // bytes of a cell
   std::function<void(std::string& rows, int y, int z)> append_row;
 };
 
@@ -37,7 +37,7 @@ void append_row(std::string& rows, const state::Field<T>& field, int y, int z, s
   rows.append(reinterpret_cast<const char*>(field.row(y, z)), width * sizeof(T));
 }
 
-// Masks have a byte for each cell.
+// Returns the columns of a volume. Masks have a byte for each cell.
 std::vector<Column> columns_of(const state::Volume& volume) {
   const auto width = static_cast<std::size_t>(volume.grid.x);
   std::vector<Column> columns;
@@ -53,7 +53,7 @@ std::vector<Column> columns_of(const state::Volume& volume) {
   return columns;
 }
 
-// Some rows at a time, so that an export takes no memory to speak of beside the state.
+// Writes some rows at a time, so that an export takes no memory to speak of beside the state.
 void write_rows(FileWriter& file, const Column& column, state::Grid g, const Poll& poll) {
   constexpr std::size_t piece = std::size_t{1} << 20;
   std::string rows;
@@ -80,7 +80,7 @@ std::string npy_header(const char* type, state::Grid g) {
   return header + text;
 }
 
-// All fields as cell data of one VTK image: volume.vti (raw appended, little endian).
+// Writes all fields as cell data of one VTK image: volume.vti (raw appended, little endian).
 void export_vti(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll) {
   const state::Grid g = volume.grid;
   const std::string extent =

@@ -1,4 +1,4 @@
-// A state written for other programs: one file per field, and the resolved parameters.
+// A state is written for other programs: one file per field, and the resolved parameters.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,27 @@
 
 namespace voxmelt::io {
 
-// Called now and then; what it throws ends the export.
+// Is called now and then. Any exception from it ends the export.
 using Poll = std::function<void()>;
 
-// What the fields of a state can be written as. `write` makes files in a folder that is there; it throws
+// Describes a format for the fields of a state. `write` makes files in an existing folder, and throws
 // OutputError.
 struct Format {
-  std::string_view name;         // as users give it
+  std::string_view name;         // name that users give
   std::string_view description;  // a few words
   void (*write)(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll);
 };
 
-std::span<const Format> formats();                 // all of them; the first one is what nobody asked for
+std::span<const Format> formats();                 // all of them; the first one is the default
 const Format* find_format(std::string_view name);  // null for an unknown name
 
-// The format `npy`: FIELD.npy, C order, axes (z, y, x); masks as u8, numbers as u16.
+// Writes the format `npy`: FIELD.npy, C order, axes (z, y, x), masks as u8, numbers as u16.
 void export_npy(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll = {});
 
-// What the files of these fields hold: axes, bits and units.
+// Says what the files of these fields hold: axes, bits and units.
 std::string fields_json(const state::Volume& volume);
 
-// Everything that the rules depend on besides the state (docs/automaton.md, "Parameters").
+// Returns everything that the rules depend on besides the state (docs/automaton.md, "Parameters").
 std::string parameters_json(const rule::Parameters& parameters, state::Grid grid, std::uint32_t step);
 
 }  // namespace voxmelt::io

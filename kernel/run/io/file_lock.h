@@ -1,5 +1,5 @@
-// Says that a process is alive and at work on a file or folder: what is not locked was left behind by a dead
-// one.
+// A lock shows that a process is alive and at work on a file or folder. If something is not locked, a dead
+// process left it behind.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace voxmelt::io {
 
-// A lock goes with its process, however that ends (flock(2)). It locks no reader or writer out.
+// Goes with its process, however that ends (flock(2)). It locks no reader or writer out.
 class FileLock {
  public:
   FileLock() = default;
@@ -23,8 +23,8 @@ class FileLock {
   FileLock& operator=(const FileLock&) = delete;
   ~FileLock();
 
-  // Of a file or folder that exists; waits for another holder, or gives up at once. Where the file system has
-  // no such locks, nobody holds one.
+  // These lock a file or folder that exists. `wait` waits for another holder, and `attempt` gives up at once.
+  // If the file system has no such locks, nobody holds one.
   static FileLock wait(const std::filesystem::path& path);
   static FileLock attempt(const std::filesystem::path& path);
   explicit operator bool() const { return descriptor_ >= 0; }
@@ -35,19 +35,19 @@ class FileLock {
   bool held_by_another_ = false;
 };
 
-// "<place>.partial-*", whoever made them.
+// Lists "<place>.partial-*", whoever made them.
 std::vector<std::filesystem::path> leavings_of(const std::filesystem::path& place);
 
-// Removes those of processes that are no more, or only those without checkpoints (checkpoint_files.h). Tells
-// whether a living one is at work on `place`. Nothing new of this kind may come to be meanwhile: hold a lock
-// of the folder above.
+// Removes the leavings of processes that have ended, or only those without checkpoints (checkpoint_files.h).
+// It returns true if a living process is at work on `place`. No new leavings may appear meanwhile, so hold a
+// lock of the folder above.
 bool clear_leavings(const std::filesystem::path& place, bool keep_checkpoints = false);
 
-// One file is on the disk when this returns. Throws OutputError, as those below.
+// Flushes one file to the disk before it returns. It throws OutputError, as do the functions below.
 void flush_file(const std::filesystem::path& file);
-// Everything in the folder is on the disk when this returns. Throws OutputError.
+// Flushes everything in the folder to the disk before it returns. It throws OutputError.
 void flush_folder(const std::filesystem::path& folder);
-// The entry of a file or folder in the folder above it is on the disk.
+// Flushes the entry of a file or folder in the folder above it.
 void flush_entry(const std::filesystem::path& path);
 
 }  // namespace voxmelt::io

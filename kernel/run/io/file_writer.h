@@ -1,4 +1,4 @@
-// A file that is never half-written: it is filled piece by piece beside its place, flushed and renamed.
+// An output file is never half-written. It is filled piece by piece beside its place, flushed and renamed.
 #pragma once
 
 #include <cstdio>
@@ -11,7 +11,7 @@
 
 namespace voxmelt::io {
 
-// Output cannot be written (exit code 2), or the disk is full (exit code 3).
+// Is thrown if output cannot be written (exit code 2), or the disk is full (exit code 3).
 class OutputError : public std::runtime_error {
  public:
   OutputError(const std::string& message, bool out_of_space)
@@ -25,16 +25,17 @@ class OutputError : public std::runtime_error {
 // Throws OutputError: "<path>: error: <what>: <the system's reason>".
 [[noreturn]] void fail_output(const std::filesystem::path& path, const std::string& what, int error);
 
-// A new file or folder beside `place`, for its partial state: a template of mkstemp and mkdtemp.
+// Names a new file or folder beside `place`, for its partial state, as a template of mkstemp and mkdtemp.
 std::string beside(const std::filesystem::path& place);
 
 class FileWriter {
  public:
-  // A device, a pipe or a link (/dev/stdout) is written as it is; a file is replaced whole by commit().
+  // Opens a place for writing. A device, a pipe or a link (/dev/stdout) is written as it is. A file is
+  // replaced whole by commit().
   explicit FileWriter(const std::filesystem::path& place);
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
-  ~FileWriter();  // what was not committed is removed
+  ~FileWriter();  // removes what was not committed
 
   void write(std::string_view bytes);
   void commit();
@@ -47,7 +48,7 @@ class FileWriter {
   Unfinished unfinished_;
 };
 
-// All of a file at once.
+// Writes all of a file at once.
 void write_file(const std::filesystem::path& place, const std::string& bytes);
 
 }  // namespace voxmelt::io

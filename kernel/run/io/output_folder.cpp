@@ -29,7 +29,7 @@ constexpr std::size_t kReserved = std::size_t{256} << 10;
   throw OutputError(place.string() + ": error: " + why, false);
 }
 
-// The files of a folder, as paths within it, one per line: what commit() writes into the marker.
+// Lists the files of a folder, as paths within it. commit() writes them into the marker, one per line.
 std::set<std::string> files_within(const fs::path& folder) {
   std::set<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -38,12 +38,13 @@ std::set<std::string> files_within(const fs::path& folder) {
   return files;
 }
 
-// Desktops put such files into every folder that somebody looks at.
+// Tells if a desktop made the file. Desktops put such files into every folder that somebody looks at.
 bool made_by_desktops(const std::string& name) {
   return name == ".DS_Store" || name == "Thumbs.db" || name == "desktop.ini" || name == ".directory";
 }
 
-// An old output is replaced whole, so it must hold nothing that voxmelt did not write.
+// Refuses a folder with foreign files. An old output is replaced whole, so it must hold nothing that voxmelt
+// did not write.
 void check_replaceable(const fs::path& place) {
   std::error_code error;
   if (!fs::exists(place, error)) {
@@ -70,7 +71,7 @@ mode_t with_umask(mode_t mode) {
   return mode & ~mask;
 }
 
-// Nothing is lost where the room cannot be had: then a full disk leaves no report.
+// Keeps room for a report. If the room cannot be had, nothing is lost, but a full disk then leaves no report.
 void reserve(const fs::path& folder) {
   std::FILE* file = std::fopen((folder / kReserve).c_str(), "wb");
   if (file == nullptr) return;
@@ -79,7 +80,7 @@ void reserve(const fs::path& folder) {
   (void)std::fclose(file);
 }
 
-// Folders change places in one step; where the file system cannot, the old one goes first. Returns 0 or
+// Exchanges two folders in one step. If the file system cannot do so, the old one goes first. It returns 0 or
 // errno.
 int exchange(const fs::path& fresh, const fs::path& old) {
   if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) return 0;
@@ -101,7 +102,7 @@ OutputFolder::OutputFolder(const fs::path& place, bool goes_on)
   if (!place_.has_filename()) place_ = place_.parent_path();
   check_replaceable(place_);
 
-  // A fresh folder beside the place, and the folders above it that are missing.
+  // A fresh folder is made beside the place, and the folders above it that are missing.
   std::error_code error;
   for (fs::path above = place_.parent_path(); !fs::exists(above, error); above = above.parent_path())
     first_new_ = above;
@@ -146,7 +147,7 @@ void OutputFolder::discard() {
   remove_new_folders();
 }
 
-// Folders that were made in vain; fs::remove leaves those that are not empty.
+// Removes folders that were made in vain. fs::remove leaves those that are not empty.
 void OutputFolder::remove_new_folders() {
   std::error_code ignored;
   for (fs::path folder = partial_; !first_new_.empty() && folder != first_new_;) {
@@ -184,7 +185,7 @@ void OutputFolder::move_to(const fs::path& place) {
   unfinished_.complete();
   held.unlock();
   flush_entry(place);
-  if (replace) remove_output(partial_);  // what stood there before
+  if (replace) remove_output(partial_);  // the former contents
 }
 
 void OutputFolder::commit() { move_to(place_); }

@@ -1,5 +1,5 @@
-// Output that is never half-written: a folder is filled beside its final place, flushed, and exchanged with
-// what stood there when it is complete.
+// An output folder is never half-written. It is filled beside its final place, flushed, and exchanged with
+// the old contents when it is complete.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@ namespace voxmelt::io {
 
 class OutputFolder {
  public:
-  // Prepares a fresh "<place>.partial-..." beside `place`; fails at once if that cannot be done. `place` must
-  // not exist, or hold nothing but what an earlier commit() wrote there (it is then replaced whole). What
-  // dead processes left beside it is removed; while a living one is at work on it, this throws. It throws,
-  // too, where a dead one left checkpoints, unless somebody goes on with them: then these stay.
+  // Prepares a fresh "<place>.partial-..." beside `place`, and fails at once if that cannot be done. `place`
+  // must not exist, or hold nothing but the files of an earlier commit() (it is then replaced whole).
+  // Leavings of dead processes beside it are removed. It throws if a living process is at work on `place`. It
+  // also throws if a dead one left checkpoints, unless somebody goes on with them. Then these stay.
   explicit OutputFolder(const std::filesystem::path& place, bool goes_on = false);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -23,13 +23,13 @@ class OutputFolder {
 
   const std::filesystem::path& partial() const { return partial_; }  // write here
   const std::filesystem::path& place() const { return place_; }      // it ends up here
-  // At every moment either what stood at `place` stands there, or what was made.
+  // Puts the new folder into place. At every moment either the old contents stand at `place`, or the new
+  // ones.
   void commit();
 
-  // After the disk was full: gives the room back that was kept for this, so that a few small files can still
-  // be written.
+  // Gives back the reserved room after the disk was full, so that a few small files can still be written.
   void release_reserve();
-  // What was made so far goes to "<place>.incomplete", what stands at `place` stays. Returns where it is.
+  // Moves the output so far to "<place>.incomplete", and leaves `place` alone. It returns the new place.
   std::filesystem::path keep_incomplete();
 
  private:
@@ -38,14 +38,14 @@ class OutputFolder {
   void remove_new_folders();
 
   std::filesystem::path place_, partial_;
-  std::filesystem::path
-      first_new_;  // the uppermost folder above `partial_` that had to be made; empty for none
-  FileLock lock_;  // of `partial_`
+  std::filesystem::path first_new_;  // uppermost folder above `partial_` that was made; empty for none
+  FileLock lock_;                    // locks `partial_`
   bool committed_ = false;
   Unfinished unfinished_;
 };
 
-// Does this partial folder hold a run that was not complete yet? Else it is what stood at the place before.
+// Tells if this partial folder holds a run that was not complete yet. If not, it has the former contents of
+// the place.
 bool is_unfinished(const std::filesystem::path& partial);
 
 }  // namespace voxmelt::io

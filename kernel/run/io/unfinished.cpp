@@ -11,7 +11,7 @@ struct Everything {
   bool completed = false;
 };
 
-// Never destroyed: the other thread may come while main() returns.
+// Returns an object that is never destroyed, because the other thread may come while main() returns.
 Everything& everything() {
   static Everything& all = *new Everything;
   return all;
@@ -40,7 +40,7 @@ void Unfinished::complete() {
 }
 
 bool discard_unfinished() {
-  (void)changing_places().release();  // for good
+  (void)changing_places().release();  // held until the process ends
   for (const auto& discard : everything().unfinished) discard();
   return everything().completed;
 }

@@ -1,5 +1,5 @@
-// What this process has begun to write and not completed. Who ends the process at once, from another thread,
-// removes it first.
+// This process knows which files and folders it has begun to write and not completed. A thread that ends the
+// process at once removes them first.
 #pragma once
 
 #include <functional>
@@ -9,18 +9,19 @@
 
 namespace voxmelt::io {
 
-// Held while a place is made, renamed or removed: nobody discards it in the middle of that.
+// Locks all changes of places. It is held while a place is made, renamed or removed, so that nobody discards
+// it meanwhile.
 [[nodiscard]] std::unique_lock<std::mutex> changing_places();
 
-// A partial file or folder, from its beginning until it is complete or gone.
+// Is a partial file or folder, from its beginning until it is complete or gone.
 class Unfinished {
  public:
   Unfinished() = default;
   Unfinished(const Unfinished&) = delete;
   Unfinished& operator=(const Unfinished&) = delete;
-  ~Unfinished();  // gone
+  ~Unfinished();  // the partial file or folder is gone
 
-  // Both while changing_places() is held.
+  // Both are called while changing_places() is held.
   void begin(std::function<void()> discard);
   void complete();
 
@@ -28,8 +29,8 @@ class Unfinished {
   std::optional<std::list<std::function<void()>>::iterator> entry_;
 };
 
-// Removes all that is unfinished. No place changes any more: what follows must be the end of the process.
-// Returns whether something was completed before.
+// Removes all that is unfinished. No place changes any more, so the process must end next. It returns true if
+// something was completed before.
 bool discard_unfinished();
 
 }  // namespace voxmelt::io

@@ -44,7 +44,7 @@ scene::Scene scene_of(checkpoint::Checkpoint checkpoint, const fs::path& file) {
     checkpoint::fail(file, broken);
   scene::fill(scene, std::move(checkpoint.volume));
   scene.first_step = head.first_step;
-  // Sources that were taken away shine until the next step of visibility.
+  // If sources were taken away, they shine until the next step of visibility.
   rule::Heat& heat = scene.parameters.heat;
   if (heat.enabled && heat.sources.empty()) heat.radiation = head.radiates;
   if (parameters_text(scene, head.grid) != text.parameters)

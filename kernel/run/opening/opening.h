@@ -1,4 +1,4 @@
-// From a scene to its run, and which implementation does it.
+// A scene is opened as a run, with a chosen implementation.
 #pragma once
 
 #include <memory>
@@ -11,13 +11,14 @@
 
 namespace voxmelt::run {
 
-// "auto" is the fastest one of this processor. Null for a name that no implementation has.
+// Returns the implementation of this name. "auto" is the fastest one of this processor. An unknown name gives
+// null.
 const step::Implementation* implementation_named(const std::string& name);
-// "auto", and then the names of all, for messages.
+// Lists "auto", and then the names of all, for messages.
 std::string implementation_names();
 
-// The run of a scene from its first step, or from where its checkpoint was written. Moves the scene's cells
-// away, because a large state need not be held twice.
+// Returns the run of a scene from its first step, or from the step of its checkpoint. It moves the scene's
+// cells away, because a large state need not be held twice.
 Simulation begin_run(scene::Scene& scene, const step::Implementation& implementation,
                      const step::Tuning& tuning,
                      std::unique_ptr<visibility::Provider> provider = nullptr);  // null: two levels

@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kRemembered = 8;  // builds and processors
+constexpr std::size_t kRemembered = 8;  // lines kept, for builds and processors
 
-// The first processor's lines, less those that change from moment to moment.
+// Returns the first processor's lines, less those that change from moment to moment.
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   std::string text, line;
@@ -32,7 +32,7 @@ std::string processor() {
   return text;
 }
 
-// Program and processor, in 16 hexadecimal digits.
+// Returns program and processor, in 16 hexadecimal digits.
 std::string this_machine() {
   struct stat program {};
   stat("/proc/self/exe", &program);
@@ -49,7 +49,7 @@ fs::path cache_file() {
   return {};
 }
 
-// A line is: machine, name, reason.
+// Returns the lines of a file. A line is: machine, name, reason.
 std::vector<std::string> lines_of(const fs::path& file) {
   std::error_code none;
   if (file.empty() || !fs::is_regular_file(file, none)) return {};
@@ -59,7 +59,8 @@ std::vector<std::string> lines_of(const fs::path& file) {
   return lines;
 }
 
-// Another program may do the same at the same moment: each writes a file of its own, and the last one wins.
+// Writes the file. Another program may do the same at the same moment. Each writes a file of its own, and the
+// last one wins.
 void remember(const fs::path& file, std::vector<std::string> lines) {
   if (file.empty()) return;
   if (lines.size() > kRemembered) lines.erase(lines.begin(), lines.end() - kRemembered);
@@ -91,7 +92,7 @@ Choice best_of(const std::vector<TrialTime>& times) {
 
 Choice choose(const step::Registry& registry, const fs::path& file, const std::string& machine,
               const Trial& trial) {
-  std::vector<const step::Implementation*> able;  // the first one is the reference: plain, and slow
+  std::vector<const step::Implementation*> able;  // all but the first, the reference, which is slow
   for (const step::Implementation& one : registry.all())
     if (one.supported && &one != &registry.all().front()) able.push_back(&one);
   if (able.empty()) return {&registry.all().front(), "this processor has no other"};

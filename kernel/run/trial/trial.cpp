@@ -27,7 +27,7 @@ rule::Parameters melt() {
   return p;
 }
 
-// Liquid of any height and temperature, `depth` cells deep.
+// Makes liquid of any height and temperature, `depth` cells deep.
 state::Volume pool(state::Grid grid, int depth) {
   state::Volume volume(grid);
   std::uint64_t number = 0;
@@ -50,7 +50,7 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// The first step is not timed: a fresh stepper does not know what sleeps.
+// Times an implementation. The first step is not timed, because a fresh stepper does not know what sleeps.
 double timed(const step::Implementation& implementation, const state::Volume& start) {
   Simulation simulation(melt(), start, implementation);
   simulation.step();

@@ -1,4 +1,4 @@
-// A short run of every implementation: which one is the fastest on this processor?
+// A short trial of every implementation shows which one is the fastest on this processor.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@ namespace voxmelt::run {
 
 struct TrialTime {
   const step::Implementation* implementation;
-  double seconds;  // of this thread: for a dense volume and a thin one, the geometric mean
+  double seconds;  // time of this thread: the geometric mean of a dense volume and a thin one
 };
 
-// Takes some 20 milliseconds for each implementation. A time is the least of several rounds, and every round
-// times all of them. They run on one thread.
+// Times every implementation, which takes some 20 milliseconds each. A time is the least of several rounds,
+// and every round times all of them. They run on one thread.
 std::vector<TrialTime> trial(const std::vector<const step::Implementation*>& implementations);
 
 }  // namespace voxmelt::run

@@ -46,8 +46,8 @@ class Sampler {
       }
   }
 
-  // The octants of the cell come first: one distance decides most of them, and eight samples decide each of
-  // the rest.
+  // Counts the covered samples of a cell. Its octants come first: one distance decides most of them, and
+  // eight samples decide each of the rest.
   std::uint8_t cell(int x, int y, int z) const {
     const double reach = 0.25 * std::numbers::sqrt3 + kSlack;
     int covered = 0;
@@ -76,7 +76,7 @@ class Sampler {
 
 Window window_of(const Box& box, state::Grid grid) {
   const auto clip = [](double low, double high, int cells, int& first, int& count) {
-    if (!std::isfinite(low) || !std::isfinite(high)) return;  // scaled out of all numbers
+    if (!std::isfinite(low) || !std::isfinite(high)) return;  // a scale left no finite numbers
     first = static_cast<int>(std::clamp(std::floor(low), 0.0, static_cast<double>(cells)));
     count =
         std::max(0, static_cast<int>(std::clamp(std::ceil(high), 0.0, static_cast<double>(cells))) - first);

@@ -1,4 +1,4 @@
-// How much of each cell a shape covers, by 4 x 4 x 4 sample points per cell at (i + 1/2) / 4.
+// The coverage of a cell by a shape is counted by 4 x 4 x 4 sample points per cell at (i + 1/2) / 4.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@ namespace voxmelt::scene {
 inline constexpr int kSamplesPerAxis = 4;
 inline constexpr int kSamplesPerCell = 64;
 
-// The part of a grid that a box touches: cells low .. low + size - 1, x fastest.
+// Is the part of a grid that a box touches: cells low .. low + size - 1, x fastest.
 struct Window {
   int x = 0, y = 0, z = 0;  // lowest cell
-  state::Grid size;         // 0 along some axis: nothing
+  state::Grid size;         // 0 along some axis if the box touches no cell
 
   std::size_t index(int cx, int cy, int cz) const { return size.index(cx - x, cy - y, cz - z); }
 };
@@ -28,7 +28,7 @@ struct Coverage {
   std::vector<std::uint8_t> samples;  // 0..64 per cell of the window
 };
 
-// Exact for the sample points: blocks of cells far from the surface are decided by one distance.
+// Counts exactly for the sample points. Blocks of cells far from the surface are decided by one distance.
 Coverage cover(const Shape& shape, state::Grid grid);
 
 }  // namespace voxmelt::scene

@@ -36,8 +36,8 @@ struct Part {
   Box bounds;
 };
 
-// Parts of a union, halved again and again across the longest side of their box: the nearest boxes come
-// first, and most are never looked at.
+// Holds the parts of a union, halved again and again across the longest side of their box. The nearest boxes
+// come first, and most are never looked at.
 class PartTree {
  public:
   explicit PartTree(std::vector<Part> parts) : parts_(std::move(parts)) { build(0, parts_.size()); }
@@ -53,7 +53,7 @@ class PartTree {
 
   struct Node {
     Box bounds;
-    std::size_t first, end, right = 0;  // parts; the left child follows, 0: a leaf
+    std::size_t first, end, right = 0;  // range of parts; the left child follows, and 0 marks a leaf
   };
 
   std::size_t build(std::size_t first, std::size_t end) {
@@ -76,7 +76,7 @@ class PartTree {
     return node;
   }
 
-  // A part whose box is farther than the best so far cannot be nearer.
+  // Searches a node. A part whose box is farther than the best so far cannot be nearer.
   void search(std::size_t index, double box_distance, Point p, double& nearest) const {
     if (box_distance >= nearest) return;
     const Node& node = nodes_[index];
@@ -137,7 +137,7 @@ ShapePtr make_csg(Operation operation, std::vector<ShapePtr> shapes) {
   return make_shape(bounds, [parts = std::move(parts), sign](Point p) {
     double farthest = parts.front().shape->distance(p);
     for (std::size_t i = 1; i < parts.size(); ++i) {
-      // Far from what is taken away, its box is a sufficient bound.
+      // Far from a shape that is taken away, its box is a sufficient bound.
       if (sign < 0 && -parts[i].bounds.distance(p) < farthest) continue;
       farthest = std::max(farthest, sign * parts[i].shape->distance(p));
     }

@@ -1,4 +1,4 @@
-// ESRI ASCII grids, as programs write them: GDAL, GRASS, QGIS, ArcGIS, and by hand.
+// ESRI ASCII grids are read as programs write them (GDAL, GRASS, QGIS, ArcGIS), and people by hand.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,13 +23,13 @@ constexpr std::size_t kLargestGridFile = std::size_t{1} << 30;
 constexpr int kLargestSide = 8192;
 constexpr double kHighest = 1e9;
 constexpr double kMissing = 2 * kHighest;  // no elevation is so high
-constexpr double kUsualNoData = -9999;     // where no header names another
+constexpr double kUsualNoData = -9999;     // if no header names another
 
 constexpr std::string_view kBlanks = " \t\r\v\f\x1a";  // the last one ends files of DOS
 constexpr std::array<std::string_view, 7> kOtherKeys{"xllcorner", "yllcorner", "xllcenter", "yllcenter",
                                                      "cellsize",  "dx",        "dy"};
 
-// Of ASCII alone, whatever the locale is.
+// Both treat ASCII alone, whatever the locale is.
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -38,7 +38,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// A word that says that there is no number.
+// Tells if a word says that there is no number.
 bool says_nothing(std::string_view word) {
   const std::string text = lower(word);
   return text == "nan" || text == "-nan" || text == "null";
@@ -79,7 +79,7 @@ class EsriParser {
     return true;
   }
 
-  // Of the line; empty: there is none any more.
+  // Returns the next word of the line. It is empty if there is none left.
   std::string_view next_word() {
     const std::size_t begin = line_.find_first_not_of(kBlanks);
     if (begin == std::string_view::npos) return {};

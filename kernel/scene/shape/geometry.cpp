@@ -6,7 +6,7 @@
 namespace voxmelt::scene {
 namespace {
 
-// cos and sin with exact quarter turns: a box turned by 90 degrees is still a box of whole cells.
+// Returns cos and sin with exact quarter turns. So a box turned by 90 degrees is still a box of whole cells.
 std::array<double, 2> cos_sin(double degrees) {
   const double quarter = degrees / 90;
   if (quarter == std::floor(quarter)) {

@@ -1,4 +1,4 @@
-// Points, boxes and placements in cell units; cell c of an axis covers c..c+1.
+// Points, boxes and placements are in cell units. Cell c of an axis covers c..c+1.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Box {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  // 0 inside; never more than the distance to anything that the box holds.
+  // Returns 0 inside, and never more than the distance to anything that the box holds.
   double distance(Point p) const {
     const double dx = std::max({low.x - p.x, p.x - high.x, 0.0});
     const double dy = std::max({low.y - p.y, p.y - high.y, 0.0});
@@ -36,7 +36,7 @@ struct Box {
 
 inline Box box_around(double x, double y, double z) { return {{-x, -y, -z}, {x, y, z}}; }
 
-// Rotation by degrees about x, then y, then z; multiples of 90 are exact.
+// Rotates by degrees about x, then y, then z. Multiples of 90 are exact.
 class Rotation {
  public:
   Rotation() = default;
@@ -49,7 +49,7 @@ class Rotation {
   std::array<Point, 3> rows_{Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}};
 };
 
-// world = at + rotation (scale * local)
+// Maps by world = at + rotation (scale * local).
 struct Placement {
   Point at;
   Rotation rotation;

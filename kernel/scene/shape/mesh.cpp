@@ -21,7 +21,7 @@ constexpr std::size_t kLargestMeshFile = std::size_t{1} << 30;
 constexpr double kLargestNumber = 1e30;
 constexpr std::string_view kBlanks = " \t\r\v\f";
 
-// The first word of a line, which loses it; empty at its end.
+// Takes the first word off a line. It is empty at the line's end.
 std::string_view take_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
   const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
@@ -29,7 +29,8 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
-// The message of an exception ends at a NUL byte.
+// Returns the word in quotes. Control characters are spelt out, because the message of an exception ends at a
+// NUL byte.
 std::string quoted(std::string_view word) {
   std::string text = "'";
   for (const char c : word.substr(0, 40)) {
@@ -39,7 +40,7 @@ std::string quoted(std::string_view word) {
   return text + "'";
 }
 
-// A number and nothing else; from_chars knows no sign +.
+// Reads a number and nothing else. from_chars knows no sign +.
 template <class Number>
 std::optional<Number> number_in(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
@@ -49,7 +50,7 @@ std::optional<Number> number_in(std::string_view word) {
   return number;
 }
 
-// What shapes need of the file: materials, normals and texture coordinates can be wrong without harm.
+// Reads the data that shapes need. Materials, normals and texture coordinates can be wrong without harm.
 class ObjReader {
  public:
   ObjReader(const std::string& file, const Place& place) : file_(file), place_(place) {}
@@ -71,7 +72,8 @@ class ObjReader {
     fail_at(place_, fmt::format("{}:{}: {}", file_, line_, message));
   }
 
-  // With the lines behind it, as long as each ends with a backslash; without a comment.
+  // Takes a line without its comment. It is joined with the lines behind it, as long as each ends with a
+  // backslash.
   std::string_view take_line(std::string_view& text) {
     joined_.clear();
     for (;;) {
@@ -121,7 +123,7 @@ class ObjReader {
   const std::string& file_;
   const Place& place_;
   std::int64_t line_ = 0;
-  std::string joined_;  // lines that are one
+  std::string joined_;  // lines joined into one
   Mesh mesh_;
 };
 

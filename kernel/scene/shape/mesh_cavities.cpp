@@ -18,7 +18,7 @@ struct Question {
 
 std::vector<bool> within_others(const Surface& surface, const std::vector<std::uint32_t>& shell,
                                 const std::vector<bool>& inward) {
-  // The outermost vertex of each shell towards -x, +x, -y, +y, -z, +z.
+  // The questions are the outermost vertices of each shell towards -x, +x, -y, +y, -z, +z.
   std::vector<Question> questions;
   std::vector<std::size_t> first(inward.size());
   std::vector<bool> seen(inward.size());
@@ -44,7 +44,7 @@ std::vector<bool> within_others(const Surface& surface, const std::vector<std::u
   std::sort(questions.begin(), questions.end(),
             [](const Question& a, const Question& b) { return a.at[2] < b.at[2]; });
 
-  // A ray towards +x from each: what it leaves less what it enters.
+  // A ray goes from each towards +x. Its winding is what it leaves less what it enters.
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     if (inward[shell[t]]) continue;
     const RayCrossings crossings(surface.triangle(t), 0);

@@ -1,4 +1,4 @@
-// Which shells that point inward lie within others: these are cavities.
+// Shells that point inward and lie within others are cavities.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace voxmelt::scene {
 
-// For each shell with true in `inward`: whether its six outermost vertices are all inside what the other
-// shells enclose. `shell` has the number of each triangle's shell.
+// Tells, for each shell with true in `inward`, if its six outermost vertices are all enclosed by the other
+// shells. `shell` has the number of each triangle's shell.
 std::vector<bool> within_others(const Surface& surface, const std::vector<std::uint32_t>& shell,
                                 const std::vector<bool>& inward);
 

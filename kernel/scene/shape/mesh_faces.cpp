@@ -9,7 +9,7 @@
 namespace voxmelt::scene {
 namespace {
 
-// A face from its least corner on, in the direction in which the lesser neighbour comes first.
+// Reads a face from its least corner on, in the direction in which the lesser neighbour comes first.
 struct Canonical {
   std::span<const std::uint32_t> corners;
   std::size_t first = 0;
@@ -40,7 +40,7 @@ struct Canonical {
   }
 };
 
-// For each vertex the number of its place; `places` gets one vertex of each place that a face uses.
+// Returns, for each vertex, the number of its place. `places` gets one vertex of each place that a face uses.
 std::vector<std::uint32_t> weld(const Mesh& mesh, std::vector<Point>& places) {
   std::vector<bool> used(mesh.vertices.size());
   for (const std::uint32_t corner : mesh.corners) used[corner] = true;
@@ -85,7 +85,7 @@ void keep_faces(Mesh& mesh, Keep keep) {
   mesh.ends = std::move(kept.ends);
 }
 
-// Of faces with the same corners the first one stays. Returns which of those are there in both senses.
+// Keeps the first one of faces with the same corners. It returns which of those are there in both senses.
 std::vector<bool> drop_copies(Mesh& mesh) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(mesh.faces());
   for (std::uint32_t f = 0; f < mesh.faces(); ++f) order[f] = {Canonical(mesh.face(f)).hash(), f};
@@ -108,9 +108,9 @@ std::vector<bool> drop_copies(Mesh& mesh) {
   return result;
 }
 
-// Faces in both senses are either a skin written from both sides, of which one side remains, or a wall
-// between two bodies that touch, which is nothing. Connected ones are judged together. They are a wall where
-// an even number of other faces meets them at most edges: these close the surface without the wall.
+// Drops walls. Faces in both senses are either a skin written from both sides, of which one side remains, or
+// a wall between two bodies that touch, which is dropped. Connected ones are judged together. They are a wall
+// if an even number of other faces meets them at most edges. These faces close the surface without the wall.
 void drop_walls(Mesh& mesh, const std::vector<bool>& both) {
   const std::vector<Edge> edges = edges_of(mesh);
   Sets skins(mesh.faces());
@@ -154,7 +154,7 @@ Sets::Link Sets::look(std::uint32_t member) {
   Link way{member, false};
   while (links_[way.root].root != way.root)
     way = {links_[way.root].root, way.turned != links_[way.root].turned};
-  // The way is shortened for those who come later.
+  // The way is shortened for later callers.
   for (Link rest = way; links_[member].root != way.root && member != way.root;) {
     const Link next = links_[member];
     links_[member] = rest;

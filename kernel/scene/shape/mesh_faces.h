@@ -1,4 +1,4 @@
-// The faces of a mesh as its shells need them: vertices at one place are one, and no face is there twice.
+// The shells of a mesh need clean faces: vertices at one place are one, and no face is there twice.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,16 @@
 
 namespace voxmelt::scene {
 
-// A side of a face, between two vertices that are neighbours in it.
+// Is a side of a face, between two vertices that are neighbours in it.
 struct Edge {
   std::uint64_t key = 0;   // the same for all faces at this edge
   std::uint32_t face = 0;  // its number
-  std::int8_t sense = 1;   // 1: the face runs from the lower vertex to the higher one, else -1
+  std::int8_t sense = 1;   // 1: the face runs from the lower vertex to the higher one; else -1
 
   friend bool operator<(const Edge& a, const Edge& b) { return a.key < b.key; }
 };
 
-// Sorted by key. A face that runs along an edge and back has two of them there.
+// Returns all edges, sorted by key. A face that runs along an edge and back has two of them there.
 std::vector<Edge> edges_of(const Mesh& mesh);
 
 // Calls visit(first, last) for each range of equal keys.
@@ -32,14 +32,15 @@ void for_each_edge(const std::vector<Edge>& edges, Visit visit) {
   }
 }
 
-// Sets of numbers that grow together.
+// Holds sets of numbers that grow together.
 class Sets {
  public:
   explicit Sets(std::size_t count);
   std::uint32_t find(std::uint32_t member) { return look(member).root; }
-  // True where the two are turned against one another; both must be in one set.
+  // Tells if the two are turned against one another. Both must be in one set.
   bool turned(std::uint32_t member) { return look(member).turned; }
-  // Puts two sets together such that a and b are turned against one another, or not. No effect within a set.
+  // Puts two sets together such that a and b are turned against one another, or not. It has no effect within
+  // a set.
   void unite(std::uint32_t a, std::uint32_t b, bool turned = false);
 
  private:

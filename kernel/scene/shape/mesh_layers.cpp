@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSlabs = 64;
 constexpr std::size_t kChunk = 64;  // samples
-constexpr int kBand = 64;           // samples, whole cells: what a band needs fits the processor's caches
+constexpr int kBand = 64;           // samples, whole cells: the data of a band fits the processor's caches
 constexpr int kHalfOfSixRays = 3;
 
 template <class T>
@@ -24,27 +24,28 @@ std::int16_t short_of(int sum) { return static_cast<std::int16_t>(sum); }
 
 std::size_t at(int axis) { return static_cast<std::size_t>(axis); }
 
-// What the two rays from a place along an axis tell: with w crossings towards the low end and the other ones
-// of all `total` towards the high end, 2 w - total; of parities how many are odd. Here w is 0.
+// Returns what the two rays from a place along an axis tell at the low end. With w crossings towards the low
+// end and the other ones of all `total` towards the high end, it is 2 w - total. For parities it is the count
+// of odd ones. Here w is 0.
 template <Inside inside>
 std::int16_t at_low_end(int total) {
   return short_of(inside == Inside::winding ? -total : total & 1);
 }
 
-// The same some crossings farther.
+// Returns the same some crossings farther.
 template <Inside inside>
 std::int16_t behind(std::int16_t told, int crossings) {
   if (inside == Inside::winding) return short_of(told + 2 * crossings);
   return short_of((crossings & 1) != 0 ? 2 - told : told);
 }
 
-// What the rays of three axes tell of a row of samples.
+// Holds what the rays of three axes tell of a row of samples.
 struct OpenRow {
   const std::int16_t* told_p;
   std::int16_t *told_q, *told_s;
 };
 
-// The compiler makes vectors of this loop, because no array overlaps another one.
+// Decides a row. The compiler makes vectors of this loop, because no array overlaps another one.
 template <Inside inside>
 void decide(std::size_t width, const OpenRow& row, const std::int16_t* __restrict across,
             const std::int8_t* __restrict steps, std::uint16_t* __restrict result) {
@@ -120,7 +121,7 @@ MeshLayers::Range MeshLayers::common(Range a, Range b) {
   return {first, std::max(first, std::min(a.end, b.end))};
 }
 
-// The first sample at or behind a crossing.
+// Returns the first sample at or behind a crossing.
 int MeshLayers::sample_at(int axis, double depth) const {
   const double sample = (depth - static_cast<double>(low_[at(axis)])) / static_cast<double>(kSampleSpacing);
   if (!(sample > 0)) return 0;
@@ -130,7 +131,7 @@ int MeshLayers::sample_at(int axis, double depth) const {
 }
 
 void MeshLayers::run() {
-  // Triangles in the order in which layers reach them.
+  // Triangles are in the order in which layers reach them.
   std::vector<std::pair<int, std::uint32_t>> order;
   const auto layers_of = [&](std::size_t i) {
     const Triangle t = surface_.triangle(i);
@@ -224,7 +225,7 @@ void MeshLayers::cross_q(const Triangle& triangle, int layer, Range band) {
   }
 }
 
-// What rays along q cross in all, in each layer of the slab.
+// Sums the crossings of whole rays along q, in each layer of the slab.
 void MeshLayers::total_in_layers(const Triangle& triangle, Slab slab) {
   const RayCrossings crossings(triangle, q_, s_);
   if (crossings.sign() == 0) return;
@@ -238,8 +239,8 @@ void MeshLayers::total_in_layers(const Triangle& triangle, Slab slab) {
   }
 }
 
-// Rays across the layers meet all triangles; what each of them crosses in all is needed from the first layer
-// on.
+// Sums the crossings of whole rays across the layers. These rays meet all triangles, and their sums are
+// needed from the first layer on.
 void MeshLayers::total_through_layers() {
   for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
     const RayCrossings crossings(surface_.triangle(i), s_, q_);
@@ -274,8 +275,8 @@ void MeshLayers::step_through_layers(const Triangle& triangle, Slab slab, Range 
   }
 }
 
-// Depth grows evenly along a row; so the rays whose crossings lie in a part of the axis are known but for
-// rounding.
+// Returns the rays whose crossings lie in a part of the axis. Depth grows evenly along a row, so they are
+// known but for rounding.
 MeshLayers::Range MeshLayers::within(const RayCrossings& crossings, Range rays, std::int64_t v, int axis,
                                      Range part) const {
   constexpr int slack = 2;  // samples
@@ -356,7 +357,7 @@ void MeshLayers::add_open_row(int q, std::size_t row, int layer) {
   }
 }
 
-// A band of a layer of cells is complete.
+// Stores a complete band of a layer of cells.
 void MeshLayers::store(int layer, Range band) {
   const state::Grid size = coverage_.window.size;
   const std::array<std::size_t, 3> stride{

@@ -1,6 +1,6 @@
-// Winding numbers of the samples in one layer after the other: memory for layers, not for the whole box.
-// Some layers are a slab, and are decided band by band: crossings that follow one another lie far apart, and
-// in a whole slab most of the time went into finding their memory.
+// The winding numbers of the samples are found in one layer after the other. So memory is needed for layers,
+// not for the whole box. Some layers are a slab, and are decided band by band. Crossings that follow one
+// another lie far apart, and in a whole slab most of the time went into finding their memory.
 #pragma once
 
 #include <array>
@@ -18,15 +18,16 @@ class MeshLayers {
   MeshLayers(const Surface& surface, Inside inside, Coverage& coverage);
   void run();
 
-  // Whether a sample of a closed mesh is wound around more than once: shells overlap, or one crosses itself.
+  // Tells if a sample of a closed mesh is wound around more than once. Then shells overlap, or one crosses
+  // itself.
   bool overlaps() const { return most_ > 1; }
 
  private:
-  // The samples of layers `first` .. `end` - 1 along the axis s_.
+  // Is the samples of layers `first` .. `end` - 1 along the axis s_.
   struct Slab {
     int first, end;
   };
-  // A range of samples, clipped to the window. A band is a range along q_.
+  // Is a range of samples, clipped to the window. A band is a range along q_.
   struct Range {
     int first, end;
   };
@@ -61,17 +62,17 @@ class MeshLayers {
   int thickness_;                    // layers in a slab
   int band_;                         // samples in a band, along q
 
-  // Of a band. What a ray crosses before a sample and not before the one before it, +1 where it enters;
+  // Holds, for a band, the crossings of a ray between each sample and the one before it, +1 if it enters,
   // [q][p].
   std::vector<std::int16_t> along_p_, along_q_;
-  std::vector<std::uint8_t> touched_;  // rows of along_p_: where chunks of samples are not all 0
-  std::size_t chunks_;                 // of a row
+  std::vector<std::uint8_t> touched_;  // rows of along_p_: chunks of samples that are not all 0
+  std::size_t chunks_;                 // chunks of a row
   std::vector<std::int8_t> along_s_;   // [layer of the slab][q][p]
-  std::vector<std::int16_t> total_p_;  // of whole rays
-  // By both rays from where the samples are now; told_q_ of each layer of the slab.
+  std::vector<std::int16_t> total_p_;  // crossings of whole rays
+  // Holds what both rays tell from the present samples. told_q_ has it for each layer of the slab.
   std::vector<std::int16_t> told_p_, told_q_, told_s_;
   std::vector<std::uint16_t> inside_row_;
-  std::vector<std::uint8_t> plane_;  // samples inside of a layer of cells, [q][p]
+  std::vector<std::uint8_t> plane_;  // samples inside, in a layer of cells, [q][p]
   int most_ = 0;
 };
 

@@ -37,7 +37,7 @@ std::pair<std::int64_t, std::int64_t> RayCrossings::range_u(std::int64_t v) cons
   for (std::size_t i = 0; i < 3; ++i) {
     const Corner &a = corners_[i], &b = corners_[(i + 1) % 3];
     const std::int64_t dv = b.v - a.v, n = (b.u - a.u) * (v - a.v);
-    // A point (u, v) is left of the edge where n - dv (u - a.u) > 0. On an edge that rises it counts as left.
+    // A point (u, v) is left of the edge if n - dv (u - a.u) > 0. On an edge that rises it counts as left.
     if (dv > 0) {
       last = std::min(last, a.u + floor_div(n, dv));
     } else if (dv < 0) {

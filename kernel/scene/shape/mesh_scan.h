@@ -1,4 +1,5 @@
-// Where the rays along one axis cross a triangle: exact in the plane across the rays, row by row.
+// The rays along one axis cross a triangle at places found here, exact in the plane across the rays, row by
+// row.
 #pragma once
 
 #include <array>
@@ -18,15 +19,16 @@ inline constexpr std::array<std::int64_t, 3> kSampleOffset{kSampleSpacing / 2 + 
 
 class RayCrossings {
  public:
-  // Rays along `axis`, in rows across `row_axis` (v); the third axis is u.
+  // Takes rays along `axis`, in rows across `row_axis` (v). The third axis is u.
   RayCrossings(const Triangle& triangle, int axis, int row_axis);
   RayCrossings(const Triangle& triangle, int axis) : RayCrossings(triangle, axis, (axis + 2) % 3) {}
 
-  // 1: rays along the axis leave through the triangle; -1: they enter; 0: it is edge-on to them.
+  // Returns 1 if rays along the axis leave through the triangle, -1 if they enter, and 0 if it is edge-on to
+  // them.
   int sign() const { return sign_; }
   std::pair<std::int64_t, std::int64_t> range_v() const;
-  // The first and last u that the triangle has in the row; first > last: none. Of triangles that share an
-  // edge exactly one has a point on it.
+  // Returns the first and last u that the triangle has in the row. With first > last there are none. Among
+  // triangles that share an edge, exactly one has a point on it.
   std::pair<std::int64_t, std::int64_t> range_u(std::int64_t v) const;
   bool hits(std::int64_t u, std::int64_t v) const {
     const auto [first, last] = range_u(v);
@@ -34,7 +36,7 @@ class RayCrossings {
   }
   double depth(std::int64_t u, std::int64_t v) const { return Walk(*this, u, v).depth(); }
 
-  // The depths of samples side by side along u.
+  // Walks the depths of samples side by side along u.
   class Walk {
    public:
     Walk(const RayCrossings& crossings, std::int64_t u, std::int64_t v);
@@ -57,7 +59,7 @@ class RayCrossings {
   struct Corner {
     std::int64_t u, v, depth;
   };
-  std::array<Corner, 3> corners_;  // such that the area is positive
+  std::array<Corner, 3> corners_;  // ordered such that the area is positive
   std::int64_t area_ = 0;          // twice the area
   int sign_ = 0;
 };

@@ -15,8 +15,8 @@
 namespace voxmelt::scene {
 namespace {
 
-// A polygon is halved again and again. Where it is not convex some triangles lie outside and are turned, so
-// that rays count nothing there; no corner must be cut off with care.
+// Halves a polygon again and again. If it is not convex, some triangles lie outside and are turned, so that
+// rays count nothing there. So no corner must be cut off with care.
 template <class Visit>
 void for_each_triangle(std::span<const std::uint32_t> ring, Visit visit) {
   if (ring.size() < 3) return;
@@ -50,7 +50,7 @@ class Shells {
   }
   std::size_t shell_of(std::size_t face) const { return shell_[face]; }
 
-  // Shells with true in `turn` are turned as a whole.
+  // Returns the surface. Shells with true in `turn` are turned as a whole.
   Surface surface(const std::vector<bool>& turn) const {
     Surface result;
     for (const Point& p : mesh_.vertices) result.points.push_back({snap(p.x), snap(p.y), snap(p.z)});
@@ -75,8 +75,8 @@ class Shells {
     return static_cast<std::int64_t>(std::llround(v * static_cast<double>(snaps_per_cell))) * kMeshSnap;
   }
 
-  // A patch: faces that are connected where exactly two of them meet. They run through such an edge in
-  // opposite directions; the lesser part of a patch that does not is turned.
+  // Orients the patches. A patch has faces that are connected where exactly two of them meet. They run
+  // through such an edge in opposite directions. If a part of a patch does not, the lesser part is turned.
   void orient_patches() {
     Sets patches(mesh_.faces());
     for_each_edge(edges_, [&](auto first, auto last) {
@@ -96,10 +96,11 @@ class Shells {
     flipped_ = static_cast<std::size_t>(std::count(turned_.begin(), turned_.end(), true));
   }
 
-  // Where more than two faces meet, patches that are open there close one another; they are one shell.
+  // Joins patches to shells. If more than two faces meet at an edge, patches that are open there close one
+  // another, and are one shell.
   void join_patches() {
     Sets shells(mesh_.faces());
-    std::vector<std::pair<std::uint32_t, int>> sums;  // of a patch at one edge
+    std::vector<std::pair<std::uint32_t, int>> sums;  // each patch with its sum at one edge
     for_each_edge(edges_, [&](auto first, auto last) {
       if (last - first <= 2) return;
       sums.clear();
@@ -128,7 +129,7 @@ class Shells {
     volumes_.resize(count);
   }
 
-  // Seen from the middle of a shell, so that an open one has a sensible volume too.
+  // Measures the volumes as seen from the middle of a shell, so that an open one has a sensible volume too.
   void measure() {
     boxes_.resize(volumes_.size(), {{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}});
     for (std::size_t f = 0; f < mesh_.faces(); ++f)
@@ -146,9 +147,9 @@ class Shells {
 
   const Mesh& mesh_;
   std::vector<Edge> edges_;
-  std::vector<bool> turned_;          // of a face: against how it is written
-  std::vector<std::uint32_t> shell_;  // of a face; at first: its patch
-  std::vector<double> volumes_;       // of a shell; negative: it is written inside out
+  std::vector<bool> turned_;          // for each face: it is turned against how it is written
+  std::vector<std::uint32_t> shell_;  // shell of each face; at first its patch
+  std::vector<double> volumes_;       // volume of each shell; negative: it is written inside out
   std::vector<Box> boxes_;
   std::size_t flipped_ = 0, open_edges_ = 0, crowded_edges_ = 0;
 };
@@ -167,8 +168,8 @@ Surface surface_of(const Mesh& mesh, std::vector<std::string>& findings) {
   Shells shells(clean_mesh.mesh);
   shells.build();
 
-  // If the volumes sum to less than nothing, the whole mesh is written inside out. What points inward after
-  // that is a cavity within another shell, or is turned.
+  // If the volumes sum to less than nothing, the whole mesh is written inside out. A shell that points inward
+  // after that is a cavity within another shell, or is turned.
   const std::vector<double>& volumes = shells.volumes();
   double sum = 0;
   for (const double volume : volumes) sum += volume;

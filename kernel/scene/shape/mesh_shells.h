@@ -1,4 +1,4 @@
-// The shells of a mesh, each turned outward: what rays through it count.
+// The shells of a mesh are turned outward, each as a whole, so that rays through it count.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace voxmelt::scene {
 
-// Mesh coordinates in integers: 1/32768 cell, vertices on multiples of 32.
+// Mesh coordinates are integers: 1/32768 cell, vertices on multiples of 32.
 inline constexpr std::int64_t kMeshUnit = 32768;
 inline constexpr std::int64_t kMeshSnap = 32;
 
@@ -21,8 +21,8 @@ using Triangle = std::array<FixedPoint, 3>;
 struct Surface {
   std::vector<FixedPoint> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  // Every edge is run through as often in one direction as in the other. So a ray enters as often as it
-  // leaves, and any ray tells the winding number.
+  // Is true if every edge is run through as often in one direction as in the other. Then a ray enters as
+  // often as it leaves, and any ray tells the winding number.
   bool closed = true;
 
   Triangle triangle(std::size_t i) const {
@@ -30,8 +30,8 @@ struct Surface {
   }
 };
 
-// Appends a line to `findings` for each kind of thing that is odd. The rules are in docs/scenes.md
-// ("Meshes").
+// Makes the surface of a mesh. It appends a line to `findings` for each kind of oddity. The rules are in
+// docs/scenes.md ("Meshes").
 Surface surface_of(const Mesh& mesh, std::vector<std::string>& findings);
 
 }  // namespace voxmelt::scene

@@ -33,7 +33,7 @@ Polygon::Polygon(const std::vector<Point2>& points) : low_(points.front()), high
   }
 }
 
-// The nearest box comes first, so that most of the others are too far to be looked at.
+// Returns the distance. The nearest box comes first, so that most of the others are too far to be looked at.
 double Polygon::distance(Point2 p) const {
   const auto to_box = [&](const Run& run) {
     const double bx = std::max({run.low.x - p.x, p.x - run.high.x, 0.0}),
@@ -53,7 +53,7 @@ double Polygon::distance(Point2 p) const {
     if (&run != first && to_box(run) < nearest_squared)
       nearest_squared = std::min(nearest_squared, squared_distance(run, p));
     if (p.y < run.low.y || p.y > run.high.y || p.x > run.high.x) continue;
-    // Even-odd rule: does a ray towards +x cross this edge?
+    // By the even-odd rule, an edge counts if a ray towards +x crosses it.
     for (std::size_t i = run.first; i < run.end; ++i) {
       const Edge& edge = edges_[i];
       const bool from_above = p.y < edge.from.y, to_above = p.y < edge.to_y;

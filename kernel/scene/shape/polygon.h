@@ -1,4 +1,4 @@
-// Closed outlines in the plane, and the solids that they sweep.
+// Closed outlines in the plane sweep solids.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ class Polygon {
     Point2 from, along;
     double to_y, inverse_square;
   };
-  struct Run {  // neighbouring edges, skipped together where their box is far
+  struct Run {  // neighbouring edges, skipped together if their box is far
     Point2 low, high;
     std::size_t first, end;
   };
@@ -36,15 +36,15 @@ class Polygon {
   Point2 low_, high_;
 };
 
-// A closed Catmull-Rom curve through the points, 8 pieces to a side; a point given twice in a row is
+// Returns a closed Catmull-Rom curve through the points, 8 pieces to a side. A point given twice in a row is
 // a corner.
 std::vector<Point2> smooth_outline(const std::vector<Point2>& points);
 
-// Turned about the y axis: x of the polygon is the radius (>= 0), y the height.
+// Turns a polygon about the y axis. Its x is the radius (>= 0), its y the height.
 ShapePtr make_revolve(Polygon profile);
 
-// From z = -depth/2 to depth/2. Edges are rounded by `rounding` (at most depth/2); both faces rise by `bulge`
-// at the distance `bulge_width` from the outline, smoothly.
+// Extends an outline from z = -depth/2 to depth/2. Edges are rounded by `rounding` (at most depth/2). Both
+// faces rise smoothly by `bulge` at the distance `bulge_width` from the outline.
 struct Extrusion {
   double depth = 1, rounding = 0, bulge = 0, bulge_width = 1;
 };

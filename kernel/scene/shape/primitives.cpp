@@ -69,7 +69,7 @@ ShapePtr make_tube(std::vector<TubePoint> points) {
     box.include(point.at + reach);
   };
 
-  // Neighbouring pieces are skipped together where their box is far.
+  // Neighbouring pieces are skipped together if their box is far.
   struct Run {
     Box box;
     std::size_t first, end;

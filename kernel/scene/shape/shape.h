@@ -36,7 +36,7 @@ ShapePtr make_shape(Box bounds, Field field) {
   return std::make_unique<FieldShape<Field>>(bounds, std::move(field));
 }
 
-// Primitives about the origin; lengths in cells, all > 0. Cylinder and cone stand on y = 0.
+// Primitives stand about the origin. Lengths are in cells, all > 0. Cylinder and cone stand on y = 0.
 ShapePtr make_sphere(double radius);
 ShapePtr make_box(Point size, double rounding);  // edges rounded by 0 <= rounding <= half the least side
 ShapePtr make_ellipsoid(Point radii);
@@ -44,7 +44,7 @@ ShapePtr make_cylinder(double radius, double height);
 ShapePtr make_cone(double radius, double radius_top, double height);
 ShapePtr make_torus(double radius, double tube);  // ring in the plane y = 0
 
-// A chain of capsules through points, with a radius at each; at least one point.
+// Is a point of a tube. A tube is a chain of capsules through at least one point, with a radius at each.
 struct TubePoint {
   Point at;
   double radius = 1;

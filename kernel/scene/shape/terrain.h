@@ -1,11 +1,12 @@
-// The ground that a scene stands on, as heights. Both the voxels and the renderer take it from here.
+// The terrain is the ground that a scene stands on, as heights. Both the voxels and the renderer take it from
+// here.
 #pragma once
 
 #include <vector>
 
 namespace voxmelt::scene {
 
-// Height of the ground above y = 0 at the centre of each column, in cells; z outermost.
+// Holds the height of the ground above y = 0 at the centre of each column, in cells, z outermost.
 struct Terrain {
   int x = 0, z = 0;
   std::vector<float> height;

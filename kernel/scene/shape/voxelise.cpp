@@ -100,18 +100,18 @@ class Voxeliser {
            static_cast<std::size_t>(y);
   }
 
-  // Isothermal walls have at least 1: no cell without an amount has heat.
+  // Returns the bed offset. It is at least 1 for isothermal walls, since no cell without an amount has heat.
   static rule::Amount bed(double fraction, long least) {
     const long offset = rule::kBedHalf + std::lround(fraction * rule::kOne);
     return static_cast<rule::Amount>(std::clamp<long>(offset, least, rule::kOne - 1));
   }
 
-  // Memory is written only where something changes.
+  // Writes memory only if something changes.
   static void write(rule::Temperature& heat, rule::Temperature value) {
     if (heat != value) heat = value;
   }
 
-  // It returns true where the coverage has grown.
+  // Raises the coverage of a cell, or cuts it. It returns true if the coverage has grown.
   static bool raise(std::uint8_t& coverage, int samples, bool cut) {
     if (cut) {
       coverage = static_cast<std::uint8_t>(std::max(0, coverage - samples));

@@ -1,4 +1,4 @@
-// From shapes, meshes and terrain to the cells of the initial state.
+// Shapes, meshes and terrain become the cells of the initial state.
 #pragma once
 
 #include <string>
@@ -18,24 +18,24 @@ struct Entry {
   Role role = Role::solid;
   std::string name;  // "solid.0"
   bool cut = false;  // taken away from what its list has built so far
-  ShapePtr shape;    // or, without it:
-  Mesh mesh;         // placed in the grid
+  ShapePtr shape;    // null if the mesh is used
+  Mesh mesh;         // in place in the grid
   Inside inside = Inside::winding;
   std::string mesh_file;
   double temperature = 0;         // 0..1
-  rule::Temperature wall = 0;     // inert: its heat content as an isothermal wall; 0: it is none
+  rule::Temperature wall = 0;     // inert: heat content as an isothermal wall; 0: no such wall
   double amount = 1, energy = 1;  // liquid: of a fully covered cell
 };
 
 struct Contents {
   std::vector<Entry> entries;
-  rule::Temperature ground_wall = 0;  // the same for all of the terrain
+  rule::Temperature ground_wall = 0;  // heat content of the terrain as an isothermal wall; 0: none
   Terrain terrain;                    // floors and height fields; always nx x nz columns
 };
 
-// The cells: solid from coverage 1/16 on (amount = coverage), inert from 1/2 on; inert wins over solid, solid
-// over liquid. The top inert cell of a terrain column holds the height's fraction: kBedHalf + (h - round(h))
-// x kOne. An inert shape keeps its temperature inside the ground.
+// Returns the cells. They are solid from coverage 1/16 on (amount = coverage), and inert from 1/2 on. Inert
+// wins over solid, and solid over liquid. The top inert cell of a terrain column holds the height's fraction:
+// kBedHalf + (h - round(h)) x kOne. An inert shape keeps its temperature inside the ground.
 state::Volume voxelise(const Contents& contents, state::Grid grid, std::vector<std::string>& warnings);
 
 }  // namespace voxmelt::scene

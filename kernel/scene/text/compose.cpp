@@ -29,7 +29,8 @@ void merge(Value& base, Value&& over) {
   base.place = over.place;
 }
 
-// A sister that changes the law does not inherit the settings of the law it leaves.
+// Drops the settings of the law that a sister scene leaves. A sister that changes the law does not inherit
+// them.
 void drop_other_law(Value& base, const Value& over) {
   const Value* over_flow = over.find("flow");
   const Value* law = over_flow ? over_flow->find("law") : nullptr;
@@ -71,7 +72,7 @@ std::vector<std::string> split_path(const std::string& path) {
   return parts;
 }
 
-// As much of it as a line of a message bears.
+// Shortens an assignment to what a line of a message bears.
 std::string shown(const std::string& assignment) {
   constexpr std::size_t kMost = 200;
   return assignment.size() <= kMost ? assignment : assignment.substr(0, kMost) + "...";
@@ -88,7 +89,7 @@ bool is_index(const std::string& part) {
          std::all_of(part.begin(), part.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// One step down the path: the element or member `part`, made as an empty table where a table lacks it.
+// Goes one step down the path, to the element or member `part`. It makes an empty table if a table lacks it.
 Value& descend(Value& at, const std::string& part, const std::string& walked, const Place& place) {
   if (at.kind == Value::Kind::array) {
     if (!is_index(part))

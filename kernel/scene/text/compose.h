@@ -1,4 +1,4 @@
-// From files and options to one document: `extends` and --set.
+// Files and options become one document, by `extends` and --set.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@
 
 namespace voxmelt::scene {
 
-// Reads `file`; a top-level `extends = "other.toml"` is read first, then this file's keys replace its keys
-// (tables are merged, anything else is replaced; a file that names flow.law drops the inherited table of the
-// other law). Throws InputError.
+// Reads `file`. A top-level `extends = "other.toml"` is read first, then this file's keys replace its keys.
+// Tables are merged, and anything else is replaced. A file that names flow.law drops the inherited table of
+// the other law. It throws InputError.
 Value read_document(const std::filesystem::path& file);
 
-// Applies "path.to.key=value" (array elements by number: heat_source.0.power=3). Throws InputError naming
-// --set.
+// Applies "path.to.key=value" (array elements by number: heat_source.0.power=3). It throws InputError with
+// the name of --set.
 void apply_override(Value& document, const std::string& assignment);
 
 }  // namespace voxmelt::scene

@@ -1,5 +1,5 @@
-// A TOML document as plain values. They remember where they were written, so that every later message names
-// its place.
+// A TOML document is held as plain values. They remember where they were written, so that every later message
+// names its place.
 #pragma once
 
 #include <cstdint>
@@ -28,14 +28,14 @@ struct Value {
   enum class Kind : std::uint8_t { boolean, integer, real, text, array, table, date };
 
   Kind kind = Kind::table;
-  Place place;      // of the value
-  Place key_place;  // of its key; that of the value in arrays
+  Place place;      // place of the value
+  Place key_place;  // place of its key; in arrays that of the value
   bool boolean = false;
   std::int64_t integer = 0;
   double real = 0;
   std::string text;
   std::vector<Value> items;       // elements of an array, or values of a table
-  std::vector<std::string> keys;  // of a table, beside items
+  std::vector<std::string> keys;  // keys of a table, beside items
 
   const Value* find(std::string_view key) const;
   Value* find(std::string_view key);
@@ -50,10 +50,10 @@ const char* name_of(Value::Kind kind);  // "a number", "a string", ...
 
 // Reads and parses one file (at most 16 MiB). Throws InputError.
 Value parse_file(const std::filesystem::path& file);
-// The same of a text at hand. `origin` names it in messages.
+// Does the same for a text at hand. `origin` names it in messages.
 Value parse_text(const std::string& text, const std::shared_ptr<const Origin>& origin);
 
-// One value in TOML syntax; a bare word is a string. Throws InputError naming `origin`.
+// Parses one value in TOML syntax. A bare word is a string. It throws InputError with the name of `origin`.
 Value parse_value(const std::string& text, const std::shared_ptr<const Origin>& origin);
 
 }  // namespace voxmelt::scene

@@ -73,7 +73,7 @@ class Guard {
     if (c != ' ' && c != '\t' && c != '\r') fresh_ = false;
   }
 
-  // The name in a header stands on its line, whole.
+  // Checks that the name in a header stands on its line, whole.
   void check_header() {
     fresh_ = false;
     const std::string_view rest = text_.substr(at_, end_of_line() - at_);
@@ -81,7 +81,8 @@ class Guard {
     if (name == std::string_view::npos || rest[name] == '#') object("a table's name is missing");
   }
 
-  // A string that is not closed ends with its line, or with the document; the parser says so.
+  // Skips a string. If it is not closed, it ends with its line, or with the document, and the parser reports
+  // it.
   void skip_string(char quote) {
     const bool escapes = quote == '"';
     const bool many = text_.substr(at_, 3) == std::string_view(escapes ? "\"\"\"" : "'''");
@@ -108,9 +109,9 @@ class Guard {
   std::string_view text_;
   std::size_t at_ = 0, line_ = 1, line_begin_ = 0;
   std::size_t dots_ = 0;
-  std::string brackets_;      // that are open
+  std::string brackets_;      // brackets that are open
   bool fresh_ = true;         // nothing but blanks on this line yet
-  bool in_value_ = false;     // else in a key, or between lines
+  bool in_value_ = false;     // if not, in a key or between lines
   bool within_word_ = false;  // the character before belongs to a bare word or a string
   Objection found_;
 };

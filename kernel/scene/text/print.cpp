@@ -17,7 +17,7 @@ bool is_bare(const std::string& key) {
 
 std::string key_text(const std::string& key) { return is_bare(key) ? key : toml_string(key); }
 
-// The shortest text that gives the same bits again, and is no integer.
+// Returns the shortest text that gives the same bits again, and is no integer.
 std::string number(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
@@ -56,7 +56,7 @@ bool is_tables(const Value& value) {
                      [](const Value& item) { return item.kind == Value::Kind::table; });
 }
 
-// The keys of a table, then its own tables, and at the top its arrays of tables.
+// Returns the keys of a table, then its own tables, and at the top its arrays of tables.
 std::string table_text(const Value& table, const std::string& path) {
   std::string text;
   for (std::size_t i = 0; i < table.keys.size(); ++i)

@@ -1,4 +1,4 @@
-// A document as TOML text, which parse_text() reads as the same values.
+// A document is printed as TOML text, which parse_text() reads as the same values.
 #pragma once
 
 #include <string>
@@ -7,10 +7,11 @@
 
 namespace voxmelt::scene {
 
-// A text as a basic string, in its quotes.
+// Returns a text as a basic string, in its quotes.
 std::string toml_string(const std::string& text);
 
-// Keys, then tables, in the document's order. It holds no dates: no key of a scene is one.
+// Prints keys, then tables, in the document's order. The document holds no dates, since no key of a scene is
+// one.
 std::string print_document(const Value& document);
 
 }  // namespace voxmelt::scene

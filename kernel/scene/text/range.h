@@ -1,4 +1,5 @@
-// What a number of a scene file may be, built by name: at_most(1), above(0).at_most(71), within(360).
+// A range tells the allowed values of a number in a scene file. It is built by name: at_most(1),
+// above(0).at_most(71), within(360).
 #pragma once
 
 #include <string>
@@ -26,7 +27,7 @@ struct LowerBound {
 
 inline LowerBound above(double lowest) { return {.lowest = lowest, .above = true}; }
 inline LowerBound at_least(double lowest) { return {.lowest = lowest, .above = false}; }
-inline Range at_most(double highest) { return at_least(0).at_most(highest); }  // and not negative
-inline Range within(double reach) { return at_least(-reach).at_most(reach); }  // of 0, on both sides
+inline Range at_most(double highest) { return at_least(0).at_most(highest); }  // not negative
+inline Range within(double reach) { return at_least(-reach).at_most(reach); }  // on both sides of 0
 
 }  // namespace voxmelt::scene

@@ -1,6 +1,6 @@
-// Strict access to one table of a document. Every read checks type and range, and remembers the
-// key. So finish() can refuse every key that no read has asked for. Paths in messages are those of
-// --set: heat_source.0.power.
+// A reader gives strict access to one table of a document. Every read checks type and range, and remembers
+// the key. So finish() can refuse every key that no read has asked for. Paths in messages are those of --set:
+// heat_source.0.power.
 #pragma once
 
 #include <array>
@@ -25,20 +25,21 @@ class Reader {
   Value::Kind kind(std::string_view key) const { return table_->find(key)->kind; }  // the key must be there
   std::string name(std::string_view key) const;                                     // full path of a key
   const Place& place() const { return table_->place; }
-  // The place of its value, or of the table where the key is missing.
+  // Returns the place of its value, or of the table if the key is missing.
   const Place& place(std::string_view key) const;
 
-  // Each gives the value of `key`. Without the key it gives the fallback, or throws InputError if there
-  // is none.
+  // Each function gives the value of `key`. Without the key it gives the fallback, or throws InputError if
+  // there is none.
   double number(std::string_view key, const Range& range, std::optional<double> fallback = {});
   std::int64_t integer(std::string_view key, std::int64_t lowest, std::int64_t highest,
                        std::optional<std::int64_t> fallback = {});
   bool flag(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::optional<std::string> fallback = {});
-  // Index of the chosen name.
+  // Returns the index of the chosen name.
   std::size_t choice(std::string_view key, const std::vector<std::string>& names,
                      std::optional<std::size_t> fallback = {});
-  // A file named in the scene, relative to the scene file that names it; by --set, to the current folder.
+  // Returns a file named in the scene. It is relative to the scene file that names it, or with --set to the
+  // current folder.
   std::filesystem::path file(std::string_view key);
 
   template <std::size_t N>
@@ -49,16 +50,16 @@ class Reader {
     for (std::size_t i = 0; read && i < N; ++i) result[i] = (*read)[i];
     return result;
   }
-  // A list of `lowest`..`highest` rows of `width` numbers each, row after row.
+  // Reads a list of `lowest`..`highest` rows of `width` numbers each, row after row.
   std::vector<double> rows(std::string_view key, std::size_t width, std::size_t lowest, std::size_t highest,
                            const Range& range);
 
   std::optional<Reader> table(std::string_view key);
-  std::vector<Reader> tables(std::string_view key);  // none where the key is missing
+  std::vector<Reader> tables(std::string_view key);  // none if the key is missing
 
   // Complains about the value of `key`: "<place>: error: <path of key><rest>".
   [[noreturn]] void fail(std::string_view key, const std::string& rest) const;
-  void finish() const;  // InputError for the first key that was never asked for
+  void finish() const;  // throws InputError for the first key that was never asked for
 
  private:
   const Value* find(std::string_view key);
@@ -72,7 +73,7 @@ class Reader {
   std::vector<std::string> asked_;
 };
 
-// Checks one number: its type, that it is finite, its range. `name` is its full path.
+// Checks one number: its type, that it is finite, and its range. `name` is its full path.
 double checked_number(const Value& value, const std::string& name, const Range& range);
 
 }  // namespace voxmelt::scene

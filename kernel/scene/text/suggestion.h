@@ -1,4 +1,4 @@
-// The nearest known name to a misspelt one.
+// The nearest known name is suggested for a misspelt one.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace voxmelt::scene {
 
-// Insertions, deletions, substitutions and swaps of neighbours that turn one word into the other.
+// Counts insertions, deletions, substitutions and swaps of neighbours that turn one word into the other.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// The known name nearest to `name`, or empty when none is near enough to be meant.
+// Returns the known name nearest to `name`, or empty if none is near enough to be meant.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace voxmelt::scene

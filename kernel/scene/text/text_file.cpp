@@ -15,7 +15,8 @@
 namespace voxmelt::scene {
 namespace {
 
-// Milliseconds, for the next bytes of a pipe. Whoever has it open for writing may think for a while.
+// Holds the milliseconds of waiting for the next bytes of a pipe. A program that has it open for writing may
+// think for a while.
 constexpr int kPatience = 5000, kPatienceWithoutWriter = 1000;
 
 thread_local FilesRead* innermost = nullptr;

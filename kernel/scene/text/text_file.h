@@ -1,4 +1,4 @@
-// Reads a whole file up to a limit of its size. A failure is one clear line.
+// A whole file is read up to a limit of its size. A failure is one clear line.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace voxmelt::scene {
 
-// The bytes of `file`. Throws InputError "<where>: error: ..." when it is missing, a folder, larger than
-// `limit`, or a pipe through which nothing comes for a while.
+// Returns the bytes of `file`. It throws InputError "<where>: error: ..." if the file is missing, a folder,
+// larger than `limit`, or a pipe through which nothing comes for a while.
 std::string read_text_file(const std::filesystem::path& file, std::size_t limit, const std::string& where);
 
-// The text without the mark that some programs write before UTF-8. Throws InputError naming `place` and
-// `file` where it is UTF-16.
+// Returns the text without the mark that some programs write before UTF-8. It throws InputError with `place`
+// and `file` if the text is UTF-16.
 std::string_view without_mark(std::string_view text, const Place& place, const std::string& file);
 
-// While one lives, it notes the files that this thread reads; the innermost one notes.
+// Notes the files that this thread reads, while it lives. The innermost one notes.
 class FilesRead {
  public:
   FilesRead();

@@ -1,4 +1,4 @@
-// From the units of a scene file to those of the automaton. The readers have checked the ranges before.
+// The units of a scene file become those of the automaton. The readers have checked the ranges before.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace voxmelt::scene {
 
 inline constexpr double kLargestAmount = 15;         // a cell's excess must fit UQ4.12
-inline constexpr double kLargestCoordinate = 65536;  // of sources, vents and shapes, cells
+inline constexpr double kLargestCoordinate = 65536;  // for sources, vents and shapes, in cells
 inline constexpr double kFullTurn = 360;             // degrees
 
 inline Range coordinate() { return within(kLargestCoordinate); }
@@ -23,13 +23,14 @@ inline rule::Temperature to_temperature(double t) {
 }
 inline rule::Amount to_amount(double a) { return static_cast<rule::Amount>(std::lround(a * rule::kOne)); }
 
-// Factors 0..1 in 1/65536; 1 itself is one unit less where 16 bits must hold it.
+// Converts factors 0..1 to 1/65536. 1 itself is one unit less if 16 bits must hold it.
 inline std::uint16_t to_factor16(double f) {
   return static_cast<std::uint16_t>(std::min<long>(65535, std::lround(f * 65536)));
 }
 inline std::uint32_t to_factor32(double f) { return static_cast<std::uint32_t>(std::llround(f * 65536)); }
 
-// Power: in scenes, temperature per step times squared cells; 1/16 temperature unit x (1/16 cell)^2 inside.
+// Is the automaton's unit of power. Scenes have temperature per step times squared cells. Inside it is 1/16
+// temperature unit x (1/16 cell)^2.
 inline constexpr double kPowerUnit = 65536.0 * 16 * 256;
 inline std::uint64_t to_power(double value) {
   return static_cast<std::uint64_t>(std::llround(value * kPowerUnit));
@@ -41,7 +42,8 @@ inline rule::Position to_position(const std::array<double, 3>& at) {
   return {to_position(at[0]), to_position(at[1]), to_position(at[2])};
 }
 
-// A direction of any length, not 0: its longest component becomes 32768. So what was rounded stays as it is.
+// Converts a direction of any length but 0. Its longest component becomes 32768, so a direction that was
+// rounded stays as it is.
 inline constexpr double kDirectionUnit = 32768;
 inline rule::Position to_direction(const std::array<double, 3>& d) {
   const double longest = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
