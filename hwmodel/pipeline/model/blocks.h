@@ -1,5 +1,5 @@
-// The blocks of the pipeline as plain C++: what one of them does in one cycle. pipeline.cpp gives each a
-// SystemC process.
+// The blocks of the pipeline are plain C++ that runs one cycle at a time. pipeline.cpp gives each a SystemC
+// process.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace voxmelt::hwmodel {
 
-// The stages of one time step and the channels between them.
+// Holds the stages of one time step and the channels between them.
 class StepBlock {
  public:
   template <class DepthOf>  // depth_of(name of a channel)
@@ -52,7 +52,7 @@ class StepBlock {
     }
   }
 
-  const Stage& running() const { return *running_; }  // the last one that was evaluated
+  const Stage& running() const { return *running_; }  // the stage that was evaluated last
 
   // Runs one cycle. Returns the number of stages that moved.
   int cycle() {
