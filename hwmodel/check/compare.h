@@ -58,7 +58,7 @@ class TokenComparison {
     std::int64_t cycle;
     std::vector<std::int64_t> values;
   };
-  struct Stream {  // what enters a channel, or what leaves it
+  struct Stream {  // tokens that enter a channel, or that leave it
     std::int64_t ordinal = 0;
     std::array<std::deque<Token>, 2> ahead;  // tokens of the expected machine, of the actual one
   };

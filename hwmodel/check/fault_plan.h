@@ -73,7 +73,7 @@ class FaultPlan {
   std::optional<Strike> struck_;
 };
 
-// Holds what the fault policies of all stages share. Such a policy takes the place of NoFaults in a stage,
+// Holds what the fault policies of all stages share. A policy takes the place of NoFaults in a stage,
 // and is called at the points named there.
 template <class Plan>
 class Planted {

@@ -48,7 +48,7 @@ class TokenSource {
   virtual ~TokenSource() = default;
 
   virtual std::vector<TokenChannel> token_channels() const = 0;
-  // Sets the probe of all channels. Null removes it.
+  // Sets the probe of all channels, or removes it if `probe` is null.
   virtual void probe(ChannelProbe* probe) = 0;
   virtual std::int64_t cycle() const = 0;  // the present cycle
   virtual void stop() = 0;                 // ends the run after the present cycle

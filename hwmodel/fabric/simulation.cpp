@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-// libsystemc's own main needs this symbol. Ours never calls it.
+// The main function of libsystemc needs this symbol. Ours never calls it.
 int sc_main(int, char**) { return 1; }
 
 // SystemC never frees its pools, which is no leak of ours. (Only the address sanitizer calls this.)

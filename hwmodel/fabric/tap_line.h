@@ -1,5 +1,5 @@
 // A line buffer delays whole tokens (P lanes each), and has taps. Behind every tap there is a register or the
-// read port of a memory. What is written through a tap travels on. Each stretch between two taps acts as a
+// read port of a memory. A word written through a tap travels on. Each stretch between two taps acts as a
 // memory of its own (one read, one write per cycle), whose word is updated on the way.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The memory that a configuration chooses: a DRAM, or one of a fixed latency.
+// A configuration chooses this memory: a DRAM, or one of a fixed latency.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@
 
 namespace voxmelt::hwmodel::memory {
 
-// A request in a queue.
+// Describes a request in a queue.
 struct Entry {
   std::int64_t address = 0;
   std::int64_t put = 0, arrival = 0;  // cycles of arrival: at its port, in the queue

@@ -40,7 +40,7 @@ class Expectation {
   const state::Volume& volume() const { return reference_.volume(); }
   const step::Irradiance* irradiance() const { return reference_.irradiance(); }
   std::uint32_t step_number() const { return reference_.step_number(); }
-  int substeps() const { return reference_.substeps(); }  // of the latest step that has begun
+  int substeps() const { return reference_.substeps(); }  // sub-steps of the latest step that has begun
   // Counts the cells in which `fast` was compared with the reference.
   std::int64_t compared_cells() const { return compared_cells_; }
 

@@ -25,7 +25,7 @@ class FeedChecker final : public FifoWatcher<UInt<16>> {
   void left(int channel, std::int64_t ordinal, const UInt<16>* lanes) override;
 
  private:
-  struct Seen {  // what was seen of one feed
+  struct Seen {  // tokens seen of one feed
     std::deque<std::int64_t> in_flight;
   };
   // Returns the pass of a token of the train.

@@ -27,7 +27,7 @@ struct SmallScene {
   Case small;
   int cells = 0;      // cells that hold something
   int tried = 0;      // number of runs
-  std::string stage;  // where the run differs, without the number of a channel's time step
+  std::string stage;  // place of the difference, without the number of a channel's time step
   std::string text;   // the scene file, which takes its fields from `fields`
 };
 

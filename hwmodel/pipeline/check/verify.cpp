@@ -183,7 +183,7 @@ class Lockstep::Run {
     last.first = step;
     last.tile = 0;
     last.steps = steps_of(step);
-    if (!run_software(last)) return {};  // what is under way can still be compared
+    if (!run_software(last)) return {};  // tokens under way can still be compared
     add_pass(last);
     return last;
   }
@@ -264,7 +264,7 @@ class Lockstep::Run {
     try {
       end = machine_.run_train(first, next, stream ? &*stream : nullptr, memory_);
     } catch (const StageError& error) {
-      if (checker_.mismatch() != nullptr) {  // what follows a difference may be anything
+      if (checker_.mismatch() != nullptr) {  // an error may follow from a difference
         report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
         return false;
       }

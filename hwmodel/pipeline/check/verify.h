@@ -63,7 +63,7 @@ struct VerifyReport {
   double model_seconds = 0;  // time of the model's simulation alone, comparing included
   std::int64_t cell_steps = 0;
   std::unique_ptr<Mismatch> mismatch;
-  std::optional<FaultPlan::Strike> strike;  // where the planted fault struck
+  std::optional<FaultPlan::Strike> strike;  // place of the planted fault
   std::vector<StageReport> stages;
   std::vector<ChannelReport> channels;
   std::optional<IrradianceStream::Counts> irradiance;  // lies in memory at the end; none without radiation

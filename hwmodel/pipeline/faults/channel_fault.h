@@ -12,7 +12,7 @@ namespace voxmelt::hwmodel {
 
 class ChannelFault final : public FifoFault<Cell> {
  public:
-  // Both must outlive it. It does nothing if the plan's fault is not a channel's.
+  // The plan and the pipeline must outlive it. It does nothing if the plan's fault is not a channel's.
   ChannelFault(FaultPlan& plan, Pipeline& pipeline) : plan_(plan), pipeline_(pipeline) {}
   ~ChannelFault() override { take_out(); }
   ChannelFault(const ChannelFault&) = delete;

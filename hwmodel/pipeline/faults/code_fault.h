@@ -13,7 +13,7 @@ namespace voxmelt::hwmodel {
 
 class PlantedCode final : public CodeFault {
  public:
-  // Both must outlive it. It does nothing if the plan's fault is not one of these.
+  // The plan and the pipeline must outlive it. It does nothing if the plan's fault is not one of these.
   PlantedCode(FaultPlan& plan, Pipeline& pipeline);
   ~PlantedCode() override { pipeline_.plant(static_cast<CodeFault*>(nullptr)); }
   PlantedCode(const PlantedCode&) = delete;

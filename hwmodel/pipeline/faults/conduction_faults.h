@@ -1,4 +1,4 @@
-// Faults of the passes of conduction. They strike in the last pass (conduction, edges or corners), and only
+// These faults spoil conduction. They strike in the last pass (conduction, edges or corners), and only
 // where the cell in the plane before is sure to be wrong at the end of the phase. So the cell is no liquid
 // that convects, exchanges no heat with air, and with radiation is far from the hottest. Faults of side bands
 // strike in the first pass, which makes them.

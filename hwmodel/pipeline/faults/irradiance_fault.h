@@ -13,7 +13,7 @@ namespace voxmelt::hwmodel {
 
 class IrradianceFault final : public FeedFault {
  public:
-  // Both must outlive it. It does nothing if the plan's fault is not one of these.
+  // The plan and the pipeline must outlive it. It does nothing if the plan's fault is not one of these.
   IrradianceFault(FaultPlan& plan, Pipeline& pipeline);
   ~IrradianceFault() override { pipeline_.plant(static_cast<FeedFault*>(nullptr)); }
   IrradianceFault(const IrradianceFault&) = delete;

@@ -1,5 +1,5 @@
 // The fault policies of all stages share this class. It tells if their fault is armed, and notes where it
-// strikes. Such a policy takes the place of NoFaults in a stage, and is called at the points named there.
+// strikes. A policy takes the place of NoFaults in a stage, and is called at the points named there.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class Planted : public check::Planted<FaultPlan> {
   void strike_lane(const Stage& stage, const Place& place, int lane) {
     strike(stage, place.x + lane, place.y, place.z);
   }
-  // Strikes likewise. A word of the stage's line holds the wrong cell. Of two words, the one that leaves
+  // Strikes likewise. A word of the stage's line holds the wrong cell. If there are two, the one that leaves
   // first counts.
   template <class Word>
   void strike_word(const Stage& stage, TapLine<Word>& line, const Word& word) {

@@ -11,7 +11,7 @@ namespace voxmelt::hwmodel {
 
 class PlantedFaults {
  public:
-  // Both must outlive it. It does nothing if the plan's fault is one of a stage.
+  // The plan and the pipeline must outlive it. It does nothing if the plan's fault is one of a stage.
   PlantedFaults(FaultPlan& plan, Pipeline& pipeline)
       : channel_(plan, pipeline), tile_(plan, pipeline), irradiance_(plan, pipeline), code_(plan, pipeline) {}
 

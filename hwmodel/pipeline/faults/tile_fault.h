@@ -13,7 +13,7 @@ namespace voxmelt::hwmodel {
 
 class TileFault final : public PortFault {
  public:
-  // Both must outlive it. It does nothing if the plan's fault is not one of these.
+  // The plan and the pipeline must outlive it. It does nothing if the plan's fault is not one of these.
   TileFault(FaultPlan& plan, Pipeline& pipeline);
   ~TileFault() override { pipeline_.plant(static_cast<PortFault*>(nullptr)); }
   TileFault(const TileFault&) = delete;

@@ -1,4 +1,4 @@
-// The pipeline's own arithmetic, written from docs/automaton.md alone. If it shared code with
+// The pipeline has arithmetic of its own, written from docs/automaton.md alone. If it shared code with
 // kernel/automaton/rule, their agreement would prove nothing.
 #pragma once
 

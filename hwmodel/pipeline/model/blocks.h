@@ -40,7 +40,7 @@ class StepBlock {
   void feed(HeatFifo& feed) {
     for (const auto& stage : stages_) stage->feed(feed);
   }
-  // The first pass of a train begins with an empty machine; further ones are added.
+  // The first pass of a train begins with an empty machine. Further ones are added.
   void begin_pass(const Pass& pass, int position, bool first) {
     const std::uint32_t step = pass.first + static_cast<std::uint32_t>(position);
     int copy = -1;

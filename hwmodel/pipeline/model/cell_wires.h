@@ -63,6 +63,7 @@ inline constexpr std::array kCellWires{
     cell_wire<&Cell::amount>(Wire::amount, "amount", "amount", true),
     cell_wire<&Cell::energy>(Wire::energy, "energy", "energy", true),  // under the paper's law
     cell_wire<&Cell::heat>(Wire::heat, "heat", "heat", true),          // in scenes with heat
+    // Each side band goes from the stage that makes it to those that read it:
     // conduction -> exchange
     cell_wire<&Cell::exposed_axes>(Wire::exposed_axes, "exposed_axes", "exposed axes", false),
     // pattern -> apply

@@ -81,9 +81,9 @@ class CodedState final : public StoredColumns {
   const std::uint64_t* slot(std::int64_t column) const { return words_.data() + slot_words_ * column; }
   std::int64_t bits_of(std::int64_t column) const override;
 
-  std::int64_t moved_bits() const;  // of all columns, in whole bursts
+  std::int64_t moved_bits() const;  // sum over all columns, in whole bursts
 
-  void store(const state::Volume& volume);  // as the host does it
+  void store(const state::Volume& volume);  // does the host's part
   // Reads a column back as the host does it.
   void load(const Shape& shape, const Place& place, state::Volume& volume) const;
 
@@ -115,7 +115,7 @@ class ColumnWriter {
   // Takes a token with `cells` lanes in the grid.
   void put(const Cell* lanes, int cells, const Place& place, std::uint64_t* slot, CodeFault* fault,
            std::int64_t pass);
-  std::int64_t bits() const { return layout_.at(stored_, 0); }  // of the present column so far
+  std::int64_t bits() const { return layout_.at(stored_, 0); }  // size of the present column so far
 
  private:
   CodeLayout layout_;

@@ -97,7 +97,7 @@ class ConductionPass : public Stage {
   virtual void watch() {}  // hook for what else a pass must see in the window
   virtual std::int64_t exposed_axes(const HeatWord& word) const { return word.exposed; }
 
-  // Calls visit(p, q) for the pairs of one axis that the token that comes closes.
+  // Calls visit(p, q) for the pairs of one axis that the arriving token completes.
   template <std::size_t kPart, class Visit>
   void each_pair(std::integral_constant<std::size_t, kPart> /*part*/, Visit&& visit) {
     constexpr unsigned p = kPairs[kPart].p, q = kPairs[kPart].q, span = p | q;

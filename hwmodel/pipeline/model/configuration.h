@@ -50,7 +50,7 @@ inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024, kMos
 
 using HwKey = Key<Configuration>;
 
-// hw.tile is a multiple of the lanes, so it must be read after them.
+// The key hw.tile is a multiple of the lanes, so it must be read after them.
 inline constexpr std::array kHwKeys{
     hw_key<&Configuration::lanes>("lanes", 1, kMostLanes, "1, 2, 4 .. 32", true),
     hw_key<&Configuration::cascade>("cascade", 1, kMostCascade, "1 .. 16"),

@@ -15,7 +15,7 @@ namespace voxmelt::hwmodel {
 namespace {
 
 constexpr std::int64_t kHangAfter = 1000;  // cycles in which no stage moves
-// Other machines may have asked the memory for much before.
+// Other machines may have asked the memory for much before, so a stage may wait for longer.
 constexpr std::int64_t kHangBesideOthers = 20000;
 
 }  // namespace

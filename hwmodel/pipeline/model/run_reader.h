@@ -30,7 +30,7 @@ struct RunPace {
 struct SpreadWord {
   Ground ground = Ground::inert;
   UInt<1> beside_wall;
-  UInt<16> amount = kFlatBed, heat;  // as they came; a pair looks at these
+  UInt<16> amount = kFlatBed, heat;  // unchanged; a pair looks at these
   // The following belong to a cell that is not blocked.
   UInt<16> present;  // amount after the pairs done so far
   UInt<32> content;  // amount x heat after them

@@ -52,7 +52,7 @@ class Settle final : public Stage {
 
  protected:
   void begin_step() override {
-    // Mixtures of no two sub-steps round alike.
+    // No two sub-steps round their mixtures alike.
     dithers_.next(UInt<16>::truncated(dither_of(moment().step) +
                                       dither_of(static_cast<std::uint32_t>(moment().substep))));
     paces_.next((static_cast<std::int64_t>(flow_.viscous.mobility) + moment().substeps / 2) /

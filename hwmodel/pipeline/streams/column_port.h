@@ -39,8 +39,8 @@ struct ColumnSlots {
   std::int64_t slot_bursts = 0;
 };
 
-// Goes through the columns of a train in the order of its stream, tile by tile. Of each tile it takes all
-// that it reads, or only those that it owns.
+// Goes through the columns of a train in the order of its stream, tile by tile. It visits all
+// columns that a tile reads, or only those that it owns.
 class ColumnWalk {
  public:
   void begin(const ColumnSlots& slots, bool owned);

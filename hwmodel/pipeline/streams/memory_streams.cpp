@@ -12,7 +12,7 @@ std::int64_t stream_bytes(const Design& design, bool coded) {
   const std::int64_t word = std::int64_t{shape.lanes} * design.cell_bits();
   const std::int64_t state =
       coded || shape.tiled() ? ColumnSlots(design, coded, 0).bytes() : (shape.tokens() * word + 7) / 8;
-  const std::int64_t words = 3 + shape.lanes;  // of irradiance per token: the mask has two at most
+  const std::int64_t words = 3 + shape.lanes;  // words of irradiance per token: the mask has two at most
   return state + shape.tiles() * shape.tokens() * words * IrradianceStream::kWordBits / 8 +
          2 * memory::kBurst;
 }
