@@ -30,7 +30,7 @@ class AddressError : public ModelError {
                    std::to_string(words) + " words") {}
 };
 
-// An unsigned wire or register has N bits.
+// Models an unsigned wire or register of N bits.
 template <int N>
 class UInt {
   static_assert(N >= 1 && N <= 62);
@@ -56,7 +56,7 @@ class UInt {
   Storage value_ = 0;
 };
 
-// A signed (two's complement) wire or register has N bits.
+// Models a signed (two's complement) wire or register of N bits.
 template <int N>
 class SInt {
   static_assert(N >= 2 && N <= 63);

@@ -94,7 +94,7 @@ class VolumeShrinker {
   }
 
  private:
-  static constexpr int kSmall = 8;  // cells; no grid is cut below this before everything else was tried
+  static constexpr int kSmall = 8;  // cells; side of the smaller boxes that crop_around tries
 
   std::array<int, 3> size() const {
     const state::Grid& grid = best_.volume.grid;

@@ -29,8 +29,8 @@ class Checker final : public FifoWatcher<Cell> {
 
   // Tells what a pass has to give for one tile. `steps` has an entry per cascaded step, and an empty one is
   // not compared. `written` is what the pass leaves in memory. If it is null, it is not compared. `left` is
-  // the state that the whole pass leaves, or null. `held` is what the last tile's state holds, and is given
-  // for that tile alone.
+  // the state that the whole pass leaves, or null. `held` is what that state holds, and is given for the
+  // last tile alone.
   struct Wanted {
     Pass pass;
     std::vector<std::vector<Expected>> steps;

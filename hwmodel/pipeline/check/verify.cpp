@@ -130,7 +130,7 @@ class Lockstep::Run {
     stopped_ = !options_.visit(memory_, report_);
   }
 
-  // The number of sub-steps is known only when a step begins if the viscous law counts them.
+  // Returns false if the scene lets each step count its sub-steps. They are known only when the step begins.
   bool substeps_are_known() const {
     return machine_.design().paper() || !machine_.design().parameters.flow.viscous.counts_substeps();
   }

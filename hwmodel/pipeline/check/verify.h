@@ -30,9 +30,8 @@ struct VerifyOptions {
   // took so far: passes, cycles, stages. No pass reaches beyond. If `visit` returns false, the run ends.
   std::uint32_t visit_every = 0;
   std::function<bool(const state::Volume&, const VerifyReport&)> visit;
-  bool waves =
-      // Keeps the cycles around the first difference or, if that is given, from `waves_from` on.
-      false;
+  // If set, the waves keep the cycles around the first difference or, if it is given, from `waves_from` on.
+  bool waves = false;
   std::optional<std::int64_t> waves_from;
   bool timeline = false;  // note what every stage did when
   // Makes the machine to be verified. If it is empty, the SystemC pipeline of `configuration` is verified. A

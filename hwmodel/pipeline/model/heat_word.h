@@ -1,4 +1,4 @@
-// Conduction and convection keep this word of a cell: what it was when it came, and its heat so far. A pass
+// Conduction and convection keep this word of a cell. It holds what came, and the heat so far. A pass
 // is synchronous, so every flux is computed from the temperatures at its begin. The heat takes the fluxes one
 // by one and stays within 16 bits after each. The reason is that what any subset of the neighbours takes or
 // gives is within the bound of docs/proofs.md, "Heat: 0 <= h <= 65535".

@@ -1,6 +1,6 @@
 // The state memory is the state as a train of passes sees it. A grid in one tile is replaced in place, behind
-// the reader. Tiles overlap, so the neighbours of a tile still have to read as it was what the tile writes.
-// So there are two copies, and each pass reads one and writes the other.
+// the reader. Tiles overlap, so the neighbours of a tile still have to read the old state of what the tile
+// writes. So there are two copies, and each pass reads one and writes the other.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// Checkers see the automaton's stream as such a machine. It runs trains of passes over a volume, shows the
-// tokens behind every stage, and accounts for every cycle. The SystemC pipeline is one, and a simulation of
-// RTL can be another.
+// A stream machine is the automaton's stream as its checkers see it. It runs trains of passes over a volume,
+// shows the tokens behind every stage, and accounts for every cycle. The SystemC pipeline is one, and a
+// simulation of RTL can be another.
 #pragma once
 
 #include <cstdint>

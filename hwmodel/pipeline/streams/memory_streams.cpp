@@ -156,7 +156,7 @@ bool MemoryStreams::settled() const {
 }
 
 void MemoryStreams::cycle_state(std::int64_t now) {
-  // Bursts are written whole, so the last one of a pass has some unused bits. A burst may be read again when
+  // Bursts are written whole, so the last one of a pass may have unused bits. A burst may be read again when
   // it has been handed on, because the memory keeps the order of requests to it.
   const std::int64_t pass = burst_bits(state_.pass);
   const std::int64_t written = tokens_written_ - (last_written_ == now ? 1 : 0);

@@ -1,5 +1,5 @@
-// The streams of the pipeline lie on a memory. Words are packed into bursts of 64 bytes, and each stream has
-// a buffer. A pass reads where the last one wrote, and never ahead of it.
+// The streams of the pipeline go to and from a memory. Words are packed into bursts of 64 bytes, and each
+// stream has a buffer. A pass reads where the last one wrote, and never ahead of it.
 #pragma once
 
 #include <array>
@@ -130,12 +130,12 @@ class MemoryStreams final : public StreamMemory {
   std::vector<int> feed_ports_;
   bool coded_ = false;
   std::int64_t token_ = 0, tokens_ = 0;  // bits of a token; tokens of a pass
-  // The state lies there by columns if it is coded, or the grid is in tiles.
+  // The state lies in memory by columns if it is coded, or the grid is in tiles.
   std::optional<ColumnSlots> slots_;
   ColumnInput columns_;
   ColumnOutput written_columns_;
   std::int64_t tokens_read_ = 0, tokens_put_ = 0;  // in the present column, without the code
-  // Otherwise it lies there in the order of its stream.
+  // Otherwise it lies in memory in the order of its stream.
   Input state_;
   std::int64_t wanted_ = 0;                                           // bits of all passes
   std::int64_t tokens_written_ = 0, last_written_ = -1, handed_ = 0;  // tokens; bits given to the memory
