@@ -10,8 +10,8 @@
 
 namespace voxmelt::hwmodel {
 
-// Fills `folder` with the fields and scene.toml, which extends `scene`. `command` shows the mismatch again.
-// It goes into the file's head as a comment.
+// Fills `folder` with the fields and scene.toml, which extends `scene`. `command` shows the mismatch again,
+// with the overrides of the scene in force. It goes into the file's head as a comment.
 void write_replay(const std::filesystem::path& folder, const std::filesystem::path& scene,
                   const state::Volume& volume, std::uint32_t step, const std::string& command);
 

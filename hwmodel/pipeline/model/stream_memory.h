@@ -1,4 +1,4 @@
-// A stream memory decides when the pipeline may have its tokens, and when it may write them. Bytes do not
+// A stream memory decides when the pipeline may read its tokens, and when it may write them. Bytes do not
 // move here. The pipeline reads and writes the volume itself, when it may. All answers hold from the begin of
 // the cycle, so that the order of the blocks cannot matter.
 #pragma once

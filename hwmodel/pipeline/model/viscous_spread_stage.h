@@ -144,7 +144,7 @@ class ViscousSpread final : public Stage {
     }
   }
 
-  // Does the pairs that q completes. A null cell is outside of the grid.
+  // Computes the pairs that q completes. A null cell is outside of the grid.
   void look(const SeenCell& q, const SeenCell* w, const SeenCell* s, const SeenCell* sw) {
     if (walls_) note_walls(*q.word, w != nullptr ? w->word : nullptr, s != nullptr ? s->word : nullptr, q.x);
     const bool any = q.word->runs() || (w != nullptr && w->word->runs()) ||
@@ -180,7 +180,7 @@ class ViscousSpread final : public Stage {
   static bool is_diagonal(int axis) { return axis >= 2; }
   std::int64_t dither_of_axis(int axis) const { return axis_dither_[static_cast<std::size_t>(axis)]; }
 
-  // Lets a flow go from the cell with the higher head.
+  // Lets liquid flow from the cell with the higher head.
   void flow(const SeenCell& from, const SeenCell& to, int axis) {
     if (!from.word->runs()) return;
     UInt<16> amount = rests(from, to, axis) ? 0 : wanted(from, to, axis, dither_of_axis(axis));
