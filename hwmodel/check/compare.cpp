@@ -51,7 +51,7 @@ TokenComparison::~TokenComparison() {
   actual_.source.probe(nullptr);
 }
 
-// Channels belong together by name: numbers are each machine's own.
+// Channels belong together by name, because each machine has numbers of its own.
 void TokenComparison::match(const std::vector<TokenChannel>& expected,
                             const std::vector<TokenChannel>& actual) {
   for (const TokenChannel& one : expected) {

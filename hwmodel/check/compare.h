@@ -1,7 +1,7 @@
-// The first difference between what two machines carry. In order: every channel gets the same tokens, and
-// gives the same, at whatever time. In the same cycle: also when.
+// The comparison finds the first difference between what two machines carry. In order, every channel must
+// take and give the same tokens at whatever time. In the same cycle, the times must agree, too.
 //
-// Both machines run one after another, or in turn: what one is ahead is kept.
+// The machines run one after the other, or in turn. The comparison keeps what one is ahead of the other.
 #pragma once
 
 #include <array>
@@ -19,27 +19,27 @@ namespace voxmelt::hwmodel {
 
 struct TokenDifference {
   enum class Kind : std::uint8_t {
-    value,    // another one on a wire
+    value,    // another value on a wire
     cycle,    // the same token, in another cycle
-    missing,  // a token that does not come
-    extra,    // one that should not
-    channel,  // one of them lacks the channel, or its tokens are of another type
+    missing,  // a token that the actual machine lacks
+    extra,    // a token that the expected machine lacks
+    channel,  // only one machine has the channel, or the types of its tokens differ
   };
   Kind kind = Kind::value;
   std::string channel{};
-  bool enters = true;        // else it differs when it leaves
-  std::int64_t ordinal = 0;  // of the token in its channel, from 0
+  bool enters = true;        // false: it differs when it leaves
+  std::int64_t ordinal = 0;  // number of the token in its channel, from 0
   std::string wire{};
   int lane = 0;
   std::int64_t expected = 0, actual = 0;                // values of the wire
-  std::int64_t expected_cycle = -1, actual_cycle = -1;  // -1: it did not come
+  std::int64_t expected_cycle = -1, actual_cycle = -1;  // -1: the token did not come
 };
 
 std::string text_of(const TokenDifference& difference);
 
 enum class Compared : std::uint8_t { in_order, in_same_cycle };
 
-// As long as it lives it is the probe of both sources.
+// Is the probe of both sources as long as it lives.
 class TokenComparison {
  public:
   TokenComparison(TokenSource& expected, TokenSource& actual, Compared how);
@@ -47,20 +47,20 @@ class TokenComparison {
   TokenComparison& operator=(const TokenComparison&) = delete;
   ~TokenComparison();
 
-  // At its first difference a source is stopped.
+  // Stops both sources when it finds the first difference.
   const std::optional<TokenDifference>& difference() const { return difference_; }
-  // Both have run: what one has and the other has not is a difference, too.
+  // Is called when both have run. A token that only one of them had is a difference, too.
   const std::optional<TokenDifference>& end();
-  std::int64_t compared() const { return compared_; }  // tokens; each as it enters and as it leaves
+  std::int64_t compared() const { return compared_; }  // tokens; each counts as it enters and as it leaves
 
  private:
   struct Token {
     std::int64_t cycle;
     std::vector<std::int64_t> values;
   };
-  struct Stream {  // what enters a channel, or what leaves it
+  struct Stream {  // tokens that enter a channel, or that leave it
     std::int64_t ordinal = 0;
-    std::array<std::deque<Token>, 2> ahead;  // of the expected one, of the actual one
+    std::array<std::deque<Token>, 2> ahead;  // tokens of the expected machine, of the actual one
   };
   struct Side final : ChannelProbe {
     Side(TokenComparison& comparison, TokenSource& from, std::size_t which)
@@ -70,7 +70,7 @@ class TokenComparison {
     TokenComparison& all;
     TokenSource& source;
     std::size_t number;
-    std::map<int, std::size_t> channels;  // by number: which of `all.channels_`
+    std::map<int, std::size_t> channels;  // from a number to an index of `all.channels_`
     std::map<int, TokenType> types;
   };
 
@@ -81,7 +81,7 @@ class TokenComparison {
 
   Compared how_;
   Side expected_, actual_;
-  std::vector<TokenChannel> channels_;  // of the expected one
+  std::vector<TokenChannel> channels_;  // channels of the expected machine
   std::vector<std::array<Stream, 2>> streams_;
   std::optional<TokenDifference> difference_;
   std::int64_t compared_ = 0;

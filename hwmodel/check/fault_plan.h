@@ -1,6 +1,6 @@
-// Faults that are planted in a machine, to see that its checker finds them. A machine lists its faults, one
-// row each. A plan has one of them: it strikes once, at the first place where it makes a difference, and
-// notes where it leaves something wrong.
+// Faults are planted in a machine to see that its checker finds them. A machine lists its faults, one row
+// each. A plan has one of them. It strikes once, at the first place where it makes a difference, and notes
+// where it leaves something wrong.
 #pragma once
 
 #include <algorithm>
@@ -20,11 +20,12 @@ namespace voxmelt::hwmodel::check {
 template <class Fault>
 struct FaultInfo {
   Fault fault;
-  std::string_view name, stage, what;  // of --plant; where it strikes; what goes wrong
+  // Give the fault's name for --plant, the stage where it strikes, and what goes wrong.
+  std::string_view name, stage, what;
 };
 
-// A row for each fault, in the order of the enumerators from `none` to `end`. One that the table lacks would
-// never be tested.
+// Checks that each fault from `none` to `end` has a row, in the order of the enumerators. A fault without a
+// row would never be tested.
 template <class Fault, std::size_t kRows>
 constexpr bool lists_all(const std::array<FaultInfo<Fault>, kRows>& rows) {
   auto expected = static_cast<std::size_t>(Fault::none);
@@ -33,7 +34,7 @@ constexpr bool lists_all(const std::array<FaultInfo<Fault>, kRows>& rows) {
   return ++expected == static_cast<std::size_t>(Fault::end);
 }
 
-// Null: no fault has this name.
+// Returns null if no fault has this name.
 template <class Fault>
 const FaultInfo<Fault>* find_fault(std::span<const FaultInfo<Fault>> rows, std::string_view name) {
   const auto found =
@@ -41,14 +42,14 @@ const FaultInfo<Fault>* find_fault(std::span<const FaultInfo<Fault>> rows, std::
   return found == rows.end() ? nullptr : &*found;
 }
 
-// `Place`: where a fault strikes, as its machine says it.
+// A `Place` says where a fault strikes, in the words of its machine.
 template <class Fault, class Place>
 class FaultPlan {
  public:
   using Strike = Place;
 
   FaultPlan() = default;
-  // It strikes from a time step on, and in one channel, where it is a fault of channels.
+  // Strikes from a time step on. A fault of channels strikes in one channel.
   explicit FaultPlan(Fault fault, std::uint32_t first_step = 0, std::string channel = {})
       : fault_(fault), first_step_(first_step), channel_(std::move(channel)) {}
 
@@ -61,7 +62,7 @@ class FaultPlan {
   void strike(Strike strike) { struck_ = std::move(strike); }
   const std::optional<Strike>& struck() const { return struck_; }
 
-  // A part of the fault, as long as the plan lives.
+  // Keeps a part of the fault as long as the plan lives.
   void keep(std::shared_ptr<void> part) { kept_.push_back(std::move(part)); }
 
  private:
@@ -72,8 +73,8 @@ class FaultPlan {
   std::optional<Strike> struck_;
 };
 
-// What the fault policies of all stages share. Such a policy takes the place of NoFaults in a stage, and is
-// called at the points named there.
+// Holds what the fault policies of all stages share. A policy takes the place of NoFaults in a stage,
+// and is called at the points named there.
 template <class Plan>
 class Planted {
  public:

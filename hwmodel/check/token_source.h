@@ -1,5 +1,5 @@
-// A machine as the tools see it that look at any: a number of channels, each with tokens of its own type, in
-// cycles. A SystemC model is one, a recorded trace another, a simulation of RTL could be a third.
+// Tools that look at any machine see it as a number of channels, each with tokens of its own type, in cycles.
+// A SystemC model is such a source, and so is a recorded trace. A simulation of RTL could be a third.
 //
 // In every cycle a probe hears of every channel: which side was ready, what entered, what could be taken.
 #pragma once
@@ -20,7 +20,7 @@ struct TokenWire {
   bool has_sign = false;
 };
 
-// The tokens of a channel: the same wires in each lane.
+// Describes the tokens of a channel. Each lane has the same wires.
 struct TokenType {
   int lanes = 1;
   std::vector<TokenWire> wires;
@@ -32,12 +32,12 @@ struct TokenType {
 
 struct TokenChannel {
   std::string name;  // "step 0: gravity -> pattern"
-  int number = 0;    // by which a probe hears of it
+  int number = 0;    // the number that a probe hears
   int depth = 0;     // tokens; 0: not known
   TokenType type;
 };
 
-// Every cycle of a stage is of one class, or of none.
+// Names the classes of a stage's cycles. A cycle is of one class, or of none.
 struct StageClasses {
   std::string name;
   std::vector<std::string> classes;
@@ -48,11 +48,13 @@ class TokenSource {
   virtual ~TokenSource() = default;
 
   virtual std::vector<TokenChannel> token_channels() const = 0;
-  virtual void probe(ChannelProbe* probe) = 0;  // of all of them; null: none
-  virtual std::int64_t cycle() const = 0;       // the present one
-  virtual void stop() = 0;                      // after it
+  // Sets the probe of all channels, or removes it if `probe` is null.
+  virtual void probe(ChannelProbe* probe) = 0;
+  virtual std::int64_t cycle() const = 0;  // the present cycle
+  virtual void stop() = 0;                 // ends the run after the present cycle
 
-  // The stages, and how many cycles of each class they had so far: stage by stage, in the order of classes.
+  // Returns the stages, and how many cycles of each class they had so far: stage by stage, in the order of
+  // classes.
   virtual std::vector<StageClasses> stage_classes() const { return {}; }
   virtual std::vector<std::int64_t> stage_counts() const { return {}; }
 };

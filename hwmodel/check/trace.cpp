@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kFirstLine = "voxmelt trace 1";
 
-// Reads the lines, and knows where it is.
+// Reads the lines, and knows the number of the present one.
 class TraceReader {
  public:
   explicit TraceReader(std::istream& from) : from_(from) {}
@@ -103,7 +103,7 @@ class TraceReader {
   std::int64_t last_ = 0;
 };
 
-// A token as a player hands it on: values, which its type knows how to read.
+// Returns the type of a token as a player hands it on: `read` copies the values.
 TokenType readable(TokenType type) {
   type.read = [count = type.values()](const void* token, std::int64_t* values) {
     std::copy_n(static_cast<const std::int64_t*>(token), count, values);

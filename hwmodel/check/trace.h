@@ -1,4 +1,5 @@
-// The tokens of a machine in a file, and back. Text, a line each; cells of a line are parted by a blank:
+// The tokens of a machine are written to a file, and read back. The file is text, with one record a line. The
+// cells of a line are separated by a blank:
 //
 //   voxmelt trace 1
 //   channel 0 4 2 step 0: reader -> melt      number, lanes, depth in tokens, name
@@ -22,7 +23,7 @@
 
 namespace voxmelt::hwmodel {
 
-// A line that is none; the message begins with its number.
+// Reports a line that cannot be read. The message begins with its number.
 class TraceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -31,9 +32,9 @@ struct TokenTrace {
   struct Event {
     int train = 0;
     std::int64_t cycle = 0;
-    std::size_t channel = 0;  // in `channels`
-    bool enters = true;       // else it leaves
-    std::size_t first = 0;    // of its values
+    std::size_t channel = 0;  // index in `channels`
+    bool enters = true;       // false: it leaves
+    std::size_t first = 0;    // index of its first value
   };
   std::vector<TokenChannel> channels;  // `read` is empty
   std::vector<Event> events;
@@ -47,7 +48,7 @@ struct TokenTrace {
 void write_trace(const TokenTrace& trace, std::ostream& to);
 TokenTrace read_trace(std::istream& from);  // throws TraceError
 
-// Notes every token of a source. As long as it lives it is the source's probe.
+// Notes every token of a source. The recorder is the source's probe as long as it lives.
 class TraceRecorder final : public ChannelProbe {
  public:
   explicit TraceRecorder(TokenSource& source);
@@ -66,11 +67,11 @@ class TraceRecorder final : public ChannelProbe {
   std::vector<std::size_t> by_number_;
   TokenTrace trace_;
   int train_ = 0;
-  std::int64_t last_ = 0;  // cycle that was heard of
+  std::int64_t last_ = 0;  // the last cycle that was heard of
 };
 
-// A trace in the place of the machine that made it. A probe hears of the channels in which something moves;
-// that the others were ready or valid is in no trace.
+// Plays a trace in the place of the machine that made it. A probe hears only of the channels in which
+// something moves. A trace does not say when the others were ready or valid.
 class TracePlayer final : public TokenSource {
  public:
   explicit TracePlayer(const TokenTrace& trace) : trace_(trace) {}
@@ -80,9 +81,9 @@ class TracePlayer final : public TokenSource {
   std::int64_t cycle() const override { return cycle_; }
   void stop() override { stopped_ = true; }
 
-  // Plays the next train. False: there is none.
+  // Plays the next train. Returns false if there is none.
   bool play_train();
-  // All of them that are left, unless it is stopped.
+  // Plays all trains that are left, unless it is stopped.
   void play() {
     while (!stopped_ && play_train()) continue;
   }
@@ -90,7 +91,7 @@ class TracePlayer final : public TokenSource {
  private:
   const TokenTrace& trace_;
   ChannelProbe* probe_ = nullptr;
-  std::size_t next_ = 0;  // event
+  std::size_t next_ = 0;  // index of the next event
   std::int64_t cycle_ = 0;
   bool stopped_ = false;
 };

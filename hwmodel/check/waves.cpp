@@ -10,7 +10,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// A name that every viewer takes.
+// Makes a name that every viewer takes.
 std::string identifier(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -25,7 +25,7 @@ std::string identifier(const std::string& text) {
   return out;
 }
 
-// "!", "\"" ... "~", "!!", ...: the short names of a VCD.
+// Makes the short names of a VCD: "!", "\"" ... "~", "!!", ...
 std::string code(std::size_t number) {
   std::string out;
   do {

@@ -1,5 +1,5 @@
-// A memory of one column that reverses columns: what comes bottom first leaves top first, a column later. One
-// address serves both ports: the old word is read, then the new one is written in its place. The address
+// A memory of one column reverses columns: what comes bottom first leaves top first, a column later. One
+// address serves both ports. The old word is read, then the new one is written in its place. The address
 // changes direction after every column. So one memory does the work of two that swap (ping-pong).
 #pragma once
 
@@ -22,14 +22,15 @@ class ColumnReverser {
         depth_(static_cast<std::size_t>(depth)),
         words_(lanes_ * depth_) {}
 
-  // The next exchange is the first of a column; what the memory holds is of no use.
+  // Makes the next exchange the first of a column. The old contents of the memory are of no use then.
   void restart() {
     address_ = 0;
     done_ = 0;
     upwards_ = true;
   }
 
-  // Writes a token of this column, and gives the token of the column before that lies as far from its end.
+  // Writes a token of this column. Returns in `out` the token of the column before that lies as far from its
+  // end.
   void exchange(const Word* in, Word* out) {
     if (address_ >= depth_) [[unlikely]]
       throw AddressError(static_cast<std::int64_t>(address_), static_cast<std::int64_t>(depth_));
@@ -48,18 +49,18 @@ class ColumnReverser {
     return {std::move(name), static_cast<std::int64_t>(depth_), static_cast<std::int64_t>(lanes_), bits};
   }
 
-  // For planted faults, at the begin of a column: the token that the n-th exchange will give.
+  // Returns the token that the n-th exchange will give. Planted faults call it at the begin of a column.
   const Word* will_give(std::int64_t n) const {
     const std::size_t from = static_cast<std::size_t>(n);
     return &words_[(upwards_ ? address_ + from : address_ - from) * lanes_];
   }
-  // For planted faults, at the begin of a column: the address does not change direction, so the column leaves
-  // as it came.
+  // Keeps the address from changing direction, so that the column leaves as it came. A planted fault calls it
+  // at the begin of a column.
   void miss_turn() {
     upwards_ = !upwards_;
     address_ = upwards_ ? 0 : depth_ - 1;
   }
-  // Within a column: the token written last.
+  // Returns the token written last, within a column.
   Word* newest() { return &words_[(upwards_ ? address_ - 1 : address_ + 1) * lanes_]; }
 
  private:

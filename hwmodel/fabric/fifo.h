@@ -1,6 +1,6 @@
-// A bounded ready/valid stream of tokens (P lanes each). Both sides decide on the state at the begin of a
-// cycle; `commit` ends the cycle. So the order in which blocks are evaluated cannot matter, and a channel of
-// depth 1 moves a token every second cycle, one of depth 2 or more every cycle.
+// A channel is a bounded ready/valid stream of tokens (P lanes each). Both sides decide on the state at the
+// begin of a cycle, and `commit` ends the cycle. So the order in which blocks are evaluated cannot matter. A
+// channel of depth 1 moves a token every second cycle, one of depth 2 or more every cycle.
 #pragma once
 
 #include <algorithm>
@@ -27,22 +27,23 @@ class FifoWatcher {
 class ChannelProbe {
  public:
   struct Sides {
-    bool ready, put;  // of the producer: may it, and does it?
-    bool valid, get;  // of the consumer
+    bool ready, put;  // the producer may put a token; it does
+    bool valid, get;  // the consumer may take one; it does
     int count;        // tokens at the begin of the cycle
   };
   virtual ~ChannelProbe() = default;
-  // `in` is the token that enters, `out` the oldest one; null where there is none. Both point to the lanes of
-  // a token.
+  // `in` is the token that enters, `out` the oldest one. Each points to the lanes of a token, and is null if
+  // there is none.
   virtual void cycle(int channel, const Sides& sides, const void* in, const void* out) = 0;
 };
 
-// Corrupts what is stored. `last` is the token stored before `now`; `waiting` is how many tokens are in front
-// of it.
+// Corrupts what is stored. `last` is the token stored before `now`. `waiting` counts the tokens in front of
+// it.
 template <class Word>
 class FifoFault {
  public:
-  enum class Effect : std::uint8_t { none, lost, jammed };  // `now` is not stored; it is the last one ever
+  // A `lost` token is not stored. A `jammed` channel takes no more tokens after `now`.
+  enum class Effect : std::uint8_t { none, lost, jammed };
   virtual ~FifoFault() = default;
   virtual Effect stores(std::int64_t ordinal, Word* now, Word* last, int waiting) = 0;
 };
@@ -65,14 +66,15 @@ class Fifo {
   int channel() const { return channel_; }
   int depth() const { return depth_; }
 
-  // Producer side. `put` gives the place of the new token, to be filled before `commit`.
+  // The producer's side follows. `put` gives the place of the new token, which must be filled before
+  // `commit`.
   bool ready() const { return count_ < depth_ && !stall_.put && !jammed_; }
   Word* put() {
     putting_ = true;
     return slot(tail_);
   }
 
-  // Consumer side: the oldest token stays valid until `commit`.
+  // The consumer's side follows. The oldest token stays valid until `commit`.
   bool valid() const { return count_ > 0 && !stall_.get; }
   const Word* get() {
     getting_ = true;
@@ -90,7 +92,8 @@ class Fifo {
       putting_ = getting_ = false;
       highest_ = std::max(highest_, count_);
     }
-    // A channel that holds too many has overwritten its oldest token: a watcher notices when it leaves.
+    // A channel that holds too many has overwritten its oldest token. A watcher notices it when that token
+    // leaves.
     ++occupancy_[static_cast<std::size_t>(std::min(count_, depth_))];
     stall_ = stalls_.next();
   }
@@ -101,12 +104,12 @@ class Fifo {
     stalls_ = StallInjector(stall_seed_, static_cast<std::uint64_t>(channel_), pass);
   }
   void watch(FifoWatcher<Word>* watcher) { watcher_ = watcher; }
-  void probe(ChannelProbe* probe) { probe_ = probe; }  // null: none
+  void probe(ChannelProbe* probe) { probe_ = probe; }  // null: no probe
 
-  void plant(FifoFault<Word>* fault) { fault_ = fault; }  // null: none
+  void plant(FifoFault<Word>* fault) { fault_ = fault; }  // null: no fault
 
   int count() const { return count_; }
-  int highest() const { return highest_; }                                   // occupancy, since the begin
+  int highest() const { return highest_; }  // highest occupancy since the begin
   const std::vector<std::int64_t>& occupancy() const { return occupancy_; }  // cycles with 0, 1, ... tokens
   std::int64_t entered() const { return entered_; }
   std::int64_t left() const { return left_; }

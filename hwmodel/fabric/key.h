@@ -1,5 +1,5 @@
-// A key of [hw]: what a machine's configuration calls a number, and what the number may be. Each machine
-// lists its keys in one table; files, --set, helps and reports follow it.
+// A key of [hw] gives a number of a machine's configuration its name and its range. Each machine lists its
+// keys in one table, and files, --set, help texts and reports follow it.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,16 @@ namespace voxmelt::hwmodel {
 
 template <class Configuration>
 struct Key {
-  std::string_view name;    // of [hw], --set, JSON and CSV
+  std::string_view name;    // in [hw], --set, JSON and CSV
   std::int64_t low, high;   // its range
-  std::string_view values;  // the same for people
+  std::string_view values;  // the range as a reader sees it
   bool power_of_two;
   std::int64_t (*get)(const Configuration&);
   void (*set)(Configuration&, std::int64_t);
 
   std::int64_t usual() const { return get(Configuration{}); }
-  bool chosen() const { return name != "stall_seed"; }  // by a designer: it is no test of the channels
+  // Tells whether a designer chooses the number. The stall seed only tests the channels.
+  bool chosen() const { return name != "stall_seed"; }
 };
 
 namespace key_detail {
@@ -36,7 +37,7 @@ constexpr auto& member(auto& owner) {
 
 }  // namespace key_detail
 
-// Of a member of the configuration, or of a member of it.
+// Makes the key of a member of the configuration, or of a member of such a member.
 template <auto First, auto... Rest>
 constexpr auto hw_key(std::string_view name, std::int64_t low, std::int64_t high,
                       std::string_view values = {}, bool power_of_two = false) {

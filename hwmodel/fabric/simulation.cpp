@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-// libsystemc's own main needs this symbol. Ours never calls it.
+// The main function of libsystemc needs this symbol. Ours never calls it.
 int sc_main(int, char**) { return 1; }
 
 // SystemC never frees its pools, which is no leak of ours. (Only the address sanitizer calls this.)
@@ -13,7 +13,7 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libsystemc";
 namespace voxmelt::hwmodel {
 namespace {
 
-constexpr std::uint64_t kPeriod = 1000;    // of the clock, in the kernel's units of time (1 ps)
+constexpr std::uint64_t kPeriod = 1000;    // period of the clock, in the kernel's units of time (1 ps)
 constexpr std::int64_t kPollEvery = 4096;  // cycles
 
 }  // namespace

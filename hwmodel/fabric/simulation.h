@@ -1,5 +1,5 @@
-// What machines need of SystemC: one simulation with one clock, in which one machine runs or several beside
-// each other; channels that commit in the update phase; blocks with one process each. Only the file that
+// A simulation holds what machines need of SystemC. It has one clock, and one machine runs in it, or several
+// beside each other. Channels commit in the update phase, and each block has one process. Only the file that
 // assembles a machine includes this one.
 //
 //   Simulation simulation;
@@ -26,8 +26,8 @@ namespace voxmelt::hwmodel {
 
 class Simulation;
 
-// A machine: it works through jobs, one after another. Its cycles count from 0 in each of them. Whatever ends
-// a job, the cycle in which it happened is finished by all of its blocks.
+// A machine works through jobs, one after another. Its cycles count from 0 in each of them. When a job ends
+// for any reason, all of its blocks finish the present cycle.
 class Part {
  public:
   explicit Part(Simulation& simulation);
@@ -35,29 +35,30 @@ class Part {
   Part& operator=(const Part&) = delete;
   ~Part();
 
-  // Set once. All are called between two cycles, when every block has run and every channel has committed.
+  // These are set once. All are called between two cycles, when every block has run and every channel has
+  // committed. All but `done` may be empty.
   std::function<bool()> done;        // is the job done?
-  std::function<void()> each_cycle;  // of a job; may be empty, as the others
+  std::function<void()> each_cycle;  // after each cycle of a job
   std::function<void()> poll;        // now and then; what it throws ends the job
-  std::function<void()> ended;       // a job has; it may begin another one, from the next cycle on
+  std::function<void()> ended;       // after a job; it may begin another one, from the next cycle on
   std::int64_t hang_after = 1000;    // cycles in which nothing moves
 
-  std::int64_t moves = 0;  // of stages and of whatever else shows that the machine does not hang
+  std::int64_t moves = 0;  // moves of stages, and of whatever else shows that the machine does not hang
 
   bool works() const { return works_; }
-  std::int64_t cycle() const;            // of the present job
-  void stop() { stops_ = true; }         // the job, after the present cycle
-  void fail(std::exception_ptr error) {  // the same
+  std::int64_t cycle() const;            // cycle of the present job
+  void stop() { stops_ = true; }         // ends the job after the present cycle
+  void fail(std::exception_ptr error) {  // ends it likewise, with an error
     if (!error_) error_ = std::move(error);
   }
 
-  // Of the last job.
+  // Tells how the last job ended.
   struct End {
     std::int64_t cycles = 0;
     bool complete = false, hangs = false;
   };
   const End& end() const { return end_; }
-  // Throws what a block, or `poll`, has thrown in it.
+  // Throws what a block, or `poll`, has thrown in the last job.
   void rethrow();
 
  private:
@@ -71,7 +72,7 @@ class Part {
   std::exception_ptr error_;
 };
 
-// One SystemC context and one clock. A program can run many simulations, one after another, or in turn.
+// Holds one SystemC context and one clock. A program can run many simulations, one after another, or in turn.
 class Simulation {
  public:
   Simulation();
@@ -79,7 +80,7 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
   ~Simulation();
 
-  // Everything of SystemC is made, and destroyed, within one.
+  // All SystemC objects are made, and destroyed, within a scope.
   class Scope {
    public:
     explicit Scope(Simulation& simulation) : of_(simulation) { of_.enter(); }
@@ -91,14 +92,14 @@ class Simulation {
     Simulation& of_;
   };
 
-  // What no machine owns, and all may use: it runs its cycle when all blocks have run theirs.
+  // Adds something that no machine owns and all may use. It runs its cycle when all blocks have run theirs.
   void after_blocks(std::function<void()> cycle) { after_blocks_.push_back(std::move(cycle)); }
 
   void begin(Part& part);
-  void run(Part& part);  // until its job has ended
+  void run(Part& part);  // until the part's job has ended
   void run();            // until no machine has a job
 
-  std::int64_t cycle() const;  // since the begin
+  std::int64_t cycle() const;  // cycles since the begin
 
  private:
   friend class Part;
@@ -113,15 +114,15 @@ class Simulation {
   sc_core::sc_simcontext* outer_ = nullptr;
   sc_core::sc_simcontext* outer_default_ = nullptr;
   sc_core::sc_simcontext* own_;
-  int depth_ = 0;  // of scopes
+  int depth_ = 0;  // number of open scopes
   std::unique_ptr<Clock> clock_;
   std::vector<Part*> parts_;
   std::vector<std::function<void()>> after_blocks_;
-  const Part* awaited_ = nullptr;  // null: all
+  const Part* awaited_ = nullptr;  // null: all parts
   bool ran_ = false;
 };
 
-// A channel between blocks: it commits in the update phase, after every process of the cycle has run.
+// A channel between blocks commits in the update phase, after every process of the cycle has run.
 template <class Word>
 class Link final : public sc_core::sc_prim_channel {
  public:
@@ -136,7 +137,8 @@ class Link final : public sc_core::sc_prim_channel {
   Fifo<Word> fifo_;
 };
 
-// A block: one process, one cycle of its plain C++ content at every rising edge, while its machine works.
+// A block has one process. It runs one cycle of its plain C++ content at every rising edge while its machine
+// works.
 class Block final : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(Block);

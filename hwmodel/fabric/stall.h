@@ -1,4 +1,4 @@
-// Pseudo-random stalls: any channel may refuse a transfer in any cycle, and no result may depend on it.
+// Pseudo-random stalls let any channel refuse a transfer in any cycle. No result may depend on them.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// A line buffer: a delay of whole tokens (P lanes each) with taps. Behind every tap there is a register or
-// the read port of a memory. What is written through a tap travels on. Each stretch between two taps acts as
-// a memory of its own (one read, one write per cycle), whose word is updated on the way.
+// A line buffer delays whole tokens (P lanes each), and has taps. Behind every tap there is a register or the
+// read port of a memory. A word written through a tap travels on. Each stretch between two taps acts as a
+// memory of its own (one read, one write per cycle), whose word is updated on the way.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace voxmelt::hwmodel {
 
-// What a buffer costs: `words` deep, `lanes` words wide, `bits` each.
+// Tells what a buffer costs: it is `words` deep and `lanes` words wide, of `bits` each.
 struct BufferCost {
   std::string name;
   std::int64_t words = 0, lanes = 0, bits = 0;
@@ -27,14 +27,14 @@ class TapLine {
   TapLine(int lanes, std::size_t delay)
       : lanes_(static_cast<std::size_t>(lanes)), slots_(delay + 1), words_(slots_ * lanes_) {}
 
-  // Moves everything on by one token; the new one (tap 0) is blank.
+  // Moves everything on by one token. The new token (tap 0) is blank.
   void shift() {
     newest_ = newest_ + 1 == slots_ ? 0 : newest_ + 1;
     Word* word = &words_[newest_ * lanes_];
     for (std::size_t lane = 0; lane < lanes_; ++lane) word[lane] = Word{};
   }
 
-  // The lanes of the token that came `delay` shifts ago (0: the newest), open to change.
+  // Returns the lanes of the token that came `delay` shifts ago (0: the newest), for reading and writing.
   Word* tap(std::size_t delay) {
     if (delay >= slots_) [[unlikely]]
       throw AddressError(static_cast<std::int64_t>(delay), static_cast<std::int64_t>(slots_));

@@ -1,4 +1,4 @@
-// Numbers of a declared width, as in hardware. A value that does not fit is a broken invariant, and never
+// Numbers have a declared width, as in hardware. A value that does not fit is a broken invariant, and never
 // wraps silently.
 #pragma once
 
@@ -9,12 +9,12 @@
 
 namespace voxmelt::hwmodel {
 
-// What the hardware could not do: a broken invariant of the model, reported with its stage.
+// Reports what the hardware could not do, a broken invariant of the model. It is reported with its stage.
 class ModelError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-// A value that needs more bits than its wire has.
+// Reports a value that needs more bits than its wire has.
 class WidthError : public ModelError {
  public:
   WidthError(std::int64_t value, int bits, bool is_signed)
@@ -22,7 +22,7 @@ class WidthError : public ModelError {
                    (is_signed ? " signed bits" : " bits")) {}
 };
 
-// An address that a memory does not have.
+// Reports an address that a memory does not have.
 class AddressError : public ModelError {
  public:
   AddressError(std::int64_t address, std::int64_t words)
@@ -30,7 +30,7 @@ class AddressError : public ModelError {
                    std::to_string(words) + " words") {}
 };
 
-// An unsigned wire or register of N bits.
+// Models an unsigned wire or register of N bits.
 template <int N>
 class UInt {
   static_assert(N >= 1 && N <= 62);
@@ -56,7 +56,7 @@ class UInt {
   Storage value_ = 0;
 };
 
-// A signed (two's complement) wire or register of N bits.
+// Models a signed (two's complement) wire or register of N bits.
 template <int N>
 class SInt {
   static_assert(N >= 2 && N <= 63);
@@ -78,7 +78,7 @@ class SInt {
   Storage value_ = 0;
 };
 
-// Bits that hold 0..most.
+// Returns the number of bits that hold 0..most.
 constexpr int bits_for(std::int64_t most) {
   int bits = 1;
   while (most >> bits > 0) ++bits;

@@ -1,5 +1,6 @@
-// Where a burst lies. From the lowest bits of its number on: channel, bank group, columns of a row, bank,
-// rank, row. So a stream goes from group to group, and meets another bank at the end of a row.
+// An address map tells where a burst lies. From the lowest bits of its number on, it takes the channel, bank
+// group, columns of a row, bank, rank and row. So a stream goes from group to group, and meets another bank
+// at the end of a row.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,8 @@ struct Location {
   int channel = 0, rank = 0, group = 0, bank = 0, row = 0, column = 0;
 };
 
-// Streams whose distance is a power of 2 would meet in one bank: bits of the row are added to bank and group.
+// Streams whose distance is a power of 2 would meet in one bank. So bits of the row are added to bank and
+// group.
 inline Location locate(std::int64_t address, const Parameters& p) {
   std::int64_t left = address / kBurst;
   const auto cut = [&](std::int64_t count) {

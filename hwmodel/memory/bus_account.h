@@ -1,5 +1,5 @@
-// Whom the cycles of a data bus belong to: told at each column command, for all the time since the data
-// before.
+// A bus account books each cycle of a data bus to its cause. It is told at each column command, which
+// accounts for all the time since the data before.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,12 @@ namespace voxmelt::hwmodel::memory {
 
 class BusAccount {
  public:
-  // The queues were empty until `now`.
+  // Notes that the queues were empty until `now`.
   void first_waits(std::int64_t now) { waits_since_ = now; }
   void refreshed() { refreshed_ = true; }
 
-  // Data lie at [begin, begin + beats), `latency` after their command. `activated`: a row had to be opened.
+  // Books data at [begin, begin + beats), `latency` after their command. `activated` says that a row had to
+  // be opened.
   void column(std::int64_t begin, int beats, int latency, bool write, int rank, bool activated, Counts& to) {
     const std::int64_t gap = begin - end_;
     const std::int64_t idle = std::clamp<std::int64_t>(waits_since_ + latency - end_, 0, gap);

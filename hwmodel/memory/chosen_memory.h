@@ -1,4 +1,4 @@
-// The memory that a configuration chooses: a DRAM, or one of a fixed latency.
+// A configuration chooses this memory: a DRAM, or one of a fixed latency.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ namespace voxmelt::hwmodel::memory {
 struct Choice {
   std::optional<Parameters> dram;    // none: a fixed latency, as the next two say
   int latency = 40, bus_bytes = 64;  // cycles of the machine; bytes in each of them
-  int clock_mhz = 200;               // of the machine
-  std::string trace;                 // file of the requests to a DRAM; empty: none
+  int clock_mhz = 200;               // clock of the machine
+  std::string trace;                 // file for the requests to a DRAM; empty: none
 
-  double most_bytes_per_cycle() const {  // of the machine
+  double most_bytes_per_cycle() const {  // bytes per cycle of the machine
     return dram ? static_cast<double>(dram->peak()) / clock_mhz : bus_bytes;
   }
 };
@@ -32,12 +32,12 @@ class ChosenMemory {
   explicit ChosenMemory(const Choice& choice);
 
   Memory& memory() { return dram_ ? static_cast<Memory&>(*dram_) : *fixed_; }
-  // A job begins whose cycles count from 0, and nobody else uses the memory.
+  // Begins a job whose cycles count from 0. Nobody else uses the memory then.
   void begin_job() {
     if (fixed_) fixed_->begin_job();
   }
   std::optional<Counts> dram_counts() const { return dram_ ? std::optional(dram_->counts()) : std::nullopt; }
-  // Cycles of the machine in which the data bus carried bytes.
+  // Counts the cycles of the machine in which the data bus carried bytes.
   std::int64_t bus_cycles() const;
 
  private:

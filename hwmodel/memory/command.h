@@ -1,4 +1,4 @@
-// What a controller tells a memory, and who hears it.
+// A controller sends commands to a memory, and a listener hears them.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@ namespace voxmelt::hwmodel::memory {
 struct Command {
   enum class Kind : std::uint8_t { activate, precharge, precharge_all, read, write, refresh };
 
-  std::int64_t cycle = 0;  // of the memory's clock
+  std::int64_t cycle = 0;  // cycle of the memory's clock
   Kind kind = Kind::activate;
-  int channel = 0, rank = 0, group = 0, bank = 0;  // bank of its group
-  int row = 0, column = 0;                         // column of a read or a write
+  int channel = 0, rank = 0, group = 0, bank = 0;  // the bank counts in its group
+  int row = 0, column = 0;                         // the column is that of a read or a write
 };
 
 class CommandListener {

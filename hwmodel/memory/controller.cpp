@@ -64,7 +64,7 @@ std::int64_t Controller::step(std::int64_t now, Done& done) {
   return issued ? now + 1 : next;
 }
 
-// The rank's banks are closed together. It takes no other command until it is refreshed.
+// The rank's banks are closed together. The rank takes no other command until it is refreshed.
 bool Controller::refresh(std::int64_t now, std::int64_t& next) {
   for (std::size_t r = 0; r < ranks_.size(); ++r) {
     RankState& rank = ranks_[r];
@@ -167,8 +167,9 @@ bool Controller::column(std::int64_t now, std::int64_t& next, Done& done) {
   return false;
 }
 
-// For the oldest request of each bank. A row with a request that would hit it stays open, unless the oldest
-// request of all starves. Banks that this side leaves alone are made ready for the other side.
+// Issues a row command for the oldest request of each bank. A row with a request that would hit it stays
+// open, unless the oldest request of all starves. Banks that this side leaves alone are made ready for the
+// other side.
 bool Controller::row(std::int64_t now, std::int64_t& next) {
   std::uint64_t seen = 0;
   const bool starving = !active().empty() && starves(active().front(), now);

@@ -1,4 +1,4 @@
-// What a memory did.
+// The counts tell what a memory did.
 #pragma once
 
 #include <algorithm>
@@ -7,19 +7,21 @@
 namespace voxmelt::hwmodel::memory {
 
 struct Counts {
-  std::int64_t reads = 0, writes = 0;                // requests of 64 bytes
-  std::int64_t hits = 0, misses = 0, conflicts = 0;  // of them: the row was open, no row was, another one was
+  std::int64_t reads = 0, writes = 0;  // requests of 64 bytes
+  // Divide the requests: the row was open, no row was open, or another row was open.
+  std::int64_t hits = 0, misses = 0, conflicts = 0;
   std::int64_t activates = 0, precharges = 0, refreshes = 0, columns = 0;  // commands
   std::int64_t read_to_write = 0, write_to_read = 0;                       // turnarounds of a channel
   std::int64_t held = 0;  // requests that waited for an older one to the same burst
 
-  // Every cycle of every channel's data bus is one of these. `idle`: no request waits, or the first one is on
-  // its way. `row`: a bank opens a row. `spacing`: of column commands in one bank group.
+  // Every cycle of every channel's data bus is one of these. In `idle` cycles no request waits, or the first
+  // one is on its way. In `row` cycles a bank opens a row. `spacing` separates column commands in one bank
+  // group.
   std::int64_t busy = 0, idle = 0, refresh = 0, turnaround = 0, row = 0, spacing = 0;
 
-  // From the port to the reply, in cycles of the memory.
+  // Latencies run from the port to the reply, in cycles of the memory.
   std::int64_t read_latency = 0, worst_read = 0;
-  std::int64_t worst_write = 0;  // until its column command
+  std::int64_t worst_write = 0;  // ends at its column command
 
   std::int64_t cycles() const { return busy + idle + refresh + turnaround + row + spacing; }
 

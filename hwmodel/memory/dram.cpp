@@ -78,7 +78,7 @@ void Dram::run(std::int64_t end) {
   }
 }
 
-// One request a cycle and channel, from one port after the other.
+// Takes at most one request per cycle and channel, from one port after the other.
 bool Dram::take_request(std::size_t channel) {
   Controller& controller = channels_[channel];
   for (std::size_t i = 0; i < ports_.size(); ++i) {

@@ -1,5 +1,5 @@
-// The timing of a DRAM, for machines that run at a clock of their own. A machine opens ports, and asks for
-// bursts of 64 bytes.
+// The timing of a DRAM is modelled for machines that run at a clock of their own. A machine opens ports, and
+// asks for bursts of 64 bytes.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace voxmelt::hwmodel::memory {
 
-// Told of every request when a controller takes it.
+// Is told of every request when a controller takes it.
 class RequestListener {
  public:
   virtual ~RequestListener() = default;
@@ -37,12 +37,12 @@ class Dram final : public Memory {
   bool idle() const override;
 
   int most_bytes() const override { return kBurst; }
-  std::int64_t alignment() const override {  // a row of every bank
+  std::int64_t alignment() const override {  // one row of every bank
     return parameters_.row_bytes() * parameters_.banks_of_rank() * parameters_.ranks * parameters_.channels;
   }
 
   std::int64_t memory_cycles() const { return now_; }
-  Counts counts() const;  // of all channels
+  Counts counts() const;  // sum over all channels
   void listen(CommandListener* listener);
   void trace(RequestListener* listener) { trace_ = listener; }
   const Parameters& parameters() const { return parameters_; }
@@ -50,19 +50,19 @@ class Dram final : public Memory {
  private:
   struct UnderWay {
     Request request;
-    std::int64_t done = 0;  // cycle of the memory; kNotDone
+    std::int64_t done = 0;  // cycle of the memory, or kNotDone
   };
   struct Waiting {
     Request request;
     std::int64_t put = 0;     // cycle of the memory
-    std::int64_t number = 0;  // of a read at its port
-    bool held = false;        // for an older request to the same burst
+    std::int64_t number = 0;  // number of a read at its port
+    bool held = false;        // it waits for an older request to the same burst
   };
   struct Port {
     PortClient* client = nullptr;
     std::deque<Waiting> inbox;
     std::deque<UnderWay> reads;
-    std::int64_t first_read = 0;  // number of the oldest one
+    std::int64_t first_read = 0;  // number of the oldest read
   };
 
   void run(std::int64_t end);
@@ -74,7 +74,7 @@ class Dram final : public Memory {
   int machine_mhz_;
   std::vector<Controller> channels_;
   std::vector<std::int64_t> wake_;
-  std::vector<std::size_t> turn_;  // of each channel: the port that is asked first
+  std::vector<std::size_t> turn_;  // for each channel, the port that is asked first
   std::vector<Port> ports_;
   std::int64_t machine_cycle_ = 0, now_ = 0;
   std::int64_t moves_ = 0;

@@ -18,7 +18,7 @@ bool FixedLatency::ready(int port) const {
   return way.client != nullptr || streams_may_claim();
 }
 
-// What others claim does not count: else a client that always asks would keep all streams waiting.
+// Claims of others do not count. Otherwise a client that always asks would keep all streams waiting.
 bool FixedLatency::streams_may_claim() const {
   if (claims_.empty()) return true;
   const Claim& first = claims_.front();

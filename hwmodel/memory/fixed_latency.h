@@ -1,4 +1,4 @@
-// A memory that answers after so many cycles, over a bus of so many bytes a cycle.
+// The memory answers after a fixed number of cycles, over a bus of a fixed number of bytes per cycle.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,10 @@
 
 namespace voxmelt::hwmodel::memory {
 
-// Requests take the bus in the order in which they were put: of one cycle, in the order of their ports. What
-// a client asks for takes whole cycles of the bus. It returns in the order in which the client asked at all
-// of its ports, one reply a cycle. Ports without a client are streams: their bytes are packed on the bus.
+// Requests take the bus in the order in which they were put. Those of one cycle go in the order of their
+// ports. A client's request takes whole cycles of the bus. Replies return in the order in which the client
+// asked at all of its ports, one reply a cycle. Ports without a client are streams, whose bytes are packed on
+// the bus.
 class FixedLatency final : public Memory {
  public:
   FixedLatency(int latency, int bus_bytes) : latency_(latency), bus_bytes_(bus_bytes) {}
@@ -29,8 +30,8 @@ class FixedLatency final : public Memory {
   int most_bytes() const override { return std::numeric_limits<int>::max(); }
   std::int64_t alignment() const override { return kBurst; }
 
-  std::int64_t bus_cycles() const { return bus_cycles_; }  // that carried bytes
-  // What was promised of the bus is forgotten: a job begins that counts from 0.
+  std::int64_t bus_cycles() const { return bus_cycles_; }  // cycles that carried bytes
+  // Forgets what was promised of the bus. A job begins that counts from 0.
   void begin_job() {
     bus_free_ = now_;
     claims_.clear();
@@ -45,18 +46,18 @@ class FixedLatency final : public Memory {
     int port = 0;
     std::int64_t done = 0;
   };
-  struct Way {  // back to a client
+  struct Way {  // the way back to a client
     PortClient* client = nullptr;
     std::deque<UnderWay> reads;
-    std::size_t waiting = 0;       // that were put in this cycle
-    std::int64_t last_reply = -1;  // the cycle in which it was taken
+    std::size_t waiting = 0;       // requests put in this cycle
+    std::int64_t last_reply = -1;  // cycle in which the last reply was taken
   };
-  struct Claim {  // of a stream on the bus
+  struct Claim {  // a stream's claim on the bus
     std::int64_t end, beats;
   };
   struct Port {
     std::size_t way = 0;
-    std::deque<Request> inbox;  // of this cycle
+    std::deque<Request> inbox;  // requests of this cycle
   };
 
   const Way& way_of(int port) const { return ways_[ports_[static_cast<std::size_t>(port)].way]; }
@@ -68,8 +69,8 @@ class FixedLatency final : public Memory {
   std::vector<Way> ways_;
   std::vector<Port> ports_;
   std::int64_t now_ = 0, bus_free_ = 0, bus_cycles_ = 0;
-  std::deque<Claim> claims_;  // that have not come to their end
-  std::int64_t claimed_ = 0;  // their beats
+  std::deque<Claim> claims_;  // claims that have not come to their end
+  std::int64_t claimed_ = 0;  // sum of their beats
   std::int64_t owed_ = 0;     // bytes of streams that fill no cycle yet
 };
 

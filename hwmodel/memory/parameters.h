@@ -1,5 +1,5 @@
-// The numbers of a memory: its shape, and the rules of its data sheet in cycles of its clock. They come from
-// the files in hwmodel/memory/sheets, which name the source of each.
+// The numbers of a memory are its shape, and the rules of its data sheet in cycles of its clock. They come
+// from the files in hwmodel/memory/sheets, which name the source of each.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@ namespace voxmelt::hwmodel::memory {
 
 struct Parameters {
   std::string name, title;
-  int mhz = 0;  // of the memory's clock; data move at both edges
+  int mhz = 0;  // the memory's clock; data move at both edges
 
-  // A power of 2 each. Columns of a row are as wide as the channel.
-  int channels = 1, ranks = 1, groups = 1, banks = 1;  // banks of a group
+  // Each is a power of 2. Columns of a row are as wide as the channel.
+  int channels = 1, ranks = 1, groups = 1, banks = 1;  // `banks` counts those of a group
   int rows = 1, columns = 1, width_bits = 64, transfers = 8;
 
   // All of these are cycles.
   int cl = 0, cwl = 0;                // from a column command to its data
-  int read_more = 0, write_more = 0;  // that data may lie later (tDQSCK and tDQSS of LPDDR4)
+  int read_more = 0, write_more = 0;  // data may lie so much later (tDQSCK and tDQSS of LPDDR4)
   int rcd = 0;                        // ACT to RD and WR
-  int rp = 0, rp_all = 0;             // PRE to ACT, of one bank and of all
+  int rp = 0, rp_all = 0;             // PRE to ACT, for one bank and for all
   int ras = 0, rc = 0;                // ACT to PRE, and to ACT of the same bank
-  int ccd_s = 0, ccd_l = 0;           // RD to RD, WR to WR: of another group, of the same one
+  int ccd_s = 0, ccd_l = 0;           // RD to RD, WR to WR: in another group, in the same one
   int rrd_s = 0, rrd_l = 0;           // ACT to ACT of another bank: likewise
-  int faw = 0;                        // four ACT at most in so many cycles
+  int faw = 0;                        // at most four ACT in so many cycles
   int wr = 0;                         // end of written data to PRE
   int wtr_s = 0, wtr_l = 0;           // end of written data to RD
   int rtp = 0;                        // RD to PRE
@@ -34,21 +34,21 @@ struct Parameters {
   int refi = 0, rfc = 0;              // between two REF; REF to the next command
   int act_slots = 1, column_slots = 1, pre_slots = 1, ref_slots = 1;  // cycles of the command bus
   bool two_buses = false;    // column commands have a bus of their own
-  int interface_cycles = 0;  // on the way of a read through controller and pins, beyond all above
+  int interface_cycles = 0;  // further cycles of a read on its way through controller and pins
 
-  int beats() const { return transfers / 2; }  // cycles of the data of one column command
+  int beats() const { return transfers / 2; }  // data cycles of one column command
   int column_bytes() const { return width_bits / 8 * transfers; }
-  int columns_of_request() const { return kBurst / column_bytes(); }  // commands
+  int columns_of_request() const { return kBurst / column_bytes(); }  // column commands
   int banks_of_rank() const { return groups * banks; }
   std::int64_t row_bytes() const { return std::int64_t{columns} * (width_bits / 8); }
   std::int64_t bytes() const { return row_bytes() * rows * banks_of_rank() * ranks * channels; }
-  // Bytes in a second, times 1e-6: 64 bits at 1200 MHz give 19200.
+  // Returns the peak rate in 10^6 bytes a second: 64 bits at 1200 MHz give 19200.
   std::int64_t peak() const { return std::int64_t{mhz} * 2 * (width_bits / 8) * channels; }
 };
 
-// What the controller may choose.
+// Holds what the controller may choose.
 struct Policy {
-  int reads = 32, writes = 64;  // entries of its two queues, of each channel
+  int reads = 32, writes = 64;  // entries of the two queues of each channel
   int high = 48, low = 8;       // writes begin at `high` and end at `low`, unless no read waits
   int batch = 48;               // requests of one kind, while the other kind waits
   int linger = 32;              // cycles without a read after which a few writes begin, too

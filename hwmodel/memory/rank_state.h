@@ -1,4 +1,5 @@
-// From which cycle on a rank may take which command: every command that is issued moves these cycles forward.
+// The state of a rank tells from which cycle on it may take which command. Every command that is issued moves
+// these cycles forward.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +16,11 @@ namespace voxmelt::hwmodel::memory {
 inline constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min() / 4;
 
 struct BankState {
-  int open = -1;                                         // row
-  std::int64_t activate = 0, column = 0, precharge = 0;  // from which cycle on
+  int open = -1;                                         // open row; -1: none
+  std::int64_t activate = 0, column = 0, precharge = 0;  // first cycle in which each may come
 };
 
-// Rows of one rank.
+// Tracks the rows of one rank.
 class RankState {
  public:
   explicit RankState(const Parameters& p)
@@ -52,18 +53,18 @@ class RankState {
     for (BankState& bank : banks_) bank.activate = std::max(bank.activate, now + p.rfc);
   }
 
-  std::int64_t due;      // the next refresh
-  bool closing = false;  // for it
+  std::int64_t due;      // cycle of the next refresh
+  bool closing = false;  // its banks are closed for the refresh
 
  private:
   std::vector<BankState> banks_;
-  std::vector<std::int64_t> groups_;  // from which cycle on a bank of each may be activated
-  std::vector<std::int64_t> four_;    // the last four ACT
+  std::vector<std::int64_t> groups_;  // first cycle in which a bank of each may be activated
+  std::vector<std::int64_t> four_;    // cycles of the last four ACT
   std::size_t oldest_ = 0;
   int banks_of_group_;
 };
 
-// Column commands of a channel: its ranks share the data bus.
+// Holds the rules for column commands of a channel. Its ranks share the data bus.
 class ColumnRules {
  public:
   explicit ColumnRules(const Parameters& p) : groups_(p.groups), ranks_(p.ranks) {

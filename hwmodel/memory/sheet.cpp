@@ -12,7 +12,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-constexpr int kMostBanks = 64;  // of a channel: the controller keeps a bit of each
+constexpr int kMostBanks = 64;  // banks of a channel: the controller keeps a bit of each
 
 int power_of_two(scene::Reader& from, const char* key, int high) {
   const auto value = static_cast<int>(from.integer(key, 1, high));

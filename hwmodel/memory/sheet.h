@@ -1,4 +1,5 @@
-// Numbers of memories from TOML: those in memories/, which the program holds, or a file of one's own.
+// The numbers of memories come from TOML. The files in hwmodel/memory/sheets are held in the program, and a
+// user may name a file of their own.
 #pragma once
 
 #include <string>
@@ -13,8 +14,8 @@ struct MemoryFile {
 };
 const std::vector<MemoryFile>& memory_files();
 
-// By the name of one of them, or the path of a file that ends in ".toml". Throws scene::InputError: with
-// `place` in front where there is no such memory, else with the place in the file.
+// Loads a memory by the name of one of these files, or by the path of a file that ends in ".toml". Throws
+// scene::InputError. The error names `place` if there is no such memory, else the place in the file.
 memory::Parameters load_memory(const std::string& name, const std::string& place);
 
 }  // namespace voxmelt::hwmodel

@@ -144,7 +144,7 @@ void TimingChecker::check_column(Channel& channel, Rank& rank, const Command& c)
     at_least(same ? "tCCD_L" : "tCCD_S", read ? group.read : group.write, same ? sheet_.ccd_l : sheet_.ccd_s,
              c);
     if (!read) continue;
-    // From the end of the written data on.
+    // The time counts from the end of the written data.
     const int data = sheet_.cwl + sheet_.write_more + sheet_.transfers / 2;
     at_least(same ? "tWTR_L" : "tWTR_S", group.write, data + (same ? sheet_.wtr_l : sheet_.wtr_s), c);
   }
@@ -154,7 +154,7 @@ void TimingChecker::check_column(Channel& channel, Rank& rank, const Command& c)
   (read ? bank.read : bank.write) = c.cycle;
 }
 
-// When data lie on the bus, and how long it must rest between two of them.
+// Checks when data lie on the bus, and how long it must rest between two of them.
 void TimingChecker::check_data(Channel& channel, const Command& c) {
   const bool write = c.kind == Kind::write;
   const std::int64_t begin =

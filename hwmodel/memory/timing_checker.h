@@ -1,5 +1,5 @@
-// Holds a stream of commands against the rules of a data sheet. It looks back: from each command to those
-// before it. It shares no code with the controller, only the numbers and the form of a command.
+// The checker holds a stream of commands against the rules of a data sheet. It looks back from each command
+// to those before it. It shares no code with the controller, only the numbers and the form of a command.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ class TimingChecker final : public CommandListener {
   explicit TimingChecker(const Parameters& parameters);
 
   void issued(const Command& command) override;
-  // At the end of a stream: was the last refresh long ago?
+  // Checks at the end of a stream that enough refreshes came.
   void finish(std::int64_t cycle);
 
   std::int64_t commands() const { return commands_; }
@@ -45,7 +45,7 @@ class TimingChecker final : public CommandListener {
   };
   struct Channel {
     std::vector<Rank> ranks;
-    std::array<std::int64_t, 2> bus_until{};  // command buses
+    std::array<std::int64_t, 2> bus_until{};  // for each command bus, the first free cycle
     std::int64_t data_until = kNever;
     bool data_of_write = false;
     int data_of_rank = -1;

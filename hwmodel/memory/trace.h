@@ -1,4 +1,4 @@
-// The requests that a memory took, in the text formats of two public simulators.
+// The writer logs the requests that a memory took, in the text formats of two public simulators.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// Makes a case that fails smaller while it still fails. Of any machine: a part of its volume, and less matter
-// in it. What a machine has beside its volume, its own shrinker makes plainer. What "fails" means, the caller
-// says.
+// The search makes a case that fails smaller while it still fails. It serves any machine: it cuts the volume,
+// and removes matter from it. A machine's own shrinker simplifies what the machine has beside its volume. The
+// caller says what "fails" means.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 
 namespace voxmelt::hwmodel::check {
 
-// `Case` has a `volume`, and `from`: where it lies in the grid of the scene.
+// `Case` has a `volume`, and `from`, the place of the volume in the grid of the scene.
 template <class Case>
 class VolumeShrinker {
  public:
   using Fails = std::function<bool(const Case&)>;
-  // `goes_on` ends the search when it gives false: what was found until then counts.
+  // `goes_on` ends the search when it returns false. The best case so far then counts.
   VolumeShrinker(Case begin, Fails fails, std::function<bool()> goes_on)
       : best_(std::move(begin)), fails_(std::move(fails)), goes_on_(std::move(goes_on)) {}
 
@@ -28,7 +28,7 @@ class VolumeShrinker {
  protected:
   const Case& best() const { return best_; }
 
-  // True if it fails; then it is the best one.
+  // Returns true if the case fails. It is the best one then.
   bool try_case(Case one) {
     if (!goes_on_()) return false;
     ++tried_;
@@ -36,7 +36,7 @@ class VolumeShrinker {
     best_ = std::move(one);
     return true;
   }
-  // The same with one change.
+  // Tries the best case with one change.
   template <class Change>
   bool try_change(Change&& change) {
     Case one = best_;
@@ -44,7 +44,7 @@ class VolumeShrinker {
     return try_case(std::move(one));
   }
 
-  // Small boxes around a cell: with the cell in the middle, and at each of their ends.
+  // Tries small boxes around a cell, with the cell in the middle and at each of their ends.
   void crop_around(const std::array<int, 3>& near) {
     for (const int side : {kSmall, 2 * kSmall}) {
       const std::array<int, 3> all = size();
@@ -63,11 +63,11 @@ class VolumeShrinker {
     }
   }
 
-  // Cuts slabs off the six sides, thick ones first. True if anything could be cut off.
+  // Cuts slabs off the six sides, thick ones first. Returns true if anything could be cut off.
   bool crop() {
     bool any = false;
     for (int slab = longest_side() / 2; slab > 0; slab /= 2)
-      for (const std::size_t axis : {1u, 2u, 0u})  // where it is high it costs most
+      for (const std::size_t axis : {1u, 2u, 0u})  // y first: height costs most
         for (const bool low : {false, true})
           while (size()[axis] > slab) {
             state::Box box{{}, size()};
@@ -79,7 +79,7 @@ class VolumeShrinker {
     return any;
   }
 
-  // Boxes of matter become air, large ones first.
+  // Turns boxes of matter into air, large ones first.
   void remove_matter() {
     const std::array<int, 3> all = size();
     for (int side = longest_side(); side > 0; side /= 2)
@@ -94,7 +94,7 @@ class VolumeShrinker {
   }
 
  private:
-  static constexpr int kSmall = 8;  // cells: no grid is cut below this before everything else was tried
+  static constexpr int kSmall = 8;  // cells; side of the smaller boxes that crop_around tries
 
   std::array<int, 3> size() const {
     const state::Grid& grid = best_.volume.grid;

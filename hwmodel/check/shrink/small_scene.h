@@ -1,4 +1,4 @@
-// Where the scenes lie that a search for a small one tries.
+// The search for a small scene writes its scenes to a folder, and loads them from there.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace voxmelt::hwmodel::check {
 
-// A folder of this process that goes away with it.
+// A folder of this process that is removed with the object.
 class Workplace {
  public:
   explicit Workplace(const std::filesystem::path& beside);
@@ -19,8 +19,8 @@ class Workplace {
   Workplace& operator=(const Workplace&) = delete;
   ~Workplace();
 
-  // A case is written and loaded as its user will do it. So what is left in the end can be seen again.
-  // `text`: the scene's, with its fields in "."; null: it is no scene of its own.
+  // Writes a case and loads it as its user will, so that the scene found at the end can be loaded again.
+  // `text` is the scene file, with its fields in ".". Returns null if it is no valid scene.
   std::unique_ptr<scene::Scene> load(const state::Volume& volume, const std::string& text) const;
 
  private:
@@ -30,7 +30,7 @@ class Workplace {
   io::Unfinished unfinished_;
 };
 
-// Cells that hold something.
+// Counts the cells that hold something.
 int count_matter(const state::Volume& volume);
 
 }  // namespace voxmelt::hwmodel::check

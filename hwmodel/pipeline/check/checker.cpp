@@ -52,7 +52,8 @@ void Checker::add_pass(Wanted wanted) {
 }
 
 Checker::Span Checker::span_of(const Channel& channel, const Pass& pass) const {
-  int copy = -1, step = 0, before = 0;  // what all stages of a time step spoil; those up to the producer
+  // `step` sums what all stages of a time step spoil, `before` what those up to the producer spoil.
+  int copy = -1, step = 0, before = 0;
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     if (stages_[i] == StageKind::settle) ++copy;
     if (pass.uses(stages_[i], copy)) step += lag_of(stages_[i], machine_.design()).reach;
@@ -109,7 +110,7 @@ void Checker::compare(const Channel& channel, const Cell* lanes) {
   }
   for (int lane = cells; lane < shape_.lanes; ++lane) {
     Cell border;
-    border.beside_wall = lanes[lane].beside_wall;  // nobody asks which sides the border has
+    border.beside_wall = lanes[lane].beside_wall;  // no stage reads which sides the border has
     if (!compare(channel, *expected, border, lanes[lane], lane)) return;
   }
 }
@@ -166,7 +167,7 @@ void Checker::compare_written(const Channel& channel, const Cell* lanes) {
   const int cells = std::min(shape_.lanes, shape_.grid.x - place.x);
   if (wanted.written != nullptr && shape_.owns(wanted.pass.tile, place.x))
     for (int lane = 0; lane < cells; ++lane) compare_memory(channel, *wanted.written, lane, lanes[lane]);
-  // What has been written must have arrived, and stay. (With hw.coded a column arrives as a whole.)
+  // Every written cell must have arrived, and must stay. (With hw.coded a column arrives as a whole.)
   const int arrived = wanted.pass.tile + (machine_.configuration().coded ? 0 : 1);
   if (wanted.left != nullptr && shape_.owner(place.x / shape_.lanes) < arrived)
     for (int lane = 0; lane < cells; ++lane)

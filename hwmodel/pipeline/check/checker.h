@@ -1,7 +1,7 @@
-// Watches every token of the pipeline. Behind each stage, and behind the reader, it must equal the
-// reference's, side bands included. Lanes beyond the grid must hold the border. What leaves a channel must be
-// what entered it. What the writer sums over a pass must be what the reference holds. The first difference
-// stops the pass.
+// The checker watches every token of the pipeline. Behind each stage, and behind the reader, a token must
+// equal the reference's, side bands included. Lanes beyond the grid must hold the border. A token must leave
+// a channel as it entered. The writer's sums over a pass must equal what the reference holds. The first
+// difference stops the pass.
 //
 // Beside a cut of a tile, each stage spoils as many cells as it reaches. They are not compared, unless the
 // tile owns them.
@@ -27,9 +27,10 @@ class Checker final : public FifoWatcher<Cell> {
  public:
   explicit Checker(StreamMachine& machine);
 
-  // What a pass has to give, of one tile: `steps` has an entry per cascaded step; an empty one is not
-  // compared. `written` is what it leaves in memory; null: not compared. `left` is the state that the whole
-  // pass leaves, or null; `held`, of the last tile alone, what it holds.
+  // Tells what a pass has to give for one tile. `steps` has an entry per cascaded step, and an empty one is
+  // not compared. `written` is what the pass leaves in memory. If it is null, it is not compared. `left` is
+  // the state that the whole pass leaves, or null. `held` is what that state holds, and is given for the
+  // last tile alone.
   struct Wanted {
     Pass pass;
     std::vector<std::vector<Expected>> steps;
@@ -37,20 +38,21 @@ class Checker final : public FifoWatcher<Cell> {
     std::optional<state::Holdings> held;
     std::shared_ptr<const state::Volume> left;
   };
-  // Unless it stops the pass at the first difference, somebody else must.
+  // Chooses if the checker stops the pass at the first difference. If it does not, the caller must.
   void stop_at_difference(bool stops) { stops_ = stops; }
   void begin_train();
   void add_pass(Wanted wanted);
 
   const Wanted& being_written() const { return passes_.front(); }
-  void report(Mismatch mismatch);  // that somebody else has seen; the first one counts
+  void report(Mismatch mismatch);  // reports what another checker has seen; the first one counts
 
   void entered(int channel, std::int64_t ordinal, const Cell* lanes) override;
   void left(int channel, std::int64_t ordinal, const Cell* lanes) override;
 
   const std::unique_ptr<Mismatch>& mismatch() const { return mismatch_; }
-  std::int64_t compared_cells() const { return compared_cells_; }  // behind stages; of each cell its owner's
-  // The cycle in which the writer took this token last, of all tiles of a pass.
+  // Counts the cells compared behind stages. Each cell counts in the tile that owns it.
+  std::int64_t compared_cells() const { return compared_cells_; }
+  // Returns the cycle in which the writer last took this token. Ordinals count over all tiles of a pass.
   std::int64_t written_in(std::int64_t ordinal) const {
     return written_in_[static_cast<std::size_t>(ordinal)];
   }
@@ -66,22 +68,23 @@ class Checker final : public FifoWatcher<Cell> {
     std::size_t stage = 0;  // number of the producer in its time step
     bool behind_stage = false;
     std::size_t entering = 0, leaving = 0;  // the passes of the next token to enter, and to leave
-    Place place, left;                      // of these tokens
-    std::size_t spanned = SIZE_MAX;         // the pass to which `span` belongs
-    Span span;                              // what must be right of the tokens that enter
+    Place place, left;                      // places of these tokens
+    std::size_t spanned = SIZE_MAX;         // the pass of `span`
+    Span span;                              // cells that must be right in the tokens that enter
     std::deque<Cell> in_flight;             // copies, apart from the channel's own memory
   };
 
-  // The cells behind a channel's producer that must be right.
+  // Returns the cells behind a channel's producer that must be right.
   Span span_of(const Channel& channel, const Pass& pass) const;
   void next_pass(std::size_t& pass, Place& place) const;
 
-  // Behind the producer of a channel in one pass; null: not compared.
+  // Returns what is expected behind the producer of a channel in one pass. Null means that it is not
+  // compared.
   const Expected* expected_of(const Channel& channel);
   void compare(const Channel& channel, const Cell* lanes);
   void compare_written(const Channel& channel, const Cell* lanes);
   void compare_memory(const Channel& channel, const state::Volume& volume, int lane, const Cell& is);
-  void compare_pass(const Channel& channel);  // when its last tile has been written
+  void compare_pass(const Channel& channel);  // after its last tile has been written
   bool compare(const Channel& channel, const Expected& expected, const Cell& wanted, const Cell& is,
                int lane);  // false: they differ
   void report(const Channel& channel, Mismatch::Kind kind, std::size_t pass, const Place& place, int lane,
@@ -89,12 +92,12 @@ class Checker final : public FifoWatcher<Cell> {
 
   StreamMachine& machine_;
   const Shape shape_;
-  const std::vector<StageKind> stages_;  // of a time step
+  const std::vector<StageKind> stages_;  // stages of a time step
   std::vector<Channel> channels_;
-  std::vector<std::int64_t> written_in_;  // by ordinal
-  std::deque<Wanted> passes_;             // of the train, without those that have been written
-  std::size_t written_ = 0;               // of the train
-  Expected read_;                         // what the reader gives
+  std::vector<std::int64_t> written_in_;  // cycles, by ordinal of the token
+  std::deque<Wanted> passes_;             // passes of the train, without those that have been written
+  std::size_t written_ = 0;               // written passes of the train
+  Expected read_;                         // the tokens that the reader gives
   bool stops_ = true;
   std::unique_ptr<Mismatch> mismatch_;
   std::int64_t compared_cells_ = 0;

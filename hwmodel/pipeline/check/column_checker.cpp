@@ -8,7 +8,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// Some bits of a slot, the lowest first.
+// Reads some bits of a slot, the lowest first.
 class Bits {
  public:
   explicit Bits(const std::uint64_t* words) : words_(words) {}

@@ -1,5 +1,5 @@
-// Compares every column that is written with hw.coded, as soon as it is complete: which tokens are stored,
-// and what they hold. It reads the slot with code of its own.
+// The checker compares every column that is written with hw.coded, as soon as it is complete. It compares
+// which tokens are stored, and what they hold. It reads the slot with code of its own.
 #pragma once
 
 #include <cstdint>

@@ -42,7 +42,8 @@ Mismatch hang_of(const StreamMachine& machine, const Pass& first, std::int64_t c
   return m;
 }
 
-// The pass took other cycles than the closed form says. Where channels hold two tokens, nobody waits.
+// Reports that the pass took other cycles than the closed form says. No stage waits where channels hold two
+// tokens.
 Mismatch cycles_of(const StreamMachine& machine, std::uint32_t first_step, std::int64_t predicted,
                    std::int64_t cycles) {
   std::string waited;

@@ -1,6 +1,6 @@
-// What the pipeline has to give behind each of its stages, from the reference: the state after every phase,
-// and inside a phase the state after each stage, by running the reference with the later parts of the phase
-// switched off.
+// The expectation is what the pipeline has to give behind each of its stages. It comes from the reference, as
+// the state after every phase. Inside a phase, the state after each stage comes from running the reference
+// with the later parts of the phase switched off.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 namespace voxmelt::hwmodel {
 
 struct Expected {
-  std::shared_ptr<const state::Volume> before, after;  // the stage
+  std::shared_ptr<const state::Volume> before, after;  // before and after the stage
   SideBands bands;
 };
 
@@ -40,8 +40,9 @@ class Expectation {
   const state::Volume& volume() const { return reference_.volume(); }
   const step::Irradiance* irradiance() const { return reference_.irradiance(); }
   std::uint32_t step_number() const { return reference_.step_number(); }
-  int substeps() const { return reference_.substeps(); }           // of the step that has begun last
-  std::int64_t compared_cells() const { return compared_cells_; }  // reference with `fast`
+  int substeps() const { return reference_.substeps(); }  // sub-steps of the latest step that has begun
+  // Counts the cells in which `fast` was compared with the reference.
+  std::int64_t compared_cells() const { return compared_cells_; }
 
   // Prepares the next step (its visibility) without running it.
   void begin_step();
@@ -50,7 +51,7 @@ class Expectation {
   using Snapshot = std::shared_ptr<const state::Volume>;
 
   std::unique_ptr<Mismatch> compare_software(step::Phase phase) const;
-  // The stages of one phase, given its moment, and the state before and after it.
+  // Appends the stages of one phase, given its moment, and the state before and after it.
   void expect_inside(step::Phase phase, step::Moment moment, const Snapshot& before, const Snapshot& after,
                      std::vector<Expected>& stages);
   SideBands bands_behind(StageKind stage, step::Moment moment, const state::Volume& before);
@@ -63,8 +64,8 @@ class Expectation {
   run::Simulation reference_, fast_;
   std::string fast_name_;
   std::vector<StageKind> stages_;
-  // Of the present step: around the cells before its phase `heat` or, of the viscous law, before its spread;
-  // the runs of the present sub-step.
+  // The following belong to the present step. `around_` looks around the cells before the phase `heat` or,
+  // under the viscous law, before the spread. `shown_` has the runs of the present sub-step.
   std::shared_ptr<const Surroundings> around_;
   std::shared_ptr<const ShownRuns> shown_;
   bool begun_ = false;

@@ -1,5 +1,6 @@
-// Watches what the feeds give: every token must hold the irradiance of its cells, and leave its channel as it
-// entered. The field is the software's, and not what lies in the memory of the machine.
+// The checker watches what the feeds give. Every token must hold the irradiance of its cells, and leave its
+// channel as it entered. The expected field is the software's, and not what lies in the memory of the
+// machine.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,8 @@ class FeedChecker final : public FifoWatcher<UInt<16>> {
  public:
   FeedChecker(StreamMachine& machine, Checker& checker);
 
-  // Before each train of passes, and then before each of its passes. `field`: null without radiation.
+  // `begin_train` is called before each train of passes, `add_pass` before each of its passes. `field` is
+  // null without radiation.
   void begin_train(const Irradiance* field);
   void add_pass(const Pass& pass) { passes_.push_back(pass); }
 
@@ -23,10 +25,10 @@ class FeedChecker final : public FifoWatcher<UInt<16>> {
   void left(int channel, std::int64_t ordinal, const UInt<16>* lanes) override;
 
  private:
-  struct Seen {  // of one feed
+  struct Seen {  // tokens seen of one feed
     std::deque<std::int64_t> in_flight;
   };
-  // Of a token of the train.
+  // Returns the pass of a token of the train.
   const Pass& pass_of(std::int64_t ordinal) const {
     return passes_[static_cast<std::size_t>(ordinal / shape_.tokens())];
   }
@@ -40,7 +42,7 @@ class FeedChecker final : public FifoWatcher<UInt<16>> {
   Checker& checker_;
   const Shape shape_;
   const Irradiance* field_ = nullptr;
-  std::vector<Pass> passes_;  // of the train
+  std::vector<Pass> passes_;  // passes of the train
   std::vector<Seen> feeds_;
 };
 

@@ -1,4 +1,5 @@
-// The first difference between the hardware model and the software: where, when, what.
+// A mismatch is the first difference between the hardware model and the software. It tells where, when and
+// what.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace voxmelt::hwmodel {
 struct Mismatch {
   enum class Kind : std::uint8_t {
     stage,     // a stage gave another state than the reference
-    channel,   // what left a channel is not what entered it
+    channel,   // a token left a channel other than it entered
     memory,    // the written volume is not the reference's
     books,     // the writer's sums over a pass are not what the reference holds
     software,  // a software kernel differs from the reference
@@ -26,28 +27,29 @@ struct Mismatch {
   };
   Kind kind = Kind::stage;
   std::string where{};                 // stage, channel or implementation
-  std::optional<step::Phase> phase{};  // none: not known
+  std::optional<step::Phase> phase{};  // none: the phase is not known
   std::uint32_t step = 0;
   int cascade = 0, lane = 0;
-  std::int64_t cycle = 0;  // of the pass; 0 in software
+  std::int64_t cycle = 0;  // cycle of the pass; 0 in software
   int x = 0, y = 0, z = 0;
   std::string field{};
   std::int64_t expected = 0, actual = 0;
-  std::string detail{};                      // a hang's channels, a width's message, who waited
-  std::vector<std::string> neighbourhood{};  // lines: what the cells around held before the phase
+  std::string detail{};  // a hang's channels, a width's message, or the stages that waited
+  std::vector<std::string> neighbourhood{};  // lines: the cells around, as they were before the phase
 };
 
 const char* name_of(Mismatch::Kind kind);
 
-// The lines that a person reads.
+// Returns the lines that a person reads.
 std::string text_of(const Mismatch& mismatch);
 
-// The cells around one, with state and amount: three lines per height, from above to below.
+// Describes the cells around one, with state and amount. There are three lines per height, from above to
+// below.
 std::vector<std::string> neighbourhood(const state::Volume& volume, int x, int y, int z);
 
 struct Difference {
   int x = 0, y = 0, z = 0;
-  std::string field;  // empty: none
+  std::string field;  // empty: no difference
   std::int64_t expected = 0, actual = 0;
 };
 Difference first_difference(const state::Volume& expected, const state::Volume& actual);

@@ -1,4 +1,5 @@
-// The state before a mismatch as a scene: `voxmelt verify FOLDER/scene.toml` finds the mismatch again.
+// A replay is the state before a mismatch as a scene. `voxmelt verify FOLDER/scene.toml` finds the mismatch
+// again.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +10,8 @@
 
 namespace voxmelt::hwmodel {
 
-// Fills `folder` with the fields and scene.toml, which extends `scene`. `sets` are the overrides of the
-// scene in force. They become comments for the reader, and are a part of `command`, which goes into the
-// file's head.
+// Fills `folder` with the fields and scene.toml, which extends `scene`. `command` shows the mismatch again,
+// with the overrides of the scene in force. It goes into the file's head as a comment.
 void write_replay(const std::filesystem::path& folder, const std::filesystem::path& scene,
                   const state::Volume& volume, std::uint32_t step, const std::string& command);
 

@@ -16,7 +16,7 @@ const Case& Shrinker::shrink(const std::array<int, 3>& near) {
   shrink_steps();
   shrink_machine();
   remove_sources();
-  // A plainer machine or fewer sources may allow a smaller grid.
+  // A simpler machine or fewer sources may allow a smaller grid.
   while (crop()) shrink_machine();
   remove_matter();
   return best();

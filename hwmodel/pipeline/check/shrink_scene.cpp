@@ -13,7 +13,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// Without "step 3: " of a channel: a machine with fewer time steps has other numbers.
+// Removes "step 3: " from the name of a channel, because a machine with fewer time steps has other numbers.
 std::string stage_of(const std::string& where) {
   const std::size_t colon = where.find(": ");
   return where.starts_with("step ") && colon != std::string::npos ? where.substr(colon + 2) : where;
@@ -59,8 +59,8 @@ class Search {
   const check::Workplace workplace_;
 };
 
-// The state before the step that differs: one step shows it. If it does not, the state from which all of it
-// can be seen again.
+// Returns the state before the step that differs, if one or two steps show the mismatch. Otherwise returns
+// the state from which all of it can be seen again.
 std::optional<Case> first_case(const ShrinkRequest& request, const VerifyReport& report, Search& search) {
   Case one{*report.replay,
            {},

@@ -12,7 +12,7 @@ ShownRuns::ShownRuns(const scalar::Reference& reference, state::Grid grid) : gri
       begins_.push_back(runs_.size());
       bool inside = false;
       for (int y = 0; y < grid.y; ++y) {
-        // Between two runs of a column lies a blocked cell.
+        // A blocked cell lies between two runs of a column.
         const std::optional<rule::Column> shows = reference.run_of(layout.at(x, y, z));
         if (shows && inside)
           runs_.back().last = y;

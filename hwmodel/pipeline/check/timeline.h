@@ -1,5 +1,5 @@
-// What every stage did when: its account at the ends of equal stretches of the run. A run may be of any
-// length: when there are too many stretches, two become one.
+// A timeline tells what every stage did when. It keeps the accounts of all stages at the ends of equal
+// stretches of the run. A run may have any length: when there are too many stretches, two become one.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ class Timeline {
  public:
   static constexpr std::size_t kMost = 128;  // stretches
 
-  // `cycles` of the run are over. True when the accounts are wanted now.
+  // `cycles` of the run are over. Returns true when the accounts are wanted now.
   bool wants(std::int64_t cycles) const { return cycles % width_ == 0; }
   void add(std::vector<StageCycles> accounts);
   void end(std::vector<StageCycles> accounts);  // the last stretch may be shorter
@@ -23,8 +23,8 @@ class Timeline {
   std::size_t stretches() const { return ends_.size(); }
   std::int64_t cycles() const {
     return ends_.empty() ? 0 : ends_.back().front().total();
-  }  // of all stretches
-  // What a stage did within a stretch.
+  }  // cycles of all stretches
+  // Returns what a stage did within a stretch.
   StageCycles within(std::size_t stretch, std::size_t stage) const;
 
  private:

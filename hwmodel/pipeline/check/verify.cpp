@@ -26,7 +26,8 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// The number of steps of a pass. No pass reaches beyond a step of visibility, where irradiance changes.
+// Returns the number of steps of a pass. No pass reaches beyond a step of visibility, where irradiance
+// changes.
 int steps_of_pass(const Design& design, const Configuration& configuration, std::uint32_t step,
                   std::uint32_t left) {
   std::uint32_t steps = std::min(left, static_cast<std::uint32_t>(configuration.cascade));
@@ -93,14 +94,14 @@ class Lockstep::Run {
   }
 
  private:
-  // The SystemC model. A planted fault strikes in it.
+  // Makes the SystemC model, in which a planted fault strikes.
   std::unique_ptr<Pipeline> make_pipeline(const rule::Parameters& parameters, state::Grid grid) {
     StageMaker make = options_.make;
     if (!make) make = options_.fault == Fault::none ? StageMaker(make_stage) : planted_stages(plan_);
     return std::make_unique<Pipeline>(parameters, grid, options_.configuration, make, options_.simulation);
   }
 
-  // A train of passes over several time steps each, or several passes over one with many sub-steps.
+  // Runs a train of passes over several time steps each, or several passes over one step with many sub-steps.
   void advance() {
     const std::uint32_t step = next_step_ = report_.first_step + report_.steps;
     if (starts_replay(step)) {
@@ -129,11 +130,11 @@ class Lockstep::Run {
     stopped_ = !options_.visit(memory_, report_);
   }
 
-  // How many sub-steps a step has is known when it begins, unless the scene says so.
+  // Returns false if the scene lets each step count its sub-steps. They are known only when the step begins.
   bool substeps_are_known() const {
     return machine_.design().paper() || !machine_.design().parameters.flow.viscous.counts_substeps();
   }
-  // No pass reaches beyond a step at which somebody visits.
+  // Returns the steps of a pass, which does not reach beyond a step at which `visit` is called.
   int steps_of(std::uint32_t step) const {
     const std::uint32_t done = step - report_.first_step, every = options_.visit_every;
     const std::uint32_t left = options_.steps - done;
@@ -141,7 +142,7 @@ class Lockstep::Run {
                          every == 0 ? left : std::min(left, every - done % every));
   }
 
-  // Runs the software over the steps of a pass. False if its kernels differ.
+  // Runs the software over the steps of a pass. Returns false if its kernels differ.
   bool run_software(const Pass& pass) {
     report_.pass_end = pass.first + static_cast<std::uint32_t>(pass.steps);
     expected_.clear();
@@ -162,8 +163,8 @@ class Lockstep::Run {
 
   bool is_last_tile(const Pass& pass) const { return pass.tile + 1 == machine_.design().shape.tiles(); }
 
-  // The next tile, or the pass that follows without a gap: only a step of visibility needs the whole state
-  // before it begins.
+  // Gives the next tile, or the pass that follows without a gap. Only a step of visibility needs the whole
+  // state before it begins.
   std::optional<Pass> next_pass(Pass last) {
     if (checker_.mismatch() != nullptr) return {};
     if (!is_last_tile(last)) {
@@ -182,7 +183,7 @@ class Lockstep::Run {
     last.first = step;
     last.tile = 0;
     last.steps = steps_of(step);
-    if (!run_software(last)) return {};  // what is under way can still be compared
+    if (!run_software(last)) return {};  // tokens under way can still be compared
     add_pass(last);
     return last;
   }
@@ -227,21 +228,21 @@ class Lockstep::Run {
     return report_.mismatch == nullptr;
   }
 
-  // What one pass has to give behind every stage, from what the sub-steps of a time step give.
+  // Returns what one pass has to give behind every stage, from what the sub-steps of a time step give.
   std::vector<Expected> expected_of(const Pass& pass, const std::vector<Expected>& step) const {
     if (machine_.design().paper() || step.empty()) return step;
     const std::vector<StageKind> stages = stages_of_step(machine_.design());
     const auto before =
         static_cast<std::size_t>(std::find(stages.begin(), stages.end(), StageKind::settle) - stages.begin());
     std::vector<Expected> expected;
-    std::size_t next = before + 2 * static_cast<std::size_t>(pass.substep);  // in `step`, of the sub-steps
+    std::size_t next = before + 2 * static_cast<std::size_t>(pass.substep);  // index in `step`
     std::shared_ptr<const state::Volume> now = pass.begins() ? step.front().before : step[next - 1].after;
     SideBands bands;
     int copy = -1;
     for (std::size_t i = 0; i < stages.size(); ++i) {
       if (stages[i] == StageKind::settle) ++copy;
       if (!pass.uses(stages[i], copy))
-        expected.push_back({now, now, bands});  // it hands on what came
+        expected.push_back({now, now, bands});  // the stage hands on what came
       else
         expected.push_back(i < before ? step[i] : step[next++]);
       now = expected.back().after;
@@ -250,7 +251,7 @@ class Lockstep::Run {
     return expected;
   }
 
-  // False when a mismatch was found.
+  // Returns false when a mismatch was found.
   bool run_model(const std::vector<Pass>& passes, const StreamMachine::Next& next,
                  const step::Irradiance* irradiance) {
     const Pass first = passes.front();
@@ -263,7 +264,7 @@ class Lockstep::Run {
     try {
       end = machine_.run_train(first, next, stream ? &*stream : nullptr, memory_);
     } catch (const StageError& error) {
-      if (checker_.mismatch() != nullptr) {  // what follows a difference may be anything
+      if (checker_.mismatch() != nullptr) {  // an error may follow from a difference
         report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
         return false;
       }
@@ -322,12 +323,12 @@ class Lockstep::Run {
     });
   }
 
-  // A replay must begin where visibility is computed, or where this run began.
+  // Returns true where a replay may begin: where visibility is computed, or where this run began.
   bool starts_replay(std::uint32_t step) const {
     return step == report_.first_step || machine_.design().parameters.heat.visibility_age(step) == 0;
   }
 
-  // Every cycle of every stage is accounted for exactly once.
+  // Checks that every cycle of every stage is accounted for exactly once.
   void check_accounts() const {
     for (const StageReport& stage : report_.stages)
       if (stage.cycles.total() != report_.cycles && report_.mismatch == nullptr)
@@ -338,23 +339,23 @@ class Lockstep::Run {
 
   const VerifyOptions& options_;
   FaultPlan plan_;
-  std::unique_ptr<StreamMachine> given_;  // null: it is the pipeline
+  std::unique_ptr<StreamMachine> given_;  // null: the machine is the pipeline
   std::unique_ptr<Pipeline> pipeline_;
-  std::optional<PlantedFaults> planted_;  // in the pipeline
+  std::optional<PlantedFaults> planted_;  // faults in the pipeline
   StreamMachine& machine_;
   Checker checker_;
   FeedChecker feed_checker_;
   ColumnChecker column_checker_;
   Expectation software_;
   state::Volume memory_;
-  std::vector<std::vector<Expected>> expected_;   // of the pass that the software has run last
-  std::shared_ptr<const state::Volume> written_;  // by that pass, where its steps are not compared
+  std::vector<std::vector<Expected>> expected_;   // for the pass that the software has run last
+  std::shared_ptr<const state::Volume> written_;  // its state, where steps are not compared
   std::unique_ptr<Mismatch> software_mismatch_;
   std::optional<Waves> waves_;
-  std::uint32_t next_step_ = 0;  // after that pass
-  int last_tile_ = 0;            // of the last train
+  std::uint32_t next_step_ = 0;  // step after that pass
+  int last_tile_ = 0;            // last tile of the last train
   VerifyReport report_;
-  bool stopped_ = false;  // by who visits
+  bool stopped_ = false;  // `visit` ended the run
 };
 
 Lockstep::Lockstep(const rule::Parameters& parameters, const state::Volume& start, std::uint32_t first_step,

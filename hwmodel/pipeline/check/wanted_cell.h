@@ -1,5 +1,5 @@
-// The word that a cell must be behind a stage. The checker reads volumes with this code of its own: the
-// reader's would carry its errors into what is expected.
+// A wanted cell is the word that a cell must be behind a stage. The checker reads volumes with this code of
+// its own. The reader's code would carry its errors into what is expected.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@ namespace voxmelt::hwmodel {
 Cell wanted_cell(const Expected& expected, int x, int y, int z);
 Cell wanted_cell(const state::Volume& volume, int x, int y, int z);  // without side bands
 
-// The mobility of a run, as far as the stages that read it can tell: they use it below one of two limits.
+// Returns the mobility of a run, as far as the stages that read it can tell. They use it below one of two
+// limits.
 std::int64_t usable_mobility(const Cell& cell);
 
 }  // namespace voxmelt::hwmodel

@@ -1,4 +1,4 @@
-// Flows that get lost or are not quartered, and the friction of the wrong ground.
+// These faults lose flows, do not quarter them, or use the friction of the wrong ground.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class ApplyFaults : public Planted {
  private:
   static std::int64_t wrong_footing(const Flowing& word) { return (word.footing + 1) % 3; }
 
-  // Energy that the first flow with the wrong friction adds to a word that waits in the line.
+  // Holds the energy that the first flow with the wrong friction adds to a word that waits in the line.
   std::map<const Flowing*, std::int64_t> rubbed_too_little_;
 };
 

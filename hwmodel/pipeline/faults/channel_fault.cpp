@@ -32,13 +32,13 @@ FifoFault<Cell>::Effect ChannelFault::stores(std::int64_t ordinal, Cell* now, Ce
   if (plan_.struck() || ordinal < armed_from_) return Effect::none;
   const Shape& shape = pipeline_.design().shape;
   const int lanes = shape.lanes, tile = passes_[static_cast<std::size_t>(ordinal / shape.tokens())].tile;
-  // What a tile spoils anyway beside a cut is not compared.
+  // A tile spoils cells beside a cut in any case. They are not compared.
   if (!shape.owns(tile, place_of_token(ordinal).x)) return Effect::none;
   const int lane = first_difference(now, last);
   const bool differs = ordinal > armed_from_ && lane < lanes;
   switch (plan_.fault()) {
     case Fault::fifo_never_ready:
-      strike(ordinal + 1, 0);  // the next token is waited for
+      strike(ordinal + 1, 0);  // the next token never comes
       return Effect::jammed;
     case Fault::fifo_swap_lanes:
       return swap_lanes(ordinal, now);

@@ -1,5 +1,5 @@
-// Faults of the occupancy code (hw.coded): a token that holds something is left out, a bit of the wrong
-// token, a stored token too few, and a reader that looks at the wrong bit.
+// These faults spoil the occupancy code (hw.coded). A token that holds something is left out, or the wrong
+// token's bit is set. A stored token is lost, or the reader looks at the wrong bit.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@ namespace voxmelt::hwmodel {
 
 class PlantedCode final : public CodeFault {
  public:
-  // Both must outlive it. It does nothing if the plan's fault is not one of these.
+  // The plan and the pipeline must outlive it. It does nothing if the plan's fault is not one of these.
   PlantedCode(FaultPlan& plan, Pipeline& pipeline);
   ~PlantedCode() override { pipeline_.plant(static_cast<CodeFault*>(nullptr)); }
   PlantedCode(const PlantedCode&) = delete;
   PlantedCode& operator=(const PlantedCode&) = delete;
 
-  // Must be called before each train of passes, and then before each of its passes.
+  // This must be called before each train of passes, and then before each of its passes.
   void begin_train() { passes_.clear(); }
   void add_pass(const Pass& pass) { passes_.push_back(pass); }
 
@@ -37,7 +37,7 @@ class PlantedCode final : public CodeFault {
   FaultPlan& plan_;
   Pipeline& pipeline_;
   CodeLayout layout_;
-  std::vector<Pass> passes_;  // of the train
+  std::vector<Pass> passes_;  // passes of the train
   std::vector<Cell> before_;  // the token that was stored last
   Place before_at_;
 };

@@ -1,4 +1,4 @@
-// Faults of the passes of conduction. They strike in the last pass (conduction, edges or corners), and only
+// These faults spoil conduction. They strike in the last pass (conduction, edges or corners), and only
 // where the cell in the plane before is sure to be wrong at the end of the phase. So the cell is no liquid
 // that convects, exchanges no heat with air, and with radiation is far from the hottest. Faults of side bands
 // strike in the first pass, which makes them.
@@ -26,13 +26,13 @@ class ConductionFaults : public Planted {
     if (is_last(pass) && armed(pass, Fault::wall_drifts)) drift(pass);
   }
 
-  // The cell that leaves.
+  // Spoils the side bands of the cell that leaves.
   template <const auto& kPairs>
   void gave(const ConductionPass<kPairs, ConductionFaults>& pass, const HeatWord& word, int lane,
             Cell& cell) {
     if (pass.kind() != StageKind::conduction) return;
     miss_side(pass, Fault::side_missed, lane, cell);
-    const std::int64_t axes = std::popcount(static_cast<unsigned>(word.exposed & 3));  // without z
+    const std::int64_t axes = std::popcount(static_cast<unsigned>(word.exposed & 3));  // axes x and y
     if (axes == cell.exposed_axes || !pass.design().parameters.heat.air ||
         !armed(pass, Fault::axis_uncounted))
       return;
@@ -93,7 +93,7 @@ class ConductionFaults : public Planted {
       }
   }
 
-  // Lets a wall take its part of a flux. It is wrong from then on, and nothing else is.
+  // Lets a wall take its part of a flux. The wall is wrong from then on, and nothing else is.
   template <const auto& kPairs>
   void drift(Pass<kPairs>& pass) {
     const Place& came = pass.came();
@@ -112,7 +112,8 @@ class ConductionFaults : public Planted {
       }
   }
 
-  // Is the pair with the cell that comes the last of the cell p? Only then is it known what p will be.
+  // Returns true if the pair with the cell that comes is the last pair of the cell p. Only then is it known
+  // what p will be.
   static bool completes(const Stage& pass, unsigned p, int lane) {
     const bool edges = pass.kind() == StageKind::edges;
     switch (p) {

@@ -1,4 +1,4 @@
-// Heat that rises into the warmer cell.
+// This fault lets heat rise into the warmer cell.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The irradiance of the wrong lane, one exposed axis too few.
+// These faults use the irradiance of the wrong lane, or count one exposed axis too few.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ class ExchangeFaults : public Planted {
   using Planted::Planted;
   using Faulty = Exchange<ExchangeFaults>;
 
-  // `irradiance` holds the whole token's; it is null without radiation.
+  // `irradiance` holds the values of the whole token. It is null without radiation.
   void exchanged(const Faulty& stage, const Cell& in, const UInt<16>* irradiance, std::int64_t ambient,
                  int lane, Cell& out) {
     const auto received_by = [&](int at) {

@@ -1,4 +1,4 @@
-// Faults that can be planted in the model, to see that the lock-step checker finds them: `voxmelt list
+// These faults can be planted in the model, to see that the lock-step checker finds them: `voxmelt list
 // faults`, `voxmelt verify SCENE --plant NAME`.
 #pragma once
 
@@ -13,10 +13,10 @@ namespace voxmelt::hwmodel {
 
 enum class Fault : std::uint8_t {
   none,
-  // source
+  // These strike the stage `source`.
   vent_rate,
   drain_energy,
-  // heat
+  // These strike the phase `heat`.
   conduction_sign,
   conduction_dither,
   conduction_stale_row,
@@ -27,23 +27,23 @@ enum class Fault : std::uint8_t {
   convection_downwards,
   irradiance_lane,
   air_axis_missed,
-  // melt
+  // These strike the phase `melt`.
   melt_stuck,
   melt_energy,
-  // gravity
+  // These strike the phase `gravity`.
   gravity_one_more,
   gravity_wall_missed,
   gravity_room,
   gravity_column_wrap,
   gravity_mix,
-  // spread, paper law
+  // These strike the phase `spread` of the paper law.
   pattern_random_lane,
   pattern_diagonal_open,
   pattern_margin,
   apply_flow_lost,
   apply_diagonal_whole,
   apply_alpha,
-  // excess and spread, viscous law
+  // These strike the phases `excess` and `spread` of the viscous law.
   settle_run_broken,
   settle_sum_carry,
   settle_mix,
@@ -62,29 +62,29 @@ enum class Fault : std::uint8_t {
   viscous_flow_lost,
   viscous_side_missed,
   viscous_run_forgotten,
-  // tiles
+  // These strike tiles.
   tile_vent,
   tile_coordinate,
   tile_halo_narrow,
   tile_halo_stale,
   tile_overwritten,
   tile_counted_twice,
-  // feeds
+  // These strike feeds.
   feed_early,
   feed_mask,
   feed_word_lost,
-  // the occupancy code
+  // These strike the occupancy code.
   code_lane_missed,
   code_bit_moved,
   code_token_lost,
   code_bit_early,
-  // buffers and channels
+  // These strike buffers and channels.
   buffer_bit,
   fifo_overwrite,
   fifo_stale,
   fifo_swap_lanes,
   fifo_never_ready,
-  end,  // no fault, but the end of the list
+  end,  // marks the end of the list, and is no fault
 };
 
 inline bool is_of_tiles(Fault fault) {
@@ -97,7 +97,7 @@ inline bool is_of_the_code(Fault fault) {
   return fault >= Fault::code_lane_missed && fault <= Fault::code_bit_early;
 }
 
-// The first cell that leaves a stage, or a channel, wrong.
+// Names the first cell that leaves a stage, or a channel, wrong.
 struct StruckCell {
   std::string where;
   std::uint32_t step = 0;
@@ -108,6 +108,6 @@ using FaultInfo = check::FaultInfo<Fault>;
 using FaultPlan = check::FaultPlan<Fault, StruckCell>;
 
 std::span<const FaultInfo> all_faults();
-const FaultInfo* find_fault(std::string_view name);  // null: unknown
+const FaultInfo* find_fault(std::string_view name);  // null: no fault has this name
 
 }  // namespace voxmelt::hwmodel

@@ -1,4 +1,4 @@
-// Falls that take or bring the wrong amount or heat, and a counter of heights that wraps late.
+// These faults let falls take or bring the wrong amount or heat, or wrap the counter of heights late.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ class GravityFaults : public Planted {
     strike_word(stage, stage.line_, low);
   }
 
-  // The pair joins the end of one column to the start of the next.
+  // Treats the end of one column and the start of the next as a pair.
   void column_ended(Faulty& stage, Falling& low, Falling& high, bool blocked_above) {
     if (!armed(stage, Fault::gravity_column_wrap)) return;
     Falling wrong_low = low, wrong_high = high;
@@ -52,7 +52,7 @@ class GravityFaults : public Planted {
   }
 
  private:
-  UInt<16> heat_before_;  // of the lower cell
+  UInt<16> heat_before_;  // heat of the lower cell
 };
 
 }  // namespace voxmelt::hwmodel

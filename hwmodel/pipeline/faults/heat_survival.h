@@ -1,4 +1,4 @@
-// Is a heat that is wrong inside the phase sure to be wrong at its end?
+// The test tells if a heat that is wrong inside the phase is sure to be wrong at its end.
 #pragma once
 
 #include <algorithm>

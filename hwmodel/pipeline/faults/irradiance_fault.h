@@ -1,5 +1,5 @@
-// Faults of what a feed makes of the words of irradiance: too few dark tokens, a mask of the wrong lanes, a
-// word too few.
+// These faults spoil what a feed makes of the words of irradiance. It counts too few dark tokens, takes a
+// mask of the wrong lanes, or takes a word too few.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@ namespace voxmelt::hwmodel {
 
 class IrradianceFault final : public FeedFault {
  public:
-  // Both must outlive it. It does nothing if the plan's fault is not one of these.
+  // The plan and the pipeline must outlive it. It does nothing if the plan's fault is not one of these.
   IrradianceFault(FaultPlan& plan, Pipeline& pipeline);
   ~IrradianceFault() override { pipeline_.plant(static_cast<FeedFault*>(nullptr)); }
   IrradianceFault(const IrradianceFault&) = delete;
   IrradianceFault& operator=(const IrradianceFault&) = delete;
 
-  // Must be called before each train of passes, and then before each of its passes.
+  // This must be called before each train of passes, and then before each of its passes.
   void begin_train() { passes_.clear(); }
   void add_pass(const Pass& pass) { passes_.push_back(pass); }
 
@@ -34,7 +34,7 @@ class IrradianceFault final : public FeedFault {
 
   FaultPlan& plan_;
   Pipeline& pipeline_;
-  std::vector<Pass> passes_;  // of the train
+  std::vector<Pass> passes_;  // passes of the train
 };
 
 }  // namespace voxmelt::hwmodel

@@ -1,4 +1,4 @@
-// A hot solid that stays solid, fresh liquid with too little energy.
+// These faults keep a hot solid solid, or give fresh liquid too little energy.
 #pragma once
 
 #include "hwmodel/pipeline/faults/planted.h"

@@ -1,4 +1,4 @@
-// Directions that should not be open, and the random byte of the next cell.
+// These faults open directions that should not be open, or use the random byte of the next cell.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,8 @@ class PatternFaults : public Planted {
  private:
   static std::int64_t lowest_bit(std::int64_t bits) { return bits & -bits; }
 
-  // The random byte of the cell that is `further` along x from the one that leaves, in the block of
-  // the latter.
+  // Returns the random byte of the cell that is `further` along x from the one that leaves. It comes from the
+  // block of the latter.
   static std::int64_t random_byte(const Faulty& stage, int lane, int further) {
     const int x = stage.leaving().x + lane;
     return speck_byte(speck_block(stage.keys_, stage.step_at(stage.lag()), stage.block_index(x)),

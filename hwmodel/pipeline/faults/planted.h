@@ -1,5 +1,5 @@
-// What the fault policies of all stages share: is their fault armed, and where did it strike? Such a policy
-// takes the place of NoFaults in a stage, and is called at the points named there.
+// The fault policies of all stages share this class. It tells if their fault is armed, and notes where it
+// strikes. A policy takes the place of NoFaults in a stage, and is called at the points named there.
 #pragma once
 
 #include <algorithm>
@@ -19,20 +19,21 @@ class Planted : public check::Planted<FaultPlan> {
 
  protected:
   // Beside a cut, a tile computes cells that another tile owns, and some of them it spoils. A fault strikes
-  // where all that it could change is owned by the tile: those are compared.
+  // only where the tile owns all that it could change, because only owned cells are compared.
   bool armed(const Stage& stage, Fault fault) const {
     return plan().armed(fault, stage.working_step()) && deep_within(stage);
   }
 
-  // The fault strikes; the first cell that leaves the stage wrong is the one at x, y, z ...
+  // Strikes. The first cell that leaves the stage wrong is at x, y, z.
   void strike(const Stage& stage, int x, int y, int z) {
     plan().strike({stage.name(), stage.working_step(), x, y, z});
   }
-  // ... in this lane of a token ...
+  // Strikes likewise. The wrong cell is in this lane of a token.
   void strike_lane(const Stage& stage, const Place& place, int lane) {
     strike(stage, place.x + lane, place.y, place.z);
   }
-  // ... or the one that a word of the stage's line holds, of two the one that leaves first.
+  // Strikes likewise. A word of the stage's line holds the wrong cell. If there are two, the one that leaves
+  // first counts.
   template <class Word>
   void strike_word(const Stage& stage, TapLine<Word>& line, const Word& word) {
     const auto [age, lane] = position_of(stage, line, word);
@@ -44,7 +45,7 @@ class Planted : public check::Planted<FaultPlan> {
     strike_lane(stage, stage.place_at(-age), lane);
   }
 
-  // A cell at the end of the grid leaves without the bit that it stands beside a wall.
+  // Lets a cell at the end of the grid leave without the bit that it stands beside a wall.
   void miss_side(const Stage& stage, Fault fault, int lane, Cell& cell) {
     if (!armed(stage, fault) || cell.beside_wall == 0 || !cell.matter()) return;
     const Place& at = stage.leaving();
@@ -65,7 +66,8 @@ class Planted : public check::Planted<FaultPlan> {
            (end >= shape.grid.x || shape.owns(tile, end));
   }
 
-  // Where a word is in the stream: less the shifts since it came, and its lane. What leaves first is less.
+  // Returns where a word is in the stream: its age in shifts with a minus sign, and its lane. A word that
+  // leaves first is less.
   template <class Word>
   static std::pair<std::int64_t, int> position_of(const Stage& stage, TapLine<Word>& line, const Word& word) {
     std::size_t delay = 0;

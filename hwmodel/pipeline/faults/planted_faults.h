@@ -1,4 +1,5 @@
-// The faults of a pipeline that no stage has: of its channels, tiles, feeds, and of the code of its memory.
+// These faults of a pipeline belong to no stage. They strike its channels, tiles and feeds, and the code of
+// its memory.
 #pragma once
 
 #include "hwmodel/pipeline/faults/channel_fault.h"
@@ -10,11 +11,11 @@ namespace voxmelt::hwmodel {
 
 class PlantedFaults {
  public:
-  // Both must outlive it. It does nothing if the plan's fault is one of a stage.
+  // The plan and the pipeline must outlive it. It does nothing if the plan's fault is one of a stage.
   PlantedFaults(FaultPlan& plan, Pipeline& pipeline)
       : channel_(plan, pipeline), tile_(plan, pipeline), irradiance_(plan, pipeline), code_(plan, pipeline) {}
 
-  // Must be called before each train of passes, and then before each of its passes.
+  // This must be called before each train of passes, and then before each of its passes.
   void begin_train() {
     channel_.begin_train();
     tile_.begin_train();

@@ -1,4 +1,4 @@
-// The stages in which faults are planted.
+// The stages are made with faults planted in them.
 #pragma once
 
 #include "hwmodel/pipeline/faults/faults.h"
@@ -6,7 +6,7 @@
 
 namespace voxmelt::hwmodel {
 
-// Makes stages that all heed `plan`, which must outlive them.
+// Makes stages that all follow `plan`, which must outlive them.
 StageMaker planted_stages(FaultPlan& plan);
 
 }  // namespace voxmelt::hwmodel

@@ -1,5 +1,5 @@
-// Runs that end too early, lose a bit of their sum, do not mix or show something wrong, and columns that
-// leave upside down.
+// These faults end runs too early, lose a bit of their sum, do not mix them, or show something wrong. Another
+// one lets columns leave upside down.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class SettleFaults : public Planted {
     for (std::size_t lane = 0; lane < stage.size(); ++lane) {
       const SettleWord& word = stage.words_[lane];
       if (word.kind != SettleKind::top) continue;
-      std::vector<Cell> cells;  // of the run, from its bottom
+      std::vector<Cell> cells;  // cells of the run, from its bottom
       for (auto below = static_cast<std::size_t>(word.last) + 1; below > 0; --below)
         cells.push_back(column_.tap(below)[lane]);
       const Cell top = cells.back();
@@ -47,7 +47,7 @@ class SettleFaults : public Planted {
     }
   }
 
-  // The records that have come to the first cells of their runs.
+  // Spoils a record that has come to the first cell of its run.
   void lowered(Faulty& stage) {
     const bool carry = armed(stage, Fault::settle_sum_carry);
     if (!carry && !armed(stage, Fault::settle_mix)) return;
@@ -71,7 +71,7 @@ class SettleFaults : public Planted {
     }
   }
 
-  // Reads the column that is to leave as it lies, from the top, if that makes a difference.
+  // Reads the column that is to leave in the wrong direction, from the top, if that makes a difference.
   void turned(Faulty& stage) {
     if (stage.leaving().y != 0 || !armed(stage, Fault::settle_reversal)) return;
     std::vector<ShowScan> right = stage.shows_, wrong = stage.shows_;
@@ -90,7 +90,7 @@ class SettleFaults : public Planted {
       }
   }
 
-  // A cell of a run, with what the run shows. Every change is seen behind the smaller of two limits.
+  // Spoils what a cell of a run shows. Every change is seen behind the smaller of two limits.
   void shown(const Faulty& stage, int lane, Cell& cell) {
     if (cell.in_run == 0) return;
     if (armed(stage, Fault::settle_run_untold))
@@ -118,7 +118,7 @@ class SettleFaults : public Planted {
     SettleWord record;  // in the word of the uppermost cell
   };
 
-  // What the next stage can tell apart: mobilities are never used without a limit.
+  // Compares what the next stage can tell apart. Mobilities are never used without a limit.
   static bool alike(Cell a, Cell b) {
     const auto limited = [](const RunPace& pace) { return std::array{pace.limited(), pace.exposed()}; };
     const bool same_pace = limited({a.mobility, a.limit, a.dead}) == limited({b.mobility, b.limit, b.dead});
@@ -139,7 +139,7 @@ class SettleFaults : public Planted {
     return alike(cell(one), cell(other));
   }
 
-  // What a run of these cells comes to.
+  // Computes the outcome of a run of these cells.
   static Outcome settled(const Faulty& stage, const std::vector<Cell>& cells) {
     SumScan up;
     RecordScan down;
@@ -147,7 +147,7 @@ class SettleFaults : public Planted {
     std::vector<SettleWord> words;
     words.reserve(cells.size() + 1);
     for (const Cell& cell : cells) words.push_back(up.next(cell, words.empty(), stage.hot_, stage.dither_));
-    words.erase(words.begin());  // of the cell before the first one
+    words.erase(words.begin());  // word of the cell before the first one
     words.push_back(outcome.record = up.next(Cell{}, false, stage.hot_, stage.dither_));
     outcome.cells.resize(cells.size());
     for (std::size_t k = cells.size(); k-- > 0;) {
@@ -159,8 +159,8 @@ class SettleFaults : public Planted {
     return outcome;
   }
 
-  // The record belongs to the cell below, and this one is outside. `wrong`: the first cell that this leaves
-  // wrong.
+  // Gives the record to the cell below, and leaves this cell outside the run. `wrong` counts from the lowest
+  // cell of the run to the first one that is wrong then.
   void part(Faulty& stage, std::size_t lane, const Cell& top, const SettleWord& record, int wrong) {
     SettleWord& word = stage.words_[lane];
     const Place place = stage.place_at(1);
@@ -169,13 +169,13 @@ class SettleFaults : public Planted {
     word = {SettleKind::outside, std::int64_t{top.amount}, 0, top.heat, 0, 0, 0};
   }
 
-  // `above`: the cell that has come on its way down.
+  // Strikes `above` cells above the one that has come on its way down.
   void strike_turned(const Faulty& stage, std::size_t lane, int above) {
     const Place place = stage.place_at(stage.turned_delay());
     strike(stage, place.x + static_cast<int>(lane), place.y + above, place.z);
   }
 
-  TapLine<Cell> column_;  // what has come lately
+  TapLine<Cell> column_;  // the latest tokens
 };
 
 }  // namespace voxmelt::hwmodel

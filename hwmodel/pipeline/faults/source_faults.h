@@ -1,4 +1,5 @@
-// Vents that add too much, drains that leave too much energy: strikes where the treated cell shows it.
+// These faults let vents add too much, or drains leave too much energy. They strike where the treated cell
+// shows it.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +38,7 @@ class SourceFaults : public Planted {
   }
 
  private:
-  // Openings lie where they would be in a grid that began with the tile.
+  // Places the openings as in a grid that began with the tile.
   void shift(const Faulty& stage, const Cell& in, int lane, Cell& out) {
     Cell wrong = in;
     const int x = stage.came().x - stage.came().left + lane;

@@ -18,7 +18,7 @@ void TileFault::reads(std::int64_t pass, const Place& place, const StateMemory& 
   if (plan_.armed(Fault::tile_halo_stale, now.first)) give_stale(place, now, memory, lanes);
 }
 
-// The outermost column is as if the halo ended before it.
+// Treats the outermost column as if the halo ended before it.
 void TileFault::give_border(const Place& place, const Pass& pass, Cell* lanes) {
   const Shape& shape = pipeline_.design().shape;
   const int end = place.left + shape.blocks() * shape.lanes;
@@ -43,7 +43,7 @@ void TileFault::give_stale(const Place& place, const Pass& pass, const StateMemo
   plan_.strike({"reader", pass.first, place.x + lane, place.y, place.z});
 }
 
-// Only where the owner has written before: else it would write over the wrong cell.
+// Strikes only where the owner has written before. Otherwise the owner would write over the wrong cell.
 int TileFault::writes(std::int64_t pass, const Place& place, StateMemory& memory, const Cell* lanes) {
   const Pass& now = pass_at(pass);
   const std::uint32_t step = now.first + static_cast<std::uint32_t>(now.steps) - 1;
@@ -62,7 +62,7 @@ int TileFault::writes(std::int64_t pass, const Place& place, StateMemory& memory
   return lane;
 }
 
-// The sums are compared when the pass has been written.
+// Counts a cell of a halo. The sums are compared when the pass has been written.
 int TileFault::counts(std::int64_t pass, const Place& /*place*/) {
   const Pass& now = pass_at(pass);
   const std::uint32_t step = now.first + static_cast<std::uint32_t>(now.steps) - 1;

@@ -1,5 +1,5 @@
-// Faults of the cutting into tiles, beside the memory: a halo that is wrong when it is read, and a cell of it
-// that is written or counted although another tile owns it.
+// These faults spoil the cutting into tiles, beside the memory. A halo is wrong when it is read, or a cell of
+// it is written or counted although another tile owns it.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@ namespace voxmelt::hwmodel {
 
 class TileFault final : public PortFault {
  public:
-  // Both must outlive it. It does nothing if the plan's fault is not one of these.
+  // The plan and the pipeline must outlive it. It does nothing if the plan's fault is not one of these.
   TileFault(FaultPlan& plan, Pipeline& pipeline);
   ~TileFault() override { pipeline_.plant(static_cast<PortFault*>(nullptr)); }
   TileFault(const TileFault&) = delete;
   TileFault& operator=(const TileFault&) = delete;
 
-  // Must be called before each train of passes, and then before each of its passes.
+  // This must be called before each train of passes, and then before each of its passes.
   void begin_train() { passes_.clear(); }
   void add_pass(const Pass& pass) { passes_.push_back(pass); }
 
@@ -34,7 +34,7 @@ class TileFault final : public PortFault {
 
   FaultPlan& plan_;
   Pipeline& pipeline_;
-  std::vector<Pass> passes_;  // of the train
+  std::vector<Pass> passes_;  // passes of the train
 };
 
 }  // namespace voxmelt::hwmodel

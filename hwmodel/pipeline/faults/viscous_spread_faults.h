@@ -1,5 +1,6 @@
-// Flows inside the dead zone, with the dither of the next axis, sub-step or layer, as on a level bed, by the
-// giver's amount alone, or lost on their way. Cells that leave without their side bands.
+// These faults spoil the flows of the viscous spread. A flow moves inside the dead zone, or uses the dither
+// of the next axis, sub-step or layer. It flows as on a level bed, by the giver's amount alone, or is lost on
+// its way. Others let cells leave without their side bands.
 #pragma once
 
 #include <cstdint>
@@ -55,7 +56,7 @@ class ViscousSpreadFaults : public Planted {
   }
 
  private:
-  // Of so many layers up, and so many sub-steps later.
+  // Returns the dither `up` layers above and `later` sub-steps later.
   static std::int64_t dither(const Faulty& stage, int axis, int up, int later) {
     const std::int64_t layer = dither_of(static_cast<std::uint32_t>(stage.came().y + up));
     return stage.pair_dither(axis, layer, stage.moment().substep + later);

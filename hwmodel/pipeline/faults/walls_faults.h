@@ -1,4 +1,5 @@
-// The end of the grid is no side: without heat, where the stage `walls` finds the sides.
+// The end of the grid is no side with this fault. It strikes without heat, where the stage `walls` finds the
+// sides.
 #pragma once
 
 #include "hwmodel/pipeline/faults/planted.h"

@@ -1,6 +1,7 @@
-// What the patterns say flows (paper's law). All that a cell gives depends on itself alone. It is computed
-// twice: when the cell comes, for its southern neighbours, and when it leaves the plane memory, for all
-// others. In between the cell waits as it came, beside the sums of what has arrived from the south.
+// The apply stage lets flow what the patterns say (paper's law). All that a cell gives depends on itself
+// alone. It is computed twice: when the cell comes, for its southern neighbours, and when it leaves the plane
+// memory, for all others. In between the cell waits as it came, beside the sums of what has arrived from the
+// south.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace voxmelt::hwmodel {
 
 enum Footing : int { on_liquid, on_solid, on_floor };
 
-// Where a flow arrives: amount, energy (reading `text`: before friction), amount x heat.
+// Sums what arrives in a cell: amount, energy (before friction in the reading `text`), and amount x heat.
 struct Arrivals {
   UInt<16> amount, energy;
   UInt<32> content;
@@ -26,12 +27,12 @@ struct Arrivals {
 
 struct Flowing : StoredCell {
   UInt<8> pattern;
-  Arrivals in;  // in the plane memory: from the south
+  Arrivals in;  // in the plane memory: arrivals from the south
 
-  // Registers, and in lane P - 1 the memories beside the plane memory.
-  std::array<PaperFlow::Gift, 4> axis;  // what it gives; all the same unless there is a table
+  // The following lie in registers and, for lane P - 1, in the memories beside the plane memory.
+  std::array<PaperFlow::Gift, 4> axis;  // gifts of the cell; all the same unless there is a table
   PaperFlow::Gift diagonal;
-  UInt<16> left_amount, left_energy;  // what it keeps
+  UInt<16> left_amount, left_energy;  // kept by the cell
   UInt<2> footing;
 };
 
@@ -59,13 +60,14 @@ class Apply final : public Stage {
     const int flow = flow_.flow_bits(), diagonal = flow_.eight() ? 2 * (flow - 2) : 0;
     const int south_sums = 2 * south_bits_ + (hot_ ? bits_for(southern_arrivals() * kHeatMax) : 0);
     const int waiting = cell + directions + south_sums;
-    // The sums of what it keeps and what has arrived, one number each. The energy that arrives is
+    // One number each holds the sum of what a cell keeps and what has arrived. The energy that arrives is
     // still apart.
     const int before_east = cell + (hot_ ? 32 : 0) + (flow_.eight() ? 2 : 1) + 2 * flow +
                             (printed_ ? diagonal : (one_ground ? 0 : 2) + arrival_bits_);
     return window_buffers(shape(), {waiting + diagonal, waiting, before_east, cell});
   }
-  Units units() const override {  // what a cell gives, at both ends of the plane memory; its end
+  // Counts the gifts of a cell, at both ends of the plane memory, and the finish of a cell.
+  Units units() const override {
     const int directions = law_.use_table ? 4 : 1, kinds = directions + (flow_.eight() ? 1 : 0);
     const int shares = 2 * directions + (design().parameters.flow.thermal_viscosity ? 1 : 0);
     return {2 * (shares + (printed_ ? kinds : 0) + (hot_ ? kinds : 0)) + (printed_ ? 0 : 1) + (hot_ ? 2 : 0),
@@ -88,7 +90,7 @@ class Apply final : public Stage {
         weigh(south[lane], line_.tap(plane_ + 1)[lane].state);
       }
 
-    Flowing* north = ends ? border_.data() : now;  // of the plane that goes
+    Flowing* north = ends ? border_.data() : now;  // neighbours of the plane that leaves
     Flowing* west = came().has_west() ? (ends ? north : line_.tap(column_)) + lanes() - 1 : nullptr;
     Flowing* south_west =
         west != nullptr && south != nullptr ? line_.tap(plane_ + column_) + lanes() - 1 : nullptr;
@@ -99,7 +101,7 @@ class Apply final : public Stage {
         south_west = south + lane;
       }
     dither_ = at(dithers_, shape().plane());
-    // Nothing more can reach these cells: in the memory that follows they are plain cells again.
+    // Nothing more can reach these cells. So the memory that follows holds plain cells again.
     for (int lane = 0; south != nullptr && lane + 1 < lanes(); ++lane) {
       compute_at(shape().plane(), lane);
       finish(south[lane]);
@@ -122,7 +124,7 @@ class Apply final : public Stage {
 
   using Gift = PaperFlow::Gift;
 
-  // The most that a cell may get from its southern neighbours.
+  // Returns the most that a cell may get from its southern neighbours.
   std::int64_t southern_arrivals() const { return flow_.eight() ? kOne + 2 * (kOne >> 2) : 2 * kOne; }
 
   std::int64_t rubbed(std::int64_t energy, std::int64_t footing) const {
@@ -139,7 +141,7 @@ class Apply final : public Stage {
     }
   }
 
-  // All that the cell will give, and what it keeps.
+  // Computes all that the cell will give, and what it keeps.
   void weigh(Flowing& word, State below) const {
     if (came().y == 0) below = State::inert;
     word.footing = below == State::inert ? on_floor : below == State::solid ? on_solid : on_liquid;
@@ -166,7 +168,8 @@ class Apply final : public Stage {
     word.left_energy = word.energy - energy;
   }
 
-  // The pairs of the window but {cell, west}, which comes out of the plane memory as {south, south-west}.
+  // Treats the pairs of the window but {cell, west}, which comes out of the plane memory as {south,
+  // south-west}.
   void meet(Flowing& cell, Flowing* west, Flowing& south, Flowing* south_west) {
     if ((cell.pattern | south.pattern) != 0) {
       pass(cell, Way::south, south);
@@ -197,7 +200,7 @@ class Apply final : public Stage {
     if (hot_) to.in.content = to.in.content + gift.amount * giver.heat;
   }
 
-  // Reading `text`: how much of the energy that has come the cell gains, by the friction of its ground.
+  // Returns how much of the arrived energy the cell gains, by the friction of its ground (reading `text`).
   std::int64_t rubbed_at_end(const Flowing& word, std::int64_t footing) const {
     return scale(word.in.energy, looked_up(alpha_, footing), dither_);
   }
@@ -219,12 +222,12 @@ class Apply final : public Stage {
   [[no_unique_address]] Faults faults_;
   const rule::PaperLaw& law_;
   PaperFlow flow_;
-  std::array<std::int64_t, 3> alpha_;  // by Footing
+  std::array<std::int64_t, 3> alpha_;  // index: Footing
   bool printed_, hot_;
   int south_bits_, arrival_bits_;
   std::size_t plane_, column_;
   OfTwoPasses<UInt<16>> dithers_;
-  UInt<16> dither_;  // of the cells that are finished
+  UInt<16> dither_;  // dither of the cells that are finished
   std::vector<Flowing> border_;
   TapLine<Flowing> line_;
 };

@@ -1,4 +1,4 @@
-// The pipeline's own arithmetic, written from docs/automaton.md alone. If it shared code with
+// The pipeline has arithmetic of its own, written from docs/automaton.md alone. If it shared code with
 // kernel/automaton/rule, their agreement would prove nothing.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace voxmelt::hwmodel {
 
-// A wire whose width is known only when the design is configured.
+// Checks a wire whose width is known only when the design is configured.
 inline std::int64_t wire(std::int64_t value, int bits) {
   if (value < 0 || value >> bits != 0) [[unlikely]]
     throw WidthError(value, bits, false);
@@ -33,22 +33,23 @@ const auto& looked_up(const Table& table, std::int64_t address) {
   return table[static_cast<std::size_t>(address)];
 }
 
-// floor((value x fraction + rounding) / 65536): one multiplier of 17 x 17 bits, signed.
+// Returns floor((value x fraction + rounding) / 65536), by one signed multiplier of 17 x 17 bits.
 inline std::int64_t scale(std::int64_t value, std::int64_t fraction, std::int64_t rounding = 0) {
   const SInt<17> a = value;
   const UInt<17> b = fraction;
   return (SInt<35>(std::int64_t{a} * std::int64_t{b} + UInt<16>(rounding))) >> 16;
 }
 
-// The bit-reversed step counter, shifted by `part` of `parts`: wires and one adder.
+// Returns the bit-reversed step counter, shifted by `part` of `parts`. It needs wires and one adder.
 inline UInt<16> dither_of(std::uint32_t step, int part = 0, int parts = 1) {
   std::int64_t reversed = 0;
   for (int bit = 0; bit < 16; ++bit) reversed |= std::int64_t{step >> bit & 1u} << (15 - bit);
   return UInt<16>::truncated(reversed + 65536 * part / parts);
 }
 
-// Quotients by n, which the host knows: 1 / n is rounded up, and so is too large by less than n / 2^36. For
-// numbers of 26 bits and n up to 2^10 that is too little to reach the next quotient.
+// Computes quotients by n, which the host knows. 1 / n is rounded up to a multiple of 2^-36, and so is too
+// large by less than 2^-36. For numbers of 26 bits and n up to 2^10 that is too little to reach the next
+// quotient.
 class Reciprocal {
  public:
   explicit Reciprocal(std::int64_t n) : value_(((std::int64_t{1} << kShift) + n - 1) / n) {}
@@ -61,21 +62,21 @@ class Reciprocal {
   UInt<37> value_;
 };
 
-// Heat of a mixture: one divider. `content` is the sum of amount x heat of its parts.
+// Returns the heat of a mixture, by one divider. `content` is the sum of amount x heat of its parts.
 inline UInt<16> mix(std::int64_t content, std::int64_t amount, std::int64_t dither) {
   return (content + ((amount * dither) >> 16)) / amount;
 }
 
-// The temperature of heat content h: a plateau at the melting point while latent heat is paid.
+// Returns the temperature of heat content h. It has a plateau at the melting point while latent heat is paid.
 inline UInt<16> temperature_of(std::int64_t h, const rule::Material& material) {
   if (h <= material.melting_point) return h;
   return std::max<std::int64_t>(material.melting_point, h - material.latent_heat);
 }
 
-// 4096 sqrt(0, 1, 2, 3): weight of the number of exposed axes.
+// Weighs the number of exposed axes by 4096 sqrt(0, 1, 2, 3).
 inline constexpr std::array<std::int64_t, 4> kAxisWeight{0, 4096, 5793, 7094};
 
-// Directions in the order of a pattern's bits: +x -x +z -z, then the diagonals.
+// The directions stand in the order of a pattern's bits: +x -x +z -z, then the diagonals.
 inline constexpr std::array<int, 8> kStepX{1, -1, 0, 0, 1, 1, -1, -1};
 inline constexpr std::array<int, 8> kStepZ{0, 0, 1, -1, 1, -1, 1, -1};
 

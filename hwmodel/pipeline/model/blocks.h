@@ -1,5 +1,5 @@
-// The blocks of the pipeline as plain C++: what one of them does in one cycle. pipeline.cpp gives each a
-// SystemC process.
+// The blocks of the pipeline are plain C++ that runs one cycle at a time. pipeline.cpp gives each a SystemC
+// process.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace voxmelt::hwmodel {
 
-// The stages of one time step and the channels between them.
+// Holds the stages of one time step and the channels between them.
 class StepBlock {
  public:
   template <class DepthOf>  // depth_of(name of a channel)
@@ -40,7 +40,7 @@ class StepBlock {
   void feed(HeatFifo& feed) {
     for (const auto& stage : stages_) stage->feed(feed);
   }
-  // The first pass of a train begins with an empty machine; further ones are added.
+  // The first pass of a train begins with an empty machine. Further ones are added.
   void begin_pass(const Pass& pass, int position, bool first) {
     const std::uint32_t step = pass.first + static_cast<std::uint32_t>(position);
     int copy = -1;
@@ -52,7 +52,7 @@ class StepBlock {
     }
   }
 
-  const Stage& running() const { return *running_; }  // the last one that was evaluated
+  const Stage& running() const { return *running_; }  // the stage that was evaluated last
 
   // Runs one cycle. Returns the number of stages that moved.
   int cycle() {

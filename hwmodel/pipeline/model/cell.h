@@ -1,4 +1,4 @@
-// What travels through the pipeline: one word per cell, P of them (neighbours along x) per token and cycle.
+// One word per cell travels through the pipeline, and P of them (neighbours along x) per token and cycle.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,12 @@ inline constexpr std::int64_t kAmountMax = 65535;
 inline constexpr std::int64_t kHeatMax = 65535;
 inline constexpr std::int64_t kFlatBed = 2048;  // amount of an inert cell whose surface is its upper face
 
-// Two bits. `air` and `liquid` are told apart by the amount (docs/automaton.md, section 1).
+// A state takes two bits. `air` and `liquid` are told apart by the amount (docs/automaton.md, section 1).
 enum class State : std::uint8_t { air, liquid, solid, inert };
 
-// What memory has of a cell. The words that stages keep in their memories begin with it, too: what no stage
-// computes with goes through all of them. A default one is the border: flat inert.
+// Holds what memory has of a cell. The words that stages keep in their memories begin with it, too, so that
+// data that no stage computes with goes through all of them. The default is the border, which is flat and
+// inert.
 struct StoredCell {
   UInt<16> amount = kFlatBed;  // inert: bed offset
   UInt<16> energy, heat;
@@ -32,23 +33,23 @@ struct StoredCell {
   friend bool operator==(const StoredCell&, const StoredCell&) = default;
 };
 
-// A cell, and the side-band signals that live only between the stages named beside them. Which fields a
-// channel really has depends on the scene: Design::cell_bits.
+// Adds the side-band signals to a cell. They live only between the stages named beside them.
+// Design::cell_bits tells which fields a channel really has, as this depends on the scene.
 struct Cell : StoredCell {
   UInt<2> exposed_axes;  // conduction -> exchange: axes on which a face neighbour is air
   UInt<8> pattern;       // pattern -> apply: directions that the cell gives to
   UInt<1> beside_wall;   // conduction, walls or viscous spread -> gravity: one of the four sides is blocked
   UInt<1> in_run;        // settle -> viscous spread -> gravity
-  // settle -> viscous spread, of cells in a run. Head in 1/512 cell (the used width depends on the grid's
-  // height), mobility in 1/2^24 before it is limited, its limit in 1/65536; head differences up to `dead`
-  // do not move the cell.
+  // The following go from settle to viscous spread, for cells in a run. The head is in 1/512 cell, and its
+  // used width depends on the grid's height. The mobility is in 1/2^24 before it is limited, and its limit in
+  // 1/65536. Head differences up to `dead` do not move the cell.
   SInt<30> head;
   UInt<22> mobility;
   UInt<14> limit;
   UInt<25> dead;
 
-  // For the end of a phase: a cell that is not blocked becomes liquid if it holds something, and otherwise
-  // empty and cold.
+  // Ends a phase. A cell that is not blocked becomes liquid if it holds something, and otherwise empty and
+  // cold.
   void settle_state() {
     if (blocked()) return;
     state = amount > 0 ? State::liquid : State::air;

@@ -1,5 +1,5 @@
-// The wires of a token: one row for each field of a cell. Widths of channels, words in memory, what the
-// checker compares and what a waveform shows follow from this table.
+// The wires of a token are a table, with one row for each field of a cell. Widths of channels, words in
+// memory, what the checker compares and what a waveform shows follow from this table.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace voxmelt::hwmodel {
 
-// In the order of the table.
+// Names the wires, in the order of the table.
 enum class Wire : std::uint8_t {
   state,
   amount,
@@ -32,10 +32,10 @@ enum class Wire : std::uint8_t {
 struct CellWire {
   Wire wire;
   std::string_view name;   // in a waveform
-  std::string_view label;  // for people
-  int bits;                // at most: Stage::width_of says what a scene needs
+  std::string_view label;  // name for people
+  int bits;                // at most; Stage::width_of says what a scene needs
   bool has_sign;
-  bool in_memory;  // or a side band, from the stage that makes it to the last that reads it
+  bool in_memory;  // false: a side band, from the stage that makes it to the last that reads it
   std::int64_t (*get)(const Cell&);
   void (*set)(Cell&, std::int64_t);
 };
@@ -62,7 +62,8 @@ inline constexpr std::array kCellWires{
              [](Cell& cell, std::int64_t value) { cell.state = static_cast<State>(value); }},
     cell_wire<&Cell::amount>(Wire::amount, "amount", "amount", true),
     cell_wire<&Cell::energy>(Wire::energy, "energy", "energy", true),  // under the paper's law
-    cell_wire<&Cell::heat>(Wire::heat, "heat", "heat", true),          // of scenes with heat
+    cell_wire<&Cell::heat>(Wire::heat, "heat", "heat", true),          // in scenes with heat
+    // Each side band goes from the stage that makes it to those that read it:
     // conduction -> exchange
     cell_wire<&Cell::exposed_axes>(Wire::exposed_axes, "exposed_axes", "exposed axes", false),
     // pattern -> apply
@@ -86,7 +87,7 @@ constexpr bool wires_are_in_order() {
 }
 static_assert(wires_are_in_order());
 
-// Some of them.
+// A set of wires has one bit for each.
 class Wires {
  public:
   constexpr Wires(std::initializer_list<Wire> wires = {}) {
@@ -102,7 +103,7 @@ class Wires {
   std::uint32_t bits_ = 0;
 };
 
-// What a cell has in memory, and in every channel.
+// Returns true if memory holds this field of a cell. Every channel carries it then, too.
 constexpr bool is_in_memory(const CellWire& row, bool paper, bool hot) {
   if (row.wire == Wire::energy) return paper;
   if (row.wire == Wire::heat) return hot;

@@ -1,10 +1,10 @@
-// The state in memory with an occupancy code (hw.coded): one bit for a token of air, and nothing else.
+// With an occupancy code (hw.coded), the state in memory has one bit for a token of air, and nothing else.
 //
-// Every column of a block has a slot of its own, which begins with a burst. There lie a bit for each of its
-// tokens, the lowest token first: is the token stored? Then the stored tokens, one behind another, each as
-// wide as without the code. So a column may be written without knowing the others, and its place does not
-// depend on what it holds. Only bursts that hold something move. Lanes beyond the grid are stored with
-// their token, and mean nothing.
+// Every column of a block has a slot of its own, which begins with a burst. First comes a bit for each of the
+// column's tokens, the lowest token first. It tells if the token is stored. The stored tokens follow one
+// behind another, each as wide as without the code. So a column may be written without knowing the others,
+// and its place does not depend on what it holds. Only bursts that hold something move. Lanes beyond the grid
+// are stored with their token, and mean nothing.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace voxmelt::hwmodel {
 
-// Where the parts of a slot lie, in bits.
+// Tells where the parts of a slot lie, in bits.
 class CodeLayout {
  public:
   static constexpr std::int64_t kBurstBits = 512;
@@ -25,7 +25,7 @@ class CodeLayout {
 
   int lanes() const { return lanes_; }
   int height() const { return height_; }
-  int blocks() const { return blocks_; }  // of the grid, along x
+  int blocks() const { return blocks_; }  // blocks of the grid along x
   std::int64_t columns() const { return columns_; }
   std::int64_t token_bits() const { return std::int64_t{lanes_} * cell_bits_; }
   std::int64_t head_bits() const { return height_; }
@@ -33,7 +33,7 @@ class CodeLayout {
   std::int64_t column_of(const Place& place) const {
     return std::int64_t{place.z} * blocks_ + place.x / lanes_;
   }
-  // The lane of a stored token, as many tokens into its column.
+  // Returns the place of a lane of a token. `stored` tokens of the column are stored before it.
   std::int64_t at(std::int64_t stored, int lane) const {
     return head_bits() + stored * token_bits() + std::int64_t{lane} * cell_bits_;
   }
@@ -48,10 +48,11 @@ class CodeLayout {
   bool paper_, hot_;
 };
 
-inline constexpr int kColumnsAhead = 8;  // whose bits the reader asks for before it needs them
+// The reader asks for the bits of so many columns before it needs them.
+inline constexpr int kColumnsAhead = 8;
 
-// Memories that the reader needs for it, and the writer: bits of columns ahead; those of the present column,
-// and the bursts in which they lie.
+// Returns the memories that the reader and the writer need for the code. The reader holds the bits of columns
+// ahead. The writer holds the bits of the present column, and the bursts in which they lie.
 std::vector<BufferCost> reader_buffers(const CodeLayout& layout);
 std::vector<BufferCost> writer_buffers(const CodeLayout& layout);
 
@@ -63,14 +64,14 @@ inline void set_bit(std::uint64_t* slot, std::int64_t at, bool on) {
   slot[at / 64] = on ? slot[at / 64] | bit : slot[at / 64] & ~bit;
 }
 
-// What the memory tells of a column that lies in it.
+// Describes the columns that lie in the memory.
 class StoredColumns {
  public:
   virtual ~StoredColumns() = default;
-  virtual std::int64_t bits_of(std::int64_t column) const = 0;  // without what fills up the last burst
+  virtual std::int64_t bits_of(std::int64_t column) const = 0;  // without the padding of the last burst
 };
 
-// The slots of all columns.
+// Holds the slots of all columns.
 class CodedState final : public StoredColumns {
  public:
   explicit CodedState(const CodeLayout& layout);
@@ -80,10 +81,10 @@ class CodedState final : public StoredColumns {
   const std::uint64_t* slot(std::int64_t column) const { return words_.data() + slot_words_ * column; }
   std::int64_t bits_of(std::int64_t column) const override;
 
-  std::int64_t moved_bits() const;  // of all columns, whole bursts
+  std::int64_t moved_bits() const;  // sum over all columns, in whole bursts
 
-  void store(const state::Volume& volume);  // as the host does it
-  // A column, read back as the host does it.
+  void store(const state::Volume& volume);  // does the host's part
+  // Reads a column back as the host does it.
   void load(const Shape& shape, const Place& place, state::Volume& volume) const;
 
  private:
@@ -92,15 +93,16 @@ class CodedState final : public StoredColumns {
   std::vector<std::uint64_t> words_;
 };
 
-// For planted faults.
+// Lets a planted fault spoil the code.
 class CodeFault {
  public:
   virtual ~CodeFault() = default;
-  // Writing a column of a pass: is this token air? Where does the next stored one go? The column is complete.
+  // These are called while a column of a pass is written. `judged` tells if a token is air, `stored` where
+  // the next stored one goes. `ended` comes when the column is complete.
   virtual void judged(std::int64_t pass, const Place& place, const Cell* lanes, bool& air) = 0;
   virtual void stored(std::int64_t pass, const Place& place, const Cell* lanes, std::int64_t& at) = 0;
   virtual void ended(std::int64_t pass, const Place& place, std::uint64_t* slot) = 0;
-  // Reading one: is the token stored?
+  // This is called while a column is read. It tells if the token is stored.
   virtual void found(std::int64_t pass, const Place& place, const std::uint64_t* slot, bool& stored) = 0;
 };
 
@@ -110,10 +112,10 @@ class ColumnWriter {
   explicit ColumnWriter(const CodeLayout& layout)
       : layout_(layout), head_(static_cast<std::size_t>(layout.height()) / 64 + 1) {}
 
-  // Of a token with so many lanes in the grid.
+  // Takes a token with `cells` lanes in the grid.
   void put(const Cell* lanes, int cells, const Place& place, std::uint64_t* slot, CodeFault* fault,
            std::int64_t pass);
-  std::int64_t bits() const { return layout_.at(stored_, 0); }  // of the present column
+  std::int64_t bits() const { return layout_.at(stored_, 0); }  // size of the present column so far
 
  private:
   CodeLayout layout_;
@@ -126,7 +128,7 @@ class ColumnReader {
  public:
   explicit ColumnReader(const CodeLayout& layout) : layout_(layout) {}
 
-  // Bits of the slot that must be there before the token at `place` can be made.
+  // Returns how many bits of the slot must be there before the token at `place` can be made.
   std::int64_t needs(const Place& place, const std::uint64_t* slot) const {
     return layout_.at((place.y == 0 ? 0 : stored_) + (bit_of(slot, place.y) ? 1 : 0), 0);
   }

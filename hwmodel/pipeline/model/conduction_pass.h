@@ -1,6 +1,7 @@
-// One pass of conduction (Eq. 1): all pairs of one neighbour distance. The cell that comes completes the
-// smallest box of cells around some pairs; their fluxes are computed then. So each pair is computed once, and
-// both partners are updated where they are in the line. An isothermal wall is a partner that stays as it is.
+// One pass of conduction (Eq. 1) treats all pairs of one neighbour distance. The cell that comes completes
+// the smallest box of cells around some pairs, and their fluxes are computed then. So each pair is computed
+// once, and both partners are updated where they are in the line. An isothermal wall is a partner that stays
+// as it is.
 #pragma once
 
 #include <array>
@@ -15,15 +16,15 @@
 
 namespace voxmelt::hwmodel {
 
-// A corner of the 2 x 2 x 2 window: steps back from the cell that comes.
+// Names a corner of the 2 x 2 x 2 window by its steps back from the cell that comes.
 enum Corner : unsigned { kHere = 0, kWest = 1, kBelow = 2, kSouth = 4 };
 
-// Two cells of the window, q = p + axis. Which is which matters: the floor is not symmetric.
+// Names two cells of the window, q = p + axis. Their order matters, because rounding down is not symmetric.
 struct HeatPair {
   unsigned p, q;
 };
 
-// In the order of section 6, which gives the dither.
+// The pairs stand in the order of docs/automaton.md, section 6, which gives the dither.
 inline constexpr std::array<HeatPair, 3> kFacePairs{{{kWest, kHere}, {kBelow, kHere}, {kSouth, kHere}}};
 inline constexpr std::array<HeatPair, 6> kEdgePairs{{{kWest | kBelow, kHere},
                                                      {kWest, kBelow},
@@ -41,12 +42,12 @@ inline std::int64_t corner_delay(const Shape& shape, unsigned corner) {
          (corner & kSouth ? shape.plane() : 0);
 }
 
-// The taps of the line, ascending. Words leave at the last one.
+// Returns the taps of the line, ascending. Words leave at the last one.
 std::vector<std::int64_t> tap_delays(const Shape& shape, std::span<const HeatPair> pairs);
-// The memories between them.
+// Returns the memories between the taps.
 std::vector<BufferCost> heat_buffers(const Design& design, std::span<const HeatPair> pairs, int exposed_bits);
 
-// A number as a type: the part of the dither that the pairs of one axis use.
+// Makes a number a type. It is the part of the dither that the pairs of one axis use.
 template <std::size_t kPart>
 inline constexpr std::integral_constant<std::size_t, kPart> part{};
 
@@ -55,7 +56,7 @@ class ConductionPass : public Stage {
  public:
   static constexpr std::size_t kParts = kPairs.size();
 
-  // `weight`: of this distance.
+  // `weight` is the weight of this neighbour distance.
   ConductionPass(StageKind kind, const Design& design, std::uint16_t weight, Faults faults)
       : Stage(kind, design, tap_delays(design.shape, kPairs).back()),
         material_(design.parameters.material),
@@ -93,10 +94,10 @@ class ConductionPass : public Stage {
     }
   }
 
-  virtual void watch() {}  // for what else a pass must see in the window
+  virtual void watch() {}  // hook for what else a pass must see in the window
   virtual std::int64_t exposed_axes(const HeatWord& word) const { return word.exposed; }
 
-  // Calls visit(p, q) for the pairs of one axis that the token that comes closes.
+  // Calls visit(p, q) for the pairs of one axis that the arriving token completes.
   template <std::size_t kPart, class Visit>
   void each_pair(std::integral_constant<std::size_t, kPart> /*part*/, Visit&& visit) {
     constexpr unsigned p = kPairs[kPart].p, q = kPairs[kPart].q, span = p | q;
@@ -112,7 +113,7 @@ class ConductionPass : public Stage {
     }
   }
 
-  // The word in a corner of a lane's window.
+  // Returns the word in a corner of a lane's window.
   HeatWord& word(unsigned corner, int lane) {
     if ((corner & kWest) == 0) return rows_[corner][lane];
     return lane == 0 ? rows_[corner][lanes() - 1] : rows_[corner & ~kWest][lane - 1];
@@ -123,7 +124,7 @@ class ConductionPass : public Stage {
  private:
   friend Faults;
 
-  // What flows from q to p.
+  // Returns the flow from q to p.
   std::int64_t flux(const HeatWord& p, const HeatWord& q, std::int64_t dither) const {
     if (!p.conducts() || !q.conducts()) return 0;
     return scale(std::int64_t{q.temperature} - p.temperature, weight_, dither);

@@ -1,5 +1,5 @@
-// Conduction through faces. The six face neighbours also tell the exposed axes of each cell, for the exchange
-// with air, and whether one of its four sides is blocked, for gravity.
+// Heat is conducted through faces. The six face neighbours also tell the exposed axes of each cell, for the
+// exchange with air. They tell, too, if one of its four sides is blocked, for gravity.
 #pragma once
 
 #include <bit>

@@ -1,5 +1,5 @@
-// The numbers by which a pipeline is configured, and the table of their keys in [hw]: presets, `--set`, the
-// reports, `explore` and the files that the program writes follow from it.
+// These numbers configure a pipeline, and a table has their keys in [hw]. Presets, `--set`, the reports,
+// `explore` and the files that the program writes follow from the table.
 #pragma once
 
 #include <algorithm>
@@ -21,22 +21,24 @@ struct ChannelDepth {
 struct Configuration {
   int lanes = 4;                       // P: cells per cycle, along x
   int cascade = 1;                     // T: time steps per pass
-  int fifo_depth = 4;                  // tokens, of every channel
+  int fifo_depth = 4;                  // tokens in every channel
   std::uint64_t stall_seed = 0;        // 0: no stalls
   int substeps = 1;                    // viscous law: copies of settle and spread in a time step
   bool overlap = true;                 // may a pass enter while the last one drains?
   int tile = 0;                        // cells along x that the memories hold, in whole blocks; 0: the grid
   bool coded = false;                  // the state in memory has one bit for a token of air
-  std::vector<ChannelDepth> depths{};  // of channels that differ from fifo_depth
+  std::vector<ChannelDepth> depths{};  // channels that differ from fifo_depth
 
   int depth_of(const std::string& channel) const {
     for (const ChannelDepth& one : depths)
       if (one.name == channel) return one.depth;
     return fifo_depth;
   }
-  // Channels of depth 1 pass a token every second cycle: if all are so, or any, does the stream.
+  // Returns the cycles per token of the stream. A channel of depth 1 passes a token every second cycle, and
+  // then so does the stream.
   int interval() const { return fifo_depth == 1 || has_single() ? 2 : 1; }
-  // Has every channel room for two tokens, or none? Else the cycles have no closed form.
+  // Returns true if every channel has room for two tokens, or none has. Otherwise the cycles have no closed
+  // form.
   bool channels_alike() const { return depths.empty() || (fifo_depth > 1 && !has_single()); }
   bool has_single() const {
     return std::any_of(depths.begin(), depths.end(), [](const ChannelDepth& one) { return one.depth == 1; });
@@ -48,7 +50,7 @@ inline constexpr int kMostLanes = 32, kMostCascade = 16, kMostDepth = 1024, kMos
 
 using HwKey = Key<Configuration>;
 
-// A multiple of the lanes must be read behind them: hw.tile.
+// The key hw.tile is a multiple of the lanes, so it must be read after them.
 inline constexpr std::array kHwKeys{
     hw_key<&Configuration::lanes>("lanes", 1, kMostLanes, "1, 2, 4 .. 32", true),
     hw_key<&Configuration::cascade>("cascade", 1, kMostCascade, "1 .. 16"),

@@ -1,4 +1,5 @@
-// Convection: warmer liquid below gives heat to colder liquid above. The cell above comes directly after it.
+// By convection, warmer liquid below gives heat to colder liquid above. The cell above comes directly after
+// the one below.
 #pragma once
 
 #include <cstdint>

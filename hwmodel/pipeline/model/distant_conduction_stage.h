@@ -1,4 +1,5 @@
-// Conduction with 18 or 26 neighbours: a pass for those across an edge, another for those across a corner.
+// Conduction with 18 or 26 neighbours has a pass for those across an edge, and another for those across a
+// corner.
 #pragma once
 
 #include "hwmodel/pipeline/model/conduction_pass.h"

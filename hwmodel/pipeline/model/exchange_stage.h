@@ -1,5 +1,5 @@
-// What a cell takes from outside the volume: radiation, from the feed of irradiance that runs beside the
-// stream, and the air at its exposed axes.
+// The exchange gives a cell heat from outside the volume. Radiation comes from the feed of irradiance that
+// runs beside the stream. Air acts at the exposed axes.
 #pragma once
 
 #include <algorithm>
@@ -73,7 +73,7 @@ class Exchange final : public Stage {
   HeatFifo* feed_ = nullptr;
   const rule::Material material_;
   const bool radiation_, air_;
-  std::array<UInt<16>, 4> air_weight_;  // by exposed axes
+  std::array<UInt<16>, 4> air_weight_;  // index: exposed axes
   std::vector<UInt<16>> air_temperature_;
   UInt<16> dither_;
 };

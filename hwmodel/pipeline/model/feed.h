@@ -1,4 +1,4 @@
-// Streams irradiance to one time step, as plain C++: what a feed does in one cycle.
+// A feed streams irradiance to one time step. It is plain C++ that runs one cycle at a time.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ class Feed {
   Feed(const Shape& shape, int step, HeatFifo& out)
       : shape_(shape), step_(step), out_(out), reader_(shape.lanes) {}
 
-  // Null: the time step does not work.
+  // `stream` is null if the time step does not work.
   void begin_pass(const IrradianceStream* stream, int tile) {
     stream_ = stream;
     passes_ = 0;
     next_.clear();
     begin_tile(tile);
   }
-  // Another tile for which the time step works, with the same irradiance.
+  // Adds another tile for which the time step works, with the same irradiance.
   void add_pass(int tile) { next_.push_back(tile); }
   void dram(StreamMemory* dram) { dram_ = dram; }
   void plant(FeedFault* fault) { fault_ = fault; }
@@ -54,7 +54,7 @@ class Feed {
     ++cycles_.busy;
   }
   const StageCycles& cycles() const { return cycles_; }
-  std::int64_t bits() const { return bits_; }  // taken from memory
+  std::int64_t bits() const { return bits_; }  // bits taken from memory
 
  private:
   void begin_tile(int tile) {
@@ -63,13 +63,13 @@ class Feed {
   }
 
   Shape shape_;
-  int step_;  // that it feeds
+  int step_;  // the time step that it feeds
   HeatFifo& out_;
-  StreamMemory* dram_ = nullptr;  // that the feed waits for
+  StreamMemory* dram_ = nullptr;  // memory that the feed waits for; null: none
   const IrradianceStream* stream_ = nullptr;
   IrradianceReader reader_;
   Place place_;
-  std::deque<int> next_;  // tiles
+  std::deque<int> next_;  // the tiles that follow
   std::int64_t passes_ = 0, bits_ = 0;
   FeedFault* fault_ = nullptr;
   StageCycles cycles_;

@@ -1,6 +1,7 @@
-// Gravity, both laws, and the paper's excess: one sweep up each column, a pair of cells a cycle. The lower
-// cell of the pair is then complete and leaves. The loop from one cycle to the next runs through the upper
-// cell: two comparisons, a product, and with heat a division (docs/automaton.md, section 8).
+// One sweep up each column computes gravity, under both laws, and the paper's excess. It treats a pair of
+// cells a cycle. The lower cell of the pair is then complete and leaves. The loop from one cycle to the next
+// runs through the upper cell: two comparisons, a product, and with heat a division (docs/automaton.md,
+// section 8).
 #pragma once
 
 #include <algorithm>
@@ -33,7 +34,8 @@ class Gravity final : public Stage {
     const int bits = design().cell_bits() + (design().needs_walls() ? 1 : 0) + (paper_ ? 0 : 1);
     return {{"cell register", lag(), lanes(), bits}};
   }
-  Units units() const override {  // of a fall: its part, the gained energy; of a mixture: three products
+  // A fall multiplies for its part and for the gained energy. A mixture takes three products and a division.
+  Units units() const override {
     return {(fall_.factor < 65536 || fall_.wall_factor < 65536 ? 1 : 0) + (paper_ ? 1 : 0) + (hot_ ? 3 : 0),
             hot_ ? 1 : 0, 0};
   }
@@ -68,7 +70,7 @@ class Gravity final : public Stage {
  private:
   friend Faults;
 
-  // `blocked_above`: is the cell above the upper one blocked? (Heeded only where drops hang.)
+  // `blocked_above` tells if the cell above the upper one is blocked. It matters only where drops hang.
   void move(Falling& low, Falling& high, bool blocked_above) {
     if (low.blocked() || high.blocked()) return;
     if (high.amount > 0 && low.amount < kOne && (paper_ || high.in_run == 0))
@@ -96,14 +98,14 @@ class Gravity final : public Stage {
     faults_.fell(*this, low);
   }
 
-  // What the upper cell gives.
+  // Returns what the upper cell gives.
   std::int64_t released(const Falling& low, const Falling& high, bool beside_wall, bool blocked_above) const {
     if (high.amount < fall_.hang && low.amount == 0 && (beside_wall || blocked_above)) return 0;
     const std::int64_t part = scale(high.amount, beside_wall ? fall_.wall_factor : fall_.factor);
     return std::min<std::int64_t>(high.amount, UInt<17>(part + fall_.minimum));
   }
 
-  // What does not fit is piled up.
+  // Piles up what does not fit.
   void push_up(Falling& low, Falling& high) {
     const std::int64_t flow = std::min(low.amount - kOne, kAmountMax - high.amount);
     if (flow == 0) return;
@@ -132,7 +134,7 @@ class Gravity final : public Stage {
   const rule::PaperLaw& law_;
   bool paper_, hot_;
   OfTwoPasses<UInt<16>> dithers_;
-  UInt<16> dither_;  // of the token that leaves
+  UInt<16> dither_;  // dither of the token that leaves
   TapLine<Falling> line_;
 };
 

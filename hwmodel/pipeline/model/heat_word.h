@@ -1,7 +1,7 @@
-// The word that conduction and convection keep of a cell: what it was when it came, and its heat so far. A
-// pass is synchronous, so every flux is computed from the temperatures at its begin. The heat takes the
-// fluxes one by one and stays within 16 bits after each. The reason is that what any subset of the neighbours
-// takes or gives is within the bound of docs/proofs.md, "Heat: 0 <= h <= 65535".
+// Conduction and convection keep this word of a cell. It holds what came, and the heat so far. A pass
+// is synchronous, so every flux is computed from the temperatures at its begin. The heat takes the fluxes one
+// by one and stays within 16 bits after each. The reason is that what any subset of the neighbours takes or
+// gives is within the bound of docs/proofs.md, "Heat: 0 <= h <= 65535".
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace voxmelt::hwmodel {
 
-// Its heat has the fluxes computed so far.
+// Holds a cell whose heat has the fluxes computed so far.
 struct HeatWord : StoredCell {
   UInt<16> temperature;  // at the begin of the pass
-  UInt<3> exposed;       // faces: a bit per axis on which a face neighbour is air; later: their number
+  UInt<3> exposed;       // faces: a bit per axis on which a face neighbour is air; later: number of axes
   UInt<1> beside_wall;
 
   bool wall() const { return state == State::inert && heat > 0; }  // it keeps its temperature
@@ -35,12 +35,12 @@ inline Cell give_cell(const HeatWord& word, std::int64_t exposed_axes) {
   return cell;
 }
 
-// Bits of a word that a design needs; `exposed` bits where air exchange counts axes.
+// Returns the bits of a word that a design needs. It has `exposed` bits if air exchange counts axes.
 inline int heat_word_bits(const Design& design, int exposed) {
   return design.cell_bits() + 16 + (design.parameters.heat.air ? exposed : 0) +
          (design.walls_in_conduction() ? 1 : 0);
 }
-// Of a cell that leaves conduction or convection.
+// Returns the side bands of a cell that leaves conduction or convection.
 inline Wires heated_bands(const Design& design) {
   return Wires()
       .add(Wire::exposed_axes, design.parameters.heat.air)

@@ -1,10 +1,11 @@
-// Irradiance as it lies in memory. Few cells have any: only tokens that hold some are stored. The host writes
-// this at a step of visibility, for each tile in the order in which it is streamed. Each time step of the
-// cascade reads it for itself.
+// Irradiance lies in memory in this form. Few cells have any, so only tokens that hold some are stored. The
+// host writes the stream at a step of visibility, for each tile in the order in which it is streamed. Each
+// time step of the cascade reads it for itself.
 //
-// It consists of words of 16 bits. A lit token has one that counts the dark tokens before it, then its mask
-// (a bit per lane, the lowest lane lowest), then a word for each bit of the mask, in the order of the lanes.
-// Behind the last word all tokens are dark. A count that does not fit is followed by an empty mask.
+// The stream consists of words of 16 bits. A lit token has a word that counts the dark tokens before it. Then
+// comes its mask (a bit per lane, the lowest lane lowest), and then a word for each bit of the mask, in the
+// order of the lanes. Behind the last word all tokens are dark. A count that does not fit is followed by an
+// empty mask.
 #pragma once
 
 #include <bit>
@@ -30,7 +31,7 @@ class IrradianceStream {
 
   const IrradianceWords& words(int tile) const { return tiles_[static_cast<std::size_t>(tile)]; }
   std::int64_t bits(int tile) const { return kWordBits * static_cast<std::int64_t>(words(tile).size()); }
-  // Of all tiles: cells of a halo count more than once.
+  // Counts over all tiles. Cells of a halo count more than once.
   struct Counts {
     std::int64_t bits = 0, lit_cells = 0, lit_tokens = 0;
   };
@@ -45,18 +46,19 @@ class IrradianceStream {
   Counts counts_;
 };
 
-// For planted faults: spoils what the machine makes of the words.
+// Lets a planted fault spoil what the machine makes of the words.
 class FeedFault {
  public:
   virtual ~FeedFault() = default;
-  // Time step `t` of a pass has read how many dark tokens come from `place` on, or the mask of the token
-  // there. `pass` counts the tiles of the train. `last_lost`: the last word of this mask is not there.
+  // `counted` is called when time step `t` of a pass has read how many dark tokens come from `place` on.
+  // `masked` is called when it has read the mask of the token there. `pass` counts the tiles of the train.
+  // `last_lost` takes away the last word of this mask.
   virtual void counted(int t, std::int64_t pass, const Place& place, std::uint32_t mask,
                        std::int64_t& dark) = 0;
   virtual void masked(int t, std::int64_t pass, const Place& place, std::uint32_t& mask, bool& last_lost) = 0;
 };
 
-// Makes tokens of the words: one a cycle, if the words are there.
+// Makes tokens of the words, one a cycle if the words are there.
 class IrradianceReader {
  public:
   explicit IrradianceReader(int lanes) : lanes_(lanes) {}
@@ -68,7 +70,7 @@ class IrradianceReader {
     open_ = false;
   }
 
-  // Words from the begin of the stream that must be there before the next token can be made.
+  // Returns how many words from the begin of the stream must be there before the next token can be made.
   std::int64_t needs() const {
     if (!open_ && at_ == words_->size()) return used();
     std::size_t end = at_;
@@ -84,7 +86,7 @@ class IrradianceReader {
   }
   std::int64_t used() const { return static_cast<std::int64_t>(at_); }
 
-  // The next token, at `place`.
+  // Makes the next token, at `place`.
   void next(UInt<16>* lanes, const Place& place, FeedFault* fault, int t, std::int64_t pass) {
     for (int lane = 0; lane < lanes_; ++lane) lanes[lane] = 0;
     if (!open_) {
@@ -109,7 +111,7 @@ class IrradianceReader {
 
  private:
   int head_words() const { return mask_words(lanes_); }
-  // Behind the last word a memory holds anything; here 0.
+  // Behind the last word a memory may hold anything. This one gives 0.
   std::int64_t word(std::size_t at) const { return at < words_->size() ? (*words_)[at] : 0; }
   std::uint32_t mask_at(std::size_t at) const {
     std::uint32_t mask = 0;

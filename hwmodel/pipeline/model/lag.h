@@ -1,4 +1,4 @@
-// How far behind its input a stage gives its cells, and how far along x it looks.
+// The lag tells how far behind its input a stage gives its cells, and how far along x it looks.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace voxmelt::hwmodel {
 
-// How many planes, columns and single tokens a stage must have seen before it can give its first cell; and
-// how far along x the cells lie that it looks at.
+// Counts the planes, columns and single tokens that a stage must have seen before it can give its first cell.
+// `reach` tells how far along x the cells lie that it looks at.
 struct Lag {
   int planes = 0, columns = 0, singles = 0, reach = 0;
   std::int64_t tokens(const Shape& shape) const {

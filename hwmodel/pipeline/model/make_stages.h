@@ -1,5 +1,5 @@
-// Makes each stage without faults. Each template is compiled in a file of its own: if one file held all of
-// them, the compiler would inline less.
+// These functions make each stage without faults. Each template is compiled in a file of its own. If one file
+// held all of them, the compiler would inline less.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Melting: hot solids become liquid; with the extra `reheat` hot liquid gains energy.
+// Hot solids melt to liquid. With the extra `reheat`, hot liquid gains energy.
 #pragma once
 
 #include <cstdint>

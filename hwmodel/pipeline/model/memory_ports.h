@@ -1,4 +1,5 @@
-// The blocks between the memory and the stream, as plain C++: what reader and writer do in one cycle.
+// Reader and writer are the blocks between the memory and the stream. They are plain C++ that runs one cycle
+// at a time.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +14,9 @@
 
 namespace voxmelt::hwmodel {
 
-// What the writer sums over the matter that it writes in a pass. Every cell of the grid counts once.
+// Sums the matter that the writer writes in a pass. Every cell of the grid counts once.
 struct Books {
-  std::int64_t cells = 0, mass = 0, energy = 0, heat = 0;  // heat: of amount x heat
+  std::int64_t cells = 0, mass = 0, energy = 0, heat = 0;  // heat: sum of amount x heat
 
   void add(const Cell& cell) {
     ++cells;
@@ -26,18 +27,19 @@ struct Books {
   }
 };
 
-// For planted faults: spoils what passes between the memory and the stream.
+// Lets a planted fault spoil what passes between the memory and the stream.
 class PortFault {
  public:
   virtual ~PortFault() = default;
   // `pass` counts the tiles that have been read, or written, in the present train.
   virtual void reads(std::int64_t pass, const Place& place, const StateMemory& memory, Cell* lanes) = 0;
-  // A token that another tile owns: the one lane that is written or counted all the same; -1: none.
+  // These are called for a token that another tile owns. They return the one lane that is written or counted
+  // all the same, or -1 for none.
   virtual int writes(std::int64_t pass, const Place& place, StateMemory& memory, const Cell* lanes) = 0;
   virtual int counts(std::int64_t pass, const Place& place) = 0;
 };
 
-// Sees columns that have been written with hw.coded, whole.
+// Sees whole columns that have been written with hw.coded.
 class ColumnWatcher {
  public:
   virtual ~ColumnWatcher() = default;
@@ -47,7 +49,7 @@ class ColumnWatcher {
 
 inline bool ends_column(const Shape& shape, const Place& place) { return place.y + 1 == shape.grid.y; }
 
-// Streams the result into memory, behind the reader: the cells that a tile owns.
+// Streams the result into memory, behind the reader. It writes the cells that a tile owns.
 class Writer {
  public:
   Writer(const Shape& shape, StateMemory& memory) : shape_(shape), memory_(memory) {
@@ -81,15 +83,15 @@ class Writer {
     }
   }
   bool done() const { return tiles_.empty(); }
-  // Tokens of passes, from the begin of that in which the train began, that were written before this cycle:
-  // it must not matter which block runs first.
+  // Counts the tokens of passes that were written before this cycle, from the begin of that in which the
+  // train began. It must not matter which block runs first.
   std::int64_t written_before(std::int64_t now) const { return written_ - (last_cycle_ == now ? 1 : 0); }
   const StageCycles& cycles() const { return cycles_; }
-  std::int64_t stored() const { return stored_; }  // tokens that went to memory: of a tile, what it owns
-  // Where the last token went.
+  std::int64_t stored() const { return stored_; }  // tokens that went to memory, each from its owner
+  // Returns the volume to which the last token went.
   const state::Volume& written() const { return *last_written_; }
-  const Books& books() const { return closed_; }  // of the last pass whose tiles have all been written
-  // With hw.coded: bits that went to memory, whole bursts.
+  const Books& books() const { return closed_; }  // sums of the last pass that is written whole
+  // Counts the bits that went to memory with hw.coded, in whole bursts.
   std::int64_t coded_bits() const { return coded_bits_; }
   void plant(PortFault* fault) { fault_ = fault; }
   void plant(CodeFault* fault) { code_fault_ = fault; }
@@ -138,9 +140,9 @@ class Writer {
 
   Shape shape_;
   StateMemory& memory_;
-  StreamMemory* dram_ = nullptr;  // that the writer waits for
+  StreamMemory* dram_ = nullptr;  // memory that the writer waits for; null: none
   CellFifo* in_ = nullptr;
-  std::deque<int> tiles_;  // that are still to be written
+  std::deque<int> tiles_;  // tiles still to be written
   Place place_;
   std::int64_t first_ = 0, written_ = 0, stored_ = 0, last_cycle_ = -1, passes_ = 0;
   const state::Volume* last_written_ = nullptr;
@@ -154,7 +156,7 @@ class Writer {
 };
 
 // Streams a volume out of memory. In a pass that follows without a gap, a token may be read only when the
-// writer has written it: the writer gives the reader a credit per token, and with hw.coded per column.
+// writer has written it. The writer gives the reader a credit per token, and with hw.coded per column.
 class Reader {
  public:
   Reader(const Shape& shape, StateMemory& memory) : shape_(shape), memory_(memory) {
@@ -168,7 +170,7 @@ class Reader {
     place_ = begin_of(shape_, tile);
     passes_ = grids_before_ = 0;
   }
-  // True with the last token of a tile: another one may follow now.
+  // Returns true with the last token of a tile. Another tile may follow then.
   bool cycle(std::int64_t now) {
     if (place_.ordinal == shape_.tokens()) {
       ++cycles_.fill_drain;
@@ -201,14 +203,14 @@ class Reader {
     place_ = begin_of(shape_, tile);
   }
   const StageCycles& cycles() const { return cycles_; }
-  // With hw.coded: bits that came from memory, whole bursts.
+  // Counts the bits that came from memory with hw.coded, in whole bursts.
   std::int64_t coded_bits() const { return coded_bits_; }
   void plant(PortFault* fault) { fault_ = fault; }
   void plant(CodeFault* fault) { code_fault_ = fault; }
   void dram(StreamMemory* dram) { dram_ = dram; }
 
  private:
-  bool may_read(std::int64_t now) const {  // it has been written
+  bool may_read(std::int64_t now) const {  // the token has been written
     if (grids_before_ > 0) {
       const std::int64_t before = (grids_before_ - 1) * shape_.tiles() * shape_.tokens();
       const int y = column_ ? shape_.grid.y - 1 : place_.y;
@@ -231,11 +233,11 @@ class Reader {
 
   Shape shape_;
   StateMemory& memory_;
-  StreamMemory* dram_ = nullptr;  // that the reader waits for
+  StreamMemory* dram_ = nullptr;  // memory that the reader waits for; null: none
   CellFifo* out_ = nullptr;
   const Writer* writer_ = nullptr;
   Place place_;
-  std::int64_t passes_ = 0, grids_before_ = 0;  // of the train; the latter: of whole grids
+  std::int64_t passes_ = 0, grids_before_ = 0;  // tiles, and whole grids, that the train has read before
   std::optional<ColumnReader> column_;          // with hw.coded
   std::int64_t coded_bits_ = 0;
   PortFault* fault_ = nullptr;

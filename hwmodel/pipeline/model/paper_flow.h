@@ -1,5 +1,6 @@
-// What a cell gives under the paper's law, from its own facts alone (docs/automaton.md, section 9): shares,
-// caps and bounds. The pattern stage uses it to find who may get it, and the apply stage to find who gets it.
+// A cell gives under the paper's law by its own facts alone (docs/automaton.md, section 9): shares, caps and
+// bounds. The pattern stage uses this to find the cells that may get something, and the apply stage to find
+// those that do.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 
 namespace voxmelt::hwmodel {
 
-// Bits of a pattern, in the order of kStepX and kStepZ.
+// Names the bits of a pattern, in the order of kStepX and kStepZ.
 enum Way : int { east, west, north, south, north_east, south_east, north_west, south_west };
 inline constexpr int kFirstDiagonal = north_east;
 
@@ -27,11 +28,12 @@ class PaperFlow {
         limit_((eight_ ? 11 : 8) * kOne) {}
 
   bool eight() const { return eight_; }
-  std::int64_t limit() const { return limit_; }  // only what holds less receives
+  std::int64_t limit() const { return limit_; }  // only a cell that holds less receives
   int flow_bits() const { return bits_for(cap_); }
   int arrival_bits() const { return bits_for(eight_ ? 5 * cap_ : 4 * cap_); }  // a sum of all that may come
 
-  // Without a table: what a content of `whole` gives to each axis direction. It takes one multiplier.
+  // `share` returns the share of a content for each axis direction, without a table. `part` returns what a
+  // content of `whole` gives then, by one multiplier.
   std::int64_t share(std::int64_t heat) const {
     if (!thermal_) return law_.share;
     const std::int64_t most = eight_ ? 13107 : 16384;
@@ -42,7 +44,7 @@ class PaperFlow {
   }
   std::int64_t axis_flow(std::int64_t amount, std::int64_t heat) const { return part(amount, share(heat)); }
 
-  // Amount and energy given to one direction, before any friction.
+  // Holds the amount and energy given to one direction, before any friction.
   struct Gift {
     UInt<14> amount, energy;
     Gift quartered() const { return {amount >> 2, energy >> 2}; }
@@ -56,7 +58,7 @@ class PaperFlow {
     return looked_up(looked_up(law_.table, pattern), way);
   }
 
-  // The gift to every direction of a pattern; nothing goes to the others.
+  // Returns the gift to every direction of a pattern. Nothing goes to the others.
   std::array<Gift, 8> gifts(std::int64_t amount, std::int64_t energy, std::int64_t heat,
                             std::int64_t pattern) const {
     std::array<Gift, 8> gifts{};

@@ -1,7 +1,6 @@
-// The window {cell that comes, west, south, south-west} over which both stages of the paper's spread
-// scatter. A cell exchanges with its southern neighbours when it comes, and with those of its own row only
-// when it leaves the plane memory. What is known earlier would have to be kept, and a partial sum is as wide
-// as a cell.
+// Both stages of the paper's spread scatter over the window {cell that comes, west, south, south-west}. A
+// cell exchanges with its southern neighbours when it comes, and with those of its own row only when it
+// leaves the plane memory. Earlier results would have to be kept, and a partial sum is as wide as a cell.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +11,9 @@
 
 namespace voxmelt::hwmodel {
 
-// Bits of a word on its way. Only lane P - 1 waits for its eastern neighbours, for a column of blocks: after
-// it came, for the south-eastern one; after it left the plane memory, for the eastern and north-eastern ones.
+// Counts the bits of a word on its way. Only lane P - 1 waits for its eastern neighbours, for a column of
+// blocks. After it came, it waits for the south-eastern one. After it left the plane memory, it waits for the
+// eastern and north-eastern ones.
 struct WindowBits {
   int before_south_east, plane, before_east, finished;
 };
@@ -29,7 +29,7 @@ inline std::vector<BufferCost> window_buffers(const Shape& shape, const WindowBi
   return buffers;
 }
 
-// Tokens from the coming of a cell to that of the last one it exchanges anything with.
+// Counts the tokens from the coming of a cell to that of the last one it exchanges anything with.
 inline std::int64_t window_lag(const Shape& shape) { return shape.plane() + shape.column(); }
 
 }  // namespace voxmelt::hwmodel

@@ -1,6 +1,7 @@
-// Which directions each cell gives to (paper's law): those of its neighbours that are open and stand low
-// enough, each with one chance in two. A giver's facts are two numbers, the least amounts of a neighbour that
-// gets nothing. Behind the plane memory they are computed once more, which is cheaper than keeping them.
+// The pattern stage chooses the directions that each cell gives to (paper's law). They lead to neighbours
+// that are open and stand low enough, each with one chance in two. A giver's facts are two numbers, the least
+// amounts of a neighbour that gets nothing. Behind the plane memory they are computed once more, which is
+// cheaper than keeping them.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +17,9 @@
 namespace voxmelt::hwmodel {
 
 struct Giver : StoredCell {
-  UInt<8> pattern;                      // before the random byte
-  UInt<16> axis_limit, diagonal_limit;  // registers: what holds less is available; the first is no less
+  UInt<8> pattern;  // directions, before the random byte takes some away
+  // A neighbour that holds less than its limit is available. These are registers, and the first is no less.
+  UInt<16> axis_limit, diagonal_limit;
 };
 
 template <class Faults>
@@ -34,7 +36,8 @@ class Pattern final : public Stage {
         border_(static_cast<std::size_t>(design.shape.lanes)),
         line_(design.shape.lanes, static_cast<std::size_t>(lag())) {}
 
-  // The directions decided: to the south; in the east memory also to the north and west.
+  // A word has the directions decided so far: to the south, and in the east memory also to the north and
+  // west.
   Wires side_bands() const override { return {Wire::pattern}; }
   int width_of(Wire wire) const override {
     return wire == Wire::pattern ? static_cast<int>(law_.neighbours) : Stage::width_of(wire);
@@ -44,7 +47,7 @@ class Pattern final : public Stage {
     if (!flow_.eight()) return window_buffers(shape(), {cell + 1, cell + 1, cell + 3 + limit, cell + 4});
     return window_buffers(shape(), {cell + 2 + limit, cell + 3, cell + 6 + 2 * limit, cell + 8});
   }
-  Units units() const override {  // at both ends of the plane memory; a random block serves 8 lanes
+  Units units() const override {  // shares at both ends of the plane memory; a random block serves 8 lanes
     return {law_.use_table || !law_.downhill ? 0 : 2 * (design().parameters.flow.thermal_viscosity ? 2 : 1),
             0, 1};
   }
@@ -68,7 +71,7 @@ class Pattern final : public Stage {
       for (const int lane : each_lane(shape().plane()))
         find_limits(south[lane], above_floor && below[lane].state == State::air);
     }
-    Giver* north = ends ? border_.data() : now;  // of the plane that goes
+    Giver* north = ends ? border_.data() : now;  // neighbours of the plane that leaves
     Giver* west = came().has_west() ? (ends ? north : line_.tap(column_)) + lanes() - 1 : nullptr;
     Giver* south_west =
         west != nullptr && south != nullptr ? line_.tap(plane_ + column_) + lanes() - 1 : nullptr;
@@ -83,7 +86,7 @@ class Pattern final : public Stage {
  private:
   friend Faults;
 
-  // The facts of a giver. Nothing is lower than a limit of 0.
+  // Finds the facts of a giver. Nothing is lower than a limit of 0.
   void find_limits(Giver& cell, bool air_below) const {
     cell.axis_limit = cell.diagonal_limit = 0;
     if (cell.state != State::liquid || (law_.support && air_below)) return;
@@ -103,7 +106,8 @@ class Pattern final : public Stage {
     cell.diagonal_limit = below(UInt<20>(9 * margin) >> 3);
   }
 
-  // The pairs of the window but {cell, west}, which comes out of the plane memory as {south, south-west}.
+  // Treats the pairs of the window but {cell, west}, which comes out of the plane memory as {south,
+  // south-west}.
   void meet(Giver& cell, Giver* west, Giver* south, Giver* south_west) {
     if (south == nullptr) return;
     if ((cell.axis_limit | south->axis_limit) != 0) {
@@ -134,7 +138,7 @@ class Pattern final : public Stage {
     faults_.offered(*this, giver, way, other, limit, open);
   }
 
-  // Every subset of the available directions is equally likely.
+  // Draws a subset of the available directions. Every subset is equally likely.
   void leave(const Giver* words, Cell* out) {
     std::int64_t block_of = -1;
     std::uint64_t block = 0;
@@ -155,7 +159,7 @@ class Pattern final : public Stage {
     }
   }
 
-  // Blocks are numbered along x, then y, then z; modulo 2^32.
+  // Returns the number of a block. Blocks are numbered along x, then y, then z, modulo 2^32.
   std::uint32_t block_index(int x) const {
     const auto row = static_cast<std::uint32_t>(leaving().z) * static_cast<std::uint32_t>(shape().grid.y) +
                      static_cast<std::uint32_t>(leaving().y);

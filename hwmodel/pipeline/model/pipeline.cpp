@@ -15,7 +15,7 @@ namespace voxmelt::hwmodel {
 namespace {
 
 constexpr std::int64_t kHangAfter = 1000;  // cycles in which no stage moves
-// Other machines may have asked the memory for much before.
+// Other machines may have asked the memory for much before, so a stage may wait for longer.
 constexpr std::int64_t kHangBesideOthers = 20000;
 
 }  // namespace
@@ -122,7 +122,7 @@ struct Pipeline::Machine {
     for (std::size_t t = 0; t < feeds.size(); ++t) n += fed(pass, t) ? 1 : 0;
     return n;
   }
-  // Another pass follows without a gap: its first token may be read in the next cycle.
+  // Lets another pass follow without a gap. Its first token may be read in the next cycle.
   void follow(const std::optional<Pass>& pass) {
     if (!pass) return;
     begin(*pass, false);
@@ -156,7 +156,7 @@ struct Pipeline::Machine {
           [&](CellFifo& fifo, const Stage& producer) { visit(fifo, &producer, static_cast<int>(t)); });
   }
 
-  int passes = 0;  // of the present train
+  int passes = 0;  // passes of the present train
   Next next;
   StreamMemory* dram = nullptr;
   Simulation& simulation;

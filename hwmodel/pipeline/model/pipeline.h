@@ -1,5 +1,5 @@
-// The streaming pipeline: reader, T cascaded time steps, writer, under SystemC. One process per block; inside
-// a block plain two-phase registers.
+// The streaming pipeline runs under SystemC: a reader, T cascaded time steps, and a writer. Each block has
+// one process, and plain two-phase registers inside.
 //
 //   memory -> reader -> [step t] -> [step t + 1] -> ... -> writer -> memory
 //                          ^             ^
@@ -24,21 +24,21 @@ class Simulation;
 
 class Pipeline final : public StreamMachine {
  public:
-  // `make` makes its stages, which may have planted faults. `simulation`: with other machines in it, which go
-  // on while a train runs; null: one of its own.
+  // `make` makes the stages, which may have planted faults. `simulation` may hold other machines, which go on
+  // while a train runs. If it is null, the pipeline has one of its own.
   Pipeline(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration,
            const StageMaker& make = make_stage, Simulation* simulation = nullptr);
   ~Pipeline() override;
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  // For faults to be planted; null: none.
-  std::vector<CellFifo*> channels_behind_stages(int cascade);  // of one time step
+  // The following serve to plant faults. A null fault plants none.
+  std::vector<CellFifo*> channels_behind_stages(int cascade);  // those of one time step
   void plant(PortFault* fault);
   void plant(FeedFault* fault);
   void plant(CodeFault* fault);
 
-  // A train of one pass, of one tile.
+  // Runs a train of one pass, over one tile.
   PassEnd run_pass(const Pass& pass, const Irradiance* irradiance, state::Volume& volume);
   std::vector<const Stage*> working_stages() const;  // without the reader, the feeds and the writer
 
@@ -67,7 +67,7 @@ class Pipeline final : public StreamMachine {
 
  private:
   struct Machine;
-  std::unique_ptr<Simulation> own_;  // none: it is in somebody else's
+  std::unique_ptr<Simulation> own_;  // null: the simulation belongs to the caller
   Simulation& simulation_;
   std::unique_ptr<Machine> machine_;
 };

@@ -8,7 +8,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// The cells of a token, by the table of their wires.
+// Describes the cells of a token, by the table of their wires.
 TokenType cell_tokens(int lanes) {
   TokenType type{lanes, {}, {}};
   for (const CellWire& row : kCellWires)

@@ -1,5 +1,6 @@
-// Random bits in logic: the block cipher Speck64/128 cut to 10 rounds. A round is one 32-bit adder and two
-// rows of exclusive-or gates; rotations are wires. One block serves 8 neighbours along x, a byte each.
+// Random bits come from logic: the block cipher Speck64/128 cut to 10 rounds. A round is one 32-bit adder and
+// two rows of exclusive-or gates, and rotations are wires. One block serves 8 neighbours along x, a byte
+// each.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@ namespace voxmelt::hwmodel {
 inline constexpr std::size_t kSpeckRounds = 10;
 using SpeckKeys = std::array<std::uint32_t, kSpeckRounds>;
 
-// Constant while a scene runs: registers, filled once.
+// Returns the round keys. They are constant while a scene runs, and lie in registers that are filled once.
 inline SpeckKeys speck_keys(std::uint64_t seed) {
   SpeckKeys keys{static_cast<std::uint32_t>(seed & 0xFFFFFFFFu)};
   std::array<std::uint32_t, 3> ring{static_cast<std::uint32_t>(seed >> 32), 0x766F786Du, 0x656C7421u};
@@ -35,7 +36,7 @@ inline std::uint64_t speck_block(const SpeckKeys& keys, std::uint32_t step, std:
   return std::uint64_t{high} << 32 | low;
 }
 
-// The byte of the cell at x in the block of its eight.
+// Returns the byte of the cell at x in the block of its eight.
 inline UInt<8> speck_byte(std::uint64_t block, int x) {
   return static_cast<std::int64_t>(block >> (8 * (x & 7)) & 0xFF);
 }

@@ -1,8 +1,8 @@
-// What travels through the memories of viscous spread, and its reading. What a run shows is the same for all
-// of its cells, so it is stored once per run and read back as the column passes a tap, bottom first: the head
-// in the word of the run's first cell, the rest in the word of the blocked cell below it (which holds no
-// arrivals and has room for it), or, for a run on the grid's floor, in a word per column beside the planes.
-// What a cell outside a run shows (docs/automaton.md, end of section 10) follows from its column, too.
+// A run shows the same for all of its cells, so the memories of viscous spread store it once per run. It is
+// read back as the column passes a tap, bottom first. The head lies in the word of the run's first cell. The
+// rest lies in the word of the blocked cell below it (which holds no arrivals and has room for it). For a run
+// on the grid's floor, the rest lies in a word per column beside the planes. The column also tells what a
+// cell outside a run shows (docs/automaton.md, end of section 10).
 #pragma once
 
 #include <algorithm>
@@ -14,46 +14,47 @@ namespace voxmelt::hwmodel {
 
 enum class Ground : std::uint8_t { solid, inert, outside, run };
 
-inline constexpr std::int64_t kNoBed = -1;  // of a cell in the air
+inline constexpr std::int64_t kNoBed = -1;  // bed of a cell in the air
 
-struct RunPace {      // of a run: how fast, and from which difference on, it flows
+// Tells how fast, and from which difference of heads on, a run flows.
+struct RunPace {
   UInt<22> mobility;  // not limited yet
   UInt<14> limit;     // 0: no run
   UInt<25> dead;
   static constexpr int kBits = 22 + 14 + 25;
 
-  std::int64_t limited() const { return std::min<std::int64_t>(mobility, limit << 8); }  // to a run
-  std::int64_t exposed() const { return std::min<std::int64_t>(mobility, 1 << 21); }     // to a bare flank
+  std::int64_t limited() const { return std::min<std::int64_t>(mobility, limit << 8); }  // towards a run
+  std::int64_t exposed() const { return std::min<std::int64_t>(mobility, 1 << 21); }  // towards a bare flank
 };
 
 struct SpreadWord {
   Ground ground = Ground::inert;
   UInt<1> beside_wall;
-  UInt<16> amount = kFlatBed, heat;  // as they came: what a pair looks at
-  // Not blocked:
+  UInt<16> amount = kFlatBed, heat;  // unchanged; a pair looks at these
+  // The following belong to a cell that is not blocked.
   UInt<16> present;  // amount after the pairs done so far
   UInt<32> content;  // amount x heat after them
-  SInt<30> head;     // of the run, in its first cell
-  // Blocked:
-  RunPace above;  // of the run that begins in the next cell up
+  SInt<30> head;     // head of the run, in its first cell
+  // This belongs to a blocked cell.
+  RunPace above;  // pace of the run that begins in the next cell up
 
   bool blocked() const { return ground == Ground::solid || ground == Ground::inert; }
   bool runs() const { return ground == Ground::run; }
 
-  // The two kinds share their bits.
+  // Returns the bits of a word. The two kinds share them.
   static int bits(int head_bits, bool hot, bool walls) {
     const int blocked = kDoneBits + (hot ? 16 : 0) + RunPace::kBits;
     const int open = kDoneBits + 16 + (hot ? 16 + 32 : 0) + (walls ? 1 : 0) + head_bits;
     return std::max(blocked, open);
   }
-  // What is kept once all pairs of a cell are done: ground, amount, heat, wall.
+  // Counts the bits that are kept once all pairs of a cell are done: ground, amount, heat, wall.
   static int done_bits(bool hot, bool walls) { return kDoneBits + (hot ? 16 : 0) + (walls ? 1 : 0); }
 
  private:
   static constexpr int kDoneBits = 2 + 16;
 };
 
-// A cell in the window: its word, where it lies along x, and what it shows.
+// Describes a cell in the window: its word, its place along x, and what it shows.
 struct SeenCell {
   SpreadWord* word = nullptr;
   int x = 0;
@@ -62,10 +63,10 @@ struct SeenCell {
   SInt<18> bed = kNoBed;  // 1/16 cell
 };
 
-// One lane of one tap: the registers that hold the run being read.
+// Reads one lane of one tap. Its registers hold the run being read.
 class RunReader {
  public:
-  // Does a run begin with this cell, if it is in one?
+  // Returns true if this cell, should it be in a run, is the run's first.
   bool above_blocked(int y) const { return y == 0 || below_ == Below::blocked; }
   // At the tap where cells come, the pace comes with the run's first cell.
   void bring(const RunPace& pace) { next_ = pace; }
@@ -116,7 +117,7 @@ class RunReader {
   enum class Below : std::uint8_t { blocked, run, outside };
 
   Below below_ = Below::blocked;
-  UInt<16> bed_ = kFlatBed;  // of the blocked cell below
+  UInt<16> bed_ = kFlatBed;  // bed offset of the blocked cell below
   SInt<30> head_;
   SInt<18> run_bed_;
   RunPace pace_, next_;

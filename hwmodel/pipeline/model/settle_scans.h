@@ -1,6 +1,6 @@
-// The three scans of settling, one lane each: up the column to sum each run, down to bring the sums to its
-// first cell, and up again to share them out. On the first two ways heat moves with what moves. Between two
-// scans a ColumnReverser turns the column round.
+// Three scans settle the runs of a column, one lane each. The first goes up and sums each run. The second
+// goes down and brings the sums to the run's first cell. The third goes up again and shares them out. On the
+// first two ways heat moves with what moves. Between two scans a ColumnReverser turns the column round.
 #pragma once
 
 #include <algorithm>
@@ -10,25 +10,25 @@
 
 namespace voxmelt::hwmodel {
 
-// Of a cell between two scans. A run's record lies in one of its words: the uppermost one's after the first
-// scan, the lowest one's after the second. The other words of a run hold the cell's heat, and after the first
-// scan its amount.
+// Tells what a cell is between two scans. A run's record lies in one of its words: the uppermost one after
+// the first scan, the lowest one after the second. The other words of a run hold the cell's heat, and after
+// the first scan its amount.
 enum class SettleKind : std::uint8_t { solid, inert, outside, inner, first, top, single };
 inline constexpr int kSettleKindBits = 3;
 
 struct SettleWord {
   SettleKind kind = SettleKind::inert;
-  UInt<28> sum = kFlatBed;  // of the record; other words: the cell's amount
-  UInt<12> last;            // of the record: the number of cells less one
-  UInt<16> heat;            // of the cell; uppermost one of a run that mixes: the mixture's
-  // Of the record, with heat:
+  UInt<28> sum = kFlatBed;  // record: the run's sum; other words: the cell's amount
+  UInt<12> last;            // record: number of cells less one
+  UInt<16> heat;            // the cell's; in the uppermost cell of a run that mixes: the mixture's
+  // The following belong to the record, with heat.
   UInt<1> ordered;   // the run keeps its order (not after the second scan)
   UInt<16> top;      // amount of the uppermost cell of such a run (not after the second scan)
   UInt<5> mobility;  // entry of the mobility table, with thermal viscosity
 
   bool blocked() const { return kind == SettleKind::solid || kind == SettleKind::inert; }
 
-  // After the second scan.
+  // `bits` counts those of a word after the second scan, `bits_upwards` those of a word after the first.
   static int bits(const RunWidths& widths, bool hot, bool thermal) {
     return kSettleKindBits + widths.sum + widths.count + (hot ? 16 + (thermal ? 5 : 0) : 0);
   }
@@ -37,22 +37,22 @@ struct SettleWord {
   }
 };
 
-// What comes through a face of a run to the next cell of a scan.
+// Holds what comes through a face of a run to the next cell of a scan.
 struct SettleFlow {
   UInt<16> amount, heat;
 
-  // The heat of a cell to which this comes.
+  // Returns the heat of a cell to which this comes.
   UInt<16> into(std::int64_t held, std::int64_t own, std::int64_t dither) const {
     if (amount == 0) return own;
     return mix(held * own + std::int64_t{amount} * heat, held + amount, dither);
   }
 };
 
-// First scan, upwards: sums each run, and moves up what is too much below. A cell's part is known when the
-// next one comes: one token of look-ahead.
+// The first scan goes up, sums each run, and moves up what is too much below. A cell's part is known when the
+// next one comes, so the scan looks one token ahead.
 class SumScan {
  public:
-  // Takes the next cell (`bottom`: of another column) and gives the word of the one before.
+  // Takes the next cell and returns the word of the one before. `bottom` says that another column begins.
   SettleWord next(const Cell& cell, bool bottom, bool hot, std::int64_t dither) {
     const bool was_in_run = held_.kind == SettleKind::first || held_.kind == SettleKind::inner;
     const SettleKind kind = kind_of(cell, bottom, was_in_run);
@@ -60,8 +60,8 @@ class SumScan {
     SettleFlow up;
     SettleWord done = held_;
     if (kind == SettleKind::inner) {
-      // No cell may hold more than kAmountMax: else the excess at its upper face is beyond its range, too, or
-      // there is no such face and the run is under pressure.
+      // No cell may hold more than kAmountMax. Otherwise the excess at its upper face is beyond its range,
+      // too, or there is no such face and the run is under pressure.
       ordered_ =
           ordered_ && excess >= -kOverMax && cell.amount + std::max<std::int64_t>(0, excess) <= kAmountMax;
       if (hot && ordered_) up = {std::max<std::int64_t>(0, excess), held_.heat};
@@ -111,14 +111,14 @@ class SumScan {
   }
 
   SettleWord held_;
-  UInt<16> amount_;  // of the cell held, as it came
+  UInt<16> amount_;  // amount of the cell held, as it came
   UInt<28> sum_;
   UInt<12> last_;
   UInt<44> content_;
-  UInt<1> ordered_;  // so far
+  UInt<1> ordered_;  // the run has kept its order so far
 };
 
-// Second scan, downwards: takes the record along to the first cell, and moves down what is missing below.
+// The second scan goes down, takes the record along to the first cell, and moves down what is missing below.
 class RecordScan {
  public:
   SettleWord next(const SettleWord& word, std::int64_t dither) {
@@ -152,11 +152,11 @@ class RecordScan {
 
   SettleWord record_;
   SettleFlow flow_;
-  SInt<29> level_;  // of the run's amount, less ONE for each cell below
+  SInt<29> level_;  // the run's amount, less ONE for each cell below
 };
 
-// Third scan, upwards: gives every cell its amount and its heat, and cells in a run what they show. (What
-// cells outside runs show, the readers of the next stage work out: see run_reader.h.)
+// The third scan goes up. It gives every cell its amount and its heat, and cells in a run what they show. The
+// readers of the next stage work out what cells outside runs show (run_reader.h).
 class ShowScan {
  public:
   void next(const SettleWord& word, int y, const rule::Flow& flow, std::int64_t pace, const RunWidths& widths,
@@ -191,7 +191,7 @@ class ShowScan {
     if (word.kind == SettleKind::first) {
       show_ = shown(word.sum, word.last, bed_head(y, bed_), word.mobility, flow, pace, widths);
       level_ = word.sum;
-      // x 61439 is two shifts and two subtractions
+      // The product with kOverMax = 61439 takes two shifts and two subtractions.
       spare_ = std::min(over_of(word.sum, word.last) - kOverMax * word.last, kOverMax);
     }
     cell.amount = std::min<std::int64_t>(level_, kOne) + std::max<std::int64_t>(spare_, 0);
@@ -201,10 +201,10 @@ class ShowScan {
     spare_ = std::min(spare_ + kOverMax, kOverMax);
   }
 
-  UInt<16> bed_ = kFlatBed;  // of the blocked cell below
+  UInt<16> bed_ = kFlatBed;  // bed offset of the blocked cell below
   RunShow show_;
-  UInt<28> level_;  // of the run's amount, less ONE for each cell below
-  SInt<30> spare_;  // of the amount beyond ONE per cell, less what the cells above can hold
+  UInt<28> level_;  // the run's amount, less ONE for each cell below
+  SInt<30> spare_;  // the amount beyond ONE per cell, less what the cells above can hold
 };
 
 }  // namespace voxmelt::hwmodel

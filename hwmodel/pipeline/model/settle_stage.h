@@ -1,5 +1,5 @@
-// Phase `excess` of the viscous law (docs/automaton.md, section 10). A run's sums are known at its uppermost
-// cell, and are needed at its lowest one: so the column is turned round twice.
+// The settle stage runs the phase `excess` of the viscous law (docs/automaton.md, section 10). A run's sums
+// are known at its uppermost cell, and are needed at its lowest one. So the column is turned round twice.
 #pragma once
 
 #include <algorithm>
@@ -41,17 +41,18 @@ class Settle final : public Stage {
             upwards_.cost("column reverser up", SettleWord::bits(widths_, hot_, thermal))};
   }
 
-  // Depth squared, the mobility in two parts, its table. With heat: amount x heat and the mixture's rounding;
-  // flow x heat and rounding on the way up; amount x heat, flow x heat and rounding on the way down.
-  // Dividers: the limit and the dead zone, and the mixture; each is used once per run, at most every second
-  // cycle. With heat: one on each way, used every cycle.
+  // Multipliers serve depth squared, the mobility in two parts, and its table. With heat, two serve the
+  // mixture (amount x heat and rounding), and two the way up (flow x heat and rounding). Three serve the way
+  // down (amount x heat, flow x heat and rounding). Dividers serve the limit, the dead zone and, with heat,
+  // the mixture. Each is used once per run, at most every second cycle. With heat there is one more on each
+  // way, used every cycle.
   Units units() const override {
     return {3 + (flow_.thermal_viscosity ? 1 : 0) + (hot_ ? 2 + 2 + 3 : 0), 2 + (hot_ ? 1 + 2 : 0), 0};
   }
 
  protected:
   void begin_step() override {
-    // Mixtures of no two sub-steps round alike.
+    // No two sub-steps round their mixtures alike.
     dithers_.next(UInt<16>::truncated(dither_of(moment().step) +
                                       dither_of(static_cast<std::uint32_t>(moment().substep))));
     paces_.next((static_cast<std::int64_t>(flow_.viscous.mobility) + moment().substeps / 2) /
@@ -96,7 +97,8 @@ class Settle final : public Stage {
  private:
   friend Faults;
 
-  // How long ago the token came that has been turned round once: its column is the one before, top first.
+  // Returns how long ago the token came that has been turned round once. Its column is the one before, top
+  // first.
   std::int64_t turned_delay() const {
     const std::int64_t above =
         (came().ordinal + height_ - 1) % height_;  // tokens of the column that lie above it
@@ -112,7 +114,7 @@ class Settle final : public Stage {
   std::int64_t height_;
   OfTwoPasses<UInt<16>> dithers_;
   OfTwoPasses<UInt<36>> paces_;  // the mobility parameter of one sub-step; the host divides
-  UInt<16> dither_;              // of the words in work
+  UInt<16> dither_;              // dither of the words in work
   UInt<36> pace_;
   std::vector<SumScan> sums_;
   std::vector<RecordScan> records_;

@@ -1,4 +1,4 @@
-// Vents and drains. All open ones act on a cell, one after another, while it passes.
+// Vents add liquid, and drains take it away. All open ones act on a cell, one after another, while it passes.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,14 @@
 
 namespace voxmelt::hwmodel {
 
-// A vent or a drain that is open in this step.
+// Describes a vent or a drain that is open in this step.
 struct Opening {
   rule::Region region;
   bool vent;
   UInt<16> rate, temperature;
-  UInt<13> energy;          // per kOne of amount
-  std::int64_t reach2 = 0;  // what the squared distance along x may still be at the token's height and depth
+  UInt<13> energy;  // per kOne of amount
+  // Gives the greatest squared distance along x that is reached at the token's height and depth.
+  std::int64_t reach2 = 0;
 };
 
 template <class Faults>
@@ -26,8 +27,8 @@ class Source final : public Stage {
     open_.reserve(design.parameters.vents.size() + design.parameters.drains.size());
   }
 
-  // Each has a square of the distance along x. A vent also has energy, two products and the dither of
-  // the mixture.
+  // Each opening squares the distance along x. A vent also has energy, two products and the dither of the
+  // mixture.
   Units units() const override {
     const int vents = static_cast<int>(design().parameters.vents.size());
     const int drains = static_cast<int>(design().parameters.drains.size());
@@ -66,7 +67,7 @@ class Source final : public Stage {
     }
   }
 
-  // The square of the distance along one axis, in sixteenths of a cell, from a cell's centre.
+  // Returns the square of the distance along one axis, in sixteenths of a cell, from a cell's centre.
   static std::int64_t square(int cell, std::int64_t at) {
     const SInt<26> distance = 16 * std::int64_t{cell} + 8 - at;
     return distance * distance;

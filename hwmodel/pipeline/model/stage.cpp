@@ -22,8 +22,8 @@ Place Stage::place_at(std::int64_t delay) const {
                   tile_at(delay));
 }
 
-// All tokens of the pass have come. Where both passes work, the next one pushes the last one out. Where one
-// is bypassed, the stage empties itself first.
+// Returns true if the next pass may come, once all tokens of this one have. If both passes work, the next one
+// pushes the last one out. If one is bypassed, the stage empties itself first.
 bool Stage::may_take_next() const {
   if (coming_ + 1 == passes_.size()) return false;
   return leaving_ > coming_ || (!passes_[coming_].bypass && !passes_[coming_ + 1].bypass);

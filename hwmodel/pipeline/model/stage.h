@@ -2,8 +2,8 @@
 // only when its input has a token and its output has room (ready/valid). So any stall is harmless.
 //
 // Passes may follow one another without a gap. Then the stage takes tokens of a new pass while it still gives
-// those of the last one, and has two time steps at its two ends. Of a grid in tiles, each tile is such a
-// pass.
+// those of the last one, and has two time steps at its two ends. In a grid of several tiles, each tile is
+// such a pass.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ namespace voxmelt::hwmodel {
 using CellFifo = Fifo<Cell>;
 using HeatFifo = Fifo<UInt<16>>;  // irradiance, 1/16 temperature unit per step
 
-// What all stages of a design share.
+// Holds what all stages of a design share.
 struct Design {
   rule::Parameters parameters;
   Shape shape;
@@ -42,13 +42,13 @@ struct Design {
   // The paper law uses the sides before melt, which conduction has in its window. Without heat nothing melts,
   // and a separate stage finds them.
   bool walls_in_conduction() const { return paper() && hot() && needs_walls(); }
-  // Bits of a cell between two stages without side-bands.
+  // Returns the bits of a cell between two stages without side bands.
   int cell_bits() const { return bits_in_memory(paper(), hot()); }
 };
 
-// Every cycle of a stage is exactly one of these. `fill_drain`: before its first token, after its last
-// one, and while it gives without taking; `bypassed`: handing on a token in a pass that has no time step
-// for the stage; `memory`: a reader, feed or writer waits for a DRAM.
+// Every cycle of a stage is exactly one of these. `fill_drain` cycles come before its first token, after its
+// last one, and while it gives without taking. In `bypassed` cycles it hands on a token in a pass that has no
+// time step for the stage. In `memory` cycles a reader, feed or writer waits for a DRAM.
 struct StageCycles {
   std::int64_t busy = 0, starved = 0, blocked = 0, fill_drain = 0, bypassed = 0, memory = 0;
   std::int64_t total() const { return busy + starved + blocked + fill_drain + bypassed + memory; }
@@ -65,24 +65,24 @@ struct StageCycles {
 inline constexpr std::array<std::int64_t StageCycles::*, 6> StageCycles::kParts{
     &StageCycles::busy,   &StageCycles::starved,    &StageCycles::blocked,
     &StageCycles::memory, &StageCycles::fill_drain, &StageCycles::bypassed};
-// In the same order.
+// The names stand in the same order.
 inline constexpr std::array<const char*, 6> kCycleClasses{"busy",   "starved",    "blocked",
                                                           "memory", "fill_drain", "bypassed"};
 
-// Arithmetic units of the stage as it is written. A synthesis should find the same.
+// Counts the arithmetic units of the stage as it is written. A synthesis should find the same.
 struct Units {
   int multipliers = 0, dividers = 0;  // per lane
   int random_blocks = 0;              // per 8 lanes
 };
 
-// One pass of one tile, as a stage sees it. In bypass it hands its tokens on, without lag.
+// Describes one pass of one tile, as a stage sees it. In bypass the stage hands its tokens on, without lag.
 struct StagePass {
   step::Moment moment{0};
   bool bypass = false;
   int tile = 0;
 };
 
-// What depends on the time step: of the pass that comes, and of the one before it.
+// Holds a value that depends on the time step, for the pass that comes and for the one before it.
 template <class T>
 struct OfTwoPasses {
   T now{}, last{};
@@ -92,13 +92,13 @@ struct OfTwoPasses {
   }
 };
 
-// Where a stage computes: a cell, and the lane of the token in which it lies.
+// Tells where a stage computes: the token, and the lane of the cell in it.
 struct Spot {
   Place token;
   int lane = 0;
 };
 
-// The lanes of a token, one after another. The one that is worked on is noted, for messages.
+// Goes through the lanes of a token, one after another. The present lane is noted, for messages.
 class Lanes {
  public:
   class Iterator {
@@ -126,7 +126,7 @@ class Lanes {
 
 class Stage {
  public:
-  // `lag` in tokens.
+  // `lag` counts tokens.
   Stage(StageKind kind, const Design& design, std::int64_t lag);
   virtual ~Stage() = default;
   Stage(const Stage&) = delete;
@@ -136,9 +136,9 @@ class Stage {
     in_ = &in;
     out_ = &out;
   }
-  virtual void feed(HeatFifo& /*feed*/) {}  // a second input, of irradiance: `exchange` has one
+  virtual void feed(HeatFifo& /*feed*/) {}  // a second input, of irradiance; only `exchange` has one
 
-  // A pass streams one tile once. The first one of a train finds the stage empty; those that are added while
+  // A pass streams one tile once. The first one of a train finds the stage empty. Those that are added while
   // it runs follow without a gap.
   void begin_pass(step::Moment moment, bool bypass, int tile = 0);
   void add_pass(step::Moment moment, bool bypass, int tile = 0) { passes_.push_back({moment, bypass, tile}); }
@@ -152,21 +152,21 @@ class Stage {
   int lanes() const { return design_.shape.lanes; }
   std::int64_t lag() const { return lag_; }
   std::uint32_t step() const { return moment().step; }
-  const step::Moment& moment() const { return passes_[coming_].moment; }  // of the pass that comes
-  std::uint32_t working_step() const { return step_at(spot_delay_); }     // where it computes
-  // The places of the token that comes and of the one that leaves; came() runs on beyond the last plane, into
-  // the border.
+  const step::Moment& moment() const { return passes_[coming_].moment; }  // moment of the pass that comes
+  std::uint32_t working_step() const { return step_at(spot_delay_); }     // step of the cell it computes
+  // Return the places of the token that comes and of the one that leaves. came() runs on beyond the last
+  // plane, into the border.
   const Place& came() const { return came_; }
   const Place& leaving() const { return left_; }
   const StageCycles& cycles() const { return cycles_; }
   std::int64_t spot_delay() const { return spot_delay_; }
-  Spot spot() const { return {place_at(spot_delay_), spot_lane_}; }  // where it computes, or did last
-  Place place_at(std::int64_t delay) const;  // of the token that came `delay` moves before the present one
+  Spot spot() const { return {place_at(spot_delay_), spot_lane_}; }  // place of the latest computation
+  Place place_at(std::int64_t delay) const;  // place of the token that came `delay` moves ago
   int tile_at(std::int64_t delay) const { return passes_[coming_ - (of_last_pass(delay) ? 1 : 0)].tile; }
-  // What it tells later stages beside the cell.
+  // Returns the wires that the stage adds to a cell for later stages.
   virtual Wires side_bands() const { return {}; }
   virtual int width_of(Wire wire) const { return row_of(wire).bits; }
-  // Of a lane that leaves it, side bands included.
+  // Returns the bits of a lane that leaves the stage, side bands included.
   virtual int output_bits() const {
     int bits = design_.cell_bits();
     for (const CellWire& row : kCellWires) bits += side_bands().has(row.wire) ? width_of(row.wire) : 0;
@@ -176,13 +176,13 @@ class Stage {
   virtual Units units() const { return {}; }
 
  protected:
-  // One move. `in` is the token that comes; it is null after the last one, and then the border comes. `out`
-  // is the token that leaves, to be filled; it is null while the stage fills.
+  // Makes one move. `in` is the token that comes. It is null after the last one, and then the border comes.
+  // `out` is the token that leaves, to be filled. It is null while the stage fills.
   virtual void advance(const Cell* in, Cell* out) = 0;
   virtual void begin_step() {}  // moment() has changed; memories hold an old pass, or still the last one
-  virtual bool side_input_ready() { return true; }  // of a stage with a second input
+  virtual bool side_input_ready() { return true; }  // for a stage with a second input
 
-  // Does the token that came `delay` moves ago belong to the pass before the one that comes?
+  // Returns true if the token that came `delay` moves ago belongs to the pass before the one that comes.
   bool of_last_pass(std::int64_t delay) const { return coming_ > 0 && came_.ordinal < delay; }
   template <class T>
   const T& at(const OfTwoPasses<T>& value, std::int64_t delay) const {
@@ -191,13 +191,13 @@ class Stage {
   std::uint32_t step_at(std::int64_t delay) const {
     return passes_[coming_ - (of_last_pass(delay) ? 1 : 0)].moment.step;
   }
-  // Are tokens of the last pass still in the memories?
+  // Returns true if tokens of the last pass are still in the memories.
   bool overlaps() const { return leaving_ != coming_; }
-  // The plane that came before is the last one of its pass. For it, what comes now is the border.
+  // Returns true if the plane that came before is the last one of its pass. For it, the border comes now.
   bool ends_last_pass() const { return overlaps() && came_.z == 0; }
   std::int64_t filled() const { return filled_; }  // moves since the memories were empty
 
-  // What is computed next belongs to a lane of the token that came `delay` moves ago.
+  // Says that what is computed next belongs to a lane of the token that came `delay` moves ago.
   Lanes each_lane(std::int64_t delay = 0) {
     spot_delay_ = delay;
     return {lanes(), spot_lane_};
@@ -217,7 +217,7 @@ class Stage {
 
   std::vector<StagePass> passes_;
   std::size_t coming_ = 0, leaving_ = 0;  // the passes at its two ends
-  std::int64_t moves_ = 0;                // since the first token came of the pass that leaves
+  std::int64_t moves_ = 0;                // since the first token of the pass that leaves came
   std::int64_t filled_ = 0;
   Place came_, left_;
   std::int64_t spot_delay_ = 0;

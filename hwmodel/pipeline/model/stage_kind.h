@@ -1,4 +1,5 @@
-// What the blocks of the pipeline are, and to which phase of a step each belongs. Their names are for people.
+// Each block of the pipeline has a kind, and belongs to a phase of a step or to none. The names are for
+// people.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +11,8 @@
 
 namespace voxmelt::hwmodel {
 
-// In the order of the stream. Reader, writer and feed are no stages of a time step, but are reported
-// like them.
+// The kinds stand in the order of the stream. Reader, writer and feed are no stages of a time step, but are
+// reported like them.
 enum class StageKind : std::uint8_t {
   reader,
   source,
@@ -27,7 +28,7 @@ enum class StageKind : std::uint8_t {
   apply,
   settle,
   viscous_spread,
-  feed,  // of irradiance
+  feed,  // irradiance
   writer,
 };
 

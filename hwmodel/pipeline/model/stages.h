@@ -1,4 +1,4 @@
-// The stages of one time step, in the order of the stream. A scene gets only those that it uses.
+// A time step has these stages, in the order of the stream. A scene gets only those that it uses.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@ using StageMaker = std::function<std::unique_ptr<Stage>(StageKind, const Design&
 
 std::vector<StageKind> stages_of_step(const Design& design);
 
-// What one pass does with one tile: whole time steps, or a part of one with more sub-steps than the machine
-// has copies of settle and spread. Then the first pass has the stages before them, and the last one has
-// gravity.
+// Tells what one pass does with one tile. It runs whole time steps, or a part of one with more sub-steps than
+// the machine has copies of settle and spread. Then the first pass has the stages before them, and the last
+// one has gravity.
 struct Pass {
   std::uint32_t first = 0;                   // number of the first time step
   int steps = 1;                             // 1..cascade
-  int substep = 0, count = 1, substeps = 1;  // the first sub-step, how many, and of how many
+  int substep = 0, count = 1, substeps = 1;  // first sub-step, how many, and of how many
   int tile = 0;
 
   bool begins() const { return substep == 0; }
   bool ends() const { return substep + count == substeps; }
-  // Does a stage, of settle and spread the copy of this number, work in this pass?
+  // Returns true if a stage works in this pass. `copy` is the number of this copy of settle or spread.
   bool uses(StageKind kind, int copy) const {
     if (kind == StageKind::settle || kind == StageKind::viscous_spread) return copy < count;
     return kind == StageKind::gravity ? ends() : begins();

@@ -1,6 +1,6 @@
-// The state in memory, as a train of passes sees it. A grid in one tile is replaced in place, behind the
-// reader. Tiles overlap: what one writes, its neighbours still have to read as it was. So there are two
-// copies, and each pass reads one and writes the other.
+// The state memory is the state as a train of passes sees it. A grid in one tile is replaced in place, behind
+// the reader. Tiles overlap, so the neighbours of a tile still have to read the old state of what the tile
+// writes. So there are two copies, and each pass reads one and writes the other.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace voxmelt::hwmodel {
 
 class StateMemory {
  public:
-  // `coded`: how the state lies in memory; null: as it is.
+  // `coded` tells how the state lies in memory. If it is null, there is no code.
   explicit StateMemory(bool tiled, const CodeLayout* coded = nullptr) : tiled_(tiled) {
     if (coded == nullptr) return;
     codes_[0].emplace(*coded);
@@ -36,20 +36,21 @@ class StateMemory {
 
   const state::Volume& read() const { return reads_first_ ? *first_ : *second_; }
   state::Volume& written() { return writes_first_ ? *first_ : *second_; }
-  // What the copy that is not read holds: of the pass before, as long as this one has not written it.
+  // Returns the copy that is not read. It holds the pass before as long as this one has not written it.
   const state::Volume& stale() const { return reads_first_ && tiled_ ? *second_ : *first_; }
 
-  // With hw.coded the machine reads and writes these; the volumes are what the host reads back of them.
+  // With hw.coded the machine reads and writes these. The volumes are what the host reads back of them.
   bool coded() const { return codes_[0].has_value(); }
   const CodedState& read_code() const { return *codes_[reads_first_ ? 0 : 1]; }
-  // What the first copy holds that a train reads, and the other one; null: it is not coded.
+  // Returns the code of the copy that a train reads first (0), or of the other one (1). Null means that there
+  // is none.
   const CodedState* code(int copy) const {
     const auto& code = codes_[static_cast<std::size_t>(copy)];
     return code ? &*code : nullptr;
   }
   CodedState& written_code() { return *codes_[writes_first_ ? 0 : 1]; }
 
-  // All tiles of a pass have been read, or written.
+  // These are called when all tiles of a pass have been read, or written.
   void next_to_read() { reads_first_ = reads_first_ != tiled_; }
   void next_to_write() { writes_first_ = writes_first_ != tiled_; }
 

@@ -1,6 +1,6 @@
-// The automaton's stream as its checkers see it: it runs trains of passes over a volume, shows the tokens
-// behind every stage, and accounts for every cycle. The SystemC pipeline is one; a simulation of RTL can be
-// another.
+// A stream machine is the automaton's stream as its checkers see it. It runs trains of passes over a volume,
+// shows the tokens behind every stage, and accounts for every cycle. The SystemC pipeline is one, and a
+// simulation of RTL can be another.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 
 namespace voxmelt::hwmodel {
 
-// A channel: those of the main stream in its order, then the feeds.
+// Describes a channel. Those of the main stream come first, in its order, and then the feeds.
 struct ChannelReport {
   std::string name;  // "step 0: gravity -> pattern"
   StageKind producer = StageKind::reader;
@@ -40,15 +40,15 @@ struct StageReport {
   std::int64_t moved_bits = 0;  // between the memory and a reader, writer or feed
 };
 
-// How a train of passes ended.
+// Tells how a train of passes ended.
 struct PassEnd {
   std::int64_t cycles = 0;
-  int passes = 0;         // that began; of a grid in tiles, every tile counts
-  bool complete = false;  // else it was stopped by the watcher, or it hangs
+  int passes = 0;         // passes that began; every tile counts
+  bool complete = false;  // false: the watcher stopped it, or it hangs
   bool hangs = false;
 };
 
-// Where a value did not fit its wire, or an address its memory.
+// Reports a value that did not fit its wire, or an address that its memory does not have.
 struct StageError : std::runtime_error {
   enum class Kind : std::uint8_t { width, address };
   StageError(const std::string& what, Kind wrong) : std::runtime_error(what), kind(wrong) {}
@@ -69,28 +69,29 @@ class StreamMachine : public TokenSource {
   // The watcher sees every token of the main stream. If it calls `stop`, the pass ends after the
   // present cycle.
   virtual void watch(FifoWatcher<Cell>* watcher) = 0;
-  virtual void watch_columns(ColumnWatcher* watcher) = 0;        // that are written with hw.coded
+  virtual void watch_columns(ColumnWatcher* watcher) = 0;        // columns that are written with hw.coded
   virtual void watch_feeds(FifoWatcher<UInt<16>>* watcher) = 0;  // channels: kFirstFeedChannel + time step
   static constexpr int kFirstFeedChannel = 1000;
-  // Called at the end of every cycle of every block: then the accounts of all stages include this cycle.
+  // `watch` is called at the end of every cycle of every block. Then the accounts of all stages include this
+  // cycle.
   virtual void each_cycle(std::function<void()> watch) = 0;
-  virtual void memory(StreamMemory* memory) = 0;  // null: it always answers
-  // Called now and then during a pass; what it throws ends the pass.
+  virtual void memory(StreamMemory* memory) = 0;  // null: no token waits for a memory
+  // `poll` is called now and then during a pass. An exception from it ends the pass.
   virtual void poll(std::function<void()> poll) = 0;
 
-  // Streams passes over `volume`; what a pass does not use is bypassed. When the last token of a pass has
-  // been read, `next` says which pass follows without a gap, if any: the next tile, where `tiles_follow`
-  // holds, or behind the last tile the first one of a pass that has no more steps, where `passes_overlap`
-  // does (prediction.h). `irradiance`: null without radiation. Throws StageError.
+  // Streams passes over `volume`. Stages that a pass does not use are bypassed. When the last token of a pass
+  // has been read, `next` says which pass follows without a gap, if any. It may be the next tile if
+  // `tiles_follow` holds. Behind the last tile it may be the first one of a pass that has no more steps, if
+  // `passes_overlap` holds (prediction.h). `irradiance` is null without radiation. Throws StageError.
   using Next = std::function<std::optional<Pass>()>;
   virtual PassEnd run_train(const Pass& first, const Next& next, const IrradianceStream* irradiance,
                             state::Volume& volume) = 0;
-  virtual const Books& books() const = 0;            // of the pass that has been written last
-  virtual const state::Volume& written() const = 0;  // where the last token went
+  virtual const Books& books() const = 0;            // sums of the pass that has been written last
+  virtual const state::Volume& written() const = 0;  // volume to which the last token went
 
   virtual std::vector<ChannelReport> channels() const = 0;
   virtual std::vector<StageReport> stages() const = 0;    // the reader first, the writer last
-  virtual std::vector<StageCycles> accounts() const = 0;  // of the same
+  virtual std::vector<StageCycles> accounts() const = 0;  // accounts of the same stages
 };
 
 }  // namespace voxmelt::hwmodel

@@ -11,13 +11,13 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// In blocks, of a grid that is cut.
+// Returns the halo in blocks, for a grid that is cut.
 int halo_of(const Design& uncut, const Configuration& configuration) {
   const int cells = configuration.cascade * reach_of_step(uncut);
   return (cells + configuration.lanes - 1) / configuration.lanes;
 }
 
-// In blocks: so that all tiles of this number are alike.
+// Returns the width of a tile in blocks, such that all tiles of this number are alike.
 int width_of(int blocks, int halo, int tiles) {
   return (blocks + 2 * halo * (tiles - 1) + tiles - 1) / tiles;
 }

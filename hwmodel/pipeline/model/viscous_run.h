@@ -1,5 +1,5 @@
-// A run of liquid under the viscous law (docs/automaton.md, section 10): its record (the sums over its
-// cells), the amounts it settles to, and what it shows to its neighbours.
+// A run of liquid under the viscous law (docs/automaton.md, section 10) has a record, the sums over its
+// cells. From it follow the amounts it settles to, and what it shows to its neighbours.
 #pragma once
 
 #include <algorithm>
@@ -9,18 +9,19 @@
 
 namespace voxmelt::hwmodel {
 
-// Head of a bed below height y, in 1/512 cell. `amount`: of the inert cell there, else kFlatBed.
+// Returns the head of a bed below height y, in 1/512 cell. `amount` is that of an inert cell there, else
+// kFlatBed.
 inline std::int64_t bed_head(std::int64_t y, std::int64_t amount) {
   return 512 * y + ((amount - kFlatBed) >> 3);
 }
 
-inline constexpr std::int64_t kOverMax = kAmountMax - kOne;  // a cell under pressure holds this beyond ONE
+inline constexpr std::int64_t kOverMax = kAmountMax - kOne;  // most that a cell holds beyond ONE
 
-// Widths that depend on the height of the grid.
+// Holds the widths that depend on the height of the grid.
 struct RunWidths {
-  int count;  // of cells of a run, less one
-  int sum;    // of their amounts
-  int head;   // signed
+  int count;  // for the number of cells of a run, less one
+  int sum;    // for the sum of their amounts
+  int head;   // for the head, signed
 
   explicit RunWidths(const Design& design) {
     const std::int64_t height = design.shape.grid.y, stiffness = design.parameters.flow.viscous.stiffness;
@@ -32,18 +33,18 @@ struct RunWidths {
   }
 };
 
-// `last`: the number of cells less one.
+// Returns the amount of a run beyond full cells. `last` is the number of cells less one.
 inline std::int64_t over_of(std::int64_t sum, std::int64_t last) {
   return std::max<std::int64_t>(0, sum - (last + 1) * kOne);
 }
 
-// Settled amount of cell k, from scratch; the hardware steps from cell to cell (SettleScan).
+// Returns the settled amount of cell k, from scratch. The hardware steps from cell to cell (ShowScan).
 inline std::int64_t settled_amount(std::int64_t sum, std::int64_t last, std::int64_t k) {
   const std::int64_t spare = over_of(sum, last) - kOverMax * (last - k);
   return std::clamp<std::int64_t>(sum - k * kOne, 0, kOne) + std::clamp<std::int64_t>(spare, 0, kOverMax);
 }
 
-// What all cells of a run show: computed once, at its first cell.
+// Holds what all cells of a run show. It is computed once, at the run's first cell.
 struct RunShow {
   SInt<30> head;
   UInt<22> mobility;  // not limited yet, but cut above every limit
@@ -51,7 +52,8 @@ struct RunShow {
   UInt<25> dead;
 };
 
-// `entry`: of the mobility table, by the run's mean heat. `pace`: the mobility parameter of one sub-step.
+// `entry` is a row of the mobility table, by the run's mean heat. `pace` is the mobility parameter of one
+// sub-step.
 inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std::int64_t entry,
                      const rule::Flow& flow, std::int64_t pace, const RunWidths& widths) {
   const rule::ViscousLaw& law = flow.viscous;
@@ -59,7 +61,7 @@ inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std:
   const UInt<24> depth = std::max<std::int64_t>(1, sum >> 4);
   const UInt<19> capped = std::min<std::int64_t>(sum, 1 << 18);
   const UInt<29> square = (std::int64_t{capped} * capped) >> 8;
-  // The product has 64 bits: in two parts of 18 x 29.
+  // The product has 64 bits. It is computed in two parts of 18 x 29.
   const UInt<47> low = (wire(pace, 36) & 0x3FFFF) * square + (1 << 23);
   const UInt<47> high = (pace >> 18) * square + (low >> 18);
   UInt<41> raw = high >> 6;
@@ -68,7 +70,7 @@ inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std:
 
   RunShow show;
   show.head = signed_wire(bed + (sum >> 3) + (law.stiffness - 1) * (over >> 3), widths.head);
-  // floor(floor(13107 / cells) / stiffness) is one division by the product, and that three shifts and adds.
+  // The limit floor(floor(13107 / cells) / stiffness) is one division by a product of three shifts and adds.
   show.limit = std::max<std::int64_t>(1, 13107 / (over > 0 ? cells * law.stiffness : cells));
   show.mobility = std::min<std::int64_t>(raw, (1 << 22) - 1);
   show.dead = std::max<std::int64_t>(1, (2 * std::int64_t{law.yield} + (std::int64_t{depth} >> 1)) / depth);

@@ -1,6 +1,7 @@
-// Phase `spread` of the viscous law (docs/automaton.md, section 11). When a cell q comes, the four pairs
-// whose last cell (of the two and, for a diagonal, its two corners) it is are done: q with the cells W and S
-// beside it, q with SW, and W with S. Each pair is computed once and booked at both cells, in the taps.
+// The stage runs the phase `spread` of the viscous law (docs/automaton.md, section 11). A pair is done when
+// the last of its two cells has come and, for a diagonal, the last of its two corners. So a cell q that comes
+// completes four pairs: q with the cells W and S beside it, q with SW, and W with S. Each pair is computed
+// once and booked at both cells, in the taps.
 #pragma once
 
 #include <algorithm>
@@ -44,8 +45,8 @@ class ViscousSpread final : public Stage {
     return costs;
   }
 
-  // Per pair: (g + mobility) a, slope x drop (the slope's factor is read from 17 words) and c drive; with
-  // heat f h, and per cell A h and the mixture's rounding.
+  // A pair multiplies (g + mobility) a, slope x drop (the slope's factor is read from 17 words) and c drive,
+  // and with heat f h. With heat, a cell multiplies A h and the mixture's rounding.
   Units units() const override { return {13 + (hot_ ? 4 + 2 : 0), hot_ ? 1 : 0, 0}; }
 
  protected:
@@ -143,7 +144,7 @@ class ViscousSpread final : public Stage {
     }
   }
 
-  // q has come; null: outside of the grid.
+  // Computes the pairs that q completes. A null cell is outside of the grid.
   void look(const SeenCell& q, const SeenCell* w, const SeenCell* s, const SeenCell* sw) {
     if (walls_) note_walls(*q.word, w != nullptr ? w->word : nullptr, s != nullptr ? s->word : nullptr, q.x);
     const bool any = q.word->runs() || (w != nullptr && w->word->runs()) ||
@@ -170,7 +171,7 @@ class ViscousSpread final : public Stage {
     a.head > b.head ? flow(a, b, axis) : flow(b, a, axis);
   }
 
-  // Of sub-step k, in the layer with this dither; the lanes of a token share it.
+  // Returns the dither of sub-step k, in the layer with this dither. The lanes of a token share it.
   UInt<16> pair_dither(int axis, std::int64_t layer, int k) const {
     const int n = moment().substeps;
     const UInt<16> offset = UInt<16>::truncated(step_dither_[static_cast<std::size_t>(axis)] + layer);
@@ -179,7 +180,7 @@ class ViscousSpread final : public Stage {
   static bool is_diagonal(int axis) { return axis >= 2; }
   std::int64_t dither_of_axis(int axis) const { return axis_dither_[static_cast<std::size_t>(axis)]; }
 
-  // From the one with the higher head.
+  // Lets liquid flow from the cell with the higher head.
   void flow(const SeenCell& from, const SeenCell& to, int axis) {
     if (!from.word->runs()) return;
     UInt<16> amount = rests(from, to, axis) ? 0 : wanted(from, to, axis, dither_of_axis(axis));
@@ -189,13 +190,13 @@ class ViscousSpread final : public Stage {
     faults_.moved(*this, from, to, amount);
   }
 
-  // Inside the dead zone.
+  // Returns true inside the dead zone.
   static bool rests(const SeenCell& from, const SeenCell& to, int axis) {
     const std::int64_t dead = from.pace.dead;
     return from.head - to.head <= (is_diagonal(axis) ? (11 * dead) >> 3 : dead);
   }
 
-  // By the difference of the beds, in 1/16 cell: two tables of 17 words.
+  // Returns the factor by the difference of the beds, in 1/16 cell. The hardware has two tables of 17 words.
   static std::int64_t slope_factor(const SeenCell& from, const SeenCell& to, bool diagonal) {
     if (from.bed == kNoBed || to.bed == kNoBed) return 16384;
     const UInt<5> steps = std::min<std::int64_t>(16, std::abs(std::int64_t{from.bed} - to.bed));
@@ -204,7 +205,8 @@ class ViscousSpread final : public Stage {
     return ((std::int64_t{1} << (diagonal ? 46 : 22)) + divisor / 2) / divisor;
   }
 
-  // The face lies between the columns; on a slope the giver's amount alone counts.
+  // Returns the amount at the face, which lies between the columns. On a slope the giver's amount alone
+  // counts.
   static UInt<16> flowing(const SeenCell& from, const SeenCell& to) {
     if (from.bed == kNoBed || from.bed != to.bed) return from.word->amount;
     return (from.word->amount + to.word->amount + 1) >> 1;
@@ -236,7 +238,8 @@ class ViscousSpread final : public Stage {
     taker.content = taker.content + amount * giver.heat;
   }
 
-  // All pairs of this cell are done. A cell that took nothing mixes to its own heat again: it needs no flag.
+  // Finishes a cell whose pairs are all done. A cell that took nothing mixes to its own heat again, so it
+  // needs no flag.
   void finish(SpreadWord& word) const {
     if (word.blocked()) return;
     word.amount = word.present;
@@ -261,13 +264,13 @@ class ViscousSpread final : public Stage {
   bool hot_, walls_;
   int head_bits_;
   OfTwoPasses<UInt<16>> dithers_;
-  UInt<16> dither_;                                    // of the cells that are finished
-  Reciprocal substep_{1};                              // the part of a step that one takes
-  std::array<UInt<16>, 4> step_dither_, axis_dither_;  // of the step; of the token's pairs
+  UInt<16> dither_;                                    // dither of the cells that are finished
+  Reciprocal substep_{1};                              // divides a step by its number of sub-steps
+  std::array<UInt<16>, 4> step_dither_, axis_dither_;  // for the step; for the token's pairs
   TapLine<SpreadWord> line_;
-  TapLine<RunPace> floor_;  // of runs on the grid's floor; moves once per column
+  TapLine<RunPace> floor_;  // paces of runs on the grid's floor; moves once per column
   std::vector<Tap> now_, south_;
-  Tap west_, south_west_;  // of the last lane
+  Tap west_, south_west_;  // taps of the last lane
 };
 
 }  // namespace voxmelt::hwmodel

@@ -1,4 +1,4 @@
-// Between the memory that holds a volume and the stream: a token read, a token written.
+// These functions move tokens between the memory that holds a volume and the stream.
 #pragma once
 
 #include <tuple>
@@ -10,7 +10,7 @@
 
 namespace voxmelt::hwmodel {
 
-// The numbers of a state that a word in memory holds, each with its wire.
+// Pairs a number that a word in memory holds with its wire.
 template <auto kOfCell, auto kOfVolume>
 struct MemoryNumber {
   static void read(const state::Volume& volume, state::Slot slot, Cell& cell) {
@@ -36,7 +36,7 @@ inline State state_at(const state::Volume& volume, int x, int y, int z) {
   return volume.liquid.test(x, y, z) ? State::liquid : State::air;
 }
 
-// Lanes beyond the grid are border.
+// Reads a token. Lanes beyond the grid are border.
 inline void read_token(const state::Volume& volume, const Shape& shape, const Place& place, Cell* lanes) {
   for (int lane = 0; lane < shape.lanes; ++lane) {
     lanes[lane] = {};

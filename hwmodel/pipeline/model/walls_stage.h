@@ -1,6 +1,6 @@
-// Finds the cells that stand beside a wall: one of their four sides is blocked, the border included. Gravity
-// needs it, and has no window of its own across columns. The stage exists only without heat; with heat,
-// conduction finds them.
+// The walls stage finds the cells that stand beside a wall: one of their four sides is blocked, the border
+// included. Gravity needs it, and has no window of its own across columns. The stage exists only without
+// heat. With heat, conduction finds these cells.
 #pragma once
 
 #include <algorithm>

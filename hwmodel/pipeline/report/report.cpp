@@ -75,7 +75,7 @@ std::int64_t buffer_bits(const VerifyReport& report) {
   return bits;
 }
 
-// One line per stage: its cycles over all time steps of the cascade together.
+// Holds one line per stage, with its cycles over all time steps of the cascade together.
 struct Row {
   StageReport stage;
   int times = 1;
@@ -102,7 +102,7 @@ std::int64_t channel_bits(const VerifyReport& report, int lanes) {
   return bits;
 }
 
-// Totals of the whole machine.
+// Sums the units of the whole machine.
 Units units_of(const VerifyReport& report, int lanes) {
   Units sum;
   for (const StageReport& stage : report.stages) {
@@ -113,8 +113,8 @@ Units units_of(const VerifyReport& report, int lanes) {
   return sum;
 }
 
-// What the memory has to give and take in a cycle in which nothing stalls. What depends on the state is the
-// mean over the run.
+// Holds what the memory has to give and take in a cycle in which nothing stalls. Traffic that depends on the
+// state is the mean over the run.
 struct Traffic {
   double read = 0, written = 0, irradiance = 0;
   double total() const { return read + written + irradiance; }
@@ -133,14 +133,14 @@ Traffic traffic_of(const VerifyReport& report) {
   return bits;
 }
 
-// The prediction, and by how much more cycles there are.
+// Returns the prediction, and by how many percent the cycles exceed it.
 std::string beside_prediction(std::int64_t cycles, std::int64_t predicted) {
   return fmt::format("{} ({:+.2f} %)", predicted,
                      100.0 * static_cast<double>(cycles - predicted) /
                          static_cast<double>(std::max<std::int64_t>(1, predicted)));
 }
 
-// The text below the table: the whole machine, its bounds, and what it reached.
+// Returns the text below the table: the whole machine, its bounds, and what it reached.
 std::string summary(const VerifyReport& report, const Design& design, const Configuration& configuration) {
   const Shape& shape = design.shape;
   const Units units = units_of(report, configuration.lanes);
@@ -206,7 +206,7 @@ std::optional<std::int64_t> VerifyReport::predicted_on_memory() const {
 }
 
 json json_of(const VerifyReport& report, const Design& design, const Configuration& configuration) {
-  const bool complete = report.mismatch == nullptr;  // else some numbers would be of half a pass
+  const bool complete = report.mismatch == nullptr;  // otherwise some numbers would be those of half a pass
   json stages = json::array(), channels = json::array();
   for (const StageReport& stage : report.stages) stages.push_back(stage_json(stage));
   for (const ChannelReport& c : report.channels)

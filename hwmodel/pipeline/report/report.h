@@ -1,4 +1,4 @@
-// What `voxmelt verify` reports: a table for people, JSON for programs.
+// `voxmelt verify` reports a table for people, and JSON for programs.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,7 +10,7 @@ namespace voxmelt::hwmodel {
 
 nlohmann::ordered_json json_of(const VerifyReport& report, const Design& design,
                                const Configuration& configuration);
-// Cycles of every stage, its buffers, the channels; bounds beside the result.
+// Shows the cycles of every stage, its buffers, the channels, and the bounds beside the result.
 std::string table_of(const VerifyReport& report, const Design& design, const Configuration& configuration);
 
 }  // namespace voxmelt::hwmodel

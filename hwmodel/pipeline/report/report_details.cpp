@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 double ratio(double a, double b) { return b == 0 ? 0 : a / b; }
 
-// To one digit behind the point, as the table shows it.
+// Rounds to one digit behind the point, as the table shows it.
 double percent(const Json& part, std::int64_t value) {
   return std::round(1000 * ratio(part.get<double>(), static_cast<double>(value))) / 10;
 }
@@ -34,8 +34,8 @@ Json json_of(const Timeline& timeline, const Json& stages) {
       {"stretch_cycles", timeline.width()}, {"begins", begins}, {"end", timeline.cycles()}, {"stages", rows}};
 }
 
-// Upper bounds of cell-steps a cycle, each below the one before, and what the run reached. On a DRAM also
-// what it moves, and what it could move at most.
+// Returns upper bounds of cell-steps a cycle, each below the one before, and what the run reached. On a DRAM
+// it adds what the run moves, and what it could move at most.
 Json bounds(const Json& json, const VerifyReport& report, const Design& design,
             const Configuration& configuration) {
   const Shape& shape = design.shape;

@@ -1,5 +1,5 @@
-// What the report's page draws beside the numbers of the table: shares, bounds, trains of passes, and what
-// every stage did when.
+// The page of the report draws these details beside the numbers of the table: shares, bounds, trains of
+// passes, and what every stage did when.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,7 +8,7 @@
 
 namespace voxmelt::hwmodel {
 
-// Adds them to a report that has the rest.
+// Adds the details to a report that has the rest.
 void add_details(nlohmann::ordered_json& json, const VerifyReport& report, const Design& design,
                  const Configuration& configuration);
 

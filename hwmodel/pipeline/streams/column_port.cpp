@@ -108,14 +108,15 @@ void ColumnInput::ask(Column& column, std::int64_t number, std::int64_t bursts, 
 void ColumnInput::cycle(const ColumnOutput& written, std::int64_t now) {
   for (; first_ < done_before(now); ++first_) ahead_.pop_front();
   take(now);
-  // The rest of the oldest columns first; else the begin of one more.
+  // The rest of the oldest columns comes first, and then the begin of one more.
   std::int64_t number = first_, begun = 0;
   for (Column& column : ahead_) {
     ask(column, number, std::max(column.bursts, slots_->head_bursts), now);
     begun += column.bursts == 0 ? slots_->head_bursts : 0;
     ++number;
   }
-  // Begins of columns take a quarter of the buffer at most: the rest of the oldest one must find room.
+  // Begins of columns take a quarter of the buffer at most, because the rest of the oldest one must find
+  // room.
   const std::size_t most = slots_->coded ? kColumnsAhead : kBurstsAhead;
   while (!walk_.done() && room(now) && ahead_.size() < most &&
          (ahead_.empty() || begun + slots_->head_bursts <= kBurstsAhead / 4)) {

@@ -1,4 +1,4 @@
-// The state on a DRAM, column by column: with hw.coded, and of grids that are cut into tiles. Each column of
+// The state lies on a DRAM column by column if hw.coded is set or the grid is cut into tiles. Each column of
 // a block has a slot of its own, which begins with a burst. So a tile reads and writes whole bursts, and no
 // burst has two owners.
 //
@@ -18,11 +18,12 @@
 
 namespace voxmelt::hwmodel {
 
-inline constexpr std::int64_t kBurstsAhead = 128;  // of a stream's buffer: 8 KiB
+inline constexpr std::int64_t kBurstsAhead = 128;  // buffer of a stream: 8 KiB
 
-// Where the columns of a grid lie. A grid in tiles has two copies, and a pass reads one and writes the other.
+// Tells where the columns of a grid lie. A grid in tiles has two copies, and a pass reads one and writes the
+// other.
 struct ColumnSlots {
-  // `base`: its first byte.
+  // `base` is the address of the first byte.
   ColumnSlots(const Design& design, bool coded, std::int64_t base = 0);
 
   std::int64_t address(std::int64_t column, std::int64_t copy) const {
@@ -34,18 +35,19 @@ struct ColumnSlots {
   bool coded;
   std::int64_t base;
   std::int64_t copies, columns;
-  std::int64_t head_bursts = 0;  // in which the bits of a column's tokens lie
+  std::int64_t head_bursts = 0;  // hold the bits of a column's tokens
   std::int64_t slot_bursts = 0;
 };
 
-// The columns of a train in the order of its stream: tile by tile, each all that it reads, or that it owns.
+// Goes through the columns of a train in the order of its stream, tile by tile. It visits all
+// columns that a tile reads, or only those that it owns.
 class ColumnWalk {
  public:
   void begin(const ColumnSlots& slots, bool owned);
   void add(int tile);  // after those that were added before
 
   struct Column {
-    std::int64_t number = 0, pass = 0;  // in the grid; passes of the whole grid before it
+    std::int64_t number = 0, pass = 0;  // number in the grid; passes of the whole grid before this one
   };
   bool done() const { return tiles_.empty(); }
   Column now() const;
@@ -56,7 +58,7 @@ class ColumnWalk {
     int tile;
     std::int64_t pass;
   };
-  void begin_row();  // the columns of a tile at one z
+  void begin_row();  // begins the columns of a tile at one z
 
   Shape shape_;
   bool owned_ = false, any_ = false;
@@ -67,19 +69,19 @@ class ColumnWalk {
 
 class ColumnOutput;
 
-// Reads columns. Cycles are stamps: what happens in a cycle is seen in the next one.
+// Reads columns. A stamp is a cycle, and what happens in a cycle is seen in the next one.
 class ColumnInput {
  public:
-  // `stored`: what the copies hold, with hw.coded.
+  // `stored` tells what the copies hold, with hw.coded.
   void begin(const ColumnSlots& slots, std::array<const StoredColumns*, 2> stored, memory::Memory& memory,
              int port);
   void add(int tile) { walk_.add(tile); }
 
-  // Have the first `bits` of the present column come?
+  // Returns true if the first `bits` of the present column have come.
   bool has(std::int64_t bits, std::int64_t now) const;
-  // They are not needed any more; `ends`: nor is the column.
+  // Says that the first `bits` are not needed any more. `ends` says that the column is not, either.
   void use(std::int64_t bits, bool ends, std::int64_t now);
-  // Takes what has come, and asks for more: of columns that have been written.
+  // Takes what has come, and asks for more, from columns that have been written.
   void cycle(const ColumnOutput& written, std::int64_t now);
   bool settled() const { return under_way_.empty(); }  // all that was asked for has come
 
@@ -88,7 +90,7 @@ class ColumnInput {
     ColumnWalk::Column at;
     std::int64_t bursts = 0;  // 0: not known yet
     std::int64_t asked = 0;
-    std::vector<std::int64_t> come{};  // in which cycle each burst came
+    std::vector<std::int64_t> come{};  // cycle in which each burst came
   };
   void take(std::int64_t now);
   bool room(std::int64_t now) const {
@@ -100,16 +102,16 @@ class ColumnInput {
   memory::Memory* memory_ = nullptr;
   std::optional<ColumnSlots> slots_;
   std::array<const StoredColumns*, 2> stored_{};
-  ColumnWalk walk_;  // of columns that have not been asked for
+  ColumnWalk walk_;  // columns that have not been asked for
   int port_ = -1;
-  std::int64_t done_ = 0, last_done_ = -1;  // columns of the train; the cycle of the last one
-  std::deque<Column> ahead_;                // some that are done, the present one, further ones
+  std::int64_t done_ = 0, last_done_ = -1;  // columns of the train that are done; the cycle of the last one
+  std::deque<Column> ahead_;                // some done columns, the present one, further ones
   std::int64_t first_ = 0;                  // number of the first of these
   std::deque<std::int64_t> under_way_;      // the column of each burst that has been asked for
   std::int64_t asked_ = 0, freed_ = 0, freed_before_ = 0, freed_of_column_ = 0, last_used_ = -1;  // bursts
 };
 
-// Writes columns. Bursts go when they are full, those with the bits of the tokens when the column ends.
+// Writes columns. Full bursts go at once, and those with the bits of the tokens go when the column ends.
 class ColumnOutput {
  public:
   void begin(const ColumnSlots& slots, memory::Memory& memory, int port);
@@ -121,18 +123,18 @@ class ColumnOutput {
   void written(std::int64_t bits, bool ends, std::int64_t now) { events_.push_back({bits, ends, now}); }
   void cycle(std::int64_t now);
   bool settled() const { return events_.empty() && bursts_.empty(); }  // all was handed to the memory
-  // In how many passes of the train has all of this column been handed to the memory?
+  // Returns the number of passes of the train in which all of this column has been handed to the memory.
   std::int64_t passes(std::int64_t column) const { return passes_[static_cast<std::size_t>(column)]; }
 
  private:
   struct Event {
-    std::int64_t bits;  // of the present column so far
+    std::int64_t bits;  // size of the present column so far
     bool ends;
     std::int64_t cycle;
   };
   struct Burst {
     std::int64_t address;
-    std::int64_t column;  // that ends with it; -1: none
+    std::int64_t column;  // the column that ends with it; -1: none
   };
   void fill(const Event& event);
 

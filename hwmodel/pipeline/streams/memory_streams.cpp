@@ -12,7 +12,7 @@ std::int64_t stream_bytes(const Design& design, bool coded) {
   const std::int64_t word = std::int64_t{shape.lanes} * design.cell_bits();
   const std::int64_t state =
       coded || shape.tiled() ? ColumnSlots(design, coded, 0).bytes() : (shape.tokens() * word + 7) / 8;
-  const std::int64_t words = 3 + shape.lanes;  // of irradiance, for a token: its mask has two at most
+  const std::int64_t words = 3 + shape.lanes;  // words of irradiance per token: the mask has two at most
   return state + shape.tiles() * shape.tokens() * words * IrradianceStream::kWordBits / 8 +
          2 * memory::kBurst;
 }
@@ -62,7 +62,7 @@ void MemoryStreams::begin_train(const Train& train) {
     state_.port = reader_;
     state_.pass = tokens_ * token_;
   }
-  // The state at the begin, irradiance behind it.
+  // The state lies at the begin, and irradiance behind it.
   const std::int64_t align = memory_->alignment();
   const std::int64_t all = slots_ ? slots_->bytes() : burst_bits(tokens_ * token_) / 8;
   irradiance_bits_.clear();
@@ -156,8 +156,8 @@ bool MemoryStreams::settled() const {
 }
 
 void MemoryStreams::cycle_state(std::int64_t now) {
-  // Whole bursts; the last one of a pass may be none. A burst may be read again when it has been handed on:
-  // the memory keeps the order of requests to it.
+  // Bursts are written whole, so the last one of a pass may have unused bits. A burst may be read again when
+  // it has been handed on, because the memory keeps the order of requests to it.
   const std::int64_t pass = burst_bits(state_.pass);
   const std::int64_t written = tokens_written_ - (last_written_ == now ? 1 : 0);
   const std::int64_t bits = written / tokens_ * pass + written % tokens_ * token_;

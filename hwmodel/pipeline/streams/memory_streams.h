@@ -1,5 +1,5 @@
-// The streams of the pipeline on a memory: words packed into bursts of 64 bytes, a buffer for each stream. A
-// pass reads where the last one wrote, and never ahead of it.
+// The streams of the pipeline go to and from a memory. Words are packed into bursts of 64 bytes, and each
+// stream has a buffer. A pass reads where the last one wrote, and never ahead of it.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@
 
 namespace voxmelt::hwmodel {
 
-// Bytes that the state and irradiance take at most.
+// Returns the most bytes that the state and irradiance take.
 std::int64_t stream_bytes(const Design& design, bool coded);
 
 class MemoryStreams final : public StreamMemory {
  public:
-  // A DRAM of its own, which is new with each train.
+  // Makes a DRAM of its own, which is new with each train.
   MemoryStreams(const Design& design, int cascade, const memory::Parameters& parameters, int clock_mhz);
-  // A memory that others use, too, from `base` of its addresses on. Its owner ends its cycles.
+  // Uses a memory that others use, too, from `base` of its addresses on. Its owner ends its cycles.
   MemoryStreams(const Design& design, int cascade, memory::Memory& shared, std::int64_t base);
 
   void begin_train(const Train& train) override;
@@ -54,11 +54,11 @@ class MemoryStreams final : public StreamMemory {
   }
   void cycle(std::int64_t now) override;
 
-  // Of a shared memory: all that was written has been handed to it, and all that was asked for has come. So
-  // the next train finds nothing of this one under way.
+  // Returns true if a shared memory has been given all that was written, and all that was asked for has come.
+  // So the next train finds nothing of this one under way.
   bool settled() const override;
 
-  memory::Counts counts() const { return own_->counts(); }  // of the last train, on a DRAM of its own
+  memory::Counts counts() const { return own_->counts(); }  // for the last train, on a DRAM of its own
 
   static constexpr std::int64_t kBurstBits = 8 * memory::kBurst;
   static constexpr std::int64_t kAhead = 128 * kBurstBits;  // of a stream's buffer: 8 KiB
@@ -67,7 +67,8 @@ class MemoryStreams final : public StreamMemory {
   static std::int64_t burst_bits(std::int64_t bits) {
     return (bits + kBurstBits - 1) / kBurstBits * kBurstBits;
   }
-  // A stream that is read ahead. Counts are bits, and run on over all passes. A pass begins with a burst.
+  // A stream that is read ahead has such an input. Counts are bits, and run on over all passes. A pass begins
+  // with a burst.
   struct Input {
     int port = -1;
     std::int64_t pass = 0;  // bits of the present pass, which may be none
@@ -76,11 +77,12 @@ class MemoryStreams final : public StreamMemory {
     std::int64_t begun = 0, used = 0, before = 0, last_used = -1;
 
     std::int64_t used_of_pass() const { return used - begun; }
-    // Have the first `bits` of the present pass come?
+    // Returns true if the first `bits` of the present pass have come.
     bool has(std::int64_t bits, std::int64_t now) const {
       return begun + bits <= come[static_cast<std::size_t>(now & 1)];
     }
-    // They are not needed any more; `ends`: nor is the rest of the pass.
+    // Says that the first `bits` are not needed any more. `ends` says that the rest of the pass is not,
+    // either.
     void use(std::int64_t bits, bool ends, std::int64_t now) {
       before = used;
       last_used = now;
@@ -89,9 +91,9 @@ class MemoryStreams final : public StreamMemory {
     }
     std::int64_t used_before(std::int64_t now) const { return last_used == now ? before : used; }
   };
-  // Irradiance: a stretch for each tile of each pass. All of them lie there for good.
+  // Irradiance has a stretch for each tile of each pass. All of them stay in memory.
   struct Feed : Input {
-    std::deque<int> tiles;  // the present one, and further ones
+    std::deque<int> tiles;  // tile of the present stretch, and further ones
     std::size_t asking = 0;
     std::int64_t asked_of_tile = 0;
     const std::vector<std::int64_t>* bits_of_tile = nullptr;
@@ -109,7 +111,7 @@ class MemoryStreams final : public StreamMemory {
   }
   void ask(Input& from, std::int64_t address);
   void fetch(Feed& from, std::int64_t now);
-  // Bits of a column so far; without the code all tokens take as many.
+  // Returns the bits of a column so far. Without the code all tokens take as many.
   std::int64_t of_column(std::int64_t bits, bool ends, std::int64_t& tokens) const {
     if (coded_) return bits;
     const std::int64_t before = tokens;
@@ -118,7 +120,7 @@ class MemoryStreams final : public StreamMemory {
   }
 
   Design design_;
-  memory::Parameters parameters_;  // of a DRAM of its own
+  memory::Parameters parameters_;  // for a DRAM of its own
   int clock_mhz_ = 0;
   std::unique_ptr<memory::Dram> own_;
   memory::Memory* memory_ = nullptr;
@@ -128,19 +130,19 @@ class MemoryStreams final : public StreamMemory {
   std::vector<int> feed_ports_;
   bool coded_ = false;
   std::int64_t token_ = 0, tokens_ = 0;  // bits of a token; tokens of a pass
-  // A grid that is coded, or in tiles, lies there by columns.
+  // The state lies in memory by columns if it is coded, or the grid is in tiles.
   std::optional<ColumnSlots> slots_;
   ColumnInput columns_;
   ColumnOutput written_columns_;
-  std::int64_t tokens_read_ = 0, tokens_put_ = 0;  // of the present column, without the code
-  // Else in the order of its stream.
+  std::int64_t tokens_read_ = 0, tokens_put_ = 0;  // in the present column, without the code
+  // Otherwise it lies in memory in the order of its stream.
   Input state_;
   std::int64_t wanted_ = 0;                                           // bits of all passes
   std::int64_t tokens_written_ = 0, last_written_ = -1, handed_ = 0;  // tokens; bits given to the memory
-  std::array<std::int64_t, 2> unwritten_{};                           // bits, as `come`
+  std::array<std::int64_t, 2> unwritten_{};  // bits, at the begin of even and of odd cycles
 
   std::vector<Feed> feeds_;
-  std::vector<std::int64_t> irradiance_bits_, irradiance_at_;  // of each tile: bits; its first byte
+  std::vector<std::int64_t> irradiance_bits_, irradiance_at_;  // for each tile: bits; first address
 };
 
 }  // namespace voxmelt::hwmodel

@@ -11,7 +11,7 @@ namespace {
 
 struct Flow {
   std::int64_t interval, waits, channels;
-  std::int64_t longest = 0;  // lag of one stage, in tokens
+  std::int64_t longest = 0;  // greatest lag of a stage, in tokens
 };
 Flow flow_of(const Design& design, const Configuration& configuration, const Pass& pass) {
   const std::vector<StageKind> stages = stages_of_step(design);
@@ -29,8 +29,8 @@ Flow flow_of(const Design& design, const Configuration& configuration, const Pas
   return flow;
 }
 
-// The fewest tokens from that with which a cell was read to that with which it is read in the next pass: as
-// the owner read it first, for it writes the cell.
+// Returns the fewest tokens from the one with which a cell was read to the one with which it is read in the
+// next pass. The first reading is the owner's, because the owner writes the cell.
 std::int64_t shortest_return(const Shape& shape) {
   const std::int64_t tiles = shape.tiles();
   std::int64_t shortest = tiles * shape.tokens();
@@ -42,7 +42,8 @@ std::int64_t shortest_return(const Shape& shape) {
   return shortest;
 }
 
-// Tokens for which the reader waits after that which it reads: with hw.coded, the rest of the column.
+// Returns the tokens for which the reader waits behind the one that it reads. With hw.coded, they are the
+// rest of the column.
 std::int64_t held_back(const Design& design, const Configuration& configuration) {
   return configuration.coded ? design.shape.column() - 1 : 0;
 }

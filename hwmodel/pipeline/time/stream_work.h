@@ -1,15 +1,15 @@
-// What the pipeline moves to and from its memory.
+// Stream work is what the pipeline moves to and from its memory.
 #pragma once
 
 #include <cstdint>
 
 namespace voxmelt::hwmodel {
 
-// Passes one after the other, as they were simulated. Words are packed: the stream is read and written in its
-// order, so that only its last burst is not full.
+// Sums passes one after the other, as they were simulated. Words are packed. The stream is read and written
+// in its order, so only its last burst is not full.
 struct StreamWork {
   std::int64_t passes = 0, cycles = 0;
-  std::int64_t lag = 0;  // of a pass: cycles between its first token read and its first one written
+  std::int64_t lag = 0;  // cycles of a pass between its first token read and its first one written
   std::int64_t tokens = 0;
   std::int64_t read_bits = 0, fed_bits = 0, written_bits = 0;
 
