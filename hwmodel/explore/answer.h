@@ -37,8 +37,8 @@ struct Answer {
 
 Answer answer_of(const Question& question, const Axes& axes, const Swept& swept);
 
-// Says if `a` is to be preferred: it is faster, or of equal speed and fills the device less, or has the lower
-// clock.
+// Says if `a` is to be preferred. The faster one is, of equals the one that fills the device less, and then
+// the one with the lower clock.
 bool preferred(const Point& a, const Point& b);
 
 }  // namespace voxmelt::hwmodel::explore

@@ -43,7 +43,7 @@ std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, co
   const auto ahead = static_cast<std::size_t>(work.coded ? kColumnsAhead : kBurstsAhead);
   const auto lag = static_cast<std::size_t>(std::llround(work.lag / work.column_cycles));
   const auto most = static_cast<double>(kBurstsAhead + policy.writes);  // bursts that may wait to be written
-  const double latency = (work.coded ? 2 : 1) * times.latency;          // its first burst tells the rest
+  const double latency = (work.coded ? 2 : 1) * times.latency;  // coded: the first burst tells the rest
   std::vector<double> done(columns.size() + lag);  // cycle at which the pipeline has taken a column
   FirstOfFeeds first(work.fed_first);
   double bus = 0, waiting = 0, last = 0;

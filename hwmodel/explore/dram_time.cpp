@@ -34,7 +34,7 @@ double refresh_share(const memory::Parameters& p) {
 double meeting(double bursts, const memory::Parameters& p) {
   // All bursts of a stretch lie in one bank of every group.
   const std::int64_t stretch = p.row_bytes() / memory::kBurst * p.groups * p.channels;
-  const std::int64_t period = std::int64_t{p.banks} * p.ranks * p.banks;  // then banks repeat
+  const std::int64_t period = std::int64_t{p.banks} * p.ranks * p.banks;  // stretches until banks repeat
   const auto whole = static_cast<std::int64_t>(std::floor(bursts / static_cast<double>(stretch)));
   const auto share = [&](std::int64_t stretches) {
     std::int64_t met = 0;

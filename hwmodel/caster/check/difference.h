@@ -10,7 +10,7 @@ namespace voxmelt::hwmodel::raycast {
 
 struct Difference {
   std::string stage, name;
-  std::int32_t x = 0, y = 0;  // pixel; the first one of a tile
+  std::int32_t x = 0, y = 0;  // pixel, or the first one of a tile
   int sample = 0;
   std::int64_t cycle = 0;
   std::string expected, actual;

@@ -64,7 +64,7 @@ void Expectation::measure_air() {
 picture::Crossing Expectation::first_crossing(const picture::Ray& ray) const {
   const picture::Samples in =
       picture::samples_in(ray, picture::field_low(), picture::field_high(scene_.levels.cells()));
-  // One sample to the next moves no farther than this along any axis.
+  // From one sample to the next, a ray moves no farther than this along any axis.
   const std::int64_t farthest =
       std::max({std::abs(ray.step.x), std::abs(ray.step.y), std::abs(ray.step.z), std::int64_t{1}});
   std::int64_t steps = 0;

@@ -15,7 +15,7 @@ namespace voxmelt::hwmodel::raycast {
 
 // Holds what comes along a ray through clear matter. If nothing passes any more, the reference ends there.
 struct ExpectedClear {
-  std::vector<picture::Crossing> entries, exits;  // one behind the ground is there, too
+  std::vector<picture::Crossing> entries, exits;  // even one that lies behind the ground
   std::vector<Surface> events;                    // surfaces and ways
   bool dark = false;
   Passage passage;
@@ -33,8 +33,8 @@ struct ExpectedRay {
   picture::Ray ray;
   picture::Crossing matter;
   picture::GroundCrossing ground;
-  bool shaded = false;  // the members below are set
-  Surface surface;      // as it leaves the last stage that adds to it
+  bool shaded = false;  // the members below are filled in
+  Surface surface;      // state behind the last stage that adds to it
   picture::Vector ground_normal;
   Rgb pressed{};
   ExpectedClear clear;  // only if matter is clear

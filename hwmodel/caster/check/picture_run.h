@@ -36,7 +36,7 @@ struct PictureOptions {
   std::string fault_channel;  // channel for a fault of channels; empty for a usual one
   Window window;              // only these pixels are drawn and compared
   bool compare = true;        // compares behind every stage; the bytes are always compared
-  int frames = 1;             // times that the same one is drawn: later ones find the caches warm
+  int frames = 1;             // frames of the same picture: later ones find the caches warm
   std::function<void()> poll;
   bool waves = false;  // keeps the cycles around the first difference, or from `waves_from` on
   std::optional<std::int64_t> waves_from;
@@ -54,11 +54,11 @@ struct CacheAccount {
 
 struct PictureReport {
   std::optional<Difference> difference;
-  std::string hang;                               // description, if nothing moved any more
+  std::string hang;                               // describes the hang, if nothing moved any more
   std::vector<std::string> waiting;               // at a hang: stages that wait for the memory
   std::vector<std::string> jammed;                // at a hang: channels that have room and take nothing
   std::optional<RayId> under_way;                 // at a hang: a ray that has not come to its end
-  std::optional<FaultPlan::Strike> strike;        // strike of the planted fault
+  std::optional<FaultPlan::Strike> strike;        // place of the planted fault
   std::int64_t different_bytes = 0;               // pixels whose bytes differ
   std::optional<RayId> different;                 // first pixel among them
   std::int64_t compared = 0;                      // numbers; pixels, if no stage is compared
@@ -67,9 +67,9 @@ struct PictureReport {
   std::int64_t rays = 0, samples = 0, leaps = 0;  // counts of the walk
   std::int64_t sampled = 0;                       // samples of the sampler, also those of crossings
   MemoryCounts memory;
-  std::vector<StageAccount> stages;  // all pipes together
+  std::vector<StageAccount> stages;  // sums over all pipes
   std::vector<CacheAccount> caches;
-  PipeCost cost;  // one pipe; empty if it draws clear matter, which is not counted yet
+  PipeCost cost;  // cost of one pipe; empty for clear matter, which is not counted yet
   std::int64_t memory_bytes = 0;
   std::int64_t all_cycles = 0;  // sum over all frames
   std::vector<PassCycles> passes;

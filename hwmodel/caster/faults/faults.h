@@ -109,7 +109,7 @@ enum class Fault : std::uint8_t {
 // Names the stage that a fault leaves wrong, and its pixel or line.
 struct StruckPixel {
   std::string stage;
-  std::int32_t x = 0, y = 0;  // pixel; the first one of a tile that is written
+  std::int32_t x = 0, y = 0;  // pixel, or the first one of a written tile
   int sample = 0;
   std::int64_t address = -1;  // line in memory
 };

@@ -88,7 +88,7 @@ class ReplyFault final : public FifoFault<LineReply> {
 
   Effect stores(std::int64_t, LineReply* now, LineReply*, int) override {
     if (plan_.armed(Fault::memory_client) && now->client == columns_) {
-      now->client = texels_;  // its lines have as many slots
+      now->client = texels_;  // the cache of texels has as many slots
       strike(*now);
     }
     if (plan_.armed(Fault::memory_pipe)) {

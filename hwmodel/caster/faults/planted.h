@@ -1,6 +1,5 @@
-// The parts of the fault policy share how they ask for an armed fault, and how they tell where it struck.
-// They also share the levels and columns as they lie in memory, because a fault may need to know what is
-// right.
+// The parts of the fault policy share a base. It says if their fault is armed, and records where it strikes.
+// It also reads levels and columns as they lie in memory, because a fault may need to know what is right.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The cache is set-associative, and its lines are renamed: a line that a request needs stays readable until
+// The cache is set-associative, and its lines are renamed. A line that a request needs stays readable until
 // that request has passed, although a later request has taken its tag.
 //
 // Tags are looked up ahead, in order. Data are read later, in the same order. Between them a queue hides the

@@ -22,7 +22,7 @@ struct CacheShape {
 };
 
 struct Configuration {
-  int pipes = 1;                 // W
+  int pipes = 1;                 // number of pipes, W
   int rays = 64;                 // rays under way in the walk of a pipe
   int walkers = 4;               // steps through air in a cycle of a pipe
   int searchers = 4;             // steps over blocks of ground in a cycle of a pipe

@@ -246,10 +246,11 @@ class Costs {
     stage("texture", 5 * 3 * kBlend + kUnit);
     stage("matter", 3 * 7 * kBlend);
     stage("light", 13 * 7 * kBlend);
-    // Mixing 20, glow 9; facing 3, lit 1, sides 3 + 3 + 3, light 3 x (ambient 2, lamp 1). In matter 3 x 3.
+    // Mixing takes 20, glow 9, facing 3, lit 1, sides 3 + 3 + 3, light 3 x (ambient 2, lamp 1). A way in
+    // matter takes 3 x 3.
     stage("arriving", 20 + (registers_.look.glow ? 9 + 3 : 0) + 3 + 1 + 3 + 3 + 9 + (clear_ ? 9 : 0));
-    // Half way takes 7, shine 3, tables 3, three smooth steps 6, peak 2, eye 3, graze 3, gloss 1, reflected
-    // 3, free 6 + 6 + 1, lamp and strip 6, around 6. From within, facing takes 3.
+    // Half way takes 7, shine 3, tables 3, three smooth steps 6, peak 2, eye 3, graze 3, gloss 1. Reflected
+    // takes 3, free 6 + 6 + 1, lamp and strip 6, around 6. From within, facing takes 3.
     stage("mirror", 56 + (clear_ ? 3 : 0), 3);
     stage("colour", clear_ ? 3 * 5 : 3 * 6 + 1);  // only opaque matter has emission
     stage("press", clear_ ? 3 : 0);

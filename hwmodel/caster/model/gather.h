@@ -21,7 +21,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// Goes to the memory: it asks for a line, or writes a burst.
+// A request to the memory asks for a line, or writes a burst.
 struct LineRequest {
   int client = 0, slot = 0;  // client and slot that get the line
   std::int64_t address = 0;
@@ -29,7 +29,7 @@ struct LineRequest {
   bool write = false;
   std::array<std::uint8_t, kBurst> data{};  // data of a write
 };
-// Comes from the memory when a line has come.
+// A reply from the memory says that a line has come.
 struct LineReply {
   int client = 0, slot = 0;
   std::int64_t address = 0;
@@ -123,7 +123,7 @@ class Gather final : public LineClient {
     Request request;
     Places places;
     std::array<std::uint8_t, 3> lines{};  // different lines along each axis: 1 or 2
-    std::array<std::int32_t, 8> slots{};  // -1: nothing is stored there
+    std::array<std::int32_t, 8> slots{};  // -1 if nothing is stored there
     std::array<std::int32_t, 8> lost{};
   };
   const Layout& layout() const { return layout_; }

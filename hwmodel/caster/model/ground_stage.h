@@ -20,7 +20,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// The unit works on rays by their numbers. Each ray is in one of the queues.
+// The stage knows its rays by their numbers. Each ray is in one of the queues.
 template <class Faults = NoFaults>
 class GroundStage final : public Stage {
  public:

@@ -90,7 +90,7 @@ struct GroundRegisters {
   GroundBlocks blocks;
   Rgb color{};
   bool textured = false;
-  int fineness = 0;                                // q of section 7
+  int fineness = 0;                                // q of docs/picture/ground.md, section 7
   std::vector<std::int32_t> bands;                 // the noise of bands, by quarters of a cell
   std::array<std::vector<std::int32_t>, 4> bends;  // at low x, high x, low z, high z
 };

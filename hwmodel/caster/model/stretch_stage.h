@@ -1,8 +1,8 @@
-// The stretch stage leads a ray through clear matter (docs/picture/translucent.md, section 3): stretch by
-// stretch to the surface at which it leaves, and back to the walk, until it ends. It tells what is on the
-// ray, in order: surfaces and ways, and at last the ground or the background. One event a cycle leaves. A ray
-// asks for one sample at a time, because one that lies behind the surface would be read in vain. Other rays
-// fill the time.
+// The stretch stage leads a ray through clear matter (docs/picture/translucent.md, section 3). The ray goes
+// stretch by stretch to the surface at which it leaves, and back to the walk, until it ends. The stage tells
+// what is on the ray, in order: surfaces and ways, and at last the ground or the background. One event a
+// cycle leaves. A ray asks for one sample at a time, because one that lies behind the surface would be read
+// in vain. Other rays fill the time.
 #pragma once
 
 #include <array>
@@ -65,8 +65,8 @@ class StretchStage final : public Stage {
     std::int16_t level = 0, beyond = 0;  // levels of sample k, and of sample k + 1
     std::int16_t span = 0;               // times that the ray has entered matter before
     int steps = 0;                       // steps of the stretch so far
-    UInt<18> way;                        // way in matter that is not told yet
-    std::int32_t told = 0;               // number of events
+    UInt<18> way;                        // way of the stretch so far
+    std::int32_t told = 0;               // number of events that were told
     std::array<Event, 3> events{};       // events that are to be told
     int first = 0, count = 0;
     Next next = Next::nothing;

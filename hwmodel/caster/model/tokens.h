@@ -57,8 +57,8 @@ struct MetToken {
   Ray ray;
   GroundHit ground;
   Crossing matter;
-  // If a ray goes on through clear matter, these tell its place in the walk, how often it has entered matter
-  // before, whether it leaves it here, and the sample in matter.
+  // A ray that goes on through clear matter has these. They tell its place in the walk, how often it has
+  // entered matter before, whether it leaves it here, and the sample in matter.
   std::int16_t context = 0, span = 0;
   bool leaves = false;
   std::int16_t level = 0;
