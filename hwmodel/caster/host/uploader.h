@@ -36,8 +36,8 @@ struct UploadReport {
   std::vector<SentBrick> bricks;                              // bricks that were looked at
   std::array<std::vector<std::int64_t>, kSentVolumes> lines;  // the caches must forget them
   std::array<std::int64_t, kSentVolumes> bytes{};
-  // These count words of registers. A slot has 32 bits, and a word of the skip map has 16. A block of ground
-  // has two words of 32 bits.
+  // These count words of registers. A slot has 32 bits, and a word of the skip map has 16. A fine block of
+  // ground has two words of 32 bits, a coarse one has one.
   std::int64_t slots = 0, skip_words = 0, ground_words = 0;
   std::int64_t words = 0, bursts = 0, cycles = 0;
   Account account;
