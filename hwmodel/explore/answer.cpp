@@ -55,7 +55,7 @@ Next next_of(const Question& question, const Swept& swept, std::int64_t speed, R
   return next;
 }
 
-// The best speed that the device allows, if the question were another one.
+// Returns the best speed of all designs that fit on the device, or 0 if none does.
 std::int64_t best_speed(const Question& question, const Axes& axes) {
   const Swept swept = sweep(question, axes, {});
   const auto best = best_of(swept.points, [](const Point& p) { return p.taken.fits(); });

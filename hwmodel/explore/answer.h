@@ -1,4 +1,4 @@
-// What a sweep answers: the front, the best design, what bounds it, and what the next unit of each resource
+// A sweep answers with the front, the best design, what bounds it, and what the next unit of each resource
 // would buy.
 #pragma once
 
@@ -13,21 +13,21 @@
 
 namespace voxmelt::hwmodel::explore {
 
-// Of the resources, and the last one of the clock.
+// There is one front for each resource, and a last one for the clock.
 inline constexpr std::size_t kFronts = kResources + 1;
 std::string_view front_name(std::size_t front);  // "lut", ..., "clock"
 std::int64_t amount_of(const Point& point, std::size_t front);
 
-// The cheapest step to a faster design by one resource alone.
+// Describes the cheapest step to a faster design by one resource alone.
 struct Next {
-  std::optional<std::size_t> point;  // none: however much there is, nothing is faster
-  std::int64_t more = 0;             // units
-  std::int64_t limit = 0;            // speed, with any amount of it
+  std::optional<std::size_t> point;  // none if no amount of it makes a design faster
+  std::int64_t more = 0;             // additional units
+  std::int64_t limit = 0;            // speed with any amount of it
 };
 
 struct Answer {
-  std::optional<std::size_t> best;                       // none: nothing fits
-  std::array<std::vector<std::size_t>, kFronts> fronts;  // speed against each of them, slowest first
+  std::optional<std::size_t> best;                       // none if nothing fits
+  std::array<std::vector<std::size_t>, kFronts> fronts;  // speed against each, slowest first
   std::vector<std::size_t> front;                        // all of these together, fastest first
   std::array<Next, kResources> next;
   std::int64_t with_twice_the_memory = 0, with_any_memory = 0;  // best speeds
@@ -37,7 +37,8 @@ struct Answer {
 
 Answer answer_of(const Question& question, const Axes& axes, const Swept& swept);
 
-// Is `a` to be preferred? The faster one; of equals the one that fills the device less, the lower clock.
+// Says if `a` is to be preferred. The faster one is, of equals the one that fills the device less, and then
+// the one with the lower clock.
 bool preferred(const Point& a, const Point& b);
 
 }  // namespace voxmelt::hwmodel::explore

@@ -11,7 +11,7 @@
 namespace voxmelt::hwmodel::explore {
 namespace {
 
-constexpr int kClocks = 12;  // equal parts of the highest
+constexpr int kClocks = 12;  // equal steps up to the highest clock
 
 }  // namespace
 
@@ -61,7 +61,7 @@ void keep_only(Axes& axes, const std::vector<std::string>& sets) {
     std::vector<int>* values = &(axes.*axis.values);
     if (!hw->has(key)) continue;
     const auto value = static_cast<int>(hw->integer(key, 0, 1'000'000));
-    const bool clock = values == &axes.clock_mhz;  // need not be one of the list
+    const bool clock = values == &axes.clock_mhz;  // any clock up to the highest is allowed
     if (clock ? value < 1 || value > values->back()
               : std::find(values->begin(), values->end(), value) == values->end()) {
       std::string known;

@@ -1,4 +1,5 @@
-// Points of a front, simulated: the pipeline in lock-step with the software, and its streams on the DRAM.
+// The check simulates points of a front: the pipeline in lock-step with the software, and its streams on the
+// DRAM.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +13,14 @@
 namespace voxmelt::hwmodel::explore {
 
 struct Checked {
-  std::size_t point = 0;  // in Swept::points
+  std::size_t point = 0;  // index into Swept::points
   std::uint32_t steps = 0;
-  bool good = false;       // no difference
-  std::string difference;  // else what it was
+  bool good = false;       // there is no difference
+  std::string difference;  // the difference, if any
   std::int64_t compared_cells = 0;
   std::int64_t cycles = 0, predicted = 0;        // while the memory always answers
   std::int64_t on_memory = 0, predicted_on = 0;  // with the memory's time
-  double error() const;                          // of the last, relative
+  double error() const;                          // relative error of predicted_on
 };
 
 struct CheckInput {
@@ -29,7 +30,7 @@ struct CheckInput {
   std::function<void()> poll;
 };
 
-// `steps`: 0 means one whole pass.
+// If `steps` is 0, one whole pass is simulated.
 Checked check(const Question& question, const Swept& swept, std::size_t point, std::uint32_t steps,
               const CheckInput& input);
 

@@ -10,7 +10,7 @@
 namespace voxmelt::hwmodel::explore {
 namespace {
 
-// What feeds still fetch at the begin, side by side with bursts of the state.
+// Keeps what the feeds still have to fetch at the beginning, side by side with bursts of the state.
 class FirstOfFeeds {
  public:
   explicit FirstOfFeeds(const std::vector<double>& bursts) : left_(bursts) {}
@@ -34,22 +34,21 @@ class FirstOfFeeds {
 
 }  // namespace
 
-// The bus serves columns in their order, each as soon as there is room for it; the pipeline takes a column
-// when it has come. Feeds ask for little, and in turn with the state: they get it at once. So only the
+// The bus serves columns in their order, each as soon as there is room for it. The pipeline takes a column
+// when it has come. Feeds ask for little, and in turn with the state, so they get it at once. Hence only the
 // state's buffer outlasts a stretch with much irradiance. All times are cycles of the machine.
 std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, const memory::Policy& policy,
                                bool& waits) {
   const std::vector<ColumnBursts>& columns = work.columns;
   const auto ahead = static_cast<std::size_t>(work.coded ? kColumnsAhead : kBurstsAhead);
   const auto lag = static_cast<std::size_t>(std::llround(work.lag / work.column_cycles));
-  const auto most = static_cast<double>(kBurstsAhead + policy.writes);  // that wait to be written
-  const double latency =
-      (work.coded ? 2 : 1) * times.latency;        // the begin of a column tells what else to ask
-  std::vector<double> done(columns.size() + lag);  // when the pipeline has taken it
+  const auto most = static_cast<double>(kBurstsAhead + policy.writes);  // bursts that may wait to be written
+  const double latency = (work.coded ? 2 : 1) * times.latency;  // coded: the first burst tells the rest
+  std::vector<double> done(columns.size() + lag);  // cycle at which the pipeline has taken a column
   FirstOfFeeds first(work.fed_first);
   double bus = 0, waiting = 0, last = 0;
   bool waited = false;
-  double asked = 0;  // bursts, less those of columns before `freed`
+  double asked = 0;  // bursts, without those of columns before `freed`
   std::size_t freed = 0, written = 0;
   for (std::size_t c = 0; c < done.size(); ++c) {
     const bool reads = c < columns.size();  // else the pipeline drains
@@ -60,13 +59,13 @@ std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, co
     if (c >= ahead) gate = std::max(gate, done[c - ahead]);
     const double start = std::max(bus, reads ? gate : last);
     for (; written + lag < c && done[written + lag] <= start; ++written) waiting += columns[written].writes;
-    // While it has no state to read.
+    // Writes, and then the feeds, use the bus while there is no state to read.
     const double idle = start - bus, wrote = std::min(waiting, idle / times.write);
     waiting -= wrote;
     if (first.feeds() > 0)
       first.beside((idle - wrote * times.write) / times.read / static_cast<double>(first.feeds()));
     const double fed = (c < work.fed.size() ? work.fed[c] : 0) + first.beside(std::max(own, 1.0));
-    // While both wait, each gets as many; writes that find no room go first.
+    // While both wait, each gets as many bursts. Writes that find no room go first.
     const double served = std::max(std::min(waiting, own + fed), waiting - most);
     waiting -= served;
     bus = start + (own + fed) * times.read + served * times.write;

@@ -12,7 +12,7 @@ void sum_up(std::vector<std::int64_t>& of_blocks) {
   of_blocks.push_back(sum);
 }
 
-// Of each column: bits of its lit tokens.
+// Counts for each column the bits of its lit tokens.
 std::vector<std::int32_t> lit_bits(const Irradiance& field, const Shape& shape) {
   const auto blocks = static_cast<std::size_t>(shape.grid_blocks());
   std::vector<std::int32_t> bits(blocks * static_cast<std::size_t>(shape.grid.z));

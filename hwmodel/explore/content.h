@@ -1,4 +1,5 @@
-// What a pass moves that no configuration tells: it is counted from the state with which the run begins.
+// Some data of a pass cannot be told from the configuration. They are counted from the state with which the
+// run begins.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +13,14 @@
 namespace voxmelt::hwmodel::explore {
 
 struct Content {
-  std::int64_t irradiance_bits = 0;  // that a time step reads
-  std::int64_t coded_bits = 0;       // of the state with hw.coded, read or written, in whole bursts
-  // For tiles: the same of all blocks along x before each one, and of all. Empty: none.
+  std::int64_t irradiance_bits = 0;  // bits that a time step reads
+  std::int64_t coded_bits = 0;       // bits of the state with hw.coded, read or written, in whole bursts
+  // For tiles, these are sums of the same bits over all blocks along x before each block, and at last over
+  // all. They are empty if there are none.
   std::vector<std::int64_t> irradiance_before{}, coded_before{};
 
-  std::vector<std::int32_t> lit_columns{};    // bits of irradiance of each column of the grid
-  std::vector<std::int32_t> coded_columns{};  // bursts of the state
+  std::vector<std::int32_t> lit_columns{};    // bits of irradiance in each column of the grid
+  std::vector<std::int32_t> coded_columns{};  // bursts of the state in each column
 
   static std::int64_t between(const std::vector<std::int64_t>& before, int first, int end) {
     if (before.empty()) return 0;
@@ -26,7 +28,7 @@ struct Content {
   }
 };
 
-// Null: there is none.
+// `irradiance` or `volume` is null if there is none.
 Content content_of(const Design& design, const Irradiance* irradiance, const state::Volume* volume = nullptr);
 
 }  // namespace voxmelt::hwmodel::explore

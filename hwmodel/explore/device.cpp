@@ -23,7 +23,7 @@ std::string names_of(const std::vector<NamedText>& files) {
   return names;
 }
 
-// A file that came with the program, or one of the user's.
+// Reads a file that came with the program, or one of the user's.
 scene::Value document_of(const std::vector<NamedText>& files, const std::string& folder,
                          const std::string& name, const std::string& place, const std::string& what) {
   if (name.ends_with(".toml")) return scene::parse_file(name);

@@ -1,4 +1,4 @@
-// A device, and the family whose parts it has: what there is, in which shapes, and what a stage costs. The
+// A device offers numbers of parts. Its family tells the shapes of these parts, and what a stage costs. The
 // numbers come from the files in devices/ and families/, which name the source of each.
 #pragma once
 
@@ -23,7 +23,7 @@ struct Widths {
 struct MemoryShape {
   int bits = 0, words = 0;
 };
-// Logic beside memories and products: of a lane of a stage, of a unit, of a channel.
+// Counts logic beside memories and products: for a lane of a stage, for a unit, or for a channel.
 struct LogicCost {
   std::int64_t lut = 0, ff = 0;
   std::string source;  // "synthesised: ...", "counted: ..." or "assumed: ..."
@@ -35,11 +35,11 @@ struct StageCost {
 
 struct Family {
   std::string name, title;
-  int bram_parts = 1;  // a block of BRAM has so many halves; the shapes are those of one
+  int bram_parts = 1;  // parts of a block of BRAM; the shapes are those of one part
   std::vector<MemoryShape> bram, uram;
   int lutram_words = 1, lutram_bits = 1, lutram_luts = 1, mux_ways = 2, deepest_lutram = 1;
   int register_words = 1;
-  Widths product;  // of a DSP, signed
+  Widths product;  // signed factors of a DSP
   LogicCost divider, random_block, channel, port, coder, base;
   int port_bits = 0, port_words = 0;  // the buffer of a port to the memory
   std::map<StageKind, StageCost> stages;
@@ -49,9 +49,9 @@ struct Device {
   std::string name, title;
   Family family;
   Amounts amounts{};
-  std::int64_t lutram = 0;  // of the LUTs, those that can be memory
-  int clock_mhz = 0;        // the highest
-  double fill = 1;          // the share of LUTs and flip-flops that can be used
+  std::int64_t lutram = 0;  // LUTs that can be memory
+  int clock_mhz = 0;        // highest clock
+  double fill = 1;          // share of LUTs and flip-flops that can be used
   Amounts usable() const;
 };
 
@@ -61,8 +61,9 @@ struct NamedText {
 const std::vector<NamedText>& device_files();
 const std::vector<NamedText>& family_files();
 
-// By the name of one of them, or the path of a file that ends in ".toml"; `overrides` are
-// "device.bram=300". Throws scene::InputError, with "--device NAME" in front where there is none.
+// Loads a device by the name of one of these files, or by a path that ends in ".toml". `overrides` are such
+// as "device.bram=300". Throws scene::InputError. If there is no such device, its message begins with
+// "--device NAME".
 Device load_device(const std::string& name, const std::vector<std::string>& overrides);
 
 }  // namespace voxmelt::hwmodel::explore

@@ -11,11 +11,11 @@
 namespace voxmelt::hwmodel::explore {
 namespace {
 
-// Cycles of the data bus that are lost when the sides turn, there and back.
+// Counts the cycles that the data bus loses when it turns from reads to writes and back.
 double turn_cycles(const memory::Parameters& p, const Meetings& meetings) {
   const int reads_to_writes = p.read_to_write;
   const int writes_to_reads = p.wtr_s + p.cl + p.read_more;
-  // Where the other side's row lies in the same bank, it must be opened.
+  // If the other side's row lies in the same bank, it must be closed, and this side's row opened.
   const int read = p.cl + p.read_more + p.beats() - p.cwl - p.write_more;  // command to command
   const int open = p.rp + p.rcd;
   const int for_writes = std::max(0, p.rtp + open - read - p.read_to_write);
@@ -23,7 +23,8 @@ double turn_cycles(const memory::Parameters& p, const Meetings& meetings) {
   return reads_to_writes + writes_to_reads + for_writes * meetings.of_writes + for_reads * meetings.of_reads;
 }
 
-// Of every tREFI: the rank closes, is refreshed, and opens a row.
+// Returns the share of the time lost to refresh. In every tREFI the rank closes, is refreshed, and opens a
+// row.
 double refresh_share(const memory::Parameters& p) {
   return static_cast<double>(p.rtp + p.rp_all + p.rfc + p.rcd) / p.refi;
 }
@@ -33,7 +34,7 @@ double refresh_share(const memory::Parameters& p) {
 double meeting(double bursts, const memory::Parameters& p) {
   // All bursts of a stretch lie in one bank of every group.
   const std::int64_t stretch = p.row_bytes() / memory::kBurst * p.groups * p.channels;
-  const std::int64_t period = std::int64_t{p.banks} * p.ranks * p.banks;  // after which banks repeat
+  const std::int64_t period = std::int64_t{p.banks} * p.ranks * p.banks;  // stretches until banks repeat
   const auto whole = static_cast<std::int64_t>(std::floor(bursts / static_cast<double>(stretch)));
   const auto share = [&](std::int64_t stretches) {
     std::int64_t met = 0;
@@ -61,15 +62,16 @@ namespace {
 
 std::int64_t cycles_at(const StreamWork& work, const memory::Parameters& p, int clock_mhz,
                        const Placement& placement, const memory::Policy& policy, bool& waits) {
-  // While the first tokens are under way it is only read; then both; at last it is only written.
+  // While the first tokens are under way, the memory is only read. Then it is read and written, and at last
+  // it is only written.
   constexpr double kBurstBits = 8.0 * memory::kBurst;
   const double window = static_cast<double>(work.cycles - work.lag), lag = static_cast<double>(work.lag);
   const double alone = std::min(lag, window), both = window - alone, rest = lag - alone;
   const double reads = static_cast<double>(work.read_bits + work.fed_bits) / kBurstBits;
   const double writes = static_cast<double>(work.written_bits) / kBurstBits;
   const double ratio = static_cast<double>(clock_mhz) / p.mhz;
-  // A batch of writes begins when as many wait: so far behind lies the first one, and the last one next to
-  // nothing. Bursts of the feeds lie in banks at random.
+  // A batch of writes begins when `policy.batch` of them wait. So its first write lies so far behind, and its
+  // last one next to nothing. Bursts of the feeds lie in banks at random.
   Meetings meetings;
   const double state = static_cast<double>(work.read_bits) / std::max(1.0, kBurstBits * reads);
   const double lag_bursts = static_cast<double>(work.read_bits) / kBurstBits * lag / window;

@@ -1,5 +1,6 @@
-// How long a DRAM takes for the streams of the pipeline, from the numbers of its sheet and of its controller
-// alone. It shares nothing with the model of the controller, and holds no fitted constant.
+// The closed form tells how long a DRAM takes for the streams of the pipeline. It uses only the numbers of
+// the DRAM's sheet and of its controller. It shares nothing with the model of the controller, and holds no
+// fitted constant.
 #pragma once
 
 #include <cstdint>
@@ -10,57 +11,62 @@
 
 namespace voxmelt::hwmodel::explore {
 
-// In which part of all cases does a stream meet another one, so many bursts behind it, in a bank, in another
-// row?
+// Returns the share of cases in which a stream meets another one, so many bursts behind it, in the same bank
+// but in another row.
 double meeting(double bursts, const memory::Parameters& parameters);
 
-// When the bus turns: how often the first burst of the side that comes needs the bank that the last burst of
-// the other side has used, for another row.
+// Tells how often a turn of the bus finds a bank in use. Then the first burst of the new side needs the bank
+// of the other side's last burst, for another row.
 struct Meetings {
   double of_writes = 0, of_reads = 0;
 };
 
-// Cycles of the memory for so many bursts, while reads and writes wait without end.
+// Returns the memory's cycles for so many bursts, while reads and writes wait without end.
 double burst_cycles(double reads, double writes, const Meetings& meetings,
                     const memory::Parameters& parameters, const memory::Policy& policy = {});
 
-// Where the writes of a pass lie behind its reads.
+// Tells how far the writes of a pass lie behind its reads.
 struct Behind {
   double bursts = 0;
-  double share = 1;  // of the time
+  double share = 1;  // part of the time, 0..1
 };
 
-// Columns are uneven: with hw.coded the state, and irradiance anyway. In the order of the stream, bursts.
+// Counts the bursts of one column. Columns are uneven in irradiance, and with hw.coded also in the state.
 struct ColumnBursts {
   double reads = 0, writes = 0;
 };
 struct ColumnWork {
+  // The columns stand in the order of the stream.
   std::vector<ColumnBursts> columns;
-  double column_cycles = 0, lag = 0;  // of the machine, without waits
-  // Irradiance. A feed asks at once for as much as it has used: in the time of each column, of all feeds
-  // together, until the pipeline is empty. At the begin it fills its buffer.
+  double column_cycles = 0, lag = 0;  // cycles of the machine, without waits
+  // `fed` counts the bursts of irradiance that all feeds together fetch in the time of each column, until the
+  // pipeline is empty. A feed asks at once for as much as it has used. At the beginning it fills its buffer
+  // with `fed_first`.
   std::vector<double> fed{}, fed_first{};
   bool coded = false;
 };
-// Cycles of the machine.
+// All of these are cycles of the machine.
 struct BusTimes {
   double read = 0, write = 0;  // a burst on the bus; the writes bear the turns
-  double latency = 0;          // of a read
+  double latency = 0;          // from a read to its data
 };
-// `waits`: false if the pipeline is known never to wait behind its first column. It says whether it does.
+// Before the call, `waits` is false if the pipeline is known never to wait after its first column. The
+// function sets it to whether the pipeline waits.
 std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, const memory::Policy& policy,
                                bool& waits);
 
-// How the state lies there, unless it is one stream: no columns, and as many bursts behind as the lag has.
+// Describes how the state lies in the memory. For one even stream both lists are empty: the writes then lie
+// as many bursts behind as the lag has.
 struct Placement {
   std::vector<Behind> behind{};
   ColumnWork work{};
 };
 
-// Cycles of the machine for one pass of the twin.
+// Returns the cycles of the machine for `work`, which counts as one pass.
 std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& parameters, int clock_mhz,
                        const Placement& placement = {}, const memory::Policy& policy = {});
-// At several clocks, the lowest first. Where the pipeline never waits, it does not at a lower clock either.
+// Returns the same at several clocks, the lowest first. If the pipeline never waits at one clock, it does not
+// wait at a lower one either.
 std::vector<std::int64_t> cycles_on(const StreamWork& work, const memory::Parameters& parameters,
                                     const std::vector<int>& clocks, const Placement& placement);
 

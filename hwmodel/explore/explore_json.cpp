@@ -81,7 +81,7 @@ json parts_json(const PartList& parts) {
           {"stages", stages}};
 }
 
-// Of the state with which the run begins, once for each number of lanes.
+// Lists the contents of the state with which the run begins, once for each number of lanes.
 json contents_json(const std::vector<PartList>& parts) {
   json result = json::array();
   int last = 0;

@@ -1,4 +1,4 @@
-// What an exploration says: a table and a sentence, CSV, JSON, a picture.
+// The report of an exploration is a table and a sentence, CSV, JSON, or a picture.
 #pragma once
 
 #include <cstddef>
@@ -21,10 +21,10 @@ struct Explored {
 
 std::string text_of(const Explored& explored);
 std::string sentence_of(const Explored& explored);
-std::string csv_of(const Explored& explored);  // of every configuration
+std::string csv_of(const Explored& explored);  // one row for every configuration
 std::string json_of(const Explored& explored);
 std::string svg_of(const Explored& explored);
 
-const Checked* checked_at(const Explored& explored, std::size_t point);  // null: only predicted
+const Checked* checked_at(const Explored& explored, std::size_t point);  // null if only predicted
 
 }  // namespace voxmelt::hwmodel::explore

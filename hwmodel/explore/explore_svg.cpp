@@ -15,8 +15,8 @@
 namespace voxmelt::hwmodel::explore {
 namespace {
 
-constexpr double kWidth = 470, kHeight = 330;                       // of a panel
-constexpr double kLeft = 62, kRight = 18, kTop = 44, kBottom = 46;  // beside its plot
+constexpr double kWidth = 470, kHeight = 330;                       // size of a panel
+constexpr double kLeft = 62, kRight = 18, kTop = 44, kBottom = 46;  // margins of its plot
 
 constexpr const char* kStyle = R"(<style>
 svg { color-scheme: light dark; --paper: #fbfaf7; --ink: #1f2328; --soft: #646a73; --line: #e4e1da; --dot: #b9bec6;
@@ -33,7 +33,7 @@ text { font: 12px system-ui, "Noto Sans", "DejaVu Sans", sans-serif; fill: var(-
 </style>
 )";
 
-// A logarithmic scale from whole decades, or halves of them.
+// A logarithmic scale has ticks at 1, 2 and 5 times each power of ten.
 class Scale {
  public:
   Scale(double low, double high, double from, double to)
@@ -65,7 +65,7 @@ double giga(const Point& p) { return static_cast<double>(p.speed) * 1e-6; }
 
 struct Panel {
   const Explored& explored;
-  std::size_t f;  // of Answer::fronts
+  std::size_t f;  // index into Answer::fronts
   Scale x, y;
 
   double amount(const Point& p) const {
@@ -145,9 +145,9 @@ std::string name_of(std::size_t front) {
   return front < kResources ? name : "clock, MHz";
 }
 
-// Long lines of a picture are cut at blanks.
 std::size_t row_of(std::size_t panel) { return panel / 2; }
 
+// Cuts a long text into lines at blanks.
 std::string wrapped(const std::string& text, std::size_t most, double x, double y) {
   std::string result;
   for (std::size_t from = 0; from < text.size(); y += 17) {

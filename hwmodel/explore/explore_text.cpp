@@ -50,7 +50,7 @@ std::string row_of(const Explored& explored, std::size_t at) {
                             checked->predicted - checked->cycles, 100 * checked->error());
 }
 
-// What would make the best design faster, the greatest gain first.
+// Lists what would make the best design faster, the greatest gain first.
 std::vector<std::pair<std::int64_t, std::string>> bounds_of(const Explored& explored) {
   const std::int64_t best = explored.swept.points[*explored.answer.best].speed;
   std::vector<std::pair<std::int64_t, std::string>> bounds;

@@ -1,4 +1,4 @@
-// What the memory holds in a run, by the software: on a DRAM it decides what moves.
+// The software tells what the memory holds in a run. On a DRAM this decides what moves.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ class Held {
   Held(const Held&) = delete;
   Held& operator=(const Held&) = delete;
 
-  // The run asks this object from now on.
+  // Makes the run ask this object from now on.
   void give_to(TimedRun& run) const;
 
  private:
-  // Irradiance from each step of visibility on; with hw.coded which tokens are stored before each step, and
-  // behind the last one.
+  // `irradiance_` holds the irradiance from the first step, and from each step of visibility, on. With
+  // hw.coded, `stored_` says which tokens are stored before each step, and after the last one.
   std::map<std::uint32_t, IrradianceStream> irradiance_;
   std::map<std::uint32_t, StoredTokens> stored_;
 };

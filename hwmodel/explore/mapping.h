@@ -1,5 +1,5 @@
-// Which kind of memory every buffer goes to. Buffers of the same name have the same kind in every time step
-// of the cascade. All choices are weighed: those that no other beats are kept.
+// Every buffer is mapped to a kind of memory. Buffers of the same name have the same kind in every time step
+// of the cascade. All choices are weighed, and those that no other beats are kept.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace voxmelt::hwmodel::explore {
 
-// What a choice takes. BRAM is counted in parts of a block.
+// Counts what a choice takes. BRAM is counted in parts of a block.
 struct MemoryUse {
   std::int64_t lutram = 0, parts = 0, uram = 0;
   friend MemoryUse operator+(const MemoryUse& a, const MemoryUse& b) {
@@ -20,14 +20,14 @@ struct MemoryUse {
   }
 };
 
-// The ways to hold `words` of `bits` in memories of a family: LUTs, BRAM, URAM. One that another beats is
-// among them, too.
+// Returns the ways to hold `words` of `bits` in memories of a family: LUTs, BRAM, URAM. A way that another
+// one beats is among them, too.
 std::vector<MemoryUse> ways_to_hold(std::int64_t words, std::int64_t bits, const Family& family);
 
-// LUTs of a memory of LUTs, with what chooses among its parts.
+// Counts the LUTs of a memory of LUTs, with those that choose among its parts.
 std::int64_t luts_to_hold(std::int64_t words, std::int64_t bits, const Family& family);
 
-// Every sum of one of each, without those that another one beats.
+// Returns every sum of one of each, without those that another one beats.
 std::vector<MemoryUse> sums_of(const std::vector<MemoryUse>& a, const std::vector<MemoryUse>& b);
 
 }  // namespace voxmelt::hwmodel::explore

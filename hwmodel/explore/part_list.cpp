@@ -8,7 +8,7 @@
 namespace voxmelt::hwmodel::explore {
 namespace {
 
-// Every piece but the first of a number loses a bit to the sign.
+// Every piece of a number but the first loses a bit to the sign.
 std::int64_t pieces(int width, int number) {
   return width <= number ? 1 : 1 + (width - number + number - 2) / (number - 1);
 }

@@ -1,5 +1,5 @@
-// What one time step of the cascade is made of, for a number of lanes: the stages' memories and units as the
-// model reports them, and what they cost in the parts of a family.
+// A part list tells what one time step of the cascade is made of, for a number of lanes. It has the stages'
+// memories and units as the model reports them, and their cost in the parts of a family.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace voxmelt::hwmodel::explore {
 struct StagePart {
   StageKind kind = StageKind::reader;
   std::int64_t lag = 0;
-  int output_bits = 0;  // of a lane
+  int output_bits = 0;  // bits of a lane
   std::vector<BufferCost> buffers;
   Units units;
 };
@@ -24,17 +24,17 @@ struct StagePart {
 struct PartList {
   Design design;
   std::vector<StagePart> stages;
-  bool fed = false;                                                      // with irradiance
-  std::shared_ptr<const Content> content = std::make_shared<Content>();  // of the state at the begin
+  bool fed = false;                                                      // takes irradiance
+  std::shared_ptr<const Content> content = std::make_shared<Content>();  // contents of the first state
 
-  // Of a family, a time step without its channels and ports.
+  // These count the parts of a family for one time step, without its channels and ports.
   std::int64_t lut = 0, ff = 0, dsp = 0;
   std::vector<MemoryUse> memories;  // ways to hold its buffers
 };
 
 PartList part_list(const Design& design, const Family& family);
 
-// DSPs of a product of two signed numbers.
+// Counts the DSPs of a product of two signed numbers.
 std::int64_t dsps_of(const Widths& product, const Widths& dsp);
 
 }  // namespace voxmelt::hwmodel::explore

@@ -1,4 +1,4 @@
-// What the closed form of a DRAM says of a run that was verified on one.
+// The closed form of a DRAM predicts a run that was verified on one.
 #pragma once
 
 #include "hwmodel/memory/chosen_memory.h"
@@ -7,9 +7,9 @@
 
 namespace voxmelt::hwmodel::explore {
 
-// Adds to the report what the memory moves at most, and to each train what the closed form predicts: for a
-// run that moves what `start`, the state at its begin, and its irradiance (null: dark) hold. Where the state
-// decides on sub-steps, no train has a prediction.
+// Adds to the report how much the memory moves at most, and to each train the cycles that the closed form
+// predicts. The run is taken to move what `start`, the state at its beginning, and its irradiance hold (null:
+// dark). If the state decides on the sub-steps, no train has a prediction.
 void predict_on_memory(VerifyReport& report, const Design& design, const Configuration& configuration,
                        const memory::Choice& memory, const state::Volume& start,
                        const Irradiance* irradiance);

@@ -13,7 +13,7 @@
 namespace voxmelt::hwmodel::explore {
 namespace {
 
-// Time steps of the pass that begins with this one. None reaches beyond a step of visibility.
+// Counts the time steps of the pass that begins with `step`. None reaches beyond a step of visibility.
 int steps_of_pass(const Design& design, const Configuration& c, std::uint32_t step, std::int64_t left) {
   const rule::Heat& heat = design.parameters.heat;
   const bool counted = !design.paper() && design.parameters.flow.viscous.counts_substeps();
@@ -23,7 +23,7 @@ int steps_of_pass(const Design& design, const Configuration& c, std::uint32_t st
   return static_cast<int>(steps);
 }
 
-// Bits of the state in some blocks along x. Columns of tiles, and coded ones, are whole bursts.
+// Counts the bits of the state in some blocks along x. Columns of tiles, and coded ones, are whole bursts.
 std::int64_t state_bits(const Design& design, bool coded, const Content& content, int first, int end) {
   if (coded) return Content::between(content.coded_before, first, end);
   const Shape& shape = design.shape;
@@ -31,7 +31,7 @@ std::int64_t state_bits(const Design& design, bool coded, const Content& content
   return std::int64_t{end - first} * shape.grid.z * (shape.tiled() ? CodeLayout::up(column) : column);
 }
 
-// One tile of a pass.
+// Adds one tile of a pass to a train.
 void add_pass(Train& train, const Design& design, const Configuration& c, const Pass& pass,
               const Content& content) {
   const Shape& shape = design.shape;
@@ -48,7 +48,8 @@ void add_pass(Train& train, const Design& design, const Configuration& c, const 
         (shape.tiled() ? Content::between(content.irradiance_before, first, end) : content.irradiance_bits);
 }
 
-// In the order of the stream: what each column of each tile reads, and writes if the tile owns it.
+// Adds the columns of each tile in the order of the stream. Each one is read, and it is written if the tile
+// owns it.
 void add_columns(Train& train, const Design& design, const Configuration& c, const Content& content) {
   const Shape& shape = design.shape;
   const double all = static_cast<double>(state_bits(design, false, content, 0, 1)) / shape.grid.z;
@@ -64,11 +65,11 @@ void add_columns(Train& train, const Design& design, const Configuration& c, con
   }
 }
 
-// How many columns after the reader each time step takes irradiance.
+// Returns how many columns after the reader each time step takes irradiance.
 std::vector<std::size_t> feed_delays(const Train& train, const Design& design, const Configuration& c) {
   const Pass& pass = train.list.front();
   const std::int64_t tokens = design.shape.tokens();
-  std::int64_t step = 0, before = 1;  // cycles of a step, of its stages before the exchange
+  std::int64_t step = 0, before = 1;  // cycles of a step, and of its stages before the exchange
   bool reached = false;
   for (const StageKind stage : stages_of_step(design)) {
     reached |= stage == StageKind::exchange;
@@ -86,7 +87,7 @@ std::vector<std::size_t> feed_delays(const Train& train, const Design& design, c
   return delays;
 }
 
-// What feeds fetch: as much as they have used, but for what they fetched at the begin.
+// Adds what the feeds fetch: as much as they have used, less what they fetched at the beginning.
 void add_feeds(Train& train, const Design& design, const Configuration& c, const Content& content) {
   const Shape& shape = design.shape;
   ColumnWork& work = train.placement.work;
@@ -122,9 +123,9 @@ void end_train(Train& train, const Design& design, const Configuration& c, const
   train.work.lag = train.work.cycles - c.interval() * train.work.tokens;
   const Shape& shape = design.shape;
   const bool lit = train.work.fed_bits > 0;
-  if (!c.coded && !shape.tiled() && !lit) return;  // a stream that is even
-  // As many columns behind as the lag has; of tiles in the other copy, of a plane that is as wide as the
-  // grid.
+  if (!c.coded && !shape.tiled() && !lit) return;  // the stream is even
+  // The writes lie as many columns behind as the lag has. Those of tiles lie in the other copy, and a plane
+  // there is as wide as the grid.
   const ColumnSlots slots(design, c.coded);
   const double columns =
       static_cast<double>(train.work.lag) / static_cast<double>(c.interval() * shape.column());
@@ -144,7 +145,7 @@ void end_train(Train& train, const Design& design, const Configuration& c, const
   if (lit) add_feeds(train, design, c, content);
 }
 
-// All tiles of a pass, into the last train, or into new ones.
+// Adds all tiles of a pass to the last train, or to new ones.
 void add_tiles(std::vector<Train>& trains, const Design& design, const Configuration& c, Pass pass,
                const Content& content) {
   for (pass.tile = 0; pass.tile < design.shape.tiles(); ++pass.tile) {
@@ -153,7 +154,7 @@ void add_tiles(std::vector<Train>& trains, const Design& design, const Configura
   }
 }
 
-// One time step with more sub-steps than the machine has copies of settle and spread: pass after pass.
+// Adds one time step with more sub-steps than the machine has copies of settle and spread, pass after pass.
 void add_substeps(std::vector<Train>& trains, const Design& design, const Configuration& c, Pass pass,
                   const Content& content) {
   for (; pass.substep < pass.substeps; pass.substep += pass.count) {
@@ -195,7 +196,7 @@ std::vector<Train> lists_of(const Design& design, const Configuration& c, std::u
   return trains;
 }
 
-// But for the number of their first step.
+// Compares two trains in all but the number of their first step.
 bool alike(const Train& a, const Train& b) {
   const auto form = [](const Pass& pass) {
     return std::tuple(pass.steps, pass.substep, pass.count, pass.substeps, pass.tile);

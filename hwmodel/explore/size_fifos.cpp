@@ -31,8 +31,9 @@ class Sizer {
       run_.configuration.depths.push_back({channel.name, std::min(kMostDepth, channel.highest + 1)});
     }
     for (ChannelDepth& channel : run_.configuration.depths) shrink(channel);
-    // Without a memory more room never costs a cycle: what was too little once stays too little when others
-    // shrink. On a DRAM it may, for the order of requests is another one. So all are tried until none yields.
+    // Without a memory, more room never costs a cycle: a depth that once was too little stays too little when
+    // others shrink. On a DRAM it may cost some, because requests then come in another order. So all channels
+    // are tried until none yields.
     while (!one_less_costs()) {
     }
     return sizing_;
@@ -51,8 +52,8 @@ class Sizer {
     sizing_.cycles = timing.cycles;
     return false;
   }
-  // Of every channel, alone? Where it does not, the channel is made shallower, and its cycles are the new
-  // measure: they are not more than those of the deep machine.
+  // Says if one token less costs cycles in every channel, each taken alone. If one costs nothing, the channel
+  // is made shallower. Its cycles are the new measure: they are not more than those of the deep machine.
   bool one_less_costs() {
     bool all = true;
     for (std::size_t i = 0; i < sizing_.channels.size(); ++i) {
@@ -73,7 +74,7 @@ class Sizer {
     }
     return all;
   }
-  // By halving: `low` loses, `high` does not.
+  // Searches by halving: `low` loses cycles, `high` does not.
   void shrink(ChannelDepth& channel) {
     int low = 0, high = channel.depth;
     while (low + 1 < high) {

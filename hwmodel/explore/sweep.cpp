@@ -16,7 +16,7 @@
 namespace voxmelt::hwmodel::explore {
 namespace {
 
-// All but the memories of stages and ports.
+// Counts everything but the memories of stages and ports.
 struct Fixed {
   Amounts amounts{};
   std::int64_t lutram = 0, ports = 0;
@@ -150,7 +150,7 @@ std::int64_t speed_of(const Question& question, const RunTime& time, int clock_m
 
 namespace {
 
-// All values of the other axes.
+// Adds the points for all values of the other axes.
 void add_points(Swept& swept, std::size_t at, Configuration hw, const Question& question, const Axes& axes) {
   const PartList& parts = swept.parts[at];
   std::map<std::array<int, 3>, std::vector<RunTime>> known;  // deeper channels take the same time
@@ -180,7 +180,7 @@ Swept sweep(const Question& question, const Axes& axes, const std::function<void
     const auto content = std::make_shared<Content>(
         content_of({question.parameters, {question.grid, lanes}, 1}, question.irradiance, question.volume));
     for (const int substeps : axes.substeps) {
-      std::map<int, std::size_t> parts_of;  // by the blocks of a tile
+      std::map<int, std::size_t> parts_of;  // keyed by the blocks of a tile
       for (const int cascade : axes.cascade) {
         Configuration hw;
         hw.lanes = lanes;

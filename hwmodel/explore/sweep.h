@@ -1,5 +1,5 @@
-// All configurations of some axes by the closed forms: how fast each is, what it takes of a device, and
-// whether it fits.
+// A sweep tries all configurations of some axes by the closed forms. They tell how fast each one is, what it
+// takes of a device, and whether it fits.
 #pragma once
 
 #include <array>
@@ -17,25 +17,25 @@
 
 namespace voxmelt::hwmodel::explore {
 
-// The question.
+// Holds the scene, the device and the memory that are asked about.
 struct Question {
   rule::Parameters parameters;
   state::Grid grid;
   std::uint32_t first_step = 0;
   std::int64_t steps = 32;
   Device device;
-  std::optional<memory::Parameters> memory;  // none: it always answers
-  const Irradiance* irradiance = nullptr;    // of the first step; null: dark
-  const state::Volume* volume = nullptr;     // before it; null: hw.coded is not tried
+  std::optional<memory::Parameters> memory;  // none if it always answers
+  const Irradiance* irradiance = nullptr;    // at the first step; null if dark
+  const state::Volume* volume = nullptr;     // before the first step; if null, hw.coded is not tried
 };
 
-// The values that are tried. A further axis is a list here and a row below, with its values in axes.cpp and a
-// loop in `sweep`. Of tiles there is a number: hw.tile is the narrowest that gives it.
+// Lists the values that are tried. A further axis is a list here and a row below, with its values in axes.cpp
+// and a loop in `sweep`. `tiles` holds numbers of tiles: hw.tile is the narrowest that gives each.
 struct Axes {
   std::vector<int> lanes, cascade, substeps, fifo_depth, overlap, coded, tiles{1}, clock_mhz;
   std::optional<int> tile{};  // this hw.tile alone, whatever `tiles` says
 };
-// The axes that are keys of [hw].
+// Describes an axis that is a key of [hw].
 struct Axis {
   std::string_view key;
   std::vector<int> Axes::*values;
@@ -45,46 +45,46 @@ inline constexpr std::array kAxes{Axis{"lanes", &Axes::lanes},        Axis{"casc
                                   Axis{"overlap", &Axes::overlap},    Axis{"coded", &Axes::coded},
                                   Axis{"clock_mhz", &Axes::clock_mhz}};
 Axes usual_axes(const Question& question);
-// The values of hw.tile for these lanes and steps.
+// Returns the values of hw.tile for the lanes and steps of `hw`.
 std::vector<int> tiles_of(const Axes& axes, const Question& question, const Configuration& hw);
-// `sets` are "hw.lanes=8": of that axis this value alone is tried. Throws scene::InputError.
+// Keeps a single value of each axis that `sets` names, such as "hw.lanes=8". Throws scene::InputError.
 void keep_only(Axes& axes, const std::vector<std::string>& sets);
 
-// What a configuration takes of a device.
+// Counts what a configuration takes of a device.
 struct Taken {
   Amounts amounts{};
-  std::int64_t lutram = 0;  // of the LUTs
-  double fullest = 0;       // the greatest share of what can be used; the choice of memories with the least
-  Resource most = kLut;     // of what
+  std::int64_t lutram = 0;  // LUTs that are memory
+  double fullest = 0;       // greatest share of what can be used, by the choice of memories with the least
+  Resource most = kLut;     // the resource with this share
   bool fits() const { return fullest <= 1; }
 };
 
 struct Point {
   Configuration hw;
-  std::size_t parts = 0;  // in Swept::parts
+  std::size_t parts = 0;  // index into Swept::parts
   int clock_mhz = 0;
-  std::int64_t cycles = 0;     // of the run, while the memory always answers
+  std::int64_t cycles = 0;     // the whole run, while the memory always answers
   std::int64_t on_memory = 0;  // with the memory's time
   std::int64_t speed = 0;      // thousand cell-steps a second
   Taken taken;
 };
 
 struct Swept {
-  std::vector<PartList> parts;  // by lanes, sub-steps and width of a tile
+  std::vector<PartList> parts;  // one for each choice of lanes, sub-steps and tile width
   std::vector<Point> points;
   double seconds = 0;
 };
 
 Swept sweep(const Question& question, const Axes& axes, const std::function<void()>& poll);
 
-// `relaxed`: of this resource there is any amount.
+// If `relaxed` is given, there is any amount of this resource.
 Taken taken_by(const PartList& parts, const Configuration& hw, const Device& device,
                std::optional<Resource> relaxed = {});
-// The fewest of one resource with which it fits, if all others suffice.
+// Returns the fewest units of one resource with which the configuration fits, if all others suffice.
 std::optional<std::int64_t> least_of(Resource resource, const PartList& parts, const Configuration& hw,
                                      const Device& device);
 
-// The closed form for a run.
+// Holds the results of the closed form for a run.
 struct RunTime {
   std::int64_t cycles = 0, on_memory = 0, steps = 0;
 };

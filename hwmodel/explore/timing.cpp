@@ -36,7 +36,8 @@ std::size_t token_at(const CodeLayout& layout, const Place& place) {
   return static_cast<std::size_t>(layout.column_of(place) * layout.height() + place.y);
 }
 
-// Says which tokens are air, for stages that compute nothing: as they are before the step behind the pass.
+// Says which tokens are air, because stages that compute nothing cannot. They are as before the step that
+// follows the pass.
 class Told final : public CodeFault {
  public:
   Told(const TimedRun& run, const Design& design) : run_(run), layout_(design) {}
@@ -50,7 +51,7 @@ class Told final : public CodeFault {
   void ended(std::int64_t, const Place&, std::uint64_t*) override {}
   void found(std::int64_t, const Place&, const std::uint64_t*, bool&) override {}
 
-  // A volume whose tokens are stored as they are before this step.
+  // Returns a volume whose tokens are stored as they are before this step.
   state::Volume volume(std::uint32_t step, const Shape& shape) const {
     state::Volume volume(shape.grid);
     const StoredTokens& tokens = *run_.stored(step);

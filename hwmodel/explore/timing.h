@@ -1,5 +1,5 @@
-// The pipeline without its arithmetic: the same channels, lags, stalls, feeds and memory, and so the same
-// cycles in a small part of the time. No cell decides when a stage moves.
+// The pipeline is timed without its arithmetic. It has the same channels, lags, stalls, feeds and memory, and
+// so the same cycles in a small part of the time. No cell decides when a stage moves.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,11 @@ struct TimedRun {
   std::uint32_t first_step = 0;
   std::int64_t steps = 0;
   std::function<void()> poll;
-  // What the feeds read from a step of visibility on, or from the first step; empty: nothing.
+  // Returns what the feeds read from a step of visibility on, or from the first step. If empty, they read
+  // nothing.
   std::function<const IrradianceStream*(std::uint32_t step)> irradiance;
-  // With hw.coded on a memory: which tokens are stored before this step, by column and height; empty: none.
+  // Returns which tokens are stored before this step, by column and height, with hw.coded on a memory. If
+  // empty, none are.
   std::function<const StoredTokens*(std::uint32_t step)> stored;
 };
 
@@ -36,7 +38,7 @@ struct Timing {
 
 Timing timing_of(const TimedRun& run, StreamMemory* memory);
 
-// Of the main stream in its order, then the feeds.
+// Names the channels of the main stream in its order, then those of the feeds.
 std::vector<std::string> channel_names(const Design& design, const Configuration& configuration);
 
 }  // namespace voxmelt::hwmodel::explore

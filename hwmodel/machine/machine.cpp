@@ -14,7 +14,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// What the pipeline did so far. Its cycles are those on a memory that always answers.
+// Sums up the work of the pipeline so far. Its cycles are those on a memory that always answers.
 StreamWork work_of(const VerifyReport& report) {
   StreamWork work;
   work.passes = report.passes;
@@ -35,8 +35,8 @@ memory::Choice untraced(memory::Choice choice) {
   return choice;
 }
 
-// The pipeline alone on a memory, to tell what the ray caster beside it costs: it repeats the trains of the
-// machine, and nobody checks it.
+// Repeats the trains of the machine with the pipeline alone on a memory. Its cycles tell what the ray caster
+// beside the pipeline costs. Nobody checks its results.
 class StreamAlone {
  public:
   StreamAlone(const MachineInput& input, const MachineOptions& options)
@@ -55,7 +55,7 @@ class StreamAlone {
     const auto next = [&] { return begun < passes.size() ? std::optional(passes[begun++]) : std::nullopt; };
     cycles_ += pipeline_.run_train(passes.front(), next, irradiance, volume_).cycles;
   }
-  std::int64_t cycles() const { return cycles_; }  // of all trains
+  std::int64_t cycles() const { return cycles_; }  // sum over all trains
 
  private:
   Simulation simulation_;
@@ -78,7 +78,7 @@ class Run {
         alone_(input, options),
         lockstep_(input.parameters, input.picture.volume, input.first_step, input.fast, input.tuning,
                   steps_) {
-    // The state lies at the begin, and what the ray caster reads behind it.
+    // The state lies at the beginning of the memory. The ray caster's data lie behind it.
     const std::int64_t align = memory_.memory().alignment(),
                        bytes = stream_bytes(design_, options.steps.configuration.coded);
     screen_.connect({simulation_, memory_.memory(), (bytes + align - 1) / align * align});
@@ -89,22 +89,23 @@ class Run {
     report_.first_upload = screen_.upload();
     screen_.draw_alone();
     report_.first_frame = screen_.alone().last().cycles;
-    if (options_.picture.fault == raycast::Fault::none) {  // which may strike while both machines work
+    // With a planted fault this picture is left out, so that the fault may strike while both machines work.
+    if (options_.picture.fault == raycast::Fault::none) {
       screen_.begin();
       screen_.finish();  // from now on the caches are warm
     }
     if (screen_.good()) {
       begin_period();
       report_.steps = lockstep_.run();
-      screen_.finish();  // after a difference, or the picture of the last state
+      screen_.finish();  // completes the last picture, also after a difference
     }
     report_.pictures = screen_.report();
-    report_.pictures.memory.dram = memory_.dram_counts();  // of both machines
+    report_.pictures.memory.dram = memory_.dram_counts();  // traffic of both machines
     report_.pictures.memory.bus_cycles = memory_.bus_cycles();
     const Shape& shape = design_.shape;
     report_.cells = shape.grid.cells();
     const std::int64_t words = std::int64_t{shape.grid_blocks()} * shape.lanes * shape.grid.y * shape.grid.z;
-    const int copies = shape.tiled() ? 2 : 1;  // tiles overlap: state_memory.h
+    const int copies = shape.tiled() ? 2 : 1;  // tiles overlap, see state_memory.h
     const CodeLayout layout(design_);
     const std::int64_t bits = options_.steps.configuration.coded ? layout.slot_bits() * layout.columns()
                                                                  : words * design_.cell_bits();
@@ -114,7 +115,7 @@ class Run {
   }
 
  private:
-  // The pipeline is part of the simulation, and on the memory.
+  // Returns options by which the pipeline is part of the simulation and works on the memory.
   VerifyOptions steps() {
     VerifyOptions steps = options_.steps;
     steps.simulation = &simulation_;
@@ -167,7 +168,7 @@ class Run {
   const MachineInput& input_;
   const MachineOptions& options_;
   Design design_;
-  Simulation simulation_;  // of both machines
+  Simulation simulation_;  // shared by both machines
   Screen screen_;
   memory::ChosenMemory memory_;
   MemoryStreams streams_;

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 double ratio(double a, double b) { return b == 0 ? 0 : a / b; }
 double ratio(std::int64_t a, std::int64_t b) { return ratio(static_cast<double>(a), static_cast<double>(b)); }
 
-// Of a sum over periods: how often a second.
+// Returns how often a second something happens that happens `times` times in `cycles`.
 double rate(double times, std::int64_t cycles, int clock_mhz) {
   return ratio(times * 1e6 * clock_mhz, static_cast<double>(cycles));
 }
@@ -47,8 +47,8 @@ Json json_of(const Period& period) {
           {"host_seconds", period.host_seconds}};
 }
 
-// Upper bounds of cell-steps a cycle, each below the one before, and what the pipeline reached: alone on the
-// memory, and with the upload and the ray caster on it.
+// Lists upper bounds of the cell-steps a cycle, each below the one before. Then come the rates that the
+// pipeline reached: alone on the memory, and beside the upload and the ray caster.
 Json rate_of_cells(const MachineReport& report, const MachineOptions& options) {
   const Period sum = report.sum();
   const Configuration& c = options.steps.configuration;

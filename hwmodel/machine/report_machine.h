@@ -1,4 +1,4 @@
-// What a run of the whole machine says: the table, what bounds it, and JSON.
+// The report of the whole machine is a table, the parts that bound its speed, and JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,10 +12,11 @@ namespace voxmelt::hwmodel {
 std::string table_of(const MachineReport& report, const MachineOptions& options);
 nlohmann::ordered_json json_of(const MachineReport& report, const MachineOptions& options);
 
-// What keeps the machine from being faster while both of its parts work: the part with the least idle time.
+// Names a part that may keep the machine from being faster, while both the pipeline and the ray caster work.
+// The part with the least idle time comes first.
 struct Bound {
   std::string name;
-  double share = 0;  // of the cycles of the overlapped periods
+  double share = 0;  // part of the overlapped periods' cycles, 0..1
 };
 std::vector<Bound> bounds_of(const MachineReport& report, const MachineOptions& options);
 

@@ -27,7 +27,7 @@ void Screen::connect(const raycast::Shares& shares) {
 
 const raycast::UploadReport& Screen::take_over(const state::Volume& volume) {
   const bool first = !alone_;
-  const std::clock_t begin = std::clock();  // of the processor: the machine may have other work
+  const std::clock_t begin = std::clock();  // processor time, as the machine may have other work
   field_.update(volume, input_.look, input_.terrain, 1);
   const std::vector<std::uint32_t>* changed = first ? nullptr : &field_.refreshed();
   software_.update(field_, input_.look, input_.light, input_.terrain, changed, 1);

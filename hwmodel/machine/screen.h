@@ -1,5 +1,5 @@
-// The picture's side of the whole machine: the host takes over a state and sends what changed, and the ray
-// caster draws it, beside whatever else the simulation does.
+// The screen is the picture's side of the whole machine. The host takes over a state and sends what changed.
+// The ray caster draws it, beside whatever else the simulation does.
 #pragma once
 
 #include <optional>
@@ -21,21 +21,22 @@ class Screen {
   // Draws as `input` says, and begins with its volume, which is sent whole.
   Screen(const raycast::PictureInput& input, const raycast::PictureOptions& options);
 
-  // What the machine's own ray caster shares with the pipeline.
+  // Gives the machine's own ray caster what it shares with the pipeline.
   void connect(const raycast::Shares& shares);
 
-  // The next state: what changed is sent. The upload is without its lists.
+  // Takes over the next state and sends what changed. The lists of the returned upload are empty.
   const raycast::UploadReport& take_over(const state::Volume& volume);
-  const raycast::UploadReport& upload() const { return upload_; }  // the last one
+  const raycast::UploadReport& upload() const { return upload_; }  // last upload
 
-  // Draws the state that was taken over last: `begin` in the next cycle, `finish` what is left; checked.
+  // Draws the state that was taken over last, and checks the picture. `begin` starts in the next cycle, and
+  // `finish` draws the rest.
   void begin();
   void finish();
-  // The same, by a ray caster that has a memory of its own; its bytes are checked.
+  // Draws the same with a ray caster that has a memory of its own. The bytes of its picture are checked.
   void draw_alone();
 
   bool good() const { return good_; }
-  double host_seconds() const { return host_seconds_; }  // of the last state: field, light, comparing lines
+  double host_seconds() const { return host_seconds_; }  // last state: field, light, comparing lines
   const raycast::PictureRun& beside() const { return *beside_; }
   const raycast::PictureRun& alone() const { return *alone_; }
   raycast::PictureReport report() { return beside_->report(); }

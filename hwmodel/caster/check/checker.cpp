@@ -80,7 +80,7 @@ std::optional<RayId> Checker::ray_under_way() const {
   return {};
 }
 
-// A line that arrives is read in the same cycle, and a channel behind it may be looked at first: a
+// A line that arrives is read in the same cycle, and a channel behind it may be looked at first. So a
 // difference of the memory comes before all others of its cycle.
 void Checker::tell(Difference difference) {
   const bool before = difference.stage == "memory" && !ended_ && difference_ &&
@@ -366,7 +366,7 @@ void Checker::entered(int, std::int64_t, const PixelToken* token) {
   const Rgb& sum = sums_[index_of(id) / static_cast<std::size_t>(samples_)];
   std::array<std::uint8_t, 3> expected{};
   for (std::size_t c = 0; c < 3; ++c) {
-    // More than all light is the sum where a ray came twice: its channel has told that.
+    // The sum exceeds full light if a ray came twice. Its channel has told that.
     const std::int32_t light = std::min<std::int32_t>((sum[c] + samples_ / 2) / samples_, picture::kLight);
     expected[c] = render::byte_table()[static_cast<std::size_t>(light)];
   }

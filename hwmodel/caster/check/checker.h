@@ -1,5 +1,5 @@
-// Compares every token that leaves a stage of the ray caster with the reference. The first difference ends
-// the run.
+// The checker compares every token that leaves a stage of the ray caster with the reference. The first
+// difference ends the run.
 #pragma once
 
 #include <cstddef>
@@ -33,15 +33,16 @@ class Checker final : FifoWatcher<TileOrder>,
   Checker(const Expectation& expectation, RayCaster& caster, int width, int height);
 
   Watchers watchers();
-  // The first pass has one sample of a pixel. The second one has several, of the pixels that differ from a
-  // neighbour by more than `most`. `frame`: where it is written.
+  // The first pass has one sample of each pixel. The second one has several, of the pixels that differ from a
+  // neighbour by more than `most`. `frame` is the address at which the pass is written.
   void begin_pass(int samples, int most, std::int64_t frame, const Window& window = {});
-  void run_on_at_difference() { stops_ = false; }  // for waves; whoever wants them ends the run
-  // After it: looks for what never came.
+  // Lets the run go on after a difference, for waves. Whoever wants them ends the run.
+  void run_on_at_difference() { stops_ = false; }
+  // Looks for what never came, after the pass.
   void end_pass(const FrameEnd& end);
   const std::optional<Difference>& difference() const { return difference_; }
-  std::int64_t compared() const { return compared_; }  // numbers
-  // Of the first ray in the picture that has not come to its end. (All have, in a pass that is complete.)
+  std::int64_t compared() const { return compared_; }  // numbers that were compared
+  // Returns the first ray in the picture that has not come to its end. In a complete pass all rays have.
   std::optional<RayId> ray_under_way() const;
 
  private:
@@ -78,7 +79,7 @@ class Checker final : FifoWatcher<TileOrder>,
   ExpectedRay& ray(const RayId& id);
   ExpectedRay& shaded(const RayId& id);
   std::size_t index_of(const RayId& id) const;
-  std::size_t byte_of(int x, int y) const;  // in a frame
+  std::size_t byte_of(int x, int y) const;  // offset in a frame
   bool drawn_again(int x, int y) const;
   template <class Value>
   void compare(const char* stage, const RayId& id, const char* name, const Value& expected,
@@ -86,7 +87,7 @@ class Checker final : FifoWatcher<TileOrder>,
   class SurfacePair;
   void compare_surface(Channel behind, const Surface& expected, const Surface& actual,
                        const ExpectedRay& ray);
-  // Of rays through clear matter: checker_clear.cpp.
+  // These compare rays through clear matter (checker_clear.cpp).
   void compare_clear(const HitToken& token);
   void compare_clear(const MetToken& token);
   void compare_clear(Channel behind, const Surface& token);
@@ -96,19 +97,19 @@ class Checker final : FifoWatcher<TileOrder>,
   RayCaster& caster_;
   std::size_t width_;
   int height_, samples_ = 1;
-  std::vector<std::int32_t> places_;  // of rays in `rays_`, by pixel and sample; -1: not there
+  std::vector<std::int32_t> places_;  // indices into `rays_`, by pixel and sample; -1 if not there
   std::vector<ExpectedRay> rays_;
   std::vector<std::int32_t> free_;
-  std::vector<Rgb> sums_;                    // of pressed light, by pixel
-  std::vector<std::uint8_t> bytes_, first_;  // expected, tile by tile; of the first pass
+  std::vector<Rgb> sums_;                    // pressed light, by pixel
+  std::vector<std::uint8_t> bytes_, first_;  // expected, tile by tile; those of the first pass
   int most_ = 0, tiles_x_ = 0;
   std::int64_t frame_ = 0;
   Window window_;
-  std::optional<std::int64_t> ended_;  // the cycles of the pass
+  std::optional<std::int64_t> ended_;  // cycles of the pass, if it has ended
   Transit transit_;
   TileCheck tile_check_;
   MemoryCheck memory_check_;
-  bool stops_ = true;  // the run, at a difference
+  bool stops_ = true;  // ends the run at a difference
   std::optional<Difference> difference_;
   std::int64_t compared_ = 0;
 };

@@ -1,5 +1,5 @@
-// Rays through clear matter, compared behind every stage. What a ray does after nothing passes any more
-// changes no byte: it is not compared.
+// Rays through clear matter are compared behind every stage. After nothing passes any more, a ray changes no
+// byte. So the rest of its way is not compared.
 #include <cstddef>
 #include <cstdint>
 
@@ -9,7 +9,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// From the walk into matter, or from a stretch to the air behind it.
+// The token comes from the walk into matter, or from a stretch to the air behind it.
 void Checker::compare_clear(const HitToken& token) {
   const ExpectedRay& ray = shaded(token.ray.id);
   const picture::Crossing* expected = token.leaves ? ray.clear.exit(token.span) : ray.clear.entry(token.span);

@@ -1,4 +1,4 @@
-// A ray through clear matter, as the reference follows it (render/packet/clear_painter.h).
+// A ray through clear matter is expected to go as the reference follows it (render/packet/clear_painter.h).
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -17,13 +17,13 @@
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
-// What has been told of a ray so far.
+// Collects what has been told of a ray so far.
 struct Told {
   ExpectedClear& to;
-  picture::Crossing crossing{};  // the present one
-  bool leaves = false;           // of it
+  picture::Crossing crossing{};  // present one
+  bool leaves = false;           // the present crossing leaves matter
   Vec to_eye{};
-  int matters = 0;  // of the present event: how often matter has been read
+  int matters = 0;  // times that the present event has read matter
 };
 
 // A crossing begins with "samples" and ends with its position. An event begins with "enters" or with "d", and
@@ -112,7 +112,7 @@ struct KeepEvents {
     } else if constexpr (std::is_integral_v<Value>) {
       const auto narrow = static_cast<std::int32_t>(value);
       if (stage == Stage::light && name == "lamp") to.light.lamp = narrow;
-      if (stage == Stage::matter && name == "obstacle") to.matter.obstacle = narrow;  // the last one
+      if (stage == Stage::matter && name == "obstacle") to.matter.obstacle = narrow;  // the last one counts
       if (told->matters > 1) return;
       if (stage == Stage::matter && name == "liquid") to.matter.liquid = narrow;
       if (stage == Stage::matter && name == "heat") to.matter.heat = narrow;

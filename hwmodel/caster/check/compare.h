@@ -1,4 +1,5 @@
-// The checker's comparison of one number, or of several with one name: for the files that implement it.
+// The checker's comparison of one number, or of several with one name, is here for the files that implement
+// it.
 #pragma once
 
 #include <fmt/format.h>

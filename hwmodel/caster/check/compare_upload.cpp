@@ -1,4 +1,4 @@
-// Plain loops over places. They share no code with the loops that lay out lines.
+// An upload is compared by plain loops over places. They share no code with the loops that lay out lines.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +38,8 @@ class Comparison {
   const Memory& memory_;
 };
 
-// Where place (x, y, z) of the lattice lies: of brick b, from -1 to 9 along an axis if it holds its apron.
+// Returns the address of place (x, y, z) of the lattice in brick b. If bricks hold their aprons, the place
+// may lie at -1 to 9 along an axis of the brick.
 std::int64_t address_of(const Layout& layout, const state::Grid& b, int x, int y, int z) {
   if (layout.apron)
     return layout.address(layout.brick_at(b.x, b.y, b.z)) + layout.apron_offset(x, y, z, b.x, b.y, b.z);
@@ -107,12 +108,13 @@ void compare_ground(Comparison& to, const Memory& memory, const render::GroundDa
   }
 }
 
-// What each column demands of the blocks that read it: those of cells up to one beside it. In 2^-6 cells.
+// Finds the blocks of ground that read a column: their cells lie up to one beside it. Bounds are in 2^-6
+// cells.
 class LeastBounds {
  public:
   LeastBounds(int cells, int blocks) : cells_(cells), blocks_(blocks) {}
-  // Of blocks that read the columns `from` to `from` + `more`, along an axis; beyond the grid the nearest is
-  // read.
+  // Visits the blocks that read the columns `from` to `from` + `more`, along an axis. Beyond the grid the
+  // nearest column is read.
   template <class Visit>
   void readers(int from, int more, const Visit& visit) const {
     for (int block = 0; block < blocks_; ++block) {
@@ -168,7 +170,7 @@ void compare_bounds(Comparison& to, const GroundBlocks& blocks, const render::Gr
             {static_cast<int>(i) % coarse, 0, static_cast<int>(i) / coarse}, rough[i], blocks.coarse[i]);
 }
 
-// Bit 31 of a record says that a block is empty; the low byte is its distance, or the slope's bound.
+// Bit 31 of a record says that a block is empty. The low byte is its distance, or the slope's bound.
 void compare_skip_map(Comparison& to, const Registers& registers, const render::FieldData& field) {
   const SkipMap& skip = registers.skip;
   to.word("blocks along x", {}, {}, field.blocks_x, skip.x);

@@ -36,7 +36,7 @@ Expectation::Expectation(const render::PictureScene& scene, const picture::Camer
   measure_air();
 }
 
-// The largest of three distances: one axis after the other, each there and back.
+// Takes the largest of three distances: one axis after the other, each there and back.
 void Expectation::measure_air() {
   const std::size_t rows = slice_ / row_, slices = air_.size() / slice_;
   const auto along = [&](std::size_t stride, std::size_t count, std::size_t from) {
@@ -59,11 +59,12 @@ void Expectation::measure_air() {
   for (std::size_t i = 0; i < slice_; ++i) along(slice_, slices, i);
 }
 
-// That of the rule, which looks at every sample: those left out here have air around them.
+// Returns the crossing of the rule, which looks at every sample. The samples that are left out here have air
+// around them.
 picture::Crossing Expectation::first_crossing(const picture::Ray& ray) const {
   const picture::Samples in =
       picture::samples_in(ray, picture::field_low(), picture::field_high(scene_.levels.cells()));
-  // A sample moves no farther along any axis.
+  // From one sample to the next, a ray moves no farther than this along any axis.
   const std::int64_t farthest =
       std::max({std::abs(ray.step.x), std::abs(ray.step.y), std::abs(ray.step.z), std::int64_t{1}});
   std::int64_t steps = 0;
@@ -131,7 +132,7 @@ void Expectation::shade_ground(ExpectedRay& ray) const {
   to.inside = ray.ground.face == picture::Face::none;
   meet(ray, position);
   const picture::Vector to_eye = vector_of(to.to_eye);
-  // Before the texture of rock, too.
+  // This normal is the one before the texture of rock.
   ray.ground_normal = to_eye;
   const auto columns = render::columns_of(scene_.ground, scene_.ground.bare());
   if (!to.inside)

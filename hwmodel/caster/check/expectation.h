@@ -1,5 +1,5 @@
-// What the software's reference says of a ray: the numbers of its trace (docs/picture/trace.md), in the terms
-// of the ray caster's tokens.
+// The software's reference gives the numbers of a ray's trace (docs/picture/trace.md), in the terms of the
+// ray caster's tokens.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// What comes along a ray through clear matter. If nothing passes any more, the reference ends there.
+// Holds what comes along a ray through clear matter. If nothing passes any more, the reference ends there.
 struct ExpectedClear {
-  std::vector<picture::Crossing> entries, exits;  // one that lies behind the ground is there, too
+  std::vector<picture::Crossing> entries, exits;  // even one that lies behind the ground
   std::vector<Surface> events;                    // surfaces and ways
   bool dark = false;
   Passage passage;
 
-  // A ray's crossing number `span`; null: there is none.
+  // Returns a ray's crossing number `span`, or null if there is none.
   const picture::Crossing* entry(int span) const { return at(entries, span); }
   const picture::Crossing* exit(int span) const { return at(exits, span); }
   static const picture::Crossing* at(const std::vector<picture::Crossing>& all, int span) {
@@ -33,18 +33,18 @@ struct ExpectedRay {
   picture::Ray ray;
   picture::Crossing matter;
   picture::GroundCrossing ground;
-  bool shaded = false;  // what follows is there
-  Surface surface;      // as it leaves the last stage that adds to it
+  bool shaded = false;  // the members below are filled in
+  Surface surface;      // state behind the last stage that adds to it
   picture::Vector ground_normal;
   Rgb pressed{};
-  ExpectedClear clear;  // if matter is clear
+  ExpectedClear clear;  // only if matter is clear
 };
 
 class Expectation {
  public:
   Expectation(const render::PictureScene& scene, const picture::Camera& camera, render::Setting setting);
 
-  // The ray through a place of the picture, in 64ths of a pixel, and what it meets.
+  // Returns the ray through a place of the picture, in 64ths of a pixel, and what it meets.
   ExpectedRay ray(std::int64_t across, std::int64_t down) const;
   void shade(ExpectedRay& ray) const;
 
@@ -59,15 +59,16 @@ class Expectation {
   picture::Light light_before(picture::Vector position, picture::Vector normal) const;
   void shade_ground(ExpectedRay& ray) const;
   void shade_matter(ExpectedRay& ray) const;
-  void follow(ExpectedRay& ray) const;  // through clear matter: clear_expectation.cpp
+  void follow(ExpectedRay& ray) const;  // through clear matter, in clear_expectation.cpp
   static Rgb pressed(const Rgb& sum);
   picture::Crossing first_crossing(const picture::Ray& ray) const;
 
   const render::PictureScene& scene_;
   picture::View view_;
   int spacing_;
-  // Of lower cells -1 .. n - 1: how many cells away, along the farthest axis, is the next one of which one of
-  // the eight levels around a sample is matter? A sample is never outside the range of its levels.
+  // Fills `air_` for lower cells -1 .. n - 1 with the distance to matter: cells along the farthest axis.
+  // Matter is near if one of the eight levels around a sample is matter. A sample is never outside the range
+  // of its levels.
   void measure_air();
   std::vector<std::uint8_t> air_;
   std::size_t row_ = 0, slice_ = 0;

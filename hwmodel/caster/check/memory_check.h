@@ -1,5 +1,5 @@
-// That a pipe gets the lines for which it asked, each once: the client, the slot and the address of a reply
-// are those of a request that this pipe sent and that has no reply yet.
+// A pipe must get the lines for which it asked, each once. The client, the slot and the address of a reply
+// must be those of a request that this pipe sent and that has no reply yet.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class MemoryCheck final : public FifoWatcher<LineRequest>, public FifoWatcher<Li
   explicit MemoryCheck(Tell tell) : tell_(std::move(tell)) {}
 
   void begin_pass() { under_way_.clear(); }
-  std::int64_t compared() const { return compared_; }  // replies
+  std::int64_t compared() const { return compared_; }  // compared replies
 
   void entered(int channel, std::int64_t ordinal, const LineRequest* request) override;
   void left(int, std::int64_t, const LineRequest*) override {}
@@ -29,7 +29,7 @@ class MemoryCheck final : public FifoWatcher<LineRequest>, public FifoWatcher<Li
   std::vector<LineReply>& of_pipe(int channel);
 
   Tell tell_;
-  std::vector<std::vector<LineReply>> under_way_;  // by pipe: what is asked for
+  std::vector<std::vector<LineReply>> under_way_;  // lines that are asked for, by pipe
   std::int64_t compared_ = 0;
 };
 

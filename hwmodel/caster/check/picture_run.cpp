@@ -12,7 +12,7 @@
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
-// The picture that lies in memory, tile by tile.
+// Returns the picture that lies in memory, tile by tile.
 render::Image image_of(const Memory& memory, std::int64_t frame, int width, int height) {
   render::Image image(width, height);
   const int tiles_x = (width + kTileSide - 1) / kTileSide;
@@ -26,12 +26,12 @@ render::Image image_of(const Memory& memory, std::int64_t frame, int width, int 
   return image;
 }
 
-// The second pass compares a pixel with those beside it.
+// Widens a window by a pixel, because the second pass compares a pixel with those beside it.
 Window with_neighbours(const Window& window) {
   return {window.left - 1, window.top - 1, window.right + 1, window.bottom + 1};
 }
 
-// Tells how many pixels it compared.
+// Returns how many pixels it compared.
 std::int64_t compare_bytes(PictureReport& report, const render::Image& expected, const Window& window) {
   std::int64_t pixels = 0;
   for (int y = 0; y < expected.height; ++y)
@@ -159,19 +159,19 @@ void PictureRun::begin(const render::PictureScene& scene, const picture::Camera&
     drawing_->checker.run_on_at_difference();
     waves_->begin_train(report_.all_cycles);
   }
-  begun_ = std::clock();  // of the processor: the machine may have other work
+  begun_ = std::clock();  // processor time, as the machine may have other work
   caster_.begin_first();
 }
 
-// Called between two cycles.
+// This is called between two cycles.
 void PictureRun::end_cycle() {
   waves_->end_cycle();
   if (!drawing_->checker.difference()) return;
-  caster_.watch({});  // what follows a difference may be anything
+  caster_.watch({});  // after a difference anything may follow
   if (!waves_->wants_more()) caster_.stop();
 }
 
-// Called between two cycles.
+// This is called between two cycles.
 void PictureRun::end_pass(const FrameEnd& end) {
   Drawing& drawing = *drawing_;
   if (options_.compare) drawing.checker.end_pass(end);

@@ -1,4 +1,5 @@
-// A ray caster in lock-step: one picture after the other, each checked behind every stage and by its bytes.
+// The ray caster runs in lock-step. It draws one picture after the other, and each is checked behind every
+// stage and by its bytes.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// A pass of a frame.
+// Counts the cycles of one pass of a frame.
 struct PassCycles {
   bool second = false;
   std::int64_t cycles = 0;
@@ -32,12 +33,12 @@ struct PassCycles {
 struct PictureOptions {
   Configuration configuration;
   Fault fault = Fault::none;
-  std::string fault_channel;  // of a fault of channels; empty: a usual one
-  Window window;              // draw and compare only these pixels
-  bool compare = true;        // behind every stage; the bytes are always compared
-  int frames = 1;             // the same one again and again: later ones find the caches warm
+  std::string fault_channel;  // channel for a fault of channels; empty for a usual one
+  Window window;              // only these pixels are drawn and compared
+  bool compare = true;        // compares behind every stage; the bytes are always compared
+  int frames = 1;             // frames of the same picture: later ones find the caches warm
   std::function<void()> poll;
-  bool waves = false;  // keep the cycles around the first difference or, where given, from `waves_from` on
+  bool waves = false;  // keeps the cycles around the first difference, or from `waves_from` on
   std::optional<std::int64_t> waves_from;
 };
 
@@ -53,29 +54,30 @@ struct CacheAccount {
 
 struct PictureReport {
   std::optional<Difference> difference;
-  std::string hang;                               // what is full and what is empty, if nothing moved any more
-  std::vector<std::string> waiting;               // then: stages that wait for the memory
-  std::vector<std::string> jammed;                // then: channels that have room and take nothing
-  std::optional<RayId> under_way;                 // then: a ray that has not come to its end
-  std::optional<FaultPlan::Strike> strike;        // of the planted fault
-  std::int64_t different_bytes = 0;               // of the pictures
-  std::optional<RayId> different;                 // the first pixel among them
+  std::string hang;                               // describes the hang, if nothing moved any more
+  std::vector<std::string> waiting;               // at a hang: stages that wait for the memory
+  std::vector<std::string> jammed;                // at a hang: channels that have room and take nothing
+  std::optional<RayId> under_way;                 // at a hang: a ray that has not come to its end
+  std::optional<FaultPlan::Strike> strike;        // place of the planted fault
+  std::int64_t different_bytes = 0;               // pixels whose bytes differ
+  std::optional<RayId> different;                 // first pixel among them
   std::int64_t compared = 0;                      // numbers; pixels, if no stage is compared
-  FrameEnd end;                                   // of the last frame
-  double seconds = 0;                             // of the simulation, comparing included
-  std::int64_t rays = 0, samples = 0, leaps = 0;  // of the walk
-  std::int64_t sampled = 0;                       // by the sampler, those of crossings, too
+  FrameEnd end;                                   // end of the last frame
+  double seconds = 0;                             // time of the simulation, comparing included
+  std::int64_t rays = 0, samples = 0, leaps = 0;  // counts of the walk
+  std::int64_t sampled = 0;                       // samples of the sampler, also those of crossings
   MemoryCounts memory;
-  std::vector<StageAccount> stages;  // all pipes together
+  std::vector<StageAccount> stages;  // sums over all pipes
   std::vector<CacheAccount> caches;
-  PipeCost cost;  // of one pipe; empty where it draws clear matter, which is not counted yet
+  PipeCost cost;  // cost of one pipe; empty for clear matter, which is not counted yet
   std::int64_t memory_bytes = 0;
-  std::int64_t all_cycles = 0;  // of all frames
+  std::int64_t all_cycles = 0;  // sum over all frames
   std::vector<PassCycles> passes;
-  std::vector<UploadReport> uploads;  // before each frame; without their lists
-  std::string waves;                  // VCD; empty: there are none
+  std::vector<UploadReport> uploads;  // before each frame, without their lists
+  std::string waves;                  // VCD; empty if there are none
   render::Image image;
-  // At the stage, pixel and sample that the fault left wrong; what got lost there is found as a hang.
+  // Says if the difference is at the stage, pixel and sample that the fault left wrong. A token that got lost
+  // there is found as a hang.
   bool found_where_planted() const;
   bool good() const {
     return !difference && hang.empty() && different_bytes == 0 && end.complete && compared > 0;
@@ -84,24 +86,24 @@ struct PictureReport {
 
 class PictureRun {
  public:
-  // Registers and memory are the host's, who may change both between two pictures. `shares`: with other
-  // machines; none: it has a simulation and a memory of its own.
+  // Registers and memory are the host's, who may change both between two pictures. `shares` tells what is
+  // shared with other machines. Without it, the ray caster has a simulation and a memory of its own.
   PictureRun(const Registers& registers, Memory& memory, const PictureOptions& options,
              const std::optional<Shares>& shares = {});
 
-  // The lines that were sent are not those in the caches.
+  // Makes the caches forget the lines that were sent.
   void forget(const UploadReport& upload);
-  // Draws what registers and memory say. `scene` and `camera` are the same for the software; `expected` is
-  // its picture.
+  // Draws what registers and memory say. `scene` and `camera` are the same for the software, and `expected`
+  // is its picture.
   void draw(const render::PictureScene& scene, const picture::Camera& camera, render::Setting setting,
             const render::Image& expected);
-  // The same in two parts. Between them other machines of the simulation may run, and the picture is drawn
-  // meanwhile. What is given to `begin` must live until `finish`, which draws what is left of it.
+  // These do the same in two parts. Between them other machines of the simulation may run, and the picture is
+  // drawn meanwhile. The arguments of `begin` must live until `finish`, which draws the rest of the picture.
   void begin(const render::PictureScene& scene, const picture::Camera& camera, render::Setting setting,
              const render::Image& expected);
   void finish();
 
-  // What was found so far; after a failure nothing more can be drawn.
+  // Says if all that was found so far is good. After a failure nothing more can be drawn.
   bool good() const { return report_.good(); }
   const FrameEnd& last() const { return report_.end; }
   MemoryCounts memory_counts() const { return caster_.memory_counts(); }
@@ -116,7 +118,7 @@ class PictureRun {
           expectation(scene, camera, quality),
           checker(expectation, caster, by_software.width, by_software.height) {}
     bool fast() const { return setting == render::Setting::fast; }
-    int samples() const { return setting == render::Setting::normal ? 8 : 32; }  // of the second pass
+    int samples() const { return setting == render::Setting::normal ? 8 : 32; }  // in the second pass
     int most() const { return setting == render::Setting::best ? 8 : 16; }
     std::int64_t second_frame(const Memory& memory) const {
       return memory.frame + frame_bytes(expected.width, expected.height);
@@ -126,10 +128,10 @@ class PictureRun {
     const render::Image& expected;
     Expectation expectation;
     Checker checker;
-    bool second = false;  // pass
+    bool second = false;  // the second pass has begun
   };
   void end_pass(const FrameEnd& end);
-  void end_cycle();  // of a run with waves
+  void end_cycle();  // called in a run with waves
 
   const Registers& registers_;
   const Memory& memory_;

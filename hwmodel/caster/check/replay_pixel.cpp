@@ -8,7 +8,7 @@
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
-// The pixels of it that the picture has.
+// Returns the pixels of a tile that the picture has.
 Window whole_tile(std::int32_t x, std::int32_t y, const render::Image& image) {
   return {x, y, std::min(x + kTileSide, image.width), std::min(y + kTileSide, image.height)};
 }
@@ -39,7 +39,7 @@ std::optional<PixelReplay> replay_pixel(const PictureInput& input, const Picture
   if (!part) return {};
   PictureOptions alone = options;
   alone.window = *part;
-  alone.compare = true;  // it shall name the stage
+  alone.compare = true;  // to name the stage
   alone.frames = 1;
   alone.waves = false;
   const PictureReport again = verify_picture(input, alone);

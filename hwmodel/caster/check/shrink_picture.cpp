@@ -117,7 +117,7 @@ std::optional<SmallPicture> shrink_to_scene(const PictureShrinkRequest& request,
   const Search search(request, report);
   PictureCase first{
       input.volume, {}, request.options.window, input.setting, request.options.configuration, {}};
-  // One pixel is tried first: whatever follows is quick then.
+  // One pixel is tried first, because the rest of the search is quick then.
   const std::optional<PixelReplay> pixel = replay_pixel(input, request.options, report);
   first.window.right = std::min(first.window.right, input.camera.width);
   first.window.bottom = std::min(first.window.bottom, input.camera.height);

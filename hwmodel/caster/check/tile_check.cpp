@@ -51,7 +51,7 @@ void TileCheck::end_pass(bool hangs) {
   const auto times = [](const Tile& tile) {
     return *std::min_element(tile.bursts.begin(), tile.bursts.end());
   };
-  // As long as a tile is under way, those behind it may not be dealt yet.
+  // While a tile is under way, those behind it may not be dealt yet.
   if (hangs && std::any_of(tiles_.begin(), tiles_.end(),
                            [&](const Tile& tile) { return tile.dealt > 0 && times(tile) == 0; }))
     return;

@@ -1,5 +1,5 @@
-// That the tiles of a pass are dealt once, drawn whole, and written once: dealer, tile buffers and
-// write-back.
+// The tiles of a pass must be dealt once, drawn whole, and written once. This checks the dealer, the tile
+// buffers and the write-back.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@ class TileCheck final : public FifoWatcher<TileJob> {
   TileCheck(int width, int height, Tell tell);
 
   void begin_pass(const Window& window);
-  // What a pipe gets is what the dealer gave.
+  // A job is checked only when it leaves, because a pipe gets what the dealer gave.
   void entered(int, std::int64_t, const TileJob*) override {}
   void left(int channel, std::int64_t ordinal, const TileJob* job) override;
   void ordered(const TileOrder& order);
   void pixel_complete(std::int32_t x, std::int32_t y);
   void written(std::int64_t tile, int burst);
-  // After the last cycle: what never came.
+  // Looks for what never came, after the last cycle.
   void end_pass(bool hangs);
 
  private:

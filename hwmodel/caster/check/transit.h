@@ -1,5 +1,5 @@
-// What enters a channel must leave it: once, in order, unchanged. Behind each stage the checker compares what
-// enters a channel; this compares what leaves it with that.
+// A token that enters a channel must leave it: once, in order, unchanged. Behind each stage the checker
+// compares what enters a channel. Transit compares what leaves it with that.
 #pragma once
 
 #include <array>
@@ -23,15 +23,15 @@ namespace voxmelt::hwmodel::raycast {
 class Transit {
  public:
   using Tell = std::function<void(Difference)>;
-  // The caster must outlive it.
+  // The caster must outlive this object.
   Transit(const RayCaster& caster, Tell tell);
 
-  // Of all channels that are watched. The watchers must outlive it.
+  // Wraps the watchers of all channels that are watched. These watchers must outlive this object.
   Watchers around(Watchers watchers);
   void begin_pass() { under_way_.assign(under_way_.size(), {}); }
-  // After a hang: a token that entered a channel, of which the channel knows nothing.
+  // Looks for a lost token after a hang: it entered a channel, and the channel knows nothing of it.
   void look_for_lost();
-  std::int64_t compared() const { return compared_; }  // tokens
+  std::int64_t compared() const { return compared_; }  // compared tokens
 
  private:
   struct Token {
@@ -40,7 +40,7 @@ class Transit {
   };
   struct Line {
     std::deque<Token> tokens;
-    Token last;  // that left
+    Token last;  // the last one that left
     bool any_left = false;
   };
 
@@ -69,8 +69,8 @@ class Transit {
     owned_.push_back(std::move(made));
     return watcher;
   }
-  // A token stays where it is in its channel, and with it every byte between its members. Four sums of every
-  // fourth word: they do not wait for one another.
+  // A token stays where it is in its channel, and with it every byte between its members. Each of four sums
+  // takes every fourth word, so that they do not wait for one another.
   template <class Word>
   static std::uint64_t sum_of(const Word& token) {
     constexpr std::uint64_t kFactor = 0xBF58476D1CE4E5B9U;
@@ -102,7 +102,7 @@ class Transit {
 
   const RayCaster& caster_;
   Tell tell_;
-  std::vector<Line> under_way_;  // by channel
+  std::vector<Line> under_way_;  // indexed by channel
   std::vector<std::shared_ptr<void>> owned_;
   std::int64_t compared_ = 0;
 };

@@ -1,5 +1,5 @@
-// Lock-step: the ray caster beside the software's reference, compared behind every stage, and its bytes with
-// those of the software's packets.
+// The ray caster runs in lock-step with the software's reference. They are compared behind every stage, and
+// the bytes of the picture with those of the software's packets.
 #pragma once
 
 #include "hwmodel/caster/check/picture_run.h"
@@ -10,7 +10,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// All that is drawn.
+// Holds all that is drawn.
 struct PictureInput {
   const state::Volume& volume;
   const scene::Look& look;

@@ -1,5 +1,5 @@
-// Rays that go through clear matter wrongly, and sums of them that are wrong. No fault of the sums lets less
-// light pass than there is: else the ray might end too early, which is found in another stage.
+// Rays go through clear matter wrongly, or their sums are wrong. No fault of the sums lets less light pass
+// than there is. Otherwise the ray might end too early, which is found in another stage.
 #pragma once
 
 #include <algorithm>
@@ -64,7 +64,7 @@ class ClearFaults : public Planted {
   }
 
  private:
-  // Behind its first surface, something still passes on the ray: else the event changes nothing.
+  // Something must still pass on the ray behind its first surface. Otherwise the event changes nothing.
   bool counts(const ClearEvent& event) const {
     return event.event <= 1 && !registers().look.obstacles && registers().look.frost <= 2048;
   }

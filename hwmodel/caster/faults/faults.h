@@ -1,4 +1,4 @@
-// Faults that can be planted in the ray caster, to see that the lock-step checker finds them: `voxmelt list
+// Faults can be planted in the ray caster, to see that the lock-step checker finds them: `voxmelt list
 // faults`, `voxmelt verify SCENE --picture --plant NAME`.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace voxmelt::hwmodel::raycast {
 
 enum class Fault : std::uint8_t {
   none,
-  // tiles, set-up and ground
+  // These strike tiles, set-up and ground.
   tiles_threshold,
   tiles_neighbour,
   set_up_sample,
@@ -22,14 +22,14 @@ enum class Fault : std::uint8_t {
   ground_lost,
   ground_part,
   ground_face,
-  // walk
+  // These strike the walk.
   walk_first_sample,
   walk_box,
   walk_block,
   walk_rise,
   walk_stale_position,
   walk_passes,
-  // levels
+  // These strike the levels.
   cache_wrong_way,
   cache_tag_bits,
   cache_stale_line,
@@ -38,7 +38,7 @@ enum class Fault : std::uint8_t {
   cache_lost_miss,
   levels_bank_swap,
   levels_border,
-  // sample, crossing, met
+  // These strike sample, crossing and met.
   sample_weight_x,
   sample_weight_y,
   sample_weight_z,
@@ -49,7 +49,7 @@ enum class Fault : std::uint8_t {
   met_compare,
   met_depth,
   met_eye,
-  // normal, paint, texture
+  // These strike normal, paint and texture.
   normal_axes,
   normal_root,
   paint_side,
@@ -57,13 +57,13 @@ enum class Fault : std::uint8_t {
   paint_top,
   texture_bump,
   texture_texel,
-  // matter and light
+  // These strike matter and light.
   matter_share,
   matter_place,
   light_cell,
   light_side,
   light_glow,
-  // arriving, mirror, colour
+  // These strike arriving, mirror and colour.
   arriving_shadow,
   arriving_glow,
   material_liquid,
@@ -73,7 +73,7 @@ enum class Fault : std::uint8_t {
   mirror_ray,
   colour_fresnel,
   colour_emission,
-  // bytes
+  // These strike the stages that make bytes.
   press_tone,
   pixel_byte,
   pixel_mean,
@@ -81,7 +81,7 @@ enum class Fault : std::uint8_t {
   write_place,
   write_burst,
   write_early,
-  // channels, dealer, memory
+  // These strike channels, the dealer and the memory.
   channel_lost,
   channel_twice,
   channel_swap,
@@ -92,7 +92,7 @@ enum class Fault : std::uint8_t {
   memory_client,
   memory_pipe,
   memory_bit,
-  // clear matter
+  // These strike rays in clear matter.
   stretch_way,
   stretch_place,
   stretch_side,
@@ -106,21 +106,21 @@ enum class Fault : std::uint8_t {
   end,  // no fault, but the end of the list
 };
 
-// The stage that a fault leaves wrong.
+// Names the stage that a fault leaves wrong, and its pixel or line.
 struct StruckPixel {
   std::string stage;
-  std::int32_t x = 0, y = 0;  // of the pixel; of a tile that is written, its first one
+  std::int32_t x = 0, y = 0;  // pixel, or the first one of a written tile
   int sample = 0;
-  std::int64_t address = -1;  // of a line in memory
+  std::int64_t address = -1;  // line in memory
 };
 
 using FaultInfo = check::FaultInfo<Fault>;
 using FaultPlan = check::FaultPlan<Fault, StruckPixel>;
 
 std::span<const FaultInfo> all_faults();
-const FaultInfo* find_fault(std::string_view name);  // null: unknown
+const FaultInfo* find_fault(std::string_view name);  // null if unknown
 
-// A fault of channels strikes in this one, unless another is named: every ray passes it, halfway.
+// A fault of channels strikes in this one, unless another is named, because every ray passes it halfway.
 inline constexpr const char* kUsualChannel = "texture -> matter";
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -1,5 +1,5 @@
-// Levels from the wrong line, way, bank or time. A cache that is wrong may give what is right for a while: so
-// those faults go on until words are wrong that leave.
+// Levels come from the wrong line, way, bank or time. A wrong cache may give the right words for a while. So
+// those faults go on until wrong words leave.
 #pragma once
 
 #include <algorithm>
@@ -63,7 +63,7 @@ class FetchFaults : public Planted {
     const int side = entry.places.side;
     return std::equal(a.begin(), a.begin() + side * side * side, b.begin());
   }
-  // The words as they lie in memory.
+  // Returns the words as they lie in memory.
   template <class Gather, class Entry>
   std::array<std::int16_t, 27> right(const Gather& gather, const Entry& entry) const {
     std::array<std::int16_t, 27> words{};

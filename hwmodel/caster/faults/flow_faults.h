@@ -1,4 +1,4 @@
-// Tokens, tiles and lines that get lost, come twice or come to somebody else.
+// Tokens, tiles and lines get lost, come twice or come to somebody else.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// Of a channel between two stages.
+// Plants a fault in a channel between two stages.
 template <class Word>
 class TokenFault final : public FifoFault<Word> {
  public:
@@ -54,7 +54,7 @@ class TokenFault final : public FifoFault<Word> {
   const Fifo<Word>& channel_;
 };
 
-// Of the dealer. Its word leaves by a channel: so what is changed there is what it deals.
+// Plants a fault of the dealer. Its word leaves by a channel, so a change there changes what it deals.
 class TileFault final : public FifoFault<TileJob> {
  public:
   explicit TileFault(FaultPlan& plan) : plan_(plan) {}
@@ -75,11 +75,12 @@ class TileFault final : public FifoFault<TileJob> {
   FaultPlan& plan_;
 };
 
-// Of the way back from the memory, seen from one pipe.
-struct LastReply {  // to any pipe
+// Holds the last reply to any pipe.
+struct LastReply {
   int pipe = -1;
   LineReply reply;
 };
+// Plants a fault on the way back from the memory, seen from one pipe.
 class ReplyFault final : public FifoFault<LineReply> {
  public:
   ReplyFault(FaultPlan& plan, std::shared_ptr<LastReply> last, int pipe, int columns, int texels)
@@ -87,7 +88,7 @@ class ReplyFault final : public FifoFault<LineReply> {
 
   Effect stores(std::int64_t, LineReply* now, LineReply*, int) override {
     if (plan_.armed(Fault::memory_client) && now->client == columns_) {
-      now->client = texels_;  // its lines have as many slots
+      now->client = texels_;  // the cache of texels has as many slots
       strike(*now);
     }
     if (plan_.armed(Fault::memory_pipe)) {

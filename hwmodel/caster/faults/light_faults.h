@@ -1,4 +1,4 @@
-// Light that does not arrive, materials that change places, and tables that are read one entry too far.
+// Light does not arrive, materials change places, or tables are read one entry too far.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What the parts of the fault policy share: is their fault armed, and where did it strike? And the levels and
-// columns as they lie in memory: a fault may need to know what is right.
+// The parts of the fault policy share a base. It says if their fault is armed, and records where it strikes.
+// It also reads levels and columns as they lie in memory, because a fault may need to know what is right.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class Planted : public check::Planted<FaultPlan> {
   const Registers& registers() const { return *registers_; }
   const Memory& memory() const { return *memory_; }
 
-  // The sample at a position of the lattice, without cache or pipe.
+  // Returns the sample at a position of the lattice, without cache or pipe.
   std::int64_t level_at(Vec q) const {
     const Vec &low = registers_->skip.low, &high = registers_->skip.high;
     if (q.x < low.x || q.y < low.y || q.z < low.z || q.x >= high.x || q.y >= high.y || q.z >= high.z)
@@ -49,7 +49,7 @@ class Planted : public check::Planted<FaultPlan> {
       words[i] = word_at(places.x[i & 1], places.y[i >> 1 & 1], places.z[i >> 2], places.low);
     return sample_of(words.data(), q);
   }
-  // Is a place in the slab, between its four columns?
+  // Says if a place is in the slab, between its four columns.
   bool in_ground(Vec p) const {
     const Layout& layout = memory_->heights;
     const Spot x = spot_of(p.x), z = spot_of(p.z);

@@ -14,7 +14,7 @@
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
-// The policy that takes the place of NoFaults.
+// This policy takes the place of NoFaults.
 struct CasterFaults : RayFaults,
                       FetchFaults,
                       SurfaceFaults,

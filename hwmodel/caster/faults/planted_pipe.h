@@ -1,4 +1,4 @@
-// Pipes in which faults are planted.
+// Pipes of the ray caster can be made with faults planted in them.
 #pragma once
 
 #include "hwmodel/caster/faults/faults.h"

@@ -1,5 +1,5 @@
-// Rays that begin, step, cross or compare wrongly. The walk's faults strike only where they leave out the
-// first sample in matter: elsewhere they make no difference.
+// Rays begin, step, cross or compare wrongly. The walk's faults strike only where they leave out the first
+// sample in matter, because elsewhere they make no difference.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Surfaces with a wrong normal, colour of ground, matter or light.
+// Surfaces get a wrong normal, colour of ground, matter or light.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ class SurfaceFaults : public Planted {
 
   void sampled(const Levels& levels, SInt<16>& level) {
     const Vec& q = levels.request.at;
-    constexpr std::int64_t kOne = 1 << 12;  // of a weight
+    constexpr std::int64_t kOne = 1 << 12;  // one unit of a weight
     const auto try_at = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
       const auto room = [](std::int64_t at, std::int64_t more) {
         return weight_of(at) < 255 ? at + more : at;
@@ -87,7 +87,7 @@ class SurfaceFaults : public Planted {
     level = wrong;
     strike("sample", levels.request.id);
   }
-  // unit() with the next entry of the table.
+  // Computes unit() with the next entry of the table.
   static Vec with_next_root(Vec g) {
     if (g == Vec{}) return {};
     const int n = 15 - bits_of(largest(g));

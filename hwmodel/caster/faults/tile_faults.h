@@ -1,4 +1,4 @@
-// Tiles with the wrong pixels, pixels with the wrong bytes, bytes in the wrong place.
+// Tiles get the wrong pixels, pixels the wrong bytes, and bytes the wrong place.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class TileFaults : public Planted {
     std::uint64_t wrong = pixels;
     if (armed(Fault::tiles_threshold)) wrong = pixels_of(most - 1, 0b1111u);
     if (armed(Fault::tiles_neighbour)) wrong = pixels_of(most, 0b0111u);
-    if (wrong == pixels || wrong == 0) return;  // of 0 pixels nothing leaves the stage
+    if (wrong == pixels || wrong == 0) return;  // without pixels nothing leaves the stage
     const int first = std::countr_zero(wrong ^ pixels);
     pixels = wrong;
     strike("tiles", {job.x + first % kTileSide, job.y + first / kTileSide, 0, 0});
@@ -53,7 +53,7 @@ class TileFaults : public Planted {
   void written(const FrameRegisters& frame, const TileBuffer& buffer, int burst, LineRequest& to) {
     const std::int64_t tile = (to.address - frame.write) / kTileBytes;
     if (armed(Fault::write_place)) {
-      // The next tile might look the same where all pixels do.
+      // If all pixels look the same, the next tile might, too.
       const bool flat = std::equal(to.data.begin() + 3, to.data.end(), to.data.begin());
       if (flat || tile + 1 == std::int64_t{frame.tiles_x} * frame.tiles_y) return;
       to.address += kTileBytes;

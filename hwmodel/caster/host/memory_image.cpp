@@ -18,7 +18,7 @@ namespace {
 
 int whole_bursts(int bytes) { return (bytes + kBurst - 1) / kBurst * kBurst; }
 
-// The lines of a volume begin behind all that has room.
+// Places the lines of a volume behind all that has room.
 void take_room(Memory& memory, Layout& layout, std::int64_t lines) {
   memory.bytes.resize((memory.bytes.size() + kBurst - 1) / kBurst * kBurst);
   layout.base = static_cast<std::int64_t>(memory.bytes.size());
@@ -67,7 +67,7 @@ std::array<int, 3> texel_count(const render::PictureData& data) {
   return {columns[0] << q, 1, columns[2] << q};
 }
 
-// From the software's bricks with their aprons.
+// Lays out the lines of a brick, from the software's bricks with their aprons.
 template <class Word>
 void brick_lines(const Layout& layout, const state::Grid& at, const Word* from, const LineSink& sink) {
   const std::int64_t slot = layout.brick_at(at.x, at.y, at.z);
@@ -91,7 +91,7 @@ void brick_lines(const Layout& layout, const state::Grid& at, const Word* from, 
       }
 }
 
-// Words at(x, y, z) of a box of so many places.
+// Lays out the lines of a box of `count` places, with the words at(x, y, z).
 template <class Word, class At>
 void dense_lines(const Layout& layout, std::array<int, 3> count, const LineSink& sink, const At& at) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(layout.line_bytes));

@@ -1,5 +1,5 @@
-// The host's part of the ray caster: what it writes into registers and memory before a picture. It takes the
-// data of the software's picture as they are, and lays them out as docs/hardware/pipeline.md says.
+// Before a picture, the host writes into registers and memory of the ray caster. It takes the data of the
+// software's picture as they are, and lays them out as docs/hardware/pipeline.md says.
 #pragma once
 
 #include "hwmodel/caster/model/configuration.h"

@@ -1,7 +1,8 @@
-// Keeps the ray caster's registers and memory up to date: after a step, only lines that changed are sent.
+// The uploader keeps the ray caster's registers and memory up to date: after a step, only lines that changed
+// are sent.
 //
-// The host compares lines with what it has sent. Of levels and matter it looks at the bricks that the field's
-// filter went through; light, heights and texels have no such list, and it looks at all of them.
+// The host compares lines with what it has sent. For levels and matter it looks at the bricks that the
+// field's filter went through. Light, heights and texels have no such list, so it looks at all of them.
 #pragma once
 
 #include <array>
@@ -32,17 +33,18 @@ struct SentBrick {
 
 struct UploadReport {
   bool whole = false;                                         // everything was sent
-  std::vector<SentBrick> bricks;                              // that were looked at
-  std::array<std::vector<std::int64_t>, kSentVolumes> lines;  // caches must forget them
+  std::vector<SentBrick> bricks;                              // bricks that were looked at
+  std::array<std::vector<std::int64_t>, kSentVolumes> lines;  // the caches must forget them
   std::array<std::int64_t, kSentVolumes> bytes{};
-  // Register words: 32 bits, 16 bits; a block of ground has two of 32.
+  // These count words of registers. A slot has 32 bits, and a word of the skip map has 16. A fine block of
+  // ground has two words of 32 bits, a coarse one has one.
   std::int64_t slots = 0, skip_words = 0, ground_words = 0;
   std::int64_t words = 0, bursts = 0, cycles = 0;
   Account account;
 };
 
-// A fault of an update, counted from 0: a brick is not sent, is sent to the place of the next one, or is sent
-// and the caches are not told; or matter keeps its table of bricks, and `brick` does not matter.
+// Describes a fault of an update, counted from 0. A brick is not sent, is sent to the place of the next one,
+// or is sent while the caches are not told. Or matter keeps its table of bricks, and `brick` does not matter.
 struct UploadFault {
   enum class Kind : std::uint8_t { forgotten, misplaced, untold, old_table };
   Kind kind = Kind::forgotten;
@@ -54,9 +56,9 @@ class Uploader {
  public:
   explicit Uploader(const Configuration& configuration) : configuration_(configuration) {}
 
-  // Takes over a picture's data. `changed`: bricks of the field that were filtered again since the last call
-  // (DensityField::refreshed), or null for all. Another grid or size of picture, and bricks for which there
-  // is no room any more, make it send everything.
+  // Takes over a picture's data. `changed` lists the bricks of the field that were filtered again since the
+  // last call (DensityField::refreshed), or is null for all. Everything is sent if the grid or the size of
+  // the picture is another one, or if there is no room for the bricks any more.
   UploadReport update(const render::PictureData& data, const std::vector<std::uint32_t>* changed);
   void plant(const UploadFault& fault) { fault_ = fault; }
 
@@ -74,7 +76,7 @@ class Uploader {
   void send_bricks(const render::PictureData& data, UploadReport& report);
   void send_lines(const render::PictureData& data, UploadReport& report);
   void send_registers(const render::PictureData& data, UploadReport& report);
-  // Sends a line that is another one in memory. Tells whether it did.
+  // Sends a line if it is another one in memory, and returns true if it did.
   bool send_other(const Layout& layout, Sent volume, std::int64_t line, const std::uint8_t* bytes,
                   UploadReport& report);
 
@@ -82,13 +84,13 @@ class Uploader {
   Registers registers_;
   Memory memory_;
   Upload upload_;
-  std::int64_t room_ = 0;  // for so many bricks
+  std::int64_t room_ = 0;  // number of bricks that fit
   std::int64_t updates_ = 0;
   std::optional<UploadFault> fault_;
 };
 
-// Where registers and memory are not what a picture's data say, by places: the data may come from another
-// object, which stores its bricks elsewhere.
+// Tells where registers and memory are not what a picture's data say, by places. The data may come from
+// another object, which stores its bricks elsewhere.
 struct UploadDifference {
   std::string volume;
   state::Grid brick, place;  // the brick of a sparse volume; the place, column or cell of light
@@ -96,7 +98,7 @@ struct UploadDifference {
 };
 struct UploadComparison {
   std::optional<UploadDifference> first;
-  std::int64_t compared = 0;  // words
+  std::int64_t compared = 0;  // compared words
 };
 UploadComparison compare_upload(const Registers& registers, const Memory& memory,
                                 const render::PictureData& data);

@@ -1,5 +1,5 @@
-// The ray caster's own arithmetic, written from docs/picture/definition.md and its pages alone. If it shared
-// code with render/rule, their agreement would prove nothing.
+// The ray caster has its own arithmetic, written from docs/picture/definition.md and its pages alone. If it
+// shared code with render/rule, their agreement would prove nothing.
 #pragma once
 
 #include <algorithm>
@@ -26,10 +26,10 @@ struct Vec {
   friend constexpr bool operator==(const Vec&, const Vec&) = default;
 };
 
-// Red, green and blue.
+// Holds red, green and blue.
 using Rgb = std::array<std::int32_t, 3>;
 
-// Three wires of N bits.
+// Puts a vector on three wires of N bits.
 template <int N>
 Vec on_wires(Vec v) {
   return {SInt<N>(v.x), SInt<N>(v.y), SInt<N>(v.z)};
@@ -45,15 +45,15 @@ inline std::int64_t largest(Vec v) {
   return std::max(magnitude(v.x), std::max(magnitude(v.y), magnitude(v.z)));
 }
 inline std::int64_t dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-// A leading-zero count: the least n with a < 2^n.
+// Returns the least n with a < 2^n, by a leading-zero count.
 inline int bits_of(std::int64_t a) { return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(a))); }
 
-// Two products of 16 bits by 9.
+// Takes two products of 16 bits by 9.
 inline std::int64_t blended(std::int64_t a, std::int64_t b, std::int64_t weight) {
   return (a * (256 - weight) + b * weight + 128) >> 8;
 }
 
-// Cell and weight of one axis (docs/picture/definition.md, section 6).
+// Holds cell and weight of one axis (docs/picture/definition.md, section 6).
 struct Spot {
   std::int64_t cell = 0, weight = 0;
 };
@@ -69,7 +69,8 @@ inline Spots spots_of(Vec position) {
   return {spot_of(position.x), spot_of(position.y), spot_of(position.z)};
 }
 
-// The inverse root: R[i] = 2^15 / sqrt(i / 128) for i = 128 .. 512, a memory of 385 words (section 8).
+// Tabulates the inverse root: R[i] = 2^15 / sqrt(i / 128) for i = 128 .. 512, a memory of 385 words (section
+// 8).
 inline constexpr auto kInverseRoot = [] {
   std::array<std::uint16_t, 385> values{};
   for (std::int64_t i = 0; i < 385; ++i) {
@@ -82,8 +83,8 @@ inline constexpr auto kInverseRoot = [] {
   return values;
 }();
 
-// Brings a vector of components within 2^15 to the length 2^14; 0 stays 0. Three squares, one product of the
-// root's slope and three of the root.
+// Brings a vector of components within 2^15 to the length 2^14, while 0 stays 0. It takes three squares, one
+// product of the root's slope and three of the root.
 inline Vec unit(Vec g) {
   if (g == Vec{}) return {};
   const int n = 15 - bits_of(largest(g));
@@ -104,7 +105,7 @@ inline Vec unit_of(Vec g) {
 
 inline std::int64_t cosine(Vec a, Vec b) { return dot(a, b) >> 14; }
 
-// Light: 4096 is 1.
+// In numbers of light, 4096 stands for 1.
 inline std::int64_t times(std::int64_t a, std::int64_t b) { return rounded(a * b, 12); }
 inline std::int32_t mixed(std::int64_t a, std::int64_t b, std::int64_t share) {
   return static_cast<std::int32_t>(a + times(b - a, share));
@@ -112,7 +113,7 @@ inline std::int32_t mixed(std::int64_t a, std::int64_t b, std::int64_t share) {
 inline Rgb mixed(const Rgb& a, const Rgb& b, std::int64_t share) {
   return {mixed(a[0], b[0], share), mixed(a[1], b[1], share), mixed(a[2], b[2], share)};
 }
-// floor(a / b), b > 0: one divider.
+// Returns floor(a / b) for b > 0, by one divider.
 inline std::int64_t divided(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 inline std::int64_t smooth(std::int64_t low, std::int64_t high, std::int64_t at) {
   const std::int64_t t = std::clamp<std::int64_t>(divided(4096 * (at - low), high - low), 0, 4096);

@@ -1,4 +1,4 @@
-// A stage that fetches something for each surface that needs it, and hands all on in their order. Several
+// An attach stage fetches something for each surface that needs it, and hands all on in their order. Several
 // surfaces wait for their answers at once.
 #pragma once
 
@@ -28,7 +28,7 @@ class AttachStage : public Stage {
   virtual int questions(const Surface& surface) const = 0;
   virtual Request question(const Surface& surface, int which) const = 0;
   virtual void take(Surface& surface, int which, const Answer& answer) = 0;
-  virtual void finish(Surface& /*surface*/) {}  // all answers are there
+  virtual void finish(Surface& /*surface*/) {}  // called when all answers are there
 
  private:
   struct Waiting {

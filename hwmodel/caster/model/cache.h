@@ -1,7 +1,7 @@
-// Tags of a set-associative cache whose lines are renamed: a line that a request needs stays readable until
+// The cache is set-associative, and its lines are renamed. A line that a request needs stays readable until
 // that request has passed, although a later request has taken its tag.
 //
-// Tags are looked up ahead, in order; data are read later, in the same order. Between them a queue hides the
+// Tags are looked up ahead, in order. Data are read later, in the same order. Between them a queue hides the
 // memory's latency. A miss takes a free slot for the new line at once. The slot of the line that lost its tag
 // is free again when the request that took it has read its data.
 #pragma once
@@ -17,7 +17,7 @@
 namespace voxmelt::hwmodel::raycast {
 
 struct CacheCounts {
-  std::int64_t lookups = 0, misses = 0;  // of lines
+  std::int64_t lookups = 0, misses = 0;  // counted in lines
 };
 
 class Cache {
@@ -33,7 +33,7 @@ class Cache {
   struct Found {
     bool hit = false;
     int slot = 0;
-    int lost = -1;  // the slot of the line that lost its tag; to be given back by `release`
+    int lost = -1;  // slot of the line that lost its tag; to be given back by `release`
   };
   bool holds(std::int64_t line) const {
     const Tag* set = set_of(line);
@@ -41,7 +41,7 @@ class Cache {
       if (set[w].line == line) return true;
     return false;
   }
-  // The slot of another line of its set; -1: there is none.
+  // Returns the slot of another line of its set, or -1 if there is none.
   int slot_beside(std::int64_t line) const {
     const Tag* set = set_of(line);
     for (std::size_t w = 0; w < ways_; ++w)
@@ -49,7 +49,7 @@ class Cache {
     return -1;
   }
   bool has_room() const { return !free_.empty(); }
-  // A miss takes a free slot.
+  // Looks up a line. A miss takes a free slot.
   Found look_up(std::int64_t line) {
     Tag* set = set_of(line);
     Tag* oldest = set;
@@ -68,7 +68,7 @@ class Cache {
     return found;
   }
   void release(int slot) { free_.push_back(slot); }
-  // What memory holds has changed.
+  // Forgets a line that has changed in memory.
   void forget(std::int64_t line) {
     Tag* set = set_of(line);
     for (std::size_t w = 0; w < ways_; ++w)
@@ -91,7 +91,7 @@ class Cache {
     int slot = 0;
     std::int64_t used = 0;
   };
-  // A line's number is folded, or rows of a dense volume would all share a few sets.
+  // A line's number is folded, because rows of a dense volume would otherwise all share a few sets.
   std::size_t first_of(std::int64_t line) const {
     const auto number = static_cast<std::size_t>(line);
     return ((number ^ (number >> set_bits_) ^ (number >> (2 * set_bits_))) & (sets_ - 1)) * ways_;

@@ -17,7 +17,7 @@ std::vector<TokenChannel> RayCaster::token_channels() const {
   return all;
 }
 
-// Idle cycles are of no class: whether they were a fill or a drain is known later.
+// Idle cycles have no class, because it is known only later if they were a fill or a drain.
 std::vector<StageClasses> RayCaster::stage_classes() const {
   std::vector<StageClasses> all;
   for (int i = 0; i < pipes(); ++i)

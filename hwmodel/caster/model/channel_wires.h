@@ -1,4 +1,5 @@
-// What each channel of a pipe carries, for tools that look at any machine: which wires, and their values.
+// Tools that look at any machine find here what each channel of a pipe carries: which wires, and their
+// values.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +37,8 @@ constexpr Behind behind(Channel channel) {
   }
 }
 
-// Requests of a fetching stage, and the words that answer them. cost.h counts their bits.
+// Visits the wires of a fetching stage's requests, and of the words that answer them. cost.h counts their
+// bits.
 template <class Visit>
 void wires_of(const Spots& at, Visit&& visit) {
   visit(WireName{"cell_x"}, 12, false, at.x.cell);
@@ -58,7 +60,7 @@ void wires_of(const ClampedRequest& request, const ContextBits&, Visit&& visit) 
 template <class Request, class Word, std::size_t kMost, class Visit>
 void wires_of(const Gathered<Request, Word, kMost>& answer, const ContextBits& context, Visit&& visit) {
   wires_of(answer.request, context, visit);
-  for (std::size_t i = 0; i < kMost; ++i)  // as they lie in memory, eight bytes at a time
+  for (std::size_t i = 0; i < kMost; ++i)  // words as they lie in memory, eight bytes at a time
     for (std::size_t from = 0; from < sizeof(Word); from += 8) {
       const std::size_t bytes = std::min<std::size_t>(8, sizeof(Word) - from);
       std::int64_t value = 0;
@@ -81,7 +83,7 @@ void wires_of(const LineRequest& request, const ContextBits&, Visit&& visit) {
   }
 }
 
-// The wires of a token in a channel.
+// Visits the wires of a token in a channel.
 template <class Word, class Visit>
 void wires_in(Channel channel, const Word& word, const ContextBits& context, Visit&& visit) {
   if constexpr (std::is_same_v<Word, Surface>) {
@@ -116,7 +118,8 @@ TokenType type_of(Channel channel, const ContextBits& context) {
   return type;
 }
 
-// Tells a channel's cycles by a number of its own: those of a pipe's channels to its memory port are alike.
+// Tells a channel's cycles by a number of its own, because a pipe's channels to its memory port have the same
+// one.
 class NumberedProbe final : public ChannelProbe {
  public:
   explicit NumberedProbe(int number) : number_(number) {}

@@ -1,4 +1,5 @@
-// What clear matter lets through (docs/picture/translucent.md): the numbers of a ray's surfaces and ways.
+// Clear matter lets a part of the light through (docs/picture/translucent.md). The numbers of a ray's
+// surfaces and ways tell how much.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// What passes, in 2^-15: a memory of 2048 words, 256 of which halve the light (section 2).
+// Tabulates what passes, in 2^-15: a memory of 2048 words, 256 of which halve the light (section 2).
 inline constexpr std::size_t kNothingPasses = 2047;
 inline constexpr auto kPassing = [] {
   std::array<std::uint16_t, kNothingPasses + 1> values{};
@@ -24,16 +25,17 @@ inline constexpr auto kPassing = [] {
   return values;
 }();
 
-// The length of a step in 2^-16 cells, and of a part of it: one product of 12 bits by 15 (section 4).
+// These return the length of a step in 2^-16 cells, and of a part of it. The part takes one product of 12
+// bits by 15 (section 4).
 inline UInt<15> length_of_step(Vec step, Vec to_eye) { return dot((Vec{} - step) >> 4, to_eye) >> 14; }
 inline UInt<18> part_of_step(std::int64_t length, std::int64_t a, int bits) { return (length * a) >> bits; }
 
-// What surfaces and ways have left of a ray.
+// Holds what surfaces and ways have left of a ray.
 struct Left {
   UInt<13> surfaces = 4096;
   UInt<27> way = 0;
 };
-// Three products by the losses, three reads and three products by what surfaces have left.
+// Takes three products by the losses, three reads, and three products by what surfaces have left.
 inline Rgb passed_of(const LookRegisters& look, const Left& left) {
   Rgb color{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -48,7 +50,7 @@ inline UInt<27> further(std::int64_t way, std::int64_t by) {
   return std::min(way + by, (std::int64_t{1} << 27) - 1);
 }
 
-// Light at a place in matter, from all sides (section 6). 43 is a constant, and takes three sums.
+// Returns the light at a place in matter, from all sides (section 6). 43 is a constant, and takes three sums.
 inline Rgb inner_light(const LookRegisters& look, const Light& light) {
   const std::int64_t beside = light.open[0] + light.open[1] + light.open[4] + light.open[5];
   const UInt<8> above = ((2 * light.open[2] + beside) * 43) >> 9;
@@ -61,7 +63,7 @@ inline Rgb inner_light(const LookRegisters& look, const Light& light) {
   return color;
 }
 
-// The sums of a ray. An event of it is a surface or a way.
+// Holds the sums of a ray. An event of it is a surface or a way.
 struct Passage {
   Left left;
   Rgb passed{1 << 15, 1 << 15, 1 << 15};
@@ -92,7 +94,7 @@ inline void pass_way(const LookRegisters& look, Passage& passage, std::int64_t w
   scatter(look, passage, before, body);
 }
 
-// The light of a ray that ends at the ground, or on the background: pressed (section 7).
+// Returns the pressed light of a ray that ends at the ground, or on the background (section 7).
 inline Rgb seen_through(const LookRegisters& look, const Passage& passage, bool on_ground,
                         const Rgb& behind) {
   Rgb light{};

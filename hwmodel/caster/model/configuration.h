@@ -1,4 +1,4 @@
-// The numbers by which a ray caster is configured.
+// A ray caster is configured by these numbers.
 #pragma once
 
 #include <algorithm>
@@ -16,30 +16,31 @@ namespace voxmelt::hwmodel::raycast {
 
 struct CacheShape {
   int sets = 16, ways = 4;
-  int spare = 32;  // lines more than tags: as many misses may be under way
-  int queue = 64;  // requests between tag and data: what they wait hides the memory
+  int spare = 32;  // more lines than tags: as many misses may be under way
+  int queue = 64;  // requests between tag and data; their wait hides the memory's latency
   int lines() const { return sets * ways; }
 };
 
 struct Configuration {
-  int pipes = 1;                 // W
-  int rays = 64;                 // under way in the walk of a pipe
+  int pipes = 1;                 // number of pipes, W
+  int rays = 64;                 // rays under way in the walk of a pipe
   int walkers = 4;               // steps through air in a cycle of a pipe
   int searchers = 4;             // steps over blocks of ground in a cycle of a pipe
-  int fifo_depth = 4;            // tokens, of every channel
-  std::uint64_t stall_seed = 0;  // 0: no stalls
+  int fifo_depth = 4;            // tokens in each channel
+  std::uint64_t stall_seed = 0;  // 0 for no stalls
   int tiles = 12;                // tile buffers of a pipe; rays of all of them are made in turn
-  // As many where matter is clear. There a ray reads far more lines, and rays that are near share them.
+  // If matter is clear, only so many are used. There a ray reads far more lines, and rays that are near share
+  // them.
   int clear_tiles = 4;
-  int bands = 16;  // of the picture, from which tiles are dealt in turn
+  int bands = 16;  // bands of the picture, from which tiles are dealt in turn
   CacheShape levels{64}, matter{16}, light{32}, ground{64};
   int clock_mhz = 200;
-  std::optional<memory::Parameters> dram;  // none: a memory of a fixed latency, as the next two say
-  int latency = 40;                        // of the memory, in cycles
-  int bus_bytes = 64;                      // that the memory gives in a cycle
-  std::string memory_trace;                // file of the requests to a DRAM; empty: none
+  std::optional<memory::Parameters> dram;  // none: a fixed latency, as the next two say
+  int latency = 40;                        // latency of the memory, in cycles
+  int bus_bytes = 64;                      // bytes that the memory gives in a cycle
+  std::string memory_trace;                // file of the requests to a DRAM; empty for none
   bool apron = false;                      // bricks of levels hold their apron: a line is a brick
-  int level_bits = 2;  // log2 of the places of a line of levels along an axis, without apron: 2 or 3
+  int level_bits = 2;  // log2 of the places of a line of levels along an axis, without apron: 1 to 3
 
   memory::Choice memory() const { return {dram, latency, bus_bytes, clock_mhz, memory_trace}; }
   int tiles_in_turn(bool clear) const { return clear ? std::min(tiles, clear_tiles) : tiles; }

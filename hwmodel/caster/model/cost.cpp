@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSpots = 3 * (12 + 8);  // cell and weight along three axes
 constexpr int kAddress = 32;
-constexpr int kColumns = 16, kTexels = 4, kCorners = 8;  // that one answer holds
+constexpr int kColumns = 16, kTexels = 4, kCorners = 8;  // numbers that one answer holds
 
 template <class... Of>
 int bits_of_token(const Of&... tokens) {
@@ -116,7 +116,8 @@ class Costs {
     channel("passed -> press", bits_of_token(PassedToken{}, context_));
   }
 
-  // Tag: what of a line's number its set does not tell, its slot, and its place in the order of use.
+  // A tag holds the part of a line's number that its set does not tell, its slot, and its place in the order
+  // of use.
   void cache(const char* stage, const CacheShape& shape, const Layout& layout, int request) {
     if (layout.line_bytes == 0) return;
     const int slot = slot_bits(shape);
@@ -137,10 +138,11 @@ class Costs {
     cache("texels", c_.ground, memory_.texels, kSpots);
   }
 
-  // Rays and surfaces under way.
+  // Counts the memories of rays and surfaces under way.
   void contexts() {
     const int ray = bits_of_token(GroundedRay{}, context_), position = 3 * 32;
-    // Behind the ray: position, three inverses, k, its end, the slope bound, what is known of a sample.
+    // After the ray come its position, three inverses, k, its end, the slope bound, and what is known of a
+    // sample.
     memory("walk", "rays", c_.rays, ray + position + 3 * (12 + 6) + 27 + 27 + 8 + 27 + 16 + (clear_ ? 1 : 0));
     memory("walk", "queues", std::int64_t{4} * c_.rays, context_.rays);
     memory("crossing", "rays", c_.rays, bits_of_token(HitToken{}, context_) + 2 * position + 16 + 15 + 3 + 2);
@@ -164,21 +166,23 @@ class Costs {
     memory("pixel", "bytes of tiles", c_.tiles, 8 * kTileBytes);
   }
 
-  // A place for each ray of the walk.
+  // There is a place for each ray of the walk.
   void clear_contexts() {
     const int ground = bits_of_token(GroundHit{}), position = 3 * 32;
-    // Behind the ray: to_eye, the length of a step, k, its position and level, the level beyond, whether it
-    // is the first matter; of a stretch its steps and its way; three events, how many, and what comes then.
+    // After the ray come to_eye, the length of a step, k, its position and level, the level beyond, and if it
+    // is the first matter. A stretch has its steps and its way. Then come three events, how many, and what
+    // follows.
     const int event = 2 + 1 + position + 18;
     memory("stretch", "rays", c_.rays,
            bits_of_token(RayId{}, context_) + 3 * 20 + ground + 3 * 16 + 15 + 27 + position + 15 + 16 + 1 +
                bits_for(std::int64_t{1} << registers_.camera.spacing) + 18 + 3 * event + 2 * 2 + 2);
     memory("stretch", "queues", std::int64_t{4} * c_.rays, context_.rays);
-    // What surfaces and ways have left; what passes, is mirrored and scattered; whether nothing passes.
+    // This holds what surfaces and ways have left, what passes, is mirrored and scattered, and if nothing
+    // passes.
     memory("passed", "rays", c_.rays, 13 + 27 + 3 * (16 + 31 + 29) + 1);
   }
 
-  // As many copies as are read in a cycle.
+  // Each table has as many copies as are read in a cycle.
   void tables() {
     const auto size = [](const auto& one) { return static_cast<std::int64_t>(one.size()); };
     memory("walk", "reciprocals", 3 * size(kReciprocals), 12);
@@ -204,15 +208,15 @@ class Costs {
   }
 
   void units() {
-    constexpr int kUnit = 7;  // of arithmetic.h's `unit`: squares 3, slope of the root 1, components 3
+    constexpr int kUnit = 7;  // `unit` of arithmetic.h: squares 3, slope of the root 1, components 3
     constexpr int kBlend = 2;
     const auto stage = [&](const char* name, int multipliers = 0, int dividers = 0) {
       cost_.units.push_back({name, multipliers, dividers});
     };
     stage("tiles");
     stage("set-up", 12);
-    // Box: six quotients. A look: places of three parts 9, height 6, leap 2 + 1. Eight halvings: place 3,
-    // height 6 each. The crossing: 6.
+    // The box takes six quotients. A look takes 9 for places of three parts, height 6, leap 2 + 1. Each of
+    // eight halvings takes place 3 and height 6. The crossing takes 6.
     stage("ground",
           registers_.ground.any
               ? 9 + 6 + 3 + 8 * (3 + 3 * kBlend) + 6 + 4 * 3 * kBlend + kUnit + 3 * c_.searchers
@@ -223,16 +227,16 @@ class Costs {
       stage((std::string(gather) + " data").c_str());
     }
     stage("ask");
-    // A step: to the box 3, out of a block 3, the new place 3. A decision: rise 1, out of the block 3,
-    // place 3.
+    // A step takes 3 to the box, 3 out of a block, and 3 to the new place. A decision takes rise 1, out of
+    // the block 3, place 3.
     stage("walk", 9 * c_.walkers + 7);
     stage("sample", 7 * kBlend);
     stage("crossing", 3, 1);
     if (clear_) {
-      // Two rays may begin, by a direction and a length; a surface is up to two parts of a step, a sample
-      // one.
+      // Two rays may begin, each by a direction and a length. A surface is up to two parts of a step, a
+      // sample is one.
       stage("stretch", 2 * (kUnit + 3) + 2 + 1);
-      // Losses 3, gleam 3, two surfaces' losses, frost 1, what passes before and after 6, scattered 3.
+      // Losses take 3, gleam 3, surfaces' losses 2, frost 1, what passes before and after 6, scattered 3.
       stage("passed", 3 + 3 + 2 + 1 + 6 + 3);
     } else {
       stage("met", kUnit);
@@ -242,12 +246,13 @@ class Costs {
     stage("texture", 5 * 3 * kBlend + kUnit);
     stage("matter", 3 * 7 * kBlend);
     stage("light", 13 * 7 * kBlend);
-    // Mixing 20, glow 9; facing 3, lit 1, sides 3 + 3 + 3, light 3 x (ambient 2, lamp 1). In matter 3 x 3.
+    // Mixing takes 20, glow 9, facing 3, lit 1, sides 3 + 3 + 3, light 3 x (ambient 2, lamp 1). A way in
+    // matter takes 3 x 3.
     stage("arriving", 20 + (registers_.look.glow ? 9 + 3 : 0) + 3 + 1 + 3 + 3 + 9 + (clear_ ? 9 : 0));
-    // Half way 7, shine 3, tables 3, three smooth steps 6, peak 2, eye 3, graze 3, gloss 1, reflected 3, free
-    // 6 + 6 + 1, lamp and strip 6, around 6. From within, facing 3.
+    // Half way takes 7, shine 3, tables 3, three smooth steps 6, peak 2, eye 3, graze 3, gloss 1. Reflected
+    // takes 3, free 6 + 6 + 1, lamp and strip 6, around 6. From within, facing takes 3.
     stage("mirror", 56 + (clear_ ? 3 : 0), 3);
-    stage("colour", clear_ ? 3 * 5 : 3 * 6 + 1);  // emission is of opaque matter
+    stage("colour", clear_ ? 3 * 5 : 3 * 6 + 1);  // only opaque matter has emission
     stage("press", clear_ ? 3 : 0);
     stage("pixel");
     stage("write");

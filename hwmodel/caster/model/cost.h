@@ -1,5 +1,5 @@
-// What a pipe of the ray caster is made of: the wires of its channels, its memories, its multipliers and
-// dividers. Widths and sizes come from the model; the units are counted from the expressions of a stage.
+// The cost of a pipe of the ray caster is the wires of its channels, its memories, its multipliers and
+// dividers. Widths and sizes come from the model. The units are counted from the expressions of a stage.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ struct MemoryCost {
   std::int64_t words = 0, bits = 0;
   std::int64_t total() const { return words * bits; }
 };
-// One for each different product of a token, any width alike; none for shifts and for products with a
-// constant that a stage has wired.
+// Counts one unit for each different product of a token, whatever its width. Shifts count none, and neither
+// do products with a constant that a stage has wired.
 struct UnitCost {
   std::string stage;
   int multipliers = 0, dividers = 0;
@@ -32,7 +32,7 @@ struct UnitCost {
 struct PipeCost {
   std::vector<ChannelCost> channels;  // in the order of Pipe::channels
   std::vector<MemoryCost> memories;
-  std::vector<UnitCost> units;  // of every stage, those without units too
+  std::vector<UnitCost> units;  // every stage, also those without units
 
   std::int64_t channel_bits() const;
   std::int64_t memory_bits() const;

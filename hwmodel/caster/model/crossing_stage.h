@@ -1,6 +1,6 @@
-// The crossing between a sample in air and the next one in matter: three middles, and a straight line
-// (docs/picture/definition.md, section 7). A ray that leaves clear matter has them in the other order. Many
-// rays are under way. The level of sample k - 1 is asked for only where it is needed and not known.
+// The crossing between a sample in air and the next one in matter is found by three middles and a straight
+// line (docs/picture/definition.md, section 7). A ray that leaves clear matter has the samples in the other
+// order. Many rays are under way. The level of sample k - 1 is asked for only if it is needed and not known.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
-// The field at a position: a sample, the crossing between two, and the normal (docs/picture/definition.md,
-// sections 6 to 8). Positions are in the lattice: cell -2 has place 0, so that the bits of a position are
-// place and weight.
+// The field at a position gives a sample, the crossing between two, and the normal
+// (docs/picture/definition.md, sections 6 to 8). Positions are in the lattice: cell -2 has place 0, so that
+// the bits of a position are place and weight.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ inline Vec to_lattice(Vec p) { return {p.x + kToLattice, p.y + kToLattice, p.z +
 inline Vec from_lattice(Vec q) { return {q.x - kToLattice, q.y - kToLattice, q.z - kToLattice}; }
 inline std::int64_t weight_of(std::int64_t q) { return (q >> 12) & 255; }
 
-// Fourteen products of 16 bits by 9. `levels`: eight, x fastest.
+// Takes fourteen products of 16 bits by 9. The `levels` are eight, x fastest.
 inline SInt<16> sample_of(const std::int16_t* levels, Vec q) {
   const std::int64_t wx = weight_of(q.x), wy = weight_of(q.y), wz = weight_of(q.z);
   const SInt<16> a = blended(levels[0], levels[1], wx), b = blended(levels[2], levels[3], wx),
@@ -26,7 +26,7 @@ inline SInt<16> sample_of(const std::int16_t* levels, Vec q) {
   return blended(below, above, wz);
 }
 
-// Between two samples: outside and inside, with their levels.
+// Holds two samples, outside and inside, with their levels.
 struct Bracket {
   Vec outside, inside;
   SInt<16> a;
@@ -52,22 +52,22 @@ inline void halve(Bracket& bracket, std::int64_t level) {
 struct Crossing {
   bool found = false;
   std::int64_t sample = 0, part = 0;
-  Vec position;  // not of the lattice
+  Vec position;  // not in the lattice
 };
-// One quotient of nine bits.
+// Takes one quotient of nine bits.
 inline Crossing crossing_of(const Bracket& bracket, std::int64_t sample) {
   const UInt<9> f = (-bracket.a * 256) / (bracket.b - bracket.a);
   const Vec at = bracket.outside + (((bracket.inside - bracket.outside) * f) >> 8);
   return {true, sample, UInt<12>(bracket.e * 256 + f), on_wires<32>(from_lattice(at))};
 }
 
-// The middle one of the 27 places of a normal.
+// Returns the middle one of the 27 places of a normal, along one axis.
 inline std::int64_t middle_place(std::int64_t q) { return (q + kCell / 2) >> kCellBits; }
 
 struct Slope {
   Vec slope, normal;
 };
-// `levels`: 27, x fastest. Ninety products.
+// Takes ninety products. The `levels` are 27, x fastest.
 inline Slope slope_of(const std::int16_t* levels, Vec q) {
   struct Weights {
     std::array<std::int64_t, 3> value, slope;
@@ -81,9 +81,9 @@ inline Slope slope_of(const std::int16_t* levels, Vec q) {
                           const std::array<std::int64_t, 3>& w,
                           int shift) { return SInt<17>(rounded(a * w[0] + b * w[1] + c * w[2], shift)); };
   const Weights x = weights(q.x), y = weights(q.y), z = weights(q.z);
-  std::array<std::int64_t, 3> along_x{}, along_y{}, value{};  // of the planes
+  std::array<std::int64_t, 3> along_x{}, along_y{}, value{};  // one for each plane
   for (std::size_t k = 0; k < 3; ++k) {
-    std::array<std::int64_t, 3> slope_x{}, value_x{};  // of the rows
+    std::array<std::int64_t, 3> slope_x{}, value_x{};  // one for each row
     for (std::size_t j = 0; j < 3; ++j) {
       const std::int16_t* row = levels + 9 * k + 3 * j;
       slope_x[j] = splined(row[0], row[1], row[2], x.slope, 9);

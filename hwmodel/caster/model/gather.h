@@ -1,7 +1,7 @@
-// Fetches the words of a small box of places through a cache: two to four places along an axis. Of a
-// volume, bank (x + 2 y + 4 z) mod 8 holds a place, so that the eight words of two places a side lie in eight
-// banks, and the 27 of three in no bank more than five times. Columns have 16 banks, (x mod 4) + 4 (z mod 4),
-// and four by four of them come at once. Two stages: tags, and behind a queue data.
+// A gather fetches the words of a small box of places through a cache: two to four places along an axis. A
+// place of a volume lies in bank (x + 2 y + 4 z) mod 8. So the eight words of two places a side lie in eight
+// banks, and the 27 words of three in no bank more than five times. Columns have 16 banks, (x mod 4) + 4 (z
+// mod 4), and four by four of them come at once. There are two stages: tags, and behind a queue data.
 #pragma once
 
 #include <array>
@@ -21,27 +21,27 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// To the memory.
+// A request to the memory asks for a line, or writes a burst.
 struct LineRequest {
-  int client = 0, slot = 0;  // for whom
+  int client = 0, slot = 0;  // client and slot that get the line
   std::int64_t address = 0;
   int bytes = 0;
   bool write = false;
-  std::array<std::uint8_t, kBurst> data{};  // of a write
+  std::array<std::uint8_t, kBurst> data{};  // data of a write
 };
-// From the memory: the line has come.
+// A reply from the memory says that a line has come.
 struct LineReply {
   int client = 0, slot = 0;
   std::int64_t address = 0;
   int bytes = 0;
 };
 
-// The places that a request reads, and the one by which a brick with its apron is found.
+// Names the places that a request reads, and the one by which a brick with its apron is found.
 struct Places {
   std::array<std::int32_t, 4> x{}, y{}, z{};
   int side = 2;  // places along x and z
   std::array<std::int32_t, 3> low{};
-  int high = 2;  // along y
+  int high = 2;  // places along y
 };
 
 template <class Request, class Word, std::size_t kMost>
@@ -50,7 +50,7 @@ struct Gathered {
   std::array<Word, kMost> words;
 };
 
-// Whoever receives lines.
+// Receives lines from the memory.
 class LineClient {
  public:
   virtual ~LineClient() = default;
@@ -62,7 +62,7 @@ template <class Request, class Word, std::size_t kMost, class Faults = NoFaults>
 class Gather final : public LineClient {
  public:
   using Out = Gathered<Request, Word, kMost>;
-  // `cycles`: that three places a side take.
+  // `cycles` is the time that three places a side take.
   Gather(const std::string& name, const CacheShape& shape, const Layout& layout, int client, Word absent,
          int cycles, Faults faults = {})
       : tags(name + " tags", *this),
@@ -86,7 +86,8 @@ class Gather final : public LineClient {
 
   void arrived(const LineReply& reply, const std::uint8_t* bytes) override {
     const auto slot = static_cast<std::size_t>(reply.slot);
-    // It may be meant for another cache, which a checker tells. Here may be no such line, or none at all.
+    // The line may be meant for another cache, which a checker tells. Then this one may have no such slot, or
+    // none at all.
     if (slot >= arrived_.size() || store_.empty()) return;
     if (faults_.keeps_old_line()) [[unlikely]] {
       arrived_[slot] = 1;
@@ -97,7 +98,7 @@ class Gather final : public LineClient {
     arrived_[slot] = 1;
   }
   const CacheCounts& counts() const { return cache_.counts(); }
-  // Host: the memory has new contents.
+  // The host calls these when the memory has new contents.
   void forget_all() { cache_.clear(); }
   void forget(std::int64_t line) { cache_.forget(line); }
 
@@ -115,14 +116,14 @@ class Gather final : public LineClient {
 
  public:
   Tags tags;
-  Data data;  // evaluate it first
+  Data data;  // is evaluated first
 
-  // What a fault policy looks at, too.
+  // A fault policy looks at this, too.
   struct Entry {
     Request request;
     Places places;
     std::array<std::uint8_t, 3> lines{};  // different lines along each axis: 1 or 2
-    std::array<std::int32_t, 8> slots{};  // -1: nothing is stored there
+    std::array<std::int32_t, 8> slots{};  // -1 if nothing is stored there
     std::array<std::int32_t, 8> lost{};
   };
   const Layout& layout() const { return layout_; }
@@ -142,7 +143,7 @@ class Gather final : public LineClient {
                            p.y[iy == 0 ? 0 : top] >> layout_.bits[1],
                            p.z[iz == 0 ? 0 : last] >> layout_.bits[2]);
   }
-  // Line i of the entry is at `bytes_of(i)`; null: nothing is stored there.
+  // Line i of the entry is at `bytes_of(i)`, which is null if nothing is stored there.
   template <class BytesOf>
   void read_words(const Entry& entry, const BytesOf& bytes_of, Word* to) const {
     const Places& p = entry.places;

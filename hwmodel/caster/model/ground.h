@@ -1,4 +1,4 @@
-// The slab: its height at a place, where a ray meets it, normal and colour (docs/picture/ground.md).
+// The slab has a height at each place, a hit by a ray, a normal and a colour (docs/picture/ground.md).
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// A column in memory.
+// Holds a column as it lies in memory.
 struct Column {
   std::int32_t drawn = 0, bare = 0;
 };
-// A texel in memory.
+// Holds a texel as it lies in memory.
 struct Texel {
   std::uint16_t red = 0, green = 0, blue = 0;
   std::int8_t bump_x = 0, bump_z = 0;
@@ -30,20 +30,20 @@ struct GroundHit {
   std::int64_t part = 0;  // 1/256 of a step
   Vec position;
   Face face = Face::none;
-  Vec normal;  // of the top
+  Vec normal;  // normal of the top
 };
 
-// Between four numbers of columns: along x, then along z.
+// Blends between four numbers of columns: along x, then along z.
 template <class Value>
 std::int64_t between_columns(const Value& value, Spot x, Spot z) {
   return blended(blended(value(0), value(1), x.weight), blended(value(2), value(3), x.weight), z.weight);
 }
 
-// The sixteen columns from a cell on along x and z: with them, the height of any place on a step of a quarter
-// of a cell, and half a cell around.
+// Holds the sixteen columns from a cell on along x and z. They give the height of any place on a step of a
+// quarter of a cell, and half a cell around.
 struct NearColumns {
   static constexpr std::size_t kSide = 4;
-  std::int64_t x = 0, z = 0;  // the first cell
+  std::int64_t x = 0, z = 0;  // first cell
   std::array<Column, kSide * kSide> columns{};
 
   template <class Value>
@@ -59,7 +59,8 @@ struct NearColumns {
 
 inline Vec at_part(const Ray& ray, std::int64_t part) { return ray.start + ((ray.step * part) >> 8); }
 
-// The parts of a ray in the box around the ground: six quotients of 36 bits, which must be exact.
+// Holds the parts of a ray in the box around the ground. They take six quotients of 36 bits, which must be
+// exact.
 struct Parts {
   std::int64_t first = 0, last = -1;
 };
@@ -88,7 +89,7 @@ inline bool in_slab(const Registers& registers, Vec p) {
          p.y >= 0;
 }
 
-// The ray came from outside of the ground.
+// Returns the face by which a ray came from `outside` into the ground.
 inline Face face_of(const Registers& registers, Vec outside) {
   if (outside.x < 0) return Face::low_x;
   if (outside.x >= registers.cells.x * kCell) return Face::high_x;
@@ -97,13 +98,13 @@ inline Face face_of(const Registers& registers, Vec outside) {
   return outside.y < 0 ? Face::under : Face::top;
 }
 
-// The upper edges are rounded.
+// The normal leans outwards near the rim, because the upper edges are rounded.
 inline std::int64_t rim(std::int64_t p, std::int64_t cells) {
   const std::int64_t half = kCell / 2;
   return (std::max<std::int64_t>(0, half - (cells * kCell - p)) >> 7) -
          (std::max<std::int64_t>(0, half - p) >> 7);
 }
-// Of the top, from the bare heights half a cell to the west, east, north and south.
+// Returns the normal of the top, from the bare heights half a cell to the west, east, north and south.
 inline Vec top_normal(const Registers& registers, Vec p, const std::array<std::int64_t, 4>& heights) {
   const Vec fall{heights[0] - heights[1] + rim(p.x, registers.cells.x), 4096,
                  heights[2] - heights[3] + rim(p.z, registers.cells.z)};
@@ -127,7 +128,7 @@ inline Vec side_normal(Face face) {
   }
 }
 
-// Of a table of numbers along one axis; its ends repeat themselves.
+// Reads a table of numbers along one axis. Its ends repeat themselves.
 template <class Value>
 std::int64_t along_table(const std::vector<Value>& table, std::int64_t position) {
   const Spot at = spot_of(position);
@@ -137,7 +138,7 @@ std::int64_t along_table(const std::vector<Value>& table, std::int64_t position)
   };
   return blended(entry(at.cell), entry(at.cell + 1), at.weight);
 }
-// Sides, underside, and around a camera in the ground.
+// Returns the colour of sides, of the underside, and around a camera in the ground.
 inline Rgb cut_color(const GroundRegisters& ground, Vec p, Face face) {
   std::int64_t band = 0;
   if (ground.textured && face != Face::under && face != Face::none) {

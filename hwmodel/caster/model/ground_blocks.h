@@ -1,6 +1,6 @@
-// What is known of the ground without its columns: bounds of heights and slopes in blocks of cells, on the
-// chip. By them the search leaves out samples that lie above all that a block holds, or above all that its
-// slopes can reach. Never one too many; one too few costs a cycle.
+// Bounds of heights and slopes in blocks of cells tell of the ground without its columns, on the chip. By
+// them the search leaves out samples that lie above all that a block holds, or above all that its slopes can
+// reach. It never leaves out one too many, and one too few costs a cycle.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,8 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// From the heights of nx x nz columns. The places of a block read its columns and those beside it.
+// Makes blocks from the heights of nx x nz columns. The places of a block read its columns and those beside
+// it.
 template <class HeightAt>
 GroundBlocks ground_blocks(std::int64_t nx, std::int64_t nz, const HeightAt& height_at) {
   GroundBlocks blocks;
@@ -45,7 +46,7 @@ GroundBlocks ground_blocks(std::int64_t nx, std::int64_t nz, const HeightAt& hei
   return blocks;
 }
 
-// A ray in search of the ground.
+// Describes a ray in search of the ground.
 struct Searcher {
   Vec step;
   Inverse x, y, z;
@@ -56,7 +57,8 @@ inline Searcher searcher_of(const Ray& ray) {
 
 inline constexpr std::int64_t kAlways = std::int64_t{1} << 26;  // samples: more than a ray has in the box
 
-// Samples behind p that lie in its block. A part's position is rounded down: on the way up one unit less.
+// Counts the samples behind p that lie in its block. A part's position is rounded down, so on the way up
+// there is one unit less.
 inline std::int64_t samples_in_block(const Searcher& searcher, Vec p, int bits) {
   const std::int64_t size = std::int64_t{1} << bits;
   const auto axis = [&](std::int64_t q, std::int64_t step, Inverse inverse) {
@@ -67,7 +69,8 @@ inline std::int64_t samples_in_block(const Searcher& searcher, Vec p, int bits) 
   return std::min(axis(p.x, searcher.step.x, searcher.x), axis(p.z, searcher.step.z, searcher.z));
 }
 
-// Samples behind p that are left out without a look at columns; nothing if p itself may lie in the ground.
+// Counts the samples behind p that are left out without a look at columns. Returns nothing if p itself may
+// lie in the ground.
 inline std::optional<std::int64_t> samples_above(const GroundBlocks& blocks, const Searcher& searcher,
                                                  Vec p) {
   const auto above = [&](std::int64_t highest, int bits) -> std::int64_t {
@@ -82,13 +85,15 @@ inline std::optional<std::int64_t> samples_above(const GroundBlocks& blocks, con
   return most;
 }
 
-// By how much a ray comes nearer to the ground per sample at most, in 2^-32 cells; 0 or less: never.
+// Returns by how much a ray comes nearer to the ground per sample at most, in 2^-32 cells. If this is 0 or
+// less, it never does.
 inline std::int64_t approach_of(Vec slopes, Vec step) {
   return magnitude(step.x) * slopes.x + magnitude(step.z) * slopes.z - 4096 * step.y;
 }
-// What covers the roundings of heights and positions, in the same unit.
+// Returns a margin that covers the roundings of heights and positions, in the same unit.
 inline std::int64_t margin_of(Vec slopes) { return ((slopes.x + slopes.z) << 13) + (std::int64_t{1} << 23); }
-// Samples behind p, so far above the ground, that lie in its block and outside of the ground.
+// Counts the samples behind p that lie in its block and outside of the ground. The height of p over the
+// ground is `above`.
 inline std::int64_t samples_over_slopes(const GroundBlocks& blocks, const Searcher& searcher, Vec p,
                                         std::int64_t above) {
   const GroundBlock& block = blocks.fine_at(p);

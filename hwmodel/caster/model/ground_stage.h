@@ -1,7 +1,7 @@
-// Where rays meet the ground (docs/picture/ground.md, section 4). Many rays are under way. In each cycle some
-// of them take a step over blocks that they pass above, and one looks at sixteen columns. A step is a quarter
-// of a cell at most, so they serve its height, its eight halvings by a row of eight units, and the normal
-// where it ends. Without ground the stage hands rays on.
+// The ground stage finds where rays meet the ground (docs/picture/ground.md, section 4). Many rays are under
+// way. In each cycle some of them take a step over blocks that they pass above, and one looks at sixteen
+// columns. A step is a quarter of a cell at most. So the columns serve its height, its eight halvings by a
+// row of eight units, and the normal where it ends. Without ground the stage hands rays on.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// Rays that the unit works on, by their numbers; each is in one of the queues.
+// The stage knows its rays by their numbers. Each ray is in one of the queues.
 template <class Faults = NoFaults>
 class GroundStage final : public Stage {
  public:
@@ -45,7 +45,7 @@ class GroundStage final : public Stage {
     GroundedRay ray;
     Searcher searcher;
     Parts parts;
-    std::int64_t part = 0;  // that is looked at
+    std::int64_t part = 0;  // part that is looked at
   };
   Search& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
 
@@ -106,7 +106,7 @@ class GroundStage final : public Stage {
     (search.parts.first > search.parts.last ? done_ : passing_).push_back(i);
   }
 
-  // A step over the blocks below, or none: then the ray must look at columns.
+  // Takes a step over the blocks below. If there is none, the ray must look at columns.
   void pass(int i) {
     Search& search = at(i);
     auto samples =
@@ -115,7 +115,7 @@ class GroundStage final : public Stage {
     if (!samples) return ready_.push_back(i);
     go_on(i, *samples);
   }
-  // To the sample behind those that are left out.
+  // Goes on to the sample behind those that are left out.
   void go_on(int i, std::int64_t samples) {
     Search& search = at(i);
     if (search.part == search.parts.last) return done_.push_back(i);
@@ -123,7 +123,7 @@ class GroundStage final : public Stage {
     passing_.push_back(i);
   }
 
-  // A part out of the ground, before this one: the bisection would begin there.
+  // Returns a part before this one that is out of the ground. The bisection would begin there.
   std::int64_t part_before(const Search& search) const {
     return search.part == search.parts.first ? search.part - 1
                                              : std::max(search.parts.first, ((search.part - 1) >> 8) << 8);

@@ -1,5 +1,5 @@
-// What matter is made of at the crossing, and the light in front of a surface (docs/picture/light.md,
-// sections 3 and 5).
+// These stages fetch what matter is made of at the crossing, and the light in front of a surface
+// (docs/picture/light.md, sections 3 and 5).
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// Twice, where the scene has obstacles: they are looked for half a cell outside. On a way in clear matter all
-// is read at its place. It has no normal: so the light is read there, too.
+// Matter is read twice if the scene has obstacles: they are looked for half a cell outside. On a way in clear
+// matter all is read at its place. A way has no normal, so the light is read there, too.
 template <class Faults = NoFaults>
 class MatterStage final : public AttachStage<MatterRequest, MatterGather::Out> {
  public:

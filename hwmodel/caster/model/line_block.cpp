@@ -76,7 +76,7 @@ void LineBlock::accept(Port& port) {
   writes_[port.id] = request.data;
 }
 
-// As much as the memory takes now.
+// Hands on as much as the memory takes now.
 bool LineBlock::hand_on(Port& port) {
   bool moved = false;
   while (port.bytes > 0 && memory_.ready(port.port)) {

@@ -1,7 +1,7 @@
-// Between the pipes and the memory: each line is a request, or to a DRAM so many bursts of 64 bytes. A line
-// returns when its last byte has come. The lines of one pipe return in the order in which they were asked
-// for: no cache needs that, but a memory with little room between itself and the machine gives no other
-// order.
+// The line block lies between the pipes and the memory. Each line is a request, or to a DRAM so many bursts
+// of 64 bytes. A line returns when its last byte has come. The lines of one pipe return in the order in which
+// they were asked for. No cache needs that, but a memory with little room between itself and the machine
+// gives no other order.
 #pragma once
 
 #include <array>
@@ -19,12 +19,12 @@ namespace voxmelt::hwmodel::raycast {
 
 struct LineCounts {
   std::int64_t reads = 0, read_bytes = 0, written_bytes = 0;
-  std::int64_t bus_cycles = 0;  // of a memory of a fixed latency
+  std::int64_t bus_cycles = 0;  // for a memory of a fixed latency
 };
 
 class LineBlock final : private memory::PortClient {
  public:
-  // The bytes here begin at `base` of the memory's addresses. The owner of the memory ends its cycles.
+  // The bytes here begin at address `base` of the memory. The owner of the memory ends its cycles.
   LineBlock(Memory& bytes, memory::Memory& memory, int bus_bytes, std::int64_t base = 0)
       : bytes_(bytes), memory_(memory), bus_bytes_(bus_bytes), base_(base) {}
 
@@ -41,9 +41,9 @@ class LineBlock final : private memory::PortClient {
   struct Port {
     Fifo<LineRequest>* requests = nullptr;
     Fifo<LineReply>* replies = nullptr;
-    int port = 0;                      // of the memory
-    std::deque<Line> lines;            // asked for
-    std::int64_t next = 0, bytes = 0;  // of the request that is handed on: address, how many more
+    int port = 0;                      // number of the memory's port
+    std::deque<Line> lines;            // lines that were asked for
+    std::int64_t next = 0, bytes = 0;  // request that is handed on: its next address, its bytes left
     std::uint32_t id = 0;
     bool write = false;
   };

@@ -1,5 +1,5 @@
-// Between a pipe and the memory: requests of several clients on one channel, and lines back to those who
-// asked.
+// The memory port lies between a pipe and the memory. It sends the requests of several clients on one
+// channel, and gives lines back to those who asked.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// What a ray meets first: matter, the ground or the background; its depth, and the direction to the eye
-// (docs/picture/definition.md, sections 8 and 9).
+// The met stage tells what a ray meets first: matter, the ground or the background. It also gives the depth,
+// and the direction to the eye (docs/picture/definition.md, sections 8 and 9).
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ class MetStage final : public Stage {
  public:
   explicit MetStage(const Registers& registers, Faults faults = {})
       : Stage("met"), registers_(registers), faults_(faults) {}
-  // From the walk come rays that met no matter, and from the crossing the others.
+  // Rays that met no matter come from the walk, and the others from the crossing.
   void connect(Fifo<MetToken>& missed, Fifo<MetToken>& crossed, Fifo<Surface>& out) {
     in_ = {&crossed, &missed};
     out_ = &out;

@@ -1,4 +1,4 @@
-// The normal of matter, from 27 levels (docs/picture/definition.md, section 8).
+// The normal of matter is computed from 27 levels (docs/picture/definition.md, section 8).
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// The ground's colour, and the normal of its sides (docs/picture/ground.md, sections 5 and 8); then four
-// texels of rock.
+// The paint stage gives the ground's colour, and the normal of its sides (docs/picture/ground.md, sections 5
+// and 8). The texture stage then reads four texels of rock.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ class PaintStage final : public SurfaceStage {
   [[no_unique_address]] Faults faults_;
 };
 
-// The texture of rock, where the ground has one.
+// Adds the texture of rock, if the ground has one.
 template <class Faults = NoFaults>
 class TextureStage final : public AttachStage<ClampedRequest, TexelGather::Out> {
  public:

@@ -1,5 +1,6 @@
-// What comes along a ray through clear matter, summed up from front to back (docs/picture/translucent.md,
-// sections 2, 5 and 6): an event a cycle, and one token per ray. Then its pressed light (section 7).
+// The passed stage sums up what comes along a ray through clear matter, from front to back
+// (docs/picture/translucent.md, sections 2, 5 and 6). It takes an event a cycle, and gives one token per ray.
+// Then the light is pressed (section 7).
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,7 @@
 namespace voxmelt::hwmodel::raycast {
 
 // A ray's place in the walk stays taken until its last event has come here. If nothing passes any more, the
-// ray ends soon: events that are on their way by then count no more.
+// ray ends soon. Events that are on their way by then count no more.
 template <class Faults = NoFaults>
 class PassedStage final : public Stage {
  public:
@@ -67,7 +68,8 @@ class PassedStage final : public Stage {
   Fifo<PassedToken>* out_ = nullptr;
 };
 
-// Takes the place of the stage that presses the light of opaque matter: three products, and the same table.
+// Takes the place of the stage that presses the light of opaque matter. It has three products, and the same
+// table.
 template <class Faults = NoFaults>
 class ClearPressStage final : public Stage {
  public:

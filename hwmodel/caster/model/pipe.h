@@ -1,4 +1,4 @@
-// A pipe of the ray caster. One SystemC process evaluates all of it.
+// A pipe of the ray caster has stages and the channels between them. One SystemC process evaluates all of it.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// The channels of a pipe, by what fills them.
+// Names the channels of a pipe, by what fills them.
 enum class Channel : std::uint8_t {
   tiles,
   set_up,
@@ -52,7 +52,7 @@ enum class Channel : std::uint8_t {
   pressed,
   pixels,
   to_memory,
-  // of clear matter
+  // These are there for clear matter alone.
   stretch_asks,
   stretch_levels,
   exits,
@@ -60,7 +60,7 @@ enum class Channel : std::uint8_t {
   passed
 };
 
-// Who listens to what leaves a stage. Null: nobody.
+// Names the listeners to what leaves a stage. Null means nobody.
 struct Watchers {
   FifoWatcher<TileOrder>* tiles = nullptr;
   FifoWatcher<RayToken>* set_up = nullptr;
@@ -74,11 +74,11 @@ struct Watchers {
   FifoWatcher<PressedToken>* pressed = nullptr;
   FifoWatcher<PixelToken>* pixels = nullptr;
   FifoWatcher<LineRequest>* written = nullptr;
-  // The channels of a pipe to dealer and memory.
+  // These watch the channels of a pipe to dealer and memory.
   FifoWatcher<TileJob>* jobs = nullptr;
   FifoWatcher<LineRequest>* requests = nullptr;
   FifoWatcher<LineReply>* replies = nullptr;
-  // Of clear matter.
+  // These watch channels that only clear matter has.
   FifoWatcher<PassedToken>* passed = nullptr;
   FifoWatcher<OnwardToken>* onward = nullptr;
 };
@@ -92,7 +92,7 @@ class Pipe {
 
   virtual void connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory, Fifo<LineReply>& replies) = 0;
   virtual void watch(const Watchers& watchers) = 0;
-  // One cycle: how many stages moved.
+  // Runs one cycle, and returns how many stages moved.
   virtual int cycle() = 0;
   virtual void end_pass() = 0;
 
@@ -105,17 +105,18 @@ class Pipe {
     int line_bytes;
   };
   virtual std::vector<CacheReport> caches() const = 0;
-  // Between two pictures: the memory has other lines of volume i, in the order of `caches`; or all is new.
+  // The host calls these between two pictures. The memory has other lines of volume i, in the order of
+  // `caches`, or all is new.
   virtual void forget(std::size_t i, const std::vector<std::int64_t>& lines) = 0;
   virtual void forget_all() = 0;
   struct ChannelState {
     std::string name;
     int number, count, depth;
-    bool ready;  // takes a token
+    bool ready;  // takes a token now
     std::int64_t entered;
   };
   virtual std::vector<ChannelState> channels() const = 0;
-  // In the same order, with numbers of their own.
+  // Returns the channels in the same order, with numbers of their own.
   virtual std::vector<TokenChannel> token_channels() const = 0;
   virtual void probe(ChannelProbe* probe) = 0;
 };
@@ -123,7 +124,7 @@ class Pipe {
 // Makes pipe number `number`.
 using PipeMaker = std::function<std::unique_ptr<Pipe>(const Registers&, const FrameRegisters&, const Memory&,
                                                       const Configuration&, int number)>;
-// One without faults.
+// Makes a pipe without faults.
 std::unique_ptr<Pipe> make_pipe(const Registers& registers, const FrameRegisters& frame, const Memory& memory,
                                 const Configuration& c, int number);
 

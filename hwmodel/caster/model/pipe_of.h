@@ -1,4 +1,5 @@
-// A pipe of the ray caster: its stages, with the faults of a policy, and the channels between them.
+// A pipe of the ray caster consists of its stages, with the faults of a policy, and the channels between
+// them.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +31,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// Of two kinds of scenes, which have the other stages in common.
+// Opaque and clear scenes have these stages of their own. They have the other stages in common.
 template <class Faults>
 struct OpaqueStages {
   OpaqueStages(const Registers& registers, Faults faults)
@@ -49,7 +50,7 @@ struct ClearStages {
   ClearPressStage<Faults> press;
 };
 
-// The channels of a pipe by what enters them. The last five are there for clear matter alone.
+// Lists the channels of a pipe by what enters them. The last five are there for clear matter alone.
 struct PipeChannels {
   Fifo<TileOrder>* orders;
   Fifo<RayToken>* set_up;
@@ -102,7 +103,7 @@ class PipeOf final : public Pipe {
   void probe(ChannelProbe* probe) override;
 
  private:
-  // Of the memory port.
+  // Numbers the clients of the memory port.
   enum Client : int { kLevels, kMatter, kLight, kColumns, kTexels, kTiles };
 
   template <class Word>
@@ -200,7 +201,7 @@ void PipeOf<Faults>::list_stages() {
   const auto add = [&](std::initializer_list<Stage*> more) {
     stages_.insert(stages_.end(), more.begin(), more.end());
   };
-  // From the end to the begin, so that it matters to no one but the reader of a waveform.
+  // The order is from the end to the beginning, and matters to no one but the reader of a waveform.
   add({&port_, &write_, &pixel_});
   if (clear_)
     add({&clear_->press, &clear_->passed});
@@ -252,7 +253,7 @@ void PipeOf<Faults>::show(Channel which, Fifo<Word>& fifo) {
 
 template <class Faults>
 PipeChannels PipeOf<Faults>::make_channels() {
-  const int rays = configuration_.rays;  // of queues in which every ray has a place
+  const int rays = configuration_.rays;  // depth of queues in which every ray has a place
   PipeChannels c{};
   c.orders = &channel<TileOrder>(Channel::tiles, "tiles -> set-up");
   c.set_up = &channel<RayToken>(Channel::set_up, "set-up -> ground");
@@ -336,7 +337,7 @@ void PipeOf<Faults>::connect_rays(const PipeChannels& c, Fifo<TileJob>& tiles) {
   }
 }
 
-// The levels of cells, which three or four stages ask for.
+// Connects the levels of cells, which three or four stages ask for.
 template <class Faults>
 void PipeOf<Faults>::connect_levels(const PipeChannels& c) {
   if (clear_)

@@ -1,5 +1,5 @@
-// From the place of a sample in the picture to its ray (docs/picture/definition.md, section 4), and how far a
-// ray goes in how many samples. Products and shifts; no division.
+// The place of a sample in the picture leads to its ray (docs/picture/definition.md, section 4). The inverse
+// of its step tells how far a ray goes in how many samples. There are products and shifts, and no division.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 namespace voxmelt::hwmodel::raycast {
 
 struct Ray {
-  Vec start, step;  // of sample 0, and to the next one
+  Vec start, step;  // place of sample 0, and the way to the next one
 };
 
-// Twelve products by u and v, which are below 2^20; the rest is the same for all rays of a picture.
+// Takes twelve products by u and v, which are below 2^20. The rest is the same for all rays of a picture.
 inline Ray ray_of(const CameraRegisters& camera, std::int64_t across, std::int64_t down) {
   const SInt<21> u = across - 32 * std::int64_t{camera.width}, v = 32 * std::int64_t{camera.height} - down;
   const Vec direction =
@@ -29,7 +29,8 @@ inline Ray ray_of(const CameraRegisters& camera, std::int64_t across, std::int64
   return {start, step};
 }
 
-// 1 / |step| of one axis, a little too small: a mantissa of 12 bits from a memory of 1024 words, and a shift.
+// Holds 1 / |step| of one axis, a little too small: a mantissa of 12 bits from a memory of 1024 words, and a
+// shift.
 struct Inverse {
   UInt<12> mantissa;
   UInt<6> shift;
@@ -47,7 +48,7 @@ inline Inverse inverse_of(std::int64_t step) {
   const auto i = static_cast<std::size_t>(((d << 11) >> bits) - 1024);
   return {std::int64_t{kReciprocals[i]} & 4095, 11 + bits};
 }
-// Steps that fit into a way, or a few less.
+// Counts the steps that fit into a way, or a few less.
 inline std::int64_t steps_in(std::int64_t way, Inverse inverse) {
   constexpr std::int64_t kMost = (std::int64_t{1} << 45) - 1;
   return (std::min(way, kMost) * inverse.mantissa) >> inverse.shift;

@@ -154,7 +154,7 @@ struct RayCaster::Machine {
   FrameRegisters frame;
   Window window;
   Dealer dealer;
-  std::optional<memory::ChosenMemory> own_memory;  // none: it is somebody else's
+  std::optional<memory::ChosenMemory> own_memory;  // none if it is somebody else's
   std::optional<LineBlock> lines;
   std::vector<std::unique_ptr<Link<TileJob>>> jobs;
   std::vector<std::unique_ptr<Link<LineRequest>>> requests;
@@ -223,7 +223,7 @@ const Pipe& RayCaster::pipe(int i) const { return *machine_->pipes[static_cast<s
 MemoryCounts RayCaster::memory_counts() const {
   const LineCounts& lines = machine_->lines->counts();
   MemoryCounts counts{lines.reads, lines.read_bytes, lines.written_bytes, lines.bus_cycles, {}};
-  if (!machine_->own_memory) return counts;  // what else the memory does is its owner's to tell
+  if (!machine_->own_memory) return counts;  // its owner tells what else the memory does
   counts.dram = machine_->own_memory->dram_counts();
   if (counts.dram) counts.bus_cycles = machine_->own_memory->bus_cycles();
   return counts;

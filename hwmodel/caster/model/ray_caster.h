@@ -1,5 +1,5 @@
-// The brick ray caster: tiles are dealt to W pipes, which share a memory. One SystemC process per pipe, one
-// for the memory and one for the tiles; inside, plain two-phase channels.
+// The brick ray caster deals tiles to W pipes, which share a memory. There is one SystemC process per pipe,
+// one for the memory and one for the tiles. Inside of them are plain two-phase channels.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,7 @@ struct MemoryCounts {
   std::optional<memory::Counts> dram;
 };
 
-// What a ray caster shares with other machines: a simulation, and a memory in which its bytes begin at
+// Holds what a ray caster shares with other machines: a simulation, and a memory in which its bytes begin at
 // `base`.
 struct Shares {
   Simulation& simulation;
@@ -56,9 +56,9 @@ class RayCaster final : public TokenSource {
   void watch(const Watchers& watchers);
   void stop() override;  // after the present cycle
   void poll(std::function<void()> poll);
-  void each_cycle(std::function<void()> call);  // when all blocks have run theirs
+  void each_cycle(std::function<void()> call);  // called when all blocks have run theirs
 
-  // Where a value did not fit its wire.
+  // Names the stage in which a value did not fit its wire.
   class StageError : public std::runtime_error {
    public:
     StageError(const std::string& what, std::string failed)
@@ -66,25 +66,25 @@ class RayCaster final : public TokenSource {
     std::string stage;
   };
 
-  // From now on; other pixels keep bytes of no meaning.
+  // Draws only these pixels from now on. Other pixels keep bytes of no meaning.
   void draw_only(const Window& window);
-  // Begins to draw every pixel with one sample: into the frame at Memory::frame.
+  // Begins to draw every pixel with one sample, into the frame at Memory::frame.
   void begin_first();
-  // Those that differ by more than `most` with so many samples: into the frame behind it.
+  // Begins to draw pixels that differ by more than `most`, with so many samples, into the frame behind it.
   void begin_again(int samples, int most);
-  // Called when a pass has ended; it may begin another one, from the next cycle on.
+  // The function is called when a pass has ended. It may begin another pass, from the next cycle on.
   void when_ended(std::function<void(const FrameEnd&)> call);
   void run();  // until a pass has ended and begun no other; throws what a stage has thrown
-  // One pass alone.
+  // Each of these draws one pass alone.
   FrameEnd draw_first();
   FrameEnd draw_again(int samples, int most);
 
-  // After an upload: lines of volume i (Pipe::caches) are others; or all is new.
+  // The host calls these after an upload: lines of volume i (Pipe::caches) are others, or all is new.
   void forget(std::size_t i, const std::vector<std::int64_t>& lines);
   void forget_all();
 
-  std::int64_t cycle() const override;  // of the present frame
-  // As tools see it: the channels inside of the pipes, and all stages.
+  std::int64_t cycle() const override;  // counted from the begin of the present frame
+  // Tools see the channels inside of the pipes, and all stages.
   std::vector<TokenChannel> token_channels() const override;
   void probe(ChannelProbe* probe) override;
   std::vector<StageClasses> stage_classes() const override;
@@ -95,12 +95,12 @@ class RayCaster final : public TokenSource {
 
  private:
   struct Machine;
-  std::unique_ptr<Simulation> own_;  // none: it is in somebody else's
+  std::unique_ptr<Simulation> own_;  // none if it is in somebody else's
   Simulation& simulation_;
   std::unique_ptr<Machine> machine_;
 };
 
-// Bytes of a frame in memory.
+// Returns the bytes of a frame in memory.
 std::int64_t frame_bytes(int width, int height);
 
 }  // namespace voxmelt::hwmodel::raycast

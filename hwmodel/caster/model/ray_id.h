@@ -1,4 +1,4 @@
-// The name of a ray in a picture.
+// A ray of a picture is named by its pixel, its sample, and a buffer.
 #pragma once
 
 #include <cstdint>

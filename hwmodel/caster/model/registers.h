@@ -1,5 +1,5 @@
-// What the host writes into the ray caster's registers and small memories before a picture. Everything that
-// all rays share; nothing of a ray is computed here.
+// The host writes into the ray caster's registers and small memories before a picture. They hold everything
+// that all rays share. Nothing of a ray is computed here.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// Only pixels in it are drawn: as it is, the whole picture.
+// Only pixels in the window are drawn. By default it is the whole picture.
 struct Window {
   std::int32_t left = 0, top = 0;
   std::int32_t right = 1 << 30, bottom = 1 << 30;  // the first ones beyond
@@ -19,7 +19,7 @@ struct Window {
   bool holds(std::int32_t x, std::int32_t y) const {
     return x >= left && y >= top && x < right && y < bottom;
   }
-  // Of a tile or another box of pixels.
+  // Says if a tile, or another box of pixels, has pixels in the window.
   bool meets(std::int32_t x, std::int32_t y, std::int32_t side) const {
     return x + side > left && y + side > top && x < right && y < bottom;
   }
@@ -27,7 +27,7 @@ struct Window {
   friend bool operator==(const Window&, const Window&) = default;
 };
 
-// The view of a camera (docs/picture/definition.md, section 3).
+// Holds the view of a camera (docs/picture/definition.md, section 3).
 struct CameraRegisters {
   Vec eye, forward, wide, high, near_wide, near_high;
   std::int64_t near = 0;
@@ -41,7 +41,7 @@ struct Material {
   std::int32_t gloss = 0;
 };
 
-// Light and look (docs/picture/light.md, sections 1 and 2).
+// Holds light and look (docs/picture/light.md, sections 1 and 2).
 struct LookRegisters {
   Vec to_light, to_strip;
   Rgb lamp{}, from_below{}, from_above{}, background{};
@@ -58,12 +58,12 @@ struct LookRegisters {
   std::vector<std::uint8_t> bytes;  // by light 0 .. 4096
 };
 
-// What is known of the ground without its columns (ground_blocks.h).
-inline constexpr int kFineBits = 22;    // of a position in a block of 4 x 4 cells
-inline constexpr int kCoarseBits = 24;  // 16 x 16
+// Blocks tell of the ground without its columns (ground_blocks.h).
+inline constexpr int kFineBits = 22;    // bits of a position in a block of 4 x 4 cells
+inline constexpr int kCoarseBits = 24;  // bits of a position in a block of 16 x 16 cells
 inline constexpr int kBoundShift = 6;   // bounds are in 2^-6 cells, heights in 2^-12
 
-// Of all places of a block. 17 bits each.
+// Holds bounds for all places of a block, 17 bits each.
 struct GroundBlock {
   std::int32_t highest = 0;
   std::int32_t slope_x = 0, slope_z = 0;  // the largest differences of two columns side by side
@@ -83,20 +83,21 @@ struct GroundBlocks {
   }
 };
 
-// The slab (docs/picture/ground.md). Heights and texels lie in memory.
+// Holds the slab (docs/picture/ground.md). Heights and texels lie in memory.
 struct GroundRegisters {
   bool any = false;
   std::int64_t highest = 0;  // 2^-12 cells
   GroundBlocks blocks;
   Rgb color{};
   bool textured = false;
-  int fineness = 0;                                // q of section 7
+  int fineness = 0;                                // q of docs/picture/ground.md, section 7
   std::vector<std::int32_t> bands;                 // the noise of bands, by quarters of a cell
-  std::array<std::vector<std::int32_t>, 4> bends;  // of low x, high x, low z, high z
+  std::array<std::vector<std::int32_t>, 4> bends;  // at low x, high x, low z, high z
 };
 
-// What of the field is empty: a word for each block of 4 x 4 x 4 lower cells of the lattice. 16 bits: a block
-// with matter has its slope bound, 1 .. 255, in the low byte; another has 256 + its distance in blocks.
+// Tells where the field is empty: a word of 16 bits for each block of 4 x 4 x 4 lower cells of the lattice. A
+// block with matter has its slope bound, 1 .. 255, in the low byte. Any other has 256 + its distance in
+// blocks.
 struct SkipMap {
   int x = 0, y = 0, z = 0;  // blocks
   std::vector<std::uint16_t> words;
@@ -108,7 +109,7 @@ struct SkipMap {
 };
 
 struct Registers {
-  Vec cells;  // of the grid
+  Vec cells;  // cells of the grid
   CameraRegisters camera;
   LookRegisters look;
   GroundRegisters ground;

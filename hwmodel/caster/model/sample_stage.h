@@ -1,4 +1,4 @@
-// The sampler: eight levels to one, a sample a cycle.
+// The sampler makes one level of eight, a sample a cycle.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ class SampleStage final : public Stage {
   Fifo<LevelToken>* to_stretch_ = nullptr;
 };
 
-// Several that ask the same memory, on one channel. The first of them comes first.
+// Joins several that ask the same memory, on one channel. The first of them comes first.
 template <class Request>
 class AskStage final : public Stage {
  public:

@@ -1,4 +1,4 @@
-// Ray set-up: tiles to the rays of their pixels, one a cycle.
+// Ray set-up turns tiles into the rays of their pixels, one a cycle.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// Tiles take turns: so rays that need many samples mix with those that need none.
+// Tiles take turns, so that rays that need many samples mix with those that need none.
 template <class Faults = NoFaults>
 class SetupStage final : public Stage {
  public:
@@ -29,7 +29,7 @@ class SetupStage final : public Stage {
  private:
   struct Open {
     TileOrder tile;
-    std::uint64_t left = 0;  // 0: there is no tile
+    std::uint64_t left = 0;  // pixels, a bit each; 0 if there is no tile
     int sample = 0;
   };
 

@@ -1,4 +1,5 @@
-// The colour of a surface (docs/picture/light.md, sections 3, 5 and 6), in the parts that the stages compute.
+// The colour of a surface (docs/picture/light.md, sections 3, 5 and 6) is split into the parts that stages
+// compute.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@ struct MatterBytes {
   std::int32_t liquid = 0, heat = 0, obstacle = 0;
   friend bool operator==(const MatterBytes&, const MatterBytes&) = default;
 };
-// `words`: eight, x fastest: liquid + 256 heat + 65536 obstacle.
+// The `words` are eight, x fastest: liquid + 256 heat + 65536 obstacle.
 inline MatterBytes matter_of(const std::uint32_t* words, const Spots& at) {
   const auto byte = [&](int shift) {
     const auto w = [&](std::size_t i) { return std::int64_t{(words[i] >> shift) & 255}; };
@@ -27,7 +28,7 @@ inline MatterBytes matter_of(const std::uint32_t* words, const Spots& at) {
           static_cast<std::int32_t>(byte(16))};
 }
 
-using LightWord = std::array<std::uint8_t, 16>;  // of a cell of light: lamp, open, nothing, glow
+using LightWord = std::array<std::uint8_t, 16>;  // cell of light: lamp, open, nothing, glow
 struct Light {
   std::int32_t lamp = 255;
   std::array<std::int32_t, 6> open{}, glow{};
@@ -47,7 +48,7 @@ inline Light light_of(const LightWord* words, const Spots& at, bool glow) {
   }
   return light;
 }
-// Six sides as seen along a direction.
+// Returns six sides as seen along a direction.
 inline std::int64_t seen(const std::array<std::int32_t, 6>& sides, Vec r) {
   const auto part = [&](std::int64_t c, std::size_t axis) {
     return ((c * c) >> 14) * sides[2 * axis + (c < 0 ? 1 : 0)];
@@ -55,7 +56,7 @@ inline std::int64_t seen(const std::array<std::int32_t, 6>& sides, Vec r) {
   return std::min<std::int64_t>((part(r.x, 0) + part(r.y, 1) + part(r.z, 2)) >> 14, 255);
 }
 
-// What reaches a surface. A normal that is a unit too long may get an ambient light of -1.
+// Holds what reaches a surface. A normal that is a unit too long may get an ambient light of -1.
 struct Arriving {
   std::int64_t lamp = 0, facing = 0, lit = 0;
   Rgb light{};
@@ -77,7 +78,7 @@ inline Arriving arriving_of(const LookRegisters& look, Vec normal, const Light& 
   return arriving;
 }
 
-// What matter is at a place, mixed.
+// Holds what matter is at a place, mixed.
 struct Mixture {
   std::int32_t l = 0, w = 0;
   Material material;
@@ -107,7 +108,7 @@ inline Mixture mixture_of(const LookRegisters& look, const MatterBytes& bytes) {
   return mixture;
 }
 
-// What a surface mirrors, and of what.
+// Holds how much a surface mirrors, and of what.
 struct Mirrored {
   std::int64_t peak = 0, eye = 0, more = 0, free = 0;
   Vec reflected;
@@ -150,14 +151,14 @@ inline Mirrored mirrored_of(const LookRegisters& look, Vec normal, Vec to_eye, c
   return mirrored;
 }
 
-// What a surface scatters of the light that arrives.
+// Returns the part of the arriving light that a surface scatters.
 inline Rgb scattered_color(const Arriving& arriving, const Rgb& color) {
   Rgb result{};
   for (std::size_t c = 0; c < 3; ++c)
     result[c] = static_cast<std::int32_t>((std::int64_t{arriving.light[c]} * color[c]) >> 12);
   return result;
 }
-// What it mirrors, and its highlight.
+// Returns the light that it mirrors, with its highlight.
 inline Rgb gleam_of(const Mixture& mixture, const Mirrored& mirror) {
   Rgb gleam{};
   for (std::size_t c = 0; c < 3; ++c) {

@@ -1,5 +1,5 @@
-// Shading in four stages (docs/picture/light.md, sections 6 and 7): what arrives and what matter is, what it
-// mirrors, the sum, and the pressing of bright light. A surface a cycle.
+// Shading takes four stages (docs/picture/light.md, sections 6 and 7): what arrives and what matter is, what
+// it mirrors, the sum, and the pressing of bright light. Each of them takes a surface a cycle.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// One surface in, one out.
+// Takes one surface in, and gives one out.
 class SurfaceStage : public Stage {
  public:
   SurfaceStage(std::string name, const Registers& registers)

@@ -1,4 +1,4 @@
-// A stage of the ray caster: one evaluation a cycle, of which each is exactly one of six.
+// A stage of the ray caster is evaluated once a cycle. Each evaluation is of exactly one of six kinds.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace voxmelt::hwmodel::raycast {
 
 enum class Did : std::uint8_t { busy, starved, blocked, memory };
 
-// `memory`: it waits for the memory. `fill`: before its first token came, and `drain`: after its last one.
+// In `memory` it waits for the memory. `fill` is before its first token came, and `drain` after its last one.
 struct Account {
   std::int64_t busy = 0, starved = 0, blocked = 0, memory = 0, fill = 0, drain = 0;
   std::int64_t total() const { return busy + starved + blocked + memory + fill + drain; }
@@ -22,7 +22,7 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  // One cycle. Tells whether anything moved.
+  // Runs one cycle. Tells whether anything moved.
   bool run() {
     const Did did = cycle();
     waits_ = did == Did::memory;
@@ -35,7 +35,7 @@ class Stage {
     ++(did == Did::busy ? account_.busy : did == Did::blocked ? account_.blocked : account_.memory);
     return did == Did::busy;
   }
-  // After the last cycle: what was idle since the last token is drain.
+  // Ends the pass after its last cycle. The cycles that were idle since the last token are drain.
   void end_pass() {
     account_.drain += std::exchange(idle_, 0);
     started_ = false;

@@ -1,7 +1,8 @@
-// A ray through clear matter (docs/picture/translucent.md, section 3): stretch by stretch to the surface at
-// which it leaves, and back to the walk, until it ends. It tells what is on the ray, in order: surfaces and
-// ways, and at last the ground or the background. One event a cycle leaves. A ray asks for one sample at a
-// time, because one that lies behind the surface would be read in vain; other rays fill the time.
+// The stretch stage leads a ray through clear matter (docs/picture/translucent.md, section 3). The ray goes
+// stretch by stretch to the surface at which it leaves, and back to the walk, until it ends. The stage tells
+// what is on the ray, in order: surfaces and ways, and at last the ground or the background. One event a
+// cycle leaves. A ray asks for one sample at a time, because one that lies behind the surface would be read
+// in vain. Other rays fill the time.
 #pragma once
 
 #include <array>
@@ -58,15 +59,15 @@ class StretchStage final : public Stage {
     GroundedRay ray;
     Vec to_eye;
     UInt<15> length;
-    std::int64_t last = 0;  // the sample before the ground
+    std::int64_t last = 0;  // last sample before the ground
     std::int64_t k = 0;     // a sample in matter, its position and level
     Vec at;
-    std::int16_t level = 0, beyond = 0;  // there, and at sample k + 1
-    std::int16_t span = 0;               // how often the ray has entered matter before
-    int steps = 0;                       // of the stretch
-    UInt<18> way;                        // of the stretch
-    std::int32_t told = 0;               // events
-    std::array<Event, 3> events{};       // to be told
+    std::int16_t level = 0, beyond = 0;  // levels of sample k, and of sample k + 1
+    std::int16_t span = 0;               // times that the ray has entered matter before
+    int steps = 0;                       // steps of the stretch so far
+    UInt<18> way;                        // way of the stretch so far
+    std::int32_t told = 0;               // number of events that were told
+    std::array<Event, 3> events{};       // events that are to be told
     int first = 0, count = 0;
     Next next = Next::nothing;
   };
@@ -131,7 +132,7 @@ class StretchStage final : public Stage {
     context.way = 0;
     context.steps = 0;
   }
-  // At the ground, or nowhere.
+  // Ends a ray at the ground, or nowhere.
   void end(int i, bool dark = false) {
     Context& context = at(i);
     const GroundHit& ground = context.ray.ground;
@@ -145,7 +146,7 @@ class StretchStage final : public Stage {
     telling_.push_back(i);
   }
 
-  // At a surface from air.
+  // Takes a ray that meets a surface from air.
   void entered(const MetToken& met) {
     const int i = met.context;
     if (met.span == 0) begin(met);
@@ -170,7 +171,7 @@ class StretchStage final : public Stage {
     context.way = part_of_step(context.length, 2048 - met.matter.part, 11);
     proceed(i);
   }
-  // Behind a sample in matter.
+  // Goes on behind a sample in matter.
   void proceed(int i) {
     Context& context = at(i);
     if (context.k == context.last) {
@@ -197,7 +198,7 @@ class StretchStage final : public Stage {
     ++context.steps;
     proceed(i);
   }
-  // At the surface to air.
+  // Takes a ray that meets the surface to air.
   void left(const MetToken& met) {
     Context& context = at(met.context);
     context.way = context.way + part_of_step(context.length, 2048 - met.matter.part, 11);

@@ -1,6 +1,6 @@
-// In which order the tiles of a picture are dealt. Air, matter and ground load different stages. So tiles
-// come in turn from several bands of rows, and from another place along each of them: then a pipe has some of
-// all.
+// Tiles of a picture are dealt in an order that gives a pipe some of all. Air, matter and ground load
+// different stages. So tiles come in turn from several bands of rows, and from another place along each of
+// them.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ class TileTurns {
       : tiles_x_(tiles_x), tiles_y_(tiles_y), bands_(std::min(bands, tiles_y)) {
     rows_ = bands_ == 0 ? 0 : (tiles_y_ + bands_ - 1) / bands_;
   }
-  // Numbers of turns; in some of them there is no tile: the last band may have fewer rows.
+  // Returns the number of turns. In some of them there is no tile, because the last band may have fewer rows.
   int count() const { return rows_ * tiles_x_ * bands_; }
   struct Tile {
     int x = 0, y = 0;
@@ -30,8 +30,8 @@ class TileTurns {
 
  private:
   static constexpr int kBandBits = 6;
-  // Where a band begins in its row, in 64ths: the bits of its number, mirrored. So bands that are at the same
-  // place of their rows lie far apart.
+  // Returns the place in its row at which a band begins, in 64ths: the bits of its number, mirrored. So bands
+  // that are at the same place of their rows lie far apart.
   static int mirrored(int band) {
     int part = 0;
     for (int bit = 1 << (kBandBits - 1); band > 0; band >>= 1, bit >>= 1) part += (band & 1) * bit;

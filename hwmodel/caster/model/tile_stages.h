@@ -1,5 +1,5 @@
-// Tiles: which of their pixels are to be drawn, where the samples of a pixel come together, and how the bytes
-// return to memory (docs/picture/definition.md, section 10).
+// Tile stages find the pixels of a tile that are to be drawn, gather the samples of a pixel, and return the
+// bytes to memory (docs/picture/definition.md, section 10).
 #pragma once
 
 #include <algorithm>
@@ -24,12 +24,12 @@ inline constexpr int kTilePixels = kTileSide * kTileSide;
 inline constexpr int kTileBytes = 3 * kTilePixels;  // row by row: red, green, blue
 using TileBytes = std::array<std::uint8_t, kTileBytes>;
 
-// How a frame lies in memory: tile by tile, row by row. The second pass reads the first frame and writes
-// another one.
+// A frame lies in memory tile by tile, row by row. The second pass reads the first frame and writes another
+// one.
 struct FrameRegisters {
   std::int64_t read = 0, write = 0;  // addresses
   int tiles_x = 0, tiles_y = 0;
-  int samples = 8, most = 16;  // of the second pass: of pixels that differ by more than `most`
+  int samples = 8, most = 16;  // second pass, for pixels that differ by more than `most`
   Window window;
 
   std::int64_t address(std::int64_t frame, int tile_x, int tile_y) const {
@@ -39,7 +39,7 @@ struct FrameRegisters {
 
 struct TileBuffer {
   TileJob job;
-  int samples = 1, left = 0;  // pixels that are not complete
+  int samples = 1, left = 0;  // left: pixels that are not complete
   std::array<Rgb, kTilePixels> sums{};
   std::array<std::uint8_t, kTilePixels> counts{};
   TileBytes bytes{};
@@ -51,7 +51,7 @@ struct TileBuffers {
   TileBuffer& at(int i) { return all[static_cast<std::size_t>(i)]; }
   std::vector<TileBuffer> all;
   std::vector<int> free;
-  std::deque<int> complete;  // to be written
+  std::deque<int> complete;  // numbers of buffers to be written
 };
 
 // Gives a tile its buffer, and finds its pixels. In the second pass it reads the tile and the four beside it.
@@ -123,7 +123,7 @@ class TileStage final : public Stage, public LineClient {
     const auto i = static_cast<std::size_t>(which);
     return {job.x / kTileSide + kX[i], job.y / kTileSide + kY[i]};
   }
-  // Bits of the neighbours: left, right, above, below.
+  // There is a bit for each neighbour: left, right, above, below.
   static constexpr unsigned kBeside = 15;
   std::uint64_t pixels_of(const TileJob& job, int most, unsigned beside) const {
     std::uint64_t pixels = 0;
@@ -189,7 +189,7 @@ class PixelStage final : public Stage {
     PixelToken& pixel = *out_->put();
     pixel.id = token.id;
     for (std::size_t c = 0; c < 3; ++c) {
-      // All light is the most there is, unless a ray came twice, which a checker tells.
+      // The mean is full light at most, unless a ray came twice, which a checker tells.
       const int light = std::min((buffer.sums[at][c] + buffer.samples / 2) / buffer.samples,
                                  static_cast<int>(registers_.look.bytes.size()) - 1);
       pixel.bytes[c] = registers_.look.bytes[static_cast<std::size_t>(light)];

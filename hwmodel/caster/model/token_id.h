@@ -1,4 +1,4 @@
-// The ray, or the first pixel of the tile, that a token is about.
+// A token tells which ray it is about, or the first pixel of which tile.
 #pragma once
 
 #include <concepts>

@@ -1,7 +1,6 @@
-// How every number is called that a channel carries and a later stage reads, and how wide it is. What only
-// the checker reads is no wire. A visitor gets (name, bits, has a sign, value) of each number: it sums the
-// bits (cost.h), shows the values (channel_wires.h), or checks that they fit, as a test does in running
-// pictures.
+// Every number that a channel carries and a later stage reads has a name and a width. A number that only the
+// checker reads is no wire. A visitor gets (name, bits, has a sign, value) of each number. It sums the bits
+// (cost.h), shows the values (channel_wires.h), or checks that they fit, as a test does in running pictures.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +13,13 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// What wires depend on: the configuration, and whether matter is clear.
+// Wires depend on the configuration, and on whether matter is clear.
 struct ContextBits {
-  int rays = 6, buffers = 2;  // numbers of rays under way, and of tile buffers
+  int rays = 6, buffers = 2;  // bits for numbers of rays under way, and of tile buffers
   bool clear = false;         // a ray goes on through matter, and a surface is an event on it
 };
 
-// A number, a part of one, or one of several.
+// Names a number, a part of one, or one of several.
 struct WireName {
   const char* stem;
   const char* part = "";
@@ -94,7 +93,7 @@ void wires_of(const LevelRequest& request, const ContextBits& context, Visit&& v
   visit(WireName{"context"}, context.rays, false, request.context);
   vector_wires("at", request.at, 32, visit);
 }
-// Levels, and the weights of their place.
+// Visits levels, and the weights of their place.
 template <class Visit>
 void wires_of(const Levels& levels, const ContextBits& context, Visit&& visit) {
   const LevelRequest& request = levels.request;
@@ -124,7 +123,7 @@ void wires_of(const HitToken& hit, const ContextBits& context, Visit&& visit) {
   visit(WireName{"before"}, 16, true, hit.knows_before ? hit.before : 0);
   if (context.clear) visit(WireName{"first"}, 1, false, hit.span == 0 ? 1 : 0);  // the ray's first matter
 }
-// Of a ray that leaves matter: the rest of it has stayed in the stretch.
+// Visits the wires of a ray that leaves matter. The rest of it has stayed in the stretch.
 template <class Visit>
 void wires_of_exit(const HitToken& hit, const ContextBits& context, Visit&& visit) {
   visit(WireName{"context"}, context.rays, false, hit.context);
@@ -177,14 +176,14 @@ void wires_of(const PixelToken& token, const ContextBits& context, Visit&& visit
   color_wires("byte", {token.bytes[0], token.bytes[1], token.bytes[2]}, 8, visit);
 }
 
-// One of each side of a cell.
+// Visits one wire for each side of a cell.
 template <class Sides, class Visit>
 void side_wires(const char* name, const Sides& sides, Visit&& visit) {
   for (std::size_t i = 0; i < sides.size(); ++i)
     visit(WireName{name, "", static_cast<int>(i)}, 8, false, std::int64_t{sides[i]});
 }
 
-// A surface behind the stages that work on it, in their order: what is there and still needed.
+// A surface passes the stages that work on it in this order. Its wires hold what is there and still needed.
 enum class Behind : std::uint8_t { met, normal, paint, texture, matter, light, arriving, mirror, colour };
 template <class Visit>
 void wires_of(const Surface& s, Behind stage, const ContextBits& context, Visit&& visit) {
@@ -207,7 +206,7 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& context, Visit&
   }
   if (stage == Behind::light) {
     visit(WireName{"lamp"}, 8, false, s.light.lamp);
-    if (!context.clear)  // it does not glow
+    if (!context.clear)  // clear matter does not glow
       side_wires("glow", s.light.glow, visit);
   }
   if (from(Behind::light) && until(Behind::arriving)) side_wires("open", s.light.open, visit);

@@ -1,4 +1,4 @@
-// What the channels of a pipe carry.
+// The channels of a pipe carry these tokens.
 #pragma once
 
 #include <array>
@@ -15,20 +15,20 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// A tile of the picture that a pipe is to draw. The first pass draws all of its pixels with one sample, the
-// second one those that differ from their neighbours, with more.
+// Names a tile of the picture that a pipe is to draw. The first pass draws all of its pixels with one sample.
+// The second one draws those that differ from their neighbours, with more samples.
 struct TileJob {
-  std::int32_t x = 0, y = 0;  // of its first pixel
+  std::int32_t x = 0, y = 0;  // first pixel
   bool second = false;
 };
-// The same with a buffer, and the pixels that are to be drawn: bit 8 y + x.
+// Adds a buffer to a tile, and the pixels that are to be drawn: bit 8 y + x.
 struct TileOrder {
   std::int32_t x = 0, y = 0;
   std::int16_t buffer = 0, samples = 1;
   std::uint64_t pixels = 0;
 };
 
-// Places of samples in a pixel, in 64ths (docs/picture/definition.md, section 10).
+// Holds the place of a sample in a pixel, in 64ths (docs/picture/definition.md, section 10).
 struct Sub {
   std::int64_t across = 32, down = 32;
 };
@@ -57,14 +57,14 @@ struct MetToken {
   Ray ray;
   GroundHit ground;
   Crossing matter;
-  // Of a ray that goes on through clear matter: its place in the walk, how often it has entered matter
-  // before, whether it leaves it here, and the sample in matter.
+  // A ray that goes on through clear matter has these. They tell its place in the walk, how often it has
+  // entered matter before, whether it leaves it here, and the sample in matter.
   std::int16_t context = 0, span = 0;
   bool leaves = false;
   std::int16_t level = 0;
   Vec at{};
 };
-// Such a ray returns to the walk: it has left matter, and sample k is known to be air.
+// Returns such a ray to the walk: it has left matter, and sample k is known to be air.
 struct OnwardToken {
   std::int16_t context = 0;
   std::int64_t k = 0;
@@ -72,13 +72,13 @@ struct OnwardToken {
   std::int16_t level = 0;
 };
 
-// Who wants levels.
+// Names the stage that wants levels.
 enum class Asker : std::uint8_t { walk, crossing, normal, stretch };
 struct LevelRequest {
   Asker asker = Asker::walk;
-  std::int16_t context = 0;  // of the ray under way
+  std::int16_t context = 0;  // number of the ray under way
   RayId id;
-  std::int64_t k = 0;  // of the walk: which sample
+  std::int64_t k = 0;  // number of the sample in the walk
   Vec at;              // in the lattice
 
   std::size_t kind_index() const { return asker == Asker::normal ? 1 : 0; }
@@ -106,13 +106,13 @@ struct LevelRequest {
 using LevelGather = Gather<LevelRequest, std::int16_t, 27>;
 using Levels = LevelGather::Out;
 
-// A sample.
+// Answers a request with a sample.
 struct LevelToken {
   LevelRequest request;
   std::int16_t level = 0;
 };
 
-// Bytes of matter around a position.
+// Asks for the bytes of matter around a position.
 struct MatterRequest {
   Spots at;
   RayId id;
@@ -129,7 +129,7 @@ struct MatterRequest {
 };
 using MatterGather = Gather<MatterRequest, std::uint32_t, 8>;
 
-// Cells of light, or columns, or texels: those beyond are the nearest inside.
+// Asks for cells of light, or columns, or texels. Those beyond the edge are the nearest inside.
 struct ClampedRequest {
   Spots at;
   std::array<std::int32_t, 3> count{1, 1, 1};
@@ -154,7 +154,7 @@ using LightGather = Gather<ClampedRequest, LightWord, 8>;
 using ColumnGather = Gather<ClampedRequest, Column, 16>;
 using TexelGather = Gather<ClampedRequest, Texel, 8>;
 
-// Of an event on a ray through clear matter: which ray of those under way, and which of its events.
+// Tells of an event on a ray through clear matter which of the rays under way it is on, and its number there.
 struct ClearEvent {
   std::int16_t context = 0;
   bool leaves = false;  // the ray leaves matter here
@@ -162,8 +162,8 @@ struct ClearEvent {
   std::int32_t way = 0;
   Rgb gleam{};
 };
-// A surface that a ray meets, or the background, on its way to a colour; in clear matter a way, too. Each
-// stage adds what it finds.
+// Describes a surface that a ray meets, or the background, on its way to a colour. In clear matter it may be
+// a way, too. Each stage adds what it finds.
 struct Surface {
   enum class Kind : std::uint8_t { background, matter, ground, way };
   RayId id;
@@ -174,7 +174,7 @@ struct Surface {
   std::int64_t depth = 65535;
   Vec to_eye, normal;
   MatterBytes matter;
-  Rgb color{};  // of the ground
+  Rgb color{};  // colour of the ground
   Light light;
   Mixture mixture;
   Arriving arriving;
@@ -182,7 +182,7 @@ struct Surface {
   Rgb sum{};
   ClearEvent clear;
 };
-// A ray through clear matter at its end, and the light behind.
+// Describes a ray through clear matter at its end, and the light behind.
 struct PassedToken {
   RayId id;
   bool on_ground = false;
@@ -194,7 +194,7 @@ struct PressedToken {
   Rgb pressed{};
 };
 struct PixelToken {
-  RayId id;  // of its last sample
+  RayId id;  // its last sample
   std::array<std::uint8_t, 3> bytes{};
 };
 

@@ -1,5 +1,5 @@
-// Between two pictures: what the host sends on its way to the ray caster. Words of registers and small
-// memories come first, one a cycle. Bursts follow, as fast as the memory's bus takes them.
+// Between two pictures the host sends an upload to the ray caster. Words of registers and small memories come
+// first, one a cycle. Bursts follow, as fast as the memory's bus takes them.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@
 namespace voxmelt::hwmodel::raycast {
 
 struct Upload {
-  std::int64_t words = 0;               // of registers and small memories
-  std::vector<std::int64_t> addresses;  // of bursts
+  std::int64_t words = 0;               // words of registers and small memories
+  std::vector<std::int64_t> addresses;  // addresses of the bursts
   std::vector<std::uint8_t> bytes;      // kBurst for each of them
 
   std::int64_t bursts() const { return static_cast<std::int64_t>(addresses.size()); }
@@ -29,7 +29,7 @@ struct Upload {
 
 class UploadStage final : public Stage {
  public:
-  // `bus_bytes` of a cycle; a DRAM takes bursts as it can.
+  // The bus takes `bus_bytes` in a cycle. A DRAM takes bursts as it can.
   UploadStage(const Upload& upload, int bus_bytes)
       : Stage("upload"),
         upload_(upload),
@@ -69,7 +69,7 @@ struct UploadEnd {
   std::int64_t cycles = 0;
   Account account;
 };
-// Sends it all. It takes no SystemC: nothing else runs between two pictures.
+// Sends it all. It takes no SystemC, because nothing else runs between two pictures.
 UploadEnd run_upload(const Upload& upload, Memory& memory, const Configuration& configuration);
 
 }  // namespace voxmelt::hwmodel::raycast

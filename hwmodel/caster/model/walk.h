@@ -1,5 +1,5 @@
-// How many samples a ray may leave out: to the box of what is occupied, through empty blocks, and where the
-// field cannot rise to the surface so fast. Never one too many; one too few costs a cycle.
+// A ray may leave out samples: to the box of what is occupied, through empty blocks, and where the field
+// cannot rise to the surface so fast. It never leaves out one too many, and one too few costs a cycle.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-inline constexpr int kBlockBits = 22;                                      // of a block of four places
-inline constexpr std::int64_t kMostSamples = (std::int64_t{1} << 27) - 1;  // of a ray
+inline constexpr int kBlockBits = 22;  // bits of a position in a block of four places
+inline constexpr std::int64_t kMostSamples = (std::int64_t{1} << 27) - 1;  // samples of a ray
 
 struct Walker {
   Vec at, step;  // in the lattice
@@ -27,7 +27,8 @@ inline Walker walker_of(const Ray& ray) {
           inverse_of(ray.step.z)};
 }
 
-// Samples until the box low <= position < high; 0 within it; nothing if the ray misses it.
+// Counts samples until the box low <= position < high. It is 0 within the box, and nothing if the ray misses
+// it.
 inline std::optional<std::int64_t> steps_to_box(const Walker& walker, Vec low, Vec high) {
   std::int64_t steps = 0;
   bool misses = false;
@@ -48,7 +49,7 @@ inline std::optional<std::int64_t> steps_to_box(const Walker& walker, Vec low, V
   return std::min(steps, kMostSamples);
 }
 
-// Samples until the ray leaves the blocks that are less than `reach` blocks away.
+// Counts samples until the ray leaves the blocks that are less than `reach` blocks away.
 inline std::int64_t steps_out(const Walker& walker, std::int64_t reach) {
   constexpr std::int64_t kMask = (std::int64_t{1} << kBlockBits) - 1;
   const auto axis = [&](std::int64_t q, std::int64_t step, Inverse inverse) {
@@ -62,15 +63,15 @@ inline std::int64_t steps_out(const Walker& walker, std::int64_t reach) {
       std::min(axis(walker.at.y, walker.step.y, walker.y), axis(walker.at.z, walker.step.z, walker.z)));
 }
 
-// 2^20 / (3 slope), rounded down: a memory of 256 words.
+// Tabulates 2^20 / (3 slope), rounded down: a memory of 256 words.
 inline constexpr auto kRises = [] {
   std::array<std::uint32_t, 256> values{};
   for (std::uint32_t slope = 1; slope < 256; ++slope) values[slope] = (1u << 20) / (3 * slope);
   values[0] = (1u << 20) - 1;
   return values;
 }();
-// Samples until the level may reach 0, where it rises by no more than 768 slope per cell. Weights are rounded
-// to 1/256 cell, which moves a level by 768 / 512 slope at either end; blends err by 3/2 each.
+// Counts samples until the level may reach 0, if it rises by no more than 768 slope per cell. Weights are
+// rounded to 1/256 cell, which moves a level by 768 / 512 slope at either end. Blends err by 3/2 each.
 inline std::int64_t steps_to_rise(std::int64_t level, std::int64_t slope, int spacing) {
   const std::int64_t margin = -level - 4 - 3 * slope;
   if (margin <= 0) return 1;

@@ -1,4 +1,4 @@
-// The walk: rays under way look for their first sample in matter. In each cycle some of them take a step
+// In the walk, rays under way look for their first sample in matter. In each cycle some of them take a step
 // through air, one is sampled and one may begin. So no ray waits for another one's memory.
 #pragma once
 
@@ -17,22 +17,22 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-// A ray in matter, on its way to the crossing. Its place in the walk stays taken until then.
+// Takes a ray in matter to the crossing. The ray's place in the walk stays taken until then.
 struct HitToken {
   std::int16_t context = 0;
   GroundedRay ray;
   std::int64_t k = 0;
-  Vec at;                     // of sample k, in the lattice
-  std::int16_t level = 0;     // there
-  bool knows_before = false;  // the level of sample k - 1
+  Vec at;                     // place of sample k, in the lattice
+  std::int16_t level = 0;     // level of sample k
+  bool knows_before = false;  // the level of sample k - 1 is known
   std::int16_t before = 0;
-  // In clear matter: how often the ray has entered it before; here it leaves it, and `before` is the level of
-  // sample k + 1.
+  // In clear matter, `span` tells how often the ray has entered it before. If the ray leaves it here,
+  // `before` is the level of sample k + 1.
   std::int16_t span = 0;
   bool leaves = false;
 };
 
-// Why samples are left out.
+// Tells why samples are left out.
 enum class Leap : std::uint8_t { to_box, out_of_block, through_air };
 
 struct WalkCounts {
@@ -60,7 +60,7 @@ class WalkStage final : public Stage {
   }
   // Rays go on through clear matter: they return from there, and keep their places until they end.
   void connect_onward(Fifo<OnwardToken>& onward) { onward_ = &onward; }
-  // The crossing is done with a ray.
+  // This is called when the crossing is done with a ray.
   void crossed(int context) {
     if (onward_ == nullptr) give_back(context);
   }
@@ -208,7 +208,7 @@ class WalkStage final : public Stage {
     context.level = token.level;
     through_air(i);
   }
-  // From a sample whose level is known.
+  // Goes on from a sample whose level is known.
   void through_air(int i) {
     Context& context = at(i);
     const std::int64_t rise = steps_to_rise(context.level, context.slope, registers_.camera.spacing);

@@ -1,4 +1,4 @@
-// What a memory did, in words and as JSON.
+// The report of a memory tells what it did, in words and as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -55,7 +55,7 @@ nlohmann::ordered_json json_of(const PipeCost& cost) {
   return json;
 }
 
-// Upper bounds of rays a cycle, each below the one before, and what the run reached.
+// Lists upper bounds of rays a cycle, each below the one before, and the rate that the run reached.
 nlohmann::ordered_json bounds(const PictureReport& report, const Configuration& c) {
   const auto share = [](const Account& a, std::int64_t cycles) { return ratio(cycles, a.total()); };
   const auto busiest = std::max_element(
@@ -172,7 +172,7 @@ Json json_of(const Difference& d) {
   return json;
 }
 
-// What the machine did: cycles, and what moved.
+// Adds what the machine did: cycles, and the amounts that moved.
 void add_counts(Json& json, const PictureReport& report) {
   json["cycles"] = report.all_cycles;
   json["cycles_of_last_frame"] = report.end.cycles;

@@ -1,4 +1,4 @@
-// What a run of the ray caster says: the table and the verdict.
+// The report of a ray caster's run is a table and a verdict.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

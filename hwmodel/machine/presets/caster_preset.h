@@ -1,4 +1,4 @@
-// The keys of the ray caster, and of clock and memory, in a table `hw`.
+// The keys of the ray caster, the clock and the memory are read from the table `hw`.
 #pragma once
 
 #include "hwmodel/caster/model/configuration.h"
@@ -6,11 +6,12 @@
 
 namespace voxmelt::hwmodel {
 
-// The keys `clock_mhz` and `memory` ("fixed", or as in hwmodel/memory/sheet.h) of [hw].
+// Reads the keys `clock_mhz` and `memory` of [hw]. The memory is "fixed", or a name or file as in
+// hwmodel/memory/sheet.h.
 void read_clock_and_memory(scene::Reader& hw, raycast::Configuration& configuration);
-// These, and `memory_trace`.
+// Reads these keys, and `memory_trace`.
 void read_memory(scene::Reader& hw, raycast::Configuration& configuration);
-// All of them.
+// Reads all of these, and the keys of the ray caster.
 void read_caster(scene::Reader& hw, raycast::Configuration& c);
 
 }  // namespace voxmelt::hwmodel

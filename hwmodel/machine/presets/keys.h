@@ -1,4 +1,4 @@
-// Reads the keys of a machine's table.
+// The keys of a machine's table are read by one loop over their descriptions.
 #pragma once
 
 #include <bit>
@@ -10,7 +10,7 @@
 
 namespace voxmelt::hwmodel {
 
-// What `hw` does not say stays as it is. Throws scene::InputError with its place.
+// Keeps the value of every key that `hw` lacks. Throws scene::InputError with the place of a bad value.
 template <class Keys, class Configuration>
 void read_keys(scene::Reader& hw, const Keys& keys, Configuration& configuration) {
   for (const Key<Configuration>& key : keys) {

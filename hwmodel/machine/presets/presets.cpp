@@ -44,12 +44,12 @@ Preset load_preset(const std::filesystem::path& file, const std::vector<std::str
   scene::Value document, options;
   if (!file.empty()) document = scene::read_document(file);
   for (const std::string& assignment : overrides) {
-    // What a trace needs may stand in the file.
+    // A trace needs a DRAM, which only the file may name. So this override is not checked alone.
     if (runs == Runs::pipeline || !assignment.starts_with("hw.memory_trace"))
       scene::apply_override(options, assignment);
     scene::apply_override(document, assignment);
   }
-  static_cast<void>(preset_of(options, runs));  // a key of what does not run is unknown
+  static_cast<void>(preset_of(options, runs));  // fails at a key of a part that does not run
   return preset_of(document, Runs::machine);
 }
 

@@ -1,5 +1,5 @@
-// Hardware configurations from TOML: a preset by name, a file of one's own, and --set hw.key=value. A file
-// describes the whole machine: the pipeline, the ray caster, and the memory and the clock of both.
+// Hardware configurations are read from TOML: a preset by name, a file of one's own, and --set hw.key=value.
+// A file describes the whole machine: the pipeline, the ray caster, and the memory and the clock of both.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,16 @@ namespace voxmelt::hwmodel {
 
 struct Preset {
   std::string title;
-  Configuration configuration;    // of the pipeline
-  raycast::Configuration caster;  // with the memory and the clock; has the same fifo_depth and stall_seed
+  Configuration configuration;    // pipeline
+  raycast::Configuration caster;  // ray caster, memory and clock; has the same fifo_depth and stall_seed
 };
 
-// What is to run: an override of what does not is an error. A file may have keys of all.
+// Names the parts that are to run. An override for any other part is an error. A file may have keys of all
+// parts.
 enum class Runs : std::uint8_t { pipeline, caster, machine };
 
-// Reads `file`; `overrides` are "hw.key=value", checked like the file. An empty path means the defaults.
-// Throws scene::InputError with its place.
+// Reads `file`, then applies `overrides` such as "hw.key=value", which are checked like the file. An empty
+// path means the defaults. Throws scene::InputError with its place.
 Preset load_preset(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                    Runs runs = Runs::pipeline);
 
