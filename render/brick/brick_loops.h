@@ -23,7 +23,7 @@ struct BrickSource {
   int count_x, count_y, count_z;  // cells inside the grid
 };
 
-// The cells of a scene without obstacles have no obstacle, and those of a look without glow no heat.
+// Points to the filtered shares of a field. Without obstacles `obstacle` is null, and without glow `heat` is.
 struct MatterSource {
   const std::uint16_t *solid, *liquid, *heat, *obstacle;  // obstacle and heat may be null
   const std::uint8_t* heats;                              // indexed by the temperature, 0 .. 256
