@@ -77,8 +77,7 @@ VOXMELT_RULE std::int32_t cosine(Vector a, Vector b) {
 template <class Watch = Silent>
 VOXMELT_RULE Color arriving(const Paint& paint, Vector normal, const Light& light, bool lit_by_glow,
                             Watch watch = {}) {
-  constexpr std::int32_t kWrap = 2458,
-                         kPressed = 14247;  // 0.15 and 1 / 1.15: light bleeds a little around
+  constexpr std::int32_t kWrap = 2458, kPressed = 14247;  // 0.15 and 1 / 1.15: light bleeds a little around
   const std::int32_t lamp = light.lamp + (light.lamp >> 7);
   const std::int32_t facing = cosine(normal, paint.to_light);
   const std::int32_t lit = (((std::max(facing + kWrap, 0) * kPressed) >> kNormalBits) * lamp) >> 8;
