@@ -121,12 +121,11 @@ void BrickWriter::write_intensity(const state::Grid& brick) {
 }
 
 void BrickWriter::put_matter() {
-  for_rows(fields_.grid, box_,
-           [&](std::size_t i, const state::Grid&, int) {  // the rows lie far apart in memory
-             __builtin_prefetch(fields_.solid.data() + i);
-             __builtin_prefetch(fields_.liquid.data() + i);
-             __builtin_prefetch(fields_.intensity.data() + i);
-           });
+  for_rows(fields_.grid, box_, [&](std::size_t i, const state::Grid&, int) {  // rows lie far apart in memory
+    __builtin_prefetch(fields_.solid.data() + i);
+    __builtin_prefetch(fields_.liquid.data() + i);
+    __builtin_prefetch(fields_.intensity.data() + i);
+  });
   intensity_.fill(0);
   for_rows(fields_.grid, box_, [&](std::size_t i, const state::Grid& cell, int cells) {
     std::uint16_t* to = &at(intensity_, cell.x, cell.y, cell.z);

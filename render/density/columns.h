@@ -82,10 +82,8 @@ class Columns {
   const Stand& stand(std::size_t column) const { return stands_[column]; }
   const Plan& plan(std::size_t column) const { return plans_[column]; }
   const Extent& planned(std::size_t brick) const { return planned_[brick]; }  // cells that its plans write
-  std::int32_t read_to(std::size_t brick) const {
-    return read_to_[brick];
-    // Returns the end of the cells on which stands depend.
-  }
+  // Returns the end of the cells on which stands depend.
+  std::int32_t read_to(std::size_t brick) const { return read_to_[brick]; }
   bool has_obstacles(std::size_t brick) const { return obstacles_[brick] != 0; }
   bool has_obstacles() const;
   const std::vector<std::int32_t>& ground() const { return ground_; }    // [z][x], 1/4096 cell, 0 for none
