@@ -115,7 +115,7 @@ class Columns {
 };
 
 // Tells whether a terrain has a height for every column of the grid. Only then it says what is ground. If all
-// heights are zero, nothing is.
+// heights are zero, no cell is ground.
 bool fits(const scene::Terrain& terrain, const state::Grid& grid);
 
 }  // namespace voxmelt::render

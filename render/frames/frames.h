@@ -19,7 +19,7 @@ class Frames {
  public:
   struct Plan {
     std::size_t count = 0;        // frames that are planned; fewer are no error
-    std::size_t frame_bytes = 0;  // one picture in memory; few large ones may wait
+    std::size_t frame_bytes = 0;  // bytes of a picture in memory; few large ones may wait
     int threads = 1;              // with one, all work is done in turn; with more, beside the caller
   };
 

@@ -28,7 +28,7 @@ struct DrawPacket : Packet<Arch> {
   // Holds what a packet meets. `matter` and `ground` are masks, and no lane is set in both.
   struct Met {
     V matter, ground;
-    V from_start;  // the eye is in it
+    V from_start;  // the eye is in matter or ground
     V face;        // face of the ground
     Triple position;
   };

@@ -1,5 +1,5 @@
-// The ray caster reads the field in this form. It has bricks of levels and of matter, and tells which of it
-// is empty (docs/picture/definition.md, section 12).
+// The ray caster reads the field in this form. It has bricks of levels and of matter, and tells which parts
+// are empty (docs/picture/definition.md, section 12).
 //
 // The lattice holds the cells -2 .. n + 1 of each axis, so a lattice place is cell + 2. Brick b covers
 // samples whose lower cell lies in the places 8 b .. 8 b + 7. It holds the 11 places from 8 b - 1 along each
@@ -43,9 +43,9 @@ class FieldBricks {
   // the low byte tells how many blocks away the nearest such block is, kFarthest at most.
   const std::int32_t* records() const { return records_.data(); }
   static constexpr int kFarthest = 16;
-  // Returns a bound of the slope in a block. The level changes by no more than kSlopeUnit times this over a
-  // way with a largest component of one cell. Roundings of samples are not counted. Neighbours differ by
-  // 65280 at most, at a side of the grid. So a byte suffices, even in a corner of it.
+  // Returns a bound of the slope. Within a block, the level changes by no more than kSlopeUnit times this
+  // over a way with a largest component of one cell. Roundings of samples are not counted. Neighbours differ
+  // by 65280 at most, at a side of the grid. So a byte suffices, even in a corner of it.
   static int slope_bound(int along_x, int along_y, int along_z) {
     return (along_x + along_y + along_z + kSlopeUnit - 1) / kSlopeUnit;
   }

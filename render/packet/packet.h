@@ -53,7 +53,7 @@ struct Packet {
     const V small = (L::as_signed(L::as_unsigned(square) >> 30)) == 0;
     const V scaled = small ? square << 2 : square;
     V i = L::as_signed(L::as_unsigned(scaled) >> 23) - 128;
-    i = L::clamp(i, 0, 383);  // lanes of length 0
+    i = L::clamp(i, 0, 383);  // for lanes of length 0
     const V entry = L::template gather<4>(roots, i);
     const V root = entry & 0xFFFF, less = L::as_signed(L::as_unsigned(entry) >> 16);
     V scale = root - ((less * (scaled & 0x7FFFFF) + (1 << 22)) >> 23);

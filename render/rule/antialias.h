@@ -30,8 +30,8 @@ inline constexpr auto kEight = rooks<8>({3, 6, 0, 5, 2, 7, 1, 4});
 inline constexpr auto kThirtyTwo = rooks<32>({2,  15, 24, 28, 12, 4,  20, 16, 7,  22, 31, 1, 8,  14, 27, 11,
                                               19, 25, 30, 5,  21, 10, 3,  26, 17, 0,  13, 6, 23, 9,  29, 18});
 
-// A pixel is drawn anew if it differs from one beside, above or below it by more than so many bytes. It gets
-// kEight samples, or for the best picture kThirtyTwo.
+// A pixel gets more samples if one of its bytes differs by more than this from a pixel beside, above or
+// below. It then has kEight samples, or kThirtyTwo in the best picture.
 inline constexpr int kDifference = 16, kFineDifference = 8;
 
 VOXMELT_RULE bool differ(const std::array<std::uint8_t, 3>& a, const std::array<std::uint8_t, 3>& b,

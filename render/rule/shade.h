@@ -141,7 +141,7 @@ struct Shine {
   std::int32_t obstacle = 0;  // the share of obstacles in it
 };
 
-// Returns how much obstacles count. They begin at a share of 148 and count fully at 204. So matter half a
+// Returns how much obstacles count. They begin at a share of 148 and count fully above 204. So matter half a
 // cell deep hides them, and no blur shows.
 VOXMELT_RULE std::int32_t obstacle_share(Matter matter) {
   return std::clamp((matter.obstacle - 148) * 73, 0, kLight);

@@ -27,8 +27,8 @@ namespace {
 // 0.001.
 constexpr float kMargin = 0.02f;
 
-// Flushes denormal numbers, which make Embree slow. Every thread that casts sets this, and restores the state
-// before.
+// Flushes denormal numbers, which make Embree slow. Every thread that casts sets this, and later restores the
+// former state.
 class FlushDenormals {
  public:
 #if defined(__SSE2__)
@@ -139,8 +139,8 @@ void EmbreeCaster::Scene::bounds(const RTCBoundsFunctionArguments* call) {
   const std::size_t brick = self.bricks[call->primID];
   const Cell first = first_cell(*self.opaque, brick);
   const std::uint8_t* rows = self.opaque->rows(brick);
-  // These collect over all rows the x that are taken, and the rows and the slices. Each takes a bit or a
-  // byte.
+  // `slice` collects the bits of all slices, a byte for each row. `slices` has a bit for each slice that
+  // holds something.
   std::uint64_t slice = 0, slices = 0;
   for (unsigned z = 0; z < 8; ++z) {
     std::uint64_t word = 0;
