@@ -1,5 +1,5 @@
-// The scalar field is drawn. It holds the filtered intensity and the other channels, and is kept up to date
-// brick by brick (docs/picture/field.md).
+// The renderer draws this scalar field. It holds the filtered intensity and the other channels, and is kept
+// up to date brick by brick (docs/picture/field.md).
 //
 // The surface lies at the places with a filtered intensity of half of kFull. For a column of full cells with
 // a part-filled cell on top, this is within a tenth of a cell of the column's height. So smooth amounts look

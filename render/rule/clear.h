@@ -47,7 +47,7 @@ VOXMELT_RULE Color losses_of(const Color& clear) {
 }
 VOXMELT_RULE bool is_clear(const Look& look) { return !look.glow && look.clear != Color{}; }
 
-// Holds how much of the light from behind the surfaces and the ways so far have left.
+// Holds the share of the light from behind that surfaces and ways have left so far.
 struct Left {
   std::int32_t surfaces = kLight;
   std::int32_t way = 0;

@@ -20,13 +20,13 @@ inline constexpr int kColorBits = 12;
 inline constexpr std::int32_t kColor = 1 << kColorBits;
 
 // Returns the fineness of the texels, of which 2^fineness lie along a cell. They are a quarter of a million
-// up to 512 cells a side.
+// at most, up to 512 cells a side.
 VOXMELT_RULE int texel_fineness(Vector cells) {
   const std::int64_t side = std::max(cells.x, cells.z);
   return side <= 128 ? 2 : side <= 256 ? 1 : 0;
 }
 
-// Holds the rock at a place of the top. Its relief adds bump_x and bump_z to the normal, in 1 / kBump.
+// Holds the rock at a place of the top. Its relief adds bump_x and bump_z to the normal, in 2^-kBumpBits.
 struct Texel {
   std::uint16_t red = 0, green = 0, blue = 0;
   std::int8_t bump_x = 0, bump_z = 0;
