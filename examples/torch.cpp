@@ -12,7 +12,7 @@ int main(int argc, char** argv) try {
   voxmelt::Simulation simulation(argv[1]);
   const voxmelt::Grid grid = simulation.grid();
 
-  constexpr int kStepsPerTurn = 64, kStepsPerMove = 8;  // the torch moves every 8th step
+  constexpr int kStepsPerTurn = 64, kStepsPerMove = 8;  // by default, shadows are cast every 8th step
   for (int step = 0; step < kStepsPerTurn * std::atoi(argv[2]); step += kStepsPerMove) {
     const double angle = 2 * std::numbers::pi * step / kStepsPerTurn;
     const voxmelt::Position torch{grid.x * (0.5 + 0.4 * std::cos(angle)), 1.0 * grid.y,
